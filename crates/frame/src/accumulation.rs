@@ -1,0 +1,89 @@
+//! Averages of a few sub-frames: the physical way of motion blur, and the ladder that errors are measured against.
+
+use std::path::Path;
+
+use crate::exr_file::{ExrFile, read_exr, write_exr};
+use crate::truth::{get_shutter, set_shutter};
+use crate::{Alignment, FileError, Half, Provenance, Shutter};
+
+/// The mean of `subframes` instants at the midpoints of equal parts of the shutter: part k of N is seen at
+/// `open + (k + 0.5) / N * (close - open)`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Accumulation {
+    /// How many instants were averaged.
+    pub subframes: u32,
+    /// Means of the even and of the odd replicates.
+    pub halves: [Half; 2],
+}
+
+/// Accumulations of 1, 2, 4 .. sub-frames over the same shutter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ladder {
+    /// Where the accumulations come from.
+    pub provenance: Provenance,
+    /// The interval that the sub-frames divide.
+    pub shutter: Shutter,
+    /// Where that interval lies relative to the instant.
+    pub alignment: Alignment,
+    /// Object names; the index is the object id, and 0 is `background`.
+    pub objects: Vec<String>,
+    /// In rising order of sub-frames.
+    pub rungs: Vec<Accumulation>,
+}
+
+impl Ladder {
+    /// Writes the ladder as OpenEXR: layers `n<N>.A` and `n<N>.B` per rung.
+    pub fn write(&self, path: &Path) -> Result<(), FileError> {
+        let first = &self.rungs.first().expect("a ladder has rungs").halves[0].color;
+        let mut file = ExrFile::new(first.width, first.height);
+        for rung in &self.rungs {
+            for (half, layer) in rung.halves.iter().zip(["A", "B"]) {
+                half.push(
+                    &mut file,
+                    &format!("n{}.{layer}", rung.subframes),
+                    &self.objects,
+                );
+            }
+        }
+        let subframes: Vec<String> = self
+            .rungs
+            .iter()
+            .map(|rung| rung.subframes.to_string())
+            .collect();
+        file.set("kind", "ladder");
+        set_shutter(&mut file, self.shutter, self.alignment);
+        file.set("objects", self.objects.join(" "));
+        file.set("subframes", subframes.join(" "));
+        self.provenance.set(&mut file);
+        write_exr(path, &file)
+    }
+
+    /// Reads a ladder that [`Ladder::write`] wrote, bit for bit.
+    pub fn read(path: &Path) -> Result<Self, FileError> {
+        let file = read_exr(path)?;
+        file.expect_kind("ladder")?;
+        let objects = file.words("objects")?;
+        let (shutter, alignment) = get_shutter(&file)?;
+        let mut rungs = Vec::new();
+        for word in file.words("subframes")? {
+            let subframes = word.parse().map_err(|_| {
+                file.foreign(format!(
+                    "attribute \"subframes\" holds \"{word}\", not a count"
+                ))
+            })?;
+            let half =
+                |layer: &str| Half::from_exr(&file, &format!("n{subframes}.{layer}"), &objects);
+            rungs.push(Accumulation {
+                subframes,
+                halves: [half("A")?, half("B")?],
+            });
+        }
+        Ok(Self {
+            provenance: Provenance::from_exr(&file)?,
+            shutter,
+            alignment,
+            objects,
+            rungs,
+        })
+    }
+}

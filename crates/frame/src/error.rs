@@ -1,0 +1,44 @@
+//! What can go wrong with a file.
+
+use std::path::{Path, PathBuf};
+
+/// A file that could not be read or written: the path comes first, then what was found and what is allowed.
+#[derive(Debug, thiserror::Error)]
+pub enum FileError {
+    /// The operating system refused.
+    #[error("{path}: cannot {action}: {source}", path = path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What was tried: `read`, `write`.
+        action: &'static str,
+        /// Why it failed.
+        source: std::io::Error,
+    },
+    /// Not an OpenEXR file, or one cut short.
+    #[error("{path}: not a complete OpenEXR file: {reason}; render it again", path = path.display())]
+    Broken {
+        /// The file.
+        path: PathBuf,
+        /// What the decoder said.
+        reason: String,
+    },
+    /// A readable OpenEXR file that lacks what is asked of it.
+    #[error("{path}: {reason}", path = path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+        /// What is missing or wrong, and what is allowed.
+        reason: String,
+    },
+}
+
+impl FileError {
+    pub(crate) fn io(path: &Path, action: &'static str, source: std::io::Error) -> Self {
+        Self::Io {
+            path: path.to_owned(),
+            action,
+            source,
+        }
+    }
+}

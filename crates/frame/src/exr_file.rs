@@ -1,0 +1,292 @@
+//! OpenEXR files as named 32-bit channels and text attributes.
+
+use std::collections::BTreeMap;
+use std::fmt::Display;
+use std::io::{BufReader, BufWriter, Cursor, Write};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use exr::meta::attribute::{AttributeValue, Text};
+use exr::prelude::{
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Layer, LayerAttributes, ReadChannels,
+    ReadLayers, WritableImage,
+};
+
+use crate::{FileError, Image, Plane, Raster};
+
+/// The samples of one channel, row by row from the top left.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Samples {
+    /// 32-bit floats.
+    F32(Vec<f32>),
+    /// 32-bit unsigned integers: object ids.
+    U32(Vec<u32>),
+}
+
+/// A named channel: `R`, `velocity.X`, `coverage.panel`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// Name, its layer first.
+    pub name: String,
+    /// One sample per pixel.
+    pub samples: Samples,
+}
+
+/// The content of a single-part OpenEXR file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExrFile {
+    /// Where it was read from; empty for a file not yet written.
+    pub path: PathBuf,
+    /// Pixels per row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// In any order; names are unique.
+    pub channels: Vec<Channel>,
+    /// Text attributes of the header.
+    pub attributes: BTreeMap<String, String>,
+}
+
+impl ExrFile {
+    /// A file without channels.
+    pub fn new(width: u32, height: u32) -> Self {
+        Self {
+            path: PathBuf::new(),
+            width,
+            height,
+            channels: Vec::new(),
+            attributes: BTreeMap::new(),
+        }
+    }
+
+    /// Sets a text attribute.
+    pub fn set(&mut self, name: &str, value: impl Display) {
+        self.attributes.insert(name.to_owned(), value.to_string());
+    }
+
+    /// Adds one channel of floats.
+    pub fn push_plane(&mut self, name: &str, plane: &Plane) {
+        self.channels.push(Channel {
+            name: name.to_owned(),
+            samples: Samples::F32(plane.pixels.clone()),
+        });
+    }
+
+    /// Adds `R G B`, in a named layer or at the top.
+    pub fn push_color(&mut self, layer: &str, image: &Image) {
+        for (component, name) in ["R", "G", "B"].into_iter().enumerate() {
+            self.push_plane(&in_layer(layer, name), &image.map(|pixel| pixel[component]));
+        }
+    }
+
+    /// A text attribute as a value.
+    pub fn get<T: FromStr>(&self, name: &str) -> Result<T, FileError> {
+        let text = self.text(name)?;
+        text.parse().map_err(|_| {
+            self.foreign(format!(
+                "attribute \"{name}\" holds \"{text}\", which cannot be read"
+            ))
+        })
+    }
+
+    /// A text attribute as words.
+    pub fn words(&self, name: &str) -> Result<Vec<String>, FileError> {
+        Ok(self
+            .text(name)?
+            .split_whitespace()
+            .map(str::to_owned)
+            .collect())
+    }
+
+    /// A channel of floats.
+    pub fn plane(&self, name: &str) -> Result<Plane, FileError> {
+        match self.samples(name)? {
+            Samples::F32(pixels) => Ok(Raster {
+                width: self.width,
+                height: self.height,
+                pixels: pixels.clone(),
+            }),
+            Samples::U32(_) => Err(self.foreign(format!(
+                "channel \"{name}\" holds integers; 32-bit floats are needed"
+            ))),
+        }
+    }
+
+    /// A channel of unsigned integers.
+    pub fn u32s(&self, name: &str) -> Result<Raster<u32>, FileError> {
+        match self.samples(name)? {
+            Samples::U32(pixels) => Ok(Raster {
+                width: self.width,
+                height: self.height,
+                pixels: pixels.clone(),
+            }),
+            Samples::F32(_) => Err(self.foreign(format!(
+                "channel \"{name}\" holds floats; 32-bit integers are needed"
+            ))),
+        }
+    }
+
+    /// `R G B`, of a named layer or at the top.
+    pub fn color(&self, layer: &str) -> Result<Image, FileError> {
+        let [r, g, b] = ["R", "G", "B"].map(|name| self.plane(&in_layer(layer, name)));
+        let (r, g, b) = (r?, g?, b?);
+        let pixels = r
+            .pixels
+            .iter()
+            .zip(&g.pixels)
+            .zip(&b.pixels)
+            .map(|((r, g), b)| [*r, *g, *b])
+            .collect();
+        Ok(Raster {
+            width: self.width,
+            height: self.height,
+            pixels,
+        })
+    }
+
+    /// Refuses a file whose `kind` attribute is another.
+    pub fn expect_kind(&self, kind: &str) -> Result<(), FileError> {
+        match self.attributes.get("kind").map(String::as_str) {
+            Some(found) if found == kind => Ok(()),
+            Some(found) => Err(self.foreign(format!("is a {found}; a {kind} is needed"))),
+            None => Err(self.foreign(format!(
+                "was not written by shuttertruth (no attribute \"kind\"); a {kind} is needed: make one with \
+                 `shuttertruth render`"
+            ))),
+        }
+    }
+
+    /// An error that names this file.
+    pub(crate) fn foreign(&self, reason: String) -> FileError {
+        FileError::Foreign {
+            path: self.path.clone(),
+            reason,
+        }
+    }
+
+    fn text(&self, name: &str) -> Result<&str, FileError> {
+        let text = self
+            .attributes
+            .get(name)
+            .ok_or_else(|| self.foreign(format!("lacks the attribute \"{name}\"")))?;
+        Ok(text)
+    }
+
+    fn samples(&self, name: &str) -> Result<&Samples, FileError> {
+        let channel = self.channels.iter().find(|channel| channel.name == name);
+        Ok(&channel
+            .ok_or_else(|| self.foreign(format!("lacks the channel \"{name}\"")))?
+            .samples)
+    }
+}
+
+fn in_layer(layer: &str, name: &str) -> String {
+    if layer.is_empty() {
+        name.to_owned()
+    } else {
+        format!("{layer}.{name}")
+    }
+}
+
+/// Writes single-part, lossless (ZIP16) OpenEXR under a temporary name and renames it: the path holds the whole file
+/// or what it held before.
+pub fn write_exr(path: &Path, file: &ExrFile) -> Result<(), FileError> {
+    let pixels = file.width as usize * file.height as usize;
+    let channels = file.channels.iter().map(|channel| {
+        let samples = match &channel.samples {
+            Samples::F32(samples) => FlatSamples::F32(samples.clone()),
+            Samples::U32(samples) => FlatSamples::U32(samples.clone()),
+        };
+        assert_eq!(
+            samples.len(),
+            pixels,
+            "channel {} must have one sample per pixel",
+            channel.name
+        );
+        AnyChannel::new(channel.name.as_str(), samples)
+    });
+    let mut layer = Layer::new(
+        (file.width as usize, file.height as usize),
+        LayerAttributes::default(),
+        Encoding::SMALL_LOSSLESS,
+        AnyChannels::sort(channels.collect()),
+    );
+    for (name, value) in &file.attributes {
+        layer.attributes.other.insert(
+            Text::from(name.as_str()),
+            AttributeValue::Text(Text::from(value.as_str())),
+        );
+    }
+    let mut bytes = Cursor::new(Vec::new());
+    exr::prelude::Image::from_layer(layer)
+        .write()
+        .to_buffered(&mut bytes)
+        .map_err(|error| FileError::io(path, "encode", std::io::Error::other(error.to_string())))?;
+    write_atomically(path, bytes.get_ref())
+}
+
+/// Writes `bytes` under a temporary name in the same folder, then renames: the path holds all of them or what it held
+/// before. Missing folders are made.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    let fail = |error| FileError::io(path, "write", error);
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    std::fs::create_dir_all(folder).map_err(fail)?;
+    let mut temporary = BufWriter::new(tempfile::NamedTempFile::new_in(folder).map_err(fail)?);
+    temporary.write_all(bytes).map_err(fail)?;
+    let temporary = temporary
+        .into_inner()
+        .map_err(|error| fail(error.into_error()))?;
+    temporary.persist(path).map_err(|error| fail(error.error))?;
+    Ok(())
+}
+
+/// Reads a single-part OpenEXR file; refuses one that is cut short or has several parts. Half floats are widened.
+pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
+    let handle = std::fs::File::open(path).map_err(|error| FileError::io(path, "read", error))?;
+    let broken = |reason: String| FileError::Broken {
+        path: path.to_owned(),
+        reason,
+    };
+    let image = exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .all_layers()
+        .all_attributes()
+        .from_buffered(BufReader::new(handle))
+        .map_err(|error| broken(error.to_string()))?;
+    let parts = image.layer_data.len();
+    let Some(layer) = image.layer_data.into_iter().next().filter(|_| parts == 1) else {
+        return Err(FileError::Foreign {
+            path: path.to_owned(),
+            reason: format!("has {parts} parts; a single-part OpenEXR file is needed"),
+        });
+    };
+    let mut file = ExrFile::new(layer.size.width() as u32, layer.size.height() as u32);
+    file.path = path.to_owned();
+    for channel in layer.channel_data.list {
+        let name = channel.name.to_string();
+        let samples = match channel.sample_data {
+            FlatSamples::F32(samples) => Samples::F32(samples),
+            FlatSamples::U32(samples) => Samples::U32(samples),
+            FlatSamples::F16(samples) => {
+                Samples::F32(samples.iter().map(|half| half.to_f32()).collect())
+            }
+        };
+        file.channels.push(Channel { name, samples });
+    }
+    for (name, value) in image
+        .attributes
+        .other
+        .into_iter()
+        .chain(layer.attributes.other)
+    {
+        if let AttributeValue::Text(text) = value {
+            file.attributes.insert(name.to_string(), text.to_string());
+        }
+    }
+    Ok(file)
+}

@@ -1,0 +1,40 @@
+//! What the tracer hands to the filters and the metrics: images, the frame of an instant, the truth of a shutter
+//! interval, and their files.
+//!
+//! # The contract
+//!
+//! Every crate of the project keeps to these conventions, and nothing states them again.
+//!
+//! | thing | convention |
+//! |---|---|
+//! | world | right-handed, +Y up, metres; a camera looks along its own -Z |
+//! | image | row-major from the top left; pixel (i, j) covers `[i, i+1) x [j, j+1)`; its centre is at +0.5 |
+//! | colour | scene-linear Rec.709 radiance, `f32`; the display transform is applied only for PNG and LDR metrics |
+//! | pixel filter | box of one pixel for colour and coverage; velocity, depth and object id are point samples at the pixel centre |
+//! | time | in frames; the frame's instant is `t = 0` |
+//! | shutter | [`Shutter`]`{ open, close }`, frames relative to the instant. Exposure `m = close - open`, 1 being 360 degrees. Trailing is `[-m, 0]`, centred `[-m/2, m/2]`, leading `[0, m]`. The frame never moves; the truth's interval does |
+//! | velocity | screen motion of the surface point seen at the pixel centre over one frame interval, in pixels, +x right, +y down; see [`VelocityKind`]. A background at infinity has the camera's rotational velocity |
+//! | depth | distance along the view axis in metres; the background holds [`FAR_DEPTH`] |
+//! | coverage | per object: the fraction of (shutter x pixel area) in which that object is the visible surface; sums to 1 with the background |
+//! | noise | a truth is R independent, complete replicates; two halves A and B and the standard error travel with it |
+//! | determinism | the same inputs give the same bytes on any number of threads |
+
+mod accumulation;
+mod display;
+mod error;
+mod exr_file;
+mod instant;
+mod provenance;
+mod raster;
+mod shutter;
+mod truth;
+
+pub use accumulation::{Accumulation, Ladder};
+pub use display::{display_srgb, write_png};
+pub use error::FileError;
+pub use exr_file::{Channel, ExrFile, Samples, read_exr, write_atomically, write_exr};
+pub use instant::{FAR_DEPTH, Frame, VelocityKind};
+pub use provenance::Provenance;
+pub use raster::{Image, Plane, Raster, Vectors};
+pub use shutter::{Alignment, Shutter, ShutterError};
+pub use truth::{Half, Truth};

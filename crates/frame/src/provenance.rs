@@ -1,0 +1,43 @@
+//! Where a rendered file comes from.
+
+use crate::FileError;
+use crate::exr_file::ExrFile;
+
+/// What was rendered, by which program, from which inputs: written into every file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Provenance {
+    /// Scene name, with its variant: `sliding_panel` or `sliding_panel@64px_45deg`.
+    pub scene: String,
+    /// Program name and version.
+    pub program: String,
+    /// Seed of all randomness.
+    pub seed: u64,
+    /// Samples per pixel over all replicates.
+    pub samples_per_pixel: u32,
+    /// Independent, complete renders that were averaged.
+    pub replicates: u32,
+    /// Hash of scene, meshes, textures, settings and program version, in hexadecimal: equal hashes mean equal pixels.
+    pub content_hash: String,
+}
+
+impl Provenance {
+    pub(crate) fn set(&self, file: &mut ExrFile) {
+        file.set("scene", &self.scene);
+        file.set("program", &self.program);
+        file.set("seed", self.seed);
+        file.set("samples_per_pixel", self.samples_per_pixel);
+        file.set("replicates", self.replicates);
+        file.set("content_hash", &self.content_hash);
+    }
+
+    pub(crate) fn from_exr(file: &ExrFile) -> Result<Self, FileError> {
+        Ok(Self {
+            scene: file.get("scene")?,
+            program: file.get("program")?,
+            seed: file.get("seed")?,
+            samples_per_pixel: file.get("samples_per_pixel")?,
+            replicates: file.get("replicates")?,
+            content_hash: file.get("content_hash")?,
+        })
+    }
+}

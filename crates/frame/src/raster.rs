@@ -1,0 +1,88 @@
+//! A two-dimensional array of pixels.
+
+/// Row-major pixels from the top left: pixel (x, y) is `pixels[y * width + x]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Raster<T> {
+    /// Pixels per row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// `width * height` pixels.
+    pub pixels: Vec<T>,
+}
+
+/// Scene-linear Rec.709 radiance.
+pub type Image = Raster<[f32; 3]>;
+/// One number per pixel: depth, coverage, an error map.
+pub type Plane = Raster<f32>;
+/// Screen vectors in pixels, +x right, +y down.
+pub type Vectors = Raster<[f32; 2]>;
+
+impl<T: Clone> Raster<T> {
+    /// A raster that holds `value` everywhere.
+    pub fn filled(width: u32, height: u32, value: T) -> Self {
+        let pixels = vec![value; width as usize * height as usize];
+        Self {
+            width,
+            height,
+            pixels,
+        }
+    }
+}
+
+impl<T> Raster<T> {
+    /// A raster made pixel by pixel from `value(x, y)`, row by row.
+    pub fn from_fn(width: u32, height: u32, mut value: impl FnMut(u32, u32) -> T) -> Self {
+        let pixels = (0..height)
+            .flat_map(|y| (0..width).map(move |x| (x, y)))
+            .map(|(x, y)| value(x, y))
+            .collect();
+        Self {
+            width,
+            height,
+            pixels,
+        }
+    }
+
+    /// The pixel in column `x`, row `y`. Panics outside the raster.
+    pub fn at(&self, x: u32, y: u32) -> &T {
+        assert!(
+            x < self.width && y < self.height,
+            "pixel ({x}, {y}) lies outside the raster"
+        );
+        &self.pixels[y as usize * self.width as usize + x as usize]
+    }
+
+    /// A raster of the same size, each pixel made from this one's.
+    pub fn map<U>(&self, value: impl FnMut(&T) -> U) -> Raster<U> {
+        Raster {
+            width: self.width,
+            height: self.height,
+            pixels: self.pixels.iter().map(value).collect(),
+        }
+    }
+
+    /// A raster of the same size from each pair of pixels. Panics when the sizes differ.
+    pub fn zip<U, V>(&self, other: &Raster<U>, mut value: impl FnMut(&T, &U) -> V) -> Raster<V> {
+        assert!(
+            self.same_size(other),
+            "rasters of different sizes cannot be combined pixel by pixel"
+        );
+        let pixels = self
+            .pixels
+            .iter()
+            .zip(&other.pixels)
+            .map(|(a, b)| value(a, b))
+            .collect();
+        Raster {
+            width: self.width,
+            height: self.height,
+            pixels,
+        }
+    }
+
+    /// Whether both have the same width and height.
+    pub fn same_size<U>(&self, other: &Raster<U>) -> bool {
+        self.width == other.width && self.height == other.height
+    }
+}

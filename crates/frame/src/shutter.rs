@@ -1,0 +1,110 @@
+//! When light is gathered.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// The interval during which the shutter is open, in frames relative to the frame's instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shutter {
+    /// When the shutter opens, in frames.
+    pub open: f64,
+    /// When it closes, in frames; later than `open`.
+    pub close: f64,
+}
+
+/// A shutter that cannot be: what was asked for, and what is allowed.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum ShutterError {
+    /// The interval is empty, reversed or not finite.
+    #[error(
+        "shutter closes at {close} before it opens at {open}; close must be later than open, both finite"
+    )]
+    Interval {
+        /// When it was to open.
+        open: f64,
+        /// When it was to close.
+        close: f64,
+    },
+    /// The exposure is not a positive, finite number of frames.
+    #[error("exposure is {0} frames; allowed: above 0 and finite (0.5 frames = 180 degrees)")]
+    Exposure(f64),
+}
+
+impl Shutter {
+    /// A shutter open over `[open, close]`; refuses an interval that is empty, reversed or not finite.
+    pub fn new(open: f64, close: f64) -> Result<Self, ShutterError> {
+        if open.is_finite() && close.is_finite() && open < close {
+            Ok(Self { open, close })
+        } else {
+            Err(ShutterError::Interval { open, close })
+        }
+    }
+
+    /// Length of the interval in frames; 1 is a shutter of 360 degrees.
+    pub fn exposure(&self) -> f64 {
+        self.close - self.open
+    }
+
+    /// The time at `fraction` of the interval, 0 at the opening and 1 at the closing.
+    pub fn at(&self, fraction: f64) -> f64 {
+        self.open + fraction * (self.close - self.open)
+    }
+}
+
+/// Where the shutter interval lies relative to the frame's instant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Alignment {
+    /// `[-m, 0]`: the smear lies behind the mover.
+    Trailing,
+    /// `[-m/2, m/2]`: the smear lies on both sides.
+    Centred,
+    /// `[0, m]`: the smear lies ahead of the mover.
+    Leading,
+}
+
+impl Alignment {
+    /// Every alignment.
+    pub const ALL: [Alignment; 3] = [Alignment::Trailing, Alignment::Centred, Alignment::Leading];
+
+    /// The word used in files, file names and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Alignment::Trailing => "trailing",
+            Alignment::Centred => "centred",
+            Alignment::Leading => "leading",
+        }
+    }
+
+    /// The shutter of `exposure` frames that lies so.
+    pub fn shutter(self, exposure: f64) -> Result<Shutter, ShutterError> {
+        if !exposure.is_finite() || exposure <= 0.0 {
+            return Err(ShutterError::Exposure(exposure));
+        }
+        match self {
+            Alignment::Trailing => Shutter::new(-exposure, 0.0),
+            Alignment::Centred => Shutter::new(-exposure / 2.0, exposure / 2.0),
+            Alignment::Leading => Shutter::new(0.0, exposure),
+        }
+    }
+}
+
+impl fmt::Display for Alignment {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for Alignment {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Self::ALL
+            .into_iter()
+            .find(|alignment| alignment.name() == text)
+            .ok_or_else(|| {
+                format!(
+                    "shutter alignment \"{text}\" is unknown; allowed: trailing, centred, leading"
+                )
+            })
+    }
+}

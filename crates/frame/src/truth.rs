@@ -1,0 +1,148 @@
+//! What a camera with an open shutter would have seen.
+
+use std::path::Path;
+
+use crate::exr_file::{ExrFile, read_exr, write_exr};
+use crate::{Alignment, FileError, Image, Plane, Provenance, Shutter};
+
+/// The mean of one half of the replicates: independent of the other half.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Half {
+    /// Radiance, averaged over shutter and pixel area.
+    pub color: Image,
+    /// Per object: the fraction of (shutter x pixel area) in which it is the visible surface.
+    pub coverage: Vec<Plane>,
+}
+
+/// Radiance and visibility integrated over the shutter, with its own noise. All rasters have the same size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Truth {
+    /// Where the truth comes from.
+    pub provenance: Provenance,
+    /// The interval integrated over.
+    pub shutter: Shutter,
+    /// Where that interval lies relative to the instant.
+    pub alignment: Alignment,
+    /// Object names; the index is the object id, and 0 is `background`.
+    pub objects: Vec<String>,
+    /// Means of the even and of the odd replicates.
+    pub halves: [Half; 2],
+    /// Standard error of [`Truth::color`], from the spread of the replicates.
+    pub standard_error: Image,
+    /// Fraction of (shutter x pixel area) whose visible surface moves on screen while the shutter is open.
+    pub motion: Plane,
+}
+
+impl Half {
+    pub(crate) fn push(&self, file: &mut ExrFile, layer: &str, objects: &[String]) {
+        file.push_color(layer, &self.color);
+        for (object, plane) in objects.iter().zip(&self.coverage) {
+            file.push_plane(&coverage_name(layer, object), plane);
+        }
+    }
+
+    pub(crate) fn from_exr(
+        file: &ExrFile,
+        layer: &str,
+        objects: &[String],
+    ) -> Result<Self, FileError> {
+        let coverage = objects
+            .iter()
+            .map(|object| file.plane(&coverage_name(layer, object)))
+            .collect::<Result<_, _>>()?;
+        Ok(Self {
+            color: file.color(layer)?,
+            coverage,
+        })
+    }
+
+    /// The mean of two halves: the best estimate of both.
+    pub fn mean(halves: &[Half; 2]) -> Half {
+        let [a, b] = halves;
+        Half {
+            color: a.color.zip(&b.color, |a, b| {
+                std::array::from_fn(|c| 0.5 * (a[c] + b[c]))
+            }),
+            coverage: a
+                .coverage
+                .iter()
+                .zip(&b.coverage)
+                .map(|(a, b)| a.zip(b, |a, b| 0.5 * (a + b)))
+                .collect(),
+        }
+    }
+}
+
+impl Truth {
+    /// Pixels per row and rows.
+    pub fn size(&self) -> (u32, u32) {
+        (self.motion.width, self.motion.height)
+    }
+
+    /// Mean of all replicates.
+    pub fn mean(&self) -> Half {
+        Half::mean(&self.halves)
+    }
+
+    /// Writes the truth as OpenEXR: the mean as `R G B` and `coverage.<object>`, the halves as layers `A` and `B`,
+    /// `stderr.R/G/B`, and `motion`.
+    pub fn write(&self, path: &Path) -> Result<(), FileError> {
+        let (width, height) = self.size();
+        let mut file = ExrFile::new(width, height);
+        self.mean().push(&mut file, "", &self.objects);
+        self.halves[0].push(&mut file, "A", &self.objects);
+        self.halves[1].push(&mut file, "B", &self.objects);
+        file.push_color("stderr", &self.standard_error);
+        file.push_plane("motion", &self.motion);
+        file.set("kind", "truth");
+        set_shutter(&mut file, self.shutter, self.alignment);
+        file.set("objects", self.objects.join(" "));
+        file.set(
+            "convention",
+            "coverage is the fraction of shutter x pixel area; scene-linear Rec.709",
+        );
+        self.provenance.set(&mut file);
+        write_exr(path, &file)
+    }
+
+    /// Reads a truth that [`Truth::write`] wrote, bit for bit.
+    pub fn read(path: &Path) -> Result<Self, FileError> {
+        let file = read_exr(path)?;
+        file.expect_kind("truth")?;
+        let objects = file.words("objects")?;
+        let (shutter, alignment) = get_shutter(&file)?;
+        Ok(Self {
+            provenance: Provenance::from_exr(&file)?,
+            shutter,
+            alignment,
+            halves: [
+                Half::from_exr(&file, "A", &objects)?,
+                Half::from_exr(&file, "B", &objects)?,
+            ],
+            objects,
+            standard_error: file.color("stderr")?,
+            motion: file.plane("motion")?,
+        })
+    }
+}
+
+pub(crate) fn set_shutter(file: &mut ExrFile, shutter: Shutter, alignment: Alignment) {
+    file.set("shutter_open", shutter.open);
+    file.set("shutter_close", shutter.close);
+    file.set("alignment", alignment);
+}
+
+pub(crate) fn get_shutter(file: &ExrFile) -> Result<(Shutter, Alignment), FileError> {
+    let shutter = Shutter::new(file.get("shutter_open")?, file.get("shutter_close")?)
+        .map_err(|error| file.foreign(error.to_string()))?;
+    Ok((shutter, file.get("alignment")?))
+}
+
+/// Channel that holds an object's coverage, in a named layer or at the top.
+pub(crate) fn coverage_name(layer: &str, object: &str) -> String {
+    if layer.is_empty() {
+        format!("coverage.{object}")
+    } else {
+        format!("{layer}.coverage.{object}")
+    }
+}

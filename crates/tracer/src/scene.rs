@@ -1,0 +1,203 @@
+//! A scene in memory: what `scenes/<name>/scene.toml` and its meshes say, checked.
+
+use std::path::PathBuf;
+
+use glam::{DAffine3, DVec3, Vec2, Vec3};
+
+use crate::motion::Motion;
+
+/// Everything a render needs. Indices are valid, numbers finite, meshes not empty.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Folder name, with the variant if one was chosen: `sliding_panel@64px_45deg`.
+    pub name: String,
+    /// What the scene exposes, in one sentence.
+    pub exposes: String,
+    /// For leave-one-family-out cross-validation.
+    pub family: Family,
+    /// Exposure in frames; 0.5 = 180 degrees.
+    pub exposure: f64,
+    /// Default width in pixels.
+    pub width: u32,
+    /// Default height in pixels.
+    pub height: u32,
+    /// How it is shown and compared.
+    pub display: Display,
+    /// The eye.
+    pub camera: Camera,
+    /// What rays see that leave the scene.
+    pub background: Background,
+    /// A distant light.
+    pub sun: Option<Sun>,
+    /// Geometry in object space; several objects may share one.
+    pub meshes: Vec<Mesh>,
+    /// Textures, decoded to linear.
+    pub textures: Vec<Texture>,
+    /// Surfaces.
+    pub materials: Vec<Material>,
+    /// In order of their ids, the first having id 1 (0 is the background).
+    pub objects: Vec<Object>,
+    /// Hash of every file and choice that the scene was made from, in hexadecimal.
+    pub hash: String,
+}
+
+/// What kind of motion a scene is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Family {
+    /// Objects in straight motion.
+    Translation,
+    /// Spinning and rolling.
+    Rotation,
+    /// The camera moves.
+    Camera,
+    /// Parts thinner than the motion.
+    Thin,
+    /// Movers in front of and behind other things.
+    Overlap,
+    /// Meshes that change shape.
+    Deforming,
+    /// Borders, thresholds, extremes.
+    Limits,
+}
+
+/// Photographic exposures for pictures and for FLIP.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Display {
+    /// Exposure of PNGs and of LDR-FLIP, in stops.
+    pub stops: f32,
+    /// Exposures of HDR-FLIP.
+    pub flip: FlipExposures,
+}
+
+/// The range of exposures that HDR-FLIP takes its maximum over.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlipExposures {
+    /// Darkest, in stops.
+    pub start: f32,
+    /// Brightest, in stops.
+    pub stop: f32,
+    /// How many, both ends included; at least 2.
+    pub count: u32,
+}
+
+/// A pinhole camera that looks along its own -Z, +Y up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Camera {
+    /// From camera to world; never scales.
+    pub motion: Motion,
+    /// (time in frames, vertical field of view in radians), linear between keys as in [`Motion`]; at least one.
+    pub vertical_fov: Vec<(f64, f64)>,
+}
+
+/// Radiance from infinity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Background {
+    /// The same from everywhere.
+    Constant(Vec3),
+    /// Piecewise linear in the height (y) of the unit direction: `ground` at -1, `horizon` at 0, `zenith` at +1.
+    Gradient {
+        /// Radiance straight down.
+        ground: Vec3,
+        /// Radiance at eye level.
+        horizon: Vec3,
+        /// Radiance straight up.
+        zenith: Vec3,
+    },
+}
+
+/// A distant disc of constant radiance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sun {
+    /// Unit vector from the scene to the sun.
+    pub direction: DVec3,
+    /// Irradiance on a surface that faces it.
+    pub irradiance: Vec3,
+    /// Radius of its disc in radians; 0 is a point at infinity, which no camera ray and no bounce can hit.
+    pub angular_radius: f64,
+}
+
+/// Triangles in object space.
+#[derive(Clone, Debug)]
+pub struct Mesh {
+    /// The OBJ file.
+    pub path: PathBuf,
+    /// Metres.
+    pub positions: Vec<Vec3>,
+    /// Unit, one per position; empty where the file has none (then facets are flat).
+    pub normals: Vec<Vec3>,
+    /// One per position, v up; empty where the file has none.
+    pub texcoords: Vec<Vec2>,
+    /// Indices into `positions`.
+    pub triangles: Vec<[u32; 3]>,
+    /// Per triangle: index into the object's `materials`.
+    pub slots: Vec<u32>,
+}
+
+/// Linear RGBA texels, row-major from the top left; sampled bilinearly, repeating.
+#[derive(Clone, Debug)]
+pub struct Texture {
+    /// The image file.
+    pub path: PathBuf,
+    /// Texels per row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Colour decoded from sRGB, alpha as it is.
+    pub texels: Vec<[f32; 4]>,
+}
+
+/// A two-sided diffuse surface that may emit, with cut-outs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// Its name in the MTL file.
+    pub name: String,
+    /// Linear albedo (Kd), each component in [0, 1]; multiplied by the texture if there is one.
+    pub diffuse: Vec3,
+    /// map_Kd: index into the scene's textures.
+    pub diffuse_texture: Option<usize>,
+    /// Emitted radiance (Ke), from both sides.
+    pub emission: Vec3,
+    /// d: where opacity (times its texture's) is below 0.5 the surface has a hole.
+    pub opacity: f32,
+    /// map_d: index into the scene's textures; its alpha if it has one, else its first component undecoded.
+    pub opacity_texture: Option<usize>,
+}
+
+/// What an object's motion is relative to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parent {
+    /// The world.
+    World,
+    /// The camera: a dashboard.
+    Camera,
+    /// An earlier object, by index.
+    Object(usize),
+}
+
+/// A mesh in motion.
+#[derive(Clone, Debug)]
+pub struct Object {
+    /// Letters, digits, `_` and `-`; unique; the name of its coverage channel.
+    pub name: String,
+    /// Index into the scene's meshes.
+    pub mesh: usize,
+    /// Index into the scene's materials for each slot of the mesh.
+    pub materials: Vec<usize>,
+    /// Relative to the parent.
+    pub motion: Motion,
+    /// What it is attached to.
+    pub parent: Parent,
+}
+
+impl Scene {
+    /// From the object's space to the world at `time` (frames).
+    pub fn object_to_world(&self, object: usize, time: f64) -> DAffine3 {
+        let own = self.objects[object].motion.at(time);
+        match self.objects[object].parent {
+            Parent::World => own,
+            Parent::Camera => self.camera.motion.at(time) * own,
+            Parent::Object(parent) => self.object_to_world(parent, time) * own,
+        }
+    }
+}
