@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::exr_file::{ExrFile, read_exr, write_exr};
 use crate::truth::{get_shutter, set_shutter};
-use crate::{Alignment, FileError, Half, Provenance, Shutter};
+use crate::{Alignment, FileError, Picture, Provenance, Shutter};
 
 /// The mean of `subframes` instants at the midpoints of equal parts of the shutter: part k of N is seen at
 /// `open + (k + 0.5) / N * (close - open)`.
@@ -13,7 +13,7 @@ pub struct Accumulation {
     /// How many instants were averaged.
     pub subframes: u32,
     /// Means of the even and of the odd replicates.
-    pub halves: [Half; 2],
+    pub halves: [Picture; 2],
 }
 
 /// Accumulations of 1, 2, 4 .. sub-frames over the same shutter.
@@ -72,7 +72,7 @@ impl Ladder {
                 ))
             })?;
             let half =
-                |layer: &str| Half::from_exr(&file, &format!("n{subframes}.{layer}"), &objects);
+                |layer: &str| Picture::from_exr(&file, &format!("n{subframes}.{layer}"), &objects);
             rungs.push(Accumulation {
                 subframes,
                 halves: [half("A")?, half("B")?],

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::str::FromStr;
 
 use crate::exr_file::{Channel, ExrFile, Samples, read_exr, write_exr};
-use crate::truth::coverage_name;
+use crate::picture::coverage_name;
 use crate::{FileError, Image, Plane, Provenance, Raster, Vectors};
 
 /// Depth of a pixel that sees no surface, in metres: finite, so that filters may subtract it.

@@ -3,16 +3,7 @@
 use std::path::Path;
 
 use crate::exr_file::{ExrFile, read_exr, write_exr};
-use crate::{Alignment, FileError, Image, Plane, Provenance, Shutter};
-
-/// The mean of one half of the replicates: independent of the other half.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Half {
-    /// Radiance, averaged over shutter and pixel area.
-    pub color: Image,
-    /// Per object: the fraction of (shutter x pixel area) in which it is the visible surface.
-    pub coverage: Vec<Plane>,
-}
+use crate::{Alignment, FileError, Image, Picture, Plane, Provenance, Shutter};
 
 /// Radiance and visibility integrated over the shutter, with its own noise. All rasters have the same size.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,51 +17,11 @@ pub struct Truth {
     /// Object names; the index is the object id, and 0 is `background`.
     pub objects: Vec<String>,
     /// Means of the even and of the odd replicates.
-    pub halves: [Half; 2],
-    /// Standard error of [`Truth::color`], from the spread of the replicates.
+    pub halves: [Picture; 2],
+    /// Standard error of [`Truth::mean`], from the spread of the replicates.
     pub standard_error: Image,
     /// Fraction of (shutter x pixel area) whose visible surface moves on screen while the shutter is open.
     pub motion: Plane,
-}
-
-impl Half {
-    pub(crate) fn push(&self, file: &mut ExrFile, layer: &str, objects: &[String]) {
-        file.push_color(layer, &self.color);
-        for (object, plane) in objects.iter().zip(&self.coverage) {
-            file.push_plane(&coverage_name(layer, object), plane);
-        }
-    }
-
-    pub(crate) fn from_exr(
-        file: &ExrFile,
-        layer: &str,
-        objects: &[String],
-    ) -> Result<Self, FileError> {
-        let coverage = objects
-            .iter()
-            .map(|object| file.plane(&coverage_name(layer, object)))
-            .collect::<Result<_, _>>()?;
-        Ok(Self {
-            color: file.color(layer)?,
-            coverage,
-        })
-    }
-
-    /// The mean of two halves: the best estimate of both.
-    pub fn mean(halves: &[Half; 2]) -> Half {
-        let [a, b] = halves;
-        Half {
-            color: a.color.zip(&b.color, |a, b| {
-                std::array::from_fn(|c| 0.5 * (a[c] + b[c]))
-            }),
-            coverage: a
-                .coverage
-                .iter()
-                .zip(&b.coverage)
-                .map(|(a, b)| a.zip(b, |a, b| 0.5 * (a + b)))
-                .collect(),
-        }
-    }
 }
 
 impl Truth {
@@ -80,8 +31,8 @@ impl Truth {
     }
 
     /// Mean of all replicates.
-    pub fn mean(&self) -> Half {
-        Half::mean(&self.halves)
+    pub fn mean(&self) -> Picture {
+        Picture::mean(&self.halves)
     }
 
     /// Writes the truth as OpenEXR: the mean as `R G B` and `coverage.<object>`, the halves as layers `A` and `B`,
@@ -116,8 +67,8 @@ impl Truth {
             shutter,
             alignment,
             halves: [
-                Half::from_exr(&file, "A", &objects)?,
-                Half::from_exr(&file, "B", &objects)?,
+                Picture::from_exr(&file, "A", &objects)?,
+                Picture::from_exr(&file, "B", &objects)?,
             ],
             objects,
             standard_error: file.color("stderr")?,
@@ -136,13 +87,4 @@ pub(crate) fn get_shutter(file: &ExrFile) -> Result<(Shutter, Alignment), FileEr
     let shutter = Shutter::new(file.get("shutter_open")?, file.get("shutter_close")?)
         .map_err(|error| file.foreign(error.to_string()))?;
     Ok((shutter, file.get("alignment")?))
-}
-
-/// Channel that holds an object's coverage, in a named layer or at the top.
-pub(crate) fn coverage_name(layer: &str, object: &str) -> String {
-    if layer.is_empty() {
-        format!("coverage.{object}")
-    } else {
-        format!("{layer}.coverage.{object}")
-    }
 }
