@@ -158,6 +158,8 @@ pub struct Material {
     pub diffuse_texture: Option<usize>,
     /// Emitted radiance (Ke), from both sides.
     pub emission: Vec3,
+    /// map_Ke: index into the scene's textures; multiplies `emission`. With no albedo it makes an unlit surface.
+    pub emission_texture: Option<usize>,
     /// d: where opacity (times its texture's) is below 0.5 the surface has a hole.
     pub opacity: f32,
     /// map_d: index into the scene's textures; its alpha if it has one, else its first component undecoded.
