@@ -1,0 +1,274 @@
+//! Frames, truths and ladders on disk: bit-exact, whole or not at all, and clear about what is wrong with a file.
+
+use std::fs;
+use std::path::Path;
+
+use frame::{
+    Accumulation, Alignment, Channel, ExrFile, FileError, Frame, Image, Ladder, Picture, Plane,
+    Provenance, Raster, Samples, Truth, VelocityKind, read_exr, write_atomically, write_exr,
+};
+
+const WIDTH: u32 = 13;
+const HEIGHT: u32 = 7;
+
+/// Values of every magnitude, subnormal and negative ones too: rounding anywhere would show.
+fn plane(salt: u32) -> Plane {
+    Raster::from_fn(WIDTH, HEIGHT, |x, y| {
+        let mut bits = (x + 17 * y + 1009 * salt).wrapping_mul(0x9e37_79b9);
+        bits ^= bits >> 15;
+        let value = f32::from_bits(bits.wrapping_mul(0x85eb_ca6b));
+        if value.is_finite() {
+            value
+        } else {
+            f32::from_bits(bits & 0x007f_ffff)
+        }
+    })
+}
+
+fn image(salt: u32) -> Image {
+    let [r, g, b] = [plane(salt), plane(salt + 1), plane(salt + 2)];
+    Raster::from_fn(WIDTH, HEIGHT, |x, y| {
+        [*r.at(x, y), *g.at(x, y), *b.at(x, y)]
+    })
+}
+
+fn picture(salt: u32) -> Picture {
+    Picture {
+        color: image(salt),
+        coverage: vec![plane(salt + 3), plane(salt + 4)],
+    }
+}
+
+fn objects() -> Vec<String> {
+    vec!["background".into(), "front-wheel_2".into()]
+}
+
+fn provenance() -> Provenance {
+    Provenance {
+        scene: "fan@20deg".into(),
+        program: "shuttertruth test".into(),
+        seed: u64::MAX,
+        samples_per_pixel: 256,
+        replicates: 8,
+        content_hash: "00ff".into(),
+    }
+}
+
+fn a_frame() -> Frame {
+    Frame {
+        provenance: provenance(),
+        exposure: 0.1 + 0.2, // not representable in short decimals
+        velocity_kind: VelocityKind::PreviousFrame,
+        objects: objects(),
+        color: image(1),
+        velocity: Raster::from_fn(WIDTH, HEIGHT, |x, y| {
+            [*plane(8).at(x, y), *plane(9).at(x, y)]
+        }),
+        depth: plane(10),
+        object_id: Raster::from_fn(WIDTH, HEIGHT, |x, y| u32::MAX - x * y),
+        coverage: vec![plane(11), plane(12)],
+    }
+}
+
+fn a_truth() -> Truth {
+    Truth {
+        provenance: provenance(),
+        shutter: Alignment::Centred.shutter(1.0 / 3.0).unwrap(),
+        alignment: Alignment::Centred,
+        objects: objects(),
+        halves: [picture(20), picture(30)],
+        standard_error: image(40),
+        motion: plane(50),
+    }
+}
+
+#[test]
+fn a_frame_comes_back_bit_for_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("new/folder/frame.exr");
+    a_frame().write(&path).unwrap();
+    assert_eq!(Frame::read(&path).unwrap(), a_frame());
+}
+
+#[test]
+fn a_truth_comes_back_bit_for_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("truth_centred.exr");
+    a_truth().write(&path).unwrap();
+    assert_eq!(Truth::read(&path).unwrap(), a_truth());
+}
+
+#[test]
+fn a_ladder_comes_back_bit_for_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("ladder.exr");
+    let ladder = Ladder {
+        provenance: provenance(),
+        shutter: a_truth().shutter,
+        alignment: Alignment::Centred,
+        objects: objects(),
+        rungs: [1, 2, 64]
+            .map(|subframes| Accumulation {
+                subframes,
+                halves: [picture(subframes), picture(subframes + 100)],
+            })
+            .into(),
+    };
+    ladder.write(&path).unwrap();
+    assert_eq!(Ladder::read(&path).unwrap(), ladder);
+}
+
+#[test]
+fn channels_bear_the_names_that_compositors_know() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("frame.exr");
+    a_frame().write(&path).unwrap();
+    let file = read_exr(&path).unwrap();
+    let names: Vec<&str> = file
+        .channels
+        .iter()
+        .map(|channel| channel.name.as_str())
+        .collect();
+    for name in [
+        "R",
+        "G",
+        "B",
+        "Z",
+        "velocity.X",
+        "velocity.Y",
+        "object.id",
+        "coverage.front-wheel_2",
+    ] {
+        assert!(names.contains(&name), "no channel {name} in {names:?}");
+    }
+    for name in [
+        "scene",
+        "exposure",
+        "samples_per_pixel",
+        "seed",
+        "program",
+        "content_hash",
+        "convention",
+    ] {
+        assert!(file.attributes.contains_key(name), "no attribute {name}");
+    }
+}
+
+#[test]
+fn a_file_cut_short_anywhere_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("truth.exr");
+    a_truth().write(&path).unwrap();
+    let whole = fs::read(&path).unwrap();
+    // The last cut leaves out one byte only.
+    for length in [0, 3, 20, whole.len() / 3, whole.len() / 2, whole.len() - 1] {
+        fs::write(&path, &whole[..length]).unwrap();
+        let message = Truth::read(&path).unwrap_err().to_string();
+        assert!(
+            message.contains("truth.exr: not a complete OpenEXR file"),
+            "{length} bytes: {message}"
+        );
+    }
+}
+
+#[test]
+fn a_picture_of_another_kind_is_refused_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("photo.exr");
+    fs::write(&path, b"\x89PNG\r\n\x1a\nnot an exr at all").unwrap();
+    assert!(matches!(Truth::read(&path), Err(FileError::Broken { .. })));
+    a_frame().write(&path).unwrap();
+    let message = Truth::read(&path).unwrap_err().to_string();
+    assert!(
+        message.ends_with("photo.exr: is a frame; a truth is needed"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_foreign_exr_is_told_what_it_lacks() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("render.exr");
+    let mut file = ExrFile::new(WIDTH, HEIGHT);
+    file.push_color("", &image(1));
+    write_exr(&path, &file).unwrap();
+    let message = Frame::read(&path).unwrap_err().to_string();
+    assert!(
+        message.contains("render.exr: was not written by shuttertruth"),
+        "{message}"
+    );
+    assert!(
+        message.contains("shuttertruth render"),
+        "no way out: {message}"
+    );
+    let message = read_exr(&path).unwrap().plane("Z").unwrap_err().to_string();
+    assert!(
+        message.ends_with("render.exr: lacks the channel \"Z\""),
+        "{message}"
+    );
+    file.channels.push(Channel {
+        name: "Z".into(),
+        samples: Samples::U32(vec![0; (WIDTH * HEIGHT) as usize]),
+    });
+    write_exr(&path, &file).unwrap();
+    let message = read_exr(&path).unwrap().plane("Z").unwrap_err().to_string();
+    assert!(
+        message.ends_with("channel \"Z\" holds integers; 32-bit floats are needed"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_missing_file_is_named() {
+    let message = Frame::read(Path::new("no/such/frame.exr"))
+        .unwrap_err()
+        .to_string();
+    assert!(
+        message.starts_with("no/such/frame.exr: cannot read: "),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_failed_write_leaves_what_was_there_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    // A folder of the file's name: the last step, the rename, must fail.
+    let path = folder.path().join("taken");
+    fs::create_dir(&path).unwrap();
+    fs::write(path.join("inside"), "kept").unwrap();
+    let message = write_atomically(&path, b"new").unwrap_err().to_string();
+    assert!(message.contains("taken: cannot write: "), "{message}");
+    let left: Vec<_> = fs::read_dir(folder.path())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name())
+        .collect();
+    assert_eq!(left, ["taken"], "a temporary file was left behind");
+    assert_eq!(fs::read_to_string(path.join("inside")).unwrap(), "kept");
+}
+
+#[test]
+fn a_shutter_that_closes_before_it_opens_is_refused() {
+    let message = frame::Shutter::new(0.75, 0.25).unwrap_err().to_string();
+    assert!(
+        message.starts_with("shutter closes at 0.25 before it opens at 0.75"),
+        "{message}"
+    );
+    for exposure in [0.0, -0.5, f64::NAN, f64::INFINITY] {
+        let message = Alignment::Leading
+            .shutter(exposure)
+            .unwrap_err()
+            .to_string();
+        assert!(message.contains("allowed: above 0 and finite"), "{message}");
+    }
+}
+
+#[test]
+fn the_alignments_lie_around_the_instant_as_they_say() {
+    let interval = |alignment: Alignment| {
+        let shutter = alignment.shutter(0.5).unwrap();
+        (shutter.open, shutter.close)
+    };
+    assert_eq!(interval(Alignment::Trailing), (-0.5, 0.0));
+    assert_eq!(interval(Alignment::Centred), (-0.25, 0.25));
+    assert_eq!(interval(Alignment::Leading), (0.0, 0.5));
+}
