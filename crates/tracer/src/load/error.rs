@@ -1,0 +1,56 @@
+//! What is wrong with a scene on disk, and where.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// A scene that cannot be used. Reads `path:line: reason`; the reason says what was found and what is allowed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneError {
+    /// The file to mend.
+    pub path: PathBuf,
+    /// Its line, counted from 1, where there is one.
+    pub line: Option<usize>,
+    /// What was found, what is allowed, the way out.
+    pub reason: String,
+}
+
+impl SceneError {
+    /// An error about a file as a whole.
+    pub(super) fn file(path: &Path, reason: impl Into<String>) -> Self {
+        Self {
+            path: path.to_owned(),
+            line: None,
+            reason: reason.into(),
+        }
+    }
+
+    /// An error in one line of a file, counted from 1.
+    pub(super) fn line(path: &Path, line: usize, reason: impl Into<String>) -> Self {
+        Self {
+            line: Some(line),
+            ..Self::file(path, reason)
+        }
+    }
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:", self.path.display())?;
+        if let Some(line) = self.line {
+            write!(f, "{line}:")?;
+        }
+        write!(f, " {}", self.reason)
+    }
+}
+
+impl std::error::Error for SceneError {}
+
+/// `a, b, c` for messages; `none` where there is nothing.
+pub(super) fn list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    let names: Vec<&str> = names.into_iter().collect();
+    if names.is_empty() {
+        "none".into()
+    } else {
+        names.join(", ")
+    }
+}

@@ -1,0 +1,125 @@
+//! Background, sun and display of a scene.toml.
+
+use glam::{DVec3, Vec3};
+use toml::Spanned;
+
+use super::document::Document;
+use super::error::SceneError;
+use super::schema::{BackgroundTable, DisplayTable, FlipTable, SunTable};
+use crate::{Background, Display, FlipExposures, Sun};
+
+/// Exposures of HDR-FLIP where a scene names none: two stops about its own exposure, a step per stop.
+const FLIP: FlipExposures = FlipExposures {
+    start: -2.0,
+    stop: 2.0,
+    count: 5,
+};
+
+pub(super) fn background(
+    document: &Document,
+    table: &Spanned<BackgroundTable>,
+) -> Result<Background, SceneError> {
+    match (&table.get_ref().constant, &table.get_ref().gradient) {
+        (Some(constant), None) => {
+            let place = constant.span();
+            let constant = radiance(document, "constant", *constant.get_ref(), place)?;
+            Ok(Background::Constant(constant))
+        }
+        (None, Some(gradient)) => {
+            let part = |what, value| radiance(document, what, value, gradient.span());
+            let gradient = gradient.get_ref();
+            Ok(Background::Gradient {
+                ground: part("ground", gradient.ground)?,
+                horizon: part("horizon", gradient.horizon)?,
+                zenith: part("zenith", gradient.zenith)?,
+            })
+        }
+        _ => {
+            let reason = "a background needs one of: constant = [r, g, b], gradient = { ground, horizon, zenith }";
+            Err(document.error(table.span(), reason))
+        }
+    }
+}
+
+pub(super) fn sun(document: &Document, table: &SunTable) -> Result<Sun, SceneError> {
+    let direction = DVec3::from(*table.direction.get_ref())
+        .try_normalize()
+        .ok_or_else(|| {
+            let reason = "the sun's direction is [0, 0, 0]; give a direction towards the sun";
+            document.error(table.direction.span(), reason)
+        })?;
+    let irradiance = radiance(
+        document,
+        "irradiance",
+        *table.irradiance.get_ref(),
+        table.irradiance.span(),
+    )?;
+    let degrees = table.angular_radius.as_ref().map_or(0.0, |r| *r.get_ref());
+    if let Some(radius) = &table.angular_radius
+        && !(0.0..90.0).contains(&degrees)
+    {
+        let reason = format!(
+            "the sun's angular_radius is {degrees} degrees; allowed: 0 (a point) to below 90"
+        );
+        return Err(document.error(radius.span(), reason));
+    }
+    Ok(Sun {
+        direction,
+        irradiance,
+        angular_radius: degrees.to_radians(),
+    })
+}
+
+pub(super) fn display(document: &Document, table: &DisplayTable) -> Result<Display, SceneError> {
+    let flip = match &table.flip {
+        Some(flip) => flip_exposures(document, flip)?,
+        None => FLIP,
+    };
+    Ok(Display {
+        stops: table.stops,
+        flip,
+    })
+}
+
+fn flip_exposures(
+    document: &Document,
+    table: &Spanned<FlipTable>,
+) -> Result<FlipExposures, SceneError> {
+    let FlipTable { start, stop, count } = *table.get_ref();
+    if count < 2 {
+        let reason = format!("flip has {count} exposures; count must be at least 2");
+        return Err(document.error(table.span(), reason));
+    }
+    if stop <= start {
+        let reason = format!(
+            "flip stops at {stop}, not above its start at {start}; stop must be above start"
+        );
+        return Err(document.error(table.span(), reason));
+    }
+    Ok(FlipExposures { start, stop, count })
+}
+
+/// Light: any amount, but not less than none.
+pub(super) fn radiance(
+    document: &Document,
+    what: &str,
+    value: [f32; 3],
+    place: std::ops::Range<usize>,
+) -> Result<Vec3, SceneError> {
+    match amiss_in_radiance(value) {
+        None => Ok(Vec3::from(value)),
+        Some(reason) => Err(document.error(place, format!("{what} {reason}"))),
+    }
+}
+
+/// What is wrong with an amount of light, if anything.
+pub(super) fn amiss_in_radiance(value: [f32; 3]) -> Option<String> {
+    let allowed = value.iter().all(|part| part.is_finite() && *part >= 0.0);
+    (!allowed).then(|| format!("is {value:?}; allowed: 0 and above, finite"))
+}
+
+/// What is wrong with an albedo, if anything: a surface cannot give back more light than falls on it.
+pub(super) fn amiss_in_albedo(value: [f32; 3]) -> Option<String> {
+    let allowed = value.iter().all(|part| (0.0..=1.0).contains(part));
+    (!allowed).then(|| format!("is {value:?}; allowed: 0 to 1"))
+}

@@ -1,0 +1,195 @@
+//! OBJ files as meshes.
+
+use std::path::{Path, PathBuf};
+
+use glam::{Vec2, Vec3};
+
+use super::error::SceneError;
+use super::files::Files;
+use super::mtl::{Libraries, default_material};
+use super::obj_check::check;
+use super::texture::Textures;
+use crate::{Material, Mesh};
+
+/// An OBJ file and its materials.
+pub(super) struct ObjFile {
+    path: PathBuf,
+    /// One per run of faces with one group and one material.
+    parts: Vec<tobj::Model>,
+    materials: Vec<Material>,
+}
+
+/// One material of a mesh.
+pub(super) struct Slot {
+    /// As the MTL file has it.
+    pub(super) material: Material,
+    /// Whether all its faces have texture coordinates.
+    pub(super) textured: bool,
+}
+
+impl ObjFile {
+    /// Reads an OBJ file. The outer error is the reason why it cannot be read at all, for the caller knows the place
+    /// that names the file.
+    pub(super) fn read(
+        files: &mut Files,
+        textures: &mut Textures,
+        path: &Path,
+    ) -> Result<Result<Self, SceneError>, std::io::Error> {
+        let text = files.text(path)?;
+        Ok(Self::parse(files, textures, path, &text))
+    }
+
+    fn parse(
+        files: &mut Files,
+        textures: &mut Textures,
+        path: &Path,
+        text: &str,
+    ) -> Result<Self, SceneError> {
+        let mut libraries = Libraries::default();
+        let checked = check(files, path, text, &mut libraries)?;
+        let options = tobj::LoadOptions {
+            single_index: true,
+            triangulate: true,
+            ..Default::default()
+        };
+        let library = |name: &Path| tobj::load_mtl_buf(&mut libraries.texts[name].as_bytes());
+        let read = tobj::load_obj_buf(&mut checked.as_bytes(), &options, library);
+        let (parts, read) = read
+            .and_then(|(parts, materials)| Ok((parts, materials?)))
+            .map_err(|error| SceneError::file(path, format!("not a readable OBJ file: {error}")))?;
+        let materials = read
+            .iter()
+            .map(|material| libraries.material(files, textures, material))
+            .collect::<Result<_, _>>()?;
+        Ok(Self {
+            path: path.to_owned(),
+            parts: parts
+                .into_iter()
+                .filter(|part| !part.mesh.indices.is_empty())
+                .collect(),
+            materials,
+        })
+    }
+
+    /// Names of the groups and objects that have faces, each once, in the order of the file.
+    pub(super) fn groups(&self) -> Vec<&str> {
+        let mut groups = Vec::new();
+        for part in &self.parts {
+            if !groups.contains(&part.name.as_str()) {
+                groups.push(part.name.as_str());
+            }
+        }
+        groups
+    }
+
+    /// The whole file or one group as a mesh, with the materials of its slots.
+    pub(super) fn mesh(&self, group: Option<&str>) -> Result<(Mesh, Vec<Slot>), SceneError> {
+        let parts: Vec<_> = self
+            .parts
+            .iter()
+            .filter(|part| group.is_none_or(|group| part.name == group))
+            .map(|part| &part.mesh)
+            .collect();
+        let with_normals = parts.iter().any(|part| !part.normals.is_empty());
+        let with_texcoords = parts.iter().any(|part| !part.texcoords.is_empty());
+        let mut mesh = Mesh {
+            path: self.path.clone(),
+            positions: Vec::new(),
+            normals: Vec::new(),
+            texcoords: Vec::new(),
+            triangles: Vec::new(),
+            slots: Vec::new(),
+        };
+        let mut slots = Vec::new();
+        for part in parts {
+            let slot = self.slot(&mut slots, part);
+            push_part(&mut mesh, part, slot, with_normals, with_texcoords);
+        }
+        self.check_area(&mesh)?;
+        Ok((mesh, slots))
+    }
+
+    /// Index of the slot for a part's material, made if it is new.
+    fn slot(&self, slots: &mut Vec<Slot>, part: &tobj::Mesh) -> u32 {
+        let material = match part.material_id {
+            Some(index) => self.materials[index].clone(),
+            None => default_material(),
+        };
+        let textured = !part.texcoords.is_empty();
+        let index = slots.iter().position(|slot| slot.material == material);
+        let index = index.unwrap_or_else(|| {
+            slots.push(Slot { material, textured });
+            slots.len() - 1
+        });
+        slots[index].textured &= textured;
+        u32::try_from(index).expect("a mesh has fewer than 2^32 materials")
+    }
+
+    fn check_area(&self, mesh: &Mesh) -> Result<(), SceneError> {
+        if mesh.triangles.is_empty() {
+            let reason = "holds no faces; a mesh needs at least one f statement with 3 corners";
+            return Err(SceneError::file(&self.path, reason));
+        }
+        let has_area = |triangle: &[u32; 3]| {
+            let [a, b, c] = triangle.map(|index| mesh.positions[index as usize].as_dvec3());
+            (b - a).cross(c - a).length_squared() > 0.0
+        };
+        if !mesh.triangles.iter().any(has_area) {
+            let reason = format!(
+                "all its {} triangles have no area; a mesh needs at least one that has",
+                mesh.triangles.len()
+            );
+            return Err(SceneError::file(&self.path, reason));
+        }
+        Ok(())
+    }
+}
+
+/// Adds faces of one material. Where only other parts have normals, these faces get their own, flat; where only other
+/// parts have texture coordinates, they get (0, 0), which no texture reads.
+fn push_part(
+    mesh: &mut Mesh,
+    part: &tobj::Mesh,
+    slot: u32,
+    with_normals: bool,
+    with_texcoords: bool,
+) {
+    let flat = with_normals && part.normals.is_empty();
+    // Flat faces share no vertices.
+    let picked: Vec<u32> = if flat {
+        part.indices.clone()
+    } else {
+        (0..part.positions.len() as u32 / 3).collect()
+    };
+    let first = mesh.positions.len() as u32;
+    let triple = |values: &[f32], index: u32| Vec3::from_slice(&values[3 * index as usize..]);
+    for &index in &picked {
+        mesh.positions.push(triple(&part.positions, index));
+        if with_texcoords {
+            let texcoord = match part.texcoords.is_empty() {
+                true => Vec2::ZERO,
+                false => Vec2::from_slice(&part.texcoords[2 * index as usize..]),
+            };
+            mesh.texcoords.push(texcoord);
+        }
+        if with_normals && !flat {
+            let normal = triple(&part.normals, index).as_dvec3().normalize();
+            mesh.normals.push(normal.as_vec3());
+        }
+    }
+    for (face, corners) in part.indices.chunks_exact(3).enumerate() {
+        let corners = match flat {
+            true => [0, 1, 2].map(|corner| 3 * face as u32 + corner),
+            false => [corners[0], corners[1], corners[2]],
+        };
+        let triangle = corners.map(|corner| first + corner);
+        if flat {
+            let [a, b, c] = triangle.map(|index| mesh.positions[index as usize].as_dvec3());
+            // A face without area has no direction, and no ray meets it.
+            let normal = (b - a).cross(c - a).normalize_or(glam::DVec3::Y);
+            mesh.normals.extend([normal.as_vec3(); 3]);
+        }
+        mesh.triangles.push(triangle);
+        mesh.slots.push(slot);
+    }
+}

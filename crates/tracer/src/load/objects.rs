@@ -1,0 +1,224 @@
+//! The objects of a scene.toml with their meshes and materials.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use toml::Spanned;
+
+use super::document::Document;
+use super::error::{SceneError, list};
+use super::files::Files;
+use super::material::override_material;
+use super::obj::ObjFile;
+use super::pose::object_motion;
+use super::schema::ObjectTable;
+use super::texture::Textures;
+use crate::{Material, Mesh, Object, Parent};
+
+/// Names that mean something else where objects are named.
+const RESERVED: [&str; 2] = ["background", "camera"];
+
+/// Objects and all that they share.
+pub(super) struct Stage<'a> {
+    document: &'a Document,
+    folder: &'a Path,
+    pub(super) files: Files,
+    pub(super) textures: Textures,
+    pub(super) materials: Vec<Material>,
+    pub(super) meshes: Vec<Mesh>,
+    pub(super) objects: Vec<Object>,
+    obj_files: BTreeMap<PathBuf, ObjFile>,
+    mesh_keys: Vec<(PathBuf, Option<String>)>,
+}
+
+impl<'a> Stage<'a> {
+    pub(super) fn new(document: &'a Document, folder: &'a Path, files: Files) -> Self {
+        Self {
+            document,
+            folder,
+            files,
+            textures: Textures::default(),
+            materials: Vec::new(),
+            meshes: Vec::new(),
+            objects: Vec::new(),
+            obj_files: BTreeMap::new(),
+            mesh_keys: Vec::new(),
+        }
+    }
+
+    /// Adds every object, in the order of the file.
+    pub(super) fn add_objects(
+        &mut self,
+        tables: &BTreeMap<Spanned<String>, ObjectTable>,
+    ) -> Result<(), SceneError> {
+        let mut in_file_order: Vec<_> = tables.iter().collect();
+        in_file_order.sort_by_key(|(name, _)| name.span().start);
+        let names: Vec<&str> = in_file_order
+            .iter()
+            .map(|(name, _)| name.get_ref().as_str())
+            .collect();
+        for (name, table) in &in_file_order {
+            self.check_name(name)?;
+            let parent = self.parent(name.get_ref(), table, &names, tables)?;
+            let motion = object_motion(self.document, name.get_ref(), table)?;
+            let (mesh, materials) = self.surface(table)?;
+            self.objects.push(Object {
+                name: name.get_ref().clone(),
+                mesh,
+                materials,
+                motion,
+                parent,
+            });
+        }
+        Ok(())
+    }
+
+    fn check_name(&self, name: &Spanned<String>) -> Result<(), SceneError> {
+        let word = name.get_ref();
+        let allowed = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+        if word.is_empty() || !word.chars().all(allowed) {
+            let reason = format!("object name \"{word}\": allowed are letters, digits, _ and -");
+            return Err(self.document.error(name.span(), reason));
+        }
+        if RESERVED.contains(&word.as_str()) {
+            let reason = format!("object name \"{word}\" is taken; choose another name");
+            return Err(self.document.error(name.span(), reason));
+        }
+        Ok(())
+    }
+
+    fn parent(
+        &self,
+        name: &str,
+        table: &ObjectTable,
+        names: &[&str],
+        tables: &BTreeMap<Spanned<String>, ObjectTable>,
+    ) -> Result<Parent, SceneError> {
+        let Some(parent) = &table.parent else {
+            return Ok(Parent::World);
+        };
+        if parent.get_ref() == "camera" {
+            return Ok(Parent::Camera);
+        }
+        let fail = |reason| Err(self.document.error(parent.span(), reason));
+        if !names.contains(&parent.get_ref().as_str()) {
+            return fail(format!(
+                "object \"{name}\" has the parent \"{}\", which the scene lacks; allowed: camera, {}",
+                parent.get_ref(),
+                list(names.iter().copied().filter(|other| *other != name))
+            ));
+        }
+        let mut chain = vec![name];
+        let mut next = Some(parent);
+        while let Some(ancestor) = next {
+            let ancestor = ancestor.get_ref().as_str();
+            let seen = chain.contains(&ancestor);
+            chain.push(ancestor);
+            if seen {
+                return fail(format!(
+                    "objects are each other's parents: {}; one of them must have another parent or none",
+                    chain.join(" -> ")
+                ));
+            }
+            next = tables.get(ancestor).and_then(|table| table.parent.as_ref());
+        }
+        let earlier = self
+            .objects
+            .iter()
+            .position(|o| o.name == *parent.get_ref());
+        match earlier {
+            Some(index) => Ok(Parent::Object(index)),
+            None => fail(format!(
+                "object \"{name}\" stands before its parent \"{}\"; move the parent above it",
+                parent.get_ref()
+            )),
+        }
+    }
+
+    /// Mesh and materials of an object, shared with others where they are the same.
+    fn surface(&mut self, table: &ObjectTable) -> Result<(usize, Vec<usize>), SceneError> {
+        let path = self.folder.join(table.mesh.get_ref());
+        if !self.obj_files.contains_key(&path) {
+            let obj = ObjFile::read(&mut self.files, &mut self.textures, &path);
+            let obj = obj.map_err(|error| {
+                let reason = format!("mesh {} cannot be read: {error}", path.display());
+                self.document.error(table.mesh.span(), reason)
+            })??;
+            self.obj_files.insert(path.clone(), obj);
+        }
+        let obj = &self.obj_files[&path];
+        let group = table.group.as_ref().map(|group| group.get_ref().as_str());
+        if let Some(group) = &table.group
+            && !obj.groups().contains(&group.get_ref().as_str())
+        {
+            let reason = format!(
+                "group \"{}\" is not in {}; groups: {}",
+                group.get_ref(),
+                path.display(),
+                list(obj.groups())
+            );
+            return Err(self.document.error(group.span(), reason));
+        }
+        let (mesh, mut slots) = obj.mesh(group)?;
+        for (name, changes) in &table.material {
+            let slot = slots
+                .iter_mut()
+                .find(|s| s.material.name == *name.get_ref());
+            let Some(slot) = slot else {
+                let known = slots.iter().map(|slot| slot.material.name.as_str());
+                let reason = format!(
+                    "material \"{}\" is not in {}; materials: {}",
+                    name.get_ref(),
+                    path.display(),
+                    list(known)
+                );
+                return Err(self.document.error(name.span(), reason));
+            };
+            override_material(
+                self.document,
+                &mut self.files,
+                &mut self.textures,
+                self.folder,
+                changes,
+                &mut slot.material,
+            )?;
+        }
+        for slot in &slots {
+            if !slot.textured && has_texture(&slot.material) {
+                let reason = format!(
+                    "material \"{}\" has a texture, but faces of {} that use it have no texture coordinates (vt)",
+                    slot.material.name,
+                    path.display()
+                );
+                return Err(self.document.error(table.mesh.span(), reason));
+            }
+        }
+        let materials = slots
+            .into_iter()
+            .map(|slot| index_of(&mut self.materials, slot.material))
+            .collect();
+        let key = (path, group.map(str::to_owned));
+        let known = self.mesh_keys.iter().position(|other| *other == key);
+        let mesh = known.unwrap_or_else(|| {
+            self.mesh_keys.push(key);
+            self.meshes.push(mesh);
+            self.meshes.len() - 1
+        });
+        Ok((mesh, materials))
+    }
+}
+
+fn has_texture(material: &Material) -> bool {
+    material.diffuse_texture.is_some()
+        || material.emission_texture.is_some()
+        || material.opacity_texture.is_some()
+}
+
+/// Index of a material in the scene, added if no equal one is there.
+fn index_of(materials: &mut Vec<Material>, material: Material) -> usize {
+    let known = materials.iter().position(|other| *other == material);
+    known.unwrap_or_else(|| {
+        materials.push(material);
+        materials.len() - 1
+    })
+}

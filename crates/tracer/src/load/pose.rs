@@ -1,0 +1,221 @@
+//! Poses at given times, and the motion through them.
+
+use std::ops::Range;
+
+use glam::{DQuat, DVec3};
+use toml::Spanned;
+
+use super::document::Document;
+use super::error::SceneError;
+use super::schema::{ObjectTable, RotationTable, ScaleTable};
+use crate::{Key, Motion, Turn};
+
+/// Two orientations say nothing about the way between them beyond half a turn; this much is kept off it, in degrees.
+const LARGEST_TURN: f64 = 179.9;
+
+/// Axes closer than this (as unit vectors) are one axis: rounding in a file, not a choice.
+const SAME_AXIS: f64 = 1e-9;
+
+/// How an orientation was written; an axis and degrees can say more than one turn.
+#[derive(Clone, Copy)]
+pub(super) enum Rotation {
+    AxisAngle { axis: DVec3, degrees: f64 },
+    Quaternion(DQuat),
+}
+
+/// A pose that a scene.toml states.
+pub(super) struct Pose {
+    pub(super) time: f64,
+    pub(super) translation: DVec3,
+    pub(super) rotation: Rotation,
+    pub(super) scale: DVec3,
+    /// Where it is written.
+    pub(super) place: Range<usize>,
+}
+
+impl Rotation {
+    pub(super) const NONE: Self = Rotation::Quaternion(DQuat::IDENTITY);
+
+    pub(super) fn read(
+        document: &Document,
+        table: &Spanned<RotationTable>,
+    ) -> Result<Self, SceneError> {
+        match *table.get_ref() {
+            RotationTable::AxisAngle { axis, degrees } => {
+                let axis = DVec3::from(axis).try_normalize().ok_or_else(|| {
+                    let reason = "rotation has the axis [0, 0, 0]; a direction is needed";
+                    document.error(table.span(), reason)
+                })?;
+                Ok(Rotation::AxisAngle { axis, degrees })
+            }
+            RotationTable::Quaternion(components) => {
+                let length_squared: f64 = components.iter().map(|c| c * c).sum();
+                if !length_squared.is_normal() {
+                    let reason = format!(
+                        "rotation is the quaternion {components:?}, whose length is not above 0; \
+                         no rotation is [0, 0, 0, 1]"
+                    );
+                    return Err(document.error(table.span(), reason));
+                }
+                Ok(Rotation::Quaternion(
+                    DQuat::from_array(components).normalize(),
+                ))
+            }
+        }
+    }
+
+    pub(super) fn orientation(self) -> DQuat {
+        match self {
+            Rotation::AxisAngle { axis, degrees } => {
+                DQuat::from_axis_angle(axis, degrees.to_radians())
+            }
+            Rotation::Quaternion(orientation) => orientation,
+        }
+    }
+
+    /// The turn that leads from here to `next`; none when it is not below half a turn and no axis says which way.
+    fn turn_to(self, next: Rotation) -> Option<Turn> {
+        if let (
+            Rotation::AxisAngle { axis, degrees },
+            Rotation::AxisAngle {
+                axis: next_axis,
+                degrees: next_degrees,
+            },
+        ) = (self, next)
+            && axis.distance(next_axis) < SAME_AXIS
+        {
+            let angle = (next_degrees - degrees).to_radians();
+            return Some(Turn { axis, angle });
+        }
+        let relative = next.orientation() * self.orientation().conjugate();
+        let relative = if relative.w < 0.0 {
+            -relative
+        } else {
+            relative
+        };
+        let sine = relative.xyz().length();
+        let angle = 2.0 * sine.atan2(relative.w);
+        if angle >= LARGEST_TURN.to_radians() {
+            return None;
+        }
+        Some(match relative.xyz().try_normalize() {
+            Some(axis) => Turn { axis, angle },
+            None => Turn::NONE,
+        })
+    }
+}
+
+/// The motion of an object, still or through its keys.
+pub(super) fn object_motion(
+    document: &Document,
+    name: &str,
+    object: &ObjectTable,
+) -> Result<Motion, SceneError> {
+    let rotation = |table: &Option<Spanned<RotationTable>>| match table {
+        Some(table) => Rotation::read(document, table),
+        None => Ok(Rotation::NONE),
+    };
+    let Some(keys) = &object.keys else {
+        return Ok(Motion::still(Key {
+            translation: object
+                .translation
+                .as_ref()
+                .map_or(DVec3::ZERO, |translation| {
+                    DVec3::from(*translation.get_ref())
+                }),
+            orientation: rotation(&object.rotation)?.orientation(),
+            scale: scale(document, &object.scale)?,
+            ..Key::REST
+        }));
+    };
+    let still = object.translation.as_ref().map(Spanned::span);
+    let still = still.or(object.rotation.as_ref().map(Spanned::span));
+    if let Some(place) = still.or(object.scale.as_ref().map(Spanned::span)) {
+        let reason = format!(
+            "object \"{name}\" has both keys and a still pose; write translation, rotation and scale into the keys"
+        );
+        return Err(document.error(place, reason));
+    }
+    let mut poses = Vec::new();
+    for key in keys.get_ref() {
+        poses.push(Pose {
+            time: *key.time.get_ref(),
+            translation: DVec3::from(key.translation.unwrap_or_default()),
+            rotation: rotation(&key.rotation)?,
+            scale: scale(document, &key.scale)?,
+            place: key.time.span(),
+        });
+    }
+    through(document, &format!("object \"{name}\""), keys.span(), &poses)
+}
+
+/// The motion through poses at rising times.
+pub(super) fn through(
+    document: &Document,
+    what: &str,
+    place: Range<usize>,
+    poses: &[Pose],
+) -> Result<Motion, SceneError> {
+    if poses.is_empty() {
+        let reason = format!("{what} has empty keys; at least one key is needed");
+        return Err(document.error(place, reason));
+    }
+    let mut keys = Vec::new();
+    for (index, pose) in poses.iter().enumerate() {
+        let turn = match poses.get(index + 1) {
+            Some(next) => turn_between(document, what, pose, next)?,
+            None => Turn::NONE,
+        };
+        keys.push(Key {
+            time: pose.time,
+            translation: pose.translation,
+            orientation: pose.rotation.orientation(),
+            scale: pose.scale,
+            turn,
+        });
+    }
+    Ok(Motion { keys })
+}
+
+fn turn_between(
+    document: &Document,
+    what: &str,
+    pose: &Pose,
+    next: &Pose,
+) -> Result<Turn, SceneError> {
+    let place = || next.place.clone();
+    if next.time <= pose.time {
+        let reason = format!(
+            "{what} has a key at time {} after one at {}; times must rise",
+            next.time, pose.time
+        );
+        return Err(document.error(place(), reason));
+    }
+    if (pose.scale * next.scale).min_element() <= 0.0 {
+        let reason = format!(
+            "{what} has a scale that passes through 0 between {} and {}; keep the sign of each factor",
+            pose.scale, next.scale
+        );
+        return Err(document.error(place(), reason));
+    }
+    pose.rotation.turn_to(next.rotation).ok_or_else(|| {
+        let reason = format!(
+            "{what} turns by half a turn or more between keys, which leaves the way open; allowed: below \
+             {LARGEST_TURN} degrees, or give both keys {{ axis, degrees }} with the same axis, which may turn any \
+             number of degrees"
+        );
+        document.error(place(), reason)
+    })
+}
+
+fn scale(document: &Document, table: &Option<Spanned<ScaleTable>>) -> Result<DVec3, SceneError> {
+    let Some(table) = table else {
+        return Ok(DVec3::ONE);
+    };
+    let ScaleTable(factors) = *table.get_ref();
+    if factors.contains(&0.0) {
+        let reason = format!("scale is {factors:?}; each factor must differ from 0");
+        return Err(document.error(table.span(), reason));
+    }
+    Ok(DVec3::from(factors))
+}

@@ -1,0 +1,197 @@
+//! The keys of a scene.toml. Their meaning is documented in `scenes/README.md`.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Error, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use toml::Spanned;
+
+use crate::Family;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SceneTable {
+    pub(super) exposes: Spanned<String>,
+    pub(super) family: Family,
+    pub(super) exposure: Spanned<f64>,
+    pub(super) size: Spanned<[u32; 2]>,
+    #[serde(default)]
+    pub(super) display: DisplayTable,
+    pub(super) camera: Spanned<CameraTable>,
+    pub(super) background: Spanned<BackgroundTable>,
+    pub(super) sun: Option<SunTable>,
+    #[serde(default)]
+    pub(super) object: BTreeMap<Spanned<String>, ObjectTable>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct DisplayTable {
+    #[serde(default)]
+    pub(super) stops: f32,
+    pub(super) flip: Option<Spanned<FlipTable>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FlipTable {
+    pub(super) start: f32,
+    pub(super) stop: f32,
+    pub(super) count: u32,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CameraTable {
+    pub(super) position: Option<[f64; 3]>,
+    pub(super) look_at: Option<Spanned<[f64; 3]>>,
+    pub(super) up: Option<Spanned<[f64; 3]>>,
+    pub(super) rotation: Option<Spanned<RotationTable>>,
+    pub(super) vertical_fov: Option<Spanned<f64>>,
+    pub(super) keys: Option<Spanned<Vec<CameraKeyTable>>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CameraKeyTable {
+    pub(super) time: Spanned<f64>,
+    pub(super) position: [f64; 3],
+    pub(super) look_at: Option<Spanned<[f64; 3]>>,
+    pub(super) up: Option<Spanned<[f64; 3]>>,
+    pub(super) rotation: Option<Spanned<RotationTable>>,
+    pub(super) vertical_fov: Option<Spanned<f64>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BackgroundTable {
+    pub(super) constant: Option<Spanned<[f32; 3]>>,
+    pub(super) gradient: Option<Spanned<GradientTable>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct GradientTable {
+    pub(super) ground: [f32; 3],
+    pub(super) horizon: [f32; 3],
+    pub(super) zenith: [f32; 3],
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SunTable {
+    pub(super) direction: Spanned<[f64; 3]>,
+    pub(super) irradiance: Spanned<[f32; 3]>,
+    pub(super) angular_radius: Option<Spanned<f64>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ObjectTable {
+    pub(super) mesh: Spanned<String>,
+    pub(super) group: Option<Spanned<String>>,
+    pub(super) parent: Option<Spanned<String>>,
+    pub(super) translation: Option<Spanned<[f64; 3]>>,
+    pub(super) rotation: Option<Spanned<RotationTable>>,
+    pub(super) scale: Option<Spanned<ScaleTable>>,
+    pub(super) keys: Option<Spanned<Vec<KeyTable>>>,
+    #[serde(default)]
+    pub(super) material: BTreeMap<Spanned<String>, MaterialTable>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct KeyTable {
+    pub(super) time: Spanned<f64>,
+    pub(super) translation: Option<[f64; 3]>,
+    pub(super) rotation: Option<Spanned<RotationTable>>,
+    pub(super) scale: Option<Spanned<ScaleTable>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MaterialTable {
+    pub(super) diffuse: Option<Spanned<[f32; 3]>>,
+    pub(super) emission: Option<Spanned<[f32; 3]>>,
+    pub(super) opacity: Option<Spanned<f32>>,
+    pub(super) diffuse_texture: Option<Spanned<String>>,
+    pub(super) emission_texture: Option<Spanned<String>>,
+    pub(super) opacity_texture: Option<Spanned<String>>,
+}
+
+/// `{ axis, degrees }` or a quaternion `[x, y, z, w]`.
+#[derive(Clone, Copy)]
+pub(super) enum RotationTable {
+    AxisAngle { axis: [f64; 3], degrees: f64 },
+    Quaternion([f64; 4]),
+}
+
+/// One factor, or one per axis.
+#[derive(Clone, Copy)]
+pub(super) struct ScaleTable(pub(super) [f64; 3]);
+
+// Hand-written because serde's untagged enums lose the places of what they hold, and say only that nothing matched.
+impl<'de> Deserialize<'de> for RotationTable {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct AxisAngle {
+            axis: [f64; 3],
+            degrees: f64,
+        }
+
+        struct RotationVisitor;
+
+        impl<'de> Visitor<'de> for RotationVisitor {
+            type Value = RotationTable;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("{ axis = [x, y, z], degrees = number } or a quaternion [x, y, z, w]")
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, values: A) -> Result<Self::Value, A::Error> {
+                let quaternion = <[f64; 4]>::deserialize(SeqAccessDeserializer::new(values))?;
+                Ok(RotationTable::Quaternion(quaternion))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, keys: A) -> Result<Self::Value, A::Error> {
+                let AxisAngle { axis, degrees } =
+                    AxisAngle::deserialize(MapAccessDeserializer::new(keys))?;
+                Ok(RotationTable::AxisAngle { axis, degrees })
+            }
+        }
+
+        deserializer.deserialize_any(RotationVisitor)
+    }
+}
+
+impl<'de> Deserialize<'de> for ScaleTable {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct ScaleVisitor;
+
+        impl<'de> Visitor<'de> for ScaleVisitor {
+            type Value = ScaleTable;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a number or [x, y, z]")
+            }
+
+            fn visit_i64<E: Error>(self, factor: i64) -> Result<Self::Value, E> {
+                self.visit_f64(factor as f64)
+            }
+
+            fn visit_f64<E: Error>(self, factor: f64) -> Result<Self::Value, E> {
+                Ok(ScaleTable([factor; 3]))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, values: A) -> Result<Self::Value, A::Error> {
+                let factors = <[f64; 3]>::deserialize(SeqAccessDeserializer::new(values))?;
+                Ok(ScaleTable(factors))
+            }
+        }
+
+        deserializer.deserialize_any(ScaleVisitor)
+    }
+}
