@@ -1,1 +1,55 @@
-//! placeholder
+//! How far a picture is from the truth, and in which way.
+//!
+//! [`measure`] compares a filter's output with the truth and returns [`Scores`] with the [`Maps`] that they were pooled
+//! from. Every score comes with its floor: what the truth's own noise makes of it. A score that would mean nothing in a
+//! scene is not a number but a reason. `README.md` beside this crate defines each score and says what fools it;
+//! [`Metric`] names them all.
+
+mod bleed;
+mod check;
+mod cross_error;
+mod equivalent;
+mod error;
+mod error_maps;
+mod flip;
+mod label;
+mod ladder;
+mod lateral;
+mod maps;
+mod mass;
+mod metric;
+mod misplacement;
+mod mover;
+mod nearest;
+mod object;
+mod reference;
+mod region;
+mod rows;
+mod score;
+mod scores;
+mod viewing;
+
+pub use equivalent::{Equivalent, Reach, Subframes};
+pub use error::MeasureError;
+pub use flip::{flip_hdr, flip_ldr};
+pub use maps::Maps;
+pub use metric::{ImageMetric, Metric, ObjectMetric};
+pub use reference::{Measurement, Reference};
+pub use region::{Region, Regions, regions};
+pub use score::{Ideal, Measured, Score};
+pub use scores::{EquivalentScores, ImageScores, LabelScores, ObjectScores, Scores};
+pub use viewing::Viewing;
+
+use frame::{Frame, Ladder, Picture, Truth};
+
+/// Measures one picture. To measure several against the same truth, make a [`Reference`] once: it holds what does not
+/// depend on the picture (regions, floors, the ladder's errors).
+pub fn measure(
+    output: &Picture,
+    frame: &Frame,
+    truth: &Truth,
+    ladder: Option<&Ladder>,
+    viewing: &Viewing,
+) -> Result<Measurement, MeasureError> {
+    Reference::new(frame, truth, ladder, viewing)?.measure(output)
+}

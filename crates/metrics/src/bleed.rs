@@ -1,0 +1,78 @@
+//! Mass where the truth never shows the object.
+
+use frame::{Plane, Raster};
+
+use crate::mover::Silhouette;
+use crate::nearest::{distance_squared, nearest};
+
+/// On which side of the swept support a pixel lies, as seen along the motion of the nearest part of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// In the support or next to it: no bleed.
+    Inside,
+    /// Beside it: within 45 degrees of the motion's normal.
+    Lateral,
+    /// Ahead of it.
+    Leading,
+    /// Behind it.
+    Trailing,
+}
+
+/// Hard bleed in pixels of silhouette growth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bleed {
+    /// Beside the support, over the length of both lateral silhouettes.
+    pub lateral: f64,
+    /// Ahead of it, over the width across the motion.
+    pub leading: f64,
+    /// Behind it, over the same width.
+    pub trailing: f64,
+}
+
+/// Sorts every pixel by where it lies from the support `{truth > 0}`, which reaches one pixel further: partial pixels of
+/// a rounded edge. `directions` holds the unit vector of motion to judge each pixel of the support by.
+///
+/// A pixel without direction (the centre of a rotation) has everything beside it. `None` when the truth never shows the
+/// object.
+pub fn sides(truth: &Plane, directions: &Raster<[f64; 2]>) -> Option<Raster<Side>> {
+    let support = nearest(&truth.map(|matte| *matte > 0.0))?;
+    Some(Raster::from_fn(truth.width, truth.height, |x, y| {
+        let source = *support.at(x, y);
+        // The eight neighbours of the support are still inside.
+        if distance_squared([x, y], source) <= 2 {
+            return Side::Inside;
+        }
+        let away = [
+            f64::from(x) - f64::from(source[0]),
+            f64::from(y) - f64::from(source[1]),
+        ];
+        let along = *directions.at(source[0], source[1]);
+        let ahead = away[0] * along[0] + away[1] * along[1];
+        let beside = (away[1] * along[0] - away[0] * along[1]).abs();
+        if ahead > beside {
+            Side::Leading
+        } else if -ahead > beside {
+            Side::Trailing
+        } else {
+            Side::Lateral
+        }
+    }))
+}
+
+/// Pools the matte outside the support by side. `None` when the object shows no silhouette in the picture.
+pub fn bleed(output: &Plane, sides: &Raster<Side>, silhouette: &Silhouette) -> Option<Bleed> {
+    let on = |wanted: Side| -> f64 {
+        output
+            .pixels
+            .iter()
+            .zip(&sides.pixels)
+            .filter(|(_, side)| **side == wanted)
+            .map(|(matte, _)| f64::from(*matte))
+            .sum()
+    };
+    (silhouette.lateral > 0.0 && silhouette.across > 0.0).then(|| Bleed {
+        lateral: on(Side::Lateral) / silhouette.lateral,
+        leading: on(Side::Leading) / silhouette.across,
+        trailing: on(Side::Trailing) / silhouette.across,
+    })
+}

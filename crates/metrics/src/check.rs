@@ -1,0 +1,136 @@
+//! Inputs that cannot be compared are refused before anything is computed.
+
+use frame::{Frame, Ladder, Picture, Raster, Truth};
+
+use crate::{MeasureError, Viewing};
+
+/// Refuses HDR-FLIP exposures that make no range.
+pub fn check_viewing(viewing: &Viewing) -> Result<(), MeasureError> {
+    let Viewing {
+        stops,
+        flip_start: start,
+        flip_stop: stop,
+        flip_count: count,
+    } = *viewing;
+    let finite = [stops, start, stop].iter().all(|stops| stops.is_finite());
+    if finite && start <= stop && (2..=flip_rs::MAX_EXPOSURES as u32).contains(&count) {
+        Ok(())
+    } else {
+        Err(MeasureError::Exposures {
+            stops,
+            start,
+            stop,
+            count,
+        })
+    }
+}
+
+/// Refuses a frame or a ladder of another scene or shutter than the truth's.
+pub fn check_agreement(
+    frame: &Frame,
+    truth: &Truth,
+    ladder: Option<&Ladder>,
+) -> Result<(), MeasureError> {
+    agree("the frame's object list", &frame.objects, &truth.objects)?;
+    // Files keep the interval's ends, whose difference may round.
+    let exposure = truth.shutter.exposure();
+    if (frame.exposure - exposure).abs() > 1e-9 * exposure {
+        agree("the frame's exposure", &frame.exposure, &exposure)?;
+    }
+    if let Some(ladder) = ladder {
+        agree("the ladder's object list", &ladder.objects, &truth.objects)?;
+        agree("the ladder's shutter", &ladder.shutter, &truth.shutter)?;
+        for rung in &ladder.rungs {
+            for half in &rung.halves {
+                check_picture(
+                    half,
+                    truth,
+                    &format!("rung {} of the ladder", rung.subframes),
+                )?;
+            }
+        }
+    }
+    for (plane, what) in [
+        (&frame.depth, "the frame's depth"),
+        (&truth.motion, "the truth's motion"),
+    ] {
+        check_size(plane, truth, what)?;
+        check_finite(plane, what, |value| [*value])?;
+    }
+    check_size(&frame.object_id, truth, "the frame's object id")?;
+    check_size(&frame.velocity, truth, "the frame's velocity")?;
+    check_finite(&frame.velocity, "the frame's velocity", |value| *value)
+}
+
+/// Refuses a picture of another size, with missing mattes, or with values that are no numbers.
+pub fn check_picture(picture: &Picture, truth: &Truth, what: &str) -> Result<(), MeasureError> {
+    check_size(&picture.color, truth, what)?;
+    if picture.coverage.len() != truth.objects.len() {
+        return Err(MeasureError::Mattes {
+            what: what.to_owned(),
+            found: picture.coverage.len(),
+            allowed: truth.objects.len(),
+        });
+    }
+    check_finite(&picture.color, &format!("the colour of {what}"), |pixel| {
+        *pixel
+    })?;
+    for (matte, object) in picture.coverage.iter().zip(&truth.objects) {
+        let what = format!("the matte of {object} in {what}");
+        check_size(matte, truth, &what)?;
+        check_finite(matte, &what, |value| [*value])?;
+    }
+    Ok(())
+}
+
+fn agree<T: std::fmt::Debug + PartialEq>(
+    what: &'static str,
+    found: &T,
+    allowed: &T,
+) -> Result<(), MeasureError> {
+    if found == allowed {
+        Ok(())
+    } else {
+        Err(MeasureError::Disagree {
+            what,
+            found: format!("{found:?}"),
+            allowed: format!("{allowed:?}"),
+        })
+    }
+}
+
+fn check_size<T>(raster: &Raster<T>, truth: &Truth, what: &str) -> Result<(), MeasureError> {
+    let (width, height) = truth.size();
+    if (raster.width, raster.height) == (width, height) {
+        Ok(())
+    } else {
+        Err(MeasureError::Size {
+            what: what.to_owned(),
+            found_width: raster.width,
+            found_height: raster.height,
+            width,
+            height,
+        })
+    }
+}
+
+fn check_finite<T, const N: usize>(
+    raster: &Raster<T>,
+    what: &str,
+    components: impl Fn(&T) -> [f32; N],
+) -> Result<(), MeasureError> {
+    for (index, pixel) in (0u32..).zip(&raster.pixels) {
+        if let Some(found) = components(pixel)
+            .into_iter()
+            .find(|value| !value.is_finite())
+        {
+            return Err(MeasureError::NotFinite {
+                what: what.to_owned(),
+                found,
+                x: index % raster.width,
+                y: index / raster.width,
+            });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,74 @@
+//! Squared errors that the truth's noise does not bias.
+
+use frame::{Image, Raster};
+
+/// Added to the squared truth in relMSE: a convention that keeps dark pixels from deciding the score.
+pub const RELATIVE_EPSILON: f64 = 1e-2;
+
+/// PSNR never exceeds this, in dB: squared differences below 1e-12 lie within the rounding of 32-bit radiance.
+pub const PSNR_LIMIT: f64 = 120.0;
+
+/// Per pixel `(F - A)(F - B)`, mean over the channels, of radiance times `scale`.
+///
+/// A and B hold the truth plus independent noise, so the expectation is the squared error against the converged truth;
+/// single pixels may be negative, and so may a mean over pixels when F is as close as the noise. The sign is kept:
+/// clamping it would bring the bias back.
+pub fn squared_error(output: &Image, halves: [&Image; 2], scale: f64) -> Raster<f64> {
+    let [a, b] = halves;
+    cross([output, output], [a, b], scale)
+}
+
+/// Per pixel `(F - A)(G - B)` with independent F and G, mean over the channels: as [`squared_error`], for an output that
+/// is noisy itself and known by two halves.
+pub fn cross(outputs: [&Image; 2], halves: [&Image; 2], scale: f64) -> Raster<f64> {
+    let first = difference(outputs[0], halves[0]);
+    let second = difference(outputs[1], halves[1]);
+    first.zip(&second, |f, g| {
+        (f[0] * g[0] + f[1] * g[1] + f[2] * g[2]) * scale * scale / 3.0
+    })
+}
+
+/// Per pixel `(F - A)(F - B) / (T^2 + epsilon)`, mean over the channels. T is the mean of the halves: its noise moves the
+/// denominator only.
+pub fn relative_squared_error(
+    output: &Image,
+    halves: [&Image; 2],
+    mean: &Image,
+    scale: f64,
+) -> Raster<f64> {
+    let weighted = |half: &Image| {
+        difference(output, half).zip(mean, |difference, truth| -> [f64; 3] {
+            std::array::from_fn(|c| {
+                let truth = f64::from(truth[c]) * scale;
+                difference[c] * scale / (truth * truth + RELATIVE_EPSILON).sqrt()
+            })
+        })
+    };
+    weighted(halves[0]).zip(&weighted(halves[1]), |f, g| {
+        (f[0] * g[0] + f[1] * g[1] + f[2] * g[2]) / 3.0
+    })
+}
+
+/// Standard error that the truth's noise alone gives to a mean of [`squared_error`] over pixels whose halves hold these
+/// colours. Each pixel's product of two noises has about the standard deviation `(A - B)^2 / 2`.
+pub fn uncertainty(a: &[[f32; 3]], b: &[[f32; 3]], scale: f64) -> f64 {
+    let variances = a.iter().zip(b).map(|(a, b)| {
+        let difference: [f64; 3] = std::array::from_fn(|c| f64::from(a[c]) - f64::from(b[c]));
+        let squares: f64 = difference.iter().map(|d| d * d).sum();
+        (squares / 3.0 * scale * scale / 2.0).powi(2)
+    });
+    variances.sum::<f64>().sqrt() / a.len().max(1) as f64
+}
+
+/// Peak signal to noise ratio in dB with peak 1, of a mean squared error. An error below `floor`, which the truth cannot
+/// tell from none, counts as `floor`; see [`PSNR_LIMIT`] for none at all.
+pub fn psnr(squared_error: f64, floor: f64) -> f64 {
+    let limit = 10f64.powf(-PSNR_LIMIT / 10.0);
+    -10.0 * squared_error.max(floor).max(limit).log10()
+}
+
+fn difference(a: &Image, b: &Image) -> Raster<[f64; 3]> {
+    a.zip(b, |a, b| {
+        std::array::from_fn(|c| f64::from(a[c]) - f64::from(b[c]))
+    })
+}

@@ -1,0 +1,75 @@
+//! What cannot be measured.
+
+/// Inputs that do not belong together, or that hold no numbers.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MeasureError {
+    /// Two rasters that should have one size.
+    #[error(
+        "{what} is {found_width}x{found_height}, the truth is {width}x{height}; render or filter both at one size"
+    )]
+    Size {
+        /// Which input.
+        what: String,
+        /// Its width.
+        found_width: u32,
+        /// Its height.
+        found_height: u32,
+        /// The truth's width.
+        width: u32,
+        /// The truth's height.
+        height: u32,
+    },
+    /// A picture without one matte per object.
+    #[error(
+        "{what} has {found} mattes, the truth has {allowed} objects with the background; give one matte per object"
+    )]
+    Mattes {
+        /// Which input.
+        what: String,
+        /// How many mattes it has.
+        found: usize,
+        /// How many objects the truth has.
+        allowed: usize,
+    },
+    /// Infinity or NaN.
+    #[error(
+        "{what} holds {found} at pixel ({x}, {y}); every value must be finite: look for a division by zero there"
+    )]
+    NotFinite {
+        /// Which raster of which input.
+        what: String,
+        /// The value.
+        found: f32,
+        /// Column.
+        x: u32,
+        /// Row.
+        y: u32,
+    },
+    /// Another exposure, other objects or another interval than the truth's.
+    #[error(
+        "{what} has {found}, the truth has {allowed}; render both from the same scene with the same shutter"
+    )]
+    Disagree {
+        /// Which input, and which of its properties.
+        what: &'static str,
+        /// What it holds.
+        found: String,
+        /// What the truth holds.
+        allowed: String,
+    },
+    /// HDR-FLIP exposures that make no range.
+    #[error(
+        "viewing exposure {stops}, HDR-FLIP exposures from {start} to {stop} in {count} steps; allowed: finite stops, start not \
+         above stop, 2 to 128 steps"
+    )]
+    Exposures {
+        /// Of LDR comparisons, in stops.
+        stops: f32,
+        /// Darkest, in stops.
+        start: f32,
+        /// Brightest, in stops.
+        stop: f32,
+        /// How many.
+        count: u32,
+    },
+}

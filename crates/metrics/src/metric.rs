@@ -1,0 +1,232 @@
+//! The name, unit and direction of every score.
+
+use std::fmt;
+use std::str::FromStr;
+
+use crate::{Ideal, Region};
+
+/// A score by name, as bounds and tables address it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Metric {
+    /// An error of colour over a region: `flip_moving`, `psnr_full`.
+    Image(ImageMetric, Region),
+    /// A score of the worst moving object: `lateral_growth`.
+    Object(ObjectMetric),
+    /// `label_tv`: mean over the moving region.
+    LabelTotalVariation,
+    /// `label_tv_p95`.
+    LabelTotalVariationP95,
+    /// `occluder_contamination`: label total variation on the worst of the objects that stand still.
+    OccluderContamination,
+    /// `n_eq`: by squared error, the headline.
+    EquivalentSubframes,
+    /// `n_eq_flip`.
+    EquivalentSubframesFlip,
+    /// `n_eq_label_tv`.
+    EquivalentSubframesLabel,
+}
+
+/// An error of colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ImageMetric {
+    /// Unbiased mean squared error.
+    Mse,
+    /// Peak signal to noise ratio.
+    Psnr,
+    /// Unbiased relative squared error.
+    Relmse,
+    /// Mean LDR-FLIP.
+    Flip,
+    /// 95th percentile of LDR-FLIP.
+    FlipP95,
+    /// Mean HDR-FLIP.
+    FlipHdr,
+}
+
+/// A score of one object's matte.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ObjectMetric {
+    /// Hard bleed beside the support.
+    BleedLateral,
+    /// Hard bleed ahead of it.
+    BleedLeading,
+    /// Hard bleed behind it.
+    BleedTrailing,
+    /// Growth across the motion.
+    LateralGrowth,
+    /// Shrinking across the motion.
+    LateralShrink,
+    /// Wasserstein distance along the motion.
+    Misplacement,
+    /// Signed shift along the motion.
+    Centroid,
+    /// Length ratio along the motion.
+    Extent,
+    /// Holes in the unblurred core.
+    Hole,
+    /// Missing mass.
+    Deficit,
+    /// Mass ratio.
+    Energy,
+    /// Label total variation on the object.
+    LabelTotalVariation,
+}
+
+impl ImageMetric {
+    /// Every error of colour.
+    pub const ALL: [ImageMetric; 6] = [
+        ImageMetric::Mse,
+        ImageMetric::Psnr,
+        ImageMetric::Relmse,
+        ImageMetric::Flip,
+        ImageMetric::FlipP95,
+        ImageMetric::FlipHdr,
+    ];
+
+    /// Name, unit and ideal.
+    fn describe(self) -> (&'static str, &'static str, Ideal) {
+        match self {
+            ImageMetric::Mse => ("mse", "white^2", Ideal::Lowest),
+            ImageMetric::Psnr => ("psnr", "dB", Ideal::Highest),
+            ImageMetric::Relmse => ("relmse", "", Ideal::Lowest),
+            ImageMetric::Flip => ("flip", "", Ideal::Lowest),
+            ImageMetric::FlipP95 => ("flip_p95", "", Ideal::Lowest),
+            ImageMetric::FlipHdr => ("flip_hdr", "", Ideal::Lowest),
+        }
+    }
+
+    /// Which way it is better.
+    pub fn ideal(self) -> Ideal {
+        self.describe().2
+    }
+}
+
+impl ObjectMetric {
+    /// Every score of a matte.
+    pub const ALL: [ObjectMetric; 12] = [
+        ObjectMetric::BleedLateral,
+        ObjectMetric::BleedLeading,
+        ObjectMetric::BleedTrailing,
+        ObjectMetric::LateralGrowth,
+        ObjectMetric::LateralShrink,
+        ObjectMetric::Misplacement,
+        ObjectMetric::Centroid,
+        ObjectMetric::Extent,
+        ObjectMetric::Hole,
+        ObjectMetric::Deficit,
+        ObjectMetric::Energy,
+        ObjectMetric::LabelTotalVariation,
+    ];
+
+    /// Name, unit and ideal.
+    fn describe(self) -> (&'static str, &'static str, Ideal) {
+        match self {
+            ObjectMetric::BleedLateral => ("bleed_lateral", "px", Ideal::Lowest),
+            ObjectMetric::BleedLeading => ("bleed_leading", "px", Ideal::Lowest),
+            ObjectMetric::BleedTrailing => ("bleed_trailing", "px", Ideal::Lowest),
+            ObjectMetric::LateralGrowth => ("lateral_growth", "px", Ideal::Lowest),
+            ObjectMetric::LateralShrink => ("lateral_shrink", "px", Ideal::Lowest),
+            ObjectMetric::Misplacement => ("misplacement", "px", Ideal::Lowest),
+            ObjectMetric::Centroid => ("centroid", "px", Ideal::Target(0.0)),
+            ObjectMetric::Extent => ("extent", "", Ideal::Target(1.0)),
+            ObjectMetric::Hole => ("hole", "", Ideal::Target(0.0)),
+            ObjectMetric::Deficit => ("deficit", "", Ideal::Lowest),
+            ObjectMetric::Energy => ("energy", "", Ideal::Target(1.0)),
+            ObjectMetric::LabelTotalVariation => ("object_label_tv", "", Ideal::Lowest),
+        }
+    }
+
+    /// Which way it is better.
+    pub fn ideal(self) -> Ideal {
+        self.describe().2
+    }
+}
+
+impl Metric {
+    /// Every metric, in the order of a report.
+    pub fn all() -> Vec<Metric> {
+        let images = Region::ALL
+            .into_iter()
+            .flat_map(|region| ImageMetric::ALL.map(|metric| Metric::Image(metric, region)));
+        let wholes = [
+            Metric::LabelTotalVariation,
+            Metric::LabelTotalVariationP95,
+            Metric::OccluderContamination,
+            Metric::EquivalentSubframes,
+            Metric::EquivalentSubframesFlip,
+            Metric::EquivalentSubframesLabel,
+        ];
+        images
+            .chain(ObjectMetric::ALL.map(Metric::Object))
+            .chain(wholes)
+            .collect()
+    }
+
+    /// The word used in bounds, tables and files.
+    pub fn name(self) -> String {
+        match self {
+            Metric::Image(metric, region) => format!("{}_{region}", metric.describe().0),
+            other => other.describe().0.to_owned(),
+        }
+    }
+
+    /// The unit, empty for a pure number.
+    pub fn unit(self) -> &'static str {
+        self.describe().1
+    }
+
+    /// Which way it is better.
+    pub fn ideal(self) -> Ideal {
+        self.describe().2
+    }
+
+    /// The strictest bound that a truth with this noise floor can carry: three floors away from perfect. For PSNR that is
+    /// three times the floor's squared error; for equivalent sub-frames a third of the highest count that the truth can
+    /// tell, because error falls at least as fast as the count rises.
+    pub fn strictest_bound(self, floor: f64) -> f64 {
+        match (self, self.ideal()) {
+            (Metric::Image(ImageMetric::Psnr, _), _) => floor - 10.0 * 3f64.log10(),
+            (_, Ideal::Lowest) => 3.0 * floor,
+            (_, Ideal::Highest) => floor / 3.0,
+            // Distance from the target.
+            (_, Ideal::Target(_)) => 3.0 * floor,
+        }
+    }
+
+    fn describe(self) -> (&'static str, &'static str, Ideal) {
+        match self {
+            Metric::Image(metric, _) => metric.describe(),
+            Metric::Object(metric) => metric.describe(),
+            Metric::LabelTotalVariation => ("label_tv", "", Ideal::Lowest),
+            Metric::LabelTotalVariationP95 => ("label_tv_p95", "", Ideal::Lowest),
+            Metric::OccluderContamination => ("occluder_contamination", "", Ideal::Lowest),
+            Metric::EquivalentSubframes => ("n_eq", "sub-frames", Ideal::Highest),
+            Metric::EquivalentSubframesFlip => ("n_eq_flip", "sub-frames", Ideal::Highest),
+            Metric::EquivalentSubframesLabel => ("n_eq_label_tv", "sub-frames", Ideal::Highest),
+        }
+    }
+}
+
+impl fmt::Display for Metric {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(&self.name())
+    }
+}
+
+impl FromStr for Metric {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let all = Metric::all();
+        all.iter()
+            .copied()
+            .find(|metric| metric.name() == text)
+            .ok_or_else(|| {
+                let names: Vec<String> = all.iter().map(|metric| metric.name()).collect();
+                format!(
+                    "metric \"{text}\" is unknown; allowed: {}",
+                    names.join(", ")
+                )
+            })
+    }
+}

@@ -1,0 +1,153 @@
+//! For every pixel, the nearest pixel of a set.
+
+use frame::Raster;
+
+/// The column and row of the nearest pixel of `set` by Euclidean distance between centres; none when `set` is empty.
+///
+/// Exact, in linear time: Felzenszwalb and Huttenlocher, "Distance Transforms of Sampled Functions" (Theory of Computing
+/// 8, 2012), section 2. All arithmetic is on integers, so that ties do not depend on rounding.
+pub fn nearest(set: &Raster<bool>) -> Option<Raster<[u32; 2]>> {
+    if !set.pixels.contains(&true) {
+        return None;
+    }
+    let columns = nearest_in_columns(set);
+    let mut found = Raster::filled(set.width, set.height, [0, 0]);
+    for y in 0..set.height {
+        let row = y as usize * set.width as usize..(y as usize + 1) * set.width as usize;
+        let parabolas: Vec<(i64, u32)> = (0..set.width)
+            .filter_map(|x| {
+                columns
+                    .at(x, y)
+                    .map(|row| (i64::from(row.abs_diff(y)).pow(2), x))
+            })
+            .collect();
+        let sources = lowest(&parabolas, set.width);
+        for (pixel, x) in found.pixels[row].iter_mut().zip(sources) {
+            let source_row = columns
+                .at(x, y)
+                .expect("a parabola stands where its column has a pixel");
+            *pixel = [x, source_row];
+        }
+    }
+    Some(found)
+}
+
+/// Squared distance in pixels between two pixels' centres.
+pub fn distance_squared(a: [u32; 2], b: [u32; 2]) -> u64 {
+    let [x, y] = [a[0].abs_diff(b[0]), a[1].abs_diff(b[1])].map(u64::from);
+    x * x + y * y
+}
+
+/// The pixels within `radius` pixels of a set, centre to centre.
+pub fn dilate(set: &Raster<bool>, radius: f64) -> Raster<bool> {
+    match nearest(set) {
+        None => set.clone(),
+        Some(nearest) => Raster::from_fn(set.width, set.height, |x, y| {
+            distance_squared([x, y], *nearest.at(x, y)) as f64 <= radius * radius
+        }),
+    }
+}
+
+/// For every pixel the row of the nearest set pixel in its own column.
+fn nearest_in_columns(set: &Raster<bool>) -> Raster<Option<u32>> {
+    let mut rows: Raster<Option<u32>> = Raster::filled(set.width, set.height, None);
+    for x in 0..set.width {
+        let index = |y: u32| y as usize * set.width as usize + x as usize;
+        let mut above = None;
+        for y in 0..set.height {
+            if *set.at(x, y) {
+                above = Some(y);
+            }
+            rows.pixels[index(y)] = above;
+        }
+        let mut below: Option<u32> = None;
+        for y in (0..set.height).rev() {
+            if *set.at(x, y) {
+                below = Some(y);
+            }
+            let closer = match (rows.pixels[index(y)], below) {
+                (Some(above), Some(below)) if below - y < y - above => Some(below),
+                (None, below) => below,
+                (above, _) => above,
+            };
+            rows.pixels[index(y)] = closer;
+        }
+    }
+    rows
+}
+
+/// For every column, which parabola `height + (column - x)^2` is lowest there; the leftmost wins a tie.
+fn lowest(parabolas: &[(i64, u32)], width: u32) -> Vec<u32> {
+    // Each kept parabola with the first column where it lies below all before it.
+    let mut envelope: Vec<(i64, i64, i64)> = Vec::new();
+    for &(height, x) in parabolas {
+        let x = i64::from(x);
+        let mut start = 0;
+        while let Some(&(last_height, last_x, last_start)) = envelope.last() {
+            // height + (c - x)^2 < last_height + (c - last_x)^2 holds for columns c above this quotient.
+            let numerator = height + x * x - last_height - last_x * last_x;
+            start = numerator.div_euclid(2 * (x - last_x)) + 1;
+            if start > last_start {
+                break;
+            }
+            envelope.pop();
+            start = 0;
+        }
+        envelope.push((height, x, start));
+    }
+    let mut current = 0;
+    (0..i64::from(width))
+        .map(|column| {
+            while current + 1 < envelope.len() && envelope[current + 1].2 <= column {
+                current += 1;
+            }
+            envelope[current].1 as u32
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_pixel_is_the_one_that_a_search_finds() {
+        // A deterministic scatter: sparse, dense and empty columns.
+        for (step, width, height) in [(3, 13, 7), (11, 31, 17), (97, 24, 24), (350, 31, 17)] {
+            let set = Raster::from_fn(width, height, |x, y| {
+                (x * x * 7 + y * 13 + x * y) % step == 1
+            });
+            let found = nearest(&set).expect("each scatter has a pixel");
+            for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
+                let source = *found.at(x, y);
+                assert!(
+                    *set.at(source[0], source[1]),
+                    "({x}, {y}) is led outside the set"
+                );
+                let closest = (0..height)
+                    .flat_map(|v| (0..width).map(move |u| [u, v]))
+                    .filter(|pixel| *set.at(pixel[0], pixel[1]))
+                    .map(|pixel| distance_squared([x, y], pixel))
+                    .min();
+                assert_eq!(
+                    Some(distance_squared([x, y], source)),
+                    closest,
+                    "at ({x}, {y})"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn an_empty_set_is_near_to_nothing() {
+        assert_eq!(nearest(&Raster::filled(4, 3, false)), None);
+    }
+
+    #[test]
+    fn one_pixel_dilates_to_a_disc() {
+        let set = Raster::from_fn(9, 9, |x, y| (x, y) == (4, 4));
+        let disc = dilate(&set, 2.0);
+        // Offsets with x^2 + y^2 <= 4: 1 + 4 + 4 + 4.
+        assert_eq!(disc.pixels.iter().filter(|inside| **inside).count(), 13);
+    }
+}

@@ -1,0 +1,84 @@
+//! A number with the noise it carries, or the reason why there is none.
+
+use serde::{Deserialize, Serialize};
+
+/// A measured value.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Score {
+    /// The score, in its metric's unit.
+    pub value: f64,
+    /// What the truth's own noise makes of this score: a picture without any error scores about this. Where a high value
+    /// is good it is the highest value that the truth can vouch for; where 1 or another target is good it is the
+    /// distance from the target.
+    pub floor: f64,
+}
+
+/// A score, or why it would mean nothing here. As JSON: `{"value": .., "floor": ..}` or `{"not_applicable": ".."}`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Measured {
+    /// A number that means what its metric says.
+    Score(Score),
+    /// No number.
+    NotApplicable {
+        /// What about the scene makes the score meaningless.
+        #[serde(rename = "not_applicable")]
+        reason: String,
+    },
+}
+
+/// Which way a score is better.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ideal {
+    /// 0 is perfect: errors, lengths of bleed.
+    Lowest,
+    /// The higher the better: PSNR, equivalent sub-frames.
+    Highest,
+    /// This value is perfect: ratios, signed lengths.
+    Target(f64),
+}
+
+impl Measured {
+    /// A measured value and its floor, both finite.
+    pub fn score(value: f64, floor: f64) -> Self {
+        assert!(
+            value.is_finite() && floor.is_finite(),
+            "a score is finite: pictures are checked before they are measured"
+        );
+        Self::Score(Score { value, floor })
+    }
+
+    /// No number, because of `reason`.
+    pub fn not_applicable(reason: impl Into<String>) -> Self {
+        Self::NotApplicable {
+            reason: reason.into(),
+        }
+    }
+
+    /// The number, where there is one.
+    pub fn value(&self) -> Option<f64> {
+        match self {
+            Self::Score(score) => Some(score.value),
+            Self::NotApplicable { .. } => None,
+        }
+    }
+}
+
+impl Ideal {
+    /// How bad a value is: higher is worse, whatever the metric.
+    pub fn badness(self, value: f64) -> f64 {
+        match self {
+            Ideal::Lowest => value,
+            Ideal::Highest => -value,
+            Ideal::Target(target) => (value - target).abs(),
+        }
+    }
+
+    /// The floor of a score, from the value that the truth's noise alone yields.
+    pub(crate) fn floor(self, noise: f64) -> f64 {
+        match self {
+            Ideal::Lowest | Ideal::Highest => noise,
+            Ideal::Target(target) => (noise - target).abs(),
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! At which exposures pictures are compared.
+
+/// The photographic exposures of a comparison; a scene declares them, so that no picture chooses its own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Viewing {
+    /// Exposure of LDR-FLIP, PSNR, MSE and relMSE, in stops: radiance times `2^stops` is 1 at display white.
+    pub stops: f32,
+    /// Darkest exposure of HDR-FLIP, in stops.
+    pub flip_start: f32,
+    /// Brightest exposure of HDR-FLIP, in stops.
+    pub flip_stop: f32,
+    /// How many exposures HDR-FLIP takes its maximum over, both ends included; 2 to 128.
+    pub flip_count: u32,
+}
+
+impl Viewing {
+    /// What a radiance is multiplied by to be shown.
+    pub fn scale(&self) -> f64 {
+        f64::from(self.stops).exp2()
+    }
+}
