@@ -1,1 +1,3 @@
-//! placeholder
+//! What several integration tests share.
+
+pub mod shapes;

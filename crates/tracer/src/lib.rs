@@ -2,13 +2,48 @@
 //!
 //! The conventions are those of the [`frame`] crate.
 
+mod background;
+mod bounds;
+mod bvh;
+mod camera;
+mod film;
+mod instant;
+mod ladder;
+mod lights;
 mod load;
+mod lobe;
+mod mesh_tree;
 mod motion;
+mod moving;
+mod path;
+mod poses;
+mod progress;
+mod provenance;
+mod ray;
+mod sampler;
 mod scene;
+mod settings;
+mod stage;
+mod surface;
+mod swept;
+mod texture;
+mod triangle;
+mod truth;
+mod velocity;
 
+pub use camera::View;
+pub use instant::trace_frame;
+pub use ladder::trace_ladder;
 pub use load::{SceneError, SceneListing, list_scenes, load_scene};
 pub use motion::{Key, Motion, Turn};
+pub use poses::Poses;
+pub use progress::{Progress, Watch};
+pub use provenance::{frame_hash, ladder_hash, truth_hash};
+pub use ray::Ray;
 pub use scene::{
     Background, Camera, Display, Family, FlipExposures, Material, Mesh, Object, Parent, Scene, Sun,
     Texture,
 };
+pub use settings::{FrameSettings, TraceError, TruthSettings};
+pub use stage::{Hit, Stage};
+pub use truth::trace_truth;

@@ -59,18 +59,23 @@ impl Motion {
         Self { keys: vec![key] }
     }
 
-    /// From the object's space to its parent's at `time` (frames).
-    pub fn at(&self, time: f64) -> DAffine3 {
-        let [from, to] = match self.keys.as_slice() {
+    /// The keys between which, or beyond which, `time` lies; the same key twice if there is only one.
+    pub(crate) fn segment(&self, time: f64) -> (&Key, &Key) {
+        match self.keys.as_slice() {
             [] => unreachable!("a motion has at least one key"),
-            [key] => [key, key],
+            [key] => (key, key),
             keys => {
                 let segment = keys
                     .partition_point(|key| key.time <= time)
                     .clamp(1, keys.len() - 1);
-                [&keys[segment - 1], &keys[segment]]
+                (&keys[segment - 1], &keys[segment])
             }
-        };
+        }
+    }
+
+    /// From the object's space to its parent's at `time` (frames).
+    pub fn at(&self, time: f64) -> DAffine3 {
+        let (from, to) = self.segment(time);
         let fraction = if to.time > from.time {
             (time - from.time) / (to.time - from.time)
         } else {

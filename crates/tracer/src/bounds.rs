@@ -1,0 +1,59 @@
+//! Axis-aligned boxes in `f64`.
+
+use glam::DVec3;
+
+/// A box; empty when `min` exceeds `max`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Least corner, metres.
+    pub min: DVec3,
+    /// Greatest corner, metres.
+    pub max: DVec3,
+}
+
+impl Bounds {
+    /// Contains nothing; the start of a union.
+    pub const EMPTY: Bounds = Bounds {
+        min: DVec3::INFINITY,
+        max: DVec3::NEG_INFINITY,
+    };
+
+    /// The smallest box around points.
+    pub fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
+        points.into_iter().fold(Self::EMPTY, |bounds, point| Self {
+            min: bounds.min.min(point),
+            max: bounds.max.max(point),
+        })
+    }
+
+    /// The smallest box that contains both.
+    pub fn union(self, other: Self) -> Self {
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+        }
+    }
+
+    /// Moves every face outwards.
+    pub fn grown(self, by: f64) -> Self {
+        Self {
+            min: self.min - by,
+            max: self.max + by,
+        }
+    }
+
+    /// Midpoint.
+    pub fn centre(self) -> DVec3 {
+        0.5 * (self.min + self.max)
+    }
+
+    /// From the least to the greatest corner, metres.
+    pub fn diagonal(self) -> f64 {
+        (self.max - self.min).length()
+    }
+
+    /// The greatest absolute coordinate of any corner, metres.
+    pub fn reach(self) -> f64 {
+        self.min.abs().max(self.max.abs()).max_element()
+    }
+}

@@ -1,0 +1,85 @@
+//! The camera at one time: from pixels to rays and back.
+
+use glam::{DAffine3, DVec3};
+
+use crate::ray::Ray;
+use crate::scene::Camera;
+
+/// A camera with its pose and field of view at one time, and a picture size.
+#[derive(Clone, Copy, Debug)]
+pub struct View {
+    /// From camera to world.
+    pub to_world: DAffine3,
+    to_camera: DAffine3,
+    /// Half the picture's height in pixels over the tangent of half its angle: the focal length in pixels.
+    focal: f64,
+    /// Half the picture's width and height in pixels.
+    half: [f64; 2],
+}
+
+impl Camera {
+    /// Vertical field of view at `time` (frames), in radians.
+    pub fn vertical_fov_at(&self, time: f64) -> f64 {
+        let keys = self.vertical_fov.as_slice();
+        let [.., (_, last)] = keys else {
+            unreachable!("a camera has at least one field of view")
+        };
+        if keys.len() == 1 {
+            return *last;
+        }
+        let segment = keys
+            .partition_point(|(key, _)| *key <= time)
+            .clamp(1, keys.len() - 1);
+        let [(from_time, from), (to_time, to)] = [keys[segment - 1], keys[segment]];
+        from + (to - from) * (time - from_time) / (to_time - from_time)
+    }
+
+    /// The view at `time` (frames) of a picture of `width` x `height` pixels.
+    pub fn view(&self, time: f64, width: u32, height: u32) -> View {
+        let to_world = self.motion.at(time);
+        let half = [0.5 * f64::from(width), 0.5 * f64::from(height)];
+        View {
+            to_world,
+            to_camera: to_world.inverse(),
+            focal: half[1] / (0.5 * self.vertical_fov_at(time)).tan(),
+            half,
+        }
+    }
+}
+
+impl View {
+    /// The ray through a point of the picture, in pixels from the top left.
+    pub fn ray(&self, x: f64, y: f64) -> Ray {
+        let direction = DVec3::new(x - self.half[0], self.half[1] - y, -self.focal);
+        Ray {
+            origin: self.to_world.translation,
+            direction: self.to_world.transform_vector3(direction).normalize(),
+        }
+    }
+
+    /// Where a point of the world is seen, in pixels from the top left; none behind the camera.
+    pub fn project(&self, point: DVec3) -> Option<[f64; 2]> {
+        self.project_seen(self.to_camera.transform_point3(point))
+    }
+
+    /// Where a point at infinity is seen, in pixels from the top left; none behind the camera.
+    pub fn project_direction(&self, direction: DVec3) -> Option<[f64; 2]> {
+        self.project_seen(self.to_camera.transform_vector3(direction))
+    }
+
+    /// Distance of a point of the world along the view axis, metres.
+    pub fn depth(&self, point: DVec3) -> f64 {
+        -self.to_camera.transform_point3(point).z
+    }
+
+    /// The same of a point or direction in camera space.
+    fn project_seen(&self, seen: DVec3) -> Option<[f64; 2]> {
+        let depth = -seen.z;
+        (depth > 0.0).then(|| {
+            [
+                self.half[0] + self.focal * seen.x / depth,
+                self.half[1] - self.focal * seen.y / depth,
+            ]
+        })
+    }
+}

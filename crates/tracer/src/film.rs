@@ -1,0 +1,211 @@
+//! Many samples of many pixels, in an order that no number of threads changes.
+
+use frame::{Image, Picture, Plane, Shutter};
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::camera::View;
+use crate::path::Integrator;
+use crate::poses::Poses;
+use crate::progress::Meter;
+use crate::sampler::{Sampler, Stream, pixel_seed};
+use crate::scene::Scene;
+use crate::settings::TraceError;
+use crate::stage::Stage;
+
+/// Pixels between two looks at the meter.
+const PIXELS_PER_TASK: usize = 32;
+
+/// When the samples of a picture are taken.
+#[derive(Clone, Copy)]
+pub(crate) enum Times {
+    /// All at `t = 0`.
+    Instant,
+    /// Evenly over the shutter.
+    Open(Shutter),
+    /// At the midpoints of so many equal parts of the shutter.
+    Midpoints(Shutter, u32),
+}
+
+/// A render: what every pixel's samples have in common.
+pub(crate) struct Film<'a> {
+    pub integrator: Integrator<'a>,
+    pub width: u32,
+    pub height: u32,
+    pub times: Times,
+    pub replicates: u32,
+    /// A power of two.
+    pub samples_per_replicate: u32,
+    pub seed: u64,
+    pub stream: Stream,
+}
+
+/// The mean of one complete set of samples of one pixel.
+#[derive(Clone, Debug)]
+pub(crate) struct Replicate {
+    pub radiance: DVec3,
+    /// Per object id, the samples that saw it.
+    pub seen: Vec<u32>,
+}
+
+/// A pixel's colour and coverages.
+#[derive(Clone)]
+pub(crate) struct PixelMean {
+    pub color: [f32; 3],
+    pub coverage: Vec<f32>,
+}
+
+impl Times {
+    /// The interval of all times.
+    pub fn interval(self) -> [f64; 2] {
+        match self {
+            Times::Instant => [0.0, 0.0],
+            Times::Open(shutter) | Times::Midpoints(shutter, _) => [shutter.open, shutter.close],
+        }
+    }
+
+    /// From a number in [0, 1).
+    fn at(self, fraction: f64) -> f64 {
+        match self {
+            Times::Instant => 0.0,
+            Times::Open(shutter) => shutter.at(fraction),
+            Times::Midpoints(shutter, parts) => {
+                let parts = f64::from(parts);
+                shutter.at(((fraction * parts).floor() + 0.5) / parts)
+            }
+        }
+    }
+}
+
+impl<'a> Film<'a> {
+    /// Samples per pixel over all replicates.
+    pub fn samples_per_pixel(&self) -> u64 {
+        u64::from(self.replicates) * u64::from(self.samples_per_replicate)
+    }
+
+    /// Renders the listed pixels (indices in row-major order) and turns each one's replicates into a result.
+    pub fn develop<T: Send>(
+        &self,
+        pixels: &[u32],
+        meter: &Meter,
+        result: impl Fn(&[Replicate]) -> T + Sync,
+    ) -> Result<Vec<T>, TraceError> {
+        let tasks = pixels
+            .par_chunks(PIXELS_PER_TASK)
+            .map(|task| {
+                let mut eye = Eye::new(self);
+                let mut results = Vec::with_capacity(task.len());
+                for &pixel in task {
+                    meter.check()?;
+                    let replicates: Vec<Replicate> = (0..self.replicates)
+                        .map(|replicate| self.replicate(&mut eye, pixel, replicate))
+                        .collect();
+                    results.push(result(&replicates));
+                }
+                meter.advance(task.len() as u64 * self.samples_per_pixel());
+                Ok(results)
+            })
+            .collect::<Result<Vec<Vec<T>>, TraceError>>()?;
+        meter.check()?;
+        Ok(tasks.into_iter().flatten().collect())
+    }
+
+    fn replicate(&self, eye: &mut Eye, pixel: u32, replicate: u32) -> Replicate {
+        let [column, row] = [pixel % self.width, pixel / self.width].map(f64::from);
+        let seed = pixel_seed(self.seed, self.stream, pixel, replicate);
+        let mut sum = DVec3::ZERO;
+        let mut seen = vec![0; eye.scene.objects.len() + 1];
+        for index in 0..self.samples_per_replicate {
+            let sampler = Sampler::new(seed, index);
+            let [x, y, fraction, _] = sampler.camera();
+            let time = self.times.at(fraction);
+            let ray = eye.look(time).ray(column + x, row + y);
+            let sample = self.integrator.trace(&mut eye.poses, ray, &sampler);
+            debug_assert!(sample.radiance.is_finite(), "radiance is a finite number");
+            sum += sample.radiance.as_dvec3();
+            seen[sample.object_id] += 1;
+        }
+        Replicate {
+            radiance: sum / f64::from(self.samples_per_replicate),
+            seen,
+        }
+    }
+}
+
+/// The camera and all poses, moving from sample to sample.
+struct Eye<'a> {
+    scene: &'a Scene,
+    poses: Poses<'a>,
+    view: View,
+    moves: bool,
+    size: [u32; 2],
+}
+
+impl<'a> Eye<'a> {
+    fn new(film: &Film<'a>) -> Self {
+        let stage: &Stage<'a> = film.integrator.stage;
+        let scene = stage.scene;
+        let [open, _] = film.times.interval();
+        Self {
+            scene,
+            poses: stage.poses(),
+            view: scene.camera.view(open, film.width, film.height),
+            moves: scene.camera.motion.keys.len() > 1 || scene.camera.vertical_fov.len() > 1,
+            size: [film.width, film.height],
+        }
+    }
+
+    /// Everything as it is at `time`.
+    fn look(&mut self, time: f64) -> &View {
+        self.poses.at(time);
+        if self.moves {
+            self.view = self.scene.camera.view(time, self.size[0], self.size[1]);
+        }
+        &self.view
+    }
+}
+
+impl PixelMean {
+    /// The mean over replicates, all of the same number of samples, in their order.
+    pub fn of<'r>(replicates: impl IntoIterator<Item = &'r Replicate>) -> Self {
+        let mut count = 0;
+        let mut samples = 0;
+        let mut radiance = DVec3::ZERO;
+        let mut seen: Vec<u32> = Vec::new();
+        for replicate in replicates {
+            count += 1;
+            radiance += replicate.radiance;
+            seen.resize(replicate.seen.len(), 0);
+            for (sum, &seen) in seen.iter_mut().zip(&replicate.seen) {
+                *sum += seen;
+                samples += seen;
+            }
+        }
+        Self {
+            color: (radiance / f64::from(count)).as_vec3().to_array(),
+            coverage: seen
+                .iter()
+                .map(|&seen| (f64::from(seen) / f64::from(samples)) as f32)
+                .collect(),
+        }
+    }
+}
+
+/// A picture of all its pixels in row-major order.
+pub(crate) fn picture(width: u32, height: u32, pixels: &[PixelMean]) -> Picture {
+    let objects = pixels.first().map_or(0, |pixel| pixel.coverage.len());
+    Picture {
+        color: Image {
+            width,
+            height,
+            pixels: pixels.iter().map(|pixel| pixel.color).collect(),
+        },
+        coverage: (0..objects)
+            .map(|object| Plane {
+                width,
+                height,
+                pixels: pixels.iter().map(|pixel| pixel.coverage[object]).collect(),
+            })
+            .collect(),
+    }
+}

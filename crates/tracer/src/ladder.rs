@@ -1,0 +1,141 @@
+//! Accumulations of a few sub-frames, for comparison with the truth of the same shutter.
+
+use frame::{Accumulation, Ladder, Picture, Plane, Truth};
+
+use crate::film::{Film, PixelMean, Replicate, Times};
+use crate::path::Integrator;
+use crate::progress::{Meter, Watch};
+use crate::provenance::{ladder_hash, object_names, provenance};
+use crate::sampler::Stream;
+use crate::scene::Scene;
+use crate::settings::{TraceError, TruthSettings};
+use crate::stage::Stage;
+
+/// One replicate per half: more would only stratify worse.
+const REPLICATES: u32 = 2;
+/// Accumulations are rendered this part of the picture's height around everything that moves; scores look no
+/// farther.
+const MARGIN: f64 = 1.0 / 15.0;
+
+/// Renders accumulations of so many sub-frames each over the shutter of `truth`, which `settings` made.
+///
+/// Only pixels near motion are rendered, where an accumulation can differ from the truth; elsewhere both halves hold
+/// the truth's mean. (A moving shadow on a still floor far from anything that moves is therefore the truth's.) All
+/// rungs have the same number of samples, the most with which they together cost no more than the truth. Their
+/// random numbers are their own, so that their noise is independent of the truth's.
+pub fn trace_ladder(
+    scene: &Scene,
+    settings: &TruthSettings,
+    truth: &Truth,
+    subframes: &[u32],
+    watch: Watch,
+) -> Result<Ladder, TraceError> {
+    let shutter = settings.check(scene)?;
+    check_subframes(subframes)?;
+    assert_eq!(
+        truth.size(),
+        (settings.width, settings.height),
+        "the truth was made with the ladder's settings"
+    );
+    let stage = Stage::new(scene, shutter.open, shutter.close);
+    let pixels = pixels_near_motion(&truth.motion);
+    let samples_per_replicate = affordable(settings, pixels.len(), subframes.len());
+    let samples_per_pixel = REPLICATES * samples_per_replicate;
+    let meter = Meter::new(
+        watch,
+        pixels.len() as u64 * u64::from(samples_per_pixel) * subframes.len() as u64,
+    );
+    let mean = truth.mean();
+    let mut rungs = Vec::with_capacity(subframes.len());
+    for &subframes in subframes {
+        let film = Film {
+            integrator: Integrator::new(&stage, shutter.at(0.5)),
+            width: settings.width,
+            height: settings.height,
+            times: Times::Midpoints(shutter, subframes),
+            replicates: REPLICATES,
+            samples_per_replicate,
+            seed: settings.seed,
+            stream: Stream::Accumulation(subframes),
+        };
+        let developed = film.develop(&pixels, &meter, halves)?;
+        rungs.push(Accumulation {
+            subframes,
+            halves: [0, 1].map(|half| {
+                let mut picture = mean.clone();
+                for (&pixel, halves) in pixels.iter().zip(&developed) {
+                    paint(&mut picture, pixel as usize, &halves[half]);
+                }
+                picture
+            }),
+        });
+    }
+    Ok(Ladder {
+        provenance: provenance(
+            scene,
+            settings.seed,
+            samples_per_pixel,
+            REPLICATES,
+            ladder_hash(scene, settings, &rung_sizes(&rungs)),
+        ),
+        shutter,
+        alignment: settings.alignment,
+        objects: object_names(scene),
+        rungs,
+    })
+}
+
+fn check_subframes(subframes: &[u32]) -> Result<(), TraceError> {
+    let rising = subframes.windows(2).all(|pair| pair[0] < pair[1]);
+    match subframes.first() {
+        Some(1..) if rising => Ok(()),
+        _ => Err(TraceError::Subframes(subframes.to_vec())),
+    }
+}
+
+fn rung_sizes(rungs: &[Accumulation]) -> Vec<u32> {
+    rungs.iter().map(|rung| rung.subframes).collect()
+}
+
+fn halves(replicates: &[Replicate]) -> [PixelMean; 2] {
+    [0, 1].map(|half| PixelMean::of([&replicates[half]]))
+}
+
+fn paint(picture: &mut Picture, pixel: usize, mean: &PixelMean) {
+    picture.color.pixels[pixel] = mean.color;
+    for (plane, coverage) in picture.coverage.iter_mut().zip(&mean.coverage) {
+        plane.pixels[pixel] = *coverage;
+    }
+}
+
+/// Samples per replicate: the largest power of two with which all rungs together cost no more than the truth and
+/// none is sampled more densely than it; at least one.
+fn affordable(settings: &TruthSettings, pixels: usize, rungs: usize) -> u32 {
+    let truth = u64::from(settings.width)
+        * u64::from(settings.height)
+        * u64::from(settings.samples_per_pixel);
+    let per_sample = (pixels * rungs) as u64 * u64::from(REPLICATES);
+    let by_cost = truth / per_sample.max(1);
+    let by_density = u64::from(settings.samples_per_pixel / REPLICATES);
+    let most = by_cost
+        .min(by_density)
+        .clamp(1, u64::from(crate::sampler::MOST_SAMPLES));
+    1 << most.ilog2()
+}
+
+/// Indices of the pixels within the margin of any pixel that shows motion, rising: a square's reach, which contains
+/// the disc's.
+fn pixels_near_motion(motion: &Plane) -> Vec<u32> {
+    let margin = (f64::from(motion.height) * MARGIN).round() as u32;
+    let moving = |x: u32, y: u32| *motion.at(x, y) > 0.0;
+    let reached = |at: u32, end: u32| at.saturating_sub(margin)..(at + margin + 1).min(end);
+    let across = Plane::from_fn(motion.width, motion.height, |x, y| {
+        f32::from(reached(x, motion.width).any(|x| moving(x, y)))
+    });
+    (0..motion.width * motion.height)
+        .filter(|pixel| {
+            let (x, y) = (pixel % motion.width, pixel / motion.width);
+            reached(y, motion.height).any(|y| *across.at(x, y) > 0.0)
+        })
+        .collect()
+}

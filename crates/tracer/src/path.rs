@@ -1,0 +1,179 @@
+//! Light along one path: the integrand.
+
+use glam::{DVec3, Vec3};
+
+use crate::lights::{Emitters, LightSample, density_per_steradian, power_heuristic};
+use crate::lobe::Lobe;
+use crate::poses::Poses;
+use crate::ray::Ray;
+use crate::sampler::Sampler;
+use crate::stage::{Hit, Stage};
+use crate::surface::Surface;
+
+/// Roulette begins at this bounce: before, every path goes on.
+const ROULETTE_FROM: u32 = 3;
+/// No path is longer. Roulette ends nearly all long before: at albedo 0.8 one in a million gets so far.
+const MOST_BOUNCES: u32 = 64;
+/// Secondary rays start this far off their surface, as a part of the greatest coordinate: positions are exact to
+/// about 1e-14 of it.
+const LIFT: f64 = 1e-9;
+
+/// Traces paths through a stage.
+pub(crate) struct Integrator<'a> {
+    pub stage: &'a Stage<'a>,
+    pub emitters: Emitters,
+}
+
+/// What one path brings home.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PathSample {
+    pub radiance: Vec3,
+    /// The object seen first, by id: 0 is the background.
+    pub object_id: usize,
+}
+
+/// The density of the direction that a ray was drawn with; a camera ray was not drawn.
+type Drawn = Option<f64>;
+
+impl<'a> Integrator<'a> {
+    /// Emitters are weighted as they are at `time` (frames).
+    pub fn new(stage: &'a Stage<'a>, time: f64) -> Self {
+        Self {
+            stage,
+            emitters: Emitters::of(stage.scene, stage.poses().at(time)),
+        }
+    }
+
+    /// Radiance that arrives along a camera ray, at the time of `poses`.
+    pub fn trace(&self, poses: &mut Poses, camera_ray: Ray, sampler: &Sampler) -> PathSample {
+        let scene = self.stage.scene;
+        let mut sample = PathSample {
+            radiance: Vec3::ZERO,
+            object_id: 0,
+        };
+        let mut ray = camera_ray;
+        let mut drawn: Drawn = None;
+        let mut throughput = Vec3::ONE;
+        for depth in 0..MOST_BOUNCES {
+            let Some(hit) = self.stage.closest(poses, &ray) else {
+                sample.radiance += throughput * self.beyond(&ray, drawn);
+                break;
+            };
+            if depth == 0 {
+                sample.object_id = hit.object + 1;
+            }
+            let surface = Surface::at(scene, &poses.pose(hit.object), &ray, &hit);
+            sample.radiance += throughput * self.emitted(&surface, &ray, &hit, drawn);
+            if surface.albedo == Vec3::ZERO {
+                break;
+            }
+            throughput *= surface.albedo;
+            let lobe = Lobe::new(surface.facet, surface.normal);
+            let start = surface.position + LIFT * magnitude(&surface, &hit) * surface.facet;
+            sample.radiance += throughput * self.direct(poses, start, &lobe, sampler, depth);
+            let [u, v, roulette, _] = sampler.bounce(depth);
+            if depth >= ROULETTE_FROM {
+                let survival = f64::from(throughput.max_element()).min(1.0);
+                if roulette >= survival {
+                    break;
+                }
+                throughput /= survival as f32;
+            }
+            let direction = lobe.sample(u, v);
+            drawn = Some(lobe.density(direction));
+            ray = Ray {
+                origin: start,
+                direction,
+            };
+        }
+        sample
+    }
+
+    /// Background and sun disc.
+    fn beyond(&self, ray: &Ray, drawn: Drawn) -> Vec3 {
+        let scene = self.stage.scene;
+        let background = scene.background.radiance(ray.direction);
+        match &scene.sun {
+            Some(sun) if sun.covers(ray.direction) => {
+                let weight = drawn.map_or(1.0, |drawn| power_heuristic(drawn, sun.density()));
+                background + sun.radiance() * weight as f32
+            }
+            _ => background,
+        }
+    }
+
+    /// A surface's own light, weighted by whether light sampling could have found it.
+    fn emitted(&self, surface: &Surface, ray: &Ray, hit: &Hit, drawn: Drawn) -> Vec3 {
+        if surface.emission == Vec3::ZERO {
+            return Vec3::ZERO;
+        }
+        let weight = drawn.map_or(1.0, |drawn| {
+            let cosine = surface.facet.dot(ray.direction);
+            let by_light = self.emitters.chance(hit.object, hit.triangle)
+                * density_per_steradian(surface.area, hit.t, cosine);
+            power_heuristic(drawn, by_light)
+        });
+        surface.emission * weight as f32
+    }
+
+    /// Light that comes straight from the sun and from one emitter, scattered by a surface of albedo 1.
+    fn direct(
+        &self,
+        poses: &mut Poses,
+        start: DVec3,
+        lobe: &Lobe,
+        sampler: &Sampler,
+        depth: u32,
+    ) -> Vec3 {
+        let scene = self.stage.scene;
+        if scene.sun.is_none() && self.emitters.is_empty() {
+            return Vec3::ZERO;
+        }
+        let [u, v, sun_u, sun_v] = sampler.lights(depth);
+        let [.., choice] = sampler.bounce(depth);
+        let mut light = Vec3::ZERO;
+        if let Some(sun) = &scene.sun {
+            let by_lobe = sun.angular_radius > 0.0;
+            light += self.arriving(poses, start, lobe, &sun.sample([sun_u, sun_v]), by_lobe);
+        }
+        if let Some(drawn) = self.emitters.sample(scene, poses, start, choice, [u, v]) {
+            light += self.arriving(poses, start, lobe, &drawn, true);
+        }
+        light
+    }
+
+    /// One light sample's contribution; `by_lobe`: the lobe might have drawn it too.
+    fn arriving(
+        &self,
+        poses: &mut Poses,
+        start: DVec3,
+        lobe: &Lobe,
+        light: &LightSample,
+        by_lobe: bool,
+    ) -> Vec3 {
+        let scattered = lobe.density(light.direction);
+        if scattered == 0.0 || light.radiance == Vec3::ZERO {
+            return Vec3::ZERO;
+        }
+        let ray = Ray {
+            origin: start,
+            direction: light.direction,
+        };
+        // The light's own triangle lies at the end.
+        let limit = light.distance * (1.0 - LIFT);
+        if self.stage.blocked(poses, &ray, limit) {
+            return Vec3::ZERO;
+        }
+        let weight = if by_lobe {
+            power_heuristic(light.density, scattered)
+        } else {
+            1.0
+        };
+        light.radiance * (scattered * weight / light.density) as f32
+    }
+}
+
+/// The greatest length that went into a hit's position, metres.
+fn magnitude(surface: &Surface, hit: &Hit) -> f64 {
+    surface.position.abs().max_element().max(hit.t)
+}

@@ -1,0 +1,98 @@
+//! Where everything is at the time of one path: computed when first asked for, kept for all its bounces.
+
+use glam::DAffine3;
+
+use crate::scene::{Parent, Scene};
+use crate::swept::{chain, key_times};
+
+/// An object's place at one time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pose {
+    pub to_world: DAffine3,
+    pub to_object: DAffine3,
+}
+
+/// The poses of all objects at one time.
+#[derive(Clone)]
+pub struct Poses<'a> {
+    scene: &'a Scene,
+    time: f64,
+    /// Per object; valid when its stamp is the current one, or for ever.
+    poses: Vec<(Stamp, Pose)>,
+    current: Stamp,
+}
+
+type Stamp = u64;
+const FOR_EVER: Stamp = Stamp::MAX;
+
+impl Pose {
+    fn new(to_world: DAffine3) -> Self {
+        Self {
+            to_world,
+            to_object: to_world.inverse(),
+        }
+    }
+}
+
+impl<'a> Poses<'a> {
+    /// Objects that stand still in `[from, to]` are posed once; times asked for later must lie in that interval.
+    pub(crate) fn new(scene: &'a Scene, from: f64, to: f64) -> Self {
+        let poses = (0..scene.objects.len())
+            .map(|object| {
+                let pose = Pose::new(scene.object_to_world(object, from));
+                if stands_still(scene, object, from, to) {
+                    (FOR_EVER, pose)
+                } else {
+                    (0, pose)
+                }
+            })
+            .collect();
+        Self {
+            scene,
+            time: from,
+            poses,
+            current: 1,
+        }
+    }
+
+    /// Moves to another time; returns itself.
+    pub fn at(&mut self, time: f64) -> &mut Self {
+        self.time = time;
+        self.current += 1;
+        self
+    }
+
+    /// Frames relative to the instant.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    #[inline]
+    pub(crate) fn pose(&mut self, object: usize) -> Pose {
+        let (stamp, pose) = self.poses[object];
+        if stamp == FOR_EVER || stamp == self.current {
+            return pose;
+        }
+        let own = self.scene.objects[object].motion.at(self.time);
+        let to_world = match self.scene.objects[object].parent {
+            Parent::World => own,
+            Parent::Camera => self.scene.camera.motion.at(self.time) * own,
+            Parent::Object(parent) => self.pose(parent).to_world * own,
+        };
+        let pose = Pose::new(to_world);
+        self.poses[object] = (self.current, pose);
+        pose
+    }
+}
+
+/// Whether no motion between the object and the world changes anything within the interval.
+fn stands_still(scene: &Scene, object: usize, from: f64, to: f64) -> bool {
+    chain(scene, object).into_iter().all(|motion| {
+        key_times([motion], from, to).windows(2).all(|span| {
+            let (start, end) = motion.segment(0.5 * (span[0] + span[1]));
+            start.translation == end.translation
+                && start.scale == end.scale
+                && start.turn.angle == 0.0
+        })
+    })
+}

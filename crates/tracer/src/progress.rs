@@ -1,0 +1,58 @@
+//! How far a render is, and whether to go on.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use crate::settings::TraceError;
+
+/// Work done out of the whole, both in samples of pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// Samples traced.
+    pub done: u64,
+    /// Samples to trace.
+    pub total: u64,
+}
+
+/// Called from any thread after every piece of work; `Break` cancels the render.
+pub type Watch<'a> = &'a (dyn Fn(Progress) -> ControlFlow<()> + Sync);
+
+/// Counts the work of several threads.
+pub(crate) struct Meter<'a> {
+    watch: Watch<'a>,
+    done: AtomicU64,
+    total: u64,
+    cancelled: AtomicBool,
+}
+
+impl<'a> Meter<'a> {
+    pub fn new(watch: Watch<'a>, total: u64) -> Self {
+        Self {
+            watch,
+            done: AtomicU64::new(0),
+            total,
+            cancelled: AtomicBool::new(false),
+        }
+    }
+
+    /// Reports that so many more samples are done.
+    pub fn advance(&self, samples: u64) {
+        let done = self.done.fetch_add(samples, Ordering::Relaxed) + samples;
+        let progress = Progress {
+            done,
+            total: self.total,
+        };
+        if (self.watch)(progress).is_break() {
+            self.cancelled.store(true, Ordering::Relaxed);
+        }
+    }
+
+    /// An error once the watcher has asked to stop.
+    pub fn check(&self) -> Result<(), TraceError> {
+        if self.cancelled.load(Ordering::Relaxed) {
+            Err(TraceError::Cancelled)
+        } else {
+            Ok(())
+        }
+    }
+}

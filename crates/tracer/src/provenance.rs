@@ -1,0 +1,57 @@
+//! What goes into a file about its making, and into a cache's key.
+
+use std::fmt::Debug;
+
+use frame::Provenance;
+
+use crate::scene::Scene;
+use crate::settings::{FrameSettings, TruthSettings};
+
+const PROGRAM: &str = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"));
+
+/// The content hash of the frame that [`trace_frame`](crate::trace_frame) would make, without making it: of the
+/// scene's own hash, the settings and the program version. Equal hashes mean equal pixels.
+pub fn frame_hash(scene: &Scene, settings: &FrameSettings) -> String {
+    content_hash(scene, "frame", settings)
+}
+
+/// The content hash of the truth that [`trace_truth`](crate::trace_truth) would make; see [`frame_hash`].
+pub fn truth_hash(scene: &Scene, settings: &TruthSettings) -> String {
+    content_hash(scene, "truth", settings)
+}
+
+/// The content hash of the ladder that [`trace_ladder`](crate::trace_ladder) would make from the truth of the same
+/// settings; see [`frame_hash`].
+pub fn ladder_hash(scene: &Scene, settings: &TruthSettings, subframes: &[u32]) -> String {
+    content_hash(scene, "ladder", &(settings, subframes))
+}
+
+pub(crate) fn provenance(
+    scene: &Scene,
+    seed: u64,
+    samples_per_pixel: u32,
+    replicates: u32,
+    content_hash: String,
+) -> Provenance {
+    Provenance {
+        scene: scene.name.clone(),
+        program: PROGRAM.into(),
+        seed,
+        samples_per_pixel,
+        replicates,
+        content_hash,
+    }
+}
+
+/// Object names by id.
+pub(crate) fn object_names(scene: &Scene) -> Vec<String> {
+    std::iter::once("background".to_owned())
+        .chain(scene.objects.iter().map(|object| object.name.clone()))
+        .collect()
+}
+
+/// Debug output holds every field, and numbers so that they read back equal: a new setting cannot be forgotten.
+fn content_hash(scene: &Scene, kind: &str, settings: &dyn Debug) -> String {
+    let text = format!("{PROGRAM}\n{kind}\n{}\n{settings:?}", scene.hash);
+    blake3::hash(text.as_bytes()).to_hex().to_string()
+}

@@ -1,0 +1,86 @@
+//! The random numbers: Owen-scrambled Sobol points, a pure function of what they are for.
+
+use sobol_burley::sample_4d;
+
+/// Points that one call may draw; a limit of the Sobol tables.
+pub(crate) const MOST_SAMPLES: u32 = 1 << 16;
+/// Four-dimensional sets per bounce: the way on, and the lights.
+const SETS_PER_BOUNCE: u32 = 2;
+/// Bounces until the sets of the table are used up and go round under another seed.
+const BOUNCES_PER_SEED: u32 = 31;
+
+/// Independent families of random numbers, so that no two renders of a scene share their noise.
+#[derive(Clone, Copy)]
+pub(crate) enum Stream {
+    Frame,
+    Truth,
+    /// An accumulation of so many sub-frames.
+    Accumulation(u32),
+}
+
+/// One sample of one pixel.
+#[derive(Clone, Copy)]
+pub(crate) struct Sampler {
+    index: u32,
+    seed: u32,
+}
+
+/// The seed of one replicate of one pixel: different for all replicates of a pixel, unrelated between pixels.
+pub(crate) fn pixel_seed(seed: u64, stream: Stream, pixel: u32, replicate: u32) -> u32 {
+    let stream = match stream {
+        Stream::Frame => 0,
+        Stream::Truth => 1,
+        Stream::Accumulation(subframes) => 1 + u64::from(subframes),
+    };
+    let of_pixel = mixed64(mixed64(mixed64(seed) ^ stream) ^ u64::from(pixel));
+    mixed32((of_pixel as u32).wrapping_add(replicate))
+}
+
+impl Sampler {
+    /// Sample `index` of the pixel and replicate that `seed` stands for.
+    pub fn new(seed: u32, index: u32) -> Self {
+        Self { index, seed }
+    }
+
+    /// Place in the pixel (x, y) and in the shutter, stratified together; one number is left over.
+    pub fn camera(&self) -> [f64; 4] {
+        sample_4d(self.index, 0, self.seed).map(f64::from)
+    }
+
+    /// Direction of the way on (two numbers), roulette, choice of emitter.
+    pub fn bounce(&self, depth: u32) -> [f64; 4] {
+        self.set(depth, 0)
+    }
+
+    /// Point on the emitter, point on the sun.
+    pub fn lights(&self, depth: u32) -> [f64; 4] {
+        self.set(depth, 1)
+    }
+
+    fn set(&self, depth: u32, which: u32) -> [f64; 4] {
+        let round = depth / BOUNCES_PER_SEED;
+        let set = 1 + SETS_PER_BOUNCE * (depth % BOUNCES_PER_SEED) + which;
+        let seed = if round == 0 {
+            self.seed
+        } else {
+            mixed32(self.seed.wrapping_add(round))
+        };
+        sample_4d(self.index, set, seed).map(f64::from)
+    }
+}
+
+/// A bijection of 64 bits: the finaliser of SplitMix64 (Steele, Lea and Flood 2014).
+fn mixed64(value: u64) -> u64 {
+    let mut z = value.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+/// A bijection of 32 bits: the finaliser of MurmurHash3.
+fn mixed32(value: u32) -> u32 {
+    let mut h = value;
+    h = (h ^ (h >> 16)).wrapping_mul(0x85eb_ca6b);
+    h = (h ^ (h >> 13)).wrapping_mul(0xc2b2_ae35);
+    h ^ (h >> 16)
+}

@@ -1,0 +1,190 @@
+//! What to render, and what is refused.
+
+use frame::{Alignment, Shutter, ShutterError, VelocityKind};
+
+use crate::sampler::MOST_SAMPLES;
+use crate::scene::Scene;
+
+/// Widest and highest picture, in pixels.
+const LARGEST_SIDE: u32 = 16_384;
+
+/// How to render the frame of the instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrameSettings {
+    /// Pixels per row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Exposure that a filter is to blur by, in frames; the frame itself does not depend on it.
+    pub exposure: f64,
+    /// What the velocity buffer holds.
+    pub velocity: VelocityKind,
+    /// Samples of colour and coverage per pixel, a power of two up to 65536; time grows with it.
+    pub samples_per_pixel: u32,
+    /// Chooses the random numbers.
+    pub seed: u64,
+}
+
+/// How to render the truth of a shutter interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TruthSettings {
+    /// Pixels per row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Length of the shutter interval in frames.
+    pub exposure: f64,
+    /// Where the interval lies relative to the instant.
+    pub alignment: Alignment,
+    /// Samples per pixel over all replicates; time grows with it, noise falls faster than its square root.
+    pub samples_per_pixel: u32,
+    /// Independent, complete renders, an even number; each gets a power of two of samples. More of them measure the
+    /// noise better and stratify worse.
+    pub replicates: u32,
+    /// Chooses the random numbers.
+    pub seed: u64,
+}
+
+/// Why there is no picture.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TraceError {
+    /// The watcher asked to stop.
+    #[error("rendering was cancelled")]
+    Cancelled,
+    /// No pixels, or too many.
+    #[error("size is {width}x{height}; allowed: 1 to {LARGEST_SIDE} pixels on either side")]
+    Size {
+        /// Pixels per row.
+        width: u32,
+        /// Rows.
+        height: u32,
+    },
+    /// An exposure that no shutter has.
+    #[error(transparent)]
+    Shutter(#[from] ShutterError),
+    /// An odd number of replicates has no two halves; one has no spread.
+    #[error("replicates is {0}; allowed: even numbers from 2, such as 8")]
+    Replicates(u32),
+    /// Samples that do not divide into powers of two.
+    #[error(
+        "samples per pixel is {samples_per_pixel} over {replicates} replicates; allowed: {replicates} times a \
+         power of two up to {MOST_SAMPLES}, such as {nearest}"
+    )]
+    Samples {
+        /// What was asked for.
+        samples_per_pixel: u32,
+        /// Among how many replicates it was to be divided.
+        replicates: u32,
+        /// The nearest allowed number.
+        nearest: u32,
+    },
+    /// Sub-frames of a ladder that cannot be.
+    #[error("sub-frames are {0:?}; allowed: rising whole numbers from 1, such as 1, 2, 4")]
+    Subframes(Vec<u32>),
+    /// A camera whose field of view leaves the possible while the shutter is open.
+    #[error(
+        "scene {scene}: the camera's vertical field of view is {degrees:.3} degrees at time {time} frames; allowed: \
+         above 0 and below 180 at every time that is rendered; its keys go on beyond the first and last"
+    )]
+    FieldOfView {
+        /// The scene's name.
+        scene: String,
+        /// The field of view, in degrees.
+        degrees: f64,
+        /// When, in frames.
+        time: f64,
+    },
+}
+
+impl Default for FrameSettings {
+    fn default() -> Self {
+        Self {
+            width: 320,
+            height: 180,
+            exposure: 0.5,
+            velocity: VelocityKind::default(),
+            samples_per_pixel: 256,
+            seed: 0,
+        }
+    }
+}
+
+impl Default for TruthSettings {
+    fn default() -> Self {
+        Self {
+            width: 320,
+            height: 180,
+            exposure: 0.5,
+            alignment: Alignment::Trailing,
+            samples_per_pixel: 256,
+            replicates: 8,
+            seed: 0,
+        }
+    }
+}
+
+impl FrameSettings {
+    /// Refuses what cannot be rendered.
+    pub fn check(&self, scene: &Scene) -> Result<(), TraceError> {
+        check_size(self.width, self.height)?;
+        Alignment::Trailing.shutter(self.exposure)?;
+        check_samples(self.samples_per_pixel, 1)?;
+        // Velocity looks back by up to one frame.
+        check_field_of_view(scene, -1.0, 0.0)
+    }
+}
+
+impl TruthSettings {
+    /// Refuses what cannot be rendered; else the shutter.
+    pub fn check(&self, scene: &Scene) -> Result<Shutter, TraceError> {
+        check_size(self.width, self.height)?;
+        if self.replicates < 2 || !self.replicates.is_multiple_of(2) {
+            return Err(TraceError::Replicates(self.replicates));
+        }
+        check_samples(self.samples_per_pixel, self.replicates)?;
+        let shutter = self.alignment.shutter(self.exposure)?;
+        check_field_of_view(scene, shutter.open, shutter.close)?;
+        Ok(shutter)
+    }
+}
+
+fn check_size(width: u32, height: u32) -> Result<(), TraceError> {
+    let allowed = 1..=LARGEST_SIDE;
+    if allowed.contains(&width) && allowed.contains(&height) {
+        Ok(())
+    } else {
+        Err(TraceError::Size { width, height })
+    }
+}
+
+fn check_samples(samples_per_pixel: u32, replicates: u32) -> Result<(), TraceError> {
+    let each = samples_per_pixel / replicates;
+    if each * replicates == samples_per_pixel && each.is_power_of_two() && each <= MOST_SAMPLES {
+        return Ok(());
+    }
+    Err(TraceError::Samples {
+        samples_per_pixel,
+        replicates,
+        nearest: each
+            .clamp(1, MOST_SAMPLES)
+            .next_power_of_two()
+            .saturating_mul(replicates),
+    })
+}
+
+/// Linear between keys, so that only keys and ends need looking at.
+fn check_field_of_view(scene: &Scene, from: f64, to: f64) -> Result<(), TraceError> {
+    let keys = scene.camera.vertical_fov.iter().map(|(time, _)| *time);
+    let inside = keys.filter(|time| from < *time && *time < to);
+    for time in inside.chain([from, to]) {
+        let fov = scene.camera.vertical_fov_at(time);
+        if !(fov > 0.0 && fov < std::f64::consts::PI) {
+            return Err(TraceError::FieldOfView {
+                scene: scene.name.clone(),
+                degrees: fov.to_degrees(),
+                time,
+            });
+        }
+    }
+    Ok(())
+}

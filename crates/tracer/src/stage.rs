@@ -1,0 +1,178 @@
+//! The scene made ready for rays: one tree per mesh, and trees over the boxes that the objects sweep.
+
+use crate::bounds::Bounds;
+use crate::bvh::Tree;
+use crate::mesh_tree::MeshTree;
+use crate::poses::Poses;
+use crate::ray::Ray;
+use crate::scene::Scene;
+use crate::surface::Opacity;
+use crate::swept::{greatest_speed, swept_bounds};
+use crate::triangle::Crossing;
+
+/// An object travels at most this part of its diagonal within a slice, unless that takes too many slices.
+const TRAVEL_PER_SLICE: f64 = 0.25;
+const MOST_SLICES: usize = 16;
+
+/// A scene between two times, ready for rays.
+///
+/// A ray is moved into an object's space by the exact pose at its time; nothing about the motion is linearised. The
+/// shutter is cut into slices, each with its own small tree over the boxes swept within it.
+pub struct Stage<'a> {
+    pub(crate) scene: &'a Scene,
+    from: f64,
+    to: f64,
+    meshes: Vec<Option<MeshTree>>,
+    opacities: Vec<Opacity>,
+    slices: Vec<Tree>,
+    poses: Poses<'a>,
+}
+
+/// Where a ray meets a surface first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Distance in units of the ray's direction.
+    pub t: f64,
+    /// Index into the scene's objects.
+    pub object: usize,
+    /// Index into the mesh's triangles.
+    pub triangle: u32,
+    /// Weights of the triangle's second and third vertex.
+    pub weights: [f64; 2],
+}
+
+impl<'a> Stage<'a> {
+    /// Makes the scene ready for rays whose times lie in `[from, to]` (frames).
+    pub fn new(scene: &'a Scene, from: f64, to: f64) -> Self {
+        assert!(from <= to, "a stage's interval runs forwards in time");
+        let shown: Vec<usize> = scene.objects.iter().map(|object| object.mesh).collect();
+        let meshes = scene
+            .meshes
+            .iter()
+            .enumerate()
+            .map(|(index, mesh)| shown.contains(&index).then(|| MeshTree::of(mesh)))
+            .collect();
+        Self {
+            scene,
+            from,
+            to,
+            meshes,
+            opacities: Opacity::of_objects(scene),
+            slices: slices(scene, from, to),
+            poses: Poses::new(scene, from, to),
+        }
+    }
+
+    /// A store of poses for one path at a time.
+    pub fn poses(&self) -> Poses<'a> {
+        self.poses.clone()
+    }
+
+    /// The nearest surface at `t > 0`; among equally near ones that of the lowest object, then triangle.
+    pub fn closest(&self, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
+        let slice = self.slice(poses.time());
+        let mut best: Option<Hit> = None;
+        slice.walk(ray, f64::INFINITY, |slot| {
+            let object = slice.order()[slot] as usize;
+            let local = ray.transformed(&poses.pose(object).to_object);
+            let limit = |best: &Option<Hit>| best.map_or(f64::INFINITY, |hit| hit.t);
+            self.mesh(object)
+                .walk(&local, limit(&best), |triangle, crossing| {
+                    self.keep_nearer(&mut best, object, triangle, crossing);
+                    limit(&best)
+                });
+            limit(&best)
+        });
+        best
+    }
+
+    /// Whether anything lies at `0 < t < limit`.
+    pub fn blocked(&self, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
+        let slice = self.slice(poses.time());
+        slice.any(ray, limit, |slot| {
+            let object = slice.order()[slot] as usize;
+            let local = ray.transformed(&poses.pose(object).to_object);
+            self.mesh(object).any(&local, limit, |triangle, crossing| {
+                crossing.t < limit && self.opacities[object].opaque(self.scene, triangle, &crossing)
+            })
+        })
+    }
+
+    /// What [`Stage::closest`] finds, from every triangle in turn: its reference in tests.
+    pub fn closest_of_all(&self, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
+        let mut best = None;
+        for object in 0..self.scene.objects.len() {
+            let local = ray.transformed(&poses.pose(object).to_object);
+            self.mesh(object).exhaustive(&local, |triangle, crossing| {
+                self.keep_nearer(&mut best, object, triangle, crossing);
+            });
+        }
+        best
+    }
+
+    #[inline]
+    fn keep_nearer(
+        &self,
+        best: &mut Option<Hit>,
+        object: usize,
+        triangle: u32,
+        crossing: Crossing,
+    ) {
+        let nearer = best.is_none_or(|best| {
+            (crossing.t, object, triangle) < (best.t, best.object, best.triangle)
+        });
+        if nearer && self.opacities[object].opaque(self.scene, triangle, &crossing) {
+            *best = Some(Hit {
+                t: crossing.t,
+                object,
+                triangle,
+                weights: [crossing.u, crossing.v],
+            });
+        }
+    }
+
+    fn mesh(&self, object: usize) -> &MeshTree {
+        self.meshes[self.scene.objects[object].mesh]
+            .as_ref()
+            .expect("every shown mesh has a tree")
+    }
+
+    fn slice(&self, time: f64) -> &Tree {
+        assert!(
+            self.from <= time && time <= self.to,
+            "a ray's time lies in the stage's interval"
+        );
+        let fraction = (time - self.from) / (self.to - self.from).max(f64::MIN_POSITIVE);
+        let slice = (fraction * self.slices.len() as f64) as usize;
+        &self.slices[slice.min(self.slices.len() - 1)]
+    }
+}
+
+fn slices(scene: &Scene, from: f64, to: f64) -> Vec<Tree> {
+    let count = slice_count(scene, from, to);
+    let border = |slice: usize| from + (to - from) * slice as f64 / count as f64;
+    let eyes = scene.camera.motion.keys.iter().map(|key| key.translation);
+    let reach =
+        Bounds::around(eyes.chain([from, to].map(|time| scene.camera.motion.at(time).translation)))
+            .reach();
+    (0..count)
+        .map(|slice| {
+            let boxes: Vec<Bounds> = (0..scene.objects.len())
+                .map(|object| swept_bounds(scene, object, border(slice), border(slice + 1)))
+                .collect();
+            Tree::over(&boxes, reach, 1)
+        })
+        .collect()
+}
+
+/// The smallest power of two that keeps every object's travel within a slice short of its own size.
+fn slice_count(scene: &Scene, from: f64, to: f64) -> usize {
+    let needed = (0..scene.objects.len())
+        .map(|object| {
+            let diagonal = swept_bounds(scene, object, from, from).diagonal();
+            let travel = greatest_speed(scene, object, from, to) * (to - from);
+            travel / (TRAVEL_PER_SLICE * diagonal).max(f64::MIN_POSITIVE)
+        })
+        .fold(1.0, f64::max);
+    (needed.min(MOST_SLICES as f64).ceil() as usize).next_power_of_two()
+}

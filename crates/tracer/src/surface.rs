@@ -1,0 +1,164 @@
+//! What a hit says about light: place, orientation, albedo, emission.
+
+use glam::{DVec3, Vec2, Vec3, Vec4};
+
+use crate::poses::Pose;
+use crate::ray::Ray;
+use crate::scene::{Material, Mesh, Scene};
+use crate::stage::Hit;
+use crate::triangle::Crossing;
+
+/// Surfaces whose opacity falls below this have a hole.
+const HOLE: f32 = 0.5;
+
+/// A point of a surface at one time, in the world.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Surface {
+    pub position: DVec3,
+    /// Unit, of the facet, on the ray's side.
+    pub facet: DVec3,
+    /// Unit, interpolated where the mesh has normals, on the facet's side.
+    pub normal: DVec3,
+    pub albedo: Vec3,
+    pub emission: Vec3,
+    /// Area of the whole triangle, square metres.
+    pub area: f64,
+}
+
+/// Which of an object's slots may have holes.
+pub(crate) struct Opacity {
+    object: usize,
+    solid: bool,
+}
+
+impl Opacity {
+    pub fn of_objects(scene: &Scene) -> Vec<Opacity> {
+        let solid = |&material: &usize| {
+            let material = &scene.materials[material];
+            material.opacity >= HOLE && material.opacity_texture.is_none()
+        };
+        scene
+            .objects
+            .iter()
+            .enumerate()
+            .map(|(index, object)| Opacity {
+                object: index,
+                solid: object.materials.iter().all(solid),
+            })
+            .collect()
+    }
+
+    /// Whether the surface is there at the crossing.
+    #[inline]
+    pub fn opaque(&self, scene: &Scene, triangle: u32, crossing: &Crossing) -> bool {
+        self.solid || opacity(scene, self.object, triangle, [crossing.u, crossing.v]) >= HOLE
+    }
+}
+
+impl Surface {
+    /// The surface that `ray` meets at `hit`, the object being at `pose`.
+    pub fn at(scene: &Scene, pose: &Pose, ray: &Ray, hit: &Hit) -> Surface {
+        let mesh = &scene.meshes[scene.objects[hit.object].mesh];
+        let [a, b, c] = corners(mesh, hit.triangle);
+        let edge = |to: DVec3| pose.to_world.transform_vector3(to - a);
+        let scaled = edge(b).cross(edge(c));
+        let facet = towards(scaled.normalize_or_zero(), -ray.direction);
+        let texcoord = texcoord(mesh, hit.triangle, hit.weights);
+        let material = material(scene, hit.object, hit.triangle);
+        Surface {
+            position: ray.at(hit.t),
+            facet,
+            normal: shading_normal(mesh, pose, hit).map_or(facet, |normal| towards(normal, facet)),
+            albedo: textured(scene, material.diffuse, material.diffuse_texture, texcoord),
+            emission: textured(
+                scene,
+                material.emission,
+                material.emission_texture,
+                texcoord,
+            ),
+            area: 0.5 * scaled.length(),
+        }
+    }
+}
+
+/// Vertices of a triangle in object space.
+pub(crate) fn corners(mesh: &Mesh, triangle: u32) -> [DVec3; 3] {
+    mesh.triangles[triangle as usize].map(|index| mesh.positions[index as usize].as_dvec3())
+}
+
+/// The material of a triangle.
+pub(crate) fn material(scene: &Scene, object: usize, triangle: u32) -> &Material {
+    let object = &scene.objects[object];
+    let slot = scene.meshes[object.mesh].slots[triangle as usize];
+    &scene.materials[object.materials[slot as usize]]
+}
+
+/// Emitted radiance at a point of a triangle; nothing where it has a hole.
+pub(crate) fn emission(scene: &Scene, object: usize, triangle: u32, weights: [f64; 2]) -> Vec3 {
+    if opacity(scene, object, triangle, weights) < HOLE {
+        return Vec3::ZERO;
+    }
+    let mesh = &scene.meshes[scene.objects[object].mesh];
+    let material = material(scene, object, triangle);
+    let texcoord = texcoord(mesh, triangle, weights);
+    textured(
+        scene,
+        material.emission,
+        material.emission_texture,
+        texcoord,
+    )
+}
+
+/// Opacity lies in the texels' alpha.
+fn opacity(scene: &Scene, object: usize, triangle: u32, weights: [f64; 2]) -> f32 {
+    let mesh = &scene.meshes[scene.objects[object].mesh];
+    let material = material(scene, object, triangle);
+    let texel = lookup(
+        scene,
+        material.opacity_texture,
+        texcoord(mesh, triangle, weights),
+    );
+    material.opacity * texel.w
+}
+
+fn textured(scene: &Scene, factor: Vec3, texture: Option<usize>, texcoord: Vec2) -> Vec3 {
+    if factor == Vec3::ZERO {
+        return factor;
+    }
+    factor * lookup(scene, texture, texcoord).truncate()
+}
+
+fn lookup(scene: &Scene, texture: Option<usize>, texcoord: Vec2) -> Vec4 {
+    texture.map_or(Vec4::ONE, |texture| {
+        scene.textures[texture].sample(texcoord)
+    })
+}
+
+fn texcoord(mesh: &Mesh, triangle: u32, weights: [f64; 2]) -> Vec2 {
+    if mesh.texcoords.is_empty() {
+        return Vec2::ZERO;
+    }
+    let [a, b, c] =
+        mesh.triangles[triangle as usize].map(|index| mesh.texcoords[index as usize].as_dvec2());
+    (a + weights[0] * (b - a) + weights[1] * (c - a)).as_vec2()
+}
+
+/// None where the mesh has no normals, or where they cancel.
+fn shading_normal(mesh: &Mesh, pose: &Pose, hit: &Hit) -> Option<DVec3> {
+    if mesh.normals.is_empty() {
+        return None;
+    }
+    let [a, b, c] =
+        mesh.triangles[hit.triangle as usize].map(|index| mesh.normals[index as usize].as_dvec3());
+    let normal = a + hit.weights[0] * (b - a) + hit.weights[1] * (c - a);
+    // Normals move by the transpose of the way back.
+    (pose.to_object.matrix3.transpose() * normal).try_normalize()
+}
+
+fn towards(normal: DVec3, side: DVec3) -> DVec3 {
+    if normal.dot(side) < 0.0 {
+        -normal
+    } else {
+        normal
+    }
+}

@@ -1,0 +1,296 @@
+//! Boxes that contain a moving mesh over an interval of time.
+
+use glam::{DVec3, Vec3};
+
+use crate::bounds::Bounds;
+use crate::motion::{Key, Motion};
+use crate::scene::{Parent, Scene};
+
+/// The greatest distance from an origin, speed and acceleration of any point of a mesh within an interval.
+#[derive(Clone, Copy)]
+struct Reach {
+    /// Metres.
+    distance: f64,
+    /// Metres per frame.
+    speed: f64,
+    /// Metres per frame squared.
+    acceleration: f64,
+}
+
+/// The motions from the object outwards to the world.
+pub(crate) fn chain(scene: &Scene, object: usize) -> Vec<&Motion> {
+    let mut motions = vec![&scene.objects[object].motion];
+    let mut parent = scene.objects[object].parent;
+    loop {
+        match parent {
+            Parent::World => return motions,
+            Parent::Camera => {
+                motions.push(&scene.camera.motion);
+                return motions;
+            }
+            Parent::Object(index) => {
+                motions.push(&scene.objects[index].motion);
+                parent = scene.objects[index].parent;
+            }
+        }
+    }
+}
+
+/// Times of `motions`' keys strictly between `from` and `to`, with both ends, rising.
+pub(crate) fn key_times<'a>(
+    motions: impl IntoIterator<Item = &'a Motion>,
+    from: f64,
+    to: f64,
+) -> Vec<f64> {
+    let mut times: Vec<f64> = motions
+        .into_iter()
+        .flat_map(|motion| motion.keys.iter().map(|key| key.time))
+        .filter(|time| from < *time && *time < to)
+        .chain([from, to])
+        .collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    times
+}
+
+/// A box around the object's mesh at every time of `[from, to]`, in the world.
+///
+/// Between keys a point moves along a curve of bounded acceleration `A`, and a curve strays from its chord by at
+/// most `A h^2 / 8`: the union of the boxes at both ends, grown by that, contains it. Translation needs no growth.
+pub(crate) fn swept_bounds(scene: &Scene, object: usize, from: f64, to: f64) -> Bounds {
+    let positions = &scene.meshes[scene.objects[object].mesh].positions;
+    let motions = chain(scene, object);
+    let times = key_times(motions.iter().copied(), from, to);
+    let first = posed_bounds(scene, object, positions, from);
+    let (union, _) = times
+        .windows(2)
+        .fold((first, first), |(union, start), span| {
+            let end = posed_bounds(scene, object, positions, span[1]);
+            let length = span[1] - span[0];
+            let sagitta =
+                reach(&motions, positions, span[0], span[1]).acceleration * length * length / 8.0;
+            (union.union(start.union(end).grown(sagitta)), end)
+        });
+    union
+}
+
+/// The greatest speed of any point of the object's mesh within `[from, to]`, metres per frame; never too small.
+pub(crate) fn greatest_speed(scene: &Scene, object: usize, from: f64, to: f64) -> f64 {
+    let positions = &scene.meshes[scene.objects[object].mesh].positions;
+    let motions = chain(scene, object);
+    key_times(motions.iter().copied(), from, to)
+        .windows(2)
+        .map(|span| reach(&motions, positions, span[0], span[1]).speed)
+        .fold(0.0, f64::max)
+}
+
+fn posed_bounds(scene: &Scene, object: usize, positions: &[Vec3], time: f64) -> Bounds {
+    let pose = scene.object_to_world(object, time);
+    Bounds::around(
+        positions
+            .iter()
+            .map(|position| pose.transform_point3(position.as_dvec3())),
+    )
+}
+
+/// Through the chain of motions, in an interval without keys inside.
+fn reach(motions: &[&Motion], positions: &[Vec3], from: f64, to: f64) -> Reach {
+    let at_rest = Reach {
+        distance: positions
+            .iter()
+            .map(|position| position.as_dvec3().length())
+            .fold(0.0, f64::max),
+        speed: 0.0,
+        acceleration: 0.0,
+    };
+    motions.iter().fold(at_rest, |inner, motion| {
+        let (from_key, to_key) = motion.segment(0.5 * (from + to));
+        carried(inner, from_key, to_key, from, to)
+    })
+}
+
+/// Reach after one motion whose segment runs between two keys: scale, then rotation, then translation, each by the
+/// product rule.
+fn carried(inner: Reach, from_key: &Key, to_key: &Key, from: f64, to: f64) -> Reach {
+    let duration = to_key.time - from_key.time;
+    if duration <= 0.0 {
+        let scale = from_key.scale.abs().max_element();
+        return Reach {
+            distance: scale * inner.distance + from_key.translation.length(),
+            speed: scale * inner.speed,
+            acceleration: scale * inner.acceleration,
+        };
+    }
+    let at = |time: f64| (time - from_key.time) / duration;
+    let greatest = |a: DVec3, b: DVec3, size: fn(DVec3) -> f64| {
+        size(a.lerp(b, at(from))).max(size(a.lerp(b, at(to))))
+    };
+    let largest = |scale: DVec3| scale.abs().max_element();
+    let scale = greatest(from_key.scale, to_key.scale, largest);
+    let growth = largest(to_key.scale - from_key.scale) / duration;
+    let scaled = Reach {
+        distance: scale * inner.distance,
+        speed: growth * inner.distance + scale * inner.speed,
+        acceleration: 2.0 * growth * inner.speed + scale * inner.acceleration,
+    };
+    let spin = from_key.turn.angle.abs() / duration;
+    let drift = (to_key.translation - from_key.translation).length() / duration;
+    let offset = greatest(from_key.translation, to_key.translation, DVec3::length);
+    Reach {
+        distance: scaled.distance + offset,
+        speed: spin * scaled.distance + scaled.speed + drift,
+        acceleration: spin * spin * scaled.distance
+            + 2.0 * spin * scaled.speed
+            + scaled.acceleration,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+    use std::path::PathBuf;
+
+    use glam::DQuat;
+
+    use super::*;
+    use crate::motion::Turn;
+    use crate::scene::{Background, Camera, Display, Family, FlipExposures, Mesh, Object};
+
+    /// SplitMix64 in [-1, 1): enough to vary poses.
+    struct Numbers(u64);
+
+    impl Numbers {
+        fn next(&mut self) -> f64 {
+            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let mut z = self.0;
+            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            ((z ^ (z >> 31)) >> 11) as f64 / 2f64.powi(52) - 1.0
+        }
+
+        fn vector(&mut self) -> DVec3 {
+            DVec3::new(self.next(), self.next(), self.next())
+        }
+    }
+
+    /// Keys at -0.7, 0 and 0.4 with turns of up to `turn` radians, drifts and growth.
+    fn random_motion(numbers: &mut Numbers, turn: f64) -> Motion {
+        let mut orientation = DQuat::from_axis_angle(numbers.vector().normalize(), 1.0);
+        let keys = [-0.7, 0.0, 0.4].map(|time| {
+            let turn = Turn {
+                axis: numbers.vector().normalize(),
+                angle: turn * numbers.next(),
+            };
+            let key = Key {
+                time,
+                translation: 3.0 * numbers.vector(),
+                orientation,
+                scale: DVec3::ONE + 0.5 * numbers.vector(),
+                turn,
+            };
+            orientation = DQuat::from_axis_angle(turn.axis, turn.angle) * orientation;
+            key
+        });
+        Motion {
+            keys: keys.to_vec(),
+        }
+    }
+
+    fn scene(numbers: &mut Numbers, turn: f64) -> Scene {
+        let corners = (0..8).map(|_| numbers.vector().as_vec3()).collect();
+        let object = |numbers: &mut Numbers, parent| Object {
+            name: "thing".into(),
+            mesh: 0,
+            materials: Vec::new(),
+            motion: random_motion(numbers, turn),
+            parent,
+        };
+        Scene {
+            name: String::new(),
+            exposes: String::new(),
+            family: Family::Rotation,
+            exposure: 1.0,
+            width: 1,
+            height: 1,
+            display: Display {
+                stops: 0.0,
+                flip: FlipExposures {
+                    start: 0.0,
+                    stop: 0.0,
+                    count: 2,
+                },
+            },
+            camera: Camera {
+                motion: Motion {
+                    keys: random_motion(numbers, turn)
+                        .keys
+                        .into_iter()
+                        .map(|key| Key {
+                            scale: DVec3::ONE,
+                            ..key
+                        })
+                        .collect(),
+                },
+                vertical_fov: vec![(0.0, 1.0)],
+            },
+            background: Background::Constant(Vec3::ZERO),
+            sun: None,
+            meshes: vec![Mesh {
+                path: PathBuf::new(),
+                positions: corners,
+                normals: Vec::new(),
+                texcoords: Vec::new(),
+                triangles: Vec::new(),
+                slots: Vec::new(),
+            }],
+            textures: Vec::new(),
+            materials: Vec::new(),
+            objects: vec![
+                object(numbers, Parent::World),
+                object(numbers, Parent::Object(0)),
+                object(numbers, Parent::Camera),
+            ],
+            hash: String::new(),
+        }
+    }
+
+    #[test]
+    fn a_swept_box_contains_the_mesh_at_every_time() {
+        let mut numbers = Numbers(1);
+        // Radians between keys: none, a little, nearly half a turn, several turns.
+        for turn in [0.0, 0.3, 179.0_f64.to_radians(), 6.0 * PI] {
+            for _ in 0..4 {
+                let scene = scene(&mut numbers, turn);
+                for object in 0..scene.objects.len() {
+                    // The interval contains a key and ends beyond the last.
+                    for (from, to) in [(-0.1, 0.0), (-0.3, 0.6)] {
+                        // Rounding only.
+                        let bounds = swept_bounds(&scene, object, from, to).grown(1e-12);
+                        for step in 0..=1000 {
+                            let time = from + (to - from) * f64::from(step) / 1000.0;
+                            let pose = scene.object_to_world(object, time);
+                            for position in &scene.meshes[0].positions {
+                                let point = pose.transform_point3(position.as_dvec3());
+                                let inside =
+                                    point.cmpge(bounds.min).all() && point.cmple(bounds.max).all();
+                                assert!(inside, "object {object} leaves {bounds:?} at {time}");
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_box_of_a_translation_is_tight() {
+        let mut numbers = Numbers(2);
+        let mut scene = scene(&mut numbers, 0.0);
+        for key in &mut scene.objects[0].motion.keys {
+            key.scale = DVec3::ONE;
+        }
+        let ends = [-0.1, 0.0].map(|time| swept_bounds(&scene, 0, time, time));
+        let swept = swept_bounds(&scene, 0, -0.1, 0.0);
+        assert_eq!(swept, ends[0].union(ends[1]));
+    }
+}
