@@ -1,1 +1,25 @@
-//! placeholder
+//! Cases, runs and bounds over the scenes, filters and metrics; the command line `shuttertruth` is a thin layer on top.
+
+mod bounds;
+mod error;
+mod pictures;
+mod probe;
+mod progress;
+mod rendered;
+mod run;
+mod selection;
+mod table;
+
+pub use bounds::{Bounds, Outcome, Verdict, judge, read_bounds};
+pub use error::Error;
+pub use probe::picture;
+pub use progress::{catch_interrupts, with_bar};
+pub use rendered::{
+    LADDER, RenderSettings, frame_of, scene_folder, truth_and_ladder_of, truth_of,
+};
+pub use run::{Case, FORMAT, Plan, Run, run, viewing};
+pub use selection::{FilterChoice, select_filters, select_scenes};
+pub use table::table;
+
+/// Program name and version, as files and runs record it.
+pub const PROGRAM: &str = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"));

@@ -1,0 +1,90 @@
+//! `shuttertruth blur`
+
+use std::path::Path;
+
+use filters::{Blur, Gpu, Input};
+use frame::{ExrFile, Image, Plane, Vectors, read_exr, write_exr};
+use suite::{Error, FilterChoice, select_filters};
+
+use super::check_exposure;
+use crate::cli::BlurArgs;
+
+/// Runs one filter on one frame file and writes its colour.
+pub fn execute(args: &BlurArgs) -> Result<(), Error> {
+    let choice = select_filter(args)?;
+    let buffers = read_buffers(&args.frame, args.exposure)?;
+    let gpu = Gpu::new(args.adapter.adapter.as_deref())?;
+    let (width, height) = (buffers.color.width, buffers.color.height);
+    let mut blur = Blur::new(&gpu, &choice.filter, &choice.settings, width, height)?;
+    let outputs = blur.run(&Input {
+        color: &[&buffers.color],
+        velocity: &buffers.velocity,
+        depth: &buffers.depth,
+        exposure: buffers.exposure,
+        frame_index: args.frame_index,
+    })?;
+    let mut file = ExrFile::new(width, height);
+    file.push_color("", &outputs[0]);
+    file.set("kind", "output");
+    file.set("filter", choice.name());
+    file.set("program", suite::PROGRAM);
+    file.set("adapter", &gpu.adapter.name);
+    file.set("exposure", buffers.exposure);
+    write_exr(&args.out, &file)?;
+    println!("{}", args.out.display());
+    Ok(())
+}
+
+fn select_filter(args: &BlurArgs) -> Result<FilterChoice, Error> {
+    let words = [args.filter.clone()];
+    Ok(select_filters(&words, args.preset.as_deref(), &args.set)?.remove(0))
+}
+
+/// What a filter needs of a frame file: any OpenEXR file that has the channels will do.
+struct Buffers {
+    color: Image,
+    velocity: Vectors,
+    depth: Plane,
+    exposure: f64,
+}
+
+fn read_buffers(path: &Path, exposure: Option<f64>) -> Result<Buffers, Error> {
+    let file = read_exr(path)?;
+    let [x, y] = [file.plane("velocity.X")?, file.plane("velocity.Y")?];
+    let buffers = Buffers {
+        color: file.color("")?,
+        velocity: x.zip(&y, |x, y| [*x, *y]),
+        depth: file.plane("Z")?,
+        exposure: match exposure {
+            Some(exposure) => exposure,
+            None if file.attributes.contains_key("exposure") => file.get("exposure")?,
+            None => {
+                return Err(Error::Usage(format!(
+                    "{}: has no attribute \"exposure\"; give one with --exposure (0.5 = 180 degrees)",
+                    path.display()
+                )));
+            }
+        },
+    };
+    check_exposure(buffers.exposure)?;
+    refuse_not_finite(path, &buffers)?;
+    Ok(buffers)
+}
+
+fn refuse_not_finite(path: &Path, buffers: &Buffers) -> Result<(), Error> {
+    let width = buffers.color.width as usize;
+    let bad = (0..buffers.color.pixels.len()).find(|&at| {
+        let values = [&buffers.color.pixels[at][..], &buffers.velocity.pixels[at], &[buffers.depth.pixels[at]]];
+        values.iter().flat_map(|values| values.iter()).any(|value| !value.is_finite())
+    });
+    match bad {
+        None => Ok(()),
+        Some(at) => Err(Error::Usage(format!(
+            "{}: pixel ({}, {}) holds NaN or infinity; allowed: finite colour, velocity and depth (write a large finite \
+             depth where nothing is seen)",
+            path.display(),
+            at % width,
+            at / width
+        ))),
+    }
+}

@@ -1,0 +1,68 @@
+//! One file per command.
+
+mod blur;
+mod list;
+mod render;
+mod run;
+
+use std::path::PathBuf;
+
+use suite::{Error, RenderSettings};
+
+use crate::cli::{Cli, Command, SceneArgs};
+
+/// Does what the command line says.
+pub fn execute(cli: Cli) -> Result<(), Error> {
+    if cli.list_adapters {
+        return list::adapters();
+    }
+    match cli.command {
+        Some(Command::Run(args)) => with_threads(args.scenes.threads, || run::execute(&args)),
+        Some(Command::Render(args)) => with_threads(args.scenes.threads, || render::execute(&args)),
+        Some(Command::Blur(args)) => blur::execute(&args),
+        Some(Command::List(args)) => list::execute(&args),
+        None => Err(Error::Usage("no command given; allowed: run, render, blur, list (see --help)".to_owned())),
+    }
+}
+
+fn with_threads(
+    threads: Option<usize>,
+    work: impl FnOnce() -> Result<(), Error> + Send,
+) -> Result<(), Error> {
+    if threads == Some(0) {
+        return Err(Error::Usage("--threads 0: allowed is 1 or more".to_owned()));
+    }
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.unwrap_or(0))
+        .build()
+        .map_err(|error| Error::Usage(format!("cannot start the threads: {error}")))?
+        .install(work)
+}
+
+fn render_settings(args: &SceneArgs, (width, height): (u32, u32)) -> Result<RenderSettings, Error> {
+    if let Some(exposure) = args.exposure {
+        check_exposure(exposure)?;
+    }
+    Ok(RenderSettings {
+        width,
+        height,
+        exposure: args.exposure,
+        velocity: args.velocity,
+        samples_per_pixel: args.samples_per_pixel,
+        seed: args.seed,
+        ..RenderSettings::default()
+    })
+}
+
+fn check_exposure(exposure: f64) -> Result<(), Error> {
+    frame::Alignment::Trailing
+        .shutter(exposure)
+        .map(drop)
+        .map_err(|error| Error::Usage(format!("--exposure: {error}")))
+}
+
+/// The folder whose bounds apply to a scene word: below the scenes' root, or the path itself.
+fn scene_folder_of(args: &SceneArgs, name: &str) -> PathBuf {
+    let name = name.split('@').next().unwrap_or(name);
+    args.scenes_dir.join(name)
+}

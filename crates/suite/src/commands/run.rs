@@ -1,0 +1,66 @@
+//! `shuttertruth run`
+
+use std::path::Path;
+
+use filters::Gpu;
+use suite::{Error, Outcome, Plan, Run, read_bounds, run, select_filters, select_scenes, table};
+
+use super::{render_settings, scene_folder_of};
+use crate::cli::RunArgs;
+
+/// Loads what is named, runs every case, writes `run.json`, prints the table.
+pub fn execute(args: &RunArgs) -> Result<(), Error> {
+    let scenes = select_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
+    let words = [args.filters.clone(), args.filter.clone()].concat();
+    let filters = select_filters(&words, args.preset.as_deref(), &args.set)?;
+    let bounds = scenes
+        .iter()
+        .map(|scene| read_bounds(&args.scenes.scenes_dir, &scene_folder_of(&args.scenes, &scene.name)))
+        .collect::<Result<_, _>>()?;
+    let gpu = Gpu::new(args.adapter.adapter.as_deref())?;
+    let plan = Plan {
+        scenes,
+        bounds,
+        filters,
+        render: render_settings(&args.scenes, args.size)?,
+        out: args.scenes.out.clone(),
+        quiet: args.scenes.quiet,
+    };
+    let run = run(&plan, &gpu, std::env::args().collect())?;
+    let json = write_run(&run, &plan.out)?;
+    if args.json {
+        println!("{json}");
+    } else {
+        print!("{}", table(&run));
+        print!("{}", closing(&run, &plan.out));
+    }
+    Ok(())
+}
+
+fn write_run(run: &Run, out: &Path) -> Result<String, Error> {
+    let json = serde_json::to_string_pretty(run).expect("a run is plain data");
+    frame::write_atomically(&out.join("run.json"), json.as_bytes())?;
+    Ok(json)
+}
+
+/// What the table does not say: bounds, adapter, where the files are.
+fn closing(run: &Run, out: &Path) -> String {
+    let verdicts = || run.cases.iter().flat_map(|case| &case.verdicts);
+    let broken = verdicts().filter(|verdict| matches!(verdict.outcome, Outcome::Broken { .. })).count();
+    let noisy = verdicts().filter(|verdict| matches!(verdict.outcome, Outcome::TooNoisy { .. })).count();
+    let mut text = format!("\n{broken} of {} bounds broken", verdicts().count());
+    if noisy > 0 {
+        text += &format!(
+            "; {noisy} narrower than 3 noise floors: raise --samples-per-pixel (now {})",
+            run.samples_per_pixel
+        );
+    }
+    text += &format!(
+        "\nadapter: {} ({}, {})\nwritten: {}\n",
+        run.adapter.name,
+        run.adapter.backend,
+        run.adapter.driver,
+        out.join("run.json").display()
+    );
+    text
+}

@@ -1,0 +1,35 @@
+//! What stops a command, and the exit code that says so.
+
+/// Why a command ended early. The text names the place, what was found, what is allowed and the way out.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A scene cannot be loaded.
+    #[error(transparent)]
+    Scene(#[from] tracer::SceneError),
+    /// A scene cannot be rendered as asked, or the render was interrupted.
+    #[error(transparent)]
+    Trace(#[from] tracer::TraceError),
+    /// A filter cannot be loaded or run, or there is no adapter.
+    #[error(transparent)]
+    Filter(#[from] filters::FilterError),
+    /// A picture cannot be measured.
+    #[error(transparent)]
+    Measure(#[from] metrics::MeasureError),
+    /// A file cannot be read or written.
+    #[error(transparent)]
+    File(#[from] frame::FileError),
+    /// The words of the command line, or of a bounds file, do not fit.
+    #[error("{0}")]
+    Usage(String),
+}
+
+impl Error {
+    /// 2 for usage and bad input, 3 where there is no adapter, 130 after Ctrl-C.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Error::Trace(tracer::TraceError::Cancelled) => 130,
+            Error::Filter(filters::FilterError::NoAdapter) => 3,
+            _ => 2,
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! The pictures of a run: OpenEXR for programs, PNG for people.
+
+use std::path::Path;
+
+use frame::{
+    ExrFile, FileError, Frame, Image, Picture, Plane, Truth, display_srgb, write_exr, write_png,
+};
+use metrics::Maps;
+use tracer::Scene;
+
+/// Writes the frame's and the truths' PNGs beside their EXR files.
+pub fn write_scene<'a>(
+    folder: &Path,
+    scene: &Scene,
+    frame: &Frame,
+    truths: impl Iterator<Item = &'a Truth>,
+) -> Result<(), FileError> {
+    write_shown(&folder.join("frame.png"), &frame.color, scene)?;
+    write_png(&folder.join("velocity.png"), &velocity_wheel(frame))?;
+    for truth in truths {
+        let path = folder.join(format!("truth_{}.png", truth.alignment));
+        write_shown(&path, &truth.mean().color, scene)?;
+    }
+    Ok(())
+}
+
+/// Writes a case: the filter's output and the error maps.
+pub fn write_case(
+    folder: &Path,
+    scene: &Scene,
+    objects: &[String],
+    output: &Picture,
+    maps: &Maps,
+) -> Result<(), FileError> {
+    write_shown(&folder.join("output.png"), &output.color, scene)?;
+    write_png(&folder.join("flip.png"), &magma(&maps.flip))?;
+    write_png(&folder.join("label_tv.png"), &magma(&maps.label_total_variation))?;
+    write_png(&folder.join("bleed.png"), &magma(&maps.bleed))?;
+
+    let (width, height) = (output.color.width, output.color.height);
+    let mut file = ExrFile::new(width, height);
+    file.push_color("", &output.color);
+    for (object, matte) in objects.iter().zip(&output.coverage) {
+        file.push_plane(&format!("coverage.{object}"), matte);
+    }
+    file.set("kind", "output");
+    write_exr(&folder.join("output.exr"), &file)?;
+
+    let mut file = ExrFile::new(width, height);
+    file.push_color("signed", &maps.signed_error);
+    file.push_plane("squared_error", &maps.squared_error);
+    file.push_plane("relative_squared_error", &maps.relative_squared_error);
+    file.push_plane("flip", &maps.flip);
+    file.push_plane("flip_hdr", &maps.flip_hdr);
+    file.push_plane("label_tv", &maps.label_total_variation);
+    file.push_plane("bleed", &maps.bleed);
+    file.set("kind", "errors");
+    write_exr(&folder.join("errors.exr"), &file)
+}
+
+fn write_shown(path: &Path, image: &Image, scene: &Scene) -> Result<(), FileError> {
+    write_png(path, &display_srgb(image, scene.display.stops))
+}
+
+/// An error in [0, 1] as the magma colours: black is none.
+fn magma(error: &Plane) -> Image {
+    error.map(|value| {
+        let color = colorous::MAGMA.eval_continuous(f64::from(value.clamp(0.0, 1.0)));
+        color.as_array().map(|byte| f32::from(byte) / 255.0)
+    })
+}
+
+/// Direction as hue, speed as brightness: full at the frame's fastest pixel. Still pixels are black.
+fn velocity_wheel(frame: &Frame) -> Image {
+    let speed = |v: &[f32; 2]| v[0].hypot(v[1]);
+    let fastest = frame.velocity.pixels.iter().map(speed).fold(1e-6, f32::max);
+    frame.velocity.map(|v| {
+        let turn = f64::from(v[1].atan2(v[0])) / std::f64::consts::TAU;
+        let hue = colorous::SINEBOW.eval_continuous(turn.rem_euclid(1.0));
+        hue.as_array().map(|byte| f32::from(byte) / 255.0 * speed(v) / fastest)
+    })
+}

@@ -1,0 +1,163 @@
+//! What the tracer makes of a scene, kept on disk so that a second run need not render it again.
+
+use std::path::{Path, PathBuf};
+
+use frame::{Alignment, FileError, Frame, Ladder, Truth, VelocityKind};
+use tracer::{FrameSettings, Scene, TruthSettings, Watch};
+
+use crate::Error;
+use crate::progress::with_bar;
+
+/// Sub-frame counts of the ladder that N_eq is read from.
+pub const LADDER: [u32; 7] = [1, 2, 4, 8, 16, 32, 64];
+
+/// How scenes are rendered; the scene itself says what it does not override.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RenderSettings {
+    /// Pixels per row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Exposure in frames; none takes the scene's.
+    pub exposure: Option<f64>,
+    /// What the velocity buffer holds.
+    pub velocity: VelocityKind,
+    /// Samples per pixel of a truth, over all its replicates, and of the frame's colour.
+    pub samples_per_pixel: u32,
+    /// Independent, complete renders behind a truth.
+    pub replicates: u32,
+    /// Seed of all randomness.
+    pub seed: u64,
+}
+
+impl Default for RenderSettings {
+    fn default() -> Self {
+        Self {
+            width: 320,
+            height: 180,
+            exposure: None,
+            velocity: VelocityKind::Instantaneous,
+            samples_per_pixel: 256,
+            replicates: 8,
+            seed: 1,
+        }
+    }
+}
+
+/// Folder of a scene's files below `out`.
+pub fn scene_folder(out: &Path, scene: &Scene) -> PathBuf {
+    out.join(&scene.name)
+}
+
+/// The frame of `scene`: read from `out` if its inputs are the same, else rendered and written there.
+pub fn frame_of(scene: &Scene, settings: &RenderSettings, out: &Path, quiet: bool) -> Result<Frame, Error> {
+    let settings = FrameSettings {
+        width: settings.width,
+        height: settings.height,
+        exposure: settings.exposure.unwrap_or(scene.exposure),
+        velocity: settings.velocity,
+        samples_per_pixel: settings.samples_per_pixel,
+        seed: settings.seed,
+    };
+    let artefact = Artefact {
+        path: scene_folder(out, scene).join("frame.exr"),
+        label: format!("{} frame", scene.name),
+        hash: tracer::frame_hash(scene, &settings),
+    };
+    artefact.obtain(
+        quiet,
+        |watch| tracer::trace_frame(scene, &settings, watch),
+        (Frame::read, Frame::write, |frame| &frame.provenance.content_hash),
+    )
+}
+
+/// The truth of `scene` over the shutter of `alignment`, read from `out` or rendered.
+pub fn truth_of(
+    scene: &Scene,
+    settings: &RenderSettings,
+    alignment: Alignment,
+    out: &Path,
+    quiet: bool,
+) -> Result<Truth, Error> {
+    let settings = truth_settings(scene, settings, alignment);
+    let artefact = Artefact {
+        path: scene_folder(out, scene).join(format!("truth_{alignment}.exr")),
+        label: format!("{} truth, {alignment}", scene.name),
+        hash: tracer::truth_hash(scene, &settings),
+    };
+    artefact.obtain(
+        quiet,
+        |watch| tracer::trace_truth(scene, &settings, watch),
+        (Truth::read, Truth::write, |truth| &truth.provenance.content_hash),
+    )
+}
+
+/// A truth and its ladder of accumulations, read from `out` or rendered.
+pub fn truth_and_ladder_of(
+    scene: &Scene,
+    settings: &RenderSettings,
+    alignment: Alignment,
+    out: &Path,
+    quiet: bool,
+) -> Result<(Truth, Ladder), Error> {
+    let truth = truth_of(scene, settings, alignment, out, quiet)?;
+    let settings = truth_settings(scene, settings, alignment);
+    let artefact = Artefact {
+        path: scene_folder(out, scene).join(format!("ladder_{alignment}.exr")),
+        label: format!("{} sub-frames, {alignment}", scene.name),
+        hash: tracer::ladder_hash(scene, &settings, &LADDER),
+    };
+    let ladder = artefact.obtain(
+        quiet,
+        |watch| tracer::trace_ladder(scene, &settings, &truth, &LADDER, watch),
+        (Ladder::read, Ladder::write, |ladder| &ladder.provenance.content_hash),
+    )?;
+    Ok((truth, ladder))
+}
+
+fn truth_settings(scene: &Scene, settings: &RenderSettings, alignment: Alignment) -> TruthSettings {
+    TruthSettings {
+        width: settings.width,
+        height: settings.height,
+        exposure: settings.exposure.unwrap_or(scene.exposure),
+        alignment,
+        samples_per_pixel: settings.samples_per_pixel,
+        replicates: settings.replicates,
+        seed: settings.seed,
+    }
+}
+
+/// A rendered file: where it lies and what it must have been made from.
+struct Artefact {
+    path: PathBuf,
+    label: String,
+    hash: String,
+}
+
+/// How a kind of file is read, written and asked for its content hash.
+type Format<T> = (
+    fn(&Path) -> Result<T, FileError>,
+    fn(&T, &Path) -> Result<(), FileError>,
+    fn(&T) -> &String,
+);
+
+impl Artefact {
+    /// A file of the same content hash is used again; any other is rendered anew and replaced.
+    fn obtain<T>(
+        &self,
+        quiet: bool,
+        render: impl FnOnce(Watch) -> Result<T, tracer::TraceError>,
+        (read, write, hash): Format<T>,
+    ) -> Result<T, Error> {
+        if self.path.exists()
+            && let Ok(kept) = read(&self.path)
+            && *hash(&kept) == self.hash
+        {
+            return Ok(kept);
+        }
+        let made = with_bar(&self.label, quiet, render)?;
+        assert_eq!(*hash(&made), self.hash, "{}: the hash must not depend on the render", self.label);
+        write(&made, &self.path)?;
+        Ok(made)
+    }
+}

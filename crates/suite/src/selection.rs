@@ -1,0 +1,137 @@
+//! Which scenes and filters the words of a command name.
+
+use std::path::{Path, PathBuf};
+
+use filters::{Filter, Settings};
+use tracer::{Scene, list_scenes, load_scene};
+
+use crate::Error;
+
+/// A filter with one set of parameters.
+pub struct FilterChoice {
+    /// The filter.
+    pub filter: Filter,
+    /// The preset that the parameters started from.
+    pub preset: String,
+    /// Its parameters.
+    pub settings: Settings,
+}
+
+impl FilterChoice {
+    /// How tables and folders call it: `jump_flood:paper`.
+    pub fn name(&self) -> String {
+        format!("{}:{}", self.filter.name, self.preset)
+    }
+}
+
+/// Loads the named scenes; all of `root`, each in its default variant, where none is named.
+///
+/// A word is the name of a folder under `root` or the path of any scene folder, then optionally `@variant`; `@all` takes
+/// every variant.
+pub fn select_scenes(root: &Path, words: &[String]) -> Result<Vec<Scene>, Error> {
+    let listings = list_scenes(root)?;
+    if words.is_empty() {
+        if listings.is_empty() {
+            return Err(Error::Usage(format!("{}: holds no folder with a scene.toml", root.display())));
+        }
+        return listings.iter().map(|listing| Ok(load_scene(&root.join(&listing.name), None)?)).collect();
+    }
+    let mut scenes = Vec::new();
+    for word in words {
+        let (name, variant) = match word.split_once('@') {
+            Some((name, variant)) => (name, Some(variant)),
+            None => (word.as_str(), None),
+        };
+        let known = listings.iter().find(|listing| listing.name == name);
+        let folder = match known {
+            Some(listing) => root.join(&listing.name),
+            None if looks_like_path(name) => PathBuf::from(name),
+            None => {
+                let names: Vec<&str> = listings.iter().map(|listing| listing.name.as_str()).collect();
+                return Err(Error::Usage(format!(
+                    "--scenes: no scene \"{name}\" in {}; allowed: {}, or the path of a scene folder",
+                    root.display(),
+                    names.join(", ")
+                )));
+            }
+        };
+        match (variant, known) {
+            (Some("all"), Some(listing)) => {
+                for variant in &listing.variants {
+                    scenes.push(load_scene(&folder, Some(variant))?);
+                }
+            }
+            _ => scenes.push(load_scene(&folder, variant)?),
+        }
+    }
+    Ok(scenes)
+}
+
+/// Loads the named filters; every built-in one where none is named.
+///
+/// A word is the name of a built-in filter or the path of a filter folder, then optionally `:preset`. Without a preset, in
+/// the word or for all, each preset of the filter is taken. `overrides` are `filter.parameter=value`.
+pub fn select_filters(
+    words: &[String],
+    preset: Option<&str>,
+    overrides: &[String],
+) -> Result<Vec<FilterChoice>, Error> {
+    let words = if words.is_empty() {
+        Filter::builtin_names()
+    } else {
+        words.to_vec()
+    };
+    let mut choices = Vec::new();
+    for word in &words {
+        let (name, own_preset) = match word.rsplit_once(':') {
+            Some((name, preset)) if !preset.contains(['/', '\\']) => (name, Some(preset)),
+            _ => (word.as_str(), None),
+        };
+        let load = || match looks_like_path(name) {
+            true => Filter::load(Path::new(name)),
+            false => Filter::builtin(name),
+        };
+        let presets = match own_preset.or(preset) {
+            Some(preset) => vec![preset.to_owned()],
+            None => load()?.preset_names(),
+        };
+        for preset in presets {
+            let filter = load()?;
+            let settings = filter.settings(Some(&preset))?;
+            choices.push(FilterChoice { filter, preset, settings });
+        }
+    }
+    for text in overrides {
+        apply_override(&mut choices, text)?;
+    }
+    Ok(choices)
+}
+
+fn apply_override(choices: &mut [FilterChoice], text: &str) -> Result<(), Error> {
+    let parts = text
+        .split_once('=')
+        .and_then(|(place, value)| place.split_once('.').map(|(filter, parameter)| (filter, parameter, value)));
+    let Some((name, parameter, value)) = parts else {
+        return Err(Error::Usage(format!(
+            "--set {text}: allowed is filter.parameter=value, such as jump_flood.samples=16"
+        )));
+    };
+    let mut found = false;
+    for choice in choices.iter_mut().filter(|choice| choice.filter.name == name) {
+        choice.settings.set(&choice.filter, parameter, value)?;
+        found = true;
+    }
+    if found {
+        return Ok(());
+    }
+    let mut names: Vec<&str> = choices.iter().map(|choice| choice.filter.name.as_str()).collect();
+    names.dedup();
+    Err(Error::Usage(format!(
+        "--set {text}: no filter \"{name}\" takes part; allowed: {}",
+        names.join(", ")
+    )))
+}
+
+fn looks_like_path(word: &str) -> bool {
+    word.contains(['/', '\\']) || word == "." || Path::new(word).is_dir()
+}
