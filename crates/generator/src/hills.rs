@@ -1,0 +1,54 @@
+//! Hills behind the road (at z = 0, which they begin from), and the verge before it.
+
+use glam::{DVec2, DVec3};
+
+use crate::hash::noise;
+use crate::mesh::Mesh;
+use crate::texture::png;
+use crate::{Files, model};
+
+/// In metres.
+const HALF_WIDTH: f64 = 170.0;
+const LENGTH: f64 = 200.0;
+
+pub(crate) fn files() -> Files {
+    let materials = "newmtl grass\nKd 1 1 1\nmap_Kd grass.png\n";
+    let mut hills = Mesh::default();
+    hills.surface(
+        [72, 32],
+        |_, _| "grass",
+        |u, v| {
+            // Finer near the road, where it is seen larger.
+            let (x, distance) = (HALF_WIDTH * (2.0 * u - 1.0), LENGTH * v * v.abs());
+            DVec3::new(x, height(x, distance), -distance)
+        },
+    );
+    hills.repeat_texture(DVec2::new(85.0, 50.0));
+    let mut verge = Mesh::default();
+    verge.surface(
+        [16, 2],
+        |_, _| "grass",
+        |u, v| DVec3::new(16.0 * (2.0 * u - 1.0), 0.0, 4.0 - 8.0 * v),
+    );
+    verge.repeat_texture(DVec2::new(16.0, 4.0));
+    let mut files = model("hills", &hills, materials);
+    files.extend(model("verge", &verge, materials));
+    files.push(("grass.png".into(), png(128, color)));
+    files
+}
+
+/// In metres above the road, at a place along it and a distance from it.
+fn height(x: f64, distance: f64) -> f64 {
+    let near = (distance / 130.0).clamp(0.0, 1.0);
+    let rise = near * near * (3.0 - 2.0 * near);
+    let broad = 15.0 + 9.0 * (0.03 * x + 1.0).sin() + 5.0 * (0.071 * x + 0.02 * distance).sin();
+    let rough = 1.6 * (0.23 * x + 0.4).sin() * (0.11 * distance).cos();
+    rise * (broad + rough)
+}
+
+/// Tufts of three sizes.
+fn color(x: u32, y: u32) -> [f64; 3] {
+    let tuft = |size: u32| noise(x / size + 100 * size, y / size) - 0.5;
+    let light = 1.0 + 0.5 * tuft(16) + 0.4 * tuft(4) + 0.4 * tuft(1);
+    [0.36 * light, 0.46 * light, 0.2 * light]
+}
