@@ -90,29 +90,33 @@ fn half_width(y: f64) -> f64 {
     }
 }
 
-/// One flank, rows from the lower edge to the top.
+/// One flank: rows below the windows, then rows of windows, which shrink to nothing at bonnet and boot.
 fn add_side(mesh: &mut Mesh, side: f64) {
-    let size = [60, 14];
+    let (columns, rows, rows_below) = (60, 14, 8);
     let position = |u: f64, v: f64| {
         let x = along(u, side);
-        let y = bottom(x) + v * (top(x) - bottom(x));
+        let belt = SILL.min(top(x) - 0.02);
+        let row = v * rows as f64;
+        let y = if row < rows_below as f64 {
+            bottom(x) + row / rows_below as f64 * (belt - bottom(x))
+        } else {
+            belt + (row - rows_below as f64) / (rows - rows_below) as f64 * (top(x) - belt)
+        };
         DVec3::new(x, y, side * half_width(y))
     };
     let material = |column, row| {
-        let middle = position(
-            (column as f64 + 0.5) / size[0] as f64,
-            (row as f64 + 0.5) / size[1] as f64,
-        );
-        let behind_pillar = (middle.x + 0.3).abs() > 0.06;
-        if middle.y > SILL && middle.y < top(middle.x) - 0.07 && behind_pillar {
-            "glass"
-        } else if middle.y < CLEARANCE + 0.1 {
+        let x = along((column as f64 + 0.5) / columns as f64, side);
+        let pillar = (x + 0.3).abs() < 0.06;
+        let cabin = (-1.3..0.85).contains(&x);
+        if row == 0 {
             "trim"
+        } else if cabin && !pillar && (rows_below..rows - 1).contains(&row) {
+            "glass"
         } else {
             "paint"
         }
     };
-    mesh.surface(size, material, position);
+    mesh.surface([columns, rows], material, position);
 }
 
 /// Bonnet, windscreen, roof and boot.

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::hash::noise;
+use crate::hash::soft_noise;
 use crate::mesh::Mesh;
 use crate::texture::png;
 use crate::{Files, model};
@@ -10,6 +10,9 @@ use crate::{Files, model};
 /// In metres.
 const HALF_WIDTH: f64 = 170.0;
 const LENGTH: f64 = 200.0;
+
+/// Along an edge of the texture.
+const TEXELS: u32 = 256;
 
 pub(crate) fn files() -> Files {
     let materials = "newmtl grass\nKd 1 1 1\nmap_Kd grass.png\n";
@@ -23,17 +26,17 @@ pub(crate) fn files() -> Files {
             DVec3::new(x, height(x, distance), -distance)
         },
     );
-    hills.repeat_texture(DVec2::new(85.0, 50.0));
+    hills.repeat_texture(DVec2::new(17.0, 14.0));
     let mut verge = Mesh::default();
     verge.surface(
         [16, 2],
         |_, _| "grass",
         |u, v| DVec3::new(16.0 * (2.0 * u - 1.0), 0.0, 4.0 - 8.0 * v),
     );
-    verge.repeat_texture(DVec2::new(16.0, 4.0));
+    verge.repeat_texture(DVec2::new(8.0, 2.0));
     let mut files = model("hills", &hills, materials);
     files.extend(model("verge", &verge, materials));
-    files.push(("grass.png".into(), png(128, color)));
+    files.push(("grass.png".into(), png(TEXELS, color)));
     files
 }
 
@@ -46,9 +49,9 @@ fn height(x: f64, distance: f64) -> f64 {
     rise * (broad + rough)
 }
 
-/// Tufts of three sizes.
+/// Meadows, tufts and blades.
 fn color(x: u32, y: u32) -> [f64; 3] {
-    let tuft = |size: u32| noise(x / size + 100 * size, y / size) - 0.5;
-    let light = 1.0 + 0.5 * tuft(16) + 0.4 * tuft(4) + 0.4 * tuft(1);
-    [0.36 * light, 0.46 * light, 0.2 * light]
+    let soft = |size: u32| soft_noise(x, y, size, TEXELS) - 0.5;
+    let light = 1.0 + 0.25 * soft(64) + 0.3 * soft(16) + 0.4 * soft(4) + 0.25 * soft(2);
+    [0.38 * light + 0.06 * soft(32), 0.46 * light, 0.2 * light]
 }

@@ -29,6 +29,7 @@ mod score;
 mod scores;
 mod viewing;
 
+pub use cross_error::{PSNR_LIMIT, RELATIVE_EPSILON};
 pub use equivalent::{Equivalent, Reach, Subframes};
 pub use error::MeasureError;
 pub use flip::{flip_hdr, flip_ldr};

@@ -115,7 +115,7 @@ mod tests {
         // A deterministic scatter: sparse, dense and empty columns.
         for (step, width, height) in [(3, 13, 7), (11, 31, 17), (97, 24, 24), (350, 31, 17)] {
             let set = Raster::from_fn(width, height, |x, y| {
-                (x * x * 7 + y * 13 + x * y) % step == 1
+                (x * x * 7 + y * 13 + x * y) % step == 0
             });
             let found = nearest(&set).expect("each scatter has a pixel");
             for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {

@@ -1,0 +1,178 @@
+//! A filter: what `filter.toml` and its kernels say, checked.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use frame::Alignment;
+use include_dir::{Dir, include_dir};
+
+use crate::gpu::Shader;
+use crate::{FilterError, Parameter, Settings, Value, manifest, wiring};
+
+static BUILTIN: Dir = include_dir!("$CARGO_MANIFEST_DIR/../../shaders");
+
+/// A filter folder, read and checked: everything but the adapter is known to fit.
+#[derive(Clone, Debug)]
+pub struct Filter {
+    /// Also the name of its WGSL file and its word on the command line.
+    pub name: String,
+    /// What it is, in one sentence.
+    pub summary: String,
+    /// Where it was published.
+    pub source: String,
+    /// How far its smear reaches, in pixels or in frames of motion.
+    pub reach: String,
+    /// What it is known not to do.
+    pub cannot: String,
+    /// The shutter interval that its smear stands for.
+    pub alignment: Alignment,
+    /// Whether a mirrored frame gives the mirrored output with every preset.
+    pub mirror_symmetric: bool,
+    /// In the order of the WGSL struct `Parameters`.
+    pub parameters: Vec<Parameter>,
+    /// At least one; the first is the default.
+    pub presets: Vec<Preset>,
+    /// Textures between its passes.
+    pub textures: Vec<Texture>,
+    /// In the order in which they run.
+    pub passes: Vec<Pass>,
+    pub(crate) shader: Shader,
+}
+
+/// Named values for a filter's parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Preset {
+    /// What it is called on the command line.
+    pub name: String,
+    /// What it stands for.
+    pub doc: String,
+    /// The values that differ from the parameters' defaults.
+    pub values: BTreeMap<String, Value>,
+}
+
+/// What one pass leaves for another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Texture {
+    /// WGSL variable that reads it; `<name>_out` writes it.
+    pub name: String,
+    /// Numbers per texel.
+    pub format: Format,
+    /// Integer parameter by which the image's size is divided, rounded up; `None` for the image's own size.
+    pub divided_by: Option<String>,
+}
+
+/// Texel format: 32-bit floats.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Format {
+    /// One number.
+    R32Float,
+    /// Two.
+    Rg32Float,
+    /// Four.
+    Rgba32Float,
+}
+
+/// One kernel, run over a whole texture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pass {
+    /// Entry point of the kernel; the pass's name in messages.
+    pub entry: String,
+    /// Texture whose texels it runs over; `None` for the image's pixels.
+    pub over: Option<String>,
+    /// How often it runs.
+    pub repeat: Repeat,
+}
+
+/// How often a pass runs.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Repeat {
+    /// A fixed number of times.
+    Times(u32),
+    /// As often as this integer parameter says.
+    Parameter(String),
+}
+
+impl Filter {
+    /// Reads and checks a filter folder: `filter.toml` and the WGSL file that it names.
+    pub fn load(folder: &Path) -> Result<Self, FilterError> {
+        let read = |file: PathBuf| {
+            std::fs::read_to_string(&file).map_err(|error| FilterError::Folder {
+                path: file,
+                line: None,
+                reason: format!("cannot be read: {error}; a filter folder holds filter.toml and <name>.wgsl"),
+            })
+        };
+        let manifest = read(folder.join("filter.toml"))?;
+        Self::parse(folder, &manifest, read)
+    }
+
+    /// A filter that the program brings along.
+    pub fn builtin(name: &str) -> Result<Self, FilterError> {
+        let folder = BUILTIN
+            .get_dir(name)
+            .ok_or_else(|| FilterError::UnknownFilter {
+                name: name.to_owned(),
+                known: Self::builtin_names(),
+            })?;
+        let text = |path: &Path| {
+            let file = BUILTIN.get_file(path);
+            file.and_then(|file| file.contents_utf8())
+                .unwrap_or_else(|| panic!("{} is embedded as text", path.display()))
+                .to_owned()
+        };
+        let manifest = text(&folder.path().join("filter.toml"));
+        Self::parse(folder.path(), &manifest, |path| Ok(text(&path)))
+    }
+
+    /// Every built-in filter, in alphabetical order.
+    pub fn builtin_names() -> Vec<String> {
+        let mut names: Vec<String> = BUILTIN
+            .dirs()
+            .map(|folder| folder.path().display().to_string())
+            .collect();
+        names.sort();
+        names
+    }
+
+    /// The values of a preset, or of the first one.
+    pub fn settings(&self, preset: Option<&str>) -> Result<Settings, FilterError> {
+        let preset = match preset {
+            None => &self.presets[0],
+            Some(name) => self
+                .presets
+                .iter()
+                .find(|preset| preset.name == name)
+                .ok_or_else(|| FilterError::UnknownPreset {
+                    filter: self.name.clone(),
+                    preset: name.to_owned(),
+                    known: self.presets.iter().map(|p| p.name.clone()).collect(),
+                })?,
+        };
+        let mut values: BTreeMap<String, Value> = self
+            .parameters
+            .iter()
+            .map(|parameter| (parameter.name.clone(), parameter.default.clone()))
+            .collect();
+        values.extend(preset.values.clone());
+        Ok(Settings {
+            preset: preset.name.clone(),
+            values,
+        })
+    }
+
+    fn parse(
+        folder: &Path,
+        manifest: &str,
+        read: impl Fn(PathBuf) -> Result<String, FilterError>,
+    ) -> Result<Self, FilterError> {
+        let (mut filter, lines) = manifest::read(&folder.join("filter.toml"), manifest)?;
+        let kernels = folder.join(format!("{}.wgsl", filter.name));
+        filter.shader = Shader::parse(&kernels, &read(kernels.clone())?, COMMON)?;
+        wiring::check(&filter, &lines)?;
+        Ok(filter)
+    }
+}
+
+/// Appended to every filter's kernels.
+pub(crate) const COMMON: &str = include_str!("../../../shaders/common.wgsl");

@@ -1,0 +1,119 @@
+//! Which GPU runs the filters.
+
+use serde::Serialize;
+
+use crate::FilterError;
+
+/// What a run records about the GPU that it used.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct AdapterDescription {
+    /// The device's name.
+    pub name: String,
+    /// The driver and its version.
+    pub driver: String,
+    /// The interface it is driven by: `vulkan`, `metal`, `dx12`.
+    pub backend: String,
+    /// `discrete`, `integrated`, `virtual`, `software` or `other`.
+    pub kind: String,
+}
+
+/// An opened GPU.
+#[derive(Debug)]
+pub struct Gpu {
+    /// What it is.
+    pub adapter: AdapterDescription,
+    pub(super) device: wgpu::Device,
+    pub(super) queue: wgpu::Queue,
+}
+
+/// Every adapter of this machine; its index and its name choose it in [`Gpu::new`].
+pub fn list_adapters() -> Vec<AdapterDescription> {
+    adapters().iter().map(describe).collect()
+}
+
+impl Gpu {
+    /// Opens the adapter with that index in [`list_adapters`], or the first whose name contains the text (in any
+    /// case). `None` takes the first of the fastest kind: discrete, integrated, virtual, then software.
+    pub fn new(adapter: Option<&str>) -> Result<Self, FilterError> {
+        let adapters = adapters();
+        if adapters.is_empty() {
+            return Err(FilterError::NoAdapter);
+        }
+        let chosen = match adapter {
+            None => adapters.iter().min_by_key(|adapter| rank(adapter)),
+            Some(wanted) => choose(&adapters, wanted),
+        };
+        let chosen = chosen.ok_or_else(|| FilterError::UnknownAdapter {
+            wanted: adapter.unwrap_or_default().to_owned(),
+            found: adapters
+                .iter()
+                .enumerate()
+                .map(|(index, adapter)| format!("{index}: {}", adapter.get_info().name))
+                .collect(),
+        })?;
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("shuttertruth"),
+            required_limits: chosen.limits(),
+            ..Default::default()
+        };
+        let description = describe(chosen);
+        let (device, queue) =
+            pollster::block_on(chosen.request_device(&descriptor)).map_err(|error| {
+                FilterError::Device {
+                    adapter: description.name.clone(),
+                    reason: error.to_string(),
+                }
+            })?;
+        Ok(Self {
+            adapter: description,
+            device,
+            queue,
+        })
+    }
+}
+
+fn adapters() -> Vec<wgpu::Adapter> {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+        // The driver's validation layers would print to the terminal what wgpu already reports.
+        flags: wgpu::InstanceFlags::empty(),
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    });
+    pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()))
+}
+
+fn choose<'a>(adapters: &'a [wgpu::Adapter], wanted: &str) -> Option<&'a wgpu::Adapter> {
+    if let Ok(index) = wanted.parse::<usize>() {
+        return adapters.get(index);
+    }
+    let wanted = wanted.to_lowercase();
+    adapters
+        .iter()
+        .find(|adapter| adapter.get_info().name.to_lowercase().contains(&wanted))
+}
+
+fn rank(adapter: &wgpu::Adapter) -> u32 {
+    match adapter.get_info().device_type {
+        wgpu::DeviceType::DiscreteGpu => 0,
+        wgpu::DeviceType::IntegratedGpu => 1,
+        wgpu::DeviceType::VirtualGpu => 2,
+        wgpu::DeviceType::Cpu => 3,
+        wgpu::DeviceType::Other => 4,
+    }
+}
+
+fn describe(adapter: &wgpu::Adapter) -> AdapterDescription {
+    let info = adapter.get_info();
+    let kind = match info.device_type {
+        wgpu::DeviceType::DiscreteGpu => "discrete",
+        wgpu::DeviceType::IntegratedGpu => "integrated",
+        wgpu::DeviceType::VirtualGpu => "virtual",
+        wgpu::DeviceType::Cpu => "software",
+        wgpu::DeviceType::Other => "other",
+    };
+    AdapterDescription {
+        name: info.name,
+        driver: [info.driver, info.driver_info].join(" ").trim().to_owned(),
+        backend: info.backend.to_string(),
+        kind: kind.to_owned(),
+    }
+}

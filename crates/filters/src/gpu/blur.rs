@@ -1,0 +1,217 @@
+//! Runs a filter: uploads the frame, dispatches the passes, reads the image back.
+
+use frame::{Image, Plane, Raster, Vectors};
+
+use super::adapter::Gpu;
+use super::plan::{FrameUniform, Plan};
+use super::transfer::{Place, padded_row};
+use crate::{Filter, FilterError, Format, Settings};
+
+/// What a filter blurs: one instant, as [`frame::Frame`] holds it.
+#[derive(Clone, Copy, Debug)]
+pub struct Input<'a> {
+    /// One or more images that are blurred with the same weights; an object's coverage may travel as a colour.
+    pub color: &'a [&'a Image],
+    /// Screen motion in pixels per frame, +x right, +y down.
+    pub velocity: &'a Vectors,
+    /// Distance along the view axis, in metres; above 0.
+    pub depth: &'a Plane,
+    /// How long the shutter is open, in frames; above 0.
+    pub exposure: f64,
+    /// Changes the noise of filters that have any, and nothing else.
+    pub frame_index: u32,
+}
+
+/// A filter ready to run on images of one size.
+#[derive(Debug)]
+pub struct Blur<'g> {
+    gpu: &'g Gpu,
+    filter: String,
+    size: [u32; 2],
+    plan: Plan,
+}
+
+impl<'g> Blur<'g> {
+    /// Compiles the kernels and makes the textures for one filter, its settings and a size in pixels.
+    pub fn new(
+        gpu: &'g Gpu,
+        filter: &Filter,
+        settings: &Settings,
+        width: u32,
+        height: u32,
+    ) -> Result<Self, FilterError> {
+        settings.check(filter)?;
+        check_size(gpu, filter, width, height)?;
+        Ok(Self {
+            gpu,
+            filter: filter.name.clone(),
+            size: [width, height],
+            plan: Plan::new(gpu, filter, settings, [width, height])?,
+        })
+    }
+
+    /// Blurs every colour image of the input, in order. The same input gives the same bytes on the same adapter.
+    pub fn run(&mut self, input: &Input) -> Result<Vec<Image>, FilterError> {
+        self.check(input)?;
+        self.upload(input)?;
+        let mut outputs = Vec::new();
+        for color in input.color {
+            let texels: Vec<f32> = color
+                .pixels
+                .iter()
+                .flat_map(|[r, g, b]| [*r, *g, *b, 1.0])
+                .collect();
+            self.gpu.guarded(self.place("upload"), || {
+                self.gpu.upload(self.plan.target("color"), &texels);
+            })?;
+            // What does not depend on colour is still there from the first image.
+            self.dispatch(!outputs.is_empty())?;
+            let output = self
+                .gpu
+                .download(self.plan.target("output"), self.place("read back"))?;
+            outputs.push(output.map(|[r, g, b, _]| [*r, *g, *b]));
+        }
+        Ok(outputs)
+    }
+
+    /// What the last run left in a texture between the passes; components that its format lacks are 0. For tests and
+    /// for looking inside. Panics where the filter has no such texture.
+    pub fn texture(&self, name: &str) -> Result<Raster<[f32; 4]>, FilterError> {
+        let target = self.plan.target(name);
+        self.gpu.download(target, self.place("read back"))
+    }
+
+    fn place<'a>(&'a self, pass: &'a str) -> Place<'a> {
+        Place {
+            filter: &self.filter,
+            pass,
+        }
+    }
+
+    fn upload(&self, input: &Input) -> Result<(), FilterError> {
+        let [width, height] = self.size;
+        let frame = FrameUniform {
+            size: [width as i32, height as i32],
+            exposure: input.exposure as f32,
+            frame_index: input.frame_index,
+            ..FrameUniform::default()
+        };
+        self.gpu.guarded(self.place("upload"), || {
+            let velocity = bytemuck::cast_slice(&input.velocity.pixels);
+            self.gpu.upload(self.plan.target("velocity"), velocity);
+            self.gpu.upload(self.plan.target("depth"), &input.depth.pixels);
+            self.plan.upload_frame(self.gpu, frame);
+        })
+    }
+
+    fn dispatch(&self, only_color: bool) -> Result<(), FilterError> {
+        let steps = self.plan.steps.iter();
+        for step in steps.filter(|step| step.depends_on_color || !only_color) {
+            self.gpu.guarded(self.place(&step.entry), || {
+                let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+                {
+                    let mut pass = encoder.begin_compute_pass(&Default::default());
+                    pass.set_pipeline(&step.pipeline);
+                    pass.set_bind_group(0, &step.bind_group, &[]);
+                    let [x, y] = step.workgroups;
+                    pass.dispatch_workgroups(x, y, 1);
+                }
+                self.gpu.queue.submit([encoder.finish()]);
+            })?;
+        }
+        Ok(())
+    }
+
+    fn check(&self, input: &Input) -> Result<(), FilterError> {
+        let refuse = |reason: String| {
+            Err(FilterError::Input {
+                filter: self.filter.clone(),
+                reason,
+            })
+        };
+        if !(input.exposure.is_finite() && input.exposure > 0.0) {
+            return refuse(format!(
+                "exposure is {} frames; allowed: above 0 and finite",
+                input.exposure
+            ));
+        }
+        let [width, height] = self.size;
+        let mut rasters = vec![
+            ("velocity", size(input.velocity)),
+            ("depth", size(input.depth)),
+        ];
+        rasters.extend(input.color.iter().map(|color| ("color", size(color))));
+        for (name, found) in rasters {
+            if found != self.size {
+                return refuse(format!(
+                    "{name} has {}x{} pixels; this blur was made for {width}x{height}",
+                    found[0], found[1]
+                ));
+            }
+        }
+        let finite = |values: &[f32]| values.iter().all(|value| value.is_finite());
+        let broken = [
+            (
+                "velocity",
+                "finite",
+                input.velocity.pixels.iter().position(|v| !finite(v)),
+            ),
+            (
+                "depth",
+                "finite and above 0",
+                input
+                    .depth
+                    .pixels
+                    .iter()
+                    .position(|z| !z.is_finite() || *z <= 0.0),
+            ),
+            (
+                "color",
+                "finite",
+                input
+                    .color
+                    .iter()
+                    .find_map(|color| color.pixels.iter().position(|c| !finite(c))),
+            ),
+        ];
+        for (name, allowed, index) in broken {
+            if let Some(index) = index {
+                let (x, y) = (index as u32 % width, index as u32 / width);
+                return refuse(format!("{name} at ({x}, {y}) is not {allowed}"));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn size<T>(raster: &Raster<T>) -> [u32; 2] {
+    [raster.width, raster.height]
+}
+
+fn check_size(gpu: &Gpu, filter: &Filter, width: u32, height: u32) -> Result<(), FilterError> {
+    let limits = gpu.device.limits();
+    let side = limits.max_texture_dimension_2d;
+    let image = padded_row(width, Format::Rgba32Float) * u64::from(height);
+    let reason = if width == 0 || height == 0 {
+        "allowed: at least 1x1".to_owned()
+    } else if width > side || height > side {
+        format!(
+            "adapter \"{}\" allows {side} on a side; render a smaller frame or choose another adapter",
+            gpu.adapter.name
+        )
+    } else if image > limits.max_buffer_size {
+        format!(
+            "it takes {image} bytes, and adapter \"{}\" allows {} in one buffer; render a smaller frame or choose \
+             another adapter",
+            gpu.adapter.name, limits.max_buffer_size
+        )
+    } else {
+        return Ok(());
+    };
+    Err(FilterError::Size {
+        filter: filter.name.clone(),
+        width,
+        height,
+        reason,
+    })
+}

@@ -1,0 +1,271 @@
+//! What a kernel file declares, found with naga's reflection; needs no adapter.
+
+use std::path::Path;
+
+use wgpu::naga::proc::Layouter;
+use wgpu::naga::valid::{Capabilities, GlobalUse, ModuleInfo, ValidationFlags, Validator};
+use wgpu::naga::{
+    AddressSpace, GlobalVariable, Handle, ImageClass, ImageDimension, Module, Scalar, ScalarKind,
+    StorageAccess, StorageFormat, TypeInner, front,
+};
+
+use crate::FilterError;
+use crate::filter::Format;
+
+/// The kernels of a filter with the common part behind them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Shader {
+    /// WGSL: the filter's file, then common.wgsl.
+    pub source: String,
+    /// Resource variables of group 0, in order of declaration.
+    pub variables: Vec<Variable>,
+    /// Members of the uniform `parameters`.
+    pub members: Vec<Member>,
+    /// Compute entry points.
+    pub entry_points: Vec<EntryPoint>,
+}
+
+/// A resource variable.
+#[derive(Clone, Debug)]
+pub(crate) struct Variable {
+    pub name: String,
+    pub binding: u32,
+    pub role: Role,
+    /// In the WGSL file, from 1.
+    pub line: usize,
+}
+
+/// What a resource variable is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Role {
+    /// `var<uniform>`.
+    Uniform,
+    /// `texture_2d<f32>`.
+    Read,
+    /// `texture_storage_2d<format, write>`.
+    Write(Format),
+}
+
+/// A member of the struct `Parameters`.
+#[derive(Clone, Debug)]
+pub(crate) struct Member {
+    pub name: String,
+    /// `i32`, `u32`, `f32`, or what else was found.
+    pub wgsl_type: String,
+    /// In bytes.
+    pub offset: u32,
+    pub line: usize,
+}
+
+/// A kernel.
+#[derive(Clone, Debug)]
+pub(crate) struct EntryPoint {
+    pub name: String,
+    /// Invocations per workgroup.
+    pub workgroup_size: [u32; 3],
+    /// Indices of the variables that it uses.
+    pub variables: Vec<usize>,
+}
+
+impl Shader {
+    /// Parses and validates the kernels at `path`, with `common` appended after them.
+    pub fn parse(path: &Path, kernels: &str, common: &str) -> Result<Self, FilterError> {
+        let source = Source {
+            path,
+            kernel_lines: kernels.trim_end().lines().count(),
+            text: format!("{}\n{common}", kernels.trim_end()),
+        };
+        let module = front::wgsl::parse_str(&source.text).map_err(|error| {
+            let line = error.location(&source.text);
+            source.refuse(line, error.emit_to_string_with_path(&source.text, source.name()))
+        })?;
+        let info = Validator::new(ValidationFlags::all(), Capabilities::default())
+            .validate(&module)
+            .map_err(|error| {
+                let line = error.location(&source.text);
+                source.refuse(line, error.emit_to_string_with_path(&source.text, source.name()))
+            })?;
+        let handles: Vec<Handle<GlobalVariable>> = module
+            .global_variables
+            .iter()
+            .filter(|(_, variable)| variable.binding.is_some())
+            .map(|(handle, _)| handle)
+            .collect();
+        let variables = handles
+            .iter()
+            .map(|handle| variable(&source, &module, *handle))
+            .collect::<Result<_, _>>()?;
+        Ok(Self {
+            variables,
+            members: members(&source, &module),
+            entry_points: entry_points(&module, &info, &handles),
+            source: source.text,
+        })
+    }
+
+    /// The entry point of that name.
+    pub fn entry_point(&self, name: &str) -> Option<&EntryPoint> {
+        self.entry_points.iter().find(|entry| entry.name == name)
+    }
+}
+
+struct Source<'a> {
+    path: &'a Path,
+    text: String,
+    kernel_lines: usize,
+}
+
+impl Source<'_> {
+    fn name(&self) -> &str {
+        let name = self.path.file_name().and_then(|name| name.to_str());
+        name.expect("the WGSL file is named after the filter")
+    }
+
+    fn refuse(
+        &self,
+        place: Option<wgpu::naga::SourceLocation>,
+        reason: String,
+    ) -> FilterError {
+        self.at(place.map(|place| place.line_number as usize), reason)
+    }
+
+    fn at(&self, line: Option<usize>, reason: String) -> FilterError {
+        let (line, reason) = match line {
+            Some(line) if line > self.kernel_lines => (
+                None,
+                format!(
+                    "does not go together with common.wgsl, line {}: {reason}",
+                    line - self.kernel_lines
+                ),
+            ),
+            line => (line, reason),
+        };
+        FilterError::Folder {
+            path: self.path.to_owned(),
+            line,
+            reason,
+        }
+    }
+
+    fn line(&self, module: &Module, handle: Handle<GlobalVariable>) -> usize {
+        let span = module.global_variables.get_span(handle);
+        span.location(&self.text).line_number as usize
+    }
+}
+
+fn variable(
+    source: &Source,
+    module: &Module,
+    handle: Handle<GlobalVariable>,
+) -> Result<Variable, FilterError> {
+    let variable = &module.global_variables[handle];
+    let name = variable.name.clone().unwrap_or_default();
+    let line = source.line(module, handle);
+    let binding = variable.binding.expect("only bound variables are listed");
+    if binding.group != 0 {
+        return Err(source.at(
+            Some(line),
+            format!("\"{name}\" is in group {}; only @group(0) is bound", binding.group),
+        ));
+    }
+    let role = match (&variable.space, &module.types[variable.ty].inner) {
+        (AddressSpace::Uniform, _) => Some(Role::Uniform),
+        (
+            AddressSpace::Handle,
+            TypeInner::Image {
+                dim: ImageDimension::D2,
+                arrayed: false,
+                class,
+            },
+        ) => image_role(*class),
+        _ => None,
+    };
+    let role = role.ok_or_else(|| {
+        source.at(
+            Some(line),
+            format!(
+                "\"{name}\" cannot be bound; allowed: var<uniform>, texture_2d<f32>, and \
+                 texture_storage_2d<r32float | rg32float | rgba32float, write>"
+            ),
+        )
+    })?;
+    Ok(Variable {
+        name,
+        binding: binding.binding,
+        role,
+        line,
+    })
+}
+
+fn image_role(class: ImageClass) -> Option<Role> {
+    match class {
+        ImageClass::Sampled {
+            kind: ScalarKind::Float,
+            multi: false,
+        } => Some(Role::Read),
+        ImageClass::Storage { format, access } if access == StorageAccess::STORE => {
+            let format = match format {
+                StorageFormat::R32Float => Format::R32Float,
+                StorageFormat::Rg32Float => Format::Rg32Float,
+                StorageFormat::Rgba32Float => Format::Rgba32Float,
+                _ => return None,
+            };
+            Some(Role::Write(format))
+        }
+        _ => None,
+    }
+}
+
+fn members(source: &Source, module: &Module) -> Vec<Member> {
+    let mut layouter = Layouter::default();
+    layouter
+        .update(module.to_ctx())
+        .expect("a validated module has a layout");
+    let mut variables = module.global_variables.iter();
+    let Some((handle, parameters)) =
+        variables.find(|(_, variable)| variable.name.as_deref() == Some("parameters"))
+    else {
+        return Vec::new();
+    };
+    let line = source.line(module, handle);
+    let member = |name: &Option<String>, ty, offset| Member {
+        name: name.clone().unwrap_or_default(),
+        wgsl_type: match &module.types[ty].inner {
+            TypeInner::Scalar(Scalar::I32) => "i32".into(),
+            TypeInner::Scalar(Scalar::U32) => "u32".into(),
+            TypeInner::Scalar(Scalar::F32) => "f32".into(),
+            other => format!("{other:?} of {} bytes", layouter[ty].size),
+        },
+        offset,
+        line,
+    };
+    match &module.types[parameters.ty].inner {
+        TypeInner::Struct { members, .. } => members
+            .iter()
+            .map(|found| member(&found.name, found.ty, found.offset))
+            .collect(),
+        _ => vec![member(&parameters.name, parameters.ty, 0)],
+    }
+}
+
+fn entry_points(
+    module: &Module,
+    info: &ModuleInfo,
+    handles: &[Handle<GlobalVariable>],
+) -> Vec<EntryPoint> {
+    module
+        .entry_points
+        .iter()
+        .enumerate()
+        .map(|(index, entry)| {
+            let used = info.get_entry_point(index);
+            EntryPoint {
+                name: entry.name.clone(),
+                workgroup_size: entry.workgroup_size,
+                variables: (0..handles.len())
+                    .filter(|variable| used[handles[*variable]] != GlobalUse::empty())
+                    .collect(),
+            }
+        })
+        .collect()
+}

@@ -1,0 +1,177 @@
+//! Images to and from the GPU, and wgpu's errors as ours.
+
+use frame::Raster;
+
+use super::adapter::Gpu;
+use crate::{FilterError, Format};
+
+impl Format {
+    /// Numbers per texel.
+    pub(super) fn components(self) -> usize {
+        match self {
+            Format::R32Float => 1,
+            Format::Rg32Float => 2,
+            Format::Rgba32Float => 4,
+        }
+    }
+
+    pub(super) fn wgpu(self) -> wgpu::TextureFormat {
+        match self {
+            Format::R32Float => wgpu::TextureFormat::R32Float,
+            Format::Rg32Float => wgpu::TextureFormat::Rg32Float,
+            Format::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
+        }
+    }
+}
+
+/// A texture of the runner, whole.
+#[derive(Debug)]
+pub(super) struct Target {
+    pub texture: wgpu::Texture,
+    pub view: wgpu::TextureView,
+    pub format: Format,
+}
+
+/// Where an error belongs.
+#[derive(Clone, Copy)]
+pub(super) struct Place<'a> {
+    pub filter: &'a str,
+    pub pass: &'a str,
+}
+
+impl Place<'_> {
+    fn refuse(self, reason: impl ToString) -> FilterError {
+        FilterError::Gpu {
+            filter: self.filter.to_owned(),
+            pass: self.pass.to_owned(),
+            reason: reason.to_string(),
+        }
+    }
+}
+
+/// Bytes per row of a buffer that a texture is copied to.
+pub(super) fn padded_row(width: u32, format: Format) -> u64 {
+    let bytes = u64::from(width) * 4 * format.components() as u64;
+    bytes.next_multiple_of(u64::from(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT))
+}
+
+impl Gpu {
+    /// Does `work` and turns whatever wgpu has against it into an error that names the place.
+    pub(super) fn guarded<T>(
+        &self,
+        place: Place,
+        work: impl FnOnce() -> T,
+    ) -> Result<T, FilterError> {
+        let [memory, internal, validation] = [
+            wgpu::ErrorFilter::OutOfMemory,
+            wgpu::ErrorFilter::Internal,
+            wgpu::ErrorFilter::Validation,
+        ]
+        .map(|kind| self.device.push_error_scope(kind));
+        let value = work();
+        let errors = [validation, internal, memory].map(|scope| pollster::block_on(scope.pop()));
+        match errors.into_iter().flatten().next() {
+            None => Ok(value),
+            Some(error) => Err(place.refuse(error)),
+        }
+    }
+
+    pub(super) fn target(&self, label: &str, width: u32, height: u32, format: Format) -> Target {
+        let texture = self.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(label),
+            size: wgpu::Extent3d {
+                width,
+                height,
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: format.wgpu(),
+            usage: wgpu::TextureUsages::TEXTURE_BINDING
+                | wgpu::TextureUsages::STORAGE_BINDING
+                | wgpu::TextureUsages::COPY_DST
+                | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        });
+        Target {
+            view: texture.create_view(&wgpu::TextureViewDescriptor::default()),
+            texture,
+            format,
+        }
+    }
+
+    /// Fills a texture with rows of `target.format` without padding.
+    pub(super) fn upload(&self, target: &Target, values: &[f32]) {
+        let row = target.texture.width() * 4 * target.format.components() as u32;
+        self.queue.write_texture(
+            target.texture.as_image_copy(),
+            bytemuck::cast_slice(values),
+            wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(row),
+                rows_per_image: None,
+            },
+            target.texture.size(),
+        );
+    }
+
+    /// Waits for the GPU and reads a texture; components that its format lacks are 0.
+    pub(super) fn download(
+        &self,
+        target: &Target,
+        place: Place,
+    ) -> Result<Raster<[f32; 4]>, FilterError> {
+        let (width, height) = (target.texture.width(), target.texture.height());
+        let padded = padded_row(width, target.format);
+        let buffer = self.guarded(place, || {
+            let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("read back"),
+                size: padded * u64::from(height),
+                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+                mapped_at_creation: false,
+            });
+            let mut encoder = self.device.create_command_encoder(&Default::default());
+            encoder.copy_texture_to_buffer(
+                target.texture.as_image_copy(),
+                wgpu::TexelCopyBufferInfo {
+                    buffer: &buffer,
+                    layout: wgpu::TexelCopyBufferLayout {
+                        offset: 0,
+                        bytes_per_row: Some(padded as u32),
+                        rows_per_image: None,
+                    },
+                },
+                target.texture.size(),
+            );
+            self.queue.submit([encoder.finish()]);
+            buffer
+        })?;
+        let (sender, receiver) = std::sync::mpsc::channel();
+        buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+            _ = sender.send(result);
+        });
+        self.device
+            .poll(wgpu::PollType::wait_indefinitely())
+            .map_err(|error| place.refuse(error))?;
+        match receiver.try_recv() {
+            Ok(Ok(())) => {}
+            Ok(Err(error)) => return Err(place.refuse(error)),
+            Err(_) => return Err(place.refuse("the GPU stopped answering")),
+        }
+        let bytes = buffer
+            .get_mapped_range(..)
+            .map_err(|error| place.refuse(error))?;
+        let components = target.format.components();
+        Ok(Raster::from_fn(width, height, |x, y| {
+            let start = y as usize * padded as usize + x as usize * 4 * components;
+            let mut texel = [0.0; 4];
+            for (index, value) in texel[..components].iter_mut().enumerate() {
+                let at = start + 4 * index;
+                let word = [bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]];
+                *value = f32::from_ne_bytes(word);
+            }
+            texel
+        }))
+    }
+}

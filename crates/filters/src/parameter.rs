@@ -1,0 +1,132 @@
+//! What a person or a tuner may change about a filter.
+
+use serde::Serialize;
+
+/// One parameter of a filter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// Name in `filter.toml`, in the WGSL struct `Parameters` and on the command line.
+    pub name: String,
+    /// What values it takes.
+    pub kind: Kind,
+    /// The value where a preset names none.
+    pub default: Value,
+    /// Whether a tuner may change it.
+    pub tunable: bool,
+    /// Meaning and unit, and what raising it costs.
+    pub doc: String,
+}
+
+/// What values a parameter takes; both ends of a range are allowed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Kind {
+    /// Whole numbers; `i32` in WGSL.
+    Integer {
+        /// Smallest value.
+        min: i32,
+        /// Largest value.
+        max: i32,
+        /// How a tuner should step through the range.
+        scale: Scale,
+    },
+    /// Real numbers; `f32` in WGSL.
+    Real {
+        /// Smallest value.
+        min: f64,
+        /// Largest value.
+        max: f64,
+        /// How a tuner should step through the range.
+        scale: Scale,
+    },
+    /// One of a few names; their index as `u32` in WGSL.
+    Choice {
+        /// The names, in the order of their indices.
+        choices: Vec<String>,
+    },
+}
+
+/// How a range is divided into steps that matter alike.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Scale {
+    /// Equal differences.
+    #[default]
+    Linear,
+    /// Equal ratios.
+    Log,
+}
+
+/// A parameter's value.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Value {
+    /// Of an integer parameter.
+    Integer(i32),
+    /// Of a real parameter.
+    Real(f64),
+    /// Of a choice: its name.
+    Choice(String),
+}
+
+impl std::fmt::Display for Value {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Value::Integer(value) => write!(f, "{value}"),
+            Value::Real(value) => write!(f, "{value}"),
+            Value::Choice(name) => f.write_str(name),
+        }
+    }
+}
+
+impl Kind {
+    /// The values allowed, in words.
+    pub fn allowed(&self) -> String {
+        match self {
+            Kind::Integer { min, max, .. } => format!("a whole number from {min} to {max}"),
+            Kind::Real { min, max, .. } => format!("a number from {min} to {max}"),
+            Kind::Choice { choices } => format!("one of {}", choices.join(", ")),
+        }
+    }
+
+    /// Whether the value is of this kind and in range.
+    pub fn allows(&self, value: &Value) -> bool {
+        match (self, value) {
+            (Kind::Integer { min, max, .. }, Value::Integer(value)) => (min..=max).contains(&value),
+            (Kind::Real { min, max, .. }, Value::Real(value)) => (min..=max).contains(&value),
+            (Kind::Choice { choices }, Value::Choice(name)) => choices.contains(name),
+            _ => false,
+        }
+    }
+
+    /// The value that a text stands for; `None` where this kind does not allow it.
+    pub fn parse(&self, text: &str) -> Option<Value> {
+        let value = match self {
+            Kind::Integer { .. } => Value::Integer(text.parse().ok()?),
+            Kind::Real { .. } => Value::Real(text.parse().ok()?),
+            Kind::Choice { .. } => Value::Choice(text.to_owned()),
+        };
+        self.allows(&value).then_some(value)
+    }
+
+    /// The scalar type of the member in the WGSL struct.
+    pub(crate) fn wgsl_type(&self) -> &'static str {
+        match self {
+            Kind::Integer { .. } => "i32",
+            Kind::Real { .. } => "f32",
+            Kind::Choice { .. } => "u32",
+        }
+    }
+
+    /// The value as the WGSL struct holds it.
+    pub(crate) fn bytes(&self, value: &Value) -> [u8; 4] {
+        match (self, value) {
+            (_, Value::Integer(value)) => value.to_ne_bytes(),
+            (_, Value::Real(value)) => (*value as f32).to_ne_bytes(),
+            (Kind::Choice { choices }, Value::Choice(name)) => {
+                let index = choices.iter().position(|choice| choice == name);
+                (index.expect("settings hold only allowed values") as u32).to_ne_bytes()
+            }
+            (_, Value::Choice(_)) => unreachable!("settings hold only values of their kind"),
+        }
+    }
+}

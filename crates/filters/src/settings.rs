@@ -1,0 +1,110 @@
+//! The parameter values that a filter runs with.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::{Filter, FilterError, Parameter, Value};
+
+/// A value for every parameter of one filter.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Settings {
+    /// The preset that the values started from.
+    pub preset: String,
+    /// By parameter name.
+    pub values: BTreeMap<String, Value>,
+}
+
+impl Settings {
+    /// Sets a parameter from text, as the command line gives it.
+    pub fn set(
+        &mut self,
+        filter: &Filter,
+        parameter: &str,
+        text: &str,
+    ) -> Result<(), FilterError> {
+        let known = find(filter, parameter)?;
+        let value = known
+            .kind
+            .parse(text)
+            .ok_or_else(|| refuse(filter, known, text))?;
+        self.values.insert(parameter.to_owned(), value);
+        Ok(())
+    }
+
+    /// Sets a parameter to a value.
+    pub fn set_value(
+        &mut self,
+        filter: &Filter,
+        parameter: &str,
+        value: Value,
+    ) -> Result<(), FilterError> {
+        let known = find(filter, parameter)?;
+        if !known.kind.allows(&value) {
+            return Err(refuse(filter, known, &value.to_string()));
+        }
+        self.values.insert(parameter.to_owned(), value);
+        Ok(())
+    }
+
+    /// Refuses settings that were made for another filter, or changed past what it allows.
+    pub(crate) fn check(&self, filter: &Filter) -> Result<(), FilterError> {
+        for name in self.values.keys() {
+            find(filter, name)?;
+        }
+        for parameter in &filter.parameters {
+            let value = self
+                .values
+                .get(&parameter.name)
+                .ok_or_else(|| refuse(filter, parameter, "nothing"))?;
+            if !parameter.kind.allows(value) {
+                return Err(refuse(filter, parameter, &value.to_string()));
+            }
+        }
+        Ok(())
+    }
+
+    /// The WGSL struct `Parameters`: four bytes per parameter, in order.
+    pub(crate) fn bytes(&self, filter: &Filter) -> Vec<u8> {
+        filter
+            .parameters
+            .iter()
+            .flat_map(|parameter| parameter.kind.bytes(&self.values[&parameter.name]))
+            .collect()
+    }
+
+    /// The value of an integer parameter that the folder's check found to be positive.
+    pub(crate) fn count(&self, parameter: &str) -> u32 {
+        match self.values[parameter] {
+            Value::Integer(value) if value > 0 => value as u32,
+            _ => unreachable!("counts come from integer parameters that start at 1"),
+        }
+    }
+}
+
+fn find<'f>(filter: &'f Filter, name: &str) -> Result<&'f Parameter, FilterError> {
+    let mut parameters = filter.parameters.iter();
+    parameters
+        .find(|parameter| parameter.name == name)
+        .ok_or_else(|| {
+            let names: Vec<&str> = filter.parameters.iter().map(|p| p.name.as_str()).collect();
+            let has = if names.is_empty() {
+                "it has none".to_owned()
+            } else {
+                format!("allowed: {}", names.join(", "))
+            };
+            FilterError::Parameter {
+                filter: filter.name.clone(),
+                parameter: name.to_owned(),
+                reason: format!("the filter has no such parameter; {has}"),
+            }
+        })
+}
+
+fn refuse(filter: &Filter, parameter: &Parameter, found: &str) -> FilterError {
+    FilterError::Parameter {
+        filter: filter.name.clone(),
+        parameter: parameter.name.clone(),
+        reason: format!("found {found}; allowed: {}", parameter.kind.allowed()),
+    }
+}

@@ -1,0 +1,76 @@
+// What several filters share; appended after every filter's kernels. Conventions: positions are in pixels, +x right,
+// +y down, and the centre of pixel (i, j) lies at (i + 0.5, j + 0.5).
+
+struct Frame {
+    // Pixels per row, rows.
+    size: vec2<i32>,
+    // How long the shutter is open, in frames.
+    exposure: f32,
+    // Changes the noise, and nothing else.
+    frame_index: u32,
+    // Of the pass that runs: 0 to iterations - 1.
+    iteration: u32,
+    iterations: u32,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+
+fn inside(pixel: vec2<i32>) -> bool {
+    return all(pixel >= vec2<i32>(0)) && all(pixel < frame.size);
+}
+
+fn centre(pixel: vec2<i32>) -> vec2<f32> {
+    return vec2<f32>(pixel) + 0.5;
+}
+
+// Whether a position lies on the image, its border included.
+fn on_screen(position: vec2<f32>) -> bool {
+    return all(position >= vec2<f32>(0.0)) && all(position <= vec2<f32>(frame.size));
+}
+
+// The pixel that holds a position; the nearest one at the border.
+fn pixel_at(position: vec2<f32>) -> vec2<i32> {
+    return clamp(vec2<i32>(floor(position)), vec2<i32>(0), frame.size - 1);
+}
+
+// The four texels around a position, clamped to the image, and how far it lies from `low` towards `high`.
+struct Corners {
+    low: vec2<i32>,
+    high: vec2<i32>,
+    fraction: vec2<f32>,
+}
+
+fn corners(position: vec2<f32>) -> Corners {
+    let from_centre = position - 0.5;
+    let base = floor(from_centre);
+    let texel = vec2<i32>(base);
+    let low = clamp(texel, vec2<i32>(0), frame.size - 1);
+    let high = clamp(texel + 1, vec2<i32>(0), frame.size - 1);
+    return Corners(low, high, from_centre - base);
+}
+
+// Written as a + f (b - a), so that equal values stay exactly what they are.
+fn blend(a: vec4<f32>, b: vec4<f32>, fraction: f32) -> vec4<f32> {
+    return a + fraction * (b - a);
+}
+
+// Bilinear, clamped to the edge. By hand, because filtering 32-bit floats is an optional feature of GPUs.
+fn bilinear(image: texture_2d<f32>, position: vec2<f32>) -> vec4<f32> {
+    let at = corners(position);
+    let top = blend(
+        textureLoad(image, at.low, 0),
+        textureLoad(image, vec2<i32>(at.high.x, at.low.y), 0),
+        at.fraction.x,
+    );
+    let bottom = blend(
+        textureLoad(image, vec2<i32>(at.low.x, at.high.y), 0),
+        textureLoad(image, at.high, 0),
+        at.fraction.x,
+    );
+    return blend(top, bottom, at.fraction.y);
+}
+
+// Interleaved gradient noise in [0, 1) (Jimenez 2014, Next Generation Post Processing in Call of Duty).
+fn interleaved_gradient_noise(position: vec2<f32>) -> f32 {
+    return fract(52.9829189 * fract(dot(position, vec2<f32>(0.06711056, 0.00583715))));
+}

@@ -1,0 +1,289 @@
+// Golan 2024, "Using the Jump Flood Algorithm to Dilate Velocity Maps", and the gather pass of its demo.
+//
+// The paper speaks of UV and of the velocity V that leads back to the previous frame; here positions are in pixels,
+// exact at pixel centres, and motion is the forward one, u = -V.
+
+struct Parameters {
+    samples: i32,
+    intensity: f32,
+    passes: i32,
+    step_multiplier: i32,
+    perpendicular_tolerance: f32,
+    probes: i32,
+    match_threshold: f32,
+    parallel_sensitivity: f32,
+    perpendicular_sensitivity: f32,
+    foreground_extent: f32,
+    mismatch_exponent: f32,
+    metric: u32,
+    reach_cap: u32,
+    jitter: u32,
+    kernel: u32,
+    fetch: u32,
+}
+
+@group(0) @binding(1) var<uniform> parameters: Parameters;
+@group(0) @binding(2) var color: texture_2d<f32>;
+@group(0) @binding(3) var velocity: texture_2d<f32>;
+@group(0) @binding(4) var depth: texture_2d<f32>;
+// The best source found so far: its position in pixels; 0; 1 where there is one.
+@group(0) @binding(5) var seeds: texture_2d<f32>;
+@group(0) @binding(6) var seeds_out: texture_storage_2d<rgba32float, write>;
+// The source that a pixel shows: its position in pixels; 0; 1 where the way back found no mover.
+@group(0) @binding(7) var sources: texture_2d<f32>;
+@group(0) @binding(8) var sources_out: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(9) var output: texture_storage_2d<rgba32float, write>;
+
+const METRIC_UV = 0u;
+const REACH_CAPPED = 0u;
+const REACH_DOUBLE = 1u;
+const JITTER_STEP_SCALE = 0u;
+const JITTER_START_OFFSET = 1u;
+const KERNEL_WITH_CENTRE = 1u;
+const FETCH_BILINEAR = 0u;
+
+// Squared motion, in pixels per frame, under which a pixel stands still. The paper compares with the smallest float,
+// which GPUs may flush to zero.
+const STILL = 1e-12;
+// In frames; a probe nearer than this is the pixel itself.
+const NO_TIME = 1e-12;
+// Probes may pass the end of the trail by this much, in frames.
+const PROBE_SLACK = 0.2;
+
+// The order decides between sources of equal depth. The demo skips the centre.
+const KERNEL = array<vec2<i32>, 9>(
+    vec2<i32>(0, 0),
+    vec2<i32>(1, 1),
+    vec2<i32>(0, 1),
+    vec2<i32>(-1, 1),
+    vec2<i32>(1, 0),
+    vec2<i32>(1, -1),
+    vec2<i32>(-1, 0),
+    vec2<i32>(-1, -1),
+    vec2<i32>(0, -1),
+);
+
+// The paper's m: how many frames of motion a trail is long.
+fn trail_frames() -> f32 {
+    return frame.exposure * parameters.intensity;
+}
+
+// From pixels to the space in which paths are measured.
+fn metric() -> vec2<f32> {
+    return select(vec2<f32>(1.0), 1.0 / vec2<f32>(frame.size), parameters.metric == METRIC_UV);
+}
+
+// Largest step of the dilation, in the space in which paths are measured. The paper takes the longer side of the
+// image for both axes, which cuts vertical trails of a wide image shorter.
+fn reach() -> f32 {
+    let pixels = f32((1 << u32(parameters.passes - 1)) * parameters.step_multiplier);
+    let side = f32(max(frame.size.x, frame.size.y));
+    return select(pixels, pixels / side, parameters.metric == METRIC_UV);
+}
+
+// `frames` of motion, cut where the dilation's reach ends. The quotient is the paper's; it is a time only for m = 1.
+fn within_reach(frames: f32, motion: vec2<f32>) -> f32 {
+    let quotient = reach() / (length(motion * metric()) * trail_frames());
+    switch parameters.reach_cap {
+        case REACH_CAPPED: {
+            return min(frames, quotient);
+        }
+        case REACH_DOUBLE: {
+            return min(frames, 2.0 * quotient);
+        }
+        default: {
+            return frames;
+        }
+    }
+}
+
+fn motion_at(position: vec2<f32>) -> vec2<f32> {
+    if parameters.fetch == FETCH_BILINEAR {
+        return bilinear(velocity, position).xy;
+    }
+    return textureLoad(velocity, pixel_at(position), 0).xy;
+}
+
+// Distance along the view axis. The demo filters the depth buffer, which holds near plane / distance: between texels
+// the inverse is linear, and the far value of the background does no harm.
+fn depth_at(position: vec2<f32>) -> f32 {
+    if parameters.fetch != FETCH_BILINEAR {
+        return textureLoad(depth, pixel_at(position), 0).x;
+    }
+    let at = corners(position);
+    let inverse = 1.0 / vec4<f32>(
+        textureLoad(depth, at.low, 0).x,
+        textureLoad(depth, vec2<i32>(at.high.x, at.low.y), 0).x,
+        textureLoad(depth, vec2<i32>(at.low.x, at.high.y), 0).x,
+        textureLoad(depth, at.high, 0).x,
+    );
+    let rows = inverse.xz + at.fraction.x * (inverse.yw - inverse.xz);
+    return 1.0 / (rows.x + at.fraction.y * (rows.y - rows.x));
+}
+
+struct Fitness {
+    // When the source was here, in frames before the instant.
+    frames: f32,
+    // Of the source, in metres.
+    depth: f32,
+    valid: bool,
+}
+
+// Whether the surface at `source` passed over `position` while the shutter was open (sample_fitness of the paper).
+fn fitness(position: vec2<f32>, source: vec2<f32>) -> Fitness {
+    let motion = motion_at(source);
+    if dot(motion, motion) <= STILL {
+        return Fitness(0.0, 0.0, false);
+    }
+    let path = motion * metric();
+    let offset = (source - position) * metric();
+    let along = dot(path, offset) / dot(path, path);
+    let beside = abs(path.y * offset.x - path.x * offset.y) / dot(path, path);
+    let middle = 0.5 * trail_frames();
+    let on_trail = abs(along - middle) <= middle;
+    let on_path = beside <= parameters.perpendicular_tolerance * trail_frames();
+    return Fitness(along, depth_at(source), on_trail && on_path);
+}
+
+// How much `other` differs from `motion`, relative to it, in [0, 1] (get_motion_difference of the paper).
+fn motion_difference(motion: vec2<f32>, other: vec2<f32>) -> f32 {
+    let path = motion * metric();
+    let change = path - other * metric();
+    let parallel = abs(dot(change, path)) / dot(path, path);
+    let perpendicular = abs(change.x * path.y - change.y * path.x) / dot(path, path);
+    return saturate(
+        parameters.parallel_sensitivity * parallel
+            + parameters.perpendicular_sensitivity * perpendicular,
+    );
+}
+
+// Every pixel begins as its own source. The demo's first iteration reads the neighbours themselves instead of a map,
+// which comes to the same.
+@compute @workgroup_size(8, 8)
+fn seed(@builtin(global_invocation_id) id: vec3<u32>) {
+    let pixel = vec2<i32>(id.xy);
+    if inside(pixel) {
+        textureStore(seeds_out, pixel, vec4<f32>(centre(pixel), 0.0, 0.0));
+    }
+}
+
+// One step of the flood: of what the neighbours hold, keep the nearest to the camera that passed over this pixel.
+@compute @workgroup_size(8, 8)
+fn dilate(@builtin(global_invocation_id) id: vec3<u32>) {
+    let pixel = vec2<i32>(id.xy);
+    if !inside(pixel) {
+        return;
+    }
+    let step = (1 << (frame.iterations - 1u - frame.iteration)) * parameters.step_multiplier;
+    var best = Fitness(0.0, 0.0, false);
+    var best_source = centre(pixel);
+    for (var i = select(1, 0, parameters.kernel == KERNEL_WITH_CENTRE); i < 9; i++) {
+        var kernel = KERNEL;
+        let neighbour = pixel + step * kernel[i];
+        if !inside(neighbour) {
+            continue;
+        }
+        let source = textureLoad(seeds, neighbour, 0).xy;
+        let candidate = fitness(centre(pixel), source);
+        if candidate.valid && (!best.valid || candidate.depth < best.depth) {
+            best = candidate;
+            best_source = source;
+        }
+    }
+    textureStore(seeds_out, pixel, vec4<f32>(best_source, 0.0, f32(best.valid)));
+}
+
+// Rejects sources behind the pixel, and walks from the pixel towards the source for the first that moves like it, so
+// that what the flood carried sideways falls away. The demo does this at the end of its last iteration.
+@compute @workgroup_size(8, 8)
+fn backtrack(@builtin(global_invocation_id) id: vec3<u32>) {
+    let pixel = vec2<i32>(id.xy);
+    if !inside(pixel) {
+        return;
+    }
+    let here = centre(pixel);
+    let found = textureLoad(seeds, pixel, 0);
+    let best = fitness(here, found.xy);
+    if found.w == 0.0 || depth_at(here) < best.depth {
+        textureStore(sources_out, pixel, vec4<f32>(here, 0.0, 0.0));
+        return;
+    }
+    let motion = motion_at(found.xy);
+    let frames = within_reach(best.frames, motion);
+    for (var probe = -parameters.probes; probe <= parameters.probes; probe++) {
+        let back = frames * (1.0 + f32(probe) / f32(parameters.probes));
+        let position = here + motion * back;
+        if back > trail_frames() + PROBE_SLACK || back < NO_TIME || !on_screen(position) {
+            continue;
+        }
+        if motion_difference(motion, motion_at(position)) <= parameters.match_threshold {
+            textureStore(sources_out, pixel, vec4<f32>(position, 0.0, 0.0));
+            return;
+        }
+    }
+    textureStore(sources_out, pixel, vec4<f32>(here, 0.0, 1.0));
+}
+
+// How much a tap counts whose source is `other`: less where that lies in front of `source` and moves otherwise.
+fn tap_weight(source: vec2<f32>, other: vec2<f32>) -> f32 {
+    let path = motion_at(source) * metric();
+    let change = path - motion_at(other) * metric();
+    let slower = saturate(dot(change, path) / dot(path, path));
+    let mismatch = select(0.0, pow(slower, parameters.mismatch_exponent), slower > 0.0);
+    let behind = depth_at(other) - depth_at(source);
+    let in_front = saturate(1.0 - behind / parameters.foreground_extent);
+    return 1.0 - in_front * mismatch;
+}
+
+// Where tap i lies on the trail, 0 at the pixel and 1 at its end.
+fn tap_position(i: i32, pixel: vec2<i32>) -> f32 {
+    // The demo walks a cycle of 8 frames.
+    let walk = f32(frame.frame_index % 8u) * vec2<f32>(47.0, 17.0) * 0.695;
+    let noise = interleaved_gradient_noise(vec2<f32>(pixel) + walk);
+    let even = f32(i) / f32(max(1, parameters.samples - 1));
+    switch parameters.jitter {
+        case JITTER_STEP_SCALE: {
+            return even * (0.5 + noise);
+        }
+        case JITTER_START_OFFSET: {
+            return (f32(i) + noise) / f32(parameters.samples);
+        }
+        default: {
+            return even;
+        }
+    }
+}
+
+// Averages colours along the motion of the pixel's source (the demo's blur; the paper leaves it out).
+@compute @workgroup_size(8, 8)
+fn gather(@builtin(global_invocation_id) id: vec3<u32>) {
+    let pixel = vec2<i32>(id.xy);
+    if !inside(pixel) {
+        return;
+    }
+    let here = textureLoad(color, pixel, 0);
+    let source = textureLoad(sources, pixel, 0).xy;
+    let motion = motion_at(source);
+    if dot(motion, motion) <= STILL || trail_frames() == 0.0 {
+        textureStore(output, pixel, here);
+        return;
+    }
+    let trail = motion * within_reach(trail_frames(), motion);
+    // A running mean keeps a constant colour exactly as it is. The pixel itself counts once: with shifted taps, the
+    // first of them stands for it.
+    var mean = here;
+    var total = select(1.0, 0.0, parameters.jitter == JITTER_START_OFFSET);
+    for (var i = i32(total); i < parameters.samples; i++) {
+        let position = centre(pixel) + trail * tap_position(i, pixel);
+        if !on_screen(position) {
+            break;
+        }
+        let other = textureLoad(sources, pixel_at(position), 0).xy;
+        let weight = tap_weight(source, other);
+        total += weight;
+        if weight > 0.0 {
+            mean += (bilinear(color, position) - mean) * (weight / total);
+        }
+    }
+    textureStore(output, pixel, mean);
+}
