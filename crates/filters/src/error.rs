@@ -20,9 +20,7 @@ pub enum FilterError {
         found: Vec<String>,
     },
     /// The adapter gives no device.
-    #[error(
-        "adapter \"{adapter}\" cannot be used: {reason}; choose another one with --adapter"
-    )]
+    #[error("adapter \"{adapter}\" cannot be used: {reason}; choose another one with --adapter")]
     Device {
         /// Name of the adapter.
         adapter: String,
@@ -68,9 +66,7 @@ pub enum FilterError {
         reason: String,
     },
     /// The image is too large, or empty.
-    #[error(
-        "filter {filter}: an image of {width}x{height} pixels cannot be blurred; {reason}"
-    )]
+    #[error("filter {filter}: an image of {width}x{height} pixels cannot be blurred; {reason}")]
     Size {
         /// The filter.
         filter: String,

@@ -100,7 +100,9 @@ impl Filter {
             std::fs::read_to_string(&file).map_err(|error| FilterError::Folder {
                 path: file,
                 line: None,
-                reason: format!("cannot be read: {error}; a filter folder holds filter.toml and <name>.wgsl"),
+                reason: format!(
+                    "cannot be read: {error}; a filter folder holds filter.toml and <name>.wgsl"
+                ),
             })
         };
         let manifest = read(folder.join("filter.toml"))?;

@@ -237,10 +237,7 @@ fn presets(
         let mut values = BTreeMap::new();
         for (name, given) in &entry.values {
             let named = |reason: String| {
-                file.at(
-                    given,
-                    format!("preset \"{}\": {name} {reason}", entry.name),
-                )
+                file.at(given, format!("preset \"{}\": {name} {reason}", entry.name))
             };
             let parameter = parameters
                 .iter()
@@ -291,8 +288,12 @@ fn textures(
             return Err(file.at(spanned, format!("texture \"{name}\" is declared twice")));
         }
         if let Some(parameter) = divided_by {
-            count(parameters, parameter)
-                .map_err(|reason| file.at(spanned, format!("texture \"{name}\": divided_by = {reason}")))?;
+            count(parameters, parameter).map_err(|reason| {
+                file.at(
+                    spanned,
+                    format!("texture \"{name}\": divided_by = {reason}"),
+                )
+            })?;
         }
         textures.push(Texture {
             name: name.clone(),
@@ -326,10 +327,13 @@ fn passes(
         }
         let repeat = match repeat {
             None => Repeat::Times(1),
-            Some(RepeatEntry::Times(0)) => return Err(named("repeat = 0; allowed: 1 or more".into())),
+            Some(RepeatEntry::Times(0)) => {
+                return Err(named("repeat = 0; allowed: 1 or more".into()));
+            }
             Some(RepeatEntry::Times(times)) => Repeat::Times(*times),
             Some(RepeatEntry::Parameter(parameter)) => {
-                count(parameters, parameter).map_err(|reason| named(format!("repeat = {reason}")))?;
+                count(parameters, parameter)
+                    .map_err(|reason| named(format!("repeat = {reason}")))?;
                 Repeat::Parameter(parameter.clone())
             }
         };
@@ -343,7 +347,14 @@ fn passes(
 }
 
 /// Names that kernels use for what the runner gives them, and for what it takes.
-const BUILTIN_VARIABLES: [&str; 6] = ["color", "velocity", "depth", "output", "parameters", "frame"];
+const BUILTIN_VARIABLES: [&str; 6] = [
+    "color",
+    "velocity",
+    "depth",
+    "output",
+    "parameters",
+    "frame",
+];
 
 const IDENTIFIER: &str = "a name is made of a-z, 0-9 and _, and begins with a letter";
 

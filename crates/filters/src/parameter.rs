@@ -1,6 +1,6 @@
 //! What a person or a tuner may change about a filter.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// One parameter of a filter.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,7 +57,7 @@ pub enum Scale {
 }
 
 /// A parameter's value.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Value {
     /// Of an integer parameter.

@@ -17,12 +17,7 @@ pub struct Settings {
 
 impl Settings {
     /// Sets a parameter from text, as the command line gives it.
-    pub fn set(
-        &mut self,
-        filter: &Filter,
-        parameter: &str,
-        text: &str,
-    ) -> Result<(), FilterError> {
+    pub fn set(&mut self, filter: &Filter, parameter: &str, text: &str) -> Result<(), FilterError> {
         let known = find(filter, parameter)?;
         let value = known
             .kind

@@ -141,7 +141,11 @@ impl Check<'_> {
                 |reason: String| self.manifest(*line, format!("pass \"{}\": {reason}", pass.entry));
             let entry = self.entry_point(pass).map_err(refuse)?;
             let (mut reads, mut writes) = (BTreeSet::new(), BTreeSet::new());
-            for variable in entry.variables.iter().map(|v| &self.filter.shader.variables[*v]) {
+            for variable in entry
+                .variables
+                .iter()
+                .map(|v| &self.filter.shader.variables[*v])
+            {
                 match variable.role {
                     Role::Uniform => {}
                     Role::Read => _ = reads.insert(&variable.name[..]),

@@ -2,14 +2,12 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::str::FromStr;
 
 use metrics::{Ideal, Measured, Metric, Scores};
 use serde::{Deserialize, Serialize};
 
 use crate::Error;
-
-/// A bound below this many noise floors cannot tell a filter's error from the truth's noise.
-const FLOORS: f64 = 3.0;
 
 /// A limit per metric name.
 pub type Bounds = BTreeMap<String, f64>;
@@ -39,12 +37,12 @@ pub enum Outcome {
         /// The score.
         value: f64,
     },
-    /// The bound is narrower than three noise floors of the truth: neither kept nor broken.
+    /// The limit is stricter than the truth's noise can carry, three floors: neither kept nor broken.
     TooNoisy {
         /// The score's noise floor.
         floor: f64,
-        /// The largest floor that this bound allows.
-        allowed: f64,
+        /// The strictest limit that this floor can carry.
+        strictest: f64,
     },
     /// The metric does not apply to this scene.
     NotApplicable {
@@ -65,7 +63,8 @@ pub fn read_bounds(root: &Path, scene_folder: &Path) -> Result<Bounds, Error> {
         let own: Bounds = toml::from_str(&text)
             .map_err(|error| Error::Usage(format!("{}: {error}", path.display())))?;
         for (name, limit) in own {
-            check(&name, limit).map_err(|reason| Error::Usage(format!("{}: {reason}", path.display())))?;
+            check(&name, limit)
+                .map_err(|reason| Error::Usage(format!("{}: {reason}", path.display())))?;
             bounds.insert(name, limit);
         }
     }
@@ -73,10 +72,7 @@ pub fn read_bounds(root: &Path, scene_folder: &Path) -> Result<Bounds, Error> {
 }
 
 fn check(name: &str, limit: f64) -> Result<(), String> {
-    if Metric::from_name(name).is_none() {
-        let names: Vec<&str> = Metric::ALL.iter().map(|metric| metric.name()).collect();
-        return Err(format!("no metric \"{name}\"; allowed: {}", names.join(", ")));
-    }
+    Metric::from_str(name)?;
     if !limit.is_finite() {
         return Err(format!("{name} = {limit}; allowed: a finite number"));
     }
@@ -88,8 +84,12 @@ pub fn judge(scores: &Scores, bounds: &Bounds) -> Vec<Verdict> {
     bounds
         .iter()
         .map(|(name, limit)| {
-            let metric = Metric::from_name(name).expect("bounds were checked when they were read");
-            Verdict { metric: name.clone(), limit: *limit, outcome: outcome(metric, &scores.get(metric), *limit) }
+            let metric = Metric::from_str(name).expect("bounds were checked when they were read");
+            Verdict {
+                metric: name.clone(),
+                limit: *limit,
+                outcome: outcome(metric, &scores.get(metric), *limit),
+            }
         })
         .collect()
 }
@@ -97,17 +97,20 @@ pub fn judge(scores: &Scores, bounds: &Bounds) -> Vec<Verdict> {
 fn outcome(metric: Metric, measured: &Measured, limit: f64) -> Outcome {
     let score = match measured {
         Measured::Score(score) => score,
-        Measured::NotApplicable { reason } => return Outcome::NotApplicable { reason: reason.clone() },
+        Measured::NotApplicable { reason } => {
+            return Outcome::NotApplicable {
+                reason: reason.clone(),
+            };
+        }
     };
     let (value, floor) = (score.value, score.floor);
-    let ideal = metric.ideal();
-    let kept = match ideal {
-        Ideal::Highest => value >= limit,
-        Ideal::Lowest | Ideal::Target(_) => ideal.badness(value) <= limit,
+    let strictest = metric.strictest_bound(floor);
+    let (kept, too_strict) = match metric.ideal() {
+        Ideal::Highest => (value >= limit, limit > strictest),
+        ideal => (ideal.badness(value) <= limit, limit < strictest),
     };
-    let too_noisy = ideal != Ideal::Highest && FLOORS * floor > limit;
-    if too_noisy {
-        Outcome::TooNoisy { floor, allowed: limit / FLOORS }
+    if too_strict {
+        Outcome::TooNoisy { floor, strictest }
     } else if kept {
         Outcome::Kept { value }
     } else {

@@ -67,7 +67,12 @@ pub struct RenderArgs {
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<(u32, u32)>,
     /// Shutter alignments of the truths, separated by commas.
-    #[arg(long, value_delimiter = ',', default_value = "trailing", value_name = "ALIGNMENTS")]
+    #[arg(
+        long,
+        value_delimiter = ',',
+        default_value = "trailing",
+        value_name = "ALIGNMENTS"
+    )]
     pub alignments: Vec<Alignment>,
 }
 
@@ -155,10 +160,14 @@ pub struct AdapterArgs {
 
 /// `640x360` as (640, 360).
 fn size(text: &str) -> Result<(u32, u32), String> {
-    let parsed = text.split_once('x').and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
+    let parsed = text
+        .split_once('x')
+        .and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
     match parsed {
         Some((width @ 16..=16384, height @ 16..=16384)) => Ok((width, height)),
-        _ => Err("allowed is WIDTHxHEIGHT, each from 16 to 16384 pixels, such as 640x360".to_owned()),
+        _ => {
+            Err("allowed is WIDTHxHEIGHT, each from 16 to 16384 pixels, such as 640x360".to_owned())
+        }
     }
 }
 
@@ -175,8 +184,19 @@ mod tests {
     #[test]
     fn a_size_is_two_numbers() {
         assert_eq!(size("640x360"), Ok((640, 360)));
-        for wrong in ["640", "640x", "x360", "0x360", "640x99999", "640 x 360", "-1x5"] {
-            assert!(size(wrong).unwrap_err().contains("640x360"), "{wrong} must be refused");
+        for wrong in [
+            "640",
+            "640x",
+            "x360",
+            "0x360",
+            "640x99999",
+            "640 x 360",
+            "-1x5",
+        ] {
+            assert!(
+                size(wrong).unwrap_err().contains("640x360"),
+                "{wrong} must be refused"
+            );
         }
     }
 }

@@ -14,11 +14,9 @@ pub use bounds::{Bounds, Outcome, Verdict, judge, read_bounds};
 pub use error::Error;
 pub use probe::picture;
 pub use progress::{catch_interrupts, with_bar};
-pub use rendered::{
-    LADDER, RenderSettings, frame_of, scene_folder, truth_and_ladder_of, truth_of,
-};
+pub use rendered::{LADDER, RenderSettings, frame_of, scene_folder, truth_and_ladder_of, truth_of};
 pub use run::{Case, FORMAT, Plan, Run, run, viewing};
-pub use selection::{FilterChoice, select_filters, select_scenes};
+pub use selection::{FilterChoice, SceneChoice, select_filters, select_scenes};
 pub use table::table;
 
 /// Program name and version, as files and runs record it.

@@ -34,7 +34,10 @@ pub fn write_case(
 ) -> Result<(), FileError> {
     write_shown(&folder.join("output.png"), &output.color, scene)?;
     write_png(&folder.join("flip.png"), &magma(&maps.flip))?;
-    write_png(&folder.join("label_tv.png"), &magma(&maps.label_total_variation))?;
+    write_png(
+        &folder.join("label_tv.png"),
+        &magma(&maps.label_total_variation),
+    )?;
     write_png(&folder.join("bleed.png"), &magma(&maps.bleed))?;
 
     let (width, height) = (output.color.width, output.color.height);
@@ -77,6 +80,7 @@ fn velocity_wheel(frame: &Frame) -> Image {
     frame.velocity.map(|v| {
         let turn = f64::from(v[1].atan2(v[0])) / std::f64::consts::TAU;
         let hue = colorous::SINEBOW.eval_continuous(turn.rem_euclid(1.0));
-        hue.as_array().map(|byte| f32::from(byte) / 255.0 * speed(v) / fastest)
+        hue.as_array()
+            .map(|byte| f32::from(byte) / 255.0 * speed(v) / fastest)
     })
 }

@@ -16,7 +16,10 @@ pub fn picture(blur: &mut Blur, frame: &Frame, frame_index: u32) -> Result<Pictu
         frame_index,
     })?;
     let color = outputs.remove(0);
-    Ok(Picture { color, coverage: unpack(&outputs, frame.coverage.len()) })
+    Ok(Picture {
+        color,
+        coverage: unpack(&outputs, frame.coverage.len()),
+    })
 }
 
 /// Three planes to an image; the last is filled up with zeros.
@@ -29,7 +32,9 @@ fn pack(planes: &[Plane]) -> Vec<Image> {
                 width: size.width,
                 height: size.height,
                 pixels: (0..size.pixels.len())
-                    .map(|at| std::array::from_fn(|c| chunk.get(c).map_or(0.0, |plane| plane.pixels[at])))
+                    .map(|at| {
+                        std::array::from_fn(|c| chunk.get(c).map_or(0.0, |plane| plane.pixels[at]))
+                    })
                     .collect(),
             }
         })
@@ -37,7 +42,9 @@ fn pack(planes: &[Plane]) -> Vec<Image> {
 }
 
 fn unpack(images: &[Image], count: usize) -> Vec<Plane> {
-    (0..count).map(|plane| images[plane / 3].map(|pixel| pixel[plane % 3])).collect()
+    (0..count)
+        .map(|plane| images[plane / 3].map(|pixel| pixel[plane % 3]))
+        .collect()
 }
 
 #[cfg(test)]
@@ -46,7 +53,9 @@ mod tests {
 
     #[test]
     fn planes_come_back_in_their_order() {
-        let planes: Vec<Plane> = (0..5).map(|k| Raster::from_fn(4, 3, |x, y| (k * 100 + y * 4 + x) as f32)).collect();
+        let planes: Vec<Plane> = (0..5)
+            .map(|k| Raster::from_fn(4, 3, |x, y| (k * 100 + y * 4 + x) as f32))
+            .collect();
         assert_eq!(unpack(&pack(&planes), 5), planes);
     }
 }

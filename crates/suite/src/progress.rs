@@ -29,12 +29,20 @@ pub fn with_bar<T>(label: &str, quiet: bool, work: impl FnOnce(tracer::Watch) ->
     let result = work(&|progress: Progress| {
         bar.set_length(progress.total);
         bar.set_position(progress.done);
-        if interrupted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if interrupted() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
     });
     bar.finish_and_clear();
     result
 }
 
 fn target(quiet: bool) -> ProgressDrawTarget {
-    if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() }
+    if quiet {
+        ProgressDrawTarget::hidden()
+    } else {
+        ProgressDrawTarget::stderr()
+    }
 }

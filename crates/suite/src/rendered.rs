@@ -50,7 +50,12 @@ pub fn scene_folder(out: &Path, scene: &Scene) -> PathBuf {
 }
 
 /// The frame of `scene`: read from `out` if its inputs are the same, else rendered and written there.
-pub fn frame_of(scene: &Scene, settings: &RenderSettings, out: &Path, quiet: bool) -> Result<Frame, Error> {
+pub fn frame_of(
+    scene: &Scene,
+    settings: &RenderSettings,
+    out: &Path,
+    quiet: bool,
+) -> Result<Frame, Error> {
     let settings = FrameSettings {
         width: settings.width,
         height: settings.height,
@@ -67,7 +72,9 @@ pub fn frame_of(scene: &Scene, settings: &RenderSettings, out: &Path, quiet: boo
     artefact.obtain(
         quiet,
         |watch| tracer::trace_frame(scene, &settings, watch),
-        (Frame::read, Frame::write, |frame| &frame.provenance.content_hash),
+        (Frame::read, Frame::write, |frame| {
+            &frame.provenance.content_hash
+        }),
     )
 }
 
@@ -88,7 +95,9 @@ pub fn truth_of(
     artefact.obtain(
         quiet,
         |watch| tracer::trace_truth(scene, &settings, watch),
-        (Truth::read, Truth::write, |truth| &truth.provenance.content_hash),
+        (Truth::read, Truth::write, |truth| {
+            &truth.provenance.content_hash
+        }),
     )
 }
 
@@ -110,7 +119,9 @@ pub fn truth_and_ladder_of(
     let ladder = artefact.obtain(
         quiet,
         |watch| tracer::trace_ladder(scene, &settings, &truth, &LADDER, watch),
-        (Ladder::read, Ladder::write, |ladder| &ladder.provenance.content_hash),
+        (Ladder::read, Ladder::write, |ladder| {
+            &ladder.provenance.content_hash
+        }),
     )?;
     Ok((truth, ladder))
 }
@@ -156,7 +167,12 @@ impl Artefact {
             return Ok(kept);
         }
         let made = with_bar(&self.label, quiet, render)?;
-        assert_eq!(*hash(&made), self.hash, "{}: the hash must not depend on the render", self.label);
+        assert_eq!(
+            *hash(&made),
+            self.hash,
+            "{}: the hash must not depend on the render",
+            self.label
+        );
         write(&made, &self.path)?;
         Ok(made)
     }

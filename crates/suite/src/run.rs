@@ -78,10 +78,8 @@ pub struct Case {
 
 /// What a run is to do.
 pub struct Plan {
-    /// Loaded scenes.
-    pub scenes: Vec<Scene>,
-    /// Each scene's bounds, in the order of `scenes`.
-    pub bounds: Vec<Bounds>,
+    /// Loaded scenes, each with its bounds.
+    pub scenes: Vec<(Scene, Bounds)>,
     /// Loaded filters.
     pub filters: Vec<FilterChoice>,
     /// How scenes are rendered.
@@ -95,10 +93,15 @@ pub struct Plan {
 /// Renders, filters, measures and writes every case below `plan.out`, but not `run.json` itself.
 pub fn run(plan: &Plan, gpu: &Gpu, command: Vec<String>) -> Result<Run, Error> {
     let mut cases = Vec::new();
-    for (scene, bounds) in plan.scenes.iter().zip(&plan.bounds) {
+    for (scene, bounds) in &plan.scenes {
         let (frame, truths) = render(plan, scene)?;
         let folder = scene_folder(&plan.out, scene);
-        write_scene(&folder, scene, &frame, truths.values().map(|(truth, _)| truth))?;
+        write_scene(
+            &folder,
+            scene,
+            &frame,
+            truths.values().map(|(truth, _)| truth),
+        )?;
         let references = references(scene, &frame, &truths)?;
         for choice in &plan.filters {
             if interrupted() {
@@ -106,7 +109,14 @@ pub fn run(plan: &Plan, gpu: &Gpu, command: Vec<String>) -> Result<Run, Error> {
             }
             let (truth, _) = &truths[&choice.filter.alignment];
             let reference = &references[&choice.filter.alignment];
-            cases.push(run_case(plan, gpu, scene, bounds, (&frame, truth, reference), choice)?);
+            cases.push(run_case(
+                plan,
+                gpu,
+                scene,
+                bounds,
+                (&frame, truth, reference),
+                choice,
+            )?);
         }
     }
     Ok(Run {
@@ -131,7 +141,11 @@ fn render(plan: &Plan, scene: &Scene) -> Result<(Frame, Truths), Error> {
     let frame = frame_of(scene, &plan.render, &plan.out, plan.quiet)?;
     let mut truths = Truths::new();
     for alignment in Alignment::ALL {
-        if plan.filters.iter().any(|choice| choice.filter.alignment == alignment) {
+        if plan
+            .filters
+            .iter()
+            .any(|choice| choice.filter.alignment == alignment)
+        {
             let made = truth_and_ladder_of(scene, &plan.render, alignment, &plan.out, plan.quiet)?;
             truths.insert(alignment, made);
         }
@@ -147,7 +161,10 @@ fn references<'a>(
     truths
         .iter()
         .map(|(alignment, (truth, ladder))| {
-            Ok((*alignment, Reference::new(frame, truth, Some(ladder), &viewing(scene))?))
+            Ok((
+                *alignment,
+                Reference::new(frame, truth, Some(ladder), &viewing(scene))?,
+            ))
         })
         .collect()
 }
@@ -165,7 +182,13 @@ fn run_case(
     let output = picture(&mut blur, frame, 0)?;
     let Measurement { scores, maps } = reference.measure(&output)?;
     let folder = Path::new(&scene.name).join(choice.name().replace(':', "_"));
-    write_case(&plan.out.join(&folder), scene, &frame.objects, &output, &maps)?;
+    write_case(
+        &plan.out.join(&folder),
+        scene,
+        &frame.objects,
+        &output,
+        &maps,
+    )?;
     Ok(Case {
         scene: scene.name.clone(),
         family: scene.family,

@@ -24,17 +24,25 @@ impl FilterChoice {
     }
 }
 
+/// A loaded scene and the folder that it came from.
+pub struct SceneChoice {
+    /// Holds scene.toml, and bounds.toml if the scene has bounds of its own.
+    pub folder: PathBuf,
+    /// The scene.
+    pub scene: Scene,
+}
+
 /// Loads the named scenes; all of `root`, each in its default variant, where none is named.
 ///
 /// A word is the name of a folder under `root` or the path of any scene folder, then optionally `@variant`; `@all` takes
 /// every variant.
-pub fn select_scenes(root: &Path, words: &[String]) -> Result<Vec<Scene>, Error> {
+pub fn select_scenes(root: &Path, words: &[String]) -> Result<Vec<SceneChoice>, Error> {
     let listings = list_scenes(root)?;
     if words.is_empty() {
-        if listings.is_empty() {
-            return Err(Error::Usage(format!("{}: holds no folder with a scene.toml", root.display())));
-        }
-        return listings.iter().map(|listing| Ok(load_scene(&root.join(&listing.name), None)?)).collect();
+        return listings
+            .iter()
+            .map(|listing| load(&listing.folder, None))
+            .collect();
     }
     let mut scenes = Vec::new();
     for word in words {
@@ -44,10 +52,13 @@ pub fn select_scenes(root: &Path, words: &[String]) -> Result<Vec<Scene>, Error>
         };
         let known = listings.iter().find(|listing| listing.name == name);
         let folder = match known {
-            Some(listing) => root.join(&listing.name),
+            Some(listing) => listing.folder.clone(),
             None if looks_like_path(name) => PathBuf::from(name),
             None => {
-                let names: Vec<&str> = listings.iter().map(|listing| listing.name.as_str()).collect();
+                let names: Vec<&str> = listings
+                    .iter()
+                    .map(|listing| listing.name.as_str())
+                    .collect();
                 return Err(Error::Usage(format!(
                     "--scenes: no scene \"{name}\" in {}; allowed: {}, or the path of a scene folder",
                     root.display(),
@@ -58,13 +69,20 @@ pub fn select_scenes(root: &Path, words: &[String]) -> Result<Vec<Scene>, Error>
         match (variant, known) {
             (Some("all"), Some(listing)) => {
                 for variant in &listing.variants {
-                    scenes.push(load_scene(&folder, Some(variant))?);
+                    scenes.push(load(&folder, Some(variant))?);
                 }
             }
-            _ => scenes.push(load_scene(&folder, variant)?),
+            _ => scenes.push(load(&folder, variant)?),
         }
     }
     Ok(scenes)
+}
+
+fn load(folder: &Path, variant: Option<&str>) -> Result<SceneChoice, Error> {
+    Ok(SceneChoice {
+        folder: folder.to_owned(),
+        scene: load_scene(folder, variant)?,
+    })
 }
 
 /// Loads the named filters; every built-in one where none is named.
@@ -93,12 +111,20 @@ pub fn select_filters(
         };
         let presets = match own_preset.or(preset) {
             Some(preset) => vec![preset.to_owned()],
-            None => load()?.preset_names(),
+            None => load()?
+                .presets
+                .into_iter()
+                .map(|preset| preset.name)
+                .collect(),
         };
         for preset in presets {
             let filter = load()?;
             let settings = filter.settings(Some(&preset))?;
-            choices.push(FilterChoice { filter, preset, settings });
+            choices.push(FilterChoice {
+                filter,
+                preset,
+                settings,
+            });
         }
     }
     for text in overrides {
@@ -108,23 +134,31 @@ pub fn select_filters(
 }
 
 fn apply_override(choices: &mut [FilterChoice], text: &str) -> Result<(), Error> {
-    let parts = text
-        .split_once('=')
-        .and_then(|(place, value)| place.split_once('.').map(|(filter, parameter)| (filter, parameter, value)));
+    let parts = text.split_once('=').and_then(|(place, value)| {
+        place
+            .split_once('.')
+            .map(|(filter, parameter)| (filter, parameter, value))
+    });
     let Some((name, parameter, value)) = parts else {
         return Err(Error::Usage(format!(
             "--set {text}: allowed is filter.parameter=value, such as jump_flood.samples=16"
         )));
     };
     let mut found = false;
-    for choice in choices.iter_mut().filter(|choice| choice.filter.name == name) {
+    for choice in choices
+        .iter_mut()
+        .filter(|choice| choice.filter.name == name)
+    {
         choice.settings.set(&choice.filter, parameter, value)?;
         found = true;
     }
     if found {
         return Ok(());
     }
-    let mut names: Vec<&str> = choices.iter().map(|choice| choice.filter.name.as_str()).collect();
+    let mut names: Vec<&str> = choices
+        .iter()
+        .map(|choice| choice.filter.name.as_str())
+        .collect();
     names.dedup();
     Err(Error::Usage(format!(
         "--set {text}: no filter \"{name}\" takes part; allowed: {}",

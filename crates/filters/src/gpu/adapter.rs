@@ -1,11 +1,11 @@
 //! Which GPU runs the filters.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::FilterError;
 
 /// What a run records about the GPU that it used.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct AdapterDescription {
     /// The device's name.
     pub name: String,

@@ -99,7 +99,8 @@ impl<'g> Blur<'g> {
         self.gpu.guarded(self.place("upload"), || {
             let velocity = bytemuck::cast_slice(&input.velocity.pixels);
             self.gpu.upload(self.plan.target("velocity"), velocity);
-            self.gpu.upload(self.plan.target("depth"), &input.depth.pixels);
+            self.gpu
+                .upload(self.plan.target("depth"), &input.depth.pixels);
             self.plan.upload_frame(self.gpu, frame);
         })
     }

@@ -227,7 +227,10 @@ impl Uniforms {
         };
         let stride = frame_stride(gpu);
         let uniforms = Self {
-            parameters: buffer("parameters", parameters.len().next_multiple_of(16).max(16) as u64),
+            parameters: buffer(
+                "parameters",
+                parameters.len().next_multiple_of(16).max(16) as u64,
+            ),
             frames: buffer("frame", stride * u64::from(dispatches)),
             stride,
         };

@@ -77,13 +77,19 @@ impl Shader {
         };
         let module = front::wgsl::parse_str(&source.text).map_err(|error| {
             let line = error.location(&source.text);
-            source.refuse(line, error.emit_to_string_with_path(&source.text, source.name()))
+            source.refuse(
+                line,
+                error.emit_to_string_with_path(&source.text, source.name()),
+            )
         })?;
         let info = Validator::new(ValidationFlags::all(), Capabilities::default())
             .validate(&module)
             .map_err(|error| {
                 let line = error.location(&source.text);
-                source.refuse(line, error.emit_to_string_with_path(&source.text, source.name()))
+                source.refuse(
+                    line,
+                    error.emit_to_string_with_path(&source.text, source.name()),
+                )
             })?;
         let handles: Vec<Handle<GlobalVariable>> = module
             .global_variables
@@ -121,11 +127,7 @@ impl Source<'_> {
         name.expect("the WGSL file is named after the filter")
     }
 
-    fn refuse(
-        &self,
-        place: Option<wgpu::naga::SourceLocation>,
-        reason: String,
-    ) -> FilterError {
+    fn refuse(&self, place: Option<wgpu::naga::SourceLocation>, reason: String) -> FilterError {
         self.at(place.map(|place| place.line_number as usize), reason)
     }
 
@@ -165,7 +167,10 @@ fn variable(
     if binding.group != 0 {
         return Err(source.at(
             Some(line),
-            format!("\"{name}\" is in group {}; only @group(0) is bound", binding.group),
+            format!(
+                "\"{name}\" is in group {}; only @group(0) is bound",
+                binding.group
+            ),
         ));
     }
     let role = match (&variable.space, &module.types[variable.ty].inner) {

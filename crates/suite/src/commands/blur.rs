@@ -74,8 +74,15 @@ fn read_buffers(path: &Path, exposure: Option<f64>) -> Result<Buffers, Error> {
 fn refuse_not_finite(path: &Path, buffers: &Buffers) -> Result<(), Error> {
     let width = buffers.color.width as usize;
     let bad = (0..buffers.color.pixels.len()).find(|&at| {
-        let values = [&buffers.color.pixels[at][..], &buffers.velocity.pixels[at], &[buffers.depth.pixels[at]]];
-        values.iter().flat_map(|values| values.iter()).any(|value| !value.is_finite())
+        let values = [
+            &buffers.color.pixels[at][..],
+            &buffers.velocity.pixels[at],
+            &[buffers.depth.pixels[at]],
+        ];
+        values
+            .iter()
+            .flat_map(|values| values.iter())
+            .any(|value| !value.is_finite())
     });
     match bad {
         None => Ok(()),

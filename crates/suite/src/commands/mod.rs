@@ -5,8 +5,6 @@ mod list;
 mod render;
 mod run;
 
-use std::path::PathBuf;
-
 use suite::{Error, RenderSettings};
 
 use crate::cli::{Cli, Command, SceneArgs};
@@ -21,7 +19,9 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         Some(Command::Render(args)) => with_threads(args.scenes.threads, || render::execute(&args)),
         Some(Command::Blur(args)) => blur::execute(&args),
         Some(Command::List(args)) => list::execute(&args),
-        None => Err(Error::Usage("no command given; allowed: run, render, blur, list (see --help)".to_owned())),
+        None => Err(Error::Usage(
+            "no command given; allowed: run, render, blur, list (see --help)".to_owned(),
+        )),
     }
 }
 
@@ -59,10 +59,4 @@ fn check_exposure(exposure: f64) -> Result<(), Error> {
         .shutter(exposure)
         .map(drop)
         .map_err(|error| Error::Usage(format!("--exposure: {error}")))
-}
-
-/// The folder whose bounds apply to a scene word: below the scenes' root, or the path itself.
-fn scene_folder_of(args: &SceneArgs, name: &str) -> PathBuf {
-    let name = name.split('@').next().unwrap_or(name);
-    args.scenes_dir.join(name)
 }

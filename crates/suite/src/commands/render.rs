@@ -7,7 +7,8 @@ use crate::cli::RenderArgs;
 
 /// Renders each scene's frame and its truths, and says where they are.
 pub fn execute(args: &RenderArgs) -> Result<(), Error> {
-    for scene in select_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)? {
+    for choice in select_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)? {
+        let scene = choice.scene;
         let size = args.size.unwrap_or((scene.width, scene.height));
         let settings = render_settings(&args.scenes, size)?;
         let (out, quiet) = (&args.scenes.out, args.scenes.quiet);

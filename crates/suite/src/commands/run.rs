@@ -5,7 +5,7 @@ use std::path::Path;
 use filters::Gpu;
 use suite::{Error, Outcome, Plan, Run, read_bounds, run, select_filters, select_scenes, table};
 
-use super::{render_settings, scene_folder_of};
+use super::render_settings;
 use crate::cli::RunArgs;
 
 /// Loads what is named, runs every case, writes `run.json`, prints the table.
@@ -13,14 +13,18 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
     let scenes = select_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
     let words = [args.filters.clone(), args.filter.clone()].concat();
     let filters = select_filters(&words, args.preset.as_deref(), &args.set)?;
-    let bounds = scenes
-        .iter()
-        .map(|scene| read_bounds(&args.scenes.scenes_dir, &scene_folder_of(&args.scenes, &scene.name)))
-        .collect::<Result<_, _>>()?;
+    let scenes = scenes
+        .into_iter()
+        .map(|choice| {
+            Ok((
+                choice.scene,
+                read_bounds(&args.scenes.scenes_dir, &choice.folder)?,
+            ))
+        })
+        .collect::<Result<_, Error>>()?;
     let gpu = Gpu::new(args.adapter.adapter.as_deref())?;
     let plan = Plan {
         scenes,
-        bounds,
         filters,
         render: render_settings(&args.scenes, args.size)?,
         out: args.scenes.out.clone(),
@@ -46,8 +50,12 @@ fn write_run(run: &Run, out: &Path) -> Result<String, Error> {
 /// What the table does not say: bounds, adapter, where the files are.
 fn closing(run: &Run, out: &Path) -> String {
     let verdicts = || run.cases.iter().flat_map(|case| &case.verdicts);
-    let broken = verdicts().filter(|verdict| matches!(verdict.outcome, Outcome::Broken { .. })).count();
-    let noisy = verdicts().filter(|verdict| matches!(verdict.outcome, Outcome::TooNoisy { .. })).count();
+    let broken = verdicts()
+        .filter(|verdict| matches!(verdict.outcome, Outcome::Broken { .. }))
+        .count();
+    let noisy = verdicts()
+        .filter(|verdict| matches!(verdict.outcome, Outcome::TooNoisy { .. }))
+        .count();
     let mut text = format!("\n{broken} of {} bounds broken", verdicts().count());
     if noisy > 0 {
         text += &format!(
