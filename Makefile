@@ -3,6 +3,9 @@
 
 .PHONY: run test vulkan
 
+# Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
+export XDG_RUNTIME_DIR ?= /tmp
+
 run: vulkan
 	cargo run --release --locked --bin shuttertruth -- run --out out
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use metrics::{ImageMetric, Measured, Metric, ObjectMetric, Region};
+use metrics::{ImageMetric, Measured, Metric, ObjectMetric, Region, Scores};
 
 use crate::run::{Case, Run};
 
@@ -15,7 +15,7 @@ const COLUMNS: [(&str, Metric); 6] = [
     ("N_eq", Metric::EquivalentSubframes),
 ];
 
-/// The run as text; a score that does not apply is a dash.
+/// The run as text; a score that does not apply is `n/a`.
 pub fn table(run: &Run) -> String {
     let mut text = String::new();
     let mut scene = "";
@@ -38,21 +38,24 @@ fn line(text: &mut String, case: &Case) {
     let name = format!("{}:{}", case.filter, case.preset);
     let _ = write!(text, "  {name:<32}");
     for (_, metric) in COLUMNS {
-        let _ = write!(text, "{:>7}", cell(metric, &case.scores.get(metric)));
+        let _ = write!(text, "{:>7}", cell(metric, &case.scores));
     }
     text.push('\n');
 }
 
-fn cell(metric: Metric, measured: &Measured) -> String {
-    match measured {
-        Measured::NotApplicable { .. } => "-".to_owned(),
+fn cell(metric: Metric, scores: &Scores) -> String {
+    if metric == Metric::EquivalentSubframes {
+        return scores.equivalent_subframes.mse.to_string();
+    }
+    match scores.get(metric) {
+        Measured::NotApplicable { .. } => "n/a".to_owned(),
         Measured::Score(score) => format!("{:.*}", digits(metric), score.value),
     }
 }
 
 fn digits(metric: Metric) -> usize {
     match metric {
-        Metric::Image(ImageMetric::Psnr, _) | Metric::EquivalentSubframes => 1,
+        Metric::Image(ImageMetric::Psnr, _) => 1,
         Metric::Object(_) => 2,
         _ => 3,
     }
