@@ -190,7 +190,7 @@ impl Document {
         }
     }
 
-    /// serde speaks of fields and variants; a scene has keys and families.
+    /// serde speaks of fields, variants and types of Rust; a scene has keys, families and numbers.
     fn syntax_error(&self, error: &toml::de::Error) -> SceneError {
         let reason = error
             .message()
@@ -198,6 +198,9 @@ impl Document {
             .replace("missing field", "missing key")
             .replace("duplicate field", "duplicate key")
             .replace("unknown variant", "unknown family")
+            .replace("expected f64", "expected a number")
+            .replace("expected f32", "expected a number")
+            .replace("expected u32", "expected a whole number from 0")
             .replace("expected one of", "allowed:")
             .replace("expected", "allowed:");
         match error.span() {
