@@ -146,6 +146,8 @@ const SCENE_SLIPS: &[Slip] = &[
         "scene.toml:34: variant \"fast\" changes \"objects\"; a variant may change: background, camera, exposure, object, sun"),
     ("unknown object in a variant", "[variant.fast.object.body]", "[variant.fast.object.boddy]", 
         "scene.toml:34: variant \"fast\" changes object \"boddy\", which the scene lacks; objects: body, part"),
+    ("variant with a slash", "[variant.fast.object.body]", "[variant.\"../fast\".object.body]",
+        "scene.toml:34: variant name \"../fast\": allowed are letters, digits, _ and -"),
     ("missing key", "family = \"translation\"\n", "", 
         "scene.toml:1: missing key `family`"),
     ("missing key of the camera", "vertical_fov = 40\n", "", 
