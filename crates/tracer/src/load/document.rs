@@ -7,7 +7,7 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
-use super::error::{SceneError, list};
+use super::error::{SceneError, is_name, list};
 use super::schema::SceneTable;
 
 /// What a variant may change.
@@ -41,16 +41,25 @@ impl Document {
 
     /// Names of the variants, in the order of the file.
     pub(super) fn variants(&self) -> Result<Vec<String>, SceneError> {
-        let mut names: Vec<_> = match self.table()?.get_mut("variant") {
-            None => Vec::new(),
-            Some(variants) => self
-                .as_table("variant", variants)?
-                .keys()
-                .map(|name| (name.span().start, name.get_ref().to_string()))
-                .collect(),
+        let mut table = self.table()?;
+        let Some(variants) = table.get_mut("variant") else {
+            return Ok(Vec::new());
         };
-        names.sort();
-        Ok(names.into_iter().map(|(_, name)| name).collect())
+        let mut names: Vec<_> = self.as_table("variant", variants)?.keys().collect();
+        names.sort_by_key(|name| name.span().start);
+        for name in &names {
+            if !is_name(name.get_ref()) {
+                let reason = format!(
+                    "variant name \"{}\": allowed are letters, digits, _ and -",
+                    name.get_ref()
+                );
+                return Err(self.error(name.span(), reason));
+            }
+        }
+        Ok(names
+            .iter()
+            .map(|name| name.get_ref().to_string())
+            .collect())
     }
 
     /// The scene with one variant's changes, or as it is.
@@ -190,7 +199,7 @@ impl Document {
         }
     }
 
-    /// serde speaks of fields and variants; a scene has keys and families.
+    /// serde speaks of fields, variants and types of Rust; a scene has keys, families and numbers.
     fn syntax_error(&self, error: &toml::de::Error) -> SceneError {
         let reason = error
             .message()
@@ -198,6 +207,9 @@ impl Document {
             .replace("missing field", "missing key")
             .replace("duplicate field", "duplicate key")
             .replace("unknown variant", "unknown family")
+            .replace("expected f64", "expected a number")
+            .replace("expected f32", "expected a number")
+            .replace("expected u32", "expected a whole number from 0")
             .replace("expected one of", "allowed:")
             .replace("expected", "allowed:");
         match error.span() {

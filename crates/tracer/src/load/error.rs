@@ -54,3 +54,9 @@ pub(super) fn list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
         names.join(", ")
     }
 }
+
+/// What names of objects and variants may hold; they become names of channels and folders.
+pub(super) fn is_name(word: &str) -> bool {
+    let allowed = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    !word.is_empty() && word.chars().all(allowed)
+}

@@ -82,8 +82,13 @@ fn read_document(files: &mut Files, folder: &Path) -> Result<Document, SceneErro
     Ok(Document::new(&path, text))
 }
 
+/// The last part of the path; that of the full path where it is written as `.`.
 fn folder_name(folder: &Path) -> String {
-    let name = folder.file_name().unwrap_or(folder.as_os_str());
+    let full = match folder.file_name() {
+        Some(_) => folder.to_owned(),
+        None => folder.canonicalize().unwrap_or_default(),
+    };
+    let name = full.file_name().unwrap_or_default();
     name.to_string_lossy().into_owned()
 }
 

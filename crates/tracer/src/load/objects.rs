@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use toml::Spanned;
 
 use super::document::Document;
-use super::error::{SceneError, list};
+use super::error::{SceneError, is_name, list};
 use super::files::Files;
 use super::material::override_material;
 use super::obj::ObjFile;
@@ -75,8 +75,7 @@ impl<'a> Stage<'a> {
 
     fn check_name(&self, name: &Spanned<String>) -> Result<(), SceneError> {
         let word = name.get_ref();
-        let allowed = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-        if word.is_empty() || !word.chars().all(allowed) {
+        if !is_name(word) {
             let reason = format!("object name \"{word}\": allowed are letters, digits, _ and -");
             return Err(self.document.error(name.span(), reason));
         }

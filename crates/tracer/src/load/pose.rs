@@ -174,6 +174,7 @@ pub(super) fn through(
             turn,
         });
     }
+    check_scales(document, what, poses)?;
     Ok(Motion { keys })
 }
 
@@ -191,13 +192,6 @@ fn turn_between(
         );
         return Err(document.error(place(), reason));
     }
-    if (pose.scale * next.scale).min_element() <= 0.0 {
-        let reason = format!(
-            "{what} has a scale that passes through 0 between {} and {}; keep the sign of each factor",
-            pose.scale, next.scale
-        );
-        return Err(document.error(place(), reason));
-    }
     pose.rotation.turn_to(next.rotation).ok_or_else(|| {
         let reason = format!(
             "{what} turns by half a turn or more between keys, which leaves the way open; allowed: below \
@@ -206,6 +200,30 @@ fn turn_between(
         );
         document.error(place(), reason)
     })
+}
+
+/// No factor may pass through 0. A motion goes on beyond its keys, and one frame to either side of the instant may be
+/// asked for.
+fn check_scales(document: &Document, what: &str, poses: &[Pose]) -> Result<(), SceneError> {
+    let last = poses.len().saturating_sub(2);
+    for (index, pair) in poses.windows(2).enumerate() {
+        let [from, to] = [&pair[0], &pair[1]];
+        let earliest = if index == 0 { -1.0 } else { from.time };
+        let latest = if index == last { 1.0 } else { to.time };
+        for time in [to.time, latest, earliest] {
+            let fraction = (time - from.time) / (to.time - from.time);
+            let scale = from.scale.lerp(to.scale, fraction);
+            if (from.scale * scale).min_element() <= 0.0 {
+                let reason = format!(
+                    "{what} has scale {:.3} at time {} and would have {scale:.3} at {time}; each factor must keep its \
+                     sign, beyond the keys too",
+                    from.scale, from.time
+                );
+                return Err(document.error(to.place.clone(), reason));
+            }
+        }
+    }
+    Ok(())
 }
 
 fn scale(document: &Document, table: &Option<Spanned<ScaleTable>>) -> Result<DVec3, SceneError> {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{Error, MapAccess, SeqAccess, Visitor};
+use serde::de::{Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
@@ -24,6 +24,9 @@ pub(super) struct SceneTable {
     pub(super) sun: Option<SunTable>,
     #[serde(default)]
     pub(super) object: BTreeMap<Spanned<String>, ObjectTable>,
+    /// Taken out before the rest is read; stands here so that messages list it among the keys.
+    #[serde(rename = "variant")]
+    pub(super) _variant: Option<IgnoredAny>,
 }
 
 #[derive(Default, Deserialize)]

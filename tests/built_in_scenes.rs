@@ -1,0 +1,208 @@
+//! The scenes that the project ships: their files, and what they promise to show.
+
+use std::path::{Path, PathBuf};
+
+use glam::{DVec2, DVec3};
+use tracer::{Scene, list_scenes, load_scene};
+
+fn scenes() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes")
+}
+
+fn load(name: &str, variant: Option<&str>) -> Scene {
+    load_scene(&scenes().join(name), variant).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Where the still camera sees a world point, in pixels.
+fn project(scene: &Scene, point: DVec3) -> DVec2 {
+    let seen = scene
+        .camera
+        .motion
+        .at(0.0)
+        .inverse()
+        .transform_point3(point);
+    let focal = f64::from(scene.height) / 2.0 / (scene.camera.vertical_fov[0].1 / 2.0).tan();
+    let middle = DVec2::new(f64::from(scene.width), f64::from(scene.height)) / 2.0;
+    middle + focal * DVec2::new(seen.x, -seen.y) / -seen.z
+}
+
+/// Index of an object.
+fn object(scene: &Scene, name: &str) -> usize {
+    let index = scene.objects.iter().position(|object| object.name == name);
+    index.unwrap_or_else(|| panic!("{} has no object {name}", scene.name))
+}
+
+/// Least and largest pixel coordinates of an object at a time.
+fn extent(scene: &Scene, name: &str, time: f64) -> [DVec2; 2] {
+    let index = object(scene, name);
+    let to_world = scene.object_to_world(index, time);
+    let positions = &scene.meshes[scene.objects[index].mesh].positions;
+    let pixels = positions
+        .iter()
+        .map(|position| project(scene, to_world.transform_point3(position.as_dvec3())));
+    pixels.fold(
+        [DVec2::INFINITY, DVec2::NEG_INFINITY],
+        |[least, largest], pixel| [least.min(pixel), largest.max(pixel)],
+    )
+}
+
+#[test]
+fn every_scene_loads_with_every_variant() {
+    let listings = list_scenes(&scenes()).unwrap_or_else(|error| panic!("{error}"));
+    let names: Vec<_> = listings
+        .iter()
+        .map(|listing| listing.name.as_str())
+        .collect();
+    for name in [
+        "fan",
+        "panel_over_texture",
+        "railing",
+        "sliding_panel",
+        "two_spheres",
+    ] {
+        assert!(names.contains(&name), "{name} is missing");
+    }
+    assert!(names.is_sorted());
+    for listing in &listings {
+        let scene = load(&listing.name, None);
+        assert_eq!(
+            (&scene.exposes, scene.family),
+            (&listing.exposes, listing.family)
+        );
+        for variant in &listing.variants {
+            let changed = load(&listing.name, Some(variant));
+            assert_eq!(changed.name, format!("{}@{variant}", listing.name));
+            assert_ne!(changed.hash, scene.hash);
+        }
+    }
+}
+
+#[test]
+fn the_generator_makes_the_files_that_are_there() {
+    for file in generator::files() {
+        let found = std::fs::read(scenes().join(&file.path));
+        let found = found.unwrap_or_else(|error| panic!("{}: {error}", file.path));
+        assert!(
+            found == file.bytes,
+            "{} differs; run `cargo run -p generator`",
+            file.path
+        );
+    }
+}
+
+#[test]
+fn the_panel_moves_as_its_variant_says() {
+    let listings = list_scenes(&scenes()).unwrap();
+    let listing = listings.iter().find(|l| l.name == "sliding_panel").unwrap();
+    assert_eq!(listing.variants.len(), 20, "five speeds in four directions");
+    for variant in &listing.variants {
+        let (speed, angle) = variant.split_once("px_").unwrap();
+        let angle: f64 = angle.strip_suffix("deg").unwrap().parse().unwrap();
+        let speed: f64 = speed.parse().unwrap();
+        let scene = load("sliding_panel", Some(variant));
+        let panel = object(&scene, "panel");
+        let centre = |time| project(&scene, scene.object_to_world(panel, time).translation);
+        let [before, after] = [-0.5, 0.5].map(centre);
+        // Screen y points down.
+        let (sine, cosine) = angle.to_radians().sin_cos();
+        let expected = speed * DVec2::new(cosine, -sine);
+        // Keys are written to a micrometre: 1e-4 pixels each.
+        assert!(
+            (after - before).distance(expected) < 3e-4,
+            "{variant}: {}",
+            after - before
+        );
+    }
+}
+
+#[test]
+fn the_panel_keeps_clear_of_the_border() {
+    for listing in list_scenes(&scenes()).unwrap() {
+        if !listing.name.contains("panel") {
+            continue;
+        }
+        let variants = listing
+            .variants
+            .iter()
+            .map(|variant| Some(variant.as_str()));
+        for variant in variants.chain([None]) {
+            let scene = load(&listing.name, variant);
+            let [width, height] = [scene.width, scene.height].map(f64::from);
+            // Trailing and leading shutters reach as far as the exposure on either side.
+            for time in [-scene.exposure, 0.0, scene.exposure] {
+                let [least, largest] = extent(&scene, "panel", time);
+                let clear = least.min(DVec2::new(width, height) - largest).min_element();
+                assert!(clear >= 30.0, "{} at {time}: {clear} pixels", scene.name);
+                // A square of 80 pixels; its sides show as less than a tenth of one.
+                assert!((largest - least).distance(DVec2::splat(80.0)) < 0.1);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_white_sphere_hides_red_light_that_the_trailing_shutter_sees() {
+    let scene = load("two_spheres", None);
+    let [red, _] = extent(&scene, "red", 0.0);
+    let [_, hidden] = extent(&scene, "white", 0.0);
+    let [_, hidden_before] = extent(&scene, "white", -scene.exposure);
+    let [_, red_end] = extent(&scene, "red", 0.0);
+    assert!(
+        red.x < hidden.x && hidden.x < red_end.x,
+        "part of the red sphere is hidden at the instant"
+    );
+    assert!(
+        hidden.x - hidden_before.x > 30.0,
+        "and more than 30 pixels of it come into view"
+    );
+    let speed = (hidden.x - hidden_before.x) / scene.exposure;
+    // The silhouette of a sphere off the axis widens by a few per cent.
+    assert!((speed - 64.0).abs() < 3.0, "{speed} pixels per frame");
+}
+
+#[test]
+fn the_car_is_seen_whole_behind_the_railing_and_its_wheels_roll() {
+    let scene = load("railing", None);
+    for name in ["car", "wheel_rear_near", "wheel_front_near", "aeroplane"] {
+        for time in [-scene.exposure, 0.0, scene.exposure] {
+            let [least, largest] = extent(&scene, name, time);
+            assert!(least.min_element() > 30.0, "{name} at {time}");
+            assert!(largest.x < 610.0 && largest.y < 330.0, "{name} at {time}");
+        }
+    }
+    let speed = |name| (extent(&scene, name, 0.5)[0] - extent(&scene, name, -0.5)[0]).x;
+    assert!((48.0..64.0).contains(&speed("car")));
+    assert!((3.0..10.0).contains(&speed("aeroplane")));
+
+    // A rolling wheel stands still where it touches the road, and moves twice as fast as the car at its top.
+    let wheel = object(&scene, "wheel_front_near");
+    let velocity = |height: f64| {
+        let to_wheel = scene.object_to_world(wheel, 0.0).inverse();
+        let axle = scene.object_to_world(wheel, 0.0).translation;
+        let point = to_wheel.transform_point3(DVec3::new(axle.x, height, axle.z));
+        let at = |time| scene.object_to_world(wheel, time).transform_point3(point);
+        (at(1e-4) - at(-1e-4)) / 2e-4
+    };
+    // 1e-4 metres per frame: degrees in the file have four decimals, and the difference quotient is of second order.
+    assert!(velocity(0.0).length() < 1e-4, "{}", velocity(0.0));
+    assert!(velocity(0.64).distance(DVec3::new(1.8, 0.0, 0.0)) < 1e-4);
+}
+
+#[test]
+fn the_fan_turns_as_its_variant_says() {
+    for (variant, degrees) in [
+        (None, 45.0),
+        (Some("5deg"), 5.0),
+        (Some("20deg"), 20.0),
+        (Some("45deg"), 45.0),
+        (Some("60deg"), 60.0),
+    ] {
+        let scene = load("fan", variant);
+        let fan = object(&scene, "fan");
+        let blade = |time| scene.object_to_world(fan, time).transform_vector3(DVec3::X);
+        let turned = blade(0.0).angle_between(blade(1.0)).to_degrees();
+        // 1e-6 degrees: an angle from a cosine has half of the digits.
+        assert!((turned - degrees).abs() < 1e-6, "{}: {turned}", scene.name);
+        assert!(blade(0.01).y > 0.0, "anticlockwise");
+    }
+}
