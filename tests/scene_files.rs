@@ -11,7 +11,12 @@ fn scenes() -> PathBuf {
 
 /// Where a camera that stands still sees a world point, in pixels.
 fn project(scene: &Scene, point: DVec3, time: f64) -> DVec2 {
-    let seen = scene.camera.motion.at(time).inverse().transform_point3(point);
+    let seen = scene
+        .camera
+        .motion
+        .at(time)
+        .inverse()
+        .transform_point3(point);
     let focal = f64::from(scene.height) / 2.0 / (scene.camera.vertical_fov[0].1 / 2.0).tan();
     let middle = DVec2::new(f64::from(scene.width), f64::from(scene.height)) / 2.0;
     middle + focal * DVec2::new(seen.x, -seen.y) / -seen.z
@@ -36,7 +41,12 @@ fn print_bounds() {
         println!("{} {:?} {}", listing.name, listing.variants, scene.hash);
         for (i, o) in scene.objects.iter().enumerate() {
             let m = &scene.meshes[o.mesh];
-            println!("  {} tris {} mats {}", o.name, m.triangles.len(), o.materials.len());
+            println!(
+                "  {} tris {} mats {}",
+                o.name,
+                m.triangles.len(),
+                o.materials.len()
+            );
             for t in [-0.5, 0.0, 0.5] {
                 let b = bounds(&scene, i, t);
                 println!("    {t}: {:.1} .. {:.1}", b[0], b[1]);
