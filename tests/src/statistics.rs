@@ -6,9 +6,11 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 /// An estimate, its standard error, and what it should be.
 #[derive(Clone, Copy, Debug)]
 pub struct Estimate {
+    /// What the render says.
     pub value: f64,
     /// From the spread of replicates.
     pub error: f64,
+    /// What the closed form says.
     pub expected: f64,
 }
 
