@@ -3,6 +3,9 @@
 use frame::Truth;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
+/// Colours are rounded to f32, and so are the vertices of meshes.
+const ROUNDING: f64 = 2e-6;
+
 /// An estimate, its standard error, and what it should be.
 #[derive(Clone, Copy, Debug)]
 pub struct Estimate {
@@ -49,10 +52,8 @@ pub fn expect_agreement(what: &str, estimates: &[Estimate], replicates: u32) {
     let student = StudentsT::new(0.0, 1.0, f64::from(replicates - 1)).expect("degrees of freedom");
     let count = estimates.len() as f64;
     let sidak = 1.0 - 0.99_f64.powf(1.0 / count);
-    // f32 colours and coverages of meshes in f32.
-    let rounding = 2e-6;
     let p_value = |estimate: &Estimate| {
-        let off = (estimate.value - estimate.expected).abs() - rounding;
+        let off = (estimate.value - estimate.expected).abs() - ROUNDING;
         if off <= 0.0 {
             1.0
         } else if estimate.error == 0.0 {
@@ -73,18 +74,25 @@ pub fn expect_agreement(what: &str, estimates: &[Estimate], replicates: u32) {
             outside[0],
         );
     }
-    let sum: f64 = estimates
-        .iter()
-        .map(|estimate| estimate.value - estimate.expected)
-        .sum();
-    let error: f64 = estimates
-        .iter()
-        .map(|estimate| estimate.error.powi(2))
-        .sum::<f64>()
-        .sqrt();
+    expect_total(what, estimates, |_| 1.0);
+}
+
+/// Fails unless the sum of all estimates, each times the weight of its index, agrees with what is expected: finds
+/// errors that all pixels share, and with weights that grow across the picture, shifts.
+pub fn expect_total(what: &str, estimates: &[Estimate], weight: impl Fn(usize) -> f64) {
+    let mut sum = 0.0;
+    let mut variance = 0.0;
+    let mut rounding = 0.0;
+    for (index, estimate) in estimates.iter().enumerate() {
+        let weight = weight(index);
+        sum += weight * (estimate.value - estimate.expected);
+        variance += (weight * estimate.error).powi(2);
+        rounding += weight.abs() * ROUNDING;
+    }
+    let error = variance.sqrt();
     // Pixels are independent, so their sum is nearly normal: 4.5 sigma is 7e-6.
     assert!(
-        sum.abs() <= 4.5 * error + rounding * count,
+        sum.abs() <= 4.5 * error + rounding,
         "{what}: the sum over all pixels is off by {sum}, {:.1} standard errors",
         sum / error
     );
