@@ -1,4 +1,5 @@
 //! What several integration tests share.
 
 pub mod shapes;
+pub mod statistics;
 pub mod synthetic;

@@ -30,9 +30,12 @@ pub(crate) enum Times {
 /// A render: what every pixel's samples have in common.
 pub(crate) struct Film<'a> {
     pub integrator: Integrator<'a>,
+    /// Pixels per row.
     pub width: u32,
+    /// Rows.
     pub height: u32,
     pub times: Times,
+    /// Independent, complete sets of samples.
     pub replicates: u32,
     /// A power of two.
     pub samples_per_replicate: u32,

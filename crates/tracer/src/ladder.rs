@@ -76,7 +76,7 @@ pub fn trace_ladder(
             settings.seed,
             samples_per_pixel,
             REPLICATES,
-            ladder_hash(scene, settings, &rung_sizes(&rungs)),
+            ladder_hash(scene, settings, subframes),
         ),
         shutter,
         alignment: settings.alignment,
@@ -91,10 +91,6 @@ fn check_subframes(subframes: &[u32]) -> Result<(), TraceError> {
         Some(1..) if rising => Ok(()),
         _ => Err(TraceError::Subframes(subframes.to_vec())),
     }
-}
-
-fn rung_sizes(rungs: &[Accumulation]) -> Vec<u32> {
-    rungs.iter().map(|rung| rung.subframes).collect()
 }
 
 fn halves(replicates: &[Replicate]) -> [PixelMean; 2] {

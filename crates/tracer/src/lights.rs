@@ -82,7 +82,7 @@ impl Emitters {
         let drawn = self.cumulative.partition_point(|&sum| sum <= choice);
         let (object, triangle) = self.triangles[drawn.min(last)];
         let [a, b, c] = corners(&scene.meshes[scene.objects[object].mesh], triangle);
-        // Uniform in the triangle: fold the square's upper half (Shirley and Chiu's map would do as well).
+        // The square's upper half is folded onto the triangle.
         let weights = if u + v > 1.0 {
             [1.0 - u, 1.0 - v]
         } else {

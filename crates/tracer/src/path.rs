@@ -69,9 +69,12 @@ impl<'a> Integrator<'a> {
             }
             throughput *= surface.albedo;
             let lobe = Lobe::new(surface.facet, surface.normal);
+            let [u, v, roulette, choice] = sampler.bounce(depth);
             let start = surface.position + LIFT * magnitude(&surface, &hit) * surface.facet;
-            sample.radiance += throughput * self.direct(poses, start, &lobe, sampler, depth);
-            let [u, v, roulette, _] = sampler.bounce(depth);
+            if self.has_lights() {
+                let points = sampler.lights(depth);
+                sample.radiance += throughput * self.direct(poses, start, &lobe, choice, points);
+            }
             if depth >= ROULETTE_FROM {
                 let survival = f64::from(throughput.max_element()).min(1.0);
                 if roulette >= survival {
@@ -87,6 +90,10 @@ impl<'a> Integrator<'a> {
             };
         }
         sample
+    }
+
+    fn has_lights(&self) -> bool {
+        self.stage.scene.sun.is_some() || !self.emitters.is_empty()
     }
 
     /// Background and sun disc.
@@ -116,21 +123,17 @@ impl<'a> Integrator<'a> {
         surface.emission * weight as f32
     }
 
-    /// Light that comes straight from the sun and from one emitter, scattered by a surface of albedo 1.
+    /// Light that comes straight from the sun and from one emitter, scattered by a surface of albedo 1. The random
+    /// numbers choose the emitter, the point on it and the point on the sun.
     fn direct(
         &self,
         poses: &mut Poses,
         start: DVec3,
         lobe: &Lobe,
-        sampler: &Sampler,
-        depth: u32,
+        choice: f64,
+        [u, v, sun_u, sun_v]: [f64; 4],
     ) -> Vec3 {
         let scene = self.stage.scene;
-        if scene.sun.is_none() && self.emitters.is_empty() {
-            return Vec3::ZERO;
-        }
-        let [u, v, sun_u, sun_v] = sampler.lights(depth);
-        let [.., choice] = sampler.bounce(depth);
         let mut light = Vec3::ZERO;
         if let Some(sun) = &scene.sun {
             let by_lobe = sun.angular_radius > 0.0;

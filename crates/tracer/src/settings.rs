@@ -4,6 +4,7 @@ use frame::{Alignment, Shutter, ShutterError, VelocityKind};
 
 use crate::sampler::MOST_SAMPLES;
 use crate::scene::Scene;
+use crate::velocity::looks_back_to;
 
 /// Widest and highest picture, in pixels.
 const LARGEST_SIDE: u32 = 16_384;
@@ -129,8 +130,7 @@ impl FrameSettings {
         check_size(self.width, self.height)?;
         Alignment::Trailing.shutter(self.exposure)?;
         check_samples(self.samples_per_pixel, 1)?;
-        // Velocity looks back by up to one frame.
-        check_field_of_view(scene, -1.0, 0.0)
+        check_field_of_view(scene, looks_back_to(self.velocity), 0.0)
     }
 }
 

@@ -27,3 +27,43 @@ impl Texture {
 fn wrapped(fraction: f32, texels: u32) -> f32 {
     fraction.rem_euclid(1.0) * texels as f32 - 0.5
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 2 x 2 texels: 1 2 above 3 4.
+    fn texture() -> Texture {
+        Texture {
+            path: "made by a test".into(),
+            width: 2,
+            height: 2,
+            texels: [1.0, 2.0, 3.0, 4.0].map(|value| [value; 4]).to_vec(),
+        }
+    }
+
+    #[test]
+    fn texels_lie_at_their_centres_with_v_up() {
+        for (u, v, expected) in [
+            (0.25, 0.75, 1.0),
+            (0.75, 0.75, 2.0),
+            (0.25, 0.25, 3.0),
+            (0.75, 0.25, 4.0),
+        ] {
+            assert_eq!(texture().sample(Vec2::new(u, v)), Vec4::splat(expected));
+            // One repeat on, and several back.
+            assert_eq!(
+                texture().sample(Vec2::new(u + 1.0, v - 3.0)),
+                Vec4::splat(expected)
+            );
+        }
+    }
+
+    #[test]
+    fn between_centres_texels_mix_and_wrap_at_the_border() {
+        assert_eq!(texture().sample(Vec2::new(0.5, 0.75)), Vec4::splat(1.5));
+        assert_eq!(texture().sample(Vec2::new(0.25, 0.5)), Vec4::splat(2.0));
+        assert_eq!(texture().sample(Vec2::new(0.0, 0.75)), Vec4::splat(1.5));
+        assert_eq!(texture().sample(Vec2::new(0.5, 0.5)), Vec4::splat(2.5));
+    }
+}

@@ -70,6 +70,14 @@ impl Tracked {
     }
 }
 
+/// The earliest time that a velocity depends on, in frames.
+pub(crate) fn looks_back_to(kind: VelocityKind) -> f64 {
+    match kind {
+        VelocityKind::Instantaneous => -2.0 * STEP,
+        VelocityKind::PreviousFrame => -1.0,
+    }
+}
+
 fn difference(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0] - b[0], a[1] - b[1]]
 }

@@ -1,0 +1,305 @@
+//! Coverage of shapes in motion against closed forms.
+//!
+//! The camera sees one metre as one pixel at the shapes' distance, the image's centre at the origin.
+
+use frame::{Alignment, Shutter, Truth};
+use glam::{DQuat, DVec2, DVec3};
+use tests::shapes::*;
+use tests::statistics::{estimates, expect_agreement, expect_total};
+use tests::unwatched;
+use tracer::{Key, Mesh, Motion, Scene, TruthSettings, trace_truth};
+
+const WIDTH: u32 = 32;
+const HEIGHT: u32 = 18;
+/// At a vertical field of view of 90 degrees half the height in pixels is the focal length.
+const DISTANCE: f64 = 0.5 * HEIGHT as f64;
+const ANGLES: [f64; 4] = [0.0, 30.0, 45.0, 90.0];
+/// Pixels per frame, and frames.
+const SPEED: f64 = 14.0;
+const EXPOSURE: f64 = 0.75;
+
+fn settings(alignment: Alignment) -> TruthSettings {
+    TruthSettings {
+        width: WIDTH,
+        height: HEIGHT,
+        exposure: EXPOSURE,
+        alignment,
+        samples_per_pixel: 1024,
+        ..TruthSettings::default()
+    }
+}
+
+/// A white mesh on black in straight motion: `at` its place at `t = 0`, turned by `angle`, velocity in the plane.
+fn scene(mesh: Mesh, at: DVec2, angle: f64, velocity: DVec2) -> Scene {
+    let mut scene = empty_scene("coverage");
+    let place = |time: f64| {
+        let place = at + time * velocity;
+        Key {
+            time,
+            translation: DVec3::new(place.x, place.y, -DISTANCE),
+            orientation: DQuat::from_rotation_z(angle),
+            ..Key::REST
+        }
+    };
+    let motion = Motion {
+        keys: vec![place(-1.0), place(1.0)],
+    };
+    add(&mut scene, mesh, glowing(1.0), motion);
+    scene
+}
+
+/// Lower left corner of a pixel, y up.
+fn corner(x: u32, y: u32) -> DVec2 {
+    DVec2::new(
+        f64::from(x) - 0.5 * f64::from(WIDTH),
+        0.5 * f64::from(HEIGHT) - f64::from(y) - 1.0,
+    )
+}
+
+/// Probability that a sum of independent uniform numbers in `[0, width]` is at most `limit`: a piecewise polynomial
+/// (Feller, volume 2, I.9).
+fn uniform_sum(limit: f64, widths: &[f64]) -> f64 {
+    let widths: Vec<f64> = widths
+        .iter()
+        .copied()
+        .filter(|width| *width > 1e-12)
+        .collect();
+    if limit >= widths.iter().sum() {
+        return 1.0;
+    }
+    let degree = widths.len() as i32;
+    let sum: f64 = (0..1u32 << widths.len())
+        .map(|subset| {
+            let taken = |index: usize| subset >> index & 1 == 1;
+            let shift: f64 = (0..widths.len())
+                .filter(|&index| taken(index))
+                .map(|index| widths[index])
+                .sum();
+            let sign = if subset.count_ones() % 2 == 1 {
+                -1.0
+            } else {
+                1.0
+            };
+            sign * (limit - shift).max(0.0).powi(degree)
+        })
+        .sum();
+    let factorial: f64 = (1..=degree).map(f64::from).product();
+    sum / (factorial * widths.iter().product::<f64>())
+}
+
+/// Part of pixel x shutter in which `normal . p <= offset + speed t`.
+fn half_plane(pixel: DVec2, normal: DVec2, offset: f64, speed: f64, shutter: Shutter) -> f64 {
+    // normal . p - speed t as its least value plus three uniform numbers.
+    let least = |along: f64, from: f64, to: f64| (along * from).min(along * to);
+    let start = least(normal.x, pixel.x, pixel.x + 1.0)
+        + least(normal.y, pixel.y, pixel.y + 1.0)
+        + least(-speed, shutter.open, shutter.close);
+    let widths = [
+        normal.x.abs(),
+        normal.y.abs(),
+        (speed * shutter.exposure()).abs(),
+    ];
+    uniform_sum(offset - start, &widths)
+}
+
+/// Mean of `value` over a pixel, by the midpoint rule on `side` squared points.
+fn over_pixel(pixel: DVec2, side: u32, value: impl Fn(DVec2) -> f64) -> f64 {
+    let at = |index: u32| (f64::from(index) + 0.5) / f64::from(side);
+    let sum: f64 = (0..side * side)
+        .map(|index| value(pixel + DVec2::new(at(index % side), at(index / side))))
+        .sum();
+    sum / f64::from(side * side)
+}
+
+/// Length of the common part of two intervals.
+fn overlap(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[1].min(b[1]) - a[0].max(b[0])).max(0.0)
+}
+
+/// Every shutter and every angle (in radians).
+fn cases() -> impl Iterator<Item = (Alignment, f64)> {
+    Alignment::ALL
+        .into_iter()
+        .flat_map(|alignment| ANGLES.map(|degrees| (alignment, degrees.to_radians())))
+}
+
+fn expect(what: &str, scene: &Scene, alignment: Alignment, exact: impl Fn(DVec2, Shutter) -> f64) {
+    let settings = settings(alignment);
+    let truth = trace_truth(scene, &settings, &unwatched).expect("settings are allowed");
+    let shutter = truth.shutter;
+    let estimates = estimates(&truth, |x, y| exact(corner(x, y), shutter));
+    let what = format!("{what}, {alignment}");
+    expect_agreement(&what, &estimates, settings.replicates);
+    // Shifts and stretches show in the first moments.
+    expect_total(&what, &estimates, |pixel| {
+        f64::from(pixel as u32 % WIDTH) - 15.5
+    });
+    expect_total(&what, &estimates, |pixel| {
+        f64::from(pixel as u32 / WIDTH) - 8.5
+    });
+    expect_same_as_color(&truth);
+}
+
+/// The object shines with 1 on black, so that its coverage is the colour, and the background's the rest.
+fn expect_same_as_color(truth: &Truth) {
+    let mean = truth.mean();
+    for (pixel, color) in mean.color.pixels.iter().enumerate() {
+        assert!((mean.coverage[1].pixels[pixel] - color[0]).abs() < 1e-6);
+        assert!((mean.coverage[0].pixels[pixel] + color[0] - 1.0).abs() < 1e-6);
+    }
+    assert_eq!(truth.motion, mean.coverage[1], "only the object moves");
+}
+
+#[test]
+fn a_half_plane_covers_what_the_polynomial_says() {
+    for (alignment, angle) in cases() {
+        let normal = DVec2::from_angle(angle);
+        // The edge lies 2.3 pixels ahead of the centre; the other edges are far outside.
+        let scene = scene(
+            rectangle(400.0, 400.0),
+            (2.3 - 200.0) * normal,
+            angle,
+            SPEED * normal,
+        );
+        expect(
+            &format!("half-plane at {angle}"),
+            &scene,
+            alignment,
+            |pixel, shutter| half_plane(pixel, normal, 2.3, SPEED, shutter),
+        );
+    }
+}
+
+#[test]
+fn a_slab_covers_the_difference_of_two_half_planes() {
+    for (alignment, angle) in cases() {
+        let normal = DVec2::from_angle(angle);
+        // Motion is not along the normal, and the slab is thinner than its smear.
+        let velocity = SPEED * DVec2::from_angle(angle + 0.35);
+        let (behind, ahead) = (-1.2, 1.9);
+        let middle = 0.5 * (behind + ahead) * normal;
+        let scene = scene(
+            rectangle((ahead - behind) as f32, 400.0),
+            middle,
+            angle,
+            velocity,
+        );
+        let speed = velocity.dot(normal);
+        // The slab's width is rounded to f32.
+        expect(
+            &format!("slab at {angle}"),
+            &scene,
+            alignment,
+            |pixel, shutter| {
+                half_plane(pixel, normal, ahead, speed, shutter)
+                    - half_plane(pixel, normal, behind, speed, shutter)
+            },
+        );
+    }
+}
+
+#[test]
+fn a_disc_covers_its_chord_s_share_of_the_shutter() {
+    let radius = 4.4;
+    for (alignment, angle) in cases() {
+        let along = DVec2::from_angle(angle);
+        let centre = DVec2::new(0.7, -0.3);
+        let scene = scene(disc(radius as f32, 2048), centre, 0.0, SPEED * along);
+        expect(
+            &format!("disc at {angle}"),
+            &scene,
+            alignment,
+            |pixel, shutter| {
+                let share = |point: DVec2| {
+                    let place = point - centre;
+                    let across = place.dot(along.perp());
+                    let half_chord = (radius * radius - across * across).max(0.0).sqrt();
+                    let inside = [place.dot(along) - half_chord, place.dot(along) + half_chord];
+                    let travel = [SPEED * shutter.open, SPEED * shutter.close];
+                    overlap(inside, travel) / (SPEED * shutter.exposure())
+                };
+                // The chord's end has a root: error (1/128)^1.5 x 0.2 x sqrt(2 radius) / travel = 5e-5 of the pixels it
+                // crosses; standard errors are above 2e-4.
+                over_pixel(pixel, 128, share)
+            },
+        );
+    }
+}
+
+#[test]
+fn a_rotating_bar_covers_its_sector_of_the_annulus() {
+    let (inner, outer, half_width) = (2.0, 7.5, 0.8);
+    let rate = 1.9;
+    for alignment in Alignment::ALL {
+        let mut scene = empty_scene("bar");
+        let mut bar = rectangle((outer - inner) as f32, 2.0 * half_width as f32);
+        for position in &mut bar.positions {
+            position.x += 0.5 * (inner + outer) as f32;
+        }
+        let centre = DVec3::new(0.0, 0.0, -DISTANCE);
+        add(&mut scene, bar, glowing(1.0), spin(centre, DVec3::Z, rate));
+        expect("bar", &scene, alignment, |pixel, shutter| {
+            let swept = [rate * shutter.open, rate * shutter.close];
+            let share = |point: DVec2| {
+                let distance = point.length();
+                if !(inner..outer + half_width).contains(&distance) {
+                    return 0.0;
+                }
+                let nearest = (outer / distance).min(1.0).acos();
+                let farthest = (half_width / distance)
+                    .min(1.0)
+                    .asin()
+                    .min((inner / distance).min(1.0).acos());
+                // The bar's angles that contain the point lie on both sides of the point's own.
+                let sides = if farthest <= nearest {
+                    0.0
+                } else {
+                    overlap(
+                        swept,
+                        [point.to_angle() + nearest, point.to_angle() + farthest],
+                    ) + overlap(
+                        swept,
+                        [point.to_angle() - farthest, point.to_angle() - nearest],
+                    )
+                };
+                sides / (swept[1] - swept[0])
+            };
+            // The share jumps by up to 0.1 across the bar's end: 1e-4 by the midpoint rule; standard errors are 1e-3.
+            over_pixel(pixel, 128, share)
+        });
+    }
+}
+
+#[test]
+fn noise_falls_as_stratification_predicts() {
+    let normal = DVec2::from_angle(30f64.to_radians());
+    let scene = scene(
+        rectangle(400.0, 400.0),
+        (2.3 - 200.0) * normal,
+        30f64.to_radians(),
+        SPEED * normal,
+    );
+    let rms = |samples: u32| {
+        let settings = TruthSettings {
+            samples_per_pixel: 2 * samples,
+            replicates: 2,
+            ..settings(Alignment::Trailing)
+        };
+        let truth = trace_truth(&scene, &settings, &unwatched).expect("settings are allowed");
+        let mut squares = Vec::new();
+        for y in 0..HEIGHT {
+            for x in 0..WIDTH {
+                let exact = half_plane(corner(x, y), normal, 2.3, SPEED, truth.shutter);
+                if exact > 0.0 && exact < 1.0 {
+                    squares.extend(truth.halves.iter().map(|half| {
+                        (f64::from(half.coverage[1].at(x, y).to_owned()) - exact).powi(2)
+                    }));
+                }
+            }
+        }
+        (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+    };
+    let slope = (rms(1024) / rms(16)).log2() / (1024.0_f64 / 16.0).log2();
+    // Random samples fall with -0.5; Owen-scrambled points in three dimensions with about -0.75.
+    assert!(slope > -1.0 && slope < -0.6, "slope is {slope}");
+}

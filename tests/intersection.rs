@@ -1,0 +1,253 @@
+//! Rays and triangles: no holes, no leaks, nothing lost, at every scale.
+
+use glam::{DQuat, DVec3, Vec3};
+use tests::shapes::*;
+use tests::unwatched;
+use tracer::{FrameSettings, Key, Mesh, Motion, Ray, Scene, Stage, Turn, trace_frame};
+
+/// SplitMix64: numbers for test cases.
+struct Numbers(u64);
+
+impl Numbers {
+    /// In [-1, 1).
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / 2f64.powi(52) - 1.0
+    }
+
+    fn vector(&mut self) -> DVec3 {
+        DVec3::new(self.next(), self.next(), self.next())
+    }
+}
+
+fn reversed(mut mesh: Mesh) -> Mesh {
+    for triangle in &mut mesh.triangles {
+        triangle.swap(1, 2);
+    }
+    mesh
+}
+
+#[test]
+fn a_square_panel_has_no_hole_at_any_pixel_centre() {
+    for size in [16, 64, 90] {
+        for panel in [rectangle(1.0, 1.0), reversed(rectangle(1.0, 1.0))] {
+            // Fills the picture exactly at a field of view of 90 degrees: the diagonal passes through pixel centres.
+            let mut scene = empty_scene("panel");
+            let at = placed(DVec3::new(0.0, 0.0, -0.5));
+            add(&mut scene, panel, glowing(1.0), at);
+            let settings = FrameSettings {
+                width: size,
+                height: size,
+                samples_per_pixel: 1,
+                ..FrameSettings::default()
+            };
+            let frame = trace_frame(&scene, &settings, &unwatched).expect("settings are allowed");
+            assert!(frame.object_id.pixels.iter().all(|id| *id == 1));
+            assert!(
+                frame.coverage[1]
+                    .pixels
+                    .iter()
+                    .all(|coverage| *coverage == 1.0)
+            );
+        }
+    }
+}
+
+#[test]
+fn parallel_rays_find_no_hole_along_a_diagonal() {
+    for panel in [rectangle(1.0, 1.0), reversed(rectangle(1.0, 1.0))] {
+        let mut scene = empty_scene("panel");
+        add(&mut scene, panel, glowing(1.0), placed(DVec3::ZERO));
+        let stage = Stage::new(&scene, 0.0, 0.0);
+        let mut poses = stage.poses();
+        for step in 0..64 {
+            let at = (f64::from(step) + 0.5) / 64.0 - 0.5;
+            for across in [at, -at] {
+                let ray = Ray {
+                    origin: DVec3::new(at, across, 5.0),
+                    direction: DVec3::NEG_Z,
+                };
+                let hit = stage.closest(&mut poses, &ray).expect("no hole");
+                assert_eq!(hit.t, 5.0);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_closed_sphere_does_not_leak_at_its_edges_and_vertices() {
+    let mesh = icosphere(1.0, 3);
+    let mut scene = empty_scene("sphere");
+    // Turned, moved and scaled, so that nothing is exact in the world.
+    let motion = Motion::still(Key {
+        translation: DVec3::new(3.0, -70.0, 11.0),
+        orientation: DQuat::from_axis_angle(DVec3::new(0.36, 0.48, 0.8), 1.0),
+        scale: DVec3::new(2.0, 0.5, 1.0),
+        ..Key::REST
+    });
+    add(&mut scene, mesh.clone(), glowing(1.0), motion.clone());
+    let pose = motion.at(0.0);
+    let stage = Stage::new(&scene, 0.0, 0.0);
+    let mut poses = stage.poses();
+    let mut numbers = Numbers(3);
+    for triangle in &mesh.triangles {
+        let [a, b, c] = triangle.map(|index| mesh.positions[index as usize].as_dvec3());
+        for target in [a, b, c, 0.5 * (a + b), 0.3 * b + 0.7 * c, 0.9 * c + 0.1 * a] {
+            // From inside, and from far outside: the near side must stop the ray.
+            for (start, most) in [(0.4, 1.01), (1000.0, 1.0 + 1e-9)] {
+                let inner = start * numbers.vector().normalize();
+                // What is seen edge-on belongs to the silhouette, which rounding may miss.
+                if start > 1.0 && inner.normalize().dot(target.normalize()) < 0.2 {
+                    continue;
+                }
+                let origin = pose.transform_point3(inner);
+                let direction = pose.transform_point3(target) - origin;
+                let ray = Ray { origin, direction };
+                let hit = stage.closest(&mut poses, &ray).expect("no leak");
+                assert!(hit.t < most, "hit at {}", hit.t);
+                assert!(stage.blocked(&mut poses, &ray, 1.01));
+            }
+        }
+    }
+}
+
+#[test]
+fn the_nearest_of_three_overlapping_objects_wins_in_every_order() {
+    let panels = [(1.0, 3.0), (2.0, 4.0), (3.0, 5.0)];
+    for order in [
+        [0, 1, 2],
+        [0, 2, 1],
+        [1, 0, 2],
+        [1, 2, 0],
+        [2, 0, 1],
+        [2, 1, 0],
+    ] {
+        let mut scene = empty_scene("overlap");
+        for index in order {
+            let (depth, size): (f64, f32) = panels[index];
+            // Boxes that contain one another's fronts.
+            add(&mut scene, cuboid(Vec3::splat(size)), glowing(1.0), {
+                placed(DVec3::new(0.0, 0.0, -depth - 0.5 * f64::from(size)))
+            });
+        }
+        let stage = Stage::new(&scene, 0.0, 0.0);
+        let mut numbers = Numbers(4);
+        for _ in 0..100 {
+            let direction = DVec3::new(0.3 * numbers.next(), 0.3 * numbers.next(), -1.0);
+            let origin = DVec3::ZERO;
+            let hit = stage
+                .closest(&mut stage.poses(), &Ray { origin, direction })
+                .expect("the boxes fill the view");
+            assert_eq!(order[hit.object], 0);
+            assert!((hit.t - 1.0).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn of_equally_near_surfaces_the_first_is_seen() {
+    let mut scene = empty_scene("ties");
+    for _ in 0..3 {
+        add(
+            &mut scene,
+            icosphere(1.0, 1),
+            glowing(1.0),
+            spin(DVec3::ZERO, DVec3::Y, 1.0),
+        );
+    }
+    let stage = Stage::new(&scene, 0.0, 1.0);
+    let mut poses = stage.poses();
+    let mut numbers = Numbers(5);
+    for step in 0..1000 {
+        let origin = 3.0 * numbers.vector().normalize();
+        let direction = 0.5 * numbers.vector() - origin;
+        let hit = stage.closest(
+            poses.at(f64::from(step) / 1000.0),
+            &Ray { origin, direction },
+        );
+        assert_eq!(hit.expect("aimed inside").object, 0);
+    }
+}
+
+/// Meshes of every kind in every motion, all sizes and distances times `scale`.
+fn crowd(scale: f64) -> Scene {
+    let mut numbers = Numbers(6);
+    let mut scene = empty_scene("crowd");
+    let size = scale as f32;
+    let meshes = [
+        icosphere(size, 2),
+        cuboid(Vec3::new(size, 0.1 * size, 2.0 * size)),
+        disc(size, 40),
+        rectangle(size, 3.0 * size),
+    ];
+    for index in 0..12 {
+        let turn = Turn {
+            axis: numbers.vector().normalize(),
+            angle: 4.0 * numbers.next(),
+        };
+        let key = Key {
+            time: -1.0,
+            translation: 3.0 * scale * numbers.vector(),
+            scale: DVec3::splat(1.0) + 0.5 * numbers.vector(),
+            turn,
+            ..Key::REST
+        };
+        let end = Key {
+            time: 0.5,
+            translation: key.translation + 2.0 * scale * numbers.vector(),
+            orientation: DQuat::from_axis_angle(turn.axis, turn.angle),
+            turn: Turn::NONE,
+            ..key
+        };
+        let motion = Motion {
+            keys: vec![key, end],
+        };
+        add(
+            &mut scene,
+            meshes[index % meshes.len()].clone(),
+            glowing(1.0),
+            motion,
+        );
+    }
+    scene
+}
+
+#[test]
+fn the_trees_find_what_every_triangle_in_turn_gives() {
+    for scale in [1e-4, 1e-2, 1.0, 1e3] {
+        let scene = crowd(scale);
+        let [open, close] = [-0.8, 0.7];
+        let stage = Stage::new(&scene, open, close);
+        let mut poses = stage.poses();
+        let mut numbers = Numbers(7);
+        let mut hits = 0;
+        for index in 0..4000 {
+            // Ends, borders of slices, and any time.
+            let time = match index % 4 {
+                0 => open + (close - open) * f64::from(index / 4 % 17) / 16.0,
+                _ => open + (close - open) * 0.5 * (1.0 + numbers.next()),
+            };
+            // Among the objects, and from far away.
+            let origin = scale * if index % 2 == 0 { 4.0 } else { 200.0 } * numbers.vector();
+            let direction = (3.0 * scale * numbers.vector() - origin).normalize();
+            let ray = Ray { origin, direction };
+            let found = stage.closest(poses.at(time), &ray);
+            let expected = stage.closest_of_all(&mut poses, &ray);
+            assert_eq!(found, expected, "scale {scale}, time {time}, {ray:?}");
+            if let Some(hit) = expected {
+                hits += 1;
+                assert!(stage.blocked(&mut poses, &ray, hit.t * (1.0 + 1e-9)));
+                assert!(!stage.blocked(&mut poses, &ray, hit.t));
+            } else {
+                assert!(!stage.blocked(&mut poses, &ray, f64::INFINITY));
+            }
+        }
+        assert!(
+            hits > 400,
+            "only {hits} rays hit anything: the test shows little"
+        );
+    }
+}

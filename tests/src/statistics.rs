@@ -1,0 +1,99 @@
+//! Whether noisy pixels agree with known values.
+
+use frame::Truth;
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+/// Colours are rounded to f32, and so are the vertices of meshes.
+const ROUNDING: f64 = 2e-6;
+
+/// An estimate, its standard error, and what it should be.
+#[derive(Clone, Copy, Debug)]
+pub struct Estimate {
+    /// What the render says.
+    pub value: f64,
+    /// From the spread of replicates.
+    pub error: f64,
+    /// What the closed form says.
+    pub expected: f64,
+}
+
+/// The first colour component of every pixel against what `expected` says of its column and row.
+///
+/// `error_floor`: eight replicates of n samples may agree on a count although each is off by one sample with a
+/// probability of 0.3 (they do in 0.7^8 = 6 % of cases); the error of their mean is then sqrt(0.3 x 0.7 / 8) / n, and
+/// not the zero of their spread. Pixels that are expected to be exactly empty or full get no such allowance.
+pub fn estimates(truth: &Truth, expected: impl Fn(u32, u32) -> f64) -> Vec<Estimate> {
+    let samples = truth.provenance.samples_per_pixel / truth.provenance.replicates;
+    let replicates = f64::from(truth.provenance.replicates);
+    let floor = (0.3 * 0.7 / replicates).sqrt() / f64::from(samples);
+    let (width, height) = truth.size();
+    let color = truth.mean().color;
+    (0..height)
+        .flat_map(|y| (0..width).map(move |x| (x, y)))
+        .map(|(x, y)| {
+            let expected = expected(x, y);
+            let spread = f64::from(truth.standard_error.at(x, y)[0]);
+            let certain = expected == 0.0 || expected == 1.0;
+            Estimate {
+                value: f64::from(color.at(x, y)[0]),
+                error: if certain { spread } else { spread.max(floor) },
+                expected,
+            }
+        })
+        .collect()
+}
+
+/// Fails unless the estimates of `replicates` replicates agree with what is expected: pixel by pixel, and in total.
+///
+/// The pixel test is that of Mitsuba 3's render tests with Student's distribution in place of the normal one: at
+/// least 99.75 % of the pixels must have a p-value above Sidak's 1 - 0.99^(1/pixels). Four standard errors of a
+/// normal distribution (p = 6.3e-5) are asked of 99.75 % as well. Errors that all pixels share show in the sum.
+pub fn expect_agreement(what: &str, estimates: &[Estimate], replicates: u32) {
+    let student = StudentsT::new(0.0, 1.0, f64::from(replicates - 1)).expect("degrees of freedom");
+    let count = estimates.len() as f64;
+    let sidak = 1.0 - 0.99_f64.powf(1.0 / count);
+    let p_value = |estimate: &Estimate| {
+        let off = (estimate.value - estimate.expected).abs() - ROUNDING;
+        if off <= 0.0 {
+            1.0
+        } else if estimate.error == 0.0 {
+            0.0
+        } else {
+            2.0 * student.sf(off / estimate.error)
+        }
+    };
+    for (name, least) in [("Sidak's level", sidak), ("four standard errors", 6.3e-5)] {
+        let outside: Vec<&Estimate> = estimates
+            .iter()
+            .filter(|estimate| p_value(estimate) < least)
+            .collect();
+        assert!(
+            outside.len() as f64 <= 0.0025 * count,
+            "{what}: {} of {count} pixels are outside {name}, first {:?}",
+            outside.len(),
+            outside[0],
+        );
+    }
+    expect_total(what, estimates, |_| 1.0);
+}
+
+/// Fails unless the sum of all estimates, each times the weight of its index, agrees with what is expected: finds
+/// errors that all pixels share, and with weights that grow across the picture, shifts.
+pub fn expect_total(what: &str, estimates: &[Estimate], weight: impl Fn(usize) -> f64) {
+    let mut sum = 0.0;
+    let mut variance = 0.0;
+    let mut rounding = 0.0;
+    for (index, estimate) in estimates.iter().enumerate() {
+        let weight = weight(index);
+        sum += weight * (estimate.value - estimate.expected);
+        variance += (weight * estimate.error).powi(2);
+        rounding += weight.abs() * ROUNDING;
+    }
+    let error = variance.sqrt();
+    // Pixels are independent, so their sum is nearly normal: 4.5 sigma is 7e-6.
+    assert!(
+        sum.abs() <= 4.5 * error + rounding,
+        "{what}: the sum over all pixels is off by {sum}, {:.1} standard errors",
+        sum / error
+    );
+}

@@ -1,0 +1,304 @@
+//! Velocity and depth against formulas written out by hand.
+
+use frame::{FAR_DEPTH, Frame, VelocityKind};
+use glam::{DQuat, DVec2, DVec3, Vec3};
+use tests::shapes::*;
+use tests::unwatched;
+use tracer::{FrameSettings, Key, Motion, Parent, Scene, Turn, trace_frame};
+
+const WIDTH: u32 = 33;
+const HEIGHT: u32 = 21;
+/// Focal length in pixels at a vertical field of view of 90 degrees.
+const FOCAL: f64 = 0.5 * HEIGHT as f64;
+/// Pixels.
+const TOLERANCE: f64 = 1e-3;
+
+fn frame(scene: &Scene, velocity: VelocityKind) -> Frame {
+    let settings = FrameSettings {
+        width: WIDTH,
+        height: HEIGHT,
+        velocity,
+        samples_per_pixel: 1,
+        ..FrameSettings::default()
+    };
+    trace_frame(scene, &settings, &unwatched).expect("allowed")
+}
+
+/// A pixel centre in pixels from the picture's centre, +x right, +y **up**.
+fn place(x: u32, y: u32) -> DVec2 {
+    DVec2::new(
+        f64::from(x) + 0.5 - 0.5 * f64::from(WIDTH),
+        0.5 * f64::from(HEIGHT) - f64::from(y) - 0.5,
+    )
+}
+
+/// The point at that place and depth, seen from a camera at rest at the origin.
+fn point(place: DVec2, depth: f64) -> DVec3 {
+    DVec3::new(place.x * depth / FOCAL, place.y * depth / FOCAL, -depth)
+}
+
+/// Where a camera at rest at the origin sees a point: pixels from the centre, y up.
+fn seen(point: DVec3) -> DVec2 {
+    FOCAL * DVec2::new(point.x, point.y) / -point.z
+}
+
+/// Compares every pixel's velocity with `expected` of its place (y up).
+fn expect(what: &str, frame: &Frame, expected: impl Fn(DVec2) -> DVec2) {
+    for y in 0..HEIGHT {
+        for x in 0..WIDTH {
+            let [right, down] = frame.velocity.at(x, y).map(f64::from);
+            let expected = expected(place(x, y));
+            let off = DVec2::new(right, -down).distance(expected);
+            assert!(
+                off < TOLERANCE,
+                "{what}: pixel ({x}, {y}) has {right} right, {down} down, not {expected} (y up)"
+            );
+        }
+    }
+}
+
+/// A wall that fills the view, `depth` metres away at `t = 0`.
+fn wall(depth: f64, motion: impl Fn(DVec3) -> Motion) -> Scene {
+    let mut scene = empty_scene("wall");
+    let motion = motion(DVec3::new(0.0, 0.0, -depth));
+    add(&mut scene, rectangle(1000.0, 1000.0), glowing(1.0), motion);
+    scene
+}
+
+#[test]
+fn a_translated_wall_moves_by_perspective() {
+    let depth = 7.0;
+    let velocity = DVec3::new(0.8, -0.5, 1.3);
+    let scene = wall(depth, |at| drift(at, velocity));
+    expect(
+        "derivative",
+        &frame(&scene, VelocityKind::Instantaneous),
+        |place| {
+            // d/dt of focal x / depth, the depth shrinking by velocity.z.
+            (FOCAL * DVec2::new(velocity.x, velocity.y) + place * velocity.z) / depth
+        },
+    );
+    expect(
+        "previous",
+        &frame(&scene, VelocityKind::PreviousFrame),
+        |place| place - seen(point(place, depth) - velocity),
+    );
+}
+
+#[test]
+fn a_spinning_wall_moves_around_its_axis() {
+    for rate in [0.3, -2.0, 40.0] {
+        let scene = wall(5.0, |at| spin(at, DVec3::Z, rate));
+        expect(
+            "derivative",
+            &frame(&scene, VelocityKind::Instantaneous),
+            |place| rate * place.perp(),
+        );
+        expect(
+            "previous",
+            &frame(&scene, VelocityKind::PreviousFrame),
+            |place| place - DVec2::from_angle(-rate).rotate(place),
+        );
+    }
+}
+
+#[test]
+fn a_tilted_turning_box_moves_as_its_points_do() {
+    let axis = DVec3::new(0.6, 0.0, 0.8);
+    let rate = 1.7;
+    let centre = DVec3::new(0.3, -0.2, -6.0);
+    let mut scene = empty_scene("box");
+    add(
+        &mut scene,
+        cuboid(Vec3::new(30.0, 30.0, 2.0)),
+        glowing(1.0),
+        spin(centre, axis, rate),
+    );
+    let frame = frame(&scene, VelocityKind::Instantaneous);
+    expect("box", &frame, |place| {
+        let point = point(place, 5.0);
+        let velocity = rate * axis.cross(point - centre);
+        (FOCAL * DVec2::new(velocity.x, velocity.y) + place * velocity.z) / 5.0
+    });
+}
+
+#[test]
+fn a_child_moves_with_its_parent() {
+    let mut scene = wall(5.0, placed);
+    let rate = 0.9;
+    add(
+        &mut scene,
+        rectangle(0.001, 0.001),
+        glowing(1.0),
+        spin(DVec3::ZERO, DVec3::Z, rate),
+    );
+    scene.objects.swap(0, 1);
+    scene.objects[1].parent = Parent::Object(0);
+    expect(
+        "child",
+        &frame(&scene, VelocityKind::Instantaneous),
+        |place| rate * place.perp(),
+    );
+}
+
+#[test]
+fn a_dolly_makes_everything_stream_from_the_centre() {
+    let (depth, speed) = (4.0, 0.6);
+    let mut scene = wall(depth, placed);
+    scene.camera.motion = drift(DVec3::ZERO, speed * DVec3::NEG_Z);
+    expect(
+        "derivative",
+        &frame(&scene, VelocityKind::Instantaneous),
+        |place| place * speed / depth,
+    );
+    expect(
+        "previous",
+        &frame(&scene, VelocityKind::PreviousFrame),
+        |place| place * (1.0 - depth / (depth + speed)),
+    );
+}
+
+#[test]
+fn a_pan_moves_near_and_infinite_things_alike() {
+    let rate = 0.2;
+    let wall_scene = wall(4.0, placed);
+    for mut scene in [wall_scene, empty_scene("background")] {
+        scene.camera.motion = spin(DVec3::ZERO, DVec3::Y, rate);
+        // The camera turns to the left, so that pictures move to the right.
+        expect(
+            "derivative",
+            &frame(&scene, VelocityKind::Instantaneous),
+            |place| {
+                let slope = place / FOCAL;
+                FOCAL * rate * DVec2::new(1.0 + slope.x * slope.x, slope.x * slope.y)
+            },
+        );
+        expect(
+            "previous",
+            &frame(&scene, VelocityKind::PreviousFrame),
+            |place| {
+                let before = DQuat::from_rotation_y(-rate).inverse() * point(place, 1.0);
+                place - seen(before)
+            },
+        );
+    }
+}
+
+#[test]
+fn a_roll_turns_the_picture_the_other_way() {
+    let rate = 0.7;
+    let mut scene = wall(4.0, placed);
+    scene.camera.motion = spin(DVec3::ZERO, DVec3::Z, rate);
+    expect(
+        "derivative",
+        &frame(&scene, VelocityKind::Instantaneous),
+        |place| -rate * place.perp(),
+    );
+    expect(
+        "previous",
+        &frame(&scene, VelocityKind::PreviousFrame),
+        |place| place - DVec2::from_angle(rate).rotate(place),
+    );
+}
+
+#[test]
+fn a_zoom_scales_the_picture_by_the_focal_length() {
+    let mut scene = wall(4.0, placed);
+    let half_pi = std::f64::consts::FRAC_PI_2;
+    scene.camera.vertical_fov = vec![(-1.0, half_pi + 0.1), (1.0, half_pi - 0.1)];
+    expect(
+        "derivative",
+        &frame(&scene, VelocityKind::Instantaneous),
+        |place| {
+            // d/dt of 1 / tan(angle / 2) at 45 degrees, the angle shrinking by 0.1 per frame.
+            place * 0.1
+        },
+    );
+    expect(
+        "previous",
+        &frame(&scene, VelocityKind::PreviousFrame),
+        |place| place * (1.0 - 1.0 / (0.5 * (half_pi + 0.1)).tan()),
+    );
+}
+
+#[test]
+fn what_the_camera_carries_stands_still() {
+    let mut scene = wall(4.0, placed);
+    scene.camera.motion = spin(DVec3::new(1.0, 2.0, 3.0), DVec3::Y, 2.0);
+    scene.objects[0].parent = Parent::Camera;
+    for kind in VelocityKind::ALL {
+        expect("dashboard", &frame(&scene, kind), |_| DVec2::ZERO);
+    }
+}
+
+#[test]
+fn at_a_turning_point_the_velocity_is_that_of_the_way_there() {
+    let depth = 4.0;
+    let scene = wall(depth, |at| {
+        let key = |time, x| Key {
+            time,
+            translation: at + x * DVec3::X,
+            ..Key::REST
+        };
+        Motion {
+            keys: vec![key(-2.0, -1.0), key(0.0, 0.0), key(1.0, -3.0)],
+        }
+    });
+    expect(
+        "reversal",
+        &frame(&scene, VelocityKind::Instantaneous),
+        |_| DVec2::new(0.5 * FOCAL / depth, 0.0),
+    );
+}
+
+#[test]
+fn what_was_behind_the_camera_one_frame_ago_gets_the_derivative() {
+    let (depth, speed) = (1.0, 3.0);
+    // The wall comes from behind, through the camera.
+    let scene = wall(depth, |at| drift(at, speed * DVec3::NEG_Z));
+    expect(
+        "through",
+        &frame(&scene, VelocityKind::PreviousFrame),
+        |place| -place * speed / depth,
+    );
+}
+
+#[test]
+fn depth_is_the_distance_along_the_view_axis() {
+    let mut scene = empty_scene("tilted");
+    let turned = DQuat::from_axis_angle(DVec3::new(0.0, 0.8, 0.6), 0.7);
+    let centre = DVec3::new(2.0, 1.0, -9.0);
+    let eye = Key {
+        translation: DVec3::new(100.0, 3.0, -20.0),
+        orientation: DQuat::from_axis_angle(DVec3::new(0.6, 0.8, 0.0), 2.1),
+        ..Key::REST
+    };
+    scene.camera.motion = Motion::still(eye);
+    let object = add(&mut scene, rectangle(12.0, 7.0), glowing(1.0), {
+        Motion::still(Key {
+            translation: centre,
+            orientation: turned,
+            turn: Turn::NONE,
+            ..Key::REST
+        })
+    });
+    scene.objects[object].parent = Parent::Camera;
+    let frame = frame(&scene, VelocityKind::Instantaneous);
+    let normal = turned * DVec3::Z;
+    let mut seen = 0;
+    for y in 0..HEIGHT {
+        for x in 0..WIDTH {
+            let direction = point(place(x, y), 1.0);
+            let depth = centre.dot(normal) / direction.dot(normal);
+            let inside = turned.inverse() * (depth * direction - centre);
+            if inside.x.abs() < 6.0 && inside.y.abs() < 3.5 {
+                seen += 1;
+                let found = f64::from(*frame.depth.at(x, y));
+                assert!((found / depth - 1.0).abs() < 1e-5, "{found} is not {depth}");
+            } else {
+                assert_eq!(*frame.depth.at(x, y), FAR_DEPTH);
+            }
+        }
+    }
+    assert!(seen > 50, "only {seen} pixels show the panel");
+}
