@@ -2,6 +2,7 @@
 
 use filters::{Blur, Filter, Gpu, Input, Settings};
 use frame::{Alignment, FAR_DEPTH, Image, Plane, Raster, Vectors};
+use tests::random::Random;
 
 fn gpu() -> Gpu {
     Gpu::new(None).expect("these tests run filters")
@@ -30,20 +31,6 @@ fn name(filter: &Filter, settings: &Settings) -> String {
     format!("{} with preset {}", filter.name, settings.preset)
 }
 
-/// SplitMix64: random fields by formula.
-struct Random(u64);
-
-impl Random {
-    /// Uniform in [low, high).
-    fn real(&mut self, low: f32, high: f32) -> f32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        low + (high - low) * (((z ^ (z >> 31)) >> 40) as f32 / (1u64 << 24) as f32)
-    }
-}
-
 #[derive(Clone)]
 struct Field {
     color: Image,
@@ -58,7 +45,7 @@ const HEIGHT: u32 = 43;
 impl Field {
     /// Highlights up to 10000, still pixels, motion up to 60 pixels, near surfaces and far background.
     fn random(seed: u64) -> Self {
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         let color = Raster::from_fn(WIDTH, HEIGHT, |_, _| {
             let highlight = random.real(0.0, 20.0) < 1.0;
             let top = if highlight { 1e4 } else { 1.0 };
@@ -255,7 +242,7 @@ fn asymmetric_pixels(gpu: &Gpu, field: &Field, filter: &Filter, settings: &Setti
 /// Colours up to 1 and no two depths alike, so that nothing but the geometry decides.
 fn distinct_depths(seed: u64) -> Field {
     let mut field = Field::random(seed);
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     field.color = field.color.map(|pixel| pixel.map(|value| value.min(1.0)));
     field.depth = field.depth.map(|_| random.real(0.2, 40.0));
     field

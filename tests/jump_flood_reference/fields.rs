@@ -1,6 +1,7 @@
 //! Velocity and depth fields by formula: the same on every machine.
 
 use frame::{FAR_DEPTH, Image, Plane, Raster, Vectors};
+use tests::random::Random;
 
 /// What a frame holds beside its provenance.
 pub struct Field {
@@ -11,24 +12,9 @@ pub struct Field {
     pub depth: Plane,
 }
 
-/// SplitMix64.
-pub struct Random(pub u64);
-
-impl Random {
-    /// Uniform in [low, high).
-    pub fn real(&mut self, low: f32, high: f32) -> f32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        let unit = ((z ^ (z >> 31)) >> 40) as f32 / (1u64 << 24) as f32;
-        low + (high - low) * unit
-    }
-}
-
 /// Every pixel moves on its own, at its own depth; a sixth stands still, a tenth is far background.
 pub fn noise(width: u32, height: u32, seed: u64) -> Field {
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     let color = Raster::from_fn(width, height, |_, _| {
         std::array::from_fn(|_| random.real(0.0, 2.0))
     });
@@ -51,7 +37,7 @@ pub fn noise(width: u32, height: u32, seed: u64) -> Field {
 
 /// Rectangles of one motion and one depth each over a background that pans, so that many sources lie equally deep.
 pub fn rectangles(width: u32, height: u32, seed: u64) -> Field {
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     let mut field = noise(width, height, seed);
     field.velocity = Raster::filled(
         width,
@@ -61,7 +47,7 @@ pub fn rectangles(width: u32, height: u32, seed: u64) -> Field {
     field.depth = Raster::filled(width, height, FAR_DEPTH);
     for index in 0..9 {
         let [left, top] = [width, height].map(|side| random.real(-0.1, 0.9) * side as f32);
-        let [right, bottom] = [left + random.real(1.0, 25.0), top + random.real(1.0, 15.0)];
+        let [right, bottom] = [left + random.real(3.0, 35.0), top + random.real(3.0, 25.0)];
         let still = index % 3 == 0;
         let motion = [random.real(-40.0, 40.0), random.real(-30.0, 30.0)];
         let motion = if still { [0.0, 0.0] } else { motion };

@@ -1,11 +1,16 @@
 //! The jump flood on the GPU against the paper in 64-bit floats.
 
 mod fields;
+mod flood;
+mod gather;
 mod paper;
+mod way_back;
 
 use fields::{Field, noise, rectangles};
 use filters::{Blur, Filter, Gpu, Input, Settings, Value};
-use paper::{Chosen, Jitter, Paper, Reference};
+use flood::Chosen;
+use paper::{Jitter, Paper, Reference};
+use way_back::Source;
 
 /// Odd sizes, wide and tall; two of random pixels, two of objects.
 fn fields() -> Vec<(&'static str, Field)> {
@@ -152,10 +157,11 @@ fn pixels(field: &Field) -> impl Iterator<Item = [i64; 2]> {
 #[test]
 fn the_dilation_chooses_the_sources_of_a_64_bit_reference() {
     let (gpu, filter) = (gpu(), Filter::builtin("jump_flood").unwrap());
+    let (mut found, mut all) = (0, 0);
     for case in cases(&filter) {
         let (blur, _) = case.blur(&gpu, &filter);
         let seeds = blur.texture("seeds").unwrap();
-        let (mut ties, mut found) = (0, 0);
+        let mut ties = 0;
         for ((pixel, texel), outcomes) in pixels(&case.field)
             .zip(&seeds.pixels)
             .zip(case.reference().dilated())
@@ -173,31 +179,24 @@ fn the_dilation_chooses_the_sources_of_a_64_bit_reference() {
             found += usize::from(chosen.valid && chosen.pixel != pixel);
         }
         // A decision is a tie within 4e-6 of its threshold; a pixel takes up to 9 x 3 of them in each of up to 8
-        // passes, which makes one in a thousand, and most of them do not change who wins.
+        // passes, which makes one in a thousand, and most of them do not change who wins; twice that, for luck of few.
         let count = seeds.pixels.len();
-        assert!(
-            1000 * ties <= count,
-            "{}: {ties} ties of {count}",
-            case.name
-        );
-        // Where nothing is carried anywhere, nothing is proved: a fiftieth is less than one rectangle's trail.
-        assert!(
-            50 * found > count,
-            "{}: only {found} of {count} found a source",
-            case.name
-        );
+        assert!(500 * ties <= count, "{}: {ties} ties of {count}", case.name);
+        all += count;
     }
+    // Where nothing is carried anywhere, nothing is proved.
+    assert!(4 * found > all, "only {found} of {all} found a source");
 }
 
 #[test]
 fn rejection_and_the_way_back_end_where_the_reference_ends() {
     let (gpu, filter) = (gpu(), Filter::builtin("jump_flood").unwrap());
-    let mut flagged = 0;
+    let (mut moved, mut flagged, mut all) = (0, 0, 0);
     for case in cases(&filter) {
         let (blur, _) = case.blur(&gpu, &filter);
         let sources = blur.texture("sources").unwrap();
         let reference = case.reference();
-        let (mut ties, mut moved) = (0, 0);
+        let mut ties = 0;
         for ((pixel, texel), dilated) in pixels(&case.field)
             .zip(&sources.pixels)
             .zip(reference.dilated())
@@ -207,7 +206,7 @@ fn rejection_and_the_way_back_end_where_the_reference_ends() {
                 continue;
             };
             let outcomes = reference.backtracked(pixel, chosen);
-            let near = |outcome: &&paper::Source| {
+            let near = |outcome: &&Source| {
                 // Positions up to 100 pixels after three products in 32-bit floats.
                 let distance = (0..2).map(|axis| outcome.position[axis] - f64::from(texel[axis]));
                 outcome.flag == f64::from(texel[3]) && distance.map(f64::abs).sum::<f64>() < 1e-3
@@ -224,13 +223,11 @@ fn rejection_and_the_way_back_end_where_the_reference_ends() {
         let count = sources.pixels.len();
         // Up to 33 probes per pixel, each with a chance of 2 x 2e-4 per axis to lie on the edge of a texel.
         assert!(37 * ties <= count, "{}: {ties} ties of {count}", case.name);
-        assert!(
-            50 * moved > count,
-            "{}: only {moved} of {count} moved",
-            case.name
-        );
+        all += count;
     }
-    assert!(flagged > 0, "no way back failed anywhere");
+    // Each of the three endings is taken by many.
+    assert!(8 * moved > all, "only {moved} of {all} moved");
+    assert!(8 * flagged > all, "only {flagged} of {all} flagged");
 }
 
 #[test]

@@ -1,4 +1,5 @@
 //! What several integration tests share.
 
+pub mod random;
 pub mod shapes;
 pub mod synthetic;

@@ -79,7 +79,11 @@ fn filter_json(filter: &Filter) -> serde_json::Value {
 
 fn print_scene(scene: &SceneListing) {
     let family = serde_json::to_value(scene.family).expect("a family is a word");
-    println!("  {}  ({})", scene.name, family.as_str().unwrap_or_default());
+    println!(
+        "  {}  ({})",
+        scene.name,
+        family.as_str().unwrap_or_default()
+    );
     println!("    {}", scene.exposes);
     if !scene.variants.is_empty() {
         println!("    variants: {}", scene.variants.join(" "));
