@@ -111,6 +111,11 @@ fn depth_at(position: vec2<f32>) -> f32 {
         return textureLoad(depth, pixel_at(position), 0).x;
     }
     let at = corners(position);
+    // At a texel the depth is that texel's, to the last bit: comparisons of a source with itself must not hang on how
+    // a compiler rounds two inversions.
+    if all(at.fraction == vec2<f32>(0.0)) {
+        return textureLoad(depth, at.low, 0).x;
+    }
     let inverse = 1.0 / vec4<f32>(
         textureLoad(depth, at.low, 0).x,
         textureLoad(depth, vec2<i32>(at.high.x, at.low.y), 0).x,

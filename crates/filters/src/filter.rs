@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use frame::Alignment;
 use include_dir::{Dir, include_dir};
 
-use crate::gpu::Shader;
+use crate::gpu::{EntryPoint, Shader};
 use crate::{FilterError, Parameter, Settings, Value, manifest, wiring};
 
 static BUILTIN: Dir = include_dir!("$CARGO_MANIFEST_DIR/../../shaders");
@@ -161,6 +161,12 @@ impl Filter {
             preset: preset.name.clone(),
             values,
         })
+    }
+
+    /// The kernel of a pass; checked when the filter was read.
+    pub(crate) fn entry_point(&self, pass: &Pass) -> &EntryPoint {
+        let entry = self.shader.entry_point(&pass.entry);
+        entry.expect("a checked filter has the entry points of its passes")
     }
 
     fn parse(

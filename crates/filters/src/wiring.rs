@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use crate::filter::{Filter, Pass};
-use crate::gpu::{EntryPoint, Role};
+use crate::gpu::{EntryPoint, Role, written};
 use crate::manifest::Lines;
 use crate::{FilterError, Format};
 
@@ -17,9 +17,28 @@ pub(crate) fn check(filter: &Filter, lines: &Lines) -> Result<(), FilterError> {
     check.passes()
 }
 
-/// The texture that a variable of that name writes; `None` where the name is not one that writes.
-pub(crate) fn written(variable: &str) -> Option<&str> {
-    variable.strip_suffix("_out")
+/// Per pass: whether what it writes depends on the colour image, by itself or through other passes.
+pub(crate) fn color_dependent(filter: &Filter) -> Vec<bool> {
+    let mut tainted = BTreeSet::from(["color", "output"]);
+    loop {
+        let known = tainted.len();
+        let dependent = filter
+            .passes
+            .iter()
+            .map(|pass| {
+                let EntryPoint { reads, writes, .. } = filter.entry_point(pass);
+                let mut touched = reads.iter().chain(writes);
+                let dependent = touched.any(|texture| tainted.contains(&texture[..]));
+                if dependent {
+                    tainted.extend(writes.iter().map(String::as_str));
+                }
+                dependent
+            })
+            .collect();
+        if tainted.len() == known {
+            return dependent;
+        }
+    }
 }
 
 struct Check<'a> {
@@ -30,7 +49,8 @@ struct Check<'a> {
 impl Check<'_> {
     fn parameters(&self) -> Result<(), FilterError> {
         let parameters = &self.filter.parameters;
-        let members = &self.filter.shader.members;
+        let uniforms = &self.filter.shader.uniforms;
+        let members = uniforms.get("parameters").map_or(&[][..], Vec::as_slice);
         for index in 0..parameters.len().max(members.len()) {
             let reason = match (parameters.get(index), members.get(index)) {
                 (Some(parameter), Some(member)) => {
@@ -106,7 +126,7 @@ impl Check<'_> {
             (Role::Write(_), "output") => {
                 Err("has another format than the image: rgba32float".into())
             }
-            (Role::Write(found), name) => match written(name).and_then(declared) {
+            (Role::Write(found), name) if name != written(name) => match declared(written(name)) {
                 Some(texture) if texture.format == found => Ok(()),
                 Some(texture) => Err(format!(
                     "has format {found:?}; texture \"{}\" is declared as {:?}",
@@ -114,7 +134,7 @@ impl Check<'_> {
                 )),
                 None => Err(self.undeclared()),
             },
-            (Role::Uniform | Role::Read, _) => Err(self.undeclared()),
+            _ => Err(self.undeclared()),
         }
     }
 
@@ -140,38 +160,23 @@ impl Check<'_> {
             let refuse =
                 |reason: String| self.manifest(*line, format!("pass \"{}\": {reason}", pass.entry));
             let entry = self.entry_point(pass).map_err(refuse)?;
-            let (mut reads, mut writes) = (BTreeSet::new(), BTreeSet::new());
-            for variable in entry
-                .variables
-                .iter()
-                .map(|v| &self.filter.shader.variables[*v])
-            {
-                match variable.role {
-                    Role::Uniform => {}
-                    Role::Read => _ = reads.insert(&variable.name[..]),
-                    Role::Write(_) => {
-                        _ = writes.insert(written(&variable.name).unwrap_or(&variable.name));
-                    }
-                }
-            }
-            if let Some(name) = reads.difference(&ready).next() {
+            if let Some(name) = entry.reads.iter().find(|name| !ready.contains(&name[..])) {
                 return Err(refuse(format!(
                     "reads \"{name}\" before any pass has written it"
                 )));
             }
-            if writes.is_empty() {
+            if entry.writes.is_empty() {
                 return Err(refuse("writes nothing".into()));
             }
-            used.extend(reads);
-            used.extend(&writes);
-            ready.extend(&writes);
+            used.extend(entry.reads.iter().chain(&entry.writes));
+            ready.extend(entry.writes.iter().map(String::as_str));
         }
         if !ready.contains("output") {
             let reason = "no pass writes \"output\"".into();
             return Err(self.manifest(self.lines.passes.first().copied().unwrap_or(1), reason));
         }
         for (texture, line) in self.filter.textures.iter().zip(&self.lines.textures) {
-            if !used.contains(&texture.name[..]) {
+            if !used.contains(&texture.name) {
                 let reason = format!("texture \"{}\" is used by no pass", texture.name);
                 return Err(self.manifest(*line, reason));
             }

@@ -3,8 +3,9 @@
 use frame::{Image, Plane, Raster, Vectors};
 
 use super::adapter::Gpu;
-use super::plan::{FrameUniform, Plan};
+use super::plan::Plan;
 use super::transfer::{Place, padded_row};
+use super::uniforms::FrameUniform;
 use crate::{Filter, FilterError, Format, Settings};
 
 /// What a filter blurs: one instant, as [`frame::Frame`] holds it.

@@ -1,12 +1,13 @@
 //! What a kernel file declares, found with naga's reflection; needs no adapter.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use wgpu::naga::proc::Layouter;
 use wgpu::naga::valid::{Capabilities, GlobalUse, ModuleInfo, ValidationFlags, Validator};
 use wgpu::naga::{
     AddressSpace, GlobalVariable, Handle, ImageClass, ImageDimension, Module, Scalar, ScalarKind,
-    StorageAccess, StorageFormat, TypeInner, front,
+    SourceLocation, StorageAccess, StorageFormat, TypeInner, front,
 };
 
 use crate::FilterError;
@@ -19,8 +20,8 @@ pub(crate) struct Shader {
     pub source: String,
     /// Resource variables of group 0, in order of declaration.
     pub variables: Vec<Variable>,
-    /// Members of the uniform `parameters`.
-    pub members: Vec<Member>,
+    /// Members of the structs that uniforms hold, by the uniform's name.
+    pub uniforms: BTreeMap<String, Vec<Member>>,
     /// Compute entry points.
     pub entry_points: Vec<EntryPoint>,
 }
@@ -46,7 +47,7 @@ pub(crate) enum Role {
     Write(Format),
 }
 
-/// A member of the struct `Parameters`.
+/// A member of a uniform struct.
 #[derive(Clone, Debug)]
 pub(crate) struct Member {
     pub name: String,
@@ -65,6 +66,22 @@ pub(crate) struct EntryPoint {
     pub workgroup_size: [u32; 3],
     /// Indices of the variables that it uses.
     pub variables: Vec<usize>,
+    /// Names of the textures that it reads.
+    pub reads: BTreeSet<String>,
+    /// Names of the textures that it writes.
+    pub writes: BTreeSet<String>,
+}
+
+impl EntryPoint {
+    /// Names of the textures that it both reads and writes: those have two copies, exchanged after each iteration.
+    pub fn exchanged(&self) -> impl Iterator<Item = &String> {
+        self.reads.intersection(&self.writes)
+    }
+}
+
+/// The texture that a variable of that name writes: `<texture>_out`, and `output` itself.
+pub(crate) fn written(variable: &str) -> &str {
+    variable.strip_suffix("_out").unwrap_or(variable)
 }
 
 impl Shader {
@@ -76,20 +93,14 @@ impl Shader {
             text: format!("{}\n{common}", kernels.trim_end()),
         };
         let module = front::wgsl::parse_str(&source.text).map_err(|error| {
-            let line = error.location(&source.text);
-            source.refuse(
-                line,
-                error.emit_to_string_with_path(&source.text, source.name()),
-            )
+            let message = error.emit_to_string_with_path(&source.text, source.name());
+            source.refuse(error.location(&source.text), &message)
         })?;
         let info = Validator::new(ValidationFlags::all(), Capabilities::default())
             .validate(&module)
             .map_err(|error| {
-                let line = error.location(&source.text);
-                source.refuse(
-                    line,
-                    error.emit_to_string_with_path(&source.text, source.name()),
-                )
+                let message = error.emit_to_string_with_path(&source.text, source.name());
+                source.refuse(error.location(&source.text), &message)
             })?;
         let handles: Vec<Handle<GlobalVariable>> = module
             .global_variables
@@ -100,11 +111,11 @@ impl Shader {
         let variables = handles
             .iter()
             .map(|handle| variable(&source, &module, *handle))
-            .collect::<Result<_, _>>()?;
+            .collect::<Result<Vec<_>, _>>()?;
         Ok(Self {
+            uniforms: uniforms(&source, &module),
+            entry_points: entry_points(&module, &info, &handles, &variables),
             variables,
-            members: members(&source, &module),
-            entry_points: entry_points(&module, &info, &handles),
             source: source.text,
         })
     }
@@ -127,8 +138,9 @@ impl Source<'_> {
         name.expect("the WGSL file is named after the filter")
     }
 
-    fn refuse(&self, place: Option<wgpu::naga::SourceLocation>, reason: String) -> FilterError {
-        self.at(place.map(|place| place.line_number as usize), reason)
+    fn refuse(&self, place: Option<SourceLocation>, message: &str) -> FilterError {
+        let line = place.map(|place| place.line_number as usize);
+        self.at(line, message.trim_end().to_owned())
     }
 
     fn at(&self, line: Option<usize>, reason: String) -> FilterError {
@@ -221,55 +233,70 @@ fn image_role(class: ImageClass) -> Option<Role> {
     }
 }
 
-fn members(source: &Source, module: &Module) -> Vec<Member> {
+fn uniforms(source: &Source, module: &Module) -> BTreeMap<String, Vec<Member>> {
     let mut layouter = Layouter::default();
     layouter
         .update(module.to_ctx())
         .expect("a validated module has a layout");
-    let mut variables = module.global_variables.iter();
-    let Some((handle, parameters)) =
-        variables.find(|(_, variable)| variable.name.as_deref() == Some("parameters"))
-    else {
-        return Vec::new();
-    };
-    let line = source.line(module, handle);
-    let member = |name: &Option<String>, ty, offset| Member {
-        name: name.clone().unwrap_or_default(),
-        wgsl_type: match &module.types[ty].inner {
-            TypeInner::Scalar(Scalar::I32) => "i32".into(),
-            TypeInner::Scalar(Scalar::U32) => "u32".into(),
-            TypeInner::Scalar(Scalar::F32) => "f32".into(),
-            other => format!("{other:?} of {} bytes", layouter[ty].size),
-        },
-        offset,
-        line,
-    };
-    match &module.types[parameters.ty].inner {
-        TypeInner::Struct { members, .. } => members
-            .iter()
-            .map(|found| member(&found.name, found.ty, found.offset))
-            .collect(),
-        _ => vec![member(&parameters.name, parameters.ty, 0)],
+    let mut uniforms = BTreeMap::new();
+    for (handle, uniform) in module.global_variables.iter() {
+        if uniform.space != AddressSpace::Uniform {
+            continue;
+        }
+        let line = source.line(module, handle);
+        let member = |name: &Option<String>, ty, offset| Member {
+            name: name.clone().unwrap_or_default(),
+            wgsl_type: match &module.types[ty].inner {
+                TypeInner::Scalar(Scalar::I32) => "i32".into(),
+                TypeInner::Scalar(Scalar::U32) => "u32".into(),
+                TypeInner::Scalar(Scalar::F32) => "f32".into(),
+                _ => format!("something of {} bytes", layouter[ty].size),
+            },
+            offset,
+            line,
+        };
+        let members = match &module.types[uniform.ty].inner {
+            TypeInner::Struct { members, .. } => members
+                .iter()
+                .map(|found| member(&found.name, found.ty, found.offset))
+                .collect(),
+            _ => vec![member(&uniform.name, uniform.ty, 0)],
+        };
+        uniforms.insert(uniform.name.clone().unwrap_or_default(), members);
     }
+    uniforms
 }
 
 fn entry_points(
     module: &Module,
     info: &ModuleInfo,
     handles: &[Handle<GlobalVariable>],
+    variables: &[Variable],
 ) -> Vec<EntryPoint> {
     module
         .entry_points
         .iter()
         .enumerate()
         .map(|(index, entry)| {
-            let used = info.get_entry_point(index);
+            let info = info.get_entry_point(index);
+            let used: Vec<usize> = (0..handles.len())
+                .filter(|variable| info[handles[*variable]] != GlobalUse::empty())
+                .collect();
+            let used_variables = used.iter().map(|index| &variables[*index]);
+            let (mut reads, mut writes) = (BTreeSet::new(), BTreeSet::new());
+            for Variable { name, role, .. } in used_variables {
+                match role {
+                    Role::Uniform => {}
+                    Role::Read => _ = reads.insert(name.clone()),
+                    Role::Write(_) => _ = writes.insert(written(name).to_owned()),
+                }
+            }
             EntryPoint {
                 name: entry.name.clone(),
                 workgroup_size: entry.workgroup_size,
-                variables: (0..handles.len())
-                    .filter(|variable| used[handles[*variable]] != GlobalUse::empty())
-                    .collect(),
+                variables: used,
+                reads,
+                writes,
             }
         })
         .collect()

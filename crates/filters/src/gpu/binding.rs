@@ -1,0 +1,89 @@
+//! Kernels and what is bound to them, by the names of their variables.
+
+use super::adapter::Gpu;
+use super::shader::{EntryPoint, Role, Shader, Variable};
+
+/// The layout of group 0 as the kernel uses it.
+pub(super) fn layout(gpu: &Gpu, shader: &Shader, entry: &EntryPoint) -> wgpu::BindGroupLayout {
+    let entries: Vec<wgpu::BindGroupLayoutEntry> = entry
+        .variables
+        .iter()
+        .map(|variable| &shader.variables[*variable])
+        .map(|variable| wgpu::BindGroupLayoutEntry {
+            binding: variable.binding,
+            visibility: wgpu::ShaderStages::COMPUTE,
+            ty: match variable.role {
+                Role::Uniform => wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Uniform,
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                Role::Read => wgpu::BindingType::Texture {
+                    sample_type: wgpu::TextureSampleType::Float { filterable: false },
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                    multisampled: false,
+                },
+                Role::Write(format) => wgpu::BindingType::StorageTexture {
+                    access: wgpu::StorageTextureAccess::WriteOnly,
+                    format: format.wgpu(),
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                },
+            },
+            count: None,
+        })
+        .collect();
+    gpu.device
+        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some(&entry.name),
+            entries: &entries,
+        })
+}
+
+/// The kernel, compiled.
+pub(super) fn pipeline(
+    gpu: &Gpu,
+    layout: &wgpu::BindGroupLayout,
+    module: &wgpu::ShaderModule,
+    entry: &EntryPoint,
+) -> wgpu::ComputePipeline {
+    let layout = gpu
+        .device
+        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(&entry.name),
+            bind_group_layouts: &[Some(layout)],
+            immediate_size: 0,
+        });
+    gpu.device
+        .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(&entry.name),
+            layout: Some(&layout),
+            module,
+            entry_point: Some(&entry.name),
+            compilation_options: Default::default(),
+            cache: None,
+        })
+}
+
+/// Group 0, each variable with its resource.
+pub(super) fn bind_group<'r>(
+    gpu: &Gpu,
+    shader: &Shader,
+    entry: &EntryPoint,
+    layout: &wgpu::BindGroupLayout,
+    resource: impl Fn(&Variable) -> wgpu::BindingResource<'r>,
+) -> wgpu::BindGroup {
+    let entries: Vec<wgpu::BindGroupEntry> = entry
+        .variables
+        .iter()
+        .map(|variable| &shader.variables[*variable])
+        .map(|variable| wgpu::BindGroupEntry {
+            binding: variable.binding,
+            resource: resource(variable),
+        })
+        .collect();
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some(&entry.name),
+        layout,
+        entries: &entries,
+    })
+}

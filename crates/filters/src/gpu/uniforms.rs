@@ -1,0 +1,90 @@
+//! The uniforms that every kernel may read.
+
+use super::adapter::Gpu;
+
+/// The uniform `frame`: the WGSL struct `Frame` of common.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
+pub(super) struct FrameUniform {
+    pub size: [i32; 2],
+    pub exposure: f32,
+    pub frame_index: u32,
+    pub iteration: u32,
+    pub iterations: u32,
+}
+
+/// The uniforms `parameters` and `frame`.
+#[derive(Debug)]
+pub(super) struct Uniforms {
+    pub parameters: wgpu::Buffer,
+    /// One `frame` per dispatch, a stride apart.
+    frames: wgpu::Buffer,
+    stride: u64,
+}
+
+impl Uniforms {
+    pub fn new(gpu: &Gpu, parameters: &[u8], dispatches: u32) -> Self {
+        let buffer = |label, size| {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        };
+        let alignment = gpu.device.limits().min_uniform_buffer_offset_alignment;
+        let stride = (size_of::<FrameUniform>() as u64).next_multiple_of(alignment.into());
+        let uniforms = Self {
+            parameters: buffer(
+                "parameters",
+                parameters.len().next_multiple_of(16).max(16) as u64,
+            ),
+            frames: buffer("frame", stride * u64::from(dispatches)),
+            stride,
+        };
+        gpu.queue.write_buffer(&uniforms.parameters, 0, parameters);
+        uniforms
+    }
+
+    /// Writes the uniform `frame` of one dispatch.
+    pub fn upload_frame(&self, gpu: &Gpu, dispatch: usize, frame: FrameUniform) {
+        let offset = dispatch as u64 * self.stride;
+        let bytes = bytemuck::bytes_of(&frame);
+        gpu.queue.write_buffer(&self.frames, offset, bytes);
+    }
+
+    pub fn frame(&self, dispatch: usize) -> wgpu::BindingResource<'_> {
+        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: &self.frames,
+            offset: dispatch as u64 * self.stride,
+            size: wgpu::BufferSize::new(size_of::<FrameUniform>() as u64),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::mem::offset_of;
+    use std::path::Path;
+
+    use super::FrameUniform;
+    use crate::filter::COMMON;
+    use crate::gpu::Shader;
+
+    #[test]
+    fn the_uniform_frame_lies_as_common_wgsl_declares_it() {
+        let shader = Shader::parse(Path::new("none.wgsl"), "", COMMON).unwrap();
+        let found: Vec<(&str, usize)> = shader.uniforms["frame"]
+            .iter()
+            .map(|member| (&member.name[..], member.offset as usize))
+            .collect();
+        let expected = [
+            ("size", offset_of!(FrameUniform, size)),
+            ("exposure", offset_of!(FrameUniform, exposure)),
+            ("frame_index", offset_of!(FrameUniform, frame_index)),
+            ("iteration", offset_of!(FrameUniform, iteration)),
+            ("iterations", offset_of!(FrameUniform, iterations)),
+        ];
+        assert_eq!(found, expected);
+    }
+}

@@ -1,0 +1,137 @@
+//! `[[texture]]` and `[[pass]]`.
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::{File, IDENTIFIER, is_identifier};
+use crate::filter::{Format, Pass, Repeat, Texture};
+use crate::{FilterError, Kind, Parameter};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TextureEntry {
+    name: String,
+    format: Format,
+    divided_by: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PassEntry {
+    entry: String,
+    over: Option<String>,
+    repeat: Option<RepeatEntry>,
+}
+
+#[derive(Deserialize)]
+#[serde(
+    untagged,
+    expecting = "repeat is a count from 1 or the name of an integer parameter"
+)]
+enum RepeatEntry {
+    Times(u32),
+    Parameter(String),
+}
+
+/// Names that kernels use for what the runner gives them, and for what it takes.
+const BUILTIN_VARIABLES: [&str; 6] = [
+    "color",
+    "velocity",
+    "depth",
+    "output",
+    "parameters",
+    "frame",
+];
+
+pub(super) fn textures(
+    file: &File,
+    entries: &[Spanned<TextureEntry>],
+    parameters: &[Parameter],
+) -> Result<Vec<Texture>, FilterError> {
+    let mut textures = Vec::<Texture>::new();
+    for spanned in entries {
+        let TextureEntry {
+            name,
+            format,
+            divided_by,
+        } = spanned.get_ref();
+        if !is_identifier(name) || BUILTIN_VARIABLES.contains(&name.as_str()) {
+            let reason = format!(
+                "texture \"{name}\": {IDENTIFIER}, and none of {}",
+                BUILTIN_VARIABLES.join(", ")
+            );
+            return Err(file.at(spanned, reason));
+        }
+        if textures.iter().any(|known| known.name == *name) {
+            return Err(file.at(spanned, format!("texture \"{name}\" is declared twice")));
+        }
+        if let Some(parameter) = divided_by {
+            count(parameters, parameter).map_err(|reason| {
+                file.at(
+                    spanned,
+                    format!("texture \"{name}\": divided_by = {reason}"),
+                )
+            })?;
+        }
+        textures.push(Texture {
+            name: name.clone(),
+            format: *format,
+            divided_by: divided_by.clone(),
+        });
+    }
+    Ok(textures)
+}
+
+pub(super) fn passes(
+    file: &File,
+    entries: &[Spanned<PassEntry>],
+    textures: &[Texture],
+    parameters: &[Parameter],
+) -> Result<Vec<Pass>, FilterError> {
+    let mut passes = Vec::new();
+    for spanned in entries {
+        let PassEntry {
+            entry,
+            over,
+            repeat,
+        } = spanned.get_ref();
+        let named = |reason: String| file.at(spanned, format!("pass \"{entry}\": {reason}"));
+        if let Some(over) = over
+            && !textures.iter().any(|texture| texture.name == *over)
+        {
+            return Err(named(format!(
+                "over = \"{over}\" names no declared texture; leave it out to run over the image"
+            )));
+        }
+        let repeat = match repeat {
+            None => Repeat::Times(1),
+            Some(RepeatEntry::Times(0)) => {
+                return Err(named("repeat = 0; allowed: 1 or more".into()));
+            }
+            Some(RepeatEntry::Times(times)) => Repeat::Times(*times),
+            Some(RepeatEntry::Parameter(parameter)) => {
+                count(parameters, parameter)
+                    .map_err(|reason| named(format!("repeat = {reason}")))?;
+                Repeat::Parameter(parameter.clone())
+            }
+        };
+        passes.push(Pass {
+            entry: entry.clone(),
+            over: over.clone(),
+            repeat,
+        });
+    }
+    Ok(passes)
+}
+
+/// Whether a parameter can say how often or how large.
+fn count(parameters: &[Parameter], name: &str) -> Result<(), String> {
+    let parameter = parameters.iter().find(|parameter| parameter.name == name);
+    match parameter.map(|parameter| &parameter.kind) {
+        None => Err(format!("\"{name}\" is no parameter of this filter")),
+        Some(Kind::Integer { min, .. }) if *min >= 1 => Ok(()),
+        Some(_) => Err(format!(
+            "\"{name}\" is not an integer parameter whose range begins at 1 or more"
+        )),
+    }
+}

@@ -1,0 +1,445 @@
+//! What must hold for every filter that the program brings, with every preset.
+
+use filters::{Blur, Filter, Gpu, Input, Settings};
+use frame::{Alignment, FAR_DEPTH, Image, Plane, Raster, Vectors};
+use tests::random::Random;
+
+fn gpu() -> Gpu {
+    Gpu::new(None).expect("these tests run filters")
+}
+
+/// Every built-in filter with every preset.
+fn every_preset() -> Vec<(Filter, Settings)> {
+    let filters = Filter::builtin_names()
+        .into_iter()
+        .map(|name| Filter::builtin(&name).unwrap());
+    filters
+        .flat_map(|filter| {
+            let settings: Vec<Settings> = filter
+                .presets
+                .iter()
+                .map(|preset| filter.settings(Some(&preset.name)).unwrap())
+                .collect();
+            settings
+                .into_iter()
+                .map(move |settings| (filter.clone(), settings))
+        })
+        .collect()
+}
+
+fn name(filter: &Filter, settings: &Settings) -> String {
+    format!("{} with preset {}", filter.name, settings.preset)
+}
+
+#[derive(Clone)]
+struct Field {
+    color: Image,
+    velocity: Vectors,
+    depth: Plane,
+    exposure: f64,
+}
+
+const WIDTH: u32 = 71;
+const HEIGHT: u32 = 43;
+
+impl Field {
+    /// Highlights up to 10000, still pixels, motion up to 60 pixels, near surfaces and far background.
+    fn random(seed: u64) -> Self {
+        let mut random = Random::new(seed);
+        let color = Raster::from_fn(WIDTH, HEIGHT, |_, _| {
+            let highlight = random.real(0.0, 20.0) < 1.0;
+            let top = if highlight { 1e4 } else { 1.0 };
+            std::array::from_fn(|_| random.real(0.0, top))
+        });
+        let velocity = Raster::from_fn(WIDTH, HEIGHT, |_, _| {
+            let still = random.real(0.0, 4.0) < 1.0;
+            let top = if still { 0.0 } else { 60.0 };
+            std::array::from_fn(|_| random.real(-1.0, 1.0) * top)
+        });
+        let depth = Raster::from_fn(WIDTH, HEIGHT, |_, _| {
+            let far = random.real(0.0, 8.0) < 1.0;
+            let near = random.real(0.2, 40.0);
+            if far { FAR_DEPTH } else { near }
+        });
+        Self {
+            color,
+            velocity,
+            depth,
+            exposure: 0.8,
+        }
+    }
+
+    fn blurred(&self, gpu: &Gpu, filter: &Filter, settings: &Settings) -> Image {
+        let mut outputs = self.blurred_colors(gpu, filter, settings, &[&self.color]);
+        outputs.remove(0)
+    }
+
+    fn blurred_colors(
+        &self,
+        gpu: &Gpu,
+        filter: &Filter,
+        settings: &Settings,
+        color: &[&Image],
+    ) -> Vec<Image> {
+        let (width, height) = (self.color.width, self.color.height);
+        let mut blur = Blur::new(gpu, filter, settings, width, height).unwrap();
+        blur.run(&self.input(color)).unwrap()
+    }
+
+    fn input<'a>(&'a self, color: &'a [&'a Image]) -> Input<'a> {
+        Input {
+            color,
+            velocity: &self.velocity,
+            depth: &self.depth,
+            exposure: self.exposure,
+            frame_index: 3,
+        }
+    }
+}
+
+#[test]
+fn a_still_frame_comes_out_unchanged() {
+    let gpu = gpu();
+    let mut field = Field::random(1);
+    field.velocity = Raster::filled(WIDTH, HEIGHT, [0.0, 0.0]);
+    for (filter, settings) in every_preset() {
+        let output = field.blurred(&gpu, &filter, &settings);
+        // Bit for bit: a pixel that does not move has nothing to average.
+        assert!(output == field.color, "{}", name(&filter, &settings));
+    }
+}
+
+#[test]
+fn a_constant_colour_comes_out_constant() {
+    let gpu = gpu();
+    for color in [[0.2, 0.7, 0.0], [1e4, 3.3e-5, 1.0]] {
+        let mut field = Field::random(2);
+        field.color = Raster::filled(WIDTH, HEIGHT, color);
+        for (filter, settings) in every_preset() {
+            let output = field.blurred(&gpu, &filter, &settings);
+            // Bit for bit: a running mean of equal values adds nothing.
+            assert!(output == field.color, "{}", name(&filter, &settings));
+        }
+    }
+}
+
+#[test]
+fn output_stays_finite_and_within_the_colours_of_the_frame() {
+    let gpu = gpu();
+    for seed in 3..6 {
+        let field = Field::random(seed);
+        for (filter, settings) in every_preset() {
+            let output = field.blurred(&gpu, &filter, &settings);
+            for channel in 0..3 {
+                let values = |image: &Image| -> Vec<f32> {
+                    image.pixels.iter().map(|pixel| pixel[channel]).collect()
+                };
+                let brightest = values(&field.color).into_iter().fold(0.0, f32::max);
+                for value in values(&output) {
+                    // Weights are not negative; rounding of a mean of 20 taps may pass the ends by a few parts in 1e6.
+                    let slack = 1e-5 * brightest;
+                    assert!(
+                        value.is_finite() && value >= -slack && value <= brightest + slack,
+                        "{}: {value} from colours of 0 to {brightest}",
+                        name(&filter, &settings)
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn two_runs_give_the_same_bytes_whatever_ran_before() {
+    let gpu = gpu();
+    let (field, other) = (Field::random(6), Field::random(7));
+    for (filter, settings) in every_preset() {
+        let mut blur = Blur::new(&gpu, &filter, &settings, WIDTH, HEIGHT).unwrap();
+        let first = blur.run(&field.input(&[&field.color])).unwrap();
+        blur.run(&other.input(&[&other.color])).unwrap();
+        let again = blur.run(&field.input(&[&field.color])).unwrap();
+        let fresh = field.blurred(&gpu, &filter, &settings);
+        // Compared as bits: NaN would equal nothing, and -0 equals 0.
+        let bits = |image: &Image| -> Vec<u32> {
+            image
+                .pixels
+                .as_flattened()
+                .iter()
+                .map(|v| v.to_bits())
+                .collect()
+        };
+        assert_eq!(
+            bits(&first[0]),
+            bits(&again[0]),
+            "{}",
+            name(&filter, &settings)
+        );
+        assert_eq!(
+            bits(&first[0]),
+            bits(&fresh),
+            "{}",
+            name(&filter, &settings)
+        );
+    }
+}
+
+#[test]
+fn every_colour_goes_through_the_same_weights() {
+    let gpu = gpu();
+    let field = Field::random(8);
+    let matte = field
+        .color
+        .map(|[r, ..]| if *r > 0.5 { [1.0, 0.0, 0.5] } else { [0.0; 3] });
+    for (filter, settings) in every_preset() {
+        let colors = [&field.color, &matte, &field.color];
+        let together = field.blurred_colors(&gpu, &filter, &settings, &colors);
+        let alone = field.blurred_colors(&gpu, &filter, &settings, &[&matte]);
+        assert!(together[1] == alone[0], "{}", name(&filter, &settings));
+        assert!(together[0] == together[2], "{}", name(&filter, &settings));
+    }
+}
+
+fn mirrored(field: &Field, horizontal: bool) -> Field {
+    fn turn<T: Copy>(raster: &Raster<T>, horizontal: bool) -> Raster<T> {
+        Raster::from_fn(raster.width, raster.height, |x, y| match horizontal {
+            true => *raster.at(raster.width - 1 - x, y),
+            false => *raster.at(x, raster.height - 1 - y),
+        })
+    }
+    let velocity = turn(&field.velocity, horizontal);
+    Field {
+        color: turn(&field.color, horizontal),
+        velocity: velocity.map(|[x, y]| if horizontal { [-x, *y] } else { [*x, -y] }),
+        depth: turn(&field.depth, horizontal),
+        exposure: field.exposure,
+    }
+}
+
+/// Pixels that differ by more than 1e-3 of the brightest tap: many times the rounding of positions (1e-5 pixels) times
+/// the contrast of neighbours, and far below the weight of one tap of twenty.
+fn asymmetric_pixels(gpu: &Gpu, field: &Field, filter: &Filter, settings: &Settings) -> usize {
+    let output = field.blurred(gpu, filter, settings);
+    let mut count = 0;
+    for horizontal in [true, false] {
+        let turned = mirrored(field, horizontal);
+        let back = mirrored(
+            &Field {
+                color: turned.blurred(gpu, filter, settings),
+                ..turned.clone()
+            },
+            horizontal,
+        );
+        count += output
+            .pixels
+            .iter()
+            .zip(&back.color.pixels)
+            .filter(|(a, b)| (0..3).any(|c| (a[c] - b[c]).abs() > 1e-3))
+            .count();
+    }
+    count
+}
+
+/// Colours up to 1 and no two depths alike, so that nothing but the geometry decides.
+fn distinct_depths(seed: u64) -> Field {
+    let mut field = Field::random(seed);
+    let mut random = Random::new(seed);
+    field.color = field.color.map(|pixel| pixel.map(|value| value.min(1.0)));
+    field.depth = field.depth.map(|_| random.real(0.2, 40.0));
+    field
+}
+
+#[test]
+fn a_mirrored_frame_gives_the_mirrored_output() {
+    let gpu = gpu();
+    let field = distinct_depths(9);
+    let symmetric = every_preset()
+        .into_iter()
+        .filter(|(filter, _)| filter.mirror_symmetric);
+    let mut tried = 0;
+    for (filter, settings) in symmetric {
+        let count = asymmetric_pixels(&gpu, &field, &filter, &settings);
+        assert_eq!(count, 0, "{}", name(&filter, &settings));
+        tried += 1;
+    }
+    assert!(
+        tried >= 4,
+        "identity and three presets of velocity_gather declare themselves symmetric"
+    );
+}
+
+#[test]
+fn the_jump_flood_is_symmetric_but_for_noise_and_equal_depths() {
+    let gpu = gpu();
+    let filter = Filter::builtin("jump_flood").unwrap();
+    for preset in &filter.presets {
+        let mut settings = filter.settings(Some(&preset.name)).unwrap();
+        settings.set(&filter, "jitter", "none").unwrap();
+        let count = asymmetric_pixels(&gpu, &distinct_depths(10), &filter, &settings);
+        // Of 2 x 3053 pixels; a tap on the edge of a texel, or a decision within rounding of its threshold, may fall
+        // either way.
+        assert!(count <= 6, "preset {}: {count} pixels differ", preset.name);
+    }
+}
+
+/// How a still edge between white and black looks after the blur, along the motion.
+struct Ramp {
+    /// Length in pixels of the even ramp that spreads as far.
+    length: f64,
+    /// Where its middle lies, in pixels from the edge; negative against the motion.
+    middle: f64,
+}
+
+const EDGE: u32 = 100;
+
+/// A white wall left or right of an edge; `whole` says whether the black beside it moves along, at the same depth.
+fn wall(left: bool, whole: bool, speed: f32, exposure: f64) -> Field {
+    let (width, height) = (200, 31);
+    let wall = |x: u32| (x < EDGE) == left;
+    Field {
+        color: Raster::from_fn(width, height, |x, _| [if wall(x) { 1.0 } else { 0.0 }; 3]),
+        velocity: Raster::from_fn(width, height, |x, _| {
+            [if whole || wall(x) { speed } else { 0.0 }, 0.0]
+        }),
+        depth: Raster::from_fn(width, height, |x, _| {
+            if whole || wall(x) { 2.0 } else { FAR_DEPTH }
+        }),
+        exposure,
+    }
+}
+
+fn ramp(output: &Image) -> Ramp {
+    // Over all rows, noise becomes the distribution that it is drawn from.
+    let mean = |x: u32| {
+        (0..output.height)
+            .map(|y| f64::from(output.at(x, y)[0]))
+            .sum::<f64>()
+    };
+    let slopes: Vec<(f64, f64)> = (1..output.width)
+        .map(|x| {
+            (
+                f64::from(x) - f64::from(EDGE),
+                (mean(x) - mean(x - 1)).abs(),
+            )
+        })
+        .collect();
+    let total: f64 = slopes.iter().map(|(_, slope)| slope).sum();
+    let middle = slopes.iter().map(|(x, slope)| x * slope).sum::<f64>() / total;
+    let spread = slopes.iter().map(|(x, slope)| (x - middle).powi(2) * slope);
+    let variance = spread.sum::<f64>() / total;
+    Ramp {
+        // An even ramp of length L has the variance L^2 / 12.
+        length: (12.0 * variance).sqrt(),
+        middle,
+    }
+}
+
+/// Ramp that the taps of a preset make of an edge, as parts of exposure x velocity: (length, middle).
+fn expected_ramp(filter: &Filter, settings: &Settings) -> (f64, f64) {
+    // Mean and length of taps at i/N or at i/(N - 1).
+    let spread = |positions: Vec<f64>, square_of_scale: f64| {
+        let count = positions.len() as f64;
+        let mean = positions.iter().sum::<f64>() / count;
+        let square = positions.iter().map(|p| p * p).sum::<f64>() / count * square_of_scale;
+        ((12.0 * (square - mean * mean)).sqrt(), -mean)
+    };
+    let from_the_pixel = |n: i32| (0..n).map(|i| f64::from(i) / f64::from(n)).collect();
+    match (filter.name.as_str(), settings.preset.as_str()) {
+        ("identity", "default") => (0.0, 0.0),
+        ("velocity_gather", "departure") => spread(from_the_pixel(10), 1.0),
+        ("velocity_gather", "coarse") => spread(from_the_pixel(8), 1.0),
+        ("velocity_gather", "fine") => spread(from_the_pixel(20), 1.0),
+        // Noise scales each pixel's trail evenly between 0.5 and 1.5, whose square is 13/12 on average.
+        ("jump_flood", "paper") => {
+            spread((0..8).map(|i| f64::from(i) / 7.0).collect(), 13.0 / 12.0)
+        }
+        // Taps shifted evenly within their steps make an even trail.
+        ("jump_flood", "corrected") => (1.0, -0.5),
+        (filter, preset) => panic!("say here what ramp {filter} with preset {preset} should make"),
+    }
+}
+
+#[test]
+fn an_edge_in_steady_motion_smears_to_the_right_side_and_length() {
+    let gpu = gpu();
+    for (filter, settings) in every_preset() {
+        let (length, middle) = expected_ramp(&filter, &settings);
+        // Trails of 24 and 12 pixels are below the paper's cut of 32.
+        for (speed, exposure) in [(24.0, 1.0), (24.0, 0.5), (-24.0, 1.0)] {
+            let field = wall(true, true, speed, exposure);
+            let found = ramp(&field.blurred(&gpu, &filter, &settings));
+            let trail = f64::from(speed.abs()) * exposure;
+            let said = format!("{} at {speed} x {exposure}", name(&filter, &settings));
+            // Half a pixel: the edge is between texels, and 8 taps of noise in 31 rows place it to a tenth of a step.
+            assert!(
+                (found.length - length * trail).abs() < 0.5,
+                "{said}: {} pixels long, expected {}",
+                found.length,
+                length * trail
+            );
+            let middle = middle * trail * f64::from(speed.signum());
+            assert!(
+                (found.middle - middle).abs() < 0.5,
+                "{said}: in the middle of {}, expected {middle}",
+                found.middle
+            );
+        }
+    }
+}
+
+#[test]
+fn no_built_in_filter_smears_ahead_of_a_mover() {
+    let gpu = gpu();
+    for (filter, settings) in every_preset() {
+        assert_eq!(filter.alignment, Alignment::Trailing, "{}", filter.name);
+        // The wall moves right: what lies right of the edge has not been touched yet.
+        let field = wall(true, false, 24.0, 1.0);
+        let output = field.blurred(&gpu, &filter, &settings);
+        for x in EDGE + 1..output.width {
+            assert_eq!(
+                output.at(x, 15)[0],
+                0.0,
+                "{} at column {x}",
+                name(&filter, &settings)
+            );
+        }
+    }
+}
+
+#[test]
+fn only_the_jump_flood_smears_over_what_lies_behind_a_mover() {
+    let gpu = gpu();
+    for (filter, settings) in every_preset() {
+        let field = wall(false, false, 24.0, 1.0);
+        let output = field.blurred(&gpu, &filter, &settings);
+        let light: f32 = (0..EDGE).map(|x| output.at(x, 15)[0]).sum();
+        if filter.name == "jump_flood" {
+            assert!(light > 6.0, "{}: {light}", name(&filter, &settings));
+        } else {
+            assert_eq!(light, 0.0, "{}", name(&filter, &settings));
+        }
+    }
+}
+
+#[test]
+fn the_corrected_jump_flood_makes_whole_trails_where_the_paper_cuts_them() {
+    let gpu = gpu();
+    let filter = Filter::builtin("jump_flood").unwrap();
+    let trail_behind = |preset: &str, speed: f32| {
+        let settings = filter.settings(Some(preset)).unwrap();
+        let field = wall(false, false, speed, 1.0);
+        ramp(&field.blurred(&gpu, &filter, &settings)).length
+    };
+    for speed in [3.0f32, 8.0, 24.0, 48.0, 90.0] {
+        let found = trail_behind("corrected", speed);
+        // The texel adds one pixel of its own: sqrt(speed^2 + 1). Then half a pixel for the noise.
+        let expected = f64::from(speed.hypot(1.0));
+        assert!(
+            (found - expected).abs() < 0.5,
+            "{speed}: {found} instead of {expected}"
+        );
+    }
+    // Its smallest step is 8 pixels, which is further than a slow mover goes.
+    assert_eq!(trail_behind("paper", 7.0), 0.0);
+    // Its largest step is 32 pixels, and noise may make half as much again of it.
+    assert!(trail_behind("paper", 90.0) < 48.0);
+}

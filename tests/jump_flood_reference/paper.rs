@@ -1,0 +1,178 @@
+//! Golan 2024 in 64-bit floats, from its description: UV coordinates, the velocity V that leads back to the previous
+//! frame, reverse depth. Plain loops; nothing is shared with the kernels.
+//!
+//! Where a decision hangs on less than what 32-bit floats resolve, every outcome is kept: a pixel holds the set of
+//! sources that a correct run may choose.
+
+use crate::fields::Field;
+
+/// The parameters, by the paper's meaning.
+pub struct Paper {
+    /// The paper's motion_blur_intensity, in frames.
+    pub m: f64,
+    pub passes: u32,
+    pub step_multiplier: i64,
+    pub perpendicular_tolerance: f64,
+    pub probes: i64,
+    pub match_threshold: f64,
+    pub parallel_sensitivity: f64,
+    pub perpendicular_sensitivity: f64,
+    pub foreground_extent: f64,
+    pub mismatch_exponent: f64,
+    pub samples: u32,
+    /// Measure paths in pixels instead of UV.
+    pub pixel_metric: bool,
+    /// Factor on the paper's cut of trails; infinite for none.
+    pub reach_factor: f64,
+    pub jitter: Jitter,
+    pub with_centre: bool,
+    /// Read velocity and depth without filtering.
+    pub nearest: bool,
+    pub frame_index: u32,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+pub enum Jitter {
+    StepScale,
+    StartOffset,
+    None,
+}
+
+pub type Vec2 = [f64; 2];
+
+/// 64 rounding steps of a 32-bit float: no quantity below goes through more.
+pub const ROUNDING: f64 = 64.0 * 6e-8;
+/// In pixels: what 32-bit floats make of positions up to 1000 after a product and a sum, with room.
+pub const POSITION: f64 = 2e-4;
+
+pub fn dot(a: Vec2, b: Vec2) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+pub fn cross(a: Vec2, b: Vec2) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+pub fn minus(a: Vec2, b: Vec2) -> Vec2 {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+#[derive(Clone, Copy, PartialEq)]
+pub enum Answer {
+    Yes,
+    No,
+    Either,
+}
+
+/// Whether `value <= limit`, unless they are nearer than `margin`.
+pub fn at_most(value: f64, limit: f64, margin: f64) -> Answer {
+    if (value - limit).abs() <= margin {
+        Answer::Either
+    } else if value < limit {
+        Answer::Yes
+    } else {
+        Answer::No
+    }
+}
+
+pub fn both(a: Answer, b: Answer) -> Answer {
+    match (a, b) {
+        (Answer::No, _) | (_, Answer::No) => Answer::No,
+        (Answer::Yes, Answer::Yes) => Answer::Yes,
+        _ => Answer::Either,
+    }
+}
+
+pub struct Reference<'f> {
+    pub paper: Paper,
+    pub field: &'f Field,
+    pub size: [i64; 2],
+}
+
+impl<'f> Reference<'f> {
+    pub fn new(paper: Paper, field: &'f Field) -> Self {
+        let size = [field.depth.width.into(), field.depth.height.into()];
+        Self { paper, field, size }
+    }
+
+    pub fn uv(&self, pixel: [i64; 2]) -> Vec2 {
+        [0, 1].map(|axis| (pixel[axis] as f64 + 0.5) / self.size[axis] as f64)
+    }
+
+    pub fn on_image(&self, pixel: [i64; 2]) -> bool {
+        (0..2).all(|axis| (0..self.size[axis]).contains(&pixel[axis]))
+    }
+
+    pub fn clamped<T: Copy>(&self, raster: &frame::Raster<T>, x: i64, y: i64) -> T {
+        let x = x.clamp(0, self.size[0] - 1);
+        let y = y.clamp(0, self.size[1] - 1);
+        *raster.at(x as u32, y as u32)
+    }
+
+    /// A linear, clamp-to-edge sampler, or the nearest texel.
+    pub fn sample(&self, uv: Vec2, nearest: bool, texel: impl Fn(i64, i64) -> f64) -> f64 {
+        let [x, y] = self.pixels(uv);
+        if nearest {
+            return texel(x.floor() as i64, y.floor() as i64);
+        }
+        // A texel's centre is meant where only the last bits of a 64-bit float miss it.
+        let snap = |c: f64| {
+            if (c - c.round()).abs() < 1e-9 {
+                c.round()
+            } else {
+                c
+            }
+        };
+        let (x, y) = (snap(x - 0.5), snap(y - 0.5));
+        let (left, top) = (x.floor() as i64, y.floor() as i64);
+        let (right_part, bottom_part) = (x - x.floor(), y - y.floor());
+        let mix = |a: f64, b: f64, part: f64| a + part * (b - a);
+        let row = |y: i64| mix(texel(left, y), texel(left + 1, y), right_part);
+        mix(row(top), row(top + 1), bottom_part)
+    }
+
+    /// V: from here to where the surface was one frame before, in UV.
+    pub fn velocity(&self, uv: Vec2) -> Vec2 {
+        [0, 1].map(|axis| {
+            let motion = self.sample(uv, self.paper.nearest, |x, y| {
+                f64::from(self.clamped(&self.field.velocity, x, y)[axis])
+            });
+            -motion / self.size[axis] as f64
+        })
+    }
+
+    /// z = near plane / reverse depth, with the demo's near plane of 0.05 m.
+    pub fn depth(&self, uv: Vec2) -> f64 {
+        let reverse = self.sample(uv, self.paper.nearest, |x, y| {
+            0.05 / f64::from(self.clamped(&self.field.depth, x, y))
+        });
+        0.05 / reverse
+    }
+
+    /// From UV to the space in which paths are measured.
+    pub fn measured(&self, uv: Vec2) -> Vec2 {
+        match self.paper.pixel_metric {
+            true => self.pixels(uv),
+            false => uv,
+        }
+    }
+
+    /// R / (|V| m), the time at which a trail is cut.
+    pub fn cut(&self, v: Vec2) -> f64 {
+        if self.paper.reach_factor.is_infinite() {
+            return f64::INFINITY;
+        }
+        let largest = (1 << (self.paper.passes - 1)) * self.paper.step_multiplier;
+        let side = match self.paper.pixel_metric {
+            true => 1,
+            false => self.size[0].max(self.size[1]),
+        };
+        let r = self.paper.reach_factor * largest as f64 / side as f64;
+        let v = self.measured(v);
+        r / (dot(v, v).sqrt() * self.paper.m)
+    }
+
+    pub fn pixels(&self, uv: Vec2) -> Vec2 {
+        [0, 1].map(|axis| uv[axis] * self.size[axis] as f64)
+    }
+}
