@@ -260,7 +260,7 @@ fn a_shift_across_the_motion_grows_on_one_side_and_shrinks_on_the_other() {
 
 #[test]
 fn a_shift_along_the_motion_is_its_centroid_with_its_sign() {
-    for (degrees, disc) in discs() {
+    for (_, disc) in discs() {
         let shifts = [3.0, -3.0];
         let blurs = shifts.map(|shift| Blur {
             shift: [shift, 0.0],
