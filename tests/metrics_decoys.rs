@@ -144,6 +144,21 @@ fn blurs_that_only_err_along_the_motion_neither_grow_nor_shrink() {
 }
 
 #[test]
+fn the_floor_of_growth_is_what_the_instants_own_rows_differ_by() {
+    for (degrees, disc) in discs() {
+        let [scores] = disc.score_blurs([Blur::IDENTITY]);
+        for name in ["lateral_growth", "lateral_shrink"] {
+            let score = scores.get(name.parse().expect("a metric's name"));
+            let Measured::Score(Score { value, floor }) = score else {
+                panic!("{name} of a translation at {degrees} degrees: {score:?}");
+            };
+            // The truth has no noise here, and the identity's rows are the instant's.
+            assert_near(name, floor, value, 1e-12);
+        }
+    }
+}
+
+#[test]
 fn a_blur_of_the_wrong_length_is_misplaced_by_half_of_what_is_missing() {
     for (degrees, disc) in discs() {
         let lengths = [0.0, 0.5, 1.5];

@@ -137,6 +137,7 @@ fn objects_that_stand_still_or_are_not_seen_say_so() {
         Measured::NotApplicable { reason } => reason.clone(),
         Measured::Score(_) => "a score".to_owned(),
     };
+    assert_eq!(scores.objects[1].displacement, [12.0, 0.0]);
     assert_eq!(of(0), "does not move");
     assert_eq!(of(1), "a score");
     assert_eq!(of(2), "is not visible at the instant");
