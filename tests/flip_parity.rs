@@ -36,7 +36,7 @@ fn shifted_ramp(x: u32, y: u32, c: u32) -> u32 {
 }
 
 fn checks(x: u32, y: u32, c: u32) -> u32 {
-    if (x / 6 + y / 5) % 2 == 0 {
+    if (x / 6 + y / 5).is_multiple_of(2) {
         200 - 30 * c
     } else {
         40 + 20 * c
@@ -107,8 +107,11 @@ const LDR: [(&str, Formula, Formula, f32); 4] = [
     ("ldr_scatter_bright", scatter, ramp, 4.0),
 ];
 
+/// First and last in stops, and how many.
+type Exposures = (f32, f32, u32);
+
 /// Name, reference, test, scale, exposures.
-const HDR: [(&str, Formula, Formula, f32, (f32, f32, u32)); 4] = [
+const HDR: [(&str, Formula, Formula, f32, Exposures); 4] = [
     ("hdr_black_reference", black, disc, 1.0, (-2.0, 2.0, 3)),
     (
         "hdr_checks_bright",

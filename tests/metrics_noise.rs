@@ -1,1 +1,211 @@
+//! Noise in the truth, in the ladder and in a picture: errors are unbiased, floors are what noise makes of a score, and an
+//! accumulation of N sub-frames is found to be one of N.
 
+use std::sync::LazyLock;
+
+use frame::{Frame, Picture, Truth};
+use metrics::{Equivalent, Measured, Metric, Reach, Reference, Region, Scores, measure, regions};
+use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
+
+fn scene() -> Scene {
+    Scene {
+        width: 72,
+        height: 48,
+        objects: vec![Object::sliding(Shape::Disc(9.0), [46.3, 26.2], [24.0, 6.0])],
+    }
+}
+
+fn noisy(samples: u32, seed: u64) -> Sampling {
+    Sampling {
+        samples,
+        seed: Some(seed),
+    }
+}
+
+static FRAME: LazyLock<Frame> = LazyLock::new(|| scene().frame());
+
+/// A truth with little noise, from other seeds than anything measured against it.
+static TRUTH: LazyLock<Truth> = LazyLock::new(|| scene().truth([noisy(4096, 1), noisy(4096, 2)]));
+
+fn score(output: &Picture, truth: &Truth) -> Scores {
+    measure(output, &FRAME, truth, None, &VIEWING)
+        .expect("they agree")
+        .scores
+}
+
+fn get(scores: &Scores, name: &str) -> metrics::Score {
+    match scores.get(name.parse().expect("a metric's name")) {
+        Measured::Score(score) => score,
+        Measured::NotApplicable { reason } => panic!("{name}: {reason}"),
+    }
+}
+
+/// Mean and standard error of independent values.
+fn mean_and_error(values: &[f64]) -> (f64, f64) {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+    (mean, (squares / (count - 1.0) / count).sqrt())
+}
+
+/// Mean squared difference of two pictures over the moving region.
+fn plain_mse(output: &Picture, truth: &Picture) -> f64 {
+    let difference = output.color.zip(&truth.color, |a, b| {
+        (0..3).map(|c| f64::from(a[c] - b[c]).powi(2)).sum::<f64>() / 3.0
+    });
+    let values = regions(&TRUTH).select(Region::Moving, &difference);
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+#[test]
+fn squared_error_is_unbiased_where_the_plain_one_is_not() {
+    let nearly_right = scene().render(&Blur::accumulation(6), noisy(4096, 3));
+    // The converged truth's own noise is 1/256 of that of 16 samples.
+    let expected = plain_mse(&nearly_right, &TRUTH.mean());
+    let mut unbiased = Vec::new();
+    let mut plain = Vec::new();
+    for seed in 0..48 {
+        let mut truth = scene().truth([noisy(16, 100 + seed), noisy(16, 200 + seed)]);
+        // One region for all, that of the converged truth.
+        truth.motion = TRUTH.motion.clone();
+        unbiased.push(get(&score(&nearly_right, &truth), "mse_moving").value);
+        plain.push(plain_mse(&nearly_right, &truth.mean()));
+    }
+    let (mean, error) = mean_and_error(&unbiased);
+    assert!(
+        (mean - expected).abs() < 3.0 * error,
+        "unbiased {mean} +- {error}, converged {expected}"
+    );
+    let (mean, error) = mean_and_error(&plain);
+    assert!(
+        mean - expected > 10.0 * error,
+        "plain {mean} +- {error}, converged {expected}"
+    );
+}
+
+#[test]
+fn the_floor_of_a_squared_error_is_the_variance_of_the_mean() {
+    let converged = TRUTH.mean();
+    let mut floors = Vec::new();
+    let mut variances = Vec::new();
+    for seed in 0..24 {
+        let mut truth = scene().truth([noisy(16, 300 + seed), noisy(16, 400 + seed)]);
+        truth.motion = TRUTH.motion.clone();
+        floors.push(get(&score(&converged, &truth), "mse_moving").floor);
+        variances.push(plain_mse(&truth.mean(), &converged));
+    }
+    let ((floor, a), (variance, b)) = (mean_and_error(&floors), mean_and_error(&variances));
+    // Four standard errors of their difference, and the converged truth's own 1/256.
+    let tolerance = 4.0 * a.hypot(b) + variance / 256.0;
+    assert!(
+        (floor - variance).abs() < tolerance,
+        "floor {floor}, variance {variance}"
+    );
+}
+
+#[test]
+fn a_converged_picture_scores_about_the_floor_of_a_noisy_truth() {
+    let converged = TRUTH.mean();
+    let truth = scene().truth([noisy(128, 5), noisy(128, 6)]);
+    let scores = score(&converged, &truth);
+    for name in [
+        "flip_moving",
+        "flip_p95_moving",
+        "flip_hdr_moving",
+        "label_tv",
+        "label_tv_p95",
+        "deficit",
+        "object_label_tv",
+    ] {
+        let score = get(&scores, name);
+        let ratio = score.value / score.floor;
+        // Half A and the mean differ by exactly the mean's noise, drawn once more: equal but for chance and, for FLIP,
+        // for noise in both pictures.
+        assert!((0.7..1.4).contains(&ratio), "{name}: {score:?}");
+    }
+    for name in ["lateral_growth", "lateral_shrink"] {
+        let score = get(&scores, name);
+        assert!(
+            score.floor > 0.0 && score.value < 2.0 * score.floor,
+            "{name}: {score:?}"
+        );
+    }
+    // Below the noise, PSNR stays at what the truth can vouch for.
+    let psnr = get(&scores, "psnr_moving");
+    assert_eq!(psnr.value, psnr.floor);
+}
+
+#[test]
+fn floors_fall_as_the_truth_converges() {
+    let output = &TRUTH.halves[0];
+    let [coarse, fine] = [16, 1024].map(|samples| {
+        score(
+            output,
+            &scene().truth([noisy(samples, 7), noisy(samples, 8)]),
+        )
+    });
+    for metric in Metric::all() {
+        let (Measured::Score(coarse), Measured::Score(fine)) =
+            (coarse.get(metric), fine.get(metric))
+        else {
+            continue;
+        };
+        let name = metric.name();
+        if name.ends_with("static") || name.starts_with("bleed") || name == "energy" {
+            // The still background has no noise, the support's margin swallows it, and one sum can be lucky.
+            continue;
+        }
+        if name.starts_with("psnr") {
+            assert!(
+                fine.floor > coarse.floor + 6.0,
+                "{name}: {coarse:?} {fine:?}"
+            );
+        } else {
+            assert!(
+                fine.floor < 0.5 * coarse.floor,
+                "{name}: {coarse:?} {fine:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn an_accumulation_of_n_sub_frames_is_found_to_be_one_of_n() {
+    let ladder = scene().ladder(1024, [1000, 2000]);
+    let reference = Reference::new(&FRAME, &TRUTH, Some(&ladder), &VIEWING).expect("they agree");
+    for subframes in [2, 4, 8, 16] {
+        // As many samples as a rung's two halves, from a seed of its own.
+        let output = scene().render(&Blur::accumulation(subframes), noisy(2048, 9));
+        let scores = reference.measure(&output).expect("a finite picture").scores;
+        for name in ["n_eq", "n_eq_flip", "n_eq_label_tv"] {
+            let found = get(&scores, name).value;
+            let ratio = found / f64::from(subframes);
+            assert!(
+                (0.95..1.05).contains(&ratio),
+                "{name} of {subframes}: {found}"
+            );
+        }
+    }
+}
+
+#[test]
+fn counts_beyond_the_ladder_say_so() {
+    let ladder = scene().ladder(256, [3000, 4000]);
+    let reference = Reference::new(&FRAME, &TRUTH, Some(&ladder), &VIEWING).expect("they agree");
+    let reach = |blur: Blur| {
+        let output = scene().render(&blur, noisy(4096, 10));
+        let scores = reference.measure(&output).expect("a finite picture").scores;
+        match scores.equivalent_subframes.label_total_variation {
+            Equivalent::Subframes(subframes) => subframes.reach,
+            Equivalent::NotApplicable { reason } => panic!("{reason}"),
+        }
+    };
+    assert_eq!(reach(Blur::TRUE), Reach::Above);
+    assert_eq!(reach(Blur::accumulation(3)), Reach::Within);
+    let late = Blur {
+        from: 0.0,
+        to: 1.0,
+        ..Blur::TRUE
+    };
+    assert_eq!(reach(late), Reach::Below);
+}

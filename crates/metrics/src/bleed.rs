@@ -3,7 +3,7 @@
 use frame::{Plane, Raster};
 
 use crate::mover::Silhouette;
-use crate::nearest::{distance_squared, nearest};
+use crate::nearest::{at_distance, distance_squared, nearest};
 
 /// On which side of the swept support a pixel lies, as seen along the motion of the nearest part of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,21 +32,24 @@ pub struct Bleed {
 /// Sorts every pixel by where it lies from the support `{truth > 0}`, which reaches one pixel further: partial pixels of
 /// a rounded edge. `directions` holds the unit vector of motion to judge each pixel of the support by.
 ///
-/// A pixel without direction (the centre of a rotation) has everything beside it. `None` when the truth never shows the
-/// object.
+/// A pixel without direction (the centre of a rotation) has everything beside it. Equally near parts of the support decide
+/// together. `None` when the truth never shows the object.
 pub fn sides(truth: &Plane, directions: &Raster<[f64; 2]>) -> Option<Raster<Side>> {
-    let support = nearest(&truth.map(|matte| *matte > 0.0))?;
+    let support = truth.map(|matte| *matte > 0.0);
+    let nearest = nearest(&support)?;
     Some(Raster::from_fn(truth.width, truth.height, |x, y| {
-        let source = *support.at(x, y);
+        let distance = distance_squared([x, y], *nearest.at(x, y));
         // The eight neighbours of the support are still inside.
-        if distance_squared([x, y], source) <= 2 {
+        if distance <= 2 {
             return Side::Inside;
         }
-        let away = [
-            f64::from(x) - f64::from(source[0]),
-            f64::from(y) - f64::from(source[1]),
-        ];
-        let along = *directions.at(source[0], source[1]);
+        let (mut away, mut along) = ([0.0; 2], [0.0; 2]);
+        for [u, v] in at_distance(&support, [x, y], distance) {
+            let offset = [f64::from(x) - f64::from(u), f64::from(y) - f64::from(v)];
+            let direction = *directions.at(u, v);
+            away = [0, 1].map(|axis| away[axis] + offset[axis]);
+            along = [0, 1].map(|axis| along[axis] + direction[axis]);
+        }
         let ahead = away[0] * along[0] + away[1] * along[1];
         let beside = (away[1] * along[0] - away[0] * along[1]).abs();
         if ahead > beside {

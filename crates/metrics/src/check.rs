@@ -4,6 +4,9 @@ use frame::{Frame, Ladder, Picture, Raster, Truth};
 
 use crate::{MeasureError, Viewing};
 
+/// flip-rs refuses work beyond 2^34 additions, which its kernels at 67 pixels per degree reach at 28.5 million pixels.
+const LARGEST_PICTURE: u64 = 28_000_000;
+
 /// Refuses HDR-FLIP exposures that make no range.
 pub fn check_viewing(viewing: &Viewing) -> Result<(), MeasureError> {
     let Viewing {
@@ -25,12 +28,20 @@ pub fn check_viewing(viewing: &Viewing) -> Result<(), MeasureError> {
     }
 }
 
-/// Refuses a frame or a ladder of another scene or shutter than the truth's.
+/// Refuses a truth that is too large, and a frame or a ladder of another scene or shutter than the truth's.
 pub fn check_agreement(
     frame: &Frame,
     truth: &Truth,
     ladder: Option<&Ladder>,
 ) -> Result<(), MeasureError> {
+    let (width, height) = truth.size();
+    if u64::from(width) * u64::from(height) > LARGEST_PICTURE {
+        return Err(MeasureError::TooLarge {
+            width,
+            height,
+            limit: LARGEST_PICTURE,
+        });
+    }
     agree("the frame's object list", &frame.objects, &truth.objects)?;
     // Files keep the interval's ends, whose difference may round.
     let exposure = truth.shutter.exposure();

@@ -19,6 +19,18 @@ pub enum MeasureError {
         /// The truth's height.
         height: u32,
     },
+    /// More pixels than FLIP takes.
+    #[error(
+        "the truth is {width}x{height}; at most {limit} pixels can be measured: render it smaller"
+    )]
+    TooLarge {
+        /// The truth's width.
+        width: u32,
+        /// The truth's height.
+        height: u32,
+        /// How many pixels are allowed.
+        limit: u64,
+    },
     /// A picture without one matte per object.
     #[error(
         "{what} has {found} mattes, the truth has {allowed} objects with the background; give one matte per object"

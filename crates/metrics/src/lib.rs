@@ -5,6 +5,7 @@
 //! scene is not a number but a reason. `README.md` beside this crate defines each score and says what fools it;
 //! [`Metric`] names them all.
 
+mod along_motion;
 mod bleed;
 mod check;
 mod cross_error;

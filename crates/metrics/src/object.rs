@@ -2,18 +2,14 @@
 
 use frame::{Frame, Picture, Plane, Raster, Truth};
 
+use crate::along_motion::{AlongMotion, BORDER, NO_SILHOUETTE, touches_border};
 use crate::bleed::{Bleed, Side, bleed, sides};
 use crate::label::on_object;
-use crate::lateral::{Lateral, lateral};
+use crate::lateral::lateral;
 use crate::mass::{Mass, mass};
 use crate::misplacement::{Misplacement, misplacement};
 use crate::mover::{Mover, Stillness};
-use crate::rows::{Grid, Rows};
 use crate::{Measured, ObjectMetric, ObjectScores};
-
-/// Rows along the motion may differ between instant and shutter by this many pixels of silhouette, growth and shrink
-/// together. Above it, growth would measure what hides the object, not what a filter did.
-const LARGEST_ROW_CHANGE: f64 = 0.25;
 
 /// One object, and what the truth's own noise scores on it.
 pub struct ObjectReference {
@@ -33,15 +29,6 @@ struct Moving {
     /// Bleed of one half out of the other's support.
     bleed_noise: Option<Bleed>,
     rows: Result<AlongMotion, String>,
-}
-
-/// What only an object has that translates within the picture.
-struct AlongMotion {
-    rows: Rows,
-    truth: Grid,
-    misplacement_noise: Option<Misplacement>,
-    /// Noise plus the difference between the instant's rows and the shutter's; a reason where that is too large.
-    lateral_floor: Result<Lateral, String>,
 }
 
 impl ObjectReference {
@@ -81,8 +68,13 @@ impl ObjectReference {
         region: &Raster<bool>,
     ) -> ObjectScores {
         let [bleed_lateral, bleed_leading, bleed_trailing] = self.bleed_scores(matte);
-        let [lateral_growth, lateral_shrink] = self.lateral_scores(matte);
-        let [misplacement, centroid, extent] = self.misplacement_scores(matte);
+        let [
+            lateral_growth,
+            lateral_shrink,
+            misplacement,
+            centroid,
+            extent,
+        ] = self.row_scores(matte);
         let [hole, deficit, energy] = self.mass_scores(matte);
         let moving = self.mover.as_ref();
         ObjectScores {
@@ -133,8 +125,7 @@ impl ObjectReference {
             .and_then(|sides| bleed(matte, sides, &moving.mover.silhouette));
         let noise = moving.bleed_noise;
         let pick = |metric, part: fn(Bleed) -> f64| {
-            let reason = "shows no silhouette inside the picture";
-            score(metric, found.map(part), noise.map(part), reason)
+            score(metric, found.map(part), noise.map(part), NO_SILHOUETTE)
         };
         [
             pick(ObjectMetric::BleedLateral, |bleed| bleed.lateral),
@@ -143,42 +134,32 @@ impl ObjectReference {
         ]
     }
 
-    fn lateral_scores(&self, matte: &Plane) -> [Measured; 2] {
-        let rows = self.along_motion();
-        let floor = rows
-            .as_ref()
-            .map_err(String::clone)
-            .and_then(|(rows, _)| rows.lateral_floor.clone());
-        match (rows, floor) {
-            (Ok((rows, mover)), Ok(floor)) => {
-                let found = lateral(
-                    &rows.rows.spread(matte),
-                    &rows.truth,
-                    mover.silhouette.lateral,
-                );
+    /// Growth, shrink, misplacement, centroid and extent.
+    fn row_scores(&self, matte: &Plane) -> [Measured; 5] {
+        let (rows, mover) = match self.along_motion() {
+            Ok(found) => found,
+            Err(reason) => return [(); 5].map(|()| Measured::not_applicable(&reason)),
+        };
+        let grid = rows.rows.spread(matte);
+        let [growth, shrink] = match &rows.lateral_floor {
+            Ok(floor) => {
+                let found = lateral(&grid, &rows.truth, mover.silhouette.lateral);
                 [
                     Measured::score(found.growth, floor.growth),
                     Measured::score(found.shrink, floor.shrink),
                 ]
             }
-            (_, Err(reason)) | (Err(reason), _) => {
-                [(); 2].map(|()| Measured::not_applicable(&reason))
-            }
-        }
-    }
-
-    fn misplacement_scores(&self, matte: &Plane) -> [Measured; 3] {
-        let rows = match self.along_motion() {
-            Ok((rows, _)) => rows,
-            Err(reason) => return [(); 3].map(|()| Measured::not_applicable(&reason)),
+            Err(reason) => [(); 2].map(|()| Measured::not_applicable(reason)),
         };
-        let found = misplacement(&rows.rows.spread(matte), &rows.truth);
+        let found = misplacement(&grid, &rows.truth);
         let noise = rows.misplacement_noise;
         let pick = |metric, part: fn(Misplacement) -> f64| {
             let reason = "has no mass where the truth has some";
             score(metric, found.map(part), noise.map(part), reason)
         };
         [
+            growth,
+            shrink,
             pick(ObjectMetric::Misplacement, |found| found.distance),
             pick(ObjectMetric::Centroid, |found| found.centroid),
             pick(ObjectMetric::Extent, |found| found.extent),
@@ -230,53 +211,6 @@ impl ObjectReference {
         let rows = moving.rows.as_ref().map_err(String::clone)?;
         Ok((rows, &moving.mover))
     }
-}
-
-impl AlongMotion {
-    fn new(
-        mover: &Mover,
-        touches_border: bool,
-        instant: &Plane,
-        truth: &Plane,
-        half: &Plane,
-    ) -> Result<Self, String> {
-        let along = mover.translation()?;
-        if touches_border {
-            return Err(BORDER.to_owned());
-        }
-        let rows = Rows::new(along, truth.width, truth.height);
-        let [instant, truth, half] = [instant, truth, half].map(|matte| rows.spread(matte));
-        let length = mover.silhouette.lateral;
-        let change = lateral(&instant, &truth, length);
-        let noise = lateral(&half, &truth, length);
-        let changed = change.growth + change.shrink;
-        let lateral_floor = if changed <= LARGEST_ROW_CHANGE {
-            Ok(Lateral {
-                growth: noise.growth + change.growth,
-                shrink: noise.shrink + change.shrink,
-            })
-        } else {
-            Err(format!(
-                "rows do not keep their mass: occlusion or a change of shape alters the silhouette by {changed:.2} px \
-                 between instant and shutter, {LARGEST_ROW_CHANGE} px at most allow to tell growth"
-            ))
-        };
-        Ok(Self {
-            misplacement_noise: misplacement(&half, &truth),
-            lateral_floor,
-            rows,
-            truth,
-        })
-    }
-}
-
-const BORDER: &str = "touches the picture's border, where part of its smear is cut off";
-
-fn touches_border(matte: &Plane) -> bool {
-    let (right, bottom) = (matte.width - 1, matte.height - 1);
-    let columns = (0..matte.width).flat_map(|x| [(x, 0), (x, bottom)]);
-    let rows = (0..matte.height).flat_map(|y| [(0, y), (right, y)]);
-    columns.chain(rows).any(|(x, y)| *matte.at(x, y) > 0.0)
 }
 
 /// A value and its noise as a score with the metric's floor, or the reason for their absence.

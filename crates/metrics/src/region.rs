@@ -86,3 +86,18 @@ pub(crate) fn percentile_95(values: &[f64]) -> Option<f64> {
     let rank = (sorted.len() as f64 * 0.95).ceil() as usize;
     sorted.get(rank.checked_sub(1)?).copied()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_percentile_is_the_value_that_95_percent_do_not_exceed() {
+        let values: Vec<f64> = (1..=100).rev().map(f64::from).collect();
+        assert_eq!(percentile_95(&values), Some(95.0));
+        assert_eq!(percentile_95(&values[..10]), Some(100.0));
+        assert_eq!(percentile_95(&[3.0]), Some(3.0));
+        assert_eq!(percentile_95(&[]), None);
+        assert_eq!(mean(&[]), None);
+    }
+}

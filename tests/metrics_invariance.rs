@@ -1,0 +1,171 @@
+//! What the scores do not depend on: the picture's orientation, whole pixels, object numbers, threads.
+
+use frame::{Frame, Picture, Raster, Truth};
+use metrics::{Measured, Measurement, Metric, ObjectMetric, Scores, measure};
+use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
+
+fn clean_truth(scene: &Scene) -> Truth {
+    scene.truth([Sampling::CLEAN; 2])
+}
+
+fn measured(scene: &Scene, blur: Blur) -> Measurement {
+    let output = scene.render(&blur, Sampling::CLEAN);
+    measure(&output, &scene.frame(), &clean_truth(scene), None, &VIEWING).expect("they agree")
+}
+
+/// A scene whose three objects all differ, and a wrong blur that every score sees.
+fn varied_scene() -> (Scene, Blur) {
+    // The still bar stands in the moving region, out of everyone's way.
+    let post = Shape::Bar {
+        half: [2.0, 20.0],
+        tilt: 0.0,
+    };
+    let bar = Shape::Bar {
+        half: [6.0, 4.0],
+        tilt: 0.5,
+    };
+    let scene = Scene {
+        width: 80,
+        height: 60,
+        objects: vec![
+            Object::sliding(post, [20.9, 30.0], [0.0, 0.0]),
+            Object::sliding(Shape::Disc(8.0), [46.2, 30.3], [12.0, 0.0]),
+            Object::sliding(bar, [50.3, 49.4], [12.0, 0.0]),
+        ],
+    };
+    let wrong = Blur {
+        from: -1.25,
+        to: 0.25,
+        dilation: 1.5,
+        ..Blur::TRUE
+    };
+    (scene, wrong)
+}
+
+/// Frame, truth and output remapped pixel by pixel: `source` gives the pixel that each new one is taken from, `turn` what
+/// happens to screen vectors.
+fn remapped(
+    width: u32,
+    height: u32,
+    source: impl Fn(u32, u32) -> [u32; 2],
+    turn: impl Fn([f32; 2]) -> [f32; 2],
+) -> Scores {
+    let (scene, wrong) = varied_scene();
+    let (frame, truth) = (scene.frame(), clean_truth(&scene));
+    let output = scene.render(&wrong, Sampling::CLEAN);
+    let picture = |picture: &Picture| Picture {
+        color: take(&picture.color, width, height, &source),
+        coverage: picture
+            .coverage
+            .iter()
+            .map(|matte| take(matte, width, height, &source))
+            .collect(),
+    };
+    let instant = picture(&Picture {
+        color: frame.color.clone(),
+        coverage: frame.coverage.clone(),
+    });
+    let frame = Frame {
+        color: instant.color,
+        coverage: instant.coverage,
+        velocity: take(&frame.velocity, width, height, &source).map(|v| turn(*v)),
+        depth: take(&frame.depth, width, height, &source),
+        object_id: take(&frame.object_id, width, height, &source),
+        ..frame
+    };
+    let truth = Truth {
+        halves: truth.halves.each_ref().map(picture),
+        standard_error: take(&truth.standard_error, width, height, &source),
+        motion: take(&truth.motion, width, height, &source),
+        ..truth
+    };
+    let output = picture(&output);
+    measure(&output, &frame, &truth, None, &VIEWING)
+        .expect("they agree")
+        .scores
+}
+
+fn take<T: Clone>(
+    raster: &Raster<T>,
+    width: u32,
+    height: u32,
+    source: &impl Fn(u32, u32) -> [u32; 2],
+) -> Raster<T> {
+    Raster::from_fn(width, height, |x, y| {
+        let [u, v] = source(x, y);
+        raster.at(u, v).clone()
+    })
+}
+
+#[track_caller]
+fn assert_same_scores(found: &Scores, expected: &Scores, metrics: &[Metric], tolerance: f64) {
+    let mut compared = 0;
+    for metric in metrics {
+        match (found.get(*metric), expected.get(*metric)) {
+            (Measured::Score(found), Measured::Score(expected)) => {
+                compared += 1;
+                let difference = (found.value - expected.value).abs();
+                assert!(
+                    difference <= tolerance * expected.value.abs().max(1.0),
+                    "{metric}: {} instead of {}",
+                    found.value,
+                    expected.value
+                );
+            }
+            (found, expected) => assert_eq!(found, expected, "{metric}"),
+        }
+    }
+    assert!(compared > 10, "only {compared} scores to compare");
+}
+
+#[test]
+fn a_mirrored_or_turned_scene_has_the_same_scores() {
+    let same = remapped(80, 60, |x, y| [x, y], |v| v);
+    let mirrored = remapped(80, 60, |x, y| [79 - x, y], |[x, y]| [-x, y]);
+    let flipped = remapped(80, 60, |x, y| [x, 59 - y], |[x, y]| [x, -y]);
+    // The new pixel (x, y) is the old (y, 59 - x): a quarter turn clockwise, +x becomes +y.
+    let turned = remapped(60, 80, |x, y| [y, 59 - x], |[x, y]| [-y, x]);
+    // Regions follow the height, which a turn changes: only scores of mattes are comparable there.
+    let mattes = ObjectMetric::ALL[..11].iter().copied().map(Metric::Object);
+    let mattes: Vec<Metric> = mattes.collect();
+    // FLIP sums in 32 bits in another order, and a pixel at exactly 45 degrees may change sides by rounding.
+    let tolerance = 1e-4;
+    assert_same_scores(&mirrored, &same, &Metric::all(), tolerance);
+    assert_same_scores(&flipped, &same, &Metric::all(), tolerance);
+    assert_same_scores(&turned, &same, &mattes, tolerance);
+}
+
+#[test]
+fn a_scene_moved_by_whole_pixels_has_the_same_matte_scores() {
+    let (scene, wrong) = varied_scene();
+    let mut moved = scene.clone();
+    for object in &mut moved.objects {
+        object.center = [object.center[0] + 4.0, object.center[1] - 3.0];
+    }
+    let mattes = ObjectMetric::ALL.map(Metric::Object);
+    // Sampling positions are the same in every pixel; what is left is rounding.
+    let [found, expected] = [moved, scene].map(|scene| measured(&scene, wrong).scores);
+    assert_same_scores(&found, &expected, &mattes, 1e-6);
+}
+
+#[test]
+fn object_numbers_do_not_matter() {
+    let (scene, wrong) = varied_scene();
+    let mut swapped = scene.clone();
+    swapped.objects.reverse();
+    let [found, expected] = [swapped, scene].map(|scene| measured(&scene, wrong).scores);
+    // Nothing overlaps, so that the order decides nothing; sums over objects round.
+    assert_same_scores(&found, &expected, &Metric::all(), 1e-12);
+}
+
+#[test]
+fn two_measurements_are_equal_bit_for_bit() {
+    let (scene, wrong) = varied_scene();
+    assert_eq!(measured(&scene, wrong), measured(&scene, wrong));
+    let one = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .expect("a pool");
+    let single = one.install(|| measured(&scene, wrong));
+    assert_eq!(single, measured(&scene, wrong));
+}

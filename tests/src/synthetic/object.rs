@@ -1,0 +1,160 @@
+//! Flat shapes, how they move, and how they are smeared.
+
+/// A flat shape around its centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape {
+    /// A disc of this radius, in pixels.
+    Disc(f64),
+    /// A rectangle of these half sides, in pixels, the first one turned by `tilt` radians from +x.
+    Bar {
+        /// Half lengths along and across its axis.
+        half: [f64; 2],
+        /// Angle of its axis, in radians.
+        tilt: f64,
+    },
+}
+
+/// A shape that moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Object {
+    /// What it is.
+    pub shape: Shape,
+    /// Its centre at the instant, in pixels.
+    pub center: [f64; 2],
+    /// Its translation over the shutter, in pixels.
+    pub displacement: [f64; 2],
+    /// Its rotation about its centre over the shutter, in radians.
+    pub turn: f64,
+}
+
+/// How moving objects are smeared: rightly or wrongly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Blur {
+    /// Where the smear begins, in displacements from the instant.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+    /// Sub-frames at the midpoints of equal parts; none for a continuous smear.
+    pub subframes: Option<u32>,
+    /// Shift along and across the motion, in pixels.
+    pub shift: [f64; 2],
+    /// Dilation across the motion to both sides, in pixels.
+    pub dilation: f64,
+}
+
+impl Blur {
+    /// What a camera with a trailing shutter sees.
+    pub const TRUE: Blur = Blur {
+        from: -1.0,
+        to: 0.0,
+        subframes: None,
+        shift: [0.0, 0.0],
+        dilation: 0.0,
+    };
+    /// No blur: the instant.
+    pub const IDENTITY: Blur = Blur {
+        from: 0.0,
+        ..Blur::TRUE
+    };
+
+    /// The mean of `subframes` instants.
+    pub fn accumulation(subframes: u32) -> Blur {
+        Blur {
+            subframes: Some(subframes),
+            ..Blur::TRUE
+        }
+    }
+}
+
+impl Object {
+    /// An object that translates only.
+    pub fn sliding(shape: Shape, center: [f64; 2], displacement: [f64; 2]) -> Self {
+        Self {
+            shape,
+            center,
+            displacement,
+            turn: 0.0,
+        }
+    }
+
+    pub(crate) fn moves(&self) -> bool {
+        self.displacement != [0.0, 0.0] || self.turn != 0.0
+    }
+
+    /// The point in the object's own coordinates, its centre at (0, 0), at `time` displacements from the instant.
+    pub(crate) fn local(&self, point: [f64; 2], time: f64, blur: &Blur) -> [f64; 2] {
+        let along = unit(self.displacement);
+        let across = [-along[1], along[0]];
+        let moved: [f64; 2] = std::array::from_fn(|axis| {
+            point[axis]
+                - self.center[axis]
+                - self.displacement[axis] * time
+                - along[axis] * blur.shift[0]
+                - across[axis] * blur.shift[1]
+        });
+        rotate(moved, -self.turn * time)
+    }
+
+    /// Whether any part of a pixel can see the object at any time of a blur; generous.
+    pub(crate) fn reaches(&self, pixel: [u32; 2], blur: &Blur) -> bool {
+        let size = match self.shape {
+            Shape::Disc(radius) => radius,
+            Shape::Bar { half, .. } => half[0].hypot(half[1]),
+        };
+        let travel =
+            self.displacement[0].hypot(self.displacement[1]) * blur.from.abs().max(blur.to.abs());
+        let shift = blur.shift[0].hypot(blur.shift[1]) + blur.dilation;
+        let distance = [0, 1].map(|axis| f64::from(pixel[axis]) + 0.5 - self.center[axis]);
+        distance[0].hypot(distance[1]) <= size + travel + shift + 1.0
+    }
+
+    /// Whether the object, dilated across its motion by `dilation` to both sides, holds a point of its own coordinates.
+    pub(crate) fn holds(&self, local: [f64; 2], dilation: f64) -> bool {
+        let along = unit(self.displacement);
+        let across = [-along[1], along[0]];
+        match self.shape {
+            Shape::Disc(radius) => {
+                let aside = dot(local, across);
+                let nearer = aside - aside.clamp(-dilation, dilation);
+                let ahead = dot(local, along);
+                ahead * ahead + nearer * nearer <= radius * radius
+            }
+            Shape::Bar { half, tilt } => {
+                // Steps across the motion that stay within both pairs of sides, and within the dilation.
+                let (at, step) = (rotate(local, -tilt), rotate(across, -tilt));
+                let mut steps = [-dilation, dilation];
+                for axis in [0, 1] {
+                    if step[axis].abs() < 1e-12 {
+                        if at[axis].abs() > half[axis] {
+                            return false;
+                        }
+                    } else {
+                        let ends =
+                            [-half[axis], half[axis]].map(|end| (end - at[axis]) / step[axis]);
+                        steps[0] = steps[0].max(ends[0].min(ends[1]));
+                        steps[1] = steps[1].min(ends[0].max(ends[1]));
+                    }
+                }
+                steps[0] <= steps[1]
+            }
+        }
+    }
+}
+
+fn rotate([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
+    let (sin, cos) = angle.sin_cos();
+    [cos * x - sin * y, sin * x + cos * y]
+}
+
+fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+fn unit(vector: [f64; 2]) -> [f64; 2] {
+    let length = dot(vector, vector).sqrt();
+    if length == 0.0 {
+        [1.0, 0.0]
+    } else {
+        vector.map(|component| component / length)
+    }
+}
