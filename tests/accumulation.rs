@@ -2,9 +2,9 @@
 
 use frame::{Alignment, Picture};
 use metrics::Reference;
+use tests::unwatched;
 use tracer::{FrameSettings, TruthSettings, load_scene, trace_frame, trace_ladder, trace_truth};
 
-use std::ops::ControlFlow;
 use std::path::Path;
 
 #[test]
@@ -16,7 +16,7 @@ fn n_subframes_are_worth_n() {
     // 128 px per frame at 640x360 are 16 px over this shutter and size: 16 sub-frames lie a pixel apart, so that the
     // error of each count lies well above the noise.
     let scene = load_scene(folder, Some("128px_30deg")).unwrap();
-    let watch = &|_: tracer::Progress| ControlFlow::Continue(());
+    let watch = &unwatched;
     let (width, height) = (160, 90);
     let settings = TruthSettings {
         width,
