@@ -86,6 +86,91 @@ fn the_documented_example_loads_from_a_folder_and_blurs() {
     assert_eq!((reach[0], reach[reach.len() - 1]), (35, 54));
 }
 
+const SHIFT_MANIFEST: &str = r#"
+name = "shift"
+summary = "Moves the image right by one pixel per iteration."
+alignment = "trailing"
+
+[[parameter]]
+name = "distance"
+kind = "integer"
+default = 3
+range = [1, 9]
+doc = "In pixels; each costs one pass."
+
+[[texture]]
+name = "held"
+format = "rgba32float"
+
+[[pass]]
+entry = "hold"
+
+[[pass]]
+entry = "shift"
+repeat = "distance"
+
+[[pass]]
+entry = "show"
+"#;
+
+const SHIFT_KERNELS: &str = "
+struct Parameters {
+    distance: i32,
+}
+@group(0) @binding(1) var<uniform> parameters: Parameters;
+@group(0) @binding(2) var color: texture_2d<f32>;
+@group(0) @binding(3) var held: texture_2d<f32>;
+@group(0) @binding(4) var held_out: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(5) var output: texture_storage_2d<rgba32float, write>;
+
+@compute @workgroup_size(4, 4)
+fn hold(@builtin(global_invocation_id) id: vec3<u32>) {
+    textureStore(held_out, id.xy, textureLoad(color, id.xy, 0));
+}
+
+@compute @workgroup_size(4, 4)
+fn shift(@builtin(global_invocation_id) id: vec3<u32>) {
+    let left = max(vec2<i32>(id.xy) - vec2<i32>(1, 0), vec2<i32>(0));
+    textureStore(held_out, id.xy, textureLoad(held, left, 0));
+}
+
+@compute @workgroup_size(4, 4)
+fn show(@builtin(global_invocation_id) id: vec3<u32>) {
+    if inside(vec2<i32>(id.xy)) {
+        textureStore(output, id.xy, textureLoad(held, id.xy, 0));
+    }
+}
+";
+
+#[test]
+fn a_texture_that_a_pass_reads_and_writes_is_exchanged_for_every_colour() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), "shift", SHIFT_MANIFEST, SHIFT_KERNELS);
+    let filter = Filter::load(folder.path()).unwrap();
+    let gpu = Gpu::new(None).expect("these tests run filters");
+    for distance in 1..=4 {
+        let mut settings = filter.settings(None).unwrap();
+        let text = distance.to_string();
+        settings.set(&filter, "distance", &text).unwrap();
+        let mut blur = Blur::new(&gpu, &filter, &settings, 10, 3).unwrap();
+        let colors = [1.0, 2.0]
+            .map(|scale| Raster::from_fn(10, 3, |x, y| [scale * x as f32, y as f32, 0.0]));
+        let outputs = blur
+            .run(&Input {
+                color: &[&colors[0], &colors[1]],
+                velocity: &Raster::filled(10, 3, [0.0; 2]),
+                depth: &Raster::filled(10, 3, 1.0),
+                exposure: 1.0,
+                frame_index: 0,
+            })
+            .unwrap();
+        for (color, output) in colors.iter().zip(&outputs) {
+            let expected = Raster::from_fn(10, 3, |x, y| *color.at(x.saturating_sub(distance), y));
+            assert_eq!(*output, expected, "by {distance} pixels");
+        }
+    }
+}
+
 #[test]
 fn built_in_folders_load_from_disk_alike() {
     let shaders = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders");

@@ -161,6 +161,40 @@ fn white_things_under_a_white_sky_cannot_be_seen() {
     }
 }
 
+#[test]
+fn a_convex_body_under_a_white_sky_has_the_radiance_of_its_albedo() {
+    let mut scene = empty_scene("convex");
+    scene.background = Background::Constant(Vec3::ONE);
+    // So few facets that smooth normals lean far; without sky behind, so that every pixel is the body's.
+    let near = DVec3::new(0.0, 0.0, -1.3);
+    let body = icosphere(1.0, 0);
+    add(&mut scene, body, diffuse(0.5), spin(near, DVec3::Y, 2.0));
+    scene.camera.vertical_fov = vec![(0.0, 0.5)];
+    for color in truth(&scene, 256).mean().color.pixels {
+        // The first bounce ends in the sky: no noise, and 0.5 is exact.
+        assert_eq!(color, [0.5; 3]);
+    }
+}
+
+#[test]
+fn a_smooth_normal_shades_and_moves_as_a_normal() {
+    let mut scene = floor_scene("smooth");
+    let normal = Vec3::new(0.3, 0.2, 1.0).normalize();
+    scene.meshes[0].normals = vec![normal; 4];
+    let scale = DVec3::new(2.0, 0.5, 1.5);
+    scene.objects[0].motion.keys[0].scale = scale;
+    let sun = DVec3::new(-0.1, 1.0, 0.2).normalize();
+    scene.sun = Some(Sun {
+        direction: sun,
+        irradiance: Vec3::ONE,
+        angular_radius: 0.0,
+    });
+    // A normal shrinks where its surface grows; then it is turned to face upwards.
+    let moved = DQuat::from_rotation_x(-0.5 * PI) * (normal.as_dvec3() / scale).normalize();
+    let expected = 0.6 * moved.dot(sun) / PI;
+    expect_everywhere("smooth", &truth(&scene, 16), expected);
+}
+
 /// Irradiance over pi, times albedo, below the centre of a parallel disc of radiance 1 (radius / height = `ratio`).
 fn under_disc(albedo: f64, ratio: f64) -> f64 {
     albedo * ratio * ratio / (1.0 + ratio * ratio)

@@ -8,7 +8,7 @@ use crate::ray::Ray;
 use crate::scene::Mesh;
 use crate::triangle::{Crossing, cross};
 
-const TRIANGLES_PER_LEAF: u32 = 8;
+const TRIANGLES_PER_LEAF: u32 = 4;
 /// Room for rounding when a ray is moved up to the sphere around the mesh.
 const SPHERE_SLACK: f64 = 1.0 + 1e-6;
 

@@ -62,7 +62,7 @@ impl<'a> Integrator<'a> {
             if depth == 0 {
                 sample.object_id = hit.object + 1;
             }
-            let surface = Surface::at(scene, &poses.pose(hit.object), &ray, &hit);
+            let surface = Surface::at(scene, poses.pose(hit.object), &ray, &hit);
             sample.radiance += throughput * self.emitted(&surface, &ray, &hit, drawn);
             if surface.albedo == Vec3::ZERO {
                 break;

@@ -68,20 +68,18 @@ impl<'a> Poses<'a> {
     }
 
     #[inline]
-    pub(crate) fn pose(&mut self, object: usize) -> Pose {
-        let (stamp, pose) = self.poses[object];
-        if stamp == FOR_EVER || stamp == self.current {
-            return pose;
+    pub(crate) fn pose(&mut self, object: usize) -> &Pose {
+        let stamp = self.poses[object].0;
+        if stamp != FOR_EVER && stamp != self.current {
+            let own = self.scene.objects[object].motion.at(self.time);
+            let to_world = match self.scene.objects[object].parent {
+                Parent::World => own,
+                Parent::Camera => self.scene.camera.motion.at(self.time) * own,
+                Parent::Object(parent) => self.pose(parent).to_world * own,
+            };
+            self.poses[object] = (self.current, Pose::new(to_world));
         }
-        let own = self.scene.objects[object].motion.at(self.time);
-        let to_world = match self.scene.objects[object].parent {
-            Parent::World => own,
-            Parent::Camera => self.scene.camera.motion.at(self.time) * own,
-            Parent::Object(parent) => self.pose(parent).to_world * own,
-        };
-        let pose = Pose::new(to_world);
-        self.poses[object] = (self.current, pose);
-        pose
+        &self.poses[object].1
     }
 }
 

@@ -162,15 +162,13 @@ impl Gpu {
         let bytes = buffer
             .get_mapped_range(..)
             .map_err(|error| place.refuse(error))?;
+        let values: Vec<f32> = bytemuck::pod_collect_to_vec(&bytes[..]);
         let components = target.format.components();
+        let row = padded as usize / 4;
         Ok(Raster::from_fn(width, height, |x, y| {
-            let start = y as usize * padded as usize + x as usize * 4 * components;
+            let start = y as usize * row + x as usize * components;
             let mut texel = [0.0; 4];
-            for (index, value) in texel[..components].iter_mut().enumerate() {
-                let at = start + 4 * index;
-                let word = [bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]];
-                *value = f32::from_ne_bytes(word);
-            }
+            texel[..components].copy_from_slice(&values[start..start + components]);
             texel
         }))
     }
