@@ -22,8 +22,11 @@ fn fields() -> Vec<(&'static str, Field)> {
     ]
 }
 
+/// Parameters and their values.
+type Changes = &'static [(&'static str, &'static str)];
+
 /// Changes to a preset, and the exposure in frames.
-const CASES: [(&str, &[(&str, &str)], f64); 7] = [
+const CASES: [(&str, Changes, f64); 7] = [
     ("paper", &[], 1.0),
     ("paper", &[("jitter", "none")], 0.5),
     (

@@ -61,10 +61,10 @@ impl Reference<'_> {
             return Answer::No;
         }
         let mut answer = at_most(k, self.paper.m + 0.2, ROUNDING);
-        for axis in 0..2 {
-            let margin = POSITION / self.size[axis] as f64;
-            answer = both(answer, at_most(q[axis], 1.0, margin));
-            answer = both(answer, at_most(-q[axis], 0.0, margin));
+        for (position, side) in q.into_iter().zip(self.size) {
+            let margin = POSITION / side as f64;
+            answer = both(answer, at_most(position, 1.0, margin));
+            answer = both(answer, at_most(-position, 0.0, margin));
         }
         // The probe may round to either side of a texel's edge.
         let at = |dx: f64, dy: f64| {
