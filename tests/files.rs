@@ -91,6 +91,17 @@ fn a_frame_comes_back_bit_for_bit() {
 }
 
 #[test]
+fn equal_frames_make_equal_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let written = ["one.exr", "two.exr", "three.exr"].map(|name| {
+        let path = folder.path().join(name);
+        a_frame().write(&path).unwrap();
+        fs::read(&path).unwrap()
+    });
+    assert!(written[0] == written[1] && written[1] == written[2]);
+}
+
+#[test]
 fn a_truth_comes_back_bit_for_bit() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("truth_centred.exr");

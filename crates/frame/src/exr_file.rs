@@ -222,7 +222,32 @@ pub fn write_exr(path: &Path, file: &ExrFile) -> Result<(), FileError> {
         .write()
         .to_buffered(&mut bytes)
         .map_err(|error| FileError::io(path, "encode", std::io::Error::other(error.to_string())))?;
-    write_atomically(path, bytes.get_ref())
+    let mut bytes = bytes.into_inner();
+    sort_attributes(&mut bytes);
+    write_atomically(path, &bytes)
+}
+
+/// Puts the header's attributes in the order of their names: the encoder leaves them in a random one, and equal content
+/// is to make equal bytes. The header keeps its length, so that every offset in the file stays right.
+///
+/// An attribute is `name 0 type 0 size value`; an empty name ends the header (OpenEXR file layout, "Header").
+fn sort_attributes(bytes: &mut [u8]) {
+    const MAGIC_AND_VERSION: usize = 8;
+    let mut attributes = Vec::new();
+    let mut at = MAGIC_AND_VERSION;
+    while bytes[at] != 0 {
+        let past_text = |from: usize| {
+            let length = bytes[from..].iter().position(|byte| *byte == 0);
+            from + length.expect("texts in a header end with 0") + 1
+        };
+        let size_at = past_text(past_text(at));
+        let size = bytes[size_at..size_at + 4].try_into().expect("four bytes");
+        let end = size_at + 4 + u32::from_le_bytes(size) as usize;
+        attributes.push(bytes[at..end].to_vec());
+        at = end;
+    }
+    attributes.sort();
+    bytes[MAGIC_AND_VERSION..at].copy_from_slice(&attributes.concat());
 }
 
 /// Writes `bytes` under a temporary name in the same folder, then renames: the path holds all of them or what it held

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use filters::{Blur, Gpu, Input};
+use filters::{Blur, FilterError, Gpu, Input};
 use frame::{ExrFile, Image, Plane, Vectors, read_exr, write_exr};
 use suite::{Error, FilterChoice, select_filters};
 
@@ -16,12 +16,18 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     let gpu = Gpu::new(args.adapter.adapter.as_deref())?;
     let (width, height) = (buffers.color.width, buffers.color.height);
     let mut blur = Blur::new(&gpu, &choice.filter, &choice.settings, width, height)?;
-    let outputs = blur.run(&Input {
+    let input = Input {
         color: &[&buffers.color],
         velocity: &buffers.velocity,
         depth: &buffers.depth,
         exposure: buffers.exposure,
         frame_index: args.frame_index,
+    };
+    let outputs = blur.run(&input).map_err(|error| match error {
+        FilterError::Input { reason, .. } => {
+            Error::Usage(format!("{}: {reason}", args.frame.display()))
+        }
+        other => other.into(),
     })?;
     let mut file = ExrFile::new(width, height);
     file.push_color("", &outputs[0]);
@@ -67,31 +73,5 @@ fn read_buffers(path: &Path, exposure: Option<f64>) -> Result<Buffers, Error> {
         },
     };
     check_exposure(buffers.exposure)?;
-    refuse_not_finite(path, &buffers)?;
     Ok(buffers)
-}
-
-fn refuse_not_finite(path: &Path, buffers: &Buffers) -> Result<(), Error> {
-    let width = buffers.color.width as usize;
-    let bad = (0..buffers.color.pixels.len()).find(|&at| {
-        let values = [
-            &buffers.color.pixels[at][..],
-            &buffers.velocity.pixels[at],
-            &[buffers.depth.pixels[at]],
-        ];
-        values
-            .iter()
-            .flat_map(|values| values.iter())
-            .any(|value| !value.is_finite())
-    });
-    match bad {
-        None => Ok(()),
-        Some(at) => Err(Error::Usage(format!(
-            "{}: pixel ({}, {}) holds NaN or infinity; allowed: finite colour, velocity and depth (write a large finite \
-             depth where nothing is seen)",
-            path.display(),
-            at % width,
-            at / width
-        ))),
-    }
 }

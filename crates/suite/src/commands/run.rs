@@ -64,10 +64,9 @@ fn closing(run: &Run, out: &Path) -> String {
         );
     }
     text += &format!(
-        "\nadapter: {} ({}, {})\nwritten: {}\n",
+        "\nadapter: {}, {}\nwritten: {}\n",
         run.adapter.name,
         run.adapter.backend,
-        run.adapter.driver,
         out.join("run.json").display()
     );
     text
