@@ -268,6 +268,22 @@ fn a_wrong_folder_says_where_and_what() {
 }
 
 #[test]
+fn only_compute_kernels_are_passes() {
+    let kernels = SHIFT_KERNELS.replace(
+        "@compute @workgroup_size(4, 4)\nfn show(@builtin(global_invocation_id) id: vec3<u32>)",
+        "@fragment\nfn show(@builtin(position) id: vec4<f32>)",
+    );
+    let kernels = kernels.replace("id.xy", "vec2<i32>(id.xy)");
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), "shift", SHIFT_MANIFEST, &kernels);
+    let message = Filter::load(folder.path()).unwrap_err().to_string();
+    assert!(
+        message.ends_with("has no such @compute entry point; it has: hold, shift"),
+        "{message}"
+    );
+}
+
+#[test]
 fn a_missing_folder_names_the_file_it_looked_for() {
     let message = Filter::load(Path::new("no/such/folder"))
         .unwrap_err()

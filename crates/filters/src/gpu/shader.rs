@@ -7,7 +7,7 @@ use wgpu::naga::proc::Layouter;
 use wgpu::naga::valid::{Capabilities, GlobalUse, ModuleInfo, ValidationFlags, Validator};
 use wgpu::naga::{
     AddressSpace, GlobalVariable, Handle, ImageClass, ImageDimension, Module, Scalar, ScalarKind,
-    SourceLocation, StorageAccess, StorageFormat, TypeInner, front,
+    ShaderStage, SourceLocation, StorageAccess, StorageFormat, TypeInner, front,
 };
 
 use crate::FilterError;
@@ -277,6 +277,7 @@ fn entry_points(
         .entry_points
         .iter()
         .enumerate()
+        .filter(|(_, entry)| entry.stage == ShaderStage::Compute)
         .map(|(index, entry)| {
             let info = info.get_entry_point(index);
             let used: Vec<usize> = (0..handles.len())
