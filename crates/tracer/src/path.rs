@@ -75,6 +75,10 @@ impl<'a> Integrator<'a> {
                 let points = sampler.lights(depth);
                 sample.radiance += throughput * self.direct(poses, start, &lobe, choice, points);
             }
+            let [sky_u, sky_v, ..] = sampler.sky(depth);
+            if let Some(sky) = scene.background.sample([sky_u, sky_v]) {
+                sample.radiance += throughput * self.arriving(poses, start, &lobe, &sky, true);
+            }
             if depth >= ROULETTE_FROM {
                 let survival = f64::from(throughput.max_element()).min(1.0);
                 if roulette >= survival {
@@ -96,10 +100,13 @@ impl<'a> Integrator<'a> {
         self.stage.scene.sun.is_some() || !self.emitters.is_empty()
     }
 
-    /// Background and sun disc.
+    /// Background and sun disc, weighted by whether light sampling could have found them.
     fn beyond(&self, ray: &Ray, drawn: Drawn) -> Vec3 {
         let scene = self.stage.scene;
-        let background = scene.background.radiance(ray.direction);
+        let weight = drawn.map_or(1.0, |drawn| {
+            power_heuristic(drawn, scene.background.density(ray.direction))
+        });
+        let background = scene.background.radiance(ray.direction) * weight as f32;
         match &scene.sun {
             Some(sun) if sun.covers(ray.direction) => {
                 let weight = drawn.map_or(1.0, |drawn| power_heuristic(drawn, sun.density()));

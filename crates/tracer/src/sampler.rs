@@ -4,10 +4,10 @@ use sobol_burley::sample_4d;
 
 /// Points that one call may draw; a limit of the Sobol tables.
 pub(crate) const MOST_SAMPLES: u32 = 1 << 16;
-/// Four-dimensional sets per bounce: the way on, and the lights.
-const SETS_PER_BOUNCE: u32 = 2;
+/// Four-dimensional sets per bounce: the way on, the near lights, the sky.
+const SETS_PER_BOUNCE: u32 = 3;
 /// Bounces until the sets of the table are used up and go round under another seed.
-const BOUNCES_PER_SEED: u32 = 31;
+const BOUNCES_PER_SEED: u32 = 21;
 
 /// Independent families of random numbers, so that no two renders of a scene share their noise.
 #[derive(Clone, Copy)]
@@ -55,6 +55,11 @@ impl Sampler {
     /// Point on the emitter, point on the sun.
     pub fn lights(&self, depth: u32) -> [f64; 4] {
         self.set(depth, 1)
+    }
+
+    /// Direction to the sky (two numbers); two are left over.
+    pub fn sky(&self, depth: u32) -> [f64; 4] {
+        self.set(depth, 2)
     }
 
     fn set(&self, depth: u32, which: u32) -> [f64; 4] {
