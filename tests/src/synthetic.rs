@@ -11,7 +11,7 @@ mod object;
 mod sampling;
 
 pub use object::{Blur, Object, Shape};
-pub use sampling::Sampling;
+pub use sampling::{Sampling, hash};
 
 use sampling::{offsets, sequence};
 
