@@ -13,6 +13,7 @@ mod sampling;
 pub use object::{Blur, Object, Shape};
 pub use sampling::Sampling;
 
+pub(crate) use sampling::hash;
 use sampling::{offsets, sequence};
 
 /// Exposure of every synthetic frame, in frames; not 1, so that a forgotten factor shows.

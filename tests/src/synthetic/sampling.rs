@@ -43,7 +43,7 @@ pub(crate) fn offsets(seed: Option<u64>, x: u32, y: u32) -> [f64; 3] {
 }
 
 /// SplitMix64 (Steele, Lea and Flood 2014).
-fn hash(key: u64) -> u64 {
+pub(crate) fn hash(key: u64) -> u64 {
     let mut z = key.wrapping_add(0x9E37_79B9_7F4A_7C15);
     z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
