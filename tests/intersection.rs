@@ -149,26 +149,41 @@ fn the_nearest_of_three_overlapping_objects_wins_in_every_order() {
 
 #[test]
 fn of_equally_near_surfaces_the_first_is_seen() {
-    let mut scene = empty_scene("ties");
-    for _ in 0..3 {
-        add(
-            &mut scene,
-            icosphere(1.0, 1),
-            glowing(1.0),
-            spin(DVec3::ZERO, DVec3::Y, 1.0),
-        );
-    }
-    let stage = Stage::new(&scene, 0.0, 1.0);
-    let mut poses = stage.poses();
-    let mut numbers = Numbers(5);
-    for step in 0..1000 {
-        let origin = 3.0 * numbers.vector().normalize();
-        let direction = 0.5 * numbers.vector() - origin;
-        let hit = stage.closest(
-            poses.at(f64::from(step) / 1000.0),
-            &Ray { origin, direction },
-        );
-        assert_eq!(hit.expect("aimed inside").object, 0);
+    let coincident = |mirror: [f64; 2]| {
+        let mut scene = empty_scene("ties");
+        for z in mirror {
+            // A panel at z = 0 and a wing beside it, which makes the trees visit the object with the nearer wing first.
+            let mut panel = rectangle(2.0, 2.0);
+            let wing = [3.0, 3.5, 4.0].map(|x| Vec3::new(x, x * x, 8.0));
+            panel.positions.extend(wing);
+            panel.triangles.push([4, 5, 6]);
+            panel.slots.push(0);
+            let pose = Key {
+                scale: DVec3::new(1.0, 1.0, z),
+                ..Key::REST
+            };
+            add(&mut scene, panel, glowing(1.0), Motion::still(pose));
+        }
+        scene
+    };
+    for mirror in [[1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]] {
+        let scene = coincident(mirror);
+        let stage = Stage::new(&scene, 0.0, 0.0);
+        for (x, y) in [(0.0, 0.0), (0.5, 0.5), (-0.5, 0.25), (1.0, 1.0)] {
+            let ray = Ray {
+                origin: DVec3::new(x, y, 2.0),
+                direction: DVec3::NEG_Z,
+            };
+            let hit = stage.closest(&mut stage.poses(), &ray).expect("aimed at");
+            assert_eq!((hit.object, hit.t), (0, 2.0));
+        }
+        // On the diagonal both triangles are met: the first is seen.
+        let ray = Ray {
+            origin: DVec3::new(0.5, 0.5, 2.0),
+            direction: DVec3::NEG_Z,
+        };
+        let hit = stage.closest(&mut stage.poses(), &ray).expect("aimed at");
+        assert_eq!(hit.triangle, 0);
     }
 }
 

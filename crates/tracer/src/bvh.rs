@@ -17,12 +17,10 @@ use crate::bounds::Bounds;
 use crate::ray::Ray;
 
 /// Boxes are padded by this fraction of the greatest coordinate involved. The slab test runs in `f32` without guard
-/// bits: origin, difference, direction and product are each rounded by 6e-8 of at most a few times that coordinate,
-/// about 9e-7 together.
+/// bits: origin, difference, direction, product and limit are each rounded by 6e-8 of at most a few times that
+/// coordinate, about 1e-6 together. A hit at exactly the limit is therefore still visited, and the caller decides
+/// ties.
 const PAD: f64 = 2e-6;
-/// Limits are rounded to `f32` upwards by more than one unit in the last place, so that a hit at exactly the same
-/// distance is still visited and ties are decided by the caller.
-const LIMIT_SLACK: f64 = 1.0 + 1e-6;
 
 /// A binary tree over boxes.
 pub(crate) struct Tree {
@@ -80,7 +78,7 @@ impl Tree {
     pub fn walk(&self, ray: &Ray, limit: f64, mut visit: impl FnMut(usize) -> f64) {
         self.bvh
             .ray_traverse(slab_ray(ray, limit), &mut RayHit::none(), |_, slot| {
-                upper(visit(slot))
+                visit(slot) as f32
             });
     }
 
@@ -99,9 +97,5 @@ impl Tree {
 
 fn slab_ray(ray: &Ray, limit: f64) -> SlabRay {
     let vector = |v: DVec3| v.as_vec3().into();
-    SlabRay::new(vector(ray.origin), vector(ray.direction), 0.0, upper(limit))
-}
-
-fn upper(limit: f64) -> f32 {
-    (limit * LIMIT_SLACK) as f32
+    SlabRay::new(vector(ray.origin), vector(ray.direction), 0.0, limit as f32)
 }
