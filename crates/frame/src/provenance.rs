@@ -16,7 +16,7 @@ pub struct Provenance {
     pub samples_per_pixel: u32,
     /// Independent, complete renders that were averaged.
     pub replicates: u32,
-    /// Hash of scene, meshes, textures, settings and program version, in hexadecimal: equal hashes mean equal pixels.
+    /// Hash of scene, meshes, textures, settings and the tracer, in hexadecimal: equal hashes mean equal pixels.
     pub content_hash: String,
 }
 

@@ -20,13 +20,14 @@ impl Background {
     }
 
     /// A direction drawn in proportion to the strongest component's profile over the height, from two numbers in
-    /// [0, 1); none from a black background.
+    /// [0, 1). None where drawing could only add noise: from a black background, and from a constant one, whose light
+    /// a surface's own lobe draws with a weight that never varies.
     pub(crate) fn sample(&self, [u, v]: [f64; 2]) -> Option<LightSample> {
-        let [ground, horizon, zenith] = self.strengths();
-        let [below, above] = [ground + horizon, horizon + zenith];
-        if below + above <= 0.0 {
+        if !self.is_drawn() {
             return None;
         }
+        let [ground, horizon, zenith] = self.strengths();
+        let [below, above] = [ground + horizon, horizon + zenith];
         // The height's density is linear on either side of the horizon; equal heights have equal solid angles.
         let split = below / (below + above);
         let height = if u < split {
@@ -47,13 +48,13 @@ impl Background {
 
     /// Probability per steradian with which [`Background::sample`] draws a unit direction.
     pub(crate) fn density(&self, direction: DVec3) -> f64 {
+        if !self.is_drawn() {
+            return 0.0;
+        }
         let [ground, horizon, zenith] = self.strengths();
         let height = direction.y.clamp(-1.0, 1.0);
         let end = if height < 0.0 { ground } else { zenith };
         let total = 0.5 * (ground + horizon) + 0.5 * (horizon + zenith);
-        if total <= 0.0 {
-            return 0.0;
-        }
         (horizon + (end - horizon) * height.abs()) / (total * TAU)
     }
 
@@ -67,6 +68,11 @@ impl Background {
                 zenith,
             } => [ground, horizon, zenith],
         }
+    }
+
+    fn is_drawn(&self) -> bool {
+        let [ground, horizon, zenith] = self.levels();
+        ground != horizon || horizon != zenith
     }
 
     fn strengths(&self) -> [f64; 3] {
@@ -89,8 +95,7 @@ fn linear(from: f64, to: f64, u: f64) -> f64 {
 mod tests {
     use super::*;
 
-    const SKIES: [Background; 4] = [
-        Background::Constant(Vec3::new(0.5, 0.25, 1.0)),
+    const SKIES: [Background; 3] = [
         Background::Gradient {
             ground: Vec3::new(0.2, 0.1, 0.0),
             horizon: Vec3::new(0.75, 0.85, 1.0),
@@ -153,9 +158,11 @@ mod tests {
     }
 
     #[test]
-    fn a_black_sky_draws_nothing() {
-        let black = Background::Constant(Vec3::ZERO);
-        assert!(black.sample([0.5, 0.5]).is_none());
-        assert_eq!(black.density(DVec3::Y), 0.0);
+    fn a_constant_sky_is_left_to_the_lobe() {
+        for radiance in [Vec3::ZERO, Vec3::new(0.5, 0.25, 1.0)] {
+            let sky = Background::Constant(radiance);
+            assert!(sky.sample([0.5, 0.5]).is_none());
+            assert_eq!(sky.density(DVec3::Y), 0.0);
+        }
     }
 }

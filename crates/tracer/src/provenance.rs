@@ -10,7 +10,7 @@ use crate::settings::{FrameSettings, TruthSettings};
 const PROGRAM: &str = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"));
 
 /// The content hash of the frame that [`trace_frame`](crate::trace_frame) would make, without making it: of the
-/// scene's own hash, the settings and the program version. Equal hashes mean equal pixels.
+/// scene's own hash, the settings and the tracer's sources. Equal hashes mean equal pixels.
 pub fn frame_hash(scene: &Scene, settings: &FrameSettings) -> String {
     content_hash(scene, "frame", settings)
 }
@@ -52,6 +52,7 @@ pub(crate) fn object_names(scene: &Scene) -> Vec<String> {
 
 /// Debug output holds every field, and numbers so that they read back equal: a new setting cannot be forgotten.
 fn content_hash(scene: &Scene, kind: &str, settings: &dyn Debug) -> String {
-    let text = format!("{PROGRAM}\n{kind}\n{}\n{settings:?}", scene.hash);
+    let tracer = env!("TRACER_SOURCES");
+    let text = format!("{PROGRAM}\n{tracer}\n{kind}\n{}\n{settings:?}", scene.hash);
     blake3::hash(text.as_bytes()).to_hex().to_string()
 }

@@ -6,8 +6,8 @@ use sobol_burley::sample_4d;
 pub(crate) const MOST_SAMPLES: u32 = 1 << 16;
 /// Four-dimensional sets per bounce: the way on, the near lights, the sky.
 const SETS_PER_BOUNCE: u32 = 3;
-/// Bounces until the sets of the table are used up and go round under another seed.
-const BOUNCES_PER_SEED: u32 = 21;
+/// Bounces whose sets belong to the camera's sequence.
+const JOINT_BOUNCES: u32 = 2;
 
 /// Independent families of random numbers, so that no two renders of a scene share their noise.
 #[derive(Clone, Copy)]
@@ -62,15 +62,17 @@ impl Sampler {
         self.set(depth, 2)
     }
 
+    /// The first bounces are stratified together with the camera. Far along the sequence small counts are correlated:
+    /// all paths that survive one roulette would survive or die together in the next. There each set is the sequence's
+    /// first four dimensions under a seed of its own, which shuffles the samples as well (Burley 2020, "Practical
+    /// Hash-based Owen Scrambling", section 4).
     fn set(&self, depth: u32, which: u32) -> [f64; 4] {
-        let round = depth / BOUNCES_PER_SEED;
-        let set = 1 + SETS_PER_BOUNCE * (depth % BOUNCES_PER_SEED) + which;
-        let seed = if round == 0 {
-            self.seed
-        } else {
-            mixed32(self.seed.wrapping_add(round))
-        };
-        sample_4d(self.index, set, seed).map(f64::from)
+        let set = 1 + SETS_PER_BOUNCE * depth + which;
+        if depth < JOINT_BOUNCES {
+            return sample_4d(self.index, set, self.seed).map(f64::from);
+        }
+        let seed = mixed32(self.seed ^ mixed32(set));
+        sample_4d(self.index, 0, seed).map(f64::from)
     }
 }
 
