@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use frame::{Alignment, Truth};
 use glam::{DQuat, DVec3, Vec2, Vec3};
 use tests::shapes::*;
-use tests::statistics::{estimates, expect_agreement};
+use tests::statistics::{Estimate, estimates, expect_total};
 use tests::unwatched;
 use tracer::{
     Background, Key, Material, Motion, Scene, Sun, Texture, TruthSettings, Turn, trace_truth,
@@ -23,9 +23,29 @@ fn truth(scene: &Scene, samples_per_pixel: u32) -> Truth {
     trace_truth(scene, &settings, &unwatched).expect("settings are allowed")
 }
 
+/// Fails unless every pixel's first component agrees with one known value.
+///
+/// Pixels are pooled, not tested one by one: rare long paths make single pixels' errors stray far more than Student's
+/// distribution allows (measured in a closed sphere of albedo 0.5: beyond 12 standard errors in 3 of 1000 pixels,
+/// the mean unbiased and the pooled error right to 2 %).
 fn expect_everywhere(what: &str, truth: &Truth, expected: f64) {
     let estimates = estimates(truth, |_, _| expected);
-    expect_agreement(what, &estimates, truth.provenance.replicates);
+    expect_total(what, &estimates, |_| 1.0);
+    let rms = |value: fn(&Estimate) -> f64| {
+        let squares: f64 = estimates
+            .iter()
+            .map(|estimate| value(estimate).powi(2))
+            .sum();
+        (squares / estimates.len() as f64).sqrt()
+    };
+    let off = rms(|estimate| estimate.value - estimate.expected);
+    let error = rms(|estimate| estimate.error);
+    // 144 pixels: a factor of 1.5 is five standard errors of the rms where tails are normal, two where they are not.
+    let rounding = 2e-6 * expected;
+    assert!(
+        off <= 1.5 * error + rounding,
+        "{what}: pixels are off by {off} rms, their standard errors are {error}"
+    );
 }
 
 /// A camera at `eye` that looks at `target`, `degrees` high.
@@ -153,12 +173,9 @@ fn white_things_under_a_white_sky_cannot_be_seen() {
         drift(away(0.8), DVec3::X),
     );
     let truth = truth(&scene, 256);
-    let mean = truth.mean();
-    assert!(mean.coverage[0].pixels.contains(&0.0));
-    for color in mean.color.pixels {
-        // Every path ends in the sky with all its energy, whatever its length; albedo 1 is exact.
-        assert_eq!(color, [1.0; 3]);
-    }
+    assert!(truth.mean().coverage[0].pixels.contains(&0.0));
+    // Every path ends in the sky with all its energy, whatever its length.
+    expect_everywhere("white", &truth, 1.0);
 }
 
 #[test]
@@ -170,10 +187,7 @@ fn a_convex_body_under_a_white_sky_has_the_radiance_of_its_albedo() {
     let body = icosphere(1.0, 0);
     add(&mut scene, body, diffuse(0.5), spin(near, DVec3::Y, 2.0));
     scene.camera.vertical_fov = vec![(0.0, 0.5)];
-    for color in truth(&scene, 256).mean().color.pixels {
-        // The first bounce ends in the sky: no noise, and 0.5 is exact.
-        assert_eq!(color, [0.5; 3]);
-    }
+    expect_everywhere("grey", &truth(&scene, 256), 0.5);
 }
 
 #[test]
@@ -212,9 +226,7 @@ fn a_floor_under_a_glowing_disc_has_the_radiance_of_its_form_factor() {
             look(&mut scene, DVec3::new(4.0, 0.5, 0.0), DVec3::ZERO, 0.05);
         }
         let expected = under_disc(0.6, f64::from(radius));
-        let truth = truth(&scene, 512);
-        let estimates = estimates(&truth, |_, _| expected);
-        expect_agreement(&format!("radius {radius}"), &estimates, 8);
+        expect_everywhere(&format!("radius {radius}"), &truth(&scene, 512), expected);
     }
 }
 
