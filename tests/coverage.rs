@@ -5,7 +5,7 @@
 use frame::{Alignment, Shutter, Truth};
 use glam::{DQuat, DVec2, DVec3};
 use tests::shapes::*;
-use tests::statistics::{estimates, expect_agreement, expect_total};
+use tests::statistics::{coverage_estimates, expect_agreement, expect_total};
 use tests::unwatched;
 use tracer::{Key, Mesh, Motion, Scene, TruthSettings, trace_truth};
 
@@ -127,7 +127,7 @@ fn expect(what: &str, scene: &Scene, alignment: Alignment, exact: impl Fn(DVec2,
     let settings = settings(alignment);
     let truth = trace_truth(scene, &settings, &unwatched).expect("settings are allowed");
     let shutter = truth.shutter;
-    let estimates = estimates(&truth, |x, y| exact(corner(x, y), shutter));
+    let estimates = coverage_estimates(&truth, |x, y| exact(corner(x, y), shutter));
     let what = format!("{what}, {alignment}");
     expect_agreement(&what, &estimates, settings.replicates);
     // Shifts and stretches show in the first moments.

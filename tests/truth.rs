@@ -3,7 +3,7 @@
 use frame::{Alignment, FAR_DEPTH, Frame, Truth};
 use glam::{DVec3, Vec3};
 use tests::shapes::*;
-use tests::statistics::{estimates, expect_agreement};
+use tests::statistics::{coverage_estimates, estimates, expect_agreement, expect_pooled_agreement};
 use tests::unwatched;
 use tracer::{
     Background, FrameSettings, Motion, Parent, Scene, Sun, TruthSettings, trace_frame,
@@ -108,7 +108,7 @@ fn the_truth_of_a_still_scene_is_its_frame() {
     for estimate in &mut against_frame {
         estimate.error *= std::f64::consts::SQRT_2;
     }
-    expect_agreement("still", &against_frame, 8);
+    expect_pooled_agreement("still", &against_frame);
     assert!(truth.motion.pixels.iter().all(|motion| *motion == 0.0));
     for halves in [0, 1, 2, 3] {
         for (pixel, coverage) in frame.coverage[halves].pixels.iter().enumerate() {
@@ -172,7 +172,7 @@ fn trailing_mirrored_in_time_is_leading() {
     back.objects[0].motion = mirrored_in_time(&motion);
     let trailing = truth(&scene, 0.7, Alignment::Trailing);
     let leading = truth(&back, 0.7, Alignment::Leading);
-    let mut between = estimates(&trailing, |x, y| {
+    let mut between = coverage_estimates(&trailing, |x, y| {
         f64::from(leading.mean().color.at(x, y)[0])
     });
     for (estimate, error) in between.iter_mut().zip(&leading.standard_error.pixels) {

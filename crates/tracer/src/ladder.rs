@@ -6,7 +6,7 @@ use crate::film::{Film, PixelMean, Replicate, Times};
 use crate::path::Integrator;
 use crate::progress::{Meter, Watch};
 use crate::provenance::{ladder_hash, object_names, provenance};
-use crate::sampler::Stream;
+use crate::sampler::{MOST_SAMPLES, Stream};
 use crate::scene::Scene;
 use crate::settings::{TraceError, TruthSettings};
 use crate::stage::Stage;
@@ -17,12 +17,16 @@ const REPLICATES: u32 = 2;
 /// farther.
 const MARGIN: f64 = 1.0 / 15.0;
 
+/// A sample that sees the background costs this part less than one that meets a surface (measured: about 0.2 and 1.6
+/// microseconds where surfaces are lit).
+const SAVED_BY_A_MISS: f64 = 0.875;
+
 /// Renders accumulations of so many sub-frames each over the shutter of `truth`, which `settings` made.
 ///
 /// Only pixels near motion are rendered, where an accumulation can differ from the truth; elsewhere both halves hold
 /// the truth's mean. (A moving shadow on a still floor far from anything that moves is therefore the truth's.) All
-/// rungs have the same number of samples, the most with which they together cost no more than the truth. Their
-/// random numbers are their own, so that their noise is independent of the truth's.
+/// rungs have the same number of samples, the most with which they together cost no more than the truth, in
+/// samples and in work. Their random numbers are their own, so that their noise is independent of the truth's.
 pub fn trace_ladder(
     scene: &Scene,
     settings: &TruthSettings,
@@ -39,13 +43,13 @@ pub fn trace_ladder(
     );
     let stage = Stage::new(scene, shutter.open, shutter.close);
     let pixels = pixels_near_motion(&truth.motion);
-    let samples_per_replicate = affordable(settings, pixels.len(), subframes.len());
+    let mean = truth.mean();
+    let samples_per_replicate = affordable(settings, &mean.coverage[0], &pixels, subframes.len());
     let samples_per_pixel = REPLICATES * samples_per_replicate;
     let meter = Meter::new(
         watch,
         pixels.len() as u64 * u64::from(samples_per_pixel) * subframes.len() as u64,
     );
-    let mean = truth.mean();
     let mut rungs = Vec::with_capacity(subframes.len());
     for &subframes in subframes {
         let film = Film {
@@ -104,18 +108,20 @@ fn paint(picture: &mut Picture, pixel: usize, mean: &PixelMean) {
     }
 }
 
-/// Samples per replicate: the largest power of two with which all rungs together cost no more than the truth and
-/// none is sampled more densely than it; at least one.
-fn affordable(settings: &TruthSettings, pixels: usize, rungs: usize) -> u32 {
-    let truth = u64::from(settings.width)
-        * u64::from(settings.height)
-        * u64::from(settings.samples_per_pixel);
-    let per_sample = (pixels * rungs) as u64 * u64::from(REPLICATES);
-    let by_cost = truth / per_sample.max(1);
-    let by_density = u64::from(settings.samples_per_pixel / REPLICATES);
-    let most = by_cost
-        .min(by_density)
-        .clamp(1, u64::from(crate::sampler::MOST_SAMPLES));
+/// Samples per replicate: the largest power of two with which all rungs together take no more samples and no more
+/// work than the truth, and none is sampled more densely than it; at least one.
+fn affordable(settings: &TruthSettings, background: &Plane, pixels: &[u32], rungs: usize) -> u32 {
+    let work = |pixel: &f32| 1.0 - SAVED_BY_A_MISS * f64::from(*pixel);
+    let work_of_truth: f64 = background.pixels.iter().map(work).sum();
+    let work_of_rung: f64 = pixels
+        .iter()
+        .map(|&pixel| work(&background.pixels[pixel as usize]))
+        .sum();
+    let pixel_ratio = background.pixels.len() as f64 / pixels.len().max(1) as f64;
+    let work_ratio = work_of_truth / work_of_rung.max(f64::MIN_POSITIVE);
+    let per_rung = pixel_ratio.min(work_ratio) / rungs as f64;
+    let most = f64::from(settings.samples_per_pixel / REPLICATES) * per_rung.min(1.0);
+    let most = (most as u32).clamp(1, MOST_SAMPLES);
     1 << most.ilog2()
 }
 
