@@ -372,6 +372,33 @@ fn an_exr_of_an_engine_needs_only_the_channels_and_an_exposure() {
 }
 
 #[test]
+fn scenes_and_filters_of_ones_own_are_given_by_their_paths() {
+    let bench = Bench::new();
+    let mine = bench.path("my_blur");
+    fs::create_dir(&mine).unwrap();
+    let shaders = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shaders/velocity_gather");
+    for entry in fs::read_dir(shaders).unwrap().map(Result::unwrap) {
+        fs::copy(entry.path(), mine.join(entry.file_name())).unwrap();
+    }
+    let absolute = mine.display().to_string();
+    for words in [
+        ["--filter", "my_blur"],
+        ["--filter", &absolute],
+        ["--filters", "./my_blur:fine"],
+    ] {
+        let scene = ["--scenes", "./scenes/plate", "--scenes-dir", "nowhere"];
+        let output = bench.run(&[&scene[..], &words[..]].concat());
+        assert_done(&output);
+        assert!(stdout(&output).contains("velocity_gather:fine"));
+    }
+    assert_refused(
+        &bench.run(&["--filters", "my_blur"]),
+        2,
+        &["no built-in filter is called \"my_blur\"", "./my_blur"],
+    );
+}
+
+#[test]
 fn list_shows_scenes_filters_parameters_and_presets() {
     let bench = Bench::new();
     let output = bench.shuttertruth(&["list"]);

@@ -38,7 +38,7 @@ pub enum FilterError {
         reason: String,
     },
     /// No built-in filter has that name.
-    #[error("no built-in filter is called \"{name}\"; allowed: {}; a folder of your own is given by its path", known.join(", "))]
+    #[error("no built-in filter is called \"{name}\"; allowed: {}; a folder of your own is given by its path, such as ./{name}", known.join(", "))]
     UnknownFilter {
         /// The name asked for.
         name: String,

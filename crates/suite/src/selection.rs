@@ -37,7 +37,11 @@ pub struct SceneChoice {
 /// A word is the name of a folder under `root` or the path of any scene folder, then optionally `@variant`; `@all` takes
 /// every variant.
 pub fn select_scenes(root: &Path, words: &[String]) -> Result<Vec<SceneChoice>, Error> {
-    let listings = list_scenes(root)?;
+    // Where every scene is given by its path, `root` need not exist.
+    let listings = match !words.is_empty() && words.iter().all(|word| is_path(word)) {
+        true => Vec::new(),
+        false => list_scenes(root)?,
+    };
     if words.is_empty() {
         return listings
             .iter()
@@ -53,14 +57,14 @@ pub fn select_scenes(root: &Path, words: &[String]) -> Result<Vec<SceneChoice>, 
         let known = listings.iter().find(|listing| listing.name == name);
         let folder = match known {
             Some(listing) => listing.folder.clone(),
-            None if looks_like_path(name) => PathBuf::from(name),
+            None if is_path(name) => PathBuf::from(name),
             None => {
                 let names: Vec<&str> = listings
                     .iter()
                     .map(|listing| listing.name.as_str())
                     .collect();
                 return Err(Error::Usage(format!(
-                    "--scenes: no scene \"{name}\" in {}; allowed: {}, or the path of a scene folder",
+                    "--scenes: no scene \"{name}\" in {}; allowed: {}, or the path of a scene folder, such as ./{name}",
                     root.display(),
                     names.join(", ")
                 )));
@@ -105,7 +109,7 @@ pub fn select_filters(
             Some((name, preset)) if !preset.contains(['/', '\\']) => (name, Some(preset)),
             _ => (word.as_str(), None),
         };
-        let load = || match looks_like_path(name) {
+        let load = || match is_path(name) {
             true => Filter::load(Path::new(name)),
             false => Filter::builtin(name),
         };
@@ -166,6 +170,7 @@ fn apply_override(choices: &mut [FilterChoice], text: &str) -> Result<(), Error>
     )))
 }
 
-fn looks_like_path(word: &str) -> bool {
-    word.contains(['/', '\\']) || word == "." || Path::new(word).is_dir()
+/// A path has a separator; a word without one is a name, whatever lies in the current folder.
+fn is_path(word: &str) -> bool {
+    word.contains(['/', '\\'])
 }

@@ -11,7 +11,10 @@ use crate::cli::RunArgs;
 /// Loads what is named, runs every case, writes `run.json`, prints the table.
 pub fn execute(args: &RunArgs) -> Result<(), Error> {
     let scenes = select_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
-    let words = [args.filters.clone(), args.filter.clone()].concat();
+    let folders = args.filter.iter().map(|folder| Path::new(".").join(folder));
+    let words: Vec<String> = (args.filters.iter().cloned())
+        .chain(folders.map(|folder| folder.display().to_string()))
+        .collect();
     let filters = select_filters(&words, args.preset.as_deref(), &args.set)?;
     let scenes = scenes
         .into_iter()
