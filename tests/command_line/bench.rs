@@ -1,0 +1,141 @@
+//! A folder to try the program in.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+pub const OBJ: &str = "\
+mtllib plate.mtl
+v -0.5 -0.5 0
+v 0.5 -0.5 0
+v 0.5 0.5 0
+v -0.5 0.5 0
+usemtl paint
+f 1 2 3
+f 1 3 4
+";
+
+pub const MTL: &str = "newmtl paint\nKd 0 0 0\nKe 0.7 0.4 0.2\n";
+
+/// 60 degrees of vertical field of view seen from 4 m: 0.4 m is about 2.7 px of 32 px rows.
+pub const SCENE: &str = "\
+exposes = \"nothing: it serves the tests of the command line\"
+family = \"translation\"
+exposure = 0.5
+size = [64, 32]
+
+[camera]
+position = [0, 0, 4]
+look_at = [0, 0, 0]
+vertical_fov = 60.0
+
+[background]
+constant = [0.2, 0.2, 0.2]
+
+[object.plate]
+mesh = \"plate.obj\"
+keys = [
+    { time = -1, translation = [-1.6, 0, 0] },
+    { time = 0, translation = [0, 0, 0] },
+]
+";
+
+/// A folder of scenes with one scene `plate`, and an `out` that does not exist yet.
+pub struct Bench {
+    folder: tempfile::TempDir,
+}
+
+impl Bench {
+    pub fn new() -> Self {
+        let bench = Self {
+            folder: tempfile::tempdir().unwrap(),
+        };
+        fs::create_dir_all(bench.path("scenes/plate")).unwrap();
+        bench.write("scene.toml", SCENE);
+        bench.write("plate.obj", OBJ);
+        bench.write("plate.mtl", MTL);
+        bench
+    }
+
+    pub fn path(&self, below: &str) -> PathBuf {
+        self.folder.path().join(below)
+    }
+
+    pub fn write(&self, name: &str, text: &str) {
+        fs::write(self.path("scenes/plate").join(name), text).unwrap();
+    }
+
+    pub fn shuttertruth(&self, words: &[&str]) -> Output {
+        self.command(words).output().unwrap()
+    }
+
+    pub fn command(&self, words: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_shuttertruth"));
+        command.current_dir(self.folder.path()).args(words);
+        command
+    }
+
+    /// `run` with few samples; the table is on standard output.
+    pub fn run(&self, more: &[&str]) -> Output {
+        let words = [
+            "run",
+            "--quiet",
+            "--out",
+            "out",
+            "--size",
+            "64x32",
+            "--samples-per-pixel",
+            "16",
+        ];
+        self.shuttertruth(&[&words, more].concat())
+    }
+}
+
+pub fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+pub fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+#[track_caller]
+pub fn assert_done(output: &Output) {
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(output));
+}
+
+#[track_caller]
+pub fn assert_refused(output: &Output, code: i32, parts: &[&str]) {
+    let message = stderr(output);
+    assert_eq!(output.status.code(), Some(code), "{message}");
+    for part in parts {
+        assert!(
+            message.contains(part),
+            "\"{part}\" is missing from: {message}"
+        );
+    }
+    assert_eq!(
+        stdout(output),
+        "",
+        "a refused command prints nothing on standard output"
+    );
+}
+
+pub fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+        {
+            if entry.is_dir() {
+                folders.push(entry)
+            } else {
+                files.push(entry)
+            }
+        }
+    }
+    files.sort();
+    files
+}

@@ -1,0 +1,179 @@
+//! What is refused, with which words and exit code, and that nothing is left behind.
+
+use std::fs;
+use std::process::Command;
+
+use crate::bench::{Bench, OBJ, SCENE, assert_done, assert_refused, files_below};
+
+#[test]
+fn no_adapter_is_exit_code_3_and_names_the_way_out() {
+    let bench = Bench::new();
+    let output = bench
+        .command(&["run", "--out", "out"])
+        .env("VK_DRIVER_FILES", "/no/driver.json")
+        .env("VK_ICD_FILENAMES", "/no/driver.json")
+        .output()
+        .unwrap();
+    assert_refused(&output, 3, &["mesa-vulkan-drivers"]);
+    assert!(!bench.path("out").exists());
+}
+
+#[test]
+fn words_that_do_not_fit_are_refused_with_what_is_allowed() {
+    let bench = Bench::new();
+    let rows: &[(&[&str], &[&str])] = &[
+        (
+            &["--scenes", "plates"],
+            &["no scene \"plates\"", "allowed: plate"],
+        ),
+        (&["--scenes", "plate@fast"], &["fast"]),
+        (&["--filters", "jumpflood"], &["jumpflood", "jump_flood"]),
+        (&["--filters", "no/such/folder"], &["no/such/folder"]),
+        (&["--filters", "jump_flood:fastest"], &["fastest", "paper"]),
+        (&["--set", "jump_flood.sample=3"], &["sample", "samples"]),
+        (&["--set", "jump_flood.samples=many"], &["samples", "many"]),
+        (
+            &["--set", "jump_flood.samples=1000000"],
+            &["samples", "1000000"],
+        ),
+        (&["--set", "samples=3"], &["filter.parameter=value"]),
+        (
+            &["--set", "bevy.samples=3"],
+            &["no filter \"bevy\" takes part"],
+        ),
+        (
+            &["--exposure", "0"],
+            &["exposure is 0 frames", "allowed: above 0"],
+        ),
+        (&["--exposure=-0.5"], &["exposure is -0.5 frames"]),
+        (&["--samples-per-pixel", "100"], &["100", "allowed"]),
+        (&["--threads", "0"], &["--threads 0"]),
+        (
+            &["--velocity", "backwards"],
+            &["backwards", "instantaneous, previous_frame"],
+        ),
+        (&["--size", "10"], &["WIDTHxHEIGHT"]),
+        (&["--scenes-dir", "nowhere"], &["nowhere"]),
+    ];
+    for (more, parts) in rows {
+        let words = [&["run", "--quiet", "--out", "out"], *more].concat();
+        assert_refused(&bench.shuttertruth(&words), 2, parts);
+        assert!(
+            !bench.path("out").exists(),
+            "{more:?} left something behind"
+        );
+    }
+    assert_refused(&bench.shuttertruth(&["run"]), 2, &["--out"]);
+    assert_refused(&bench.shuttertruth(&[]), 2, &["run, render, blur, list"]);
+}
+
+#[test]
+fn a_bad_scene_is_refused_with_file_and_line_and_leaves_nothing_behind() {
+    let scene = |from: &str, to: &str| {
+        assert!(SCENE.contains(from), "the scene has no \"{from}\"");
+        ("scene.toml", SCENE.replace(from, to))
+    };
+    let obj = |from: &str, to: &str| ("plate.obj", OBJ.replacen(from, to, 1));
+    let rows: Vec<((&str, String), &[&str])> = vec![
+        (
+            scene("family", "familiar = 3\nfamily"),
+            &["scene.toml:2:", "familiar"],
+        ),
+        (scene("plate.obj", "plane.obj"), &["plane.obj"]),
+        (
+            ("plate.obj", "# nothing\n".into()),
+            &["plate.obj: holds no faces"],
+        ),
+        (
+            obj("v 0.5 -0.5 0", "v 0.5 nan 0"),
+            &["plate.obj:3:", "allowed"],
+        ),
+        (obj("f 1 3 4", "f 1 3 9"), &["plate.obj:8:", "9", "4"]),
+        (
+            scene("keys = [", "rotation = [0, 0, 0, 0]\nunused = ["),
+            &["scene.toml:"],
+        ),
+        (
+            scene(
+                "translation = [0, 0, 0] },",
+                "translation = [0, 0, 0], rotation = [0, 0, 0, 0] },",
+            ),
+            &["scene.toml:18:", "length is not above 0"],
+        ),
+        (scene("time = -1", "time = 2"), &["scene.toml:", "time"]),
+        (
+            scene("exposure = 0.5", "exposure = -0.5"),
+            &["scene.toml:3:", "-0.5", "above 0"],
+        ),
+        (
+            scene("look_at = [0, 0, 0]", "look_at = [0, 0, 4]"),
+            &["scene.toml:", "look_at"],
+        ),
+        (
+            scene("vertical_fov = 60.0", "vertical_fov = 180.0"),
+            &["scene.toml:9:", "180"],
+        ),
+    ];
+    for ((name, text), parts) in rows {
+        let bench = Bench::new();
+        bench.write(name, &text);
+        let output = bench.run(&["--filters", "identity"]);
+        assert_refused(&output, 2, parts);
+        assert!(
+            !bench.path("out").exists(),
+            "{parts:?} left something behind"
+        );
+    }
+}
+
+#[test]
+fn bounds_name_metrics_that_exist() {
+    let bench = Bench::new();
+    bench.write("bounds.toml", "flip_moving = 0.0001\n");
+    assert_done(&bench.run(&["--filters", "identity"]));
+    let run: suite::Run =
+        serde_json::from_slice(&fs::read(bench.path("out/run.json")).unwrap()).unwrap();
+    assert_eq!(run.cases[0].verdicts.len(), 1);
+    bench.write("bounds.toml", "flip = 0.1\n");
+    fs::remove_dir_all(bench.path("out")).unwrap();
+    let output = bench.run(&["--filters", "identity"]);
+    assert_refused(
+        &output,
+        2,
+        &["bounds.toml", "metric \"flip\" is unknown", "flip_moving"],
+    );
+    assert!(!bench.path("out").exists());
+}
+
+#[test]
+fn ctrl_c_leaves_no_broken_file() {
+    let bench = Bench::new();
+    // Far more samples than can be rendered before the interrupt.
+    let mut child = bench
+        .command(&[
+            "render",
+            "--quiet",
+            "--out",
+            "out",
+            "--size",
+            "1024x512",
+            "--samples-per-pixel",
+            "65536",
+        ])
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(500));
+    let interrupt = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .unwrap();
+    assert!(interrupt.success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let out = bench.path("out");
+    let left = if out.exists() {
+        files_below(&out)
+    } else {
+        Vec::new()
+    };
+    assert!(left.is_empty(), "left behind: {left:?}");
+}
