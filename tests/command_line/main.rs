@@ -5,6 +5,7 @@ mod refusals;
 
 use std::fs;
 use std::path::Path;
+use std::process::Stdio;
 
 use bench::{Bench, assert_done, assert_refused, files_below, stdout};
 
@@ -293,6 +294,19 @@ fn list_shows_scenes_filters_parameters_and_presets() {
         json["filters"].as_array().unwrap().len(),
         filters::Filter::builtin_names().len()
     );
+}
+
+#[test]
+fn a_reader_that_stops_reading_is_no_error() {
+    let bench = Bench::new();
+    let mut child = bench
+        .command(&["list", "--json"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    assert_done(&child.wait_with_output().unwrap());
 }
 
 #[test]

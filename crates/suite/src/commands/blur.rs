@@ -6,7 +6,7 @@ use filters::{Blur, FilterError, Gpu, Input};
 use frame::{ExrFile, Image, Plane, Vectors, read_exr, write_exr};
 use suite::{Error, FilterChoice, select_filters};
 
-use super::check_exposure;
+use super::{check_exposure, say};
 use crate::cli::BlurArgs;
 
 /// Runs one filter on one frame file and writes its colour.
@@ -37,8 +37,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     file.set("adapter", &gpu.adapter.name);
     file.set("exposure", buffers.exposure);
     write_exr(&args.out, &file)?;
-    println!("{}", args.out.display());
-    Ok(())
+    say(&format!("{}\n", args.out.display()))
 }
 
 fn select_filter(args: &BlurArgs) -> Result<FilterChoice, Error> {

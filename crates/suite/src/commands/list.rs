@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use filters::{Filter, Parameter, Preset, list_adapters};
+use filters::{AdapterDescription, Filter, Parameter, Preset, list_adapters};
 use suite::Error;
 use tracer::{SceneListing, list_scenes};
 
+use super::say;
 use crate::cli::ListArgs;
 
 /// Prints scenes, filters, parameters and presets.
@@ -23,28 +24,28 @@ pub fn execute(args: &ListArgs) -> Result<(), Error> {
             "scenes": scenes.iter().map(scene_json).collect::<Vec<_>>(),
             "filters": filters.iter().map(filter_json).collect::<Vec<_>>(),
         });
-        println!(
-            "{}",
-            serde_json::to_string_pretty(&listing).expect("listings are plain data")
-        );
+        let json = serde_json::to_string_pretty(&listing).expect("listings are plain data");
+        say(&format!("{json}\n"))
     } else {
-        println!("scenes\n");
-        scenes.iter().for_each(print_scene);
-        println!("filters\n");
-        filters.iter().for_each(print_filter);
+        let scenes: String = scenes.iter().map(scene_text).collect();
+        let filters: String = filters.iter().map(filter_text).collect();
+        say(&format!("scenes\n\n{scenes}filters\n\n{filters}"))
     }
-    Ok(())
 }
 
 /// Prints one adapter a line, numbered as `--adapter` takes them.
 pub fn adapters() -> Result<(), Error> {
-    for (number, adapter) in list_adapters().iter().enumerate() {
-        println!(
-            "{number}: {} ({}, {}, {})",
+    let line = |(number, adapter): (usize, &AdapterDescription)| {
+        format!(
+            "{number}: {} ({}, {}, {})\n",
             adapter.name, adapter.backend, adapter.driver, adapter.kind
-        );
-    }
-    Ok(())
+        )
+    };
+    say(&list_adapters()
+        .iter()
+        .enumerate()
+        .map(line)
+        .collect::<String>())
 }
 
 fn scene_json(scene: &SceneListing) -> serde_json::Value {
@@ -77,35 +78,38 @@ fn filter_json(filter: &Filter) -> serde_json::Value {
     })
 }
 
-fn print_scene(scene: &SceneListing) {
+fn scene_text(scene: &SceneListing) -> String {
     let family = serde_json::to_value(scene.family).expect("a family is a word");
-    println!(
-        "  {}  ({})",
+    let mut text = format!(
+        "  {}  ({})\n    {}\n",
         scene.name,
-        family.as_str().unwrap_or_default()
+        family.as_str().unwrap_or_default(),
+        scene.exposes
     );
-    println!("    {}", scene.exposes);
     if !scene.variants.is_empty() {
-        println!("    variants: {}", scene.variants.join(" "));
+        text += &format!("    variants: {}\n", scene.variants.join(" "));
     }
-    println!();
+    text + "\n"
 }
 
-fn print_filter(filter: &Filter) {
-    println!("  {}  (shutter: {})", filter.name, filter.alignment);
-    println!("    {}", filter.summary);
-    println!("    cannot: {}", filter.cannot);
-    for preset in &filter.presets {
-        println!("    :{}  {}", preset.name, preset.doc);
-    }
-    for parameter in &filter.parameters {
-        println!(
-            "    .{} = {} ({})",
+fn filter_text(filter: &Filter) -> String {
+    let preset = |preset: &Preset| format!("    :{}  {}\n", preset.name, preset.doc);
+    let parameter = |parameter: &Parameter| {
+        format!(
+            "    .{} = {} ({})\n        {}\n",
             parameter.name,
             parameter.default,
-            parameter.kind.allowed()
-        );
-        println!("        {}", parameter.doc);
-    }
-    println!();
+            parameter.kind.allowed(),
+            parameter.doc
+        )
+    };
+    format!(
+        "  {}  (shutter: {})\n    {}\n    cannot: {}\n{}{}\n",
+        filter.name,
+        filter.alignment,
+        filter.summary,
+        filter.cannot,
+        filter.presets.iter().map(preset).collect::<String>(),
+        filter.parameters.iter().map(parameter).collect::<String>()
+    )
 }

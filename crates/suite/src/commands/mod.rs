@@ -5,6 +5,8 @@ mod list;
 mod render;
 mod run;
 
+use std::io::{ErrorKind, Write};
+
 use suite::{Error, RenderSettings};
 
 use crate::cli::{Cli, Command, SceneArgs};
@@ -22,6 +24,16 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         None => Err(Error::Usage(
             "no command given; allowed: run, render, blur, list (see --help)".to_owned(),
         )),
+    }
+}
+
+/// Prints to standard output. A reader that has read enough, such as `head`, is no error.
+fn say(text: &str) -> Result<(), Error> {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Error::Usage(format!(
+            "standard output: cannot write: {error}"
+        ))),
+        _ => Ok(()),
     }
 }
 

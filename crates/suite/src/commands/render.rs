@@ -2,7 +2,7 @@
 
 use suite::{Error, frame_of, scene_folder, select_scenes, truth_of};
 
-use super::render_settings;
+use super::{render_settings, say};
 use crate::cli::RenderArgs;
 
 /// Renders each scene's frame and its truths, and says where they are.
@@ -16,7 +16,7 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
         for alignment in &args.alignments {
             truth_of(&scene, &settings, *alignment, out, quiet)?;
         }
-        println!("{}", scene_folder(out, &scene).display());
+        say(&format!("{}\n", scene_folder(out, &scene).display()))?;
     }
     Ok(())
 }

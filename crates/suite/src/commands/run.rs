@@ -5,7 +5,7 @@ use std::path::Path;
 use filters::Gpu;
 use suite::{Error, Outcome, Plan, Run, read_bounds, run, select_filters, select_scenes, table};
 
-use super::render_settings;
+use super::{render_settings, say};
 use crate::cli::RunArgs;
 
 /// Loads what is named, runs every case, writes `run.json`, prints the table.
@@ -36,12 +36,10 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
     let run = run(&plan, &gpu, std::env::args().collect())?;
     let json = write_run(&run, &plan.out)?;
     if args.json {
-        println!("{json}");
+        say(&format!("{json}\n"))
     } else {
-        print!("{}", table(&run));
-        print!("{}", closing(&run, &plan.out));
+        say(&(table(&run) + &closing(&run, &plan.out)))
     }
-    Ok(())
 }
 
 fn write_run(run: &Run, out: &Path) -> Result<String, Error> {
