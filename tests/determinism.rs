@@ -83,6 +83,31 @@ fn on_threads(threads: usize) -> (Frame, Truth, Ladder) {
 }
 
 #[test]
+fn frame_and_truth_do_not_share_their_noise() {
+    let mut scene = busy_scene();
+    for object in &mut scene.objects {
+        object.motion.keys.truncate(1);
+    }
+    // Nothing moves: with shared numbers the frame would be the truth's first replicate, pixel by pixel.
+    let settings = TruthSettings {
+        samples_per_pixel: 32,
+        replicates: 2,
+        ..truth_settings()
+    };
+    let frame = trace_frame(&scene, &frame_settings(), &unwatched).expect("allowed");
+    let truth = trace_truth(&scene, &settings, &unwatched).expect("allowed");
+    for half in &truth.halves {
+        let pairs = frame.color.pixels.iter().zip(&half.color.pixels);
+        let equal = pairs.filter(|(a, b)| a == b).count();
+        // Pixels of the even lamp alone are equal by nature; the rest is lit and noisy.
+        assert!(
+            equal * 2 < frame.color.pixels.len(),
+            "{equal} pixels are equal"
+        );
+    }
+}
+
+#[test]
 fn one_thread_and_several_give_the_same_bytes() {
     let alone = on_threads(1);
     // No value is NaN (it would differ from itself), so equality is of bits but for the sign of zero.

@@ -30,6 +30,12 @@ impl Truth {
         (self.motion.width, self.motion.height)
     }
 
+    /// How far from any motion blur is looked for, in pixels: bleed leaves the support, but not without end. Scores of
+    /// the moving region pool so far, and accumulations are rendered so far.
+    pub fn motion_margin(&self) -> u32 {
+        (f64::from(self.motion.height) / 15.0).round() as u32
+    }
+
     /// Mean of all replicates.
     pub fn mean(&self) -> Picture {
         Picture::mean(&self.halves)

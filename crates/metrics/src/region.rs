@@ -68,7 +68,7 @@ impl Regions {
 
 /// Moving: `truth.motion > 0` dilated by a fifteenth of the height (a bleed leaves the support); static: the rest.
 pub fn regions(truth: &Truth) -> Regions {
-    let radius = (f64::from(truth.motion.height) / 15.0).round();
+    let radius = f64::from(truth.motion_margin());
     let moving = dilate(&truth.motion.map(|fraction| *fraction > 0.0), radius);
     let still = moving.map(|moves| !moves);
     Regions { moving, still }

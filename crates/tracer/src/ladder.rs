@@ -13,10 +13,6 @@ use crate::stage::Stage;
 
 /// One replicate per half: more would only stratify worse.
 const REPLICATES: u32 = 2;
-/// Accumulations are rendered this part of the picture's height around everything that moves; scores look no
-/// farther.
-const MARGIN: f64 = 1.0 / 15.0;
-
 /// A sample that sees the background costs this part less than one that meets a surface (measured: about 0.2 and 1.6
 /// microseconds where surfaces are lit).
 const SAVED_BY_A_MISS: f64 = 0.875;
@@ -42,7 +38,7 @@ pub fn trace_ladder(
         "the truth was made with the ladder's settings"
     );
     let stage = Stage::new(scene, shutter.open, shutter.close);
-    let pixels = pixels_near_motion(&truth.motion);
+    let pixels = pixels_near_motion(&truth.motion, truth.motion_margin());
     let mean = truth.mean();
     let samples_per_replicate = affordable(settings, &mean.coverage[0], &pixels, subframes.len());
     let samples_per_pixel = REPLICATES * samples_per_replicate;
@@ -127,8 +123,7 @@ fn affordable(settings: &TruthSettings, background: &Plane, pixels: &[u32], rung
 
 /// Indices of the pixels within the margin of any pixel that shows motion, rising: a square's reach, which contains
 /// the disc's.
-fn pixels_near_motion(motion: &Plane) -> Vec<u32> {
-    let margin = (f64::from(motion.height) * MARGIN).round() as u32;
+fn pixels_near_motion(motion: &Plane, margin: u32) -> Vec<u32> {
     let moving = |x: u32, y: u32| *motion.at(x, y) > 0.0;
     let reached = |at: u32, end: u32| at.saturating_sub(margin)..(at + margin + 1).min(end);
     let across = Plane::from_fn(motion.width, motion.height, |x, y| {
