@@ -27,6 +27,7 @@ mod instant;
 mod picture;
 mod provenance;
 mod raster;
+mod replicate;
 mod shutter;
 mod truth;
 
@@ -38,5 +39,6 @@ pub use instant::{FAR_DEPTH, Frame, VelocityKind};
 pub use picture::Picture;
 pub use provenance::Provenance;
 pub use raster::{Image, Plane, Raster, Vectors};
+pub use replicate::Replicate;
 pub use shutter::{Alignment, Shutter, ShutterError};
-pub use truth::Truth;
+pub use truth::{Truth, TruthError, truth_hash};

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::exr_file::{ExrFile, read_exr, write_exr};
-use crate::{Alignment, FileError, Image, Picture, Plane, Provenance, Shutter};
+use crate::{Alignment, FileError, Image, Picture, Plane, Provenance, Replicate, Shutter};
 
 /// Radiance and visibility integrated over the shutter, with its own noise. All rasters have the same size.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +24,81 @@ pub struct Truth {
     pub motion: Plane,
 }
 
+/// Replicates that make no truth: what was found, and what is allowed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TruthError {
+    /// An odd number has no two halves.
+    #[error("found {0} replicates; allowed: even numbers from 2, for the halves of a truth")]
+    Count(usize),
+    /// A replicate is missing or there twice.
+    #[error(
+        "replicate {found} stands in the place of replicate {index}; each from 0 on is needed once"
+    )]
+    Index {
+        /// The index that is due.
+        index: u32,
+        /// The index that was found.
+        found: u32,
+    },
+    /// Replicates of different truths.
+    #[error(
+        "replicate {index} was made from other inputs (content hash {found}) than replicate 0 ({expected}); \
+         replicates of one scene, size, seed and tracer are needed"
+    )]
+    Foreign {
+        /// Which replicate.
+        index: u32,
+        /// Its content hash.
+        found: String,
+        /// That of the first.
+        expected: String,
+    },
+}
+
 impl Truth {
+    /// The mean of all `replicates`, in the order of their indices from 0. Their even number makes two halves.
+    pub fn of(replicates: &[Replicate]) -> Result<Self, TruthError> {
+        if replicates.is_empty() || !replicates.len().is_multiple_of(2) {
+            return Err(TruthError::Count(replicates.len()));
+        }
+        let first = &replicates[0];
+        let expected = &first.provenance.content_hash;
+        for (index, replicate) in (0..).zip(replicates) {
+            if replicate.index != index {
+                let found = replicate.index;
+                return Err(TruthError::Index { index, found });
+            }
+            let found = &replicate.provenance.content_hash;
+            if found != expected {
+                let (found, expected) = (found.clone(), expected.clone());
+                return Err(TruthError::Foreign {
+                    index,
+                    found,
+                    expected,
+                });
+            }
+        }
+        let half = |first: usize| {
+            Picture::mean(replicates.iter().skip(first).step_by(2).map(|r| &r.picture))
+        };
+        let halves = [half(0), half(1)];
+        let count = replicates.len() as u32;
+        Ok(Self {
+            provenance: Provenance {
+                samples_per_pixel: count * first.provenance.samples_per_pixel,
+                replicates: count,
+                content_hash: truth_hash(expected, count),
+                ..first.provenance.clone()
+            },
+            shutter: first.shutter,
+            alignment: first.alignment,
+            objects: first.objects.clone(),
+            motion: motion(&Picture::mean(&halves), &first.moving),
+            standard_error: standard_error(replicates),
+            halves,
+        })
+    }
+
     /// Pixels per row and rows.
     pub fn size(&self) -> (u32, u32) {
         (self.motion.width, self.motion.height)
@@ -81,6 +155,39 @@ impl Truth {
             motion: file.plane("motion")?,
         })
     }
+}
+
+/// The content hash of the truth made of the first `count` replicates of a content hash.
+pub fn truth_hash(replicate_hash: &str, count: u32) -> String {
+    format!("{replicate_hash}x{count}")
+}
+
+/// Standard error of the replicates' mean.
+fn standard_error(replicates: &[Replicate]) -> Image {
+    let count = replicates.len() as f64;
+    let first = &replicates[0].picture.color;
+    Image::from_fn(first.width, first.height, |x, y| {
+        std::array::from_fn(|component| {
+            let values = replicates
+                .iter()
+                .map(|replicate| f64::from(replicate.picture.color.at(x, y)[component]));
+            let mean = values.clone().sum::<f64>() / count;
+            let squares: f64 = values.map(|value| (value - mean).powi(2)).sum();
+            (squares / (count * (count - 1.0))).sqrt() as f32
+        })
+    })
+}
+
+/// The summed coverage of what moves.
+fn motion(mean: &Picture, moving: &[bool]) -> Plane {
+    let still = Plane::filled(mean.color.width, mean.color.height, 0.0);
+    mean.coverage
+        .iter()
+        .zip(moving)
+        .filter(|(_, moves)| **moves)
+        .fold(still, |sum, (coverage, _)| {
+            sum.zip(coverage, |sum, coverage| sum + coverage)
+        })
 }
 
 pub(crate) fn set_shutter(file: &mut ExrFile, shutter: Shutter, alignment: Alignment) {

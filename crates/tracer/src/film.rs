@@ -1,5 +1,7 @@
 //! Many samples of many pixels, in an order that no number of threads changes.
 
+use std::ops::Range;
+
 use frame::{Image, Picture, Plane, Shutter};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -35,8 +37,8 @@ pub(crate) struct Film<'a> {
     /// Rows.
     pub height: u32,
     pub times: Times,
-    /// Independent, complete sets of samples.
-    pub replicates: u32,
+    /// Independent, complete sets of samples, by the numbers that choose their random numbers.
+    pub replicates: Range<u32>,
     /// A power of two.
     pub samples_per_replicate: u32,
     pub seed: u64,
@@ -45,7 +47,7 @@ pub(crate) struct Film<'a> {
 
 /// The mean of one complete set of samples of one pixel.
 #[derive(Clone, Debug)]
-pub(crate) struct Replicate {
+pub(crate) struct Estimate {
     pub radiance: DVec3,
     /// Per object id, the samples that saw it.
     pub seen: Vec<u32>,
@@ -83,15 +85,15 @@ impl Times {
 impl<'a> Film<'a> {
     /// Samples per pixel over all replicates.
     pub fn samples_per_pixel(&self) -> u64 {
-        u64::from(self.replicates) * u64::from(self.samples_per_replicate)
+        self.replicates.len() as u64 * u64::from(self.samples_per_replicate)
     }
 
-    /// Renders the listed pixels (indices in row-major order) and turns each one's replicates into a result.
+    /// Renders the listed pixels (indices in row-major order) and turns each one's estimates into a result.
     pub fn develop<T: Send>(
         &self,
         pixels: &[u32],
         meter: &Meter,
-        result: impl Fn(&[Replicate]) -> T + Sync,
+        result: impl Fn(&[Estimate]) -> T + Sync,
     ) -> Result<Vec<T>, TraceError> {
         let tasks = pixels
             .par_chunks(PIXELS_PER_TASK)
@@ -100,10 +102,12 @@ impl<'a> Film<'a> {
                 let mut results = Vec::with_capacity(task.len());
                 for &pixel in task {
                     meter.check()?;
-                    let replicates: Vec<Replicate> = (0..self.replicates)
-                        .map(|replicate| self.replicate(&mut eye, pixel, replicate))
+                    let estimates: Vec<Estimate> = self
+                        .replicates
+                        .clone()
+                        .map(|replicate| self.estimate(&mut eye, pixel, replicate))
                         .collect();
-                    results.push(result(&replicates));
+                    results.push(result(&estimates));
                 }
                 meter.advance(task.len() as u64 * self.samples_per_pixel());
                 Ok(results)
@@ -113,7 +117,7 @@ impl<'a> Film<'a> {
         Ok(tasks.into_iter().flatten().collect())
     }
 
-    fn replicate(&self, eye: &mut Eye, pixel: u32, replicate: u32) -> Replicate {
+    fn estimate(&self, eye: &mut Eye, pixel: u32, replicate: u32) -> Estimate {
         let [column, row] = [pixel % self.width, pixel / self.width].map(f64::from);
         let seed = pixel_seed(self.seed, self.stream, pixel, replicate);
         let mut sum = DVec3::ZERO;
@@ -128,7 +132,7 @@ impl<'a> Film<'a> {
             sum += sample.radiance.as_dvec3();
             seen[sample.object_id] += 1;
         }
-        Replicate {
+        Estimate {
             radiance: sum / f64::from(self.samples_per_replicate),
             seen,
         }
@@ -169,17 +173,17 @@ impl<'a> Eye<'a> {
 }
 
 impl PixelMean {
-    /// The mean over replicates, all of the same number of samples, in their order.
-    pub fn of<'r>(replicates: impl IntoIterator<Item = &'r Replicate>) -> Self {
+    /// The mean over estimates, all of the same number of samples, in their order.
+    pub fn of<'r>(estimates: impl IntoIterator<Item = &'r Estimate>) -> Self {
         let mut count = 0;
         let mut samples = 0;
         let mut radiance = DVec3::ZERO;
         let mut seen: Vec<u32> = Vec::new();
-        for replicate in replicates {
+        for estimate in estimates {
             count += 1;
-            radiance += replicate.radiance;
-            seen.resize(replicate.seen.len(), 0);
-            for (sum, &seen) in seen.iter_mut().zip(&replicate.seen) {
+            radiance += estimate.radiance;
+            seen.resize(estimate.seen.len(), 0);
+            for (sum, &seen) in seen.iter_mut().zip(&estimate.seen) {
                 *sum += seen;
                 samples += seen;
             }

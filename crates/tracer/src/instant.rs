@@ -35,7 +35,7 @@ pub fn trace_frame(
         width,
         height,
         times: Times::Instant,
-        replicates: 1,
+        replicates: 0..1,
         samples_per_replicate: settings.samples_per_pixel,
         seed: settings.seed,
         stream: Stream::Frame,
@@ -45,7 +45,7 @@ pub fn trace_frame(
         watch,
         pixels.len() as u64 * u64::from(settings.samples_per_pixel),
     );
-    let filtered = film.develop(&pixels, &meter, |replicates| PixelMean::of(replicates))?;
+    let filtered = film.develop(&pixels, &meter, |estimates| PixelMean::of(estimates))?;
     let filtered = picture(width, height, &filtered);
     let points = Raster {
         width,

@@ -2,7 +2,7 @@
 
 use frame::{Accumulation, Ladder, Picture, Plane, Truth};
 
-use crate::film::{Film, PixelMean, Replicate, Times};
+use crate::film::{Estimate, Film, PixelMean, Times};
 use crate::path::Integrator;
 use crate::progress::{Meter, Watch};
 use crate::provenance::{ladder_hash, object_names, provenance};
@@ -53,7 +53,7 @@ pub fn trace_ladder(
             width: settings.width,
             height: settings.height,
             times: Times::Midpoints(shutter, subframes),
-            replicates: REPLICATES,
+            replicates: 0..REPLICATES,
             samples_per_replicate,
             seed: settings.seed,
             stream: Stream::Accumulation(subframes),
@@ -93,8 +93,8 @@ fn check_subframes(subframes: &[u32]) -> Result<(), TraceError> {
     }
 }
 
-fn halves(replicates: &[Replicate]) -> [PixelMean; 2] {
-    [0, 1].map(|half| PixelMean::of([&replicates[half]]))
+fn halves(estimates: &[Estimate]) -> [PixelMean; 2] {
+    [0, 1].map(|half| PixelMean::of([&estimates[half]]))
 }
 
 fn paint(picture: &mut Picture, pixel: usize, mean: &PixelMean) {

@@ -38,7 +38,7 @@ pub use load::{SceneError, SceneListing, list_scenes, load_scene};
 pub use motion::{Key, Motion, Turn};
 pub use poses::Poses;
 pub use progress::{Progress, Watch};
-pub use provenance::{frame_hash, ladder_hash, truth_hash};
+pub use provenance::{frame_hash, ladder_hash, replicate_hash, truth_hash};
 pub use ray::Ray;
 pub use scene::{
     Background, Camera, Display, Family, FlipExposures, Material, Mesh, Object, Parent, Scene, Sun,
@@ -46,4 +46,4 @@ pub use scene::{
 };
 pub use settings::{FrameSettings, TraceError, TruthSettings};
 pub use stage::{Hit, Stage};
-pub use truth::trace_truth;
+pub use truth::{TruthTracer, trace_truth};

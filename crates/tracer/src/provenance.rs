@@ -15,9 +15,19 @@ pub fn frame_hash(scene: &Scene, settings: &FrameSettings) -> String {
     content_hash(scene, "frame", settings)
 }
 
+/// The content hash of every replicate of a truth, whatever their number; see [`frame_hash`].
+pub fn replicate_hash(scene: &Scene, settings: &TruthSettings) -> String {
+    let each = TruthSettings {
+        samples_per_pixel: settings.samples_per_replicate(),
+        replicates: 1,
+        ..*settings
+    };
+    content_hash(scene, "replicate", &each)
+}
+
 /// The content hash of the truth that [`trace_truth`](crate::trace_truth) would make; see [`frame_hash`].
 pub fn truth_hash(scene: &Scene, settings: &TruthSettings) -> String {
-    content_hash(scene, "truth", settings)
+    frame::truth_hash(&replicate_hash(scene, settings), settings.replicates)
 }
 
 /// The content hash of the ladder that [`trace_ladder`](crate::trace_ladder) would make from the truth of the same

@@ -135,6 +135,11 @@ impl FrameSettings {
 }
 
 impl TruthSettings {
+    /// Samples per pixel of each replicate.
+    pub fn samples_per_replicate(&self) -> u32 {
+        self.samples_per_pixel / self.replicates
+    }
+
     /// Refuses what cannot be rendered; else the shutter.
     pub fn check(&self, scene: &Scene) -> Result<Shutter, TraceError> {
         check_size(self.width, self.height)?;

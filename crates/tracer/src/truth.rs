@@ -1,22 +1,23 @@
 //! The truth: radiance and visibility integrated over the shutter.
 
-use frame::{Image, Picture, Plane, Truth};
-use glam::DVec3;
+use frame::{Replicate, Shutter, Truth};
 
-use crate::film::{Film, PixelMean, Replicate, Times, picture};
+use crate::film::{Film, PixelMean, Times, picture};
 use crate::moving::moving_objects;
 use crate::path::Integrator;
-use crate::progress::{Meter, Watch};
-use crate::provenance::{object_names, provenance, truth_hash};
+use crate::progress::{Meter, Progress, Watch};
+use crate::provenance::{object_names, provenance, replicate_hash};
 use crate::sampler::Stream;
 use crate::scene::Scene;
 use crate::settings::{TraceError, TruthSettings};
 use crate::stage::Stage;
 
-/// One pixel of both halves, and the spread between all replicates.
-struct TruthPixel {
-    halves: [PixelMean; 2],
-    standard_error: [f32; 3],
+/// A scene made ready to render the replicates of one truth.
+pub struct TruthTracer<'a> {
+    stage: Stage<'a>,
+    settings: TruthSettings,
+    shutter: Shutter,
+    moving: Vec<bool>,
 }
 
 /// Renders what a camera with an open shutter would have seen, with its own noise.
@@ -25,85 +26,64 @@ pub fn trace_truth(
     settings: &TruthSettings,
     watch: Watch,
 ) -> Result<Truth, TraceError> {
-    let shutter = settings.check(scene)?;
-    let (width, height) = (settings.width, settings.height);
-    let stage = Stage::new(scene, shutter.open, shutter.close);
-    let film = Film {
-        integrator: Integrator::new(&stage, shutter.at(0.5)),
-        width,
-        height,
-        times: Times::Open(shutter),
-        replicates: settings.replicates,
-        samples_per_replicate: settings.samples_per_pixel / settings.replicates,
-        seed: settings.seed,
-        stream: Stream::Truth,
-    };
-    let pixels: Vec<u32> = (0..width * height).collect();
-    let meter = Meter::new(watch, pixels.len() as u64 * film.samples_per_pixel());
-    let developed = film.develop(&pixels, &meter, TruthPixel::of)?;
-    let halves = [0, 1].map(|half| {
-        let of_half: Vec<PixelMean> = developed
-            .iter()
-            .map(|pixel| pixel.halves[half].clone())
-            .collect();
-        picture(width, height, &of_half)
-    });
-    Ok(Truth {
-        provenance: provenance(
-            scene,
-            settings.seed,
-            settings.samples_per_pixel,
-            settings.replicates,
-            truth_hash(scene, settings),
-        ),
-        shutter,
-        alignment: settings.alignment,
-        objects: object_names(scene),
-        motion: motion(&Picture::mean(&halves), &moving_objects(scene, shutter)),
-        halves,
-        standard_error: Image {
+    let tracer = TruthTracer::new(scene, settings)?;
+    let replicates: Vec<Replicate> = (0..settings.replicates)
+        .map(|index| {
+            tracer.trace(index, &|progress: Progress| {
+                watch(Progress {
+                    done: progress.done + u64::from(index) * progress.total,
+                    total: progress.total * u64::from(settings.replicates),
+                })
+            })
+        })
+        .collect::<Result<_, _>>()?;
+    Ok(Truth::of(&replicates).expect("settings ask for an even number of replicates"))
+}
+
+impl<'a> TruthTracer<'a> {
+    /// Refuses what cannot be rendered.
+    pub fn new(scene: &'a Scene, settings: &TruthSettings) -> Result<Self, TraceError> {
+        let shutter = settings.check(scene)?;
+        Ok(Self {
+            stage: Stage::new(scene, shutter.open, shutter.close),
+            settings: *settings,
+            shutter,
+            moving: moving_objects(scene, shutter),
+        })
+    }
+
+    /// Renders one replicate. The index chooses its random numbers and nothing else; it may lie beyond the number of
+    /// replicates that the settings name.
+    pub fn trace(&self, index: u32, watch: Watch) -> Result<Replicate, TraceError> {
+        let (width, height) = (self.settings.width, self.settings.height);
+        let film = Film {
+            integrator: Integrator::new(&self.stage, self.shutter.at(0.5)),
             width,
             height,
-            pixels: developed.iter().map(|pixel| pixel.standard_error).collect(),
-        },
-    })
-}
-
-impl TruthPixel {
-    fn of(replicates: &[Replicate]) -> Self {
-        let half = |first: usize| PixelMean::of(replicates.iter().skip(first).step_by(2));
-        Self {
-            halves: [half(0), half(1)],
-            standard_error: standard_error(replicates),
-        }
-    }
-}
-
-/// Standard error of the replicates' mean.
-fn standard_error(replicates: &[Replicate]) -> [f32; 3] {
-    let count = replicates.len() as f64;
-    let mean = replicates
-        .iter()
-        .map(|replicate| replicate.radiance)
-        .sum::<DVec3>()
-        / count;
-    let squares: DVec3 = replicates
-        .iter()
-        .map(|replicate| (replicate.radiance - mean).powf(2.0))
-        .sum();
-    let variance_of_mean = squares / (count * (count - 1.0));
-    [variance_of_mean.x, variance_of_mean.y, variance_of_mean.z]
-        .map(|variance| variance.sqrt() as f32)
-}
-
-/// The summed coverage of what moves.
-fn motion(mean: &Picture, moving: &[bool]) -> Plane {
-    let still = Plane::filled(mean.color.width, mean.color.height, 0.0);
-    mean.coverage
-        .iter()
-        .zip(moving)
-        .filter(|(_, moves)| **moves)
-        .fold(still, |sum, (coverage, _)| {
-            sum.zip(coverage, |sum, coverage| sum + coverage)
+            times: Times::Open(self.shutter),
+            replicates: index..index + 1,
+            samples_per_replicate: self.settings.samples_per_replicate(),
+            seed: self.settings.seed,
+            stream: Stream::Truth,
+        };
+        let pixels: Vec<u32> = (0..width * height).collect();
+        let meter = Meter::new(watch, pixels.len() as u64 * film.samples_per_pixel());
+        let developed = film.develop(&pixels, &meter, |estimates| PixelMean::of(estimates))?;
+        let scene = self.stage.scene;
+        Ok(Replicate {
+            provenance: provenance(
+                scene,
+                self.settings.seed,
+                self.settings.samples_per_replicate(),
+                1,
+                replicate_hash(scene, &self.settings),
+            ),
+            index,
+            shutter: self.shutter,
+            alignment: self.settings.alignment,
+            objects: object_names(scene),
+            moving: self.moving.clone(),
+            picture: picture(width, height, &developed),
         })
+    }
 }

@@ -1,0 +1,64 @@
+//! One complete, independent render of a shutter interval: the unit in which truths are rendered, kept and shared.
+
+use std::path::Path;
+
+use crate::exr_file::{ExrFile, read_exr, write_exr};
+use crate::truth::{get_shutter, set_shutter};
+use crate::{Alignment, FileError, Picture, Provenance, Shutter};
+
+/// One of the renders that a [`Truth`](crate::Truth) is the mean of. All rasters have the same size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Replicate {
+    /// Where it comes from; its content hash is that of all replicates of the same truth, whatever their number.
+    pub provenance: Provenance,
+    /// Which one it is, from 0: it chooses the random numbers.
+    pub index: u32,
+    /// The interval integrated over.
+    pub shutter: Shutter,
+    /// Where that interval lies relative to the instant.
+    pub alignment: Alignment,
+    /// Object names; the index is the object id, and 0 is `background`.
+    pub objects: Vec<String>,
+    /// Per object, whether it moves on screen while the shutter is open.
+    pub moving: Vec<bool>,
+    /// Radiance and visibility integrated over the shutter.
+    pub picture: Picture,
+}
+
+impl Replicate {
+    /// Writes the replicate as OpenEXR: `R G B` and `coverage.<object>`.
+    pub fn write(&self, path: &Path) -> Result<(), FileError> {
+        let color = &self.picture.color;
+        let mut file = ExrFile::new(color.width, color.height);
+        self.picture.push(&mut file, "", &self.objects);
+        file.set("kind", "replicate");
+        file.set("replicate", self.index);
+        set_shutter(&mut file, self.shutter, self.alignment);
+        file.set("objects", self.objects.join(" "));
+        let moving: Vec<&str> = (self.objects.iter().zip(&self.moving))
+            .filter(|(_, moves)| **moves)
+            .map(|(object, _)| object.as_str())
+            .collect();
+        file.set("moving", moving.join(" "));
+        self.provenance.set(&mut file);
+        write_exr(path, &file)
+    }
+
+    /// Reads a replicate that [`Replicate::write`] wrote, bit for bit.
+    pub fn read(path: &Path) -> Result<Self, FileError> {
+        let file = read_exr(path)?;
+        file.expect_kind("replicate")?;
+        let objects = file.words("objects")?;
+        let moving = file.words("moving")?;
+        let (shutter, alignment) = get_shutter(&file)?;
+        Ok(Self {
+            provenance: Provenance::from_exr(&file)?,
+            index: file.get("replicate")?,
+            shutter,
+            alignment,
+            moving: objects.iter().map(|name| moving.contains(name)).collect(),
+            picture: Picture::from_exr(&file, "", &objects)?,
+            objects,
+        })
+    }
+}
