@@ -3,7 +3,11 @@
 use std::path::Path;
 
 use crate::exr_file::{ExrFile, read_exr, write_exr};
-use crate::{Alignment, FileError, Image, Picture, Plane, Provenance, Replicate, Shutter};
+use crate::region::noise_floor;
+use crate::{
+    Alignment, FileError, Image, Picture, Plane, Provenance, Region, Regions, Replicate, Shutter,
+    regions,
+};
 
 /// Radiance and visibility integrated over the shutter, with its own noise. All rasters have the same size.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,8 +119,19 @@ impl Truth {
         Picture::mean(&self.halves)
     }
 
+    /// The report of floors: per region that is not empty, the root mean square error of the mean's radiance, from the
+    /// halves' difference.
+    pub fn noise_floors(&self) -> Vec<(Region, f64)> {
+        let regions: Regions = regions(self);
+        let halves = [&self.halves[0].color, &self.halves[1].color];
+        Region::ALL
+            .into_iter()
+            .filter_map(|region| Some((region, noise_floor(halves, &regions, region)?)))
+            .collect()
+    }
+
     /// Writes the truth as OpenEXR: the mean as `R G B` and `coverage.<object>`, the halves as layers `A` and `B`,
-    /// `stderr.R/G/B`, and `motion`.
+    /// `stderr.R/G/B`, and `motion`. The attributes `noise_floor_<region>` report [`Truth::noise_floors`].
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
         let (width, height) = self.size();
         let mut file = ExrFile::new(width, height);
@@ -126,6 +141,9 @@ impl Truth {
         file.push_color("stderr", &self.standard_error);
         file.push_plane("motion", &self.motion);
         file.set("kind", "truth");
+        for (region, floor) in self.noise_floors() {
+            file.set(&format!("noise_floor_{region}"), floor);
+        }
         set_shutter(&mut file, self.shutter, self.alignment);
         file.set("objects", self.objects.join(" "));
         file.set(

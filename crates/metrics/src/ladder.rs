@@ -8,7 +8,7 @@ use crate::equivalent::Curve;
 use crate::error_maps::widen;
 use crate::flip::flip_ldr;
 use crate::label::total_variation;
-use crate::region::mean;
+use crate::pooling::mean;
 use crate::{Region, Regions, Viewing};
 
 /// Errors over the moving region against the count of sub-frames.

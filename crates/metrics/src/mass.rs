@@ -31,7 +31,7 @@ pub fn mass(output: &Plane, truth: &Plane) -> Option<Mass> {
         .map(|(output, _)| 1.0 - output)
         .collect();
     (total > 0.0).then(|| Mass {
-        hole: crate::region::mean(&core),
+        hole: crate::pooling::mean(&core),
         deficit: pairs().map(|(a, truth)| (truth - a).max(0.0)).sum::<f64>() / total,
         energy: pairs().map(|(a, _)| a).sum::<f64>() / total,
     })

@@ -78,16 +78,6 @@ pub fn at_distance(set: &Raster<bool>, at: [u32; 2], squared: u64) -> Vec<[u32; 
     found
 }
 
-/// The pixels within `radius` pixels of a set, centre to centre.
-pub fn dilate(set: &Raster<bool>, radius: f64) -> Raster<bool> {
-    match nearest(set) {
-        None => set.clone(),
-        Some(nearest) => Raster::from_fn(set.width, set.height, |x, y| {
-            distance_squared([x, y], *nearest.at(x, y)) as f64 <= radius * radius
-        }),
-    }
-}
-
 /// For every pixel the row of the nearest set pixel in its own column.
 fn nearest_in_columns(set: &Raster<bool>) -> Raster<Option<u32>> {
     let mut rows: Raster<Option<u32>> = Raster::filled(set.width, set.height, None);
@@ -198,13 +188,5 @@ mod tests {
     #[test]
     fn an_empty_set_is_near_to_nothing() {
         assert_eq!(nearest(&Raster::filled(4, 3, false)), None);
-    }
-
-    #[test]
-    fn one_pixel_dilates_to_a_disc() {
-        let set = Raster::from_fn(9, 9, |x, y| (x, y) == (4, 4));
-        let disc = dilate(&set, 2.0);
-        // Offsets with x^2 + y^2 <= 4: 1 + 4 + 4 + 4.
-        assert_eq!(disc.pixels.iter().filter(|inside| **inside).count(), 13);
     }
 }

@@ -1,6 +1,6 @@
 //! The truth, ready to measure any number of pictures against.
 
-use frame::{Frame, Ladder, Picture, Plane, Raster, Truth};
+use frame::{Frame, Ladder, Picture, Plane, Raster, Truth, regions};
 use rayon::prelude::*;
 
 use crate::check::{check_agreement, check_picture, check_viewing};
@@ -9,7 +9,7 @@ use crate::equivalent::{Curve, Equivalent};
 use crate::error_maps::ErrorMaps;
 use crate::ladder::Curves;
 use crate::object::ObjectReference;
-use crate::region::{mean, percentile_95, regions};
+use crate::pooling::{mean, percentile_95};
 use crate::{
     EquivalentScores, ImageScores, LabelScores, Maps, MeasureError, Measured, Region, Regions,
     Scores, Viewing,

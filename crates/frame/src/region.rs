@@ -1,0 +1,140 @@
+//! Which pixels a score is pooled over; the truth decides, never the picture.
+
+use std::fmt;
+
+use crate::{Image, Raster, Truth};
+
+/// A set of pixels that the truth defines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Region {
+    /// Where anything moved on screen while the shutter was open, and the band that a bleed would reach.
+    Moving,
+    /// Where nothing did: the picture there is that of the instant. `static` in names and files.
+    Still,
+    /// The whole picture: reported because readers expect it; a filter that does nothing looks good here.
+    Full,
+}
+
+/// The truth's regions as masks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Regions {
+    /// [`Region::Moving`].
+    pub moving: Raster<bool>,
+    /// [`Region::Still`].
+    pub still: Raster<bool>,
+}
+
+impl Region {
+    /// Every region.
+    pub const ALL: [Region; 3] = [Region::Moving, Region::Still, Region::Full];
+
+    /// The word used in metric names and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Region::Moving => "moving",
+            Region::Still => "static",
+            Region::Full => "full",
+        }
+    }
+}
+
+impl fmt::Display for Region {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl Regions {
+    /// The values of `map` inside a region, in row order.
+    pub fn select<T: Copy>(&self, region: Region, map: &Raster<T>) -> Vec<T> {
+        let mask = match region {
+            Region::Moving => &self.moving,
+            Region::Still => &self.still,
+            Region::Full => return map.pixels.clone(),
+        };
+        assert!(
+            mask.same_size(map),
+            "a map is pooled over regions of its own size"
+        );
+        mask.pixels
+            .iter()
+            .zip(&map.pixels)
+            .filter_map(|(inside, value)| inside.then_some(*value))
+            .collect()
+    }
+}
+
+/// Moving: `truth.motion > 0` dilated by a fifteenth of the height (a bleed leaves the support); static: the rest.
+pub fn regions(truth: &Truth) -> Regions {
+    let moving = dilated(
+        &truth.motion.map(|fraction| *fraction > 0.0),
+        truth.motion_margin(),
+    );
+    let still = moving.map(|moves| !moves);
+    Regions { moving, still }
+}
+
+/// Every pixel whose centre lies within `radius` pixels of that of a pixel of `set`.
+fn dilated(set: &Raster<bool>, radius: u32) -> Raster<bool> {
+    let mut disc = Raster::filled(set.width, set.height, false);
+    for y in 0..set.height {
+        for row in y.saturating_sub(radius)..=(y + radius).min(set.height - 1) {
+            let reach = (radius * radius - y.abs_diff(row).pow(2)).isqrt();
+            widen(row_of(set, row), reach, &mut disc, y);
+        }
+    }
+    disc
+}
+
+/// Adds to row `y` of `disc` whatever lies within `reach` columns of a pixel of `source`.
+fn widen(source: &[bool], reach: u32, disc: &mut Raster<bool>, y: u32) {
+    let start = y as usize * disc.width as usize;
+    let target = &mut disc.pixels[start..start + source.len()];
+    let mut free = 0;
+    for column in (0..source.len()).filter(|column| source[*column]) {
+        let from = column.saturating_sub(reach as usize).max(free);
+        free = (column + reach as usize + 1).min(source.len());
+        target[from..free.max(from)].fill(true);
+    }
+}
+
+fn row_of(set: &Raster<bool>, row: u32) -> &[bool] {
+    let width = set.width as usize;
+    &set.pixels[row as usize * width..][..width]
+}
+
+/// The root mean square error of a region's mean of halves, from their difference alone: with independent halves the
+/// expectation of `(A - B)^2 / 4` is the squared error of `(A + B) / 2`. None where the region is empty.
+pub(crate) fn noise_floor(halves: [&Image; 2], regions: &Regions, region: Region) -> Option<f64> {
+    let [a, b] = halves;
+    let squares = a.zip(b, |a, b| {
+        let square = |c: usize| (f64::from(a[c]) - f64::from(b[c])).powi(2);
+        (square(0) + square(1) + square(2)) / 3.0
+    });
+    let inside = regions.select(region, &squares);
+    let mean = inside.iter().sum::<f64>() / inside.len() as f64;
+    (!inside.is_empty()).then(|| (mean / 4.0).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_set_grows_by_the_disc_around_each_of_its_pixels() {
+        let set = Raster::from_fn(23, 17, |x, y| {
+            (x * 7 + y * 13) % 61 == 5 || (x, y) == (22, 16)
+        });
+        for radius in [0, 1, 2, 5] {
+            let expected = Raster::from_fn(23, 17, |x, y| {
+                (0..17).any(|v| {
+                    (0..23).any(|u| {
+                        let squared = u32::abs_diff(u, x).pow(2) + u32::abs_diff(v, y).pow(2);
+                        *set.at(u, v) && squared <= radius * radius
+                    })
+                })
+            });
+            assert_eq!(dilated(&set, radius), expected, "radius {radius}");
+        }
+    }
+}
