@@ -1,6 +1,7 @@
 //! The program as its user meets it: what it prints, what it writes, how it ends.
 
 mod bench;
+mod kept;
 mod refusals;
 
 use std::fs;

@@ -1,5 +1,6 @@
 //! The words of the command line.
 
+use std::ops::Range;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
@@ -23,8 +24,10 @@ pub struct Cli {
 pub enum Command {
     /// Render, filter, measure: the main job. Prints a table; writes run.json, EXR and PNG.
     Run(RunArgs),
-    /// Render frames and truths alone.
+    /// Render frames and truths alone, or some replicates of them.
     Render(RenderArgs),
+    /// Join the replicates that several machines rendered.
+    Merge(MergeArgs),
     /// Run a filter on a frame file.
     Blur(BlurArgs),
     /// List scenes, filters, parameters and presets.
@@ -51,6 +54,9 @@ pub struct RunArgs {
     /// Picture size in pixels.
     #[arg(long, value_name = "WxH", default_value = "320x180", value_parser = size)]
     pub size: (u32, u32),
+    /// Independent renders behind each truth, an even number; each has an eighth of --samples-per-pixel.
+    #[arg(long, value_name = "N", default_value_t = 8)]
+    pub replicates: u32,
     #[command(flatten)]
     pub adapter: AdapterArgs,
     /// Print run.json to standard output instead of the table.
@@ -74,6 +80,37 @@ pub struct RenderArgs {
         value_name = "ALIGNMENTS"
     )]
     pub alignments: Vec<Alignment>,
+    /// Independent renders behind each truth: an even number, or a part A..B (from A to B-1) to be joined with others by
+    /// `merge`. Each has an eighth of --samples-per-pixel. The part with replicate 0 renders the frame too.
+    #[arg(long, value_name = "N|A..B", default_value = "8", value_parser = replicates)]
+    pub replicates: Replicates,
+    /// Render more replicates until the noise of each truth (root mean square radiance, where anything moves) is at
+    /// most this; ends with exit code 4 where --most-replicates do not suffice.
+    #[arg(long, value_name = "TARGET", value_parser = noise)]
+    pub noise: Option<f64>,
+    /// The most replicates that --noise may render.
+    #[arg(long, value_name = "N", default_value_t = 64, requires = "noise")]
+    pub most_replicates: u32,
+}
+
+/// How many replicates, or which.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Replicates {
+    /// All of a truth that has so many.
+    All(u32),
+    /// Some, by their indices.
+    Part(Range<u32>),
+}
+
+/// `shuttertruth merge`
+#[derive(Debug, Args)]
+pub struct MergeArgs {
+    /// Folders that `render --replicates A..B --out` wrote.
+    #[arg(required = true, value_name = "FOLDER")]
+    pub parts: Vec<PathBuf>,
+    /// Folder for the whole: what one machine would have written.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
 }
 
 /// What `run` and `render` share.
@@ -85,7 +122,7 @@ pub struct SceneArgs {
     /// Folder that holds the scenes.
     #[arg(long, value_name = "FOLDER", default_value = "scenes")]
     pub scenes_dir: PathBuf,
-    /// Samples per pixel of a truth, over 8 replicates: 8 times a power of two.
+    /// Samples per pixel of 8 replicates of a truth: 8 times a power of two.
     #[arg(long, value_name = "N", default_value_t = 256)]
     pub samples_per_pixel: u32,
     /// Exposure in frames; 0.5 is a shutter of 180 degrees [default: each scene's own].
@@ -171,6 +208,29 @@ fn size(text: &str) -> Result<(u32, u32), String> {
     }
 }
 
+/// `8` as all eight, `3..6` as the replicates 3, 4 and 5.
+fn replicates(text: &str) -> Result<Replicates, String> {
+    let parsed = match text.split_once("..") {
+        None => text.parse().ok().map(Replicates::All),
+        Some((first, end)) => (first.parse().ok())
+            .zip(end.parse().ok())
+            .filter(|(first, end)| first < end)
+            .map(|(first, end)| Replicates::Part(first..end)),
+    };
+    parsed.ok_or_else(|| {
+        "allowed is a number, such as 8, or A..B with A below B: 3..6 is replicates 3, 4 and 5"
+            .to_owned()
+    })
+}
+
+/// A radiance above 0.
+fn noise(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(target) if target > 0.0 && target.is_finite() => Ok(target),
+        _ => Err("allowed is a radiance above 0, such as 0.002".to_owned()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -197,6 +257,28 @@ mod tests {
                 size(wrong).unwrap_err().contains("640x360"),
                 "{wrong} must be refused"
             );
+        }
+    }
+
+    #[test]
+    fn replicates_are_a_number_or_a_rising_range() {
+        assert_eq!(replicates("16"), Ok(Replicates::All(16)));
+        assert_eq!(replicates("3..6"), Ok(Replicates::Part(3..6)));
+        for wrong in [
+            "", "x", "3..", "..3", "3..3", "6..3", "3..=6", "-1..2", "1.5",
+        ] {
+            assert!(
+                replicates(wrong).unwrap_err().contains("3..6"),
+                "{wrong} must be refused"
+            );
+        }
+    }
+
+    #[test]
+    fn a_noise_target_is_above_zero() {
+        assert_eq!(noise("0.002"), Ok(0.002));
+        for wrong in ["0", "-1", "nan", "inf", "low"] {
+            assert!(noise(wrong).is_err(), "{wrong} must be refused");
         }
     }
 }

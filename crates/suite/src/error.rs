@@ -18,17 +18,25 @@ pub enum Error {
     /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] frame::FileError),
+    /// Replicates that make no truth.
+    #[error(transparent)]
+    Truth(#[from] frame::TruthError),
+    /// A truth that has more noise than was asked for; its files are written all the same.
+    #[error("{0}")]
+    TooNoisy(String),
     /// The words of the command line, or of a bounds file, do not fit.
     #[error("{0}")]
     Usage(String),
 }
 
 impl Error {
-    /// 2 for usage and bad input, 3 where there is no adapter, 130 after Ctrl-C.
+    /// 2 for usage and bad input, 3 where there is no adapter, 4 where a truth stayed noisier than asked for, 130 after
+    /// Ctrl-C.
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::Trace(tracer::TraceError::Cancelled) => 130,
             Error::Filter(filters::FilterError::NoAdapter) => 3,
+            Error::TooNoisy(_) => 4,
             _ => 2,
         }
     }

@@ -2,19 +2,25 @@
 
 mod bounds;
 mod error;
+mod merge;
 mod pictures;
 mod probe;
 mod progress;
 mod rendered;
+mod replicates;
 mod run;
 mod selection;
 mod table;
 
 pub use bounds::{Bounds, Outcome, Verdict, judge, read_bounds};
 pub use error::Error;
+pub use merge::{Merged, merge};
 pub use probe::picture;
 pub use progress::{catch_interrupts, with_bar};
-pub use rendered::{LADDER, RenderSettings, frame_of, scene_folder, truth_and_ladder_of, truth_of};
+pub use rendered::{
+    LADDER, RenderSettings, deciding_floor, frame_of, part_of, scene_folder, truth_and_ladder_of,
+    truth_of, truth_until,
+};
 pub use run::{Case, FORMAT, Plan, Run, run, viewing};
 pub use selection::{FilterChoice, SceneChoice, select_filters, select_scenes};
 pub use table::table;

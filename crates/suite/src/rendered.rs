@@ -1,15 +1,20 @@
 //! What the tracer makes of a scene, kept on disk so that a second run need not render it again.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, FileError, Frame, Ladder, Truth, VelocityKind};
+use frame::{Alignment, FileError, Frame, Ladder, Region, Truth, VelocityKind};
 use tracer::{FrameSettings, Scene, TruthSettings, Watch};
 
 use crate::Error;
 use crate::progress::with_bar;
+use crate::replicates::Shelf;
 
 /// Sub-frame counts of the ladder that N_eq is read from.
 pub const LADDER: [u32; 7] = [1, 2, 4, 8, 16, 32, 64];
+
+/// A frame has as many samples as so many replicates of a truth, however many the truth has.
+const FRAME_REPLICATES: u32 = 8;
 
 /// How scenes are rendered; the scene itself says what it does not override.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,9 +27,9 @@ pub struct RenderSettings {
     pub exposure: Option<f64>,
     /// What the velocity buffer holds.
     pub velocity: VelocityKind,
-    /// Samples per pixel of a truth, over all its replicates, and of the frame's colour.
+    /// Samples per pixel of a truth, over all its replicates.
     pub samples_per_pixel: u32,
-    /// Independent, complete renders behind a truth.
+    /// Independent, complete renders behind a truth; an even number.
     pub replicates: u32,
     /// Seed of all randomness.
     pub seed: u64,
@@ -40,6 +45,18 @@ impl Default for RenderSettings {
             samples_per_pixel: 256,
             replicates: 8,
             seed: 1,
+        }
+    }
+}
+
+impl RenderSettings {
+    /// Another number of replicates, each with as many samples as before.
+    pub fn with_replicates(&self, replicates: u32) -> Self {
+        let each = self.samples_per_pixel / self.replicates;
+        Self {
+            samples_per_pixel: each * replicates,
+            replicates,
+            ..self.clone()
         }
     }
 }
@@ -61,7 +78,7 @@ pub fn frame_of(
         height: settings.height,
         exposure: settings.exposure.unwrap_or(scene.exposure),
         velocity: settings.velocity,
-        samples_per_pixel: settings.samples_per_pixel,
+        samples_per_pixel: FRAME_REPLICATES * settings.samples_per_pixel / settings.replicates,
         seed: settings.seed,
     };
     let artefact = Artefact {
@@ -78,7 +95,8 @@ pub fn frame_of(
     )
 }
 
-/// The truth of `scene` over the shutter of `alignment`, read from `out` or rendered.
+/// The truth of `scene` over the shutter of `alignment`: read from `out` if its inputs are the same, else made of its
+/// replicates, of which those kept in `out` are not rendered again.
 pub fn truth_of(
     scene: &Scene,
     settings: &RenderSettings,
@@ -87,18 +105,70 @@ pub fn truth_of(
     quiet: bool,
 ) -> Result<Truth, Error> {
     let settings = truth_settings(scene, settings, alignment);
-    let artefact = Artefact {
-        path: scene_folder(out, scene).join(format!("truth_{alignment}.exr")),
-        label: format!("{} truth, {alignment}", scene.name),
-        hash: tracer::truth_hash(scene, &settings),
-    };
-    artefact.obtain(
-        quiet,
-        |watch| tracer::trace_truth(scene, &settings, watch),
-        (Truth::read, Truth::write, |truth| {
-            &truth.provenance.content_hash
-        }),
-    )
+    let shelf = Shelf::new(scene_folder(out, scene), scene, &settings);
+    let expected = tracer::truth_hash(scene, &settings);
+    if let Ok(kept) = Truth::read(&shelf.truth_path())
+        && kept.provenance.content_hash == expected
+    {
+        return Ok(kept);
+    }
+    settings.check(scene)?;
+    let replicates = shelf.obtain(scene, &settings, 0..settings.replicates, quiet)?;
+    let truth = Truth::of(&replicates)?;
+    truth.write(&shelf.truth_path())?;
+    Ok(truth)
+}
+
+/// The truth with as many replicates, two by two from the settings' number on, as bring the floor of its noise down to
+/// `target` where anything moves (everywhere if nothing does), but at most `most`; and whether they did.
+///
+/// The floor that ends the render was measured on the same halves that the truth keeps: where it ends early because
+/// they happened to agree, the floor reads a little low.
+pub fn truth_until(
+    scene: &Scene,
+    settings: &RenderSettings,
+    alignment: Alignment,
+    (target, most): (f64, u32),
+    out: &Path,
+    quiet: bool,
+) -> Result<(Truth, bool), Error> {
+    let mut settings = settings.clone();
+    loop {
+        let truth = truth_of(scene, &settings, alignment, out, quiet)?;
+        let (_, floor) = deciding_floor(&truth);
+        if floor <= target {
+            return Ok((truth, true));
+        }
+        if settings.replicates + 2 > most {
+            return Ok((truth, false));
+        }
+        settings = settings.with_replicates(settings.replicates + 2);
+    }
+}
+
+/// The floor that `--noise` is about: of the moving region, or of the whole picture where nothing moves.
+pub fn deciding_floor(truth: &Truth) -> (Region, f64) {
+    let floors = truth.noise_floors();
+    *floors
+        .iter()
+        .find(|(region, _)| *region == Region::Moving)
+        .or(floors.last())
+        .expect("a picture has pixels")
+}
+
+/// Renders some replicates of a truth and keeps them in `out`.
+pub fn part_of(
+    scene: &Scene,
+    settings: &RenderSettings,
+    alignment: Alignment,
+    indices: Range<u32>,
+    out: &Path,
+    quiet: bool,
+) -> Result<(), Error> {
+    let settings = truth_settings(scene, settings, alignment);
+    let shelf = Shelf::new(scene_folder(out, scene), scene, &settings);
+    settings.check(scene)?;
+    shelf.obtain(scene, &settings, indices, quiet).map(drop)
 }
 
 /// A truth and its ladder of accumulations, read from `out` or rendered.

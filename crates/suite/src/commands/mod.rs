@@ -2,6 +2,7 @@
 
 mod blur;
 mod list;
+mod merge;
 mod render;
 mod run;
 
@@ -19,10 +20,11 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
     match cli.command {
         Some(Command::Run(args)) => with_threads(args.scenes.threads, || run::execute(&args)),
         Some(Command::Render(args)) => with_threads(args.scenes.threads, || render::execute(&args)),
+        Some(Command::Merge(args)) => merge::execute(&args),
         Some(Command::Blur(args)) => blur::execute(&args),
         Some(Command::List(args)) => list::execute(&args),
         None => Err(Error::Usage(
-            "no command given; allowed: run, render, blur, list (see --help)".to_owned(),
+            "no command given; allowed: run, render, merge, blur, list (see --help)".to_owned(),
         )),
     }
 }
@@ -51,10 +53,15 @@ fn with_threads(
         .install(work)
 }
 
-fn render_settings(args: &SceneArgs, (width, height): (u32, u32)) -> Result<RenderSettings, Error> {
+fn render_settings(
+    args: &SceneArgs,
+    (width, height): (u32, u32),
+    replicates: u32,
+) -> Result<RenderSettings, Error> {
     if let Some(exposure) = args.exposure {
         check_exposure(exposure)?;
     }
+    check_samples(args.samples_per_pixel)?;
     Ok(RenderSettings {
         width,
         height,
@@ -63,7 +70,20 @@ fn render_settings(args: &SceneArgs, (width, height): (u32, u32)) -> Result<Rend
         samples_per_pixel: args.samples_per_pixel,
         seed: args.seed,
         ..RenderSettings::default()
-    })
+    }
+    .with_replicates(replicates))
+}
+
+fn check_samples(samples_per_pixel: u32) -> Result<(), Error> {
+    let replicates = RenderSettings::default().replicates;
+    let each = samples_per_pixel / replicates;
+    if each.is_power_of_two() && each * replicates == samples_per_pixel {
+        return Ok(());
+    }
+    let nearest = each.next_power_of_two() * replicates;
+    Err(Error::Usage(format!(
+        "--samples-per-pixel {samples_per_pixel}: allowed is {replicates} times a power of two, such as {nearest}"
+    )))
 }
 
 fn check_exposure(exposure: f64) -> Result<(), Error> {

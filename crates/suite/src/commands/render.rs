@@ -1,22 +1,95 @@
 //! `shuttertruth render`
 
-use suite::{Error, frame_of, scene_folder, select_scenes, truth_of};
+use frame::Truth;
+use suite::{
+    Error, RenderSettings, SceneChoice, deciding_floor, frame_of, part_of, scene_folder,
+    select_scenes, truth_of, truth_until,
+};
+use tracer::Scene;
 
 use super::{render_settings, say};
-use crate::cli::RenderArgs;
+use crate::cli::{RenderArgs, Replicates};
 
-/// Renders each scene's frame and its truths, and says where they are.
+/// Renders each scene's frame and its truths, or a part of them, and says where they are and how noisy.
 pub fn execute(args: &RenderArgs) -> Result<(), Error> {
-    for choice in select_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)? {
-        let scene = choice.scene;
-        let size = args.size.unwrap_or((scene.width, scene.height));
-        let settings = render_settings(&args.scenes, size)?;
-        let (out, quiet) = (&args.scenes.out, args.scenes.quiet);
-        frame_of(&scene, &settings, out, quiet)?;
-        for alignment in &args.alignments {
-            truth_of(&scene, &settings, *alignment, out, quiet)?;
+    let mut noisy = Vec::new();
+    for SceneChoice { scene, .. } in select_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)? {
+        match &args.replicates {
+            Replicates::All(count) => noisy.extend(whole(args, &scene, *count)?),
+            Replicates::Part(indices) if args.noise.is_none() => {
+                let settings = settings(args, &scene, RenderSettings::default().replicates)?;
+                let (out, quiet) = (&args.scenes.out, args.scenes.quiet);
+                if indices.start == 0 {
+                    frame_of(&scene, &settings, out, quiet)?;
+                }
+                for alignment in &args.alignments {
+                    part_of(&scene, &settings, *alignment, indices.clone(), out, quiet)?;
+                }
+                say(&format!("{}\n", scene_folder(out, &scene).display()))?;
+            }
+            Replicates::Part(_) => {
+                return Err(Error::Usage(
+                    "--noise needs whole truths: give --replicates a number to start from, not a part A..B"
+                        .to_owned(),
+                ));
+            }
         }
-        say(&format!("{}\n", scene_folder(out, &scene).display()))?;
     }
-    Ok(())
+    match noisy.as_slice() {
+        [] => Ok(()),
+        _ => Err(Error::TooNoisy(noisy.join("\n"))),
+    }
+}
+
+/// Renders a scene's frame and truths; returns a line for each truth that stayed noisier than asked for.
+fn whole(args: &RenderArgs, scene: &Scene, count: u32) -> Result<Vec<String>, Error> {
+    let settings = settings(args, scene, count)?;
+    let (out, quiet) = (&args.scenes.out, args.scenes.quiet);
+    frame_of(scene, &settings, out, quiet)?;
+    let mut noisy = Vec::new();
+    let mut report = format!("{}\n", scene_folder(out, scene).display());
+    for &alignment in &args.alignments {
+        let truth = match args.noise {
+            None => truth_of(scene, &settings, alignment, out, quiet)?,
+            Some(target) => {
+                let most = args.most_replicates;
+                let (truth, reached) =
+                    truth_until(scene, &settings, alignment, (target, most), out, quiet)?;
+                if !reached {
+                    noisy.push(too_noisy(&truth, target, most));
+                }
+                truth
+            }
+        };
+        report += &floors(&truth);
+    }
+    say(&report)?;
+    Ok(noisy)
+}
+
+fn settings(args: &RenderArgs, scene: &Scene, count: u32) -> Result<RenderSettings, Error> {
+    let size = args.size.unwrap_or((scene.width, scene.height));
+    render_settings(&args.scenes, size, count)
+}
+
+/// `  trailing: 8 replicates, noise: moving 0.0021, static 0.0009, full 0.0012`
+fn floors(truth: &Truth) -> String {
+    let floors: Vec<String> = (truth.noise_floors().iter())
+        .map(|(region, floor)| format!("{region} {floor:.2e}"))
+        .collect();
+    format!(
+        "  {}: {} replicates, noise: {}\n",
+        truth.alignment,
+        truth.provenance.replicates,
+        floors.join(", ")
+    )
+}
+
+fn too_noisy(truth: &Truth, target: f64, most: u32) -> String {
+    let (region, floor) = deciding_floor(truth);
+    format!(
+        "{} {}: the noise ({region}) is {floor:.2e} with {} replicates, above the {target:e} asked for; allow more than \
+         {most} with --most-replicates, or raise --samples-per-pixel",
+        truth.provenance.scene, truth.alignment, truth.provenance.replicates
+    )
 }

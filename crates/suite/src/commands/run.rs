@@ -29,7 +29,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
     let plan = Plan {
         scenes,
         filters,
-        render: render_settings(&args.scenes, args.size)?,
+        render: render_settings(&args.scenes, args.size, args.replicates)?,
         out: args.scenes.out.clone(),
         quiet: args.scenes.quiet,
     };
@@ -60,7 +60,7 @@ fn closing(run: &Run, out: &Path) -> String {
     let mut text = format!("\n{broken} of {} bounds broken", verdicts().count());
     if noisy > 0 {
         text += &format!(
-            "; {noisy} narrower than 3 noise floors: raise --samples-per-pixel (now {})",
+            "; {noisy} narrower than 3 noise floors: raise --samples-per-pixel or --replicates (now {} samples per pixel in all)",
             run.samples_per_pixel
         );
     }

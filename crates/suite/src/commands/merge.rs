@@ -1,0 +1,18 @@
+//! `shuttertruth merge`
+
+use suite::{Error, merge};
+
+use super::say;
+use crate::cli::MergeArgs;
+
+/// Joins parts, and says which truths they made.
+pub fn execute(args: &MergeArgs) -> Result<(), Error> {
+    for merged in merge(&args.parts, &args.out)? {
+        say(&format!(
+            "{} ({} replicates)\n",
+            merged.truth.display(),
+            merged.replicates
+        ))?;
+    }
+    Ok(())
+}

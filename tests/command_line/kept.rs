@@ -1,0 +1,246 @@
+//! Work is kept: replicates on disk, resumed, shared between processes and joined, always to the same bytes.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Stdio};
+use std::time::Duration;
+
+use crate::bench::{Bench, OBJ, assert_done, assert_refused, files_below, stdout};
+
+/// `render` of the plate into `out`, with more words.
+fn render<'a>(out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    let words = [
+        "render",
+        "--quiet",
+        "--samples-per-pixel",
+        "64",
+        "--out",
+        out,
+    ];
+    [&words[..], more].concat()
+}
+
+fn spawn(bench: &Bench, words: &[&str]) -> Child {
+    let mut command = bench.command(words);
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    command.spawn().unwrap()
+}
+
+/// Names below a folder, and bytes, of all files that a render leaves.
+fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    files_below(folder)
+        .into_iter()
+        .map(|path| {
+            let name = path.strip_prefix(folder).unwrap().display().to_string();
+            (name, fs::read(path).unwrap())
+        })
+        .filter(|(name, _)| !name.contains(".tmp")) // what a killed process was writing
+        .collect()
+}
+
+#[track_caller]
+fn assert_same(bench: &Bench, one: &str, other: &str) {
+    let [one, other] = [one, other].map(|folder| contents(&bench.path(folder)));
+    let names = |files: &[(String, Vec<u8>)]| -> Vec<String> {
+        files.iter().map(|(name, _)| name.clone()).collect()
+    };
+    assert_eq!(names(&one), names(&other));
+    for ((name, one), (_, other)) in one.iter().zip(&other) {
+        assert!(one == other, "{name} differs");
+    }
+}
+
+#[test]
+fn parts_of_several_processes_join_to_the_bytes_of_one() {
+    let bench = Bench::new();
+    assert_done(&bench.shuttertruth(&render("whole", &[])));
+    let parts = [("a", "0..3"), ("b", "3..4"), ("c", "4..8")];
+    let children: Vec<Child> = parts
+        .map(|(out, part)| spawn(&bench, &render(out, &["--replicates", part])))
+        .into();
+    for mut child in children {
+        assert!(child.wait().unwrap().success());
+    }
+    let merged = bench.shuttertruth(&["merge", "c", "a", "b", "--out", "joined"]);
+    assert_done(&merged);
+    assert_eq!(
+        stdout(&merged),
+        "joined/plate/truth_trailing.exr (8 replicates)\n"
+    );
+    assert_same(&bench, "whole", "joined");
+}
+
+#[test]
+fn processes_may_share_one_folder() {
+    let bench = Bench::new();
+    assert_done(&bench.shuttertruth(&render("whole", &[])));
+    let children: Vec<Child> = ["0..3", "2..5", "5..8", "0..8"]
+        .map(|part| spawn(&bench, &render("shared", &["--replicates", part])))
+        .into();
+    for mut child in children {
+        assert!(child.wait().unwrap().success());
+    }
+    assert_done(&bench.shuttertruth(&["merge", "shared", "--out", "shared"]));
+    assert_same(&bench, "whole", "shared");
+}
+
+#[test]
+fn a_killed_render_goes_on_to_the_same_bytes() {
+    let bench = Bench::new();
+    let many = ["--samples-per-pixel", "32768", "--threads", "1"];
+    let words = |out: &'static str| [&["render", "--quiet", "--out", out][..], &many].concat();
+    assert_done(&bench.shuttertruth(&words("whole")));
+    let replicate = |index: u32| {
+        bench.path(&format!(
+            "killed/plate/truth_trailing/replicate_{index:03}.exr"
+        ))
+    };
+    // Each process is killed as soon as it has kept one more replicate.
+    for index in [0, 1, 5] {
+        let mut child = spawn(&bench, &words("killed"));
+        while !replicate(index).exists() {
+            assert!(
+                child.try_wait().unwrap().is_none(),
+                "the render ended before it could be killed"
+            );
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+        assert!(!bench.path("killed/plate/truth_trailing.exr").exists());
+    }
+    let kept = fs::metadata(replicate(1)).unwrap().modified().unwrap();
+    assert_done(&bench.shuttertruth(&words("killed")));
+    assert_eq!(
+        fs::metadata(replicate(1)).unwrap().modified().unwrap(),
+        kept,
+        "a replicate that was whole was rendered again"
+    );
+    assert_same(&bench, "whole", "killed");
+}
+
+#[test]
+fn a_broken_replicate_is_rendered_anew() {
+    let bench = Bench::new();
+    assert_done(&bench.shuttertruth(&render("whole", &[])));
+    assert_done(&bench.shuttertruth(&render("out", &["--replicates", "0..4"])));
+    let replicate = bench.path("out/plate/truth_trailing/replicate_002.exr");
+    let bytes = fs::read(&replicate).unwrap();
+    fs::write(&replicate, &bytes[..bytes.len() / 2]).unwrap();
+    let stray = bench.path("out/plate/truth_trailing/replicate_001.exr");
+    fs::copy(
+        bench.path("out/plate/truth_trailing/replicate_000.exr"),
+        stray,
+    )
+    .unwrap();
+    assert_done(&bench.shuttertruth(&render("out", &[])));
+    assert_same(&bench, "whole", "out");
+}
+
+#[test]
+fn a_changed_byte_in_a_mesh_renders_anew() {
+    let bench = Bench::new();
+    assert_done(&bench.shuttertruth(&render("out", &[])));
+    bench.write("plate.obj", &OBJ.replace("v -0.5 -0.5 0", "v -0.6 -0.5 0"));
+    assert_done(&bench.shuttertruth(&render("out", &[])));
+    assert_done(&bench.shuttertruth(&render("fresh", &[])));
+    assert_same(&bench, "fresh", "out");
+}
+
+#[test]
+fn more_replicates_build_on_those_that_are_there() {
+    let bench = Bench::new();
+    assert_done(&bench.shuttertruth(&render("out", &["--replicates", "4"])));
+    let first = bench.path("out/plate/truth_trailing/replicate_000.exr");
+    let before = fs::metadata(&first).unwrap().modified().unwrap();
+    assert_done(&bench.shuttertruth(&render("out", &["--replicates", "8"])));
+    assert_eq!(fs::metadata(&first).unwrap().modified().unwrap(), before);
+    assert_done(&bench.shuttertruth(&render("whole", &[])));
+    assert_same(&bench, "whole", "out");
+}
+
+#[test]
+fn parts_that_make_no_whole_are_refused() {
+    let bench = Bench::new();
+    for (out, more) in [
+        ("start", &["--replicates", "0..3"][..]),
+        ("gap", &["--replicates", "5..8"]),
+        ("other", &["--replicates", "0..4", "--seed", "2"]),
+    ] {
+        assert_done(&bench.shuttertruth(&render(out, more)));
+    }
+    fs::create_dir(bench.path("empty")).unwrap();
+    for (parts, complaint) in [
+        (
+            &["start", "gap"][..],
+            &["3, 4", "--replicates 3..4", "plate/truth_trailing"][..],
+        ),
+        (&["start"], &["replicates 3 are missing", "truth of 4"]),
+        (
+            &["start", "other"],
+            &["start/plate/frame.exr", "other/plate/frame.exr", "differ"],
+        ),
+        (
+            &["start", "empty"],
+            &["empty", "holds no replicates", "--replicates A..B"],
+        ),
+        (&["nowhere"], &["nowhere", "cannot read"]),
+    ] {
+        let refused = bench.shuttertruth(&[&["merge", "--out", "joined"][..], parts].concat());
+        assert_refused(&refused, 2, complaint);
+        assert!(
+            !bench.path("joined").exists(),
+            "a refused merge leaves nothing"
+        );
+    }
+    // Replicates of two truths whose files never have the same name.
+    assert_done(&bench.shuttertruth(&render("rest", &["--replicates", "3..4", "--seed", "2"])));
+    let refused = bench.shuttertruth(&["merge", "start", "rest", "--out", "joined"]);
+    assert_refused(
+        &refused,
+        2,
+        &["replicate 3", "other inputs", "content hash"],
+    );
+    assert!(!bench.path("joined").exists());
+}
+
+#[test]
+fn a_noise_target_adds_replicates_until_it_is_reached_or_says_that_it_was_not() {
+    let bench = Bench::new();
+    let first = stdout(&bench.shuttertruth(&render("out", &["--replicates", "2"])));
+    let floor = |text: &str| -> f64 {
+        let after = text.split("moving ").nth(1).unwrap();
+        after.split([',', '\n']).next().unwrap().parse().unwrap()
+    };
+    let target = floor(&first) / 2.0;
+    let words = format!("{target}");
+    let reached = bench.shuttertruth(&render("out", &["--replicates", "2", "--noise", &words]));
+    assert_done(&reached);
+    assert!(floor(&stdout(&reached)) <= target, "{}", stdout(&reached));
+    assert!(!stdout(&reached).contains(": 2 replicates"));
+
+    let more = [
+        "--replicates",
+        "2",
+        "--noise",
+        "1e-9",
+        "--most-replicates",
+        "5",
+    ];
+    let short = bench.shuttertruth(&render("short", &more));
+    assert_eq!(short.status.code(), Some(4));
+    let message = String::from_utf8(short.stderr.clone()).unwrap();
+    for part in [
+        "plate trailing",
+        "moving",
+        "4 replicates",
+        "--most-replicates",
+        "--samples-per-pixel",
+    ] {
+        assert!(
+            message.contains(part),
+            "\"{part}\" is missing from: {message}"
+        );
+    }
+    assert!(bench.path("short/plate/truth_trailing.exr").is_file());
+}
