@@ -64,7 +64,11 @@ fn words_that_do_not_fit_are_refused_with_what_is_allowed() {
         );
     }
     assert_refused(&bench.shuttertruth(&["run"]), 2, &["--out"]);
-    assert_refused(&bench.shuttertruth(&[]), 2, &["run, render, merge, blur, list"]);
+    assert_refused(
+        &bench.shuttertruth(&[]),
+        2,
+        &["run, render, merge, blur, list"],
+    );
 }
 
 #[test]

@@ -1,12 +1,14 @@
 //! The scene made ready for rays: one tree per mesh, and trees over the boxes that the objects sweep.
 
+use glam::DVec3;
+
 use crate::bounds::Bounds;
 use crate::bvh::Tree;
 use crate::mesh_tree::MeshTree;
 use crate::poses::Poses;
 use crate::ray::Ray;
 use crate::scene::Scene;
-use crate::surface::Opacity;
+use crate::surface::{Opacity, Surface};
 use crate::swept::{greatest_speed, swept_bounds};
 use crate::triangle::Crossing;
 
@@ -96,6 +98,11 @@ impl<'a> Stage<'a> {
                 crossing.t < limit && self.opacities[object].opaque(self.scene, triangle, &crossing)
             })
         })
+    }
+
+    /// The unit normal of the facet that a ray met, on the ray's side.
+    pub fn facet(&self, poses: &mut Poses, ray: &Ray, hit: &Hit) -> DVec3 {
+        Surface::at(self.scene, poses.pose(hit.object), ray, hit).facet
     }
 
     /// What [`Stage::closest`] finds, from every triangle in turn: its reference in tests.

@@ -1,0 +1,178 @@
+//! Rays per second. Timed variants take turns and the best of several turns counts, so that their ratios hold on a
+//! machine that does other things as well.
+
+mod made_scene;
+
+use std::f64::consts::TAU;
+use std::time::{Duration, Instant};
+
+use divan::counter::ItemsCount;
+use divan::{Bencher, black_box};
+use glam::DVec3;
+use made_scene::{SHUTTER, made_scene};
+use tracer::{Ray, Scene, Stage};
+
+/// Rays of one turn.
+const RAYS: usize = 1 << 16;
+/// Turns of each variant.
+const TURNS: u32 = 12;
+/// Part of the scene's size by which bounces leave their surface.
+const LIFT: f64 = 1e-6;
+
+fn main() {
+    divan::main();
+    if !std::env::args().any(|word| word == "--list" || word == "--test") {
+        ratios();
+    }
+}
+
+/// A ray and its time in frames.
+type TimedRay = (Ray, f64);
+
+/// What is asked of a ray.
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    /// The closest hit of camera rays over the whole picture.
+    Primary,
+    /// The closest hit of one cosine-distributed bounce from each of theirs.
+    Diffuse,
+    /// Whether anything lies between their hits and a distant light.
+    Shadow,
+}
+
+const KINDS: [Kind; 3] = [Kind::Primary, Kind::Diffuse, Kind::Shadow];
+
+/// A scene with rays through it.
+struct Field<'a> {
+    stage: Stage<'a>,
+    rays: [Vec<TimedRay>; 3],
+}
+
+impl<'a> Field<'a> {
+    fn new(scene: &'a Scene) -> Self {
+        let stage = Stage::new(scene, SHUTTER[0], SHUTTER[1]);
+        let primary = camera_rays(scene);
+        let (diffuse, shadow) = bounces(&stage, &primary);
+        Self {
+            stage,
+            rays: [primary, diffuse, shadow],
+        }
+    }
+
+    /// Traces every ray of a kind; how many met something.
+    fn trace(&self, kind: Kind) -> usize {
+        let mut poses = self.stage.poses();
+        let rays = self.rays[kind as usize].iter();
+        rays.filter(|(ray, time)| match kind {
+            Kind::Primary | Kind::Diffuse => self.stage.closest(poses.at(*time), ray).is_some(),
+            Kind::Shadow => self.stage.blocked(poses.at(*time), ray, f64::INFINITY),
+        })
+        .count()
+    }
+
+    /// Best rate of several turns, rays per second.
+    fn rate(&self, kind: Kind, best: Duration) -> f64 {
+        self.rays[kind as usize].len() as f64 / best.as_secs_f64()
+    }
+}
+
+#[divan::bench(args = KINDS, sample_count = 10)]
+fn still(bencher: Bencher, kind: Kind) {
+    let scene = made_scene(false);
+    bench(bencher, &scene, kind);
+}
+
+#[divan::bench(args = KINDS, sample_count = 10)]
+fn moving(bencher: Bencher, kind: Kind) {
+    let scene = made_scene(true);
+    bench(bencher, &scene, kind);
+}
+
+fn bench(bencher: Bencher, scene: &Scene, kind: Kind) {
+    let field = Field::new(scene);
+    bencher
+        .counter(ItemsCount::new(field.rays[kind as usize].len()))
+        .bench_local(|| black_box(field.trace(kind)));
+}
+
+fn ratios() {
+    let scenes = [made_scene(false), made_scene(true)];
+    let fields = scenes.each_ref().map(|scene| Field::new(scene));
+    let triangles: usize = (scenes[0].objects.iter())
+        .map(|object| scenes[0].meshes[object.mesh].triangles.len())
+        .sum();
+    println!("\n{triangles} triangles, one thread, best of {TURNS} turns of {RAYS} rays, Mray/s");
+    println!(
+        "{:10} {:>8} {:>8} {:>14}",
+        "", "still", "moving", "still/moving"
+    );
+    for kind in KINDS {
+        let best = best_of([&|| fields[0].trace(kind), &|| fields[1].trace(kind)]);
+        let rates: [f64; 2] =
+            std::array::from_fn(|field| fields[field].rate(kind, best[field]) / 1e6);
+        let [still, moving] = rates;
+        let name = format!("{kind:?}").to_lowercase();
+        println!("{name:10} {still:8.2} {moving:8.2} {:14.2}", still / moving);
+    }
+}
+
+/// The shortest time that each of several works took, taken in turns.
+fn best_of<const N: usize>(works: [&dyn Fn() -> usize; N]) -> [Duration; N] {
+    let mut best = [Duration::MAX; N];
+    for _ in 0..TURNS {
+        for (best, work) in best.iter_mut().zip(works) {
+            let start = Instant::now();
+            black_box(work());
+            *best = start.elapsed().min(*best);
+        }
+    }
+    best
+}
+
+/// A number in [0, 1) that depends on its arguments alone: R2 points (Roberts 2018), rotated per dimension.
+fn number(index: usize, dimension: usize) -> f64 {
+    const STEPS: [f64; 3] = [
+        0.819_172_513_396_164_4,
+        0.671_043_606_703_789_3,
+        0.549_700_477_901_970_2,
+    ];
+    (0.5 + (index + 1) as f64 * STEPS[dimension % 3] + dimension as f64 * 0.37).fract()
+}
+
+/// In rows from left to right, as a renderer takes them, each with a time of its own.
+fn camera_rays(scene: &Scene) -> Vec<TimedRay> {
+    let view = scene.camera.view(0.0, scene.width, scene.height);
+    let columns = 341; // about 16:9
+    let rows = RAYS / columns;
+    (0..RAYS)
+        .map(|index| {
+            let x = ((index % columns) as f64 + 0.5) / columns as f64 * f64::from(scene.width);
+            let y = ((index / columns) as f64 + 0.5) / rows as f64 * f64::from(scene.height);
+            let time = SHUTTER[0] + number(index, 0) * (SHUTTER[1] - SHUTTER[0]);
+            (view.ray(x, y), time)
+        })
+        .collect()
+}
+
+/// One bounce and one shadow ray from each hit, at the time of the path.
+fn bounces(stage: &Stage, primary: &[TimedRay]) -> (Vec<TimedRay>, Vec<TimedRay>) {
+    let light = DVec3::new(0.3, 1.0, 0.4).normalize();
+    let mut poses = stage.poses();
+    (primary.iter().enumerate())
+        .filter_map(|(index, (ray, time))| {
+            let hit = stage.closest(poses.at(*time), ray)?;
+            let normal = stage.facet(&mut poses, ray, &hit);
+            let origin = ray.at(hit.t) + LIFT * hit.t * normal;
+            let (tangent, bitangent) = normal.any_orthonormal_pair();
+            let [radius, angle] = [number(index, 1).sqrt(), TAU * number(index, 2)];
+            let direction = radius * angle.cos() * tangent
+                + radius * angle.sin() * bitangent
+                + (1.0 - radius * radius).sqrt() * normal;
+            let shadow = Ray {
+                origin,
+                direction: light,
+            };
+            Some(((Ray { origin, direction }, *time), (shadow, *time)))
+        })
+        .unzip()
+}
