@@ -97,7 +97,7 @@ fn bench(bencher: Bencher, scene: &Scene, kind: Kind) {
 
 fn ratios() {
     let scenes = [made_scene(false), made_scene(true)];
-    let fields = scenes.each_ref().map(|scene| Field::new(scene));
+    let fields = scenes.each_ref().map(Field::new);
     let triangles: usize = (scenes[0].objects.iter())
         .map(|object| scenes[0].meshes[object.mesh].triangles.len())
         .sum();

@@ -9,6 +9,7 @@ mod camera;
 mod film;
 mod instant;
 mod ladder;
+mod lanes;
 mod lights;
 mod load;
 mod lobe;

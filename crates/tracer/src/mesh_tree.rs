@@ -4,20 +4,35 @@ use glam::{DVec3, Vec3};
 
 use crate::bounds::Bounds;
 use crate::bvh::Tree;
+use crate::lanes::{EdgeRay, LEAF, Lanes, Triangles};
 use crate::ray::Ray;
 use crate::scene::Mesh;
 use crate::triangle::{Crossing, cross};
 
-const TRIANGLES_PER_LEAF: u32 = 4;
 /// Room for rounding when a ray is moved up to the sphere around the mesh.
 const SPHERE_SLACK: f64 = 1.0 + 1e-6;
+/// Rounding of a weight, as a part of the squared greatest length times the direction's: a few dozen operations err by
+/// 1.1e-16 of at most that, and lengths are bounded by twice the reach.
+const ROUNDING: f64 = 1e-14;
 
-/// Triangles in the order of the tree's slots.
+/// Triangles under a tree, those of a leaf side by side.
 pub(crate) struct MeshTree {
     tree: Tree,
-    triangles: Vec<[Vec3; 3]>,
+    leaves: Vec<Leaf>,
     centre: DVec3,
     radius: f64,
+    /// The greatest coordinate of the mesh and of approached origins, metres.
+    reach: f64,
+}
+
+/// Triangles that are tested together, by the tree's number of the leaf.
+#[repr(C, align(32))]
+struct Leaf {
+    triangles: Triangles,
+    /// Their indices in the mesh; unused lanes repeat the first.
+    indices: [u32; LEAF],
+    /// One bit per used lane.
+    used: u32,
 }
 
 /// A ray moved up to the mesh, so that its origin is of the mesh's own magnitude.
@@ -31,67 +46,65 @@ struct Approach {
 
 impl MeshTree {
     pub fn of(mesh: &Mesh) -> Self {
-        let corners: Vec<[Vec3; 3]> = mesh
-            .triangles
-            .iter()
-            .map(|triangle| triangle.map(|index| mesh.positions[index as usize]))
-            .collect();
-        let boxes: Vec<Bounds> = corners
-            .iter()
-            .map(|corners| Bounds::around(corners.map(|corner| corner.as_dvec3())))
+        let boxes: Vec<Bounds> = (0..mesh.triangles.len())
+            .map(|triangle| Bounds::around(corners(mesh, triangle).map(|corner| corner.as_dvec3())))
             .collect();
         let bounds = boxes
             .iter()
             .fold(Bounds::EMPTY, |union, bounds| union.union(*bounds));
         let radius = 0.5 * bounds.diagonal() * SPHERE_SLACK;
         let reach = bounds.centre().abs().max_element() + radius;
-        let tree = Tree::over(&boxes, reach, TRIANGLES_PER_LEAF);
-        let triangles = tree
-            .order()
-            .iter()
-            .map(|&triangle| corners[triangle as usize])
+        let tree = Tree::over(&boxes, reach, LEAF as u32);
+        let leaves = (0..tree.leaves())
+            .map(|leaf| Leaf::of(mesh, tree.items(leaf)))
             .collect();
         Self {
             tree,
-            triangles,
+            leaves,
             centre: bounds.centre(),
             radius,
+            reach,
         }
     }
 
-    /// Visits the crossings at `0 < t <= limit` that the tree finds. `visit` takes the triangle's index in the mesh
-    /// and returns the limit from then on.
-    #[inline]
-    pub fn walk(&self, ray: &Ray, limit: f64, mut visit: impl FnMut(u32, Crossing) -> f64) {
+    /// Bytes that tree and triangles take.
+    pub fn bytes(&self) -> usize {
+        self.tree.bytes() + size_of_val(self.leaves.as_slice())
+    }
+
+    /// Visits the crossings at `0 < t <= limit`, those of equal `t` in any order. `visit` takes the triangle's index in
+    /// the mesh and returns the limit from then on: one below 0 ends the walk.
+    #[inline(always)]
+    pub fn walk<L: Lanes>(
+        &self,
+        lanes: L,
+        ray: &Ray,
+        limit: f64,
+        mut visit: impl FnMut(u32, Crossing) -> f64,
+    ) {
         let Some(approach) = self.approach(ray) else {
             return;
         };
+        let edges = self.edge_ray(&approach);
         let mut limit = limit;
-        self.tree
-            .walk(&approach.unit(), approach.local(limit), |slot| {
-                if let Some(crossing) = self.crossing(&approach, slot, limit) {
-                    limit = visit(self.tree.order()[slot], crossing);
+        self.tree.walk(
+            lanes,
+            &approach.unit(),
+            approach.local(limit),
+            #[inline(always)]
+            |leaf| {
+                let leaf = &self.leaves[leaf as usize];
+                let mut inside = lanes.cross(&leaf.triangles, &edges) & leaf.used;
+                while inside != 0 {
+                    let lane = inside.trailing_zeros() as usize;
+                    inside &= inside - 1;
+                    if let Some(crossing) = leaf.crossing(&approach, lane, limit) {
+                        limit = visit(leaf.indices[lane], crossing);
+                    }
                 }
                 approach.local(limit)
-            });
-    }
-
-    /// Whether a crossing at `0 < t <= limit` satisfies `blocks`.
-    #[inline]
-    pub fn any(
-        &self,
-        ray: &Ray,
-        limit: f64,
-        mut blocks: impl FnMut(u32, Crossing) -> bool,
-    ) -> bool {
-        let Some(approach) = self.approach(ray) else {
-            return false;
-        };
-        self.tree
-            .any(&approach.unit(), approach.local(limit), |slot| {
-                self.crossing(&approach, slot, limit)
-                    .is_some_and(|crossing| blocks(self.tree.order()[slot], crossing))
-            })
+            },
+        );
     }
 
     /// Every crossing at `0 < t`, tree or no tree: what the walks are tested against.
@@ -99,23 +112,25 @@ impl MeshTree {
         let Some(approach) = self.approach(ray) else {
             return;
         };
-        for slot in 0..self.triangles.len() {
-            if let Some(crossing) = self.crossing(&approach, slot, f64::INFINITY) {
-                visit(self.tree.order()[slot], crossing);
+        for leaf in &self.leaves {
+            for lane in (0..LEAF).filter(|lane| leaf.used >> lane & 1 == 1) {
+                if let Some(crossing) = leaf.crossing(&approach, lane, f64::INFINITY) {
+                    visit(leaf.indices[lane], crossing);
+                }
             }
         }
     }
 
-    #[inline]
-    fn crossing(&self, approach: &Approach, slot: usize, limit: f64) -> Option<Crossing> {
-        let corners = self.triangles[slot].map(|corner| corner.as_dvec3());
-        let mut crossing = cross(&approach.ray, corners)?;
-        crossing.t += approach.start;
-        (crossing.t > 0.0 && crossing.t <= limit).then_some(crossing)
+    #[inline(always)]
+    fn edge_ray(&self, approach: &Approach) -> EdgeRay {
+        let Ray { origin, direction } = approach.ray;
+        let longest = 2.0 * origin.abs().max_element().max(self.reach);
+        let doubt = ROUNDING * longest * longest * direction.abs().max_element();
+        EdgeRay::new(origin, direction, doubt)
     }
 
     /// None where the ray misses the sphere around the mesh.
-    #[inline]
+    #[inline(always)]
     fn approach(&self, ray: &Ray) -> Option<Approach> {
         let squared = ray.direction.length_squared();
         let nearest = (self.centre - ray.origin).dot(ray.direction) / squared;
@@ -152,4 +167,32 @@ impl Approach {
     fn local(&self, limit: f64) -> f64 {
         (limit - self.start) * self.length
     }
+}
+
+impl Leaf {
+    /// Of at most four triangles of the mesh.
+    fn of(mesh: &Mesh, items: &[u32]) -> Self {
+        let indices = std::array::from_fn(|lane| *items.get(lane).unwrap_or(&items[0]));
+        let corners = indices.map(|triangle| corners(mesh, triangle as usize));
+        Self {
+            triangles: Triangles(std::array::from_fn(|vertex| {
+                std::array::from_fn(|axis| corners.map(|corners| corners[vertex].to_array()[axis]))
+            })),
+            indices,
+            used: (1 << items.len()) - 1,
+        }
+    }
+
+    #[inline]
+    fn crossing(&self, approach: &Approach, lane: usize, limit: f64) -> Option<Crossing> {
+        let corners = (self.triangles.0)
+            .map(|vertex| DVec3::from_array(vertex.map(|axis| f64::from(axis[lane]))));
+        let mut crossing = cross(&approach.ray, corners)?;
+        crossing.t += approach.start;
+        (crossing.t > 0.0 && crossing.t <= limit).then_some(crossing)
+    }
+}
+
+fn corners(mesh: &Mesh, triangle: usize) -> [Vec3; 3] {
+    mesh.triangles[triangle].map(|index| mesh.positions[index as usize])
 }

@@ -4,6 +4,9 @@ use glam::DVec3;
 
 use crate::bounds::Bounds;
 use crate::bvh::Tree;
+#[cfg(target_arch = "x86_64")]
+use crate::lanes::Avx2;
+use crate::lanes::{Lanes, Portable};
 use crate::mesh_tree::MeshTree;
 use crate::poses::Poses;
 use crate::ray::Ray;
@@ -28,7 +31,18 @@ pub struct Stage<'a> {
     opacities: Vec<Opacity>,
     slices: Vec<Tree>,
     poses: Poses<'a>,
+    traversal: Traversal,
 }
+
+/// Which instructions find the hits; all find the same.
+enum Traversal {
+    #[cfg(target_arch = "x86_64")]
+    Avx2(Avx2),
+    Portable,
+}
+
+/// A limit that nothing lies before: it ends a walk.
+const NOWHERE: f64 = f64::NEG_INFINITY;
 
 /// Where a ray meets a surface first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,6 +76,7 @@ impl<'a> Stage<'a> {
             opacities: Opacity::of_objects(scene),
             slices: slices(scene, from, to),
             poses: Poses::new(scene, from, to),
+            traversal: Traversal::best(),
         }
     }
 
@@ -72,32 +87,103 @@ impl<'a> Stage<'a> {
 
     /// The nearest surface at `t > 0`; among equally near ones that of the lowest object, then triangle.
     pub fn closest(&self, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
-        let slice = self.slice(poses.time());
-        let mut best: Option<Hit> = None;
-        slice.walk(ray, f64::INFINITY, |slot| {
-            let object = slice.order()[slot] as usize;
-            let local = ray.transformed(&poses.pose(object).to_object);
-            let limit = |best: &Option<Hit>| best.map_or(f64::INFINITY, |hit| hit.t);
-            self.mesh(object)
-                .walk(&local, limit(&best), |triangle, crossing| {
-                    self.keep_nearer(&mut best, object, triangle, crossing);
-                    limit(&best)
-                });
-            limit(&best)
-        });
-        best
+        match self.traversal {
+            #[cfg(target_arch = "x86_64")]
+            Traversal::Avx2(lanes) => lanes.run(
+                #[inline(always)]
+                || self.closest_by(lanes, poses, ray),
+            ),
+            Traversal::Portable => self.closest_by(Portable, poses, ray),
+        }
     }
 
     /// Whether anything lies at `0 < t < limit`.
     pub fn blocked(&self, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
+        match self.traversal {
+            #[cfg(target_arch = "x86_64")]
+            Traversal::Avx2(lanes) => lanes.run(
+                #[inline(always)]
+                || self.blocked_by(lanes, poses, ray, limit),
+            ),
+            Traversal::Portable => self.blocked_by(Portable, poses, ray, limit),
+        }
+    }
+
+    /// The same stage, walked without the processor's wide instructions: for comparison.
+    pub fn portable(mut self) -> Self {
+        self.traversal = Traversal::Portable;
+        self
+    }
+
+    /// Which instructions find the hits: `avx2` or `portable`.
+    pub fn traversal(&self) -> &'static str {
+        match self.traversal {
+            #[cfg(target_arch = "x86_64")]
+            Traversal::Avx2(_) => "avx2",
+            Traversal::Portable => "portable",
+        }
+    }
+
+    /// Bytes that trees and triangles take.
+    pub fn bytes(&self) -> usize {
+        let meshes: usize = self.meshes.iter().flatten().map(MeshTree::bytes).sum();
+        meshes + self.slices.iter().map(Tree::bytes).sum::<usize>()
+    }
+
+    #[inline(always)]
+    fn closest_by<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
         let slice = self.slice(poses.time());
-        slice.any(ray, limit, |slot| {
-            let object = slice.order()[slot] as usize;
-            let local = ray.transformed(&poses.pose(object).to_object);
-            self.mesh(object).any(&local, limit, |triangle, crossing| {
-                crossing.t < limit && self.opacities[object].opaque(self.scene, triangle, &crossing)
-            })
-        })
+        let mut best: Option<Hit> = None;
+        slice.walk(
+            lanes,
+            ray,
+            f64::INFINITY,
+            #[inline(always)]
+            |leaf| {
+                let limit = |best: &Option<Hit>| best.map_or(f64::INFINITY, |hit| hit.t);
+                for &object in slice.items(leaf) {
+                    let object = object as usize;
+                    let local = ray.transformed(&poses.pose(object).to_object);
+                    self.mesh(object)
+                        .walk(lanes, &local, limit(&best), |triangle, crossing| {
+                            self.keep_nearer(&mut best, object, triangle, crossing);
+                            limit(&best)
+                        });
+                }
+                limit(&best)
+            },
+        );
+        best
+    }
+
+    #[inline(always)]
+    fn blocked_by<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
+        let slice = self.slice(poses.time());
+        let mut blocked = false;
+        slice.walk(
+            lanes,
+            ray,
+            limit,
+            #[inline(always)]
+            |leaf| {
+                for &object in slice.items(leaf) {
+                    let object = object as usize;
+                    let local = ray.transformed(&poses.pose(object).to_object);
+                    self.mesh(object)
+                        .walk(lanes, &local, limit, |triangle, crossing| {
+                            let opaque =
+                                self.opacities[object].opaque(self.scene, triangle, &crossing);
+                            blocked |= crossing.t < limit && opaque;
+                            if blocked { NOWHERE } else { limit }
+                        });
+                    if blocked {
+                        return NOWHERE;
+                    }
+                }
+                limit
+            },
+        );
+        blocked
     }
 
     /// The unit normal of the facet that a ray met, on the ray's side.
@@ -152,6 +238,17 @@ impl<'a> Stage<'a> {
         let fraction = (time - self.from) / (self.to - self.from).max(f64::MIN_POSITIVE);
         let slice = (fraction * self.slices.len() as f64) as usize;
         &self.slices[slice.min(self.slices.len() - 1)]
+    }
+}
+
+impl Traversal {
+    /// The fastest that the processor has.
+    fn best() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(lanes) = Avx2::detect() {
+            return Traversal::Avx2(lanes);
+        }
+        Traversal::Portable
     }
 }
 
