@@ -16,6 +16,7 @@ mod lobe;
 mod mesh_tree;
 mod motion;
 mod moving;
+mod opening;
 mod path;
 mod poses;
 mod progress;
