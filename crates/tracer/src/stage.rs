@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::bounds::Bounds;
 use crate::bvh::Tree;
-use crate::mesh_tree::MeshTree;
+use crate::geometry::Geometry;
 use crate::poses::Poses;
 use crate::ray::Ray;
 use crate::scene::Scene;
@@ -24,7 +24,7 @@ pub struct Stage<'a> {
     pub(crate) scene: &'a Scene,
     from: f64,
     to: f64,
-    meshes: Vec<Option<MeshTree>>,
+    meshes: Vec<Option<Geometry<'a>>>,
     opacities: Vec<Opacity>,
     slices: Vec<Tree>,
     poses: Poses<'a>,
@@ -41,6 +41,8 @@ pub struct Hit {
     pub triangle: u32,
     /// Weights of the triangle's second and third vertex.
     pub weights: [f64; 2],
+    /// Frames relative to the instant: where a deforming mesh is met depends on it.
+    pub time: f64,
 }
 
 impl<'a> Stage<'a> {
@@ -52,7 +54,7 @@ impl<'a> Stage<'a> {
             .meshes
             .iter()
             .enumerate()
-            .map(|(index, mesh)| shown.contains(&index).then(|| MeshTree::of(mesh)))
+            .map(|(index, mesh)| shown.contains(&index).then(|| Geometry::of(mesh, from, to)))
             .collect();
         Self {
             scene,
@@ -72,15 +74,16 @@ impl<'a> Stage<'a> {
 
     /// The nearest surface at `t > 0`; among equally near ones that of the lowest object, then triangle.
     pub fn closest(&self, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
-        let slice = self.slice(poses.time());
+        let time = poses.time();
+        let slice = self.slice(time);
         let mut best: Option<Hit> = None;
         slice.walk(ray, f64::INFINITY, |slot| {
             let object = slice.order()[slot] as usize;
             let local = ray.transformed(&poses.pose(object).to_object);
             let limit = |best: &Option<Hit>| best.map_or(f64::INFINITY, |hit| hit.t);
             self.mesh(object)
-                .walk(&local, limit(&best), |triangle, crossing| {
-                    self.keep_nearer(&mut best, object, triangle, crossing);
+                .walk(&local, time, limit(&best), |triangle, crossing| {
+                    self.keep_nearer(&mut best, time, object, triangle, crossing);
                     limit(&best)
                 });
             limit(&best)
@@ -90,13 +93,16 @@ impl<'a> Stage<'a> {
 
     /// Whether anything lies at `0 < t < limit`.
     pub fn blocked(&self, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
-        let slice = self.slice(poses.time());
+        let time = poses.time();
+        let slice = self.slice(time);
         slice.any(ray, limit, |slot| {
             let object = slice.order()[slot] as usize;
             let local = ray.transformed(&poses.pose(object).to_object);
-            self.mesh(object).any(&local, limit, |triangle, crossing| {
-                crossing.t < limit && self.opacities[object].opaque(self.scene, triangle, &crossing)
-            })
+            self.mesh(object)
+                .any(&local, time, limit, |triangle, crossing| {
+                    crossing.t < limit
+                        && self.opacities[object].opaque(self.scene, triangle, &crossing)
+                })
         })
     }
 
@@ -107,12 +113,14 @@ impl<'a> Stage<'a> {
 
     /// What [`Stage::closest`] finds, from every triangle in turn: its reference in tests.
     pub fn closest_of_all(&self, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
+        let time = poses.time();
         let mut best = None;
         for object in 0..self.scene.objects.len() {
             let local = ray.transformed(&poses.pose(object).to_object);
-            self.mesh(object).exhaustive(&local, |triangle, crossing| {
-                self.keep_nearer(&mut best, object, triangle, crossing);
-            });
+            self.mesh(object)
+                .exhaustive(&local, time, |triangle, crossing| {
+                    self.keep_nearer(&mut best, time, object, triangle, crossing);
+                });
         }
         best
     }
@@ -121,6 +129,7 @@ impl<'a> Stage<'a> {
     fn keep_nearer(
         &self,
         best: &mut Option<Hit>,
+        time: f64,
         object: usize,
         triangle: u32,
         crossing: Crossing,
@@ -134,11 +143,12 @@ impl<'a> Stage<'a> {
                 object,
                 triangle,
                 weights: [crossing.u, crossing.v],
+                time,
             });
         }
     }
 
-    fn mesh(&self, object: usize) -> &MeshTree {
+    fn mesh(&self, object: usize) -> &Geometry<'a> {
         self.meshes[self.scene.objects[object].mesh]
             .as_ref()
             .expect("every shown mesh has a tree")
