@@ -4,9 +4,10 @@ mod scene_folder;
 
 use std::f64::consts::{PI, TAU};
 
+use frame::{Efficiency, ShutterProfile};
 use glam::{DVec3, Vec2, Vec3};
 use scene_folder::{Folder, OBJ, SCENE};
-use tracer::{Background, Family, Parent, load_scene};
+use tracer::{Background, Family, Interpolation, Parent, load_scene};
 
 #[test]
 fn the_documented_example_loads() {
@@ -17,6 +18,12 @@ fn the_documented_example_loads() {
     folder.write("scene.toml", example);
     // The same mesh with the names that the example uses.
     folder.write("car.obj", OBJ.replace("g left", "g wheel"));
+    for shape in 0..3 {
+        folder.write(
+            &format!("flag_{shape}.obj"),
+            OBJ.replace("v 1 1 0", &format!("v 1 1 {shape}")),
+        );
+    }
     let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
 
     assert_eq!(scene.name, "square");
@@ -26,17 +33,40 @@ fn the_documented_example_loads() {
     assert_eq!(scene.display.flip.count, 5);
     assert!(matches!(scene.background, Background::Gradient { .. }));
     assert_eq!(scene.sun.unwrap().angular_radius, 0.27f64.to_radians());
+    let trapezoid = Efficiency::Trapezoid {
+        rise: 0.2,
+        fall: 0.1,
+    };
+    assert_eq!(scene.shutter_profile.efficiency, trapezoid);
+    assert_eq!(scene.shutter_profile.rolling, 0.05);
     let names: Vec<_> = scene
         .objects
         .iter()
         .map(|object| object.name.as_str())
         .collect();
-    assert_eq!(names, ["car", "wheel", "dashboard"]);
+    assert_eq!(names, ["car", "wheel", "dashboard", "flag"]);
+    assert_eq!(scene.meshes[scene.objects[3].mesh].shapes.len(), 3);
     let parents: Vec<_> = scene.objects.iter().map(|object| object.parent).collect();
-    assert_eq!(parents, [Parent::World, Parent::Object(0), Parent::Camera]);
+    assert_eq!(
+        parents,
+        [
+            Parent::World,
+            Parent::Object(0),
+            Parent::Camera,
+            Parent::World
+        ]
+    );
+    assert_eq!(scene.camera.motion.interpolation, Interpolation::Cubic);
+    assert_eq!(scene.objects[0].motion.interpolation, Interpolation::Linear);
 
     let fast = load_scene(&folder.path, Some("fast")).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!((fast.name.as_str(), fast.exposure), ("square@fast", 1.0));
+    let table = Efficiency::Table(vec![0.0, 1.0, 1.0, 0.4]);
+    let expected = ShutterProfile {
+        efficiency: table,
+        rolling: 0.0,
+    };
+    assert_eq!(fast.shutter_profile, expected);
     let moved = fast.object_to_world(0, 1.0).translation;
     assert_eq!(moved, DVec3::new(2.0, 0.0, 0.0));
 }
@@ -45,6 +75,7 @@ fn the_documented_example_loads() {
 fn what_a_scene_leaves_out_has_its_documented_value() {
     let scene = Folder::new().load().unwrap();
     assert_eq!(scene.display.stops, 0.0);
+    assert_eq!(scene.shutter_profile, ShutterProfile::default());
     let flip = scene.display.flip;
     assert_eq!((flip.start, flip.stop, flip.count), (-2.0, 2.0, 5));
     assert_eq!(scene.sun.unwrap().angular_radius, 0.0);
@@ -101,6 +132,98 @@ fn objects_of_one_mesh_share_it() {
     let scene = folder.load().unwrap();
     assert_eq!(scene.meshes.len(), 1);
     assert_eq!((scene.objects[0].mesh, scene.objects[1].mesh), (0, 0));
+}
+
+/// The square with its corner (1, 1) elsewhere, and other numbers for the same normals.
+fn bent() -> String {
+    OBJ.replace("v 1 1 0", "v 3 5 0")
+        .replace("vn 0 0 2", "vn 0 0 2\nvn 0 0 3")
+        .replace("3/3/1 4/2/1", "3/3/2 4/2/1")
+}
+
+const SHAPES: &str =
+    "shapes = [{ time = -1, mesh = \"mesh.obj\" }, { time = 1, mesh = \"bent.obj\" }]";
+
+#[test]
+fn key_shapes_are_one_mesh_that_deforms() {
+    let folder = Folder::new();
+    folder.write("bent.obj", bent());
+    folder.edit(
+        "scene.toml",
+        "mesh = \"mesh.obj\"\nkeys",
+        &format!("{SHAPES}\nkeys"),
+    );
+    let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
+    let mesh = &scene.meshes[scene.objects[0].mesh];
+    let times: Vec<f64> = mesh.shapes.iter().map(|shape| shape.time).collect();
+    assert_eq!(times, [-1.0, 1.0]);
+    assert_eq!(mesh.positions, mesh.shapes[0].positions);
+    assert_eq!(mesh.triangles.len(), 5);
+    for triangle in &mesh.triangles {
+        for vertex in triangle.map(|vertex| vertex as usize) {
+            let [from, to] = [0, 1].map(|shape| mesh.shapes[shape].positions[vertex]);
+            let expected = if from == Vec3::new(1.0, 1.0, 0.0) {
+                Vec3::new(3.0, 5.0, 0.0)
+            } else {
+                from
+            };
+            assert_eq!(to, expected);
+        }
+    }
+    for shape in &mesh.shapes {
+        assert_eq!(shape.normals, vec![Vec3::Z; mesh.positions.len()]);
+    }
+    assert_eq!(mesh.texcoords.len(), mesh.positions.len());
+    // Another object shows a group of the first file, as it is.
+    assert!(scene.meshes[scene.objects[1].mesh].shapes.is_empty());
+}
+
+#[test]
+fn a_group_of_key_shapes_deforms_and_a_variant_may_choose_them() {
+    let folder = Folder::new();
+    folder.write("bent.obj", bent());
+    folder.edit(
+        "scene.toml",
+        "mesh = \"mesh.obj\"\ngroup",
+        &format!("{SHAPES}\ngroup"),
+    );
+    folder.edit(
+        "scene.toml",
+        "[variant.fast.object.body]",
+        &format!("[variant.fast.object.body]\n{SHAPES}"),
+    );
+    let fast = load_scene(&folder.path, Some("fast")).unwrap_or_else(|error| panic!("{error}"));
+    let [body, part] = [0, 1].map(|object| &fast.meshes[fast.objects[object].mesh]);
+    assert_eq!((body.shapes.len(), part.shapes.len()), (2, 2));
+    assert_eq!(part.triangles.len(), 3);
+}
+
+#[test]
+fn faces_of_key_shapes_without_normals_are_flat_beside_smooth_ones() {
+    let folder = Folder::new();
+    let flat = |text: String| {
+        text.replace(
+            "usemtl paint\nf 1/1/1 4/2/1 6/3/1",
+            "usemtl paint\nf 1/1 4/2 6/3",
+        )
+    };
+    folder.write("bent.obj", flat(bent()));
+    folder.write("mesh.obj", flat(OBJ.to_owned()));
+    folder.edit(
+        "scene.toml",
+        "mesh = \"mesh.obj\"\nkeys",
+        &format!("{SHAPES}\nkeys"),
+    );
+    let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
+    let mesh = &scene.meshes[0];
+    let last = mesh.triangles.last().unwrap();
+    for shape in &mesh.shapes {
+        assert_eq!(
+            last.map(|vertex| shape.normals[vertex as usize]),
+            [Vec3::ZERO; 3]
+        );
+        assert_eq!(shape.normals[0], Vec3::Z);
+    }
 }
 
 #[test]
@@ -278,6 +401,32 @@ fn a_camera_looks_at_its_point_with_up_as_far_as_that_allows() {
     let right = forward.cross(DVec3::new(1.0, 1.0, 7.0)).normalize();
     assert!(pose.transform_vector3(DVec3::X).distance(right) < 1e-12);
     assert_eq!(pose.translation, DVec3::new(0.0, 0.0, 5.0));
+}
+
+#[test]
+fn cubic_keys_are_joined_smoothly() {
+    let folder = Folder::new();
+    let old = "    { time = -1 },\n    { time = 1, translation = [1, 0, 0] },\n]\n";
+    let text = "    { time = -1, translation = [1, 0, 0] },\n    { time = 0 },\n    { time = 1, translation = [1, 0, 0] },\n]\n";
+    folder.edit(
+        "scene.toml",
+        &format!("{old}\n[object.part]"),
+        &format!("{text}interpolation = \"cubic\"\n[object.part]"),
+    );
+    let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
+    // The parabola through the keys.
+    assert_eq!(scene.object_to_world(0, 0.5).translation.x, 0.25);
+    // A variant's keys leave the interpolation as it is.
+    let fast = load_scene(&folder.path, Some("fast")).unwrap();
+    assert_eq!(fast.objects[0].motion.interpolation, Interpolation::Cubic);
+    // Its still pose takes both back.
+    folder.edit(
+        "scene.toml",
+        "keys = [\n    { time = -1 },\n    { time = 1, translation = [2, 0, 0] },\n]",
+        "scale = 3",
+    );
+    let fast = load_scene(&folder.path, Some("fast")).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(fast.objects[0].motion.keys.len(), 1);
 }
 
 #[test]

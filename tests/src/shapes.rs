@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use frame::ShutterProfile;
 use glam::{DQuat, DVec3, Vec3};
 use tracer::{
     Background, Camera, Display, Family, FlipExposures, Key, Material, Mesh, Motion, Object,
@@ -15,6 +16,7 @@ pub fn empty_scene(name: &str) -> Scene {
         exposes: "a test".into(),
         family: Family::Translation,
         exposure: 1.0,
+        shutter_profile: ShutterProfile::default(),
         width: 48,
         height: 27,
         display: Display {
@@ -89,6 +91,7 @@ pub fn drift(at: DVec3, velocity: DVec3) -> Motion {
                 ..Key::REST
             },
         ],
+        ..Motion::default()
     }
 }
 
@@ -110,6 +113,7 @@ pub fn spin(at: DVec3, axis: DVec3, rate: f64) -> Motion {
                 ..key
             },
         ],
+        ..Motion::default()
     }
 }
 
@@ -130,6 +134,7 @@ pub fn mesh(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Mesh {
         normals: Vec::new(),
         texcoords: Vec::new(),
         triangles,
+        shapes: Vec::new(),
     }
 }
 

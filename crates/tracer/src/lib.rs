@@ -2,11 +2,14 @@
 //!
 //! The conventions are those of the [`frame`] crate.
 
+mod approach;
 mod background;
 mod bounds;
 mod bvh;
 mod camera;
+mod curve;
 mod film;
+mod geometry;
 mod instant;
 mod ladder;
 mod lanes;
@@ -16,6 +19,7 @@ mod lobe;
 mod mesh_tree;
 mod motion;
 mod moving;
+mod opening;
 mod path;
 mod poses;
 mod progress;
@@ -24,6 +28,8 @@ mod ray;
 mod sampler;
 mod scene;
 mod settings;
+mod shape;
+mod shape_tree;
 mod stage;
 mod surface;
 mod swept;
@@ -36,14 +42,14 @@ pub use camera::View;
 pub use instant::trace_frame;
 pub use ladder::trace_ladder;
 pub use load::{SceneError, SceneListing, list_scenes, load_scene};
-pub use motion::{Key, Motion, Turn};
+pub use motion::{Interpolation, Key, Motion, Turn};
 pub use poses::Poses;
 pub use progress::{Progress, Watch};
 pub use provenance::{frame_hash, ladder_hash, replicate_hash, truth_hash};
 pub use ray::Ray;
 pub use scene::{
-    Background, Camera, Display, Family, FlipExposures, Material, Mesh, Object, Parent, Scene, Sun,
-    Texture,
+    Background, Camera, Display, Family, FlipExposures, Material, Mesh, Object, Parent, Scene,
+    Shape, Sun, Texture,
 };
 pub use settings::{FrameSettings, TraceError, TruthSettings};
 pub use stage::{Hit, Stage};

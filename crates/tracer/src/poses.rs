@@ -1,7 +1,9 @@
 //! Where everything is at the time of one path: computed when first asked for, kept for all its bounces.
 
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 
+use crate::motion::Key;
+use crate::ray::Ray;
 use crate::scene::{Parent, Scene};
 use crate::swept::{chain, key_times};
 
@@ -20,6 +22,9 @@ pub struct Poses<'a> {
     /// Per object; valid when its stamp is the current one, or for ever.
     poses: Vec<(Stamp, Pose)>,
     current: Stamp,
+    /// Per object, how long a unit direction of the world is in the object's space; none where that depends on the
+    /// direction or the time.
+    stretches: Vec<Option<f64>>,
 }
 
 type Stamp = u64;
@@ -52,6 +57,9 @@ impl<'a> Poses<'a> {
             time: from,
             poses,
             current: 1,
+            stretches: (0..scene.objects.len())
+                .map(|object| stretch(scene, object))
+                .collect(),
         }
     }
 
@@ -65,6 +73,14 @@ impl<'a> Poses<'a> {
     /// Frames relative to the instant.
     pub fn time(&self) -> f64 {
         self.time
+    }
+
+    /// A ray with a unit direction in an object's space, and the length of its direction there.
+    #[inline]
+    pub(crate) fn local(&mut self, object: usize, ray: &Ray) -> (Ray, f64) {
+        let local = ray.transformed(&self.pose(object).to_object);
+        let length = self.stretches[object].unwrap_or_else(|| local.direction.length());
+        (local, length)
     }
 
     #[inline]
@@ -86,11 +102,22 @@ impl<'a> Poses<'a> {
 /// Whether no motion between the object and the world changes anything within the interval.
 fn stands_still(scene: &Scene, object: usize, from: f64, to: f64) -> bool {
     chain(scene, object).into_iter().all(|motion| {
-        key_times([motion], from, to).windows(2).all(|span| {
-            let (start, end) = motion.segment(0.5 * (span[0] + span[1]));
-            start.translation == end.translation
-                && start.scale == end.scale
-                && start.turn.angle == 0.0
-        })
+        key_times([motion], from, to)
+            .windows(2)
+            .all(|span| motion.segment(0.5 * (span[0] + span[1])).stands_still())
     })
+}
+
+/// How much longer a world's direction is in the object's space, if no key on the way scales unevenly or unlike others.
+fn stretch(scene: &Scene, object: usize) -> Option<f64> {
+    let mut stretch = 1.0;
+    for motion in chain(scene, object) {
+        let scale = motion.keys[0].scale.x;
+        let even = |key: &Key| key.scale == DVec3::splat(scale);
+        if !motion.keys.iter().all(even) {
+            return None;
+        }
+        stretch /= scale.abs();
+    }
+    Some(stretch)
 }

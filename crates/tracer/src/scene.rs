@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use frame::ShutterProfile;
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
 use crate::motion::Motion;
@@ -17,6 +18,8 @@ pub struct Scene {
     pub family: Family,
     /// Exposure in frames; 0.5 = 180 degrees.
     pub exposure: f64,
+    /// How the shutter opens and closes, and how rows follow one another.
+    pub shutter_profile: ShutterProfile,
     /// Default width in pixels.
     pub width: u32,
     /// Default height in pixels.
@@ -86,7 +89,8 @@ pub struct FlipExposures {
 pub struct Camera {
     /// From camera to world; never scales.
     pub motion: Motion,
-    /// (time in frames, vertical field of view in radians), linear between keys as in [`Motion`]; at least one.
+    /// (time in frames, vertical field of view in radians), at least one; between these keys and beyond them it changes
+    /// as the motion does.
     pub vertical_fov: Vec<(f64, f64)>,
 }
 
@@ -132,6 +136,20 @@ pub struct Mesh {
     pub triangles: Vec<[u32; 3]>,
     /// Per triangle: index into the object's `materials`.
     pub slots: Vec<u32>,
+    /// Key shapes at strictly rising times; none for a rigid mesh, else at least two, the first being `positions` and
+    /// `normals`. Vertices move in straight lines between them, and beyond them on as between the nearest two.
+    pub shapes: Vec<Shape>,
+}
+
+/// A mesh's vertices at one time.
+#[derive(Clone, Debug)]
+pub struct Shape {
+    /// Frames relative to the instant.
+    pub time: f64,
+    /// Metres, as many as the mesh has.
+    pub positions: Vec<Vec3>,
+    /// Unit, or zero where the face is flat; as many as the mesh has.
+    pub normals: Vec<Vec3>,
 }
 
 /// Linear RGBA texels, row-major from the top left; sampled bilinearly, repeating.

@@ -11,11 +11,18 @@ use super::error::{SceneError, is_name, list};
 use super::schema::SceneTable;
 
 /// What a variant may change.
-const VARIANT_KEYS: [&str; 5] = ["background", "camera", "exposure", "object", "sun"];
+const VARIANT_KEYS: [&str; 6] = [
+    "background",
+    "camera",
+    "exposure",
+    "object",
+    "shutter",
+    "sun",
+];
 
 /// Keys of an object that say where it is: still, or moving. Giving one way in a variant takes back the other.
 const STILL_POSE: [&str; 3] = ["translation", "rotation", "scale"];
-const MOVING_POSE: [&str; 1] = ["keys"];
+const MOVING_POSE: [&str; 2] = ["keys", "interpolation"];
 
 /// A scene.toml as text.
 pub(super) struct Document {
@@ -173,6 +180,8 @@ impl Document {
         for (given, taken_back) in [
             (&STILL_POSE[..], &MOVING_POSE[..]),
             (&MOVING_POSE[..], &STILL_POSE[..]),
+            (&["mesh"], &["shapes"]),
+            (&["shapes"], &["mesh"]),
         ] {
             if given.iter().any(|key| change.contains_key(*key)) {
                 for key in taken_back {

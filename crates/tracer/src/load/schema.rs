@@ -17,6 +17,7 @@ pub(super) struct SceneTable {
     pub(super) family: Family,
     pub(super) exposure: Spanned<f64>,
     pub(super) size: Spanned<[u32; 2]>,
+    pub(super) shutter: Option<Spanned<ShutterTable>>,
     #[serde(default)]
     pub(super) display: DisplayTable,
     pub(super) camera: Spanned<CameraTable>,
@@ -27,6 +28,15 @@ pub(super) struct SceneTable {
     /// Taken out before the rest is read; stands here so that messages list it among the keys.
     #[serde(rename = "variant")]
     pub(super) _variant: Option<IgnoredAny>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ShutterTable {
+    pub(super) rise: Option<f64>,
+    pub(super) fall: Option<f64>,
+    pub(super) efficiency: Option<Vec<f64>>,
+    pub(super) rolling: Option<f64>,
 }
 
 #[derive(Default, Deserialize)]
@@ -54,6 +64,7 @@ pub(super) struct CameraTable {
     pub(super) rotation: Option<Spanned<RotationTable>>,
     pub(super) vertical_fov: Option<Spanned<f64>>,
     pub(super) keys: Option<Spanned<Vec<CameraKeyTable>>>,
+    pub(super) interpolation: Option<Spanned<String>>,
 }
 
 #[derive(Deserialize)]
@@ -93,15 +104,24 @@ pub(super) struct SunTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ObjectTable {
-    pub(super) mesh: Spanned<String>,
+    pub(super) mesh: Option<Spanned<String>>,
+    pub(super) shapes: Option<Spanned<Vec<ShapeTable>>>,
     pub(super) group: Option<Spanned<String>>,
     pub(super) parent: Option<Spanned<String>>,
     pub(super) translation: Option<Spanned<[f64; 3]>>,
     pub(super) rotation: Option<Spanned<RotationTable>>,
     pub(super) scale: Option<Spanned<ScaleTable>>,
     pub(super) keys: Option<Spanned<Vec<KeyTable>>>,
+    pub(super) interpolation: Option<Spanned<String>>,
     #[serde(default)]
     pub(super) material: BTreeMap<Spanned<String>, MaterialTable>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ShapeTable {
+    pub(super) time: Spanned<f64>,
+    pub(super) mesh: Spanned<String>,
 }
 
 #[derive(Deserialize)]
