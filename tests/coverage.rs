@@ -43,6 +43,7 @@ fn scene(mesh: Mesh, at: DVec2, angle: f64, velocity: DVec2) -> Scene {
     };
     let motion = Motion {
         keys: vec![place(-1.0), place(1.0)],
+        ..Motion::default()
     };
     add(&mut scene, mesh, glowing(1.0), motion);
     scene

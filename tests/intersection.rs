@@ -223,6 +223,7 @@ fn crowd(scale: f64) -> Scene {
         };
         let motion = Motion {
             keys: vec![key, end],
+            ..Motion::default()
         };
         add(
             &mut scene,

@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec3, Vec2, Vec3};
 use scene_folder::{Folder, OBJ, SCENE};
-use tracer::{Background, Family, Parent, load_scene};
+use tracer::{Background, Family, Interpolation, Parent, load_scene};
 
 #[test]
 fn the_documented_example_loads() {
@@ -34,6 +34,8 @@ fn the_documented_example_loads() {
     assert_eq!(names, ["car", "wheel", "dashboard"]);
     let parents: Vec<_> = scene.objects.iter().map(|object| object.parent).collect();
     assert_eq!(parents, [Parent::World, Parent::Object(0), Parent::Camera]);
+    assert_eq!(scene.camera.motion.interpolation, Interpolation::Cubic);
+    assert_eq!(scene.objects[0].motion.interpolation, Interpolation::Linear);
 
     let fast = load_scene(&folder.path, Some("fast")).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!((fast.name.as_str(), fast.exposure), ("square@fast", 1.0));
@@ -278,6 +280,32 @@ fn a_camera_looks_at_its_point_with_up_as_far_as_that_allows() {
     let right = forward.cross(DVec3::new(1.0, 1.0, 7.0)).normalize();
     assert!(pose.transform_vector3(DVec3::X).distance(right) < 1e-12);
     assert_eq!(pose.translation, DVec3::new(0.0, 0.0, 5.0));
+}
+
+#[test]
+fn cubic_keys_are_joined_smoothly() {
+    let folder = Folder::new();
+    let old = "    { time = -1 },\n    { time = 1, translation = [1, 0, 0] },\n]\n";
+    let text = "    { time = -1, translation = [1, 0, 0] },\n    { time = 0 },\n    { time = 1, translation = [1, 0, 0] },\n]\n";
+    folder.edit(
+        "scene.toml",
+        &format!("{old}\n[object.part]"),
+        &format!("{text}interpolation = \"cubic\"\n[object.part]"),
+    );
+    let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
+    // The parabola through the keys.
+    assert_eq!(scene.object_to_world(0, 0.5).translation.x, 0.25);
+    // A variant's keys leave the interpolation as it is.
+    let fast = load_scene(&folder.path, Some("fast")).unwrap();
+    assert_eq!(fast.objects[0].motion.interpolation, Interpolation::Cubic);
+    // Its still pose takes both back.
+    folder.edit(
+        "scene.toml",
+        "keys = [\n    { time = -1 },\n    { time = 1, translation = [2, 0, 0] },\n]",
+        "scale = 3",
+    );
+    let fast = load_scene(&folder.path, Some("fast")).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(fast.objects[0].motion.keys.len(), 1);
 }
 
 #[test]

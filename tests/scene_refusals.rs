@@ -46,6 +46,11 @@ fn slips_in_poses_are_refused() {
 }
 
 #[test]
+fn slips_in_the_ways_between_keys_are_refused() {
+    check("scene.toml", INTERPOLATION_SLIPS);
+}
+
+#[test]
 fn slips_in_meshes_are_refused() {
     check("mesh.obj", OBJ_SLIPS);
 }
@@ -137,9 +142,9 @@ const SCENE_SLIPS: &[Slip] = &[
     ("unknown key", "exposure = 0.5", "exposure = 0.5\nshutter = 1", 
         "scene.toml:4: unknown key `shutter`, allowed: `exposes`, `family`, `exposure`, `size`, `display`, `camera`, `background`, `sun`, `object`, `variant`"),
     ("unknown key of the camera", "vertical_fov = 40", "vertical_fov = 40\nscale = 2", 
-        "scene.toml:10: unknown key `scale`, allowed: `position`, `look_at`, `up`, `rotation`, `vertical_fov`, `keys`"),
+        "scene.toml:10: unknown key `scale`, allowed: `position`, `look_at`, `up`, `rotation`, `vertical_fov`, `keys`, `interpolation`"),
     ("unknown key of an object", "parent = \"body\"", "father = \"body\"", 
-        "scene.toml:28: unknown key `father`, allowed: `mesh`, `group`, `parent`, `translation`, `rotation`, `scale`, `keys`, `material`"),
+        "scene.toml:28: unknown key `father`, allowed: `mesh`, `group`, `parent`, `translation`, `rotation`, `scale`, `keys`, `interpolation`, `material`"),
     ("unknown key in a variant", "{ time = 1, translation = [2, 0, 0] }", "{ time = 1, move = [2, 0, 0] }", 
         "scene.toml:37: unknown key `move`, allowed: `time`, `translation`, `rotation`, `scale`"),
     ("unknown table in a variant", "[variant.fast.object.body]", "[variant.fast.objects.body]", 
@@ -281,9 +286,24 @@ const POSE_SLIPS: &[Slip] = &[
     ("text for a scale", "scale = 2", "scale = \"big\"", 
         "scene.toml:29: invalid type: string \"big\", allowed: a number or [x, y, z]"),
     ("scale through zero", KEYS, "{ time = -1, scale = 1 },\n{ time = 1, scale = [1, 1, -1] },\n", 
-        "scene.toml:22: object \"body\" has scale [1.000, 1.000, 1.000] at time -1 and would have [1.000, 1.000, -1.000] at 1; each factor must keep its sign, beyond the keys too"),
+        "scene.toml:22: object \"body\" has scale [1.000, 1.000, 1.000] at time -1 and would have [1.000, 1.000, -1.000] at 1; each factor must keep its sign, between the keys and beyond them"),
     ("scale through zero beyond the keys", KEYS, "{ time = -1, scale = 1 },\n{ time = 0, scale = 0.4 },\n", 
-        "scene.toml:22: object \"body\" has scale [1.000, 1.000, 1.000] at time -1 and would have [-0.200, -0.200, -0.200] at 1; each factor must keep its sign, beyond the keys too"),
+        "scene.toml:22: object \"body\" has scale [1.000, 1.000, 1.000] at time -1 and would have [-0.200, -0.200, -0.200] at 1; each factor must keep its sign, between the keys and beyond them"),
+];
+
+#[rustfmt::skip]
+const INTERPOLATION_SLIPS: &[Slip] = &[
+    ("unknown interpolation", "[object.part]\n", "interpolation = \"smooth\"\n[object.part]\n", 
+        "scene.toml:25: interpolation of object \"body\" is \"smooth\"; allowed: linear, cubic"),
+    ("unknown interpolation of the camera", "position = [0, 0, 5]\nlook_at = [0, 0, 0]", "keys = [{ time = 0, position = [0, 0, 5], look_at = [0, 0, 0] }]\ninterpolation = \"Cubic\"", 
+        "scene.toml:8: interpolation of the camera is \"Cubic\"; allowed: linear, cubic"),
+    ("interpolation of nothing", "scale = 2", "interpolation = \"cubic\"", 
+        "scene.toml:29: object \"part\" has an interpolation but no keys to go between; give it keys, or leave interpolation out"),
+    ("interpolation of a still camera", "vertical_fov = 40", "vertical_fov = 40\ninterpolation = \"cubic\"", 
+        "scene.toml:10: the camera has an interpolation but no keys to go between; give it keys, or leave interpolation out"),
+    ("scale through zero between keys", "keys = [\n    { time = -1 },\n    { time = 1, translation = [1, 0, 0] },\n", 
+        "interpolation = \"cubic\"\nkeys = [\n{ time = -1, scale = 9 },\n{ time = 0, scale = 1 },\n{ time = 1, scale = 1 },\n{ time = 2, scale = 9 },\n", 
+        "scene.toml:24: object \"body\" has scale [1.000, 1.000, 1.000] at time 0 and would have [0.000, 0.000, 0.000] at 0.5; each factor must keep its sign, between the keys and beyond them"),
 ];
 
 #[rustfmt::skip]

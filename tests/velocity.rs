@@ -4,7 +4,7 @@ use frame::{FAR_DEPTH, Frame, VelocityKind};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 use tests::shapes::*;
 use tests::unwatched;
-use tracer::{FrameSettings, Key, Motion, Parent, Scene, Turn, trace_frame};
+use tracer::{FrameSettings, Interpolation, Key, Motion, Parent, Scene, Turn, trace_frame};
 
 const WIDTH: u32 = 33;
 const HEIGHT: u32 = 21;
@@ -221,6 +221,121 @@ fn a_zoom_scales_the_picture_by_the_focal_length() {
     );
 }
 
+/// Cubic keys at -1, 0 and 1 whose places are known and whose turns are of `angle` about one axis.
+fn smooth(axis: DVec3, angle: impl Fn(f64) -> f64, place: impl Fn(f64) -> DVec3) -> Motion {
+    let key = |time: f64| Key {
+        time,
+        translation: place(time),
+        orientation: DQuat::from_axis_angle(axis, angle(time)),
+        turn: Turn {
+            axis,
+            angle: angle(time + 1.0) - angle(time),
+        },
+        ..Key::REST
+    };
+    Motion {
+        keys: [-1.0, 0.0, 1.0].map(key).to_vec(),
+        interpolation: Interpolation::Cubic,
+    }
+}
+
+#[test]
+fn a_braking_dolly_has_the_speed_of_its_parabola() {
+    let (depth, speed, brake) = (4.0, 0.6, 0.2);
+    let mut scene = wall(depth, placed);
+    let place = |time: f64| (speed * time - brake * time * time) * DVec3::NEG_Z;
+    scene.camera.motion = smooth(DVec3::Y, |_| 0.0, place);
+    expect(
+        "derivative",
+        &frame(&scene, VelocityKind::Instantaneous),
+        |place| place * speed / depth,
+    );
+    expect(
+        "previous",
+        &frame(&scene, VelocityKind::PreviousFrame),
+        |place| place * (1.0 - depth / (depth + speed + brake)),
+    );
+}
+
+#[test]
+fn pans_and_rolls_that_gather_speed_have_the_rate_of_the_instant() {
+    let (rate, growth) = (0.2, 0.05);
+    for axis in [DVec3::Y, DVec3::Z, DVec3::new(0.6, 0.0, 0.8)] {
+        let wall_scene = wall(4.0, placed);
+        for mut scene in [wall_scene, empty_scene("background")] {
+            let angle = |time: f64| rate * time + growth * time * time;
+            scene.camera.motion = smooth(axis, angle, |_| DVec3::ZERO);
+            expect(
+                "derivative",
+                &frame(&scene, VelocityKind::Instantaneous),
+                |place| screen_motion(place, 4.0, -rate * axis.cross(point(place, 4.0))),
+            );
+            expect(
+                "previous",
+                &frame(&scene, VelocityKind::PreviousFrame),
+                |place| {
+                    let before = DQuat::from_axis_angle(axis, angle(-1.0));
+                    place - seen(before.inverse() * point(place, 4.0))
+                },
+            );
+        }
+    }
+}
+
+/// Velocity on screen of a point at that place and depth which moves so relative to the camera.
+fn screen_motion(place: DVec2, depth: f64, velocity: DVec3) -> DVec2 {
+    (FOCAL * DVec2::new(velocity.x, velocity.y) + place * velocity.z) / depth
+}
+
+#[test]
+fn an_orbit_moves_and_turns_the_camera_at_once() {
+    let (depth, radius, rate) = (4.0, 5.0, 0.15);
+    let mut scene = wall(depth, placed);
+    // Around a point straight ahead, which the camera keeps in the middle.
+    let place = |time: f64| {
+        let (sine, cosine) = (rate * time).sin_cos();
+        radius * DVec3::new(sine, 0.0, cosine - 1.0)
+    };
+    scene.camera.motion = smooth(DVec3::Y, |time| rate * time, place);
+    // The slope at the middle key is that from the first key to the last.
+    let velocity = DVec3::new(radius * rate.sin(), 0.0, 0.0);
+    expect(
+        "derivative",
+        &frame(&scene, VelocityKind::Instantaneous),
+        |place| {
+            let turned = rate * DVec3::Y.cross(point(place, depth));
+            screen_motion(place, depth, -velocity - turned)
+        },
+    );
+    expect(
+        "previous",
+        &frame(&scene, VelocityKind::PreviousFrame),
+        |at| {
+            let before = DQuat::from_rotation_y(-rate).inverse();
+            at - seen(before * (point(at, depth) - place(-1.0)))
+        },
+    );
+}
+
+#[test]
+fn a_smooth_zoom_has_the_rate_of_its_parabola() {
+    let mut scene = wall(4.0, placed);
+    let half_pi = std::f64::consts::FRAC_PI_2;
+    let angle = |time: f64| half_pi - 0.1 * time + 0.05 * time * time;
+    scene.camera.motion.interpolation = Interpolation::Cubic;
+    scene.camera.vertical_fov = [-1.0, 0.0, 1.0].map(|time| (time, angle(time))).to_vec();
+    expect(
+        "derivative",
+        &frame(&scene, VelocityKind::Instantaneous),
+        |place| place * 0.1,
+    );
+    expect(
+        "previous",
+        &frame(&scene, VelocityKind::PreviousFrame),
+        |place| place * (1.0 - 1.0 / (0.5 * angle(-1.0)).tan()),
+    );
+}
+
 #[test]
 fn what_the_camera_carries_stands_still() {
     let mut scene = wall(4.0, placed);
@@ -242,6 +357,7 @@ fn at_a_turning_point_the_velocity_is_that_of_the_way_there() {
         };
         Motion {
             keys: vec![key(-2.0, -1.0), key(0.0, 0.0), key(1.0, -3.0)],
+            ..Motion::default()
         }
     });
     expect(

@@ -89,6 +89,7 @@ pub fn drift(at: DVec3, velocity: DVec3) -> Motion {
                 ..Key::REST
             },
         ],
+        ..Motion::default()
     }
 }
 
@@ -110,6 +111,7 @@ pub fn spin(at: DVec3, axis: DVec3, rate: f64) -> Motion {
                 ..key
             },
         ],
+        ..Motion::default()
     }
 }
 

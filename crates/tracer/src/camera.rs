@@ -2,6 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
+use crate::curve::{Cubic, Keyed};
 use crate::ray::Ray;
 use crate::scene::Camera;
 
@@ -20,18 +21,33 @@ pub struct View {
 impl Camera {
     /// Vertical field of view at `time` (frames), in radians.
     pub fn vertical_fov_at(&self, time: f64) -> f64 {
+        let (start, curve) = self.vertical_fov_curve(time);
+        curve.at(time - start)
+    }
+
+    /// Where within `[from, to]` the field of view may be greatest or least: the ends, keys, and turning points.
+    pub(crate) fn vertical_fov_extremes(&self, from: f64, to: f64) -> Vec<f64> {
+        let keys = self.vertical_fov.iter().map(|(time, _)| *time);
+        let turns = keys.clone().flat_map(|key| {
+            let (start, curve) = self.vertical_fov_curve(key);
+            curve.turning_points().map(move |since| start + since)
+        });
+        let inside = keys.chain(turns).filter(|time| from < *time && *time < to);
+        inside.chain([from, to]).collect()
+    }
+
+    /// The field of view about `time` as a curve, and the time that it counts from.
+    fn vertical_fov_curve(&self, time: f64) -> (f64, Cubic<f64>) {
         let keys = self.vertical_fov.as_slice();
-        let [.., (_, last)] = keys else {
-            unreachable!("a camera has at least one field of view")
+        let keyed = Keyed {
+            keys,
+            time: |(time, _): &(f64, f64)| *time,
+            interpolation: self.motion.interpolation,
         };
-        if keys.len() == 1 {
-            return *last;
-        }
-        let segment = keys
-            .partition_point(|(key, _)| *key <= time)
-            .clamp(1, keys.len() - 1);
-        let [(from_time, from), (to_time, to)] = [keys[segment - 1], keys[segment]];
-        from + (to - from) * (time - from_time) / (to_time - from_time)
+        let stretch = keyed.stretch(time);
+        let chord = |from: usize| (keys[from + 1].1 - keys[from].1) / keyed.duration(from);
+        let curve = keyed.curve(stretch, |key| keys[key].1, chord);
+        (keys[keyed.anchor(stretch)].0, curve)
     }
 
     /// The view at `time` (frames) of a picture of `width` x `height` pixels.

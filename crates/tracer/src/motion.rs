@@ -1,6 +1,8 @@
-//! Rigid motion between keys: position linear, orientation at constant angular velocity, scale linear.
+//! Rigid motion through keys.
 
 use glam::{DAffine3, DQuat, DVec3};
+
+use crate::curve::{Cubic, Keyed};
 
 /// A rotation about a fixed axis; more than one turn is allowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,16 +24,48 @@ pub struct Key {
     pub orientation: DQuat,
     /// Factor per axis, applied before the rotation; never 0.
     pub scale: DVec3,
-    /// Rotation from this key to the next, in the parent's axes; none at the last key.
+    /// Rotation from this key to the next, in the parent's axes; at the last key it has no meaning.
     pub turn: Turn,
 }
 
+/// How a motion goes from one key to the next.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Interpolation {
+    /// Position and scale change at a constant rate, the orientation turns at a constant angular velocity. Velocities
+    /// jump at keys.
+    #[default]
+    Linear,
+    /// Velocities are continuous. Position and scale follow cubic polynomials whose slope at a key is that of the
+    /// parabola through the key and its neighbours (Catmull and Rom 1974, for uneven times): keys taken from a parabola
+    /// give it back. The angular velocity at a key is the same mean of the turns beside it. Between keys the orientation
+    /// is a product of rotations about fixed axes by cubic angles (the kind of curve of Kim, Kim and Shin 1995): the turn
+    /// from key to key, and before and after it a swing that vanishes at both keys and makes up for what the angular
+    /// velocity there has across the turn's axis. Turns about one axis are cubic angles, however many they are.
+    Cubic,
+}
+
 /// Keys in rising order of time; at least one. Before the first and after the last key the motion goes on at the
-/// velocity of the nearest segment: a motion does not stop because its keys end. A single key stands still.
-#[derive(Clone, Debug, PartialEq)]
+/// velocity that it has there: a motion does not stop because its keys end. A single key stands still.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motion {
     /// The poses, times strictly rising.
     pub keys: Vec<Key>,
+    /// The way between them.
+    pub interpolation: Interpolation,
+}
+
+/// A stretch of a motion without keys inside: every part is a polynomial in time.
+pub(crate) struct Segment {
+    /// The time that the curves count from, in frames.
+    start: f64,
+    pub translation: Cubic<DVec3>,
+    pub scale: Cubic<DVec3>,
+    /// At the start.
+    orientation: DQuat,
+    /// Rotation vector, along one axis.
+    turn: Cubic<DVec3>,
+    /// Rotation vectors of the swings before and after the turn.
+    swings: Option<[Cubic<DVec3>; 2]>,
 }
 
 impl Turn {
@@ -56,36 +90,103 @@ impl Key {
 impl Motion {
     /// A pose that never changes.
     pub fn still(key: Key) -> Self {
-        Self { keys: vec![key] }
-    }
-
-    /// The keys between which, or beyond which, `time` lies; the same key twice if there is only one.
-    pub(crate) fn segment(&self, time: f64) -> (&Key, &Key) {
-        match self.keys.as_slice() {
-            [] => unreachable!("a motion has at least one key"),
-            [key] => (key, key),
-            keys => {
-                let segment = keys
-                    .partition_point(|key| key.time <= time)
-                    .clamp(1, keys.len() - 1);
-                (&keys[segment - 1], &keys[segment])
-            }
+        Self {
+            keys: vec![key],
+            ..Self::default()
         }
     }
 
     /// From the object's space to its parent's at `time` (frames).
     pub fn at(&self, time: f64) -> DAffine3 {
-        let (from, to) = self.segment(time);
-        let fraction = if to.time > from.time {
-            (time - from.time) / (to.time - from.time)
-        } else {
-            0.0
+        self.segment(time).at(time)
+    }
+
+    /// The stretch that holds `time`; at a key, the one that begins there.
+    pub(crate) fn segment(&self, time: f64) -> Segment {
+        let keyed = Keyed {
+            keys: &self.keys,
+            time: |key: &Key| key.time,
+            interpolation: self.interpolation,
         };
-        let turn = DQuat::from_axis_angle(from.turn.axis, from.turn.angle * fraction);
+        let stretch = keyed.stretch(time);
+        let key = |index: usize| &self.keys[index];
+        let chord = |part: fn(&Key) -> DVec3| {
+            move |from: usize| {
+                let [from, to] = [key(from), key(from + 1)];
+                (part(to) - part(from)) / (to.time - from.time)
+            }
+        };
+        let curve =
+            |part: fn(&Key) -> DVec3| keyed.curve(stretch, |index| part(key(index)), chord(part));
+        let anchor = key(keyed.anchor(stretch));
+        let (turn, swings) = turning(&keyed, stretch);
+        Segment {
+            start: anchor.time,
+            translation: curve(|key| key.translation),
+            scale: curve(|key| key.scale),
+            orientation: anchor.orientation,
+            turn,
+            swings,
+        }
+    }
+}
+
+/// The turn over a stretch, and the swings before and after it.
+fn turning(keyed: &Keyed<Key>, stretch: usize) -> (Cubic<DVec3>, Option<[Cubic<DVec3>; 2]>) {
+    let whole = |from: usize| keyed.keys[from].turn.angle * keyed.keys[from].turn.axis;
+    let chord = |from: usize| whole(from) / keyed.duration(from);
+    let from = keyed.anchor(stretch);
+    if !keyed.is_between(stretch) || keyed.interpolation == Interpolation::Linear {
+        return (Cubic::line(DVec3::ZERO, keyed.slope(from, &chord)), None);
+    }
+    let axis = whole(from).normalize_or_zero();
+    let spins = [from, stretch].map(|key| keyed.slope(key, &chord));
+    let along = spins.map(|spin| spin.dot(axis) * axis);
+    let across = [spins[0] - along[0], spins[1] - along[1]];
+    let duration = keyed.duration(from);
+    let swing = |slopes| Cubic::between([DVec3::ZERO; 2], slopes, duration);
+    let turn = Cubic::between([DVec3::ZERO, whole(from)], along, duration);
+    let swings = [
+        swing([across[0], DVec3::ZERO]),
+        swing([DVec3::ZERO, across[1]]),
+    ];
+    (turn, Some(swings))
+}
+
+impl Segment {
+    /// The pose at `time` (frames) within the segment.
+    fn at(&self, time: f64) -> DAffine3 {
+        let since = self.since(time);
+        let rotation = |curve: &Cubic<DVec3>| DQuat::from_scaled_axis(curve.at(since));
+        let mut turn = rotation(&self.turn);
+        if let Some([before, after]) = &self.swings {
+            turn = rotation(after) * turn * rotation(before);
+        }
         DAffine3::from_scale_rotation_translation(
-            from.scale.lerp(to.scale, fraction),
-            turn * from.orientation,
-            from.translation.lerp(to.translation, fraction),
+            self.scale.at(since),
+            turn * self.orientation,
+            self.translation.at(since),
         )
+    }
+
+    /// The time that the curves know, from frames.
+    pub fn since(&self, time: f64) -> f64 {
+        time - self.start
+    }
+
+    /// Rotation vectors, each along an axis of its own, in the order in which they are applied.
+    pub fn turns(&self) -> impl Iterator<Item = &Cubic<DVec3>> {
+        let [before, after] = self
+            .swings
+            .as_ref()
+            .map_or([None; 2], |[before, after]| [Some(before), Some(after)]);
+        before.into_iter().chain([&self.turn]).chain(after)
+    }
+
+    /// Whether nothing changes within it.
+    pub fn stands_still(&self) -> bool {
+        self.translation.is_constant()
+            && self.scale.is_constant()
+            && self.turns().all(Cubic::is_constant)
     }
 }

@@ -86,11 +86,8 @@ impl<'a> Poses<'a> {
 /// Whether no motion between the object and the world changes anything within the interval.
 fn stands_still(scene: &Scene, object: usize, from: f64, to: f64) -> bool {
     chain(scene, object).into_iter().all(|motion| {
-        key_times([motion], from, to).windows(2).all(|span| {
-            let (start, end) = motion.segment(0.5 * (span[0] + span[1]));
-            start.translation == end.translation
-                && start.scale == end.scale
-                && start.turn.angle == 0.0
-        })
+        key_times([motion], from, to)
+            .windows(2)
+            .all(|span| motion.segment(0.5 * (span[0] + span[1])).stands_still())
     })
 }

@@ -86,7 +86,8 @@ pub struct FlipExposures {
 pub struct Camera {
     /// From camera to world; never scales.
     pub motion: Motion,
-    /// (time in frames, vertical field of view in radians), linear between keys as in [`Motion`]; at least one.
+    /// (time in frames, vertical field of view in radians), at least one; between these keys and beyond them it changes
+    /// as the motion does.
     pub vertical_fov: Vec<(f64, f64)>,
 }
 

@@ -177,11 +177,8 @@ fn check_samples(samples_per_pixel: u32, replicates: u32) -> Result<(), TraceErr
     })
 }
 
-/// Linear between keys, so that only keys and ends need looking at.
 fn check_field_of_view(scene: &Scene, from: f64, to: f64) -> Result<(), TraceError> {
-    let keys = scene.camera.vertical_fov.iter().map(|(time, _)| *time);
-    let inside = keys.filter(|time| from < *time && *time < to);
-    for time in inside.chain([from, to]) {
+    for time in scene.camera.vertical_fov_extremes(from, to) {
         let fov = scene.camera.vertical_fov_at(time);
         if !(fov > 0.0 && fov < std::f64::consts::PI) {
             return Err(TraceError::FieldOfView {

@@ -12,7 +12,7 @@ use crate::poses::Poses;
 use crate::ray::Ray;
 use crate::scene::Scene;
 use crate::surface::{Opacity, Surface};
-use crate::swept::{greatest_speed, swept_bounds};
+use crate::swept::{greatest_speed, path_bounds, swept_bounds};
 use crate::triangle::Crossing;
 
 /// An object travels at most this part of its diagonal within a slice, unless that takes too many slices.
@@ -255,10 +255,7 @@ impl Traversal {
 fn slices(scene: &Scene, from: f64, to: f64) -> Vec<Tree> {
     let count = slice_count(scene, from, to);
     let border = |slice: usize| from + (to - from) * slice as f64 / count as f64;
-    let eyes = scene.camera.motion.keys.iter().map(|key| key.translation);
-    let reach =
-        Bounds::around(eyes.chain([from, to].map(|time| scene.camera.motion.at(time).translation)))
-            .reach();
+    let reach = path_bounds(&scene.camera.motion, from, to).reach();
     (0..count)
         .map(|slice| {
             let boxes: Vec<Bounds> = (0..scene.objects.len())

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use crate::bounds::Bounds;
-use crate::motion::{Key, Motion};
+use crate::motion::{Motion, Segment};
 use crate::scene::{Parent, Scene};
 
 /// The greatest distance from an origin, speed and acceleration of any point of a mesh within an interval.
@@ -74,6 +74,23 @@ pub(crate) fn swept_bounds(scene: &Scene, object: usize, from: f64, to: f64) -> 
     union
 }
 
+/// A box around the places that a motion takes its origin to within `[from, to]`, relative to its parent.
+pub(crate) fn path_bounds(motion: &Motion, from: f64, to: f64) -> Bounds {
+    let at = |time| Bounds::around([motion.at(time).translation]);
+    key_times([motion], from, to)
+        .windows(2)
+        .map(|span| {
+            let segment = motion.segment(0.5 * (span[0] + span[1]));
+            let [start, end] = [span[0], span[1]].map(|time| segment.since(time));
+            let bend = segment.translation.greatest(start, end, DVec3::length).bend;
+            let length = span[1] - span[0];
+            at(span[0])
+                .union(at(span[1]))
+                .grown(bend * length * length / 8.0)
+        })
+        .fold(at(from), Bounds::union)
+}
+
 /// The greatest speed of any point of the object's mesh within `[from, to]`, metres per frame; never too small.
 pub(crate) fn greatest_speed(scene: &Scene, object: usize, from: f64, to: f64) -> f64 {
     let positions = &scene.meshes[scene.objects[object].mesh].positions;
@@ -104,44 +121,37 @@ fn reach(motions: &[&Motion], positions: &[Vec3], from: f64, to: f64) -> Reach {
         acceleration: 0.0,
     };
     motions.iter().fold(at_rest, |inner, motion| {
-        let (from_key, to_key) = motion.segment(0.5 * (from + to));
-        carried(inner, from_key, to_key, from, to)
+        carried(inner, &motion.segment(0.5 * (from + to)), from, to)
     })
 }
 
-/// Reach after one motion whose segment runs between two keys: scale, then rotation, then translation, each by the
-/// product rule.
-fn carried(inner: Reach, from_key: &Key, to_key: &Key, from: f64, to: f64) -> Reach {
-    let duration = to_key.time - from_key.time;
-    if duration <= 0.0 {
-        let scale = from_key.scale.abs().max_element();
-        return Reach {
-            distance: scale * inner.distance + from_key.translation.length(),
-            speed: scale * inner.speed,
-            acceleration: scale * inner.acceleration,
-        };
-    }
-    let at = |time: f64| (time - from_key.time) / duration;
-    let greatest = |a: DVec3, b: DVec3, size: fn(DVec3) -> f64| {
-        size(a.lerp(b, at(from))).max(size(a.lerp(b, at(to))))
-    };
+/// Reach after one segment of a motion: scale, then rotations, then translation, each by the product rule.
+fn carried(inner: Reach, segment: &Segment, from: f64, to: f64) -> Reach {
+    let [from, to] = [from, to].map(|time| segment.since(time));
     let largest = |scale: DVec3| scale.abs().max_element();
-    let scale = greatest(from_key.scale, to_key.scale, largest);
-    let growth = largest(to_key.scale - from_key.scale) / duration;
+    let scale = segment.scale.greatest(from, to, largest);
     let scaled = Reach {
-        distance: scale * inner.distance,
-        speed: growth * inner.distance + scale * inner.speed,
-        acceleration: 2.0 * growth * inner.speed + scale * inner.acceleration,
+        distance: scale.value * inner.distance,
+        speed: scale.slope * inner.distance + scale.value * inner.speed,
+        acceleration: scale.bend * inner.distance
+            + 2.0 * scale.slope * inner.speed
+            + scale.value * inner.acceleration,
     };
-    let spin = from_key.turn.angle.abs() / duration;
-    let drift = (to_key.translation - from_key.translation).length() / duration;
-    let offset = greatest(from_key.translation, to_key.translation, DVec3::length);
+    let turned = segment.turns().fold(scaled, |inner, turn| {
+        let turn = turn.greatest(from, to, DVec3::length);
+        Reach {
+            distance: inner.distance,
+            speed: turn.slope * inner.distance + inner.speed,
+            acceleration: (turn.slope * turn.slope + turn.bend) * inner.distance
+                + 2.0 * turn.slope * inner.speed
+                + inner.acceleration,
+        }
+    });
+    let offset = segment.translation.greatest(from, to, DVec3::length);
     Reach {
-        distance: scaled.distance + offset,
-        speed: spin * scaled.distance + scaled.speed + drift,
-        acceleration: spin * spin * scaled.distance
-            + 2.0 * spin * scaled.speed
-            + scaled.acceleration,
+        distance: turned.distance + offset.value,
+        speed: turned.speed + offset.slope,
+        acceleration: turned.acceleration + offset.bend,
     }
 }
 
@@ -153,7 +163,7 @@ mod tests {
     use glam::DQuat;
 
     use super::*;
-    use crate::motion::Turn;
+    use crate::motion::{Interpolation, Key, Turn};
     use crate::scene::{Background, Camera, Display, Family, FlipExposures, Mesh, Object};
 
     /// SplitMix64 in [-1, 1): enough to vary poses.
@@ -174,7 +184,7 @@ mod tests {
     }
 
     /// Keys at -0.7, 0 and 0.4 with turns of up to `turn` radians, drifts and growth.
-    fn random_motion(numbers: &mut Numbers, turn: f64) -> Motion {
+    fn random_motion(numbers: &mut Numbers, interpolation: Interpolation, turn: f64) -> Motion {
         let mut orientation = DQuat::from_axis_angle(numbers.vector().normalize(), 1.0);
         let keys = [-0.7, 0.0, 0.4].map(|time| {
             let turn = Turn {
@@ -193,16 +203,17 @@ mod tests {
         });
         Motion {
             keys: keys.to_vec(),
+            interpolation,
         }
     }
 
-    fn scene(numbers: &mut Numbers, turn: f64) -> Scene {
+    fn scene(numbers: &mut Numbers, interpolation: Interpolation, turn: f64) -> Scene {
         let corners = (0..8).map(|_| numbers.vector().as_vec3()).collect();
         let object = |numbers: &mut Numbers, parent| Object {
             name: "thing".into(),
             mesh: 0,
             materials: Vec::new(),
-            motion: random_motion(numbers, turn),
+            motion: random_motion(numbers, interpolation, turn),
             parent,
         };
         Scene {
@@ -222,7 +233,8 @@ mod tests {
             },
             camera: Camera {
                 motion: Motion {
-                    keys: random_motion(numbers, turn)
+                    interpolation,
+                    keys: random_motion(numbers, interpolation, turn)
                         .keys
                         .into_iter()
                         .map(|key| Key {
@@ -254,13 +266,21 @@ mod tests {
         }
     }
 
+    /// Radians between keys: none, a little, nearly half a turn, several turns; for both ways between keys.
+    fn kinds() -> impl Iterator<Item = (Interpolation, f64)> {
+        [Interpolation::Linear, Interpolation::Cubic]
+            .into_iter()
+            .flat_map(|interpolation| {
+                [0.0, 0.3, 179.0_f64.to_radians(), 6.0 * PI].map(|turn| (interpolation, turn))
+            })
+    }
+
     #[test]
     fn a_swept_box_contains_the_mesh_at_every_time() {
         let mut numbers = Numbers(1);
-        // Radians between keys: none, a little, nearly half a turn, several turns.
-        for turn in [0.0, 0.3, 179.0_f64.to_radians(), 6.0 * PI] {
+        for (interpolation, turn) in kinds() {
             for _ in 0..4 {
-                let scene = scene(&mut numbers, turn);
+                let scene = scene(&mut numbers, interpolation, turn);
                 for object in 0..scene.objects.len() {
                     // The interval contains a key and ends beyond the last.
                     for (from, to) in [(-0.1, 0.0), (-0.3, 0.6)] {
@@ -283,9 +303,43 @@ mod tests {
     }
 
     #[test]
+    fn a_path_s_box_contains_it() {
+        let mut numbers = Numbers(3);
+        for _ in 0..20 {
+            let motion = random_motion(&mut numbers, Interpolation::Cubic, 1.0);
+            let bounds = path_bounds(&motion, -0.6, 0.6).grown(1e-12); // Rounding only.
+            for step in 0..=1000 {
+                let point = motion.at(-0.6 + 1.2 * f64::from(step) / 1000.0).translation;
+                assert!(point.cmpge(bounds.min).all() && point.cmple(bounds.max).all());
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_is_faster_than_the_greatest_speed() {
+        let mut numbers = Numbers(4);
+        for (interpolation, turn) in kinds() {
+            let scene = scene(&mut numbers, interpolation, turn);
+            for object in 0..scene.objects.len() {
+                let greatest = greatest_speed(&scene, object, -0.8, 0.6);
+                for step in 0..1000 {
+                    let time = -0.8 + 1.4 * f64::from(step) / 1000.0;
+                    let poses = [time, time + 1e-6].map(|time| scene.object_to_world(object, time));
+                    for position in &scene.meshes[0].positions {
+                        let [now, then] =
+                            poses.map(|pose| pose.transform_point3(position.as_dvec3()));
+                        // A chord is no longer than its arc; rounding divided by the step is 1e-9.
+                        assert!(now.distance(then) / 1e-6 <= greatest + 1e-7);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
     fn the_box_of_a_translation_is_tight() {
         let mut numbers = Numbers(2);
-        let mut scene = scene(&mut numbers, 0.0);
+        let mut scene = scene(&mut numbers, Interpolation::Linear, 0.0);
         for key in &mut scene.objects[0].motion.keys {
             key.scale = DVec3::ONE;
         }

@@ -5,7 +5,7 @@ use toml::Spanned;
 
 use super::document::Document;
 use super::error::SceneError;
-use super::pose::{Pose, Rotation, through};
+use super::pose::{Pose, Rotation, interpolation, through};
 use super::schema::{CameraTable, RotationTable};
 use crate::{Camera, Key, Motion};
 
@@ -29,6 +29,7 @@ pub(super) fn camera(
     if let Some(degrees) = &table.vertical_fov {
         fields_of_view.push((0.0, field_of_view(document, degrees)?));
     }
+    let interpolation = interpolation(document, "the camera", &table.interpolation, &table.keys)?;
     let motion = match (&table.keys, table.position) {
         (None, Some(position)) => {
             let view = View {
@@ -74,7 +75,7 @@ pub(super) fn camera(
                     fields_of_view.push((time, field_of_view(document, degrees)?));
                 }
             }
-            through(document, "the camera", keys.span(), &poses)?
+            through(document, "the camera", keys.span(), &poses, interpolation)?
         }
         _ => {
             let reason = "a camera needs either position with look_at or rotation, or else keys that hold them";

@@ -15,7 +15,7 @@ const VARIANT_KEYS: [&str; 5] = ["background", "camera", "exposure", "object", "
 
 /// Keys of an object that say where it is: still, or moving. Giving one way in a variant takes back the other.
 const STILL_POSE: [&str; 3] = ["translation", "rotation", "scale"];
-const MOVING_POSE: [&str; 1] = ["keys"];
+const MOVING_POSE: [&str; 2] = ["keys", "interpolation"];
 
 /// A scene.toml as text.
 pub(super) struct Document {

@@ -6,15 +6,22 @@ use glam::{DQuat, DVec3};
 use toml::Spanned;
 
 use super::document::Document;
-use super::error::SceneError;
+use super::error::{SceneError, list};
 use super::schema::{ObjectTable, RotationTable, ScaleTable};
-use crate::{Key, Motion, Turn};
+use crate::swept::key_times;
+use crate::{Interpolation, Key, Motion, Turn};
 
 /// Two orientations say nothing about the way between them beyond half a turn; this much is kept off it, in degrees.
 const LARGEST_TURN: f64 = 179.9;
 
 /// Axes closer than this (as unit vectors) are one axis: rounding in a file, not a choice.
 const SAME_AXIS: f64 = 1e-9;
+
+/// The words for the ways between keys.
+const INTERPOLATIONS: [(&str, Interpolation); 2] = [
+    ("linear", Interpolation::Linear),
+    ("cubic", Interpolation::Cubic),
+];
 
 /// How an orientation was written; an axis and degrees can say more than one turn.
 #[derive(Clone, Copy)]
@@ -115,6 +122,8 @@ pub(super) fn object_motion(
         Some(table) => Rotation::read(document, table),
         None => Ok(Rotation::NONE),
     };
+    let what = format!("object \"{name}\"");
+    let interpolation = interpolation(document, &what, &object.interpolation, &object.keys)?;
     let Some(keys) = &object.keys else {
         return Ok(Motion::still(Key {
             translation: object
@@ -132,7 +141,7 @@ pub(super) fn object_motion(
     let still = still.or(object.rotation.as_ref().map(Spanned::span));
     if let Some(place) = still.or(object.scale.as_ref().map(Spanned::span)) {
         let reason = format!(
-            "object \"{name}\" has both keys and a still pose; write translation, rotation and scale into the keys"
+            "{what} has both keys and a still pose; write translation, rotation and scale into the keys"
         );
         return Err(document.error(place, reason));
     }
@@ -146,7 +155,37 @@ pub(super) fn object_motion(
             place: key.time.span(),
         });
     }
-    through(document, &format!("object \"{name}\""), keys.span(), &poses)
+    through(document, &what, keys.span(), &poses, interpolation)
+}
+
+/// How the keys are joined; linearly if nothing is said.
+pub(super) fn interpolation<K>(
+    document: &Document,
+    what: &str,
+    word: &Option<Spanned<String>>,
+    keys: &Option<Spanned<Vec<K>>>,
+) -> Result<Interpolation, SceneError> {
+    let Some(word) = word else {
+        return Ok(Interpolation::default());
+    };
+    if keys.is_none() {
+        let reason = format!(
+            "{what} has an interpolation but no keys to go between; give it keys, or leave interpolation out"
+        );
+        return Err(document.error(word.span(), reason));
+    }
+    let known = INTERPOLATIONS
+        .iter()
+        .find(|(name, _)| name == word.get_ref());
+    let Some((_, interpolation)) = known else {
+        let reason = format!(
+            "interpolation of {what} is \"{}\"; allowed: {}",
+            word.get_ref(),
+            list(INTERPOLATIONS.map(|(name, _)| name))
+        );
+        return Err(document.error(word.span(), reason));
+    };
+    Ok(*interpolation)
 }
 
 /// The motion through poses at rising times.
@@ -155,6 +194,7 @@ pub(super) fn through(
     what: &str,
     place: Range<usize>,
     poses: &[Pose],
+    interpolation: Interpolation,
 ) -> Result<Motion, SceneError> {
     if poses.is_empty() {
         let reason = format!("{what} has empty keys; at least one key is needed");
@@ -174,8 +214,12 @@ pub(super) fn through(
             turn,
         });
     }
-    check_scales(document, what, poses)?;
-    Ok(Motion { keys })
+    let motion = Motion {
+        keys,
+        interpolation,
+    };
+    check_scales(document, what, poses, &motion)?;
+    Ok(motion)
 }
 
 fn turn_between(
@@ -204,26 +248,45 @@ fn turn_between(
 
 /// No factor may pass through 0. A motion goes on beyond its keys, and one frame to either side of the instant may be
 /// asked for.
-fn check_scales(document: &Document, what: &str, poses: &[Pose]) -> Result<(), SceneError> {
-    let last = poses.len().saturating_sub(2);
-    for (index, pair) in poses.windows(2).enumerate() {
-        let [from, to] = [&pair[0], &pair[1]];
-        let earliest = if index == 0 { -1.0 } else { from.time };
-        let latest = if index == last { 1.0 } else { to.time };
-        for time in [to.time, latest, earliest] {
-            let fraction = (time - from.time) / (to.time - from.time);
-            let scale = from.scale.lerp(to.scale, fraction);
-            if (from.scale * scale).min_element() <= 0.0 {
+fn check_scales(
+    document: &Document,
+    what: &str,
+    poses: &[Pose],
+    motion: &Motion,
+) -> Result<(), SceneError> {
+    let earliest = poses[0].time.min(-1.0);
+    let latest = poses[poses.len() - 1].time.max(1.0);
+    let times = key_times([motion], earliest, latest);
+    for span in times.windows(2) {
+        let segment = motion.segment(0.5 * (span[0] + span[1]));
+        let [start, end] = [span[0], span[1]].map(|time| segment.since(time));
+        let inside = (0..3)
+            .flat_map(|axis| segment.scale.part(|scale| scale[axis]).turning_points())
+            .filter(|since| start < *since && *since < end);
+        for since in inside.chain([end, start]) {
+            let scale = segment.scale.at(since);
+            let (pose, next) = keys_beside(poses, span[1]);
+            if (pose.scale * scale).min_element() <= 0.0 {
+                let time = span[0] + (since - start);
                 let reason = format!(
                     "{what} has scale {:.3} at time {} and would have {scale:.3} at {time}; each factor must keep its \
-                     sign, beyond the keys too",
-                    from.scale, from.time
+                     sign, between the keys and beyond them",
+                    pose.scale, pose.time
                 );
-                return Err(document.error(to.place.clone(), reason));
+                return Err(document.error(next.place.clone(), reason));
             }
         }
     }
     Ok(())
+}
+
+/// The keys between which a stretch ends at `end`; beyond the keys, the nearest two.
+fn keys_beside(poses: &[Pose], end: f64) -> (&Pose, &Pose) {
+    let last = poses.len() - 1;
+    let next = poses
+        .partition_point(|pose| pose.time < end)
+        .clamp(last.min(1), last);
+    (&poses[next.saturating_sub(1)], &poses[next])
 }
 
 fn scale(document: &Document, table: &Option<Spanned<ScaleTable>>) -> Result<DVec3, SceneError> {

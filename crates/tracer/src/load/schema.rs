@@ -54,6 +54,7 @@ pub(super) struct CameraTable {
     pub(super) rotation: Option<Spanned<RotationTable>>,
     pub(super) vertical_fov: Option<Spanned<f64>>,
     pub(super) keys: Option<Spanned<Vec<CameraKeyTable>>>,
+    pub(super) interpolation: Option<Spanned<String>>,
 }
 
 #[derive(Deserialize)]
@@ -100,6 +101,7 @@ pub(super) struct ObjectTable {
     pub(super) rotation: Option<Spanned<RotationTable>>,
     pub(super) scale: Option<Spanned<ScaleTable>>,
     pub(super) keys: Option<Spanned<Vec<KeyTable>>>,
+    pub(super) interpolation: Option<Spanned<String>>,
     #[serde(default)]
     pub(super) material: BTreeMap<Spanned<String>, MaterialTable>,
 }
