@@ -4,6 +4,7 @@
 
 use frame::{Alignment, Shutter, Truth};
 use glam::{DQuat, DVec2, DVec3};
+use tests::half_plane::half_plane;
 use tests::shapes::*;
 use tests::statistics::{coverage_estimates, expect_agreement, expect_total};
 use tests::unwatched;
@@ -55,52 +56,6 @@ fn corner(x: u32, y: u32) -> DVec2 {
         f64::from(x) - 0.5 * f64::from(WIDTH),
         0.5 * f64::from(HEIGHT) - f64::from(y) - 1.0,
     )
-}
-
-/// Probability that a sum of independent uniform numbers in `[0, width]` is at most `limit`: a piecewise polynomial
-/// (Feller, volume 2, I.9).
-fn uniform_sum(limit: f64, widths: &[f64]) -> f64 {
-    let widths: Vec<f64> = widths
-        .iter()
-        .copied()
-        .filter(|width| *width > 1e-12)
-        .collect();
-    if limit >= widths.iter().sum() {
-        return 1.0;
-    }
-    let degree = widths.len() as i32;
-    let sum: f64 = (0..1u32 << widths.len())
-        .map(|subset| {
-            let taken = |index: usize| subset >> index & 1 == 1;
-            let shift: f64 = (0..widths.len())
-                .filter(|&index| taken(index))
-                .map(|index| widths[index])
-                .sum();
-            let sign = if subset.count_ones() % 2 == 1 {
-                -1.0
-            } else {
-                1.0
-            };
-            sign * (limit - shift).max(0.0).powi(degree)
-        })
-        .sum();
-    let factorial: f64 = (1..=degree).map(f64::from).product();
-    sum / (factorial * widths.iter().product::<f64>())
-}
-
-/// Part of pixel x shutter in which `normal . p <= offset + speed t`.
-fn half_plane(pixel: DVec2, normal: DVec2, offset: f64, speed: f64, shutter: Shutter) -> f64 {
-    // normal . p - speed t as its least value plus three uniform numbers.
-    let least = |along: f64, from: f64, to: f64| (along * from).min(along * to);
-    let start = least(normal.x, pixel.x, pixel.x + 1.0)
-        + least(normal.y, pixel.y, pixel.y + 1.0)
-        + least(-speed, shutter.open, shutter.close);
-    let widths = [
-        normal.x.abs(),
-        normal.y.abs(),
-        (speed * shutter.exposure()).abs(),
-    ];
-    uniform_sum(offset - start, &widths)
 }
 
 /// Mean of `value` over a pixel, by the midpoint rule on `side` squared points.
@@ -196,6 +151,48 @@ fn a_slab_covers_the_difference_of_two_half_planes() {
                     - half_plane(pixel, normal, behind, speed, shutter)
             },
         );
+    }
+}
+
+#[test]
+fn several_keys_inside_one_shutter_cover_the_sum_of_their_ways() {
+    // Ahead, back faster, and ahead again: keys inside the shutter of every alignment.
+    let keys = [
+        (-0.9, 0.0),
+        (-0.4, 6.0),
+        (-0.2, 1.0),
+        (0.1, 3.0),
+        (0.3, -2.0),
+        (0.9, 5.0),
+    ];
+    for (alignment, angle) in cases() {
+        let normal = DVec2::from_angle(angle);
+        let mut scene = scene(rectangle(400.0, 400.0), DVec2::ZERO, angle, DVec2::ZERO);
+        let key = |(time, along): (f64, f64)| {
+            let place = (along - 200.0) * normal;
+            Key {
+                time,
+                translation: DVec3::new(place.x, place.y, -DISTANCE),
+                orientation: DQuat::from_rotation_z(angle),
+                ..Key::REST
+            }
+        };
+        scene.objects[0].motion.keys = keys.map(key).to_vec();
+        expect("reversals", &scene, alignment, |pixel, shutter| {
+            keys.windows(2)
+                .map(|pair| {
+                    let [(from, start), (to, end)] = [pair[0], pair[1]];
+                    let span = [from.max(shutter.open), to.min(shutter.close)];
+                    if span[0] >= span[1] {
+                        return 0.0;
+                    }
+                    let speed = (end - start) / (to - from);
+                    let part = Shutter::new(span[0], span[1]).expect("not empty");
+                    let weight = part.exposure() / shutter.exposure();
+                    weight * half_plane(pixel, normal, start - speed * from, speed, part)
+                })
+                .sum()
+        });
     }
 }
 

@@ -4,8 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use frame::{
-    Accumulation, Alignment, Channel, ExrFile, FileError, Frame, Image, Ladder, Picture, Plane,
-    Provenance, Raster, Samples, Truth, VelocityKind, read_exr, write_atomically, write_exr,
+    Accumulation, Alignment, Channel, Efficiency, ExrFile, FileError, Frame, Image, Ladder,
+    Picture, Plane, Provenance, Raster, Samples, ShutterProfile, Truth, VelocityKind, read_exr,
+    write_atomically, write_exr,
 };
 
 const WIDTH: u32 = 13;
@@ -74,11 +75,67 @@ fn a_truth() -> Truth {
     Truth {
         provenance: provenance(),
         shutter: Alignment::Centred.shutter(1.0 / 3.0).unwrap(),
+        shutter_profile: profiles()[0].clone(),
         alignment: Alignment::Centred,
         objects: objects(),
         halves: [picture(20), picture(30)],
         standard_error: image(40),
         motion: plane(50),
+    }
+}
+
+/// Shutters of every kind, with numbers that short decimals cannot represent.
+fn profiles() -> [ShutterProfile; 3] {
+    let efficiencies = [
+        Efficiency::Table(vec![0.1 + 0.2, 1.0, 1.0 / 3.0]),
+        Efficiency::Trapezoid {
+            rise: 1.0 / 3.0,
+            fall: 0.1 + 0.2,
+        },
+        Efficiency::Box,
+    ];
+    efficiencies.map(|efficiency| ShutterProfile {
+        efficiency,
+        rolling: -1.0 / 7.0,
+    })
+}
+
+#[test]
+fn every_shutter_comes_back_bit_for_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("truth.exr");
+    for shutter_profile in profiles() {
+        let truth = Truth {
+            shutter_profile,
+            ..a_truth()
+        };
+        truth.write(&path).unwrap();
+        assert_eq!(Truth::read(&path).unwrap(), truth);
+    }
+}
+
+#[test]
+fn a_file_with_a_shutter_that_cannot_be_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("truth.exr");
+    a_truth().write(&path).unwrap();
+    for (efficiency, reason) in [
+        (
+            "round",
+            "attribute \"shutter_efficiency\" holds \"round\", which cannot be read",
+        ),
+        (
+            "table 1 x",
+            "attribute \"shutter_efficiency\" holds \"table 1 x\", which cannot be read",
+        ),
+        ("table 1 2", "efficiency holds 2; allowed: 0 to 1"),
+    ] {
+        let mut file = read_exr(&path).unwrap();
+        file.set("shutter_efficiency", efficiency);
+        let spoilt = folder.path().join("spoilt.exr");
+        write_exr(&spoilt, &file).unwrap();
+        let error = Truth::read(&spoilt).unwrap_err().to_string();
+        assert!(error.ends_with(reason), "{error}");
     }
 }
 
@@ -116,6 +173,7 @@ fn a_ladder_comes_back_bit_for_bit() {
     let ladder = Ladder {
         provenance: provenance(),
         shutter: a_truth().shutter,
+        shutter_profile: a_truth().shutter_profile,
         alignment: Alignment::Centred,
         objects: objects(),
         rungs: [1, 2, 64]

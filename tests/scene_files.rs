@@ -4,6 +4,7 @@ mod scene_folder;
 
 use std::f64::consts::{PI, TAU};
 
+use frame::{Efficiency, ShutterProfile};
 use glam::{DVec3, Vec2, Vec3};
 use scene_folder::{Folder, OBJ, SCENE};
 use tracer::{Background, Family, Interpolation, Parent, load_scene};
@@ -26,6 +27,12 @@ fn the_documented_example_loads() {
     assert_eq!(scene.display.flip.count, 5);
     assert!(matches!(scene.background, Background::Gradient { .. }));
     assert_eq!(scene.sun.unwrap().angular_radius, 0.27f64.to_radians());
+    let trapezoid = Efficiency::Trapezoid {
+        rise: 0.2,
+        fall: 0.1,
+    };
+    assert_eq!(scene.shutter_profile.efficiency, trapezoid);
+    assert_eq!(scene.shutter_profile.rolling, 0.05);
     let names: Vec<_> = scene
         .objects
         .iter()
@@ -39,6 +46,12 @@ fn the_documented_example_loads() {
 
     let fast = load_scene(&folder.path, Some("fast")).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!((fast.name.as_str(), fast.exposure), ("square@fast", 1.0));
+    let table = Efficiency::Table(vec![0.0, 1.0, 1.0, 0.4]);
+    let expected = ShutterProfile {
+        efficiency: table,
+        rolling: 0.0,
+    };
+    assert_eq!(fast.shutter_profile, expected);
     let moved = fast.object_to_world(0, 1.0).translation;
     assert_eq!(moved, DVec3::new(2.0, 0.0, 0.0));
 }
@@ -47,6 +60,7 @@ fn the_documented_example_loads() {
 fn what_a_scene_leaves_out_has_its_documented_value() {
     let scene = Folder::new().load().unwrap();
     assert_eq!(scene.display.stops, 0.0);
+    assert_eq!(scene.shutter_profile, ShutterProfile::default());
     let flip = scene.display.flip;
     assert_eq!((flip.start, flip.stop, flip.count), (-2.0, 2.0, 5));
     assert_eq!(scene.sun.unwrap().angular_radius, 0.0);

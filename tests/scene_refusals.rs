@@ -51,6 +51,11 @@ fn slips_in_the_ways_between_keys_are_refused() {
 }
 
 #[test]
+fn slips_in_shutters_are_refused() {
+    check("scene.toml", SHUTTER_SLIPS);
+}
+
+#[test]
 fn slips_in_meshes_are_refused() {
     check("mesh.obj", OBJ_SLIPS);
 }
@@ -139,8 +144,8 @@ const KEYS: &str = "    { time = -1 },\n    { time = 1, translation = [1, 0, 0] 
 const SCENE_SLIPS: &[Slip] = &[
     ("not TOML", "exposure = 0.5", "exposure 0.5", 
         "scene.toml:3: key with no value, allowed: `=`"),
-    ("unknown key", "exposure = 0.5", "exposure = 0.5\nshutter = 1", 
-        "scene.toml:4: unknown key `shutter`, allowed: `exposes`, `family`, `exposure`, `size`, `display`, `camera`, `background`, `sun`, `object`, `variant`"),
+    ("unknown key", "exposure = 0.5", "exposure = 0.5\nshuter = 1", 
+        "scene.toml:4: unknown key `shuter`, allowed: `exposes`, `family`, `exposure`, `size`, `shutter`, `display`, `camera`, `background`, `sun`, `object`, `variant`"),
     ("unknown key of the camera", "vertical_fov = 40", "vertical_fov = 40\nscale = 2", 
         "scene.toml:10: unknown key `scale`, allowed: `position`, `look_at`, `up`, `rotation`, `vertical_fov`, `keys`, `interpolation`"),
     ("unknown key of an object", "parent = \"body\"", "father = \"body\"", 
@@ -148,7 +153,7 @@ const SCENE_SLIPS: &[Slip] = &[
     ("unknown key in a variant", "{ time = 1, translation = [2, 0, 0] }", "{ time = 1, move = [2, 0, 0] }", 
         "scene.toml:37: unknown key `move`, allowed: `time`, `translation`, `rotation`, `scale`"),
     ("unknown table in a variant", "[variant.fast.object.body]", "[variant.fast.objects.body]", 
-        "scene.toml:34: variant \"fast\" changes \"objects\"; a variant may change: background, camera, exposure, object, sun"),
+        "scene.toml:34: variant \"fast\" changes \"objects\"; a variant may change: background, camera, exposure, object, shutter, sun"),
     ("unknown object in a variant", "[variant.fast.object.body]", "[variant.fast.object.boddy]", 
         "scene.toml:34: variant \"fast\" changes object \"boddy\", which the scene lacks; objects: body, part"),
     ("variant with a slash", "[variant.fast.object.body]", "[variant.\"../fast\".object.body]",
@@ -289,6 +294,26 @@ const POSE_SLIPS: &[Slip] = &[
         "scene.toml:22: object \"body\" has scale [1.000, 1.000, 1.000] at time -1 and would have [1.000, 1.000, -1.000] at 1; each factor must keep its sign, between the keys and beyond them"),
     ("scale through zero beyond the keys", KEYS, "{ time = -1, scale = 1 },\n{ time = 0, scale = 0.4 },\n", 
         "scene.toml:22: object \"body\" has scale [1.000, 1.000, 1.000] at time -1 and would have [-0.200, -0.200, -0.200] at 1; each factor must keep its sign, between the keys and beyond them"),
+];
+
+#[rustfmt::skip]
+const SHUTTER_SLIPS: &[Slip] = &[
+    ("ramps too long", "[camera]", "[shutter]\nrise = 0.75\nfall = 0.5\n[camera]", 
+        "scene.toml:6: shutter rises during 0.75 and falls during 0.5 of the exposure; allowed: 0 and above, together at most 1"),
+    ("negative ramp", "[camera]", "[shutter]\nfall = -0.5\n[camera]", 
+        "scene.toml:6: shutter rises during 0 and falls during -0.5 of the exposure; allowed: 0 and above, together at most 1"),
+    ("two kinds of shutter", "[camera]", "[shutter]\nfall = 0.5\nefficiency = [1, 1]\n[camera]", 
+        "scene.toml:6: the shutter has an efficiency and a rise or fall; give one or the other"),
+    ("empty table", "[camera]", "[shutter]\nefficiency = []\n[camera]", 
+        "scene.toml:6: efficiency holds 0 values; allowed: 2 and more, at equal steps from the opening to the closing"),
+    ("negative efficiency", "[camera]", "[shutter]\nefficiency = [1, -1]\n[camera]", 
+        "scene.toml:6: efficiency holds -1; allowed: 0 to 1"),
+    ("dark shutter", "[camera]", "[shutter]\nefficiency = [0, 0, 0]\n[camera]", 
+        "scene.toml:6: efficiency is 0 throughout, and no light passes; at least one value must be above 0"),
+    ("endless rolling", "[camera]", "[shutter]\nrolling = inf\n[camera]", 
+        "scene.toml:7: found inf; allowed: finite numbers"),
+    ("unknown key of the shutter", "[camera]", "[shutter]\nopen = 0\n[camera]", 
+        "scene.toml:7: unknown key `open`, allowed: `rise`, `fall`, `efficiency`, `rolling`"),
 ];
 
 #[rustfmt::skip]

@@ -1,5 +1,6 @@
 //! What several integration tests share.
 
+pub mod half_plane;
 pub mod random;
 pub mod shapes;
 pub mod statistics;

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use frame::ShutterProfile;
 use glam::{DQuat, DVec3, Vec3};
 use tracer::{
     Background, Camera, Display, Family, FlipExposures, Key, Material, Mesh, Motion, Object,
@@ -15,6 +16,7 @@ pub fn empty_scene(name: &str) -> Scene {
         exposes: "a test".into(),
         family: Family::Translation,
         exposure: 1.0,
+        shutter_profile: ShutterProfile::default(),
         width: 48,
         height: 27,
         display: Display {

@@ -3,7 +3,7 @@
 
 use frame::{
     Accumulation, Alignment, FAR_DEPTH, Frame, Image, Ladder, Picture, Plane, Provenance, Raster,
-    Shutter, Truth, VelocityKind,
+    Shutter, ShutterProfile, Truth, VelocityKind,
 };
 use metrics::Viewing;
 
@@ -126,6 +126,7 @@ impl Scene {
         Truth {
             provenance: Provenance::default(),
             shutter: shutter(),
+            shutter_profile: ShutterProfile::default(),
             alignment: Alignment::Trailing,
             objects: self.names(),
             standard_error: halves[0].color.zip(&halves[1].color, |a, b| {
@@ -151,6 +152,7 @@ impl Scene {
         Ladder {
             provenance: Provenance::default(),
             shutter: shutter(),
+            shutter_profile: ShutterProfile::default(),
             alignment: Alignment::Trailing,
             objects: self.names(),
             rungs: [1, 2, 4, 8, 16, 32, 64].map(rung).to_vec(),

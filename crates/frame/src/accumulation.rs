@@ -4,10 +4,10 @@ use std::path::Path;
 
 use crate::exr_file::{ExrFile, read_exr, write_exr};
 use crate::truth::{get_shutter, set_shutter};
-use crate::{Alignment, FileError, Picture, Provenance, Shutter};
+use crate::{Alignment, FileError, Picture, Provenance, Shutter, ShutterProfile};
 
-/// The mean of `subframes` instants at the midpoints of equal parts of the shutter: part k of N is seen at
-/// `open + (k + 0.5) / N * (close - open)`.
+/// The mean of `subframes` instants at the middles of equal parts of the shutter's light: instant k of N is the one by
+/// which `(k + 0.5) / N` of it has passed; for a shutter that opens at once `open + (k + 0.5) / N * (close - open)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Accumulation {
     /// How many instants were averaged.
@@ -23,6 +23,8 @@ pub struct Ladder {
     pub provenance: Provenance,
     /// The interval that the sub-frames divide.
     pub shutter: Shutter,
+    /// How the shutter opens and closes, and how rows follow one another.
+    pub shutter_profile: ShutterProfile,
     /// Where that interval lies relative to the instant.
     pub alignment: Alignment,
     /// Object names; the index is the object id, and 0 is `background`.
@@ -52,6 +54,7 @@ impl Ladder {
             .collect();
         file.set("kind", "ladder");
         set_shutter(&mut file, self.shutter, self.alignment);
+        self.shutter_profile.set(&mut file);
         file.set("objects", self.objects.join(" "));
         file.set("subframes", subframes.join(" "));
         self.provenance.set(&mut file);
@@ -81,6 +84,7 @@ impl Ladder {
         Ok(Self {
             provenance: Provenance::from_exr(&file)?,
             shutter,
+            shutter_profile: ShutterProfile::from_exr(&file)?,
             alignment,
             objects,
             rungs,

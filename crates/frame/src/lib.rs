@@ -30,6 +30,7 @@ mod raster;
 mod region;
 mod replicate;
 mod shutter;
+mod shutter_profile;
 mod truth;
 
 pub use accumulation::{Accumulation, Ladder};
@@ -43,4 +44,5 @@ pub use raster::{Image, Plane, Raster, Vectors};
 pub use region::{Region, Regions, regions};
 pub use replicate::Replicate;
 pub use shutter::{Alignment, Shutter, ShutterError};
+pub use shutter_profile::{Efficiency, ShutterProfile};
 pub use truth::{Truth, TruthError, truth_hash};

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::exr_file::{ExrFile, read_exr, write_exr};
 use crate::truth::{get_shutter, set_shutter};
-use crate::{Alignment, FileError, Picture, Provenance, Shutter};
+use crate::{Alignment, FileError, Picture, Provenance, Shutter, ShutterProfile};
 
 /// One of the renders that a [`Truth`](crate::Truth) is the mean of. All rasters have the same size.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +15,8 @@ pub struct Replicate {
     pub index: u32,
     /// The interval integrated over.
     pub shutter: Shutter,
+    /// How the shutter opens and closes, and how rows follow one another.
+    pub shutter_profile: ShutterProfile,
     /// Where that interval lies relative to the instant.
     pub alignment: Alignment,
     /// Object names; the index is the object id, and 0 is `background`.
@@ -34,6 +36,7 @@ impl Replicate {
         file.set("kind", "replicate");
         file.set("replicate", self.index);
         set_shutter(&mut file, self.shutter, self.alignment);
+        self.shutter_profile.set(&mut file);
         file.set("objects", self.objects.join(" "));
         let moving: Vec<&str> = (self.objects.iter().zip(&self.moving))
             .filter(|(_, moves)| **moves)
@@ -55,6 +58,7 @@ impl Replicate {
             provenance: Provenance::from_exr(&file)?,
             index: file.get("replicate")?,
             shutter,
+            shutter_profile: ShutterProfile::from_exr(&file)?,
             alignment,
             moving: objects.iter().map(|name| moving.contains(name)).collect(),
             picture: Picture::from_exr(&file, "", &objects)?,

@@ -28,6 +28,31 @@ pub enum ShutterError {
     /// The exposure is not a positive, finite number of frames.
     #[error("exposure is {0} frames; allowed: above 0 and finite (0.5 frames = 180 degrees)")]
     Exposure(f64),
+    /// Opening and closing take longer than the exposure, or less than nothing.
+    #[error(
+        "shutter rises during {rise} and falls during {fall} of the exposure; allowed: 0 and above, together at \
+         most 1"
+    )]
+    Ramps {
+        /// Part of the exposure that opening was to take.
+        rise: f64,
+        /// Part of the exposure that closing was to take.
+        fall: f64,
+    },
+    /// A table of efficiencies with so few values.
+    #[error(
+        "efficiency holds {0} values; allowed: 2 and more, at equal steps from the opening to the closing"
+    )]
+    Table(usize),
+    /// An efficiency that is no fraction.
+    #[error("efficiency holds {0}; allowed: 0 to 1")]
+    Efficiency(f64),
+    /// A table of zeros.
+    #[error("efficiency is 0 throughout, and no light passes; at least one value must be above 0")]
+    Dark,
+    /// A delay between rows that is not finite.
+    #[error("rolling is {0} frames; allowed: finite numbers")]
+    Rolling(f64),
 }
 
 impl Shutter {

@@ -6,7 +6,7 @@ use crate::exr_file::{ExrFile, read_exr, write_exr};
 use crate::region::noise_floor;
 use crate::{
     Alignment, FileError, Image, Picture, Plane, Provenance, Region, Regions, Replicate, Shutter,
-    regions,
+    ShutterProfile, regions,
 };
 
 /// Radiance and visibility integrated over the shutter, with its own noise. All rasters have the same size.
@@ -16,6 +16,8 @@ pub struct Truth {
     pub provenance: Provenance,
     /// The interval integrated over.
     pub shutter: Shutter,
+    /// How the shutter opens and closes, and how rows follow one another.
+    pub shutter_profile: ShutterProfile,
     /// Where that interval lies relative to the instant.
     pub alignment: Alignment,
     /// Object names; the index is the object id, and 0 is `background`.
@@ -95,6 +97,7 @@ impl Truth {
                 ..first.provenance.clone()
             },
             shutter: first.shutter,
+            shutter_profile: first.shutter_profile.clone(),
             alignment: first.alignment,
             objects: first.objects.clone(),
             motion: motion(&Picture::mean(&halves), &first.moving),
@@ -145,6 +148,7 @@ impl Truth {
             file.set(&format!("noise_floor_{region}"), floor);
         }
         set_shutter(&mut file, self.shutter, self.alignment);
+        self.shutter_profile.set(&mut file);
         file.set("objects", self.objects.join(" "));
         file.set(
             "convention",
@@ -163,6 +167,7 @@ impl Truth {
         Ok(Self {
             provenance: Provenance::from_exr(&file)?,
             shutter,
+            shutter_profile: ShutterProfile::from_exr(&file)?,
             alignment,
             halves: [
                 Picture::from_exr(&file, "A", &objects)?,

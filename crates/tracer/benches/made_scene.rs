@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::path::PathBuf;
 
+use frame::ShutterProfile;
 use glam::{DQuat, DVec3, Vec3};
 use tracer::{
     Background, Camera, Display, Family, FlipExposures, Key, Material, Mesh, Motion, Object,
@@ -45,6 +46,7 @@ pub fn made_scene(moving: bool) -> Scene {
         exposes: "the speed of rays".into(),
         family: Family::Limits,
         exposure: 1.0,
+        shutter_profile: ShutterProfile::default(),
         width: 1920,
         height: 1080,
         display: Display {
@@ -104,6 +106,7 @@ fn drift(index: u32) -> Motion {
                 ..key(close, start + 0.5 * way)
             },
         ],
+        ..Motion::default()
     }
 }
 

@@ -2,11 +2,12 @@
 
 use std::ops::Range;
 
-use frame::{Image, Picture, Plane, Shutter};
+use frame::{Image, Picture, Plane};
 use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::camera::View;
+use crate::opening::Opening;
 use crate::path::Integrator;
 use crate::poses::Poses;
 use crate::progress::Meter;
@@ -20,13 +21,13 @@ const PIXELS_PER_TASK: usize = 32;
 
 /// When the samples of a picture are taken.
 #[derive(Clone, Copy)]
-pub(crate) enum Times {
+pub(crate) enum Times<'a> {
     /// All at `t = 0`.
     Instant,
-    /// Evenly over the shutter.
-    Open(Shutter),
-    /// At the midpoints of so many equal parts of the shutter.
-    Midpoints(Shutter, u32),
+    /// Evenly over the light that passes the shutter.
+    Open(&'a Opening),
+    /// At the middles of so many equal parts of that light.
+    Midpoints(&'a Opening, u32),
 }
 
 /// A render: what every pixel's samples have in common.
@@ -36,7 +37,7 @@ pub(crate) struct Film<'a> {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    pub times: Times,
+    pub times: Times<'a>,
     /// Independent, complete sets of samples, by the numbers that choose their random numbers.
     pub replicates: Range<u32>,
     /// A power of two.
@@ -60,23 +61,15 @@ pub(crate) struct PixelMean {
     pub coverage: Vec<f32>,
 }
 
-impl Times {
-    /// The interval of all times.
-    pub fn interval(self) -> [f64; 2] {
-        match self {
-            Times::Instant => [0.0, 0.0],
-            Times::Open(shutter) | Times::Midpoints(shutter, _) => [shutter.open, shutter.close],
-        }
-    }
-
-    /// From a number in [0, 1).
-    fn at(self, fraction: f64) -> f64 {
+impl Times<'_> {
+    /// From a number in [0, 1), for a row of the picture.
+    fn at(self, part: f64, row: u32, height: u32) -> f64 {
         match self {
             Times::Instant => 0.0,
-            Times::Open(shutter) => shutter.at(fraction),
-            Times::Midpoints(shutter, parts) => {
+            Times::Open(opening) => opening.at(part, row, height),
+            Times::Midpoints(opening, parts) => {
                 let parts = f64::from(parts);
-                shutter.at(((fraction * parts).floor() + 0.5) / parts)
+                opening.at(((part * parts).floor() + 0.5) / parts, row, height)
             }
         }
     }
@@ -118,15 +111,15 @@ impl<'a> Film<'a> {
     }
 
     fn estimate(&self, eye: &mut Eye, pixel: u32, replicate: u32) -> Estimate {
-        let [column, row] = [pixel % self.width, pixel / self.width].map(f64::from);
+        let [column, row] = [pixel % self.width, pixel / self.width];
         let seed = pixel_seed(self.seed, self.stream, pixel, replicate);
         let mut sum = DVec3::ZERO;
         let mut seen = vec![0; eye.scene.objects.len() + 1];
         for index in 0..self.samples_per_replicate {
             let sampler = Sampler::new(seed, index);
-            let [x, y, fraction, _] = sampler.camera();
-            let time = self.times.at(fraction);
-            let ray = eye.look(time).ray(column + x, row + y);
+            let [x, y, part, _] = sampler.camera();
+            let time = self.times.at(part, row, self.height);
+            let ray = (eye.look(time)).ray(f64::from(column) + x, f64::from(row) + y);
             let sample = self.integrator.trace(&mut eye.poses, ray, &sampler);
             debug_assert!(sample.radiance.is_finite(), "radiance is a finite number");
             sum += sample.radiance.as_dvec3();
@@ -152,11 +145,11 @@ impl<'a> Eye<'a> {
     fn new(film: &Film<'a>) -> Self {
         let stage: &Stage<'a> = film.integrator.stage;
         let scene = stage.scene;
-        let [open, _] = film.times.interval();
+        let poses = stage.poses();
         Self {
             scene,
-            poses: stage.poses(),
-            view: scene.camera.view(open, film.width, film.height),
+            view: scene.camera.view(poses.time(), film.width, film.height),
+            poses,
             moves: scene.camera.motion.keys.len() > 1 || scene.camera.vertical_fov.len() > 1,
             size: [film.width, film.height],
         }

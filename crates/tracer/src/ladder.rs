@@ -3,6 +3,7 @@
 use frame::{Accumulation, Ladder, Picture, Plane, Truth};
 
 use crate::film::{Estimate, Film, PixelMean, Times};
+use crate::opening::Opening;
 use crate::path::Integrator;
 use crate::progress::{Meter, Watch};
 use crate::provenance::{ladder_hash, object_names, provenance};
@@ -37,7 +38,9 @@ pub fn trace_ladder(
         (settings.width, settings.height),
         "the truth was made with the ladder's settings"
     );
-    let stage = Stage::new(scene, shutter.open, shutter.close);
+    let whole = scene.shutter_profile.whole(shutter);
+    let stage = Stage::new(scene, whole.open, whole.close);
+    let opening = Opening::new(shutter, &scene.shutter_profile);
     let pixels = pixels_near_motion(&truth.motion, truth.motion_margin());
     let mean = truth.mean();
     let samples_per_replicate = affordable(settings, &mean.coverage[0], &pixels, subframes.len());
@@ -52,7 +55,7 @@ pub fn trace_ladder(
             integrator: Integrator::new(&stage, shutter.at(0.5)),
             width: settings.width,
             height: settings.height,
-            times: Times::Midpoints(shutter, subframes),
+            times: Times::Midpoints(&opening, subframes),
             replicates: 0..REPLICATES,
             samples_per_replicate,
             seed: settings.seed,
@@ -79,6 +82,7 @@ pub fn trace_ladder(
             ladder_hash(scene, settings, subframes),
         ),
         shutter,
+        shutter_profile: scene.shutter_profile.clone(),
         alignment: settings.alignment,
         objects: object_names(scene),
         rungs,

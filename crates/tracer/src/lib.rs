@@ -17,6 +17,7 @@ mod lobe;
 mod mesh_tree;
 mod motion;
 mod moving;
+mod opening;
 mod path;
 mod poses;
 mod progress;

@@ -22,7 +22,7 @@ pub fn replicate_hash(scene: &Scene, settings: &TruthSettings) -> String {
         replicates: 1,
         ..*settings
     };
-    content_hash(scene, "replicate", &each)
+    content_hash(scene, "replicate", &(each, &scene.shutter_profile))
 }
 
 /// The content hash of the truth that [`trace_truth`](crate::trace_truth) would make; see [`frame_hash`].
@@ -33,7 +33,11 @@ pub fn truth_hash(scene: &Scene, settings: &TruthSettings) -> String {
 /// The content hash of the ladder that [`trace_ladder`](crate::trace_ladder) would make from the truth of the same
 /// settings; see [`frame_hash`].
 pub fn ladder_hash(scene: &Scene, settings: &TruthSettings, subframes: &[u32]) -> String {
-    content_hash(scene, "ladder", &(settings, subframes))
+    content_hash(
+        scene,
+        "ladder",
+        &(settings, subframes, &scene.shutter_profile),
+    )
 }
 
 pub(crate) fn provenance(

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use frame::ShutterProfile;
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
 use crate::motion::Motion;
@@ -17,6 +18,8 @@ pub struct Scene {
     pub family: Family,
     /// Exposure in frames; 0.5 = 180 degrees.
     pub exposure: f64,
+    /// How the shutter opens and closes, and how rows follow one another.
+    pub shutter_profile: ShutterProfile,
     /// Default width in pixels.
     pub width: u32,
     /// Default height in pixels.

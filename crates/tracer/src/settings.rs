@@ -148,7 +148,9 @@ impl TruthSettings {
         }
         check_samples(self.samples_per_pixel, self.replicates)?;
         let shutter = self.alignment.shutter(self.exposure)?;
-        check_field_of_view(scene, shutter.open, shutter.close)?;
+        scene.shutter_profile.check()?;
+        let whole = scene.shutter_profile.whole(shutter);
+        check_field_of_view(scene, whole.open, whole.close)?;
         Ok(shutter)
     }
 }

@@ -160,6 +160,7 @@ mod tests {
     use std::f64::consts::PI;
     use std::path::PathBuf;
 
+    use frame::ShutterProfile;
     use glam::DQuat;
 
     use super::*;
@@ -221,6 +222,7 @@ mod tests {
             exposes: String::new(),
             family: Family::Rotation,
             exposure: 1.0,
+            shutter_profile: ShutterProfile::default(),
             width: 1,
             height: 1,
             display: Display {

@@ -4,6 +4,7 @@ use frame::{Replicate, Shutter, Truth};
 
 use crate::film::{Film, PixelMean, Times, picture};
 use crate::moving::moving_objects;
+use crate::opening::Opening;
 use crate::path::Integrator;
 use crate::progress::{Meter, Progress, Watch};
 use crate::provenance::{object_names, provenance, replicate_hash};
@@ -17,6 +18,7 @@ pub struct TruthTracer<'a> {
     stage: Stage<'a>,
     settings: TruthSettings,
     shutter: Shutter,
+    opening: Opening,
     moving: Vec<bool>,
 }
 
@@ -44,11 +46,13 @@ impl<'a> TruthTracer<'a> {
     /// Refuses what cannot be rendered.
     pub fn new(scene: &'a Scene, settings: &TruthSettings) -> Result<Self, TraceError> {
         let shutter = settings.check(scene)?;
+        let whole = scene.shutter_profile.whole(shutter);
         Ok(Self {
-            stage: Stage::new(scene, shutter.open, shutter.close),
+            stage: Stage::new(scene, whole.open, whole.close),
             settings: *settings,
             shutter,
-            moving: moving_objects(scene, shutter),
+            opening: Opening::new(shutter, &scene.shutter_profile),
+            moving: moving_objects(scene, whole),
         })
     }
 
@@ -60,7 +64,7 @@ impl<'a> TruthTracer<'a> {
             integrator: Integrator::new(&self.stage, self.shutter.at(0.5)),
             width,
             height,
-            times: Times::Open(self.shutter),
+            times: Times::Open(&self.opening),
             replicates: index..index + 1,
             samples_per_replicate: self.settings.samples_per_replicate(),
             seed: self.settings.seed,
@@ -80,6 +84,7 @@ impl<'a> TruthTracer<'a> {
             ),
             index,
             shutter: self.shutter,
+            shutter_profile: scene.shutter_profile.clone(),
             alignment: self.settings.alignment,
             objects: object_names(scene),
             moving: self.moving.clone(),

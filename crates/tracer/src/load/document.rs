@@ -11,7 +11,14 @@ use super::error::{SceneError, is_name, list};
 use super::schema::SceneTable;
 
 /// What a variant may change.
-const VARIANT_KEYS: [&str; 5] = ["background", "camera", "exposure", "object", "sun"];
+const VARIANT_KEYS: [&str; 6] = [
+    "background",
+    "camera",
+    "exposure",
+    "object",
+    "shutter",
+    "sun",
+];
 
 /// Keys of an object that say where it is: still, or moving. Giving one way in a variant takes back the other.
 const STILL_POSE: [&str; 3] = ["translation", "rotation", "scale"];

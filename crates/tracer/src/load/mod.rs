@@ -15,6 +15,7 @@ mod obj_check;
 mod objects;
 mod pose;
 mod schema;
+mod shutter;
 mod statements;
 mod texture;
 
@@ -45,6 +46,7 @@ pub fn load_scene(folder: &Path, variant: Option<&str>) -> Result<Scene, SceneEr
     }
     check_frame(&document, &table)?;
 
+    let shutter_profile = shutter::shutter_profile(&document, &table.shutter)?;
     let camera = camera::camera(&document, &table.camera)?;
     let background = light::background(&document, &table.background)?;
     let sun = table.sun.as_ref().map(|sun| light::sun(&document, sun));
@@ -59,6 +61,7 @@ pub fn load_scene(folder: &Path, variant: Option<&str>) -> Result<Scene, SceneEr
         exposes: table.exposes.into_inner(),
         family: table.family,
         exposure: table.exposure.into_inner(),
+        shutter_profile,
         width,
         height,
         display,

@@ -17,6 +17,7 @@ pub(super) struct SceneTable {
     pub(super) family: Family,
     pub(super) exposure: Spanned<f64>,
     pub(super) size: Spanned<[u32; 2]>,
+    pub(super) shutter: Option<Spanned<ShutterTable>>,
     #[serde(default)]
     pub(super) display: DisplayTable,
     pub(super) camera: Spanned<CameraTable>,
@@ -27,6 +28,15 @@ pub(super) struct SceneTable {
     /// Taken out before the rest is read; stands here so that messages list it among the keys.
     #[serde(rename = "variant")]
     pub(super) _variant: Option<IgnoredAny>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ShutterTable {
+    pub(super) rise: Option<f64>,
+    pub(super) fall: Option<f64>,
+    pub(super) efficiency: Option<Vec<f64>>,
+    pub(super) rolling: Option<f64>,
 }
 
 #[derive(Default, Deserialize)]

@@ -1,0 +1,299 @@
+//! Shutters that open gradually, and rows that follow one another, against closed forms.
+//!
+//! The camera sees one metre as one pixel at the shapes' distance, the image's centre at the origin.
+
+use frame::{Alignment, Efficiency, Shutter, ShutterError, ShutterProfile, Truth};
+use glam::{DQuat, DVec2, DVec3};
+use tests::half_plane::{area, half_plane};
+use tests::shapes::*;
+use tests::statistics::{coverage_estimates, expect_agreement, expect_total};
+use tests::unwatched;
+use tracer::{
+    Interpolation, Key, Motion, Scene, TraceError, TruthSettings, replicate_hash, trace_ladder,
+    trace_truth,
+};
+
+const WIDTH: u32 = 32;
+const HEIGHT: u32 = 18;
+/// At a vertical field of view of 90 degrees half the height in pixels is the focal length.
+const DISTANCE: f64 = 0.5 * HEIGHT as f64;
+/// Pixels per frame, and frames.
+const SPEED: f64 = 14.0;
+const EXPOSURE: f64 = 0.75;
+
+fn settings(alignment: Alignment) -> TruthSettings {
+    TruthSettings {
+        width: WIDTH,
+        height: HEIGHT,
+        exposure: EXPOSURE,
+        alignment,
+        samples_per_pixel: 1024,
+        ..TruthSettings::default()
+    }
+}
+
+/// A white half-plane on black whose edge lies `along(t)` pixels from the centre in the direction of `normal`.
+fn scene(normal: DVec2, times: &[f64], along: impl Fn(f64) -> f64) -> Scene {
+    let mut scene = empty_scene("shutter");
+    let key = |&time: &f64| {
+        let place = (along(time) - 200.0) * normal;
+        Key {
+            time,
+            translation: DVec3::new(place.x, place.y, -DISTANCE),
+            orientation: DQuat::from_rotation_z(normal.to_angle()),
+            ..Key::REST
+        }
+    };
+    let motion = Motion {
+        keys: times.iter().map(key).collect(),
+        interpolation: Interpolation::Cubic,
+    };
+    add(&mut scene, rectangle(400.0, 400.0), glowing(1.0), motion);
+    scene
+}
+
+/// Lower left corner of a pixel, y up.
+fn corner(x: u32, y: u32) -> DVec2 {
+    DVec2::new(
+        f64::from(x) - 0.5 * f64::from(WIDTH),
+        0.5 * f64::from(HEIGHT) - f64::from(y) - 1.0,
+    )
+}
+
+fn expect(what: &str, truth: &Truth, exact: impl Fn(u32, u32) -> f64) {
+    let estimates = coverage_estimates(truth, exact);
+    expect_agreement(what, &estimates, truth.provenance.replicates);
+    // Shifts and stretches show in the first moments.
+    expect_total(what, &estimates, |pixel| {
+        f64::from(pixel as u32 % WIDTH) - 15.5
+    });
+    expect_total(what, &estimates, |pixel| {
+        f64::from(pixel as u32 / WIDTH) - 8.5
+    });
+}
+
+fn traced(scene: &Scene, alignment: Alignment) -> Truth {
+    trace_truth(scene, &settings(alignment), &unwatched).expect("settings are allowed")
+}
+
+/// Efficiencies, and what they are at a part of the interval, written out by hand.
+type Curve = (Efficiency, fn(f64) -> f64);
+
+const TABLE: [f64; 4] = [0.2, 1.0, 0.0, 0.7];
+
+fn curves() -> Vec<Curve> {
+    let trapezoid = |rise, fall| Efficiency::Trapezoid { rise, fall };
+    vec![
+        (trapezoid(0.3, 0.2), |part| {
+            (part / 0.3).min(1.0).min((1.0 - part) / 0.2)
+        }),
+        (trapezoid(1.0, 0.0), |part| part),
+        (trapezoid(0.0, 0.5), |part| (2.0 - 2.0 * part).min(1.0)),
+        (trapezoid(0.4, 0.6), |part| {
+            (part / 0.4).min((1.0 - part) / 0.6)
+        }),
+        (Efficiency::Table(TABLE.to_vec()), |part| {
+            let step = ((3.0 * part) as usize).min(2);
+            let rest = 3.0 * part - step as f64;
+            TABLE[step] + rest * (TABLE[step + 1] - TABLE[step])
+        }),
+    ]
+}
+
+/// Mean over the shutter of `value` of a time, weighted by `weight` of the part of the interval: the midpoint rule, whose
+/// error where the weights have corners is below 1e-7.
+fn weighted(shutter: Shutter, weight: fn(f64) -> f64, value: impl Fn(f64) -> f64) -> f64 {
+    const STEPS: u32 = 6000;
+    let (mut sum, mut total) = (0.0, 0.0);
+    for step in 0..STEPS {
+        let part = (f64::from(step) + 0.5) / f64::from(STEPS);
+        sum += weight(part) * value(shutter.at(part));
+        total += weight(part);
+    }
+    sum / total
+}
+
+#[test]
+fn a_ramp_is_the_integral_of_the_efficiency() {
+    for (efficiency, weight) in curves() {
+        for (alignment, degrees) in [(Alignment::Trailing, 0.0), (Alignment::Centred, 30.0)] {
+            let normal = DVec2::from_angle(f64::to_radians(degrees));
+            let along = |time: f64| 2.3 + SPEED * time;
+            let mut scene = scene(normal, &[-1.0, 1.0], along);
+            scene.shutter_profile.efficiency = efficiency.clone();
+            let truth = traced(&scene, alignment);
+            let shutter = truth.shutter;
+            expect(&format!("{efficiency}, {alignment}"), &truth, |x, y| {
+                weighted(shutter, weight, |time| {
+                    area(corner(x, y), normal, along(time))
+                })
+            });
+        }
+    }
+}
+
+#[test]
+fn braking_inside_a_gradual_shutter_covers_what_the_parabola_says() {
+    let normal = DVec2::from_angle(0.4);
+    let along = |time: f64| -3.0 - 2.0 * time - 20.0 * time * time;
+    for (efficiency, weight) in [
+        (Efficiency::Box, (|_| 1.0) as fn(f64) -> f64),
+        curves()[0].clone(),
+    ] {
+        let mut scene = scene(normal, &[-0.7, -0.5, -0.1, 0.2], along);
+        scene.shutter_profile.efficiency = efficiency;
+        let truth = traced(&scene, Alignment::Trailing);
+        // Before the first key the motion is a line of the same slope.
+        let along = |time: f64| match time < -0.7 {
+            true => along(-0.7) + (time + 0.7) * (-2.0 + 40.0 * 0.7),
+            false => along(time),
+        };
+        expect("braking", &truth, |x, y| {
+            weighted(truth.shutter, weight, |time| {
+                area(corner(x, y), normal, along(time))
+            })
+        });
+    }
+}
+
+#[test]
+fn a_rolling_shutter_shifts_each_row_in_time() {
+    for rolling in [0.5, -0.8] {
+        for (alignment, degrees) in [(Alignment::Trailing, 0.0), (Alignment::Leading, 45.0)] {
+            let normal = DVec2::from_angle(f64::to_radians(degrees));
+            let mut scene = scene(normal, &[-1.0, 1.0], |time| 2.3 + SPEED * time);
+            scene.shutter_profile.rolling = rolling;
+            let truth = traced(&scene, alignment);
+            expect(
+                &format!("rolling by {rolling}, {alignment}"),
+                &truth,
+                |x, y| {
+                    let later = rolling * ((f64::from(y) + 0.5) / f64::from(HEIGHT) - 0.5);
+                    let offset = 2.3 + SPEED * later;
+                    half_plane(corner(x, y), normal, offset, SPEED, truth.shutter)
+                },
+            );
+        }
+    }
+}
+
+#[test]
+fn sub_frames_lie_at_the_middles_of_equal_light() {
+    let mut scene = scene(DVec2::X, &[-1.0, 1.0], |time| SPEED * time);
+    scene.shutter_profile = ShutterProfile {
+        efficiency: Efficiency::Trapezoid {
+            rise: 1.0,
+            fall: 0.0,
+        },
+        rolling: 0.3,
+    };
+    let settings = settings(Alignment::Trailing);
+    let truth = traced(&scene, Alignment::Trailing);
+    let ladder = trace_ladder(&scene, &settings, &truth, &[2], &unwatched).expect("allowed");
+    assert_eq!(ladder.shutter_profile, scene.shutter_profile);
+    // Light grows with the square of time: a quarter has passed at half of it, three quarters at the root of that.
+    let parts = [0.5, 0.75_f64.sqrt()];
+    let row = 3;
+    let later = 0.3 * ((f64::from(row) + 0.5) / f64::from(HEIGHT) - 0.5);
+    let found = &ladder.rungs[0].halves[0].coverage[1];
+    for x in 0..WIDTH {
+        let areas = parts.map(|part| {
+            let time = truth.shutter.at(part) + later;
+            area(corner(x, row), DVec2::X, SPEED * time)
+        });
+        // Pixels that an edge cuts have noise.
+        if areas.iter().all(|area| area.fract() == 0.0) {
+            assert_eq!(
+                f64::from(*found.at(x, row)),
+                0.5 * (areas[0] + areas[1]),
+                "column {x}"
+            );
+        }
+    }
+    let steps: Vec<f32> = (0..WIDTH).map(|x| *found.at(x, row)).collect();
+    assert!(
+        steps.contains(&0.5),
+        "no column lies between the sub-frames: {steps:?}"
+    );
+}
+
+#[test]
+fn what_moves_only_while_late_rows_are_open_moves() {
+    let along = |time: f64| 30.0 * time.max(0.0);
+    let mut scene = scene(DVec2::X, &[-1.0, 0.0, 0.2], along);
+    scene.objects[0].motion.interpolation = Interpolation::Linear;
+    let moves = |scene: &Scene| {
+        traced(scene, Alignment::Trailing)
+            .motion
+            .pixels
+            .iter()
+            .any(|m| *m > 0.0)
+    };
+    assert!(!moves(&scene));
+    scene.shutter_profile.rolling = 0.4;
+    assert!(moves(&scene));
+}
+
+#[test]
+fn the_hash_of_a_truth_follows_its_shutter() {
+    let scene = scene(DVec2::X, &[-1.0, 1.0], |time| time);
+    let hash = |change: fn(&mut ShutterProfile)| {
+        let mut scene = scene.clone();
+        change(&mut scene.shutter_profile);
+        replicate_hash(&scene, &settings(Alignment::Trailing))
+    };
+    let plain = hash(|_| ());
+    assert_ne!(plain, hash(|profile| profile.rolling = 0.1));
+    assert_ne!(
+        plain,
+        hash(|profile| profile.efficiency = Efficiency::Table(vec![1.0, 1.0]))
+    );
+}
+
+#[test]
+fn shutters_that_cannot_be_are_refused() {
+    let trapezoid = |rise, fall| Efficiency::Trapezoid { rise, fall };
+    let table = |values: &[f64]| Efficiency::Table(values.to_vec());
+    for (efficiency, error) in [
+        (
+            trapezoid(0.6, 0.5),
+            ShutterError::Ramps {
+                rise: 0.6,
+                fall: 0.5,
+            },
+        ),
+        (
+            trapezoid(-0.1, 0.5),
+            ShutterError::Ramps {
+                rise: -0.1,
+                fall: 0.5,
+            },
+        ),
+        (table(&[]), ShutterError::Table(0)),
+        (table(&[1.0]), ShutterError::Table(1)),
+        (table(&[1.0, -0.5]), ShutterError::Efficiency(-0.5)),
+        (
+            table(&[1.0, f64::INFINITY]),
+            ShutterError::Efficiency(f64::INFINITY),
+        ),
+        (table(&[0.0, 0.0]), ShutterError::Dark),
+    ] {
+        let mut scene = scene(DVec2::X, &[-1.0, 1.0], |time| time);
+        scene.shutter_profile.efficiency = efficiency;
+        let found = trace_truth(&scene, &settings(Alignment::Trailing), &unwatched).unwrap_err();
+        assert_eq!(found, TraceError::Shutter(error));
+    }
+    for never in [
+        trapezoid(f64::NAN, 0.0),
+        trapezoid(0.0, f64::NAN),
+        table(&[1.0, f64::NAN]),
+    ] {
+        assert!(never.check().is_err(), "{never}");
+    }
+    let rolling = f64::NEG_INFINITY;
+    let profile = ShutterProfile {
+        rolling,
+        ..ShutterProfile::default()
+    };
+    assert_eq!(profile.check(), Err(ShutterError::Rolling(rolling)));
+}
