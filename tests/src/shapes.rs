@@ -134,6 +134,7 @@ pub fn mesh(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Mesh {
         normals: Vec::new(),
         texcoords: Vec::new(),
         triangles,
+        shapes: Vec::new(),
     }
 }
 

@@ -167,5 +167,6 @@ fn grid(rows: u32, columns: u32, point: impl Fn(f64, f64) -> DVec3) -> Mesh {
         texcoords: Vec::new(),
         slots: vec![0; triangles.len()],
         triangles,
+        shapes: Vec::new(),
     }
 }

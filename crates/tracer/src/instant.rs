@@ -83,7 +83,7 @@ fn point_samples(stage: &Stage, settings: &FrameSettings) -> Vec<PointSample> {
                 let centre = [pixel % size[0], pixel / size[0]].map(|index| f64::from(index) + 0.5);
                 let ray = view.ray(centre[0], centre[1]);
                 let hit = stage.closest(poses.at(0.0), &ray);
-                let tracked = Tracked::of(scene, hit.as_ref(), ray.direction);
+                let tracked = Tracked::of(hit.as_ref(), ray.direction);
                 PointSample {
                     velocity: tracked
                         .velocity(scene, size, settings.velocity)

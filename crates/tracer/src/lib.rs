@@ -8,6 +8,7 @@ mod bvh;
 mod camera;
 mod curve;
 mod film;
+mod geometry;
 mod instant;
 mod ladder;
 mod lanes;
@@ -26,6 +27,8 @@ mod ray;
 mod sampler;
 mod scene;
 mod settings;
+mod shape;
+mod shape_tree;
 mod stage;
 mod surface;
 mod swept;
@@ -44,8 +47,8 @@ pub use progress::{Progress, Watch};
 pub use provenance::{frame_hash, ladder_hash, replicate_hash, truth_hash};
 pub use ray::Ray;
 pub use scene::{
-    Background, Camera, Display, Family, FlipExposures, Material, Mesh, Object, Parent, Scene, Sun,
-    Texture,
+    Background, Camera, Display, Family, FlipExposures, Material, Mesh, Object, Parent, Scene,
+    Shape, Sun, Texture,
 };
 pub use settings::{FrameSettings, TraceError, TruthSettings};
 pub use stage::{Hit, Stage};

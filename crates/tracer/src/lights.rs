@@ -81,7 +81,8 @@ impl Emitters {
         let last = self.triangles.len().checked_sub(1)?;
         let drawn = self.cumulative.partition_point(|&sum| sum <= choice);
         let (object, triangle) = self.triangles[drawn.min(last)];
-        let [a, b, c] = corners(&scene.meshes[scene.objects[object].mesh], triangle);
+        let mesh = &scene.meshes[scene.objects[object].mesh];
+        let [a, b, c] = corners(mesh, triangle, poses.time());
         // The square's upper half is folded onto the triangle.
         let weights = if u + v > 1.0 {
             [1.0 - u, 1.0 - v]
@@ -188,7 +189,8 @@ impl Sun {
 }
 
 fn world_area(scene: &Scene, poses: &mut Poses, object: usize, triangle: u32) -> f64 {
-    let [a, b, c] = corners(&scene.meshes[scene.objects[object].mesh], triangle);
+    let mesh = &scene.meshes[scene.objects[object].mesh];
+    let [a, b, c] = corners(mesh, triangle, poses.time());
     let to_world = poses.pose(object).to_world;
     let edge = |to: DVec3| to_world.transform_vector3(to - a);
     0.5 * edge(b).cross(edge(c)).length()

@@ -28,9 +28,15 @@ pub(crate) fn moving_objects(scene: &Scene, shutter: Shutter) -> Vec<bool> {
     });
     let objects = (0..scene.objects.len()).map(|object| {
         let corners = mesh_corners(scene, object);
+        let mesh = &scene.meshes[scene.objects[object].mesh];
         changes(&look_times(scene, Some(object), shutter), |time| {
             let seen = seen_from_camera(scene, object, time);
-            corners.map(|corner| seen.transform_point3(corner)).to_vec()
+            let place = |point| seen.transform_point3(point);
+            if mesh.deforms() {
+                mesh.at(time).positions().map(place).collect()
+            } else {
+                corners.map(place).to_vec()
+            }
         })
     });
     std::iter::once(background)
@@ -60,6 +66,9 @@ fn look_times(scene: &Scene, object: Option<usize>, shutter: Shutter) -> Vec<f64
         .into_iter()
         .chain([&scene.camera.motion]);
     let mut times = key_times(motions, shutter.open, shutter.close);
+    let mesh = object.map(|object| &scene.meshes[scene.objects[object].mesh]);
+    let shapes = mesh.into_iter().flat_map(|mesh| mesh.shape_times());
+    times.extend(shapes.filter(|time| shutter.open < *time && *time < shutter.close));
     times.extend((1..=LOOKS).map(|look| shutter.at((f64::from(look) * GOLDEN).fract())));
     times
 }

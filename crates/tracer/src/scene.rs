@@ -136,6 +136,20 @@ pub struct Mesh {
     pub triangles: Vec<[u32; 3]>,
     /// Per triangle: index into the object's `materials`.
     pub slots: Vec<u32>,
+    /// Key shapes at strictly rising times; none for a rigid mesh, else at least two, the first being `positions` and
+    /// `normals`. Vertices move in straight lines between them, and beyond them on as between the nearest two.
+    pub shapes: Vec<Shape>,
+}
+
+/// A mesh's vertices at one time.
+#[derive(Clone, Debug)]
+pub struct Shape {
+    /// Frames relative to the instant.
+    pub time: f64,
+    /// Metres, as many as the mesh has.
+    pub positions: Vec<Vec3>,
+    /// Unit, or zero where the face is flat; as many as the mesh has.
+    pub normals: Vec<Vec3>,
 }
 
 /// Linear RGBA texels, row-major from the top left; sampled bilinearly, repeating.

@@ -4,10 +4,10 @@ use glam::DVec3;
 
 use crate::bounds::Bounds;
 use crate::bvh::Tree;
+use crate::geometry::Geometry;
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::Avx2;
 use crate::lanes::{Lanes, Portable};
-use crate::mesh_tree::MeshTree;
 use crate::poses::Poses;
 use crate::ray::Ray;
 use crate::scene::Scene;
@@ -27,7 +27,7 @@ pub struct Stage<'a> {
     pub(crate) scene: &'a Scene,
     from: f64,
     to: f64,
-    meshes: Vec<Option<MeshTree>>,
+    meshes: Vec<Option<Geometry<'a>>>,
     opacities: Vec<Opacity>,
     slices: Vec<Tree>,
     poses: Poses<'a>,
@@ -55,6 +55,8 @@ pub struct Hit {
     pub triangle: u32,
     /// Weights of the triangle's second and third vertex.
     pub weights: [f64; 2],
+    /// Frames relative to the instant: where a deforming mesh is met depends on it.
+    pub time: f64,
 }
 
 impl<'a> Stage<'a> {
@@ -66,7 +68,7 @@ impl<'a> Stage<'a> {
             .meshes
             .iter()
             .enumerate()
-            .map(|(index, mesh)| shown.contains(&index).then(|| MeshTree::of(mesh)))
+            .map(|(index, mesh)| shown.contains(&index).then(|| Geometry::of(mesh, from, to)))
             .collect();
         Self {
             scene,
@@ -126,13 +128,14 @@ impl<'a> Stage<'a> {
 
     /// Bytes that trees and triangles take.
     pub fn bytes(&self) -> usize {
-        let meshes: usize = self.meshes.iter().flatten().map(MeshTree::bytes).sum();
+        let meshes: usize = self.meshes.iter().flatten().map(Geometry::bytes).sum();
         meshes + self.slices.iter().map(Tree::bytes).sum::<usize>()
     }
 
     #[inline(always)]
     fn closest_by<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
-        let slice = self.slice(poses.time());
+        let time = poses.time();
+        let slice = self.slice(time);
         let mut best: Option<Hit> = None;
         slice.walk(
             lanes,
@@ -144,11 +147,16 @@ impl<'a> Stage<'a> {
                 for &object in slice.items(leaf) {
                     let object = object as usize;
                     let local = ray.transformed(&poses.pose(object).to_object);
-                    self.mesh(object)
-                        .walk(lanes, &local, limit(&best), |triangle, crossing| {
-                            self.keep_nearer(&mut best, object, triangle, crossing);
+                    self.mesh(object).walk(
+                        lanes,
+                        &local,
+                        time,
+                        limit(&best),
+                        |triangle, crossing| {
+                            self.keep_nearer(&mut best, time, object, triangle, crossing);
                             limit(&best)
-                        });
+                        },
+                    );
                 }
                 limit(&best)
             },
@@ -158,7 +166,8 @@ impl<'a> Stage<'a> {
 
     #[inline(always)]
     fn blocked_by<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
-        let slice = self.slice(poses.time());
+        let time = poses.time();
+        let slice = self.slice(time);
         let mut blocked = false;
         slice.walk(
             lanes,
@@ -170,7 +179,7 @@ impl<'a> Stage<'a> {
                     let object = object as usize;
                     let local = ray.transformed(&poses.pose(object).to_object);
                     self.mesh(object)
-                        .walk(lanes, &local, limit, |triangle, crossing| {
+                        .walk(lanes, &local, time, limit, |triangle, crossing| {
                             let opaque =
                                 self.opacities[object].opaque(self.scene, triangle, &crossing);
                             blocked |= crossing.t < limit && opaque;
@@ -193,12 +202,14 @@ impl<'a> Stage<'a> {
 
     /// What [`Stage::closest`] finds, from every triangle in turn: its reference in tests.
     pub fn closest_of_all(&self, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
+        let time = poses.time();
         let mut best = None;
         for object in 0..self.scene.objects.len() {
             let local = ray.transformed(&poses.pose(object).to_object);
-            self.mesh(object).exhaustive(&local, |triangle, crossing| {
-                self.keep_nearer(&mut best, object, triangle, crossing);
-            });
+            self.mesh(object)
+                .exhaustive(&local, time, |triangle, crossing| {
+                    self.keep_nearer(&mut best, time, object, triangle, crossing);
+                });
         }
         best
     }
@@ -207,6 +218,7 @@ impl<'a> Stage<'a> {
     fn keep_nearer(
         &self,
         best: &mut Option<Hit>,
+        time: f64,
         object: usize,
         triangle: u32,
         crossing: Crossing,
@@ -220,11 +232,12 @@ impl<'a> Stage<'a> {
                 object,
                 triangle,
                 weights: [crossing.u, crossing.v],
+                time,
             });
         }
     }
 
-    fn mesh(&self, object: usize) -> &MeshTree {
+    fn mesh(&self, object: usize) -> &Geometry<'a> {
         self.meshes[self.scene.objects[object].mesh]
             .as_ref()
             .expect("every shown mesh has a tree")

@@ -59,7 +59,7 @@ impl Surface {
     /// The surface that `ray` meets at `hit`, the object being at `pose`.
     pub fn at(scene: &Scene, pose: &Pose, ray: &Ray, hit: &Hit) -> Surface {
         let mesh = &scene.meshes[scene.objects[hit.object].mesh];
-        let [a, b, c] = corners(mesh, hit.triangle);
+        let [a, b, c] = corners(mesh, hit.triangle, hit.time);
         let edge = |to: DVec3| pose.to_world.transform_vector3(to - a);
         let scaled = edge(b).cross(edge(c));
         let facet = towards(scaled.normalize_or_zero(), -ray.direction);
@@ -81,9 +81,9 @@ impl Surface {
     }
 }
 
-/// Vertices of a triangle in object space.
-pub(crate) fn corners(mesh: &Mesh, triangle: u32) -> [DVec3; 3] {
-    mesh.triangles[triangle as usize].map(|index| mesh.positions[index as usize].as_dvec3())
+/// Vertices of a triangle in object space, at `time` (frames).
+pub(crate) fn corners(mesh: &Mesh, triangle: u32, time: f64) -> [DVec3; 3] {
+    mesh.at(time).corners(triangle)
 }
 
 /// The material of a triangle.
@@ -145,11 +145,9 @@ fn texcoord(mesh: &Mesh, triangle: u32, weights: [f64; 2]) -> Vec2 {
 
 /// None where the mesh has no normals, or where they cancel.
 fn shading_normal(mesh: &Mesh, pose: &Pose, hit: &Hit) -> Option<DVec3> {
-    if mesh.normals.is_empty() {
-        return None;
-    }
-    let [a, b, c] =
-        mesh.triangles[hit.triangle as usize].map(|index| mesh.normals[index as usize].as_dvec3());
+    let shape = mesh.at(hit.time);
+    let [a, b, c] = mesh.triangles[hit.triangle as usize].map(|vertex| shape.normal(vertex));
+    let [a, b, c] = [a?, b?, c?];
     let normal = a + hit.weights[0] * (b - a) + hit.weights[1] * (c - a);
     // Normals move by the transpose of the way back.
     (pose.to_object.matrix3.transpose() * normal).try_normalize()

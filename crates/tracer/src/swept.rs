@@ -1,10 +1,10 @@
 //! Boxes that contain a moving mesh over an interval of time.
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 use crate::bounds::Bounds;
 use crate::motion::{Motion, Segment};
-use crate::scene::{Parent, Scene};
+use crate::scene::{Mesh, Parent, Scene};
 
 /// The greatest distance from an origin, speed and acceleration of any point of a mesh within an interval.
 #[derive(Clone, Copy)]
@@ -58,17 +58,17 @@ pub(crate) fn key_times<'a>(
 /// Between keys a point moves along a curve of bounded acceleration `A`, and a curve strays from its chord by at
 /// most `A h^2 / 8`: the union of the boxes at both ends, grown by that, contains it. Translation needs no growth.
 pub(crate) fn swept_bounds(scene: &Scene, object: usize, from: f64, to: f64) -> Bounds {
-    let positions = &scene.meshes[scene.objects[object].mesh].positions;
+    let mesh = &scene.meshes[scene.objects[object].mesh];
     let motions = chain(scene, object);
-    let times = key_times(motions.iter().copied(), from, to);
-    let first = posed_bounds(scene, object, positions, from);
+    let times = span_times(mesh, &motions, from, to);
+    let first = posed_bounds(scene, object, mesh, from);
     let (union, _) = times
         .windows(2)
         .fold((first, first), |(union, start), span| {
-            let end = posed_bounds(scene, object, positions, span[1]);
+            let end = posed_bounds(scene, object, mesh, span[1]);
             let length = span[1] - span[0];
             let sagitta =
-                reach(&motions, positions, span[0], span[1]).acceleration * length * length / 8.0;
+                reach(&motions, mesh, span[0], span[1]).acceleration * length * length / 8.0;
             (union.union(start.union(end).grown(sagitta)), end)
         });
     union
@@ -93,31 +93,38 @@ pub(crate) fn path_bounds(motion: &Motion, from: f64, to: f64) -> Bounds {
 
 /// The greatest speed of any point of the object's mesh within `[from, to]`, metres per frame; never too small.
 pub(crate) fn greatest_speed(scene: &Scene, object: usize, from: f64, to: f64) -> f64 {
-    let positions = &scene.meshes[scene.objects[object].mesh].positions;
+    let mesh = &scene.meshes[scene.objects[object].mesh];
     let motions = chain(scene, object);
-    key_times(motions.iter().copied(), from, to)
+    span_times(mesh, &motions, from, to)
         .windows(2)
-        .map(|span| reach(&motions, positions, span[0], span[1]).speed)
+        .map(|span| reach(&motions, mesh, span[0], span[1]).speed)
         .fold(0.0, f64::max)
 }
 
-fn posed_bounds(scene: &Scene, object: usize, positions: &[Vec3], time: f64) -> Bounds {
+/// The times of `key_times`, and of the mesh's key shapes.
+fn span_times(mesh: &Mesh, motions: &[&Motion], from: f64, to: f64) -> Vec<f64> {
+    let mut times = key_times(motions.iter().copied(), from, to);
+    times.extend(mesh.shape_times().filter(|time| from < *time && *time < to));
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    times
+}
+
+fn posed_bounds(scene: &Scene, object: usize, mesh: &Mesh, time: f64) -> Bounds {
     let pose = scene.object_to_world(object, time);
     Bounds::around(
-        positions
-            .iter()
-            .map(|position| pose.transform_point3(position.as_dvec3())),
+        mesh.at(time)
+            .positions()
+            .map(|position| pose.transform_point3(position)),
     )
 }
 
 /// Through the chain of motions, in an interval without keys inside.
-fn reach(motions: &[&Motion], positions: &[Vec3], from: f64, to: f64) -> Reach {
+fn reach(motions: &[&Motion], mesh: &Mesh, from: f64, to: f64) -> Reach {
+    let [distance, speed] = mesh.vertex_reach(from, to);
     let at_rest = Reach {
-        distance: positions
-            .iter()
-            .map(|position| position.as_dvec3().length())
-            .fold(0.0, f64::max),
-        speed: 0.0,
+        distance,
+        speed,
         acceleration: 0.0,
     };
     motions.iter().fold(at_rest, |inner, motion| {
@@ -161,11 +168,11 @@ mod tests {
     use std::path::PathBuf;
 
     use frame::ShutterProfile;
-    use glam::DQuat;
+    use glam::{DQuat, Vec3};
 
     use super::*;
     use crate::motion::{Interpolation, Key, Turn};
-    use crate::scene::{Background, Camera, Display, Family, FlipExposures, Mesh, Object};
+    use crate::scene::{Background, Camera, Display, Family, FlipExposures, Object};
 
     /// SplitMix64 in [-1, 1): enough to vary poses.
     struct Numbers(u64);
@@ -256,6 +263,7 @@ mod tests {
                 texcoords: Vec::new(),
                 triangles: Vec::new(),
                 slots: Vec::new(),
+                shapes: Vec::new(),
             }],
             textures: Vec::new(),
             materials: Vec::new(),

@@ -13,12 +13,14 @@ const STEP: f64 = 1e-5;
 
 /// A point that moves with what is seen.
 pub(crate) enum Tracked {
-    /// A point of an object's surface, in the object's space.
+    /// A point of an object's surface.
     Surface {
         /// Index into the scene's objects.
         object: usize,
-        /// Metres.
-        point: DVec3,
+        /// Index into the mesh's triangles.
+        triangle: u32,
+        /// Weights of the triangle's second and third vertex.
+        weights: [f64; 2],
     },
     /// A direction of the background, in the world.
     Infinity(DVec3),
@@ -26,14 +28,11 @@ pub(crate) enum Tracked {
 
 impl Tracked {
     /// What the camera ray in `direction` met.
-    pub fn of(scene: &Scene, hit: Option<&Hit>, direction: DVec3) -> Self {
-        hit.map_or(Tracked::Infinity(direction), |hit| {
-            let mesh = &scene.meshes[scene.objects[hit.object].mesh];
-            let [a, b, c] = corners(mesh, hit.triangle);
-            Tracked::Surface {
-                object: hit.object,
-                point: a + hit.weights[0] * (b - a) + hit.weights[1] * (c - a),
-            }
+    pub fn of(hit: Option<&Hit>, direction: DVec3) -> Self {
+        hit.map_or(Tracked::Infinity(direction), |hit| Tracked::Surface {
+            object: hit.object,
+            triangle: hit.triangle,
+            weights: hit.weights,
         })
     }
 
@@ -62,7 +61,14 @@ impl Tracked {
     fn seen(&self, scene: &Scene, [width, height]: [u32; 2], time: f64) -> Option<[f64; 2]> {
         let view = scene.camera.view(time, width, height);
         match *self {
-            Tracked::Surface { object, point } => {
+            Tracked::Surface {
+                object,
+                triangle,
+                weights,
+            } => {
+                let mesh = &scene.meshes[scene.objects[object].mesh];
+                let [a, b, c] = corners(mesh, triangle, time);
+                let point = a + weights[0] * (b - a) + weights[1] * (c - a);
                 view.project(scene.object_to_world(object, time).transform_point3(point))
             }
             Tracked::Infinity(direction) => view.project_direction(direction),

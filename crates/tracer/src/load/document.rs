@@ -180,6 +180,8 @@ impl Document {
         for (given, taken_back) in [
             (&STILL_POSE[..], &MOVING_POSE[..]),
             (&MOVING_POSE[..], &STILL_POSE[..]),
+            (&["mesh"], &["shapes"]),
+            (&["shapes"], &["mesh"]),
         ] {
             if given.iter().any(|key| change.contains_key(*key)) {
                 for key in taken_back {

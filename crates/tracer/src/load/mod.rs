@@ -15,6 +15,7 @@ mod obj_check;
 mod objects;
 mod pose;
 mod schema;
+mod shapes;
 mod shutter;
 mod statements;
 mod texture;

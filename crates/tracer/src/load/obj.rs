@@ -12,10 +12,12 @@ use super::texture::Textures;
 use crate::{Material, Mesh};
 
 /// An OBJ file and its materials.
+#[derive(Clone)]
 pub(super) struct ObjFile {
-    path: PathBuf,
+    pub(super) path: PathBuf,
+    pub(super) text: String,
     /// One per run of faces with one group and one material.
-    parts: Vec<tobj::Model>,
+    pub(super) parts: Vec<tobj::Model>,
     materials: Vec<Material>,
 }
 
@@ -63,6 +65,7 @@ impl ObjFile {
             .collect::<Result<_, _>>()?;
         Ok(Self {
             path: path.to_owned(),
+            text: text.to_owned(),
             parts: parts
                 .into_iter()
                 .filter(|part| !part.mesh.indices.is_empty())
@@ -84,12 +87,37 @@ impl ObjFile {
 
     /// The whole file or one group as a mesh, with the materials of its slots.
     pub(super) fn mesh(&self, group: Option<&str>) -> Result<(Mesh, Vec<Slot>), SceneError> {
-        let parts: Vec<_> = self
-            .parts
+        let (mesh, slots) = self.unchecked_mesh(group);
+        self.check_area(&mesh)?;
+        Ok((mesh, slots))
+    }
+
+    /// The same as one of several shapes, which may have no area.
+    pub(super) fn shape(&self, group: Option<&str>) -> Mesh {
+        self.unchecked_mesh(group).0
+    }
+
+    /// The parts of the whole file or of one group.
+    pub(super) fn parts_of<'a>(
+        &'a self,
+        group: Option<&'a str>,
+    ) -> impl Iterator<Item = &'a tobj::Mesh> {
+        self.parts
             .iter()
-            .filter(|part| group.is_none_or(|group| part.name == group))
+            .filter(move |part| group.is_none_or(|group| part.name == group))
             .map(|part| &part.mesh)
-            .collect();
+    }
+
+    /// The material of a part.
+    pub(super) fn material(&self, part: &tobj::Mesh) -> Material {
+        match part.material_id {
+            Some(index) => self.materials[index].clone(),
+            None => default_material(),
+        }
+    }
+
+    fn unchecked_mesh(&self, group: Option<&str>) -> (Mesh, Vec<Slot>) {
+        let parts: Vec<_> = self.parts_of(group).collect();
         let with_normals = parts.iter().any(|part| !part.normals.is_empty());
         let with_texcoords = parts.iter().any(|part| !part.texcoords.is_empty());
         let mut mesh = Mesh {
@@ -99,22 +127,19 @@ impl ObjFile {
             texcoords: Vec::new(),
             triangles: Vec::new(),
             slots: Vec::new(),
+            shapes: Vec::new(),
         };
         let mut slots = Vec::new();
         for part in parts {
             let slot = self.slot(&mut slots, part);
             push_part(&mut mesh, part, slot, with_normals, with_texcoords);
         }
-        self.check_area(&mesh)?;
-        Ok((mesh, slots))
+        (mesh, slots)
     }
 
     /// Index of the slot for a part's material, made if it is new.
     fn slot(&self, slots: &mut Vec<Slot>, part: &tobj::Mesh) -> u32 {
-        let material = match part.material_id {
-            Some(index) => self.materials[index].clone(),
-            None => default_material(),
-        };
+        let material = self.material(part);
         let textured = !part.texcoords.is_empty();
         let index = slots.iter().position(|slot| slot.material == material);
         let index = index.unwrap_or_else(|| {

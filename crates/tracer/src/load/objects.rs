@@ -1,6 +1,7 @@
 //! The objects of a scene.toml with their meshes and materials.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use toml::Spanned;
@@ -12,6 +13,7 @@ use super::material::override_material;
 use super::obj::ObjFile;
 use super::pose::object_motion;
 use super::schema::ObjectTable;
+use super::shapes::deforming_mesh;
 use super::texture::Textures;
 use crate::{Material, Mesh, Object, Parent};
 
@@ -28,7 +30,24 @@ pub(super) struct Stage<'a> {
     pub(super) meshes: Vec<Mesh>,
     pub(super) objects: Vec<Object>,
     obj_files: BTreeMap<PathBuf, ObjFile>,
-    mesh_keys: Vec<(PathBuf, Option<String>)>,
+    mesh_keys: Vec<MeshKey>,
+}
+
+/// An OBJ file that an object names.
+struct Source {
+    path: PathBuf,
+    /// Frames; of a mesh that has one shape it means nothing.
+    time: f64,
+    /// Where it is named.
+    place: Range<usize>,
+}
+
+/// What a mesh is made of: equal keys, equal meshes.
+#[derive(PartialEq)]
+struct MeshKey {
+    /// With the times of their shapes.
+    files: Vec<(PathBuf, f64)>,
+    group: Option<String>,
 }
 
 impl<'a> Stage<'a> {
@@ -61,7 +80,7 @@ impl<'a> Stage<'a> {
             self.check_name(name)?;
             let parent = self.parent(name.get_ref(), table, &names, tables)?;
             let motion = object_motion(self.document, name.get_ref(), table)?;
-            let (mesh, materials) = self.surface(table)?;
+            let (mesh, materials) = self.surface(name, table)?;
             self.objects.push(Object {
                 name: name.get_ref().clone(),
                 mesh,
@@ -135,30 +154,28 @@ impl<'a> Stage<'a> {
     }
 
     /// Mesh and materials of an object, shared with others where they are the same.
-    fn surface(&mut self, table: &ObjectTable) -> Result<(usize, Vec<usize>), SceneError> {
-        let path = self.folder.join(table.mesh.get_ref());
-        if !self.obj_files.contains_key(&path) {
-            let obj = ObjFile::read(&mut self.files, &mut self.textures, &path);
-            let obj = obj.map_err(|error| {
-                let reason = format!("mesh {} cannot be read: {error}", path.display());
-                self.document.error(table.mesh.span(), reason)
-            })??;
-            self.obj_files.insert(path.clone(), obj);
+    fn surface(
+        &mut self,
+        name: &Spanned<String>,
+        table: &ObjectTable,
+    ) -> Result<(usize, Vec<usize>), SceneError> {
+        let sources = self.sources(name, table)?;
+        for source in &sources {
+            self.read_obj(source)?;
+            self.check_group(table, &source.path)?;
         }
-        let obj = &self.obj_files[&path];
         let group = table.group.as_ref().map(|group| group.get_ref().as_str());
-        if let Some(group) = &table.group
-            && !obj.groups().contains(&group.get_ref().as_str())
-        {
-            let reason = format!(
-                "group \"{}\" is not in {}; groups: {}",
-                group.get_ref(),
-                path.display(),
-                list(obj.groups())
-            );
-            return Err(self.document.error(group.span(), reason));
-        }
-        let (mesh, mut slots) = obj.mesh(group)?;
+        let path = &sources[0].path;
+        let place = sources[0].place.clone();
+        let (mesh, mut slots) = if table.shapes.is_none() {
+            self.obj_files[path].mesh(group)?
+        } else {
+            let shapes: Vec<_> = sources
+                .iter()
+                .map(|source| (source.time, &self.obj_files[&source.path]))
+                .collect();
+            deforming_mesh(&shapes, group)?
+        };
         for (name, changes) in &table.material {
             let slot = slots
                 .iter_mut()
@@ -189,14 +206,19 @@ impl<'a> Stage<'a> {
                     slot.material.name,
                     path.display()
                 );
-                return Err(self.document.error(table.mesh.span(), reason));
+                return Err(self.document.error(place, reason));
             }
         }
         let materials = slots
             .into_iter()
             .map(|slot| index_of(&mut self.materials, slot.material))
             .collect();
-        let key = (path, group.map(str::to_owned));
+        let key = MeshKey {
+            files: (sources.iter())
+                .map(|source| (source.path.clone(), source.time))
+                .collect(),
+            group: group.map(str::to_owned),
+        };
         let known = self.mesh_keys.iter().position(|other| *other == key);
         let mesh = known.unwrap_or_else(|| {
             self.mesh_keys.push(key);
@@ -204,6 +226,83 @@ impl<'a> Stage<'a> {
             self.meshes.len() - 1
         });
         Ok((mesh, materials))
+    }
+
+    /// The OBJ files that an object names: one, or its key shapes at rising times.
+    fn sources(
+        &self,
+        name: &Spanned<String>,
+        table: &ObjectTable,
+    ) -> Result<Vec<Source>, SceneError> {
+        let what = format!("object \"{}\"", name.get_ref());
+        let source = |time: f64, mesh: &Spanned<String>| Source {
+            path: self.folder.join(mesh.get_ref()),
+            time,
+            place: mesh.span(),
+        };
+        let shapes = match (&table.mesh, &table.shapes) {
+            (Some(mesh), None) => return Ok(vec![source(0.0, mesh)]),
+            (None, Some(shapes)) => shapes,
+            (None, None) => {
+                let reason = format!("{what} has no mesh; give it a mesh or, to deform, shapes");
+                return Err(self.document.error(name.span(), reason));
+            }
+            (Some(_), Some(shapes)) => {
+                let reason = format!("{what} has both a mesh and shapes; give one or the other");
+                return Err(self.document.error(shapes.span(), reason));
+            }
+        };
+        if shapes.get_ref().len() < 2 {
+            let reason = format!(
+                "{what} has {} shapes; allowed: 2 and more at rising times, or a mesh in their place",
+                shapes.get_ref().len()
+            );
+            return Err(self.document.error(shapes.span(), reason));
+        }
+        for pair in shapes.get_ref().windows(2) {
+            let [from, to] = [&pair[0].time, &pair[1].time];
+            if to.get_ref() <= from.get_ref() {
+                let reason = format!(
+                    "{what} has a shape at time {} after one at {}; times must rise",
+                    to.get_ref(),
+                    from.get_ref()
+                );
+                return Err(self.document.error(to.span(), reason));
+            }
+        }
+        let shapes = shapes.get_ref().iter();
+        Ok(shapes
+            .map(|shape| source(*shape.time.get_ref(), &shape.mesh))
+            .collect())
+    }
+
+    fn read_obj(&mut self, source: &Source) -> Result<(), SceneError> {
+        let path = &source.path;
+        if !self.obj_files.contains_key(path) {
+            let obj = ObjFile::read(&mut self.files, &mut self.textures, path);
+            let obj = obj.map_err(|error| {
+                let reason = format!("mesh {} cannot be read: {error}", path.display());
+                self.document.error(source.place.clone(), reason)
+            })??;
+            self.obj_files.insert(path.clone(), obj);
+        }
+        Ok(())
+    }
+
+    fn check_group(&self, table: &ObjectTable, path: &Path) -> Result<(), SceneError> {
+        let obj = &self.obj_files[path];
+        if let Some(group) = &table.group
+            && !obj.groups().contains(&group.get_ref().as_str())
+        {
+            let reason = format!(
+                "group \"{}\" is not in {}; groups: {}",
+                group.get_ref(),
+                path.display(),
+                list(obj.groups())
+            );
+            return Err(self.document.error(group.span(), reason));
+        }
+        Ok(())
     }
 }
 

@@ -104,7 +104,8 @@ pub(super) struct SunTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ObjectTable {
-    pub(super) mesh: Spanned<String>,
+    pub(super) mesh: Option<Spanned<String>>,
+    pub(super) shapes: Option<Spanned<Vec<ShapeTable>>>,
     pub(super) group: Option<Spanned<String>>,
     pub(super) parent: Option<Spanned<String>>,
     pub(super) translation: Option<Spanned<[f64; 3]>>,
@@ -114,6 +115,13 @@ pub(super) struct ObjectTable {
     pub(super) interpolation: Option<Spanned<String>>,
     #[serde(default)]
     pub(super) material: BTreeMap<Spanned<String>, MaterialTable>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ShapeTable {
+    pub(super) time: Spanned<f64>,
+    pub(super) mesh: Spanned<String>,
 }
 
 #[derive(Deserialize)]

@@ -1,0 +1,57 @@
+//! What rays meet in an object's space: a rigid mesh or a deforming one.
+
+use crate::lanes::Lanes;
+use crate::mesh_tree::MeshTree;
+use crate::ray::Ray;
+use crate::scene::Mesh;
+use crate::shape_tree::ShapeTree;
+use crate::triangle::Crossing;
+
+/// A mesh under its trees; shared by every object that shows it.
+pub(crate) enum Geometry<'a> {
+    Rigid(MeshTree),
+    Deforming(ShapeTree<'a>),
+}
+
+impl<'a> Geometry<'a> {
+    /// Of a mesh that rays meet at times in `[from, to]`.
+    pub fn of(mesh: &'a Mesh, from: f64, to: f64) -> Self {
+        if mesh.deforms() {
+            Geometry::Deforming(ShapeTree::of(mesh, from, to))
+        } else {
+            Geometry::Rigid(MeshTree::of(mesh))
+        }
+    }
+
+    /// Bytes that trees and triangles take.
+    pub fn bytes(&self) -> usize {
+        match self {
+            Geometry::Rigid(tree) => tree.bytes(),
+            Geometry::Deforming(tree) => tree.bytes(),
+        }
+    }
+
+    /// As [`MeshTree::walk`], at a time.
+    #[inline(always)]
+    pub fn walk<L: Lanes>(
+        &self,
+        lanes: L,
+        ray: &Ray,
+        time: f64,
+        limit: f64,
+        visit: impl FnMut(u32, Crossing) -> f64,
+    ) {
+        match self {
+            Geometry::Rigid(tree) => tree.walk(lanes, ray, limit, visit),
+            Geometry::Deforming(tree) => tree.walk(lanes, ray, time, limit, visit),
+        }
+    }
+
+    /// As [`MeshTree::exhaustive`], at a time.
+    pub fn exhaustive(&self, ray: &Ray, time: f64, visit: impl FnMut(u32, Crossing)) {
+        match self {
+            Geometry::Rigid(tree) => tree.exhaustive(ray, visit),
+            Geometry::Deforming(tree) => tree.exhaustive(ray, time, visit),
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! A mesh as it is at one time.
+
+use glam::{DVec3, Vec3};
+
+use crate::scene::{Mesh, Shape};
+
+/// The vertices of a mesh at one time: those of its only shape, or between those of two.
+#[derive(Clone, Copy)]
+pub(crate) struct ShapeAt<'a> {
+    mesh: &'a Mesh,
+    between: Option<Between<'a>>,
+}
+
+#[derive(Clone, Copy)]
+struct Between<'a> {
+    shapes: [&'a Shape; 2],
+    /// 0 at the first, 1 at the second; beyond that the change goes on.
+    fraction: f64,
+}
+
+impl Mesh {
+    /// The mesh at `time` (frames).
+    pub(crate) fn at(&self, time: f64) -> ShapeAt<'_> {
+        let last = self.shapes.len().saturating_sub(1);
+        let between = (last > 0).then(|| {
+            let next = (self.shapes)
+                .partition_point(|shape| shape.time <= time)
+                .clamp(1, last);
+            let [from, to] = [&self.shapes[next - 1], &self.shapes[next]];
+            Between {
+                shapes: [from, to],
+                fraction: (time - from.time) / (to.time - from.time),
+            }
+        });
+        ShapeAt {
+            mesh: self,
+            between,
+        }
+    }
+
+    /// Whether it changes its shape.
+    pub(crate) fn deforms(&self) -> bool {
+        !self.shapes.is_empty()
+    }
+
+    /// Times of its key shapes, rising.
+    pub(crate) fn shape_times(&self) -> impl Iterator<Item = f64> {
+        self.shapes.iter().map(|shape| shape.time)
+    }
+
+    /// The greatest distance from the origin and the greatest speed (metres per frame) of any vertex within
+    /// `[from, to]`, an interval without key shapes inside.
+    pub(crate) fn vertex_reach(&self, from: f64, to: f64) -> [f64; 2] {
+        let farthest = |time: f64| {
+            let lengths = self.at(time).positions().map(DVec3::length);
+            lengths.fold(0.0, f64::max)
+        };
+        let distance = farthest(from).max(farthest(to));
+        let Some(between) = self.at(0.5 * (from + to)).between else {
+            return [distance, 0.0];
+        };
+        let [first, second] = between.shapes;
+        let ways = first.positions.iter().zip(&second.positions);
+        let farthest_way = ways
+            .map(|(from, to)| from.as_dvec3().distance(to.as_dvec3()))
+            .fold(0.0, f64::max);
+        [distance, farthest_way / (second.time - first.time)]
+    }
+}
+
+impl ShapeAt<'_> {
+    /// Of a vertex, metres, in the object's space.
+    #[inline]
+    pub fn position(&self, vertex: u32) -> DVec3 {
+        self.value(vertex, &self.mesh.positions, |shape| &shape.positions)
+    }
+
+    /// Of a triangle's vertices.
+    #[inline]
+    pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
+        self.mesh.triangles[triangle as usize].map(|vertex| self.position(vertex))
+    }
+
+    /// Of all vertices.
+    pub fn positions(self) -> impl Iterator<Item = DVec3> {
+        (0..self.mesh.positions.len() as u32).map(move |vertex| self.position(vertex))
+    }
+
+    /// Unit, of a vertex; none where the mesh has none, where the face is flat, or where two shapes' cancel.
+    pub fn normal(&self, vertex: u32) -> Option<DVec3> {
+        if self.mesh.normals.is_empty() {
+            return None;
+        }
+        let normal = self.value(vertex, &self.mesh.normals, |shape| &shape.normals);
+        match self.between {
+            Some(_) => normal.try_normalize(),
+            None => Some(normal),
+        }
+    }
+
+    #[inline]
+    fn value(&self, vertex: u32, rigid: &[Vec3], of: fn(&Shape) -> &Vec<Vec3>) -> DVec3 {
+        let vertex = vertex as usize;
+        let Some(Between { shapes, fraction }) = self.between else {
+            return rigid[vertex].as_dvec3();
+        };
+        let [from, to] = shapes.map(|shape| of(shape)[vertex].as_dvec3());
+        from + fraction * (to - from)
+    }
+}
