@@ -18,6 +18,12 @@ fn the_documented_example_loads() {
     folder.write("scene.toml", example);
     // The same mesh with the names that the example uses.
     folder.write("car.obj", OBJ.replace("g left", "g wheel"));
+    for shape in 0..3 {
+        folder.write(
+            &format!("flag_{shape}.obj"),
+            OBJ.replace("v 1 1 0", &format!("v 1 1 {shape}")),
+        );
+    }
     let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
 
     assert_eq!(scene.name, "square");
@@ -38,9 +44,18 @@ fn the_documented_example_loads() {
         .iter()
         .map(|object| object.name.as_str())
         .collect();
-    assert_eq!(names, ["car", "wheel", "dashboard"]);
+    assert_eq!(names, ["car", "wheel", "dashboard", "flag"]);
+    assert_eq!(scene.meshes[scene.objects[3].mesh].shapes.len(), 3);
     let parents: Vec<_> = scene.objects.iter().map(|object| object.parent).collect();
-    assert_eq!(parents, [Parent::World, Parent::Object(0), Parent::Camera]);
+    assert_eq!(
+        parents,
+        [
+            Parent::World,
+            Parent::Object(0),
+            Parent::Camera,
+            Parent::World
+        ]
+    );
     assert_eq!(scene.camera.motion.interpolation, Interpolation::Cubic);
     assert_eq!(scene.objects[0].motion.interpolation, Interpolation::Linear);
 
@@ -117,6 +132,98 @@ fn objects_of_one_mesh_share_it() {
     let scene = folder.load().unwrap();
     assert_eq!(scene.meshes.len(), 1);
     assert_eq!((scene.objects[0].mesh, scene.objects[1].mesh), (0, 0));
+}
+
+/// The square with its corner (1, 1) elsewhere, and other numbers for the same normals.
+fn bent() -> String {
+    OBJ.replace("v 1 1 0", "v 3 5 0")
+        .replace("vn 0 0 2", "vn 0 0 2\nvn 0 0 3")
+        .replace("3/3/1 4/2/1", "3/3/2 4/2/1")
+}
+
+const SHAPES: &str =
+    "shapes = [{ time = -1, mesh = \"mesh.obj\" }, { time = 1, mesh = \"bent.obj\" }]";
+
+#[test]
+fn key_shapes_are_one_mesh_that_deforms() {
+    let folder = Folder::new();
+    folder.write("bent.obj", bent());
+    folder.edit(
+        "scene.toml",
+        "mesh = \"mesh.obj\"\nkeys",
+        &format!("{SHAPES}\nkeys"),
+    );
+    let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
+    let mesh = &scene.meshes[scene.objects[0].mesh];
+    let times: Vec<f64> = mesh.shapes.iter().map(|shape| shape.time).collect();
+    assert_eq!(times, [-1.0, 1.0]);
+    assert_eq!(mesh.positions, mesh.shapes[0].positions);
+    assert_eq!(mesh.triangles.len(), 5);
+    for triangle in &mesh.triangles {
+        for vertex in triangle.map(|vertex| vertex as usize) {
+            let [from, to] = [0, 1].map(|shape| mesh.shapes[shape].positions[vertex]);
+            let expected = if from == Vec3::new(1.0, 1.0, 0.0) {
+                Vec3::new(3.0, 5.0, 0.0)
+            } else {
+                from
+            };
+            assert_eq!(to, expected);
+        }
+    }
+    for shape in &mesh.shapes {
+        assert_eq!(shape.normals, vec![Vec3::Z; mesh.positions.len()]);
+    }
+    assert_eq!(mesh.texcoords.len(), mesh.positions.len());
+    // Another object shows a group of the first file, as it is.
+    assert!(scene.meshes[scene.objects[1].mesh].shapes.is_empty());
+}
+
+#[test]
+fn a_group_of_key_shapes_deforms_and_a_variant_may_choose_them() {
+    let folder = Folder::new();
+    folder.write("bent.obj", bent());
+    folder.edit(
+        "scene.toml",
+        "mesh = \"mesh.obj\"\ngroup",
+        &format!("{SHAPES}\ngroup"),
+    );
+    folder.edit(
+        "scene.toml",
+        "[variant.fast.object.body]",
+        &format!("[variant.fast.object.body]\n{SHAPES}"),
+    );
+    let fast = load_scene(&folder.path, Some("fast")).unwrap_or_else(|error| panic!("{error}"));
+    let [body, part] = [0, 1].map(|object| &fast.meshes[fast.objects[object].mesh]);
+    assert_eq!((body.shapes.len(), part.shapes.len()), (2, 2));
+    assert_eq!(part.triangles.len(), 3);
+}
+
+#[test]
+fn faces_of_key_shapes_without_normals_are_flat_beside_smooth_ones() {
+    let folder = Folder::new();
+    let flat = |text: String| {
+        text.replace(
+            "usemtl paint\nf 1/1/1 4/2/1 6/3/1",
+            "usemtl paint\nf 1/1 4/2 6/3",
+        )
+    };
+    folder.write("bent.obj", flat(bent()));
+    folder.write("mesh.obj", flat(OBJ.to_owned()));
+    folder.edit(
+        "scene.toml",
+        "mesh = \"mesh.obj\"\nkeys",
+        &format!("{SHAPES}\nkeys"),
+    );
+    let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
+    let mesh = &scene.meshes[0];
+    let last = mesh.triangles.last().unwrap();
+    for shape in &mesh.shapes {
+        assert_eq!(
+            last.map(|vertex| shape.normals[vertex as usize]),
+            [Vec3::ZERO; 3]
+        );
+        assert_eq!(shape.normals[0], Vec3::Z);
+    }
 }
 
 #[test]

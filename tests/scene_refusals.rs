@@ -56,6 +56,31 @@ fn slips_in_shutters_are_refused() {
 }
 
 #[test]
+fn slips_in_key_shapes_are_refused() {
+    for (what, from, to, message) in SHAPE_SLIPS {
+        let folder = Folder::new();
+        let shapes =
+            "shapes = [\n{ time = 0, mesh = \"mesh.obj\" },\n{ time = 1, mesh = \"bent.obj\" },\n]";
+        folder.edit(
+            "scene.toml",
+            "mesh = \"mesh.obj\"\nkeys",
+            &format!("{shapes}\nkeys"),
+        );
+        folder.write("bent.obj", scene_folder::OBJ);
+        let file = if SCENE.contains(from) || shapes.contains(from) {
+            "scene.toml"
+        } else {
+            "bent.obj"
+        };
+        folder.edit(file, from, to);
+        let error = folder.load().err();
+        let error = error.unwrap_or_else(|| panic!("{what}: it loads, but must be refused"));
+        let expected = message.replace("{gone}", &gone());
+        assert_eq!(below(&folder, &error), expected, "{what}");
+    }
+}
+
+#[test]
 fn slips_in_meshes_are_refused() {
     check("mesh.obj", OBJ_SLIPS);
 }
@@ -149,7 +174,7 @@ const SCENE_SLIPS: &[Slip] = &[
     ("unknown key of the camera", "vertical_fov = 40", "vertical_fov = 40\nscale = 2", 
         "scene.toml:10: unknown key `scale`, allowed: `position`, `look_at`, `up`, `rotation`, `vertical_fov`, `keys`, `interpolation`"),
     ("unknown key of an object", "parent = \"body\"", "father = \"body\"", 
-        "scene.toml:28: unknown key `father`, allowed: `mesh`, `group`, `parent`, `translation`, `rotation`, `scale`, `keys`, `interpolation`, `material`"),
+        "scene.toml:28: unknown key `father`, allowed: `mesh`, `shapes`, `group`, `parent`, `translation`, `rotation`, `scale`, `keys`, `interpolation`, `material`"),
     ("unknown key in a variant", "{ time = 1, translation = [2, 0, 0] }", "{ time = 1, move = [2, 0, 0] }", 
         "scene.toml:37: unknown key `move`, allowed: `time`, `translation`, `rotation`, `scale`"),
     ("unknown table in a variant", "[variant.fast.object.body]", "[variant.fast.objects.body]", 
@@ -294,6 +319,34 @@ const POSE_SLIPS: &[Slip] = &[
         "scene.toml:22: object \"body\" has scale [1.000, 1.000, 1.000] at time -1 and would have [1.000, 1.000, -1.000] at 1; each factor must keep its sign, between the keys and beyond them"),
     ("scale through zero beyond the keys", KEYS, "{ time = -1, scale = 1 },\n{ time = 0, scale = 0.4 },\n", 
         "scene.toml:22: object \"body\" has scale [1.000, 1.000, 1.000] at time -1 and would have [-0.200, -0.200, -0.200] at 1; each factor must keep its sign, between the keys and beyond them"),
+];
+
+#[rustfmt::skip]
+const SHAPE_SLIPS: &[Slip] = &[
+    ("one shape", "{ time = 1, mesh = \"bent.obj\" },\n", "", 
+        "scene.toml:19: object \"body\" has 1 shapes; allowed: 2 and more at rising times, or a mesh in their place"),
+    ("shapes out of order", "{ time = 1, mesh", "{ time = -1, mesh", 
+        "scene.toml:21: object \"body\" has a shape at time -1 after one at 0; times must rise"),
+    ("shapes at one time", "{ time = 1, mesh", "{ time = 0, mesh", 
+        "scene.toml:21: object \"body\" has a shape at time 0 after one at 0; times must rise"),
+    ("mesh and shapes", "shapes = [", "mesh = \"mesh.obj\"\nshapes = [", 
+        "scene.toml:20: object \"body\" has both a mesh and shapes; give one or the other"),
+    ("neither mesh nor shapes", "mesh = \"mesh.obj\"\ngroup = \"left\"\n", "", 
+        "scene.toml:28: object \"part\" has no mesh; give it a mesh or, to deform, shapes"),
+    ("missing shape", "mesh = \"bent.obj\"", "mesh = \"gone.obj\"", 
+        "scene.toml:21: mesh gone.obj cannot be read: {gone}"),
+    ("fewer faces", "f 1/1/1 3/3/1 4/2/1\n", "", 
+        "bent.obj: has 3 faces, mesh.obj has 4; key shapes must have the same faces in the same order"),
+    ("another vertex", "f 1/1/1 3/3/1 4/2/1", "f 1/1/1 3/3/1 -1/2/1", 
+        "bent.obj:15: the face joins the vertices [1, 3, 6], in mesh.obj:15 it joins [1, 3, 4]; key shapes must have the same faces in the same order"),
+    ("another order", "f 1/1/1 3/3/1 4/2/1", "f 3/3/1 4/2/1 1/1/1", 
+        "bent.obj:15: the face joins the vertices [3, 4, 1], in mesh.obj:15 it joins [1, 3, 4]; key shapes must have the same faces in the same order"),
+    ("another material", "g left\nusemtl glow", "g left\nusemtl paint", 
+        "bent.obj: has 3 triangles of group \"left\" with normals in material \"paint\" where mesh.obj has 2 triangles of group \"left\" with normals in material \"glow\"; key shapes must have the same groups, materials and kinds of faces"),
+    ("another group", "g left", "g top", 
+        "bent.obj: has 2 triangles of group \"top\" with normals in material \"glow\" where mesh.obj has 2 triangles of group \"left\" with normals in material \"glow\"; key shapes must have the same groups, materials and kinds of faces"),
+    ("normals in one shape alone", "usemtl paint\nf 1/1/1 4/2/1 6/3/1", "usemtl paint\nf 1/1 4/2 6/3", 
+        "bent.obj: has 1 triangles of group \"left\" without normals in material \"paint\" where mesh.obj has 1 triangles of group \"left\" with normals in material \"paint\"; key shapes must have the same groups, materials and kinds of faces"),
 ];
 
 #[rustfmt::skip]

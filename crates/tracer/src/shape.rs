@@ -108,3 +108,36 @@ impl ShapeAt<'_> {
         from + fraction * (to - from)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use super::*;
+
+    #[test]
+    fn normals_between_shapes_have_unit_length_and_those_of_flat_faces_are_none() {
+        let shape = |time, normals: [Vec3; 2]| Shape {
+            time,
+            positions: vec![Vec3::ZERO; 2],
+            normals: normals.to_vec(),
+        };
+        let shapes = vec![
+            shape(-1.0, [Vec3::Z, Vec3::ZERO]),
+            shape(1.0, [Vec3::X, Vec3::ZERO]),
+        ];
+        let mesh = Mesh {
+            path: PathBuf::new(),
+            positions: vec![Vec3::ZERO; 2],
+            normals: vec![Vec3::Z, Vec3::Y],
+            texcoords: Vec::new(),
+            triangles: Vec::new(),
+            slots: Vec::new(),
+            shapes,
+        };
+        let normal = mesh.at(0.0).normal(0).unwrap();
+        // Rounding of a square root.
+        assert!(normal.distance(DVec3::new(1.0, 0.0, 1.0).normalize()) < 1e-15);
+        assert_eq!(mesh.at(0.0).normal(1), None);
+    }
+}

@@ -172,7 +172,7 @@ mod tests {
 
     use super::*;
     use crate::motion::{Interpolation, Key, Turn};
-    use crate::scene::{Background, Camera, Display, Family, FlipExposures, Object};
+    use crate::scene::{Background, Camera, Display, Family, FlipExposures, Object, Shape};
 
     /// SplitMix64 in [-1, 1): enough to vary poses.
     struct Numbers(u64);
@@ -215,8 +215,25 @@ mod tests {
         }
     }
 
-    fn scene(numbers: &mut Numbers, interpolation: Interpolation, turn: f64) -> Scene {
-        let corners = (0..8).map(|_| numbers.vector().as_vec3()).collect();
+    fn scene(
+        numbers: &mut Numbers,
+        interpolation: Interpolation,
+        turn: f64,
+        deforms: bool,
+    ) -> Scene {
+        let mut corners = || -> Vec<Vec3> { (0..8).map(|_| numbers.vector().as_vec3()).collect() };
+        let shapes: Vec<Shape> = if deforms {
+            [-0.5, 0.0, 0.2]
+                .map(|time| Shape {
+                    time,
+                    positions: corners(),
+                    normals: Vec::new(),
+                })
+                .into()
+        } else {
+            Vec::new()
+        };
+        let corners = corners();
         let object = |numbers: &mut Numbers, parent| Object {
             name: "thing".into(),
             mesh: 0,
@@ -263,7 +280,7 @@ mod tests {
                 texcoords: Vec::new(),
                 triangles: Vec::new(),
                 slots: Vec::new(),
-                shapes: Vec::new(),
+                shapes,
             }],
             textures: Vec::new(),
             materials: Vec::new(),
@@ -276,21 +293,25 @@ mod tests {
         }
     }
 
-    /// Radians between keys: none, a little, nearly half a turn, several turns; for both ways between keys.
-    fn kinds() -> impl Iterator<Item = (Interpolation, f64)> {
-        [Interpolation::Linear, Interpolation::Cubic]
-            .into_iter()
-            .flat_map(|interpolation| {
-                [0.0, 0.3, 179.0_f64.to_radians(), 6.0 * PI].map(|turn| (interpolation, turn))
-            })
+    /// Scenes of both ways between keys, rigid and deforming, with turns of no radians between keys, a little, nearly
+    /// half a turn, and several turns.
+    fn scenes(numbers: &mut Numbers) -> Vec<Scene> {
+        let mut scenes = Vec::new();
+        for interpolation in [Interpolation::Linear, Interpolation::Cubic] {
+            for turn in [0.0, 0.3, 179.0_f64.to_radians(), 6.0 * PI] {
+                for deforms in [false, true] {
+                    scenes.push(scene(numbers, interpolation, turn, deforms));
+                }
+            }
+        }
+        scenes
     }
 
     #[test]
     fn a_swept_box_contains_the_mesh_at_every_time() {
         let mut numbers = Numbers(1);
-        for (interpolation, turn) in kinds() {
-            for _ in 0..4 {
-                let scene = scene(&mut numbers, interpolation, turn);
+        for _ in 0..4 {
+            for scene in scenes(&mut numbers) {
                 for object in 0..scene.objects.len() {
                     // The interval contains a key and ends beyond the last.
                     for (from, to) in [(-0.1, 0.0), (-0.3, 0.6)] {
@@ -299,8 +320,8 @@ mod tests {
                         for step in 0..=1000 {
                             let time = from + (to - from) * f64::from(step) / 1000.0;
                             let pose = scene.object_to_world(object, time);
-                            for position in &scene.meshes[0].positions {
-                                let point = pose.transform_point3(position.as_dvec3());
+                            for position in scene.meshes[0].at(time).positions() {
+                                let point = pose.transform_point3(position);
                                 let inside =
                                     point.cmpge(bounds.min).all() && point.cmple(bounds.max).all();
                                 assert!(inside, "object {object} leaves {bounds:?} at {time}");
@@ -328,18 +349,21 @@ mod tests {
     #[test]
     fn nothing_is_faster_than_the_greatest_speed() {
         let mut numbers = Numbers(4);
-        for (interpolation, turn) in kinds() {
-            let scene = scene(&mut numbers, interpolation, turn);
+        for scene in scenes(&mut numbers) {
             for object in 0..scene.objects.len() {
                 let greatest = greatest_speed(&scene, object, -0.8, 0.6);
                 for step in 0..1000 {
                     let time = -0.8 + 1.4 * f64::from(step) / 1000.0;
-                    let poses = [time, time + 1e-6].map(|time| scene.object_to_world(object, time));
-                    for position in &scene.meshes[0].positions {
-                        let [now, then] =
-                            poses.map(|pose| pose.transform_point3(position.as_dvec3()));
+                    let [now, then] = [time, time + 1e-6].map(|time| {
+                        let pose = scene.object_to_world(object, time);
+                        let positions = scene.meshes[0].at(time).positions();
+                        positions
+                            .map(|position| pose.transform_point3(position))
+                            .collect::<Vec<_>>()
+                    });
+                    for (now, then) in now.iter().zip(&then) {
                         // A chord is no longer than its arc; rounding divided by the step is 1e-9.
-                        assert!(now.distance(then) / 1e-6 <= greatest + 1e-7);
+                        assert!(now.distance(*then) / 1e-6 <= greatest + 1e-7);
                     }
                 }
             }
@@ -349,7 +373,7 @@ mod tests {
     #[test]
     fn the_box_of_a_translation_is_tight() {
         let mut numbers = Numbers(2);
-        let mut scene = scene(&mut numbers, Interpolation::Linear, 0.0);
+        let mut scene = scene(&mut numbers, Interpolation::Linear, 0.0, false);
         for key in &mut scene.objects[0].motion.keys {
             key.scale = DVec3::ONE;
         }
