@@ -7,6 +7,7 @@ mod bounds;
 mod bvh;
 mod camera;
 mod curve;
+mod extent;
 mod film;
 mod geometry;
 mod instant;

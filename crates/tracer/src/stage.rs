@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use crate::bounds::Bounds;
 use crate::bvh::Tree;
+use crate::extent::Extent;
 use crate::geometry::Geometry;
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::Avx2;
@@ -266,13 +267,16 @@ impl Traversal {
 }
 
 fn slices(scene: &Scene, from: f64, to: f64) -> Vec<Tree> {
-    let count = slice_count(scene, from, to);
+    let extents = Extent::of_meshes(scene);
+    let count = slice_count(scene, &extents, from, to);
     let border = |slice: usize| from + (to - from) * slice as f64 / count as f64;
     let reach = path_bounds(&scene.camera.motion, from, to).reach();
     (0..count)
         .map(|slice| {
             let boxes: Vec<Bounds> = (0..scene.objects.len())
-                .map(|object| swept_bounds(scene, object, border(slice), border(slice + 1)))
+                .map(|object| {
+                    swept_bounds(scene, &extents, object, border(slice), border(slice + 1))
+                })
                 .collect();
             Tree::over(&boxes, reach, 1)
         })
@@ -280,11 +284,11 @@ fn slices(scene: &Scene, from: f64, to: f64) -> Vec<Tree> {
 }
 
 /// The smallest power of two that keeps every object's travel within a slice short of its own size.
-fn slice_count(scene: &Scene, from: f64, to: f64) -> usize {
+fn slice_count(scene: &Scene, extents: &[Extent], from: f64, to: f64) -> usize {
     let needed = (0..scene.objects.len())
         .map(|object| {
-            let diagonal = swept_bounds(scene, object, from, from).diagonal();
-            let travel = greatest_speed(scene, object, from, to) * (to - from);
+            let diagonal = swept_bounds(scene, extents, object, from, from).diagonal();
+            let travel = greatest_speed(scene, extents, object, from, to) * (to - from);
             travel / (TRAVEL_PER_SLICE * diagonal).max(f64::MIN_POSITIVE)
         })
         .fold(1.0, f64::max);
