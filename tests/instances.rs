@@ -68,6 +68,7 @@ fn four_hundred_objects_of_one_mesh_are_met_as_every_triangle_in_turn_says() {
     let scene = swarm(400);
     let [open, close] = [-0.9, 0.5];
     let stage = Stage::new(&scene, open, close);
+    let portable = Stage::new(&scene, open, close).portable();
     let mut poses = stage.poses();
     let mut counter = 9 << 32;
     let mut hits = 0;
@@ -83,6 +84,7 @@ fn four_hundred_objects_of_one_mesh_are_met_as_every_triangle_in_turn_says() {
         let found = stage.closest(poses.at(time), &ray);
         let expected = stage.closest_of_all(&mut poses, &ray);
         assert_eq!(found, expected, "time {time}, {ray:?}");
+        assert_eq!(portable.closest(&mut poses, &ray), expected);
         if let Some(hit) = expected {
             hits += 1;
             assert!(stage.blocked(&mut poses, &ray, hit.t * (1.0 + 1e-9)));
