@@ -271,6 +271,7 @@ fn the_trees_find_what_every_triangle_in_turn_gives() {
     scene.objects[1].mesh = 0;
     let [open, close] = [-0.9, 0.6];
     let stage = Stage::new(&scene, open, close);
+    let portable = Stage::new(&scene, open, close).portable();
     let mut poses = stage.poses();
     let mut counter = 7 << 32;
     let mut hits = 0;
@@ -286,6 +287,7 @@ fn the_trees_find_what_every_triangle_in_turn_gives() {
         let found = stage.closest(poses.at(time), &ray);
         let expected = stage.closest_of_all(&mut poses, &ray);
         assert_eq!(found, expected, "time {time}, {ray:?}");
+        assert_eq!(portable.closest(&mut poses, &ray), expected);
         if let Some(hit) = expected {
             hits += 1;
             assert!(stage.blocked(&mut poses, &ray, hit.t * (1.0 + 1e-9)));

@@ -6,7 +6,6 @@
 
 use std::time::Duration;
 
-use glam::DVec3;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2;
@@ -16,6 +15,7 @@ use smallvec::SmallVec;
 
 use crate::bounds::Bounds;
 use crate::lanes::{Boxes, Lanes, SlabRay, WIDTH};
+use crate::ray::Ray;
 
 /// Boxes are padded by this fraction of the greatest coordinate involved. The slab test runs in `f32` without guard
 /// bits: origin, difference, direction, product and limit are each rounded by 6e-8 of at most a few times that
@@ -140,12 +140,11 @@ impl Tree {
     pub fn walk<L: Lanes>(
         &self,
         lanes: L,
-        origin: DVec3,
-        direction: DVec3,
+        ray: &Ray,
         limit: f64,
         mut visit: impl FnMut(u32) -> f64,
     ) {
-        let ray = SlabRay::new(origin, direction);
+        let ray = SlabRay::new(ray.origin, ray.direction);
         let mut limit = limit as f32;
         let mut pending: SmallVec<[Pending; 64]> = SmallVec::new();
         if !self.nodes.is_empty() {

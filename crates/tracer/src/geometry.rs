@@ -1,7 +1,8 @@
 //! What rays meet in an object's space: a rigid mesh or a deforming one.
 
 use crate::lanes::Lanes;
-use crate::mesh_tree::{LocalRay, MeshTree};
+use crate::mesh_tree::MeshTree;
+use crate::ray::Ray;
 use crate::scene::Mesh;
 use crate::shape_tree::ShapeTree;
 use crate::triangle::Crossing;
@@ -22,34 +23,35 @@ impl<'a> Geometry<'a> {
         }
     }
 
-    /// Visits the crossings at `0 < t <= limit`; see [`MeshTree::walk`].
-    #[inline(always)]
-    pub fn walk<L: Lanes>(
-        &self,
-        lanes: L,
-        ray: LocalRay,
-        limit: f64,
-        visit: impl FnMut(u32, Crossing) -> f64,
-    ) {
-        match self {
-            Geometry::Rigid(tree) => tree.walk(lanes, ray, limit, visit),
-            Geometry::Deforming(tree) => tree.walk(lanes, ray, limit, visit),
-        }
-    }
-
-    /// Every crossing at `0 < t`, tree or no tree.
-    pub fn exhaustive(&self, ray: LocalRay, visit: impl FnMut(u32, Crossing)) {
-        match self {
-            Geometry::Rigid(tree) => tree.exhaustive(ray, visit),
-            Geometry::Deforming(tree) => tree.exhaustive(ray, visit),
-        }
-    }
-
     /// Bytes that trees and triangles take.
     pub fn bytes(&self) -> usize {
         match self {
             Geometry::Rigid(tree) => tree.bytes(),
             Geometry::Deforming(tree) => tree.bytes(),
+        }
+    }
+
+    /// As [`MeshTree::walk`], at a time.
+    #[inline(always)]
+    pub fn walk<L: Lanes>(
+        &self,
+        lanes: L,
+        ray: &Ray,
+        time: f64,
+        limit: f64,
+        visit: impl FnMut(u32, Crossing) -> f64,
+    ) {
+        match self {
+            Geometry::Rigid(tree) => tree.walk(lanes, ray, limit, visit),
+            Geometry::Deforming(tree) => tree.walk(lanes, ray, time, limit, visit),
+        }
+    }
+
+    /// As [`MeshTree::exhaustive`], at a time.
+    pub fn exhaustive(&self, ray: &Ray, time: f64, visit: impl FnMut(u32, Crossing)) {
+        match self {
+            Geometry::Rigid(tree) => tree.exhaustive(ray, visit),
+            Geometry::Deforming(tree) => tree.exhaustive(ray, time, visit),
         }
     }
 }

@@ -2,12 +2,12 @@
 //!
 //! The conventions are those of the [`frame`] crate.
 
-mod approach;
 mod background;
 mod bounds;
 mod bvh;
 mod camera;
 mod curve;
+mod extent;
 mod film;
 mod geometry;
 mod instant;

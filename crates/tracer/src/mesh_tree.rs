@@ -2,7 +2,6 @@
 
 use glam::{DVec3, Vec3};
 
-use crate::approach::{Approach, Sphere};
 use crate::bounds::Bounds;
 use crate::bvh::Tree;
 use crate::lanes::{EdgeRay, LEAF, Lanes, Triangles};
@@ -10,6 +9,8 @@ use crate::ray::Ray;
 use crate::scene::Mesh;
 use crate::triangle::{Crossing, cross};
 
+/// Room for rounding when a ray is moved up to the sphere around the mesh.
+const SPHERE_SLACK: f64 = 1.0 + 1e-6;
 /// Rounding of a weight, as a part of the squared greatest length times the direction's: a few dozen operations err by
 /// 1.1e-16 of at most that, and lengths are bounded by twice the reach.
 const ROUNDING: f64 = 1e-14;
@@ -18,7 +19,10 @@ const ROUNDING: f64 = 1e-14;
 pub(crate) struct MeshTree {
     tree: Tree,
     leaves: Vec<Leaf>,
-    sphere: Sphere,
+    centre: DVec3,
+    radius: f64,
+    /// The greatest coordinate of the mesh and of approached origins, metres.
+    reach: f64,
 }
 
 /// Triangles that are tested together, by the tree's number of the leaf.
@@ -31,8 +35,14 @@ struct Leaf {
     used: u32,
 }
 
-/// A ray in the mesh's space, the length of its direction, and its time in frames.
-pub(crate) type LocalRay<'a> = (&'a Ray, f64, f64);
+/// A ray moved up to the mesh, so that its origin is of the mesh's own magnitude.
+struct Approach {
+    ray: Ray,
+    /// What was taken off `t`, in units of the direction.
+    start: f64,
+    /// Object-space length of the direction.
+    length: f64,
+}
 
 impl MeshTree {
     pub fn of(mesh: &Mesh) -> Self {
@@ -42,15 +52,18 @@ impl MeshTree {
         let bounds = boxes
             .iter()
             .fold(Bounds::EMPTY, |union, bounds| union.union(*bounds));
-        let sphere = Sphere::around(bounds);
-        let tree = Tree::over(&boxes, sphere.reach(), LEAF as u32);
+        let radius = 0.5 * bounds.diagonal() * SPHERE_SLACK;
+        let reach = bounds.centre().abs().max_element() + radius;
+        let tree = Tree::over(&boxes, reach, LEAF as u32);
         let leaves = (0..tree.leaves())
             .map(|leaf| Leaf::of(mesh, tree.items(leaf)))
             .collect();
         Self {
             tree,
             leaves,
-            sphere,
+            centre: bounds.centre(),
+            radius,
+            reach,
         }
     }
 
@@ -65,19 +78,18 @@ impl MeshTree {
     pub fn walk<L: Lanes>(
         &self,
         lanes: L,
-        (ray, length, _): LocalRay,
+        ray: &Ray,
         limit: f64,
         mut visit: impl FnMut(u32, Crossing) -> f64,
     ) {
-        let Some(approach) = self.sphere.approach(ray, length) else {
+        let Some(approach) = self.approach(ray) else {
             return;
         };
         let edges = self.edge_ray(&approach);
         let mut limit = limit;
         self.tree.walk(
             lanes,
-            approach.ray.origin,
-            approach.heading,
+            &approach.unit(),
             approach.local(limit),
             #[inline(always)]
             |leaf| {
@@ -96,8 +108,8 @@ impl MeshTree {
     }
 
     /// Every crossing at `0 < t`, tree or no tree: what the walks are tested against.
-    pub fn exhaustive(&self, (ray, length, _): LocalRay, mut visit: impl FnMut(u32, Crossing)) {
-        let Some(approach) = self.sphere.approach(ray, length) else {
+    pub fn exhaustive(&self, ray: &Ray, mut visit: impl FnMut(u32, Crossing)) {
+        let Some(approach) = self.approach(ray) else {
             return;
         };
         for leaf in &self.leaves {
@@ -112,9 +124,48 @@ impl MeshTree {
     #[inline(always)]
     fn edge_ray(&self, approach: &Approach) -> EdgeRay {
         let Ray { origin, direction } = approach.ray;
-        let longest = 2.0 * origin.abs().max_element().max(self.sphere.reach());
+        let longest = 2.0 * origin.abs().max_element().max(self.reach);
         let doubt = ROUNDING * longest * longest * direction.abs().max_element();
         EdgeRay::new(origin, direction, doubt)
+    }
+
+    /// None where the ray misses the sphere around the mesh.
+    #[inline(always)]
+    fn approach(&self, ray: &Ray) -> Option<Approach> {
+        let squared = ray.direction.length_squared();
+        let nearest = (self.centre - ray.origin).dot(ray.direction) / squared;
+        let miss = ray.at(nearest).distance_squared(self.centre);
+        let length = squared.sqrt();
+        // A flat mesh may fill its sphere's equator only: the sphere is grown, never shrunk, by rounding.
+        if miss > self.radius * self.radius * SPHERE_SLACK {
+            return None;
+        }
+        let start = (nearest - self.radius / length).max(0.0);
+        Some(Approach {
+            ray: Ray {
+                origin: ray.at(start),
+                direction: ray.direction,
+            },
+            start,
+            length,
+        })
+    }
+}
+
+impl Approach {
+    /// The ray with a unit direction, as the tree's slab test wants it.
+    #[inline]
+    fn unit(&self) -> Ray {
+        Ray {
+            origin: self.ray.origin,
+            direction: self.ray.direction / self.length,
+        }
+    }
+
+    /// A limit on `t` as a distance from the approached origin.
+    #[inline]
+    fn local(&self, limit: f64) -> f64 {
+        (limit - self.start) * self.length
     }
 }
 

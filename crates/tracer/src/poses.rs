@@ -1,9 +1,7 @@
 //! Where everything is at the time of one path: computed when first asked for, kept for all its bounces.
 
-use glam::{DAffine3, DVec3};
+use glam::DAffine3;
 
-use crate::motion::Key;
-use crate::ray::Ray;
 use crate::scene::{Parent, Scene};
 use crate::swept::{chain, key_times};
 
@@ -22,9 +20,6 @@ pub struct Poses<'a> {
     /// Per object; valid when its stamp is the current one, or for ever.
     poses: Vec<(Stamp, Pose)>,
     current: Stamp,
-    /// Per object, how long a unit direction of the world is in the object's space; none where that depends on the
-    /// direction or the time.
-    stretches: Vec<Option<f64>>,
 }
 
 type Stamp = u64;
@@ -57,9 +52,6 @@ impl<'a> Poses<'a> {
             time: from,
             poses,
             current: 1,
-            stretches: (0..scene.objects.len())
-                .map(|object| stretch(scene, object))
-                .collect(),
         }
     }
 
@@ -73,14 +65,6 @@ impl<'a> Poses<'a> {
     /// Frames relative to the instant.
     pub fn time(&self) -> f64 {
         self.time
-    }
-
-    /// A ray with a unit direction in an object's space, and the length of its direction there.
-    #[inline]
-    pub(crate) fn local(&mut self, object: usize, ray: &Ray) -> (Ray, f64) {
-        let local = ray.transformed(&self.pose(object).to_object);
-        let length = self.stretches[object].unwrap_or_else(|| local.direction.length());
-        (local, length)
     }
 
     #[inline]
@@ -106,18 +90,4 @@ fn stands_still(scene: &Scene, object: usize, from: f64, to: f64) -> bool {
             .windows(2)
             .all(|span| motion.segment(0.5 * (span[0] + span[1])).stands_still())
     })
-}
-
-/// How much longer a world's direction is in the object's space, if no key on the way scales unevenly or unlike others.
-fn stretch(scene: &Scene, object: usize) -> Option<f64> {
-    let mut stretch = 1.0;
-    for motion in chain(scene, object) {
-        let scale = motion.keys[0].scale.x;
-        let even = |key: &Key| key.scale == DVec3::splat(scale);
-        if !motion.keys.iter().all(even) {
-            return None;
-        }
-        stretch /= scale.abs();
-    }
-    Some(stretch)
 }

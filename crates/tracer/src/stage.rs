@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use crate::bounds::Bounds;
 use crate::bvh::Tree;
+use crate::extent::Extent;
 use crate::geometry::Geometry;
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::Avx2;
@@ -136,21 +137,21 @@ impl<'a> Stage<'a> {
     fn closest_by<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
         let time = poses.time();
         let slice = self.slice(time);
-        let limit = |best: &Option<Hit>| best.map_or(f64::INFINITY, |hit| hit.t);
         let mut best: Option<Hit> = None;
         slice.walk(
             lanes,
-            ray.origin,
-            ray.direction,
+            ray,
             f64::INFINITY,
             #[inline(always)]
             |leaf| {
+                let limit = |best: &Option<Hit>| best.map_or(f64::INFINITY, |hit| hit.t);
                 for &object in slice.items(leaf) {
                     let object = object as usize;
-                    let (local, length) = poses.local(object, ray);
+                    let local = ray.transformed(&poses.pose(object).to_object);
                     self.mesh(object).walk(
                         lanes,
-                        (&local, length, time),
+                        &local,
+                        time,
                         limit(&best),
                         |triangle, crossing| {
                             self.keep_nearer(&mut best, time, object, triangle, crossing);
@@ -171,24 +172,20 @@ impl<'a> Stage<'a> {
         let mut blocked = false;
         slice.walk(
             lanes,
-            ray.origin,
-            ray.direction,
+            ray,
             limit,
             #[inline(always)]
             |leaf| {
                 for &object in slice.items(leaf) {
                     let object = object as usize;
-                    let (local, length) = poses.local(object, ray);
-                    self.mesh(object).walk(
-                        lanes,
-                        (&local, length, time),
-                        limit,
-                        |triangle, crossing| {
-                            blocked |= crossing.t < limit
-                                && self.opacities[object].opaque(self.scene, triangle, &crossing);
+                    let local = ray.transformed(&poses.pose(object).to_object);
+                    self.mesh(object)
+                        .walk(lanes, &local, time, limit, |triangle, crossing| {
+                            let opaque =
+                                self.opacities[object].opaque(self.scene, triangle, &crossing);
+                            blocked |= crossing.t < limit && opaque;
                             if blocked { NOWHERE } else { limit }
-                        },
-                    );
+                        });
                     if blocked {
                         return NOWHERE;
                     }
@@ -209,11 +206,11 @@ impl<'a> Stage<'a> {
         let time = poses.time();
         let mut best = None;
         for object in 0..self.scene.objects.len() {
-            let (local, length) = poses.local(object, ray);
-            let ray = (&local, length, time);
-            self.mesh(object).exhaustive(ray, |triangle, crossing| {
-                self.keep_nearer(&mut best, time, object, triangle, crossing);
-            });
+            let local = ray.transformed(&poses.pose(object).to_object);
+            self.mesh(object)
+                .exhaustive(&local, time, |triangle, crossing| {
+                    self.keep_nearer(&mut best, time, object, triangle, crossing);
+                });
         }
         best
     }
@@ -270,13 +267,16 @@ impl Traversal {
 }
 
 fn slices(scene: &Scene, from: f64, to: f64) -> Vec<Tree> {
-    let count = slice_count(scene, from, to);
+    let extents = Extent::of_meshes(scene);
+    let count = slice_count(scene, &extents, from, to);
     let border = |slice: usize| from + (to - from) * slice as f64 / count as f64;
     let reach = path_bounds(&scene.camera.motion, from, to).reach();
     (0..count)
         .map(|slice| {
             let boxes: Vec<Bounds> = (0..scene.objects.len())
-                .map(|object| swept_bounds(scene, object, border(slice), border(slice + 1)))
+                .map(|object| {
+                    swept_bounds(scene, &extents, object, border(slice), border(slice + 1))
+                })
                 .collect();
             Tree::over(&boxes, reach, 1)
         })
@@ -284,11 +284,11 @@ fn slices(scene: &Scene, from: f64, to: f64) -> Vec<Tree> {
 }
 
 /// The smallest power of two that keeps every object's travel within a slice short of its own size.
-fn slice_count(scene: &Scene, from: f64, to: f64) -> usize {
+fn slice_count(scene: &Scene, extents: &[Extent], from: f64, to: f64) -> usize {
     let needed = (0..scene.objects.len())
         .map(|object| {
-            let diagonal = swept_bounds(scene, object, from, from).diagonal();
-            let travel = greatest_speed(scene, object, from, to) * (to - from);
+            let diagonal = swept_bounds(scene, extents, object, from, from).diagonal();
+            let travel = greatest_speed(scene, extents, object, from, to) * (to - from);
             travel / (TRAVEL_PER_SLICE * diagonal).max(f64::MIN_POSITIVE)
         })
         .fold(1.0, f64::max);

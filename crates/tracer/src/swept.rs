@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::bounds::Bounds;
+use crate::extent::Extent;
 use crate::motion::{Motion, Segment};
 use crate::scene::{Mesh, Parent, Scene};
 
@@ -53,22 +54,31 @@ pub(crate) fn key_times<'a>(
     times
 }
 
-/// A box around the object's mesh at every time of `[from, to]`, in the world.
+/// A box around the object's mesh at every time of `[from, to]`, in the world; `extents` are those of the scene's meshes.
 ///
 /// Between keys a point moves along a curve of bounded acceleration `A`, and a curve strays from its chord by at
 /// most `A h^2 / 8`: the union of the boxes at both ends, grown by that, contains it. Translation needs no growth.
-pub(crate) fn swept_bounds(scene: &Scene, object: usize, from: f64, to: f64) -> Bounds {
+pub(crate) fn swept_bounds(
+    scene: &Scene,
+    extents: &[Extent],
+    object: usize,
+    from: f64,
+    to: f64,
+) -> Bounds {
     let mesh = &scene.meshes[scene.objects[object].mesh];
+    let extent = &extents[scene.objects[object].mesh];
+    let posed = |time: f64| extent.posed(mesh, &scene.object_to_world(object, time), time);
     let motions = chain(scene, object);
     let times = span_times(mesh, &motions, from, to);
-    let first = posed_bounds(scene, object, mesh, from);
+    let first = posed(from);
     let (union, _) = times
         .windows(2)
         .fold((first, first), |(union, start), span| {
-            let end = posed_bounds(scene, object, mesh, span[1]);
+            let end = posed(span[1]);
             let length = span[1] - span[0];
             let sagitta =
-                reach(&motions, mesh, span[0], span[1]).acceleration * length * length / 8.0;
+                reach(&motions, mesh, extent, span[0], span[1]).acceleration * length * length
+                    / 8.0;
             (union.union(start.union(end).grown(sagitta)), end)
         });
     union
@@ -92,12 +102,19 @@ pub(crate) fn path_bounds(motion: &Motion, from: f64, to: f64) -> Bounds {
 }
 
 /// The greatest speed of any point of the object's mesh within `[from, to]`, metres per frame; never too small.
-pub(crate) fn greatest_speed(scene: &Scene, object: usize, from: f64, to: f64) -> f64 {
+pub(crate) fn greatest_speed(
+    scene: &Scene,
+    extents: &[Extent],
+    object: usize,
+    from: f64,
+    to: f64,
+) -> f64 {
     let mesh = &scene.meshes[scene.objects[object].mesh];
+    let extent = &extents[scene.objects[object].mesh];
     let motions = chain(scene, object);
     span_times(mesh, &motions, from, to)
         .windows(2)
-        .map(|span| reach(&motions, mesh, span[0], span[1]).speed)
+        .map(|span| reach(&motions, mesh, extent, span[0], span[1]).speed)
         .fold(0.0, f64::max)
 }
 
@@ -110,18 +127,13 @@ fn span_times(mesh: &Mesh, motions: &[&Motion], from: f64, to: f64) -> Vec<f64> 
     times
 }
 
-fn posed_bounds(scene: &Scene, object: usize, mesh: &Mesh, time: f64) -> Bounds {
-    let pose = scene.object_to_world(object, time);
-    Bounds::around(
-        mesh.at(time)
-            .positions()
-            .map(|position| pose.transform_point3(position)),
-    )
-}
-
 /// Through the chain of motions, in an interval without keys inside.
-fn reach(motions: &[&Motion], mesh: &Mesh, from: f64, to: f64) -> Reach {
-    let [distance, speed] = mesh.vertex_reach(from, to);
+fn reach(motions: &[&Motion], mesh: &Mesh, extent: &Extent, from: f64, to: f64) -> Reach {
+    let [distance, speed] = if mesh.deforms() {
+        mesh.vertex_reach(from, to)
+    } else {
+        [extent.distance, 0.0]
+    };
     let at_rest = Reach {
         distance,
         speed,
@@ -316,7 +328,9 @@ mod tests {
                     // The interval contains a key and ends beyond the last.
                     for (from, to) in [(-0.1, 0.0), (-0.3, 0.6)] {
                         // Rounding only.
-                        let bounds = swept_bounds(&scene, object, from, to).grown(1e-12);
+                        let bounds =
+                            swept_bounds(&scene, &Extent::of_meshes(&scene), object, from, to)
+                                .grown(1e-12);
                         for step in 0..=1000 {
                             let time = from + (to - from) * f64::from(step) / 1000.0;
                             let pose = scene.object_to_world(object, time);
@@ -351,7 +365,8 @@ mod tests {
         let mut numbers = Numbers(4);
         for scene in scenes(&mut numbers) {
             for object in 0..scene.objects.len() {
-                let greatest = greatest_speed(&scene, object, -0.8, 0.6);
+                let greatest =
+                    greatest_speed(&scene, &Extent::of_meshes(&scene), object, -0.8, 0.6);
                 for step in 0..1000 {
                     let time = -0.8 + 1.4 * f64::from(step) / 1000.0;
                     let [now, then] = [time, time + 1e-6].map(|time| {
@@ -377,8 +392,9 @@ mod tests {
         for key in &mut scene.objects[0].motion.keys {
             key.scale = DVec3::ONE;
         }
-        let ends = [-0.1, 0.0].map(|time| swept_bounds(&scene, 0, time, time));
-        let swept = swept_bounds(&scene, 0, -0.1, 0.0);
+        let ends =
+            [-0.1, 0.0].map(|time| swept_bounds(&scene, &Extent::of_meshes(&scene), 0, time, time));
+        let swept = swept_bounds(&scene, &Extent::of_meshes(&scene), 0, -0.1, 0.0);
         assert_eq!(swept, ends[0].union(ends[1]));
     }
 }
