@@ -4,9 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use frame::{
-    Accumulation, Alignment, Channel, Efficiency, ExrFile, FileError, Frame, Image, Ladder,
-    Picture, Plane, Provenance, Raster, Samples, ShutterProfile, Truth, VelocityKind, read_exr,
-    write_atomically, write_exr,
+    Accumulation, Alignment, Channel, ColorSampling, Efficiency, ExrFile, FileError, Frame, Image,
+    Ladder, Picture, Plane, Provenance, Raster, Samples, ShutterProfile, Truth, VelocityKind,
+    read_exr, write_atomically, write_exr,
 };
 
 const WIDTH: u32 = 13;
@@ -60,6 +60,9 @@ fn a_frame() -> Frame {
         provenance: provenance(),
         exposure: 0.1 + 0.2, // not representable in short decimals
         velocity_kind: VelocityKind::PreviousFrame,
+        color_sampling: ColorSampling::Point,
+        sky_velocity: false,
+        guard_band: 1,
         objects: objects(),
         color: image(1),
         velocity: Raster::from_fn(WIDTH, HEIGHT, |x, y| {

@@ -3,6 +3,7 @@
 mod bench;
 mod kept;
 mod refusals;
+mod variants;
 
 use std::fs;
 use std::path::Path;

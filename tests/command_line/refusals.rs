@@ -50,7 +50,7 @@ fn words_that_do_not_fit_are_refused_with_what_is_allowed() {
         (&["--threads", "0"], &["--threads 0"]),
         (
             &["--velocity", "backwards"],
-            &["backwards", "instantaneous, previous_frame"],
+            &["backwards", "instantaneous, previous_frame, camera_only"],
         ),
         (&["--size", "10"], &["WIDTHxHEIGHT"]),
         (&["--scenes-dir", "nowhere"], &["nowhere"]),

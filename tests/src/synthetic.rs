@@ -2,8 +2,8 @@
 //! must say is known beforehand.
 
 use frame::{
-    Accumulation, Alignment, FAR_DEPTH, Frame, Image, Ladder, Picture, Plane, Provenance, Raster,
-    Shutter, ShutterProfile, Truth, VelocityKind,
+    Accumulation, Alignment, ColorSampling, FAR_DEPTH, Frame, Image, Ladder, Picture, Plane,
+    Provenance, Raster, Shutter, ShutterProfile, Truth, VelocityKind,
 };
 use metrics::Viewing;
 
@@ -97,6 +97,9 @@ impl Scene {
             provenance: Provenance::default(),
             exposure: EXPOSURE,
             velocity_kind: VelocityKind::Instantaneous,
+            color_sampling: ColorSampling::Antialiased,
+            sky_velocity: true,
+            guard_band: 0,
             objects: self.names(),
             color: instant.color,
             velocity,

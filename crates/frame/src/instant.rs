@@ -19,17 +19,35 @@ pub enum VelocityKind {
     Instantaneous,
     /// `x(0) - x(-1)`, the way since the frame before: what engines hand over.
     PreviousFrame,
+    /// The way since the frame before of whatever stood still in the world, from depth and both frames' cameras alone:
+    /// what is left without a velocity buffer.
+    CameraOnly,
+}
+
+/// How the colour of a frame was sampled.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum ColorSampling {
+    /// Filtered over the pixel's area.
+    #[default]
+    Antialiased,
+    /// Seen at the pixel's centre, as a rasteriser without multisampling does. Coverage is then 0 or 1.
+    Point,
 }
 
 impl VelocityKind {
     /// Every kind.
-    pub const ALL: [VelocityKind; 2] = [VelocityKind::Instantaneous, VelocityKind::PreviousFrame];
+    pub const ALL: [VelocityKind; 3] = [
+        VelocityKind::Instantaneous,
+        VelocityKind::PreviousFrame,
+        VelocityKind::CameraOnly,
+    ];
 
     /// The word used in files and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             VelocityKind::Instantaneous => "instantaneous",
             VelocityKind::PreviousFrame => "previous_frame",
+            VelocityKind::CameraOnly => "camera_only",
         }
     }
 }
@@ -48,8 +66,38 @@ impl FromStr for VelocityKind {
             .into_iter()
             .find(|kind| kind.name() == text)
             .ok_or_else(|| {
-                format!("velocity \"{text}\" is unknown; allowed: instantaneous, previous_frame")
+                format!("velocity \"{text}\" is unknown; allowed: instantaneous, previous_frame, camera_only")
             })
+    }
+}
+
+impl ColorSampling {
+    /// Every kind.
+    pub const ALL: [ColorSampling; 2] = [ColorSampling::Antialiased, ColorSampling::Point];
+
+    /// The word used in files and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            ColorSampling::Antialiased => "antialiased",
+            ColorSampling::Point => "point",
+        }
+    }
+}
+
+impl fmt::Display for ColorSampling {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for ColorSampling {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Self::ALL
+            .into_iter()
+            .find(|kind| kind.name() == text)
+            .ok_or_else(|| format!("color \"{text}\" is unknown; allowed: antialiased, point"))
     }
 }
 
@@ -62,9 +110,15 @@ pub struct Frame {
     pub exposure: f64,
     /// What `velocity` holds.
     pub velocity_kind: VelocityKind,
+    /// How `color` and `coverage` were sampled.
+    pub color_sampling: ColorSampling,
+    /// Whether the background has its velocity, or zero.
+    pub sky_velocity: bool,
+    /// Pixels by which all rasters reach beyond the picture on every side.
+    pub guard_band: u32,
     /// Object names; the index is the object id, and 0 is `background`.
     pub objects: Vec<String>,
-    /// Radiance, box-filtered over the pixel.
+    /// Radiance, box-filtered over the pixel or as seen at its centre.
     pub color: Image,
     /// Screen motion over one frame interval at the pixel centre, in pixels; +x right, +y down.
     pub velocity: Vectors,
@@ -72,14 +126,34 @@ pub struct Frame {
     pub depth: Plane,
     /// The object seen at the pixel centre.
     pub object_id: Raster<u32>,
-    /// Per object: the fraction of the pixel's area in which it is visible at the instant.
+    /// Per object: the fraction of the pixel's area in which it is visible at the instant; 0 or 1 where colour is seen at the centre.
     pub coverage: Vec<Plane>,
 }
 
 impl Frame {
-    /// Pixels per row and rows.
+    /// Pixels per row and rows of its rasters, the guard band included.
     pub fn size(&self) -> (u32, u32) {
         (self.color.width, self.color.height)
+    }
+
+    /// The frame without its guard band: what belongs to the truth's pixels.
+    pub fn cropped(&self) -> Frame {
+        let band = self.guard_band;
+        Frame {
+            provenance: self.provenance.clone(),
+            objects: self.objects.clone(),
+            guard_band: 0,
+            color: self.color.cropped(band),
+            velocity: self.velocity.cropped(band),
+            depth: self.depth.cropped(band),
+            object_id: self.object_id.cropped(band),
+            coverage: self
+                .coverage
+                .iter()
+                .map(|plane| plane.cropped(band))
+                .collect(),
+            ..*self
+        }
     }
 
     /// Writes the frame as OpenEXR: `R G B`, `Z`, `velocity.X/Y`, `object.id`, `coverage.<object>`.
@@ -100,6 +174,9 @@ impl Frame {
         file.set("kind", "frame");
         file.set("exposure", self.exposure);
         file.set("velocity", self.velocity_kind);
+        file.set("color", self.color_sampling);
+        file.set("sky_velocity", self.sky_velocity);
+        file.set("guard_band", self.guard_band);
         file.set("objects", self.objects.join(" "));
         file.set(
             "convention",
@@ -124,6 +201,9 @@ impl Frame {
             provenance: Provenance::from_exr(&file)?,
             exposure: file.get("exposure")?,
             velocity_kind: file.get("velocity")?,
+            color_sampling: file.get("color")?,
+            sky_velocity: file.get("sky_velocity")?,
+            guard_band: file.get("guard_band")?,
             objects,
             color: file.color("")?,
             velocity: x.zip(&y, |x, y| [*x, *y]),

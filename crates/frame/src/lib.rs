@@ -37,7 +37,7 @@ pub use accumulation::{Accumulation, Ladder};
 pub use display::{display_srgb, write_png};
 pub use error::FileError;
 pub use exr_file::{Channel, ExrFile, Samples, read_exr, write_atomically, write_exr};
-pub use instant::{FAR_DEPTH, Frame, VelocityKind};
+pub use instant::{ColorSampling, FAR_DEPTH, Frame, VelocityKind};
 pub use picture::Picture;
 pub use provenance::Provenance;
 pub use raster::{Image, Plane, Raster, Vectors};

@@ -35,6 +35,16 @@ impl Picture {
         })
     }
 
+    /// The picture without `border` pixels on every side. Panics when nothing would be left.
+    pub fn cropped(&self, border: u32) -> Picture {
+        Picture {
+            color: self.color.cropped(border),
+            coverage: (self.coverage.iter())
+                .map(|plane| plane.cropped(border))
+                .collect(),
+        }
+    }
+
     /// The mean of pictures of one size, at least one; summed in `f64`, in their order.
     pub fn mean<'a>(pictures: impl IntoIterator<Item = &'a Picture>) -> Picture {
         let pictures: Vec<&Picture> = pictures.into_iter().collect();

@@ -30,6 +30,19 @@ impl<T: Clone> Raster<T> {
     }
 }
 
+impl<T: Clone> Raster<T> {
+    /// The raster without `border` pixels on every side. Panics when nothing would be left.
+    pub fn cropped(&self, border: u32) -> Raster<T> {
+        assert!(
+            2 * border < self.width && 2 * border < self.height,
+            "a border of {border} pixels leaves nothing"
+        );
+        Raster::from_fn(self.width - 2 * border, self.height - 2 * border, |x, y| {
+            self.at(x + border, y + border).clone()
+        })
+    }
+}
+
 impl<T> Raster<T> {
     /// A raster made pixel by pixel from `value(x, y)`, row by row.
     pub fn from_fn(width: u32, height: u32, mut value: impl FnMut(u32, u32) -> T) -> Self {

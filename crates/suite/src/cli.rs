@@ -3,8 +3,8 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
-use frame::{Alignment, VelocityKind};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use frame::{Alignment, ColorSampling, VelocityKind};
 
 /// How good is a real-time motion blur? Renders the truth of moving scenes, runs filters on one frame of each, and
 /// measures how far they are from it.
@@ -93,6 +93,15 @@ pub struct RenderArgs {
     pub most_replicates: u32,
 }
 
+/// On or off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Switch {
+    /// It is there.
+    On,
+    /// It is not.
+    Off,
+}
+
 /// How many replicates, or which.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Replicates {
@@ -128,9 +137,20 @@ pub struct SceneArgs {
     /// Exposure in frames; 0.5 is a shutter of 180 degrees [default: each scene's own].
     #[arg(long, value_name = "E")]
     pub exposure: Option<f64>,
-    /// What the velocity buffer holds: instantaneous or previous_frame.
+    /// What the velocity buffer holds: instantaneous, previous_frame, or camera_only (rebuilt from depth and the last
+    /// frame's camera).
     #[arg(long, value_name = "KIND", default_value_t = VelocityKind::Instantaneous)]
     pub velocity: VelocityKind,
+    /// How the frame's colour is sampled: antialiased or point (at pixel centres).
+    #[arg(long, value_name = "SAMPLING", default_value_t = ColorSampling::Antialiased)]
+    pub color: ColorSampling,
+    /// Whether the background has a velocity.
+    #[arg(long, value_enum, value_name = "SWITCH", default_value_t = Switch::On)]
+    pub sky_velocity: Switch,
+    /// Pixels by which the frame reaches beyond the picture on every side. Filters see them; what they make there is
+    /// cropped before it is measured.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub guard_band: u32,
     /// Threads that render [default: one per core].
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,

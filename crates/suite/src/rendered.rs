@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, FileError, Frame, Ladder, Region, Truth, VelocityKind};
+use frame::{Alignment, ColorSampling, FileError, Frame, Ladder, Region, Truth, VelocityKind};
 use tracer::{FrameSettings, Scene, TruthSettings, Watch};
 
 use crate::Error;
@@ -27,6 +27,12 @@ pub struct RenderSettings {
     pub exposure: Option<f64>,
     /// What the velocity buffer holds.
     pub velocity: VelocityKind,
+    /// How the frame's colour is sampled.
+    pub color: ColorSampling,
+    /// Whether the background has its velocity, or zero.
+    pub sky_velocity: bool,
+    /// Pixels by which the frame reaches beyond the picture on every side.
+    pub guard_band: u32,
     /// Samples per pixel of a truth, over all its replicates.
     pub samples_per_pixel: u32,
     /// Independent, complete renders behind a truth; an even number.
@@ -42,6 +48,9 @@ impl Default for RenderSettings {
             height: 180,
             exposure: None,
             velocity: VelocityKind::Instantaneous,
+            color: ColorSampling::Antialiased,
+            sky_velocity: true,
+            guard_band: 0,
             samples_per_pixel: 256,
             replicates: 8,
             seed: 1,
@@ -78,6 +87,9 @@ pub fn frame_of(
         height: settings.height,
         exposure: settings.exposure.unwrap_or(scene.exposure),
         velocity: settings.velocity,
+        color: settings.color,
+        sky_velocity: settings.sky_velocity,
+        guard_band: settings.guard_band,
         samples_per_pixel: FRAME_REPLICATES * settings.samples_per_pixel / settings.replicates,
         seed: settings.seed,
     };

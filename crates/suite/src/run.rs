@@ -41,8 +41,14 @@ pub struct Run {
     pub replicates: u32,
     /// Seed of all randomness.
     pub seed: u64,
-    /// What the velocity buffers held: `instantaneous` or `previous_frame`.
+    /// What the velocity buffers held: `instantaneous`, `previous_frame` or `camera_only`.
     pub velocity: String,
+    /// How the frames' colour was sampled: `antialiased` or `point`.
+    pub color: String,
+    /// Whether the background had a velocity.
+    pub sky_velocity: bool,
+    /// Pixels by which frames reached beyond the picture on every side.
+    pub guard_band: u32,
     /// One per scene and filter preset, in the order they ran.
     pub cases: Vec<Case>,
 }
@@ -102,7 +108,7 @@ pub fn run(plan: &Plan, gpu: &Gpu, command: Vec<String>) -> Result<Run, Error> {
             &frame,
             truths.values().map(|(truth, _)| truth),
         )?;
-        let references = references(scene, &frame, &truths)?;
+        let references = references(scene, &frame.cropped(), &truths)?;
         for choice in &plan.filters {
             if interrupted() {
                 return Err(tracer::TraceError::Cancelled.into());
@@ -130,6 +136,9 @@ pub fn run(plan: &Plan, gpu: &Gpu, command: Vec<String>) -> Result<Run, Error> {
         replicates: plan.render.replicates,
         seed: plan.render.seed,
         velocity: plan.render.velocity.name().to_owned(),
+        color: plan.render.color.name().to_owned(),
+        sky_velocity: plan.render.sky_velocity,
+        guard_band: plan.render.guard_band,
         cases,
     })
 }
@@ -179,7 +188,7 @@ fn run_case(
 ) -> Result<Case, Error> {
     let (width, height) = frame.size();
     let mut blur = Blur::new(gpu, &choice.filter, &choice.settings, width, height)?;
-    let output = picture(&mut blur, frame, 0)?;
+    let output = picture(&mut blur, frame, 0)?.cropped(frame.guard_band);
     let Measurement { scores, maps } = reference.measure(&output)?;
     let folder = Path::new(&scene.name).join(choice.name().replace(':', "_"));
     write_case(

@@ -83,6 +83,13 @@ impl View {
         self.project_seen(self.to_camera.transform_vector3(direction))
     }
 
+    /// The point of the world that is seen at a place of the picture (pixels from the top left), so far along the view
+    /// axis (metres).
+    pub fn point(&self, x: f64, y: f64, depth: f64) -> DVec3 {
+        let seen = DVec3::new(x - self.half[0], self.half[1] - y, -self.focal);
+        self.to_world.transform_point3(seen * (depth / self.focal))
+    }
+
     /// Distance of a point of the world along the view axis, metres.
     pub fn depth(&self, point: DVec3) -> f64 {
         -self.to_camera.transform_point3(point).z

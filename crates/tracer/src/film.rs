@@ -7,6 +7,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::camera::View;
+use crate::canvas::Canvas;
 use crate::opening::Opening;
 use crate::path::Integrator;
 use crate::poses::Poses;
@@ -30,13 +31,20 @@ pub(crate) enum Times<'a> {
     Midpoints(&'a Opening, u32),
 }
 
+/// Where in a pixel its samples lie.
+#[derive(Clone, Copy)]
+pub(crate) enum Places {
+    /// Evenly over its area.
+    Area,
+    /// All at its centre.
+    Centre,
+}
+
 /// A render: what every pixel's samples have in common.
 pub(crate) struct Film<'a> {
     pub integrator: Integrator<'a>,
-    /// Pixels per row.
-    pub width: u32,
-    /// Rows.
-    pub height: u32,
+    pub canvas: Canvas,
+    pub places: Places,
     pub times: Times<'a>,
     /// Independent, complete sets of samples, by the numbers that choose their random numbers.
     pub replicates: Range<u32>,
@@ -111,15 +119,21 @@ impl<'a> Film<'a> {
     }
 
     fn estimate(&self, eye: &mut Eye, pixel: u32, replicate: u32) -> Estimate {
-        let [column, row] = [pixel % self.width, pixel / self.width];
-        let seed = pixel_seed(self.seed, self.stream, pixel, replicate);
+        let [left, top] = self.canvas.corner(pixel);
+        let row = pixel / self.canvas.columns();
+        let number = self.canvas.number(pixel);
+        let seed = pixel_seed(self.seed, self.stream, number, replicate);
         let mut sum = DVec3::ZERO;
         let mut seen = vec![0; eye.scene.objects.len() + 1];
         for index in 0..self.samples_per_replicate {
             let sampler = Sampler::new(seed, index);
             let [x, y, part, _] = sampler.camera();
-            let time = self.times.at(part, row, self.height);
-            let ray = (eye.look(time)).ray(f64::from(column) + x, f64::from(row) + y);
+            let [x, y] = match self.places {
+                Places::Area => [x, y],
+                Places::Centre => [0.5, 0.5],
+            };
+            let time = self.times.at(part, row, self.canvas.height);
+            let ray = eye.look(time).ray(left + x, top + y);
             let sample = self.integrator.trace(&mut eye.poses, ray, &sampler);
             debug_assert!(sample.radiance.is_finite(), "radiance is a finite number");
             sum += sample.radiance.as_dvec3();
@@ -148,10 +162,12 @@ impl<'a> Eye<'a> {
         let poses = stage.poses();
         Self {
             scene,
-            view: scene.camera.view(poses.time(), film.width, film.height),
+            view: scene
+                .camera
+                .view(poses.time(), film.canvas.width, film.canvas.height),
             poses,
             moves: scene.camera.motion.keys.len() > 1 || scene.camera.vertical_fov.len() > 1,
-            size: [film.width, film.height],
+            size: [film.canvas.width, film.canvas.height],
         }
     }
 
@@ -192,7 +208,8 @@ impl PixelMean {
 }
 
 /// A picture of all its pixels in row-major order.
-pub(crate) fn picture(width: u32, height: u32, pixels: &[PixelMean]) -> Picture {
+pub(crate) fn picture(canvas: Canvas, pixels: &[PixelMean]) -> Picture {
+    let [width, height] = [canvas.columns(), canvas.rows()];
     let objects = pixels.first().map_or(0, |pixel| pixel.coverage.len());
     Picture {
         color: Image {

@@ -1,9 +1,10 @@
 //! The frame of the instant: what an engine would hand to its motion blur.
 
-use frame::{FAR_DEPTH, Frame, Raster};
+use frame::{ColorSampling, FAR_DEPTH, Frame, Raster, VelocityKind};
 use rayon::prelude::*;
 
-use crate::film::{Film, PixelMean, Times, picture};
+use crate::canvas::Canvas;
+use crate::film::{Film, PixelMean, Places, Times, picture};
 use crate::path::Integrator;
 use crate::progress::{Meter, Watch};
 use crate::provenance::{frame_hash, object_names, provenance};
@@ -11,7 +12,7 @@ use crate::sampler::Stream;
 use crate::scene::Scene;
 use crate::settings::{FrameSettings, TraceError};
 use crate::stage::Stage;
-use crate::velocity::Tracked;
+use crate::velocity::{Tracked, camera_velocity};
 
 /// What a rasteriser would have written at one pixel's centre.
 struct PointSample {
@@ -20,37 +21,41 @@ struct PointSample {
     object_id: u32,
 }
 
-/// Renders the instant `t = 0`: colour and coverage filtered over each pixel; velocity, depth and object id of what
-/// is seen at its centre.
+/// Renders the instant `t = 0`: colour and coverage filtered over each pixel or sampled at its centre; velocity, depth
+/// and object id of what is seen there. All rasters reach beyond the picture by the guard band of the settings.
 pub fn trace_frame(
     scene: &Scene,
     settings: &FrameSettings,
     watch: Watch,
 ) -> Result<Frame, TraceError> {
     settings.check(scene)?;
-    let (width, height) = (settings.width, settings.height);
+    let canvas = Canvas {
+        width: settings.width,
+        height: settings.height,
+        guard_band: settings.guard_band,
+    };
     let stage = Stage::new(scene, 0.0, 0.0);
     let film = Film {
         integrator: Integrator::new(&stage, 0.0),
-        width,
-        height,
+        canvas,
+        places: match settings.color {
+            ColorSampling::Antialiased => Places::Area,
+            ColorSampling::Point => Places::Centre,
+        },
         times: Times::Instant,
         replicates: 0..1,
         samples_per_replicate: settings.samples_per_pixel,
         seed: settings.seed,
         stream: Stream::Frame,
     };
-    let pixels: Vec<u32> = (0..width * height).collect();
-    let meter = Meter::new(
-        watch,
-        pixels.len() as u64 * u64::from(settings.samples_per_pixel),
-    );
-    let filtered = film.develop(&pixels, &meter, |estimates| PixelMean::of(estimates))?;
-    let filtered = picture(width, height, &filtered);
+    let pixels = canvas.pixels();
+    let meter = Meter::new(watch, pixels.len() as u64 * film.samples_per_pixel());
+    let seen = film.develop(&pixels, &meter, |estimates| PixelMean::of(estimates))?;
+    let seen = picture(canvas, &seen);
     let points = Raster {
-        width,
-        height,
-        pixels: point_samples(&stage, settings),
+        width: canvas.columns(),
+        height: canvas.rows(),
+        pixels: point_samples(&stage, canvas, settings),
     };
     Ok(Frame {
         provenance: provenance(
@@ -62,33 +67,41 @@ pub fn trace_frame(
         ),
         exposure: settings.exposure,
         velocity_kind: settings.velocity,
+        color_sampling: settings.color,
+        sky_velocity: settings.sky_velocity,
+        guard_band: settings.guard_band,
         objects: object_names(scene),
-        color: filtered.color,
-        coverage: filtered.coverage,
+        color: seen.color,
+        coverage: seen.coverage,
         velocity: points.map(|point| point.velocity),
         depth: points.map(|point| point.depth),
         object_id: points.map(|point| point.object_id),
     })
 }
 
-fn point_samples(stage: &Stage, settings: &FrameSettings) -> Vec<PointSample> {
+fn point_samples(stage: &Stage, canvas: Canvas, settings: &FrameSettings) -> Vec<PointSample> {
     let scene = stage.scene;
-    let size = [settings.width, settings.height];
+    let size = [canvas.width, canvas.height];
     let view = scene.camera.view(0.0, size[0], size[1]);
-    (0..size[0] * size[1])
-        .into_par_iter()
+    (canvas.pixels().into_par_iter())
         .map_init(
             || stage.poses(),
             |poses, pixel| {
-                let centre = [pixel % size[0], pixel / size[0]].map(|index| f64::from(index) + 0.5);
+                let centre = canvas.corner(pixel).map(|corner| corner + 0.5);
                 let ray = view.ray(centre[0], centre[1]);
                 let hit = stage.closest(poses.at(0.0), &ray);
-                let tracked = Tracked::of(hit.as_ref(), ray.direction);
+                let depth = hit.map_or(FAR_DEPTH, |hit| view.depth(ray.at(hit.t)) as f32);
+                let velocity = if hit.is_none() && !settings.sky_velocity {
+                    [0.0, 0.0]
+                } else if settings.velocity == VelocityKind::CameraOnly {
+                    camera_velocity(scene, size, centre, hit.map(|_| depth))
+                } else {
+                    let tracked = Tracked::of(hit.as_ref(), ray.direction);
+                    tracked.velocity(scene, size, settings.velocity)
+                };
                 PointSample {
-                    velocity: tracked
-                        .velocity(scene, size, settings.velocity)
-                        .map(|component| component as f32),
-                    depth: hit.map_or(FAR_DEPTH, |hit| view.depth(ray.at(hit.t)) as f32),
+                    velocity: velocity.map(|component| component as f32),
+                    depth,
                     object_id: hit.map_or(0, |hit| hit.object as u32 + 1),
                 }
             },

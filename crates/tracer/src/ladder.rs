@@ -2,7 +2,8 @@
 
 use frame::{Accumulation, Ladder, Picture, Plane, Truth};
 
-use crate::film::{Estimate, Film, PixelMean, Times};
+use crate::canvas::Canvas;
+use crate::film::{Estimate, Film, PixelMean, Places, Times};
 use crate::opening::Opening;
 use crate::path::Integrator;
 use crate::progress::{Meter, Watch};
@@ -53,8 +54,8 @@ pub fn trace_ladder(
     for &subframes in subframes {
         let film = Film {
             integrator: Integrator::new(&stage, shutter.at(0.5)),
-            width: settings.width,
-            height: settings.height,
+            canvas: Canvas::bare(settings.width, settings.height),
+            places: Places::Area,
             times: Times::Midpoints(&opening, subframes),
             replicates: 0..REPLICATES,
             samples_per_replicate,

@@ -6,6 +6,7 @@ mod background;
 mod bounds;
 mod bvh;
 mod camera;
+mod canvas;
 mod curve;
 mod extent;
 mod film;

@@ -1,6 +1,6 @@
 //! What to render, and what is refused.
 
-use frame::{Alignment, Shutter, ShutterError, VelocityKind};
+use frame::{Alignment, ColorSampling, Shutter, ShutterError, VelocityKind};
 
 use crate::sampler::MOST_SAMPLES;
 use crate::scene::Scene;
@@ -20,6 +20,12 @@ pub struct FrameSettings {
     pub exposure: f64,
     /// What the velocity buffer holds.
     pub velocity: VelocityKind,
+    /// How colour and coverage are sampled.
+    pub color: ColorSampling,
+    /// Whether the background has its velocity, or zero.
+    pub sky_velocity: bool,
+    /// Pixels by which all rasters reach beyond the picture on every side.
+    pub guard_band: u32,
     /// Samples of colour and coverage per pixel, a power of two up to 65536; time grows with it.
     pub samples_per_pixel: u32,
     /// Chooses the random numbers.
@@ -104,6 +110,9 @@ impl Default for FrameSettings {
             height: 180,
             exposure: 0.5,
             velocity: VelocityKind::default(),
+            color: ColorSampling::default(),
+            sky_velocity: true,
+            guard_band: 0,
             samples_per_pixel: 256,
             seed: 0,
         }
@@ -128,6 +137,11 @@ impl FrameSettings {
     /// Refuses what cannot be rendered.
     pub fn check(&self, scene: &Scene) -> Result<(), TraceError> {
         check_size(self.width, self.height)?;
+        check_size(
+            self.width.saturating_add(self.guard_band.saturating_mul(2)),
+            self.height
+                .saturating_add(self.guard_band.saturating_mul(2)),
+        )?;
         Alignment::Trailing.shutter(self.exposure)?;
         check_samples(self.samples_per_pixel, 1)?;
         check_field_of_view(scene, looks_back_to(self.velocity), 0.0)

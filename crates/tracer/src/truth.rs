@@ -2,7 +2,8 @@
 
 use frame::{Replicate, Shutter, Truth};
 
-use crate::film::{Film, PixelMean, Times, picture};
+use crate::canvas::Canvas;
+use crate::film::{Film, PixelMean, Places, Times, picture};
 use crate::moving::moving_objects;
 use crate::opening::Opening;
 use crate::path::Integrator;
@@ -59,18 +60,18 @@ impl<'a> TruthTracer<'a> {
     /// Renders one replicate. The index chooses its random numbers and nothing else; it may lie beyond the number of
     /// replicates that the settings name.
     pub fn trace(&self, index: u32, watch: Watch) -> Result<Replicate, TraceError> {
-        let (width, height) = (self.settings.width, self.settings.height);
+        let canvas = Canvas::bare(self.settings.width, self.settings.height);
         let film = Film {
             integrator: Integrator::new(&self.stage, self.shutter.at(0.5)),
-            width,
-            height,
+            canvas,
+            places: Places::Area,
             times: Times::Open(&self.opening),
             replicates: index..index + 1,
             samples_per_replicate: self.settings.samples_per_replicate(),
             seed: self.settings.seed,
             stream: Stream::Truth,
         };
-        let pixels: Vec<u32> = (0..width * height).collect();
+        let pixels = canvas.pixels();
         let meter = Meter::new(watch, pixels.len() as u64 * film.samples_per_pixel());
         let developed = film.develop(&pixels, &meter, |estimates| PixelMean::of(estimates))?;
         let scene = self.stage.scene;
@@ -88,7 +89,7 @@ impl<'a> TruthTracer<'a> {
             alignment: self.settings.alignment,
             objects: object_names(scene),
             moving: self.moving.clone(),
-            picture: picture(width, height, &developed),
+            picture: picture(canvas, &developed),
         })
     }
 }

@@ -52,7 +52,9 @@ impl Tracked {
         };
         match kind {
             VelocityKind::Instantaneous => derivative(),
-            VelocityKind::PreviousFrame => since_the_frame_before().or_else(derivative),
+            VelocityKind::PreviousFrame | VelocityKind::CameraOnly => {
+                since_the_frame_before().or_else(derivative)
+            }
         }
         .unwrap_or([0.0, 0.0])
     }
@@ -76,11 +78,29 @@ impl Tracked {
     }
 }
 
+/// What an engine without a velocity buffer rebuilds: the way since the frame before of whatever stands still in the world
+/// at `depth` (metres; none: the background) under a pixel centre, from this frame's and the last one's camera alone. Zero
+/// for what was behind the camera then.
+pub(crate) fn camera_velocity(
+    scene: &Scene,
+    [width, height]: [u32; 2],
+    centre: [f64; 2],
+    depth: Option<f32>,
+) -> [f64; 2] {
+    let [now, then] = [0.0, -1.0].map(|time| scene.camera.view(time, width, height));
+    let [x, y] = centre;
+    let before = match depth {
+        Some(depth) => then.project(now.point(x, y, f64::from(depth))),
+        None => then.project_direction(now.ray(x, y).direction),
+    };
+    before.map_or([0.0, 0.0], |before| difference(centre, before))
+}
+
 /// The earliest time that a velocity depends on, in frames.
 pub(crate) fn looks_back_to(kind: VelocityKind) -> f64 {
     match kind {
         VelocityKind::Instantaneous => -2.0 * STEP,
-        VelocityKind::PreviousFrame => -1.0,
+        VelocityKind::PreviousFrame | VelocityKind::CameraOnly => -1.0,
     }
 }
 

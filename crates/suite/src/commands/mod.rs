@@ -10,7 +10,7 @@ use std::io::{ErrorKind, Write};
 
 use suite::{Error, RenderSettings};
 
-use crate::cli::{Cli, Command, SceneArgs};
+use crate::cli::{Cli, Command, SceneArgs, Switch};
 
 /// Does what the command line says.
 pub fn execute(cli: Cli) -> Result<(), Error> {
@@ -67,6 +67,9 @@ fn render_settings(
         height,
         exposure: args.exposure,
         velocity: args.velocity,
+        color: args.color,
+        sky_velocity: args.sky_velocity == Switch::On,
+        guard_band: args.guard_band,
         samples_per_pixel: args.samples_per_pixel,
         seed: args.seed,
         ..RenderSettings::default()
