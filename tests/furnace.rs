@@ -221,6 +221,7 @@ fn a_growing_lamp_gives_the_mean_of_its_form_factors() {
     };
     let lamp = Motion {
         keys: vec![at_width(-0.5, 0.5), at_width(0.5, 2.0)],
+        ..Motion::default()
     };
     add(&mut scene, disc(1.0, 256), glowing(1.0), lamp);
     // The mean of r^2 / (1 + r^2) for r from 0.5 to 2.
