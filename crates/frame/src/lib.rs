@@ -12,7 +12,7 @@
 //! | colour | scene-linear Rec.709 radiance, `f32`; the display transform is applied only for PNG and LDR metrics |
 //! | pixel filter | box of one pixel for colour and coverage; velocity, depth and object id are point samples at the pixel centre |
 //! | time | in frames; the frame's instant is `t = 0` |
-//! | shutter | [`Shutter`]`{ open, close }`, frames relative to the instant. Exposure `m = close - open`, 1 being 360 degrees. Trailing is `[-m, 0]`, centred `[-m/2, m/2]`, leading `[0, m]`. The frame never moves; the truth's interval does |
+//! | shutter | [`Shutter`]`{ open, close }`, frames relative to the instant. Exposure `m = close - open`, 1 being 360 degrees. Trailing is `[-m, 0]`, centred `[-m/2, m/2]`, leading `[0, m]`. The frame never moves; the truth's interval does. [`ShutterProfile`] says how it opens and closes within the interval, and how rows follow one another |
 //! | velocity | screen motion of the surface point seen at the pixel centre over one frame interval, in pixels, +x right, +y down; see [`VelocityKind`]. A background at infinity has the camera's rotational velocity |
 //! | depth | distance along the view axis in metres; the background holds [`FAR_DEPTH`] |
 //! | coverage | per object: the fraction of (shutter x pixel area) in which that object is the visible surface; sums to 1 with the background |

@@ -54,6 +54,14 @@ pub struct Motion {
     pub interpolation: Interpolation,
 }
 
+/// A motion whose segments are worked out once, for poses at many times.
+pub(crate) struct Path {
+    /// Of the keys, in frames.
+    times: Vec<f64>,
+    /// Before the first key, and from each key on.
+    segments: Vec<Segment>,
+}
+
 /// A stretch of a motion without keys inside: every part is a polynomial in time.
 pub(crate) struct Segment {
     /// The time that the curves count from, in frames.
@@ -62,10 +70,17 @@ pub(crate) struct Segment {
     pub scale: Cubic<DVec3>,
     /// At the start.
     orientation: DQuat,
-    /// Rotation vector, along one axis.
-    turn: Cubic<DVec3>,
-    /// Rotation vectors of the swings before and after the turn.
-    swings: Option<[Cubic<DVec3>; 2]>,
+    turn: Turning,
+    /// Before and after the turn.
+    swings: Option<[Turning; 2]>,
+}
+
+/// A rotation about a fixed axis.
+pub(crate) struct Turning {
+    /// Unit vector.
+    axis: DVec3,
+    /// Radians.
+    pub angle: Cubic<f64>,
 }
 
 impl Turn {
@@ -103,12 +118,29 @@ impl Motion {
 
     /// The stretch that holds `time`; at a key, the one that begins there.
     pub(crate) fn segment(&self, time: f64) -> Segment {
-        let keyed = Keyed {
+        self.segment_of(self.keyed().stretch(time))
+    }
+
+    /// The same poses, sooner.
+    pub(crate) fn path(&self) -> Path {
+        Path {
+            times: self.keys.iter().map(|key| key.time).collect(),
+            segments: (0..=self.keys.len())
+                .map(|stretch| self.segment_of(stretch))
+                .collect(),
+        }
+    }
+
+    fn keyed(&self) -> Keyed<'_, Key> {
+        Keyed {
             keys: &self.keys,
             time: |key: &Key| key.time,
             interpolation: self.interpolation,
-        };
-        let stretch = keyed.stretch(time);
+        }
+    }
+
+    fn segment_of(&self, stretch: usize) -> Segment {
+        let keyed = self.keyed();
         let key = |index: usize| &self.keys[index];
         let chord = |part: fn(&Key) -> DVec3| {
             move |from: usize| {
@@ -132,35 +164,57 @@ impl Motion {
 }
 
 /// The turn over a stretch, and the swings before and after it.
-fn turning(keyed: &Keyed<Key>, stretch: usize) -> (Cubic<DVec3>, Option<[Cubic<DVec3>; 2]>) {
-    let whole = |from: usize| keyed.keys[from].turn.angle * keyed.keys[from].turn.axis;
-    let chord = |from: usize| whole(from) / keyed.duration(from);
+fn turning(keyed: &Keyed<Key>, stretch: usize) -> (Turning, Option<[Turning; 2]>) {
+    let turn = |from: usize| keyed.keys[from].turn;
+    let chord = |from: usize| turn(from).angle / keyed.duration(from) * turn(from).axis;
     let from = keyed.anchor(stretch);
     if !keyed.is_between(stretch) || keyed.interpolation == Interpolation::Linear {
-        return (Cubic::line(DVec3::ZERO, keyed.slope(from, &chord)), None);
+        let spin = keyed.slope(from, &chord);
+        let angle = Cubic::line(0.0, spin.length());
+        return (Turning::about(spin, angle), None);
     }
-    let axis = whole(from).normalize_or_zero();
+    let Turn { axis, angle } = turn(from);
     let spins = [from, stretch].map(|key| keyed.slope(key, &chord));
-    let along = spins.map(|spin| spin.dot(axis) * axis);
-    let across = [spins[0] - along[0], spins[1] - along[1]];
+    let along = spins.map(|spin| spin.dot(axis));
+    let across = [0, 1].map(|end| spins[end] - along[end] * axis);
     let duration = keyed.duration(from);
-    let swing = |slopes| Cubic::between([DVec3::ZERO; 2], slopes, duration);
-    let turn = Cubic::between([DVec3::ZERO, whole(from)], along, duration);
+    let swing =
+        |across: DVec3, slopes| Turning::about(across, Cubic::between([0.0; 2], slopes, duration));
     let swings = [
-        swing([across[0], DVec3::ZERO]),
-        swing([DVec3::ZERO, across[1]]),
+        swing(across[0], [across[0].length(), 0.0]),
+        swing(across[1], [0.0, across[1].length()]),
     ];
-    (turn, Some(swings))
+    let angle = Cubic::between([0.0, angle], along, duration);
+    (Turning { axis, angle }, Some(swings))
+}
+
+impl Turning {
+    /// About the direction of a vector; where it is zero the angle is to be zero too.
+    fn about(direction: DVec3, angle: Cubic<f64>) -> Self {
+        let axis = direction.try_normalize().unwrap_or(Turn::NONE.axis);
+        Self { axis, angle }
+    }
+
+    fn at(&self, since: f64) -> DQuat {
+        DQuat::from_axis_angle(self.axis, self.angle.at(since))
+    }
+}
+
+impl Path {
+    /// As [`Motion::at`].
+    pub fn at(&self, time: f64) -> DAffine3 {
+        let segment = self.times.partition_point(|key| *key <= time);
+        self.segments[segment].at(time)
+    }
 }
 
 impl Segment {
     /// The pose at `time` (frames) within the segment.
     fn at(&self, time: f64) -> DAffine3 {
         let since = self.since(time);
-        let rotation = |curve: &Cubic<DVec3>| DQuat::from_scaled_axis(curve.at(since));
-        let mut turn = rotation(&self.turn);
+        let mut turn = self.turn.at(since);
         if let Some([before, after]) = &self.swings {
-            turn = rotation(after) * turn * rotation(before);
+            turn = after.at(since) * turn * before.at(since);
         }
         DAffine3::from_scale_rotation_translation(
             self.scale.at(since),
@@ -174,8 +228,8 @@ impl Segment {
         time - self.start
     }
 
-    /// Rotation vectors, each along an axis of its own, in the order in which they are applied.
-    pub fn turns(&self) -> impl Iterator<Item = &Cubic<DVec3>> {
+    /// Rotations, each about an axis of its own, in the order in which they are applied.
+    pub fn turns(&self) -> impl Iterator<Item = &Turning> {
         let [before, after] = self
             .swings
             .as_ref()
@@ -187,6 +241,6 @@ impl Segment {
     pub fn stands_still(&self) -> bool {
         self.translation.is_constant()
             && self.scale.is_constant()
-            && self.turns().all(Cubic::is_constant)
+            && self.turns().all(|turn| turn.angle.is_constant())
     }
 }

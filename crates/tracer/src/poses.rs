@@ -1,7 +1,10 @@
 //! Where everything is at the time of one path: computed when first asked for, kept for all its bounces.
 
+use std::sync::Arc;
+
 use glam::DAffine3;
 
+use crate::motion::Path;
 use crate::scene::{Parent, Scene};
 use crate::swept::{chain, key_times};
 
@@ -16,10 +19,18 @@ pub(crate) struct Pose {
 #[derive(Clone)]
 pub struct Poses<'a> {
     scene: &'a Scene,
+    paths: Arc<Paths>,
     time: f64,
     /// Per object; valid when its stamp is the current one, or for ever.
     poses: Vec<(Stamp, Pose)>,
     current: Stamp,
+}
+
+/// Every motion of a scene.
+struct Paths {
+    camera: Path,
+    /// Per object, relative to its parent.
+    objects: Vec<Path>,
 }
 
 type Stamp = u64;
@@ -47,8 +58,14 @@ impl<'a> Poses<'a> {
                 }
             })
             .collect();
+        let objects = scene.objects.iter();
+        let paths = Paths {
+            camera: scene.camera.motion.path(),
+            objects: objects.map(|object| object.motion.path()).collect(),
+        };
         Self {
             scene,
+            paths: Arc::new(paths),
             time: from,
             poses,
             current: 1,
@@ -71,10 +88,10 @@ impl<'a> Poses<'a> {
     pub(crate) fn pose(&mut self, object: usize) -> &Pose {
         let stamp = self.poses[object].0;
         if stamp != FOR_EVER && stamp != self.current {
-            let own = self.scene.objects[object].motion.at(self.time);
+            let own = self.paths.objects[object].at(self.time);
             let to_world = match self.scene.objects[object].parent {
                 Parent::World => own,
-                Parent::Camera => self.scene.camera.motion.at(self.time) * own,
+                Parent::Camera => self.paths.camera.at(self.time) * own,
                 Parent::Object(parent) => self.pose(parent).to_world * own,
             };
             self.poses[object] = (self.current, Pose::new(to_world));

@@ -157,7 +157,7 @@ fn carried(inner: Reach, segment: &Segment, from: f64, to: f64) -> Reach {
             + scale.value * inner.acceleration,
     };
     let turned = segment.turns().fold(scaled, |inner, turn| {
-        let turn = turn.greatest(from, to, DVec3::length);
+        let turn = turn.angle.greatest(from, to, f64::abs);
         Reach {
             distance: inner.distance,
             speed: turn.slope * inner.distance + inner.speed,
