@@ -4,9 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use frame::{
-    Accumulation, Alignment, Channel, ColorSampling, Efficiency, ExrFile, FileError, Frame, Image,
-    Ladder, Picture, Plane, Provenance, Raster, Samples, ShutterProfile, Truth, VelocityKind,
-    read_exr, write_atomically, write_exr,
+    Accumulation, Alignment, AtInstant, Channel, ColorSampling, Efficiency, ExrFile, FileError,
+    Frame, Image, Ladder, Picture, Plane, Provenance, Raster, Samples, ShutterProfile, Truth,
+    VelocityKind, read_exr, write_atomically, write_exr,
 };
 
 const WIDTH: u32 = 13;
@@ -74,6 +74,16 @@ fn a_frame() -> Frame {
     }
 }
 
+fn at_instant(salt: u32) -> AtInstant {
+    AtInstant {
+        frozen: image(salt),
+        unknowable: plane(salt + 3),
+        placed: plane(salt + 4),
+        offset: plane(salt + 5).zip(&plane(salt + 6), |x, y| [*x, *y]),
+        spread: image(salt + 7),
+    }
+}
+
 fn a_truth() -> Truth {
     Truth {
         provenance: provenance(),
@@ -82,6 +92,7 @@ fn a_truth() -> Truth {
         alignment: Alignment::Centred,
         objects: objects(),
         halves: [picture(20), picture(30)],
+        at_instant: [at_instant(60), at_instant(70)],
         standard_error: image(40),
         motion: plane(50),
     }

@@ -2,8 +2,8 @@
 //! must say is known beforehand.
 
 use frame::{
-    Accumulation, Alignment, ColorSampling, FAR_DEPTH, Frame, Image, Ladder, Picture, Plane,
-    Provenance, Raster, Shutter, ShutterProfile, Truth, VelocityKind,
+    Accumulation, Alignment, AtInstant, ColorSampling, FAR_DEPTH, Frame, Image, Ladder, Picture,
+    Plane, Provenance, Raster, Shutter, ShutterProfile, Truth, VelocityKind,
 };
 use metrics::Viewing;
 
@@ -135,6 +135,7 @@ impl Scene {
             standard_error: halves[0].color.zip(&halves[1].color, |a, b| {
                 std::array::from_fn(|c| 0.5 * (a[c] - b[c]).abs())
             }),
+            at_instant: halves.each_ref().map(|half| nothing_unknown(&half.color)),
             halves,
             motion,
         }
@@ -231,4 +232,15 @@ fn texture(local: [f64; 2]) -> [f64; 3] {
 fn ground(pixel: [u32; 2]) -> [f64; 3] {
     let value = 0.2 + 0.15 * f64::from((pixel[0] / 5 + pixel[1] / 7) % 3);
     [0.7 * value, value, 1.1 * value]
+}
+
+/// As if everything were known and stood still: what no score of these truths looks at.
+fn nothing_unknown(color: &Image) -> AtInstant {
+    AtInstant {
+        frozen: color.clone(),
+        unknowable: color.map(|_| 0.0),
+        placed: color.map(|_| 1.0),
+        offset: color.map(|_| [0.0; 2]),
+        spread: color.map(|_| [0.0; 3]),
+    }
 }

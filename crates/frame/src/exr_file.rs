@@ -180,7 +180,7 @@ impl ExrFile {
     }
 }
 
-fn in_layer(layer: &str, name: &str) -> String {
+pub(crate) fn in_layer(layer: &str, name: &str) -> String {
     if layer.is_empty() {
         name.to_owned()
     } else {

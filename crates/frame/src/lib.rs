@@ -20,6 +20,7 @@
 //! | determinism | the same inputs give the same bytes on any number of threads |
 
 mod accumulation;
+mod at_instant;
 mod display;
 mod error;
 mod exr_file;
@@ -34,6 +35,7 @@ mod shutter_profile;
 mod truth;
 
 pub use accumulation::{Accumulation, Ladder};
+pub use at_instant::AtInstant;
 pub use display::{display_srgb, write_png};
 pub use error::FileError;
 pub use exr_file::{Channel, ExrFile, Samples, read_exr, write_atomically, write_exr};

@@ -1,7 +1,8 @@
 //! Colour and visibility together: what a half of the truth, an accumulation or a filter yields.
 
-use crate::exr_file::ExrFile;
-use crate::{FileError, Image, Plane, Raster};
+use crate::exr_file::{ExrFile, in_layer};
+use crate::raster::{mean_plane, mean_vectors};
+use crate::{FileError, Image, Plane};
 
 /// A picture and what is seen in it. All rasters have the same size.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,52 +50,16 @@ impl Picture {
     pub fn mean<'a>(pictures: impl IntoIterator<Item = &'a Picture>) -> Picture {
         let pictures: Vec<&Picture> = pictures.into_iter().collect();
         let first = pictures.first().expect("a mean is of at least one picture");
-        let colors: Vec<&Image> = pictures.iter().map(|picture| &picture.color).collect();
-        let coverage = |object: usize| {
-            let planes: Vec<&Plane> = (pictures.iter())
-                .map(|picture| &picture.coverage[object])
-                .collect();
-            mean(&planes, |planes, pixel| {
-                mean_of(planes.iter().map(|plane| plane.pixels[pixel]))
-            })
-        };
         Picture {
-            color: mean(&colors, |images, pixel| {
-                std::array::from_fn(|component| {
-                    mean_of(images.iter().map(|image| image.pixels[pixel][component]))
-                })
-            }),
-            coverage: (0..first.coverage.len()).map(coverage).collect(),
+            color: mean_vectors(pictures.iter().map(|picture| &picture.color)),
+            coverage: (0..first.coverage.len())
+                .map(|object| mean_plane(pictures.iter().map(|picture| &picture.coverage[object])))
+                .collect(),
         }
     }
 }
 
-/// A raster of the size of all `rasters`, made pixel by pixel.
-fn mean<T>(rasters: &[&Raster<T>], value: impl Fn(&[&Raster<T>], usize) -> T) -> Raster<T> {
-    let first = rasters[0];
-    assert!(
-        rasters.iter().all(|raster| raster.same_size(first)),
-        "a mean is of pictures of one size"
-    );
-    Raster {
-        width: first.width,
-        height: first.height,
-        pixels: (0..first.pixels.len())
-            .map(|pixel| value(rasters, pixel))
-            .collect(),
-    }
-}
-
-fn mean_of(values: impl ExactSizeIterator<Item = f32>) -> f32 {
-    let count = values.len() as f64;
-    (values.map(f64::from).sum::<f64>() / count) as f32
-}
-
 /// Channel that holds an object's coverage, in a named layer or at the top.
 pub(crate) fn coverage_name(layer: &str, object: &str) -> String {
-    if layer.is_empty() {
-        format!("coverage.{object}")
-    } else {
-        format!("{layer}.coverage.{object}")
-    }
+    in_layer(layer, &format!("coverage.{object}"))
 }

@@ -99,3 +99,42 @@ impl<T> Raster<T> {
         self.width == other.width && self.height == other.height
     }
 }
+
+/// The mean of planes of one size, at least one; summed in `f64`, in their order.
+pub(crate) fn mean_plane<'a>(planes: impl IntoIterator<Item = &'a Plane>) -> Plane {
+    let planes: Vec<&Plane> = planes.into_iter().collect();
+    mean(&planes, |pixel| {
+        mean_number(planes.iter().map(|plane| plane.pixels[pixel]))
+    })
+}
+
+/// The same of rasters of several numbers per pixel.
+pub(crate) fn mean_vectors<'a, const N: usize>(
+    rasters: impl IntoIterator<Item = &'a Raster<[f32; N]>>,
+) -> Raster<[f32; N]> {
+    let rasters: Vec<&Raster<[f32; N]>> = rasters.into_iter().collect();
+    mean(&rasters, |pixel| {
+        std::array::from_fn(|component| {
+            mean_number(rasters.iter().map(|raster| raster.pixels[pixel][component]))
+        })
+    })
+}
+
+/// A raster of the size of all `rasters`, made from the pixels' indices.
+fn mean<T>(rasters: &[&Raster<T>], value: impl FnMut(usize) -> T) -> Raster<T> {
+    let first = rasters.first().expect("a mean is of at least one raster");
+    assert!(
+        rasters.iter().all(|raster| raster.same_size(first)),
+        "a mean is of rasters of one size"
+    );
+    Raster {
+        width: first.width,
+        height: first.height,
+        pixels: (0..first.pixels.len()).map(value).collect(),
+    }
+}
+
+fn mean_number(values: impl ExactSizeIterator<Item = f32>) -> f32 {
+    let count = values.len() as f64;
+    (values.map(f64::from).sum::<f64>() / count) as f32
+}

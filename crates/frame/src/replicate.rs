@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::exr_file::{ExrFile, read_exr, write_exr};
 use crate::truth::{get_shutter, set_shutter};
-use crate::{Alignment, FileError, Picture, Provenance, Shutter, ShutterProfile};
+use crate::{Alignment, AtInstant, FileError, Picture, Provenance, Shutter, ShutterProfile};
 
 /// One of the renders that a [`Truth`](crate::Truth) is the mean of. All rasters have the same size.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,14 +25,17 @@ pub struct Replicate {
     pub moving: Vec<bool>,
     /// Radiance and visibility integrated over the shutter.
     pub picture: Picture,
+    /// The same as it was at the instant.
+    pub at_instant: AtInstant,
 }
 
 impl Replicate {
-    /// Writes the replicate as OpenEXR: `R G B` and `coverage.<object>`.
+    /// Writes the replicate as OpenEXR: `R G B`, `coverage.<object>`, and what [`AtInstant`] holds.
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
         let color = &self.picture.color;
         let mut file = ExrFile::new(color.width, color.height);
         self.picture.push(&mut file, "", &self.objects);
+        self.at_instant.push(&mut file, "");
         file.set("kind", "replicate");
         file.set("replicate", self.index);
         set_shutter(&mut file, self.shutter, self.alignment);
@@ -62,6 +65,7 @@ impl Replicate {
             alignment,
             moving: objects.iter().map(|name| moving.contains(name)).collect(),
             picture: Picture::from_exr(&file, "", &objects)?,
+            at_instant: AtInstant::from_exr(&file, "")?,
             objects,
         })
     }

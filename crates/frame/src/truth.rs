@@ -5,8 +5,8 @@ use std::path::Path;
 use crate::exr_file::{ExrFile, read_exr, write_exr};
 use crate::region::noise_floor;
 use crate::{
-    Alignment, FileError, Image, Picture, Plane, Provenance, Region, Regions, Replicate, Shutter,
-    ShutterProfile, regions,
+    Alignment, AtInstant, FileError, Image, Picture, Plane, Provenance, Region, Regions, Replicate,
+    Shutter, ShutterProfile, regions,
 };
 
 /// Radiance and visibility integrated over the shutter, with its own noise. All rasters have the same size.
@@ -24,6 +24,8 @@ pub struct Truth {
     pub objects: Vec<String>,
     /// Means of the even and of the odd replicates.
     pub halves: [Picture; 2],
+    /// The same as it was at the instant, likewise halved.
+    pub at_instant: [AtInstant; 2],
     /// Standard error of [`Truth::mean`], from the spread of the replicates.
     pub standard_error: Image,
     /// Fraction of (shutter x pixel area) whose visible surface moves on screen while the shutter is open.
@@ -88,6 +90,9 @@ impl Truth {
             Picture::mean(replicates.iter().skip(first).step_by(2).map(|r| &r.picture))
         };
         let halves = [half(0), half(1)];
+        let at_instant = [0, 1].map(|first| {
+            AtInstant::mean((replicates.iter().skip(first).step_by(2)).map(|r| &r.at_instant))
+        });
         let count = replicates.len() as u32;
         Ok(Self {
             provenance: Provenance {
@@ -103,6 +108,7 @@ impl Truth {
             motion: motion(&Picture::mean(&halves), &first.moving),
             standard_error: standard_error(replicates),
             halves,
+            at_instant,
         })
     }
 
@@ -115,6 +121,11 @@ impl Truth {
     /// the moving region pool so far, and accumulations are rendered so far.
     pub fn motion_margin(&self) -> u32 {
         (f64::from(self.motion.height) / 15.0).round() as u32
+    }
+
+    /// Mean over all replicates of what was seen, as it was at the instant.
+    pub fn at_instant_mean(&self) -> AtInstant {
+        AtInstant::mean(&self.at_instant)
     }
 
     /// Mean of all replicates.
@@ -133,7 +144,8 @@ impl Truth {
             .collect()
     }
 
-    /// Writes the truth as OpenEXR: the mean as `R G B` and `coverage.<object>`, the halves as layers `A` and `B`,
+    /// Writes the truth as OpenEXR: the mean as `R G B` and `coverage.<object>`, what [`AtInstant`] holds, the
+    /// halves of both as layers `A` and `B`,
     /// `stderr.R/G/B`, and `motion`. The attributes `noise_floor_<region>` report [`Truth::noise_floors`].
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
         let (width, height) = self.size();
@@ -141,6 +153,9 @@ impl Truth {
         self.mean().push(&mut file, "", &self.objects);
         self.halves[0].push(&mut file, "A", &self.objects);
         self.halves[1].push(&mut file, "B", &self.objects);
+        self.at_instant_mean().push(&mut file, "");
+        self.at_instant[0].push(&mut file, "A");
+        self.at_instant[1].push(&mut file, "B");
         file.push_color("stderr", &self.standard_error);
         file.push_plane("motion", &self.motion);
         file.set("kind", "truth");
@@ -174,6 +189,10 @@ impl Truth {
                 Picture::from_exr(&file, "B", &objects)?,
             ],
             objects,
+            at_instant: [
+                AtInstant::from_exr(&file, "A")?,
+                AtInstant::from_exr(&file, "B")?,
+            ],
             standard_error: file.color("stderr")?,
             motion: file.plane("motion")?,
         })

@@ -12,6 +12,7 @@ use crate::opening::Opening;
 use crate::path::Integrator;
 use crate::poses::Poses;
 use crate::progress::Meter;
+use crate::recall::{Recall, Recollection};
 use crate::sampler::{Sampler, Stream, pixel_seed};
 use crate::scene::Scene;
 use crate::settings::TraceError;
@@ -46,6 +47,8 @@ pub(crate) struct Film<'a> {
     pub canvas: Canvas,
     pub places: Places,
     pub times: Times<'a>,
+    /// Whether samples are recalled as they were at the instant; the stage must then hold `t = 0`.
+    pub recall: Option<Recall>,
     /// Independent, complete sets of samples, by the numbers that choose their random numbers.
     pub replicates: Range<u32>,
     /// A power of two.
@@ -60,6 +63,8 @@ pub(crate) struct Estimate {
     pub radiance: DVec3,
     /// Per object id, the samples that saw it.
     pub seen: Vec<u32>,
+    /// Means of what was recalled, if anything was.
+    pub recollection: Recollection,
 }
 
 /// A pixel's colour and coverages.
@@ -124,6 +129,7 @@ impl<'a> Film<'a> {
         let number = self.canvas.number(pixel);
         let seed = pixel_seed(self.seed, self.stream, number, replicate);
         let mut sum = DVec3::ZERO;
+        let mut recollection = Recollection::default();
         let mut seen = vec![0; eye.scene.objects.len() + 1];
         for index in 0..self.samples_per_replicate {
             let sampler = Sampler::new(seed, index);
@@ -137,11 +143,17 @@ impl<'a> Film<'a> {
             let sample = self.integrator.trace(&mut eye.poses, ray, &sampler);
             debug_assert!(sample.radiance.is_finite(), "radiance is a finite number");
             sum += sample.radiance.as_dvec3();
-            seen[sample.object_id] += 1;
+            seen[sample.object_id()] += 1;
+            if let Some(recall) = &self.recall {
+                let poses = (&mut eye.poses, &mut eye.instant);
+                let recalled = recall.sample(&self.integrator, poses, &ray, &sample, &sampler);
+                recollection.add(&recalled, [left + 0.5, top + 0.5]);
+            }
         }
         Estimate {
             radiance: sum / f64::from(self.samples_per_replicate),
             seen,
+            recollection: recollection.over(self.samples_per_replicate),
         }
     }
 }
@@ -150,6 +162,8 @@ impl<'a> Film<'a> {
 struct Eye<'a> {
     scene: &'a Scene,
     poses: Poses<'a>,
+    /// As everything is at `t = 0`.
+    instant: Poses<'a>,
     view: View,
     moves: bool,
     size: [u32; 2],
@@ -160,12 +174,15 @@ impl<'a> Eye<'a> {
         let stage: &Stage<'a> = film.integrator.stage;
         let scene = stage.scene;
         let poses = stage.poses();
+        let mut instant = stage.poses();
+        instant.at(0.0);
         Self {
             scene,
             view: scene
                 .camera
                 .view(poses.time(), film.canvas.width, film.canvas.height),
             poses,
+            instant,
             moves: scene.camera.motion.keys.len() > 1 || scene.camera.vertical_fov.len() > 1,
             size: [film.canvas.width, film.canvas.height],
         }

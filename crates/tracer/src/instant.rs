@@ -43,6 +43,7 @@ pub fn trace_frame(
             ColorSampling::Point => Places::Centre,
         },
         times: Times::Instant,
+        recall: None,
         replicates: 0..1,
         samples_per_replicate: settings.samples_per_pixel,
         seed: settings.seed,

@@ -57,6 +57,7 @@ pub fn trace_ladder(
             canvas: Canvas::bare(settings.width, settings.height),
             places: Places::Area,
             times: Times::Midpoints(&opening, subframes),
+            recall: None,
             replicates: 0..REPLICATES,
             samples_per_replicate,
             seed: settings.seed,

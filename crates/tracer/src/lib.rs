@@ -26,6 +26,7 @@ mod poses;
 mod progress;
 mod provenance;
 mod ray;
+mod recall;
 mod sampler;
 mod scene;
 mod settings;

@@ -16,7 +16,7 @@ const ROULETTE_FROM: u32 = 3;
 const MOST_BOUNCES: u32 = 64;
 /// Secondary rays start this far off their surface, as a part of the greatest coordinate: positions are exact to
 /// about 1e-14 of it.
-const LIFT: f64 = 1e-9;
+pub(crate) const LIFT: f64 = 1e-9;
 
 /// Traces paths through a stage.
 pub(crate) struct Integrator<'a> {
@@ -28,8 +28,17 @@ pub(crate) struct Integrator<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PathSample {
     pub radiance: Vec3,
+    /// The surface seen first; none for the background.
+    pub hit: Option<Hit>,
+    /// Whether that surface scattered any light, or sent only its own.
+    pub scattered: bool,
+}
+
+impl PathSample {
     /// The object seen first, by id: 0 is the background.
-    pub object_id: usize,
+    pub fn object_id(&self) -> usize {
+        self.hit.map_or(0, |hit| hit.object + 1)
+    }
 }
 
 /// The density of the direction that a ray was drawn with; a camera ray was not drawn.
@@ -46,26 +55,49 @@ impl<'a> Integrator<'a> {
 
     /// Radiance that arrives along a camera ray, at the time of `poses`.
     pub fn trace(&self, poses: &mut Poses, camera_ray: Ray, sampler: &Sampler) -> PathSample {
+        let hit = self.stage.closest(poses, &camera_ray);
+        let (radiance, bounces) = self.follow(poses, camera_ray, hit, sampler);
+        PathSample {
+            radiance,
+            hit,
+            scattered: bounces > 0,
+        }
+    }
+
+    /// Radiance that arrives along a camera ray which meets a known surface first.
+    pub fn radiance_along(
+        &self,
+        poses: &mut Poses,
+        camera_ray: Ray,
+        first_hit: Option<Hit>,
+        sampler: &Sampler,
+    ) -> Vec3 {
+        self.follow(poses, camera_ray, first_hit, sampler).0
+    }
+
+    /// The path from its first hit on: its radiance, and how often it was scattered.
+    fn follow(
+        &self,
+        poses: &mut Poses,
+        camera_ray: Ray,
+        first_hit: Option<Hit>,
+        sampler: &Sampler,
+    ) -> (Vec3, u32) {
         let scene = self.stage.scene;
-        let mut sample = PathSample {
-            radiance: Vec3::ZERO,
-            object_id: 0,
-        };
+        let mut radiance = Vec3::ZERO;
         let mut ray = camera_ray;
+        let mut met = first_hit;
         let mut drawn: Drawn = None;
         let mut throughput = Vec3::ONE;
         for depth in 0..MOST_BOUNCES {
-            let Some(hit) = self.stage.closest(poses, &ray) else {
-                sample.radiance += throughput * self.beyond(&ray, drawn);
-                break;
+            let Some(hit) = met else {
+                radiance += throughput * self.beyond(&ray, drawn);
+                return (radiance, depth);
             };
-            if depth == 0 {
-                sample.object_id = hit.object + 1;
-            }
             let surface = Surface::at(scene, poses.pose(hit.object), &ray, &hit);
-            sample.radiance += throughput * self.emitted(&surface, &ray, &hit, drawn);
+            radiance += throughput * self.emitted(&surface, &ray, &hit, drawn);
             if surface.albedo == Vec3::ZERO {
-                break;
+                return (radiance, depth);
             }
             throughput *= surface.albedo;
             let lobe = Lobe::new(surface.facet, surface.normal);
@@ -73,16 +105,16 @@ impl<'a> Integrator<'a> {
             let start = surface.position + LIFT * magnitude(&surface, &hit) * surface.facet;
             if self.has_lights() {
                 let points = sampler.lights(depth);
-                sample.radiance += throughput * self.direct(poses, start, &lobe, choice, points);
+                radiance += throughput * self.direct(poses, start, &lobe, choice, points);
             }
             let [sky_u, sky_v, ..] = sampler.sky(depth);
             if let Some(sky) = scene.background.sample([sky_u, sky_v]) {
-                sample.radiance += throughput * self.arriving(poses, start, &lobe, &sky, true);
+                radiance += throughput * self.arriving(poses, start, &lobe, &sky, true);
             }
             if depth >= ROULETTE_FROM {
                 let survival = f64::from(throughput.max_element()).min(1.0);
                 if roulette >= survival {
-                    break;
+                    return (radiance, depth + 1);
                 }
                 throughput /= survival as f32;
             }
@@ -92,8 +124,9 @@ impl<'a> Integrator<'a> {
                 origin: start,
                 direction,
             };
+            met = self.stage.closest(poses, &ray);
         }
-        sample
+        (radiance, MOST_BOUNCES)
     }
 
     fn has_lights(&self) -> bool {

@@ -72,6 +72,11 @@ impl<'a> Poses<'a> {
         }
     }
 
+    /// Whether no object ever moves.
+    pub(crate) fn stand_still(&self) -> bool {
+        self.poses.iter().all(|(stamp, _)| *stamp == FOR_EVER)
+    }
+
     /// Moves to another time; returns itself.
     pub fn at(&mut self, time: f64) -> &mut Self {
         self.time = time;

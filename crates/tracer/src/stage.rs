@@ -11,7 +11,7 @@ use crate::lanes::Avx2;
 use crate::lanes::{Lanes, Portable};
 use crate::poses::Poses;
 use crate::ray::Ray;
-use crate::scene::Scene;
+use crate::scene::{Object, Scene};
 use crate::surface::{Opacity, Surface};
 use crate::swept::{greatest_speed, path_bounds, swept_bounds};
 use crate::triangle::Crossing;
@@ -81,6 +81,12 @@ impl<'a> Stage<'a> {
             poses: Poses::new(scene, from, to),
             traversal: Traversal::best(),
         }
+    }
+
+    /// Whether nothing in the world changes its place or shape.
+    pub(crate) fn stands_still(&self) -> bool {
+        let deforms = |object: &Object| self.scene.meshes[object.mesh].deforms();
+        self.poses.stand_still() && !self.scene.objects.iter().any(deforms)
     }
 
     /// A store of poses for one path at a time.

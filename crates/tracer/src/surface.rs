@@ -86,6 +86,14 @@ pub(crate) fn corners(mesh: &Mesh, triangle: u32, time: f64) -> [DVec3; 3] {
     mesh.at(time).corners(triangle)
 }
 
+/// The normal by which a triangle is wound, in the world; not of unit length.
+pub(crate) fn winding(scene: &Scene, pose: &Pose, hit: &Hit, time: f64) -> DVec3 {
+    let mesh = &scene.meshes[scene.objects[hit.object].mesh];
+    let [a, b, c] = corners(mesh, hit.triangle, time);
+    let edge = |to: DVec3| pose.to_world.transform_vector3(to - a);
+    edge(b).cross(edge(c))
+}
+
 /// The material of a triangle.
 pub(crate) fn material(scene: &Scene, object: usize, triangle: u32) -> &Material {
     let object = &scene.objects[object];

@@ -1,6 +1,6 @@
 //! The truth: radiance and visibility integrated over the shutter.
 
-use frame::{Replicate, Shutter, Truth};
+use frame::{AtInstant, Raster, Replicate, Shutter, Truth};
 
 use crate::canvas::Canvas;
 use crate::film::{Film, PixelMean, Places, Times, picture};
@@ -9,6 +9,7 @@ use crate::opening::Opening;
 use crate::path::Integrator;
 use crate::progress::{Meter, Progress, Watch};
 use crate::provenance::{object_names, provenance, replicate_hash};
+use crate::recall::{Recall, Recollection};
 use crate::sampler::Stream;
 use crate::scene::Scene;
 use crate::settings::{TraceError, TruthSettings};
@@ -49,7 +50,7 @@ impl<'a> TruthTracer<'a> {
         let shutter = settings.check(scene)?;
         let whole = scene.shutter_profile.whole(shutter);
         Ok(Self {
-            stage: Stage::new(scene, whole.open, whole.close),
+            stage: Stage::new(scene, whole.open.min(0.0), whole.close.max(0.0)),
             settings: *settings,
             shutter,
             opening: Opening::new(shutter, &scene.shutter_profile),
@@ -66,6 +67,7 @@ impl<'a> TruthTracer<'a> {
             canvas,
             places: Places::Area,
             times: Times::Open(&self.opening),
+            recall: Some(Recall::of(&self.stage, canvas)),
             replicates: index..index + 1,
             samples_per_replicate: self.settings.samples_per_replicate(),
             seed: self.settings.seed,
@@ -73,7 +75,11 @@ impl<'a> TruthTracer<'a> {
         };
         let pixels = canvas.pixels();
         let meter = Meter::new(watch, pixels.len() as u64 * film.samples_per_pixel());
-        let developed = film.develop(&pixels, &meter, |estimates| PixelMean::of(estimates))?;
+        let developed = film.develop(&pixels, &meter, |estimates| {
+            (PixelMean::of(estimates), estimates[0].recollection)
+        })?;
+        let (means, recollections): (Vec<PixelMean>, Vec<Recollection>) =
+            developed.into_iter().unzip();
         let scene = self.stage.scene;
         Ok(Replicate {
             provenance: provenance(
@@ -89,7 +95,23 @@ impl<'a> TruthTracer<'a> {
             alignment: self.settings.alignment,
             objects: object_names(scene),
             moving: self.moving.clone(),
-            picture: picture(canvas, &developed),
+            picture: picture(canvas, &means),
+            at_instant: at_instant(canvas, &recollections),
         })
+    }
+}
+
+fn at_instant(canvas: Canvas, recollections: &[Recollection]) -> AtInstant {
+    let pixels: Raster<Recollection> = Raster {
+        width: canvas.width,
+        height: canvas.height,
+        pixels: recollections.to_vec(),
+    };
+    AtInstant {
+        frozen: pixels.map(|pixel| pixel.frozen.as_vec3().to_array()),
+        unknowable: pixels.map(|pixel| pixel.unknowable as f32),
+        placed: pixels.map(|pixel| pixel.placed as f32),
+        offset: pixels.map(|pixel| pixel.offset.as_vec2().to_array()),
+        spread: pixels.map(|pixel| pixel.spread.as_vec3().to_array()),
     }
 }

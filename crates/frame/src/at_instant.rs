@@ -1,0 +1,71 @@
+//! What is seen while the shutter is open, as it was at the frame's instant: what no filter can know, and what it could.
+
+use crate::exr_file::{ExrFile, in_layer};
+use crate::raster::{mean_plane, mean_vectors};
+use crate::{FileError, Image, Plane, Raster, Vectors};
+
+/// Means over all samples of the shutter and the pixel's area, so that means of several renders are exact. All rasters have
+/// the same size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AtInstant {
+    /// Radiance if each visible point sent what it sent at `t = 0`: visibility moves, shading stands still. What the truth
+    /// has beyond it are shadows, reflections and lights that move, which no frame of the instant tells.
+    pub frozen: Image,
+    /// The fraction whose visible point cannot be seen in the frame of the instant: it lay outside the picture, behind
+    /// something, or showed its other side.
+    pub unknowable: Plane,
+    /// The fraction whose visible point has a place at the instant: all that was not behind the camera. What follows is
+    /// to be divided by it to get the mean over those.
+    pub placed: Plane,
+    /// From the pixel's centre to the visible point's place at the instant, in pixels, +x right, +y down; zero where it has
+    /// none.
+    pub offset: Vectors,
+    /// The products xx, xy and yy of that offset, in square pixels.
+    pub spread: Raster<[f32; 3]>,
+}
+
+const SPREAD: [&str; 3] = ["xx", "xy", "yy"];
+
+impl AtInstant {
+    /// The mean of several of one size, at least one; summed in `f64`, in their order.
+    pub fn mean<'a>(all: impl IntoIterator<Item = &'a AtInstant>) -> AtInstant {
+        let all: Vec<&AtInstant> = all.into_iter().collect();
+        AtInstant {
+            frozen: mean_vectors(all.iter().map(|one| &one.frozen)),
+            unknowable: mean_plane(all.iter().map(|one| &one.unknowable)),
+            placed: mean_plane(all.iter().map(|one| &one.placed)),
+            offset: mean_vectors(all.iter().map(|one| &one.offset)),
+            spread: mean_vectors(all.iter().map(|one| &one.spread)),
+        }
+    }
+
+    /// As `frozen.R/G/B`, `unknowable`, `reference.placed`, `reference.x/y` and `reference.xx/xy/yy`.
+    pub(crate) fn push(&self, file: &mut ExrFile, layer: &str) {
+        let name = |name: &str| in_layer(layer, name);
+        file.push_color(&name("frozen"), &self.frozen);
+        file.push_plane(&name("unknowable"), &self.unknowable);
+        file.push_plane(&name("reference.placed"), &self.placed);
+        for (component, axis) in ["x", "y"].into_iter().enumerate() {
+            let plane = self.offset.map(|offset| offset[component]);
+            file.push_plane(&name(&format!("reference.{axis}")), &plane);
+        }
+        for (component, product) in SPREAD.into_iter().enumerate() {
+            let plane = self.spread.map(|spread| spread[component]);
+            file.push_plane(&name(&format!("reference.{product}")), &plane);
+        }
+    }
+
+    pub(crate) fn from_exr(file: &ExrFile, layer: &str) -> Result<Self, FileError> {
+        let plane = |name: &str| file.plane(&in_layer(layer, name));
+        let [x, y] = [plane("reference.x")?, plane("reference.y")?];
+        let [xx, xy, yy] = SPREAD.map(|product| plane(&format!("reference.{product}")));
+        let products = xx?.zip(&xy?, |xx, xy| [*xx, *xy]);
+        Ok(Self {
+            frozen: file.color(&in_layer(layer, "frozen"))?,
+            unknowable: plane("unknowable")?,
+            placed: plane("reference.placed")?,
+            offset: x.zip(&y, |x, y| [*x, *y]),
+            spread: products.zip(&yy?, |[xx, xy], yy| [*xx, *xy, *yy]),
+        })
+    }
+}

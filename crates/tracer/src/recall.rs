@@ -1,0 +1,213 @@
+//! What is seen at one time, as it was at the frame's instant.
+
+use glam::{DVec2, DVec3, Vec3};
+
+use crate::camera::View;
+use crate::canvas::Canvas;
+use crate::path::{Integrator, LIFT, PathSample};
+use crate::poses::Poses;
+use crate::ray::Ray;
+use crate::sampler::Sampler;
+use crate::stage::{Hit, Stage};
+use crate::surface::{corners, winding};
+
+/// The instant, made ready to be asked about what is seen at other times.
+pub(crate) struct Recall {
+    view: View,
+    canvas: Canvas,
+    /// Nothing changes in the world, and no surface looks different from elsewhere: shading at the instant is shading at
+    /// any time.
+    unchanging: bool,
+}
+
+/// One sample as it was at the instant.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Recalled {
+    /// What the visible point would have sent.
+    pub frozen: Vec3,
+    /// Where it was, in pixels from the picture's top left; none behind the camera.
+    pub place: Option<DVec2>,
+    /// Whether the frame shows it.
+    pub known: bool,
+}
+
+/// Sums over samples.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Recollection {
+    pub frozen: DVec3,
+    pub unknowable: f64,
+    pub placed: f64,
+    pub offset: DVec2,
+    /// xx, xy, yy.
+    pub spread: DVec3,
+}
+
+impl Recall {
+    pub fn of(stage: &Stage, canvas: Canvas) -> Self {
+        Self {
+            view: stage.scene.camera.view(0.0, canvas.width, canvas.height),
+            canvas,
+            unchanging: stage.stands_still(),
+        }
+    }
+
+    /// The sample that `ray` brought home at the time of `poses`; `then` are the poses of the instant.
+    pub fn sample(
+        &self,
+        integrator: &Integrator,
+        (poses, then): (&mut Poses, &mut Poses),
+        ray: &Ray,
+        sample: &PathSample,
+        sampler: &Sampler,
+    ) -> Recalled {
+        let Some(hit) = &sample.hit else {
+            return self.background(integrator.stage, then, ray.direction, sample.radiance);
+        };
+        let point = self.point(integrator.stage, then, hit);
+        let sight = self.sight(integrator.stage, (poses, then), ray, hit, point);
+        let place = self.view.project(point).map(DVec2::from);
+        let frozen = if self.unchanging || !sample.scattered {
+            sample.radiance
+        } else {
+            integrator.radiance_along(then, sight.ray, Some(sight.hit), sampler)
+        };
+        Recalled {
+            frozen,
+            place,
+            known: sight.same_side
+                && place.is_some_and(|place| self.shows(place))
+                && !self.hidden(integrator.stage, then, &sight),
+        }
+    }
+
+    /// Infinity sends the same at all times.
+    fn background(
+        &self,
+        stage: &Stage,
+        then: &mut Poses,
+        direction: DVec3,
+        radiance: Vec3,
+    ) -> Recalled {
+        let place = self.view.project_direction(direction).map(DVec2::from);
+        let ray = Ray {
+            origin: self.view.to_world.translation,
+            direction,
+        };
+        Recalled {
+            frozen: radiance,
+            place,
+            known: place.is_some_and(|place| self.shows(place))
+                && !stage.blocked(then, &ray, f64::INFINITY),
+        }
+    }
+
+    /// Where a hit's point was in the world.
+    fn point(&self, stage: &Stage, then: &mut Poses, hit: &Hit) -> DVec3 {
+        let mesh = &stage.scene.meshes[stage.scene.objects[hit.object].mesh];
+        let [a, b, c] = corners(mesh, hit.triangle, 0.0);
+        let point = a + hit.weights[0] * (b - a) + hit.weights[1] * (c - a);
+        then.pose(hit.object).to_world.transform_point3(point)
+    }
+
+    /// The ray on which the instant's camera looked at the point. Where it looked at the surface's other side, the side
+    /// that is seen now is looked at in the same way as now, in the object's own space.
+    fn sight(
+        &self,
+        stage: &Stage,
+        (poses, then): (&mut Poses, &mut Poses),
+        ray: &Ray,
+        hit: &Hit,
+        point: DVec3,
+    ) -> Sight {
+        let side = |poses: &mut Poses, time: f64, direction: DVec3| {
+            winding(stage.scene, poses.pose(hit.object), hit, time).dot(direction) > 0.0
+        };
+        let eye = self.view.to_world.translation;
+        let way = point - eye;
+        let seen = side(poses, hit.time, ray.direction);
+        let same_side = side(then, 0.0, way) == seen;
+        let direction = if same_side {
+            way.normalize()
+        } else {
+            let own = poses
+                .pose(hit.object)
+                .to_object
+                .transform_vector3(ray.direction);
+            then.pose(hit.object)
+                .to_world
+                .transform_vector3(own)
+                .normalize()
+        };
+        let distance = if same_side { way.length() } else { hit.t };
+        Sight {
+            ray: Ray {
+                origin: point - distance * direction,
+                direction,
+            },
+            hit: Hit {
+                t: distance,
+                time: 0.0,
+                ..*hit
+            },
+            point,
+            same_side,
+        }
+    }
+
+    fn shows(&self, place: DVec2) -> bool {
+        let size = DVec2::new(f64::from(self.canvas.width), f64::from(self.canvas.height));
+        place.cmpge(DVec2::ZERO).all() && place.cmplt(size).all()
+    }
+
+    /// Whether anything lies between the eye and the point: a ray that leaves the surface as shadow rays do.
+    fn hidden(&self, stage: &Stage, then: &mut Poses, sight: &Sight) -> bool {
+        let facet = stage.facet(then, &sight.ray, &sight.hit);
+        let magnitude = sight.point.abs().max_element().max(sight.hit.t);
+        let start = sight.point + LIFT * magnitude * facet;
+        let way = self.view.to_world.translation - start;
+        let back = Ray {
+            origin: start,
+            direction: way.normalize(),
+        };
+        stage.blocked(then, &back, way.length())
+    }
+}
+
+/// A look at a point of a surface at the instant.
+struct Sight {
+    ray: Ray,
+    hit: Hit,
+    point: DVec3,
+    /// Whether the camera saw the same side then.
+    same_side: bool,
+}
+
+impl Recollection {
+    /// Adds a sample of the pixel with this centre.
+    pub fn add(&mut self, recalled: &Recalled, centre: [f64; 2]) {
+        self.frozen += recalled.frozen.as_dvec3();
+        self.unknowable += f64::from(!recalled.known);
+        if let Some(place) = recalled.place {
+            let offset = place - DVec2::from(centre);
+            self.placed += 1.0;
+            self.offset += offset;
+            self.spread += DVec3::new(
+                offset.x * offset.x,
+                offset.x * offset.y,
+                offset.y * offset.y,
+            );
+        }
+    }
+
+    /// The mean over so many samples.
+    pub fn over(&self, samples: u32) -> Self {
+        let samples = f64::from(samples);
+        Self {
+            frozen: self.frozen / samples,
+            unknowable: self.unknowable / samples,
+            placed: self.placed / samples,
+            offset: self.offset / samples,
+            spread: self.spread / samples,
+        }
+    }
+}
