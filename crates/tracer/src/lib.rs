@@ -2,6 +2,7 @@
 //!
 //! The conventions are those of the [`frame`] crate.
 
+mod approach;
 mod background;
 mod bounds;
 mod bvh;
@@ -34,6 +35,7 @@ mod stage;
 mod surface;
 mod swept;
 mod texture;
+mod track;
 mod triangle;
 mod truth;
 mod velocity;

@@ -155,7 +155,7 @@ fn turning(keyed: &Keyed<Key>, stretch: usize) -> (Cubic<DVec3>, Option<[Cubic<D
 
 impl Segment {
     /// The pose at `time` (frames) within the segment.
-    fn at(&self, time: f64) -> DAffine3 {
+    pub fn at(&self, time: f64) -> DAffine3 {
         let since = self.since(time);
         let rotation = |curve: &Cubic<DVec3>| DQuat::from_scaled_axis(curve.at(since));
         let mut turn = rotation(&self.turn);
