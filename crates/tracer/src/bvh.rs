@@ -11,20 +11,16 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2;
 use obvhs::bvh2::node::Bvh2Node;
 use obvhs::{Boundable, BvhBuildParams};
-use smallvec::SmallVec;
 
 use crate::bounds::Bounds;
 use crate::lanes::{Boxes, Lanes, SlabRay, WIDTH};
 use crate::ray::Ray;
 
-/// Boxes are padded by this fraction of the greatest coordinate involved. The slab test runs in `f32` without guard
-/// bits: origin, difference, direction, product and limit are each rounded by 6e-8 of at most a few times that
-/// coordinate, about 1e-6 together. A hit at exactly the limit is therefore still visited, and the caller decides
-/// ties.
-const PAD: f64 = 2e-6;
-
 /// What a step down the tree costs relative to a test of one item, for the builder's decision which leaves to join.
-const STEP_COST: f32 = 3.0;
+const STEP_COST: f32 = 5.0;
+
+/// Children that may wait without memory of their own being allocated: more than a tree of a million triangles needs.
+const FEW_WAITING: usize = 64;
 
 /// Set in a child that is a leaf; the rest is the leaf's number.
 const IS_LEAF: u32 = 1 << 31;
@@ -36,44 +32,46 @@ pub(crate) struct Tree {
     /// Per leaf and one past the last, where its items begin in `order`.
     starts: Vec<u32>,
     order: Vec<u32>,
+    /// The greatest coordinate of any box, metres.
+    reach: f64,
+    /// Children that may wait while a ray is in another.
+    most_waiting: usize,
 }
 
+#[repr(C, align(64))]
 struct Node {
     boxes: Boxes,
     children: [u32; WIDTH],
 }
 
-struct PaddedBox(Aabb);
+struct RoundedBox(Aabb);
 
-impl Boundable for PaddedBox {
+impl Boundable for RoundedBox {
     fn aabb(&self) -> Aabb {
         self.0
     }
 }
 
-/// A child yet to be visited, and the distance at which the ray enters it.
-type Pending = (u32, f32);
-
 impl Tree {
-    /// A tree over `boxes`, searched by rays whose origins have coordinates of at most `reach` metres or of those
-    /// of the boxes, whichever is more.
-    pub fn over(boxes: &[Bounds], reach: f64, boxes_per_leaf: u32) -> Self {
+    /// A tree over `boxes`.
+    pub fn over(boxes: &[Bounds], boxes_per_leaf: u32) -> Self {
         let mut tree = Self {
             nodes: Vec::new(),
             starts: vec![0],
             order: Vec::new(),
+            reach: boxes
+                .iter()
+                .map(|bounds| bounds.reach())
+                .fold(0.0, f64::max),
+            most_waiting: 0,
         };
         if boxes.is_empty() {
             return tree;
         }
-        let reach = boxes
-            .iter()
-            .fold(reach, |reach, bounds| reach.max(bounds.reach()));
-        let padded: Vec<PaddedBox> = boxes
+        let rounded: Vec<RoundedBox> = boxes
             .iter()
             .map(|bounds| {
-                let bounds = bounds.grown(PAD * reach);
-                PaddedBox(Aabb::new(
+                RoundedBox(Aabb::new(
                     bounds.min.as_vec3().into(),
                     bounds.max.as_vec3().into(),
                 ))
@@ -85,8 +83,8 @@ impl Tree {
             collapse_traversal_cost: STEP_COST,
             ..BvhBuildParams::slow_build()
         };
-        let binary = build_bvh2(&padded, params, &mut Duration::default());
-        tree.fold(&binary, &binary.nodes[0]);
+        let binary = build_bvh2(&rounded, params, &mut Duration::default());
+        tree.fold(&binary, &binary.nodes[0], 0);
         tree
     }
 
@@ -108,9 +106,11 @@ impl Tree {
             + size_of_val(self.order.as_slice())
     }
 
-    /// Adds a node for a part of the binary tree, and all below it; returns its number.
-    fn fold(&mut self, binary: &Bvh2, top: &Bvh2Node) -> u32 {
+    /// Adds a node for a part of the binary tree, and all below it, while so many children wait; returns its number.
+    fn fold(&mut self, binary: &Bvh2, top: &Bvh2Node, waiting: usize) -> u32 {
         let children = opened(binary, top);
+        let waiting = waiting + children.len() - 1;
+        self.most_waiting = self.most_waiting.max(waiting);
         let number = self.nodes.len();
         self.nodes.push(Node {
             boxes: side_by_side(&children),
@@ -120,7 +120,7 @@ impl Tree {
             self.nodes[number].children[lane] = if child.is_leaf() {
                 self.add_leaf(binary, child)
             } else {
-                self.fold(binary, child)
+                self.fold(binary, child, waiting)
             };
         }
         number as u32
@@ -134,8 +134,7 @@ impl Tree {
         IS_LEAF | (self.starts.len() as u32 - 2)
     }
 
-    /// Visits the leaves that the ray may enter before the limit (distance along its unit direction), roughly from near
-    /// to far. `visit` returns the limit from then on.
+    /// Visits the leaves that the ray may enter before the limit, in units of its direction, roughly from near to far. `visit` returns the limit from then on.
     #[inline(always)]
     pub fn walk<L: Lanes>(
         &self,
@@ -144,59 +143,79 @@ impl Tree {
         limit: f64,
         mut visit: impl FnMut(u32) -> f64,
     ) {
-        let ray = SlabRay::new(ray.origin, ray.direction);
-        let mut limit = limit as f32;
-        let mut pending: SmallVec<[Pending; 64]> = SmallVec::new();
-        if !self.nodes.is_empty() {
-            pending.push((0, 0.0));
+        if self.nodes.is_empty() {
+            return;
         }
-        while let Some((mut child, near)) = pending.pop() {
-            if near > limit {
-                continue;
-            }
-            while child & IS_LEAF == 0 {
-                let node = &self.nodes[child as usize];
-                let (mut entered, near) = lanes.enter(&node.boxes, &ray, limit);
-                let Some(lane) = next(&mut entered) else {
-                    break;
-                };
-                let mut nearest = (node.children[lane], near[lane]);
-                let first = pending.len();
-                while let Some(lane) = next(&mut entered) {
-                    let mut other = (node.children[lane], near[lane]);
-                    if other.1 < nearest.1 {
-                        std::mem::swap(&mut other, &mut nearest);
-                    }
-                    pending.push(other);
-                }
-                sort_far_to_near(&mut pending[first..]);
-                child = nearest.0;
-            }
+        let ray = SlabRay::new(ray.origin, ray.direction, self.reach);
+        let mut limit = limit as f32;
+        let mut few = [0; FEW_WAITING];
+        let mut many;
+        let waiting: &mut [u64] = if self.most_waiting <= FEW_WAITING {
+            &mut few
+        } else {
+            many = vec![0; self.most_waiting];
+            &mut many
+        };
+        let mut count = 0;
+        let mut child = 0;
+        loop {
             if child & IS_LEAF != 0 {
                 limit = visit(child & !IS_LEAF) as f32;
+            } else {
+                let node = &self.nodes[child as usize];
+                // Copied at once: a processor waits for memory once, not again for each child.
+                let children = node.children;
+                let (mut entered, near) = lanes.enter(&node.boxes, &ray, limit);
+                if entered != 0 {
+                    let mut next = || {
+                        let lane = entered.trailing_zeros() as usize % WIDTH;
+                        entered &= entered - 1;
+                        (pending(children[lane], near[lane]), entered)
+                    };
+                    let first = count;
+                    let (mut nearest, mut rest) = next();
+                    while rest != 0 {
+                        let (other, left) = next();
+                        rest = left;
+                        let farther = nearest.max(other);
+                        nearest = nearest.min(other);
+                        // Insertion sort: there are seven at most, and mostly one or two. The nearest comes last.
+                        let mut at = count;
+                        while at > first && waiting[at - 1] < farther {
+                            waiting[at] = waiting[at - 1];
+                            at -= 1;
+                        }
+                        waiting[at] = farther;
+                        count += 1;
+                    }
+                    child = nearest as u32;
+                    continue;
+                }
             }
+            child = loop {
+                if count == 0 {
+                    return;
+                }
+                count -= 1;
+                if entry(waiting[count]) <= limit {
+                    break waiting[count] as u32;
+                }
+            };
         }
     }
 }
 
-/// Takes the lowest bit.
+/// A child yet to be visited and the distance at which the ray enters it: numbers in the order of the distances, which
+/// are not negative.
 #[inline(always)]
-fn next(bits: &mut u32) -> Option<usize> {
-    let lowest = bits.trailing_zeros() as usize;
-    *bits &= bits.wrapping_sub(1);
-    (lowest < WIDTH).then_some(lowest)
+fn pending(child: u32, near: f32) -> u64 {
+    u64::from(near.to_bits()) << 32 | u64::from(child)
 }
 
-/// Insertion sort: there are seven at most, and mostly one or two.
+/// The distance in what [`pending`] gave.
 #[inline(always)]
-fn sort_far_to_near(pending: &mut [Pending]) {
-    for end in 1..pending.len() {
-        let mut at = end;
-        while at > 0 && pending[at - 1].1 < pending[at].1 {
-            pending.swap(at - 1, at);
-            at -= 1;
-        }
-    }
+fn entry(pending: u64) -> f32 {
+    f32::from_bits((pending >> 32) as u32)
 }
 
 /// Up to eight descendants that cover a node: of those at hand, the largest is opened until there is no room.

@@ -20,11 +20,12 @@ pub(crate) struct Boxes(pub [[[f32; WIDTH]; 2]; 3]);
 #[repr(C, align(16))]
 pub(crate) struct Triangles(pub [[[f32; LEAF]; 3]; 3]);
 
-/// A ray as boxes want it: `t = scale * plane + offset` is the distance along the unit direction to a plane.
+/// A ray as boxes want it: `t = scale * plane + offset` is where it crosses a plane, in units of its direction.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SlabRay {
     scale: [f32; 3],
-    offset: [f32; 3],
+    /// For planes through which the ray enters and leaves; the first a little early, the second a little late.
+    offsets: [[f32; 3]; 2],
     /// Per axis, which side of a box is met first: 0 the least, 1 the greatest.
     first: [usize; 3],
 }
@@ -38,8 +39,13 @@ pub(crate) struct EdgeRay {
     doubt: f64,
 }
 
-/// Directions this close to a plane are treated as that much off it.
-const STEEPEST: f32 = 1.2e-7;
+/// Boxes are grown by this fraction of the greatest coordinate involved, for each ray by its own. The test runs in `f32`:
+/// plane, origin, direction, its inverse, their product, the sum and the limit are each rounded by 6e-8 of at most a few
+/// times that coordinate, about 1e-6 together. A hit at exactly the limit is therefore still visited, and the caller
+/// decides ties.
+const PAD: f64 = 2e-6;
+/// A smaller part of a direction has no finite inverse worth having: over the size of a scene it leads nowhere.
+const LEAST_DIRECTION: f32 = 1e-18;
 
 /// A way to test several things at once.
 pub(crate) trait Lanes: Copy {
@@ -58,21 +64,24 @@ pub(crate) trait Lanes: Copy {
 pub(crate) struct Portable;
 
 impl SlabRay {
-    /// Of a unit direction.
+    /// For boxes whose coordinates are at most `reach` metres.
     #[inline(always)]
-    pub fn new(origin: DVec3, direction: DVec3) -> Self {
+    pub fn new(origin: DVec3, direction: DVec3, reach: f64) -> Self {
+        let pad = (PAD * reach.max(origin.abs().max_element())) as f32;
         let direction = direction.as_vec3().to_array();
         let origin = origin.as_vec3().to_array();
         let scale = direction.map(|d| {
-            1.0 / if d.abs() < STEEPEST {
-                STEEPEST.copysign(d)
+            1.0 / if d.abs() < LEAST_DIRECTION {
+                LEAST_DIRECTION.copysign(d)
             } else {
                 d
             }
         });
         Self {
             scale,
-            offset: std::array::from_fn(|axis| -origin[axis] * scale[axis]),
+            offsets: [-pad, pad].map(|pad| {
+                std::array::from_fn(|axis| -origin[axis] * scale[axis] + pad * scale[axis].abs())
+            }),
             first: scale.map(|scale| usize::from(scale < 0.0)),
         }
     }
@@ -103,10 +112,11 @@ impl Lanes for Portable {
         for axis in 0..3 {
             let first = ray.first[axis];
             for lane in 0..WIDTH {
-                let at =
-                    |side: usize| ray.scale[axis] * boxes.0[axis][side][lane] + ray.offset[axis];
-                near[lane] = near[lane].max(at(first));
-                far[lane] = far[lane].min(at(1 - first));
+                let at = |side: usize, end: usize| {
+                    ray.scale[axis] * boxes.0[axis][side][lane] + ray.offsets[end][axis]
+                };
+                near[lane] = near[lane].max(at(first, 0));
+                far[lane] = far[lane].min(at(1 - first, 1));
             }
         }
         let mask = (0..WIDTH)
@@ -154,14 +164,15 @@ mod avx2 {
             V3::try_new().map(Self)
         }
 
-        /// Distances to eight planes.
+        /// Where the ray enters (end 0) or leaves (end 1) the space between eight pairs of planes.
         #[inline(always)]
-        fn planes(self, boxes: &Boxes, ray: &SlabRay, axis: usize, side: usize) -> __m256 {
+        fn planes(self, boxes: &Boxes, ray: &SlabRay, axis: usize, end: usize) -> __m256 {
             let Self(V3 { avx, fma, .. }) = self;
+            let side = ray.first[axis] ^ end;
             fma._mm256_fmadd_ps(
                 cast(boxes.0[axis][side]),
                 avx._mm256_set1_ps(ray.scale[axis]),
-                avx._mm256_set1_ps(ray.offset[axis]),
+                avx._mm256_set1_ps(ray.offsets[end][axis]),
             )
         }
 
@@ -203,17 +214,13 @@ mod avx2 {
         #[inline(always)]
         fn enter(self, boxes: &Boxes, ray: &SlabRay, limit: f32) -> (u32, [f32; WIDTH]) {
             let avx = self.0.avx;
-            let [x, y, z] = ray.first;
             let near = avx._mm256_max_ps(
-                avx._mm256_max_ps(self.planes(boxes, ray, 0, x), self.planes(boxes, ray, 1, y)),
-                avx._mm256_max_ps(self.planes(boxes, ray, 2, z), avx._mm256_setzero_ps()),
+                avx._mm256_max_ps(self.planes(boxes, ray, 0, 0), self.planes(boxes, ray, 1, 0)),
+                avx._mm256_max_ps(self.planes(boxes, ray, 2, 0), avx._mm256_setzero_ps()),
             );
             let far = avx._mm256_min_ps(
-                avx._mm256_min_ps(
-                    self.planes(boxes, ray, 0, 1 - x),
-                    self.planes(boxes, ray, 1, 1 - y),
-                ),
-                avx._mm256_min_ps(self.planes(boxes, ray, 2, 1 - z), avx._mm256_set1_ps(limit)),
+                avx._mm256_min_ps(self.planes(boxes, ray, 0, 1), self.planes(boxes, ray, 1, 1)),
+                avx._mm256_min_ps(self.planes(boxes, ray, 2, 1), avx._mm256_set1_ps(limit)),
             );
             let entered = avx._mm256_cmp_ps::<_CMP_LE_OQ>(near, far);
             (avx._mm256_movemask_ps(entered) as u32, cast(near))

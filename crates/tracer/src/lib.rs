@@ -2,6 +2,7 @@
 //!
 //! The conventions are those of the [`frame`] crate.
 
+mod approach;
 mod background;
 mod bounds;
 mod bvh;

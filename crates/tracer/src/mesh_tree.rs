@@ -2,6 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
+use crate::approach::{Approach, Ball};
 use crate::bounds::Bounds;
 use crate::bvh::Tree;
 use crate::lanes::{EdgeRay, LEAF, Lanes, Triangles};
@@ -9,8 +10,6 @@ use crate::ray::Ray;
 use crate::scene::Mesh;
 use crate::triangle::{Crossing, cross};
 
-/// Room for rounding when a ray is moved up to the sphere around the mesh.
-const SPHERE_SLACK: f64 = 1.0 + 1e-6;
 /// Rounding of a weight, as a part of the squared greatest length times the direction's: a few dozen operations err by
 /// 1.1e-16 of at most that, and lengths are bounded by twice the reach.
 const ROUNDING: f64 = 1e-14;
@@ -19,9 +18,8 @@ const ROUNDING: f64 = 1e-14;
 pub(crate) struct MeshTree {
     tree: Tree,
     leaves: Vec<Leaf>,
-    centre: DVec3,
-    radius: f64,
-    /// The greatest coordinate of the mesh and of approached origins, metres.
+    ball: Ball,
+    /// The greatest coordinate of the mesh, metres.
     reach: f64,
 }
 
@@ -35,15 +33,6 @@ struct Leaf {
     used: u32,
 }
 
-/// A ray moved up to the mesh, so that its origin is of the mesh's own magnitude.
-struct Approach {
-    ray: Ray,
-    /// What was taken off `t`, in units of the direction.
-    start: f64,
-    /// Object-space length of the direction.
-    length: f64,
-}
-
 impl MeshTree {
     pub fn of(mesh: &Mesh) -> Self {
         let boxes: Vec<Bounds> = (0..mesh.triangles.len())
@@ -52,18 +41,17 @@ impl MeshTree {
         let bounds = boxes
             .iter()
             .fold(Bounds::EMPTY, |union, bounds| union.union(*bounds));
-        let radius = 0.5 * bounds.diagonal() * SPHERE_SLACK;
-        let reach = bounds.centre().abs().max_element() + radius;
-        let tree = Tree::over(&boxes, reach, LEAF as u32);
+        let vertices = mesh.triangles.iter().flatten();
+        let vertices = vertices.map(|&vertex| mesh.positions[vertex as usize].as_dvec3());
+        let tree = Tree::over(&boxes, LEAF as u32);
         let leaves = (0..tree.leaves())
             .map(|leaf| Leaf::of(mesh, tree.items(leaf)))
             .collect();
         Self {
             tree,
             leaves,
-            centre: bounds.centre(),
-            radius,
-            reach,
+            ball: Ball::around(bounds.centre(), vertices),
+            reach: bounds.reach(),
         }
     }
 
@@ -82,14 +70,14 @@ impl MeshTree {
         limit: f64,
         mut visit: impl FnMut(u32, Crossing) -> f64,
     ) {
-        let Some(approach) = self.approach(ray) else {
+        let Some(approach) = self.ball.approach(ray) else {
             return;
         };
         let edges = self.edge_ray(&approach);
         let mut limit = limit;
         self.tree.walk(
             lanes,
-            &approach.unit(),
+            &approach.ray,
             approach.local(limit),
             #[inline(always)]
             |leaf| {
@@ -109,7 +97,7 @@ impl MeshTree {
 
     /// Every crossing at `0 < t`, tree or no tree: what the walks are tested against.
     pub fn exhaustive(&self, ray: &Ray, mut visit: impl FnMut(u32, Crossing)) {
-        let Some(approach) = self.approach(ray) else {
+        let Some(approach) = self.ball.approach(ray) else {
             return;
         };
         for leaf in &self.leaves {
@@ -127,45 +115,6 @@ impl MeshTree {
         let longest = 2.0 * origin.abs().max_element().max(self.reach);
         let doubt = ROUNDING * longest * longest * direction.abs().max_element();
         EdgeRay::new(origin, direction, doubt)
-    }
-
-    /// None where the ray misses the sphere around the mesh.
-    #[inline(always)]
-    fn approach(&self, ray: &Ray) -> Option<Approach> {
-        let squared = ray.direction.length_squared();
-        let nearest = (self.centre - ray.origin).dot(ray.direction) / squared;
-        let miss = ray.at(nearest).distance_squared(self.centre);
-        let length = squared.sqrt();
-        // A flat mesh may fill its sphere's equator only: the sphere is grown, never shrunk, by rounding.
-        if miss > self.radius * self.radius * SPHERE_SLACK {
-            return None;
-        }
-        let start = (nearest - self.radius / length).max(0.0);
-        Some(Approach {
-            ray: Ray {
-                origin: ray.at(start),
-                direction: ray.direction,
-            },
-            start,
-            length,
-        })
-    }
-}
-
-impl Approach {
-    /// The ray with a unit direction, as the tree's slab test wants it.
-    #[inline]
-    fn unit(&self) -> Ray {
-        Ray {
-            origin: self.ray.origin,
-            direction: self.ray.direction / self.length,
-        }
-    }
-
-    /// A limit on `t` as a distance from the approached origin.
-    #[inline]
-    fn local(&self, limit: f64) -> f64 {
-        (limit - self.start) * self.length
     }
 }
 

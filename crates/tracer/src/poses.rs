@@ -51,7 +51,7 @@ impl<'a> Poses<'a> {
         let poses = (0..scene.objects.len())
             .map(|object| {
                 let pose = Pose::new(scene.object_to_world(object, from));
-                if stands_still(scene, object, from, to) {
+                if from == to || stands_still(scene, object, from, to) {
                     (FOR_EVER, pose)
                 } else {
                     (0, pose)

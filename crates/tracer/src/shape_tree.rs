@@ -1,7 +1,6 @@
 //! The triangles of a deforming mesh under trees, one per slice of time.
 
-use glam::DVec3;
-
+use crate::approach::{Approach, Ball};
 use crate::bounds::Bounds;
 use crate::bvh::Tree;
 use crate::lanes::{LEAF, Lanes};
@@ -9,8 +8,6 @@ use crate::ray::Ray;
 use crate::scene::Mesh;
 use crate::triangle::{Crossing, cross};
 
-/// Room for rounding when a ray is moved up to the sphere around the mesh.
-const SPHERE_SLACK: f64 = 1.0 + 1e-6;
 const MOST_SLICES: usize = 16;
 
 /// A deforming mesh between two times. Vertices are interpolated to the ray's time in `f64`, the same for every triangle
@@ -25,17 +22,7 @@ pub(crate) struct ShapeTree<'a> {
 /// Trees over the boxes that triangles sweep within a slice, and a sphere around them.
 struct Slice {
     tree: Tree,
-    centre: DVec3,
-    radius: f64,
-}
-
-/// A ray moved up to the mesh, so that its origin is of the mesh's own magnitude.
-struct Approach {
-    ray: Ray,
-    /// What was taken off `t`, in units of the direction.
-    start: f64,
-    /// Object-space length of the direction.
-    length: f64,
+    ball: Ball,
 }
 
 impl<'a> ShapeTree<'a> {
@@ -71,13 +58,13 @@ impl<'a> ShapeTree<'a> {
         mut visit: impl FnMut(u32, Crossing) -> f64,
     ) {
         let slice = self.slice(time);
-        let Some(approach) = slice.approach(ray) else {
+        let Some(approach) = slice.ball.approach(ray) else {
             return;
         };
         let mut limit = limit;
         slice.tree.walk(
             lanes,
-            &approach.unit(),
+            &approach.ray,
             approach.local(limit),
             #[inline(always)]
             |leaf| {
@@ -93,7 +80,7 @@ impl<'a> ShapeTree<'a> {
 
     /// Every crossing at `0 < t`, tree or no tree: what the walks are tested against.
     pub fn exhaustive(&self, ray: &Ray, time: f64, mut visit: impl FnMut(u32, Crossing)) {
-        let Some(approach) = self.slice(time).approach(ray) else {
+        let Some(approach) = self.slice(time).ball.approach(ray) else {
             return;
         };
         for triangle in 0..self.mesh.triangles.len() as u32 {
@@ -140,49 +127,10 @@ impl Slice {
         let bounds = boxes
             .iter()
             .fold(Bounds::EMPTY, |union, bounds| union.union(*bounds));
-        let radius = 0.5 * bounds.diagonal() * SPHERE_SLACK;
-        let reach = bounds.centre().abs().max_element() + radius;
         Self {
-            tree: Tree::over(&boxes, reach, LEAF as u32),
-            centre: bounds.centre(),
-            radius,
+            tree: Tree::over(&boxes, LEAF as u32),
+            ball: Ball::around(bounds.centre(), [bounds.min, bounds.max]),
         }
-    }
-
-    /// None where the ray misses the sphere around the mesh.
-    fn approach(&self, ray: &Ray) -> Option<Approach> {
-        let squared = ray.direction.length_squared();
-        let nearest = (self.centre - ray.origin).dot(ray.direction) / squared;
-        let miss = ray.at(nearest).distance_squared(self.centre);
-        let length = squared.sqrt();
-        // A flat mesh may fill its sphere's equator only: the sphere is grown, never shrunk, by rounding.
-        if miss > self.radius * self.radius * SPHERE_SLACK {
-            return None;
-        }
-        let start = (nearest - self.radius / length).max(0.0);
-        Some(Approach {
-            ray: Ray {
-                origin: ray.at(start),
-                direction: ray.direction,
-            },
-            start,
-            length,
-        })
-    }
-}
-
-impl Approach {
-    /// The ray with a unit direction, as the tree's slab test wants it.
-    fn unit(&self) -> Ray {
-        Ray {
-            origin: self.ray.origin,
-            direction: self.ray.direction / self.length,
-        }
-    }
-
-    /// A limit on `t` as a distance from the approached origin.
-    fn local(&self, limit: f64) -> f64 {
-        (limit - self.start) * self.length
     }
 }
 

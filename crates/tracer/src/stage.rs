@@ -13,7 +13,7 @@ use crate::poses::Poses;
 use crate::ray::Ray;
 use crate::scene::{Object, Scene};
 use crate::surface::{Opacity, Surface};
-use crate::swept::{greatest_speed, path_bounds, swept_bounds};
+use crate::swept::{greatest_speed, swept_bounds};
 use crate::triangle::Crossing;
 
 /// An object travels at most this part of its diagonal within a slice, unless that takes too many slices.
@@ -276,7 +276,6 @@ fn slices(scene: &Scene, from: f64, to: f64) -> Vec<Tree> {
     let extents = Extent::of_meshes(scene);
     let count = slice_count(scene, &extents, from, to);
     let border = |slice: usize| from + (to - from) * slice as f64 / count as f64;
-    let reach = path_bounds(&scene.camera.motion, from, to).reach();
     (0..count)
         .map(|slice| {
             let boxes: Vec<Bounds> = (0..scene.objects.len())
@@ -284,7 +283,7 @@ fn slices(scene: &Scene, from: f64, to: f64) -> Vec<Tree> {
                     swept_bounds(scene, &extents, object, border(slice), border(slice + 1))
                 })
                 .collect();
-            Tree::over(&boxes, reach, 1)
+            Tree::over(&boxes, 1)
         })
         .collect()
 }

@@ -84,23 +84,6 @@ pub(crate) fn swept_bounds(
     union
 }
 
-/// A box around the places that a motion takes its origin to within `[from, to]`, relative to its parent.
-pub(crate) fn path_bounds(motion: &Motion, from: f64, to: f64) -> Bounds {
-    let at = |time| Bounds::around([motion.at(time).translation]);
-    key_times([motion], from, to)
-        .windows(2)
-        .map(|span| {
-            let segment = motion.segment(0.5 * (span[0] + span[1]));
-            let [start, end] = [span[0], span[1]].map(|time| segment.since(time));
-            let bend = segment.translation.greatest(start, end, DVec3::length).bend;
-            let length = span[1] - span[0];
-            at(span[0])
-                .union(at(span[1]))
-                .grown(bend * length * length / 8.0)
-        })
-        .fold(at(from), Bounds::union)
-}
-
 /// The greatest speed of any point of the object's mesh within `[from, to]`, metres per frame; never too small.
 pub(crate) fn greatest_speed(
     scene: &Scene,
@@ -343,19 +326,6 @@ mod tests {
                         }
                     }
                 }
-            }
-        }
-    }
-
-    #[test]
-    fn a_path_s_box_contains_it() {
-        let mut numbers = Numbers(3);
-        for _ in 0..20 {
-            let motion = random_motion(&mut numbers, Interpolation::Cubic, 1.0);
-            let bounds = path_bounds(&motion, -0.6, 0.6).grown(1e-12); // Rounding only.
-            for step in 0..=1000 {
-                let point = motion.at(-0.6 + 1.2 * f64::from(step) / 1000.0).translation;
-                assert!(point.cmpge(bounds.min).all() && point.cmple(bounds.max).all());
             }
         }
     }

@@ -115,3 +115,37 @@ fn at_instant(canvas: Canvas, recollections: &[Recollection]) -> AtInstant {
         spread: pixels.map(|pixel| pixel.spread.as_vec3().to_array()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+    use std::path::Path;
+
+    use crate::load_scene;
+
+    use super::*;
+
+    #[test]
+    fn every_instruction_set_renders_the_same_bytes() {
+        for scene in ["two_spheres", "fan"] {
+            let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+                .join("../../scenes")
+                .join(scene);
+            let scene = load_scene(&folder, None).expect("the built-in scenes load");
+            let settings = TruthSettings {
+                width: 48,
+                height: 27,
+                samples_per_pixel: 32,
+                replicates: 2,
+                ..TruthSettings::default()
+            };
+            let mut tracer = TruthTracer::new(&scene, &settings).expect("settings are allowed");
+            let unwatched = |_: Progress| ControlFlow::Continue(());
+            let fastest = tracer.trace(0, &unwatched).expect("nothing cancels");
+            tracer.stage = tracer.stage.portable();
+            assert_eq!(tracer.stage.traversal(), "portable");
+            let portable = tracer.trace(0, &unwatched).expect("nothing cancels");
+            assert_eq!(fastest.picture.color.pixels, portable.picture.color.pixels);
+        }
+    }
+}
