@@ -1,6 +1,7 @@
 //! Rays per second. Timed variants take turns and the best of several turns counts, so that their ratios hold on a
 //! machine that does other things as well.
 
+mod frames;
 mod made_scene;
 
 use std::f64::consts::TAU;
@@ -70,6 +71,19 @@ impl<'a> Field<'a> {
         .count()
     }
 
+    /// Traces every ray of a kind on each of two threads.
+    fn trace_twice(&self, kind: Kind) -> usize {
+        std::thread::scope(|scope| {
+            let other = scope.spawn(|| self.trace(kind));
+            self.trace(kind) + other.join().expect("tracing does not panic")
+        })
+    }
+
+    fn portable(self) -> Self {
+        let stage = self.stage.portable();
+        Self { stage, ..self }
+    }
+
     /// Best rate of several turns, rays per second.
     fn rate(&self, kind: Kind, best: Duration) -> f64 {
         self.rays[kind as usize].len() as f64 / best.as_secs_f64()
@@ -103,17 +117,37 @@ fn ratios() {
         .sum();
     println!("\n{triangles} triangles, one thread, best of {TURNS} turns of {RAYS} rays, Mray/s");
     println!(
-        "{:10} {:>8} {:>8} {:>14}",
-        "", "still", "moving", "still/moving"
+        "{:10} {:>8} {:>8} {:>14} {:>9} {:>14} {:>12}",
+        "", "still", "moving", "still/moving", "portable", "still/portable", "two threads"
     );
+    let portable = Field::new(&scenes[0]).portable();
     for kind in KINDS {
-        let best = best_of([&|| fields[0].trace(kind), &|| fields[1].trace(kind)]);
-        let rates: [f64; 2] =
-            std::array::from_fn(|field| fields[field].rate(kind, best[field]) / 1e6);
-        let [still, moving] = rates;
+        let best = best_of([
+            &|| fields[0].trace(kind),
+            &|| fields[1].trace(kind),
+            &|| portable.trace(kind),
+            &|| fields[0].trace_twice(kind),
+        ]);
+        let [still, moving, portable, twice] = best.map(|best| fields[0].rate(kind, best) / 1e6);
         let name = format!("{kind:?}").to_lowercase();
-        println!("{name:10} {still:8.2} {moving:8.2} {:14.2}", still / moving);
+        println!(
+            "{name:10} {still:8.2} {moving:8.2} {:14.2} {portable:9.2} {:14.2} {:11.2}x",
+            still / moving,
+            still / portable,
+            2.0 * twice / still
+        );
     }
+    let stored: usize = scenes[0]
+        .meshes
+        .iter()
+        .map(|mesh| mesh.triangles.len())
+        .sum();
+    println!(
+        "{} path; trees and triangles take {:.0} bytes for each of the {stored} triangles of the meshes",
+        fields[0].stage.traversal(),
+        fields[0].stage.bytes() as f64 / stored as f64
+    );
+    frames::report();
 }
 
 /// The shortest time that each of several works took, taken in turns.
