@@ -51,6 +51,7 @@ fn provenance() -> Provenance {
         seed: u64::MAX,
         samples_per_pixel: 256,
         replicates: 8,
+        traversal: "avx2".into(),
         content_hash: "00ff".into(),
     }
 }

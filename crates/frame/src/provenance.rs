@@ -16,6 +16,8 @@ pub struct Provenance {
     pub samples_per_pixel: u32,
     /// Independent, complete renders that were averaged.
     pub replicates: u32,
+    /// Which instructions traced the rays, `avx2` or `portable`. All find the same hits, so that pixels do not depend on it.
+    pub traversal: String,
     /// Hash of scene, meshes, textures, settings and the tracer, in hexadecimal: equal hashes mean equal pixels.
     pub content_hash: String,
 }
@@ -27,6 +29,7 @@ impl Provenance {
         file.set("seed", self.seed);
         file.set("samples_per_pixel", self.samples_per_pixel);
         file.set("replicates", self.replicates);
+        file.set("traversal", &self.traversal);
         file.set("content_hash", &self.content_hash);
     }
 
@@ -37,6 +40,7 @@ impl Provenance {
             seed: file.get("seed")?,
             samples_per_pixel: file.get("samples_per_pixel")?,
             replicates: file.get("replicates")?,
+            traversal: file.get("traversal")?,
             content_hash: file.get("content_hash")?,
         })
     }

@@ -60,7 +60,7 @@ pub fn trace_frame(
     };
     Ok(Frame {
         provenance: provenance(
-            scene,
+            &stage,
             settings.seed,
             settings.samples_per_pixel,
             1,

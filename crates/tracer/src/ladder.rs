@@ -77,7 +77,7 @@ pub fn trace_ladder(
     }
     Ok(Ladder {
         provenance: provenance(
-            scene,
+            &stage,
             settings.seed,
             samples_per_pixel,
             REPLICATES,

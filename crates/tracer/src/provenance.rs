@@ -6,6 +6,7 @@ use frame::Provenance;
 
 use crate::scene::Scene;
 use crate::settings::{FrameSettings, TruthSettings};
+use crate::stage::Stage;
 
 const PROGRAM: &str = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"));
 
@@ -41,18 +42,19 @@ pub fn ladder_hash(scene: &Scene, settings: &TruthSettings, subframes: &[u32]) -
 }
 
 pub(crate) fn provenance(
-    scene: &Scene,
+    stage: &Stage,
     seed: u64,
     samples_per_pixel: u32,
     replicates: u32,
     content_hash: String,
 ) -> Provenance {
     Provenance {
-        scene: scene.name.clone(),
+        scene: stage.scene.name.clone(),
         program: PROGRAM.into(),
         seed,
         samples_per_pixel,
         replicates,
+        traversal: stage.traversal().into(),
         content_hash,
     }
 }

@@ -83,7 +83,7 @@ impl<'a> TruthTracer<'a> {
         let scene = self.stage.scene;
         Ok(Replicate {
             provenance: provenance(
-                scene,
+                &self.stage,
                 self.settings.seed,
                 self.settings.samples_per_replicate(),
                 1,
