@@ -210,7 +210,7 @@ impl Path {
 
 impl Segment {
     /// The pose at `time` (frames) within the segment.
-    pub fn at(&self, time: f64) -> DAffine3 {
+    fn at(&self, time: f64) -> DAffine3 {
         let since = self.since(time);
         let mut turn = self.turn.at(since);
         if let Some([before, after]) = &self.swings {
