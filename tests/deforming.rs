@@ -2,8 +2,9 @@
 
 use frame::{Alignment, Truth, VelocityKind};
 use glam::{DQuat, DVec2, DVec3, Vec3};
+use tests::brute_force::expect_what_every_triangle_gives;
 use tests::half_plane::half_plane;
-use tests::random::hash;
+use tests::random::Numbers;
 use tests::shapes::*;
 use tests::statistics::{coverage_estimates, expect_agreement, expect_total};
 use tests::unwatched;
@@ -16,16 +17,6 @@ const WIDTH: u32 = 32;
 const HEIGHT: u32 = 18;
 /// At a vertical field of view of 90 degrees half the height in pixels is the focal length, and one metre one pixel.
 const DISTANCE: f64 = 0.5 * HEIGHT as f64;
-
-/// In [-1, 1), from a counter.
-fn number(counter: &mut u64) -> f64 {
-    *counter += 1;
-    (hash(*counter) >> 11) as f64 / 2f64.powi(52) - 1.0
-}
-
-fn vector(counter: &mut u64) -> DVec3 {
-    DVec3::from_array(std::array::from_fn(|_| number(counter)))
-}
 
 /// The mesh in key shapes: where each of its vertices is at each time.
 fn deforming(mesh: Mesh, times: &[f64], place: impl Fn(Vec3, f64) -> Vec3) -> Mesh {
@@ -190,8 +181,8 @@ fn between_and_beyond_two_shapes_a_surface_is_on_the_line_through_them() {
 
 /// A sphere that turns into a potato and back into an egg.
 fn potato() -> Mesh {
-    let mut counter = 5 << 32;
-    let waves: Vec<DVec3> = (0..4).map(|_| 3.0 * vector(&mut counter)).collect();
+    let mut numbers = Numbers(5 << 32);
+    let waves: Vec<DVec3> = (0..4).map(|_| 3.0 * numbers.vector()).collect();
     deforming(icosphere(1.0, 3), &[-0.7, -0.1, 0.3], |place, time| {
         let place = place.as_dvec3();
         let bump: f64 = waves.iter().map(|wave| wave.dot(place).sin()).sum();
@@ -217,14 +208,14 @@ fn a_deforming_sphere_does_not_leak_at_its_edges_and_vertices() {
     add(&mut scene, mesh.clone(), glowing(1.0), motion.clone());
     let stage = Stage::new(&scene, -0.9, 0.4);
     let mut poses = stage.poses();
-    let mut counter = 6 << 32;
+    let mut numbers = Numbers(6 << 32);
     for triangle in mesh
         .triangles
         .iter()
         .cycle()
         .take(10 * mesh.triangles.len())
     {
-        let time = -0.25 + 0.65 * number(&mut counter);
+        let time = -0.25 + 0.65 * numbers.next();
         let next = mesh
             .shapes
             .partition_point(|shape| shape.time <= time)
@@ -237,7 +228,7 @@ fn a_deforming_sphere_does_not_leak_at_its_edges_and_vertices() {
         });
         for target in [a, b, c, 0.5 * (a + b), 0.3 * b + 0.7 * c, 0.9 * c + 0.1 * a] {
             let pose = motion.at(time);
-            let origin = pose.transform_point3(0.1 * vector(&mut counter));
+            let origin = pose.transform_point3(0.1 * numbers.vector());
             let direction = pose.transform_point3(target) - origin;
             let ray = Ray { origin, direction };
             let hit = stage.closest(poses.at(time), &ray).expect("no leak");
@@ -269,35 +260,7 @@ fn the_trees_find_what_every_triangle_in_turn_gives() {
     });
     add(&mut scene, icosphere(1.0, 1), glowing(1.0), small.clone());
     scene.objects[1].mesh = 0;
-    let [open, close] = [-0.9, 0.6];
-    let stage = Stage::new(&scene, open, close);
-    let portable = Stage::new(&scene, open, close).portable();
-    let mut poses = stage.poses();
-    let mut counter = 7 << 32;
-    let mut hits = 0;
-    for index in 0..2000 {
-        // Ends, borders of slices, and any time.
-        let time = match index % 4 {
-            0 => open + (close - open) * f64::from(index / 4 % 17) / 16.0,
-            _ => open + (close - open) * 0.5 * (1.0 + number(&mut counter)),
-        };
-        let origin = if index % 2 == 0 { 4.0 } else { 200.0 } * vector(&mut counter);
-        let direction = (1.5 * vector(&mut counter) - origin).normalize();
-        let ray = Ray { origin, direction };
-        let found = stage.closest(poses.at(time), &ray);
-        let expected = stage.closest_of_all(&mut poses, &ray);
-        assert_eq!(found, expected, "time {time}, {ray:?}");
-        assert_eq!(portable.closest(&mut poses, &ray), expected);
-        if let Some(hit) = expected {
-            hits += 1;
-            assert!(stage.blocked(&mut poses, &ray, hit.t * (1.0 + 1e-9)));
-            assert!(!stage.blocked(&mut poses, &ray, hit.t));
-        }
-    }
-    assert!(
-        hits > 400,
-        "only {hits} rays hit anything: the test shows little"
-    );
+    expect_what_every_triangle_gives(&scene, [-0.9, 0.6], 1.5, 2000);
 }
 
 #[test]

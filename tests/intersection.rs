@@ -2,28 +2,14 @@
 
 use glam::{DQuat, DVec3, Vec3};
 use rayon::prelude::*;
-use tests::random::hash;
+use tests::brute_force::expect_what_every_triangle_gives;
+use tests::random::{Numbers, hash};
 use tests::shapes::*;
 use tests::unwatched;
 use tracer::{
     Background, FrameSettings, Key, Mesh, Motion, Ray, Scene, Stage, TruthSettings, Turn,
     trace_frame, trace_truth,
 };
-
-/// Numbers for test cases, in 64 bits.
-struct Numbers(u64);
-
-impl Numbers {
-    /// In [-1, 1).
-    fn next(&mut self) -> f64 {
-        self.0 += 1;
-        (hash(self.0) >> 11) as f64 / 2f64.powi(52) - 1.0
-    }
-
-    fn vector(&mut self) -> DVec3 {
-        DVec3::new(self.next(), self.next(), self.next())
-    }
-}
 
 fn reversed(mut mesh: Mesh) -> Mesh {
     for triangle in &mut mesh.triangles {
@@ -331,39 +317,6 @@ fn crowd(scale: f64) -> Scene {
 fn the_trees_find_what_every_triangle_in_turn_gives() {
     for scale in [1e-4, 1e-2, 1.0, 1e3] {
         let scene = crowd(scale);
-        let [open, close] = [-0.8, 0.7];
-        let stage = Stage::new(&scene, open, close);
-        let portable = Stage::new(&scene, open, close).portable();
-        let mut poses = stage.poses();
-        let mut numbers = Numbers(7 << 32);
-        let mut hits = 0;
-        for index in 0..4000 {
-            // Ends, borders of slices, and any time.
-            let time = match index % 4 {
-                0 => open + (close - open) * f64::from(index / 4 % 17) / 16.0,
-                _ => open + (close - open) * 0.5 * (1.0 + numbers.next()),
-            };
-            // Among the objects, and from far away.
-            let origin = scale * if index % 2 == 0 { 4.0 } else { 200.0 } * numbers.vector();
-            let direction = (3.0 * scale * numbers.vector() - origin).normalize();
-            let ray = Ray { origin, direction };
-            let found = stage.closest(poses.at(time), &ray);
-            let expected = stage.closest_of_all(&mut poses, &ray);
-            assert_eq!(found, expected, "scale {scale}, time {time}, {ray:?}");
-            assert_eq!(portable.closest(&mut poses, &ray), expected);
-            if let Some(hit) = expected {
-                hits += 1;
-                assert!(stage.blocked(&mut poses, &ray, hit.t * (1.0 + 1e-9)));
-                assert!(!stage.blocked(&mut poses, &ray, hit.t));
-                assert!(portable.blocked(&mut poses, &ray, hit.t * (1.0 + 1e-9)));
-                assert!(!portable.blocked(&mut poses, &ray, hit.t));
-            } else {
-                assert!(!stage.blocked(&mut poses, &ray, f64::INFINITY));
-            }
-        }
-        assert!(
-            hits > 400,
-            "only {hits} rays hit anything: the test shows little"
-        );
+        expect_what_every_triangle_gives(&scene, [-0.8, 0.7], 3.0 * scale, 4000);
     }
 }

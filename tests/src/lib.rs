@@ -1,5 +1,6 @@
 //! What several integration tests share.
 
+pub mod brute_force;
 pub mod half_plane;
 pub mod random;
 pub mod shapes;

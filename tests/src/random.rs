@@ -1,5 +1,7 @@
 //! Random numbers by formula: the same on every machine.
 
+use glam::DVec3;
+
 /// A stream of numbers; streams of different seeds share nothing in their first four thousand million draws.
 pub struct Random(u64);
 
@@ -14,6 +16,23 @@ impl Random {
         self.0 = self.0.wrapping_add(1);
         let unit = (hash(self.0) >> 40) as f32 / (1u64 << 24) as f32;
         low + (high - low) * unit
+    }
+}
+
+/// A stream of numbers in double precision; as [`Random`], its seeds are multiples of 2^32.
+pub struct Numbers(pub u64);
+
+impl Numbers {
+    /// Uniform in [-1, 1).
+    #[expect(clippy::should_implement_trait, reason = "a stream without end")]
+    pub fn next(&mut self) -> f64 {
+        self.0 += 1;
+        (hash(self.0) >> 11) as f64 / 2f64.powi(52) - 1.0
+    }
+
+    /// Uniform in a cube about the origin.
+    pub fn vector(&mut self) -> DVec3 {
+        DVec3::from_array(std::array::from_fn(|_| self.next()))
     }
 }
 

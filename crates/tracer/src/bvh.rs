@@ -134,7 +134,8 @@ impl Tree {
         IS_LEAF | (self.starts.len() as u32 - 2)
     }
 
-    /// Visits the leaves that the ray may enter before the limit, in units of its direction, roughly from near to far. `visit` returns the limit from then on.
+    /// Visits the leaves that the ray may enter before the limit, in units of its direction, roughly from near to far.
+    /// `visit` returns the limit from then on; one below 0 ends the walk.
     #[inline(always)]
     pub fn walk<L: Lanes>(
         &self,

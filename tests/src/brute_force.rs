@@ -1,0 +1,61 @@
+//! Trees against every triangle in turn.
+
+use tracer::{Ray, Scene, Stage};
+
+use crate::random::Numbers;
+
+/// Sends `count` rays through a scene at times in `[open, close]`: from among its objects and from far away, towards
+/// whatever lies within `size` metres of the origin. Every way to search must find what every triangle in turn gives;
+/// at least a tenth of the rays must hit something.
+pub fn expect_what_every_triangle_gives(
+    scene: &Scene,
+    [open, close]: [f64; 2],
+    size: f64,
+    count: u32,
+) {
+    let stages = [
+        Stage::new(scene, open, close),
+        Stage::new(scene, open, close).portable(),
+    ];
+    let mut poses = stages[0].poses();
+    let mut numbers = Numbers(7 << 32);
+    let mut hits = 0;
+    for index in 0..count {
+        // Ends, borders of slices, and any time.
+        let time = match index % 4 {
+            0 => open + (close - open) * f64::from(index / 4 % 17) / 16.0,
+            _ => open + (close - open) * 0.5 * (1.0 + numbers.next()),
+        };
+        let distance = size * if index % 2 == 0 { 1.3 } else { 60.0 };
+        let origin = distance * numbers.vector();
+        let direction = (size * numbers.vector() - origin).normalize();
+        let ray = Ray { origin, direction };
+        let expected = stages[0].closest_of_all(poses.at(time), &ray);
+        hits += u32::from(expected.is_some());
+        for stage in &stages {
+            let path = stage.traversal();
+            assert_eq!(
+                stage.closest(&mut poses, &ray),
+                expected,
+                "{path}, time {time}, {ray:?}"
+            );
+            match expected {
+                Some(hit) => {
+                    assert!(
+                        stage.blocked(&mut poses, &ray, hit.t * (1.0 + 1e-9)),
+                        "{path}, {ray:?}"
+                    );
+                    assert!(!stage.blocked(&mut poses, &ray, hit.t), "{path}, {ray:?}");
+                }
+                None => assert!(
+                    !stage.blocked(&mut poses, &ray, f64::INFINITY),
+                    "{path}, {ray:?}"
+                ),
+            }
+        }
+    }
+    assert!(
+        hits > count / 10,
+        "only {hits} of {count} rays hit anything: the test shows little"
+    );
+}
