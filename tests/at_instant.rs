@@ -36,15 +36,15 @@ fn truth(scene: &Scene, alignment: Alignment) -> Truth {
     trace_truth(scene, &settings, &unwatched).expect("allowed")
 }
 
-/// An unlit wall two metres behind an unlit panel whose middle passes `at` at `t = 0`, both wider than any blur is high.
-fn panel_over_wall(at: f64, width: f32) -> Scene {
+/// An unlit wall so many metres behind an unlit panel whose middle passes `at` at `t = 0`, both wider than any blur is high.
+fn panel_over_wall(gap: f64, at: f64, width: f32) -> Scene {
     let mut scene = empty_scene("panel");
     let place = |x: f64, z: f64| DVec3::new(x, 0.0, z);
     add(
         &mut scene,
         rectangle(200.0, 200.0),
         glowing(0.2),
-        placed(place(0.0, -DISTANCE - 2.0)),
+        placed(place(0.0, -DISTANCE - gap)),
     );
     let motion = drift(place(at, -DISTANCE), DVec3::X * SPEED);
     add(&mut scene, rectangle(width, 100.0), glowing(0.8), motion);
@@ -71,10 +71,10 @@ fn mean_over(left: f64, alignment: Alignment, value: impl Fn(f64, f64) -> f64) -
 
 #[test]
 fn what_the_panel_uncovers_or_what_was_beyond_the_border_cannot_be_known() {
-    // In the middle, and reaching over the right border.
-    for (at, half) in [(0.0, 5.0), (13.0, 8.0)] {
+    // In the middle, and reaching over the right border; far from the wall and very near it.
+    for (gap, at, half) in [(2.0, 0.0, 5.0), (2.0, 13.0, 8.0), (1e-5, 0.0, 5.0)] {
         for alignment in Alignment::ALL {
-            let truth = truth(&panel_over_wall(at, 2.0 * half as f32), alignment);
+            let truth = truth(&panel_over_wall(gap, at, 2.0 * half as f32), alignment);
             let known = truth.at_instant_mean();
             columns(|left, pixel| {
                 let expected = mean_over(left, alignment, |x, t| {
@@ -101,7 +101,7 @@ fn what_the_panel_uncovers_or_what_was_beyond_the_border_cannot_be_known() {
 fn a_sliding_panel_comes_from_all_along_its_way() {
     for alignment in Alignment::ALL {
         // Wider than the picture and its way.
-        let truth = truth(&panel_over_wall(0.0, 90.0), alignment);
+        let truth = truth(&panel_over_wall(2.0, 0.0, 90.0), alignment);
         let mean = truth.at_instant_mean();
         columns(|left, pixel| {
             let shutter = alignment.shutter(EXPOSURE).unwrap();
@@ -132,7 +132,7 @@ fn a_sliding_panel_comes_from_all_along_its_way() {
 
 #[test]
 fn a_still_scene_was_always_as_it_is() {
-    let mut scene = panel_over_wall(0.0, 10.0);
+    let mut scene = panel_over_wall(2.0, 0.0, 10.0);
     scene.objects[1].motion = placed(DVec3::new(0.0, 0.0, -DISTANCE));
     scene.materials[0] = diffuse(0.7);
     scene.sun = Some(Sun {
@@ -160,8 +160,59 @@ fn a_still_scene_was_always_as_it_is() {
 }
 
 #[test]
+fn a_closed_mesh_does_not_hide_its_own_near_side() {
+    for (radius, offset) in [(1e-3, 0.0), (4.0, 0.0), (4.0, 1e4)] {
+        let mut scene = empty_scene("sphere");
+        let eye = DVec3::new(offset, offset, offset);
+        scene.camera.motion = placed(eye);
+        let at = eye - DVec3::Z * 1.5 * radius;
+        add(
+            &mut scene,
+            icosphere(radius as f32, 5),
+            diffuse(0.5),
+            placed(at),
+        );
+        // Something moves behind the camera, so that shading is not taken for granted but done again.
+        let speck = eye + DVec3::new(0.0, 0.0, 50.0 * radius);
+        add(
+            &mut scene,
+            rectangle(1e-4, 1e-4),
+            glowing(1.0),
+            drift(speck, 1e-3 * DVec3::X),
+        );
+        scene.background = tracer::Background::Constant(Vec3::ONE);
+        let truth = truth(&scene, Alignment::Centred);
+        let known = truth.at_instant_mean();
+        let again = known
+            .frozen
+            .pixels
+            .iter()
+            .zip(&truth.mean().color.pixels)
+            .map(|(frozen, live)| f64::from((frozen[0] - live[0]).abs()))
+            .fold(0.0, f64::max);
+        // The same random numbers from the same places: rounding may turn a sample in a thousand at most.
+        assert!(
+            again < 2e-3,
+            "shaded again, {radius} m at {offset} m differ by {again}"
+        );
+        let seen = known.placed.pixels.iter().all(|placed| *placed == 1.0);
+        assert!(seen, "everything is in front of the camera");
+        let unknown = known
+            .unknowable
+            .pixels
+            .iter()
+            .filter(|unknown| **unknown > 0.0)
+            .count();
+        assert_eq!(
+            unknown, 0,
+            "pixels of a still sphere of {radius} m at {offset} m cannot be known"
+        );
+    }
+}
+
+#[test]
 fn an_unlit_panel_needs_no_light_of_the_instant() {
-    let truth = truth(&panel_over_wall(0.0, 10.0), Alignment::Centred);
+    let truth = truth(&panel_over_wall(2.0, 0.0, 10.0), Alignment::Centred);
     for (half, known) in truth.halves.iter().zip(&truth.at_instant) {
         assert_eq!(half.color, known.frozen);
     }

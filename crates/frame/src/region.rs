@@ -121,6 +121,47 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_floor_is_half_of_what_the_halves_differ_by_in_each_region() {
+        let moving = Raster::from_fn(4, 1, |x, _| x == 3);
+        let still = moving.map(|moves| !moves);
+        let a = Raster::filled(4, 1, [0.5; 3]);
+        let b = Raster::from_fn(4, 1, |x, _| {
+            if x == 3 {
+                [0.5 - 0.2; 3]
+            } else {
+                [0.5, 0.5, 0.5 + 0.06]
+            }
+        });
+        let floor = |region| {
+            let regions = Regions {
+                moving: moving.clone(),
+                still: still.clone(),
+            };
+            noise_floor([&a, &b], &regions, region).unwrap()
+        };
+        let one_of_three = 0.03 / 3.0_f64.sqrt();
+        let all = ((0.1_f64.powi(2) + 3.0 * one_of_three.powi(2)) / 4.0).sqrt();
+        for (region, expected) in [
+            (Region::Moving, 0.1),
+            (Region::Still, one_of_three),
+            (Region::Full, all),
+        ] {
+            // Colours are rounded to f32.
+            assert!(
+                (floor(region) - expected).abs() < 1e-7,
+                "{region}: {}",
+                floor(region)
+            );
+        }
+        let nowhere = moving.map(|_| false);
+        let regions = Regions {
+            still: nowhere.map(|_| true),
+            moving: nowhere,
+        };
+        assert_eq!(noise_floor([&a, &b], &regions, Region::Moving), None);
+    }
+
+    #[test]
     fn a_set_grows_by_the_disc_around_each_of_its_pixels() {
         let set = Raster::from_fn(23, 17, |x, y| {
             (x * 7 + y * 13) % 61 == 5 || (x, y) == (22, 16)

@@ -11,12 +11,15 @@ use crate::sampler::Sampler;
 use crate::stage::{Hit, Stage};
 use crate::surface::{corners, winding};
 
+/// Places are projected again and err by less than this many pixels: what is seen at the picture's very border is in it.
+const ROUNDING: f64 = 1e-9;
+
 /// The instant, made ready to be asked about what is seen at other times.
 pub(crate) struct Recall {
     view: View,
     canvas: Canvas,
-    /// Nothing changes in the world, and no surface looks different from elsewhere: shading at the instant is shading at
-    /// any time.
+    /// Nothing changes in the world. Since all surfaces are diffuse and look the same from everywhere, shading at the
+    /// instant is then shading at any time.
     unchanging: bool,
 }
 
@@ -156,7 +159,7 @@ impl Recall {
 
     fn shows(&self, place: DVec2) -> bool {
         let size = DVec2::new(f64::from(self.canvas.width), f64::from(self.canvas.height));
-        place.cmpge(DVec2::ZERO).all() && place.cmplt(size).all()
+        place.cmpge(DVec2::splat(-ROUNDING)).all() && place.cmplt(size + ROUNDING).all()
     }
 
     /// Whether anything lies between the eye and the point: a ray that leaves the surface as shadow rays do.
