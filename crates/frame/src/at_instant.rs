@@ -9,7 +9,8 @@ use crate::{FileError, Image, Plane, Raster, Vectors};
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtInstant {
     /// Radiance if each visible point sent what it sent at `t = 0`: visibility moves, shading stands still. What the truth
-    /// has beyond it are shadows, reflections and lights that move, which no frame of the instant tells.
+    /// has beyond it are shadows, reflections and lights that move, which no frame of the instant tells. It is the truth
+    /// plus an unbiased estimate of a difference, and where that is noisy it may fall below 0.
     pub frozen: Image,
     /// The fraction whose visible point cannot be seen in the frame of the instant: it lay outside the picture, behind
     /// something, or showed its other side.

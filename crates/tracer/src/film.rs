@@ -12,7 +12,7 @@ use crate::opening::Opening;
 use crate::path::Integrator;
 use crate::poses::Poses;
 use crate::progress::Meter;
-use crate::recall::{Recall, Recollection};
+use crate::recall::{Recall, Recollected, Recollection};
 use crate::sampler::{Sampler, Stream, pixel_seed};
 use crate::scene::Scene;
 use crate::settings::TraceError;
@@ -20,6 +20,9 @@ use crate::stage::Stage;
 
 /// Pixels between two looks at the meter.
 const PIXELS_PER_TASK: usize = 32;
+
+/// One sample in so many is shaded once more as at the instant.
+const SHADED_AGAIN: u32 = 4;
 
 /// When the samples of a picture are taken.
 #[derive(Clone, Copy)]
@@ -64,7 +67,7 @@ pub(crate) struct Estimate {
     /// Per object id, the samples that saw it.
     pub seen: Vec<u32>,
     /// Means of what was recalled, if anything was.
-    pub recollection: Recollection,
+    pub recollected: Recollected,
 }
 
 /// A pixel's colour and coverages.
@@ -146,14 +149,24 @@ impl<'a> Film<'a> {
             seen[sample.object_id()] += 1;
             if let Some(recall) = &self.recall {
                 let poses = (&mut eye.poses, &mut eye.instant);
-                let recalled = recall.sample(&self.integrator, poses, &ray, &sample, &sampler);
-                recollection.add(&recalled, [left + 0.5, top + 0.5]);
+                let recalled = recall.sample(
+                    &self.integrator,
+                    poses,
+                    &ray,
+                    &sample,
+                    &sampler,
+                    index % SHADED_AGAIN == 0,
+                );
+                recollection.add(&recalled, sample.radiance, [left + 0.5, top + 0.5]);
             }
         }
         Estimate {
             radiance: sum / f64::from(self.samples_per_replicate),
             seen,
-            recollection: recollection.over(self.samples_per_replicate),
+            recollected: match self.recall {
+                Some(_) => recollection.over(self.samples_per_replicate),
+                None => Recollected::default(),
+            },
         }
     }
 }

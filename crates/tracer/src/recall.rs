@@ -26,8 +26,8 @@ pub(crate) struct Recall {
 /// One sample as it was at the instant.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Recalled {
-    /// What the visible point would have sent.
-    pub frozen: Vec3,
+    /// What the visible point would have sent beyond what it sends now; none where that was not asked.
+    pub shift: Option<Vec3>,
     /// Where it was, in pixels from the picture's top left; none behind the camera.
     pub place: Option<DVec2>,
     /// Whether the frame shows it.
@@ -37,6 +37,18 @@ pub(crate) struct Recalled {
 /// Sums over samples.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Recollection {
+    live: DVec3,
+    shift: DVec3,
+    shifts: u32,
+    unknowable: f64,
+    placed: f64,
+    offset: DVec2,
+    spread: DVec3,
+}
+
+/// The means of a pixel.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Recollected {
     pub frozen: DVec3,
     pub unknowable: f64,
     pub placed: f64,
@@ -54,7 +66,8 @@ impl Recall {
         }
     }
 
-    /// The sample that `ray` brought home at the time of `poses`; `then` are the poses of the instant.
+    /// The sample that `ray` brought home at the time of `poses`; `then` are the poses of the instant. Shading once more is
+    /// the dear part: `shade` says whether to.
     pub fn sample(
         &self,
         integrator: &Integrator,
@@ -62,20 +75,23 @@ impl Recall {
         ray: &Ray,
         sample: &PathSample,
         sampler: &Sampler,
+        shade: bool,
     ) -> Recalled {
         let Some(hit) = &sample.hit else {
-            return self.background(integrator.stage, then, ray.direction, sample.radiance);
+            return self.background(integrator.stage, then, ray.direction, shade);
         };
         let point = self.point(integrator.stage, then, hit);
         let sight = self.sight(integrator.stage, (poses, then), ray, hit, point);
         let place = self.view.project(point).map(DVec2::from);
-        let frozen = if self.unchanging || !sample.scattered {
-            sample.radiance
-        } else {
-            integrator.radiance_along(then, sight.ray, Some(sight.hit), sampler)
-        };
+        let shift = shade.then(|| {
+            if self.unchanging || !sample.scattered {
+                return Vec3::ZERO;
+            }
+            let frozen = integrator.radiance_along(then, sight.ray, Some(sight.hit), sampler);
+            frozen - sample.radiance
+        });
         Recalled {
-            frozen,
+            shift,
             place,
             known: sight.same_side
                 && place.is_some_and(|place| self.shows(place))
@@ -89,7 +105,7 @@ impl Recall {
         stage: &Stage,
         then: &mut Poses,
         direction: DVec3,
-        radiance: Vec3,
+        shade: bool,
     ) -> Recalled {
         let place = self.view.project_direction(direction).map(DVec2::from);
         let ray = Ray {
@@ -97,7 +113,7 @@ impl Recall {
             direction,
         };
         Recalled {
-            frozen: radiance,
+            shift: shade.then_some(Vec3::ZERO),
             place,
             known: place.is_some_and(|place| self.shows(place))
                 && !stage.blocked(then, &ray, f64::INFINITY),
@@ -186,9 +202,13 @@ struct Sight {
 }
 
 impl Recollection {
-    /// Adds a sample of the pixel with this centre.
-    pub fn add(&mut self, recalled: &Recalled, centre: [f64; 2]) {
-        self.frozen += recalled.frozen.as_dvec3();
+    /// Adds a sample of this radiance of the pixel with this centre.
+    pub fn add(&mut self, recalled: &Recalled, radiance: Vec3, centre: [f64; 2]) {
+        self.live += radiance.as_dvec3();
+        if let Some(shift) = recalled.shift {
+            self.shift += shift.as_dvec3();
+            self.shifts += 1;
+        }
         self.unknowable += f64::from(!recalled.known);
         if let Some(place) = recalled.place {
             let offset = place - DVec2::from(centre);
@@ -202,11 +222,13 @@ impl Recollection {
         }
     }
 
-    /// The mean over so many samples.
-    pub fn over(&self, samples: u32) -> Self {
+    /// The means over so many samples. Frozen shading is the live one, of all samples, and its mean change over those that
+    /// were shaded again: most change little or not at all, so that a part of them tells it nearly as well as all would.
+    /// Where few change much the estimate may fall below 0, and has to, or its mean would be too high.
+    pub fn over(&self, samples: u32) -> Recollected {
         let samples = f64::from(samples);
-        Self {
-            frozen: self.frozen / samples,
+        Recollected {
+            frozen: self.live / samples + self.shift / f64::from(self.shifts),
             unknowable: self.unknowable / samples,
             placed: self.placed / samples,
             offset: self.offset / samples,

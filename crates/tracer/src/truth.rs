@@ -9,7 +9,7 @@ use crate::opening::Opening;
 use crate::path::Integrator;
 use crate::progress::{Meter, Progress, Watch};
 use crate::provenance::{object_names, provenance, replicate_hash};
-use crate::recall::{Recall, Recollection};
+use crate::recall::{Recall, Recollected};
 use crate::sampler::Stream;
 use crate::scene::Scene;
 use crate::settings::{TraceError, TruthSettings};
@@ -76,9 +76,9 @@ impl<'a> TruthTracer<'a> {
         let pixels = canvas.pixels();
         let meter = Meter::new(watch, pixels.len() as u64 * film.samples_per_pixel());
         let developed = film.develop(&pixels, &meter, |estimates| {
-            (PixelMean::of(estimates), estimates[0].recollection)
+            (PixelMean::of(estimates), estimates[0].recollected)
         })?;
-        let (means, recollections): (Vec<PixelMean>, Vec<Recollection>) =
+        let (means, recollected): (Vec<PixelMean>, Vec<Recollected>) =
             developed.into_iter().unzip();
         let scene = self.stage.scene;
         Ok(Replicate {
@@ -96,16 +96,16 @@ impl<'a> TruthTracer<'a> {
             objects: object_names(scene),
             moving: self.moving.clone(),
             picture: picture(canvas, &means),
-            at_instant: at_instant(canvas, &recollections),
+            at_instant: at_instant(canvas, &recollected),
         })
     }
 }
 
-fn at_instant(canvas: Canvas, recollections: &[Recollection]) -> AtInstant {
-    let pixels: Raster<Recollection> = Raster {
+fn at_instant(canvas: Canvas, recollected: &[Recollected]) -> AtInstant {
+    let pixels: Raster<Recollected> = Raster {
         width: canvas.width,
         height: canvas.height,
-        pixels: recollections.to_vec(),
+        pixels: recollected.to_vec(),
     };
     AtInstant {
         frozen: pixels.map(|pixel| pixel.frozen.as_vec3().to_array()),
