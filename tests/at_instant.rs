@@ -5,11 +5,12 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use frame::{Alignment, AtInstant, Truth};
-use glam::{DVec3, Vec3};
+use glam::{DQuat, DVec3, Vec3};
 use tests::shapes::*;
 use tests::unwatched;
 use tracer::{
-    FrameSettings, Key, Motion, Scene, Sun, TruthSettings, Turn, trace_frame, trace_truth,
+    Background, Finish, FrameSettings, Key, Material, Motion, Scene, Sun, TruthSettings, Turn,
+    trace_frame, trace_truth,
 };
 
 const WIDTH: u32 = 32;
@@ -184,7 +185,7 @@ fn a_closed_mesh_does_not_hide_its_own_near_side() {
             glowing(1.0),
             drift(speck, 1e-3 * DVec3::X),
         );
-        scene.background = tracer::Background::Constant(Vec3::ONE);
+        scene.background = Background::Constant(Vec3::ONE);
         let truth = truth(&scene, Alignment::Centred);
         let known = truth.at_instant_mean();
         let again = known
@@ -220,6 +221,58 @@ fn an_unlit_panel_needs_no_light_of_the_instant() {
     for (half, known) in truth.halves.iter().zip(&truth.at_instant) {
         assert_eq!(half.color, known.frozen);
     }
+}
+
+/// Nothing in the world moves; the camera flies over a mirror, in which every point of the floor shows another height of the
+/// sky from elsewhere.
+#[test]
+fn a_mirror_is_frozen_as_the_camera_of_the_instant_saw_it() {
+    let mut scene = empty_scene("mirror");
+    let mirror = Material {
+        finish: Finish::Conductor { roughness: 0.0 },
+        ..diffuse(1.0)
+    };
+    let floor = Motion::still(Key {
+        orientation: DQuat::from_rotation_x(-FRAC_PI_2),
+        ..Key::REST
+    });
+    add(&mut scene, rectangle(500.0, 500.0), mirror, floor);
+    scene.background = Background::Gradient {
+        ground: Vec3::ZERO,
+        horizon: Vec3::ZERO,
+        zenith: Vec3::ONE,
+    };
+    // Straight down at a slope of 1 to 2, through a spot so small that all pixels see the same.
+    let way = DVec3::new(0.0, -1.0, -2.0);
+    let at = |time: f64| Key {
+        time,
+        translation: DVec3::new(0.0, 2.0, -3.0 * time),
+        orientation: DQuat::from_rotation_arc(DVec3::NEG_Z, way.normalize()),
+        ..Key::REST
+    };
+    scene.camera.motion = Motion {
+        keys: vec![at(-1.0), at(1.0)],
+        ..Motion::default()
+    };
+    scene.camera.vertical_fov = vec![(0.0, 1e-4)];
+    let truth = truth(&scene, Alignment::Trailing);
+    // The mirrored ray rises as steeply as the ray falls: always the same while the camera sees it.
+    let live = 0.2_f64.sqrt();
+    // At time t the floor is seen 4 + 3 t metres ahead of where the camera is at the instant.
+    let steps = 1000;
+    let frozen: f64 = (0..steps)
+        .map(|step| -EXPOSURE * (f64::from(step) + 0.5) / f64::from(steps))
+        .map(|time| 2.0 / (4.0 + 3.0 * time).hypot(2.0) / f64::from(steps))
+        .sum();
+    assert!((live - frozen).abs() > 0.05, "they can be told apart");
+    let known = truth.at_instant_mean();
+    let mean = |pixels: &[[f32; 3]]| {
+        pixels.iter().map(|pixel| f64::from(pixel[0])).sum::<f64>() / pixels.len() as f64
+    };
+    // 384 pixels of 1024 stratified samples, of which a quarter is shaded again.
+    assert!((mean(&truth.mean().color.pixels) - live).abs() < 1e-4);
+    let found = mean(&known.frozen.pixels);
+    assert!((found - frozen).abs() < 1e-3, "{found} {frozen}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Scenes whose radiance is known in closed form.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use frame::{Alignment, Truth};
 use glam::{DQuat, DVec3, Vec2, Vec3};
@@ -8,7 +8,8 @@ use tests::shapes::*;
 use tests::statistics::{estimates, expect_pooled_agreement};
 use tests::unwatched;
 use tracer::{
-    Background, Key, Material, Motion, Scene, Sun, Texture, TruthSettings, Turn, trace_truth,
+    Background, EnvironmentMap, Key, Material, Motion, Scene, Sun, Texture, TruthSettings, Turn,
+    trace_truth,
 };
 
 fn truth(scene: &Scene, samples_per_pixel: u32) -> Truth {
@@ -281,4 +282,94 @@ fn a_sun_with_a_disc_is_seen_and_a_point_is_not() {
     scene.sun = Some(sun(0.2));
     let radiance = 1.0 / (PI * f64::sin(0.2).powi(2));
     expect_everywhere("disc", &truth(&scene, 16), radiance);
+}
+
+/// What an image of `sky` in 128 x 64 texels shows.
+fn image_of(sky: &Background) -> Background {
+    let (width, height) = (128, 64);
+    let texel = |at: u32| {
+        let [x, y] = [at % width, at / width].map(|place| f64::from(place) + 0.5);
+        let (across, ahead) = (TAU * (x / f64::from(width) - 0.5)).sin_cos();
+        let (level, up) = (PI * y / f64::from(height)).sin_cos();
+        sky.radiance(DVec3::new(level * across, up, -level * ahead))
+            .into()
+    };
+    Background::Map(EnvironmentMap {
+        path: "made by a test".into(),
+        width,
+        height,
+        texels: (0..width * height).map(texel).collect(),
+        strength: 1.0,
+        rotation: 0.3,
+    })
+}
+
+#[test]
+fn an_image_of_a_sky_lights_as_the_sky_does() {
+    let level = |brightness| Vec3::splat(brightness);
+    for (sky, expected) in [
+        (Background::Constant(level(1.0)), 0.6),
+        // Even and uneven: met by chance, and drawn as a light. The mean of the height over the cosine lobe is 2/3.
+        (
+            Background::Gradient {
+                ground: level(1.0),
+                horizon: level(1.0),
+                zenith: level(4.0),
+            },
+            0.6 * 3.0,
+        ),
+        (
+            Background::Gradient {
+                ground: level(0.0),
+                horizon: level(0.0),
+                zenith: level(1.0),
+            },
+            0.4,
+        ),
+    ] {
+        let mut scene = floor_scene("image");
+        scene.background = image_of(&sky);
+        let mean = truth(&scene, 4096).mean().color;
+        let sum: f64 = mean.pixels.iter().map(|pixel| f64::from(pixel[0])).sum();
+        let found = sum / mean.pixels.len() as f64;
+        // Interpolation between rows of 3 degrees rounds the horizon's kink off: some 5e-4 of the brightest level.
+        assert!((found - expected).abs() < 2e-3, "{found} {expected}");
+    }
+}
+
+#[test]
+fn a_small_bright_sun_in_an_image_is_found() {
+    let (width, height) = (64_u32, 32_u32);
+    // One texel 39 degrees from straight up.
+    let bright = 6 * width + 20;
+    let texel = |at: u32| if at == bright { [1000.0; 3] } else { [0.0; 3] };
+    let mut scene = floor_scene("sun in an image");
+    scene.background = Background::Map(EnvironmentMap {
+        path: "made by a test".into(),
+        width,
+        height,
+        texels: (0..width * height).map(texel).collect(),
+        strength: 1.0,
+        rotation: 0.0,
+    });
+    // The bilinear tent around the texel's middle, by the midpoint rule.
+    let steps = 200;
+    let irradiance: f64 = (0..steps * steps)
+        .map(|at| [at % steps, at / steps].map(|step| (f64::from(step) + 0.5) / f64::from(steps)))
+        .map(|[x, y]| {
+            let [x, y] = [2.0 * x - 1.0, 2.0 * y - 1.0];
+            let polar = PI * (6.5 + y) / f64::from(height);
+            let area = 4.0 * TAU / f64::from(width) * PI / f64::from(height) * polar.sin();
+            let tent = (1.0 - x.abs()) * (1.0 - y.abs());
+            1000.0 * tent * area * polar.cos() / f64::from(steps * steps)
+        })
+        .sum();
+    let truth = truth(&scene, 1024);
+    expect_everywhere("sun in an image", &truth, 0.6 * irradiance / PI);
+    // Unsampled it would be met by one path in 500, with a deviation of 20 times its mean.
+    let worst = estimates(&truth, |_, _| 0.0)
+        .iter()
+        .map(|estimate| estimate.error)
+        .fold(0.0, f64::max);
+    assert!(worst < 0.01 * irradiance, "{worst} {irradiance}");
 }

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use frame::ShutterProfile;
 use glam::{DQuat, DVec3, Vec3};
 use tracer::{
-    Background, Camera, Display, Family, FlipExposures, Key, Material, Mesh, Motion, Object,
-    Parent, Scene, Turn,
+    Background, Camera, Display, Family, Finish, FlipExposures, Key, Material, Mesh, Motion,
+    Object, Parent, Scene, Turn,
 };
 
 /// A scene without objects, under black sky; the camera at the origin looks along -Z, 90 degrees high.
@@ -60,6 +60,7 @@ pub fn add(scene: &mut Scene, mesh: Mesh, material: Material, motion: Motion) ->
 pub fn diffuse(albedo: f32) -> Material {
     Material {
         name: "diffuse".into(),
+        finish: Finish::Diffuse,
         diffuse: Vec3::splat(albedo),
         diffuse_texture: None,
         emission: Vec3::ZERO,

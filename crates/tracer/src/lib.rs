@@ -5,13 +5,18 @@
 mod approach;
 mod background;
 mod bounds;
+mod brdf;
 mod bvh;
 mod camera;
 mod canvas;
 mod curve;
+mod environment;
 mod extent;
 mod film;
+mod fresnel;
 mod geometry;
+mod ggx;
+mod gloss;
 mod instant;
 mod ladder;
 mod lanes;
@@ -51,8 +56,8 @@ pub use progress::{Progress, Watch};
 pub use provenance::{frame_hash, ladder_hash, replicate_hash, truth_hash};
 pub use ray::Ray;
 pub use scene::{
-    Background, Camera, Display, Family, FlipExposures, Material, Mesh, Object, Parent, Scene,
-    Shape, Sun, Texture,
+    Background, Camera, Display, EnvironmentMap, Family, Finish, FlipExposures, Material, Mesh,
+    Object, Parent, Scene, Shape, Sun, Texture,
 };
 pub use settings::{FrameSettings, TraceError, TruthSettings};
 pub use stage::{Hit, Stage};

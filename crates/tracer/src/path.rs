@@ -2,8 +2,8 @@
 
 use glam::{DVec3, Vec3};
 
+use crate::brdf::{Brdf, Scattered};
 use crate::lights::{Emitters, LightSample, density_per_steradian, power_heuristic};
-use crate::lobe::Lobe;
 use crate::poses::Poses;
 use crate::ray::Ray;
 use crate::sampler::Sampler;
@@ -41,7 +41,8 @@ impl PathSample {
     }
 }
 
-/// The density of the direction that a ray was drawn with; a camera ray was not drawn.
+/// The density of the direction that a ray was drawn with; none for rays that lights cannot draw: the camera's and those in
+/// a mirror.
 type Drawn = Option<f64>;
 
 impl<'a> Integrator<'a> {
@@ -96,21 +97,24 @@ impl<'a> Integrator<'a> {
             };
             let surface = Surface::at(scene, poses.pose(hit.object), &ray, &hit);
             radiance += throughput * self.emitted(&surface, &ray, &hit, drawn);
-            if surface.albedo == Vec3::ZERO {
+            let gloss = self.stage.gloss(surface.material);
+            let Some(brdf) = surface.brdf(gloss, &ray) else {
                 return (radiance, depth);
-            }
-            throughput *= surface.albedo;
-            let lobe = Lobe::new(surface.facet, surface.normal);
+            };
             let [u, v, roulette, choice] = sampler.bounce(depth);
+            let [sky_u, sky_v, by_facets, _] = sampler.sky(depth);
             let start = surface.position + LIFT * magnitude(&surface, &hit) * surface.facet;
             if self.has_lights() {
                 let points = sampler.lights(depth);
-                radiance += throughput * self.direct(poses, start, &lobe, choice, points);
+                radiance += throughput * self.direct(poses, start, &brdf, choice, points);
             }
-            let [sky_u, sky_v, ..] = sampler.sky(depth);
-            if let Some(sky) = scene.background.sample([sky_u, sky_v]) {
-                radiance += throughput * self.arriving(poses, start, &lobe, &sky, true);
+            if let Some(sky) = self.stage.sky().sample([sky_u, sky_v]) {
+                radiance += throughput * self.arriving(poses, start, &brdf, &sky, true);
             }
+            let Some(draw) = brdf.sample(by_facets, [u, v]) else {
+                return (radiance, depth + 1);
+            };
+            throughput *= draw.weight;
             if depth >= ROULETTE_FROM {
                 let survival = f64::from(throughput.max_element()).min(1.0);
                 if roulette >= survival {
@@ -118,11 +122,10 @@ impl<'a> Integrator<'a> {
                 }
                 throughput /= survival as f32;
             }
-            let direction = lobe.sample(u, v);
-            drawn = Some(lobe.density(direction));
+            drawn = draw.density;
             ray = Ray {
                 origin: start,
-                direction,
+                direction: draw.direction,
             };
             met = self.stage.closest(poses, &ray);
         }
@@ -137,7 +140,7 @@ impl<'a> Integrator<'a> {
     fn beyond(&self, ray: &Ray, drawn: Drawn) -> Vec3 {
         let scene = self.stage.scene;
         let weight = drawn.map_or(1.0, |drawn| {
-            power_heuristic(drawn, scene.background.density(ray.direction))
+            power_heuristic(drawn, self.stage.sky().density(ray.direction))
         });
         let background = scene.background.radiance(ray.direction) * weight as f32;
         match &scene.sun {
@@ -163,39 +166,39 @@ impl<'a> Integrator<'a> {
         surface.emission * weight as f32
     }
 
-    /// Light that comes straight from the sun and from one emitter, scattered by a surface of albedo 1. The random
+    /// Light that comes straight from the sun and from one emitter, scattered by a surface. The random
     /// numbers choose the emitter, the point on it and the point on the sun.
     fn direct(
         &self,
         poses: &mut Poses,
         start: DVec3,
-        lobe: &Lobe,
+        brdf: &Brdf,
         choice: f64,
         [u, v, sun_u, sun_v]: [f64; 4],
     ) -> Vec3 {
         let scene = self.stage.scene;
         let mut light = Vec3::ZERO;
         if let Some(sun) = &scene.sun {
-            let by_lobe = sun.angular_radius > 0.0;
-            light += self.arriving(poses, start, lobe, &sun.sample([sun_u, sun_v]), by_lobe);
+            let by_surface = sun.angular_radius > 0.0;
+            light += self.arriving(poses, start, brdf, &sun.sample([sun_u, sun_v]), by_surface);
         }
         if let Some(drawn) = self.emitters.sample(scene, poses, start, choice, [u, v]) {
-            light += self.arriving(poses, start, lobe, &drawn, true);
+            light += self.arriving(poses, start, brdf, &drawn, true);
         }
         light
     }
 
-    /// One light sample's contribution; `by_lobe`: the lobe might have drawn it too.
+    /// One light sample's contribution; `by_surface`: the surface might have drawn it too.
     fn arriving(
         &self,
         poses: &mut Poses,
         start: DVec3,
-        lobe: &Lobe,
+        brdf: &Brdf,
         light: &LightSample,
-        by_lobe: bool,
+        by_surface: bool,
     ) -> Vec3 {
-        let scattered = lobe.density(light.direction);
-        if scattered == 0.0 || light.radiance == Vec3::ZERO {
+        let Scattered { share, density } = brdf.scattered(light.direction);
+        if share == Vec3::ZERO || light.radiance == Vec3::ZERO {
             return Vec3::ZERO;
         }
         let ray = Ray {
@@ -207,12 +210,12 @@ impl<'a> Integrator<'a> {
         if self.stage.blocked(poses, &ray, limit) {
             return Vec3::ZERO;
         }
-        let weight = if by_lobe {
-            power_heuristic(light.density, scattered)
+        let weight = if by_surface {
+            power_heuristic(light.density, density)
         } else {
             1.0
         };
-        light.radiance * (scattered * weight / light.density) as f32
+        light.radiance * share * (weight / light.density) as f32
     }
 }
 

@@ -18,8 +18,8 @@ const ROUNDING: f64 = 1e-9;
 pub(crate) struct Recall {
     view: View,
     canvas: Canvas,
-    /// Nothing changes in the world. Since all surfaces are diffuse and look the same from everywhere, shading at the
-    /// instant is then shading at any time.
+    /// Nothing changes in the world and all surfaces look the same from everywhere: shading at the instant is then shading at
+    /// any time.
     unchanging: bool,
 }
 
@@ -62,7 +62,7 @@ impl Recall {
         Self {
             view: stage.scene.camera.view(0.0, canvas.width, canvas.height),
             canvas,
-            unchanging: stage.stands_still(),
+            unchanging: stage.stands_still() && stage.is_diffuse(),
         }
     }
 

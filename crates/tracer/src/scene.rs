@@ -95,7 +95,7 @@ pub struct Camera {
 }
 
 /// Radiance from infinity.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Background {
     /// The same from everywhere.
     Constant(Vec3),
@@ -108,6 +108,26 @@ pub enum Background {
         /// Radiance straight up.
         zenith: Vec3,
     },
+    /// An image of all directions.
+    Map(EnvironmentMap),
+}
+
+/// Radiance by direction, in longitude (from left to right) and latitude (from +Y at the top to -Y).
+#[derive(Clone, Debug, PartialEq)]
+pub struct EnvironmentMap {
+    /// The image file.
+    pub path: PathBuf,
+    /// Texels around the horizon, twice as many as rows. The middle of the image lies towards -Z, its right quarter towards
+    /// +X.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Linear radiance, row-major from the top left; not negative, finite.
+    pub texels: Vec<[f32; 3]>,
+    /// Factor on the texels.
+    pub strength: f32,
+    /// Radians by which the map is turned about +Y.
+    pub rotation: f64,
 }
 
 /// A distant disc of constant radiance.
@@ -165,12 +185,15 @@ pub struct Texture {
     pub texels: Vec<[f32; 4]>,
 }
 
-/// A two-sided diffuse surface that may emit, with cut-outs.
+/// A two-sided surface that may emit, with cut-outs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// Its name in the MTL file.
     pub name: String,
-    /// Linear albedo (Kd), each component in [0, 1]; multiplied by the texture if there is one.
+    /// How it reflects.
+    pub finish: Finish,
+    /// Linear albedo (Kd), each component in [0, 1]; multiplied by the texture if there is one. A conductor's
+    /// reflectance at normal incidence.
     pub diffuse: Vec3,
     /// map_Kd: index into the scene's textures.
     pub diffuse_texture: Option<usize>,
@@ -182,6 +205,33 @@ pub struct Material {
     pub opacity: f32,
     /// map_d: index into the scene's textures; its alpha if it has one, else its first component undecoded.
     pub opacity_texture: Option<usize>,
+}
+
+/// How a surface reflects. Roughness is 0 for a mirror, else from [`Finish::SMOOTHEST`] to 1; its square is the width of the GGX
+/// distribution of slopes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Finish {
+    /// The same towards everywhere (Lambert).
+    Diffuse,
+    /// Bare metal.
+    Conductor {
+        /// Pr.
+        roughness: f32,
+    },
+    /// Diffuse below a dielectric coat.
+    Coated {
+        /// Pr.
+        roughness: f32,
+        /// Ni: index of refraction of the coat, above 1.
+        index: f32,
+    },
+}
+
+impl Finish {
+    /// Smallest roughness that is not a mirror.
+    pub const SMOOTHEST: f32 = 0.01;
+    /// Largest index of refraction: more than diamond's.
+    pub const DENSEST: f32 = 4.0;
 }
 
 /// What an object's motion is relative to.

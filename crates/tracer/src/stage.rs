@@ -2,10 +2,12 @@
 
 use glam::DVec3;
 
+use crate::background::Sky;
 use crate::bounds::Bounds;
 use crate::bvh::Tree;
 use crate::extent::Extent;
 use crate::geometry::Geometry;
+use crate::gloss::Gloss;
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::Avx2;
 use crate::lanes::{Lanes, Portable};
@@ -30,6 +32,9 @@ pub struct Stage<'a> {
     to: f64,
     meshes: Vec<Option<Geometry<'a>>>,
     opacities: Vec<Opacity>,
+    /// Per material of the scene.
+    glosses: Vec<Option<Gloss>>,
+    sky: Sky<'a>,
     slices: Vec<Tree>,
     poses: Poses<'a>,
     traversal: Traversal,
@@ -77,6 +82,8 @@ impl<'a> Stage<'a> {
             to,
             meshes,
             opacities: Opacity::of_objects(scene),
+            sky: Sky::of(&scene.background),
+            glosses: scene.materials.iter().map(Gloss::of).collect(),
             slices: slices(scene, from, to),
             poses: Poses::new(scene, from, to),
             traversal: Traversal::best(),
@@ -87,6 +94,21 @@ impl<'a> Stage<'a> {
     pub(crate) fn stands_still(&self) -> bool {
         let deforms = |object: &Object| self.scene.meshes[object.mesh].deforms();
         self.poses.stand_still() && !self.scene.objects.iter().any(deforms)
+    }
+
+    /// Whether all surfaces look the same from everywhere.
+    pub(crate) fn is_diffuse(&self) -> bool {
+        self.glosses.iter().all(Option::is_none)
+    }
+
+    /// The gloss of a material; none where it is diffuse.
+    pub(crate) fn gloss(&self, material: usize) -> Option<&Gloss> {
+        self.glosses[material].as_ref()
+    }
+
+    /// The background as a light.
+    pub(crate) fn sky(&self) -> &Sky<'a> {
+        &self.sky
     }
 
     /// A store of poses for one path at a time.

@@ -1,7 +1,9 @@
-//! What a hit says about light: place, orientation, albedo, emission.
+//! What a hit says about light: place, orientation, colour, emission.
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 
+use crate::brdf::Brdf;
+use crate::gloss::Gloss;
 use crate::poses::Pose;
 use crate::ray::Ray;
 use crate::scene::{Material, Mesh, Scene};
@@ -19,7 +21,10 @@ pub(crate) struct Surface {
     pub facet: DVec3,
     /// Unit, interpolated where the mesh has normals, on the facet's side.
     pub normal: DVec3,
-    pub albedo: Vec3,
+    /// Albedo, or a metal's reflectance at normal incidence.
+    pub color: Vec3,
+    /// Index into the scene's materials.
+    pub material: usize,
     pub emission: Vec3,
     /// Area of the whole triangle, square metres.
     pub area: f64,
@@ -64,12 +69,14 @@ impl Surface {
         let scaled = edge(b).cross(edge(c));
         let facet = towards(scaled.normalize_or_zero(), -ray.direction);
         let texcoord = texcoord(mesh, hit.triangle, hit.weights);
-        let material = material(scene, hit.object, hit.triangle);
+        let index = material_index(scene, hit.object, hit.triangle);
+        let material = &scene.materials[index];
         Surface {
             position: ray.at(hit.t),
             facet,
             normal: shading_normal(mesh, pose, hit).map_or(facet, |normal| towards(normal, facet)),
-            albedo: textured(scene, material.diffuse, material.diffuse_texture, texcoord),
+            color: textured(scene, material.diffuse, material.diffuse_texture, texcoord),
+            material: index,
             emission: textured(
                 scene,
                 material.emission,
@@ -78,6 +85,11 @@ impl Surface {
             ),
             area: 0.5 * scaled.length(),
         }
+    }
+
+    /// How it scatters towards the ray that met it; none where it scatters nothing.
+    pub fn brdf<'a>(&self, gloss: Option<&'a Gloss>, ray: &Ray) -> Option<Brdf<'a>> {
+        Brdf::new(gloss, self.color, self.facet, self.normal, -ray.direction)
     }
 }
 
@@ -96,9 +108,13 @@ pub(crate) fn winding(scene: &Scene, pose: &Pose, hit: &Hit, time: f64) -> DVec3
 
 /// The material of a triangle.
 pub(crate) fn material(scene: &Scene, object: usize, triangle: u32) -> &Material {
+    &scene.materials[material_index(scene, object, triangle)]
+}
+
+fn material_index(scene: &Scene, object: usize, triangle: u32) -> usize {
     let object = &scene.objects[object];
     let slot = scene.meshes[object.mesh].slots[triangle as usize];
-    &scene.materials[object.materials[slot as usize]]
+    object.materials[slot as usize]
 }
 
 /// Emitted radiance at a point of a triangle; nothing where it has a hole.

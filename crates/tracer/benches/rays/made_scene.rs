@@ -71,6 +71,7 @@ pub fn made_scene(moving: bool) -> Scene {
         textures: Vec::new(),
         materials: vec![Material {
             name: "grey".into(),
+            finish: tracer::Finish::Diffuse,
             diffuse: Vec3::splat(0.5),
             diffuse_texture: None,
             emission: Vec3::ZERO,

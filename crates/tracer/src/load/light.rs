@@ -1,12 +1,16 @@
 //! Background, sun and display of a scene.toml.
 
+use std::path::Path;
+
 use glam::{DVec3, Vec3};
 use toml::Spanned;
 
 use super::document::Document;
+use super::environment;
 use super::error::SceneError;
+use super::files::Files;
 use super::schema::{BackgroundTable, DisplayTable, FlipTable, SunTable};
-use crate::{Background, Display, FlipExposures, Sun};
+use crate::{Background, Display, EnvironmentMap, FlipExposures, Sun};
 
 /// Exposures of HDR-FLIP where a scene names none: two stops about its own exposure, a step per stop.
 const FLIP: FlipExposures = FlipExposures {
@@ -17,15 +21,28 @@ const FLIP: FlipExposures = FlipExposures {
 
 pub(super) fn background(
     document: &Document,
+    files: &mut Files,
+    folder: &Path,
     table: &Spanned<BackgroundTable>,
 ) -> Result<Background, SceneError> {
-    match (&table.get_ref().constant, &table.get_ref().gradient) {
-        (Some(constant), None) => {
+    let BackgroundTable {
+        constant,
+        gradient,
+        image,
+        strength,
+        rotation,
+    } = table.get_ref();
+    if image.is_none() && (strength.is_some() || rotation.is_some()) {
+        let reason = "strength and rotation belong to an image; name one: image = \"sky.exr\"";
+        return Err(document.error(table.span(), reason));
+    }
+    match (constant, gradient, image) {
+        (Some(constant), None, None) => {
             let place = constant.span();
             let constant = radiance(document, "constant", *constant.get_ref(), place)?;
             Ok(Background::Constant(constant))
         }
-        (None, Some(gradient)) => {
+        (None, Some(gradient), None) => {
             let part = |what, value| radiance(document, what, value, gradient.span());
             let gradient = gradient.get_ref();
             Ok(Background::Gradient {
@@ -34,8 +51,26 @@ pub(super) fn background(
                 zenith: part("zenith", gradient.zenith)?,
             })
         }
+        (None, None, Some(image)) => {
+            let map = environment::load(files, &folder.join(image.get_ref()))
+                .map_err(|reason| document.error(image.span(), reason))?;
+            if let Some(strength) = strength
+                && *strength.get_ref() <= 0.0
+            {
+                let reason = format!("strength is {}; allowed: above 0", strength.get_ref());
+                return Err(document.error(strength.span(), reason));
+            }
+            Ok(Background::Map(EnvironmentMap {
+                strength: strength
+                    .as_ref()
+                    .map_or(1.0, |strength| *strength.get_ref()),
+                rotation: rotation.unwrap_or(0.0).to_radians(),
+                ..map
+            }))
+        }
         _ => {
-            let reason = "a background needs one of: constant = [r, g, b], gradient = { ground, horizon, zenith }";
+            let reason = "a background needs one of: constant = [r, g, b], gradient = { ground, horizon, zenith }, \
+                          image = \"sky.exr\"";
             Err(document.error(table.span(), reason))
         }
     }

@@ -8,10 +8,37 @@ use toml::Spanned;
 use super::document::Document;
 use super::error::SceneError;
 use super::files::Files;
+use super::finish::{Number, Numbers};
 use super::light::{amiss_in_albedo, radiance};
 use super::schema::MaterialTable;
 use super::texture::{Textures, Use};
-use crate::Material;
+use crate::{Finish, Material};
+
+/// The finish that the material had, with what the table names.
+fn finish(
+    document: &Document,
+    table: &MaterialTable,
+    before: Finish,
+) -> Result<Finish, SceneError> {
+    let before = Numbers::of(before);
+    let given = |number: &Option<Spanned<f32>>| number.as_ref().map(|number| *number.get_ref());
+    let metallic = table.metallic.as_ref().map(|metallic| *metallic.get_ref());
+    let numbers = Numbers {
+        roughness: given(&table.roughness).or(before.roughness),
+        metallic: metallic.unwrap_or(before.metallic),
+        index: given(&table.index_of_refraction).or(before.index),
+    };
+    let span = |given: &Option<Spanned<f32>>| given.as_ref().map(Spanned::span);
+    numbers.finish().map_err(|(number, reason)| {
+        let (name, place) = match number {
+            Number::Roughness => ("roughness", span(&table.roughness)),
+            Number::Metallic => ("metallic", table.metallic.as_ref().map(Spanned::span)),
+            Number::Index => ("index_of_refraction", span(&table.index_of_refraction)),
+        };
+        let place = place.expect("what the material had before was allowed");
+        document.error(place, format!("{name} {reason}"))
+    })
+}
 
 /// Replaces what the table names. Textures lie relative to the scene's folder.
 pub(super) fn override_material(
@@ -39,6 +66,7 @@ pub(super) fn override_material(
             return Err(document.error(opacity.span(), reason));
         }
     }
+    material.finish = finish(document, table, material.finish)?;
     let mut texture = |name: &Option<Spanned<String>>, usage, index: &mut Option<usize>| {
         if let Some(name) = name {
             let loaded = textures.load(files, &folder.join(name.get_ref()), usage);

@@ -4,8 +4,10 @@
 
 mod camera;
 mod document;
+mod environment;
 mod error;
 mod files;
+mod finish;
 mod light;
 mod listing;
 mod material;
@@ -49,7 +51,7 @@ pub fn load_scene(folder: &Path, variant: Option<&str>) -> Result<Scene, SceneEr
 
     let shutter_profile = shutter::shutter_profile(&document, &table.shutter)?;
     let camera = camera::camera(&document, &table.camera)?;
-    let background = light::background(&document, &table.background)?;
+    let background = light::background(&document, &mut files, folder, &table.background)?;
     let sun = table.sun.as_ref().map(|sun| light::sun(&document, sun));
     let display = light::display(&document, &table.display)?;
     let mut stage = Stage::new(&document, folder, files);

@@ -1,4 +1,4 @@
-//! MTL files: the statements that describe diffuse, emissive and cut-out surfaces. All others are passed over.
+//! MTL files: the statements that describe diffuse, glossy, emissive and cut-out surfaces. All others are passed over.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -7,10 +7,11 @@ use glam::Vec3;
 
 use super::error::{SceneError, list};
 use super::files::Files;
+use super::finish::{Number, Numbers};
 use super::light::{amiss_in_albedo, amiss_in_radiance};
 use super::statements::{Statement, statements};
 use super::texture::{Textures, Use};
-use crate::Material;
+use crate::{Finish, Material};
 
 /// Albedo of faces without a material, and of materials that name neither Kd nor map_Kd.
 const DEFAULT_ALBEDO: f32 = 0.5;
@@ -25,15 +26,23 @@ pub(super) struct Libraries {
     pub(super) texts: BTreeMap<PathBuf, String>,
     /// Where a material's statement stands; `newmtl` is where the material begins.
     places: BTreeMap<(String, &'static str), (PathBuf, usize)>,
+    /// The number of a material's statement, of those that tobj does not read.
+    numbers: BTreeMap<(String, &'static str), f32>,
 }
 
 /// Statements that are read. tobj panics on colours of fewer than three numbers, so it gets only checked ones.
-const KEYWORDS: [&str; 7] = ["newmtl", "Kd", "Ke", "d", "map_Kd", "map_Ke", "map_d"];
+const KEYWORDS: [&str; 10] = [
+    "newmtl", "Kd", "Ke", "d", "map_Kd", "map_Ke", "map_d", "Pr", "Pm", "Ni",
+];
+
+/// Statements about the finish: roughness, metallic, index of refraction.
+const FINISH: [&str; 3] = ["Pr", "Pm", "Ni"];
 
 /// The surface of faces without a material.
 pub(super) fn default_material() -> Material {
     Material {
         name: DEFAULT_NAME.into(),
+        finish: Finish::Diffuse,
         diffuse: Vec3::splat(DEFAULT_ALBEDO),
         diffuse_texture: None,
         emission: Vec3::ZERO,
@@ -98,7 +107,12 @@ impl Libraries {
                     path.display()
                 )));
             }
-            checked += &format!("{keyword} {}\n", statement.rest);
+            if FINISH.contains(&keyword) {
+                let number = statement.numbers(&[1]).map_err(fail)?[0];
+                self.numbers.insert((material.to_owned(), keyword), number);
+            } else {
+                checked += &format!("{keyword} {}\n", statement.rest);
+            }
         }
         Ok(checked)
     }
@@ -128,12 +142,32 @@ impl Libraries {
         let default_emission = emission_texture.map_or(0.0, |_| 1.0);
         Ok(Material {
             name: read.name.clone(),
+            finish: self.finish(&read.name)?,
             diffuse: Vec3::from(read.diffuse.unwrap_or([default_albedo; 3])),
             diffuse_texture,
             emission: Vec3::from(read.emissive.unwrap_or([default_emission; 3])),
             emission_texture,
             opacity: read.dissolve.unwrap_or(1.0),
             opacity_texture,
+        })
+    }
+
+    fn finish(&self, material: &str) -> Result<Finish, SceneError> {
+        let number = |keyword| self.numbers.get(&(material.to_owned(), keyword)).copied();
+        let [roughness, metallic, index] = FINISH.map(number);
+        let numbers = Numbers {
+            roughness,
+            metallic: metallic == Some(1.0),
+            index,
+        };
+        numbers.finish().map_err(|(number, reason)| {
+            let keyword = match number {
+                Number::Roughness => "Pr",
+                Number::Metallic => "Pm",
+                Number::Index => "Ni",
+            };
+            let (path, line) = &self.places[&(material.to_owned(), keyword)];
+            SceneError::line(path, *line, format!("{keyword} {reason}"))
         })
     }
 }
@@ -153,6 +187,13 @@ fn amiss_in_statement(statement: &Statement) -> Option<String> {
         "d" => match single() {
             Ok(opacity) if (0.0..=1.0).contains(&opacity) => None,
             Ok(opacity) => Some(format!("d is {opacity}; allowed: 0 to 1")),
+            Err(reason) => Some(reason),
+        },
+        "Pm" => match single() {
+            Ok(0.0 | 1.0) => None,
+            Ok(metallic) => Some(format!(
+                "Pm is {metallic}; allowed: 0 (paint, wood, plastic) or 1 (bare metal), nothing between"
+            )),
             Err(reason) => Some(reason),
         },
         "Tr" => match single() {

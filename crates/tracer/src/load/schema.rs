@@ -83,6 +83,9 @@ pub(super) struct CameraKeyTable {
 pub(super) struct BackgroundTable {
     pub(super) constant: Option<Spanned<[f32; 3]>>,
     pub(super) gradient: Option<Spanned<GradientTable>>,
+    pub(super) image: Option<Spanned<String>>,
+    pub(super) strength: Option<Spanned<f32>>,
+    pub(super) rotation: Option<f64>,
 }
 
 #[derive(Deserialize)]
@@ -139,6 +142,9 @@ pub(super) struct MaterialTable {
     pub(super) diffuse: Option<Spanned<[f32; 3]>>,
     pub(super) emission: Option<Spanned<[f32; 3]>>,
     pub(super) opacity: Option<Spanned<f32>>,
+    pub(super) roughness: Option<Spanned<f32>>,
+    pub(super) metallic: Option<Spanned<bool>>,
+    pub(super) index_of_refraction: Option<Spanned<f32>>,
     pub(super) diffuse_texture: Option<Spanned<String>>,
     pub(super) emission_texture: Option<Spanned<String>>,
     pub(super) opacity_texture: Option<Spanned<String>>,
