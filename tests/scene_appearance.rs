@@ -26,7 +26,7 @@ fn finish(scene: &Scene) -> Finish {
 }
 
 fn refusal(folder: &Folder) -> String {
-    let error = folder.load().err().expect("it must be refused").to_string();
+    let error = folder.load().expect_err("it must be refused").to_string();
     let prefix = format!("{}{}", folder.path.display(), std::path::MAIN_SEPARATOR);
     error.replace(&prefix, "")
 }

@@ -17,6 +17,7 @@ mod fresnel;
 mod geometry;
 mod ggx;
 mod gloss;
+mod glossy;
 mod instant;
 mod ladder;
 mod lanes;
