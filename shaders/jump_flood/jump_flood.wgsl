@@ -20,6 +20,9 @@ struct Parameters {
     jitter: u32,
     kernel: u32,
     fetch: u32,
+    tap: u32,
+    behind_extent: f32,
+    near_plane: f32,
 }
 
 @group(0) @binding(1) var<uniform> parameters: Parameters;
@@ -39,6 +42,8 @@ const REACH_CAPPED = 0u;
 const REACH_DOUBLE = 1u;
 const JITTER_STEP_SCALE = 0u;
 const JITTER_START_OFFSET = 1u;
+const JITTER_STEP_OFFSET = 2u;
+const TAP_REPLACED = 1u;
 const KERNEL_WITH_CENTRE = 1u;
 const FETCH_BILINEAR = 0u;
 
@@ -240,6 +245,16 @@ fn tap_weight(source: vec2<f32>, other: vec2<f32>) -> f32 {
     return 1.0 - in_front * mismatch;
 }
 
+// How much of a tap is taken from the tap itself, the rest being the pixel's own place (the demo of two days later): all
+// of it where the pixel is not behind its source, or where the tap is not behind it.
+fn tap_share(here: vec2<f32>, source: vec2<f32>, tap: vec2<f32>) -> f32 {
+    let device = parameters.near_plane / vec2<f32>(depth_at(source), depth_at(here));
+    let not_behind = saturate(1.0 - (device.x - device.y) / parameters.behind_extent);
+    let extent = parameters.foreground_extent;
+    let in_front = saturate(1.0 - (depth_at(tap) - extent - depth_at(source)) / extent);
+    return max(not_behind, in_front);
+}
+
 // Where tap i lies on the trail, 0 at the pixel and 1 at its end.
 fn tap_position(i: i32, pixel: vec2<i32>) -> f32 {
     // The demo walks a cycle of 8 frames.
@@ -252,6 +267,9 @@ fn tap_position(i: i32, pixel: vec2<i32>) -> f32 {
         }
         case JITTER_START_OFFSET: {
             return (f32(i) + noise) / f32(parameters.samples);
+        }
+        case JITTER_STEP_OFFSET: {
+            return (f32(i) + noise - 1.0) / f32(max(1, parameters.samples - 1));
         }
         default: {
             return even;
@@ -283,11 +301,18 @@ fn gather(@builtin(global_invocation_id) id: vec3<u32>) {
         if !on_screen(position) {
             break;
         }
-        let other = textureLoad(sources, pixel_at(position), 0).xy;
-        let weight = tap_weight(source, other);
+        var weight = 1.0;
+        var place = position;
+        if parameters.tap == TAP_REPLACED {
+            let share = tap_share(centre(pixel), source, position);
+            place = mix(centre(pixel), position, share);
+        } else {
+            let other = textureLoad(sources, pixel_at(position), 0).xy;
+            weight = tap_weight(source, other);
+        }
         total += weight;
         if weight > 0.0 {
-            mean += (bilinear(color, position) - mean) * (weight / total);
+            mean += (bilinear(color, place) - mean) * (weight / total);
         }
     }
     textureStore(output, pixel, mean);

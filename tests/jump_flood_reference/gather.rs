@@ -1,9 +1,14 @@
 //! The demo's blur over a given map of sources.
 
-use crate::paper::{Jitter, POSITION, Reference, Vec2, dot, minus};
+use crate::paper::{Jitter, POSITION, ROUNDING, Reference, Vec2, dot, minus};
 
 /// What 32-bit floats make of the gradient noise: 53 times the rounding of a number up to 32, twice.
 const NOISE: f64 = 2e-4;
+
+struct Share {
+    value: f64,
+    error: f64,
+}
 
 impl Reference<'_> {
     /// The blur of one pixel over a given map of sources (in pixels), and how far off 32-bit noise may put it; nothing
@@ -31,7 +36,7 @@ impl Reference<'_> {
             _ => (self.noise(pixel)?, NOISE),
         };
         let [trail_x, trail_y] = self.pixels(v);
-        let misplaced = POSITION + noise_error * length * trail_x.hypot(trail_y);
+        let mut misplaced = POSITION + noise_error * length * trail_x.hypot(trail_y);
         let (mut sum, mut weights) = match start_offset {
             true => ([0.0; 3], 0.0),
             false => (self.color(p), 1.0),
@@ -41,6 +46,7 @@ impl Reference<'_> {
             let along = match self.paper.jitter {
                 Jitter::StepScale => even * (1.0 + (noise - 0.5)),
                 Jitter::StartOffset => (f64::from(i) + noise) / n,
+                Jitter::StepOffset => even + (noise - 1.0) / (n - 1.0).max(1.0),
                 Jitter::None => even,
             };
             let x = [0, 1].map(|axis| p[axis] + along * length * v[axis]);
@@ -52,8 +58,15 @@ impl Reference<'_> {
                 break;
             }
             let other = source_uv(position.map(|c| c.floor() as i64));
-            let weight = self.weight(own, other)?;
-            let tap = self.color(x);
+            let (weight, tap) = match self.paper.behind_extent {
+                None => (self.weight(own, other)?, self.color(x)),
+                Some(extent) => {
+                    let share = self.share(p, own, x, extent);
+                    misplaced += share.error * length * trail_x.hypot(trail_y);
+                    let place = [0, 1].map(|axis| p[axis] + share.value * (x[axis] - p[axis]));
+                    (1.0, self.color(place))
+                }
+            };
             sum = [0, 1, 2].map(|c| sum[c] + tap[c] * weight);
             weights += weight;
         }
@@ -66,6 +79,24 @@ impl Reference<'_> {
                 f64::from(self.clamped(&self.field.color, x, y)[c])
             })
         })
+    }
+
+    /// How far from p towards x the colour is taken: max(nb, nf), and how far off 32-bit floats may put it.
+    fn share(&self, p: Vec2, own: Vec2, x: Vec2, extent: f64) -> Share {
+        let [source, here, tap] = [own, p, x].map(|uv| self.depth(uv));
+        let [source_reverse, here_reverse] = [source, here].map(|depth| 0.05 / depth);
+        let nb = 1.0 - (source_reverse - here_reverse) / extent;
+        let nf = 1.0 - ((tap - 0.1) - source) / 0.1;
+        let [nb, nf] = [nb, nf].map(|part| part.clamp(0.0, 1.0));
+        let between = |part: f64| part > 0.0 && part < 1.0;
+        let error = match between(nb) || between(nf) {
+            true => ROUNDING * (source_reverse / extent + (tap + source) / 0.1),
+            false => 0.0,
+        };
+        Share {
+            value: nb.max(nf),
+            error,
+        }
     }
 
     /// w = 1 - fg * D^0.1, or nothing where D is rounding noise that the root would blow up.

@@ -26,7 +26,7 @@ fn fields() -> Vec<(&'static str, Field)> {
 type Changes = &'static [(&'static str, &'static str)];
 
 /// Changes to a preset, and the exposure in frames.
-const CASES: [(&str, Changes, f64); 7] = [
+const CASES: [(&str, Changes, f64); 9] = [
     ("paper", &[], 1.0),
     ("paper", &[("jitter", "none")], 0.5),
     (
@@ -51,6 +51,12 @@ const CASES: [(&str, Changes, f64); 7] = [
             ("perpendicular_tolerance", "0.05"),
         ],
         1.0,
+    ),
+    ("july_2024", &[], 1.0),
+    (
+        "july_2024",
+        &[("fetch", "nearest"), ("behind_extent", "0.01")],
+        0.5,
     ),
     ("corrected", &[], 1.0),
     (
@@ -142,8 +148,10 @@ impl Case {
             jitter: match choice("jitter").as_str() {
                 "step_scale" => Jitter::StepScale,
                 "start_offset" => Jitter::StartOffset,
+                "step_offset" => Jitter::StepOffset,
                 _ => Jitter::None,
             },
+            behind_extent: (choice("tap") == "replaced").then(|| real("behind_extent")),
             with_centre: choice("kernel") == "with_centre",
             nearest: choice("fetch") == "nearest",
             frame_index: FRAME_INDEX,

@@ -25,6 +25,9 @@ pub struct Paper {
     /// Factor on the paper's cut of trails; infinite for none.
     pub reach_factor: f64,
     pub jitter: Jitter,
+    /// The demo of two days later: the difference of reverse depth over which a pixel turns from level with its source to
+    /// behind it. None where taps are weighted.
+    pub behind_extent: Option<f64>,
     pub with_centre: bool,
     /// Read velocity and depth without filtering.
     pub nearest: bool,
@@ -35,6 +38,7 @@ pub struct Paper {
 pub enum Jitter {
     StepScale,
     StartOffset,
+    StepOffset,
     None,
 }
 
