@@ -11,6 +11,8 @@ struct Frame {
     // Of the pass that runs: 0 to iterations - 1.
     iteration: u32,
     iterations: u32,
+    // The camera's motion: see before_camera.
+    reprojection: mat4x3<f32>,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
@@ -21,6 +23,13 @@ fn inside(pixel: vec2<i32>) -> bool {
 
 fn centre(pixel: vec2<i32>) -> vec2<f32> {
     return vec2<f32>(pixel) + 0.5;
+}
+
+// Where the frame before showed a position at a depth, if it stands still in the world and only the camera moved; the
+// position itself where that was behind the camera. A filter that calls this needs a frame that says how the camera moved.
+fn before_camera(position: vec2<f32>, depth: f32) -> vec2<f32> {
+    let place = frame.reprojection * vec4<f32>(position, 1.0, 1.0 / depth);
+    return select(position, place.xy / place.z, place.z > 0.0);
 }
 
 // Whether a position lies on the image, its border included.

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use frame::{
     Accumulation, Alignment, AtInstant, Channel, ColorSampling, Efficiency, ExrFile, FileError,
-    Frame, Image, Ladder, Picture, Plane, Provenance, Raster, Samples, ShutterProfile, Truth,
-    VelocityKind, read_exr, write_atomically, write_exr,
+    Frame, Image, Ladder, Picture, Plane, Provenance, Raster, Reprojection, Samples,
+    ShutterProfile, Truth, VelocityKind, read_exr, write_atomically, write_exr,
 };
 
 const WIDTH: u32 = 13;
@@ -64,6 +64,9 @@ fn a_frame() -> Frame {
         color_sampling: ColorSampling::Point,
         sky_velocity: false,
         guard_band: 1,
+        reprojection: Reprojection {
+            rows: [0, 1, 2].map(|row| [0, 1, 2, 3].map(|column| 0.1 * f64::from(4 * row + column))),
+        },
         objects: objects(),
         color: image(1),
         velocity: Raster::from_fn(WIDTH, HEIGHT, |x, y| {

@@ -45,6 +45,7 @@ fn blurred_row(filter: &Filter, settings: &Settings) -> Vec<f32> {
         color: &[&color],
         velocity: &velocity,
         depth: &depth,
+        reprojection: None,
         exposure: 0.5,
         frame_index: 0,
     };
@@ -160,6 +161,7 @@ fn a_texture_that_a_pass_reads_and_writes_is_exchanged_for_every_colour() {
                 color: &[&colors[0], &colors[1]],
                 velocity: &Raster::filled(10, 3, [0.0; 2]),
                 depth: &Raster::filled(10, 3, 1.0),
+                reprojection: None,
                 exposure: 1.0,
                 frame_index: 0,
             })
@@ -176,7 +178,7 @@ fn built_in_folders_load_from_disk_alike() {
     let shaders = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders");
     assert_eq!(
         Filter::builtin_names(),
-        ["identity", "jump_flood", "velocity_gather"]
+        ["camera_gather", "identity", "jump_flood", "velocity_gather"]
     );
     for name in Filter::builtin_names() {
         let (built_in, on_disk) = (
@@ -413,6 +415,7 @@ fn frames_that_cannot_be_blurred_are_refused() {
         color: &[&color],
         velocity: &velocity,
         depth: &depth,
+        reprojection: None,
         exposure: 0.5,
         frame_index: 0,
     };

@@ -1,7 +1,7 @@
 //! What must hold for every filter that the program brings, with every preset.
 
 use filters::{Blur, Filter, Gpu, Input, Settings};
-use frame::{Alignment, FAR_DEPTH, Image, Plane, Raster, Vectors};
+use frame::{Alignment, FAR_DEPTH, Image, Plane, Raster, Reprojection, Vectors};
 use tests::random::Random;
 
 fn gpu() -> Gpu {
@@ -36,6 +36,7 @@ struct Field {
     color: Image,
     velocity: Vectors,
     depth: Plane,
+    reprojection: Reprojection,
     exposure: f64,
 }
 
@@ -65,6 +66,14 @@ impl Field {
             color,
             velocity,
             depth,
+            // A pan, a zoom, and a step aside.
+            reprojection: Reprojection {
+                rows: [
+                    [1.02, 0.0, 9.0, 15.0],
+                    [0.0, 1.02, -5.0, 3.0],
+                    [0.0, 0.0, 1.0, 0.1],
+                ],
+            },
             exposure: 0.8,
         }
     }
@@ -91,6 +100,7 @@ impl Field {
             color,
             velocity: &self.velocity,
             depth: &self.depth,
+            reprojection: Some(self.reprojection),
             exposure: self.exposure,
             frame_index: 3,
         }
@@ -102,6 +112,7 @@ fn a_still_frame_comes_out_unchanged() {
     let gpu = gpu();
     let mut field = Field::random(1);
     field.velocity = Raster::filled(WIDTH, HEIGHT, [0.0, 0.0]);
+    field.reprojection = Reprojection::STILL;
     for (filter, settings) in every_preset() {
         let output = field.blurred(&gpu, &filter, &settings);
         // Bit for bit: a pixel that does not move has nothing to average.
@@ -199,6 +210,44 @@ fn every_colour_goes_through_the_same_weights() {
     }
 }
 
+#[test]
+fn a_mixture_of_images_comes_out_as_the_mixture_of_their_blurs() {
+    let gpu = gpu();
+    let [field, other] = [Field::random(11), Field::random(12)];
+    let mix = |a: &Image, b: &Image| a.zip(b, |a, b| [0, 1, 2].map(|c| 0.25 * a[c] + 0.75 * b[c]));
+    let mixture = mix(&field.color, &other.color);
+    let brightest = field
+        .color
+        .pixels
+        .as_flattened()
+        .iter()
+        .copied()
+        .fold(0.0, f32::max);
+    for (filter, settings) in every_preset() {
+        let colors = [&field.color, &other.color, &mixture];
+        let outputs = field.blurred_colors(&gpu, &filter, &settings, &colors);
+        let expected = mix(&outputs[0], &outputs[1]);
+        let deviation = expected
+            .zip(&outputs[2], |a, b| [0, 1, 2].map(|c| (a[c] - b[c]).abs()))
+            .pixels
+            .as_flattened()
+            .iter()
+            .copied()
+            .fold(0.0, f32::max);
+        println!(
+            "{}: {:.1e} of the brightest",
+            name(&filter, &settings),
+            deviation / brightest
+        );
+        // Up to a hundred taps, each a product and a sum in 32-bit floats.
+        assert!(
+            deviation <= 1e-5 * brightest,
+            "{}",
+            name(&filter, &settings)
+        );
+    }
+}
+
 fn mirrored(field: &Field, horizontal: bool) -> Field {
     fn turn<T: Copy>(raster: &Raster<T>, horizontal: bool) -> Raster<T> {
         Raster::from_fn(raster.width, raster.height, |x, y| match horizontal {
@@ -211,8 +260,23 @@ fn mirrored(field: &Field, horizontal: bool) -> Field {
         color: turn(&field.color, horizontal),
         velocity: velocity.map(|[x, y]| if horizontal { [-x, *y] } else { [*x, -y] }),
         depth: turn(&field.depth, horizontal),
+        reprojection: mirrored_camera(field, usize::from(!horizontal)),
         exposure: field.exposure,
     }
+}
+
+/// With x = side - x' on both sides, along one axis.
+fn mirrored_camera(field: &Field, axis: usize) -> Reprojection {
+    let side = f64::from([field.color.width, field.color.height][axis]);
+    let mut rows = field.reprojection.rows.map(|mut row| {
+        row[2] += side * row[axis];
+        row[axis] = -row[axis];
+        row
+    });
+    for column in 0..4 {
+        rows[axis][column] = side * rows[2][column] - rows[axis][column];
+    }
+    Reprojection { rows }
 }
 
 /// Pixels that differ by more than 1e-3 of the brightest tap: many times the rounding of positions (1e-5 pixels) times
@@ -274,6 +338,10 @@ fn the_jump_flood_is_symmetric_but_for_noise_and_equal_depths() {
     for preset in &filter.presets {
         let mut settings = filter.settings(Some(&preset.name)).unwrap();
         settings.set(&filter, "jitter", "none").unwrap();
+        // Between texels of random depth, rounding of a position moves replaced taps by tenths of a pixel.
+        if settings.values["tap"].to_string() == "replaced" {
+            settings.set(&filter, "fetch", "nearest").unwrap();
+        }
         let count = asymmetric_pixels(&gpu, &distinct_depths(10), &filter, &settings);
         // Of 2 x 3053 pixels; a tap on the edge of a texel, or a decision within rounding of its threshold, may fall
         // either way.
@@ -303,6 +371,14 @@ fn wall(left: bool, whole: bool, speed: f32, exposure: f64) -> Field {
         depth: Raster::from_fn(width, height, |x, _| {
             if whole || wall(x) { 2.0 } else { FAR_DEPTH }
         }),
+        // A camera past which everything at the wall's depth moves so.
+        reprojection: Reprojection {
+            rows: [
+                [1.0, 0.0, 0.0, -2.0 * f64::from(speed)],
+                [0.0, 1.0, 0.0, 0.0],
+                [0.0, 0.0, 1.0, 0.0],
+            ],
+        },
         exposure,
     }
 }
@@ -345,12 +421,18 @@ fn expected_ramp(filter: &Filter, settings: &Settings) -> (f64, f64) {
     let from_the_pixel = |n: i32| (0..n).map(|i| f64::from(i) / f64::from(n)).collect();
     match (filter.name.as_str(), settings.preset.as_str()) {
         ("identity", "default") => (0.0, 0.0),
+        ("camera_gather", "default") => spread(from_the_pixel(8), 1.0),
         ("velocity_gather", "departure") => spread(from_the_pixel(10), 1.0),
         ("velocity_gather", "coarse") => spread(from_the_pixel(8), 1.0),
         ("velocity_gather", "fine") => spread(from_the_pixel(20), 1.0),
         // Noise scales each pixel's trail evenly between 0.5 and 1.5, whose square is 13/12 on average.
         ("jump_flood", "paper") => {
             spread((0..8).map(|i| f64::from(i) / 7.0).collect(), 13.0 / 12.0)
+        }
+        // The pixel itself, and an even trail of seven taps: mean 7/16, mean square 7/24.
+        ("jump_flood", "july_2024") => {
+            let mean = 7.0 / 16.0_f64;
+            ((12.0 * (7.0 / 24.0 - mean * mean)).sqrt(), -mean)
         }
         // Taps shifted evenly within their steps make an even trail.
         ("jump_flood", "corrected") => (1.0, -0.5),

@@ -110,6 +110,7 @@ impl Case {
             color: &[color],
             velocity,
             depth,
+            reprojection: None,
             exposure: self.exposure,
             frame_index: FRAME_INDEX,
         };

@@ -3,7 +3,7 @@
 
 use frame::{
     Accumulation, Alignment, AtInstant, ColorSampling, FAR_DEPTH, Frame, Image, Ladder, Picture,
-    Plane, Provenance, Raster, Shutter, ShutterProfile, Truth, VelocityKind,
+    Plane, Provenance, Raster, Reprojection, Shutter, ShutterProfile, Truth, VelocityKind,
 };
 use metrics::Viewing;
 
@@ -100,6 +100,7 @@ impl Scene {
             color_sampling: ColorSampling::Antialiased,
             sky_velocity: true,
             guard_band: 0,
+            reprojection: Reprojection::STILL,
             objects: self.names(),
             color: instant.color,
             velocity,

@@ -12,6 +12,7 @@ pub fn picture(blur: &mut Blur, frame: &Frame, frame_index: u32) -> Result<Pictu
         color: &colors,
         velocity: &frame.velocity,
         depth: &frame.depth,
+        reprojection: Some(frame.reprojection.moved(f64::from(frame.guard_band))),
         exposure: frame.exposure,
         frame_index,
     })?;

@@ -83,11 +83,37 @@ impl View {
         self.project_seen(self.to_camera.transform_vector3(direction))
     }
 
-    /// The point of the world that is seen at a place of the picture (pixels from the top left), so far along the view
-    /// axis (metres).
-    pub fn point(&self, x: f64, y: f64, depth: f64) -> DVec3 {
-        let seen = DVec3::new(x - self.half[0], self.half[1] - y, -self.focal);
-        self.to_world.transform_point3(seen * (depth / self.focal))
+    /// From a place of this view's picture to the same point's place in `other`'s: three rows that act on (x, y, 1, 1 / depth),
+    /// pixels and metres, and give (x', y', 1) times what is common to all three, which is positive before the camera.
+    pub(crate) fn to_picture_of(&self, other: &View) -> [[f64; 4]; 3] {
+        let to_other = other.to_camera * self.to_world;
+        // Half the picture and the focal length take a place to a direction, and a direction to a place.
+        let [half_x, half_y] = self.half;
+        let direction = |place: DVec3| {
+            DVec3::new(
+                place.x - half_x * place.z,
+                half_y * place.z - place.y,
+                -self.focal * place.z,
+            ) / self.focal
+        };
+        let place = |seen: DVec3| {
+            DVec3::new(
+                other.focal * seen.x - other.half[0] * seen.z,
+                -other.focal * seen.y - other.half[1] * seen.z,
+                -seen.z,
+            )
+        };
+        let columns = [DVec3::X, DVec3::Y, DVec3::Z]
+            .map(|axis| place(to_other.transform_vector3(direction(axis))));
+        let shift = place(to_other.translation);
+        [0, 1, 2].map(|row| {
+            [
+                columns[0][row],
+                columns[1][row],
+                columns[2][row],
+                shift[row],
+            ]
+        })
     }
 
     /// Distance of a point of the world along the view axis, metres.

@@ -12,7 +12,7 @@ use crate::sampler::Stream;
 use crate::scene::Scene;
 use crate::settings::{FrameSettings, TraceError};
 use crate::stage::Stage;
-use crate::velocity::{Tracked, camera_velocity};
+use crate::velocity::{Tracked, camera_velocity, reprojection};
 
 /// What a rasteriser would have written at one pixel's centre.
 struct PointSample {
@@ -71,6 +71,7 @@ pub fn trace_frame(
         color_sampling: settings.color,
         sky_velocity: settings.sky_velocity,
         guard_band: settings.guard_band,
+        reprojection: reprojection(scene, [settings.width, settings.height]),
         objects: object_names(scene),
         color: seen.color,
         coverage: seen.coverage,
@@ -84,6 +85,7 @@ fn point_samples(stage: &Stage, canvas: Canvas, settings: &FrameSettings) -> Vec
     let scene = stage.scene;
     let size = [canvas.width, canvas.height];
     let view = scene.camera.view(0.0, size[0], size[1]);
+    let before = reprojection(scene, size);
     (canvas.pixels().into_par_iter())
         .map_init(
             || stage.poses(),
@@ -95,7 +97,8 @@ fn point_samples(stage: &Stage, canvas: Canvas, settings: &FrameSettings) -> Vec
                 let velocity = if hit.is_none() && !settings.sky_velocity {
                     [0.0, 0.0]
                 } else if settings.velocity == VelocityKind::CameraOnly {
-                    camera_velocity(scene, size, centre, hit.map(|_| depth))
+                    let depth = hit.map_or(f64::INFINITY, |_| f64::from(depth));
+                    camera_velocity(&before, centre, depth)
                 } else {
                     let tracked = Tracked::of(hit.as_ref(), ray.direction);
                     tracked.velocity(scene, size, settings.velocity)

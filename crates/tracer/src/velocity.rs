@@ -1,6 +1,6 @@
 //! Screen motion of what is seen at a point of the picture, from its exact position as a function of time.
 
-use frame::VelocityKind;
+use frame::{Reprojection, VelocityKind};
 use glam::DVec3;
 
 use crate::scene::Scene;
@@ -78,21 +78,22 @@ impl Tracked {
     }
 }
 
-/// What an engine without a velocity buffer rebuilds: the way since the frame before of whatever stands still in the world
-/// at `depth` (metres; none: the background) under a pixel centre, from this frame's and the last one's camera alone. Zero
-/// for what was behind the camera then.
-pub(crate) fn camera_velocity(
-    scene: &Scene,
-    [width, height]: [u32; 2],
-    centre: [f64; 2],
-    depth: Option<f32>,
-) -> [f64; 2] {
+/// From this frame's picture to the last one's, for what stands still in the world.
+pub(crate) fn reprojection(scene: &Scene, [width, height]: [u32; 2]) -> Reprojection {
     let [now, then] = [0.0, -1.0].map(|time| scene.camera.view(time, width, height));
-    let [x, y] = centre;
-    let before = match depth {
-        Some(depth) => then.project(now.point(x, y, f64::from(depth))),
-        None => then.project_direction(now.ray(x, y).direction),
-    };
+    Reprojection {
+        rows: now.to_picture_of(&then),
+    }
+}
+
+/// What an engine without a velocity buffer rebuilds: the way since the frame before of whatever stands still in the world
+/// at `depth` (metres, infinite for the background) under a pixel centre. Zero for what was behind the camera then.
+pub(crate) fn camera_velocity(
+    reprojection: &Reprojection,
+    centre: [f64; 2],
+    depth: f64,
+) -> [f64; 2] {
+    let before = reprojection.place(centre, depth);
     before.map_or([0.0, 0.0], |before| difference(centre, before))
 }
 

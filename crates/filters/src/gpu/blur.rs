@@ -1,6 +1,6 @@
 //! Runs a filter: uploads the frame, dispatches the passes, reads the image back.
 
-use frame::{Image, Plane, Raster, Vectors};
+use frame::{Image, Plane, Raster, Reprojection, Vectors};
 
 use super::adapter::Gpu;
 use super::plan::Plan;
@@ -17,6 +17,9 @@ pub struct Input<'a> {
     pub velocity: &'a Vectors,
     /// Distance along the view axis, in metres; above 0.
     pub depth: &'a Plane,
+    /// The camera's motion since the frame before, between places of these rasters; filters that read it refuse to run
+    /// without.
+    pub reprojection: Option<Reprojection>,
     /// How long the shutter is open, in frames; above 0.
     pub exposure: f64,
     /// Changes the noise of filters that have any, and nothing else.
@@ -29,6 +32,7 @@ pub struct Blur<'g> {
     gpu: &'g Gpu,
     filter: String,
     size: [u32; 2],
+    reads_reprojection: bool,
     plan: Plan,
 }
 
@@ -47,6 +51,7 @@ impl<'g> Blur<'g> {
             gpu,
             filter: filter.name.clone(),
             size: [width, height],
+            reads_reprojection: filter.shader.reads_reprojection,
             plan: Plan::new(gpu, filter, settings, [width, height])?,
         })
     }
@@ -95,6 +100,7 @@ impl<'g> Blur<'g> {
             size: [width as i32, height as i32],
             exposure: input.exposure as f32,
             frame_index: input.frame_index,
+            reprojection: columns(input.reprojection.unwrap_or(Reprojection::STILL)),
             ..FrameUniform::default()
         };
         self.gpu.guarded(self.place("upload"), || {
@@ -136,6 +142,13 @@ impl<'g> Blur<'g> {
                 "exposure is {} frames; allowed: above 0 and finite",
                 input.exposure
             ));
+        }
+        if self.reads_reprojection && input.reprojection.is_none() {
+            return refuse(
+                "the frame does not say how the camera moved, which this filter reads; give it an attribute \"reprojection\" of \
+                 twelve numbers, or choose another filter"
+                    .to_owned(),
+            );
         }
         let [width, height] = self.size;
         let mut rasters = vec![
@@ -184,6 +197,19 @@ impl<'g> Blur<'g> {
         }
         Ok(())
     }
+}
+
+/// As WGSL lays out a mat4x3: columns, each filled up to four numbers.
+fn columns(reprojection: Reprojection) -> [[f32; 4]; 4] {
+    let [x, y, common] = reprojection.rows;
+    [0, 1, 2, 3].map(|column| {
+        [
+            x[column] as f32,
+            y[column] as f32,
+            common[column] as f32,
+            0.0,
+        ]
+    })
 }
 
 fn size<T>(raster: &Raster<T>) -> [u32; 2] {

@@ -22,6 +22,8 @@ pub(crate) struct Shader {
     pub variables: Vec<Variable>,
     /// Members of the structs that uniforms hold, by the uniform's name.
     pub uniforms: BTreeMap<String, Vec<Member>>,
+    /// Whether the kernels ask how the camera moved.
+    pub reads_reprojection: bool,
     /// Compute entry points.
     pub entry_points: Vec<EntryPoint>,
 }
@@ -114,6 +116,8 @@ impl Shader {
             .collect::<Result<Vec<_>, _>>()?;
         Ok(Self {
             uniforms: uniforms(&source, &module),
+            reads_reprojection: kernels.contains("before_camera(")
+                || kernels.contains("frame.reprojection"),
             entry_points: entry_points(&module, &info, &handles, &variables),
             variables,
             source: source.text,

@@ -11,6 +11,9 @@ pub(super) struct FrameUniform {
     pub frame_index: u32,
     pub iteration: u32,
     pub iterations: u32,
+    /// WGSL aligns matrices to 16 bytes.
+    pub gap: [u32; 2],
+    pub reprojection: [[f32; 4]; 4],
 }
 
 /// The uniforms `parameters` and `frame`.
@@ -84,6 +87,7 @@ mod tests {
             ("frame_index", offset_of!(FrameUniform, frame_index)),
             ("iteration", offset_of!(FrameUniform, iteration)),
             ("iterations", offset_of!(FrameUniform, iterations)),
+            ("reprojection", offset_of!(FrameUniform, reprojection)),
         ];
         assert_eq!(found, expected);
     }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use filters::{Blur, FilterError, Gpu, Input};
-use frame::{ExrFile, Image, Plane, Vectors, read_exr, write_exr};
+use frame::{ExrFile, Image, Plane, Reprojection, Vectors, read_exr, write_exr};
 use suite::{Error, FilterChoice, select_filters};
 
 use super::{check_exposure, say};
@@ -20,6 +20,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
         color: &[&buffers.color],
         velocity: &buffers.velocity,
         depth: &buffers.depth,
+        reprojection: buffers.reprojection,
         exposure: buffers.exposure,
         frame_index: args.frame_index,
     };
@@ -50,7 +51,20 @@ struct Buffers {
     color: Image,
     velocity: Vectors,
     depth: Plane,
+    reprojection: Option<Reprojection>,
     exposure: f64,
+}
+
+/// The camera's motion between places of the file's rasters, if the file tells it.
+fn reprojection(file: &ExrFile) -> Result<Option<Reprojection>, Error> {
+    if !file.attributes.contains_key("reprojection") {
+        return Ok(None);
+    }
+    let band: u32 = match file.attributes.contains_key("guard_band") {
+        true => file.get("guard_band")?,
+        false => 0,
+    };
+    Ok(Some(Reprojection::from_exr(file)?.moved(f64::from(band))))
 }
 
 fn read_buffers(path: &Path, exposure: Option<f64>) -> Result<Buffers, Error> {
@@ -60,6 +74,7 @@ fn read_buffers(path: &Path, exposure: Option<f64>) -> Result<Buffers, Error> {
         color: file.color("")?,
         velocity: x.zip(&y, |x, y| [*x, *y]),
         depth: file.plane("Z")?,
+        reprojection: reprojection(&file)?,
         exposure: match exposure {
             Some(exposure) => exposure,
             None if file.attributes.contains_key("exposure") => file.get("exposure")?,

@@ -1,0 +1,92 @@
+//! Where the frame before showed what stands still.
+
+use crate::FileError;
+use crate::exr_file::ExrFile;
+
+/// The camera's motion since the frame before, as it moves the pixels of a picture: all that an engine knows without a
+/// velocity buffer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reprojection {
+    /// Three rows that act on (x, y, 1, 1 / depth), pixels from the picture's top left and metres, and give (x', y', 1) times a
+    /// number that is positive where the point lay before the last frame's camera.
+    pub rows: [[f64; 4]; 3],
+}
+
+impl Reprojection {
+    /// Of a camera that stands still.
+    pub const STILL: Reprojection = Reprojection {
+        rows: [
+            [1.0, 0.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0],
+            [0.0, 0.0, 1.0, 0.0],
+        ],
+    };
+
+    /// Where the frame before showed a point that stands still; none behind the camera.
+    pub fn place(&self, [x, y]: [f64; 2], depth: f64) -> Option<[f64; 2]> {
+        let [x, y, common] = self
+            .rows
+            .map(|row| row[0] * x + row[1] * y + row[2] + row[3] / depth);
+        (common > 0.0).then(|| [x / common, y / common])
+    }
+
+    /// The same between pictures that begin so many pixels further up and to the left.
+    pub fn moved(&self, band: f64) -> Self {
+        let [x, y, common] = self.rows.map(|row| {
+            let [along, down, one, near] = row;
+            [along, down, one - band * (along + down), near]
+        });
+        let further =
+            |row: [f64; 4]| [0, 1, 2, 3].map(|column| row[column] + band * common[column]);
+        Self {
+            rows: [further(x), further(y), common],
+        }
+    }
+
+    /// Writes the attribute.
+    pub(crate) fn set(&self, file: &mut ExrFile) {
+        let numbers = self.rows.as_flattened().iter().map(f64::to_string);
+        file.set("reprojection", numbers.collect::<Vec<_>>().join(" "));
+    }
+
+    /// Reads the attribute `reprojection`.
+    pub fn from_exr(file: &ExrFile) -> Result<Self, FileError> {
+        let words = file.words("reprojection")?;
+        let numbers: Option<Vec<f64>> = words.iter().map(|word| word.parse().ok()).collect();
+        let numbers: Option<[f64; 12]> = numbers.and_then(|numbers| numbers.try_into().ok());
+        let numbers = numbers.ok_or_else(|| {
+            file.foreign("attribute \"reprojection\" does not hold twelve numbers".to_owned())
+        })?;
+        Ok(Self {
+            rows: [0, 1, 2].map(|row| [0, 1, 2, 3].map(|column| numbers[4 * row + column])),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pictures_that_begin_elsewhere_show_the_same() {
+        let turn = Reprojection {
+            rows: [
+                [1.1, 0.2, -3.0, 4.0],
+                [-0.1, 0.9, 2.0, -1.0],
+                [0.001, -0.002, 1.0, 0.3],
+            ],
+        };
+        let [x, y] = turn.place([30.0, 20.0], 5.0).unwrap();
+        let [x_moved, y_moved] = turn.moved(8.0).place([38.0, 28.0], 5.0).unwrap();
+        assert!((x_moved - 8.0 - x).abs() < 1e-12 && (y_moved - 8.0 - y).abs() < 1e-12);
+        let back = turn.moved(8.0).moved(-8.0);
+        let rows = back
+            .rows
+            .as_flattened()
+            .iter()
+            .zip(turn.rows.as_flattened());
+        for (found, expected) in rows {
+            assert!((found - expected).abs() < 1e-12);
+        }
+    }
+}
