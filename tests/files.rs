@@ -4,9 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use frame::{
-    Accumulation, Alignment, AtInstant, Channel, ColorSampling, Efficiency, ExrFile, FileError,
-    Frame, Image, Ladder, Picture, Plane, Provenance, Raster, Samples, ShutterProfile, Truth,
-    VelocityKind, read_exr, write_atomically, write_exr,
+    Accumulation, Alignment, AtInstant, Channel, ColorSampling, Display, Efficiency, ExrFile,
+    FileError, FlipExposures, Frame, Image, Ladder, Picture, Plane, Provenance, Raster, Samples,
+    ShutterProfile, Truth, VelocityKind, read_exr, write_atomically, write_exr,
 };
 
 const WIDTH: u32 = 13;
@@ -64,6 +64,14 @@ fn a_frame() -> Frame {
         color_sampling: ColorSampling::Point,
         sky_velocity: false,
         guard_band: 1,
+        display: Display {
+            stops: 1.0 / 3.0, // likewise
+            flip: FlipExposures {
+                start: -1.7,
+                stop: 0.1,
+                count: 7,
+            },
+        },
         objects: objects(),
         color: image(1),
         velocity: Raster::from_fn(WIDTH, HEIGHT, |x, y| {

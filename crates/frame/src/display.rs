@@ -3,7 +3,48 @@
 use std::io::Cursor;
 use std::path::Path;
 
+use crate::exr_file::ExrFile;
 use crate::{FileError, Image, Raster, write_atomically};
+
+/// Photographic exposures for pictures and for FLIP.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Display {
+    /// Exposure of PNGs and of LDR-FLIP, in stops.
+    pub stops: f32,
+    /// Exposures of HDR-FLIP.
+    pub flip: FlipExposures,
+}
+
+/// The range of exposures that HDR-FLIP takes its maximum over.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlipExposures {
+    /// Darkest, in stops.
+    pub start: f32,
+    /// Brightest, in stops.
+    pub stop: f32,
+    /// How many, both ends included; at least 2.
+    pub count: u32,
+}
+
+impl Display {
+    pub(crate) fn set(&self, file: &mut ExrFile) {
+        file.set("display_stops", self.stops);
+        file.set("flip_start", self.flip.start);
+        file.set("flip_stop", self.flip.stop);
+        file.set("flip_count", self.flip.count);
+    }
+
+    pub(crate) fn from_exr(file: &ExrFile) -> Result<Self, FileError> {
+        Ok(Self {
+            stops: file.get("display_stops")?,
+            flip: FlipExposures {
+                start: file.get("flip_start")?,
+                stop: file.get("flip_stop")?,
+                count: file.get("flip_count")?,
+            },
+        })
+    }
+}
 
 /// One radiance component as an sRGB value in [0, 1]: scaled by `2^stops`, clamped, IEC 61966-2-1 encoded.
 fn srgb(linear: f32, stops: f32) -> f32 {
@@ -18,6 +59,53 @@ fn srgb(linear: f32, stops: f32) -> f32 {
 /// The image as a display shows it: photographic exposure of `stops`, then sRGB in [0, 1].
 pub fn display_srgb(image: &Image, stops: f32) -> Image {
     image.map(|pixel| pixel.map(|component| srgb(component, stops)))
+}
+
+/// The radiance component that an sRGB value in [0, 1] shows: [`srgb`] undone, but for what it clamped.
+fn linear(srgb: f32, stops: f32) -> f32 {
+    let value = if srgb <= 0.040_45 {
+        srgb / 12.92
+    } else {
+        ((srgb + 0.055) / 1.055).powf(2.4)
+    };
+    value * (-stops).exp2()
+}
+
+/// The scene-linear image that display values in [0, 1] show: sRGB decoded, the photographic exposure of `stops`
+/// undone. What lay above display white stays at display white.
+pub fn scene_linear(display: &Image, stops: f32) -> Image {
+    display.map(|pixel| pixel.map(|component| linear(component, stops)))
+}
+
+/// Reads an 8-bit or 16-bit PNG as display values in [0, 1]; grey is widened to colour. What is not opaque is refused: over
+/// which background it was meant is not known.
+pub fn read_png(path: &Path) -> Result<Raster<[f32; 3]>, FileError> {
+    let bytes = std::fs::read(path).map_err(|error| FileError::io(path, "read", error))?;
+    let foreign = |reason: String| FileError::Foreign {
+        path: path.to_owned(),
+        reason,
+    };
+    let picture = image::load_from_memory_with_format(&bytes, image::ImageFormat::Png)
+        .map_err(|error| foreign(format!("not a PNG that can be read: {error}")))?;
+    if picture.color().has_alpha() {
+        let pixels = picture.to_rgba16();
+        if let Some((x, y, _)) = pixels
+            .enumerate_pixels()
+            .find(|(_, _, pixel)| pixel[3] != u16::MAX)
+        {
+            return Err(foreign(format!(
+                "pixel ({x}, {y}) is transparent; an opaque PNG is needed"
+            )));
+        }
+    }
+    let pixels = picture.to_rgb16();
+    Ok(Raster {
+        width: pixels.width(),
+        height: pixels.height(),
+        pixels: (pixels.pixels())
+            .map(|pixel| pixel.0.map(|value| f32::from(value) / f32::from(u16::MAX)))
+            .collect(),
+    })
 }
 
 /// Writes display values in [0, 1] (see [`display_srgb`]) as an 8-bit PNG.

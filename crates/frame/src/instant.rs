@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use crate::exr_file::{Channel, ExrFile, Samples, read_exr, write_exr};
 use crate::picture::coverage_name;
-use crate::{FileError, Image, Plane, Provenance, Raster, Vectors};
+use crate::{Display, FileError, Image, Plane, Provenance, Raster, Vectors};
 
 /// Depth of a pixel that sees no surface, in metres: finite, so that filters may subtract it.
 pub const FAR_DEPTH: f32 = 1.0e10;
@@ -116,6 +116,8 @@ pub struct Frame {
     pub sky_velocity: bool,
     /// Pixels by which all rasters reach beyond the picture on every side.
     pub guard_band: u32,
+    /// How the scene is shown and compared.
+    pub display: Display,
     /// Object names; the index is the object id, and 0 is `background`.
     pub objects: Vec<String>,
     /// Radiance, box-filtered over the pixel or as seen at its centre.
@@ -177,6 +179,7 @@ impl Frame {
         file.set("color", self.color_sampling);
         file.set("sky_velocity", self.sky_velocity);
         file.set("guard_band", self.guard_band);
+        self.display.set(&mut file);
         file.set("objects", self.objects.join(" "));
         file.set(
             "convention",
@@ -204,6 +207,7 @@ impl Frame {
             color_sampling: file.get("color")?,
             sky_velocity: file.get("sky_velocity")?,
             guard_band: file.get("guard_band")?,
+            display: Display::from_exr(&file)?,
             objects,
             color: file.color("")?,
             velocity: x.zip(&y, |x, y| [*x, *y]),

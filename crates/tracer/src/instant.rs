@@ -71,6 +71,7 @@ pub fn trace_frame(
         color_sampling: settings.color,
         sky_velocity: settings.sky_velocity,
         guard_band: settings.guard_band,
+        display: scene.display,
         objects: object_names(scene),
         color: seen.color,
         coverage: seen.coverage,
