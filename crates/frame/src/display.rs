@@ -124,3 +124,63 @@ pub fn write_png(path: &Path, display: &Raster<[f32; 3]>) -> Result<(), FileErro
         .map_err(|error| FileError::io(path, "encode", std::io::Error::other(error)))?;
     write_atomically(path, png.get_ref())
 }
+
+#[cfg(test)]
+mod tests {
+    use image::{GrayImage, ImageBuffer, Luma, Rgb, Rgba, RgbaImage};
+
+    use super::*;
+
+    #[test]
+    fn radiance_that_was_shown_comes_back_but_for_what_lay_above_white() {
+        for stops in [-2.0, 0.0, 1.5] {
+            let white = (-stops).exp2();
+            for radiance in [0.0, 0.001, 0.0031308, 0.0032, 0.18, 0.999, 1.0, 3.0] {
+                let radiance = radiance * white;
+                let back = linear(srgb(radiance, stops), stops);
+                // A power and its inverse in 32-bit floats: a few roundings, relative to white.
+                let error = (back - radiance.min(white)).abs();
+                assert!(error < 1e-6 * white, "{radiance} at {stops}: {back}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_png_reads_back_to_half_a_step() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("ramp.png");
+        let ramp = Raster::from_fn(300, 2, |x, y| {
+            [x as f32 / 299.0, y as f32, 0.5 * x as f32 / 299.0]
+        });
+        write_png(&path, &ramp).unwrap();
+        let back = read_png(&path).unwrap();
+        assert_eq!((back.width, back.height), (300, 2));
+        for (shown, back) in ramp.pixels.iter().zip(&back.pixels) {
+            for (shown, back) in shown.iter().zip(back) {
+                assert!((shown - back).abs() <= 0.5 / 255.0 + 1e-6, "{shown} {back}");
+            }
+        }
+    }
+
+    #[test]
+    fn pngs_of_other_kinds_are_read_if_they_are_opaque() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("picture.png");
+        let deep: ImageBuffer<Rgb<u16>, Vec<u16>> = ImageBuffer::from_pixel(2, 1, Rgb([1, 2, 3]));
+        deep.save(&path).unwrap();
+        let unit = f32::from(u16::MAX);
+        assert_eq!(
+            read_png(&path).unwrap().pixels,
+            [[1.0 / unit, 2.0 / unit, 3.0 / unit]; 2]
+        );
+        GrayImage::from_pixel(2, 1, Luma([51])).save(&path).unwrap();
+        assert_eq!(read_png(&path).unwrap().pixels, [[0.2; 3]; 2]);
+        let mut glass = RgbaImage::from_pixel(2, 1, Rgba([255, 0, 0, 255]));
+        glass.save(&path).unwrap();
+        assert_eq!(read_png(&path).unwrap().pixels, [[1.0, 0.0, 0.0]; 2]);
+        glass.put_pixel(1, 0, Rgba([255, 0, 0, 254]));
+        glass.save(&path).unwrap();
+        let message = read_png(&path).unwrap_err().to_string();
+        assert!(message.contains("pixel (1, 0) is transparent"), "{message}");
+    }
+}

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use filters::{AdapterDescription, Command, Gpu, Value};
+use filters::{AdapterDescription, Command, FilterError, Gpu, Value};
 use frame::{Alignment, Frame, Ladder, Truth};
 use metrics::{Measurement, Reference, Scores, Viewing};
 use serde::{Deserialize, Serialize};
@@ -192,7 +192,9 @@ fn run_case(
     choice: &FilterChoice,
 ) -> Result<Case, Error> {
     let mut runner = Runner::new(gpu, choice, frame.size())?;
-    let output = picture(&mut runner, frame, 0)?.cropped(frame.guard_band);
+    let output = picture(&mut runner, frame, 0)
+        .map_err(|error| on_scene(error, scene))?
+        .cropped(frame.guard_band);
     let Measurement { scores, maps } = reference.measure(&output)?;
     let folder = Path::new(&scene.name).join(choice.name().replace(':', "_"));
     write_case(
@@ -217,6 +219,17 @@ fn run_case(
         scores,
         folder,
     })
+}
+
+/// A program may fail on one scene and not on another.
+fn on_scene(error: FilterError, scene: &Scene) -> FilterError {
+    match error {
+        FilterError::Command { filter, reason } => FilterError::Command {
+            filter: format!("{filter} on {}", scene.name),
+            reason,
+        },
+        other => other,
+    }
 }
 
 /// The photographic exposures that a scene is compared at.

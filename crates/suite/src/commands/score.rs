@@ -57,8 +57,14 @@ fn text(args: &ScoreArgs, truth: &Truth, picture: &Finished, scores: &Scores) ->
         text += &format!("{name}: {note}\n");
     }
     for (reason, metrics) in missing(scores) {
-        let names: Vec<String> = metrics.into_iter().map(Metric::name).collect();
-        text += &format!("not available: {}: {reason}\n", names.join(", "));
+        let names: Vec<String> = metrics.iter().map(|metric| metric.name()).collect();
+        let way_out = match args.ladder {
+            None if metrics.contains(&Metric::EquivalentSubframes) => {
+                "; give one with --ladder: `run` writes it beside the truth"
+            }
+            _ => "",
+        };
+        text += &format!("not available: {}: {reason}{way_out}\n", names.join(", "));
     }
     text
 }
