@@ -4,9 +4,10 @@ use std::fs;
 use std::path::Path;
 
 use frame::{
-    Accumulation, Alignment, AtInstant, Channel, ColorSampling, Efficiency, ExrFile, FileError,
-    Frame, Image, Ladder, Picture, Plane, Provenance, Raster, Reprojection, Samples,
-    ShutterProfile, Truth, VelocityKind, read_exr, write_atomically, write_exr,
+    Accumulation, Alignment, AtInstant, Channel, ColorSampling, Display, Efficiency, ExrFile,
+    FileError, FlipExposures, Frame, Image, Ladder, Picture, Plane, Provenance, Raster,
+    Reprojection, Samples, ShutterProfile, Truth, VelocityKind, read_exr, write_atomically,
+    write_exr,
 };
 
 const WIDTH: u32 = 13;
@@ -66,6 +67,14 @@ fn a_frame() -> Frame {
         guard_band: 1,
         reprojection: Reprojection {
             rows: [0, 1, 2].map(|row| [0, 1, 2, 3].map(|column| 0.1 * f64::from(4 * row + column))),
+        },
+        display: Display {
+            stops: 1.0 / 3.0, // likewise
+            flip: FlipExposures {
+                start: -1.7,
+                stop: 0.1,
+                count: 7,
+            },
         },
         objects: objects(),
         color: image(1),

@@ -1,8 +1,12 @@
 //! The program as its user meets it: what it prints, what it writes, how it ends.
 
 mod bench;
+#[cfg(unix)]
+mod command_filter;
 mod kept;
+mod own_filter;
 mod refusals;
+mod score;
 mod variants;
 
 use std::fs;

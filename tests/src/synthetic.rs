@@ -2,8 +2,9 @@
 //! must say is known beforehand.
 
 use frame::{
-    Accumulation, Alignment, AtInstant, ColorSampling, FAR_DEPTH, Frame, Image, Ladder, Picture,
-    Plane, Provenance, Raster, Reprojection, Shutter, ShutterProfile, Truth, VelocityKind,
+    Accumulation, Alignment, AtInstant, ColorSampling, Display, FAR_DEPTH, FlipExposures, Frame,
+    Image, Ladder, Picture, Plane, Provenance, Raster, Reprojection, Shutter, ShutterProfile,
+    Truth, VelocityKind,
 };
 use metrics::Viewing;
 
@@ -20,10 +21,19 @@ pub const EXPOSURE: f64 = 0.5;
 
 /// Display white is radiance 1.
 pub const VIEWING: Viewing = Viewing {
+    stops: DISPLAY.stops,
+    flip_start: DISPLAY.flip.start,
+    flip_stop: DISPLAY.flip.stop,
+    flip_count: DISPLAY.flip.count,
+};
+
+const DISPLAY: Display = Display {
     stops: 0.0,
-    flip_start: -1.0,
-    flip_stop: 1.0,
-    flip_count: 3,
+    flip: FlipExposures {
+        start: -1.0,
+        stop: 1.0,
+        count: 3,
+    },
 };
 
 /// Shapes over a background, the first in front. Object ids are 1, 2 .. in this order.
@@ -101,6 +111,7 @@ impl Scene {
             sky_velocity: true,
             guard_band: 0,
             reprojection: Reprojection::STILL,
+            display: DISPLAY,
             objects: self.names(),
             color: instant.color,
             velocity,

@@ -37,6 +37,18 @@ pub enum FilterError {
         /// What was found and what is allowed.
         reason: String,
     },
+    /// Kernels that do not compile.
+    #[error("{}:{line}:{column}: {reason}", path.display())]
+    Kernels {
+        /// The WGSL file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// What naga said, with the line itself and a mark below.
+        reason: String,
+    },
     /// No built-in filter has that name.
     #[error("no built-in filter is called \"{name}\"; allowed: {}; a folder of your own is given by its path, such as ./{name}", known.join(", "))]
     UnknownFilter {
@@ -85,6 +97,17 @@ pub enum FilterError {
         /// What was found and what is allowed.
         reason: String,
     },
+    /// A filter that is a command did not do what it was asked to.
+    #[error("filter {filter}: {reason}")]
+    Command {
+        /// The filter.
+        filter: String,
+        /// What happened, what is needed, and the last lines that the program printed.
+        reason: String,
+    },
+    /// A command was stopped on request.
+    #[error("interrupted")]
+    Interrupted,
     /// wgpu or the driver refused a pass.
     #[error("filter {filter}, pass {pass}: {reason}")]
     Gpu {

@@ -7,7 +7,7 @@ use frame::Alignment;
 use include_dir::{Dir, include_dir};
 
 use crate::gpu::{EntryPoint, Shader};
-use crate::{FilterError, Parameter, Settings, Value, manifest, wiring};
+use crate::{Command, FilterError, Parameter, Settings, Value, manifest, wiring};
 
 static BUILTIN: Dir = include_dir!("$CARGO_MANIFEST_DIR/../../shaders");
 
@@ -32,6 +32,8 @@ pub struct Filter {
     pub parameters: Vec<Parameter>,
     /// At least one; the first is the default.
     pub presets: Vec<Preset>,
+    /// The program that it is; one that is none has kernels, and passes that run them.
+    pub command: Option<Command>,
     /// Textures between its passes.
     pub textures: Vec<Texture>,
     /// In the order in which they run.
@@ -94,7 +96,7 @@ pub enum Repeat {
 }
 
 impl Filter {
-    /// Reads and checks a filter folder: `filter.toml` and the WGSL file that it names.
+    /// Reads and checks a filter folder: `filter.toml` and, unless it is a command, the WGSL file that it names.
     pub fn load(folder: &Path) -> Result<Self, FilterError> {
         let read = |file: PathBuf| {
             std::fs::read_to_string(&file).map_err(|error| FilterError::Folder {
@@ -175,6 +177,9 @@ impl Filter {
         read: impl Fn(PathBuf) -> Result<String, FilterError>,
     ) -> Result<Self, FilterError> {
         let (mut filter, lines) = manifest::read(&folder.join("filter.toml"), manifest)?;
+        if filter.command.is_some() {
+            return Ok(filter);
+        }
         let kernels = folder.join(format!("{}.wgsl", filter.name));
         filter.shader = Shader::parse(&kernels, &read(kernels.clone())?, COMMON)?;
         wiring::check(&filter, &lines)?;

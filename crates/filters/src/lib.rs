@@ -1,18 +1,23 @@
-//! Motion blur filters on the GPU: a filter is a folder with `filter.toml` and one WGSL file.
+//! Motion blur filters on the GPU: a filter is a folder with `filter.toml` and one WGSL file, or with the command of a
+//! program that blurs files.
 //!
 //! `shaders/README.md` says how to write one. The conventions of images, velocity, depth and time are those of the
 //! [`frame`] crate.
 
+mod command;
 mod error;
 mod filter;
 mod gpu;
+mod input;
 mod manifest;
 mod parameter;
 mod settings;
 mod wiring;
 
+pub use command::{Command, CommandBlur};
 pub use error::FilterError;
 pub use filter::{Filter, Format, Pass, Preset, Repeat, Texture};
-pub use gpu::{AdapterDescription, Blur, Gpu, Input, list_adapters};
+pub use gpu::{AdapterDescription, Blur, Gpu, list_adapters};
+pub use input::Input;
 pub use parameter::{Kind, Parameter, Scale, Value};
 pub use settings::Settings;

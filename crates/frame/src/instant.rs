@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use crate::exr_file::{Channel, ExrFile, Samples, read_exr, write_exr};
 use crate::picture::coverage_name;
-use crate::{FileError, Image, Plane, Provenance, Raster, Reprojection, Vectors};
+use crate::{Display, FileError, Image, Plane, Provenance, Raster, Reprojection, Vectors};
 
 /// Depth of a pixel that sees no surface, in metres: finite, so that filters may subtract it.
 pub const FAR_DEPTH: f32 = 1.0e10;
@@ -118,6 +118,8 @@ pub struct Frame {
     pub guard_band: u32,
     /// The camera's motion since the frame before, between places of the picture: of the rasters without their guard band.
     pub reprojection: Reprojection,
+    /// How the scene is shown and compared.
+    pub display: Display,
     /// Object names; the index is the object id, and 0 is `background`.
     pub objects: Vec<String>,
     /// Radiance, box-filtered over the pixel or as seen at its centre.
@@ -180,6 +182,7 @@ impl Frame {
         file.set("sky_velocity", self.sky_velocity);
         file.set("guard_band", self.guard_band);
         self.reprojection.set(&mut file);
+        self.display.set(&mut file);
         file.set("objects", self.objects.join(" "));
         file.set(
             "convention",
@@ -208,6 +211,7 @@ impl Frame {
             sky_velocity: file.get("sky_velocity")?,
             guard_band: file.get("guard_band")?,
             reprojection: Reprojection::from_exr(&file)?,
+            display: Display::from_exr(&file)?,
             objects,
             color: file.color("")?,
             velocity: x.zip(&y, |x, y| [*x, *y]),

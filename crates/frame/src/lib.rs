@@ -37,7 +37,7 @@ mod truth;
 
 pub use accumulation::{Accumulation, Ladder};
 pub use at_instant::AtInstant;
-pub use display::{display_srgb, write_png};
+pub use display::{Display, FlipExposures, display_srgb, read_png, scene_linear, write_png};
 pub use error::FileError;
 pub use exr_file::{Channel, ExrFile, Samples, read_exr, write_atomically, write_exr};
 pub use instant::{ColorSampling, FAR_DEPTH, Frame, VelocityKind};

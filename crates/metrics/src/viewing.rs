@@ -1,5 +1,7 @@
 //! At which exposures pictures are compared.
 
+use frame::Display;
+
 /// The photographic exposures of a comparison; a scene declares them, so that no picture chooses its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewing {
@@ -17,5 +19,16 @@ impl Viewing {
     /// What a radiance is multiplied by to be shown.
     pub fn scale(&self) -> f64 {
         f64::from(self.stops).exp2()
+    }
+}
+
+impl From<Display> for Viewing {
+    fn from(display: Display) -> Self {
+        Self {
+            stops: display.stops,
+            flip_start: display.flip.start,
+            flip_stop: display.flip.stop,
+            flip_count: display.flip.count,
+        }
     }
 }

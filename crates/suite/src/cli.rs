@@ -30,6 +30,8 @@ pub enum Command {
     Merge(MergeArgs),
     /// Run a filter on a frame file.
     Blur(BlurArgs),
+    /// Measure a finished picture, wherever it comes from.
+    Score(ScoreArgs),
     /// List scenes, filters, parameters and presets.
     List(ListArgs),
 }
@@ -191,6 +193,26 @@ pub struct BlurArgs {
     pub out: PathBuf,
     #[command(flatten)]
     pub adapter: AdapterArgs,
+}
+
+/// `shuttertruth score`
+#[derive(Debug, Args)]
+pub struct ScoreArgs {
+    /// What an open shutter sees: truth_<alignment>.exr of `render` or `run`.
+    #[arg(long, value_name = "FILE")]
+    pub truth: PathBuf,
+    /// The frame that the picture was made from: frame.exr of the same scene.
+    #[arg(long, value_name = "FILE")]
+    pub frame: PathBuf,
+    /// The picture: OpenEXR with scene-linear R G B and, if it has them, coverage.<object>; or PNG, as a display shows it.
+    #[arg(long, value_name = "FILE")]
+    pub image: PathBuf,
+    /// ladder_<alignment>.exr of `run` [default: no equivalent sub-frames].
+    #[arg(long, value_name = "FILE")]
+    pub ladder: Option<PathBuf>,
+    /// Print all scores as JSON instead of the table.
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// `shuttertruth list`

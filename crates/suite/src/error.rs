@@ -34,7 +34,8 @@ impl Error {
     /// Ctrl-C.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Error::Trace(tracer::TraceError::Cancelled) => 130,
+            Error::Trace(tracer::TraceError::Cancelled)
+            | Error::Filter(filters::FilterError::Interrupted) => 130,
             Error::Filter(filters::FilterError::NoAdapter) => 3,
             Error::TooNoisy(_) => 4,
             _ => 2,

@@ -2,6 +2,7 @@
 
 mod bounds;
 mod error;
+mod finished;
 mod merge;
 mod pictures;
 mod probe;
@@ -9,11 +10,14 @@ mod progress;
 mod rendered;
 mod replicates;
 mod run;
+mod runner;
+mod score;
 mod selection;
 mod table;
 
 pub use bounds::{Bounds, Outcome, Verdict, judge, read_bounds};
 pub use error::Error;
+pub use finished::{Finished, read_finished};
 pub use merge::{Merged, merge};
 pub use probe::picture;
 pub use progress::{catch_interrupts, with_bar};
@@ -22,8 +26,10 @@ pub use rendered::{
     truth_of, truth_until,
 };
 pub use run::{Case, FORMAT, Plan, Run, run, viewing};
+pub use runner::{Runner, open_gpu};
+pub use score::{missing, score};
 pub use selection::{FilterChoice, SceneChoice, select_filters, select_scenes};
-pub use table::table;
+pub use table::{score_table, table};
 
 /// Program name and version, as files and runs record it.
 pub const PROGRAM: &str = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"));

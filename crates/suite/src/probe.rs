@@ -1,14 +1,20 @@
 //! A filter's picture: its colour, and what it makes of every object's matte.
 
-use filters::{Blur, FilterError, Input};
+use filters::{FilterError, Input};
 use frame::{Frame, Image, Picture, Plane, Raster};
+
+use crate::Runner;
 
 /// Runs the filter on the frame's colour and, with the same weights, on the instant's coverage of each object: what comes
 /// out is the share of the pixel that the filter gives to that object.
-pub fn picture(blur: &mut Blur, frame: &Frame, frame_index: u32) -> Result<Picture, FilterError> {
+pub fn picture(
+    filter: &mut Runner,
+    frame: &Frame,
+    frame_index: u32,
+) -> Result<Picture, FilterError> {
     let mattes = pack(&frame.coverage);
     let colors: Vec<&Image> = std::iter::once(&frame.color).chain(&mattes).collect();
-    let mut outputs = blur.run(&Input {
+    let mut outputs = filter.run(&Input {
         color: &colors,
         velocity: &frame.velocity,
         depth: &frame.depth,

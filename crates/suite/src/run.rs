@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use filters::{AdapterDescription, Blur, Gpu, Value};
+use filters::{AdapterDescription, Command, FilterError, Gpu, Value};
 use frame::{Alignment, Frame, Ladder, Truth};
 use metrics::{Measurement, Reference, Scores, Viewing};
 use serde::{Deserialize, Serialize};
@@ -15,7 +15,7 @@ use crate::probe::picture;
 use crate::progress::interrupted;
 use crate::rendered::{frame_of, scene_folder, truth_and_ladder_of};
 use crate::selection::FilterChoice;
-use crate::{Error, PROGRAM, RenderSettings};
+use crate::{Error, PROGRAM, RenderSettings, Runner};
 
 /// Version of the layout of `run.json`; it rises when a reader of the old one would misread the new one.
 pub const FORMAT: u32 = 1;
@@ -29,8 +29,8 @@ pub struct Run {
     pub program: String,
     /// The words of the command line.
     pub command: Vec<String>,
-    /// What the filters ran on.
-    pub adapter: AdapterDescription,
+    /// What the kernels ran on; none where every filter is a command.
+    pub adapter: Option<AdapterDescription>,
     /// Pixels per row.
     pub width: u32,
     /// Rows.
@@ -70,6 +70,10 @@ pub struct Case {
     pub preset: String,
     /// Every parameter's value.
     pub parameters: BTreeMap<String, Value>,
+    /// Program and arguments of a filter that is a command, as filter.toml has them. What the program itself does is
+    /// recorded nowhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub command: Option<Vec<String>>,
     /// The shutter alignment that the filter declares and is scored against.
     pub alignment: String,
     /// Hash of the truth's inputs: equal hashes mean equal truths.
@@ -96,8 +100,9 @@ pub struct Plan {
     pub quiet: bool,
 }
 
-/// Renders, filters, measures and writes every case below `plan.out`, but not `run.json` itself.
-pub fn run(plan: &Plan, gpu: &Gpu, command: Vec<String>) -> Result<Run, Error> {
+/// Renders, filters, measures and writes every case below `plan.out`, but not `run.json` itself. `gpu` is what
+/// [`open_gpu`](crate::open_gpu) opened for the plan's filters.
+pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, Error> {
     let mut cases = Vec::new();
     for (scene, bounds) in &plan.scenes {
         let (frame, truths) = render(plan, scene)?;
@@ -129,7 +134,7 @@ pub fn run(plan: &Plan, gpu: &Gpu, command: Vec<String>) -> Result<Run, Error> {
         format: FORMAT,
         program: PROGRAM.to_owned(),
         command,
-        adapter: gpu.adapter.clone(),
+        adapter: gpu.map(|gpu| gpu.adapter.clone()),
         width: plan.render.width,
         height: plan.render.height,
         samples_per_pixel: plan.render.samples_per_pixel,
@@ -180,15 +185,16 @@ fn references<'a>(
 
 fn run_case(
     plan: &Plan,
-    gpu: &Gpu,
+    gpu: Option<&Gpu>,
     scene: &Scene,
     bounds: &Bounds,
     (frame, truth, reference): (&Frame, &Truth, &Reference),
     choice: &FilterChoice,
 ) -> Result<Case, Error> {
-    let (width, height) = frame.size();
-    let mut blur = Blur::new(gpu, &choice.filter, &choice.settings, width, height)?;
-    let output = picture(&mut blur, frame, 0)?.cropped(frame.guard_band);
+    let mut runner = Runner::new(gpu, choice, frame.size())?;
+    let output = picture(&mut runner, frame, 0)
+        .map_err(|error| on_scene(error, scene))?
+        .cropped(frame.guard_band);
     let Measurement { scores, maps } = reference.measure(&output)?;
     let folder = Path::new(&scene.name).join(choice.name().replace(':', "_"));
     write_case(
@@ -206,6 +212,7 @@ fn run_case(
         filter: choice.filter.name.clone(),
         preset: choice.preset.clone(),
         parameters: choice.settings.values.clone(),
+        command: choice.filter.command.as_ref().map(Command::words),
         alignment: choice.filter.alignment.name().to_owned(),
         truth_hash: truth.provenance.content_hash.clone(),
         verdicts: judge(&scores, bounds),
@@ -214,12 +221,18 @@ fn run_case(
     })
 }
 
+/// A program may fail on one scene and not on another.
+fn on_scene(error: FilterError, scene: &Scene) -> FilterError {
+    match error {
+        FilterError::Command { filter, reason } => FilterError::Command {
+            filter: format!("{filter} on {}", scene.name),
+            reason,
+        },
+        other => other,
+    }
+}
+
 /// The photographic exposures that a scene is compared at.
 pub fn viewing(scene: &Scene) -> Viewing {
-    Viewing {
-        stops: scene.display.stops,
-        flip_start: scene.display.flip.start,
-        flip_stop: scene.display.flip.stop,
-        flip_count: scene.display.flip.count,
-    }
+    scene.display.into()
 }

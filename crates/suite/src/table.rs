@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use metrics::{ImageMetric, Measured, Metric, ObjectMetric, Region, Scores};
 
-use crate::run::{Case, Run};
+use crate::run::Run;
 
 const COLUMNS: [(&str, Metric); 6] = [
     ("FLIP", Metric::Image(ImageMetric::Flip, Region::Moving)),
@@ -17,30 +17,37 @@ const COLUMNS: [(&str, Metric); 6] = [
 
 /// The run as text; a score that does not apply is `n/a`.
 pub fn table(run: &Run) -> String {
-    let mut text = String::new();
+    let mut text = heading("scene / filter");
     let mut scene = "";
-    let _ = write!(text, "{:<34}", "scene / filter");
-    for (title, _) in COLUMNS {
-        let _ = write!(text, "{title:>7}");
-    }
-    text.push('\n');
     for case in &run.cases {
         if case.scene != scene {
             scene = &case.scene;
             let _ = writeln!(text, "{scene}");
         }
-        line(&mut text, case);
+        text += &line(&format!("{}:{}", case.filter, case.preset), &case.scores);
     }
     text
 }
 
-fn line(text: &mut String, case: &Case) {
-    let name = format!("{}:{}", case.filter, case.preset);
-    let _ = write!(text, "  {name:<32}");
-    for (_, metric) in COLUMNS {
-        let _ = write!(text, "{:>7}", cell(metric, &case.scores));
+/// The scores of one picture of a scene, in the manner of [`table`].
+pub fn score_table(scene: &str, picture: &str, scores: &Scores) -> String {
+    heading("scene / picture") + &format!("{scene}\n") + &line(picture, scores)
+}
+
+fn heading(title: &str) -> String {
+    let mut text = format!("{title:<34}");
+    for (title, _) in COLUMNS {
+        let _ = write!(text, "{title:>7}");
     }
-    text.push('\n');
+    text + "\n"
+}
+
+fn line(name: &str, scores: &Scores) -> String {
+    let mut text = format!("  {name:<32}");
+    for (_, metric) in COLUMNS {
+        let _ = write!(text, "{:>7}", cell(metric, scores));
+    }
+    text + "\n"
 }
 
 fn cell(metric: Metric, scores: &Scores) -> String {

@@ -72,6 +72,7 @@ pub fn trace_frame(
         sky_velocity: settings.sky_velocity,
         guard_band: settings.guard_band,
         reprojection: reprojection(scene, [settings.width, settings.height]),
+        display: scene.display,
         objects: object_names(scene),
         color: seen.color,
         coverage: seen.coverage,

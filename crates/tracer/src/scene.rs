@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use frame::ShutterProfile;
+pub use frame::{Display, FlipExposures};
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
 use crate::motion::Motion;
@@ -62,26 +63,6 @@ pub enum Family {
     Deforming,
     /// Borders, thresholds, extremes.
     Limits,
-}
-
-/// Photographic exposures for pictures and for FLIP.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Display {
-    /// Exposure of PNGs and of LDR-FLIP, in stops.
-    pub stops: f32,
-    /// Exposures of HDR-FLIP.
-    pub flip: FlipExposures,
-}
-
-/// The range of exposures that HDR-FLIP takes its maximum over.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FlipExposures {
-    /// Darkest, in stops.
-    pub start: f32,
-    /// Brightest, in stops.
-    pub stop: f32,
-    /// How many, both ends included; at least 2.
-    pub count: u32,
 }
 
 /// A pinhole camera that looks along its own -Z, +Y up.

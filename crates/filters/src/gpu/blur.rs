@@ -1,30 +1,12 @@
 //! Runs a filter: uploads the frame, dispatches the passes, reads the image back.
 
-use frame::{Image, Plane, Raster, Reprojection, Vectors};
+use frame::{Image, Raster, Reprojection};
 
 use super::adapter::Gpu;
 use super::plan::Plan;
 use super::transfer::{Place, padded_row};
 use super::uniforms::FrameUniform;
-use crate::{Filter, FilterError, Format, Settings};
-
-/// What a filter blurs: one instant, as [`frame::Frame`] holds it.
-#[derive(Clone, Copy, Debug)]
-pub struct Input<'a> {
-    /// One or more images that are blurred with the same weights; an object's coverage may travel as a colour.
-    pub color: &'a [&'a Image],
-    /// Screen motion in pixels per frame, +x right, +y down.
-    pub velocity: &'a Vectors,
-    /// Distance along the view axis, in metres; above 0.
-    pub depth: &'a Plane,
-    /// The camera's motion since the frame before, between places of these rasters; filters that read it refuse to run
-    /// without.
-    pub reprojection: Option<Reprojection>,
-    /// How long the shutter is open, in frames; above 0.
-    pub exposure: f64,
-    /// Changes the noise of filters that have any, and nothing else.
-    pub frame_index: u32,
-}
+use crate::{Filter, FilterError, Format, Input, Settings};
 
 /// A filter ready to run on images of one size.
 #[derive(Debug)]
@@ -45,6 +27,12 @@ impl<'g> Blur<'g> {
         width: u32,
         height: u32,
     ) -> Result<Self, FilterError> {
+        if filter.command.is_some() {
+            return Err(FilterError::Command {
+                filter: filter.name.clone(),
+                reason: "it is a command and has no kernels that an adapter could run".into(),
+            });
+        }
         settings.check(filter)?;
         check_size(gpu, filter, width, height)?;
         Ok(Self {
@@ -58,7 +46,15 @@ impl<'g> Blur<'g> {
 
     /// Blurs every colour image of the input, in order. The same input gives the same bytes on the same adapter.
     pub fn run(&mut self, input: &Input) -> Result<Vec<Image>, FilterError> {
-        self.check(input)?;
+        input.check(&self.filter, self.size)?;
+        if self.reads_reprojection && input.reprojection.is_none() {
+            return Err(FilterError::Input {
+                filter: self.filter.clone(),
+                reason: "the frame does not say how the camera moved, which this filter reads; give it an attribute \
+                         \"reprojection\" of twelve numbers, or choose another filter"
+                    .to_owned(),
+            });
+        }
         self.upload(input)?;
         let mut outputs = Vec::new();
         for color in input.color {
@@ -129,74 +125,6 @@ impl<'g> Blur<'g> {
         }
         Ok(())
     }
-
-    fn check(&self, input: &Input) -> Result<(), FilterError> {
-        let refuse = |reason: String| {
-            Err(FilterError::Input {
-                filter: self.filter.clone(),
-                reason,
-            })
-        };
-        if !(input.exposure.is_finite() && input.exposure > 0.0) {
-            return refuse(format!(
-                "exposure is {} frames; allowed: above 0 and finite",
-                input.exposure
-            ));
-        }
-        if self.reads_reprojection && input.reprojection.is_none() {
-            return refuse(
-                "the frame does not say how the camera moved, which this filter reads; give it an attribute \"reprojection\" of \
-                 twelve numbers, or choose another filter"
-                    .to_owned(),
-            );
-        }
-        let [width, height] = self.size;
-        let mut rasters = vec![
-            ("velocity", size(input.velocity)),
-            ("depth", size(input.depth)),
-        ];
-        rasters.extend(input.color.iter().map(|color| ("color", size(color))));
-        for (name, found) in rasters {
-            if found != self.size {
-                return refuse(format!(
-                    "{name} has {}x{} pixels; this blur was made for {width}x{height}",
-                    found[0], found[1]
-                ));
-            }
-        }
-        let finite = |values: &[f32]| values.iter().all(|value| value.is_finite());
-        let broken = [
-            (
-                "velocity",
-                "finite",
-                input.velocity.pixels.iter().position(|v| !finite(v)),
-            ),
-            (
-                "depth",
-                "finite and above 0",
-                input
-                    .depth
-                    .pixels
-                    .iter()
-                    .position(|z| !z.is_finite() || *z <= 0.0),
-            ),
-            (
-                "color",
-                "finite",
-                input
-                    .color
-                    .iter()
-                    .find_map(|color| color.pixels.iter().position(|c| !finite(c))),
-            ),
-        ];
-        for (name, allowed, index) in broken {
-            if let Some(index) = index {
-                let (x, y) = (index as u32 % width, index as u32 / width);
-                return refuse(format!("{name} at ({x}, {y}) is not {allowed}"));
-            }
-        }
-        Ok(())
-    }
 }
 
 /// As WGSL lays out a mat4x3: columns, each filled up to four numbers.
@@ -210,10 +138,6 @@ fn columns(reprojection: Reprojection) -> [[f32; 4]; 4] {
             0.0,
         ]
     })
-}
-
-fn size<T>(raster: &Raster<T>) -> [u32; 2] {
-    [raster.width, raster.height]
 }
 
 fn check_size(gpu: &Gpu, filter: &Filter, width: u32, height: u32) -> Result<(), FilterError> {

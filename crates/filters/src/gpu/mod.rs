@@ -10,5 +10,5 @@ mod transfer;
 mod uniforms;
 
 pub use adapter::{AdapterDescription, Gpu, list_adapters};
-pub use blur::{Blur, Input};
+pub use blur::Blur;
 pub(crate) use shader::{EntryPoint, Role, Shader, written};

@@ -143,8 +143,18 @@ impl Source<'_> {
     }
 
     fn refuse(&self, place: Option<SourceLocation>, message: &str) -> FilterError {
-        let line = place.map(|place| place.line_number as usize);
-        self.at(line, message.trim_end().to_owned())
+        let message = tidy(message);
+        match place {
+            Some(place) if place.line_number as usize <= self.kernel_lines => {
+                FilterError::Kernels {
+                    path: self.path.to_owned(),
+                    line: place.line_number as usize,
+                    column: place.line_position as usize,
+                    reason: message,
+                }
+            }
+            place => self.at(place.map(|place| place.line_number as usize), message),
+        }
     }
 
     fn at(&self, line: Option<usize>, reason: String) -> FilterError {
@@ -169,6 +179,13 @@ impl Source<'_> {
         let span = module.global_variables.get_span(handle);
         span.location(&self.text).line_number as usize
     }
+}
+
+/// A message of naga without the word "error" before it, nor blanks at the ends of its lines.
+fn tidy(message: &str) -> String {
+    let message = message.strip_prefix("error: ").unwrap_or(message);
+    let lines: Vec<&str> = message.trim_end().lines().map(str::trim_end).collect();
+    lines.join("\n")
 }
 
 fn variable(

@@ -1,5 +1,6 @@
 //! `filter.toml`: from text to a [`Filter`] without kernels.
 
+mod command;
 mod parameters;
 mod passes;
 
@@ -12,6 +13,7 @@ use toml::Spanned;
 
 use crate::gpu::Shader;
 use crate::{Filter, FilterError};
+use command::command;
 use parameters::{ParameterEntry, PresetEntry, parameters, presets};
 use passes::{PassEntry, TextureEntry, passes, textures};
 
@@ -42,8 +44,11 @@ struct Manifest {
     parameter: Vec<Spanned<ParameterEntry>>,
     #[serde(default)]
     preset: Vec<Spanned<PresetEntry>>,
+    command: Option<Spanned<Vec<String>>>,
+    time_limit: Option<Spanned<f64>>,
     #[serde(default)]
     texture: Vec<Spanned<TextureEntry>>,
+    #[serde(default)]
     pass: Vec<Spanned<PassEntry>>,
 }
 
@@ -65,12 +70,18 @@ pub(crate) fn read(path: &Path, text: &str) -> Result<(Filter, Lines), FilterErr
             format!("name \"{name}\": {IDENTIFIER}; it also names the WGSL file"),
         ));
     }
+    check_method(&file, &manifest)?;
     let parameters = parameters(&file, &manifest.parameter)?;
+    let time_limit = manifest.time_limit.as_ref();
+    let command = (manifest.command.as_ref())
+        .map(|words| command(&file, words, time_limit, &parameters))
+        .transpose()?;
     let textures = textures(&file, &manifest.texture, &parameters)?;
     let filter = Filter {
         name: name.clone(),
         presets: presets(&file, &manifest.preset, &parameters)?,
         passes: passes(&file, &manifest.pass, &textures, &parameters)?,
+        command,
         textures,
         parameters,
         summary: manifest.summary,
@@ -88,6 +99,34 @@ pub(crate) fn read(path: &Path, text: &str) -> Result<(Filter, Lines), FilterErr
         passes: file.lines(&manifest.pass),
     };
     Ok((filter, lines))
+}
+
+/// Refuses a filter that is neither a command nor passes over kernels, or both.
+fn check_method(file: &File, manifest: &Manifest) -> Result<(), FilterError> {
+    let Manifest {
+        command,
+        time_limit,
+        pass,
+        texture,
+        ..
+    } = manifest;
+    let kernels = pass.first().map(Spanned::span);
+    let kernels = kernels.or(texture.first().map(Spanned::span));
+    match (command, time_limit, kernels) {
+        (Some(_), _, Some(place)) => Err(file.refuse(
+            Some(place.start),
+            "a filter that is a command has neither [[pass]] nor [[texture]]".into(),
+        )),
+        (None, Some(time_limit), _) => Err(file.at(
+            time_limit,
+            "time_limit is for filters that are a command".into(),
+        )),
+        (None, None, _) if pass.is_empty() => Err(file.refuse(
+            None,
+            "has neither a [[pass]] nor a command; one of them is needed".into(),
+        )),
+        _ => Ok(()),
+    }
 }
 
 const IDENTIFIER: &str = "a name is made of a-z, 0-9 and _, and begins with a letter";

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use filters::{Blur, FilterError, Gpu, Input};
+use filters::{FilterError, Input};
 use frame::{ExrFile, Image, Plane, Reprojection, Vectors, read_exr, write_exr};
-use suite::{Error, FilterChoice, select_filters};
+use suite::{Error, FilterChoice, Runner, open_gpu, select_filters};
 
 use super::{check_exposure, say};
 use crate::cli::BlurArgs;
@@ -13,9 +13,12 @@ use crate::cli::BlurArgs;
 pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     let choice = select_filter(args)?;
     let buffers = read_buffers(&args.frame, args.exposure)?;
-    let gpu = Gpu::new(args.adapter.adapter.as_deref())?;
+    let gpu = open_gpu(
+        std::slice::from_ref(&choice),
+        args.adapter.adapter.as_deref(),
+    )?;
     let (width, height) = (buffers.color.width, buffers.color.height);
-    let mut blur = Blur::new(&gpu, &choice.filter, &choice.settings, width, height)?;
+    let mut runner = Runner::new(gpu.as_ref(), &choice, (width, height))?;
     let input = Input {
         color: &[&buffers.color],
         velocity: &buffers.velocity,
@@ -24,7 +27,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
         exposure: buffers.exposure,
         frame_index: args.frame_index,
     };
-    let outputs = blur.run(&input).map_err(|error| match error {
+    let outputs = runner.run(&input).map_err(|error| match error {
         FilterError::Input { reason, .. } => {
             Error::Usage(format!("{}: {reason}", args.frame.display()))
         }
@@ -35,8 +38,11 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     file.set("kind", "output");
     file.set("filter", choice.name());
     file.set("program", suite::PROGRAM);
-    file.set("adapter", &gpu.adapter.name);
+    if let Some(gpu) = &gpu {
+        file.set("adapter", &gpu.adapter.name);
+    }
     file.set("exposure", buffers.exposure);
+    file.set("alignment", choice.filter.alignment);
     write_exr(&args.out, &file)?;
     say(&format!("{}\n", args.out.display()))
 }

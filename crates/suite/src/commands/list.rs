@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use filters::{AdapterDescription, Filter, Parameter, Preset, list_adapters};
+use filters::{AdapterDescription, Command, Filter, Parameter, Preset, list_adapters};
 use suite::Error;
 use tracer::{SceneListing, list_scenes};
 
@@ -73,6 +73,7 @@ fn filter_json(filter: &Filter) -> serde_json::Value {
         "summary": filter.summary,
         "source": filter.source,
         "alignment": filter.alignment.name(),
+        "command": filter.command.as_ref().map(Command::words),
         "parameters": filter.parameters.iter().map(parameter).collect::<Vec<_>>(),
         "presets": filter.presets.iter().map(preset).collect::<Vec<_>>(),
     })
@@ -103,8 +104,12 @@ fn filter_text(filter: &Filter) -> String {
             parameter.doc
         )
     };
+    let command = match &filter.command {
+        Some(command) => format!("    runs: {}\n", command.words().join(" ")),
+        None => String::new(),
+    };
     format!(
-        "  {}  (shutter: {})\n    {}\n    cannot: {}\n{}{}\n",
+        "  {}  (shutter: {})\n    {}\n    cannot: {}\n{command}{}{}\n",
         filter.name,
         filter.alignment,
         filter.summary,

@@ -5,6 +5,7 @@ mod list;
 mod merge;
 mod render;
 mod run;
+mod score;
 
 use std::io::{ErrorKind, Write};
 
@@ -22,9 +23,11 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         Some(Command::Render(args)) => with_threads(args.scenes.threads, || render::execute(&args)),
         Some(Command::Merge(args)) => merge::execute(&args),
         Some(Command::Blur(args)) => blur::execute(&args),
+        Some(Command::Score(args)) => score::execute(&args),
         Some(Command::List(args)) => list::execute(&args),
         None => Err(Error::Usage(
-            "no command given; allowed: run, render, merge, blur, list (see --help)".to_owned(),
+            "no command given; allowed: run, render, merge, blur, score, list (see --help)"
+                .to_owned(),
         )),
     }
 }

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use filters::Gpu;
-use suite::{Error, Outcome, Plan, Run, read_bounds, run, select_filters, select_scenes, table};
+use suite::{
+    Error, Outcome, Plan, Run, open_gpu, read_bounds, run, select_filters, select_scenes, table,
+};
 
 use super::{render_settings, say};
 use crate::cli::RunArgs;
@@ -25,7 +26,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
             ))
         })
         .collect::<Result<_, Error>>()?;
-    let gpu = Gpu::new(args.adapter.adapter.as_deref())?;
+    let gpu = open_gpu(&filters, args.adapter.adapter.as_deref())?;
     let plan = Plan {
         scenes,
         filters,
@@ -33,7 +34,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
         out: args.scenes.out.clone(),
         quiet: args.scenes.quiet,
     };
-    let run = run(&plan, &gpu, std::env::args().collect())?;
+    let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
     let json = write_run(&run, &plan.out)?;
     if args.json {
         say(&format!("{json}\n"))
@@ -64,10 +65,12 @@ fn closing(run: &Run, out: &Path) -> String {
             run.samples_per_pixel
         );
     }
+    let adapter = match &run.adapter {
+        Some(adapter) => format!("{}, {}", adapter.name, adapter.backend),
+        None => "none, every filter is a command".to_owned(),
+    };
     text += &format!(
-        "\nadapter: {}, {}\nwritten: {}\n",
-        run.adapter.name,
-        run.adapter.backend,
+        "\nadapter: {adapter}\nwritten: {}\n",
         out.join("run.json").display()
     );
     text

@@ -1,0 +1,193 @@
+//! Runs a filter that is a program, once per image.
+
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+use std::process::Command as Process;
+use std::time::Duration;
+
+use frame::{ExrFile, FileError, Image, read_exr, write_exr};
+
+use super::process::{self, End};
+use super::{Command, fill};
+use crate::{Filter, FilterError, Input, Settings};
+
+/// A filter that is a program, ready to run on images of one size.
+#[derive(Debug)]
+pub struct CommandBlur {
+    filter: String,
+    command: Command,
+    settings: Settings,
+    size: [u32; 2],
+    interrupted: fn() -> bool,
+}
+
+impl CommandBlur {
+    /// Takes a filter that is a command, its settings and a size in pixels. The program is stopped as soon as
+    /// `interrupted` says so.
+    pub fn new(
+        filter: &Filter,
+        settings: &Settings,
+        width: u32,
+        height: u32,
+        interrupted: fn() -> bool,
+    ) -> Result<Self, FilterError> {
+        let command = filter.command.clone();
+        settings.check(filter)?;
+        Ok(Self {
+            filter: filter.name.clone(),
+            command: command.expect("a filter that is a command has one"),
+            settings: settings.clone(),
+            size: [width, height],
+            interrupted,
+        })
+    }
+
+    /// Blurs every colour image of the input, in order: one run of the program each.
+    pub fn run(&self, input: &Input) -> Result<Vec<Image>, FilterError> {
+        input.check(&self.filter, self.size)?;
+        (input.color.iter())
+            .map(|color| self.blur(color, input))
+            .collect()
+    }
+
+    fn blur(&self, color: &Image, input: &Input) -> Result<Image, FilterError> {
+        let folder = tempfile::tempdir().map_err(|error| self.no_room(error))?;
+        let place = std::path::absolute(folder.path()).map_err(|error| self.no_room(error))?;
+        let [frame, out] = ["frame.exr", "out.exr"].map(|name| place.join(name));
+        write_exr(&frame, &frame_file(color, input)).map_err(|error| self.no_room(error))?;
+        let mut process = Process::new(self.program());
+        process
+            .args(self.arguments(input, &frame, &out))
+            .current_dir(&self.command.folder);
+        let limit = Duration::from_secs_f64(self.command.time_limit);
+        let (end, printed) = process::run(process, limit, self.interrupted)
+            .map_err(|error| self.refuse(self.cannot_start(&error)))?;
+        let outcome = match end {
+            End::Interrupted => return Err(FilterError::Interrupted),
+            End::OutOfTime => Err(format!(
+                "took longer than {} s and was stopped; raise time_limit in {}",
+                self.command.time_limit,
+                self.command.folder.join("filter.toml").display()
+            )),
+            End::Exited(status) if !status.success() => Err(format!("ended with {status}")),
+            End::Exited(_) => self.read(&out),
+        };
+        outcome.map_err(|reason| {
+            // As in a shell, the files by their names alone: whoever looks into it tries it on files of his own.
+            let words = self.arguments(input, Path::new("frame.exr"), Path::new("out.exr"));
+            let said = match printed.as_str() {
+                "" => "; it printed nothing".to_owned(),
+                printed => format!("; the last that it printed:\n{printed}"),
+            };
+            self.refuse(format!(
+                "`{} {}` {reason}{said}",
+                self.command.program,
+                words.join(" ")
+            ))
+        })
+    }
+
+    fn program(&self) -> PathBuf {
+        if self.in_folder() {
+            self.command.folder.join(&self.command.program)
+        } else {
+            PathBuf::from(&self.command.program)
+        }
+    }
+
+    fn in_folder(&self) -> bool {
+        self.command.program.contains(['/', '\\'])
+    }
+
+    fn arguments(&self, input: &Input, frame: &Path, out: &Path) -> Vec<String> {
+        let value = |name: &str| {
+            Some(match name {
+                "frame" => frame.display().to_string(),
+                "out" => out.display().to_string(),
+                "exposure" => input.exposure.to_string(),
+                "frame_index" => input.frame_index.to_string(),
+                parameter => self.settings.values.get(parameter)?.to_string(),
+            })
+        };
+        (self.command.arguments.iter())
+            .map(|word| fill(word, value).expect("placeholders were checked with filter.toml"))
+            .collect()
+    }
+
+    /// The picture that the program wrote, or what is wrong with it.
+    fn read(&self, out: &Path) -> Result<Image, String> {
+        if !out.exists() {
+            return Err(
+                "ended well, but wrote no {out}; it must write an OpenEXR file of that very name"
+                    .into(),
+            );
+        }
+        let color = read_exr(out)
+            .and_then(|file| file.color(""))
+            .map_err(|error| {
+                let reason = match error {
+                    FileError::Broken { reason, .. } => {
+                        format!("not a complete OpenEXR file: {reason}")
+                    }
+                    FileError::Foreign { reason, .. } => reason,
+                    error @ FileError::Io { .. } => error.to_string(),
+                };
+                format!("wrote an {{out}} that cannot be used: {reason}")
+            })?;
+        let [width, height] = self.size;
+        if [color.width, color.height] != [width, height] {
+            return Err(format!(
+                "wrote {}x{} pixels; the frame has {width}x{height}, and so must {{out}}",
+                color.width, color.height
+            ));
+        }
+        let broken = |pixel: &[f32; 3]| pixel.iter().any(|value| !value.is_finite());
+        match color.pixels.iter().position(broken) {
+            None => Ok(color),
+            Some(index) => {
+                let (x, y) = (index as u32 % width, index as u32 / width);
+                Err(format!(
+                    "wrote {:?} at pixel ({x}, {y}); every value must be finite",
+                    color.pixels[index]
+                ))
+            }
+        }
+    }
+
+    fn cannot_start(&self, error: &std::io::Error) -> String {
+        let program = &self.command.program;
+        let folder = self.command.folder.display();
+        match (self.in_folder(), error.kind()) {
+            (false, ErrorKind::NotFound) => format!(
+                "`{program}` is not on the PATH; a program in {folder} is called ./{program}"
+            ),
+            (true, _) => format!(
+                "`{program}` cannot be run in {folder}: {error}; it must be a program there"
+            ),
+            (false, _) => format!("`{program}` cannot be run: {error}"),
+        }
+    }
+
+    fn no_room(&self, error: impl std::fmt::Display) -> FilterError {
+        self.refuse(format!("its frame cannot be written for it: {error}"))
+    }
+
+    fn refuse(&self, reason: String) -> FilterError {
+        FilterError::Command {
+            filter: self.filter.clone(),
+            reason,
+        }
+    }
+}
+
+/// What the program may know: what kernels may.
+fn frame_file(color: &Image, input: &Input) -> ExrFile {
+    let mut file = ExrFile::new(color.width, color.height);
+    file.push_color("", color);
+    file.push_plane("Z", input.depth);
+    file.push_plane("velocity.X", &input.velocity.map(|v| v[0]));
+    file.push_plane("velocity.Y", &input.velocity.map(|v| v[1]));
+    file.set("exposure", input.exposure);
+    file.set("frame_index", input.frame_index);
+    file
+}

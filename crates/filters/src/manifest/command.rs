@@ -1,0 +1,94 @@
+//! `command` and `time_limit`.
+
+use toml::Spanned;
+
+use super::File;
+use crate::command::{PLACEHOLDERS, fill};
+use crate::{Command, FilterError, Parameter};
+
+/// Seconds that one run may take where filter.toml does not say.
+const DEFAULT_TIME_LIMIT: f64 = 60.0;
+
+/// A day: a program that takes longer is not waiting to be measured.
+const LONGEST_TIME_LIMIT: f64 = 86_400.0;
+
+pub(super) fn command(
+    file: &File,
+    words: &Spanned<Vec<String>>,
+    time_limit: Option<&Spanned<f64>>,
+    parameters: &[Parameter],
+) -> Result<Command, FilterError> {
+    let refuse = |reason: String| file.at(words, format!("command: {reason}"));
+    let Some((program, arguments)) = words.get_ref().split_first() else {
+        return Err(refuse("is empty; its first word is the program".into()));
+    };
+    if program.is_empty() {
+        return Err(refuse("its first word, the program, is empty".into()));
+    }
+    let names: Vec<&str> = parameters.iter().map(|known| known.name.as_str()).collect();
+    if let Some(name) = names.iter().find(|name| PLACEHOLDERS.contains(name)) {
+        return Err(refuse(format!(
+            "{{{name}}} already stands for something of the frame; call the parameter otherwise"
+        )));
+    }
+    let mut found = Vec::new();
+    for word in arguments {
+        fill(word, |name| {
+            found.push(name.to_owned());
+            let known = PLACEHOLDERS.contains(&name) || names.contains(&name);
+            known.then(String::new)
+        })
+        .map_err(|reason| {
+            let allowed: Vec<String> = (PLACEHOLDERS.iter().chain(&names))
+                .map(|name| format!("{{{name}}}"))
+                .collect();
+            refuse(format!(
+                "\"{word}\" {reason}; allowed: {}, and {{{{ or }}}} for a brace",
+                allowed.join(", ")
+            ))
+        })?;
+    }
+    for (name, why) in [
+        ("frame", "the file to be blurred"),
+        ("out", "the file to be written"),
+    ]
+    .into_iter()
+    .chain(names.iter().map(|name| (*name, "a declared parameter")))
+    {
+        if !found.iter().any(|word| word == name) {
+            return Err(refuse(format!(
+                "{{{name}}} is missing: it stands for {why}"
+            )));
+        }
+    }
+    Ok(Command {
+        program: program.clone(),
+        arguments: arguments.to_vec(),
+        time_limit: limit(file, time_limit)?,
+        folder: folder(file)?,
+    })
+}
+
+fn limit(file: &File, time_limit: Option<&Spanned<f64>>) -> Result<f64, FilterError> {
+    match time_limit {
+        None => Ok(DEFAULT_TIME_LIMIT),
+        Some(limit) if *limit.get_ref() > 0.0 && *limit.get_ref() <= LONGEST_TIME_LIMIT => {
+            Ok(*limit.get_ref())
+        }
+        Some(limit) => Err(file.at(
+            limit,
+            format!(
+                "time_limit = {}; allowed: seconds, above 0 and at most {LONGEST_TIME_LIMIT}",
+                limit.get_ref()
+            ),
+        )),
+    }
+}
+
+/// The folder of filter.toml, such that it holds wherever a program is started.
+fn folder(file: &File) -> Result<std::path::PathBuf, FilterError> {
+    let manifest = std::path::absolute(file.path)
+        .map_err(|error| file.refuse(None, format!("its folder cannot be found: {error}")))?;
+    let folder = manifest.parent().expect("a file lies in a folder");
+    Ok(folder.to_owned())
+}

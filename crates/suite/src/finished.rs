@@ -1,0 +1,154 @@
+//! A finished picture that was made elsewhere.
+
+use std::path::Path;
+
+use frame::{ExrFile, Frame, Image, Plane, Truth, read_exr, read_png, scene_linear};
+
+use crate::Error;
+
+/// A picture as its file holds it, brought to the truth's size and to scene-linear radiance.
+pub struct Finished {
+    /// Scene-linear radiance.
+    pub color: Image,
+    /// Per object of the truth, the share of the pixel that the picture gives to it; none where the file has no mattes.
+    pub mattes: Option<Vec<Plane>>,
+    /// Whether it was shown before it was kept, as in a PNG: nothing in it is brighter than display white.
+    pub shown: bool,
+    /// What was done to it, in words.
+    pub notes: Vec<String>,
+}
+
+/// Reads a picture that was made from `frame`, to be scored against `truth`: OpenEXR or PNG, by the ending of its name.
+///
+/// A PNG is decoded from sRGB, and the frame's display exposure undone. A picture with the frame's guard band is
+/// cropped. A file that says that it was made for another shutter is refused.
+pub fn read_finished(path: &Path, frame: &Frame, truth: &Truth) -> Result<Finished, Error> {
+    let ending = path.extension().and_then(|ending| ending.to_str());
+    let finished = match ending.map(str::to_ascii_lowercase).as_deref() {
+        Some("exr") => read_radiance(path, truth)?,
+        Some("png") => read_shown(path, frame.display.stops, truth)?,
+        _ => {
+            return refuse(
+                path,
+                "cannot be scored; allowed: a name that ends with .exr or .png",
+            );
+        }
+    };
+    let band = frame.guard_band;
+    let size = (finished.color.width, finished.color.height);
+    if size == truth.size() {
+        Ok(finished)
+    } else if band > 0 && size == frame.size() {
+        Ok(finished.cropped(band))
+    } else {
+        let (width, height) = truth.size();
+        let reason = format!(
+            "has {}x{} pixels, the truth has {width}x{height}{}",
+            size.0,
+            size.1,
+            match band {
+                0 => String::new(),
+                _ => format!(
+                    ", and the frame with its guard band {}x{}",
+                    frame.size().0,
+                    frame.size().1
+                ),
+            }
+        );
+        refuse(path, &reason)
+    }
+}
+
+fn read_radiance(path: &Path, truth: &Truth) -> Result<Finished, Error> {
+    let file = read_exr(path)?;
+    check_shutter(&file, truth)?;
+    Ok(Finished {
+        color: file.color("")?,
+        mattes: mattes(&file, truth)?,
+        shown: false,
+        notes: Vec::new(),
+    })
+}
+
+fn read_shown(path: &Path, stops: f32, truth: &Truth) -> Result<Finished, Error> {
+    let mut notes = vec![format!(
+        "decoded from sRGB, and the frame's display exposure of {stops} stops undone"
+    )];
+    let white = (-stops).exp2();
+    let truth = truth.mean().color;
+    let bright = (truth.pixels.iter())
+        .filter(|pixel| pixel.iter().any(|value| *value > white))
+        .count();
+    if bright > 0 {
+        notes.push(format!(
+            "a PNG ends at display white, which the truth exceeds in {:.2} % of the pixels: mse, psnr and relmse count \
+             the rest as an error of the picture, flip does not",
+            100.0 * bright as f64 / truth.pixels.len() as f64
+        ));
+    }
+    Ok(Finished {
+        color: scene_linear(&read_png(path)?, stops),
+        mattes: None,
+        shown: true,
+        notes,
+    })
+}
+
+/// Refuses what `blur` says to have blurred for another shutter than the truth's. In files of other programs the words
+/// may mean something else.
+fn check_shutter(file: &ExrFile, truth: &Truth) -> Result<(), Error> {
+    if !file.attributes.contains_key("kind") {
+        return Ok(());
+    }
+    let exposure = truth.shutter.exposure();
+    let other = |what: &str, found: String, due: String| {
+        refuse(
+            &file.path,
+            &format!(
+                "was made for {what} {found}, the truth has {due}; render that one, or blur for this one"
+            ),
+        )
+    };
+    if file.attributes.contains_key("alignment") {
+        let found: String = file.get("alignment")?;
+        if found != truth.alignment.name() {
+            return other("the shutter alignment", found, truth.alignment.to_string());
+        }
+    }
+    if file.attributes.contains_key("exposure") {
+        let found: f64 = file.get("exposure")?;
+        // Files keep the truth's interval by its ends, whose difference may round.
+        if (found - exposure).abs() > 1e-9 * exposure {
+            return other("an exposure of", found.to_string(), exposure.to_string());
+        }
+    }
+    Ok(())
+}
+
+fn mattes(file: &ExrFile, truth: &Truth) -> Result<Option<Vec<Plane>>, Error> {
+    let names: Vec<String> = (truth.objects.iter())
+        .map(|object| format!("coverage.{object}"))
+        .collect();
+    let held = |name: &&String| (file.channels.iter()).any(|channel| channel.name == **name);
+    if !names.iter().any(|name| held(&name)) {
+        return Ok(None);
+    }
+    let planes: Result<_, _> = names.iter().map(|name| file.plane(name)).collect();
+    Ok(Some(planes?))
+}
+
+impl Finished {
+    fn cropped(mut self, band: u32) -> Self {
+        self.color = self.color.cropped(band);
+        self.mattes =
+            (self.mattes).map(|mattes| mattes.iter().map(|matte| matte.cropped(band)).collect());
+        self.notes.push(format!(
+            "cropped by the frame's guard band of {band} pixels"
+        ));
+        self
+    }
+}
+
+fn refuse<T>(path: &Path, reason: &str) -> Result<T, Error> {
+    Err(Error::Usage(format!("{}: {reason}", path.display())))
+}

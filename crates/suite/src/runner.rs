@@ -1,0 +1,60 @@
+//! A filter ready to run, whether it is made of kernels or a program.
+
+use filters::{Blur, CommandBlur, FilterError, Gpu, Input};
+use frame::Image;
+
+use crate::FilterChoice;
+use crate::progress::interrupted;
+
+/// A filter with its parameters, for images of one size.
+pub enum Runner<'g> {
+    /// Kernels on an adapter.
+    Kernels(Box<Blur<'g>>),
+    /// A program.
+    Command(CommandBlur),
+}
+
+/// The adapter that the filters are to run on; none where all of them are commands and none was asked for by name.
+pub fn open_gpu(
+    choices: &[FilterChoice],
+    adapter: Option<&str>,
+) -> Result<Option<Gpu>, FilterError> {
+    let needed = choices.iter().any(|choice| choice.filter.command.is_none());
+    (needed || adapter.is_some())
+        .then(|| Gpu::new(adapter))
+        .transpose()
+}
+
+impl<'g> Runner<'g> {
+    /// Makes a filter ready; `gpu` is what [`open_gpu`] opened for it.
+    pub fn new(
+        gpu: Option<&'g Gpu>,
+        choice: &FilterChoice,
+        (width, height): (u32, u32),
+    ) -> Result<Self, FilterError> {
+        let FilterChoice {
+            filter, settings, ..
+        } = choice;
+        Ok(match filter.command {
+            Some(_) => Self::Command(CommandBlur::new(
+                filter,
+                settings,
+                width,
+                height,
+                interrupted,
+            )?),
+            None => {
+                let gpu = gpu.expect("an adapter was opened for the kernels");
+                Self::Kernels(Box::new(Blur::new(gpu, filter, settings, width, height)?))
+            }
+        })
+    }
+
+    /// Blurs every colour image of the input with the same weights, in order.
+    pub fn run(&mut self, input: &Input) -> Result<Vec<Image>, FilterError> {
+        match self {
+            Self::Kernels(blur) => blur.run(input),
+            Self::Command(blur) => blur.run(input),
+        }
+    }
+}

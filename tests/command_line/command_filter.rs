@@ -1,0 +1,385 @@
+//! Filters that are programs.
+
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::process::Command;
+use std::time::Duration;
+
+use frame::{ExrFile, Frame, Raster, read_exr, write_exr};
+
+use crate::bench::{Bench, assert_done, assert_refused, stderr, stdout};
+
+const HEAD: &str = "summary = \"A program.\"\nalignment = \"trailing\"\n";
+
+/// Writes a filter folder that holds only filter.toml, with more lines.
+fn folder(bench: &Bench, name: &str, more: &str) {
+    fs::create_dir_all(bench.path(name)).unwrap();
+    let text = format!("name = \"{name}\"\n{HEAD}{more}\n");
+    fs::write(bench.path(name).join("filter.toml"), text).unwrap();
+}
+
+/// A filter that is a shell script with the files as $1 and $2; it lies in the filter's folder.
+fn script(bench: &Bench, name: &str, lines: &str, more: &str) {
+    let command = "command = [\"./blur.sh\", \"{frame}\", \"{out}\"]";
+    folder(bench, name, &format!("{command}\n{more}"));
+    executable(bench, &format!("{name}/blur.sh"), lines);
+}
+
+fn executable(bench: &Bench, path: &str, lines: &str) {
+    fs::write(bench.path(path), format!("#!/bin/sh\n{lines}\n")).unwrap();
+    fs::set_permissions(bench.path(path), fs::Permissions::from_mode(0o755)).unwrap();
+}
+
+fn run(bench: &Bench) -> suite::Run {
+    serde_json::from_slice(&fs::read(bench.path("out/run.json")).unwrap()).unwrap()
+}
+
+fn render(bench: &Bench) {
+    let words = ["render", "--quiet", "--out", "r", "--samples-per-pixel"];
+    assert_done(&bench.shuttertruth(&[&words[..], &["16"]].concat()));
+}
+
+fn blur<'a>(filter: &'a str) -> [&'a str; 7] {
+    let frame = "r/plate/frame.exr";
+    [
+        "blur", "--filter", filter, "--frame", frame, "--out", "b.exr",
+    ]
+}
+
+#[test]
+fn a_program_that_blurs_as_kernels_do_scores_as_they_do() {
+    let bench = Bench::new();
+    let program = env!("CARGO_BIN_EXE_shuttertruth");
+    let command = format!(
+        "command = ['{program}', 'blur', '--filter', 'velocity_gather', '--frame', '{{frame}}', '--out', '{{out}}', \
+         '--set', 'velocity_gather.samples={{samples}}', '--exposure', '{{exposure}}']\n\
+         [[parameter]]\nname = 'samples'\nkind = 'integer'\nrange = [1, 64]\ndefault = 10\ndoc = 'Taps.'\n\
+         [[preset]]\nname = 'coarse'\ndoc = 'Few.'\nvalues = {{ samples = 8 }}\n"
+    );
+    folder(&bench, "outside", &command);
+    let filters = "velocity_gather:coarse,./outside:coarse";
+    assert_done(&bench.run(&["--filters", filters]));
+    let run = run(&bench);
+    let [kernels, program] = &run.cases[..] else {
+        panic!("two filters on one scene");
+    };
+    // Colours and mattes travel as 32-bit floats: nothing is lost on the way.
+    assert_eq!(kernels.scores, program.scores);
+    assert_eq!(program.parameters["samples"], filters::Value::Integer(8));
+    assert_eq!(kernels.command, None);
+    assert!((program.command.as_ref().unwrap()).contains(&"{frame}".to_owned()));
+}
+
+#[test]
+fn a_program_needs_no_adapter() {
+    let bench = Bench::new();
+    script(&bench, "copy", "cp $1 $2", "");
+    let mut command = bench.command(&["run", "--quiet", "--out", "out", "--filter", "copy"]);
+    command.args(["--size", "64x32", "--samples-per-pixel", "16"]);
+    command.env("VK_DRIVER_FILES", "/no/driver.json");
+    command.env("VK_ICD_FILENAMES", "/no/driver.json");
+    let output = command.output().unwrap();
+    assert_done(&output);
+    assert!(
+        stdout(&output).contains("adapter: none"),
+        "{}",
+        stdout(&output)
+    );
+    assert_eq!(run(&bench).adapter, None);
+    // One that was asked for must be there all the same.
+    let output = command.args(["--adapter", "0"]).output().unwrap();
+    assert_refused(&output, 3, &["mesa-vulkan-drivers"]);
+}
+
+#[test]
+fn the_program_of_the_readme_takes_part() {
+    let readme = include_str!("../../README.md");
+    let start = readme
+        .split("```toml\nname = \"my_engine\"")
+        .nth(1)
+        .unwrap();
+    let manifest = format!("name = \"my_engine\"{}", start.split("```").next().unwrap());
+    let bench = Bench::new();
+    fs::create_dir_all(bench.path("my_engine")).unwrap();
+    fs::write(bench.path("my_engine/filter.toml"), manifest).unwrap();
+    fs::create_dir_all(bench.path("bin")).unwrap();
+    let program = env!("CARGO_BIN_EXE_shuttertruth");
+    let line = "blur --filter velocity_gather --frame $1 --out $2 --exposure $4";
+    executable(
+        &bench,
+        "bin/my_blur",
+        &format!("[ $3 = --shutter ] && {program} {line}"),
+    );
+    let path = format!(
+        "{}:{}",
+        bench.path("bin").display(),
+        std::env::var("PATH").unwrap()
+    );
+    render(&bench);
+    let mut command = bench.command(&blur("./my_engine"));
+    assert_done(&command.env("PATH", path).output().unwrap());
+    let outside = read_exr(&bench.path("b.exr")).unwrap().color("").unwrap();
+    assert_done(&bench.shuttertruth(&blur("velocity_gather")));
+    let inside = read_exr(&bench.path("b.exr")).unwrap().color("").unwrap();
+    assert_eq!(outside, inside);
+}
+
+#[test]
+fn a_program_knows_what_kernels_know_and_no_more() {
+    let bench = Bench::new();
+    render(&bench);
+    let more = "[[parameter]]\nname = \"gain\"\nkind = \"real\"\nrange = [0, 2]\ndefault = 0.25\ndoc = \"\"";
+    let command = "command = [\"./blur.sh\", \"{frame}\", \"{out}\", \"{exposure},{frame_index},{gain},{{}}\"]";
+    folder(&bench, "told", &format!("{command}\n{more}"));
+    executable(
+        &bench,
+        "told/blur.sh",
+        "pwd > where; echo $3 > words; cp $1 given.exr; cp $1 $2; echo chatter",
+    );
+    let output = bench.shuttertruth(&[&blur("./told")[..], &["--frame-index", "7"]].concat());
+    assert_done(&output);
+    assert_eq!(
+        stdout(&output),
+        "b.exr\n",
+        "what the program prints is kept aside"
+    );
+    let read = |name: &str| fs::read_to_string(bench.path("told").join(name)).unwrap();
+    assert_eq!(read("words"), "0.5,7,0.25,{}\n");
+    let here = fs::canonicalize(bench.path("told")).unwrap();
+    assert_eq!(
+        fs::canonicalize(read("where").trim_end()).unwrap(),
+        here,
+        "it runs in its folder"
+    );
+    let given = read_exr(&bench.path("told/given.exr")).unwrap();
+    let names: Vec<&str> = given.channels.iter().map(|c| c.name.as_str()).collect();
+    assert_eq!(names, ["B", "G", "R", "Z", "velocity.X", "velocity.Y"]);
+    let attributes: Vec<_> = given.attributes.iter().collect();
+    let expected = [("exposure", "0.5"), ("frame_index", "7")];
+    let expected = expected.map(|(name, value)| (name.to_owned(), value.to_owned()));
+    assert_eq!(attributes, expected.each_ref().map(|(n, v)| (n, v)));
+    let frame = Frame::read(&bench.path("r/plate/frame.exr")).unwrap();
+    assert_eq!(given.color("").unwrap(), frame.color);
+    assert_eq!(given.plane("Z").unwrap(), frame.depth);
+    let x = given.plane("velocity.X").unwrap();
+    assert_eq!(x, frame.velocity.map(|velocity| velocity[0]));
+    let blurred = read_exr(&bench.path("b.exr")).unwrap();
+    assert_eq!(blurred.color("").unwrap(), frame.color);
+}
+
+#[test]
+fn an_edited_program_is_run_anew() {
+    let bench = Bench::new();
+    script(&bench, "copy", "cp $1 $2", "");
+    assert_done(&bench.run(&["--filter", "copy"]));
+    executable(&bench, "copy/blur.sh", "exit 3");
+    let refused = bench.run(&["--filter", "copy"]);
+    assert_refused(
+        &refused,
+        2,
+        &["filter copy on plate: ", "ended with exit status: 3"],
+    );
+}
+
+#[test]
+fn programs_that_fail_say_how_and_leave_no_picture() {
+    let bench = Bench::new();
+    render(&bench);
+    let mut odd = ExrFile::new(5, 4);
+    odd.push_color("", &Raster::filled(5, 4, [0.5; 3]));
+    write_exr(&bench.path("odd.exr"), &odd).unwrap();
+    let mut broken = ExrFile::new(64, 32);
+    let pixels = Raster::from_fn(64, 32, |x, y| {
+        [if (x, y) == (9, 3) { f32::NAN } else { 0.5 }; 3]
+    });
+    broken.push_color("", &pixels);
+    write_exr(&bench.path("nan.exr"), &broken).unwrap();
+    broken.channels.retain(|channel| channel.name != "G");
+    write_exr(&bench.path("no_green.exr"), &broken).unwrap();
+    let rows: &[(&str, &[&str])] = &[
+        (
+            "for i in 1 2 3 4 5 6 7 8 9 10 11 12; do echo line $i >&2; done; exit 7",
+            &[
+                "`./blur.sh frame.exr out.exr` ended with exit status: 7",
+                "printed:\nline 3\nline 4\n",
+                "\nline 12\n",
+            ],
+        ),
+        (
+            "kill -9 $$",
+            &["ended with signal: 9", "it printed nothing"],
+        ),
+        (
+            "echo done",
+            &["ended well, but wrote no {out}", "printed:\ndone"],
+        ),
+        (
+            "cp $0 $2",
+            &["wrote an {out} that cannot be used: not a complete OpenEXR file"],
+        ),
+        (
+            "cp ../odd.exr $2",
+            &["wrote 5x4 pixels; the frame has 64x32"],
+        ),
+        (
+            "cp ../nan.exr $2",
+            &["wrote [NaN, NaN, NaN] at pixel (9, 3)", "finite"],
+        ),
+        (
+            "cp ../no_green.exr $2",
+            &["wrote an {out} that cannot be used: lacks the channel \"G\""],
+        ),
+    ];
+    for (lines, parts) in rows {
+        script(&bench, "mine", lines, "");
+        let output = bench.shuttertruth(&blur("./mine"));
+        assert_refused(
+            &output,
+            2,
+            &[&["shuttertruth: filter mine: "][..], parts].concat(),
+        );
+        assert!(!bench.path("b.exr").exists(), "{lines}");
+        assert!(!stderr(&output).contains("line 2\n"), "ten lines are shown");
+    }
+    for (program, parts) in [
+        (
+            "no_such_program",
+            ["`no_such_program` is not on the PATH", "./no_such_program"],
+        ),
+        ("./no_such_program", ["cannot be run in", "No such file"]),
+        ("./filter.toml", ["cannot be run in", "Permission denied"]),
+    ] {
+        let command = format!("command = [\"{program}\", \"{{frame}}\", \"{{out}}\"]");
+        folder(&bench, "mine", &command);
+        assert_refused(&bench.shuttertruth(&blur("./mine")), 2, &parts);
+    }
+}
+
+/// Starts a program of two processes that would go on for minutes; `pid` names the second.
+const SLEEPERS: &str = "sleep 300 & echo $! > pid.new; mv pid.new pid; sleep 300";
+
+#[track_caller]
+fn assert_ended(bench: &Bench) {
+    let pid = fs::read_to_string(bench.path("slow/pid")).unwrap();
+    let state = || {
+        let mut ps = Command::new("ps");
+        let output = ps.args(["-o", "stat=", "-p", pid.trim_end()]).output();
+        stdout(&output.unwrap())
+    };
+    // The kill has been sent; the system may take a moment. A zombie has ended, and nobody has asked for it yet.
+    for _ in 0..500 {
+        if state().is_empty() || state().starts_with('Z') {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    panic!("what the program started is still there");
+}
+
+#[test]
+fn a_program_that_takes_too_long_is_stopped_with_all_that_it_started() {
+    let bench = Bench::new();
+    render(&bench);
+    // Long enough for a shell to write a line on a busy machine.
+    script(&bench, "slow", SLEEPERS, "time_limit = 5");
+    let output = bench.shuttertruth(&blur("./slow"));
+    assert_refused(
+        &output,
+        2,
+        &[
+            "took longer than 5 s and was stopped",
+            "time_limit",
+            "slow/filter.toml",
+        ],
+    );
+    assert_ended(&bench);
+}
+
+#[test]
+fn ctrl_c_stops_a_program() {
+    let bench = Bench::new();
+    render(&bench);
+    script(&bench, "slow", SLEEPERS, "");
+    let mut child = bench.command(&blur("./slow")).spawn().unwrap();
+    while !bench.path("slow/pid").exists() {
+        assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    let interrupt = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(interrupt.unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert_ended(&bench);
+    assert!(!bench.path("b.exr").exists());
+}
+
+#[test]
+fn folders_of_programs_that_cannot_be_are_refused_with_the_line() {
+    let bench = Bench::new();
+    let parameter = |name: &str| {
+        format!(
+            "[[parameter]]\nname = \"{name}\"\nkind = \"integer\"\nrange = [1, 3]\ndefault = 2\ndoc = \"\""
+        )
+    };
+    let copy = "command = [\"cp\", \"{frame}\", \"{out}\"]";
+    let pass = "[[pass]]\nentry = \"blur\"";
+    let rows: Vec<(String, &[&str])> = vec![
+        ("command = []".into(), &["filter.toml:4: command: is empty"]),
+        (
+            "command = [\"\"]".into(),
+            &["filter.toml:4:", "the program, is empty"],
+        ),
+        ("command = \"cp\"".into(), &["filter.toml:4:", "sequence"]),
+        (
+            "command = [\"cp\", \"{out}\"]".into(),
+            &["filter.toml:4:", "{frame} is missing"],
+        ),
+        (
+            "command = [\"cp\", \"{frame}\"]".into(),
+            &["filter.toml:4:", "{out} is missing"],
+        ),
+        (
+            "command = [\"cp\", \"{frame}\", \"{out}\", \"-m{shutter}\"]".into(),
+            &[
+                "\"-m{shutter}\" holds the unknown {shutter}",
+                "allowed: {frame}, {out}, {exposure}, {frame_index}, and",
+            ],
+        ),
+        (
+            "command = [\"cp\", \"{frame}\", \"{out}\", \"{\"]".into(),
+            &["\"{\" has a brace without the other"],
+        ),
+        (
+            format!("{copy}\n{}", parameter("taps")),
+            &["filter.toml:4:", "{taps} is missing"],
+        ),
+        (
+            format!("{copy}\n{}", parameter("exposure")),
+            &["{exposure} already stands for"],
+        ),
+        (
+            format!("{copy}\n{pass}"),
+            &["filter.toml:5:", "neither [[pass]] nor [[texture]]"],
+        ),
+        (
+            format!("{copy}\ntime_limit = 0"),
+            &["filter.toml:5: time_limit = 0;", "above 0"],
+        ),
+        (
+            format!("{copy}\ntime_limit = nan"),
+            &["filter.toml:5: time_limit = NaN;"],
+        ),
+        (format!("{copy}\ntime_limit = 1e9"), &["at most 86400"]),
+        (
+            format!("time_limit = 3\n{pass}"),
+            &["filter.toml:4:", "for filters that are a command"],
+        ),
+        (String::new(), &["neither a [[pass]] nor a command"]),
+    ];
+    for (lines, parts) in rows {
+        folder(&bench, "mine", &lines);
+        assert_refused(&bench.run(&["--filter", "mine"]), 2, parts);
+        assert!(!bench.path("out").exists(), "{lines}");
+    }
+}

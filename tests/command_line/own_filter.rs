@@ -1,0 +1,101 @@
+//! A filter of one's own: the README's works as it stands, and its mistakes say what the README says.
+
+use std::fs;
+
+use crate::bench::{Bench, assert_done, stderr};
+
+const README: &str = include_str!("../../README.md");
+
+/// The README's part about bringing one's own.
+fn section() -> &'static str {
+    let start = README.split_once("\n## Bring your own\n").unwrap().1;
+    start.split_once("\n## ").unwrap().0
+}
+
+/// The first code block of that language in the section.
+fn block(language: &str) -> &'static str {
+    let start = section().split_once(&format!("```{language}\n")).unwrap().1;
+    start.split_once("```").unwrap().0
+}
+
+/// Writes the README's filter, with one word written for another in one of its files.
+fn write(bench: &Bench, change: Option<&Mistake>) {
+    for (name, text) in [
+        ("filter.toml", block("toml")),
+        ("my_blur.wgsl", block("wgsl")),
+    ] {
+        let text = match change {
+            Some(change) if change.file == name => {
+                assert!(text.contains(change.from), "{name} holds {}", change.from);
+                text.replace(change.from, change.to)
+            }
+            _ => text.to_owned(),
+        };
+        fs::create_dir_all(bench.path("my_blur")).unwrap();
+        fs::write(bench.path("my_blur").join(name), text).unwrap();
+    }
+}
+
+/// A mistake that the README shows: `from` written `to` in a file, and what the program says to it.
+struct Mistake {
+    from: &'static str,
+    to: &'static str,
+    file: &'static str,
+    says: String,
+}
+
+/// The items ``- .., `from` written `to` in file:``, each with a block of code.
+fn mistakes() -> Vec<Mistake> {
+    (section().split("\n- ").skip(1))
+        .map(|item| {
+            let (head, code) = item.split_once(":\n\n").unwrap();
+            let words: Vec<&str> = head.split('`').collect();
+            let [_, from, " written ", to, file] = words[..] else {
+                panic!("\"{head}\" shows no mistake");
+            };
+            // The code ends where lines are no longer indented.
+            let lines: Vec<&str> = (code.lines())
+                .take_while(|line| line.starts_with("      "))
+                .map(|line| &line[6..])
+                .collect();
+            Mistake {
+                from,
+                to,
+                file: file.strip_prefix(" in ").unwrap(),
+                says: lines.join("\n") + "\n",
+            }
+        })
+        .collect()
+}
+
+#[test]
+fn the_filter_of_the_readme_runs_and_is_better_than_none() {
+    let bench = Bench::new();
+    write(&bench, None);
+    assert!(block("wgsl").lines().count() <= 20);
+    assert_done(&bench.run(&["--filters", "identity", "--filter", "my_blur"]));
+    let run: suite::Run =
+        serde_json::from_slice(&fs::read(bench.path("out/run.json")).unwrap()).unwrap();
+    let flip = |case: usize| run.cases[case].scores.moving.flip.value().unwrap();
+    assert_eq!(run.cases[1].filter, "my_blur");
+    // A gather along the pixel's own velocity gets the inside of the plate right, and not what it smears over: about half.
+    assert!(flip(1) < 0.8 * flip(0), "{} of {}", flip(1), flip(0));
+}
+
+#[test]
+fn each_mistake_says_what_the_readme_says() {
+    let bench = Bench::new();
+    let mistakes = mistakes();
+    assert_eq!(
+        mistakes.len(),
+        4,
+        "an entry point, a parameter, a texture, a line that does not compile"
+    );
+    for mistake in &mistakes {
+        write(&bench, Some(mistake));
+        let output = bench.run(&["--filter", "my_blur"]);
+        assert_eq!(stderr(&output), mistake.says);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(!bench.path("out").exists());
+    }
+}

@@ -1,0 +1,277 @@
+//! Finished pictures, scored by themselves.
+
+use std::fs;
+use std::path::Path;
+
+use frame::{ExrFile, Frame, Raster, Truth, display_srgb, read_exr, write_exr, write_png};
+use metrics::{Metric, Scores};
+
+use crate::bench::{Bench, SCENE, assert_done, assert_refused, stdout};
+
+const TRUTH: [&str; 2] = ["--truth", "out/plate/truth_trailing.exr"];
+const FRAME: [&str; 2] = ["--frame", "out/plate/frame.exr"];
+const LADDER: [&str; 2] = ["--ladder", "out/plate/ladder_trailing.exr"];
+const OUTPUT: &str = "out/plate/velocity_gather_fine/output.exr";
+
+fn score(bench: &Bench, image: &str, more: &[&str]) -> std::process::Output {
+    let words = [&["score", "--image", image][..], &TRUTH, &FRAME, more];
+    bench.shuttertruth(&words.concat())
+}
+
+fn scores(bench: &Bench, image: &str, more: &[&str]) -> Scores {
+    let output = score(bench, image, &[more, &["--json"]].concat());
+    assert_done(&output);
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(json["scene"], "plate");
+    assert_eq!(json["alignment"], "trailing");
+    serde_json::from_value(json["scores"].clone()).unwrap()
+}
+
+/// A run of one filter on the plate; its scores.
+fn run(bench: &Bench, more: &[&str]) -> Scores {
+    assert_done(&bench.run(&[&["--filters", "velocity_gather:fine"], more].concat()));
+    let run: suite::Run =
+        serde_json::from_slice(&fs::read(bench.path("out/run.json")).unwrap()).unwrap();
+    run.cases[0].scores.clone()
+}
+
+/// Writes the colours alone of an OpenEXR file.
+fn without_mattes(bench: &Bench, from: &str, to: &str) {
+    let mut file = read_exr(&bench.path(from)).unwrap();
+    file.channels
+        .retain(|channel| !channel.name.starts_with("coverage"));
+    file.attributes.clear();
+    write_exr(&bench.path(to), &file).unwrap();
+}
+
+/// Whether a metric is about colours, and so can be told of any picture.
+fn of_colour(metric: &Metric) -> bool {
+    matches!(
+        metric,
+        Metric::Image(..) | Metric::EquivalentSubframes | Metric::EquivalentSubframesFlip
+    )
+}
+
+#[test]
+fn the_output_of_a_run_scores_as_in_the_run() {
+    let bench = Bench::new();
+    let expected = run(&bench, &[]);
+    assert_eq!(scores(&bench, OUTPUT, &LADDER), expected);
+    let output = score(&bench, OUTPUT, &LADDER);
+    assert_done(&output);
+    assert!(
+        stdout(&output).contains("truth: trailing shutter, open for 0.5 frames"),
+        "{}",
+        stdout(&output)
+    );
+    assert!(!stdout(&output).contains("mattes"), "{}", stdout(&output));
+}
+
+#[test]
+fn colours_without_mattes_keep_the_scores_of_colour_and_miss_the_others() {
+    let bench = Bench::new();
+    let expected = run(&bench, &[]);
+    without_mattes(&bench, OUTPUT, "mine.exr");
+    let found = scores(&bench, "mine.exr", &LADDER);
+    for metric in Metric::all() {
+        if of_colour(&metric) {
+            assert_eq!(found.get(metric), expected.get(metric), "{metric}");
+        } else {
+            assert_eq!(found.get(metric).value(), None, "{metric}");
+        }
+    }
+    let text = stdout(&score(&bench, "mine.exr", &[]));
+    let lines: Vec<&str> = (text.lines())
+        .filter(|line| line.starts_with("not available: "))
+        .collect();
+    let [mattes, ladder] = lines[..] else {
+        panic!("two reasons are given:\n{text}");
+    };
+    assert!(
+        mattes.contains("the picture has no mattes, channels coverage.<object>"),
+        "{mattes}"
+    );
+    assert!(
+        ladder.starts_with("not available: n_eq, n_eq_flip: no ladder")
+            && ladder.contains("--ladder"),
+        "{ladder}"
+    );
+    for metric in Metric::all() {
+        let listed = |line: &str| line.contains(&format!(" {metric}")); // each follows a blank
+        assert!(
+            of_colour(&metric) || listed(mattes),
+            "{metric} is missing, and not listed in: {mattes}"
+        );
+    }
+}
+
+#[test]
+fn a_png_is_brought_back_to_the_radiance_that_it_showed() {
+    // The plate's radiance is up to 0.7: half of it shown, and twice, which exceeds display white.
+    for (stops, bright) in [("-1.0", false), ("1.0", true)] {
+        let bench = Bench::new();
+        let display = format!("[display]\nstops = {stops}\n[background]");
+        bench.write("scene.toml", &SCENE.replace("[background]", &display));
+        let expected = run(&bench, &[]);
+        let png = OUTPUT.replace(".exr", ".png");
+        let found = scores(&bench, &png, &LADDER);
+        let flip = |scores: &Scores| scores.moving.flip.value().unwrap();
+        // Steps of 1/255 in sRGB are hardly seen. A forgotten stop is: the whole picture is half or twice as bright.
+        assert!(
+            (flip(&found) - flip(&expected)).abs() < 0.004,
+            "{} {}",
+            flip(&found),
+            flip(&expected)
+        );
+        assert_eq!(found.full.flip_hdr.value(), None);
+        let psnr = |scores: &Scores| scores.moving.psnr.value().unwrap();
+        let text = stdout(&score(&bench, &png, &[]));
+        let undone = format!(
+            "display exposure of {} stops undone",
+            &stops[..stops.len() - 2]
+        );
+        assert!(text.contains(&undone), "{text}");
+        assert_eq!(
+            text.contains("display white, which the truth exceeds in"),
+            bright,
+            "{text}"
+        );
+        if !bright {
+            // Likewise, in decibels.
+            assert!((psnr(&found) - psnr(&expected)).abs() < 0.1);
+        }
+    }
+}
+
+#[test]
+fn a_guard_band_is_cropped_from_the_picture() {
+    let bench = Bench::new();
+    let expected = run(&bench, &["--guard-band", "8"]);
+    let words = ["blur", "--filter", "velocity_gather:fine", "--out", "b.exr"];
+    assert_done(&bench.shuttertruth(&[&words[..], &FRAME].concat()));
+    let found = scores(&bench, "b.exr", &[]);
+    assert_eq!(found.moving, expected.moving);
+    assert_eq!(found.full, expected.full);
+    let text = stdout(&score(&bench, "b.exr", &[]));
+    assert!(
+        text.contains("cropped by the frame's guard band of 8 pixels"),
+        "{text}"
+    );
+}
+
+#[test]
+fn what_does_not_belong_together_is_refused() {
+    let bench = Bench::new();
+    let words = ["--quiet", "--samples-per-pixel", "16", "--out"];
+    let render = |more: &[&str]| {
+        assert_done(&bench.shuttertruth(&[&["render"][..], &words, more].concat()));
+    };
+    render(&["out", "--alignments", "trailing,centred"]);
+    render(&["short", "--exposure", "0.25"]);
+    render(&["small", "--size", "32x16"]);
+    fs::rename(bench.path("scenes/plate"), bench.path("scenes/other")).unwrap();
+    render(&["out"]);
+    let blur = |more: &[&str]| {
+        let words = ["blur", "--filter", "velocity_gather", "--out", "b.exr"];
+        assert_done(&bench.shuttertruth(&[&words[..], &FRAME, more].concat()));
+    };
+    let refused = |words: [&str; 6], parts: &[&str]| {
+        assert_refused(
+            &bench.shuttertruth(&[&["score"], &words[..]].concat()),
+            2,
+            parts,
+        );
+    };
+    let image = ["--image", "b.exr"];
+    let with = |truth: &'static str, frame: &'static str| {
+        ["--truth", truth, "--frame", frame, image[0], image[1]]
+    };
+    let (trailing, frame) = (TRUTH[1], FRAME[1]);
+    blur(&[]);
+    refused(
+        with("out/plate/truth_centred.exr", frame),
+        &["b.exr: was made for the shutter alignment trailing, the truth has centred"],
+    );
+    refused(
+        with("short/plate/truth_trailing.exr", frame),
+        &["b.exr: was made for an exposure of 0.5, the truth has 0.25"],
+    );
+    refused(
+        with(trailing, "short/plate/frame.exr"),
+        &["the frame's exposure has 0.25, the truth has 0.5"],
+    );
+    refused(
+        with("small/plate/truth_trailing.exr", frame),
+        &["b.exr: has 64x32 pixels, the truth has 32x16"],
+    );
+    refused(
+        with(trailing, "out/other/frame.exr"),
+        &["out/other/frame.exr: was rendered from the scene other, the truth from plate"],
+    );
+    refused(
+        with(frame, frame),
+        &["frame.exr: is a frame; a truth is needed"],
+    );
+    refused(
+        with(trailing, "b.exr"),
+        &["b.exr: is a output; a frame is needed"],
+    );
+    blur(&["--exposure", "0.25"]);
+    refused(
+        with(trailing, frame),
+        &["b.exr: was made for an exposure of 0.25, the truth has 0.5"],
+    );
+}
+
+#[test]
+fn pictures_that_cannot_be_scored_are_refused_with_their_name() {
+    let bench = Bench::new();
+    run(&bench, &[]);
+    let refused = |image: &str, parts: &[&str]| {
+        assert_refused(&score(&bench, image, &[]), 2, &[&[image], parts].concat());
+    };
+    refused("nowhere.exr", &["cannot read"]);
+    refused("nowhere.png", &["cannot read"]);
+    refused(
+        "scenes/plate/plate.obj",
+        &["allowed: a name that ends with .exr or .png"],
+    );
+    fs::copy(bench.path("scenes/plate/plate.obj"), bench.path("no.png")).unwrap();
+    refused("no.png", &["not a PNG that can be read"]);
+    fs::copy(bench.path("no.png"), bench.path("no.exr")).unwrap();
+    refused("no.exr", &["not a complete OpenEXR file"]);
+    write_png(&bench.path("odd.png"), &Raster::filled(5, 4, [0.5; 3])).unwrap();
+    refused("odd.png", &["has 5x4 pixels, the truth has 64x32"]);
+
+    let mut file = read_exr(&bench.path(OUTPUT)).unwrap();
+    file.channels
+        .retain(|channel| channel.name != "coverage.plate");
+    write_exr(&bench.path("part.exr"), &file).unwrap();
+    refused("part.exr", &["lacks the channel \"coverage.plate\""]);
+    let mut file = ExrFile::new(64, 32);
+    let pixels = Raster::from_fn(64, 32, |x, y| {
+        [if (x, y) == (9, 3) { f32::NAN } else { 0.5 }; 3]
+    });
+    file.push_color("", &pixels);
+    write_exr(&bench.path("nan.exr"), &file).unwrap();
+    refused("nan.exr", &["NaN at pixel (9, 3)"]);
+}
+
+#[test]
+fn the_truth_itself_is_without_error_as_exr_and_as_png() {
+    let bench = Bench::new();
+    run(&bench, &[]);
+    let truth = Truth::read(&bench.path(TRUTH[1])).unwrap();
+    let stops = Frame::read(&bench.path(FRAME[1])).unwrap().display.stops;
+    let shown = display_srgb(&truth.mean().color, stops);
+    write_png(Path::new(&bench.path("truth.png")), &shown).unwrap();
+    let exact = scores(&bench, TRUTH[1], &[]);
+    assert_eq!(exact.full.flip.value(), Some(0.0));
+    let shown = scores(&bench, "truth.png", &[]);
+    // Half a step of 1/255 in sRGB.
+    assert!(
+        shown.full.flip.value().unwrap() < 0.01,
+        "{:?}",
+        shown.full.flip
+    );
+}
