@@ -1,6 +1,6 @@
 //! The truth, ready to measure any number of pictures against.
 
-use frame::{Frame, Ladder, Picture, Plane, Raster, Truth, regions};
+use frame::{Frame, Image, Ladder, Picture, Plane, Raster, Truth, regions};
 use rayon::prelude::*;
 
 use crate::check::{check_agreement, check_picture, check_viewing};
@@ -81,8 +81,7 @@ impl<'a> Reference<'a> {
     /// Measures one picture.
     pub fn measure(&self, output: &Picture) -> Result<Measurement, MeasureError> {
         check_picture(output, self.truth, "the output")?;
-        let halves = self.truth.halves.each_ref().map(|half| &half.color);
-        let errors = ErrorMaps::new(output, halves, &self.mean, &self.viewing);
+        let errors = ErrorMaps::new(output, self.half_colors(), &self.mean, &self.viewing);
         let pairs = || self.objects.iter().zip(&output.coverage[1..]);
         let objects = pairs().map(|(object, matte)| {
             let region = &self.regions.moving;
@@ -103,6 +102,15 @@ impl<'a> Reference<'a> {
             },
             maps: errors.maps(output, &self.mean, bleed),
         })
+    }
+
+    pub(crate) fn viewing(&self) -> &Viewing {
+        &self.viewing
+    }
+
+    /// The colours of the truth's halves.
+    pub(crate) fn half_colors(&self) -> [&Image; 2] {
+        self.truth.halves.each_ref().map(|half| &half.color)
     }
 
     fn image_scores(&self, errors: &ErrorMaps, region: Region) -> ImageScores {

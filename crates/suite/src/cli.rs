@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use frame::{Alignment, ColorSampling, VelocityKind};
+use suite::{Border, DepthFormat, VelocityFormat};
 
 /// How good is a real-time motion blur? Renders the truth of moving scenes, runs filters on one frame of each, and
 /// measures how far they are from it.
@@ -59,6 +60,18 @@ pub struct RunArgs {
     /// Independent renders behind each truth, an even number; each has an eighth of --samples-per-pixel.
     #[arg(long, value_name = "N", default_value_t = 8)]
     pub replicates: u32,
+    /// Forms of the velocity buffer, separated by commas, to be tried on every filter beside 32-bit floats.
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "FORMATS")]
+    pub velocity_format: Vec<VelocityFormat>,
+    /// Forms of the depth buffer to be tried beside 32-bit floats.
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "FORMATS")]
+    pub depth_format: Vec<DepthFormat>,
+    /// What lies beyond the border, to be tried beside what each filter makes of it; see also --guard-band.
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "POLICIES")]
+    pub border: Vec<Border>,
+    /// Frames of its noise that a noisy filter is tried with, to tell its noise from its other errors; 0 for none.
+    #[arg(long, value_name = "N", default_value_t = 16)]
+    pub jitter_frames: u32,
     #[command(flatten)]
     pub adapter: AdapterArgs,
     /// Print run.json to standard output instead of the table.

@@ -14,19 +14,34 @@ pub fn picture(
 ) -> Result<Picture, FilterError> {
     let mattes = pack(&frame.coverage);
     let colors: Vec<&Image> = std::iter::once(&frame.color).chain(&mattes).collect();
-    let mut outputs = filter.run(&Input {
-        color: &colors,
-        velocity: &frame.velocity,
-        depth: &frame.depth,
-        reprojection: Some(frame.reprojection.moved(f64::from(frame.guard_band))),
-        exposure: frame.exposure,
-        frame_index,
-    })?;
+    let mut outputs = filter.run(&input(frame, &colors, frame_index))?;
     let color = outputs.remove(0);
     Ok(Picture {
         color,
         coverage: unpack(&outputs, frame.coverage.len()),
     })
+}
+
+/// Runs the filter on the frame's colour alone.
+pub(crate) fn color(
+    filter: &mut Runner,
+    frame: &Frame,
+    frame_index: u32,
+) -> Result<Image, FilterError> {
+    Ok(filter
+        .run(&input(frame, &[&frame.color], frame_index))?
+        .remove(0))
+}
+
+fn input<'a>(frame: &'a Frame, color: &'a [&'a Image], frame_index: u32) -> Input<'a> {
+    Input {
+        color,
+        velocity: &frame.velocity,
+        depth: &frame.depth,
+        reprojection: Some(frame.reprojection.moved(f64::from(frame.guard_band))),
+        exposure: frame.exposure,
+        frame_index,
+    }
 }
 
 /// Three planes to an image; the last is filled up with zeros.

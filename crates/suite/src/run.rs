@@ -1,21 +1,22 @@
 //! The main job: render every scene, run every filter on it, measure how far each picture is from the truth.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use filters::{AdapterDescription, Command, FilterError, Gpu, Value};
+use filters::{AdapterDescription, Gpu};
 use frame::{Alignment, Frame, Ladder, Truth};
-use metrics::{Measurement, Reference, Scores, Viewing};
+use metrics::{Reference, Viewing};
 use serde::{Deserialize, Serialize};
-use tracer::{Family, Scene};
+use tracer::Scene;
 
-use crate::bounds::{Bounds, Verdict, judge};
-use crate::pictures::{write_case, write_scene};
-use crate::probe::picture;
+use crate::bounds::Bounds;
+use crate::case::Case;
+use crate::pictures::write_scene;
 use crate::progress::interrupted;
 use crate::rendered::{frame_of, scene_folder, truth_and_ladder_of};
 use crate::selection::FilterChoice;
-use crate::{Error, PROGRAM, RenderSettings, Runner};
+use crate::workbench::Workbench;
+use crate::{Error, InputFormat, PROGRAM, RenderSettings};
 
 /// Version of the layout of `run.json`; it rises when a reader of the old one would misread the new one.
 pub const FORMAT: u32 = 1;
@@ -49,41 +50,8 @@ pub struct Run {
     pub sky_velocity: bool,
     /// Pixels by which frames reached beyond the picture on every side.
     pub guard_band: u32,
-    /// One per scene and filter preset, in the order they ran.
+    /// Per scene: the bars, then one per filter preset and form of the input, in the order they ran.
     pub cases: Vec<Case>,
-}
-
-/// One filter preset on one scene.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Case {
-    /// Scene, with its variant: `sliding_panel@64px_45deg`.
-    pub scene: String,
-    /// The scene's family.
-    pub family: Family,
-    /// What the scene exposes.
-    pub exposes: String,
-    /// Exposure in frames.
-    pub exposure: f64,
-    /// Filter name.
-    pub filter: String,
-    /// The preset that the parameters started from.
-    pub preset: String,
-    /// Every parameter's value.
-    pub parameters: BTreeMap<String, Value>,
-    /// Program and arguments of a filter that is a command, as filter.toml has them. What the program itself does is
-    /// recorded nowhere.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub command: Option<Vec<String>>,
-    /// The shutter alignment that the filter declares and is scored against.
-    pub alignment: String,
-    /// Hash of the truth's inputs: equal hashes mean equal truths.
-    pub truth_hash: String,
-    /// The measured scores, each with its noise floor.
-    pub scores: Scores,
-    /// How the scores stand to the scene's bounds.
-    pub verdicts: Vec<Verdict>,
-    /// Folder of the case's pictures, relative to `run.json`.
-    pub folder: PathBuf,
 }
 
 /// What a run is to do.
@@ -92,6 +60,10 @@ pub struct Plan {
     pub scenes: Vec<(Scene, Bounds)>,
     /// Loaded filters.
     pub filters: Vec<FilterChoice>,
+    /// The forms in which every filter gets the frame.
+    pub inputs: Vec<InputFormat>,
+    /// Frames of noise that a noisy filter is tried with; fewer than 2 leave its noise alone.
+    pub jitter_frames: u32,
     /// How scenes are rendered.
     pub render: RenderSettings,
     /// Where files go.
@@ -114,20 +86,34 @@ pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, 
             truths.values().map(|(truth, _)| truth),
         )?;
         let references = references(scene, &frame.cropped(), &truths)?;
-        for choice in &plan.filters {
-            if interrupted() {
-                return Err(tracer::TraceError::Cancelled.into());
-            }
-            let (truth, _) = &truths[&choice.filter.alignment];
-            let reference = &references[&choice.filter.alignment];
-            cases.push(run_case(
+        let stored: Vec<(InputFormat, Frame)> = (plan.inputs.iter())
+            .map(|format| (*format, format.of(&frame)))
+            .collect();
+        for (alignment, (truth, ladder)) in &truths {
+            let workbench = Workbench {
                 plan,
-                gpu,
                 scene,
                 bounds,
-                (&frame, truth, reference),
-                choice,
-            )?);
+                truth,
+                reference: &references[alignment],
+            };
+            cases.extend(workbench.bars(&frame, ladder)?);
+        }
+        for choice in &plan.filters {
+            let (truth, _) = &truths[&choice.filter.alignment];
+            let workbench = Workbench {
+                plan,
+                scene,
+                bounds,
+                truth,
+                reference: &references[&choice.filter.alignment],
+            };
+            for (format, frame) in &stored {
+                if interrupted() {
+                    return Err(tracer::TraceError::Cancelled.into());
+                }
+                cases.push(workbench.filter(gpu, choice, *format, frame)?);
+            }
         }
     }
     Ok(Run {
@@ -181,55 +167,6 @@ fn references<'a>(
             ))
         })
         .collect()
-}
-
-fn run_case(
-    plan: &Plan,
-    gpu: Option<&Gpu>,
-    scene: &Scene,
-    bounds: &Bounds,
-    (frame, truth, reference): (&Frame, &Truth, &Reference),
-    choice: &FilterChoice,
-) -> Result<Case, Error> {
-    let mut runner = Runner::new(gpu, choice, frame.size())?;
-    let output = picture(&mut runner, frame, 0)
-        .map_err(|error| on_scene(error, scene))?
-        .cropped(frame.guard_band);
-    let Measurement { scores, maps } = reference.measure(&output)?;
-    let folder = Path::new(&scene.name).join(choice.name().replace(':', "_"));
-    write_case(
-        &plan.out.join(&folder),
-        scene,
-        &frame.objects,
-        &output,
-        &maps,
-    )?;
-    Ok(Case {
-        scene: scene.name.clone(),
-        family: scene.family,
-        exposes: scene.exposes.clone(),
-        exposure: frame.exposure,
-        filter: choice.filter.name.clone(),
-        preset: choice.preset.clone(),
-        parameters: choice.settings.values.clone(),
-        command: choice.filter.command.as_ref().map(Command::words),
-        alignment: choice.filter.alignment.name().to_owned(),
-        truth_hash: truth.provenance.content_hash.clone(),
-        verdicts: judge(&scores, bounds),
-        scores,
-        folder,
-    })
-}
-
-/// A program may fail on one scene and not on another.
-fn on_scene(error: FilterError, scene: &Scene) -> FilterError {
-    match error {
-        FilterError::Command { filter, reason } => FilterError::Command {
-            filter: format!("{filter} on {}", scene.name),
-            reason,
-        },
-        other => other,
-    }
 }
 
 /// The photographic exposures that a scene is compared at.

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use suite::{
-    Error, Outcome, Plan, Run, open_gpu, read_bounds, run, select_filters, select_scenes, table,
+    Error, InputFormat, Outcome, Plan, Run, open_gpu, read_bounds, run, select_filters,
+    select_scenes, table,
 };
 
 use super::{render_settings, say};
@@ -30,6 +31,8 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
     let plan = Plan {
         scenes,
         filters,
+        inputs: InputFormat::one_by_one(&args.velocity_format, &args.depth_format, &args.border),
+        jitter_frames: args.jitter_frames,
         render: render_settings(&args.scenes, args.size, args.replicates)?,
         out: args.scenes.out.clone(),
         quiet: args.scenes.quiet,

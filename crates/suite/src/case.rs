@@ -1,0 +1,70 @@
+//! What was measured of one picture of a scene.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use filters::Value;
+use metrics::{Jitter, Scores};
+use serde::{Deserialize, Serialize};
+use tracer::Family;
+
+use crate::InputFormat;
+use crate::bounds::Verdict;
+
+/// One filter preset, or one bar, on one scene.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Case {
+    /// Scene, with its variant: `sliding_panel@64px_45deg`.
+    pub scene: String,
+    /// The scene's family.
+    pub family: Family,
+    /// What the scene exposes.
+    pub exposes: String,
+    /// Exposure in frames.
+    pub exposure: f64,
+    /// Filter name; a bar's is `scatter_oracle` or `accumulate`.
+    pub filter: String,
+    /// The preset that the parameters started from; of `accumulate` the number of sub-frames.
+    pub preset: String,
+    /// Whether this is a bar to measure filters by: no filter, and not held to bounds.
+    pub bar: bool,
+    /// The form in which the filter got the frame.
+    pub input: InputFormat,
+    /// Every parameter's value.
+    pub parameters: BTreeMap<String, Value>,
+    /// Program and arguments of a filter that is a command, as filter.toml has them. What the program itself does is
+    /// recorded nowhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub command: Option<Vec<String>>,
+    /// The shutter alignment that the filter declares and is scored against.
+    pub alignment: String,
+    /// Hash of the truth's inputs: equal hashes mean equal truths.
+    pub truth_hash: String,
+    /// The measured scores, each with its noise floor.
+    pub scores: Scores,
+    /// What of the error is noise; none for filters without any, or where it was not asked for.
+    pub jitter: Option<Jitter>,
+    /// How the scores stand to the scene's bounds.
+    pub verdicts: Vec<Verdict>,
+    /// Folder of the case's pictures, relative to `run.json`.
+    pub folder: PathBuf,
+}
+
+impl Case {
+    /// How tables and folders call it: `jump_flood:paper`, and behind that what is not as usual.
+    pub fn name(&self) -> String {
+        let mut name = match self.filter.as_str() {
+            SCATTER_ORACLE => self.filter.clone(),
+            _ => format!("{}:{}", self.filter, self.preset),
+        };
+        if let Some(change) = self.input.change() {
+            name += &format!(" {change}");
+        }
+        name
+    }
+}
+
+/// The bar that [`crate::scatter_oracle`] sets.
+pub(crate) const SCATTER_ORACLE: &str = "scatter_oracle";
+/// The bars that averages of sub-frames set.
+pub(crate) const ACCUMULATE: &str = "accumulate";

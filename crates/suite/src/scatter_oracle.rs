@@ -1,0 +1,213 @@
+//! The best picture that one frame with straight motion can give: a bar for filters, far too slow to be one.
+
+use frame::{Efficiency, Frame, Image, Picture, Plane, Raster, Shutter, ShutterProfile};
+use rayon::prelude::*;
+
+/// Instants are at least so many, and so many per pixel that the fastest pixel moves.
+const FEWEST_INSTANTS: u32 = 64;
+const INSTANTS_PER_PIXEL: f64 = 4.0;
+const MOST_INSTANTS: u32 = 1024;
+/// Instants whose pictures are in memory together.
+const TOGETHER: usize = 16;
+
+/// For many instants of the shutter, moves every pixel of the frame along its velocity, lets the nearer hide the farther,
+/// and fills places that nothing came to from the farthest of what lies nearest to them in each of the four directions; then
+/// averages. As large as the frame, guard band included.
+pub fn scatter_oracle(frame: &Frame, shutter: Shutter, profile: &ShutterProfile) -> Picture {
+    let instants = instants(frame, shutter, &profile.efficiency);
+    let height = frame.color.height - 2 * frame.guard_band;
+    let mut sums = Sums::new(frame);
+    for together in instants.chunks(TOGETHER) {
+        let seen: Vec<Vec<u32>> = together
+            .par_iter()
+            .map(|instant| {
+                let row_delay = |row: u32| {
+                    let row = row.saturating_sub(frame.guard_band).min(height - 1);
+                    profile.row_offset(row, height)
+                };
+                filled(frame, moved(frame, instant.time, row_delay))
+            })
+            .collect();
+        for (instant, seen) in together.iter().zip(&seen) {
+            sums.add(frame, seen, instant.weight);
+        }
+    }
+    sums.picture(frame)
+}
+
+/// A time of the shutter, and its share of the light.
+struct Instant {
+    time: f64,
+    weight: f64,
+}
+
+fn instants(frame: &Frame, shutter: Shutter, efficiency: &Efficiency) -> Vec<Instant> {
+    let speeds = frame.velocity.pixels.iter().map(|v| v[0].hypot(v[1]));
+    let way = f64::from(speeds.fold(0.0, f32::max)) * shutter.exposure();
+    let wanted = (INSTANTS_PER_PIXEL * way).ceil() as u32;
+    let count = wanted.clamp(FEWEST_INSTANTS, MOST_INSTANTS);
+    let knots = efficiency.knots();
+    let middles = (0..count).map(|index| (f64::from(index) + 0.5) / f64::from(count));
+    let passing: Vec<(f64, f64)> = middles.map(|part| (part, light_at(&knots, part))).collect();
+    let total: f64 = passing.iter().map(|(_, light)| light).sum();
+    passing
+        .into_iter()
+        .map(|(part, light)| Instant {
+            time: shutter.at(part),
+            weight: light / total,
+        })
+        .collect()
+}
+
+/// How much light passes at a part of the interval, by the points between which that is linear.
+fn light_at(knots: &[[f64; 2]], part: f64) -> f64 {
+    let next = knots.partition_point(|[at, _]| *at <= part);
+    let [from, to] = [knots[next - 1], knots[next.min(knots.len() - 1)]];
+    let length = to[0] - from[0];
+    if length > 0.0 {
+        from[1] + (part - from[0]) / length * (to[1] - from[1])
+    } else {
+        to[1]
+    }
+}
+
+/// A place that nothing came to.
+const HOLE: u32 = u32::MAX;
+
+/// Per pixel, which pixel of the frame is there at a time: the nearest to the camera.
+fn moved(frame: &Frame, time: f64, row_delay: impl Fn(u32) -> f64) -> Vec<u32> {
+    let (width, height) = frame.size();
+    let mut seen = vec![HOLE; frame.color.pixels.len()];
+    for row in 0..height {
+        let time = (time + row_delay(row)) as f32;
+        for column in 0..width {
+            let source = row * width + column;
+            let [right, down] = frame.velocity.pixels[source as usize];
+            let x = (column as f32 + 0.5 + right * time).floor();
+            let y = (row as f32 + 0.5 + down * time).floor();
+            if x < 0.0 || y < 0.0 || x >= width as f32 || y >= height as f32 {
+                continue;
+            }
+            let place = &mut seen[(y as u32 * width + x as u32) as usize];
+            let depth = |pixel: u32| frame.depth.pixels[pixel as usize];
+            if *place == HOLE || depth(source) < depth(*place) {
+                *place = source;
+            }
+        }
+    }
+    seen
+}
+
+/// The same without holes.
+fn filled(frame: &Frame, seen: Vec<u32>) -> Vec<u32> {
+    let (width, height) = frame.size();
+    let [width, height] = [width as usize, height as usize];
+    let mut fills: Vec<Option<Fill>> = vec![None; seen.len()];
+    for row in 0..height {
+        let along: Vec<usize> = (0..width).map(|column| row * width + column).collect();
+        offer(frame, &seen, along.iter().copied(), &mut fills);
+        offer(frame, &seen, along.iter().rev().copied(), &mut fills);
+    }
+    for column in 0..width {
+        let along: Vec<usize> = (0..height).map(|row| row * width + column).collect();
+        offer(frame, &seen, along.iter().copied(), &mut fills);
+        offer(frame, &seen, along.iter().rev().copied(), &mut fills);
+    }
+    let own = |place: usize| place as u32;
+    seen.iter()
+        .enumerate()
+        .map(|(place, source)| match (*source, &fills[place]) {
+            (HOLE, Some(fill)) => fill.source,
+            // All of the frame has left it.
+            (HOLE, None) => own(place),
+            (source, _) => source,
+        })
+        .collect()
+}
+
+/// What may fill a hole.
+#[derive(Clone, Copy)]
+struct Fill {
+    source: u32,
+    depth: f32,
+    distance: u32,
+}
+
+/// Walks a line of places and offers each hole what was met last: the farther wins, then the nearer in the picture.
+fn offer(
+    frame: &Frame,
+    seen: &[u32],
+    line: impl Iterator<Item = usize>,
+    fills: &mut [Option<Fill>],
+) {
+    let mut last: Option<Fill> = None;
+    for place in line {
+        if seen[place] != HOLE {
+            last = Some(Fill {
+                source: seen[place],
+                depth: frame.depth.pixels[seen[place] as usize],
+                distance: 0,
+            });
+            continue;
+        }
+        let Some(offered) = &mut last else { continue };
+        offered.distance += 1;
+        let better = fills[place].is_none_or(|fill| {
+            offered.depth > fill.depth
+                || (offered.depth == fill.depth && offered.distance < fill.distance)
+        });
+        if better {
+            fills[place] = Some(*offered);
+        }
+    }
+}
+
+/// Weighted sums of colours and coverages.
+struct Sums {
+    color: Vec<[f64; 3]>,
+    coverage: Vec<Vec<f64>>,
+}
+
+impl Sums {
+    fn new(frame: &Frame) -> Self {
+        let pixels = frame.color.pixels.len();
+        Self {
+            color: vec![[0.0; 3]; pixels],
+            coverage: vec![vec![0.0; pixels]; frame.coverage.len()],
+        }
+    }
+
+    fn add(&mut self, frame: &Frame, seen: &[u32], weight: f64) {
+        for (sum, source) in self.color.iter_mut().zip(seen) {
+            let color = frame.color.pixels[*source as usize];
+            *sum = [0, 1, 2].map(|c| sum[c] + weight * f64::from(color[c]));
+        }
+        for (sums, plane) in self.coverage.iter_mut().zip(&frame.coverage) {
+            for (sum, source) in sums.iter_mut().zip(seen) {
+                *sum += weight * f64::from(plane.pixels[*source as usize]);
+            }
+        }
+    }
+
+    fn picture(&self, frame: &Frame) -> Picture {
+        let (width, height) = frame.size();
+        let color: Image = Raster {
+            width,
+            height,
+            pixels: (self.color.iter())
+                .map(|sum| sum.map(|component| component as f32))
+                .collect(),
+        };
+        let plane = |sums: &Vec<f64>| -> Plane {
+            Raster {
+                width,
+                height,
+                pixels: sums.iter().map(|sum| *sum as f32).collect(),
+            }
+        };
+        Picture {
+            color,
+            coverage: self.coverage.iter().map(plane).collect(),
+        }
+    }
+}

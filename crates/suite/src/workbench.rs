@@ -1,0 +1,174 @@
+//! A scene ready to measure pictures of it.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use filters::{Command, FilterError, Gpu, Value};
+use frame::{Frame, Image, Ladder, Picture, Truth};
+use metrics::{Jitter, Measurement, Reference};
+use tracer::Scene;
+
+use crate::bounds::{Bounds, judge};
+use crate::case::{ACCUMULATE, Case, SCATTER_ORACLE};
+use crate::pictures::write_case;
+use crate::probe::{color, picture};
+use crate::run::Plan;
+use crate::scatter_oracle::scatter_oracle;
+use crate::selection::FilterChoice;
+use crate::{Error, InputFormat, Runner};
+
+/// Accumulations that are shown beside the filters.
+const SUBFRAMES: [u32; 4] = [4, 8, 16, 64];
+
+/// One scene and the truth of one alignment.
+pub(crate) struct Workbench<'a> {
+    pub plan: &'a Plan,
+    pub scene: &'a Scene,
+    pub bounds: &'a Bounds,
+    pub truth: &'a Truth,
+    pub reference: &'a Reference<'a>,
+}
+
+impl Workbench<'_> {
+    /// What filters are measured by: the best that the frame allows, and averages of sub-frames.
+    pub fn bars(&self, frame: &Frame, ladder: &Ladder) -> Result<Vec<Case>, Error> {
+        let oracle = scatter_oracle(frame, self.truth.shutter, &self.truth.shutter_profile);
+        let oracle = oracle.cropped(frame.guard_band);
+        let mut bars = vec![self.bar(frame, SCATTER_ORACLE, "", &oracle)?];
+        let rungs = ladder.rungs.iter();
+        for rung in rungs.filter(|rung| SUBFRAMES.contains(&rung.subframes)) {
+            let mean = Picture::mean(&rung.halves);
+            bars.push(self.bar(frame, ACCUMULATE, &rung.subframes.to_string(), &mean)?);
+        }
+        Ok(bars)
+    }
+
+    /// Runs a filter on a frame of this form.
+    pub fn filter(
+        &self,
+        gpu: Option<&Gpu>,
+        choice: &FilterChoice,
+        input: InputFormat,
+        frame: &Frame,
+    ) -> Result<Case, Error> {
+        let mut runner = Runner::new(gpu, choice, frame.size())?;
+        let output = picture(&mut runner, frame, 0)
+            .map_err(|error| on_scene(error, self.scene))?
+            .cropped(frame.guard_band);
+        let jitter = self.jitter(&mut runner, frame, &output.color)?;
+        let subject = Subject {
+            filter: choice.filter.name.clone(),
+            preset: choice.preset.clone(),
+            bar: false,
+            input,
+            parameters: choice.settings.values.clone(),
+            command: choice.filter.command.as_ref().map(Command::words),
+            jitter,
+        };
+        self.case(frame, &output, subject)
+    }
+
+    fn bar(
+        &self,
+        frame: &Frame,
+        name: &str,
+        preset: &str,
+        output: &Picture,
+    ) -> Result<Case, Error> {
+        let subject = Subject {
+            filter: name.to_owned(),
+            preset: preset.to_owned(),
+            bar: true,
+            ..Subject::default()
+        };
+        self.case(frame, output, subject)
+    }
+
+    /// More frames of the filter's noise; none where the second is as the first, or too few are asked for.
+    fn jitter(
+        &self,
+        runner: &mut Runner,
+        frame: &Frame,
+        first: &Image,
+    ) -> Result<Option<Jitter>, Error> {
+        let mut outputs = vec![first.clone()];
+        for frame_index in 1..self.plan.jitter_frames {
+            let output = color(runner, frame, frame_index)
+                .map_err(|error| on_scene(error, self.scene))?
+                .cropped(frame.guard_band);
+            if frame_index == 1 && output == *first {
+                return Ok(None);
+            }
+            outputs.push(output);
+        }
+        Ok(match outputs.len() {
+            1 => None,
+            _ => self.reference.jitter(&outputs),
+        })
+    }
+
+    /// Measures a picture and writes it and its error maps.
+    fn case(&self, frame: &Frame, output: &Picture, subject: Subject) -> Result<Case, Error> {
+        let Measurement { scores, maps } = self.reference.measure(output)?;
+        let folder = Path::new(&self.scene.name).join(subject.folder(self.truth));
+        let files = self.plan.out.join(&folder);
+        write_case(&files, self.scene, &frame.objects, output, &maps)?;
+        Ok(Case {
+            scene: self.scene.name.clone(),
+            family: self.scene.family,
+            exposes: self.scene.exposes.clone(),
+            exposure: frame.exposure,
+            filter: subject.filter,
+            preset: subject.preset,
+            bar: subject.bar,
+            input: subject.input,
+            parameters: subject.parameters,
+            command: subject.command,
+            alignment: self.truth.alignment.name().to_owned(),
+            truth_hash: self.truth.provenance.content_hash.clone(),
+            jitter: subject.jitter,
+            verdicts: match subject.bar {
+                true => Vec::new(),
+                false => judge(&scores, self.bounds),
+            },
+            scores,
+            folder,
+        })
+    }
+}
+
+/// What made a picture.
+#[derive(Default)]
+struct Subject {
+    filter: String,
+    preset: String,
+    bar: bool,
+    input: InputFormat,
+    parameters: BTreeMap<String, Value>,
+    command: Option<Vec<String>>,
+    jitter: Option<Jitter>,
+}
+
+impl Subject {
+    /// Name of the folder of its pictures. A bar may be made for several alignments.
+    fn folder(&self, truth: &Truth) -> String {
+        let mut parts = vec![self.filter.clone(), self.preset.clone()];
+        if self.bar {
+            parts.push(truth.alignment.name().to_owned());
+        }
+        parts.extend(self.input.change().map(|change| change.replace('=', "_")));
+        parts.retain(|part| !part.is_empty());
+        parts.join("_")
+    }
+}
+
+/// A program may fail on one scene and not on another.
+fn on_scene(error: FilterError, scene: &Scene) -> FilterError {
+    match error {
+        FilterError::Command { filter, reason } => FilterError::Command {
+            filter: format!("{filter} on {}", scene.name),
+            reason,
+        },
+        other => other,
+    }
+}
