@@ -155,7 +155,12 @@ fn a_program_knows_what_kernels_know_and_no_more() {
     let names: Vec<&str> = given.channels.iter().map(|c| c.name.as_str()).collect();
     assert_eq!(names, ["B", "G", "R", "Z", "velocity.X", "velocity.Y"]);
     let attributes: Vec<_> = given.attributes.iter().collect();
-    let expected = [("exposure", "0.5"), ("frame_index", "7")];
+    let still = "1 0 0 0 0 1 0 0 0 0 1 0";
+    let expected = [
+        ("exposure", "0.5"),
+        ("frame_index", "7"),
+        ("reprojection", still),
+    ];
     let expected = expected.map(|(name, value)| (name.to_owned(), value.to_owned()));
     assert_eq!(attributes, expected.each_ref().map(|(n, v)| (n, v)));
     let frame = Frame::read(&bench.path("r/plate/frame.exr")).unwrap();
