@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn radiance_that_was_shown_comes_back_but_for_what_lay_above_white() {
-        for stops in [-2.0, 0.0, 1.5] {
+        for stops in [-2.0_f32, 0.0, 1.5] {
             let white = (-stops).exp2();
             for radiance in [0.0, 0.001, 0.0031308, 0.0032, 0.18, 0.999, 1.0, 3.0] {
                 let radiance = radiance * white;
