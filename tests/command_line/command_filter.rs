@@ -39,7 +39,7 @@ fn render(bench: &Bench) {
     assert_done(&bench.shuttertruth(&[&words[..], &["16"]].concat()));
 }
 
-fn blur<'a>(filter: &'a str) -> [&'a str; 7] {
+fn blur(filter: &str) -> [&str; 7] {
     let frame = "r/plate/frame.exr";
     [
         "blur", "--filter", filter, "--frame", frame, "--out", "b.exr",
