@@ -5,7 +5,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::process::Command;
 use std::time::Duration;
 
-use frame::{ExrFile, Frame, Raster, read_exr, write_exr};
+use frame::{ExrFile, Frame, Raster, Reprojection, read_exr, write_exr};
 
 use crate::bench::{Bench, assert_done, assert_refused, stderr, stdout};
 
@@ -39,7 +39,7 @@ fn render(bench: &Bench) {
     assert_done(&bench.shuttertruth(&[&words[..], &["16"]].concat()));
 }
 
-fn blur<'a>(filter: &'a str) -> [&'a str; 7] {
+fn blur(filter: &str) -> [&str; 7] {
     let frame = "r/plate/frame.exr";
     [
         "blur", "--filter", filter, "--frame", frame, "--out", "b.exr",
@@ -154,11 +154,12 @@ fn a_program_knows_what_kernels_know_and_no_more() {
     let given = read_exr(&bench.path("told/given.exr")).unwrap();
     let names: Vec<&str> = given.channels.iter().map(|c| c.name.as_str()).collect();
     assert_eq!(names, ["B", "G", "R", "Z", "velocity.X", "velocity.Y"]);
-    let attributes: Vec<_> = given.attributes.iter().collect();
-    let expected = [("exposure", "0.5"), ("frame_index", "7")];
-    let expected = expected.map(|(name, value)| (name.to_owned(), value.to_owned()));
-    assert_eq!(attributes, expected.each_ref().map(|(n, v)| (n, v)));
+    let attributes: Vec<&str> = given.attributes.keys().map(String::as_str).collect();
+    assert_eq!(attributes, ["exposure", "frame_index", "reprojection"]);
     let frame = Frame::read(&bench.path("r/plate/frame.exr")).unwrap();
+    let reprojection = Reprojection::from_exr(&given).unwrap();
+    assert_eq!(reprojection, frame.reprojection);
+    assert_eq!(given.get::<u32>("frame_index").unwrap(), 7);
     assert_eq!(given.color("").unwrap(), frame.color);
     assert_eq!(given.plane("Z").unwrap(), frame.depth);
     let x = given.plane("velocity.X").unwrap();

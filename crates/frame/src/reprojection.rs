@@ -43,8 +43,8 @@ impl Reprojection {
         }
     }
 
-    /// Writes the attribute.
-    pub(crate) fn set(&self, file: &mut ExrFile) {
+    /// Sets the attribute `reprojection`.
+    pub fn set(&self, file: &mut ExrFile) {
         let numbers = self.rows.as_flattened().iter().map(f64::to_string);
         file.set("reprojection", numbers.collect::<Vec<_>>().join(" "));
     }

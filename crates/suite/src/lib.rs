@@ -34,7 +34,7 @@ pub use rendered::{
 pub use run::{FORMAT, Plan, Run, run, viewing};
 pub use runner::{Runner, open_gpu};
 pub use scatter_oracle::scatter_oracle;
-pub use score::{missing, score};
+pub use score::{Scored, missing, score};
 pub use selection::{FilterChoice, SceneChoice, select_filters, select_scenes};
 pub use table::{score_table, table};
 

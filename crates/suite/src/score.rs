@@ -1,6 +1,6 @@
 //! The scores of a finished picture: all that its file allows.
 
-use frame::{Frame, Ladder, Picture, Truth};
+use frame::{Frame, Image, Ladder, Picture, Truth, display_srgb, scene_linear};
 use metrics::{
     Equivalent, ImageScores, LabelScores, MeasureError, Measured, Metric, ObjectScores, Reference,
     Scores,
@@ -12,22 +12,32 @@ const NO_MATTES: &str = "the picture has no mattes, channels coverage.<object> t
                          to each object";
 const SHOWN: &str = "a PNG holds nothing above display white";
 
-/// Scores a finished picture against the truth, viewed as the frame says. What its file does not allow is not
-/// applicable, with the reason.
+/// A finished picture's scores, and what there is to know about them.
+pub struct Scored {
+    /// What its file does not allow is not applicable, with the reason.
+    pub scores: Scores,
+    /// In words.
+    pub notes: Vec<String>,
+}
+
+/// Scores a finished picture against the truth, at the exposures that the frame names.
 pub fn score(
     finished: &Finished,
     frame: &Frame,
     truth: &Truth,
     ladder: Option<&Ladder>,
-) -> Result<Scores, MeasureError> {
+) -> Result<Scored, MeasureError> {
     let frame = frame.cropped();
     let reference = Reference::new(&frame, truth, ladder, &frame.display.into())?;
-    let picture = Picture {
-        color: finished.color.clone(),
-        // No colour's score looks at mattes, and those of mattes are taken out below.
-        coverage: (finished.mattes.clone()).unwrap_or_else(|| frame.coverage.clone()),
+    // No colour's score looks at mattes, and those of mattes are taken out below.
+    let mattes = finished.mattes.as_ref().unwrap_or(&frame.coverage);
+    let measured = |color: Image| {
+        let coverage = mattes.clone();
+        let measurement = reference.measure(&Picture { color, coverage })?;
+        Ok(measurement.scores)
     };
-    let mut scores = reference.measure(&picture)?.scores;
+    let mut scores = measured(finished.color.clone())?;
+    let mut notes = finished.notes.clone();
     if finished.mattes.is_none() {
         take_out_mattes(&mut scores);
     }
@@ -35,8 +45,21 @@ pub fn score(
         for region in [&mut scores.moving, &mut scores.still, &mut scores.full] {
             take_out_brightness(region);
         }
+        let rounded = measured(rounded(&truth.mean().color, frame.display.stops))?;
+        if let Some(flip) = rounded.moving.flip.value() {
+            notes.push(format!(
+                "the truth itself, as a PNG of 8 bits, would have a flip_moving of {flip:.3}"
+            ));
+        }
     }
-    Ok(scores)
+    Ok(Scored { scores, notes })
+}
+
+/// The image as a PNG of 8 bits keeps it.
+fn rounded(image: &Image, stops: f32) -> Image {
+    let shown = display_srgb(image, stops);
+    let steps = shown.map(|pixel| pixel.map(|value| (value * 255.0).round() / 255.0));
+    scene_linear(&steps, stops)
 }
 
 /// Which scores do not apply, by their reasons, each in the order of a report.

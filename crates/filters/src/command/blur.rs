@@ -187,6 +187,9 @@ fn frame_file(color: &Image, input: &Input) -> ExrFile {
     file.push_plane("Z", input.depth);
     file.push_plane("velocity.X", &input.velocity.map(|v| v[0]));
     file.push_plane("velocity.Y", &input.velocity.map(|v| v[1]));
+    if let Some(reprojection) = input.reprojection {
+        reprojection.set(&mut file);
+    }
     file.set("exposure", input.exposure);
     file.set("frame_index", input.frame_index);
     file

@@ -1,8 +1,8 @@
 //! `shuttertruth score`
 
 use frame::{Frame, Ladder, Truth};
-use metrics::{Metric, Scores};
-use suite::{Error, Finished, missing, read_finished, score, score_table};
+use metrics::Metric;
+use suite::{Error, Scored, missing, read_finished, score, score_table};
 
 use super::say;
 use crate::cli::ScoreArgs;
@@ -14,12 +14,12 @@ pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
     let ladder = args.ladder.as_deref().map(Ladder::read).transpose()?;
     check_scenes(args, &truth, &frame, ladder.as_ref())?;
     let picture = read_finished(&args.image, &frame, &truth)?;
-    let scores = score(&picture, &frame, &truth, ladder.as_ref())
+    let scored = score(&picture, &frame, &truth, ladder.as_ref())
         .map_err(|error| Error::Usage(format!("{}: {error}", args.image.display())))?;
     if args.json {
-        say(&json(args, &truth, &picture, &scores))
+        say(&json(args, &truth, &scored))
     } else {
-        say(&text(args, &truth, &picture, &scores))
+        say(&text(args, &truth, &scored))
     }
 }
 
@@ -44,7 +44,7 @@ fn check_scenes(
     Ok(())
 }
 
-fn text(args: &ScoreArgs, truth: &Truth, picture: &Finished, scores: &Scores) -> String {
+fn text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Scored) -> String {
     let name = args.image.file_name().unwrap_or(args.image.as_os_str());
     let name = name.to_string_lossy();
     let mut text = score_table(&truth.provenance.scene, &name, scores);
@@ -53,7 +53,7 @@ fn text(args: &ScoreArgs, truth: &Truth, picture: &Finished, scores: &Scores) ->
         truth.alignment,
         truth.shutter.exposure()
     );
-    for note in &picture.notes {
+    for note in notes {
         text += &format!("{name}: {note}\n");
     }
     for (reason, metrics) in missing(scores) {
@@ -69,7 +69,7 @@ fn text(args: &ScoreArgs, truth: &Truth, picture: &Finished, scores: &Scores) ->
     text
 }
 
-fn json(args: &ScoreArgs, truth: &Truth, picture: &Finished, scores: &Scores) -> String {
+fn json(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Scored) -> String {
     let scored = serde_json::json!({
         "format": suite::FORMAT,
         "program": suite::PROGRAM,
@@ -78,7 +78,7 @@ fn json(args: &ScoreArgs, truth: &Truth, picture: &Finished, scores: &Scores) ->
         "exposure": truth.shutter.exposure(),
         "alignment": truth.alignment.name(),
         "truth_hash": truth.provenance.content_hash,
-        "notes": picture.notes,
+        "notes": notes,
         "scores": scores,
     });
     let json = serde_json::to_string_pretty(&scored).expect("scores are plain data");
