@@ -1,0 +1,6 @@
+//! What the blurs of game engines do and do not, measured: what was read in their sources, shown true or false.
+
+mod bevy;
+mod jimenez;
+mod kino;
+mod picture;
