@@ -306,3 +306,104 @@ fn tiles_along_the_motion_leave_those_beside_it_alone() {
     let expected: Vec<(u32, u32)> = (6..=14).map(|x| (x, 4)).collect();
     assert_eq!(reached, expected);
 }
+
+#[test]
+fn mirrored_weights_show_background_from_the_other_side() {
+    // A black mover on the right; the wall is black for 4 pixels beside it and white beyond.
+    let picture = Picture::new(160, 64, |x, _| match x {
+        80.. => Surface {
+            gray: 0.0,
+            ..white(24.0)
+        },
+        _ => Surface {
+            gray: if x < 76 { 1.0 } else { 0.0 },
+            ..BLACK_WALL
+        },
+    });
+    let seen = |mirror: &str| {
+        let output = picture.blurred("jimenez", "advanced_warfare", &[("mirror", mirror)]);
+        column(&output, 79)
+    };
+    // In all pairs the tap on the right reaches the mover; 8.5 of 12 pixels on the left are white, and half of the taps
+    // are on the left. One tap more or less, a sixteenth.
+    let expected = 0.5 * 8.5 / 12.0;
+    assert!(
+        (seen("slow_background") - expected).abs() < 1.0 / 16.0,
+        "{} instead of {expected}",
+        seen("slow_background")
+    );
+    // By itself a still background reaches nothing, but for the half pixel of bilinear fetches.
+    assert!(seen("off") < 0.02, "{}", seen("off"));
+}
+
+#[test]
+fn weighted_directions_leave_out_what_crosses_the_trail() {
+    // On the right something white that moves down; around it everything moves right.
+    let picture = Picture::new(160, 64, |x, _| match x {
+        80.. => Surface {
+            velocity: [0.0, 24.0],
+            ..white(0.0)
+        },
+        _ => Surface {
+            velocity: [25.0, 0.0],
+            ..BLACK_WALL
+        },
+    });
+    let seen = |direction: &str| {
+        let overrides = [
+            ("direction", direction),
+            ("plain_tiles", "never"),
+            ("mirror", "off"),
+        ];
+        column(&picture.blurred("jimenez", "hdrp", &overrides), 76)
+    };
+    // A third of the right half of the taps lies beyond 4 pixels of 12.
+    assert!(seen("ignored") > 0.2, "{}", seen("ignored"));
+    // What bilinear fetches mix into the half pixel at its edge.
+    assert!(seen("weighted") < 0.01, "{}", seen("weighted"));
+}
+
+#[test]
+fn plain_tiles_forget_depth_where_motions_are_alike() {
+    // In front something white that moves 8 pixels, behind it 24: in their tiles the least is over a quarter.
+    let picture = Picture::new(160, 64, |x, _| match x {
+        80.. => white(8.0),
+        _ => Surface {
+            velocity: [24.0, 0.0],
+            ..BLACK_WALL
+        },
+    });
+    let seen = |plain: &str| {
+        let overrides = [("plain_tiles", plain), ("mirror", "off")];
+        column(&picture.blurred("jimenez", "hdrp", &overrides), 72)
+    };
+    // It comes 4 pixels to each side, and 8 are beyond a step of 3 more.
+    assert!(seen("never") < 0.01, "{}", seen("never"));
+    // A box of 24 pixels, of which 4.5 lie in it.
+    assert!(
+        (seen("similar") - 4.5 / 24.0).abs() < 0.03,
+        "{}",
+        seen("similar")
+    );
+}
+
+#[test]
+fn taps_off_the_picture_are_dropped_or_read_its_border() {
+    // A white column at the border, in motion with everything else.
+    let picture = Picture::new(80, 64, |x, _| Surface {
+        gray: if x == 0 { 1.0 } else { 0.0 },
+        velocity: [24.0, 0.0],
+        depth: 2.0,
+    });
+    let seen = |border: &str| {
+        let output = picture.blurred("jimenez", "kajiya", &[("border", border)]);
+        column(&output, 4)
+    };
+    // Trails go 13.5 pixels to the left of 4.5: a third of the 27 reads the border, or one pixel of the 18 that are left.
+    assert!(
+        (seen("clamp") - 10.0 / 27.0).abs() < 0.05,
+        "{}",
+        seen("clamp")
+    );
+    assert!((seen("drop") - 1.0 / 18.0).abs() < 0.03, "{}", seen("drop"));
+}
