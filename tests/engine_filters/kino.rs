@@ -54,11 +54,9 @@ fn the_order_of_taps_makes_the_two_sides_of_a_mover_differ() {
     let light = |distances: [f64; 18]| distances.iter().sum::<f64>();
     let behind = light(std::array::from_fn(|i| column(&right, 79 - i as u32)));
     let ahead = light(std::array::from_fn(|i| column(&left, 80 + i as u32)));
-    // The tap to the right is the first of each pair; seen first, the bar teaches that all behind it moves as far.
-    assert!(
-        (behind - ahead).abs() > 0.05 * behind.max(ahead),
-        "{behind} and {ahead}"
-    );
+    // The tap to the right is the first of each pair; seen first, the bar teaches that what lies behind it moves as far,
+    // and its own share shrinks. Without the order the two were equal but for rounding.
+    assert!(behind < 0.97 * ahead, "{behind} and {ahead}");
 }
 
 #[test]
