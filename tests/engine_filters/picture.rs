@@ -54,6 +54,7 @@ impl Picture {
             depth: &self.depth,
             exposure: self.exposure,
             frame_index: 0,
+            reprojection: None,
         }
     }
 
@@ -127,4 +128,27 @@ pub fn moving_edge(width: u32, height: u32, velocity: [f32; 2]) -> Picture {
         velocity,
         depth: 2.0,
     })
+}
+
+/// A black picture whose lower half moves fast in front, and in its upper half something white that moves less.
+pub fn slow_above_fast(slow: f32, fast: f32) -> Picture {
+    Picture::new(320, 64, |x, y| match (x, y) {
+        (_, 32..) => Surface {
+            gray: 0.0,
+            ..white(fast)
+        },
+        (160.., _) => white(slow),
+        _ => BLACK_WALL,
+    })
+}
+
+/// Light in the rows just above the fast half, so many pixels left of the slow thing.
+pub fn light_above(output: &Image, distances: std::ops::Range<u32>) -> f32 {
+    let pixels = distances.flat_map(|distance| (24..32).map(move |y| (159 - distance, y)));
+    pixels.map(|(x, y)| output.at(x, y)[0]).sum()
+}
+
+/// Sum of the columns.
+pub fn light(image: &Image, columns: std::ops::Range<u32>) -> f64 {
+    columns.map(|x| column(image, x)).sum()
 }
