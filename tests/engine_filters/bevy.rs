@@ -108,3 +108,38 @@ fn a_wide_picture_skews_what_counts_on_diagonals() {
     // Four times as wide: the vertical part of the way counts 16 times as much, and next to nothing arrives.
     assert!(light(&wide, "uv") < 0.5 * light(&wide, "pixel"));
 }
+
+#[test]
+fn sky_counts_however_it_moves() {
+    let seen = |depth: f32| {
+        let picture = Picture::new(120, 64, |x, _| Surface {
+            gray: if x < 60 { 0.0 } else { 1.0 },
+            velocity: [if x < 60 { 24.0 } else { 0.0 }, 0.0],
+            depth,
+        });
+        column(&picture.blurred("bevy", "high", &[]), 56)
+    };
+    // Of 24 pixels of trail 8.5 lie beyond the edge; one tap of 16 more or less.
+    let expected = 8.5 / 24.0;
+    let found = seen(frame::FAR_DEPTH);
+    assert!(
+        (found - expected).abs() < 1.0 / 16.0,
+        "{found} instead of {expected}"
+    );
+    // A still wall at the same depth came from nowhere; bilinear fetches mix motions in the half pixel at the edge.
+    assert!(seen(20.0) < 0.05, "{}", seen(20.0));
+}
+
+#[test]
+fn taps_off_the_picture_are_skipped() {
+    // A white column at the border, in motion with everything else.
+    let picture = Picture::new(80, 64, |x, _| Surface {
+        gray: if x == 0 { 1.0 } else { 0.0 },
+        velocity: [24.0, 0.0],
+        depth: 2.0,
+    });
+    // Of the 12 pixels of trail to the left of 4.5, the border's one is a pixel of the 16.5 that are left. Clamped taps
+    // would make it 8.5 of 24.
+    let found = column(&picture.blurred("bevy", "high", &[]), 4);
+    assert!((found - 1.0 / 16.5).abs() < 0.03, "{found}");
+}

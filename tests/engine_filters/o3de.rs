@@ -42,9 +42,8 @@ fn o3de_mixes_still_things_near_a_mover_with_what_lies_behind_them() {
     // The rows above the mover, within its tiles' reach.
     let darkest = |overrides: &[(&str, &str)]| {
         let output = picture.blurred("jimenez", "o3de", overrides);
-        let mut post = (22..38).flat_map(|y| (60..70).map(move |x| (x, y)));
-        post.try_fold(1.0f32, |least, (x, y)| Some(least.min(output.at(x, y)[0])))
-            .unwrap()
+        let post = (22..38).flat_map(|y| (60..70).map(move |x| (x, y)));
+        post.map(|(x, y)| output.at(x, y)[0]).fold(1.0, f32::min)
     };
     assert!(darkest(&[]) < 0.5, "{}", darkest(&[]));
     // With the pixel's own motion for the tile's, only taps within a step of a still pixel count: one pair of 24.
