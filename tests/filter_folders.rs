@@ -176,10 +176,14 @@ fn a_texture_that_a_pass_reads_and_writes_is_exchanged_for_every_colour() {
 #[test]
 fn built_in_folders_load_from_disk_alike() {
     let shaders = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders");
-    assert_eq!(
-        Filter::builtin_names(),
-        ["camera_gather", "identity", "jump_flood", "velocity_gather"]
-    );
+    let folders = std::fs::read_dir(&shaders).unwrap().map(Result::unwrap);
+    let mut names: Vec<String> = folders
+        .filter(|entry| entry.path().is_dir())
+        .map(|entry| entry.file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    assert!(names.len() > 1);
+    assert_eq!(Filter::builtin_names(), names);
     for name in Filter::builtin_names() {
         let (built_in, on_disk) = (
             Filter::builtin(&name).unwrap(),
@@ -301,7 +305,7 @@ fn unknown_names_list_what_there_is() {
     let filter = Filter::builtin("velocity_gather").unwrap();
     let unknown = Filter::builtin("bokeh").unwrap_err().to_string();
     assert!(
-        unknown.contains("bokeh") && unknown.contains("identity, jump_flood, velocity_gather"),
+        unknown.contains("bokeh") && unknown.contains(&Filter::builtin_names().join(", ")),
         "{unknown}"
     );
     let preset = filter.settings(Some("best")).unwrap_err().to_string();

@@ -27,6 +27,12 @@ fn every_preset() -> Vec<(Filter, Settings)> {
         .collect()
 }
 
+fn trailing_presets() -> impl Iterator<Item = (Filter, Settings)> {
+    every_preset()
+        .into_iter()
+        .filter(|(filter, _)| filter.alignment == Alignment::Trailing)
+}
+
 fn name(filter: &Filter, settings: &Settings) -> String {
     format!("{} with preset {}", filter.name, settings.preset)
 }
@@ -436,6 +442,16 @@ fn expected_ramp(filter: &Filter, settings: &Settings) -> (f64, f64) {
         }
         // Taps shifted evenly within their steps make an even trail.
         ("jump_flood", "corrected") => (1.0, -0.5),
+        // The wall has 31 rows, of which the longest half of a trail is 5 %: under two pixels, so nothing blurs.
+        ("kino", "default") => (0.0, 0.0),
+        ("bevy", _) | ("jimenez", "hdrp") => (1.0, 0.0),
+        // A quarter of a step to and fro, on both sides.
+        ("jimenez", "advanced_warfare") => {
+            let steps = (0..8).flat_map(|i| [f64::from(i) + 0.25, f64::from(i) + 0.75]);
+            spread(steps.flat_map(|at| [at / 16.0, -at / 16.0]).collect(), 1.0)
+        }
+        // Four steps on each side and the pixel itself, each shifted evenly within a step.
+        ("jimenez", "kajiya") => (1.125, 0.0),
         (filter, preset) => panic!("say here what ramp {filter} with preset {preset} should make"),
     }
 }
@@ -443,7 +459,11 @@ fn expected_ramp(filter: &Filter, settings: &Settings) -> (f64, f64) {
 #[test]
 fn an_edge_in_steady_motion_smears_to_the_right_side_and_length() {
     let gpu = gpu();
-    for (filter, settings) in every_preset() {
+    // Two presets smear farther than this wall is wide; tests of their own measure them.
+    let longer = |(filter, settings): &(Filter, Settings)| {
+        filter.name == "jimenez" && ["o3de", "wicked"].contains(&settings.preset.as_str())
+    };
+    for (filter, settings) in every_preset().into_iter().filter(|it| !longer(it)) {
         let (length, middle) = expected_ramp(&filter, &settings);
         // Trails of 24 and 12 pixels are below the paper's cut of 32.
         for (speed, exposure) in [(24.0, 1.0), (24.0, 0.5), (-24.0, 1.0)] {
@@ -469,10 +489,9 @@ fn an_edge_in_steady_motion_smears_to_the_right_side_and_length() {
 }
 
 #[test]
-fn no_built_in_filter_smears_ahead_of_a_mover() {
+fn no_trailing_filter_smears_ahead_of_a_mover() {
     let gpu = gpu();
-    for (filter, settings) in every_preset() {
-        assert_eq!(filter.alignment, Alignment::Trailing, "{}", filter.name);
+    for (filter, settings) in trailing_presets() {
         // The wall moves right: what lies right of the edge has not been touched yet.
         let field = wall(true, false, 24.0, 1.0);
         let output = field.blurred(&gpu, &filter, &settings);
@@ -488,9 +507,9 @@ fn no_built_in_filter_smears_ahead_of_a_mover() {
 }
 
 #[test]
-fn only_the_jump_flood_smears_over_what_lies_behind_a_mover() {
+fn of_trailing_filters_only_the_jump_flood_smears_over_what_lies_behind_a_mover() {
     let gpu = gpu();
-    for (filter, settings) in every_preset() {
+    for (filter, settings) in trailing_presets() {
         let field = wall(false, false, 24.0, 1.0);
         let output = field.blurred(&gpu, &filter, &settings);
         let light: f32 = (0..EDGE).map(|x| output.at(x, 15)[0]).sum();

@@ -1,0 +1,10 @@
+//! What the blurs of game engines do and do not, measured: what was read in their sources, shown true or false.
+
+mod bevy;
+mod hdrp;
+mod jimenez;
+mod kajiya;
+mod kino;
+mod o3de;
+mod picture;
+mod wicked;

@@ -1,0 +1,51 @@
+//! The preset of the Open 3D Engine.
+
+use crate::picture::{BLACK_WALL, Picture, Surface, moving_edge, ramp_length, white};
+
+#[test]
+fn o3de_smears_ten_times_as_far_as_the_exposure_says() {
+    let picture = moving_edge(400, 64, [24.0, 0.0]);
+    let found = ramp_length(&picture.blurred("jimenez", "o3de", &[]));
+    // 24 pairs, a quarter of a step to and fro, at whole pixels of the 120 to each side.
+    let offsets: Vec<f64> = (0..24)
+        .flat_map(|i| [f64::from(i) - 0.25, f64::from(i) + 0.25])
+        .map(|steps| (steps * 5.0).trunc())
+        .collect();
+    let square = offsets.iter().map(|at| at * at).sum::<f64>() / offsets.len() as f64;
+    let expected = (12.0 * square).sqrt();
+    // The edge lies between texels; offsets are whole.
+    assert!(
+        (found - expected).abs() < 0.5,
+        "{found} instead of {expected}"
+    );
+    assert!(found / 24.0 > 9.0);
+}
+
+/// A still white post at 60..70 in front of a black wall; from row 40 on, something black moves in front of both.
+fn post_above_motion() -> Picture {
+    Picture::new(160, 64, |x, y| match (x, y) {
+        (_, 40..) => Surface {
+            gray: 0.0,
+            ..white(24.0)
+        },
+        (60..70, _) => Surface {
+            velocity: [0.0, 0.0],
+            ..white(0.0)
+        },
+        _ => BLACK_WALL,
+    })
+}
+
+#[test]
+fn o3de_mixes_still_things_near_a_mover_with_what_lies_behind_them() {
+    let picture = post_above_motion();
+    // The rows above the mover, within its tiles' reach.
+    let darkest = |overrides: &[(&str, &str)]| {
+        let output = picture.blurred("jimenez", "o3de", overrides);
+        let post = (22..38).flat_map(|y| (60..70).map(move |x| (x, y)));
+        post.map(|(x, y)| output.at(x, y)[0]).fold(1.0, f32::min)
+    };
+    assert!(darkest(&[]) < 0.5, "{}", darkest(&[]));
+    // With the pixel's own motion for the tile's, only taps within a step of a still pixel count: one pair of 24.
+    assert!(darkest(&[("spread", "steps")]) > 0.9);
+}

@@ -1,0 +1,60 @@
+//! The preset of Wicked Engine.
+
+use crate::picture::{column, light_above, moving_edge, ramp_length, slow_above_fast};
+
+#[test]
+fn the_smear_of_wicked_depends_on_the_width_of_the_picture() {
+    let length = |width: u32| {
+        let picture = moving_edge(width, 64, [12.0, 0.0]);
+        ramp_length(&picture.blurred("jimenez", "wicked", &[]))
+    };
+    // 1500 pixels per picture width of motion, scaled by noise whose mean square is a third; 16 taps at (2 i - 15) / 15.
+    let expected = |width: u32| {
+        let taps: f64 = (0..16)
+            .map(|i| ((2.0 * f64::from(i) - 15.0) / 15.0).powi(2))
+            .sum();
+        let square = taps / 16.0 / 3.0;
+        (3.0 * square).sqrt() * 1500.0 * 12.0 / f64::from(width)
+    };
+    for width in [240, 480] {
+        // A twentieth: noise of 64 rows.
+        let (found, expected) = (length(width), expected(width));
+        assert!(
+            (found / expected - 1.0).abs() < 0.05,
+            "{width} wide: {found} instead of {expected}"
+        );
+    }
+}
+
+#[test]
+fn the_kernel_of_wicked_is_peaked_and_not_a_box() {
+    // 750 pixels per picture width to each side, 24 / 480 of it: 37.5 pixels.
+    let picture = moving_edge(480, 128, [24.0, 0.0]);
+    let output = picture.blurred("jimenez", "wicked", &[]);
+    let share = |part: f64| {
+        let reach = (37.5 * part).round() as u32;
+        column(&output, 240 + reach - 1) - column(&output, 240 - reach)
+    };
+    // Even taps times even noise are distributed as -ln|x| / 2: within x of the middle lies x (1 - ln x).
+    for part in [0.2f64, 0.4] {
+        let expected = part * (1.0 - part.ln());
+        // 16 taps of 128 rows, in whole pixels of 37.5.
+        assert!(
+            (share(part) - expected).abs() < 0.05,
+            "{part}: {} instead of {expected}",
+            share(part)
+        );
+    }
+}
+
+#[test]
+fn wicked_lets_slow_things_smear_as_far_as_fast_ones() {
+    // To each side the fast half smears 750 * 24 / 320 = 56 pixels, the slow thing should 11.
+    let picture = slow_above_fast(4.8, 24.0);
+    let as_published = picture.blurred("jimenez", "wicked", &[]);
+    assert!(light_above(&as_published, 20..40) > 1.0);
+    // Against the taps' distances, it ends after its own length and a step, 8 pixels. Half a pixel for fetches.
+    let by_steps = picture.blurred("jimenez", "wicked", &[("spread", "steps")]);
+    assert!(light_above(&by_steps, 1..8) > 1.0);
+    assert_eq!(light_above(&by_steps, 20..40), 0.0);
+}
