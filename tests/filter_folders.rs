@@ -178,7 +178,14 @@ fn built_in_folders_load_from_disk_alike() {
     let shaders = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders");
     assert_eq!(
         Filter::builtin_names(),
-        ["camera_gather", "identity", "jump_flood", "velocity_gather"]
+        [
+            "camera_gather",
+            "guertin",
+            "identity",
+            "jump_flood",
+            "mcguire",
+            "velocity_gather"
+        ]
     );
     for name in Filter::builtin_names() {
         let (built_in, on_disk) = (
@@ -234,6 +241,8 @@ fn a_wrong_folder_says_where_and_what() {
         ("filter.toml", "[[texture]]", "[[texture]]\nname = \"spare\"\nformat = \"r32float\"\n[[texture]]", &["spare", "used by no pass"]),
         ("filter.toml", "over = \"tile_motion\"", "over = \"tiles\"", &["fastest", "tiles", "no declared texture"]),
         ("filter.toml", "over = \"tile_motion\"", "repeat = \"spacing\"", &["fastest", "spacing", "integer parameter"]),
+        ("filter.toml", "over = \"tile_motion\"", "workgroup_per_texel = true", &["fastest", "workgroup_per_texel = true without over"]),
+        ("filter.toml", "over = \"tile_motion\"", "over = \"tile_motion\"\nworkgroup_per_texel = 8", &["filter.toml:", "expected a boolean"]),
         ("filter.toml", "over = \"tile_motion\"", "repeat = 0", &["fastest", "1 or more"]),
         ("filter.toml", "over = \"tile_motion\"", "repeat = 1.5", &["repeat is a count"]),
         ("filter.toml", "entry = \"gather\"", "entry = \"blur\"", &["blur", "no such @compute entry point", "fastest, gather"]),
@@ -301,7 +310,8 @@ fn unknown_names_list_what_there_is() {
     let filter = Filter::builtin("velocity_gather").unwrap();
     let unknown = Filter::builtin("bokeh").unwrap_err().to_string();
     assert!(
-        unknown.contains("bokeh") && unknown.contains("identity, jump_flood, velocity_gather"),
+        unknown.contains("bokeh")
+            && unknown.contains("guertin, identity, jump_flood, mcguire, velocity_gather"),
         "{unknown}"
     );
     let preset = filter.settings(Some("best")).unwrap_err().to_string();
