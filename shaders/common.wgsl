@@ -83,3 +83,48 @@ fn bilinear(image: texture_2d<f32>, position: vec2<f32>) -> vec4<f32> {
 fn interleaved_gradient_noise(position: vec2<f32>) -> f32 {
     return fract(52.9829189 * fract(dot(position, vec2<f32>(0.06711056, 0.00583715))));
 }
+
+// What tile filters know of the motion in a region: its longest vector, in pixels, and its shortest length.
+const NO_MOTION = vec3<f32>(0.0, 0.0, 1e9);
+
+fn merged(a: vec3<f32>, b: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(select(a.xy, b.xy, dot(b.xy, b.xy) > dot(a.xy, a.xy)), min(a.z, b.z));
+}
+
+// Memory of a workgroup of 8 x 8 invocations; only kernels that call what follows have it.
+var<workgroup> group_regions: array<vec3<f32>, 64>;
+var<workgroup> group_tiles: array<vec3<f32>, 100>;
+
+// The regions of all invocations of a workgroup of 8 x 8 as one. Every invocation has to call it, each with its
+// @builtin(local_invocation_index).
+fn merged_over_group(index: u32, region: vec3<f32>) -> vec3<f32> {
+    group_regions[index] = region;
+    workgroupBarrier();
+    for (var half = 32u; half > 0u; half /= 2u) {
+        if index < half {
+            group_regions[index] = merged(group_regions[index], group_regions[index + half]);
+        }
+        workgroupBarrier();
+    }
+    return group_regions[0];
+}
+
+// Reads the tiles of a workgroup of 8 x 8 and the ring around them once, for `tile_beside`. Tiles from `count` on do
+// not exist. Every invocation has to call it.
+fn share_tiles(tiles: texture_2d<f32>, count: vec2<i32>, group: vec2<u32>, index: u32) {
+    for (var i = i32(index); i < 100; i += 64) {
+        let tile = 8 * vec2<i32>(group) + vec2<i32>(i % 10, i / 10) - 1;
+        var region = NO_MOTION;
+        if all(tile >= vec2<i32>(0)) && all(tile < count) {
+            region = textureLoad(tiles, tile, 0).xyz;
+        }
+        group_tiles[i] = region;
+    }
+    workgroupBarrier();
+}
+
+// The region of the tile at an offset of -1 to 1 from that of an invocation, by its @builtin(local_invocation_id).
+fn tile_beside(local: vec2<u32>, offset: vec2<i32>) -> vec3<f32> {
+    let at = vec2<i32>(local) + offset + 1;
+    return group_tiles[10 * at.y + at.x];
+}

@@ -238,6 +238,8 @@ fn a_wrong_folder_says_where_and_what() {
         ("filter.toml", "[[texture]]", "[[texture]]\nname = \"spare\"\nformat = \"r32float\"\n[[texture]]", &["spare", "used by no pass"]),
         ("filter.toml", "over = \"tile_motion\"", "over = \"tiles\"", &["fastest", "tiles", "no declared texture"]),
         ("filter.toml", "over = \"tile_motion\"", "repeat = \"spacing\"", &["fastest", "spacing", "integer parameter"]),
+        ("filter.toml", "over = \"tile_motion\"", "workgroup_per_texel = true", &["fastest", "workgroup_per_texel = true without over"]),
+        ("filter.toml", "over = \"tile_motion\"", "over = \"tile_motion\"\nworkgroup_per_texel = 8", &["filter.toml:", "expected a boolean"]),
         ("filter.toml", "over = \"tile_motion\"", "repeat = 0", &["fastest", "1 or more"]),
         ("filter.toml", "over = \"tile_motion\"", "repeat = 1.5", &["repeat is a count"]),
         ("filter.toml", "entry = \"gather\"", "entry = \"blur\"", &["blur", "no such @compute entry point", "fastest, gather"]),

@@ -27,12 +27,6 @@ fn every_preset() -> Vec<(Filter, Settings)> {
         .collect()
 }
 
-fn trailing_presets() -> impl Iterator<Item = (Filter, Settings)> {
-    every_preset()
-        .into_iter()
-        .filter(|(filter, _)| filter.alignment == Alignment::Trailing)
-}
-
 fn name(filter: &Filter, settings: &Settings) -> String {
     format!("{} with preset {}", filter.name, settings.preset)
 }
@@ -363,11 +357,11 @@ struct Ramp {
     middle: f64,
 }
 
-const EDGE: u32 = 100;
+const EDGE: u32 = 120;
 
 /// A white wall left or right of an edge; `whole` says whether the black beside it moves along, at the same depth.
 fn wall(left: bool, whole: bool, speed: f32, exposure: f64) -> Field {
-    let (width, height) = (200, 31);
+    let (width, height) = (2 * EDGE, 31);
     let wall = |x: u32| (x < EDGE) == left;
     Field {
         color: Raster::from_fn(width, height, |x, _| [if wall(x) { 1.0 } else { 0.0 }; 3]),
@@ -396,7 +390,8 @@ fn ramp(output: &Image) -> Ramp {
             .map(|y| f64::from(output.at(x, y)[0]))
             .sum::<f64>()
     };
-    let slopes: Vec<(f64, f64)> = (1..output.width)
+    // What a filter does at the border of the image is not of the edge.
+    let slopes: Vec<(f64, f64)> = (12..output.width - 12)
         .map(|x| {
             (
                 f64::from(x) - f64::from(EDGE),
@@ -415,14 +410,79 @@ fn ramp(output: &Image) -> Ramp {
     }
 }
 
-/// Ramp that the taps of a preset make of an edge, as parts of exposure x velocity: (length, middle).
-fn expected_ramp(filter: &Filter, settings: &Settings) -> (f64, f64) {
+/// A tap on a surface that moves evenly: its offset along the motion in pixels, and its weight.
+type WeighedTap = (f64, f64);
+
+/// Taps of a tile filter along `half` pixels of half-velocity in whole motion, for noise in [0, 1). Where everything
+/// moves alike at one depth, every tap is in front and behind: two cones and two cylinders.
+fn tile_filter_taps(
+    filter: &Filter,
+    settings: &Settings,
+    half: f64,
+    noise: f64,
+) -> Vec<WeighedTap> {
+    let cone = |distance: f64, radius: f64| (1.0 - distance / radius).clamp(0.0, 1.0);
+    let cylinder = |distance: f64, radius: f64| {
+        let part = ((distance - 0.95 * radius) / (0.1 * radius)).clamp(0.0, 1.0);
+        1.0 - part * part * (3.0 - 2.0 * part)
+    };
+    let weight = |distance: f64| {
+        2.0 * cone(distance, half) + 2.0 * cylinder(distance, half) * cylinder(distance, half)
+    };
+    let along =
+        |i: i32, jitter: f64, count: i32| (f64::from(i) + jitter + 1.0) / f64::from(count + 1);
+    match (filter.name.as_str(), settings.preset.as_str()) {
+        ("mcguire", "paper") => {
+            let taps = (0..15).filter(|i| *i != 7).map(|i| {
+                let offset = (2.0 * along(i, noise - 0.5, 15) - 1.0) * half;
+                (offset.round(), weight(offset.round().abs()))
+            });
+            taps.chain([(0.0, 1.0 / half)]).collect()
+        }
+        // Every distance is next to nothing, and all taps weigh two cones and two cylinders. A bilinear tap is two.
+        ("mcguire", "aliari") => {
+            let half = half.min(10.0);
+            let noise = (noise * std::f64::consts::TAU).sin().rem_euclid(1.0);
+            let taps = (0..15).flat_map(|i| {
+                let offset = (2.0 * along(i, 2.0 * noise - 1.0, 15) - 1.0) * half;
+                let part = offset - offset.floor();
+                [
+                    (offset.floor(), 4.0 * (1.0 - part)),
+                    (offset.floor() + 1.0, 4.0 * part),
+                ]
+            });
+            taps.chain([(0.0, 1.0 / half)]).collect()
+        }
+        ("mcguire", "g3d") => {
+            let taps = (0..27).filter(|i| *i != 13).map(|i| {
+                let offset = (2.4 * along(i, noise - 0.5, 27) - 1.2).clamp(-1.0, 1.0) * half;
+                (offset.round(), 2.0 * cone(offset.abs(), half) + 2.0)
+            });
+            taps.chain([(0.0, 27.0 / 40.0 / half)]).collect()
+        }
+        ("guertin", "paper") => {
+            let jitter = (2.0 * noise - 1.0) * 0.95 * 27.0 / 35.0;
+            let taps = (0..35).map(|i| {
+                let offset = (2.0 * along(i, jitter, 35) - 1.0) * half;
+                (offset.trunc(), weight(offset.abs()))
+            });
+            taps.chain([(0.0, 35.0 / 40.0 / half)]).collect()
+        }
+        (filter, preset) => panic!("say here where the taps of {filter} with preset {preset} lie"),
+    }
+}
+
+/// Ramp that the taps of a preset make of an edge in a trail of so many pixels: (length, middle), both in pixels.
+fn expected_ramp(filter: &Filter, settings: &Settings, trail: f64) -> (f64, f64) {
     // Mean and length of taps at i/N or at i/(N - 1).
     let spread = |positions: Vec<f64>, square_of_scale: f64| {
         let count = positions.len() as f64;
         let mean = positions.iter().sum::<f64>() / count;
         let square = positions.iter().map(|p| p * p).sum::<f64>() / count * square_of_scale;
-        ((12.0 * (square - mean * mean)).sqrt(), -mean)
+        (
+            trail * (12.0 * (square - mean * mean)).sqrt(),
+            -trail * mean,
+        )
     };
     let from_the_pixel = |n: i32| (0..n).map(|i| f64::from(i) / f64::from(n)).collect();
     match (filter.name.as_str(), settings.preset.as_str()) {
@@ -438,20 +498,34 @@ fn expected_ramp(filter: &Filter, settings: &Settings) -> (f64, f64) {
         // The pixel itself, and an even trail of seven taps: mean 7/16, mean square 7/24.
         ("jump_flood", "july_2024") => {
             let mean = 7.0 / 16.0_f64;
-            ((12.0 * (7.0 / 24.0 - mean * mean)).sqrt(), -mean)
+            let length = (12.0 * (7.0 / 24.0 - mean * mean)).sqrt();
+            (trail * length, -trail * mean)
         }
         // Taps shifted evenly within their steps make an even trail.
-        ("jump_flood", "corrected") => (1.0, -0.5),
+        ("jump_flood", "corrected") => (trail, -0.5 * trail),
         // The wall has 31 rows, of which the longest half of a trail is 5 %: under two pixels, so nothing blurs.
         ("kino", "default") => (0.0, 0.0),
-        ("bevy", _) | ("jimenez", "hdrp") => (1.0, 0.0),
+        ("bevy", _) | ("jimenez", "hdrp") => (trail, 0.0),
         // A quarter of a step to and fro, on both sides.
         ("jimenez", "advanced_warfare") => {
             let steps = (0..8).flat_map(|i| [f64::from(i) + 0.25, f64::from(i) + 0.75]);
             spread(steps.flat_map(|at| [at / 16.0, -at / 16.0]).collect(), 1.0)
         }
         // Four steps on each side and the pixel itself, each shifted evenly within a step.
-        ("jimenez", "kajiya") => (1.125, 0.0),
+        ("jimenez", "kajiya") => (1.125 * trail, 0.0),
+        ("mcguire" | "guertin", _) => {
+            let steps = 1000;
+            let square = (0..steps).map(|step| {
+                let noise = (f64::from(step) + 0.5) / f64::from(steps);
+                let taps = tile_filter_taps(filter, settings, 0.5 * trail, noise);
+                let total: f64 = taps.iter().map(|(_, weight)| weight).sum();
+                taps.iter()
+                    .map(|(offset, weight)| offset * offset * weight)
+                    .sum::<f64>()
+                    / total
+            });
+            ((12.0 * square.sum::<f64>() / f64::from(steps)).sqrt(), 0.0)
+        }
         (filter, preset) => panic!("say here what ramp {filter} with preset {preset} should make"),
     }
 }
@@ -464,21 +538,20 @@ fn an_edge_in_steady_motion_smears_to_the_right_side_and_length() {
         filter.name == "jimenez" && ["o3de", "wicked"].contains(&settings.preset.as_str())
     };
     for (filter, settings) in every_preset().into_iter().filter(|it| !longer(it)) {
-        let (length, middle) = expected_ramp(&filter, &settings);
-        // Trails of 24 and 12 pixels are below the paper's cut of 32.
+        // Trails of 24 and 12 pixels are below the jump flood's cut of 32, and their halves below most tiles.
         for (speed, exposure) in [(24.0, 1.0), (24.0, 0.5), (-24.0, 1.0)] {
             let field = wall(true, true, speed, exposure);
             let found = ramp(&field.blurred(&gpu, &filter, &settings));
             let trail = f64::from(speed.abs()) * exposure;
+            let (length, middle) = expected_ramp(&filter, &settings, trail);
             let said = format!("{} at {speed} x {exposure}", name(&filter, &settings));
             // Half a pixel: the edge is between texels, and 8 taps of noise in 31 rows place it to a tenth of a step.
             assert!(
-                (found.length - length * trail).abs() < 0.5,
-                "{said}: {} pixels long, expected {}",
+                (found.length - length).abs() < 0.5,
+                "{said}: {} pixels long, expected {length}",
                 found.length,
-                length * trail
             );
-            let middle = middle * trail * f64::from(speed.signum());
+            let middle = middle * f64::from(speed.signum());
             assert!(
                 (found.middle - middle).abs() < 0.5,
                 "{said}: in the middle of {}, expected {middle}",
@@ -488,35 +561,39 @@ fn an_edge_in_steady_motion_smears_to_the_right_side_and_length() {
     }
 }
 
+/// Light that a white wall with its edge at the left or right, moving right over black, leaves on the black.
+fn light_beside_a_wall(gpu: &Gpu, filter: &Filter, settings: &Settings, left: bool) -> f32 {
+    let output = wall(left, false, 24.0, 1.0).blurred(gpu, filter, settings);
+    let black = if left { EDGE..output.width } else { 0..EDGE };
+    black.map(|x| output.at(x, 15)[0]).sum()
+}
+
 #[test]
 fn no_trailing_filter_smears_ahead_of_a_mover() {
     let gpu = gpu();
-    for (filter, settings) in trailing_presets() {
-        // The wall moves right: what lies right of the edge has not been touched yet.
-        let field = wall(true, false, 24.0, 1.0);
-        let output = field.blurred(&gpu, &filter, &settings);
-        for x in EDGE + 1..output.width {
-            assert_eq!(
-                output.at(x, 15)[0],
-                0.0,
-                "{} at column {x}",
-                name(&filter, &settings)
-            );
+    for (filter, settings) in every_preset() {
+        if filter.alignment == Alignment::Trailing {
+            let light = light_beside_a_wall(&gpu, &filter, &settings, true);
+            // What lies ahead of the edge has not been touched yet.
+            assert_eq!(light, 0.0, "{}", name(&filter, &settings));
         }
     }
 }
 
 #[test]
-fn of_trailing_filters_only_the_jump_flood_smears_over_what_lies_behind_a_mover() {
+fn filters_that_carry_motion_smear_over_what_lies_beside_a_mover() {
     let gpu = gpu();
-    for (filter, settings) in trailing_presets() {
-        let field = wall(false, false, 24.0, 1.0);
-        let output = field.blurred(&gpu, &filter, &settings);
-        let light: f32 = (0..EDGE).map(|x| output.at(x, 15)[0]).sum();
-        if filter.name == "jump_flood" {
-            assert!(light > 6.0, "{}: {light}", name(&filter, &settings));
-        } else {
-            assert_eq!(light, 0.0, "{}", name(&filter, &settings));
+    for (filter, settings) in every_preset() {
+        let light = |left: bool| light_beside_a_wall(&gpu, &filter, &settings, left);
+        let name = name(&filter, &settings);
+        // An even trail of 24 pixels leaves the light of 12 behind the wall; a centred one that of 3 on either side.
+        match filter.name.as_str() {
+            "jump_flood" => assert!(light(false) > 6.0, "{name}: {}", light(false)),
+            "mcguire" | "guertin" | "jimenez" => {
+                let sides = [light(true), light(false)];
+                assert!(sides.iter().all(|light| *light > 1.5), "{name}: {sides:?}");
+            }
+            _ => assert_eq!(light(false), 0.0, "{name}"),
         }
     }
 }

@@ -82,6 +82,8 @@ pub struct Pass {
     pub entry: String,
     /// Texture whose texels it runs over; `None` for the image's pixels.
     pub over: Option<String>,
+    /// Whether a whole workgroup runs for each of those texels, instead of one invocation.
+    pub workgroup_per_texel: bool,
     /// How often it runs.
     pub repeat: Repeat,
 }

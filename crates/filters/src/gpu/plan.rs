@@ -65,7 +65,11 @@ impl Plan {
             let entry = filter.entry_point(pass);
             let over = pass.over.as_deref().unwrap_or("output");
             let over = targets.current(over).texture.size();
-            let [group_width, group_height, _] = entry.workgroup_size;
+            // How many texels one workgroup covers.
+            let [group_width, group_height] = match pass.workgroup_per_texel {
+                true => [1, 1],
+                false => [entry.workgroup_size[0], entry.workgroup_size[1]],
+            };
             let place = place(&pass.entry);
             let (layout, pipeline) = gpu.guarded(place, || {
                 let layout = layout(gpu, &filter.shader, entry);

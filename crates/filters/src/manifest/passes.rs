@@ -20,6 +20,8 @@ pub(super) struct TextureEntry {
 pub(super) struct PassEntry {
     entry: String,
     over: Option<String>,
+    #[serde(default)]
+    workgroup_per_texel: bool,
     repeat: Option<RepeatEntry>,
 }
 
@@ -93,6 +95,7 @@ pub(super) fn passes(
         let PassEntry {
             entry,
             over,
+            workgroup_per_texel,
             repeat,
         } = spanned.get_ref();
         let named = |reason: String| file.at(spanned, format!("pass \"{entry}\": {reason}"));
@@ -102,6 +105,12 @@ pub(super) fn passes(
             return Err(named(format!(
                 "over = \"{over}\" names no declared texture; leave it out to run over the image"
             )));
+        }
+        if *workgroup_per_texel && over.is_none() {
+            return Err(named(
+                "workgroup_per_texel = true without over; name the texture whose texels get a workgroup each"
+                    .into(),
+            ));
         }
         let repeat = match repeat {
             None => Repeat::Times(1),
@@ -118,6 +127,7 @@ pub(super) fn passes(
         passes.push(Pass {
             entry: entry.clone(),
             over: over.clone(),
+            workgroup_per_texel: *workgroup_per_texel,
             repeat,
         });
     }

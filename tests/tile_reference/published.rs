@@ -1,0 +1,272 @@
+//! What was deduced from reading the published repository that the preset `aliari` stands for, shown true or false one
+//! by one; shaders/mcguire/README.md lists the outcomes.
+
+use filters::{Blur, Filter, Gpu, Input};
+use frame::{Image, Plane, Raster, Vectors};
+use tests::random::Random;
+
+const WIDTH: u32 = 97;
+const HEIGHT: u32 = 31;
+/// Pixels per frame: 8 of half-velocity, so that unshifted taps of 15 lie on the whole pixels from -7 to 7.
+const SPEED: f32 = 16.0;
+/// Where things begin or end; in the middle of the image.
+const EDGE: u32 = 48;
+
+type Changes<'c> = &'c [(&'c str, &'c str)];
+
+struct Frame {
+    color: Image,
+    velocity: Vectors,
+    depth: Plane,
+}
+
+/// Everything moves right alike, at one depth.
+fn steady(color: impl Fn(u32) -> f32) -> Frame {
+    Frame {
+        color: Raster::from_fn(WIDTH, HEIGHT, |x, _| [color(x); 3]),
+        velocity: Raster::filled(WIDTH, HEIGHT, [SPEED, 0.0]),
+        depth: Raster::filled(WIDTH, HEIGHT, 5.0),
+    }
+}
+
+/// A white surface left of the edge moves right, beside a black one that stands still.
+fn mover_beside_still(mover_depth: f32, still_depth: f32) -> Frame {
+    Frame {
+        color: Raster::from_fn(WIDTH, HEIGHT, |x, _| [if x < EDGE { 1.0 } else { 0.0 }; 3]),
+        velocity: Raster::from_fn(WIDTH, HEIGHT, |x, _| {
+            [if x < EDGE { SPEED } else { 0.0 }, 0.0]
+        }),
+        depth: Raster::from_fn(WIDTH, HEIGHT, |x, _| {
+            if x < EDGE { mover_depth } else { still_depth }
+        }),
+    }
+}
+
+impl Frame {
+    fn blurred(&self, filter: &str, preset: &str, changes: Changes) -> Image {
+        let gpu = Gpu::new(None).expect("these tests run filters");
+        let filter = Filter::builtin(filter).unwrap();
+        let mut settings = filter.settings(Some(preset)).unwrap();
+        for (parameter, value) in changes {
+            settings.set(&filter, parameter, value).unwrap();
+        }
+        let (width, height) = (self.color.width, self.color.height);
+        let mut blur = Blur::new(&gpu, &filter, &settings, width, height).unwrap();
+        let input = Input {
+            color: &[&self.color],
+            velocity: &self.velocity,
+            depth: &self.depth,
+            reprojection: None,
+            exposure: 1.0,
+            frame_index: 0,
+        };
+        blur.run(&input).unwrap().remove(0)
+    }
+
+    fn aliari(&self, changes: Changes) -> Image {
+        self.blurred("mcguire", "aliari", changes)
+    }
+}
+
+/// What a pixel takes of the tap at -7 to 7 pixels from it, as parts of the whole.
+fn tap_weights(changes: Changes) -> impl Fn(i64) -> f32 {
+    let output = steady(|x| if x == EDGE { 1.0 } else { 0.0 }).aliari(changes);
+    move |offset| output.at((i64::from(EDGE) - offset) as u32, HEIGHT / 2)[0]
+}
+
+#[test]
+fn distances_in_uv_make_far_taps_weigh_as_near_ones() {
+    let published = tap_weights(&[("jitter", "none")]);
+    let repaired = tap_weights(&[("jitter", "none"), ("distance", "to_pixel")]);
+    for side in [-1, 1] {
+        // 7 pixels of 97 are 0.07, against a radius of 8: cones of 0.99, and whole cylinders.
+        let ratio = published(7 * side) / published(side);
+        assert!(ratio > 0.99 && ratio <= 1.0, "{ratio}");
+        // Two cones of 1/8 and 7/8, and two whole cylinders.
+        let ratio = repaired(7 * side) / repaired(side);
+        assert!((ratio - 2.25 / 3.75).abs() < 1e-3, "{ratio}");
+    }
+}
+
+#[test]
+fn it_is_a_box_of_what_moves_and_not_of_every_tap() {
+    let changes: Changes = &[("jitter", "none"), ("center_tap", "skipped")];
+    let output = mover_beside_still(5.0, 5.0).aliari(changes);
+    for (beside, movers) in [(0, 7.0), (3, 4.0), (6, 1.0)] {
+        // Each mover within reach weighs a cone of 0.99 to 1, near or far. Still taps weigh nothing on a still pixel,
+        // whose own weight is 1 / 0.5.
+        let expected = movers / (movers + 2.0);
+        let found = output.at(EDGE + beside, HEIGHT / 2)[0];
+        assert!(
+            (found - expected).abs() < 0.005,
+            "{found}, expected {expected}"
+        );
+    }
+}
+
+#[test]
+fn clamping_before_halving_halves_the_reach() {
+    let mut frame = steady(|x| if x < EDGE { 1.0 } else { 0.0 });
+    frame.velocity = frame.velocity.map(|_| [200.0, 0.0]);
+    let reach = |changes: Changes| {
+        let output = frame.aliari(changes);
+        let lit = |x: &u32| (0..HEIGHT).any(|y| output.at(*x, y)[0] > 0.0);
+        (EDGE..WIDTH - 25).filter(lit).count()
+    };
+    // Half a tile of 20, and the pixel that a bilinear tap touches; shifts of a whole step reach it.
+    let published = reach(&[]);
+    assert!((9..=11).contains(&published), "{published}");
+    let repaired = reach(&[("radius_range", "half_pixel_to_tile")]);
+    assert!((19..=21).contains(&repaired), "{repaired}");
+}
+
+#[test]
+fn the_centre_tap_counts_beside_the_pixel_itself() {
+    // 15 or 14 taps of two cones and two cylinders, 4 each but for 1 %, and the pixel of 1/8.
+    let kept = tap_weights(&[("jitter", "none")])(0);
+    assert!((kept - 4.125 / 60.125).abs() < 1e-3, "{kept}");
+    let skipped = tap_weights(&[("jitter", "none"), ("center_tap", "skipped")])(0);
+    assert!((skipped - 0.125 / 56.125).abs() < 1e-3, "{skipped}");
+}
+
+/// How far noise displaces the picture at each pixel, in pixels.
+fn displacements(changes: Changes) -> Vec<f32> {
+    let output = steady(|x| x as f32).aliari(changes);
+    let inner = 12..WIDTH - 12;
+    inner
+        .flat_map(|x| (0..HEIGHT).map(move |y| (x, y)))
+        .map(|(x, y)| output.at(x, y)[0] - x as f32)
+        .collect()
+}
+
+fn deviation(values: &[f32]) -> f32 {
+    (values.iter().map(|value| value * value).sum::<f32>() / values.len() as f32).sqrt()
+}
+
+#[test]
+fn a_jitter_of_a_whole_step_displaces_twice_as_far() {
+    let published = deviation(&displacements(&[("noise", "gradient")]));
+    let repaired = deviation(&displacements(&[
+        ("noise", "gradient"),
+        ("jitter", "half_step"),
+    ]));
+    // The same noise, doubled; weights differ by 1 %.
+    assert!(
+        (published / repaired - 2.0).abs() < 0.05,
+        "{published} {repaired}"
+    );
+    // An even shift within one step of 8 / 8 pixels either way.
+    assert!(
+        (published - 1.0 / 3.0f32.sqrt()).abs() < 0.03,
+        "{published}"
+    );
+}
+
+#[test]
+fn filtering_between_tiles_leaves_moving_pixels_unblurred() {
+    let mut random = Random::new(1);
+    let frame = Frame {
+        color: Raster::from_fn(120, 20, |_, _| [random.real(0.0, 1.0); 3]),
+        velocity: Raster::from_fn(120, 20, |x, _| [if x < 60 { SPEED } else { -SPEED }, 0.0]),
+        depth: Raster::filled(120, 20, 5.0),
+    };
+    let unblurred = |changes: Changes| {
+        let output = frame.aliari(changes);
+        let column = |x: &u32| (0..20).all(|y| output.at(*x, y) == frame.color.at(*x, y));
+        (0..120).filter(column).collect::<Vec<u32>>()
+    };
+    // Two tiles of opposite motion: halfway between their middles at 70 and 90 their mix is less than half a pixel.
+    assert_eq!(unblurred(&[]), [79, 80]);
+    assert!(unblurred(&[("tile_lookup", "own")]).is_empty());
+}
+
+#[test]
+fn what_moves_only_in_the_last_partial_tile_is_not_blurred() {
+    let mut random = Random::new(2);
+    let frame = Frame {
+        color: Raster::from_fn(59, 40, |_, _| [random.real(0.0, 1.0); 3]),
+        velocity: Raster::from_fn(59, 40, |x, _| [if x < 45 { 0.0 } else { SPEED }, 0.0]),
+        depth: Raster::filled(59, 40, 5.0),
+    };
+    assert!(frame.aliari(&[]) == frame.color);
+    assert!(frame.aliari(&[("tile_lookup", "own")]) != frame.color);
+}
+
+#[test]
+fn the_hash_is_not_even() {
+    // Displacements beyond half the largest, of 1 pixel.
+    let far = |changes: Changes| {
+        let displacements = displacements(changes);
+        let far = displacements
+            .iter()
+            .filter(|value| value.abs() > 0.5)
+            .count();
+        far as f64 / displacements.len() as f64
+    };
+    // 2263 pixels: 3 sigma are 0.03. Even noise is far in half of them; the fraction of a sine in
+    // 1 + (asin 1/4 - asin 3/4) / (pi / 2) = 0.62.
+    let even = far(&[("noise", "gradient")]);
+    assert!((even - 0.5).abs() < 0.03, "{even}");
+    let published = far(&[]);
+    assert!((published - 0.621).abs() < 0.03, "{published}");
+}
+
+#[test]
+fn front_and_back_are_swapped() {
+    // Light on the still surface, four pixels from the edge: three taps of the mover reach it.
+    let light = |mover: f32, still: f32, changes: Changes| {
+        let mut all = vec![("jitter", "none"), ("center_tap", "skipped")];
+        all.extend(changes);
+        mover_beside_still(mover, still)
+            .aliari(&all)
+            .at(EDGE + 4, HEIGHT / 2)[0]
+    };
+    // Depth buffers of 0.5 and 0.9: a mover in front weighs 1 - 0.4 / 0.5, one behind 1.
+    let (in_front, behind) = (light(0.2, 1.0, &[]), light(1.0, 0.2, &[]));
+    assert!((in_front - 0.6 / 2.6).abs() < 0.005, "{in_front}");
+    assert!((behind - 3.0 / 5.0).abs() < 0.005, "{behind}");
+    // From 5 m on, all is within a hundredth of the far plane, and depth decides next to nothing.
+    let (in_front, behind) = (light(5.0, 20.0, &[]), light(20.0, 5.0, &[]));
+    assert!(
+        behind - in_front < 0.01 && in_front < behind,
+        "{in_front} {behind}"
+    );
+    let linear: Changes = &[("depth_compare", "linear")];
+    assert_eq!(light(20.0, 5.0, linear), 0.0);
+    assert!(light(5.0, 20.0, linear) > 0.59);
+}
+
+#[test]
+fn colour_comes_from_the_opposite_border() {
+    let frame = steady(|x| if x == WIDTH - 1 { 1.0 } else { 0.0 });
+    assert!(frame.aliari(&[]).at(0, HEIGHT / 2)[0] > 0.01);
+    assert_eq!(
+        frame.aliari(&[("fetch", "nearest")]).at(0, HEIGHT / 2)[0],
+        0.0
+    );
+}
+
+#[test]
+fn guertins_rule_for_diagonal_tiles_misses_what_heads_away() {
+    // A white mover at the corner where four tiles meet heads up and left; its centred smear reaches 15 pixels down and
+    // right too.
+    let mover = |x: u32, y: u32| (12..20).contains(&x) && (12..20).contains(&y);
+    let frame = Frame {
+        color: Raster::from_fn(40, 40, |x, y| [if mover(x, y) { 1.0 } else { 0.0 }; 3]),
+        velocity: Raster::from_fn(40, 40, |x, y| [if mover(x, y) { -30.0 } else { 0.0 }; 2]),
+        depth: Raster::from_fn(40, 40, |x, y| if mover(x, y) { 2.0 } else { 9.0 }),
+    };
+    let light = |rule: &str| {
+        let changes = [
+            ("tile_size", "20"),
+            ("tile_blend", "0"),
+            ("neighbor_rule", rule),
+        ];
+        let output = frame.blurred("guertin", "paper", &changes);
+        let diagonal = (20..40).flat_map(|y| (20..40).map(move |x| (x, y)));
+        diagonal.map(|(x, y)| output.at(x, y)[0]).sum::<f32>()
+    };
+    assert_eq!(light("toward"), 0.0);
+    assert!(light("either_way") > 3.0, "{}", light("either_way"));
+    assert_eq!(light("either_way"), light("all"));
+}

@@ -1,0 +1,107 @@
+//! Half-velocities, tiles and neighbourhoods in 64-bit floats; plain loops, nothing shared with the kernels.
+
+use frame::Raster;
+
+pub type Vec2 = [f64; 2];
+
+pub fn dot(a: Vec2, b: Vec2) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+pub fn length(a: Vec2) -> f64 {
+    dot(a, a).sqrt()
+}
+
+pub fn scaled(a: Vec2, factor: f64) -> Vec2 {
+    a.map(|component| component * factor)
+}
+
+/// Of length 1; (0, 0) for what has no direction.
+pub fn direction(a: Vec2) -> Vec2 {
+    match length(a) {
+        0.0 => [0.0, 0.0],
+        length => scaled(a, 1.0 / length),
+    }
+}
+
+/// V of both papers for half the motion over the exposure, in pixels, with their epsilon of 1e-5.
+pub fn half_velocity(half: Vec2, longest: f64) -> Vec2 {
+    let speed = length(half);
+    scaled(half, speed.min(longest).max(0.5) / (speed + 1e-5))
+}
+
+/// Tiles of `side` pixels over an image, and the half-velocity that each holds.
+pub struct Tiles<'r> {
+    pub side: i64,
+    pub image: [i64; 2],
+    pub vectors: &'r Raster<[f32; 4]>,
+}
+
+impl Tiles<'_> {
+    /// Columns and rows, the last partial ones included.
+    pub fn count(&self) -> [i64; 2] {
+        self.image
+            .map(|side| side / self.side + i64::from(side % self.side > 0))
+    }
+
+    pub fn all(&self) -> impl Iterator<Item = [i64; 2]> + use<> {
+        let [columns, rows] = self.count();
+        (0..rows).flat_map(move |y| (0..columns).map(move |x| [x, y]))
+    }
+
+    pub fn pixels(&self, tile: [i64; 2]) -> impl Iterator<Item = [i64; 2]> + use<> {
+        let from = tile.map(|index| index * self.side);
+        let to = [0, 1].map(|axis| (from[axis] + self.side).min(self.image[axis]));
+        (from[1]..to[1]).flat_map(move |y| (from[0]..to[0]).map(move |x| [x, y]))
+    }
+
+    pub fn of(&self, pixel: [i64; 2]) -> [i64; 2] {
+        pixel.map(|coordinate| coordinate / self.side)
+    }
+
+    pub fn vector(&self, [x, y]: [i64; 2]) -> Vec2 {
+        let [horizontal, vertical, ..] = *self.vectors.at(x as u32, y as u32);
+        [horizontal.into(), vertical.into()]
+    }
+
+    /// A tile and the up to eight around it: their offsets and half-velocities.
+    pub fn around(&self, tile: [i64; 2]) -> impl Iterator<Item = ([i64; 2], Vec2)> {
+        let offsets = (-1..=1).flat_map(|y| (-1..=1).map(move |x| [x, y]));
+        offsets.filter_map(move |offset| {
+            let other = [tile[0] + offset[0], tile[1] + offset[1]];
+            let exists = (0..2).all(|axis| (0..self.count()[axis]).contains(&other[axis]));
+            exists.then(|| (offset, self.vector(other)))
+        })
+    }
+
+    /// 1 - the mean |cosine| between a tile's half-velocity and those around it, of tiles that move.
+    pub fn variance(&self, tile: [i64; 2]) -> f64 {
+        let own = direction(self.vector(tile));
+        let cosines: Vec<f64> = self
+            .around(tile)
+            .filter(|(_, vector)| length(*vector) > 0.5001)
+            .map(|(_, vector)| dot(own, direction(vector)).abs())
+            .collect();
+        match own {
+            [0.0, 0.0] => 0.0,
+            _ => 1.0 - cosines.iter().sum::<f64>() / cosines.len() as f64,
+        }
+    }
+}
+
+/// Whether a tile's half-velocity counts for the one that sees it at `offset`.
+pub fn counts(rule: &str, offset: [i64; 2], vector: Vec2) -> bool {
+    let offset = offset.map(|component| component as f64);
+    let diagonal = offset[0] != 0.0 && offset[1] != 0.0;
+    match rule {
+        "all" => true,
+        _ if !diagonal => true,
+        // Towards the middle: against the offset.
+        "toward" => dot(vector, scaled(offset, -1.0)) > 0.0,
+        "either_way" => {
+            let signs = [0, 1].map(|axis| (vector[axis] * offset[axis]).signum());
+            vector[0] != 0.0 && vector[1] != 0.0 && signs[0] == signs[1]
+        }
+        rule => panic!("no such rule: {rule}"),
+    }
+}
