@@ -8,11 +8,15 @@ mod filter;
 mod gpu;
 mod manifest;
 mod parameter;
+mod reach;
 mod settings;
 mod wiring;
 
 pub use error::FilterError;
 pub use filter::{Filter, Format, Pass, Preset, Repeat, Texture};
-pub use gpu::{AdapterDescription, Blur, Gpu, Input, list_adapters};
+pub use gpu::{
+    AdapterDescription, Blur, BufferCopy, Clock, Gpu, Input, Loaded, PassTime, list_adapters,
+};
 pub use parameter::{Kind, Parameter, Scale, Value};
+pub use reach::{Growth, Length, ReachBy};
 pub use settings::Settings;

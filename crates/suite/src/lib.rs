@@ -1,5 +1,6 @@
 //! Cases, runs and bounds over the scenes, filters and metrics; the command line `shuttertruth` is a thin layer on top.
 
+mod bench;
 mod bounds;
 mod error;
 mod merge;
@@ -12,6 +13,7 @@ mod run;
 mod selection;
 mod table;
 
+pub use bench::{BASELINE, Bench, BenchPlan, bench, bench_table};
 pub use bounds::{Bounds, Outcome, Verdict, judge, read_bounds};
 pub use error::Error;
 pub use merge::{Merged, merge};

@@ -2,6 +2,7 @@
 
 mod parameters;
 mod passes;
+mod reach;
 
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -14,6 +15,7 @@ use crate::gpu::Shader;
 use crate::{Filter, FilterError};
 use parameters::{ParameterEntry, PresetEntry, parameters, presets};
 use passes::{PassEntry, TextureEntry, passes, textures};
+use reach::{ReachEntry, reach_by};
 
 /// Where things are declared in `filter.toml`, for messages: lines from 1.
 pub(crate) struct Lines {
@@ -32,6 +34,7 @@ struct Manifest {
     source: String,
     #[serde(default)]
     reach: String,
+    reach_by: Option<Spanned<ReachEntry>>,
     #[serde(default)]
     cannot: String,
     #[serde(deserialize_with = "alignment")]
@@ -71,6 +74,7 @@ pub(crate) fn read(path: &Path, text: &str) -> Result<(Filter, Lines), FilterErr
         name: name.clone(),
         presets: presets(&file, &manifest.preset, &parameters)?,
         passes: passes(&file, &manifest.pass, &textures, &parameters)?,
+        reach_by: reach_by(&file, manifest.reach_by.as_ref(), &parameters)?,
         textures,
         parameters,
         summary: manifest.summary,

@@ -1,5 +1,6 @@
 //! One file per command.
 
+mod bench;
 mod blur;
 mod list;
 mod merge;
@@ -22,9 +23,11 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         Some(Command::Render(args)) => with_threads(args.scenes.threads, || render::execute(&args)),
         Some(Command::Merge(args)) => merge::execute(&args),
         Some(Command::Blur(args)) => blur::execute(&args),
+        Some(Command::Bench(args)) => bench::execute(&args),
         Some(Command::List(args)) => list::execute(&args),
         None => Err(Error::Usage(
-            "no command given; allowed: run, render, merge, blur, list (see --help)".to_owned(),
+            "no command given; allowed: run, render, merge, blur, bench, list (see --help)"
+                .to_owned(),
         )),
     }
 }
