@@ -201,7 +201,7 @@ pub struct BenchArgs {
     /// Filters: names or folders, each with an optional :preset, separated by commas [default: every built-in one].
     #[arg(long, value_delimiter = ',', value_name = "FILTERS")]
     pub filters: Vec<String>,
-    /// Picture size in pixels [default: 1920x1080, or 640x360 on a software adapter].
+    /// Picture size in pixels [default: 1920x1080, or 320x180 on a software adapter].
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<(u32, u32)>,
     /// How often each filter is timed, in turns with the others; 20 or more.

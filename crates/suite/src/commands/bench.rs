@@ -11,7 +11,7 @@ pub fn execute(args: &BenchArgs) -> Result<(), Error> {
     let filters = select_filters(&args.filters, None, &[])?;
     let gpu = Gpu::new(args.adapter.adapter.as_deref())?;
     let (width, height) = args.size.unwrap_or(match gpu.adapter.kind.as_str() {
-        "software" => (640, 360),
+        "software" => (320, 180),
         _ => (1920, 1080),
     });
     let plan = BenchPlan {
