@@ -17,13 +17,21 @@ type Changes = &'static [(&'static str, &'static str)];
 /// On top of every preset: each choice in each of its branches, and each number away from its default.
 const CHANGES: [Changes; 7] = [
     &[],
-    &[("jitter", "none"), ("samples", "1")],
+    &[("jitter", "none"), ("tap", "weighted"), ("samples", "1")],
     &[("metric", "pixel"), ("reach_cap", "double")],
-    &[("metric", "uv"), ("reach_cap", "none"), ("passes", "5")],
+    &[
+        ("metric", "uv"),
+        ("reach_cap", "none"),
+        ("passes", "5"),
+        ("tap", "replaced"),
+        ("behind_extent", "0.05"),
+        ("near_plane", "1.0"),
+    ],
     &[
         ("kernel", "with_centre"),
         ("fetch", "bilinear"),
         ("jitter", "start_offset"),
+        ("tap", "replaced"),
         ("intensity", "1.7"),
         ("probes", "5"),
     ],

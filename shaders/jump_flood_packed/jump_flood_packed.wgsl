@@ -23,6 +23,9 @@ struct Parameters {
     jitter: u32,
     kernel: u32,
     fetch: u32,
+    tap: u32,
+    behind_extent: f32,
+    near_plane: f32,
 }
 
 @group(0) @binding(1) var<uniform> parameters: Parameters;
@@ -51,6 +54,8 @@ const REACH_CAPPED = 0u;
 const REACH_DOUBLE = 1u;
 const JITTER_STEP_SCALE = 0u;
 const JITTER_START_OFFSET = 1u;
+const JITTER_STEP_OFFSET = 2u;
+const TAP_REPLACED = 1u;
 const KERNEL_WITH_CENTRE = 1u;
 const FETCH_BILINEAR = 0u;
 
@@ -123,12 +128,16 @@ fn mixed(at: Corners) -> Surface {
     let top = blend(top_left, top_right, at.fraction.x);
     let bottom = blend(bottom_left, bottom_right, at.fraction.x);
     let motion = blend(top, bottom, at.fraction.y).xy;
-    // Depth is mixed as its inverse, and at a texel it is that texel's.
-    let inverse = 1.0 / vec4<f32>(top_left.z, top_right.z, bottom_left.z, bottom_right.z);
-    let rows = inverse.xz + at.fraction.x * (inverse.yw - inverse.xz);
-    let between = 1.0 / (rows.x + at.fraction.y * (rows.y - rows.x));
-    let depth = select(between, top_left.z, all(at.fraction == vec2<f32>(0.0)));
-    return Surface(motion, depth, 0.0);
+    let depths = vec4<f32>(top_left.z, top_right.z, bottom_left.z, bottom_right.z);
+    return Surface(motion, mixed_depth(depths, at.fraction), 0.0);
+}
+
+// Of the texels top left, top right, bottom left and bottom right: mixed as the inverse, and at a texel that texel's.
+fn mixed_depth(depths: vec4<f32>, fraction: vec2<f32>) -> f32 {
+    let inverse = 1.0 / depths;
+    let rows = inverse.xz + fraction.x * (inverse.yw - inverse.xz);
+    let between = 1.0 / (rows.x + fraction.y * (rows.y - rows.x));
+    return select(between, depths.x, all(fraction == vec2<f32>(0.0)));
 }
 
 // How far the trails of the workgroup's tile reach left, up, right and down; floats from 0 are ordered as their bits.
@@ -366,29 +375,102 @@ fn backtrack(@builtin(global_invocation_id) id: vec3<u32>) {
     textureStore(sources_out, pixel, vec4<f32>(shown.motion, shown.depth, 0.0));
 }
 
-// Where tap i lies on the trail, 0 at the pixel and 1 at its end.
-fn tap_position(i: i32, noise: f32) -> f32 {
-    let even = f32(i) / f32(max(1, parameters.samples - 1));
+// What a pixel gathers along.
+struct Trail {
+    // Where it starts, in pixels, and where it leads from there.
+    start: vec2<f32>,
+    leads: vec2<f32>,
+    // Of its source, in the space in which paths are measured, and in metres.
+    path: vec2<f32>,
+    depth: f32,
+    // In [0, 1).
+    noise: f32,
+}
+
+// Position of tap i.
+fn tap(trail: Trail, i: i32) -> vec2<f32> {
+    let steps = f32(max(1, parameters.samples - 1));
+    var along = f32(i) / steps;
     switch parameters.jitter {
         case JITTER_STEP_SCALE: {
-            return even * (0.5 + noise);
+            along *= 0.5 + trail.noise;
         }
         case JITTER_START_OFFSET: {
-            return (f32(i) + noise) / f32(parameters.samples);
+            along = (f32(i) + trail.noise) / f32(parameters.samples);
         }
-        default: {
-            return even;
+        case JITTER_STEP_OFFSET: {
+            along = (f32(i) + trail.noise - 1.0) / steps;
         }
+        default: {}
     }
+    return trail.start + trail.leads * along;
+}
+
+// The first tap that is not the pixel itself: with shifted taps, the first of them stands for it.
+fn first_tap() -> i32 {
+    return select(1, 0, parameters.jitter == JITTER_START_OFFSET);
 }
 
 // How much a tap counts whose source has the path `other`.
-fn tap_weight(path: vec2<f32>, depth: f32, other: vec2<f32>, other_depth: f32) -> f32 {
-    let change = path - other;
-    let slower = saturate(dot(change, path) / dot(path, path));
+fn tap_weight(trail: Trail, other: vec2<f32>, depth: f32) -> f32 {
+    let change = trail.path - other;
+    let slower = saturate(dot(change, trail.path) / dot(trail.path, trail.path));
     let mismatch = select(0.0, pow(slower, parameters.mismatch_exponent), slower > 0.0);
-    let in_front = saturate(1.0 - (other_depth - depth) / parameters.foreground_extent);
+    let in_front = saturate(1.0 - (depth - trail.depth) / parameters.foreground_extent);
     return 1.0 - in_front * mismatch;
+}
+
+fn mean_of_weighted_taps(here: vec4<f32>, trail: Trail, metric: vec2<f32>) -> vec4<f32> {
+    var mean = here;
+    var total = f32(first_tap());
+    for (var i = first_tap(); i < parameters.samples; i++) {
+        let position = tap(trail, i);
+        if !on_screen(position) {
+            break;
+        }
+        let other = textureLoad(sources, pixel_at(position), 0);
+        let weight = tap_weight(trail, other.xy * metric, other.z);
+        total += weight;
+        if weight > 0.0 {
+            mean += (bilinear(color, position) - mean) * (weight / total);
+        }
+    }
+    return mean;
+}
+
+fn depth_at(position: vec2<f32>) -> f32 {
+    let at = mixed_at(position);
+    let depths = vec4<f32>(
+        textureLoad(depth, at.low, 0).x,
+        textureLoad(depth, vec2<i32>(at.high.x, at.low.y), 0).x,
+        textureLoad(depth, vec2<i32>(at.low.x, at.high.y), 0).x,
+        textureLoad(depth, at.high, 0).x,
+    );
+    return mixed_depth(depths, at.fraction);
+}
+
+// How much of a tap is taken from the tap itself, the rest being the pixel's own place.
+fn tap_share(not_behind: f32, trail: Trail, position: vec2<f32>) -> f32 {
+    let extent = parameters.foreground_extent;
+    let in_front = saturate(1.0 - (depth_at(position) - extent - trail.depth) / extent);
+    return max(not_behind, in_front);
+}
+
+fn mean_of_replaced_taps(here: vec4<f32>, trail: Trail, own_depth: f32) -> vec4<f32> {
+    let device = parameters.near_plane / vec2<f32>(trail.depth, own_depth);
+    let not_behind = saturate(1.0 - (device.x - device.y) / parameters.behind_extent);
+    var mean = here;
+    var total = f32(first_tap());
+    for (var i = first_tap(); i < parameters.samples; i++) {
+        let position = tap(trail, i);
+        if !on_screen(position) {
+            break;
+        }
+        let place = mix(trail.start, position, tap_share(not_behind, trail, position));
+        total += 1.0;
+        mean += (bilinear(color, place) - mean) * (1.0 / total);
+    }
+    return mean;
 }
 
 @compute @workgroup_size(8, 8)
@@ -397,31 +479,28 @@ fn gather(@builtin(global_invocation_id) id: vec3<u32>) {
     if !inside(pixel) {
         return;
     }
+    let by = measure();
     let here = textureLoad(color, pixel, 0);
     let source = textureLoad(sources, pixel, 0);
     let motion = source.xy;
-    let by = measure();
     if dot(motion, motion) <= STILL || by.frames == 0.0 {
         textureStore(output, pixel, here);
         return;
     }
+    // The demo walks a cycle of 8 frames.
     let walk = f32(frame.frame_index % 8u) * vec2<f32>(47.0, 17.0) * 0.695;
-    let noise = interleaved_gradient_noise(vec2<f32>(pixel) + walk);
-    let trail = motion * within_reach(by, by.frames, motion);
-    let path = motion * by.metric;
-    var mean = here;
-    var total = select(1.0, 0.0, parameters.jitter == JITTER_START_OFFSET);
-    for (var i = i32(total); i < parameters.samples; i++) {
-        let position = centre(pixel) + trail * tap_position(i, noise);
-        if !on_screen(position) {
-            break;
-        }
-        let other = textureLoad(sources, pixel_at(position), 0);
-        let weight = tap_weight(path, source.z, other.xy * by.metric, other.z);
-        total += weight;
-        if weight > 0.0 {
-            mean += (bilinear(color, position) - mean) * (weight / total);
-        }
+    let trail = Trail(
+        centre(pixel),
+        motion * within_reach(by, by.frames, motion),
+        motion * by.metric,
+        source.z,
+        interleaved_gradient_noise(vec2<f32>(pixel) + walk),
+    );
+    var mean: vec4<f32>;
+    if parameters.tap == TAP_REPLACED {
+        mean = mean_of_replaced_taps(here, trail, textureLoad(depth, pixel, 0).x);
+    } else {
+        mean = mean_of_weighted_taps(here, trail, by.metric);
     }
     textureStore(output, pixel, mean);
 }
