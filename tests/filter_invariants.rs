@@ -419,7 +419,9 @@ fn expected_ramp(filter: &Filter, settings: &Settings) -> (f64, f64) {
         ((12.0 * (square - mean * mean)).sqrt(), -mean)
     };
     let from_the_pixel = |n: i32| (0..n).map(|i| f64::from(i) / f64::from(n)).collect();
-    match (filter.name.as_str(), settings.preset.as_str()) {
+    // The packed flood paints the same pixels.
+    let name = filter.name.trim_end_matches("_packed");
+    match (name, settings.preset.as_str()) {
         ("identity", "default") => (0.0, 0.0),
         ("camera_gather", "default") => spread(from_the_pixel(8), 1.0),
         ("velocity_gather", "departure") => spread(from_the_pixel(10), 1.0),
@@ -494,7 +496,7 @@ fn only_the_jump_flood_smears_over_what_lies_behind_a_mover() {
         let field = wall(false, false, 24.0, 1.0);
         let output = field.blurred(&gpu, &filter, &settings);
         let light: f32 = (0..EDGE).map(|x| output.at(x, 15)[0]).sum();
-        if filter.name == "jump_flood" {
+        if filter.name.starts_with("jump_flood") {
             assert!(light > 6.0, "{}: {light}", name(&filter, &settings));
         } else {
             assert_eq!(light, 0.0, "{}", name(&filter, &settings));

@@ -113,6 +113,7 @@ fn painted(
         color: &[&field.color],
         velocity: &field.velocity,
         depth: &field.depth,
+        reprojection: None,
         exposure,
         frame_index: 5,
     };

@@ -3,6 +3,7 @@
 mod bench;
 mod kept;
 mod refusals;
+mod timing;
 mod variants;
 
 use std::fs;

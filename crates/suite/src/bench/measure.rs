@@ -256,6 +256,7 @@ fn load<'b, 'g>(blur: &'b mut Blur<'g>, panels: &Panels) -> Result<Loaded<'b, 'g
         color: &[&panels.color],
         velocity: &panels.velocity,
         depth: &panels.depth,
+        reprojection: Some(panels.reprojection),
         exposure: EXPOSURE,
         frame_index: 0,
     })

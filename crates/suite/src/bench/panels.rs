@@ -1,6 +1,6 @@
 //! The frame that filters are timed on, made by formula.
 
-use frame::{FAR_DEPTH, Image, Plane, Raster, Vectors};
+use frame::{FAR_DEPTH, Image, Plane, Raster, Reprojection, Vectors};
 
 /// What a filter is given.
 pub struct Panels {
@@ -10,6 +10,8 @@ pub struct Panels {
     pub velocity: Vectors,
     /// Metres.
     pub depth: Plane,
+    /// For filters that look at the camera alone: it pans as fast.
+    pub reprojection: Reprojection,
 }
 
 struct Panel {
@@ -81,6 +83,13 @@ impl Panels {
             depth: Raster::from_fn(width, height, |x, y| {
                 at(x, y).map_or(FAR_DEPTH, |(panel, _)| panel.depth)
             }),
+            reprojection: Reprojection {
+                rows: [
+                    [1.0, 0.0, -f64::from(speed), 0.0],
+                    [0.0, 1.0, 0.0, 0.0],
+                    [0.0, 0.0, 1.0, 0.0],
+                ],
+            },
         }
     }
 }
