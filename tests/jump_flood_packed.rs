@@ -57,7 +57,7 @@ fn frames() -> Vec<(&'static str, Field, f64)> {
         ("rectangles 97x53", rectangles(97, 53, 12), 1.0),
         ("rectangles 50x131", rectangles(50, 131, 13), 0.5),
         ("turning 96x80", turning(96, 80), 1.0),
-        ("sparse 300x170", sparse(300, 170), 1.0),
+        ("sparse 200x120", sparse(200, 120), 1.0),
     ]
 }
 
@@ -79,8 +79,8 @@ fn sparse(width: u32, height: u32) -> Field {
     field.depth = Raster::filled(width, height, FAR_DEPTH);
     for (left, top, motion, depth) in [
         (40, 30, [24.0, 0.0], 2.0),
-        (200, 110, [-12.0, 31.0], 3.0),
-        (2, 150, [6.5, -8.0], 4.0),
+        (130, 60, [-12.0, 31.0], 3.0),
+        (2, 100, [6.5, -8.0], 4.0),
     ] {
         for y in top..top + 9 {
             for x in left..left + 11 {
@@ -206,11 +206,11 @@ fn tiles_that_no_trail_reaches_are_left_alone() {
     let (gpu, [_, packed]) = (gpu(), floods());
     for preset in &packed.presets {
         let settings = packed.settings(Some(&preset.name)).unwrap();
-        let field = sparse(300, 170);
+        let field = sparse(200, 120);
         let (reached, tiles) = painted(&gpu, &packed, &settings, &field, 1.0)
             .reached
             .unwrap();
-        assert_eq!(tiles, 19 * 11);
+        assert_eq!(tiles, 13 * 8);
         // Each of three movers lies in at least one tile. With trails of up to 33 pixels, all of them stay within a
         // third of the image even where each tile's longest trail is taken for all of its pixels.
         assert!(

@@ -129,9 +129,8 @@ fn cases(plan: &BenchPlan, gpu: &Gpu, turns: &Turns) -> Result<(CopyCost, Vec<Ca
         .iter()
         .map(total)
         .collect();
-    let pixels = f64::from(plan.width) * f64::from(plan.height);
     let costs = plan.filters.iter().zip(&runs);
-    let costs = costs.map(|(choice, runs)| case_cost(choice, runs, &baseline, pixels, &copy));
+    let costs = costs.map(|(choice, runs)| case_cost(choice, runs, &baseline, pixels(plan), &copy));
     let costs = costs.collect();
     Ok((copy, costs))
 }
@@ -212,34 +211,44 @@ fn reach(
         loaded.push(load(blur, &Panels::new(plan.width, plan.height, speed))?);
     }
     let (runs, _) = turns.take(&loaded, || Ok(()))?;
-    let mut runs = runs.iter();
-    let totals = settings.each_ref().map(|settings| {
-        let runs = settings.as_ref().and_then(|_| runs.next());
-        runs.map(|runs| runs.iter().map(total).collect::<Vec<f64>>())
-    });
+    let mut runs = runs.into_iter();
+    let runs = settings
+        .each_ref()
+        .map(|settings| settings.as_ref().and_then(|_| runs.next()));
     let parameter = choice.filter.reach_by.as_ref().map(|by| &by.parameter);
+    let point = |index: usize| {
+        let runs: Option<&Vec<Times>> = runs[index].as_ref();
+        ReachPoint {
+            pixels: REACHES[index],
+            seconds: runs.map(|runs| Spread::of(runs.iter().map(total))),
+            value: (settings[index].as_ref().zip(parameter))
+                .map(|(settings, name)| settings.values[name].clone()),
+            passes: runs.map_or(Vec::new(), |runs| pass_costs(runs, pixels(plan))),
+        }
+    };
     Ok(ReachCost {
         filter: choice.filter.name.clone(),
         preset: choice.preset.clone(),
         parameter: parameter.cloned(),
-        growth: growth(&totals),
-        points: (0..REACHES.len())
-            .map(|index| ReachPoint {
-                pixels: REACHES[index],
-                seconds: totals[index].clone().map(Spread::of),
-                value: (settings[index].as_ref().zip(parameter))
-                    .map(|(settings, name)| settings.values[name].clone()),
-            })
-            .collect(),
+        points: (0..REACHES.len()).map(point).collect(),
+        growth: growth(&runs),
     })
 }
 
 /// Of the longest reach over [`GROWTH_FROM`], round by round.
-fn growth(totals: &[Option<Vec<f64>>; REACHES.len()]) -> Option<Spread> {
+fn growth(runs: &[Option<Vec<Times>>; REACHES.len()]) -> Option<Spread> {
     let from = REACHES.iter().position(|pixels| *pixels == GROWTH_FROM);
-    let from = totals[from.expect("growth starts at one of the reaches")].as_ref()?;
-    let to = totals.last().and_then(Option::as_ref)?;
-    Some(Spread::of(to.iter().zip(from).map(|(to, from)| to / from)))
+    let from = runs[from.expect("growth starts at one of the reaches")].as_ref()?;
+    let to = runs.last().and_then(Option::as_ref)?;
+    Some(Spread::of(
+        to.iter()
+            .zip(from)
+            .map(|(to, from)| total(to) / total(from)),
+    ))
+}
+
+fn pixels(plan: &BenchPlan) -> f64 {
+    f64::from(plan.width) * f64::from(plan.height)
 }
 
 fn blur<'g>(

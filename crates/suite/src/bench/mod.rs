@@ -129,4 +129,6 @@ pub struct ReachPoint {
     pub seconds: Option<Spread>,
     /// Value of the parameter that was set.
     pub value: Option<Value>,
+    /// In the order in which they run; empty where nothing was timed.
+    pub passes: Vec<PassCost>,
 }
