@@ -173,6 +173,132 @@ fn a_texture_that_a_pass_reads_and_writes_is_exchanged_for_every_colour() {
     }
 }
 
+const NUMBERS_MANIFEST: &str = r#"
+name = "numbers"
+summary = "Numbers the blocks of an image, with more bits than a float holds."
+alignment = "trailing"
+
+[[texture]]
+name = "blocks"
+format = "r32uint"
+divided_by = 4
+
+[[pass]]
+entry = "number"
+over = "blocks"
+
+[[pass]]
+entry = "show"
+"#;
+
+const NUMBERS_KERNELS: &str = "
+@group(0) @binding(1) var blocks: texture_2d<u32>;
+@group(0) @binding(2) var blocks_out: texture_storage_2d<r32uint, write>;
+@group(0) @binding(3) var output: texture_storage_2d<rgba32float, write>;
+
+@compute @workgroup_size(4, 4)
+fn number(@builtin(global_invocation_id) id: vec3<u32>) {
+    textureStore(blocks_out, id.xy, vec4<u32>(0xff000001u + id.x + 16u * id.y));
+}
+
+@compute @workgroup_size(4, 4)
+fn show(@builtin(global_invocation_id) id: vec3<u32>) {
+    let block = textureLoad(blocks, id.xy / 4u, 0).x;
+    textureStore(output, id.xy, vec4<f32>(f32(block >> 24u), f32(block & 0xffu), 0.0, 0.0));
+}
+";
+
+#[test]
+fn whole_numbers_keep_every_bit_in_a_texture_of_a_fixed_fraction() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), "numbers", NUMBERS_MANIFEST, NUMBERS_KERNELS);
+    let filter = Filter::load(folder.path()).unwrap();
+    let gpu = Gpu::new(None).expect("these tests run filters");
+    let mut blur = Blur::new(&gpu, &filter, &filter.settings(None).unwrap(), 10, 5).unwrap();
+    let color = Raster::filled(10, 5, [0.0; 3]);
+    let outputs = blur
+        .run(&Input {
+            color: &[&color],
+            velocity: &Raster::filled(10, 5, [0.0; 2]),
+            depth: &Raster::filled(10, 5, 1.0),
+            reprojection: None,
+            exposure: 1.0,
+            frame_index: 0,
+        })
+        .unwrap();
+    let number = |x: u32, y: u32| 1 + x / 4 + 16 * (y / 4);
+    let expected = Raster::from_fn(10, 5, |x, y| [255.0, number(x, y) as f32, 0.0]);
+    assert_eq!(outputs[0], expected);
+    // Rounded up, so that the last block is there though it is not whole.
+    let blocks = blur.texture("blocks").unwrap();
+    assert_eq!((blocks.width, blocks.height), (3, 2));
+    assert_eq!(blocks.at(2, 1)[0].to_bits(), 0xff00_0001 + 2 + 16);
+}
+
+#[test]
+fn a_texture_is_read_as_what_it_holds() {
+    let read = NUMBERS_KERNELS.replace("f32(block >> 24u), f32(block & 0xffu)", "0.0, 0.0");
+    let stored = read.replace(
+        "vec4<u32>(0xff000001u + id.x + 16u * id.y)",
+        "vec4<f32>(0.0)",
+    );
+    let float = NUMBERS_MANIFEST.replace("r32uint", "r32float");
+    #[rustfmt::skip]
+    let wrong: [(&str, String, &[&str]); 5] = [
+        (NUMBERS_MANIFEST, read.replace("<u32>;", "<f32>;"), &["numbers.wgsl:2:", "\"blocks\" does not fit the declared format R32Uint", "texture_2d<u32>"]),
+        (&float, stored.replace("r32uint", "r32float"), &["\"blocks\" does not fit the declared format R32Float", "texture_2d<f32>"]),
+        (NUMBERS_MANIFEST, stored.replace("r32uint", "r32float"), &["\"blocks_out\" has format R32Float", "R32Uint"]),
+        (NUMBERS_MANIFEST, read.replace("<u32>;", "<i32>;"), &["\"blocks\" cannot be bound", "texture_2d<u32>", "r32uint"]),
+        (NUMBERS_MANIFEST, read.replace("blocks:", "depth:").replace("(blocks,", "(depth,"), &["\"depth\" holds floats", "texture_2d<f32>"]),
+    ];
+    for (manifest, kernels, fragments) in wrong {
+        let folder = tempfile::tempdir().unwrap();
+        write(folder.path(), "numbers", manifest, &kernels);
+        let message = Filter::load(folder.path()).unwrap_err().to_string();
+        for fragment in fragments {
+            assert!(
+                message.contains(fragment),
+                "\"{fragment}\" is missing from: {message}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_smallest_reach_that_covers_a_trail_is_set() {
+    let flood = Filter::builtin("jump_flood").unwrap();
+    let passes = |preset: &str, pixels: u32| {
+        let settings = flood.settings(Some(preset)).unwrap();
+        let reaching = settings.reaching(&flood, pixels).unwrap();
+        reaching.values["passes"].clone()
+    };
+    // Largest steps of 8, 16 and 128 pixels; then of 1, 16 and 128.
+    for (preset, pixels, expected) in [
+        ("paper", 1, 1),
+        ("paper", 8, 1),
+        ("paper", 9, 2),
+        ("paper", 128, 5),
+        ("corrected", 1, 1),
+        ("corrected", 16, 5),
+        ("corrected", 128, 8),
+    ] {
+        assert_eq!(
+            passes(preset, pixels),
+            Value::Integer(expected),
+            "{preset}, {pixels}"
+        );
+    }
+    let settings = flood.settings(None).unwrap();
+    let message = settings.reaching(&flood, 1 << 20).unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "jump_flood.passes: found 18; allowed: a whole number from 1 to 12"
+    );
+    let gather = Filter::builtin("velocity_gather").unwrap();
+    let settings = gather.settings(None).unwrap();
+    assert_eq!(settings.reaching(&gather, 256).unwrap(), settings);
+}
+
 #[test]
 fn built_in_folders_load_from_disk_alike() {
     let shaders = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders");
@@ -246,6 +372,11 @@ fn a_wrong_folder_says_where_and_what() {
         ("filter.toml", "[[pass]]\nentry = \"fastest\"\nover = \"tile_motion\"\n", "", &["gather", "reads \"tile_motion\" before"]),
         ("filter.toml", "[[pass]]\nentry = \"gather\"\n", "", &["no pass writes \"output\""]),
         ("filter.toml", "name = \"tile_size\"\nkind = \"integer\"\ndefault = 16\nrange = [2, 64]", "name = \"tile_size\"\nkind = \"integer\"\ndefault = 16\nrange = [0, 64]", &["tile_motion", "begins at 1"]),
+        ("filter.toml", "divided_by = \"tile_size\"", "divided_by = 0", &["tile_motion", "divided_by = 0", "1 pixel or more"]),
+        ("filter.toml", "divided_by = \"tile_size\"", "divided_by = 1.5", &["a number of pixels or the name of an integer parameter"]),
+        ("filter.toml", "[[preset]]", "[reach_by]\nparameter = \"spacing\"\ngrowth = \"linear\"\n[[preset]]", &["filter.toml:", "reach_by", "\"spacing\" is not an integer"]),
+        ("filter.toml", "[[preset]]", "[reach_by]\nparameter = \"tile_size\"\ngrowth = \"linear\"\nunit = \"side\"\n[[preset]]", &["reach_by", "unit", "\"side\" is no parameter"]),
+        ("filter.toml", "[[preset]]", "[reach_by]\nparameter = \"tile_size\"\ngrowth = \"slow\"\n[[preset]]", &["slow", "linear", "doubling"]),
         ("kernels", "    samples: i32,\n", "", &["centre_blur.wgsl:", "samples"]),
         ("kernels", "    samples: i32,\n    tile_size: i32,", "    tile_size: i32,\n    samples: i32,", &["member 1", "tile_size", "filter.toml:5"]),
         ("filter.toml", "kind = \"integer\"", "kind = \"real\"", &["centre_blur.wgsl:7:", "samples: i32 at byte 0", "filter.toml:5 declares samples: f32 at byte 0"]),

@@ -7,6 +7,7 @@ mod kept;
 mod own_filter;
 mod refusals;
 mod score;
+mod timing;
 mod variants;
 
 use std::fs;

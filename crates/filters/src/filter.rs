@@ -7,7 +7,7 @@ use frame::Alignment;
 use include_dir::{Dir, include_dir};
 
 use crate::gpu::{EntryPoint, Shader};
-use crate::{Command, FilterError, Parameter, Settings, Value, manifest, wiring};
+use crate::{Command, FilterError, Length, Parameter, ReachBy, Settings, Value, manifest, wiring};
 
 static BUILTIN: Dir = include_dir!("$CARGO_MANIFEST_DIR/../../shaders");
 
@@ -22,6 +22,8 @@ pub struct Filter {
     pub source: String,
     /// How far its smear reaches, in pixels or in frames of motion.
     pub reach: String,
+    /// The parameter that bounds it; `None` where the smear reaches as far as anything moves.
+    pub reach_by: Option<ReachBy>,
     /// What it is known not to do.
     pub cannot: String,
     /// The shutter interval that its smear stands for.
@@ -59,14 +61,16 @@ pub struct Texture {
     pub name: String,
     /// Numbers per texel.
     pub format: Format,
-    /// Integer parameter by which the image's size is divided, rounded up; `None` for the image's own size.
-    pub divided_by: Option<String>,
+    /// By what the image's size is divided, rounded up; `None` for the image's own size.
+    pub divided_by: Option<Length>,
 }
 
-/// Texel format: 32-bit floats.
+/// Texel format: numbers of 32 bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Format {
+    /// One whole number from 0.
+    R32Uint,
     /// One number.
     R32Float,
     /// Two.

@@ -11,13 +11,15 @@ mod gpu;
 mod input;
 mod manifest;
 mod parameter;
+mod reach;
 mod settings;
 mod wiring;
 
 pub use command::{Command, CommandBlur};
 pub use error::FilterError;
 pub use filter::{Filter, Format, Pass, Preset, Repeat, Texture};
-pub use gpu::{AdapterDescription, Blur, Gpu, list_adapters};
+pub use gpu::{AdapterDescription, Blur, BufferCopy, Clock, Gpu, Loaded, PassTime, list_adapters};
 pub use input::Input;
 pub use parameter::{Kind, Parameter, Scale, Value};
+pub use reach::{Growth, Length, ReachBy};
 pub use settings::Settings;

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use crate::filter::{Filter, Pass};
-use crate::gpu::{EntryPoint, Role, written};
+use crate::gpu::{EntryPoint, Role, Texel, written};
 use crate::manifest::Lines;
 use crate::{FilterError, Format};
 
@@ -120,8 +120,19 @@ impl Check<'_> {
         };
         match (role, name) {
             (Role::Uniform, "parameters" | "frame") => Ok(()),
-            (Role::Read, "color" | "velocity" | "depth") => Ok(()),
-            (Role::Read, name) if declared(name).is_some() => Ok(()),
+            (Role::Read(Texel::Float), "color" | "velocity" | "depth") => Ok(()),
+            (Role::Read(Texel::Uint), "color" | "velocity" | "depth") => {
+                Err("holds floats: texture_2d<f32>".into())
+            }
+            (Role::Read(found), name) => match declared(name) {
+                Some(texture) if Texel::of(texture.format) == found => Ok(()),
+                Some(texture) => Err(format!(
+                    "does not fit the declared format {:?}: r32uint is read as texture_2d<u32>, every other as \
+                     texture_2d<f32>",
+                    texture.format
+                )),
+                None => Err(self.undeclared()),
+            },
             (Role::Write(Format::Rgba32Float), "output") => Ok(()),
             (Role::Write(_), "output") => {
                 Err("has another format than the image: rgba32float".into())

@@ -33,6 +33,8 @@ pub enum Command {
     Blur(BlurArgs),
     /// Measure a finished picture, wherever it comes from.
     Score(ScoreArgs),
+    /// Time filters pass by pass, and against their reach. Prints tables; writes bench.json.
+    Bench(BenchArgs),
     /// List scenes, filters, parameters and presets.
     List(ListArgs),
 }
@@ -228,6 +230,28 @@ pub struct ScoreArgs {
     pub json: bool,
 }
 
+/// `shuttertruth bench`
+#[derive(Debug, Args)]
+pub struct BenchArgs {
+    /// Filters: names or folders, each with an optional :preset, separated by commas [default: every built-in one].
+    #[arg(long, value_delimiter = ',', value_name = "FILTERS")]
+    pub filters: Vec<String>,
+    /// Picture size in pixels [default: 1920x1080, or 320x180 on a software adapter].
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<(u32, u32)>,
+    /// How often each filter is timed, in turns with the others; 20 or more.
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = rounds)]
+    pub rounds: u32,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+    /// Folder for bench.json.
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+    /// No progress bar.
+    #[arg(long)]
+    pub quiet: bool,
+}
+
 /// `shuttertruth list`
 #[derive(Debug, Args)]
 pub struct ListArgs {
@@ -278,6 +302,14 @@ fn replicates(text: &str) -> Result<Replicates, String> {
     })
 }
 
+/// Enough rounds for quartiles.
+fn rounds(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(rounds @ 20..=10_000) => Ok(rounds),
+        _ => Err("allowed is 20 to 10000: fewer say nothing about the spread".to_owned()),
+    }
+}
+
 /// A radiance above 0.
 fn noise(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -326,6 +358,14 @@ mod tests {
                 replicates(wrong).unwrap_err().contains("3..6"),
                 "{wrong} must be refused"
             );
+        }
+    }
+
+    #[test]
+    fn rounds_suffice_for_quartiles() {
+        assert_eq!(rounds("20"), Ok(20));
+        for wrong in ["19", "0", "-1", "many", "1000000", "20.5"] {
+            assert!(rounds(wrong).is_err(), "{wrong} must be refused");
         }
     }
 

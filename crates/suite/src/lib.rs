@@ -1,5 +1,6 @@
 //! Cases, runs and bounds over the scenes, filters and metrics; the command line `shuttertruth` is a thin layer on top.
 
+mod bench;
 mod bounds;
 mod case;
 mod error;
@@ -19,6 +20,7 @@ mod selection;
 mod table;
 mod workbench;
 
+pub use bench::{BASELINE, Bench, BenchPlan, bench, bench_table};
 pub use bounds::{Bounds, Outcome, Verdict, judge, read_bounds};
 pub use case::Case;
 pub use error::Error;

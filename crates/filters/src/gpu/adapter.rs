@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::clock::Clock;
 use crate::FilterError;
 
 /// What a run records about the GPU that it used.
@@ -22,9 +23,15 @@ pub struct AdapterDescription {
 pub struct Gpu {
     /// What it is.
     pub adapter: AdapterDescription,
+    /// How durations are taken: by timestamps where the adapter has them.
+    pub clock: Clock,
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
 }
+
+/// What it takes to read the GPU's own clock between passes.
+const TIMESTAMPS: wgpu::Features =
+    wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
 
 /// Every adapter of this machine; its index and its name choose it in [`Gpu::new`].
 pub fn list_adapters() -> Vec<AdapterDescription> {
@@ -53,6 +60,7 @@ impl Gpu {
         })?;
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("shuttertruth"),
+            required_features: chosen.features() & TIMESTAMPS,
             required_limits: chosen.limits(),
             ..Default::default()
         };
@@ -66,6 +74,10 @@ impl Gpu {
             })?;
         Ok(Self {
             adapter: description,
+            clock: match device.features().contains(TIMESTAMPS) {
+                true => Clock::Timestamps,
+                false => Clock::WallClock,
+            },
             device,
             queue,
         })

@@ -18,8 +18,8 @@ pub(super) fn layout(gpu: &Gpu, shader: &Shader, entry: &EntryPoint) -> wgpu::Bi
                     has_dynamic_offset: false,
                     min_binding_size: None,
                 },
-                Role::Read => wgpu::BindingType::Texture {
-                    sample_type: wgpu::TextureSampleType::Float { filterable: false },
+                Role::Read(texel) => wgpu::BindingType::Texture {
+                    sample_type: texel.wgpu(),
                     view_dimension: wgpu::TextureViewDimension::D2,
                     multisampled: false,
                 },

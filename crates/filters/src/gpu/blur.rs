@@ -11,11 +11,11 @@ use crate::{Filter, FilterError, Format, Input, Settings};
 /// A filter ready to run on images of one size.
 #[derive(Debug)]
 pub struct Blur<'g> {
-    gpu: &'g Gpu,
+    pub(super) gpu: &'g Gpu,
     filter: String,
     size: [u32; 2],
     reads_reprojection: bool,
-    plan: Plan,
+    pub(super) plan: Plan,
 }
 
 impl<'g> Blur<'g> {
@@ -44,8 +44,8 @@ impl<'g> Blur<'g> {
         })
     }
 
-    /// Blurs every colour image of the input, in order. The same input gives the same bytes on the same adapter.
-    pub fn run(&mut self, input: &Input) -> Result<Vec<Image>, FilterError> {
+    /// Refuses an input that the filter cannot read.
+    pub(super) fn check(&self, input: &Input) -> Result<(), FilterError> {
         input.check(&self.filter, self.size)?;
         if self.reads_reprojection && input.reprojection.is_none() {
             return Err(FilterError::Input {
@@ -55,17 +55,16 @@ impl<'g> Blur<'g> {
                     .to_owned(),
             });
         }
+        Ok(())
+    }
+
+    /// Blurs every colour image of the input, in order. The same input gives the same bytes on the same adapter.
+    pub fn run(&mut self, input: &Input) -> Result<Vec<Image>, FilterError> {
+        self.check(input)?;
         self.upload(input)?;
         let mut outputs = Vec::new();
         for color in input.color {
-            let texels: Vec<f32> = color
-                .pixels
-                .iter()
-                .flat_map(|[r, g, b]| [*r, *g, *b, 1.0])
-                .collect();
-            self.gpu.guarded(self.place("upload"), || {
-                self.gpu.upload(self.plan.target("color"), &texels);
-            })?;
+            self.upload_color(color)?;
             // What does not depend on colour is still there from the first image.
             self.dispatch(!outputs.is_empty())?;
             let output = self
@@ -76,21 +75,21 @@ impl<'g> Blur<'g> {
         Ok(outputs)
     }
 
-    /// What the last run left in a texture between the passes; components that its format lacks are 0. For tests and
-    /// for looking inside. Panics where the filter has no such texture.
+    /// What the last run left in a texture between the passes; components that its format lacks are 0, and a whole
+    /// number is the float of the same bits. For tests and for looking inside. Panics where the filter has no such texture.
     pub fn texture(&self, name: &str) -> Result<Raster<[f32; 4]>, FilterError> {
         let target = self.plan.target(name);
         self.gpu.download(target, self.place("read back"))
     }
 
-    fn place<'a>(&'a self, pass: &'a str) -> Place<'a> {
+    pub(super) fn place<'a>(&'a self, pass: &'a str) -> Place<'a> {
         Place {
             filter: &self.filter,
             pass,
         }
     }
 
-    fn upload(&self, input: &Input) -> Result<(), FilterError> {
+    pub(super) fn upload(&self, input: &Input) -> Result<(), FilterError> {
         let [width, height] = self.size;
         let frame = FrameUniform {
             size: [width as i32, height as i32],
@@ -108,18 +107,23 @@ impl<'g> Blur<'g> {
         })
     }
 
+    pub(super) fn upload_color(&self, color: &Image) -> Result<(), FilterError> {
+        let texels: Vec<f32> = color
+            .pixels
+            .iter()
+            .flat_map(|[r, g, b]| [*r, *g, *b, 1.0])
+            .collect();
+        self.gpu.guarded(self.place("upload"), || {
+            self.gpu.upload(self.plan.target("color"), &texels);
+        })
+    }
+
     fn dispatch(&self, only_color: bool) -> Result<(), FilterError> {
         let steps = self.plan.steps.iter();
         for step in steps.filter(|step| step.depends_on_color || !only_color) {
             self.gpu.guarded(self.place(&step.entry), || {
                 let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-                {
-                    let mut pass = encoder.begin_compute_pass(&Default::default());
-                    pass.set_pipeline(&step.pipeline);
-                    pass.set_bind_group(0, &step.bind_group, &[]);
-                    let [x, y] = step.workgroups;
-                    pass.dispatch_workgroups(x, y, 1);
-                }
+                step.encode(&mut encoder);
                 self.gpu.queue.submit([encoder.finish()]);
             })?;
         }

@@ -3,12 +3,18 @@
 mod adapter;
 mod binding;
 mod blur;
+mod clock;
+mod copy;
 mod plan;
 mod shader;
 mod targets;
+mod timing;
 mod transfer;
 mod uniforms;
 
 pub use adapter::{AdapterDescription, Gpu, list_adapters};
 pub use blur::Blur;
-pub(crate) use shader::{EntryPoint, Role, Shader, written};
+pub use clock::Clock;
+pub use copy::BufferCopy;
+pub(crate) use shader::{EntryPoint, Role, Shader, Texel, written};
+pub use timing::{Loaded, PassTime};

@@ -24,10 +24,22 @@ pub(super) struct Step {
     pub pipeline: wgpu::ComputePipeline,
     pub bind_group: wgpu::BindGroup,
     pub workgroups: [u32; 2],
+    /// Of the textures that it reads and of those that it writes, each counted once and whole.
+    pub bytes: u64,
     /// Whether its result changes with the colour image.
     pub depends_on_color: bool,
     iteration: u32,
     iterations: u32,
+}
+
+impl Step {
+    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &self.bind_group, &[]);
+        let [x, y] = self.workgroups;
+        pass.dispatch_workgroups(x, y, 1);
+    }
 }
 
 impl Plan {
@@ -102,6 +114,7 @@ impl Plan {
                         over.width.div_ceil(group_width),
                         over.height.div_ceil(group_height),
                     ],
+                    bytes: targets.bytes(&filter.shader, entry),
                     depends_on_color,
                     iteration,
                     iterations,

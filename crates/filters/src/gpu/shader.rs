@@ -43,10 +43,29 @@ pub(crate) struct Variable {
 pub(crate) enum Role {
     /// `var<uniform>`.
     Uniform,
-    /// `texture_2d<f32>`.
-    Read,
+    /// `texture_2d<f32>` or `texture_2d<u32>`.
+    Read(Texel),
     /// `texture_storage_2d<format, write>`.
     Write(Format),
+}
+
+/// What a texture that is read holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Texel {
+    /// `f32`.
+    Float,
+    /// `u32`.
+    Uint,
+}
+
+impl Texel {
+    /// What a texture of that format holds.
+    pub fn of(format: Format) -> Self {
+        match format {
+            Format::R32Uint => Texel::Uint,
+            Format::R32Float | Format::Rg32Float | Format::Rgba32Float => Texel::Float,
+        }
+    }
 }
 
 /// A member of a uniform struct.
@@ -222,8 +241,8 @@ fn variable(
         source.at(
             Some(line),
             format!(
-                "\"{name}\" cannot be bound; allowed: var<uniform>, texture_2d<f32>, and \
-                 texture_storage_2d<r32float | rg32float | rgba32float, write>"
+                "\"{name}\" cannot be bound; allowed: var<uniform>, texture_2d<f32>, texture_2d<u32>, and \
+                 texture_storage_2d<r32uint | r32float | rg32float | rgba32float, write>"
             ),
         )
     })?;
@@ -240,9 +259,14 @@ fn image_role(class: ImageClass) -> Option<Role> {
         ImageClass::Sampled {
             kind: ScalarKind::Float,
             multi: false,
-        } => Some(Role::Read),
+        } => Some(Role::Read(Texel::Float)),
+        ImageClass::Sampled {
+            kind: ScalarKind::Uint,
+            multi: false,
+        } => Some(Role::Read(Texel::Uint)),
         ImageClass::Storage { format, access } if access == StorageAccess::STORE => {
             let format = match format {
+                StorageFormat::R32Uint => Format::R32Uint,
                 StorageFormat::R32Float => Format::R32Float,
                 StorageFormat::Rg32Float => Format::Rg32Float,
                 StorageFormat::Rgba32Float => Format::Rgba32Float,
@@ -309,7 +333,7 @@ fn entry_points(
             for Variable { name, role, .. } in used_variables {
                 match role {
                     Role::Uniform => {}
-                    Role::Read => _ = reads.insert(name.clone()),
+                    Role::Read(_) => _ = reads.insert(name.clone()),
                     Role::Write(_) => _ = writes.insert(written(name).to_owned()),
                 }
             }

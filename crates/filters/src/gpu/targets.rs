@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::adapter::Gpu;
-use super::shader::{EntryPoint, Role, Variable, written};
+use super::shader::{EntryPoint, Role, Shader, Variable, written};
 use super::transfer::Target;
 use crate::{Filter, Format, Settings};
 
@@ -24,8 +24,8 @@ impl Targets {
             targets.insert(name.to_owned(), vec![target]);
         }
         for texture in &filter.textures {
-            let divisor = texture.divided_by.as_ref();
-            let divisor = divisor.map_or(1, |parameter| settings.count(parameter));
+            let divided_by = texture.divided_by.as_ref();
+            let divisor = divided_by.map_or(1, |length| settings.pixels(length));
             let [width, height] = size.map(|side| side.div_ceil(divisor));
             let exchanged = filter.passes.iter().any(|pass| {
                 let mut names = filter.entry_point(pass).exchanged();
@@ -58,8 +58,20 @@ impl Targets {
                     false => self.current(name),
                 }
             }
-            Role::Read | Role::Uniform => self.current(&variable.name),
+            Role::Read(_) | Role::Uniform => self.current(&variable.name),
         }
+    }
+
+    /// Bytes of every texture that the kernel reads, and of every one that it writes.
+    pub fn bytes(&self, shader: &Shader, entry: &EntryPoint) -> u64 {
+        let variables = entry
+            .variables
+            .iter()
+            .map(|index| &shader.variables[*index]);
+        variables
+            .filter(|variable| variable.role != Role::Uniform)
+            .map(|variable| self.of_variable(entry, variable).bytes())
+            .sum()
     }
 
     /// What the pass wrote becomes what the next one reads.

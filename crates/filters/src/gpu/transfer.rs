@@ -3,13 +3,14 @@
 use frame::Raster;
 
 use super::adapter::Gpu;
+use super::shader::Texel;
 use crate::{FilterError, Format};
 
 impl Format {
     /// Numbers per texel.
     pub(super) fn components(self) -> usize {
         match self {
-            Format::R32Float => 1,
+            Format::R32Uint | Format::R32Float => 1,
             Format::Rg32Float => 2,
             Format::Rgba32Float => 4,
         }
@@ -17,9 +18,19 @@ impl Format {
 
     pub(super) fn wgpu(self) -> wgpu::TextureFormat {
         match self {
+            Format::R32Uint => wgpu::TextureFormat::R32Uint,
             Format::R32Float => wgpu::TextureFormat::R32Float,
             Format::Rg32Float => wgpu::TextureFormat::Rg32Float,
             Format::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
+        }
+    }
+}
+
+impl Texel {
+    pub(super) fn wgpu(self) -> wgpu::TextureSampleType {
+        match self {
+            Texel::Float => wgpu::TextureSampleType::Float { filterable: false },
+            Texel::Uint => wgpu::TextureSampleType::Uint,
         }
     }
 }
@@ -32,6 +43,13 @@ pub(super) struct Target {
     pub format: Format,
 }
 
+impl Target {
+    pub fn bytes(&self) -> u64 {
+        let texels = u64::from(self.texture.width()) * u64::from(self.texture.height());
+        texels * 4 * self.format.components() as u64
+    }
+}
+
 /// Where an error belongs.
 #[derive(Clone, Copy)]
 pub(super) struct Place<'a> {
@@ -40,7 +58,7 @@ pub(super) struct Place<'a> {
 }
 
 impl Place<'_> {
-    fn refuse(self, reason: impl ToString) -> FilterError {
+    pub(super) fn refuse(self, reason: impl ToString) -> FilterError {
         FilterError::Gpu {
             filter: self.filter.to_owned(),
             pass: self.pass.to_owned(),
@@ -147,22 +165,7 @@ impl Gpu {
             self.queue.submit([encoder.finish()]);
             buffer
         })?;
-        let (sender, receiver) = std::sync::mpsc::channel();
-        buffer.map_async(wgpu::MapMode::Read, .., move |result| {
-            _ = sender.send(result);
-        });
-        self.device
-            .poll(wgpu::PollType::wait_indefinitely())
-            .map_err(|error| place.refuse(error))?;
-        match receiver.try_recv() {
-            Ok(Ok(())) => {}
-            Ok(Err(error)) => return Err(place.refuse(error)),
-            Err(_) => return Err(place.refuse("the GPU stopped answering")),
-        }
-        let bytes = buffer
-            .get_mapped_range(..)
-            .map_err(|error| place.refuse(error))?;
-        let values: Vec<f32> = bytemuck::pod_collect_to_vec(&bytes[..]);
+        let values: Vec<f32> = self.read_buffer(&buffer, place)?;
         let components = target.format.components();
         let row = padded as usize / 4;
         Ok(Raster::from_fn(width, height, |x, y| {
@@ -171,5 +174,33 @@ impl Gpu {
             texel[..components].copy_from_slice(&values[start..start + components]);
             texel
         }))
+    }
+
+    /// Waits until the GPU has done everything that it was given.
+    pub(super) fn wait(&self, place: Place) -> Result<(), FilterError> {
+        let polled = self.device.poll(wgpu::PollType::wait_indefinitely());
+        polled.map(drop).map_err(|error| place.refuse(error))
+    }
+
+    /// Waits for the GPU and reads a whole buffer.
+    pub(super) fn read_buffer<T: bytemuck::Pod>(
+        &self,
+        buffer: &wgpu::Buffer,
+        place: Place,
+    ) -> Result<Vec<T>, FilterError> {
+        let (sender, receiver) = std::sync::mpsc::channel();
+        buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+            _ = sender.send(result);
+        });
+        self.wait(place)?;
+        match receiver.try_recv() {
+            Ok(Ok(())) => {}
+            Ok(Err(error)) => return Err(place.refuse(error)),
+            Err(_) => return Err(place.refuse("the GPU stopped answering")),
+        }
+        let bytes = buffer
+            .get_mapped_range(..)
+            .map_err(|error| place.refuse(error))?;
+        Ok(bytemuck::pod_collect_to_vec(&bytes[..]))
     }
 }

@@ -3,6 +3,7 @@
 mod command;
 mod parameters;
 mod passes;
+mod reach;
 
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -16,6 +17,7 @@ use crate::{Filter, FilterError};
 use command::command;
 use parameters::{ParameterEntry, PresetEntry, parameters, presets};
 use passes::{PassEntry, TextureEntry, passes, textures};
+use reach::{ReachEntry, reach_by};
 
 /// Where things are declared in `filter.toml`, for messages: lines from 1.
 pub(crate) struct Lines {
@@ -34,6 +36,7 @@ struct Manifest {
     source: String,
     #[serde(default)]
     reach: String,
+    reach_by: Option<Spanned<ReachEntry>>,
     #[serde(default)]
     cannot: String,
     #[serde(deserialize_with = "alignment")]
@@ -82,6 +85,7 @@ pub(crate) fn read(path: &Path, text: &str) -> Result<(Filter, Lines), FilterErr
         presets: presets(&file, &manifest.preset, &parameters)?,
         passes: passes(&file, &manifest.pass, &textures, &parameters)?,
         command,
+        reach_by: reach_by(&file, manifest.reach_by.as_ref(), &parameters)?,
         textures,
         parameters,
         summary: manifest.summary,

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::reach::{LengthEntry, length};
 use super::{File, IDENTIFIER, is_identifier};
 use crate::filter::{Format, Pass, Repeat, Texture};
 use crate::{FilterError, Kind, Parameter};
@@ -12,7 +13,7 @@ use crate::{FilterError, Kind, Parameter};
 pub(super) struct TextureEntry {
     name: String,
     format: Format,
-    divided_by: Option<String>,
+    divided_by: Option<LengthEntry>,
 }
 
 #[derive(Deserialize)]
@@ -67,18 +68,20 @@ pub(super) fn textures(
         if textures.iter().any(|known| known.name == *name) {
             return Err(file.at(spanned, format!("texture \"{name}\" is declared twice")));
         }
-        if let Some(parameter) = divided_by {
-            count(parameters, parameter).map_err(|reason| {
+        let divided_by = divided_by
+            .as_ref()
+            .map(|entry| length(parameters, entry))
+            .transpose()
+            .map_err(|reason| {
                 file.at(
                     spanned,
                     format!("texture \"{name}\": divided_by = {reason}"),
                 )
             })?;
-        }
         textures.push(Texture {
             name: name.clone(),
             format: *format,
-            divided_by: divided_by.clone(),
+            divided_by,
         });
     }
     Ok(textures)
@@ -135,7 +138,7 @@ pub(super) fn passes(
 }
 
 /// Whether a parameter can say how often or how large.
-fn count(parameters: &[Parameter], name: &str) -> Result<(), String> {
+pub(super) fn count(parameters: &[Parameter], name: &str) -> Result<(), String> {
     let parameter = parameters.iter().find(|parameter| parameter.name == name);
     match parameter.map(|parameter| &parameter.kind) {
         None => Err(format!("\"{name}\" is no parameter of this filter")),

@@ -1,5 +1,6 @@
 //! One file per command.
 
+mod bench;
 mod blur;
 mod list;
 mod merge;
@@ -24,9 +25,10 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         Some(Command::Merge(args)) => merge::execute(&args),
         Some(Command::Blur(args)) => blur::execute(&args),
         Some(Command::Score(args)) => score::execute(&args),
+        Some(Command::Bench(args)) => bench::execute(&args),
         Some(Command::List(args)) => list::execute(&args),
         None => Err(Error::Usage(
-            "no command given; allowed: run, render, merge, blur, score, list (see --help)"
+            "no command given; allowed: run, render, merge, blur, score, bench, list (see --help)"
                 .to_owned(),
         )),
     }

@@ -1,0 +1,134 @@
+//! What filters cost: the time of every pass, how much it moves, and how that grows with the reach.
+
+mod measure;
+mod panels;
+mod spread;
+mod table;
+
+use std::collections::BTreeMap;
+
+use filters::{AdapterDescription, Clock, Value};
+use serde::{Deserialize, Serialize};
+
+pub use measure::{BASELINE, BenchPlan, bench};
+pub use spread::Spread;
+pub use table::bench_table;
+
+/// Version of the layout of `bench.json`.
+pub const BENCH_FORMAT: u32 = 1;
+
+/// The frames' exposure, in frames: trails are as long as the motion.
+pub const EXPOSURE: f64 = 1.0;
+
+/// Motion of the main table, in pixels per frame: where the published jump flood begins to cut trails.
+pub const SPEED: u32 = 32;
+
+/// Reaches whose cost is measured, in pixels.
+pub const REACHES: [u32; 6] = [8, 16, 32, 64, 128, 256];
+
+/// The reach, in pixels, that the longest one is compared with.
+pub const GROWTH_FROM: u32 = 16;
+
+/// A finished bench: `bench.json`. Durations are in seconds.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Bench {
+    /// [`BENCH_FORMAT`].
+    pub format: u32,
+    /// Program name and version.
+    pub program: String,
+    /// What the filters ran on.
+    pub adapter: AdapterDescription,
+    /// How durations were taken.
+    pub clock: Clock,
+    /// Pixels per row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// How often everything was timed.
+    pub rounds: u32,
+    /// In frames.
+    pub exposure: f64,
+    /// Motion behind `cases`, in pixels per frame.
+    pub speed: u32,
+    /// What the adapter's memory can do.
+    pub copy: CopyCost,
+    /// One per filter preset, with the preset's own parameters.
+    pub cases: Vec<CaseCost>,
+    /// One per filter preset: how the cost grows with the reach.
+    pub reaches: Vec<ReachCost>,
+}
+
+/// A copy from one buffer to another, larger than caches.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct CopyCost {
+    /// Read and written.
+    pub bytes: u64,
+    /// Of one copy.
+    pub seconds: Spread,
+    /// Bytes over median time.
+    pub bytes_per_second: f64,
+}
+
+/// One filter preset.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct CaseCost {
+    /// Filter name.
+    pub filter: String,
+    /// The preset.
+    pub preset: String,
+    /// Every parameter's value.
+    pub parameters: BTreeMap<String, Value>,
+    /// Of all passes.
+    pub seconds: Spread,
+    /// To the time of [`BASELINE`] in the same round.
+    pub ratio: Spread,
+    /// Of all passes; see [`filters::PassTime::bytes`].
+    pub bytes_per_pixel: f64,
+    /// Bytes over median time.
+    pub bytes_per_second: f64,
+    /// The same as a part of what the copy reached.
+    pub part_of_copy: f64,
+    /// In the order in which they run.
+    pub passes: Vec<PassCost>,
+}
+
+/// One pass with all its iterations.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct PassCost {
+    /// Entry point of the kernel.
+    pub entry: String,
+    /// How often it ran.
+    pub iterations: usize,
+    /// Of all iterations.
+    pub seconds: Spread,
+    /// Of all iterations.
+    pub bytes_per_pixel: f64,
+}
+
+/// The cost of one filter preset at every reach.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct ReachCost {
+    /// Filter name.
+    pub filter: String,
+    /// The preset.
+    pub preset: String,
+    /// The parameter that was set for each reach; none where nothing bounds the filter's reach.
+    pub parameter: Option<String>,
+    /// One per value of [`REACHES`].
+    pub points: Vec<ReachPoint>,
+    /// Time at the longest reach over that at [`GROWTH_FROM`] in the same round; none where either cannot be set.
+    pub growth: Option<Spread>,
+}
+
+/// The cost at one reach.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct ReachPoint {
+    /// Motion in pixels per frame, which the filter is set to cover.
+    pub pixels: u32,
+    /// Of all passes; none where the parameter's range ends before.
+    pub seconds: Option<Spread>,
+    /// Value of the parameter that was set.
+    pub value: Option<Value>,
+    /// In the order in which they run; empty where nothing was timed.
+    pub passes: Vec<PassCost>,
+}

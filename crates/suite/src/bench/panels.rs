@@ -1,0 +1,120 @@
+//! The frame that filters are timed on, made by formula.
+
+use frame::{FAR_DEPTH, Image, Plane, Raster, Reprojection, Vectors};
+
+/// What a filter is given.
+pub struct Panels {
+    /// Linear radiance.
+    pub color: Image,
+    /// Pixels per frame.
+    pub velocity: Vectors,
+    /// Metres.
+    pub depth: Plane,
+    /// For filters that look at the camera alone: it pans as fast.
+    pub reprojection: Reprojection,
+}
+
+struct Panel {
+    /// In parts of the image's width and height.
+    center: [f32; 2],
+    /// Half sides, in parts of the image's height.
+    half: [f32; 2],
+    /// Direction of its motion, of length 1.
+    direction: [f32; 2],
+    /// Metres.
+    depth: f32,
+}
+
+/// Front to back. They cover about a quarter of the image, overlap, and leave it at no border.
+const PANELS: [Panel; 5] = [
+    Panel {
+        center: [0.30, 0.35],
+        half: [0.20, 0.15],
+        direction: [1.0, 0.0],
+        depth: 2.0,
+    },
+    Panel {
+        center: [0.40, 0.50],
+        half: [0.12, 0.22],
+        direction: [0.0, -1.0],
+        depth: 4.0,
+    },
+    Panel {
+        center: [0.70, 0.30],
+        half: [0.18, 0.18],
+        direction: [-0.8, 0.6],
+        depth: 5.0,
+    },
+    Panel {
+        center: [0.75, 0.75],
+        half: [0.30, 0.05],
+        direction: [0.6, 0.8],
+        depth: 8.0,
+    },
+    Panel {
+        center: [0.20, 0.80],
+        half: [0.03, 0.12],
+        direction: [0.96, -0.28],
+        depth: 12.0,
+    },
+];
+
+/// Each panel is this much slower or faster at the ends of its long side, as a turning one is: no two pixels of it move
+/// alike.
+const SPREAD: f32 = 0.1;
+
+impl Panels {
+    /// Five panels that move `speed` pixels per frame, each its own way, over a still ground; all of it is textured.
+    pub fn new(width: u32, height: u32, speed: f32) -> Self {
+        let at = |x, y| panel_at(width, height, x, y);
+        Self {
+            color: Raster::from_fn(width, height, |x, y| {
+                let tint = at(x, y).map_or([0.3, 0.35, 0.4], |(panel, _)| {
+                    [0.9, 0.1 * panel.depth, 0.5 * panel.direction[0].abs()]
+                });
+                tint.map(|value| value * texture(x, y))
+            }),
+            velocity: Raster::from_fn(width, height, |x, y| {
+                at(x, y).map_or([0.0; 2], |(panel, along)| {
+                    let pixels = speed * (1.0 + SPREAD * along);
+                    panel.direction.map(|component| component * pixels)
+                })
+            }),
+            depth: Raster::from_fn(width, height, |x, y| {
+                at(x, y).map_or(FAR_DEPTH, |(panel, _)| panel.depth)
+            }),
+            reprojection: Reprojection {
+                rows: [
+                    [1.0, 0.0, -f64::from(speed), 0.0],
+                    [0.0, 1.0, 0.0, 0.0],
+                    [0.0, 0.0, 1.0, 0.0],
+                ],
+            },
+        }
+    }
+}
+
+/// The panel that a pixel shows, and where along its sides the pixel lies: -1 to 1.
+fn panel_at(width: u32, height: u32, x: u32, y: u32) -> Option<(&'static Panel, f32)> {
+    let point = [x as f32 + 0.5, y as f32 + 0.5];
+    let size = [width as f32, height as f32];
+    PANELS.iter().find_map(|panel| {
+        let offset: [f32; 2] = std::array::from_fn(|axis| {
+            (point[axis] - panel.center[axis] * size[axis]) / (panel.half[axis] * size[1])
+        });
+        let inside = offset.iter().all(|part| part.abs() <= 1.0);
+        inside.then_some((panel, 0.5 * (offset[0] + offset[1])))
+    })
+}
+
+/// Contrast at every scale down to the pixel, so that no fetch may be left out unnoticed.
+fn texture(x: u32, y: u32) -> f32 {
+    let checker = if (x / 16 + y / 16).is_multiple_of(2) {
+        0.6
+    } else {
+        0.2
+    };
+    let grain =
+        (x.wrapping_mul(0x9e37_79b1) ^ y.wrapping_mul(0x85eb_ca6b)).wrapping_mul(0xc2b2_ae35);
+    checker + 0.4 * (grain >> 8) as f32 / (1 << 24) as f32
+}

@@ -1,0 +1,36 @@
+//! `shuttertruth bench`
+
+use filters::Gpu;
+use suite::{Bench, BenchPlan, Error, bench, bench_table, select_filters, with_bar};
+
+use super::say;
+use crate::cli::BenchArgs;
+
+/// Times what is named, writes `bench.json`, prints the tables.
+pub fn execute(args: &BenchArgs) -> Result<(), Error> {
+    let filters = select_filters(&args.filters, None, &[])?;
+    let gpu = Gpu::new(args.adapter.adapter.as_deref())?;
+    let (width, height) = args.size.unwrap_or(match gpu.adapter.kind.as_str() {
+        "software" => (320, 180),
+        _ => (1920, 1080),
+    });
+    let plan = BenchPlan {
+        filters,
+        width,
+        height,
+        rounds: args.rounds,
+    };
+    let done = with_bar("bench", args.quiet, |watch| bench(plan, &gpu, watch))?;
+    write_bench(&done, args)?;
+    say(&bench_table(&done))?;
+    say(&format!("\nwritten: {}\n", path(args).display()))
+}
+
+fn write_bench(done: &Bench, args: &BenchArgs) -> Result<(), Error> {
+    let json = serde_json::to_string_pretty(done).expect("a bench is plain data");
+    Ok(frame::write_atomically(&path(args), json.as_bytes())?)
+}
+
+fn path(args: &BenchArgs) -> std::path::PathBuf {
+    args.out.join("bench.json")
+}

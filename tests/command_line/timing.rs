@@ -1,0 +1,110 @@
+//! `shuttertruth bench`.
+
+use std::fs;
+
+use crate::bench::{Bench, assert_done, assert_refused, stdout};
+
+#[test]
+fn a_bench_prints_tables_and_writes_what_they_show() {
+    let bench = Bench::new();
+    let output = bench.shuttertruth(&[
+        "bench",
+        "--quiet",
+        "--size",
+        "32x16",
+        "--filters",
+        "jump_flood_packed:paper,identity",
+    ]);
+    assert_done(&output);
+    let table = stdout(&output);
+    for words in [
+        "32x16",
+        "20 rounds",
+        "quartiles",
+        // The baseline takes part though it was not named.
+        "jump_flood:paper",
+        "jump_flood_packed:paper",
+        "  dilate x 3",
+        "identity:default",
+        "copy of a buffer",
+        "256 / 16",
+        "written: out/bench.json",
+    ] {
+        assert!(
+            table.contains(words),
+            "\"{words}\" is missing from:\n{table}"
+        );
+    }
+
+    let json = fs::read(bench.path("out/bench.json")).unwrap();
+    let done: suite::Bench = serde_json::from_slice(&json).unwrap();
+    assert_eq!((done.width, done.height, done.rounds), (32, 16, 20));
+    let names: Vec<&str> = done.cases.iter().map(|case| &case.filter[..]).collect();
+    assert_eq!(names, ["jump_flood", "jump_flood_packed", "identity"]);
+    let baseline = &done.cases[0];
+    assert_eq!(
+        (baseline.ratio.lower_quartile, baseline.ratio.upper_quartile),
+        (1.0, 1.0)
+    );
+    for case in &done.cases {
+        let spread = case.seconds;
+        assert!(
+            0.0 < spread.lower_quartile
+                && spread.lower_quartile <= spread.median
+                && spread.median <= spread.upper_quartile
+        );
+        let passes: f64 = case.passes.iter().map(|pass| pass.bytes_per_pixel).sum();
+        assert_eq!(case.bytes_per_pixel, passes);
+        let part = case.bytes_per_second / done.copy.bytes_per_second;
+        assert_eq!(case.part_of_copy, part);
+    }
+    assert_eq!(done.cases[2].bytes_per_pixel, 32.0);
+    let passes: Vec<_> = (done.reaches[0].points.iter())
+        .map(|point| (point.pixels, point.value.clone().unwrap().to_string()))
+        .collect();
+    let expected = [
+        (8, "1"),
+        (16, "2"),
+        (32, "3"),
+        (64, "4"),
+        (128, "5"),
+        (256, "6"),
+    ];
+    assert_eq!(
+        passes,
+        expected.map(|(pixels, value)| (pixels, value.to_owned()))
+    );
+    assert_eq!(done.reaches[2].parameter, None);
+    assert!(done.reaches.iter().all(|cost| cost.growth.is_some()));
+}
+
+#[test]
+fn what_cannot_be_timed_is_refused() {
+    let bench = Bench::new();
+    let rows: &[(&[&str], &[&str])] = &[
+        (&["--filters", "jumpflood"], &["jumpflood", "jump_flood"]),
+        (&["--filters", "identity:fast"], &["fast", "default"]),
+        (&["--filters", "no/such/folder"], &["no/such/folder"]),
+        (&["--size", "0x0"], &["0x0", "WIDTHxHEIGHT"]),
+        (&["--size", "640"], &["WIDTHxHEIGHT"]),
+        (&["--rounds", "19"], &["19", "20 to 10000"]),
+        (&["--rounds", "many"], &["many", "20 to 10000"]),
+        (&["--adapter", "no such card"], &["no such card", "found:"]),
+        (&["--speed", "3"], &["--speed"]),
+    ];
+    for (more, parts) in rows {
+        let words = [&["bench", "--quiet"], *more].concat();
+        assert_refused(&bench.shuttertruth(&words), 2, parts);
+        assert!(
+            !bench.path("out").exists(),
+            "{more:?} left something behind"
+        );
+    }
+    let output = bench
+        .command(&["bench"])
+        .env("VK_DRIVER_FILES", "/no/driver.json")
+        .env("VK_ICD_FILENAMES", "/no/driver.json")
+        .output()
+        .unwrap();
+    assert_refused(&output, 3, &["mesa-vulkan-drivers"]);
+}
