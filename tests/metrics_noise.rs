@@ -3,8 +3,9 @@
 
 use std::sync::LazyLock;
 
-use frame::{Frame, Picture, Truth};
+use frame::{Frame, Image, Picture, Truth};
 use metrics::{Equivalent, Measured, Metric, Reach, Reference, Region, Scores, measure, regions};
+use tests::random::Random;
 use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
 
 fn scene() -> Scene {
@@ -23,6 +24,11 @@ fn noisy(samples: u32, seed: u64) -> Sampling {
 }
 
 static FRAME: LazyLock<Frame> = LazyLock::new(|| scene().frame());
+
+static FRAME_PICTURE: LazyLock<Picture> = LazyLock::new(|| Picture {
+    color: FRAME.color.clone(),
+    coverage: FRAME.coverage.clone(),
+});
 
 /// A truth with little noise, from other seeds than anything measured against it.
 static TRUTH: LazyLock<Truth> = LazyLock::new(|| scene().truth([noisy(4096, 1), noisy(4096, 2)]));
@@ -224,4 +230,45 @@ fn counts_beyond_the_ladder_say_so() {
         ..Blur::TRUE
     };
     assert_eq!(reach(late), Reach::Below);
+}
+
+#[test]
+fn frames_of_noise_tell_a_filters_noise_from_what_it_gets_wrong_every_time() {
+    let reference = Reference::new(&FRAME, &TRUTH, None, &VIEWING).expect("they agree");
+    let truth = TRUTH.mean().color;
+    let (offset, amplitude, frames) = (0.25, 0.5, 4);
+    let mut random = Random::new(7);
+    let mut biases = Vec::new();
+    let mut variances = Vec::new();
+    for _ in 0..50 {
+        let outputs: Vec<Image> = (0..frames)
+            .map(|_| truth.map(|color| color.map(|c| c + offset as f32 + random.real(-0.5, 0.5))))
+            .collect();
+        let jitter = reference.jitter(&outputs).expect("something moves");
+        assert_eq!(jitter.frames, frames);
+        biases.push(jitter.bias);
+        variances.push(jitter.variance);
+    }
+    // An even distribution of half-width a has the variance a^2 / 3. Few frames bias neither part.
+    for (values, expected) in [
+        (biases, offset * offset),
+        (variances, amplitude * amplitude / 3.0),
+    ] {
+        let (mean, error) = mean_and_error(&values);
+        assert!(error < 0.02 * expected, "too few to tell");
+        assert!(
+            (mean - expected).abs() < 4.0 * error,
+            "{mean} +- {error}, expected {expected}"
+        );
+    }
+}
+
+#[test]
+fn a_filter_without_noise_has_no_variance() {
+    let reference = Reference::new(&FRAME, &TRUTH, None, &VIEWING).expect("they agree");
+    let outputs = vec![FRAME.color.clone(); 3];
+    let jitter = reference.jitter(&outputs).expect("something moves");
+    assert_eq!((jitter.variance, jitter.noise_share()), (0.0, 0.0));
+    let whole = score(&FRAME_PICTURE, &TRUTH);
+    assert!((jitter.bias - get(&whole, "mse_moving").value).abs() < 1e-9);
 }

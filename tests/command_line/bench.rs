@@ -89,6 +89,17 @@ impl Bench {
         ];
         self.shuttertruth(&[&words, more].concat())
     }
+
+    /// run.json of the last run.
+    pub fn measured(&self) -> suite::Run {
+        serde_json::from_slice(&fs::read(self.path("out/run.json")).unwrap()).unwrap()
+    }
+
+    /// The last run's cases that are filters.
+    pub fn measured_filters(&self) -> Vec<suite::Case> {
+        let cases = self.measured().cases.into_iter();
+        cases.filter(|case| !case.bar).collect()
+    }
 }
 
 pub fn stdout(output: &Output) -> String {

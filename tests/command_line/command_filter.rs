@@ -30,10 +30,6 @@ fn executable(bench: &Bench, path: &str, lines: &str) {
     fs::set_permissions(bench.path(path), fs::Permissions::from_mode(0o755)).unwrap();
 }
 
-fn run(bench: &Bench) -> suite::Run {
-    serde_json::from_slice(&fs::read(bench.path("out/run.json")).unwrap()).unwrap()
-}
-
 fn render(bench: &Bench) {
     let words = ["render", "--quiet", "--out", "r", "--samples-per-pixel"];
     assert_done(&bench.shuttertruth(&[&words[..], &["16"]].concat()));
@@ -59,8 +55,8 @@ fn a_program_that_blurs_as_kernels_do_scores_as_they_do() {
     folder(&bench, "outside", &command);
     let filters = "velocity_gather:coarse,./outside:coarse";
     assert_done(&bench.run(&["--filters", filters]));
-    let run = run(&bench);
-    let [kernels, program] = &run.cases[..] else {
+    let cases = bench.measured_filters();
+    let [kernels, program] = &cases[..] else {
         panic!("two filters on one scene");
     };
     // Colours and mattes travel as 32-bit floats: nothing is lost on the way.
@@ -85,7 +81,7 @@ fn a_program_needs_no_adapter() {
         "{}",
         stdout(&output)
     );
-    assert_eq!(run(&bench).adapter, None);
+    assert_eq!(bench.measured().adapter, None);
     // One that was asked for must be there all the same.
     let output = command.args(["--adapter", "0"]).output().unwrap();
     assert_refused(&output, 3, &["mesa-vulkan-drivers"]);

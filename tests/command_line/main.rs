@@ -3,6 +3,7 @@
 mod bench;
 #[cfg(unix)]
 mod command_filter;
+mod comparison;
 mod kept;
 mod own_filter;
 mod refusals;
@@ -45,8 +46,7 @@ fn a_run_writes_scores_and_pictures_of_every_case() {
         "{table}"
     );
 
-    let run: suite::Run =
-        serde_json::from_slice(&fs::read(bench.path("out/run.json")).unwrap()).unwrap();
+    let run = bench.measured();
     assert_eq!(
         (run.format, run.width, run.height, run.samples_per_pixel),
         (suite::FORMAT, 64, 32, 16)
@@ -54,9 +54,18 @@ fn a_run_writes_scores_and_pictures_of_every_case() {
     let names: Vec<_> = run
         .cases
         .iter()
-        .map(|case| (case.scene.as_str(), case.filter.as_str()))
+        .map(|case| (case.bar, case.name()))
         .collect();
-    assert_eq!(names, [("plate", "identity"), ("plate", "jump_flood")]);
+    let expected = [
+        (true, "scatter_oracle"),
+        (true, "accumulate:4"),
+        (true, "accumulate:8"),
+        (true, "accumulate:16"),
+        (true, "accumulate:64"),
+        (false, "identity:default"),
+        (false, "jump_flood:paper"),
+    ];
+    assert_eq!(names, expected.map(|(bar, name)| (bar, name.to_owned())));
     for case in &run.cases {
         for name in ["output.png", "output.exr", "flip.png", "errors.exr"] {
             let path = bench.path("out").join(&case.folder).join(name);

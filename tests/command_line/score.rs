@@ -29,9 +29,7 @@ fn scores(bench: &Bench, image: &str, more: &[&str]) -> Scores {
 /// A run of one filter on the plate; its scores.
 fn run(bench: &Bench, more: &[&str]) -> Scores {
     assert_done(&bench.run(&[&["--filters", "velocity_gather:fine"], more].concat()));
-    let run: suite::Run =
-        serde_json::from_slice(&fs::read(bench.path("out/run.json")).unwrap()).unwrap();
-    run.cases[0].scores.clone()
+    bench.measured_filters()[0].scores.clone()
 }
 
 /// Writes the colours alone of an OpenEXR file.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use filters::Value;
-use metrics::{Jitter, Scores};
+use metrics::{ImageScores, Jitter, Scores};
 use serde::{Deserialize, Serialize};
 use tracer::Family;
 
@@ -42,6 +42,8 @@ pub struct Case {
     pub truth_hash: String,
     /// The measured scores, each with its noise floor.
     pub scores: Scores,
+    /// Errors over what moves, against the truth of the run's common shutter.
+    pub common: ImageScores,
     /// What of the error is noise; none for filters without any, or where it was not asked for.
     pub jitter: Option<Jitter>,
     /// How the scores stand to the scene's bounds.

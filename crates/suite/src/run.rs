@@ -19,7 +19,7 @@ use crate::workbench::Workbench;
 use crate::{Error, InputFormat, PROGRAM, RenderSettings};
 
 /// Version of the layout of `run.json`; it rises when a reader of the old one would misread the new one.
-pub const FORMAT: u32 = 1;
+pub const FORMAT: u32 = 2;
 
 /// A finished run: `run.json`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -50,6 +50,9 @@ pub struct Run {
     pub sky_velocity: bool,
     /// Pixels by which frames reached beyond the picture on every side.
     pub guard_band: u32,
+    /// The shutter alignment that every case is compared with beside its own, so that filters of several alignments have one
+    /// score in common: centred where a filter declares that, or else trailing, or else leading.
+    pub common_alignment: String,
     /// Per scene: the bars, then one per filter preset and form of the input, in the order they ran.
     pub cases: Vec<Case>,
 }
@@ -75,6 +78,7 @@ pub struct Plan {
 /// Renders, filters, measures and writes every case below `plan.out`, but not `run.json` itself. `gpu` is what
 /// [`open_gpu`](crate::open_gpu) opened for the plan's filters.
 pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, Error> {
+    let common = common_alignment(&plan.filters);
     let mut cases = Vec::new();
     for (scene, bounds) in &plan.scenes {
         let (frame, truths) = render(plan, scene)?;
@@ -89,25 +93,23 @@ pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, 
         let stored: Vec<(InputFormat, Frame)> = (plan.inputs.iter())
             .map(|format| (*format, format.of(&frame)))
             .collect();
-        for (alignment, (truth, ladder)) in &truths {
-            let workbench = Workbench {
+        let workbench = |alignment| {
+            let (truth, ladder) = &truths[&alignment];
+            Workbench {
                 plan,
                 scene,
                 bounds,
                 truth,
-                reference: &references[alignment],
-            };
-            cases.extend(workbench.bars(&frame, ladder)?);
+                ladder,
+                reference: &references[&alignment],
+                common: (alignment != common).then(|| &references[&common]),
+            }
+        };
+        for alignment in truths.keys() {
+            cases.extend(workbench(*alignment).bars(&frame)?);
         }
         for choice in &plan.filters {
-            let (truth, _) = &truths[&choice.filter.alignment];
-            let workbench = Workbench {
-                plan,
-                scene,
-                bounds,
-                truth,
-                reference: &references[&choice.filter.alignment],
-            };
+            let workbench = workbench(choice.filter.alignment);
             for (format, frame) in &stored {
                 if interrupted() {
                     return Err(tracer::TraceError::Cancelled.into());
@@ -130,8 +132,20 @@ pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, 
         color: plan.render.color.name().to_owned(),
         sky_velocity: plan.render.sky_velocity,
         guard_band: plan.render.guard_band,
+        common_alignment: common.name().to_owned(),
         cases,
     })
+}
+
+/// Of the alignments that take part, the one that all are compared with; no truth is rendered for it alone.
+fn common_alignment(filters: &[FilterChoice]) -> Alignment {
+    let takes_part = |alignment: &Alignment| {
+        (filters.iter()).any(|choice| choice.filter.alignment == *alignment)
+    };
+    [Alignment::Centred, Alignment::Trailing]
+        .into_iter()
+        .find(takes_part)
+        .unwrap_or(Alignment::Leading)
 }
 
 type Truths = BTreeMap<Alignment, (Truth, Ladder)>;

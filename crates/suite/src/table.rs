@@ -8,20 +8,23 @@ use crate::Case;
 use crate::run::Run;
 
 /// Columns that names take.
-const NAMES: usize = 30;
+const NAMES: usize = 29;
 
-const COLUMNS: [(&str, Metric); 6] = [
-    ("FLIP", Metric::Image(ImageMetric::Flip, Region::Moving)),
-    ("PSNR", Metric::Image(ImageMetric::Psnr, Region::Moving)),
-    ("growth", Metric::Object(ObjectMetric::LateralGrowth)),
-    ("bleed", Metric::Object(ObjectMetric::BleedLateral)),
-    ("TV", Metric::LabelTotalVariation),
-    ("N_eq", Metric::EquivalentSubframes),
+/// Title and width.
+const COLUMNS: [(&str, usize, Metric); 6] = [
+    ("FLIP", 6, Metric::Image(ImageMetric::Flip, Region::Moving)),
+    ("PSNR", 6, Metric::Image(ImageMetric::Psnr, Region::Moving)),
+    ("growth", 7, Metric::Object(ObjectMetric::LateralGrowth)),
+    ("bleed", 7, Metric::Object(ObjectMetric::BleedLateral)),
+    ("TV", 6, Metric::LabelTotalVariation),
+    ("N_eq", 6, Metric::EquivalentSubframes),
 ];
+/// Of the columns that a run has beside the scores.
+const WIDTH: usize = 6;
 
 /// The run as text; a score that does not apply is `n/a`.
 pub fn table(run: &Run) -> String {
-    let mut text = heading("scene / filter");
+    let mut text = heading("scene / filter", &["noise", "FLIP*"]);
     let mut scene = "";
     for case in &run.cases {
         if case.scene != scene {
@@ -33,41 +36,54 @@ pub fn table(run: &Run) -> String {
             true => format!("{} ({})", case.name(), case.alignment),
             false => case.name(),
         };
-        text += &line(&name, &case.scores, &noise(case));
+        text += &line(&name, &case.scores, &[noise(case), common(case)]);
     }
     text
 }
 
 /// The scores of one picture of a scene, in the manner of [`table`].
 pub fn score_table(scene: &str, picture: &str, scores: &Scores) -> String {
-    heading("scene / picture") + &format!("{scene}\n") + &line(picture, scores, "")
+    heading("scene / picture", &[]) + &format!("{scene}\n") + &line(picture, scores, &[])
 }
 
-fn heading(title: &str) -> String {
+fn heading(title: &str, more: &[&str]) -> String {
     let mut text = format!("{title:<NAMES$}");
-    for (title, _) in COLUMNS {
-        let _ = write!(text, "{title:>7}");
+    for (title, width, _) in COLUMNS {
+        let _ = write!(text, "{title:>width$}");
     }
-    text + "  noise\n"
+    for title in more {
+        let _ = write!(text, "{title:>WIDTH$}");
+    }
+    text + "\n"
 }
 
-fn line(name: &str, scores: &Scores, noise: &str) -> String {
+fn line(name: &str, scores: &Scores, more: &[String]) -> String {
     let mut text = format!("  {name:<0$}", NAMES - 2);
-    if name.len() > NAMES - 2 {
+    if name.chars().count() > NAMES - 2 {
         // A long name has a line of its own.
         text += &format!("\n{:<NAMES$}", "");
     }
-    for (_, metric) in COLUMNS {
-        let _ = write!(text, "{:>7}", cell(metric, scores));
+    for (_, width, metric) in COLUMNS {
+        let _ = write!(text, "{:>width$}", cell(metric, scores));
     }
-    text += &format!("{noise:>7}");
-    text.trim_end().to_owned() + "\n"
+    for cell in more {
+        let _ = write!(text, "{cell:>WIDTH$}");
+    }
+    text + "\n"
 }
 
 /// The part of the squared error that is the filter's noise.
 fn noise(case: &Case) -> String {
     let share = case.jitter.map(|jitter| 100.0 * jitter.noise_share());
     share.map_or("-".to_owned(), |share| format!("{share:.0}%"))
+}
+
+/// FLIP against the shutter that all cases are compared with.
+fn common(case: &Case) -> String {
+    match &case.common.flip {
+        Measured::NotApplicable { .. } => "n/a".to_owned(),
+        Measured::Score(score) => format!("{:.3}", score.value),
+    }
 }
 
 fn cell(metric: Metric, scores: &Scores) -> String {

@@ -26,16 +26,19 @@ pub(crate) struct Workbench<'a> {
     pub scene: &'a Scene,
     pub bounds: &'a Bounds,
     pub truth: &'a Truth,
+    pub ladder: &'a Ladder,
     pub reference: &'a Reference<'a>,
+    /// The truth that every case is compared with, unless it is this one.
+    pub common: Option<&'a Reference<'a>>,
 }
 
 impl Workbench<'_> {
     /// What filters are measured by: the best that the frame allows, and averages of sub-frames.
-    pub fn bars(&self, frame: &Frame, ladder: &Ladder) -> Result<Vec<Case>, Error> {
+    pub fn bars(&self, frame: &Frame) -> Result<Vec<Case>, Error> {
         let oracle = scatter_oracle(frame, self.truth.shutter, &self.truth.shutter_profile);
         let oracle = oracle.cropped(frame.guard_band);
         let mut bars = vec![self.bar(frame, SCATTER_ORACLE, "", &oracle)?];
-        let rungs = ladder.rungs.iter();
+        let rungs = self.ladder.rungs.iter();
         for rung in rungs.filter(|rung| SUBFRAMES.contains(&rung.subframes)) {
             let mean = Picture::mean(&rung.halves);
             bars.push(self.bar(frame, ACCUMULATE, &rung.subframes.to_string(), &mean)?);
@@ -110,6 +113,10 @@ impl Workbench<'_> {
     /// Measures a picture and writes it and its error maps.
     fn case(&self, frame: &Frame, output: &Picture, subject: Subject) -> Result<Case, Error> {
         let Measurement { scores, maps } = self.reference.measure(output)?;
+        let common = match self.common {
+            Some(reference) => reference.measure(output)?.scores.moving,
+            None => scores.moving.clone(),
+        };
         let folder = Path::new(&self.scene.name).join(subject.folder(self.truth));
         let files = self.plan.out.join(&folder);
         write_case(&files, self.scene, &frame.objects, output, &maps)?;
@@ -126,6 +133,7 @@ impl Workbench<'_> {
             command: subject.command,
             alignment: self.truth.alignment.name().to_owned(),
             truth_hash: self.truth.provenance.content_hash.clone(),
+            common,
             jitter: subject.jitter,
             verdicts: match subject.bar {
                 true => Vec::new(),

@@ -1,0 +1,140 @@
+//! What a run sets beside the filters' own scores: bars, a common shutter, noise apart, and frames stored less finely.
+
+use suite::{Case, DepthFormat, VelocityFormat};
+
+use crate::bench::{Bench, assert_done, assert_refused, stdout};
+
+fn named<'a>(cases: &'a [Case], name: &str) -> &'a Case {
+    let found = cases.iter().find(|case| case.name() == name);
+    found.unwrap_or_else(|| {
+        let names: Vec<String> = cases.iter().map(Case::name).collect();
+        panic!("no {name} among {names:?}")
+    })
+}
+
+fn flip(case: &Case) -> f64 {
+    case.scores.moving.flip.value().unwrap()
+}
+
+#[test]
+fn filters_of_two_alignments_have_a_shutter_in_common() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&["--filters", "velocity_gather:fine,bevy"]));
+    let run = bench.measured();
+    assert_eq!(run.common_alignment, "centred");
+    for case in &run.cases {
+        let own = case.common == case.scores.moving;
+        assert_eq!(own, case.alignment == "centred", "{}", case.name());
+    }
+    // The mean of many sub-frames of half an exposure earlier is not of the common interval.
+    let trailing = run.cases.iter().find(|case| case.alignment == "trailing");
+    let late = trailing.unwrap().common.flip.value().unwrap();
+    let bars = run.cases.iter().filter(|case| case.preset == "64");
+    let many: Vec<&Case> = bars.collect();
+    assert_eq!(many.len(), 2, "64 sub-frames of each alignment");
+    assert!(late > 4.0 * flip(many[0]), "{late}");
+
+    assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
+    assert_eq!(bench.measured().common_alignment, "trailing");
+}
+
+#[test]
+fn bars_are_better_than_filters_and_are_held_to_no_bound() {
+    let bench = Bench::new();
+    bench.write("bounds.toml", "flip_moving = 0.0001\n");
+    assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
+    let cases = bench.measured().cases;
+    let oracle = flip(named(&cases, "scatter_oracle"));
+    let many = flip(named(&cases, "accumulate:64"));
+    let gather = flip(named(&cases, "velocity_gather:fine"));
+    // The plate moves evenly before a background of one colour: nothing is hidden that matters, and what is left to the
+    // oracle is the frame's antialiasing.
+    assert!(
+        many < oracle && oracle < 0.5 * gather,
+        "{many} {oracle} {gather}"
+    );
+    assert!(
+        cases
+            .iter()
+            .all(|case| case.bar == case.verdicts.is_empty())
+    );
+}
+
+#[test]
+fn noise_is_told_apart_in_filters_that_have_any() {
+    let bench = Bench::new();
+    let filters = "velocity_gather:fine,jump_flood:paper";
+    let output = bench.run(&["--filters", filters, "--jitter-frames", "4"]);
+    assert_done(&output);
+    let cases = bench.measured_filters();
+    assert_eq!(named(&cases, "velocity_gather:fine").jitter, None);
+    let jitter = named(&cases, "jump_flood:paper").jitter.unwrap();
+    assert_eq!(jitter.frames, 4);
+    assert!(jitter.variance > 0.0 && jitter.bias > 0.0);
+    let noisy = stdout(&output);
+    let line = noisy.lines().find(|line| line.contains("jump_flood:paper"));
+    assert!(line.unwrap().contains('%'), "{noisy}");
+
+    assert_done(&bench.run(&["--filters", filters, "--jitter-frames", "0"]));
+    assert!(
+        bench
+            .measured()
+            .cases
+            .iter()
+            .all(|case| case.jitter.is_none())
+    );
+}
+
+#[test]
+fn coarser_buffers_cost_what_they_lose() {
+    let bench = Bench::new();
+    let output = bench.run(&[
+        "--filters",
+        "identity,velocity_gather:fine",
+        "--velocity-format",
+        "float16,linear8,kino10,tile_clamped",
+        "--depth-format",
+        "float16",
+    ]);
+    assert_done(&output);
+    let cases = bench.measured_filters();
+    assert_eq!(cases.len(), 2 * 6);
+    let identity = flip(named(&cases, "identity:default"));
+    for case in &cases[..6] {
+        // What reads neither velocity nor depth does not see how they are stored.
+        assert_eq!(flip(case), identity, "{}", case.name());
+    }
+    let whole = flip(named(&cases, "velocity_gather:fine"));
+    let changed = |change: &str| flip(named(&cases, &format!("velocity_gather:fine {change}")));
+    assert_eq!(changed("depth=float16"), whole);
+    // A gather of 20 fetches; a 16-bit float is right to a 2048th.
+    assert!((changed("velocity=float16") - whole).abs() < 0.002);
+    // Kino's half smear ends at 5 % of 32 rows, 1.6 of the plate's 2.8 pixels. Half a tile is longer than all of it.
+    assert!(changed("velocity=kino10") > 1.2 * whole);
+    assert!((changed("velocity=tile_clamped") - whole).abs() < 0.002);
+    let table = stdout(&output);
+    assert!(
+        table.contains("velocity_gather:fine velocity=linear8"),
+        "{table}"
+    );
+    let case = named(&cases, "velocity_gather:fine velocity=linear8");
+    assert_eq!(case.input.velocity, VelocityFormat::Linear8);
+    assert_eq!(case.input.depth, DepthFormat::Float32);
+    assert!(
+        case.folder
+            .ends_with("velocity_gather_fine_velocity_linear8")
+    );
+}
+
+#[test]
+fn a_clamped_border_is_cropped_before_anything_is_measured() {
+    let bench = Bench::new();
+    let words = ["--filters", "velocity_gather:fine", "--border", "clamp"];
+    assert_done(&bench.run(&words));
+    let cases = bench.measured_filters();
+    let clamped = named(&cases, "velocity_gather:fine border=clamp");
+    // The plate stays clear of the border, so that nothing there can matter.
+    assert_eq!(clamped.scores, named(&cases, "velocity_gather:fine").scores);
+    let output = bench.run(&["--border", "mirror"]);
+    assert_refused(&output, 2, &["mirror", "leave, clamp"]);
+}
