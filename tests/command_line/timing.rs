@@ -81,7 +81,11 @@ fn a_bench_prints_tables_and_writes_what_they_show() {
 #[test]
 fn what_cannot_be_timed_is_refused() {
     let bench = Bench::new();
+    fs::create_dir(bench.path("outside")).unwrap();
+    let program = "name = 'outside'\nsummary = 'A program.'\nalignment = 'centred'\ncommand = ['cp', '{frame}', '{out}']\n";
+    fs::write(bench.path("outside/filter.toml"), program).unwrap();
     let rows: &[(&[&str], &[&str])] = &[
+        (&["--filters", "./outside"], &["outside is a program"]),
         (&["--filters", "jumpflood"], &["jumpflood", "jump_flood"]),
         (&["--filters", "identity:fast"], &["fast", "default"]),
         (&["--filters", "no/such/folder"], &["no/such/folder"]),

@@ -9,6 +9,12 @@ use crate::cli::BenchArgs;
 /// Times what is named, writes `bench.json`, prints the tables.
 pub fn execute(args: &BenchArgs) -> Result<(), Error> {
     let filters = select_filters(&args.filters, None, &[])?;
+    if let Some(choice) = filters.iter().find(|it| it.filter.command.is_some()) {
+        return Err(Error::Usage(format!(
+            "filter {} is a program, which has no passes to time; leave it out of --filters",
+            choice.filter.name
+        )));
+    }
     let gpu = Gpu::new(args.adapter.adapter.as_deref())?;
     let (width, height) = args.size.unwrap_or(match gpu.adapter.kind.as_str() {
         "software" => (320, 180),
