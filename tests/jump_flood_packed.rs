@@ -172,9 +172,11 @@ fn seeds_and_pixels_are_those_of_the_jump_flood() {
                 let pairs = || expected.seeds.iter().zip(&found.seeds);
                 let other_seeds = pairs().filter(|(a, b)| a != b).count();
                 let pixels = expected.output.pixels.iter().zip(&found.output.pixels);
-                // Colours lie in [0, 2): rounding of a mean stays far below this, another source far above.
+                // Positions at 200 pixels are rounded to 1.5e-5 of one. Between a surface and the background the mixed depth
+                // changes by tens of metres per pixel, which moves a tap whose place depends on it by up to 30 pixels per
+                // metre: 1e-3 of a colour in [0, 2). Another source changes taps by a tenth and more.
                 let differs = |(a, b): (&[f32; 3], &[f32; 3])| {
-                    (0..3).any(|channel| (a[channel] - b[channel]).abs() > 1e-4)
+                    (0..3).any(|channel| (a[channel] - b[channel]).abs() > 1e-3)
                 };
                 let other_pixels = pixels.map(differs).filter(|differs| *differs).count();
                 // The arithmetic is the same, and software adapters round it alike. Others may fuse it differently:
@@ -211,10 +213,11 @@ fn tiles_that_no_trail_reaches_are_left_alone() {
             .reached
             .unwrap();
         assert_eq!(tiles, 13 * 8);
-        // Each of three movers lies in at least one tile. With trails of up to 33 pixels, all of them stay within a
-        // third of the image even where each tile's longest trail is taken for all of its pixels.
+        // Each of three movers lies in at least one tile. Their trails of up to 33 pixels, a third as wide on either side
+        // by the tolerance, stay within half of the image even where they are taken for boxes around whole tiles.
+        println!("{}: {reached} of {tiles} tiles", preset.name);
         assert!(
-            reached >= 3 && 3 * reached <= tiles,
+            reached >= 3 && 2 * reached <= tiles,
             "{}: {reached} of {tiles} tiles",
             preset.name
         );

@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use frame::{Frame, Picture, Plane, Raster, Truth};
-use metrics::{Measured, Metric, Reference, Score, Scores};
+use metrics::{Ideal, ImageMetric, Measured, Metric, Reference, Score, Scores};
 use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING, constant};
 
 const RADIUS: f64 = 14.0;
@@ -106,10 +106,11 @@ fn the_truth_itself_scores_perfectly() {
         let Measured::Score(score) = scores.get(metric) else {
             continue;
         };
-        let perfect = match metric.ideal() {
-            metrics::Ideal::Lowest => 0.0,
-            metrics::Ideal::Target(target) => target,
-            metrics::Ideal::Highest => metrics::PSNR_LIMIT,
+        let perfect = match (metric, metric.ideal()) {
+            (_, Ideal::Lowest) => 0.0,
+            (_, Ideal::Target(target)) => target,
+            (Metric::Image(ImageMetric::Psnr, _), Ideal::Highest) => metrics::PSNR_LIMIT,
+            (_, Ideal::Highest) => 1.0,
         };
         assert_near(&metric.name(), score.value, perfect, 1e-9);
     }

@@ -1,6 +1,6 @@
 //! What the scores do not depend on: the picture's orientation, whole pixels, object numbers, threads.
 
-use frame::{Frame, Picture, Raster, Truth};
+use frame::{AtInstant, Frame, Picture, Raster, Truth};
 use metrics::{Measured, Measurement, Metric, ObjectMetric, Scores, measure};
 use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
 
@@ -77,6 +77,14 @@ fn remapped(
         halves: truth.halves.each_ref().map(picture),
         standard_error: take(&truth.standard_error, width, height, &source),
         motion: take(&truth.motion, width, height, &source),
+        at_instant: truth.at_instant.each_ref().map(|half| AtInstant {
+            frozen: take(&half.frozen, width, height, &source),
+            unknowable: take(&half.unknowable, width, height, &source),
+            placed: take(&half.placed, width, height, &source),
+            offset: take(&half.offset, width, height, &source).map(|v| turn(*v)),
+            // No probes are measured here.
+            spread: take(&half.spread, width, height, &source),
+        }),
         ..truth
     };
     let output = picture(&output);

@@ -240,7 +240,7 @@ const SCENE_SLIPS: &[Slip] = &[
     ("field of view of a half-space", "vertical_fov = 40", "vertical_fov = 180", 
         "scene.toml:9: vertical_fov is 180 degrees; allowed: above 0 and below 180"),
     ("no background", "constant = [0, 0, 0]\n", "", 
-        "scene.toml:11: a background needs one of: constant = [r, g, b], gradient = { ground, horizon, zenith }"),
+        "scene.toml:11: a background needs one of: constant = [r, g, b], gradient = { ground, horizon, zenith }, image = \"sky.exr\""),
     ("two backgrounds", "constant = [0, 0, 0]", "constant = [0, 0, 0]\ngradient = { ground = [0, 0, 0], horizon = [0, 0, 0], zenith = [0, 0, 0] }", 
         "scene.toml:11: a background needs one of: constant = [r, g, b], gradient = { ground, horizon, zenith }"),
     ("dark light", "constant = [0, 0, 0]", "gradient = { ground = [0, 0, 0], horizon = [0, 0, 0], zenith = [0, -1, 0] }", 

@@ -13,6 +13,11 @@ pub enum Region {
     Still,
     /// The whole picture: reported because readers expect it; a filter that does nothing looks good here.
     Full,
+    /// Of the moving pixels, those where everything that the shutter sees can be seen in the frame of the instant.
+    Knowable,
+    /// The other moving pixels: part of what the shutter sees is hidden from the frame, or lies beyond its border, so that
+    /// every filter has to guess.
+    Unknowable,
 }
 
 /// The truth's regions as masks.
@@ -22,11 +27,21 @@ pub struct Regions {
     pub moving: Raster<bool>,
     /// [`Region::Still`].
     pub still: Raster<bool>,
+    /// [`Region::Knowable`].
+    pub knowable: Raster<bool>,
+    /// [`Region::Unknowable`].
+    pub unknowable: Raster<bool>,
 }
 
 impl Region {
     /// Every region.
-    pub const ALL: [Region; 3] = [Region::Moving, Region::Still, Region::Full];
+    pub const ALL: [Region; 5] = [
+        Region::Moving,
+        Region::Still,
+        Region::Full,
+        Region::Knowable,
+        Region::Unknowable,
+    ];
 
     /// The word used in metric names and files.
     pub fn name(self) -> &'static str {
@@ -34,6 +49,8 @@ impl Region {
             Region::Moving => "moving",
             Region::Still => "static",
             Region::Full => "full",
+            Region::Knowable => "knowable",
+            Region::Unknowable => "unknowable",
         }
     }
 }
@@ -51,6 +68,8 @@ impl Regions {
             Region::Moving => &self.moving,
             Region::Still => &self.still,
             Region::Full => return map.pixels.clone(),
+            Region::Knowable => &self.knowable,
+            Region::Unknowable => &self.unknowable,
         };
         assert!(
             mask.same_size(map),
@@ -64,14 +83,20 @@ impl Regions {
     }
 }
 
-/// Moving: `truth.motion > 0` dilated by a fifteenth of the height (a bleed leaves the support); static: the rest.
+/// Moving: `truth.motion > 0` dilated by a fifteenth of the height (a bleed leaves the support); static: the rest. Moving
+/// pixels are knowable where not a single sample of the truth saw what the frame does not show.
 pub fn regions(truth: &Truth) -> Regions {
     let moving = dilated(
         &truth.motion.map(|fraction| *fraction > 0.0),
         truth.motion_margin(),
     );
-    let still = moving.map(|moves| !moves);
-    Regions { moving, still }
+    let hidden = truth.at_instant_mean().unknowable.map(|part| *part > 0.0);
+    Regions {
+        still: moving.map(|moves| !moves),
+        knowable: moving.zip(&hidden, |moves, hidden| *moves && !hidden),
+        unknowable: moving.zip(&hidden, |moves, hidden| *moves && *hidden),
+        moving,
+    }
 }
 
 /// Every pixel whose centre lies within `radius` pixels of that of a pixel of `set`.
@@ -132,19 +157,20 @@ mod tests {
                 [0.5, 0.5, 0.5 + 0.06]
             }
         });
-        let floor = |region| {
-            let regions = Regions {
-                moving: moving.clone(),
-                still: still.clone(),
-            };
-            noise_floor([&a, &b], &regions, region).unwrap()
+        let regions = Regions {
+            knowable: moving.clone(),
+            unknowable: moving.map(|_| false),
+            moving,
+            still,
         };
+        let floor = |region| noise_floor([&a, &b], &regions, region).unwrap();
         let one_of_three = 0.03 / 3.0_f64.sqrt();
         let all = ((0.1_f64.powi(2) + 3.0 * one_of_three.powi(2)) / 4.0).sqrt();
         for (region, expected) in [
             (Region::Moving, 0.1),
             (Region::Still, one_of_three),
             (Region::Full, all),
+            (Region::Knowable, 0.1),
         ] {
             // Colours are rounded to f32.
             assert!(
@@ -153,12 +179,7 @@ mod tests {
                 floor(region)
             );
         }
-        let nowhere = moving.map(|_| false);
-        let regions = Regions {
-            still: nowhere.map(|_| true),
-            moving: nowhere,
-        };
-        assert_eq!(noise_floor([&a, &b], &regions, Region::Moving), None);
+        assert_eq!(noise_floor([&a, &b], &regions, Region::Unknowable), None);
     }
 
     #[test]

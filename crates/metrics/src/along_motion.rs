@@ -19,6 +19,8 @@ pub struct AlongMotion {
     pub truth: Grid,
     /// Misplacement of the truth's first half.
     pub misplacement_noise: Option<Misplacement>,
+    /// Excess of total variation of the truth's first half.
+    pub variation_noise: f64,
     /// Noise plus the difference between the instant's rows and the shutter's; a reason where that is too large.
     pub lateral_floor: Result<Lateral, String>,
 }
@@ -42,6 +44,9 @@ impl AlongMotion {
         }
         let rows = Rows::new(along, truth.width, truth.height);
         let [instant, truth, half] = [instant, truth, half].map(|matte| rows.spread(matte));
+        if truth.total_variation() <= 0.0 {
+            return Err("is not seen while the shutter is open".to_owned());
+        }
         let change = lateral(&instant, &truth, length);
         let noise = lateral(&half, &truth, length);
         let changed = change.growth + change.shrink;
@@ -58,6 +63,7 @@ impl AlongMotion {
         };
         Ok(Self {
             misplacement_noise: misplacement(&half, &truth),
+            variation_noise: half.total_variation() / truth.total_variation() - 1.0,
             lateral_floor,
             rows,
             truth,

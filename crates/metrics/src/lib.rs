@@ -5,14 +5,18 @@
 //! scene is not a number but a reason. `README.md` beside this crate defines each score and says what fools it;
 //! [`Metric`] names them all.
 
+mod absolute_error;
 mod along_motion;
 mod bleed;
 mod check;
+mod convolution;
 mod cross_error;
 mod equivalent;
 mod error;
 mod error_maps;
 mod flip;
+mod frozen;
+mod gradient;
 mod jitter;
 mod label;
 mod ladder;
@@ -24,24 +28,35 @@ mod misplacement;
 mod mover;
 mod nearest;
 mod object;
+#[cfg(test)]
+mod parity;
 mod pooling;
+mod probes;
 mod reference;
 mod rows;
 mod score;
 mod scores;
+mod ssim;
 mod viewing;
 
+pub use absolute_error::SMAPE_EPSILON;
 pub use cross_error::{PSNR_LIMIT, RELATIVE_EPSILON};
 pub use equivalent::{Equivalent, Reach, Subframes};
 pub use error::MeasureError;
 pub use flip::{flip_hdr, flip_ldr};
 pub use frame::{Region, Regions, regions};
+pub use gradient::{gradient_error, gradient_magnitude};
 pub use jitter::Jitter;
 pub use maps::Maps;
-pub use metric::{ImageMetric, Metric, ObjectMetric};
+pub use metric::{FrozenMetric, ImageMetric, Metric, ObjectMetric, ProbeMetric, SkillMetric};
+pub use probes::{ProbeMaps, ProbeMeasurement, Probes};
 pub use reference::{Measurement, Reference};
 pub use score::{Ideal, Measured, Score};
-pub use scores::{EquivalentScores, ImageScores, LabelScores, ObjectScores, Scores};
+pub use scores::{
+    EquivalentScores, FrozenScores, ImageScores, LabelScores, ObjectScores, ProbeScores, Scores,
+    SkillScores,
+};
+pub use ssim::{SSIM_BORDER, ssim};
 pub use viewing::Viewing;
 
 use frame::{Frame, Ladder, Picture, Truth};

@@ -11,6 +11,12 @@ pub struct Maps {
     pub squared_error: Plane,
     /// The same over the squared truth; relMSE is pooled from it.
     pub relative_squared_error: Plane,
+    /// `|F - T|` at the viewing exposure, mean over the channels; MAE is pooled from it.
+    pub absolute_error: Plane,
+    /// The same over the mean of both values, in [0, 2]; SMAPE is pooled from it.
+    pub symmetric_error: Plane,
+    /// Structural similarity of what a display shows, mean over the channels, in [-1, 1].
+    pub ssim: Plane,
     /// LDR-FLIP, in [0, 1].
     pub flip: Plane,
     /// HDR-FLIP, in [0, 1].
@@ -19,4 +25,10 @@ pub struct Maps {
     pub label_total_variation: Plane,
     /// Sum over moving objects of their matte where the truth never shows them.
     pub bleed: Plane,
+    /// Sum over moving objects of the squared difference of their mattes' gradient magnitudes, per square pixel.
+    pub gradient_error: Plane,
+    /// As `squared_error`, against the truth whose shading stands still at the instant.
+    pub frozen_squared_error: Plane,
+    /// `|F - I|` at the viewing exposure, mean over the channels, I being the instant; 0 where anything moves.
+    pub static_change: Plane,
 }

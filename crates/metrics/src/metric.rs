@@ -18,6 +18,14 @@ pub enum Metric {
     LabelTotalVariationP95,
     /// `occluder_contamination`: label total variation on the worst of the objects that stand still.
     OccluderContamination,
+    /// `static_contamination`: what a picture changes where nothing moves.
+    StaticContamination,
+    /// Against the truth whose shading stands still: `mse_frozen`.
+    Frozen(FrozenMetric),
+    /// Of pictures of ones and coordinates: `unity`.
+    Probe(ProbeMetric),
+    /// Beside the instant itself: `skill_flip`.
+    Skill(SkillMetric),
     /// `n_eq`: by squared error, the headline.
     EquivalentSubframes,
     /// `n_eq_flip`.
@@ -35,12 +43,22 @@ pub enum ImageMetric {
     Psnr,
     /// Unbiased relative squared error.
     Relmse,
+    /// Mean absolute error.
+    Mae,
+    /// Symmetric mean absolute percentage error.
+    Smape,
     /// Mean LDR-FLIP.
     Flip,
+    /// Weighted median of LDR-FLIP.
+    FlipMedian,
     /// 95th percentile of LDR-FLIP.
     FlipP95,
+    /// 99th percentile of LDR-FLIP.
+    FlipP99,
     /// Mean HDR-FLIP.
     FlipHdr,
+    /// Structural similarity; reported, never bounded.
+    Ssim,
 }
 
 /// A score of one object's matte.
@@ -62,6 +80,8 @@ pub enum ObjectMetric {
     Centroid,
     /// Length ratio along the motion.
     Extent,
+    /// Steps, ripples and noise along the motion.
+    TvExcess,
     /// Holes in the unblurred core.
     Hole,
     /// Missing mass.
@@ -70,17 +90,57 @@ pub enum ObjectMetric {
     Energy,
     /// Label total variation on the object.
     LabelTotalVariation,
+    /// Squared difference of the gradients' magnitudes.
+    GradientError,
+}
+
+/// An error against the frozen-shading truth, over the moving region.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum FrozenMetric {
+    /// Unbiased mean squared error.
+    Mse,
+    /// Mean LDR-FLIP.
+    Flip,
+    /// Squared difference of the two truths: no picture takes part in it.
+    Shading,
+}
+
+/// What a filter makes of pictures of ones and of coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ProbeMetric {
+    /// Sum of the weights, against 1.
+    Unity,
+    /// Mean place that is gathered from.
+    GatherOffset,
+    /// Spread of the places that are gathered from.
+    GatherSpread,
+}
+
+/// What a picture is worth beside the instant itself, over the moving region.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SkillMetric {
+    /// By unbiased squared error.
+    Mse,
+    /// By mean LDR-FLIP.
+    Flip,
+    /// By mean label total variation.
+    LabelTotalVariation,
 }
 
 impl ImageMetric {
     /// Every error of colour.
-    pub const ALL: [ImageMetric; 6] = [
+    pub const ALL: [ImageMetric; 11] = [
         ImageMetric::Mse,
         ImageMetric::Psnr,
         ImageMetric::Relmse,
+        ImageMetric::Mae,
+        ImageMetric::Smape,
         ImageMetric::Flip,
+        ImageMetric::FlipMedian,
         ImageMetric::FlipP95,
+        ImageMetric::FlipP99,
         ImageMetric::FlipHdr,
+        ImageMetric::Ssim,
     ];
 
     /// Name, unit and ideal.
@@ -89,9 +149,14 @@ impl ImageMetric {
             ImageMetric::Mse => ("mse", "white^2", Ideal::Lowest),
             ImageMetric::Psnr => ("psnr", "dB", Ideal::Highest),
             ImageMetric::Relmse => ("relmse", "", Ideal::Lowest),
+            ImageMetric::Mae => ("mae", "white", Ideal::Lowest),
+            ImageMetric::Smape => ("smape", "", Ideal::Lowest),
             ImageMetric::Flip => ("flip", "", Ideal::Lowest),
+            ImageMetric::FlipMedian => ("flip_median", "", Ideal::Lowest),
             ImageMetric::FlipP95 => ("flip_p95", "", Ideal::Lowest),
+            ImageMetric::FlipP99 => ("flip_p99", "", Ideal::Lowest),
             ImageMetric::FlipHdr => ("flip_hdr", "", Ideal::Lowest),
+            ImageMetric::Ssim => ("ssim", "", Ideal::Highest),
         }
     }
 
@@ -103,7 +168,7 @@ impl ImageMetric {
 
 impl ObjectMetric {
     /// Every score of a matte.
-    pub const ALL: [ObjectMetric; 12] = [
+    pub const ALL: [ObjectMetric; 14] = [
         ObjectMetric::BleedLateral,
         ObjectMetric::BleedLeading,
         ObjectMetric::BleedTrailing,
@@ -112,10 +177,12 @@ impl ObjectMetric {
         ObjectMetric::Misplacement,
         ObjectMetric::Centroid,
         ObjectMetric::Extent,
+        ObjectMetric::TvExcess,
         ObjectMetric::Hole,
         ObjectMetric::Deficit,
         ObjectMetric::Energy,
         ObjectMetric::LabelTotalVariation,
+        ObjectMetric::GradientError,
     ];
 
     /// Name, unit and ideal.
@@ -129,16 +196,48 @@ impl ObjectMetric {
             ObjectMetric::Misplacement => ("misplacement", "px", Ideal::Lowest),
             ObjectMetric::Centroid => ("centroid", "px", Ideal::Target(0.0)),
             ObjectMetric::Extent => ("extent", "", Ideal::Target(1.0)),
+            ObjectMetric::TvExcess => ("tv_excess", "", Ideal::Target(0.0)),
             ObjectMetric::Hole => ("hole", "", Ideal::Target(0.0)),
             ObjectMetric::Deficit => ("deficit", "", Ideal::Lowest),
             ObjectMetric::Energy => ("energy", "", Ideal::Target(1.0)),
             ObjectMetric::LabelTotalVariation => ("object_label_tv", "", Ideal::Lowest),
+            ObjectMetric::GradientError => ("gradient_error", "1/px^2", Ideal::Lowest),
         }
     }
 
     /// Which way it is better.
     pub fn ideal(self) -> Ideal {
         self.describe().2
+    }
+}
+
+impl FrozenMetric {
+    fn describe(self) -> (&'static str, &'static str, Ideal) {
+        match self {
+            FrozenMetric::Mse => ("mse_frozen", "white^2", Ideal::Lowest),
+            FrozenMetric::Flip => ("flip_frozen", "", Ideal::Lowest),
+            FrozenMetric::Shading => ("mse_shading", "white^2", Ideal::Lowest),
+        }
+    }
+}
+
+impl ProbeMetric {
+    fn describe(self) -> (&'static str, &'static str, Ideal) {
+        match self {
+            ProbeMetric::Unity => ("unity", "", Ideal::Lowest),
+            ProbeMetric::GatherOffset => ("gather_offset", "px", Ideal::Lowest),
+            ProbeMetric::GatherSpread => ("gather_spread", "px", Ideal::Lowest),
+        }
+    }
+}
+
+impl SkillMetric {
+    fn describe(self) -> (&'static str, &'static str, Ideal) {
+        match self {
+            SkillMetric::Mse => ("skill_mse", "", Ideal::Highest),
+            SkillMetric::Flip => ("skill_flip", "", Ideal::Highest),
+            SkillMetric::LabelTotalVariation => ("skill_label_tv", "", Ideal::Highest),
+        }
     }
 }
 
@@ -152,6 +251,16 @@ impl Metric {
             Metric::LabelTotalVariation,
             Metric::LabelTotalVariationP95,
             Metric::OccluderContamination,
+            Metric::StaticContamination,
+            Metric::Frozen(FrozenMetric::Mse),
+            Metric::Frozen(FrozenMetric::Flip),
+            Metric::Frozen(FrozenMetric::Shading),
+            Metric::Probe(ProbeMetric::Unity),
+            Metric::Probe(ProbeMetric::GatherOffset),
+            Metric::Probe(ProbeMetric::GatherSpread),
+            Metric::Skill(SkillMetric::Mse),
+            Metric::Skill(SkillMetric::Flip),
+            Metric::Skill(SkillMetric::LabelTotalVariation),
             Metric::EquivalentSubframes,
             Metric::EquivalentSubframesFlip,
             Metric::EquivalentSubframesLabel,
@@ -180,6 +289,22 @@ impl Metric {
         self.describe().2
     }
 
+    /// Why no bound may name this metric; none for those that may be bounded.
+    pub fn report_only(self) -> Option<&'static str> {
+        match self {
+            Metric::Image(ImageMetric::Ssim, _) => Some(
+                "punishes unbiased noise more than a picture that lies three pixels off; bound flip instead",
+            ),
+            Metric::Skill(_) => {
+                Some("a grey ghost over everything has skill; bound the error itself, or n_eq")
+            }
+            Metric::Frozen(FrozenMetric::Shading) => {
+                Some("is a property of the scene, whatever the filter does")
+            }
+            _ => None,
+        }
+    }
+
     /// The strictest bound that a truth with this noise floor can carry: three floors away from perfect. For PSNR that is
     /// three times the floor's squared error; for equivalent sub-frames a third of the highest count that the truth can
     /// tell, because error falls at least as fast as the count rises.
@@ -200,6 +325,10 @@ impl Metric {
             Metric::LabelTotalVariation => ("label_tv", "", Ideal::Lowest),
             Metric::LabelTotalVariationP95 => ("label_tv_p95", "", Ideal::Lowest),
             Metric::OccluderContamination => ("occluder_contamination", "", Ideal::Lowest),
+            Metric::StaticContamination => ("static_contamination", "white", Ideal::Lowest),
+            Metric::Frozen(metric) => metric.describe(),
+            Metric::Probe(metric) => metric.describe(),
+            Metric::Skill(metric) => metric.describe(),
             Metric::EquivalentSubframes => ("n_eq", "sub-frames", Ideal::Highest),
             Metric::EquivalentSubframesFlip => ("n_eq_flip", "sub-frames", Ideal::Highest),
             Metric::EquivalentSubframesLabel => ("n_eq_label_tv", "sub-frames", Ideal::Highest),

@@ -4,11 +4,13 @@ use frame::{Frame, Picture, Plane, Raster, Truth};
 
 use crate::along_motion::{AlongMotion, BORDER, NO_SILHOUETTE, touches_border};
 use crate::bleed::{Bleed, Side, bleed, sides};
+use crate::gradient::{gradient_error, gradient_magnitude};
 use crate::label::on_object;
 use crate::lateral::lateral;
 use crate::mass::{Mass, mass};
 use crate::misplacement::{Misplacement, misplacement};
 use crate::mover::{Mover, Stillness};
+use crate::pooling::mean;
 use crate::{Measured, ObjectMetric, ObjectScores};
 
 /// One object, and what the truth's own noise scores on it.
@@ -29,6 +31,9 @@ struct Moving {
     /// Bleed of one half out of the other's support.
     bleed_noise: Option<Bleed>,
     rows: Result<AlongMotion, String>,
+    /// Gradient magnitude of the true matte, and the error of the first half's.
+    gradient: Raster<f64>,
+    gradient_noise: Raster<f64>,
 }
 
 impl ObjectReference {
@@ -39,6 +44,7 @@ impl ObjectReference {
         let instant = &frame.coverage[id];
         let touches_border = touches_border(&matte) || touches_border(instant);
         let moving = |mover: Mover| {
+            let gradient = gradient_magnitude(&matte);
             let other = &truth.halves[1].coverage[id];
             let bleed_noise = sides(other, &mover.directions)
                 .and_then(|sides| bleed(half, &sides, &mover.silhouette));
@@ -46,6 +52,8 @@ impl ObjectReference {
                 sides: sides(&matte, &mover.directions),
                 bleed_noise,
                 rows: AlongMotion::new(&mover, touches_border, instant, &matte, half),
+                gradient_noise: gradient_error(&gradient_magnitude(half), &gradient),
+                gradient,
                 mover,
             }
         };
@@ -74,6 +82,7 @@ impl ObjectReference {
             misplacement,
             centroid,
             extent,
+            tv_excess,
         ] = self.row_scores(matte);
         let [hole, deficit, energy] = self.mass_scores(matte);
         let moving = self.mover.as_ref();
@@ -89,6 +98,7 @@ impl ObjectReference {
             misplacement,
             centroid,
             extent,
+            tv_excess,
             hole,
             deficit,
             energy,
@@ -98,7 +108,38 @@ impl ObjectReference {
                 on_object(noise, &self.truth, region),
                 "is not seen in the moving region",
             ),
+            gradient_error: self.gradient_score(matte, region),
         }
+    }
+
+    /// Squared difference of the gradient magnitudes of matte and truth; zero for what does not move.
+    pub fn gradient_map(&self, matte: &Plane) -> Plane {
+        match &self.mover {
+            Ok(moving) => gradient_error(&gradient_magnitude(matte), &moving.gradient)
+                .map(|error| *error as f32),
+            Err(_) => matte.map(|_| 0.0),
+        }
+    }
+
+    fn gradient_score(&self, matte: &Plane, region: &Raster<bool>) -> Measured {
+        let moving = match self.moving() {
+            Ok(moving) => moving,
+            Err(reason) => return Measured::not_applicable(reason),
+        };
+        let pool = |map: &Raster<f64>| {
+            let inside = map.pixels.iter().zip(&region.pixels);
+            let values: Vec<f64> = inside
+                .filter_map(|(v, inside)| inside.then_some(*v))
+                .collect();
+            mean(&values)
+        };
+        let error = gradient_error(&gradient_magnitude(matte), &moving.gradient);
+        score(
+            ObjectMetric::GradientError,
+            pool(&error),
+            pool(&moving.gradient_noise),
+            "is not seen in the moving region",
+        )
     }
 
     /// The object's matte outside its true support, zero elsewhere and for what does not move.
@@ -134,11 +175,11 @@ impl ObjectReference {
         ]
     }
 
-    /// Growth, shrink, misplacement, centroid and extent.
-    fn row_scores(&self, matte: &Plane) -> [Measured; 5] {
+    /// Growth, shrink, misplacement, centroid, extent and excess of total variation.
+    fn row_scores(&self, matte: &Plane) -> [Measured; 6] {
         let (rows, mover) = match self.along_motion() {
             Ok(found) => found,
-            Err(reason) => return [(); 5].map(|()| Measured::not_applicable(&reason)),
+            Err(reason) => return [(); 6].map(|()| Measured::not_applicable(&reason)),
         };
         let grid = rows.rows.spread(matte);
         let [growth, shrink] = match &rows.lateral_floor {
@@ -163,6 +204,12 @@ impl ObjectReference {
             pick(ObjectMetric::Misplacement, |found| found.distance),
             pick(ObjectMetric::Centroid, |found| found.centroid),
             pick(ObjectMetric::Extent, |found| found.extent),
+            score(
+                ObjectMetric::TvExcess,
+                Some(grid.total_variation() / rows.truth.total_variation() - 1.0),
+                Some(rows.variation_noise),
+                "",
+            ),
         ]
     }
 

@@ -7,10 +7,36 @@ pub(crate) fn mean(values: &[f64]) -> Option<f64> {
 
 /// The value that at least 95 % of the values do not exceed (nearest rank); `None` of none.
 pub(crate) fn percentile_95(values: &[f64]) -> Option<f64> {
+    percentile(values, 0.95)
+}
+
+/// The value that at least 99 % of the values do not exceed (nearest rank); `None` of none.
+pub(crate) fn percentile_99(values: &[f64]) -> Option<f64> {
+    percentile(values, 0.99)
+}
+
+fn percentile(values: &[f64], part: f64) -> Option<f64> {
+    let sorted = sorted(values);
+    let rank = (sorted.len() as f64 * part).ceil() as usize;
+    sorted.get(rank.checked_sub(1)?).copied()
+}
+
+/// The smallest value up to which the values add up to half of their sum, as the FLIP tool reports it: pixels without error
+/// do not count. Values are not negative; 0 where all are, `None` of none.
+pub(crate) fn weighted_median(values: &[f64]) -> Option<f64> {
+    let sorted = sorted(values);
+    let half = 0.5 * sorted.iter().sum::<f64>();
+    let mut sum = 0.0;
+    sorted.into_iter().find(|value| {
+        sum += value;
+        sum >= half
+    })
+}
+
+fn sorted(values: &[f64]) -> Vec<f64> {
     let mut sorted = values.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);
-    let rank = (sorted.len() as f64 * 0.95).ceil() as usize;
-    sorted.get(rank.checked_sub(1)?).copied()
+    sorted
 }
 
 #[cfg(test)]
@@ -24,6 +50,18 @@ mod tests {
         assert_eq!(percentile_95(&values[..10]), Some(100.0));
         assert_eq!(percentile_95(&[3.0]), Some(3.0));
         assert_eq!(percentile_95(&[]), None);
+        assert_eq!(percentile_99(&values), Some(99.0));
         assert_eq!(mean(&[]), None);
+    }
+
+    #[test]
+    fn half_of_the_error_lies_below_the_weighted_median() {
+        // 1 + 2 + 3 + 4 = 10: the 3 passes 5.
+        assert_eq!(
+            weighted_median(&[4.0, 0.0, 2.0, 0.0, 3.0, 0.0, 1.0]),
+            Some(3.0)
+        );
+        assert_eq!(weighted_median(&[0.0, 0.0]), Some(0.0));
+        assert_eq!(weighted_median(&[]), None);
     }
 }

@@ -3,16 +3,20 @@
 use frame::{Frame, Image, Ladder, Picture, Plane, Raster, Truth, regions};
 use rayon::prelude::*;
 
+use crate::absolute_error::absolute_error;
 use crate::check::{check_agreement, check_picture, check_viewing};
 use crate::cross_error::{psnr, uncertainty};
 use crate::equivalent::{Curve, Equivalent};
-use crate::error_maps::ErrorMaps;
+use crate::error_maps::{ErrorMaps, MoreMaps};
+use crate::frozen::FrozenReference;
 use crate::ladder::Curves;
 use crate::object::ObjectReference;
-use crate::pooling::{mean, percentile_95};
+use crate::pooling::{mean, percentile_95, percentile_99, weighted_median};
+use crate::probes::{ProbeMaps, ProbeMeasurement, Probes, measure_probes};
+use crate::ssim::SSIM_BORDER;
 use crate::{
-    EquivalentScores, ImageScores, LabelScores, Maps, MeasureError, Measured, Region, Regions,
-    Scores, Viewing,
+    EquivalentScores, ImageScores, LabelScores, Maps, MeasureError, Measured, ProbeScores, Region,
+    Regions, Scores, SkillScores, Viewing,
 };
 
 /// Scores, and the maps that they were pooled from.
@@ -22,6 +26,8 @@ pub struct Measurement {
     pub scores: Scores,
     /// The pictures.
     pub maps: Maps,
+    /// Those of probes, where any were run.
+    pub probes: Option<ProbeMaps>,
 }
 
 /// Everything about a truth that does not depend on the picture to be measured.
@@ -35,6 +41,10 @@ pub struct Reference<'a> {
     noise: ErrorMaps,
     /// Standard error of the unbiased squared error over the moving region, from the truth's noise.
     mse_uncertainty: f64,
+    /// The picture that does nothing, and its errors.
+    instant: Image,
+    instant_errors: ErrorMaps,
+    frozen: FrozenReference,
     objects: Vec<ObjectReference>,
     curves: Option<Curves>,
 }
@@ -61,6 +71,13 @@ impl<'a> Reference<'a> {
         let regions = regions(truth);
         Ok(Self {
             noise: ErrorMaps::new(&truth.halves[0], [&mean.color; 2], &mean, viewing),
+            instant_errors: ErrorMaps::new(
+                &instant,
+                truth.halves.each_ref().map(|half| &half.color),
+                &mean,
+                viewing,
+            ),
+            frozen: FrozenReference::new(truth, &regions, viewing),
             mse_uncertainty: uncertainty(
                 &regions.select(Region::Moving, &truth.halves[0].color),
                 &regions.select(Region::Moving, &truth.halves[1].color),
@@ -74,6 +91,7 @@ impl<'a> Reference<'a> {
             regions,
             truth,
             mean,
+            instant: instant.color,
             viewing: *viewing,
         })
     }
@@ -87,21 +105,54 @@ impl<'a> Reference<'a> {
             let region = &self.regions.moving;
             object.measure(matte, &errors.label, &self.noise.label, region)
         });
-        let nothing = errors.label.map(|_| 0.0);
-        let bleed = pairs().fold(nothing, |sum: Plane, (object, matte)| {
-            sum.zip(&object.bleed_map(matte), |sum, bleed| sum + bleed)
-        });
+        let summed = |map: fn(&ObjectReference, &Plane) -> Plane| {
+            let nothing = errors.label.map(|_| 0.0);
+            pairs().fold(nothing, |sum: Plane, (object, matte)| {
+                sum.zip(&map(object, matte), |sum, part| sum + part)
+            })
+        };
+        let (frozen, frozen_squared) =
+            self.frozen
+                .measure(&output.color, &self.regions, &self.viewing);
+        let static_change = self.static_change(&output.color);
         Ok(Measurement {
             scores: Scores {
                 moving: self.image_scores(&errors, Region::Moving),
                 still: self.image_scores(&errors, Region::Still),
                 full: self.image_scores(&errors, Region::Full),
+                knowable: self.image_scores(&errors, Region::Knowable),
+                unknowable: self.image_scores(&errors, Region::Unknowable),
+                frozen,
+                static_contamination: match mean(
+                    &self.regions.select(Region::Still, &static_change),
+                ) {
+                    // The instant is exact there: the picture is compared with what the filter was given.
+                    Some(change) => Measured::score(change, 0.0),
+                    None => Measured::not_applicable(empty(Region::Still)),
+                },
                 label_total_variation: self.label_scores(&errors),
                 objects: objects.collect(),
+                probes: ProbeScores::not_applicable("no probes were run through the filter"),
+                skill: self.skill_scores(&errors),
                 equivalent_subframes: self.equivalent_scores(&errors),
             },
-            maps: errors.maps(output, &self.mean, bleed),
+            maps: errors.maps(
+                output,
+                &self.mean,
+                MoreMaps {
+                    bleed: summed(ObjectReference::bleed_map),
+                    gradient_error: summed(ObjectReference::gradient_map),
+                    frozen_squared,
+                    static_change,
+                },
+            ),
+            probes: None,
         })
+    }
+
+    /// Scores what a filter made of [`Probes::images`]; its weights have to be those of the measured picture.
+    pub fn measure_probes(&self, probes: &Probes) -> ProbeMeasurement {
+        measure_probes(probes, self.truth, &self.regions)
     }
 
     pub(crate) fn viewing(&self) -> &Viewing {
@@ -123,9 +174,65 @@ impl<'a> Reference<'a> {
                 region,
             ),
             relmse: score(pool(|maps| &maps.relative, mean), region),
+            mae: score(pool(|maps| &maps.absolute, mean), region),
+            smape: score(pool(|maps| &maps.symmetric, mean), region),
             flip: score(pool(|maps| &maps.flip, mean), region),
+            flip_median: score(pool(|maps| &maps.flip, weighted_median), region),
             flip_p95: score(pool(|maps| &maps.flip, percentile_95), region),
+            flip_p99: score(pool(|maps| &maps.flip, percentile_99), region),
             flip_hdr: score(pool(|maps| &maps.flip_hdr, mean), region),
+            ssim: self.ssim_score(errors, region),
+        }
+    }
+
+    /// Windows that reach beyond the picture are left out.
+    fn ssim_score(&self, errors: &ErrorMaps, region: Region) -> Measured {
+        let [width, height] = [self.mean.color.width, self.mean.color.height];
+        let interior = Raster::from_fn(width, height, |x, y| {
+            x.min(y) >= SSIM_BORDER && x + SSIM_BORDER < width && y + SSIM_BORDER < height
+        });
+        let whole = self.regions.select(region, &interior);
+        let pool = |map| {
+            let values = self.regions.select(region, map).into_iter().zip(&whole);
+            let values: Vec<f64> = values.filter_map(|(v, whole)| whole.then_some(v)).collect();
+            mean(&values)
+        };
+        match (pool(&errors.ssim), pool(&self.noise.ssim)) {
+            (Some(value), Some(noise)) => Measured::score(value, noise),
+            _ => Measured::not_applicable(empty(region)),
+        }
+    }
+
+    /// How much a picture changes what stands still.
+    fn static_change(&self, output: &Image) -> Raster<f64> {
+        absolute_error(output, &self.instant, self.viewing.scale()).zip(
+            &self.regions.still,
+            |change, still| if *still { *change } else { 0.0 },
+        )
+    }
+
+    fn skill_scores(&self, errors: &ErrorMaps) -> SkillScores {
+        let skill = |map: fn(&ErrorMaps) -> &Raster<f64>| {
+            let Some((error, noise)) = self.pool(errors, Region::Moving, map, mean) else {
+                return Measured::not_applicable(empty(Region::Moving));
+            };
+            match mean(
+                &self
+                    .regions
+                    .select(Region::Moving, map(&self.instant_errors)),
+            ) {
+                Some(none) if none > noise => {
+                    Measured::score(1.0 - error / none, 1.0 - noise / none)
+                }
+                _ => Measured::not_applicable(
+                    "the instant itself is no worse than the truth's noise",
+                ),
+            }
+        };
+        SkillScores {
+            mse: skill(|maps| &maps.squared),
+            flip: skill(|maps| &maps.flip),
+            label_total_variation: skill(|maps| &maps.label),
         }
     }
 
@@ -188,5 +295,7 @@ fn empty(region: Region) -> &'static str {
         Region::Moving => "nothing moves on screen",
         Region::Still => "no pixel stands still",
         Region::Full => "the picture has no pixel",
+        Region::Knowable => "no moving pixel is seen whole in the frame of the instant",
+        Region::Unknowable => "the frame of the instant shows all that the shutter sees",
     }
 }

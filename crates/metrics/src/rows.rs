@@ -87,6 +87,16 @@ impl Rows {
 }
 
 impl Grid {
+    /// Sum over rows of the total variation along the motion, in pixels of mass.
+    pub fn total_variation(&self) -> f64 {
+        let steps = |row: &[f64]| {
+            row.windows(2)
+                .map(|pair| (pair[1] - pair[0]).abs())
+                .sum::<f64>()
+        };
+        self.rows().map(steps).sum()
+    }
+
     /// The rows from one side of the motion to the other; each holds mass per pixel of length along the motion.
     pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
         self.masses.chunks_exact(self.cells)

@@ -3,7 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use crate::equivalent::Equivalent;
-use crate::{ImageMetric, Measured, Metric, ObjectMetric, Region, Score};
+use crate::{
+    FrozenMetric, ImageMetric, Measured, Metric, ObjectMetric, ProbeMetric, Region, Score,
+    SkillMetric,
+};
 
 /// What one picture scores against one truth.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -15,10 +18,22 @@ pub struct Scores {
     pub still: ImageScores,
     /// The whole picture.
     pub full: ImageScores,
+    /// Where the frame of the instant shows all that the shutter sees.
+    pub knowable: ImageScores,
+    /// Where it does not.
+    pub unknowable: ImageScores,
+    /// Against the truth whose shading stands still.
+    pub frozen: FrozenScores,
+    /// Mean absolute change of the instant's colour where nothing moves, in display-scaled radiance.
+    pub static_contamination: Measured,
     /// Which object the shutter's time was given to.
     pub label_total_variation: LabelScores,
     /// Every object but the background.
     pub objects: Vec<ObjectScores>,
+    /// What the filter makes of pictures of ones and of coordinates.
+    pub probes: ProbeScores,
+    /// What the picture is worth beside the instant itself.
+    pub skill: SkillScores,
     /// As good as the mean of how many sub-frames.
     pub equivalent_subframes: EquivalentScores,
 }
@@ -32,12 +47,56 @@ pub struct ImageScores {
     pub psnr: Measured,
     /// Unbiased mean of squared error over squared truth.
     pub relmse: Measured,
+    /// Mean absolute error; display white is 1.
+    pub mae: Measured,
+    /// Mean of the error's size over the mean of both values, in [0, 2].
+    pub smape: Measured,
     /// Mean LDR-FLIP.
     pub flip: Measured,
+    /// LDR-FLIP above which lies half of its sum.
+    pub flip_median: Measured,
     /// LDR-FLIP that 95 % of the pixels do not exceed.
     pub flip_p95: Measured,
+    /// LDR-FLIP that 99 % of the pixels do not exceed.
+    pub flip_p99: Measured,
     /// Mean HDR-FLIP.
     pub flip_hdr: Measured,
+    /// Mean structural similarity of what a display shows.
+    pub ssim: Measured,
+}
+
+/// Errors over the moving region against the truth whose shading stands still at the instant: what is left is visibility.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FrozenScores {
+    /// Unbiased mean squared error; display white is 1.
+    pub mse: Measured,
+    /// Mean LDR-FLIP.
+    pub flip: Measured,
+    /// Unbiased mean squared difference of the two truths: shadows, lights and reflections that move.
+    pub shading: Measured,
+}
+
+/// What a filter makes of pictures of ones and of coordinates, whose truth is exact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ProbeScores {
+    /// Largest difference of a pixel's sum of weights from 1.
+    pub unity: Measured,
+    /// Mean distance between the middle of what the filter gathers and the middle of where that was at the instant, in
+    /// pixels, over the knowable region.
+    pub gather_offset: Measured,
+    /// Mean difference of the standard deviations about these middles, in pixels, over the knowable region.
+    pub gather_spread: Measured,
+}
+
+/// 1 - error / error of the instant itself, over the moving region: 1 is perfect, 0 as good as doing nothing.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SkillScores {
+    /// By unbiased squared error of colour.
+    pub mse: Measured,
+    /// By mean LDR-FLIP.
+    pub flip: Measured,
+    /// By mean label total variation.
+    pub label_total_variation: Measured,
 }
 
 /// Fraction of the shutter given to the wrong object, over the moving region.
@@ -74,6 +133,8 @@ pub struct ObjectScores {
     pub centroid: Measured,
     /// Length along the motion over the true length.
     pub extent: Measured,
+    /// Total variation along the motion over the true one, less 1: steps, ripples and noise raise it.
+    pub tv_excess: Measured,
     /// Mean of what is missing where the object covers the pixel throughout.
     pub hole: Measured,
     /// Missing mass over true mass.
@@ -82,6 +143,8 @@ pub struct ObjectScores {
     pub energy: Measured,
     /// Label total variation on the object, within the moving region.
     pub label_total_variation: Measured,
+    /// Mean squared difference of the matte's gradient magnitudes, within the moving region.
+    pub gradient_error: Measured,
 }
 
 /// The headline: how many accumulated sub-frames have the same error over the moving region.
@@ -103,6 +166,10 @@ impl Scores {
             Metric::Image(metric, region) => self.region(region).get(metric).clone(),
             Metric::LabelTotalVariation => self.label_total_variation.mean.clone(),
             Metric::LabelTotalVariationP95 => self.label_total_variation.p95.clone(),
+            Metric::StaticContamination => self.static_contamination.clone(),
+            Metric::Frozen(metric) => self.frozen.get(metric).clone(),
+            Metric::Probe(metric) => self.probes.get(metric).clone(),
+            Metric::Skill(metric) => self.skill.get(metric).clone(),
             Metric::Object(object) => self.worst_of(metric, object, true),
             Metric::OccluderContamination => {
                 self.worst_of(metric, ObjectMetric::LabelTotalVariation, false)
@@ -135,11 +202,45 @@ impl Scores {
             })
     }
 
+    /// Replaces every score that mattes take part in by a reason why it means nothing.
+    pub fn take_out_mattes(&mut self, reason: &str) {
+        let none = || Measured::not_applicable(reason);
+        self.label_total_variation = LabelScores {
+            mean: none(),
+            p95: none(),
+        };
+        self.skill.label_total_variation = none();
+        self.equivalent_subframes.label_total_variation = Equivalent::refused(reason);
+        for scores in &mut self.objects {
+            *scores = ObjectScores {
+                object: scores.object.clone(),
+                moves: scores.moves,
+                displacement: scores.displacement,
+                bleed_lateral: none(),
+                bleed_leading: none(),
+                bleed_trailing: none(),
+                lateral_growth: none(),
+                lateral_shrink: none(),
+                misplacement: none(),
+                centroid: none(),
+                extent: none(),
+                tv_excess: none(),
+                hole: none(),
+                deficit: none(),
+                energy: none(),
+                label_total_variation: none(),
+                gradient_error: none(),
+            };
+        }
+    }
+
     fn region(&self, region: Region) -> &ImageScores {
         match region {
             Region::Moving => &self.moving,
             Region::Still => &self.still,
             Region::Full => &self.full,
+            Region::Knowable => &self.knowable,
+            Region::Unknowable => &self.unknowable,
         }
     }
 
@@ -175,9 +276,57 @@ impl ImageScores {
             ImageMetric::Mse => &self.mse,
             ImageMetric::Psnr => &self.psnr,
             ImageMetric::Relmse => &self.relmse,
+            ImageMetric::Mae => &self.mae,
+            ImageMetric::Smape => &self.smape,
             ImageMetric::Flip => &self.flip,
+            ImageMetric::FlipMedian => &self.flip_median,
             ImageMetric::FlipP95 => &self.flip_p95,
+            ImageMetric::FlipP99 => &self.flip_p99,
             ImageMetric::FlipHdr => &self.flip_hdr,
+            ImageMetric::Ssim => &self.ssim,
+        }
+    }
+}
+
+impl FrozenScores {
+    /// The score that a metric names.
+    pub fn get(&self, metric: FrozenMetric) -> &Measured {
+        match metric {
+            FrozenMetric::Mse => &self.mse,
+            FrozenMetric::Flip => &self.flip,
+            FrozenMetric::Shading => &self.shading,
+        }
+    }
+}
+
+impl ProbeScores {
+    /// The score that a metric names.
+    pub fn get(&self, metric: ProbeMetric) -> &Measured {
+        match metric {
+            ProbeMetric::Unity => &self.unity,
+            ProbeMetric::GatherOffset => &self.gather_offset,
+            ProbeMetric::GatherSpread => &self.gather_spread,
+        }
+    }
+
+    /// No probe score, because of `reason`.
+    pub fn not_applicable(reason: &str) -> Self {
+        let none = || Measured::not_applicable(reason);
+        Self {
+            unity: none(),
+            gather_offset: none(),
+            gather_spread: none(),
+        }
+    }
+}
+
+impl SkillScores {
+    /// The score that a metric names.
+    pub fn get(&self, metric: SkillMetric) -> &Measured {
+        match metric {
+            SkillMetric::Mse => &self.mse,
+            SkillMetric::Flip => &self.flip,
+            SkillMetric::LabelTotalVariation => &self.label_total_variation,
         }
     }
 }
@@ -194,10 +343,12 @@ impl ObjectScores {
             ObjectMetric::Misplacement => &self.misplacement,
             ObjectMetric::Centroid => &self.centroid,
             ObjectMetric::Extent => &self.extent,
+            ObjectMetric::TvExcess => &self.tv_excess,
             ObjectMetric::Hole => &self.hole,
             ObjectMetric::Deficit => &self.deficit,
             ObjectMetric::Energy => &self.energy,
             ObjectMetric::LabelTotalVariation => &self.label_total_variation,
+            ObjectMetric::GradientError => &self.gradient_error,
         }
     }
 }

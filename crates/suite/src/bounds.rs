@@ -72,7 +72,10 @@ pub fn read_bounds(root: &Path, scene_folder: &Path) -> Result<Bounds, Error> {
 }
 
 fn check(name: &str, limit: f64) -> Result<(), String> {
-    Metric::from_str(name)?;
+    let metric = Metric::from_str(name)?;
+    if let Some(reason) = metric.report_only() {
+        return Err(format!("{name} is for reports and no bound: it {reason}"));
+    }
     if !limit.is_finite() {
         return Err(format!("{name} = {limit}; allowed: a finite number"));
     }

@@ -27,7 +27,6 @@ pub use error::Error;
 pub use finished::{Finished, read_finished};
 pub use input_format::{Border, DepthFormat, InputFormat, VelocityFormat};
 pub use merge::{Merged, merge};
-pub use probe::picture;
 pub use progress::{catch_interrupts, with_bar};
 pub use rendered::{
     LADDER, RenderSettings, deciding_floor, frame_of, part_of, scene_folder, truth_and_ladder_of,

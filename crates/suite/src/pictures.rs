@@ -5,7 +5,7 @@ use std::path::Path;
 use frame::{
     ExrFile, FileError, Frame, Image, Picture, Plane, Truth, display_srgb, write_exr, write_png,
 };
-use metrics::Maps;
+use metrics::Measurement;
 use tracer::Scene;
 
 /// Writes the frame's and the truths' PNGs beside their EXR files.
@@ -30,8 +30,9 @@ pub fn write_case(
     scene: &Scene,
     objects: &[String],
     output: &Picture,
-    maps: &Maps,
+    measurement: &Measurement,
 ) -> Result<(), FileError> {
+    let maps = &measurement.maps;
     write_shown(&folder.join("output.png"), &output.color, scene)?;
     write_png(&folder.join("flip.png"), &magma(&maps.flip))?;
     write_png(
@@ -53,10 +54,21 @@ pub fn write_case(
     file.push_color("signed", &maps.signed_error);
     file.push_plane("squared_error", &maps.squared_error);
     file.push_plane("relative_squared_error", &maps.relative_squared_error);
+    file.push_plane("absolute_error", &maps.absolute_error);
+    file.push_plane("symmetric_error", &maps.symmetric_error);
+    file.push_plane("ssim", &maps.ssim);
     file.push_plane("flip", &maps.flip);
     file.push_plane("flip_hdr", &maps.flip_hdr);
     file.push_plane("label_tv", &maps.label_total_variation);
     file.push_plane("bleed", &maps.bleed);
+    file.push_plane("gradient_error", &maps.gradient_error);
+    file.push_plane("frozen_squared_error", &maps.frozen_squared_error);
+    file.push_plane("static_change", &maps.static_change);
+    if let Some(probes) = &measurement.probes {
+        file.push_plane("unity", &probes.unity);
+        file.push_plane("gather_offset", &probes.offset);
+        file.push_plane("gather_spread", &probes.spread);
+    }
     file.set("kind", "errors");
     write_exr(&folder.join("errors.exr"), &file)
 }

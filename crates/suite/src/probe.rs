@@ -1,25 +1,60 @@
-//! A filter's picture: its colour, and what it makes of every object's matte.
+//! What a filter makes of a frame: of its colour, and, with the same weights, of pictures whose truth is exact.
 
 use filters::{FilterError, Input};
 use frame::{Frame, Image, Picture, Plane, Raster};
+use metrics::Probes;
 
 use crate::Runner;
 
-/// Runs the filter on the frame's colour and, with the same weights, on the instant's coverage of each object: what comes
-/// out is the share of the pixel that the filter gives to that object.
-pub fn picture(
-    filter: &mut Runner,
-    frame: &Frame,
-    frame_index: u32,
-) -> Result<Picture, FilterError> {
+/// What came out of a filter, without the frame's guard band.
+pub(crate) struct Blurred {
+    /// The colour, and the share of each pixel that the filter gives to each object.
+    pub picture: Picture,
+    /// Of ones and coordinates.
+    pub probes: Probes,
+    /// How far the blur of a mixture is from the mixture of the blurs, relative to it (root mean square): 0 for a filter
+    /// whose weights do not depend on colour.
+    pub nonlinearity: f64,
+}
+
+/// Runs the filter on the frame's colour and, each in the colour's place, on the instant's coverage of each object, on the
+/// probes, and on a mixture of colour and probe.
+pub(crate) fn blurred(filter: &mut Runner, frame: &Frame) -> Result<Blurred, FilterError> {
     let mattes = pack(&frame.coverage);
-    let colors: Vec<&Image> = std::iter::once(&frame.color).chain(&mattes).collect();
-    let mut outputs = filter.run(&input(frame, &colors, frame_index))?;
-    let color = outputs.remove(0);
-    Ok(Picture {
-        color,
-        coverage: unpack(&outputs, frame.coverage.len()),
+    let (width, height) = frame.size();
+    let probes = Probes::images(width, height);
+    let mixture = mixed(&frame.color, &probes[0]);
+    let mut colors: Vec<&Image> = vec![&frame.color, &probes[0], &probes[1], &mixture];
+    colors.extend(&mattes);
+    let outputs: Vec<Image> = (filter.run(&input(frame, &colors, 0))?.iter())
+        .map(|output| output.cropped(frame.guard_band))
+        .collect();
+    Ok(Blurred {
+        nonlinearity: difference(&outputs[3], &mixed(&outputs[0], &outputs[1])),
+        probes: Probes::of([&outputs[1], &outputs[2]]),
+        picture: Picture {
+            color: outputs[0].clone(),
+            coverage: unpack(&outputs[4..], frame.coverage.len()),
+        },
     })
+}
+
+/// Half of one and a hundredth of the other, whose values are some hundred times as large.
+fn mixed(color: &Image, probe: &Image) -> Image {
+    color.zip(probe, |color, probe| {
+        std::array::from_fn(|c| 0.5 * color[c] + 0.01 * probe[c])
+    })
+}
+
+/// Root of the summed squares of a difference over that of `expected`.
+fn difference(found: &Image, expected: &Image) -> f64 {
+    let square = |v: &[f32; 3]| v.iter().map(|c| f64::from(*c).powi(2)).sum::<f64>();
+    let error = found.zip(expected, |a, b| {
+        square(&[a[0] - b[0], a[1] - b[1], a[2] - b[2]])
+    });
+    let whole = expected.map(square);
+    let sum = |map: &Raster<f64>| map.pixels.iter().sum::<f64>();
+    (sum(&error) / sum(&whole).max(f64::MIN_POSITIVE)).sqrt()
 }
 
 /// Runs the filter on the frame's colour alone.

@@ -1,10 +1,7 @@
 //! The scores of a finished picture: all that its file allows.
 
 use frame::{Frame, Image, Ladder, Picture, Truth, display_srgb, scene_linear};
-use metrics::{
-    Equivalent, ImageScores, LabelScores, MeasureError, Measured, Metric, ObjectScores, Reference,
-    Scores,
-};
+use metrics::{ImageScores, MeasureError, Measured, Metric, Reference, Scores};
 
 use crate::finished::Finished;
 
@@ -39,10 +36,16 @@ pub fn score(
     let mut scores = measured(finished.color.clone())?;
     let mut notes = finished.notes.clone();
     if finished.mattes.is_none() {
-        take_out_mattes(&mut scores);
+        scores.take_out_mattes(NO_MATTES);
     }
     if finished.shown {
-        for region in [&mut scores.moving, &mut scores.still, &mut scores.full] {
+        for region in [
+            &mut scores.moving,
+            &mut scores.still,
+            &mut scores.full,
+            &mut scores.knowable,
+            &mut scores.unknowable,
+        ] {
             take_out_brightness(region);
         }
         let rounded = measured(rounded(&truth.mean().color, frame.display.stops))?;
@@ -80,36 +83,6 @@ pub fn missing(scores: &Scores) -> Vec<(String, Vec<Metric>)> {
         }
     }
     missing
-}
-
-fn take_out_mattes(scores: &mut Scores) {
-    let none = || Measured::not_applicable(NO_MATTES);
-    scores.label_total_variation = LabelScores {
-        mean: none(),
-        p95: none(),
-    };
-    scores.equivalent_subframes.label_total_variation = Equivalent::NotApplicable {
-        reason: NO_MATTES.to_owned(),
-    };
-    for scores in &mut scores.objects {
-        *scores = ObjectScores {
-            object: scores.object.clone(),
-            moves: scores.moves,
-            displacement: scores.displacement,
-            bleed_lateral: none(),
-            bleed_leading: none(),
-            bleed_trailing: none(),
-            lateral_growth: none(),
-            lateral_shrink: none(),
-            misplacement: none(),
-            centroid: none(),
-            extent: none(),
-            hole: none(),
-            deficit: none(),
-            energy: none(),
-            label_total_variation: none(),
-        };
-    }
 }
 
 /// HDR-FLIP looks at exposures at which display white is dark.

@@ -5,13 +5,13 @@ use std::path::Path;
 
 use filters::{Command, FilterError, Gpu, Value};
 use frame::{Frame, Image, Ladder, Picture, Truth};
-use metrics::{Jitter, Measurement, Reference};
+use metrics::{Jitter, Measurement, ProbeScores, Reference};
 use tracer::Scene;
 
 use crate::bounds::{Bounds, judge};
 use crate::case::{ACCUMULATE, Case, SCATTER_ORACLE};
 use crate::pictures::write_case;
-use crate::probe::{color, picture};
+use crate::probe::{Blurred, blurred, color};
 use crate::run::Plan;
 use crate::scatter_oracle::scatter_oracle;
 use crate::selection::FilterChoice;
@@ -19,6 +19,9 @@ use crate::{Error, InputFormat, Runner};
 
 /// Accumulations that are shown beside the filters.
 const SUBFRAMES: [u32; 4] = [4, 8, 16, 64];
+
+/// Blurs of a mixture may differ from mixtures of blurs by this part, which is far above rounding.
+const MOST_NONLINEARITY: f64 = 1e-3;
 
 /// One scene and the truth of one alignment.
 pub(crate) struct Workbench<'a> {
@@ -55,10 +58,8 @@ impl Workbench<'_> {
         frame: &Frame,
     ) -> Result<Case, Error> {
         let mut runner = Runner::new(gpu, choice, frame.size())?;
-        let output = picture(&mut runner, frame, 0)
-            .map_err(|error| on_scene(error, self.scene))?
-            .cropped(frame.guard_band);
-        let jitter = self.jitter(&mut runner, frame, &output.color)?;
+        let blurred = blurred(&mut runner, frame).map_err(|error| on_scene(error, self.scene))?;
+        let jitter = self.jitter(&mut runner, frame, &blurred.picture.color)?;
         let subject = Subject {
             filter: choice.filter.name.clone(),
             preset: choice.preset.clone(),
@@ -66,9 +67,30 @@ impl Workbench<'_> {
             input,
             parameters: choice.settings.values.clone(),
             command: choice.filter.command.as_ref().map(Command::words),
+            nonlinearity: Some(blurred.nonlinearity),
             jitter,
         };
-        self.case(frame, &output, subject)
+        let mut measurement = self.reference.measure(&blurred.picture)?;
+        self.probe(&blurred, &mut measurement);
+        self.case(frame, &blurred.picture, measurement, subject)
+    }
+
+    /// Adds the scores of probes, or takes out all that need a filter whose weights do not depend on colour.
+    fn probe(&self, blurred: &Blurred, measurement: &mut Measurement) {
+        let scores = &mut measurement.scores;
+        if blurred.nonlinearity > MOST_NONLINEARITY {
+            let reason = format!(
+                "the filter's weights depend on colour: the blur of a mixture differs from the mixture of the blurs by {:.4} \
+                 of it, {MOST_NONLINEARITY} at most allow to tell what it gathers",
+                blurred.nonlinearity
+            );
+            scores.take_out_mattes(&reason);
+            scores.probes = ProbeScores::not_applicable(&reason);
+            return;
+        }
+        let probed = self.reference.measure_probes(&blurred.probes);
+        scores.probes = probed.scores;
+        measurement.probes = Some(probed.maps);
     }
 
     fn bar(
@@ -84,7 +106,7 @@ impl Workbench<'_> {
             bar: true,
             ..Subject::default()
         };
-        self.case(frame, output, subject)
+        self.case(frame, output, self.reference.measure(output)?, subject)
     }
 
     /// More frames of the filter's noise; none where the second is as the first, or too few are asked for.
@@ -110,16 +132,22 @@ impl Workbench<'_> {
         })
     }
 
-    /// Measures a picture and writes it and its error maps.
-    fn case(&self, frame: &Frame, output: &Picture, subject: Subject) -> Result<Case, Error> {
-        let Measurement { scores, maps } = self.reference.measure(output)?;
+    /// Writes a measured picture and its error maps.
+    fn case(
+        &self,
+        frame: &Frame,
+        output: &Picture,
+        measurement: Measurement,
+        subject: Subject,
+    ) -> Result<Case, Error> {
         let common = match self.common {
             Some(reference) => reference.measure(output)?.scores.moving,
-            None => scores.moving.clone(),
+            None => measurement.scores.moving.clone(),
         };
         let folder = Path::new(&self.scene.name).join(subject.folder(self.truth));
         let files = self.plan.out.join(&folder);
-        write_case(&files, self.scene, &frame.objects, output, &maps)?;
+        write_case(&files, self.scene, &frame.objects, output, &measurement)?;
+        let scores = measurement.scores;
         Ok(Case {
             scene: self.scene.name.clone(),
             family: self.scene.family,
@@ -131,6 +159,7 @@ impl Workbench<'_> {
             input: subject.input,
             parameters: subject.parameters,
             command: subject.command,
+            nonlinearity: subject.nonlinearity,
             alignment: self.truth.alignment.name().to_owned(),
             truth_hash: self.truth.provenance.content_hash.clone(),
             common,
@@ -154,6 +183,7 @@ struct Subject {
     input: InputFormat,
     parameters: BTreeMap<String, Value>,
     command: Option<Vec<String>>,
+    nonlinearity: Option<f64>,
     jitter: Option<Jitter>,
 }
 

@@ -1,0 +1,31 @@
+//! Absolute errors. The truth's noise biases them, and their floor says by how much.
+
+use frame::{Image, Raster};
+
+/// Added to the denominator of SMAPE, in display-scaled radiance: a convention that keeps dark pixels from deciding the
+/// score.
+pub const SMAPE_EPSILON: f64 = 1e-2;
+
+/// Per pixel `|F - T|`, mean over the channels, of radiance times `scale`.
+pub fn absolute_error(output: &Image, truth: &Image, scale: f64) -> Raster<f64> {
+    over_channels(output, truth, scale, |f, t| (f - t).abs())
+}
+
+/// Per pixel `2 |F - T| / (|F| + |T| + epsilon)`, mean over the channels, in [0, 2].
+pub fn symmetric_error(output: &Image, truth: &Image, scale: f64) -> Raster<f64> {
+    over_channels(output, truth, scale, |f, t| {
+        2.0 * (f - t).abs() / (f.abs() + t.abs() + SMAPE_EPSILON)
+    })
+}
+
+fn over_channels(
+    output: &Image,
+    truth: &Image,
+    scale: f64,
+    error: impl Fn(f64, f64) -> f64 + Sync,
+) -> Raster<f64> {
+    output.zip(truth, |f, t| {
+        let channel = |c: usize| error(f64::from(f[c]) * scale, f64::from(t[c]) * scale);
+        (channel(0) + channel(1) + channel(2)) / 3.0
+    })
+}

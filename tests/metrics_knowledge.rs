@@ -1,0 +1,225 @@
+//! What one frame can know, what a filter gathers, and what a picture is worth beside doing nothing.
+
+use frame::{Frame, Image, Picture, Raster, Region, Truth};
+use metrics::{Measured, Metric, Probes, Reference, Scores, regions};
+use tests::random::Random;
+use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
+
+fn scene() -> Scene {
+    Scene {
+        width: 72,
+        height: 48,
+        objects: vec![Object::sliding(Shape::Disc(9.0), [46.3, 26.2], [24.0, 6.0])],
+    }
+}
+
+fn frame_and_truth() -> (Frame, Truth) {
+    (scene().frame(), scene().truth([Sampling::CLEAN; 2]))
+}
+
+fn reference<'a>(frame: &Frame, truth: &'a Truth) -> Reference<'a> {
+    Reference::new(frame, truth, None, &VIEWING).expect("they agree")
+}
+
+fn scores(frame: &Frame, truth: &Truth, output: &Picture) -> Scores {
+    let measured = reference(frame, truth).measure(output);
+    measured.expect("a finite picture").scores
+}
+
+#[track_caller]
+fn value(scores: &Scores, name: &str) -> f64 {
+    let metric: Metric = name.parse().expect("a metric's name");
+    match scores.get(metric) {
+        Measured::Score(score) => score.value,
+        Measured::NotApplicable { reason } => panic!("{name}: {reason}"),
+    }
+}
+
+fn brighter(image: &Image, by: f32, where_: impl Fn(u32, u32) -> bool) -> Image {
+    Raster::from_fn(image.width, image.height, |x, y| {
+        let add = if where_(x, y) { by } else { 0.0 };
+        image.at(x, y).map(|c| c + add)
+    })
+}
+
+#[test]
+fn errors_are_split_by_what_the_frame_shows() {
+    let (frame, mut truth) = frame_and_truth();
+    // The right half of the picture cannot be known.
+    for half in &mut truth.at_instant {
+        half.unknowable = Raster::from_fn(72, 48, |x, _| if x >= 36 { 0.25 } else { 0.0 });
+    }
+    let pools = regions(&truth);
+    let count = |mask: &Raster<bool>| mask.pixels.iter().filter(|inside| **inside).count();
+    assert_eq!(
+        count(&pools.knowable) + count(&pools.unknowable),
+        count(&pools.moving)
+    );
+    assert!(count(&pools.knowable) > 100 && count(&pools.unknowable) > 100);
+    let mean = truth.mean();
+    let guessed = Picture {
+        color: brighter(&mean.color, 0.1, |x, _| x >= 36),
+        ..mean.clone()
+    };
+    let scores = scores(&frame, &truth, &guessed);
+    // Squares of 32-bit sums.
+    assert!(value(&scores, "mse_knowable").abs() < 1e-9);
+    assert!((value(&scores, "mse_unknowable") - 0.01).abs() < 1e-6);
+    let part = count(&pools.unknowable) as f64 / count(&pools.moving) as f64;
+    assert!((value(&scores, "mse_moving") - 0.01 * part).abs() < 1e-6);
+
+    let (frame, truth) = frame_and_truth();
+    let scores = self::scores(&frame, &truth, &truth.mean());
+    let Measured::NotApplicable { reason } = scores.get("flip_unknowable".parse().unwrap()) else {
+        panic!("nothing is unknowable there");
+    };
+    assert!(
+        reason.contains("shows all that the shutter sees"),
+        "{reason}"
+    );
+}
+
+#[test]
+fn shading_that_moves_is_told_apart_from_visibility() {
+    let (frame, mut truth) = frame_and_truth();
+    // At the instant everything was darker: a shadow that left.
+    for half in &mut truth.at_instant {
+        half.frozen = half.frozen.map(|color| color.map(|c| c - 0.1));
+    }
+    let output = |color: &Image| Picture {
+        color: color.clone(),
+        ..truth.mean()
+    };
+    let frozen = scores(&frame, &truth, &output(&truth.at_instant_mean().frozen));
+    let right = scores(&frame, &truth, &truth.mean());
+    for (scores, against_truth, against_frozen) in [(&frozen, 0.01, 0.0), (&right, 0.0, 0.01)] {
+        assert!((value(scores, "mse_moving") - against_truth).abs() < 1e-6);
+        assert!((value(scores, "mse_frozen") - against_frozen).abs() < 1e-6);
+        assert!((value(scores, "mse_shading") - 0.01).abs() < 1e-6);
+    }
+    assert_eq!(value(&frozen, "flip_frozen"), 0.0);
+    assert!(value(&right, "flip_frozen") > 0.01);
+}
+
+#[test]
+fn a_change_of_what_stands_still_is_contamination() {
+    let (frame, truth) = frame_and_truth();
+    let moving = regions(&truth).moving;
+    let mean = truth.mean();
+    let changed = |by: f32, what: bool| Picture {
+        color: brighter(&mean.color, by, |x, y| *moving.at(x, y) == what),
+        ..mean.clone()
+    };
+    for (picture, expected) in [(changed(0.05, false), 0.05), (changed(0.5, true), 0.0)] {
+        let found = value(&scores(&frame, &truth, &picture), "static_contamination");
+        assert!(
+            (found - expected).abs() < 1e-6,
+            "{found}, expected {expected}"
+        );
+    }
+}
+
+#[test]
+fn skill_is_0_for_doing_nothing_and_1_for_the_truth() {
+    let (frame, truth) = frame_and_truth();
+    let instant = Picture {
+        color: frame.color.clone(),
+        coverage: frame.coverage.clone(),
+    };
+    for (picture, expected) in [(instant, 0.0), (truth.mean(), 1.0)] {
+        let scores = scores(&frame, &truth, &picture);
+        for name in ["skill_mse", "skill_flip", "skill_label_tv"] {
+            assert!((value(&scores, name) - expected).abs() < 1e-6, "{name}");
+        }
+    }
+}
+
+/// What a gather makes of the probes that takes `taps` (offset in whole pixels, weight) at every pixel.
+fn gathered(taps: &[([i32; 2], f32)]) -> Probes {
+    // Far enough from the border that no tap leaves the picture there.
+    let images = Probes::images(72, 48);
+    let outputs = images.each_ref().map(|image| -> Image {
+        Raster::from_fn(72, 48, |x, y| {
+            let mut sum = [0.0; 3];
+            for ([right, down], weight) in taps {
+                let at = image.at(
+                    (x as i32 + right).clamp(0, 71) as u32,
+                    (y as i32 + down).clamp(0, 47) as u32,
+                );
+                sum = std::array::from_fn(|c| sum[c] + weight * at[c]);
+            }
+            sum
+        })
+    });
+    Probes::of([&outputs[0], &outputs[1]])
+}
+
+#[test]
+fn probes_tell_where_a_filter_gathers() {
+    let (frame, mut truth) = frame_and_truth();
+    // Everything seen was 3 pixels further right on average, at 2 and at 4, in pixels one wide.
+    for half in &mut truth.at_instant {
+        half.offset = half.offset.map(|_| [3.0, 0.0]);
+        half.spread = half
+            .spread
+            .map(|_| [9.0 + 1.0 + 1.0 / 12.0, 0.0, 1.0 / 12.0]);
+    }
+    let reference = reference(&frame, &truth);
+    let measured = |taps: &[([i32; 2], f32)]| reference.measure_probes(&gathered(taps)).scores;
+    let number = |measured: &Measured| measured.value().unwrap();
+
+    let right = measured(&[([2, 0], 0.5), ([4, 0], 0.5)]);
+    // Squares of coordinates up to 36 in 32 bits: 1e-4 of a square pixel.
+    assert!(number(&right.unity) < 1e-6);
+    assert!(number(&right.gather_offset) < 1e-4, "{right:?}");
+    assert!(number(&right.gather_spread) < 1e-3, "{right:?}");
+
+    let shifted = measured(&[([2, 4], 0.5), ([4, 4], 0.5)]);
+    assert!((number(&shifted.gather_offset) - 4.0).abs() < 1e-4);
+    assert!(number(&shifted.gather_spread) < 1e-3);
+
+    let narrow = measured(&[([3, 0], 1.0)]);
+    assert!(number(&narrow.gather_offset) < 1e-4);
+    let expected = (1.0f64 + 1.0 / 6.0).sqrt() - (1.0f64 / 6.0).sqrt();
+    assert!((number(&narrow.gather_spread) - expected).abs() < 1e-3);
+
+    let bright = measured(&[([2, 0], 0.55), ([4, 0], 0.55)]);
+    assert!((number(&bright.unity) - 0.1).abs() < 1e-6);
+    // The middle does not depend on the sum of weights.
+    assert!(number(&bright.gather_offset) < 1e-4);
+}
+
+#[test]
+fn grain_raises_total_variation_and_a_smooth_ramp_does_not() {
+    let (frame, truth) = frame_and_truth();
+    let mean = truth.mean();
+    let mut random = Random::new(5);
+    let mut grainy = mean.clone();
+    grainy.coverage[1] = mean.coverage[1].map(|a| {
+        let inside = *a > 0.0 && *a < 1.0;
+        (a + if inside { random.real(-0.2, 0.2) } else { 0.0 }).clamp(0.0, 1.0)
+    });
+    let excess = |picture: &Picture| value(&scores(&frame, &truth, picture), "tv_excess");
+    assert!(excess(&mean).abs() < 1e-9);
+    assert!(excess(&grainy) > 1.0, "{}", excess(&grainy));
+    // An even blur twice as long rises and falls but once, and less high.
+    let long = scene().render(
+        &Blur {
+            from: -2.0,
+            ..Blur::TRUE
+        },
+        Sampling::CLEAN,
+    );
+    assert!(excess(&long) < 0.0, "{}", excess(&long));
+    let steep = |picture: &Picture| value(&scores(&frame, &truth, picture), "gradient_error");
+    assert!(steep(&mean) < 1e-12 && steep(&grainy) > 1e-4);
+}
+
+#[test]
+fn every_region_pools_its_own_pixels() {
+    let names: Vec<&str> = Region::ALL.map(Region::name).to_vec();
+    assert_eq!(
+        names,
+        ["moving", "static", "full", "knowable", "unknowable"]
+    );
+}
