@@ -349,6 +349,35 @@ fn the_jump_flood_is_symmetric_but_for_noise_and_equal_depths() {
     }
 }
 
+#[test]
+fn frames_of_noise_made_together_are_those_made_one_by_one() {
+    let gpu = gpu();
+    let field = Field::random(21);
+    let mut noisy = 0;
+    for (filter, settings) in every_preset() {
+        let (width, height) = (field.color.width, field.color.height);
+        let mut blur = Blur::new(&gpu, &filter, &settings, width, height).unwrap();
+        let colors = [&field.color];
+        let input = |frame_index: u32| Input {
+            frame_index,
+            ..field.input(&colors)
+        };
+        let alone = [0, 1, 5].map(|index| blur.run(&input(index)).unwrap().remove(0));
+        match blur.run_noise(&input(0), [0, 1, 5]).unwrap() {
+            Some(together) => {
+                assert_eq!(together, alone, "{}", name(&filter, &settings));
+                noisy += 1;
+            }
+            None => assert!(
+                alone[1] == alone[0] && alone[2] == alone[0],
+                "{} has noise",
+                name(&filter, &settings)
+            ),
+        }
+    }
+    assert!(noisy > 10, "only {noisy} presets draw noise");
+}
+
 /// How a still edge between white and black looks after the blur, along the motion.
 struct Ramp {
     /// Length in pixels of the even ramp that spreads as far.

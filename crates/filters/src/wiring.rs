@@ -19,16 +19,31 @@ pub(crate) fn check(filter: &Filter, lines: &Lines) -> Result<(), FilterError> {
 
 /// Per pass: whether what it writes depends on the colour image, by itself or through other passes.
 pub(crate) fn color_dependent(filter: &Filter) -> Vec<bool> {
-    let mut tainted = BTreeSet::from(["color", "output"]);
+    dependent(filter, BTreeSet::from(["color", "output"]), |_| false)
+}
+
+/// Per pass: whether what it writes depends on the frame's index, by itself or through other passes.
+pub(crate) fn noise_dependent(filter: &Filter) -> Vec<bool> {
+    dependent(filter, BTreeSet::new(), |entry| entry.draws_noise)
+}
+
+/// Per pass: whether it touches a tainted texture, or one that such a pass writes, or is a source itself.
+fn dependent<'f>(
+    filter: &'f Filter,
+    mut tainted: BTreeSet<&'f str>,
+    is_source: fn(&EntryPoint) -> bool,
+) -> Vec<bool> {
     loop {
         let known = tainted.len();
         let dependent = filter
             .passes
             .iter()
             .map(|pass| {
-                let EntryPoint { reads, writes, .. } = filter.entry_point(pass);
+                let entry = filter.entry_point(pass);
+                let EntryPoint { reads, writes, .. } = entry;
                 let mut touched = reads.iter().chain(writes);
-                let dependent = touched.any(|texture| tainted.contains(&texture[..]));
+                let dependent =
+                    is_source(entry) || touched.any(|texture| tainted.contains(&texture[..]));
                 if dependent {
                     tainted.extend(writes.iter().map(String::as_str));
                 }

@@ -26,7 +26,7 @@ pub(crate) fn blurred(filter: &mut Runner, frame: &Frame) -> Result<Blurred, Fil
     let mixture = mixed(&frame.color, &probes[0]);
     let mut colors: Vec<&Image> = vec![&frame.color, &probes[0], &probes[1], &mixture];
     colors.extend(&mattes);
-    let outputs: Vec<Image> = (filter.run(&input(frame, &colors, 0))?.iter())
+    let outputs: Vec<Image> = (filter.run(&input(frame, &colors))?.iter())
         .map(|output| output.cropped(frame.guard_band))
         .collect();
     Ok(Blurred {
@@ -57,25 +57,28 @@ fn difference(found: &Image, expected: &Image) -> f64 {
     (sum(&error) / sum(&whole).max(f64::MIN_POSITIVE)).sqrt()
 }
 
-/// Runs the filter on the frame's colour alone.
-pub(crate) fn color(
+/// Runs the filter on the frame's colour with so many frames of its noise; none where it has no noise.
+pub(crate) fn noise(
     filter: &mut Runner,
     frame: &Frame,
-    frame_index: u32,
-) -> Result<Image, FilterError> {
-    Ok(filter
-        .run(&input(frame, &[&frame.color], frame_index))?
-        .remove(0))
+    frames: u32,
+) -> Result<Option<Vec<Image>>, FilterError> {
+    let outputs = filter.run_noise(&input(frame, &[&frame.color]), 0..frames)?;
+    Ok(outputs.map(|outputs| {
+        (outputs.iter())
+            .map(|output| output.cropped(frame.guard_band))
+            .collect()
+    }))
 }
 
-fn input<'a>(frame: &'a Frame, color: &'a [&'a Image], frame_index: u32) -> Input<'a> {
+fn input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
     Input {
         color,
         velocity: &frame.velocity,
         depth: &frame.depth,
         reprojection: Some(frame.reprojection.moved(f64::from(frame.guard_band))),
         exposure: frame.exposure,
-        frame_index,
+        frame_index: 0,
     }
 }
 

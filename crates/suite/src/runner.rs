@@ -50,6 +50,32 @@ impl<'g> Runner<'g> {
         })
     }
 
+    /// Blurs the first colour image of the input once per index of a frame; none where the index changes nothing, which a
+    /// program tells by its second picture.
+    pub fn run_noise(
+        &mut self,
+        input: &Input,
+        frame_indices: impl Iterator<Item = u32>,
+    ) -> Result<Option<Vec<Image>>, FilterError> {
+        match self {
+            Self::Kernels(blur) => blur.run_noise(input, frame_indices),
+            Self::Command(blur) => {
+                let mut outputs: Vec<Image> = Vec::new();
+                for frame_index in frame_indices {
+                    outputs.extend(blur.run(&Input {
+                        color: &input.color[..1],
+                        frame_index,
+                        ..*input
+                    })?);
+                    if outputs.len() == 2 && outputs[0] == outputs[1] {
+                        return Ok(None);
+                    }
+                }
+                Ok(Some(outputs))
+            }
+        }
+    }
+
     /// Blurs every colour image of the input with the same weights, in order.
     pub fn run(&mut self, input: &Input) -> Result<Vec<Image>, FilterError> {
         match self {

@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use filters::{Command, FilterError, Gpu, Value};
-use frame::{Frame, Image, Ladder, Picture, Truth};
+use frame::{Frame, Ladder, Picture, Truth};
 use metrics::{Jitter, Measurement, ProbeScores, Reference};
 use tracer::Scene;
 
 use crate::bounds::{Bounds, judge};
 use crate::case::{ACCUMULATE, Case, SCATTER_ORACLE};
 use crate::pictures::write_case;
-use crate::probe::{Blurred, blurred, color};
+use crate::probe::{Blurred, blurred, noise};
 use crate::run::Plan;
 use crate::scatter_oracle::scatter_oracle;
 use crate::selection::FilterChoice;
@@ -59,7 +59,7 @@ impl Workbench<'_> {
     ) -> Result<Case, Error> {
         let mut runner = Runner::new(gpu, choice, frame.size())?;
         let blurred = blurred(&mut runner, frame).map_err(|error| on_scene(error, self.scene))?;
-        let jitter = self.jitter(&mut runner, frame, &blurred.picture.color)?;
+        let jitter = self.jitter(&mut runner, frame)?;
         let subject = Subject {
             filter: choice.filter.name.clone(),
             preset: choice.preset.clone(),
@@ -109,27 +109,16 @@ impl Workbench<'_> {
         self.case(frame, output, self.reference.measure(output)?, subject)
     }
 
-    /// More frames of the filter's noise; none where the second is as the first, or too few are asked for.
-    fn jitter(
-        &self,
-        runner: &mut Runner,
-        frame: &Frame,
-        first: &Image,
-    ) -> Result<Option<Jitter>, Error> {
-        let mut outputs = vec![first.clone()];
-        for frame_index in 1..self.plan.jitter_frames {
-            let output = color(runner, frame, frame_index)
-                .map_err(|error| on_scene(error, self.scene))?
-                .cropped(frame.guard_band);
-            if frame_index == 1 && output == *first {
-                return Ok(None);
-            }
-            outputs.push(output);
+    /// Takes the filter's noise apart; none where it has none, or too few frames are asked for.
+    fn jitter(&self, runner: &mut Runner, frame: &Frame) -> Result<Option<Jitter>, Error> {
+        if self.plan.jitter_frames < 2 {
+            return Ok(None);
         }
-        Ok(match outputs.len() {
-            1 => None,
-            _ => self.reference.jitter(&outputs),
-        })
+        let outputs = noise(runner, frame, self.plan.jitter_frames)
+            .map_err(|error| on_scene(error, self.scene))?;
+        Ok(outputs
+            .filter(|outputs| outputs[1..].iter().any(|output| *output != outputs[0]))
+            .and_then(|outputs| self.reference.jitter(&outputs)))
     }
 
     /// Writes a measured picture and its error maps.

@@ -3,7 +3,7 @@
 use frame::{Image, Raster, Reprojection};
 
 use super::adapter::Gpu;
-use super::plan::Plan;
+use super::plan::{Plan, Step};
 use super::transfer::{Place, padded_row};
 use super::uniforms::FrameUniform;
 use crate::{Filter, FilterError, Format, Input, Settings};
@@ -66,13 +66,43 @@ impl<'g> Blur<'g> {
         for color in input.color {
             self.upload_color(color)?;
             // What does not depend on colour is still there from the first image.
-            self.dispatch(!outputs.is_empty())?;
-            let output = self
-                .gpu
-                .download(self.plan.target("output"), self.place("read back"))?;
-            outputs.push(output.map(|[r, g, b, _]| [*r, *g, *b]));
+            let first = outputs.is_empty();
+            self.dispatch(|step| first || step.depends_on_color)?;
+            outputs.push(self.output()?);
         }
         Ok(outputs)
+    }
+
+    /// Blurs the first colour image of the input once per index of a frame, as [`Blur::run`] would with each of them. None where
+    /// the index changes nothing.
+    pub fn run_noise(
+        &mut self,
+        input: &Input,
+        frame_indices: impl IntoIterator<Item = u32>,
+    ) -> Result<Option<Vec<Image>>, FilterError> {
+        if !self.plan.steps.iter().any(|step| step.depends_on_noise) {
+            return Ok(None);
+        }
+        self.check(input)?;
+        let color = input.color.first().expect("there is a colour to blur");
+        self.upload_color(color)?;
+        let mut outputs = Vec::new();
+        for frame_index in frame_indices {
+            self.upload(&Input {
+                frame_index,
+                ..*input
+            })?;
+            let first = outputs.is_empty();
+            self.dispatch(|step| first || step.depends_on_noise)?;
+            outputs.push(self.output()?);
+        }
+        Ok(Some(outputs))
+    }
+
+    fn output(&self) -> Result<Image, FilterError> {
+        let target = self.plan.target("output");
+        let output = self.gpu.download(target, self.place("read back"))?;
+        Ok(output.map(|[r, g, b, _]| [*r, *g, *b]))
     }
 
     /// What the last run left in a texture between the passes; components that its format lacks are 0, and a whole
@@ -118,9 +148,8 @@ impl<'g> Blur<'g> {
         })
     }
 
-    fn dispatch(&self, only_color: bool) -> Result<(), FilterError> {
-        let steps = self.plan.steps.iter();
-        for step in steps.filter(|step| step.depends_on_color || !only_color) {
+    fn dispatch(&self, due: impl Fn(&Step) -> bool) -> Result<(), FilterError> {
+        for step in self.plan.steps.iter().filter(|step| due(step)) {
             self.gpu.guarded(self.place(&step.entry), || {
                 let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
                 step.encode(&mut encoder);

@@ -5,6 +5,7 @@ mod binding;
 mod blur;
 mod clock;
 mod copy;
+mod noise;
 mod plan;
 mod shader;
 mod targets;

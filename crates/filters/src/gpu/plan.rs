@@ -5,7 +5,7 @@ use super::binding::{bind_group, layout, pipeline};
 use super::targets::Targets;
 use super::transfer::{Place, Target};
 use super::uniforms::{FrameUniform, Uniforms};
-use crate::wiring::color_dependent;
+use crate::wiring::{color_dependent, noise_dependent};
 use crate::{Filter, FilterError, Pass, Repeat, Settings};
 
 /// Everything of a filter that lives on the GPU.
@@ -28,6 +28,8 @@ pub(super) struct Step {
     pub bytes: u64,
     /// Whether its result changes with the colour image.
     pub depends_on_color: bool,
+    /// Whether its result changes with the frame's index.
+    pub depends_on_noise: bool,
     iteration: u32,
     iterations: u32,
 }
@@ -71,9 +73,11 @@ impl Plan {
         let uniforms = gpu.guarded(place("uniforms"), || {
             Uniforms::new(gpu, &settings.bytes(filter), dispatches)
         })?;
-        let colored = color_dependent(filter);
+        let dependence = color_dependent(filter)
+            .into_iter()
+            .zip(noise_dependent(filter));
         let mut steps = Vec::new();
-        for (pass, depends_on_color) in filter.passes.iter().zip(colored) {
+        for (pass, (depends_on_color, depends_on_noise)) in filter.passes.iter().zip(dependence) {
             let entry = filter.entry_point(pass);
             let over = pass.over.as_deref().unwrap_or("output");
             let over = targets.current(over).texture.size();
@@ -116,6 +120,7 @@ impl Plan {
                     ],
                     bytes: targets.bytes(&filter.shader, entry),
                     depends_on_color,
+                    depends_on_noise,
                     iteration,
                     iterations,
                 });

@@ -10,6 +10,7 @@ use wgpu::naga::{
     ShaderStage, SourceLocation, StorageAccess, StorageFormat, TypeInner, front,
 };
 
+use super::noise::reads_frame_index;
 use crate::FilterError;
 use crate::filter::Format;
 
@@ -91,6 +92,8 @@ pub(crate) struct EntryPoint {
     pub reads: BTreeSet<String>,
     /// Names of the textures that it writes.
     pub writes: BTreeSet<String>,
+    /// Whether it reads the frame's index, from which noise is drawn.
+    pub draws_noise: bool,
 }
 
 impl EntryPoint {
@@ -343,6 +346,7 @@ fn entry_points(
                 variables: used,
                 reads,
                 writes,
+                draws_noise: reads_frame_index(module, &entry.function),
             }
         })
         .collect()

@@ -1,0 +1,140 @@
+//! Blurs that are wrong in one way each, and some that are right.
+
+use frame::{Frame, Picture, Plane, Raster};
+use tests::synthetic::{Blur, EXPOSURE, Sampling, Scene, constant};
+
+/// Noise of a render apart from the truth's.
+pub const APART: Sampling = Sampling {
+    samples: 512,
+    seed: Some(99),
+};
+
+/// Wrong pictures of a scene by name.
+pub fn decoys(scene: &Scene, frame: &Frame) -> Vec<(&'static str, Picture)> {
+    let blurred = |blur: Blur| scene.render(&blur, APART);
+    let instant = Picture {
+        color: frame.color.clone(),
+        coverage: frame.coverage.clone(),
+    };
+    let long = |from: f64| Blur { from, ..Blur::TRUE };
+    let shifted = |shift: [f64; 2]| Blur {
+        shift,
+        ..Blur::TRUE
+    };
+    let wide = |dilation: f64| Blur {
+        dilation,
+        ..Blur::TRUE
+    };
+    let centred = Blur {
+        from: -0.5,
+        to: 0.5,
+        ..Blur::TRUE
+    };
+    vec![
+        ("identity", instant.clone()),
+        ("constant", constant(&blurred(Blur::TRUE))),
+        ("half length", blurred(long(-0.5))),
+        ("1.5 length", blurred(long(-1.5))),
+        ("wrong side", blurred(centred)),
+        ("shift along", blurred(shifted([3.0, 0.0]))),
+        ("shift across", blurred(shifted([0.0, 3.0]))),
+        ("dilation 2 px", blurred(wide(2.0))),
+        ("dilation 6 px", blurred(wide(6.0))),
+        ("isotropic", isotropic(&instant, 7.0)),
+        (
+            "fat, rescaled",
+            rescaled(&blurred(Blur::TRUE), &blurred(wide(6.0)), &instant),
+        ),
+        ("own velocity", gathered(frame)),
+        ("banding", blurred(Blur::accumulation(3))),
+    ]
+}
+
+/// The dilated picture thinned until every object has the mass that it should have; what is missing is the instant.
+fn rescaled(right: &Picture, wide: &Picture, instant: &Picture) -> Picture {
+    let mass = |picture: &Picture| -> f64 {
+        let mattes = picture.coverage[1..].iter();
+        mattes
+            .flat_map(|matte| &matte.pixels)
+            .map(|a| f64::from(*a))
+            .sum()
+    };
+    let part = (mass(right) / mass(wide)) as f32;
+    let mix = |a: f32, b: f32| part * a + (1.0 - part) * b;
+    let background = |index: usize, a: &Plane| {
+        let rest = if index == 0 { 1.0 } else { 0.0 };
+        a.map(|a| mix(*a, rest))
+    };
+    Picture {
+        color: wide.color.zip(&instant.color, |a, b| {
+            std::array::from_fn(|c| mix(a[c], b[c]))
+        }),
+        coverage: wide
+            .coverage
+            .iter()
+            .enumerate()
+            .map(|(k, a)| background(k, a))
+            .collect(),
+    }
+}
+
+/// Each pixel averages what lies ahead of it along its own velocity, in 64 steps: nothing is carried beyond an outline.
+fn gathered(frame: &Frame) -> Picture {
+    let (width, height) = frame.size();
+    let taps = |x: u32, y: u32| {
+        let velocity = frame.velocity.at(x, y).map(f64::from);
+        (0..64).map(move |step| {
+            let part = (f64::from(step) + 0.5) / 64.0 * EXPOSURE;
+            let place = |at: u32, axis: usize, size: u32| {
+                (f64::from(at) + 0.5 + part * velocity[axis])
+                    .floor()
+                    .clamp(0.0, f64::from(size - 1))
+            };
+            (place(x, 0, width) as u32, place(y, 1, height) as u32)
+        })
+    };
+    let plane = |plane: &Plane| {
+        Raster::from_fn(width, height, |x, y| {
+            taps(x, y).map(|(u, v)| *plane.at(u, v)).sum::<f32>() / 64.0
+        })
+    };
+    let channels = [0, 1, 2].map(|c| plane(&frame.color.map(|color| color[c])));
+    Picture {
+        color: Raster::from_fn(width, height, |x, y| {
+            [0, 1, 2].map(|c| *channels[c].at(x, y))
+        }),
+        coverage: frame.coverage.iter().map(plane).collect(),
+    }
+}
+
+/// A Gaussian of `sigma` pixels in all directions, normalised at the border.
+fn isotropic(instant: &Picture, sigma: f64) -> Picture {
+    let smooth = |plane: &Plane| across(&across(plane, sigma, [1, 0]), sigma, [0, 1]);
+    let channels = [0, 1, 2].map(|c| smooth(&instant.color.map(|color| color[c])));
+    Picture {
+        color: Raster::from_fn(instant.color.width, instant.color.height, |x, y| {
+            [0, 1, 2].map(|c| *channels[c].at(x, y))
+        }),
+        coverage: instant.coverage.iter().map(smooth).collect(),
+    }
+}
+
+fn across(plane: &Plane, sigma: f64, step: [i64; 2]) -> Plane {
+    let reach = (3.0 * sigma) as i64;
+    Raster::from_fn(plane.width, plane.height, |x, y| {
+        let (mut sum, mut total) = (0.0, 0.0);
+        for offset in -reach..=reach {
+            let [u, v] = [
+                i64::from(x) + step[0] * offset,
+                i64::from(y) + step[1] * offset,
+            ];
+            if (0..i64::from(plane.width)).contains(&u) && (0..i64::from(plane.height)).contains(&v)
+            {
+                let weight = (-0.5 * (offset as f64 / sigma).powi(2)).exp();
+                sum += weight * f64::from(*plane.at(u as u32, v as u32));
+                total += weight;
+            }
+        }
+        (sum / total) as f32
+    })
+}

@@ -1,0 +1,52 @@
+//! Scenes by formula that wrong blurs are tried on.
+
+use std::f64::consts::FRAC_PI_2;
+
+use tests::synthetic::{Object, Scene, Shape};
+
+fn scene(objects: Vec<Object>) -> Scene {
+    Scene {
+        width: 112,
+        height: 84,
+        objects,
+    }
+}
+
+/// Scenes by name: a translation, a rotation, two ways that cross, thin things, and a mover between what stands still.
+pub fn scenes() -> Vec<(&'static str, Scene)> {
+    let bar = |half: [f64; 2], tilt: f64| Shape::Bar { half, tilt };
+    let still = [0.0, 0.0];
+    let turning = Object {
+        turn: 1.2,
+        ..Object::sliding(bar([28.0, 5.0], 0.4), [56.3, 42.2], still)
+    };
+    let wires = [34.3, 50.3, 66.3]
+        .map(|x| Object::sliding(bar([24.0, 1.2], FRAC_PI_2), [x + 9.0, 42.2], [18.0, 0.0]));
+    vec![
+        (
+            "disc",
+            scene(vec![Object::sliding(
+                Shape::Disc(12.0),
+                [68.3, 44.2],
+                [28.0, 5.0],
+            )]),
+        ),
+        ("turning bar", scene(vec![turning])),
+        (
+            "crossing",
+            scene(vec![
+                Object::sliding(Shape::Disc(8.0), [76.3, 30.2], [30.0, 0.0]),
+                Object::sliding(bar([9.0, 6.0], 0.3), [48.3, 62.2], [4.0, 24.0]),
+            ]),
+        ),
+        ("wires", scene(wires.to_vec())),
+        (
+            "overlap",
+            scene(vec![
+                Object::sliding(bar([2.5, 34.0], 0.0), [46.0, 42.0], still),
+                Object::sliding(Shape::Disc(12.0), [68.3, 42.2], [28.0, 0.0]),
+                Object::sliding(bar([14.0, 14.0], 0.0), [84.0, 42.0], still),
+            ]),
+        ),
+    ]
+}
