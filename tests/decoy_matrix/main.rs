@@ -56,7 +56,7 @@ const SEEN_BY: [(&str, &[&str]); 13] = [
     ("isotropic", &["bleed_leading"]),
     ("fat, rescaled", &["lateral_growth", "label_tv"]),
     ("own velocity", &["misplacement", "label_tv"]),
-    ("banding", &["flip_moving"]),
+    ("banding", &["flip_p95_moving"]),
 ];
 
 /// Names of the broken bounds.
@@ -84,7 +84,7 @@ fn table(columns: &[(&str, Vec<(&str, Vec<String>)>)]) -> String {
             let broken = &rows[row].1;
             let cell = match broken.is_empty() {
                 true => "passes".to_owned(),
-                false => broken.join(", ").replace("flip_moving", "flip"),
+                false => broken.join(", ").replace("_moving", ""),
             };
             text += &format!(" {cell} |");
         }
