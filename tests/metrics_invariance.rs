@@ -1,7 +1,7 @@
 //! What the scores do not depend on: the picture's orientation, whole pixels, object numbers, threads.
 
-use frame::{AtInstant, Frame, Picture, Raster, Truth};
-use metrics::{Measured, Measurement, Metric, ObjectMetric, Scores, measure};
+use frame::{AtInstant, Frame, Image, Picture, Raster, Truth};
+use metrics::{Measured, Measurement, Metric, ObjectMetric, Scores, Viewing, measure};
 use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
 
 fn clean_truth(scene: &Scene) -> Truth {
@@ -176,4 +176,39 @@ fn two_measurements_are_equal_bit_for_bit() {
         .expect("a pool");
     let single = one.install(|| measured(&scene, wrong));
     assert_eq!(single, measured(&scene, wrong));
+}
+
+#[test]
+fn brighter_pictures_seen_through_a_darker_exposure_have_the_same_scores() {
+    let (scene, wrong) = varied_scene();
+    let (frame, truth) = (scene.frame(), clean_truth(&scene));
+    let output = scene.render(&wrong, Sampling::CLEAN);
+    let expected = measure(&output, &frame, &truth, None, &VIEWING).expect("they agree");
+    // A power of two is exact in floats.
+    let brighter = |image: &Image| image.map(|color| color.map(|value| 4.0 * value));
+    let picture = |picture: &Picture| Picture {
+        color: brighter(&picture.color),
+        ..picture.clone()
+    };
+    let truth = Truth {
+        halves: truth.halves.each_ref().map(picture),
+        at_instant: truth.at_instant.each_ref().map(|half| AtInstant {
+            frozen: brighter(&half.frozen),
+            ..half.clone()
+        }),
+        ..truth
+    };
+    let frame = Frame {
+        color: brighter(&frame.color),
+        ..frame
+    };
+    let darker = Viewing {
+        stops: VIEWING.stops - 2.0,
+        flip_start: VIEWING.flip_start - 2.0,
+        flip_stop: VIEWING.flip_stop - 2.0,
+        ..VIEWING
+    };
+    let found = measure(&picture(&output), &frame, &truth, None, &darker).expect("they agree");
+    // Exposures are powers of two computed as such, and FLIP works in 32 bits.
+    assert_same_scores(&found.scores, &expected.scores, &Metric::all(), 1e-5);
 }

@@ -70,8 +70,8 @@ fn squared_error_is_unbiased_where_the_plain_one_is_not() {
     let expected = plain_mse(&nearly_right, &TRUTH.mean());
     let mut unbiased = Vec::new();
     let mut plain = Vec::new();
-    for seed in 0..48 {
-        let mut truth = scene().truth([noisy(16, 100 + seed), noisy(16, 200 + seed)]);
+    for seed in 0..200 {
+        let mut truth = scene().truth([noisy(16, 1000 + seed), noisy(16, 2000 + seed)]);
         // One region for all, that of the converged truth.
         truth.motion = TRUTH.motion.clone();
         unbiased.push(get(&score(&nearly_right, &truth), "mse_moving").value);
