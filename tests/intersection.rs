@@ -7,7 +7,7 @@ use tests::random::{Numbers, hash};
 use tests::shapes::*;
 use tests::unwatched;
 use tracer::{
-    Background, FrameSettings, Key, Mesh, Motion, Ray, Scene, Stage, TruthSettings, Turn,
+    Background, FrameSettings, Key, Mesh, Motion, Ray, Scene, Stage, Sun, TruthSettings, Turn,
     trace_frame, trace_truth,
 };
 
@@ -190,6 +190,81 @@ fn a_convex_surface_never_meets_its_own_rays_from_1_mm_to_10_km() {
                 assert!(
                     pixel.iter().all(|part| (part - 0.5).abs() < 1e-6),
                     "radius {radius} m, {offset} m from the origin: {pixel:?}"
+                );
+            }
+        }
+    }
+}
+
+/// Ridges and pits on a square of this side, facing +Z: every facet has the same angle to it, with a cosine of 2 / sqrt(6).
+fn egg_crate(side: f32) -> Mesh {
+    const CELLS: u32 = 24;
+    let cell = side / CELLS as f32;
+    let at = |i: u32, j: u32| {
+        let high = if (i + j).is_multiple_of(2) {
+            0.0
+        } else {
+            0.5 * cell
+        };
+        Vec3::new(
+            i as f32 * cell - 0.5 * side,
+            j as f32 * cell - 0.5 * side,
+            high,
+        )
+    };
+    let row = CELLS + 1;
+    let positions = (0..row * row)
+        .map(|index| at(index % row, index / row))
+        .collect();
+    let mut triangles = Vec::new();
+    for (i, j) in (0..CELLS * CELLS).map(|index| (index % CELLS, index / CELLS)) {
+        let [a, b, c, d] = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(x, y)| (j + y) * row + i + x);
+        // Split between the high corners.
+        if (i + j).is_multiple_of(2) {
+            triangles.extend([[a, b, d], [b, c, d]]);
+        } else {
+            triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    mesh(positions, triangles)
+}
+
+#[test]
+fn pits_are_lit_to_their_bottom_from_1_mm_to_10_km() {
+    for (side, offset) in [(1e-3, 0.0), (1e-3, 1.0), (1.0, 1e4), (1e4, 0.0), (1e4, 1e5)] {
+        let mut scene = empty_scene("pits");
+        // So dark that light from facet to facet is lost in rounding.
+        let albedo = 1e-7;
+        let at = DVec3::new(offset, 0.3 * offset, -0.7 * offset);
+        add(
+            &mut scene,
+            egg_crate(side as f32),
+            diffuse(albedo),
+            placed(at),
+        );
+        // 90 degrees high: the picture's corners see the field's.
+        scene.camera.motion = placed(at + DVec3::new(0.0, 0.0, 0.45 * side));
+        scene.sun = Some(Sun {
+            direction: DVec3::Z,
+            irradiance: Vec3::ONE,
+            angular_radius: 0.0,
+        });
+        let settings = TruthSettings {
+            width: 24,
+            height: 24,
+            samples_per_pixel: 64,
+            replicates: 2,
+            ..TruthSettings::default()
+        };
+        let truth = trace_truth(&scene, &settings, &unwatched).expect("settings are allowed");
+        let expected = f64::from(albedo) / std::f64::consts::PI * 2.0 / 6.0f64.sqrt();
+        for half in &truth.halves {
+            for pixel in &half.color.pixels {
+                // From straight above nothing shades anything; a facet that shaded itself once would lose 1 / 32.
+                let part = f64::from(pixel[0]) / expected;
+                assert!(
+                    (part - 1.0).abs() < 1e-3,
+                    "side {side} m, {offset} m off: {part}"
                 );
             }
         }
