@@ -2,33 +2,13 @@
 
 use filters::{Blur, Filter, Gpu, Input, Settings};
 use frame::{Alignment, FAR_DEPTH, Image, Plane, Raster, Reprojection, Vectors};
+use tests::kernels::{Steady, expected_ramp};
+use tests::presets::{every_preset, preset_name};
+use tests::ramp::Ramp;
 use tests::random::Random;
 
 fn gpu() -> Gpu {
     Gpu::new(None).expect("these tests run filters")
-}
-
-/// Every built-in filter with every preset.
-fn every_preset() -> Vec<(Filter, Settings)> {
-    let filters = Filter::builtin_names()
-        .into_iter()
-        .map(|name| Filter::builtin(&name).unwrap());
-    filters
-        .flat_map(|filter| {
-            let settings: Vec<Settings> = filter
-                .presets
-                .iter()
-                .map(|preset| filter.settings(Some(&preset.name)).unwrap())
-                .collect();
-            settings
-                .into_iter()
-                .map(move |settings| (filter.clone(), settings))
-        })
-        .collect()
-}
-
-fn name(filter: &Filter, settings: &Settings) -> String {
-    format!("{} with preset {}", filter.name, settings.preset)
 }
 
 #[derive(Clone)]
@@ -116,7 +96,7 @@ fn a_still_frame_comes_out_unchanged() {
     for (filter, settings) in every_preset() {
         let output = field.blurred(&gpu, &filter, &settings);
         // Bit for bit: a pixel that does not move has nothing to average.
-        assert!(output == field.color, "{}", name(&filter, &settings));
+        assert!(output == field.color, "{}", preset_name(&filter, &settings));
     }
 }
 
@@ -129,7 +109,7 @@ fn a_constant_colour_comes_out_constant() {
         for (filter, settings) in every_preset() {
             let output = field.blurred(&gpu, &filter, &settings);
             // Bit for bit: a running mean of equal values adds nothing.
-            assert!(output == field.color, "{}", name(&filter, &settings));
+            assert!(output == field.color, "{}", preset_name(&filter, &settings));
         }
     }
 }
@@ -152,7 +132,7 @@ fn output_stays_finite_and_within_the_colours_of_the_frame() {
                     assert!(
                         value.is_finite() && value >= -slack && value <= brightest + slack,
                         "{}: {value} from colours of 0 to {brightest}",
-                        name(&filter, &settings)
+                        preset_name(&filter, &settings)
                     );
                 }
             }
@@ -183,13 +163,13 @@ fn two_runs_give_the_same_bytes_whatever_ran_before() {
             bits(&first[0]),
             bits(&again[0]),
             "{}",
-            name(&filter, &settings)
+            preset_name(&filter, &settings)
         );
         assert_eq!(
             bits(&first[0]),
             bits(&fresh),
             "{}",
-            name(&filter, &settings)
+            preset_name(&filter, &settings)
         );
     }
 }
@@ -205,8 +185,16 @@ fn every_colour_goes_through_the_same_weights() {
         let colors = [&field.color, &matte, &field.color];
         let together = field.blurred_colors(&gpu, &filter, &settings, &colors);
         let alone = field.blurred_colors(&gpu, &filter, &settings, &[&matte]);
-        assert!(together[1] == alone[0], "{}", name(&filter, &settings));
-        assert!(together[0] == together[2], "{}", name(&filter, &settings));
+        assert!(
+            together[1] == alone[0],
+            "{}",
+            preset_name(&filter, &settings)
+        );
+        assert!(
+            together[0] == together[2],
+            "{}",
+            preset_name(&filter, &settings)
+        );
     }
 }
 
@@ -236,14 +224,14 @@ fn a_mixture_of_images_comes_out_as_the_mixture_of_their_blurs() {
             .fold(0.0, f32::max);
         println!(
             "{}: {:.1e} of the brightest",
-            name(&filter, &settings),
+            preset_name(&filter, &settings),
             deviation / brightest
         );
         // Up to a hundred taps, each a product and a sum in 32-bit floats.
         assert!(
             deviation <= 1e-5 * brightest,
             "{}",
-            name(&filter, &settings)
+            preset_name(&filter, &settings)
         );
     }
 }
@@ -322,7 +310,7 @@ fn a_mirrored_frame_gives_the_mirrored_output() {
     let mut tried = 0;
     for (filter, settings) in symmetric {
         let count = asymmetric_pixels(&gpu, &field, &filter, &settings);
-        assert_eq!(count, 0, "{}", name(&filter, &settings));
+        assert_eq!(count, 0, "{}", preset_name(&filter, &settings));
         tried += 1;
     }
     assert!(
@@ -365,25 +353,17 @@ fn frames_of_noise_made_together_are_those_made_one_by_one() {
         let alone = [0, 1, 5].map(|index| blur.run(&input(index)).unwrap().remove(0));
         match blur.run_noise(&input(0), [0, 1, 5]).unwrap() {
             Some(together) => {
-                assert_eq!(together, alone, "{}", name(&filter, &settings));
+                assert_eq!(together, alone, "{}", preset_name(&filter, &settings));
                 noisy += 1;
             }
             None => assert!(
                 alone[1] == alone[0] && alone[2] == alone[0],
                 "{} has noise",
-                name(&filter, &settings)
+                preset_name(&filter, &settings)
             ),
         }
     }
     assert!(noisy > 10, "only {noisy} presets draw noise");
-}
-
-/// How a still edge between white and black looks after the blur, along the motion.
-struct Ramp {
-    /// Length in pixels of the even ramp that spreads as far.
-    length: f64,
-    /// Where its middle lies, in pixels from the edge; negative against the motion.
-    middle: f64,
 }
 
 const EDGE: u32 = 120;
@@ -412,6 +392,7 @@ fn wall(left: bool, whole: bool, speed: f32, exposure: f64) -> Field {
     }
 }
 
+/// What became of the edge, along the motion.
 fn ramp(output: &Image) -> Ramp {
     // Over all rows, noise becomes the distribution that it is drawn from.
     let mean = |x: u32| {
@@ -420,145 +401,10 @@ fn ramp(output: &Image) -> Ramp {
             .sum::<f64>()
     };
     // What a filter does at the border of the image is not of the edge.
-    let slopes: Vec<(f64, f64)> = (12..output.width - 12)
-        .map(|x| {
-            (
-                f64::from(x) - f64::from(EDGE),
-                (mean(x) - mean(x - 1)).abs(),
-            )
-        })
+    let profile: Vec<(f64, f64)> = (11..output.width - 12)
+        .map(|x| (f64::from(x) + 0.5 - f64::from(EDGE), mean(x)))
         .collect();
-    let total: f64 = slopes.iter().map(|(_, slope)| slope).sum();
-    let middle = slopes.iter().map(|(x, slope)| x * slope).sum::<f64>() / total;
-    let spread = slopes.iter().map(|(x, slope)| (x - middle).powi(2) * slope);
-    let variance = spread.sum::<f64>() / total;
-    Ramp {
-        // An even ramp of length L has the variance L^2 / 12.
-        length: (12.0 * variance).sqrt(),
-        middle,
-    }
-}
-
-/// A tap on a surface that moves evenly: its offset along the motion in pixels, and its weight.
-type WeighedTap = (f64, f64);
-
-/// Taps of a tile filter along `half` pixels of half-velocity in whole motion, for noise in [0, 1). Where everything
-/// moves alike at one depth, every tap is in front and behind: two cones and two cylinders.
-fn tile_filter_taps(
-    filter: &Filter,
-    settings: &Settings,
-    half: f64,
-    noise: f64,
-) -> Vec<WeighedTap> {
-    let cone = |distance: f64, radius: f64| (1.0 - distance / radius).clamp(0.0, 1.0);
-    let cylinder = |distance: f64, radius: f64| {
-        let part = ((distance - 0.95 * radius) / (0.1 * radius)).clamp(0.0, 1.0);
-        1.0 - part * part * (3.0 - 2.0 * part)
-    };
-    let weight = |distance: f64| {
-        2.0 * cone(distance, half) + 2.0 * cylinder(distance, half) * cylinder(distance, half)
-    };
-    let along =
-        |i: i32, jitter: f64, count: i32| (f64::from(i) + jitter + 1.0) / f64::from(count + 1);
-    match (filter.name.as_str(), settings.preset.as_str()) {
-        ("mcguire", "paper") => {
-            let taps = (0..15).filter(|i| *i != 7).map(|i| {
-                let offset = (2.0 * along(i, noise - 0.5, 15) - 1.0) * half;
-                (offset.round(), weight(offset.round().abs()))
-            });
-            taps.chain([(0.0, 1.0 / half)]).collect()
-        }
-        // Every distance is next to nothing, and all taps weigh two cones and two cylinders. A bilinear tap is two.
-        ("mcguire", "aliari") => {
-            let half = half.min(10.0);
-            let noise = (noise * std::f64::consts::TAU).sin().rem_euclid(1.0);
-            let taps = (0..15).flat_map(|i| {
-                let offset = (2.0 * along(i, 2.0 * noise - 1.0, 15) - 1.0) * half;
-                let part = offset - offset.floor();
-                [
-                    (offset.floor(), 4.0 * (1.0 - part)),
-                    (offset.floor() + 1.0, 4.0 * part),
-                ]
-            });
-            taps.chain([(0.0, 1.0 / half)]).collect()
-        }
-        ("mcguire", "g3d") => {
-            let taps = (0..27).filter(|i| *i != 13).map(|i| {
-                let offset = (2.4 * along(i, noise - 0.5, 27) - 1.2).clamp(-1.0, 1.0) * half;
-                (offset.round(), 2.0 * cone(offset.abs(), half) + 2.0)
-            });
-            taps.chain([(0.0, 27.0 / 40.0 / half)]).collect()
-        }
-        ("guertin", "paper") => {
-            let jitter = (2.0 * noise - 1.0) * 0.95 * 27.0 / 35.0;
-            let taps = (0..35).map(|i| {
-                let offset = (2.0 * along(i, jitter, 35) - 1.0) * half;
-                (offset.trunc(), weight(offset.abs()))
-            });
-            taps.chain([(0.0, 35.0 / 40.0 / half)]).collect()
-        }
-        (filter, preset) => panic!("say here where the taps of {filter} with preset {preset} lie"),
-    }
-}
-
-/// Ramp that the taps of a preset make of an edge in a trail of so many pixels: (length, middle), both in pixels.
-fn expected_ramp(filter: &Filter, settings: &Settings, trail: f64) -> (f64, f64) {
-    // Mean and length of taps at i/N or at i/(N - 1).
-    let spread = |positions: Vec<f64>, square_of_scale: f64| {
-        let count = positions.len() as f64;
-        let mean = positions.iter().sum::<f64>() / count;
-        let square = positions.iter().map(|p| p * p).sum::<f64>() / count * square_of_scale;
-        (
-            trail * (12.0 * (square - mean * mean)).sqrt(),
-            -trail * mean,
-        )
-    };
-    let from_the_pixel = |n: i32| (0..n).map(|i| f64::from(i) / f64::from(n)).collect();
-    // The packed flood paints the same pixels.
-    let name = filter.name.trim_end_matches("_packed");
-    match (name, settings.preset.as_str()) {
-        ("identity", "default") => (0.0, 0.0),
-        ("camera_gather", "default") => spread(from_the_pixel(8), 1.0),
-        ("velocity_gather", "departure") => spread(from_the_pixel(10), 1.0),
-        ("velocity_gather", "coarse") => spread(from_the_pixel(8), 1.0),
-        ("velocity_gather", "fine") => spread(from_the_pixel(20), 1.0),
-        // Noise scales each pixel's trail evenly between 0.5 and 1.5, whose square is 13/12 on average.
-        ("jump_flood", "paper") => {
-            spread((0..8).map(|i| f64::from(i) / 7.0).collect(), 13.0 / 12.0)
-        }
-        // The pixel itself, and an even trail of seven taps: mean 7/16, mean square 7/24.
-        ("jump_flood", "july_2024") => {
-            let mean = 7.0 / 16.0_f64;
-            let length = (12.0 * (7.0 / 24.0 - mean * mean)).sqrt();
-            (trail * length, -trail * mean)
-        }
-        // Taps shifted evenly within their steps make an even trail.
-        ("jump_flood", "corrected") => (trail, -0.5 * trail),
-        // The wall has 31 rows, of which the longest half of a trail is 5 %: under two pixels, so nothing blurs.
-        ("kino", "default") => (0.0, 0.0),
-        ("bevy", _) | ("jimenez", "hdrp") => (trail, 0.0),
-        // A quarter of a step to and fro, on both sides.
-        ("jimenez", "advanced_warfare") => {
-            let steps = (0..8).flat_map(|i| [f64::from(i) + 0.25, f64::from(i) + 0.75]);
-            spread(steps.flat_map(|at| [at / 16.0, -at / 16.0]).collect(), 1.0)
-        }
-        // Four steps on each side and the pixel itself, each shifted evenly within a step.
-        ("jimenez", "kajiya") => (1.125 * trail, 0.0),
-        ("mcguire" | "guertin", _) => {
-            let steps = 1000;
-            let square = (0..steps).map(|step| {
-                let noise = (f64::from(step) + 0.5) / f64::from(steps);
-                let taps = tile_filter_taps(filter, settings, 0.5 * trail, noise);
-                let total: f64 = taps.iter().map(|(_, weight)| weight).sum();
-                taps.iter()
-                    .map(|(offset, weight)| offset * offset * weight)
-                    .sum::<f64>()
-                    / total
-            });
-            ((12.0 * square.sum::<f64>() / f64::from(steps)).sqrt(), 0.0)
-        }
-        (filter, preset) => panic!("say here what ramp {filter} with preset {preset} should make"),
-    }
+    Ramp::of(&profile)
 }
 
 #[test]
@@ -573,16 +419,24 @@ fn an_edge_in_steady_motion_smears_to_the_right_side_and_length() {
         for (speed, exposure) in [(24.0, 1.0), (24.0, 0.5), (-24.0, 1.0)] {
             let field = wall(true, true, speed, exposure);
             let found = ramp(&field.blurred(&gpu, &filter, &settings));
-            let trail = f64::from(speed.abs()) * exposure;
-            let (length, middle) = expected_ramp(&filter, &settings, trail);
-            let said = format!("{} at {speed} x {exposure}", name(&filter, &settings));
+            let steady = Steady {
+                velocity: [speed.into(), 0.0],
+                exposure,
+                size: [field.color.width, field.color.height],
+            };
+            let expected = expected_ramp(&filter.name, &settings.preset, &steady);
+            let said = format!(
+                "{} at {speed} x {exposure}",
+                preset_name(&filter, &settings)
+            );
             // Half a pixel: the edge is between texels, and 8 taps of noise in 31 rows place it to a tenth of a step.
             assert!(
-                (found.length - length).abs() < 0.5,
-                "{said}: {} pixels long, expected {length}",
+                (found.length - expected.length).abs() < 0.5,
+                "{said}: {} pixels long, expected {}",
                 found.length,
+                expected.length
             );
-            let middle = middle * f64::from(speed.signum());
+            let middle = expected.middle * f64::from(speed.signum());
             assert!(
                 (found.middle - middle).abs() < 0.5,
                 "{said}: in the middle of {}, expected {middle}",
@@ -606,7 +460,7 @@ fn no_trailing_filter_smears_ahead_of_a_mover() {
         if filter.alignment == Alignment::Trailing {
             let light = light_beside_a_wall(&gpu, &filter, &settings, true);
             // What lies ahead of the edge has not been touched yet.
-            assert_eq!(light, 0.0, "{}", name(&filter, &settings));
+            assert_eq!(light, 0.0, "{}", preset_name(&filter, &settings));
         }
     }
 }
@@ -616,7 +470,7 @@ fn filters_that_carry_motion_smear_over_what_lies_beside_a_mover() {
     let gpu = gpu();
     for (filter, settings) in every_preset() {
         let light = |left: bool| light_beside_a_wall(&gpu, &filter, &settings, left);
-        let name = name(&filter, &settings);
+        let name = preset_name(&filter, &settings);
         // An even trail of 24 pixels leaves the light of 12 behind the wall; a centred one that of 3 on either side.
         match filter.name.as_str() {
             "jump_flood" | "jump_flood_packed" => {

@@ -2,6 +2,7 @@
 
 use filters::{Blur, Filter, Gpu, Input, Settings};
 use frame::{Image, Plane, Raster, Vectors};
+use tests::ramp::Ramp;
 
 /// What is seen at a pixel.
 #[derive(Clone, Copy)]
@@ -104,21 +105,12 @@ pub fn column(image: &Image, x: u32) -> f64 {
     sum / f64::from(image.height)
 }
 
-/// Where an edge from black to white went: the root mean square distance of its slopes from their middle, as the
-/// length of the even ramp that spreads as far, in pixels.
+/// Length in pixels of the even ramp that spreads as far as what became of an edge.
 pub fn ramp_length(image: &Image) -> f64 {
-    let slopes: Vec<(f64, f64)> = (1..image.width)
-        .map(|x| {
-            (
-                f64::from(x),
-                (column(image, x) - column(image, x - 1)).abs(),
-            )
-        })
+    let profile: Vec<(f64, f64)> = (0..image.width)
+        .map(|x| (f64::from(x), column(image, x)))
         .collect();
-    let total: f64 = slopes.iter().map(|(_, slope)| slope).sum();
-    let middle = slopes.iter().map(|(x, slope)| x * slope).sum::<f64>() / total;
-    let spread = slopes.iter().map(|(x, slope)| (x - middle).powi(2) * slope);
-    (12.0 * spread.sum::<f64>() / total).sqrt()
+    Ramp::of(&profile).length
 }
 
 /// Black on the left and white on the right of the middle, all in one motion at one depth.

@@ -2,6 +2,9 @@
 
 pub mod brute_force;
 pub mod half_plane;
+pub mod kernels;
+pub mod presets;
+pub mod ramp;
 pub mod random;
 pub mod shapes;
 pub mod statistics;

@@ -1,0 +1,157 @@
+//! The scene `sliding_panel`, its panel made larger, turned to face its motion, and as fast as a test wants it.
+
+use std::path::Path;
+
+use frame::{Alignment, Frame, Image, Raster};
+use glam::{DQuat, DVec2, DVec3};
+use tests::kernels::Steady;
+use tests::{half_plane, unwatched};
+use tracer::{
+    FrameSettings, Key, Motion, Scene, TruthSettings, load_scene, trace_frame, trace_truth,
+};
+
+pub const WIDTH: u32 = 256;
+pub const HEIGHT: u32 = 144;
+/// The scene shows 3.6 m from top to bottom.
+const METRES_PER_PIXEL: f64 = 3.6 / HEIGHT as f64;
+/// On the panel of 0.8 m: longer than the longest trail by a band on either side.
+const SCALE: f64 = 3.4;
+/// From the panel's middle to its edges, in pixels.
+pub const HALF_PANEL: f64 = 0.5 * 0.8 * SCALE / METRES_PER_PIXEL;
+/// Half the width of the band, in pixels, along which edges are measured.
+const HALF_BAND: f64 = 16.0;
+/// Half the width of the tent, in pixels. The rows of pixels of a tilted band lie up to 0.7 apart: narrower ones
+/// would see them.
+const TENT: f64 = 2.0;
+pub const EXPOSURE: f64 = 1.0;
+
+/// The panel at the middle of the picture, moving.
+pub struct Shot {
+    /// Pixels per frame.
+    pub speed: f64,
+    /// Of the motion, 0 to the right and 90 upwards.
+    pub degrees: f64,
+    pub frame: Frame,
+    scene: Scene,
+}
+
+impl Shot {
+    pub fn new(speed: f64, degrees: f64) -> Self {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/sliding_panel");
+        let mut scene = load_scene(Path::new(folder), None).unwrap();
+        let turned = DQuat::from_rotation_z(degrees.to_radians());
+        let step = turned * DVec3::X * speed * METRES_PER_PIXEL;
+        let panel = scene
+            .objects
+            .iter_mut()
+            .find(|object| object.name == "panel");
+        let panel = panel.expect("the scene has a panel");
+        let key = |time: f64| Key {
+            time,
+            translation: time * step,
+            orientation: turned,
+            scale: DVec3::new(SCALE, SCALE, 1.0),
+            ..Key::REST
+        };
+        panel.motion = Motion {
+            keys: vec![key(-1.0), key(1.0)],
+            ..Motion::default()
+        };
+        let settings = FrameSettings {
+            width: WIDTH,
+            height: HEIGHT,
+            exposure: EXPOSURE,
+            samples_per_pixel: 16,
+            ..FrameSettings::default()
+        };
+        Self {
+            speed,
+            degrees,
+            frame: trace_frame(&scene, &settings, &unwatched).unwrap(),
+            scene,
+        }
+    }
+
+    /// Of the motion, +y down.
+    pub fn direction(&self) -> DVec2 {
+        let (sine, cosine) = self.degrees.to_radians().sin_cos();
+        DVec2::new(cosine, -sine)
+    }
+
+    pub fn steady(&self) -> Steady {
+        Steady {
+            velocity: (self.speed * self.direction()).to_array(),
+            exposure: EXPOSURE,
+            size: [WIDTH, HEIGHT],
+        }
+    }
+
+    /// White behind the panel's middle and black ahead of it, as if painted on the panel and on what lies beyond.
+    pub fn painted(&self) -> Image {
+        let normal = self.direction();
+        let offset = normal.dot(middle());
+        Raster::from_fn(WIDTH, HEIGHT, |x, y| {
+            let pixel = DVec2::new(f64::from(x), f64::from(y));
+            [half_plane::area(pixel, normal, offset) as f32; 3]
+        })
+    }
+
+    /// How much of each pixel the panel covers at the instant.
+    pub fn matte(&self) -> Image {
+        self.frame.coverage[self.panel()].map(|part| [*part; 3])
+    }
+
+    /// How much of each pixel it covers while the shutter is open.
+    pub fn true_matte(&self, alignment: Alignment) -> Image {
+        let settings = TruthSettings {
+            width: WIDTH,
+            height: HEIGHT,
+            exposure: EXPOSURE,
+            alignment,
+            samples_per_pixel: 128,
+            replicates: 2,
+            seed: 1,
+        };
+        let truth = trace_truth(&self.scene, &settings, &unwatched).unwrap();
+        let [first, second] = truth.halves.map(|half| half.coverage[self.panel()].clone());
+        first.zip(&second, |a, b| [0.5 * (a + b); 3])
+    }
+
+    fn panel(&self) -> usize {
+        let index = self.frame.objects.iter().position(|name| name == "panel");
+        index.expect("the frame lists the panel")
+    }
+
+    /// Brightness along the motion, at every whole pixel from the panel's middle on: the mean over a band, smoothed by a
+    /// tent.
+    pub fn profile(&self, image: &Image) -> Vec<(f64, f64)> {
+        let direction = self.direction();
+        let reach = (HALF_PANEL + self.speed + 16.0).ceil() as i32;
+        let mut sums = vec![(0.0, 0.0); (2 * reach + 1) as usize];
+        for (index, pixel) in image.pixels.iter().enumerate() {
+            let (x, y) = (index as u32 % WIDTH, index as u32 / WIDTH);
+            let from_middle = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5) - middle();
+            if direction.perp_dot(from_middle).abs() > HALF_BAND {
+                continue;
+            }
+            let along = direction.dot(from_middle);
+            let first = (along - TENT).ceil() as i32;
+            let last = (along + TENT).floor() as i32;
+            for position in first.max(-reach)..=last.min(reach) {
+                let share = TENT - (f64::from(position) - along).abs();
+                let sum = &mut sums[(position + reach) as usize];
+                *sum = (sum.0 + share, sum.1 + share * f64::from(pixel[0]));
+            }
+        }
+        let positions = (-reach..=reach).map(f64::from).zip(sums);
+        // Off the picture there is nothing to see.
+        positions
+            .filter(|(_, (share, _))| *share > HALF_BAND)
+            .map(|(position, (share, sum))| (position, sum / share))
+            .collect()
+    }
+}
+
+fn middle() -> DVec2 {
+    0.5 * DVec2::new(f64::from(WIDTH), f64::from(HEIGHT))
+}

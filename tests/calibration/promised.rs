@@ -1,0 +1,36 @@
+//! How long every filter says that its smear is.
+
+use tests::kernels::{Steady, along_motion, jump_flood_trail};
+
+use crate::panel::HEIGHT;
+
+/// Length of the smear in pixels: the exposure's where nothing else is said, times a preset's factor, cut at its reach.
+pub fn promised(filter: &str, preset: &str, steady: &Steady) -> f64 {
+    let [x, y] = steady.trail();
+    let trail = x.hypot(y);
+    match (filter, preset) {
+        // The camera of this scene stands still.
+        ("identity" | "camera_gather", _) => 0.0,
+        ("jump_flood" | "jump_flood_packed", preset) => {
+            along_motion(steady, jump_flood_trail(preset, steady))
+        }
+        // Half-velocities are cut at the side of a tile, or at half of it.
+        ("mcguire", "paper") => trail.min(2.0 * 20.0),
+        ("mcguire", "aliari") => trail.min(20.0),
+        ("mcguire", "g3d") => trail.min(2.0 * 64.0),
+        ("guertin", _) => trail.min(2.0 * 40.0),
+        // Whole pixels of 5 % of the rows, on either side; under 2 nothing.
+        ("kino", _) => match (0.05 * f64::from(HEIGHT)).floor() {
+            _ if trail < 4.0 => 0.0,
+            radius => trail.min(2.0 * radius),
+        },
+        ("jimenez", "hdrp") => trail.min(200.0),
+        ("jimenez", "o3de") => 10.0 * trail,
+        // 1500 pixels per width and height of motion, by noise from 0 to 1.
+        ("jimenez", "wicked") => {
+            let [width, height] = steady.size.map(f64::from);
+            along_motion(steady, [1500.0 * x / width, 1500.0 * y / height])
+        }
+        _ => trail,
+    }
+}

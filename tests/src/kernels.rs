@@ -1,0 +1,131 @@
+//! What every filter averages on a surface that moves evenly, from what was published about it, in closed form.
+//!
+//! There all taps lie on one surface, and what remains of a filter is where they lie and how their weights fall off.
+
+mod gathers;
+mod jimenez;
+mod kino;
+mod tiles;
+
+pub use gathers::jump_flood_trail;
+
+use crate::ramp::Ramp;
+
+/// Even motion, and what the picture adds to it.
+#[derive(Clone, Copy, Debug)]
+pub struct Steady {
+    /// Pixels per frame, +x right, +y down.
+    pub velocity: [f64; 2],
+    /// Frames that the shutter is open.
+    pub exposure: f64,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+}
+
+/// A pixel that is averaged.
+#[derive(Clone, Copy, Debug)]
+pub struct Tap {
+    /// Pixels from the one that the average is for.
+    pub offset: [f64; 2],
+    /// How much it counts.
+    pub weight: f64,
+}
+
+impl Steady {
+    /// Motion while the shutter is open, in pixels.
+    pub fn trail(&self) -> [f64; 2] {
+        scaled(self.velocity, self.exposure)
+    }
+
+    fn size(&self) -> [f64; 2] {
+        self.size.map(f64::from)
+    }
+}
+
+/// Ramp that a filter's preset should make of an edge across the motion; its middle is where that edge was.
+pub fn expected_ramp(filter: &str, preset: &str, steady: &Steady) -> Ramp {
+    // Noise is even in [0, 1).
+    let steps = 1000;
+    let averages = (0..steps).map(|step| {
+        let noise = (f64::from(step) + 0.5) / f64::from(steps);
+        let taps = taps(filter, preset, steady, noise);
+        let total: f64 = taps.iter().map(|tap| tap.weight).sum();
+        // A tap at an offset brings the edge here from there: the ramp lies on the other side.
+        taps.into_iter()
+            .map(move |tap| (-along_motion(steady, tap.offset), tap.weight / total))
+    });
+    Ramp::spread(averages.flatten())
+}
+
+/// What one pixel averages where its noise has a value in [0, 1).
+pub fn taps(filter: &str, preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
+    match filter {
+        "identity" => vec![own(1.0)],
+        "velocity_gather" | "camera_gather" => gathers::plain(preset, steady),
+        // The packed flood paints the same pixels.
+        "jump_flood" | "jump_flood_packed" => gathers::jump_flood(preset, steady, noise),
+        "bevy" => gathers::bevy(preset, steady, noise),
+        "jimenez" => jimenez::taps(preset, steady, noise),
+        "kino" => kino::taps(steady, noise),
+        "mcguire" => tiles::mcguire(preset, steady, noise),
+        "guertin" => tiles::guertin(steady, noise),
+        _ => panic!("say here what {filter} averages"),
+    }
+}
+
+/// How far along the motion an offset goes, in pixels.
+pub fn along_motion(steady: &Steady, offset: [f64; 2]) -> f64 {
+    dot(offset, direction(steady.velocity))
+}
+
+/// The pixel itself.
+fn own(weight: f64) -> Tap {
+    Tap {
+        offset: [0.0, 0.0],
+        weight,
+    }
+}
+
+/// A tap between pixels: the four around it.
+fn bilinear(offset: [f64; 2], weight: f64) -> [Tap; 4] {
+    let low = offset.map(f64::floor);
+    let part = [offset[0] - low[0], offset[1] - low[1]];
+    [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|corner| {
+        let share = |axis: usize| match corner[axis] {
+            0.0 => 1.0 - part[axis],
+            _ => part[axis],
+        };
+        Tap {
+            offset: [low[0] + corner[0], low[1] + corner[1]],
+            weight: weight * share(0) * share(1),
+        }
+    })
+}
+
+/// Even weights at these parts of a trail, read between pixels.
+fn on_trail(trail: [f64; 2], parts: impl IntoIterator<Item = f64>) -> Vec<Tap> {
+    parts
+        .into_iter()
+        .flat_map(|part| bilinear(scaled(trail, part), 1.0))
+        .collect()
+}
+
+fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+fn length(a: [f64; 2]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+fn scaled(a: [f64; 2], factor: f64) -> [f64; 2] {
+    a.map(|component| component * factor)
+}
+
+/// Of length 1; any for what stands still.
+fn direction(a: [f64; 2]) -> [f64; 2] {
+    match length(a) {
+        0.0 => [1.0, 0.0],
+        length => scaled(a, 1.0 / length),
+    }
+}

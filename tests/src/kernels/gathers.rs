@@ -1,0 +1,64 @@
+//! Filters that average along a pixel's own motion, or one that was brought to it.
+
+use super::{Steady, Tap, length, on_trail, own, scaled};
+
+/// Taps at i/N of the trail: Ctrl-Alt-Test 2011, and the blur by the camera's motion.
+pub fn plain(preset: &str, steady: &Steady) -> Vec<Tap> {
+    let count = match preset {
+        "departure" => 10,
+        "coarse" | "default" => 8,
+        "fine" => 20,
+        _ => panic!("say here how many taps {preset} has"),
+    };
+    let parts = (0..count).map(|i| f64::from(i) / f64::from(count));
+    on_trail(steady.trail(), parts)
+}
+
+/// The demo of Golan 2024, and what it became two days later.
+pub fn jump_flood(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
+    let trail = jump_flood_trail(preset, steady);
+    match preset {
+        // Noise scales the trail of a pixel.
+        "paper" => on_trail(trail, (0..8).map(|i| f64::from(i) / 7.0 * (0.5 + noise))),
+        // The pixel itself, and an even trail of seven taps.
+        "july_2024" => {
+            let mut taps = on_trail(trail, (1..8).map(|i| (f64::from(i) + noise - 1.0) / 7.0));
+            taps.push(own(1.0));
+            taps
+        }
+        "corrected" => on_trail(trail, (0..8).map(|i| (f64::from(i) + noise) / 8.0)),
+        _ => panic!("say here how {preset} gathers"),
+    }
+}
+
+/// The motion that is gathered along: cut at the largest step of the dilation, 32 pixels, or at twice that, both as parts of
+/// the picture's longer side and of a path in parts of width and height.
+pub fn jump_flood_trail(preset: &str, steady: &Steady) -> [f64; 2] {
+    let cut = match preset {
+        "paper" => 32.0,
+        "july_2024" => 64.0,
+        _ => return steady.trail(),
+    };
+    let [width, height] = steady.size();
+    let path = length([steady.velocity[0] / width, steady.velocity[1] / height]);
+    if path == 0.0 {
+        return [0.0, 0.0];
+    }
+    // Divided by the exposure, and again by it when it becomes a length: right for one frame alone.
+    let frames = cut / width.max(height) / (path * steady.exposure);
+    scaled(steady.velocity, steady.exposure.min(frames))
+}
+
+/// Bevy: twice as many taps as its `samples` says, within half the trail to each side.
+pub fn bevy(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
+    let samples = match preset {
+        "default" => 1,
+        "high" => 8,
+        _ => panic!("say here how many samples {preset} has"),
+    };
+    if length(steady.velocity) < 1.0 {
+        return vec![own(1.0)];
+    }
+    let parts = (-samples..samples).map(|i| 0.5 * (f64::from(i) + noise) / f64::from(samples));
+    on_trail(steady.trail(), parts)
+}

@@ -1,0 +1,37 @@
+//! KinoMotion, 2016.
+
+use super::{Steady, Tap, bilinear, length, own, scaled};
+
+/// What its preset averages.
+pub fn taps(steady: &Steady, noise: f64) -> Vec<Tap> {
+    let motion = packed(steady);
+    let reach = length(motion);
+    if reach < 2.0 {
+        return vec![own(1.0)];
+    }
+    let pairs = (0.5 * reach).min(4.0).floor();
+    let step = 1.0 / pairs;
+    let shift = (noise - 0.5) * step;
+    let mut taps = vec![own(1.2 * step / (2.0 * reach))];
+    for pair in 0..pairs as u32 {
+        let along = 1.0 - (f64::from(pair) + 0.5) * step;
+        for place in [along + shift, -along + shift] {
+            // Whole up to the last pixel, and a window that falls to a sixth.
+            let arrives = (reach - reach * place.abs()).clamp(0.0, 1.0);
+            let weight = arrives / reach * (1.2 - along);
+            taps.extend(bilinear(scaled(motion, place), weight));
+        }
+    }
+    taps
+}
+
+/// Half-motion in pixels, cut at 5 % of the rows, after 10 bits per axis.
+fn packed(steady: &Steady) -> [f64; 2] {
+    let radius = (f64::from(steady.size[1]) * 5.0 / 100.0).floor().max(1.0);
+    let half = scaled(steady.trail(), 0.5);
+    let cut = scaled(half, (radius / length(half).max(1e-6)).min(1.0));
+    cut.map(|component| {
+        let bits = ((0.5 * component / radius + 0.5) * 1023.0 + 0.5).floor();
+        (2.0 * bits / 1023.0 - 1.0) * radius
+    })
+}

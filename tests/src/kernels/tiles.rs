@@ -1,0 +1,92 @@
+//! Filters whose taps count by a cone and a cylinder. Where everything moves alike at one depth, every tap is in front and
+//! behind: two cones and two cylinders.
+
+use super::{Steady, Tap, bilinear, length, own, scaled};
+
+/// McGuire et al. 2012, and what two implementations make of it.
+pub fn mcguire(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
+    let half = scaled(steady.trail(), 0.5);
+    let along = |i: i32, jitter: f64, count: i32| {
+        2.0 * (f64::from(i) + jitter + 1.0) / f64::from(count + 1) - 1.0
+    };
+    match preset {
+        "paper" => {
+            let half = half_velocity(half, 20.0);
+            let radius = length(half);
+            let mut taps = vec![own(1.0 / radius)];
+            taps.extend((0..15).filter(|i| *i != 7).map(|i| {
+                let offset = scaled(half, along(i, noise - 0.5, 15)).map(nearest);
+                let distance = length(offset);
+                Tap {
+                    offset,
+                    weight: 2.0 * cone(distance, radius) + 2.0 * cylinder(distance, radius).powi(2),
+                }
+            }));
+            taps
+        }
+        // Cut at half a tile. Distances are next to nothing in its unit, so all taps weigh alike, and the middle one counts.
+        "aliari" => {
+            let half = scaled(half, (10.0 / length(half)).min(1.0));
+            let jitter = 2.0 * (noise * std::f64::consts::TAU).sin().rem_euclid(1.0) - 1.0;
+            let mut taps = vec![own(1.0 / length(half))];
+            taps.extend((0..15).flat_map(|i| bilinear(scaled(half, along(i, jitter, 15)), 4.0)));
+            taps
+        }
+        // 1.2 times as far and held at the ends, by distances along the trail, with a hard cylinder.
+        "g3d" => {
+            let half = half_velocity(half, 64.0);
+            let radius = length(half);
+            let mut taps = vec![own(27.0 / 40.0 / radius)];
+            taps.extend((0..27).filter(|i| *i != 13).map(|i| {
+                let place = (1.2 * along(i, noise - 0.5, 27)).clamp(-1.0, 1.0);
+                Tap {
+                    offset: scaled(half, place).map(nearest),
+                    weight: 2.0 * cone(place.abs() * radius, radius) + 2.0,
+                }
+            }));
+            taps
+        }
+        _ => panic!("say here what {preset} averages"),
+    }
+}
+
+/// Guertin, McGuire and Nowrouzezahrai 2014.
+pub fn guertin(steady: &Steady, noise: f64) -> Vec<Tap> {
+    let half = half_velocity(scaled(steady.trail(), 0.5), 40.0);
+    let radius = length(half);
+    let jitter = (2.0 * noise - 1.0) * 0.95 * 27.0 / 35.0;
+    // A slow pixel's own direction is mixed with the one across.
+    let trust = ((radius - 0.5) / 1.5).clamp(0.0, 1.0);
+    let aligned = trust / length([trust, 1.0 - trust]);
+    let mut taps = vec![own(35.0 / 40.0 / radius)];
+    taps.extend((0..35).map(|i| {
+        let place = 2.0 * (f64::from(i) + jitter + 1.0) / 36.0 - 1.0;
+        let distance = place.abs() * radius;
+        Tap {
+            offset: scaled(half, place).map(f64::trunc),
+            weight: (1.0 + aligned) * cone(distance, radius) + 2.0 * cylinder(distance, radius),
+        }
+    }));
+    taps
+}
+
+/// Half-velocities between half a pixel and so many, with the papers' epsilon.
+fn half_velocity(half: [f64; 2], longest: f64) -> [f64; 2] {
+    scaled(
+        half,
+        length(half).clamp(0.5, longest) / (length(half) + 1e-5),
+    )
+}
+
+fn nearest(offset: f64) -> f64 {
+    (offset + 0.5).floor()
+}
+
+fn cone(distance: f64, radius: f64) -> f64 {
+    (1.0 - distance / radius).clamp(0.0, 1.0)
+}
+
+fn cylinder(distance: f64, radius: f64) -> f64 {
+    let part = ((distance - 0.95 * radius) / (0.1 * radius)).clamp(0.0, 1.0);
+    1.0 - part * part * (3.0 - 2.0 * part)
+}

@@ -1,0 +1,27 @@
+//! Every filter that the program brings.
+
+use filters::{Filter, Settings};
+
+/// Every built-in filter with every preset.
+pub fn every_preset() -> Vec<(Filter, Settings)> {
+    let filters = Filter::builtin_names()
+        .into_iter()
+        .map(|name| Filter::builtin(&name).expect("built-in filters are checked"));
+    filters
+        .flat_map(|filter| {
+            let settings: Vec<Settings> = filter
+                .presets
+                .iter()
+                .map(|preset| filter.settings(Some(&preset.name)).expect("it is listed"))
+                .collect();
+            settings
+                .into_iter()
+                .map(move |settings| (filter.clone(), settings))
+        })
+        .collect()
+}
+
+/// How a test calls them.
+pub fn preset_name(filter: &Filter, settings: &Settings) -> String {
+    format!("{} with preset {}", filter.name, settings.preset)
+}

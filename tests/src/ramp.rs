@@ -1,0 +1,49 @@
+//! What a blur makes of an edge.
+
+/// The way from one side of an edge to the other, along the motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ramp {
+    /// Length in pixels of the even ramp that spreads as far.
+    pub length: f64,
+    /// Where its middle lies, in pixels from where positions count; negative against the motion.
+    pub middle: f64,
+}
+
+impl Ramp {
+    /// Of an edge seen at rising positions, in pixels: (position, brightness). Slopes are weighed with their sign, so that
+    /// noise cancels.
+    pub fn of(profile: &[(f64, f64)]) -> Self {
+        let slopes: Vec<(f64, f64)> = profile
+            .windows(2)
+            .map(|pair| (0.5 * (pair[0].0 + pair[1].0), pair[1].1 - pair[0].1))
+            .collect();
+        Self::spread(slopes)
+    }
+
+    /// Of offsets, in pixels, and how much each counts.
+    pub fn spread(weighed: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        let (mut total, mut sum, mut squares) = (0.0, 0.0, 0.0);
+        for (offset, weight) in weighed {
+            total += weight;
+            sum += weight * offset;
+            squares += weight * offset * offset;
+        }
+        assert!(total != 0.0, "there is no edge to measure");
+        let middle = sum / total;
+        let variance: f64 = squares / total - middle * middle;
+        Self {
+            // An even ramp of length L has the variance L^2 / 12. Rounding may leave less than nothing.
+            length: (12.0 * variance.max(0.0)).sqrt(),
+            middle,
+        }
+    }
+
+    /// What the blur added to an edge that was not sharp before: variances add.
+    pub fn beyond(self, before: Self) -> Self {
+        let squares = self.length * self.length - before.length * before.length;
+        Self {
+            length: squares.max(0.0).sqrt(),
+            middle: self.middle - before.middle,
+        }
+    }
+}
