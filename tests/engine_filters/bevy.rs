@@ -1,6 +1,6 @@
 //! The blur of the Bevy engine.
 
-use crate::picture::{BLACK_WALL, Picture, Surface, column, moving_edge, white};
+use tests::picture::{BLACK_WALL, Picture, Surface, column, moving_edge, white};
 
 #[test]
 fn each_of_its_samples_is_two_taps_and_none_is_the_pixel() {

@@ -2,7 +2,7 @@
 
 use tests::random::Random;
 
-use crate::picture::{BLACK_WALL, Picture, Surface, column, light, white};
+use tests::picture::{BLACK_WALL, Picture, Surface, column, light, white};
 
 /// A speckled background that moves right, and on the left something still and black in front.
 fn still_in_front() -> Picture {
@@ -60,6 +60,22 @@ fn steps_that_end_late_keep_still_things_out_of_the_trail_at_its_start() {
     assert!(seen("steps") > 0.03, "{}", seen("steps"));
     // What bilinear fetches mix into the half pixel at the edge.
     assert!(seen("late_steps") < 0.01, "{}", seen("late_steps"));
+}
+
+#[test]
+fn late_steps_are_steps_from_the_first_whole_one_on() {
+    let picture = still_in_front();
+    let output = |placement: &str, spread: &str| {
+        let overrides = [
+            ("placement", placement),
+            ("spread", spread),
+            ("noise", "none"),
+        ];
+        picture.blurred("jimenez", "hdrp", &overrides)
+    };
+    // Taps at the ends of steps lie one step away or more.
+    assert!(output("ends", "late_steps") == output("ends", "steps"));
+    assert!(output("middles", "late_steps") != output("middles", "steps"));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The mirrored, depth-weighted family of Jimenez 2014.
 
-use crate::picture::{BLACK_WALL, Picture, Surface, column, light, white};
+use tests::picture::{BLACK_WALL, Picture, Surface, column, light, white};
 
 const HONEST_LENGTHS: [&str; 3] = ["advanced_warfare", "hdrp", "kajiya"];
 

@@ -2,7 +2,7 @@
 
 use tests::random::Random;
 
-use crate::picture::{BLACK_WALL, Picture, Surface, column, light_above, slow_above_fast, white};
+use tests::picture::{BLACK_WALL, Picture, Surface, column, light_above, slow_above_fast, white};
 
 #[test]
 fn kajiya_lets_things_smear_twice_as_far_as_they_move() {

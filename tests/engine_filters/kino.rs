@@ -1,6 +1,6 @@
 //! KinoMotion.
 
-use crate::picture::{BLACK_WALL, Picture, Surface, column, moving_edge, ramp_length, white};
+use tests::picture::{BLACK_WALL, Picture, Surface, column, moving_edge, ramp_length, white};
 
 #[test]
 fn weights_that_fall_off_make_the_smear_shorter_than_the_exposure() {

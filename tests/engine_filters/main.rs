@@ -6,5 +6,4 @@ mod jimenez;
 mod kajiya;
 mod kino;
 mod o3de;
-mod picture;
 mod wicked;

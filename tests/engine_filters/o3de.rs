@@ -1,6 +1,6 @@
 //! The preset of the Open 3D Engine.
 
-use crate::picture::{BLACK_WALL, Picture, Surface, moving_edge, ramp_length, white};
+use tests::picture::{BLACK_WALL, Picture, Surface, column, moving_edge, ramp_length, white};
 
 #[test]
 fn o3de_smears_ten_times_as_far_as_the_exposure_says() {
@@ -19,6 +19,22 @@ fn o3de_smears_ten_times_as_far_as_the_exposure_says() {
         "{found} instead of {expected}"
     );
     assert!(found / 24.0 > 9.0);
+}
+
+#[test]
+fn o3de_cuts_offsets_to_whole_pixels() {
+    // Motion that it takes for 1.05 pixels to each side.
+    let picture = moving_edge(60, 64, [0.21, 0.0]);
+    let seen = |placement: &str| {
+        let overrides = [("placement", placement)];
+        column(&picture.blurred("jimenez", "o3de", &overrides), 29)
+    };
+    // At the edge: two of 24 pairs at most reach a whole pixel.
+    let published = seen("whole_pixels");
+    assert!(published <= 2.0 / 48.0, "{published}");
+    // Half of the taps lie 0.5 pixels to the right on average.
+    let between = seen("middles");
+    assert!((between - 0.25).abs() < 0.03, "{between}");
 }
 
 /// A still white post at 60..70 in front of a black wall; from row 40 on, something black moves in front of both.

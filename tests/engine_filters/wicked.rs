@@ -1,6 +1,6 @@
 //! The preset of Wicked Engine.
 
-use crate::picture::{column, light_above, moving_edge, ramp_length, slow_above_fast};
+use tests::picture::{column, light_above, moving_edge, ramp_length, slow_above_fast};
 
 #[test]
 fn the_smear_of_wicked_depends_on_the_width_of_the_picture() {
@@ -57,4 +57,17 @@ fn wicked_lets_slow_things_smear_as_far_as_fast_ones() {
     let by_steps = picture.blurred("jimenez", "wicked", &[("spread", "steps")]);
     assert!(light_above(&by_steps, 1..8) > 1.0);
     assert_eq!(light_above(&by_steps, 20..40), 0.0);
+}
+
+#[test]
+fn motion_counts_for_wicked_all_or_nothing_from_a_tenth_of_the_fastest_on() {
+    let light = |part: f32| {
+        let picture = slow_above_fast(24.0 * part, 24.0);
+        light_above(&picture.blurred("jimenez", "wicked", &[]), 1..40)
+    };
+    // The fastest is 7.5 in its unit, and motions from 6.5 / 75 to 7.5 / 75 of it count in part.
+    assert_eq!(light(0.08), 0.0);
+    assert!(light(0.095) > 0.0 && light(0.095) < 0.9 * light(0.11));
+    // Below, the fast half hides itself; equal up to rounding.
+    assert!((light(0.11) / light(0.8) - 1.0).abs() < 1e-3);
 }

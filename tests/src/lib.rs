@@ -3,6 +3,7 @@
 pub mod brute_force;
 pub mod half_plane;
 pub mod kernels;
+pub mod picture;
 pub mod presets;
 pub mod ramp;
 pub mod random;

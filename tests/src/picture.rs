@@ -2,7 +2,8 @@
 
 use filters::{Blur, Filter, Gpu, Input, Settings};
 use frame::{Image, Plane, Raster, Vectors};
-use tests::ramp::Ramp;
+
+use crate::ramp::Ramp;
 
 /// What is seen at a pixel.
 #[derive(Clone, Copy)]
@@ -15,6 +16,7 @@ pub struct Surface {
     pub depth: f32,
 }
 
+/// Still, and behind all else.
 pub const BLACK_WALL: Surface = Surface {
     gray: 0.0,
     velocity: [0.0, 0.0],
@@ -30,10 +32,15 @@ pub const fn white(speed: f32) -> Surface {
     }
 }
 
+/// What a filter is given.
 pub struct Picture {
+    /// Scene-linear.
     pub color: Image,
+    /// Pixels per frame, +x right, +y down.
     pub velocity: Vectors,
+    /// Metres.
     pub depth: Plane,
+    /// Frames that the shutter is open.
     pub exposure: f64,
 }
 
@@ -48,6 +55,7 @@ impl Picture {
         }
     }
 
+    /// With these colours in the place of its own.
     pub fn input<'a>(&'a self, color: &'a [&'a Image]) -> Input<'a> {
         Input {
             color,

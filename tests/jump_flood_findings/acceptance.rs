@@ -1,0 +1,177 @@
+//! Which candidate the dilation keeps. The published comparison reads as if distances along the path had a say.
+
+use filters::{Blur, Filter, Gpu, Input};
+use frame::Raster;
+use tests::random::Random;
+
+/// What the paper's listing keeps of a candidate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Candidate {
+    /// |tau - m/2|.
+    from_middle: f64,
+    /// Metres.
+    depth: f64,
+    valid: bool,
+}
+
+/// What the listing begins with.
+const NOTHING: Candidate = Candidate {
+    from_middle: f32::MAX as f64,
+    depth: f32::MAX as f64,
+    valid: false,
+};
+
+/// The listing's comparison: by depth between two valid ones, else by distances that validity multiplies.
+fn is_better(candidate: Candidate, best: Candidate) -> bool {
+    let number = |truth: bool| if truth { 1.0 } else { 0.0 };
+    if candidate.valid && best.valid {
+        return candidate.depth < best.depth;
+    }
+    let nearer = number(candidate.depth > best.depth);
+    candidate.from_middle * number(best.valid) * nearer < best.from_middle * number(candidate.valid)
+}
+
+/// The index that the listing ends with, if any.
+fn published(candidates: &[Candidate]) -> Option<usize> {
+    let mut best = (NOTHING, None);
+    for (index, candidate) in candidates.iter().enumerate() {
+        if is_better(*candidate, best.0) {
+            best = (*candidate, Some(index));
+        }
+    }
+    best.1
+}
+
+/// The nearest of the valid ones; of equal depths, the first.
+fn nearest_valid(candidates: &[Candidate]) -> Option<usize> {
+    let valid = candidates
+        .iter()
+        .enumerate()
+        .filter(|(_, candidate)| candidate.valid);
+    valid
+        .min_by(|(_, a), (_, b)| a.depth.total_cmp(&b.depth))
+        .map(|(index, _)| index)
+}
+
+#[test]
+fn the_published_comparison_keeps_the_nearest_valid_candidate_and_the_first_of_equals() {
+    let mut random = Random::new(1);
+    let (mut with_ties, mut with_none) = (0, 0);
+    for _ in 0..10_000 {
+        let odds = random.real(0.0, 1.0);
+        let candidates: Vec<Candidate> = (0..8)
+            .map(|_| Candidate {
+                from_middle: random.real(0.0, 2.0).into(),
+                // Few depths, so that many are equal.
+                depth: random.real(1.0, 5.0).floor().into(),
+                valid: random.real(0.0, 1.0) < odds,
+            })
+            .collect();
+        let kept = nearest_valid(&candidates);
+        assert_eq!(published(&candidates), kept, "{candidates:?}");
+        let as_near = |candidate: &&Candidate| {
+            candidate.valid && kept.is_some_and(|kept| candidates[kept].depth == candidate.depth)
+        };
+        with_ties += usize::from(candidates.iter().filter(as_near).count() > 1);
+        with_none += usize::from(kept.is_none());
+    }
+    // Ties and empty hands are met by many.
+    assert!(
+        with_ties > 1000 && with_none > 100,
+        "{with_ties} {with_none}"
+    );
+}
+
+#[test]
+fn distances_along_the_path_decide_only_between_a_valid_candidate_and_none() {
+    let mut random = Random::new(2);
+    let mut draw = || Candidate {
+        from_middle: random.real(0.0, 2.0).into(),
+        depth: random.real(1.0, 9.0).into(),
+        valid: random.real(0.0, 2.0) < 1.0,
+    };
+    for _ in 0..10_000 {
+        let (candidate, best) = (draw(), draw());
+        if !(candidate.valid && best.valid) {
+            let wins = candidate.valid && !best.valid;
+            assert_eq!(is_better(candidate, best), wins, "{candidate:?} {best:?}");
+        }
+    }
+}
+
+/// Pixels to the eight neighbours of one step, in the listing's order.
+const NEIGHBOURS: [[i64; 2]; 8] = [
+    [1, 1],
+    [0, 1],
+    [-1, 1],
+    [1, 0],
+    [1, -1],
+    [-1, 0],
+    [-1, -1],
+    [0, -1],
+];
+
+#[test]
+fn the_kernel_keeps_what_the_published_comparison_keeps() {
+    const SIDE: i64 = 64;
+    const STEP: i64 = 3;
+    let mut random = Random::new(3);
+    let mut whole = |low: f32, high: f32| random.real(low, high).floor();
+    // Whole pixels and metres: comparisons are exact, and depths often equal.
+    let velocity = Raster::from_fn(SIDE as u32, SIDE as u32, |_, _| {
+        [whole(-9.0, 10.0), whole(-9.0, 10.0)]
+    });
+    let depth = Raster::from_fn(SIDE as u32, SIDE as u32, |_, _| whole(1.0, 4.0));
+    let filter = Filter::builtin("jump_flood").unwrap();
+    let mut settings = filter.settings(Some("paper")).unwrap();
+    for (parameter, value) in [
+        ("passes", "1"),
+        ("step_multiplier", "3"),
+        ("metric", "pixel"),
+        ("fetch", "nearest"),
+        // Not the quotient of whole pixels below 10.
+        ("perpendicular_tolerance", "0.3017"),
+    ] {
+        settings.set(&filter, parameter, value).unwrap();
+    }
+    let gpu = Gpu::new(None).expect("these tests run filters");
+    let mut blur = Blur::new(&gpu, &filter, &settings, SIDE as u32, SIDE as u32).unwrap();
+    let input = Input {
+        color: &[&Raster::filled(SIDE as u32, SIDE as u32, [0.5; 3])],
+        velocity: &velocity,
+        depth: &depth,
+        reprojection: None,
+        exposure: 1.0,
+        frame_index: 0,
+    };
+    blur.run(&input).unwrap();
+    let seeds = blur.texture("seeds").unwrap();
+
+    let mut carried = 0;
+    for y in STEP..SIDE - STEP {
+        for x in STEP..SIDE - STEP {
+            let candidates = NEIGHBOURS.map(|[right, down]| {
+                let offset = [right * STEP, down * STEP].map(|pixels| pixels as f64);
+                let at = [x + right * STEP, y + down * STEP].map(|place| place as u32);
+                let motion = velocity.at(at[0], at[1]).map(f64::from);
+                let square = motion[0] * motion[0] + motion[1] * motion[1];
+                let along = (motion[0] * offset[0] + motion[1] * offset[1]) / square;
+                let beside = (motion[1] * offset[0] - motion[0] * offset[1]).abs() / square;
+                Candidate {
+                    from_middle: (along - 0.5).abs(),
+                    depth: (*depth.at(at[0], at[1])).into(),
+                    valid: square > 0.0 && (along - 0.5).abs() <= 0.5 && beside <= 0.3017,
+                }
+            });
+            let expected = published(&candidates).map_or([x, y], |index| {
+                let [right, down] = NEIGHBOURS[index];
+                [x + right * STEP, y + down * STEP]
+            });
+            let seed = seeds.at(x as u32, y as u32);
+            let found = [seed[0].floor() as i64, seed[1].floor() as i64];
+            assert_eq!(found, expected, "at {x}, {y} of {candidates:?}");
+            carried += usize::from(found != [x, y]);
+        }
+    }
+    assert!(carried > 500, "only {carried} found a source");
+}

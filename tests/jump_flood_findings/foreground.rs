@@ -1,0 +1,80 @@
+//! What counts of what lies in front of a trail.
+
+use tests::picture::{BLACK_WALL, Picture, Surface, column, white};
+
+/// Weight of the one tap of eight that meets something white in front, which moves right by `other` where the trail's
+/// source moves by 21 pixels.
+fn weight_in_front(other: f32) -> f64 {
+    let picture = Picture::new(160, 24, |x, _| match x {
+        80.. => white(other),
+        _ => Surface {
+            velocity: [21.0, 0.0],
+            ..BLACK_WALL
+        },
+    });
+    // One step of 64 pixels carries nothing: every pixel is its own source. Taps lie 3 pixels apart, on pixel centres.
+    let overrides = [
+        ("jitter", "none"),
+        ("passes", "1"),
+        ("step_multiplier", "64"),
+    ];
+    let output = picture.blurred("jump_flood", "paper", &overrides);
+    // The seventh tap alone lies beyond: of weights 1 in all others it is w / (7 + w).
+    let share = f64::from(output.at(80 - 21, 12)[0]);
+    7.0 * share / (1.0 - share)
+}
+
+#[test]
+fn a_tenth_root_makes_nearly_all_or_nothing_of_a_difference_in_motion() {
+    for (difference, weight) in [(0.01, 0.369), (0.1, 0.206), (0.5, 0.067), (1.0, 0.0)] {
+        let found = weight_in_front(21.0 * (1.0 - difference as f32));
+        // 32-bit floats: a hundredth of the motion is known to 1e-5 of itself, and its root better.
+        assert!((found - weight).abs() < 0.001, "{difference}: {found}");
+    }
+    assert!((weight_in_front(21.0) - 1.0).abs() < 1e-5);
+}
+
+#[test]
+fn the_last_bit_of_a_motion_takes_a_fifth_of_the_weight() {
+    let found = weight_in_front(21.0f32.next_down());
+    // (9e-8)^0.1 = 0.198; the quotient of two roundings may be twice or half that difference.
+    assert!((0.75..0.85).contains(&found), "{found}");
+}
+
+#[test]
+fn what_moves_faster_the_same_way_counts_in_full() {
+    for faster in [22.0, 42.0, 60.0] {
+        assert!((weight_in_front(faster) - 1.0).abs() < 1e-5, "{faster}");
+    }
+}
+
+#[test]
+fn what_stands_still_in_front_neither_blurs_nor_is_smeared() {
+    let background = Surface {
+        velocity: [21.0, 0.0],
+        ..BLACK_WALL
+    };
+    let post = |depth: f32| {
+        Picture::new(200, 24, |x, _| match x {
+            90..110 => Surface {
+                depth,
+                ..white(0.0)
+            },
+            _ => background,
+        })
+    };
+    // Taps 3 pixels apart lie on pixel centres; between them, half a pixel at the post's edge would mix.
+    let light = |depth: f32| {
+        let output = post(depth).blurred("jump_flood", "paper", &[("jitter", "none")]);
+        [
+            column(&output, 80),
+            (90..110).map(|x| column(&output, x)).fold(1.0, f64::min),
+        ]
+    };
+    // Its own pixels find no source, and taps that meet it count nothing.
+    assert_eq!(light(2.0), [0.0, 1.0]);
+    // Behind the background, it counts in full and is smeared over.
+    let [background, darkest] = light(30.0);
+    assert!((background - 4.0 / 8.0).abs() < 1e-5, "{background}");
+    assert!(darkest < 0.9, "{darkest}");
+}

@@ -1,0 +1,7 @@
+//! What reading the jump flood's paper and demo suggested, shown true or false one by one; shaders/jump_flood/README.md
+//! lists the outcomes.
+
+mod acceptance;
+mod foreground;
+mod mover;
+mod trail;

@@ -1,0 +1,113 @@
+//! How long trails are.
+
+use tests::picture::{Picture, Surface, column, moving_edge};
+
+/// Everything moves right, and a pixel's brightness is its column.
+fn slope(speed: f32) -> Picture {
+    Picture::new(200, 32, |x, _| Surface {
+        gray: x as f32,
+        velocity: [speed, 0.0],
+        depth: 2.0,
+    })
+}
+
+/// How far ahead each pixel's mean lies, in pixels, in rising order; away from the border.
+fn displacements(preset: &str, jitter: &str, speed: f32) -> Vec<f32> {
+    let output = slope(speed).blurred("jump_flood", preset, &[("jitter", jitter)]);
+    let inner = (0..120).flat_map(|x| (0..32).map(move |y| (x, y)));
+    let mut found: Vec<f32> = inner.map(|(x, y)| output.at(x, y)[0] - x as f32).collect();
+    found.sort_by(f32::total_cmp);
+    found
+}
+
+#[test]
+fn noise_scales_whole_trails_evenly_by_a_half_to_one_and_a_half() {
+    let found = displacements("paper", "step_scale", 20.0);
+    // The mean of a trail of 20 pixels is 10 ahead.
+    for part in [0.0, 0.25, 0.5, 0.75, 1.0] {
+        let index = (part * (found.len() - 1) as f64) as usize;
+        let scale = f64::from(found[index]) / 10.0;
+        // Noise of 3840 pixels, which is more even than random numbers: 0.024 would be 3 sigma of those.
+        assert!((scale - (0.5 + part)).abs() < 0.02, "{part}: {scale}");
+    }
+}
+
+/// Brightness so many pixels behind an edge between black and white that moves right by 24 pixels with everything else.
+fn behind_an_edge(preset: &str, distance: u32) -> f64 {
+    let output = moving_edge(240, 64, [24.0, 0.0]).blurred("jump_flood", preset, &[]);
+    column(&output, 120 - distance)
+}
+
+#[test]
+fn the_far_end_of_the_mean_trail_is_a_ramp_and_not_that_of_a_box() {
+    // Of eight taps at i / 7 of the trail, those with i = 5, 6, 7 pass its whole length where the scale is above 1.4, 7/6
+    // and 1.
+    let expected = (0.1 + 1.0 / 3.0 + 0.5) / 8.0;
+    let found = behind_an_edge("paper", 24);
+    // Noise of 64 rows; half a pixel of the edge.
+    assert!((found - expected).abs() < 0.03, "{found}, {expected}");
+    assert!(behind_an_edge("paper", 34) > 0.0);
+    assert_eq!(behind_an_edge("paper", 37), 0.0);
+    // A box ends where it ends.
+    assert_eq!(behind_an_edge("corrected", 25), 0.0);
+}
+
+#[test]
+fn a_start_offset_makes_a_box_only_if_the_pixel_itself_shifts_too() {
+    // Half a pixel short of the edge, a box of 24 pixels is white but for 0.5 / 24.
+    let box_filter = 1.0 - 0.5 / 24.0;
+    // Two pixels of bilinear fetches, and noise of 64 rows.
+    let corrected = behind_an_edge("corrected", 1);
+    assert!((corrected - box_filter).abs() < 0.02, "{corrected}");
+    // Two days later the pixel's own colour is one of eight taps still, and black.
+    let later = behind_an_edge("july_2024", 1);
+    assert!((later - 7.0 / 8.0 * box_filter).abs() < 0.02, "{later}");
+}
+
+/// The farthest pixel behind an edge in steady motion that sees any of what is ahead, along columns or rows.
+fn reach(preset: &str, vertical: bool, speed: f32, exposure: f64) -> u32 {
+    let (width, height) = (256, 144);
+    let mut picture = Picture::new(width, height, |x, y| {
+        let ahead = if vertical { y >= 72 } else { x >= 128 };
+        Surface {
+            gray: if ahead { 1.0 } else { 0.0 },
+            velocity: if vertical { [0.0, speed] } else { [speed, 0.0] },
+            depth: 2.0,
+        }
+    });
+    picture.exposure = exposure;
+    let output = picture.blurred("jump_flood", preset, &[("jitter", "none")]);
+    let lit = |distance: &u32| {
+        let pixel = match vertical {
+            true => output.at(20, 72 - distance),
+            false => output.at(128 - distance, 20),
+        };
+        pixel[0] > 0.0
+    };
+    (1..72).filter(lit).max().unwrap_or(0)
+}
+
+#[test]
+fn trails_are_cut_at_32_pixels_and_two_days_later_at_64_whatever_the_speed() {
+    for speed in [70.0, 100.0, 150.0] {
+        // The last tap lies on the cut.
+        assert_eq!(reach("paper", false, speed, 1.0), 32, "{speed}");
+        assert_eq!(reach("july_2024", false, speed, 1.0), 64, "{speed}");
+        assert!(reach("corrected", false, speed, 1.0) > 64, "{speed}");
+    }
+}
+
+#[test]
+fn vertical_trails_of_a_wide_picture_are_cut_shorter() {
+    // By 144 / 256: 32 and 64 pixels are parts of the width, and a vertical path is one of the height.
+    assert_eq!(reach("paper", true, 60.0, 1.0), 18);
+    assert_eq!(reach("july_2024", true, 60.0, 1.0), 36);
+}
+
+#[test]
+fn the_cut_is_right_for_an_exposure_of_one_frame_alone() {
+    // It divides by the exposure where it should not: 32 / 0.5 and 32 / 2 pixels.
+    assert_eq!(reach("paper", false, 90.0, 0.5), 45);
+    assert_eq!(reach("paper", false, 140.0, 0.5), 64);
+    assert_eq!(reach("paper", false, 90.0, 2.0), 16);
+}
