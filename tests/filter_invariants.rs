@@ -261,8 +261,9 @@ fn mirrored_camera(field: &Field, axis: usize) -> Reprojection {
         row[axis] = -row[axis];
         row
     });
-    for column in 0..4 {
-        rows[axis][column] = side * rows[2][column] - rows[axis][column];
+    let common = rows[2];
+    for (value, common) in rows[axis].iter_mut().zip(common) {
+        *value = side * common - *value;
     }
     Reprojection { rows }
 }
