@@ -8,7 +8,7 @@ mod silhouette;
 
 use frame::Alignment;
 use outcome::{ANGLES, OUTCOMES, Outcome, SHOTS};
-use panel::{HALF_PANEL, Shot};
+use panel::{HALF_PANEL, TRUTHS};
 use promised::promised;
 use tests::kernels::{along_motion, expected_ramp, taps};
 use tests::ramp::Ramp;
@@ -36,18 +36,20 @@ fn the_panel_moves_as_fast_and_as_far_as_asked() {
 
 #[test]
 fn the_truth_measures_as_long_as_the_shutter_is_open() {
-    for (speed, degrees) in [(24.0, 0.0), (16.0, 30.0)] {
-        let shot = Shot::new(speed, degrees);
-        for (alignment, middle) in [(Alignment::Trailing, -0.5), (Alignment::Centred, 0.0)] {
-            let truth = shot.profile(&shot.true_matte(alignment));
-            let instant = shot.profile(&shot.matte());
-            for front in [true, false] {
-                let before = Ramp::of(&edge(&instant, front));
-                let found = Ramp::of(&edge(&truth, front)).beyond(before);
-                // Noise of 128 samples in a band of 33 pixels, weighed by squares of distances.
-                assert!((found.length - speed).abs() < 0.1, "{found:?} at {speed}");
-                assert!((found.middle - middle * speed).abs() < 0.1, "{found:?}");
-            }
+    let (shot, truths) = &*TRUTHS;
+    let instant = shot.profile(shot.matte());
+    for (alignment, truth) in truths {
+        let truth = shot.profile(truth);
+        let middle = match alignment {
+            Alignment::Trailing => -0.5 * shot.speed,
+            _ => 0.0,
+        };
+        for front in [true, false] {
+            let before = Ramp::of(&edge(&instant, front));
+            let found = Ramp::of(&edge(&truth, front)).beyond(before);
+            // Noise of 32 samples in a band of 33 pixels, weighed by squares of distances.
+            assert!((found.length - shot.speed).abs() < 0.2, "{found:?}");
+            assert!((found.middle - middle).abs() < 0.2, "{found:?}");
         }
     }
 }

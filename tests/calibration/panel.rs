@@ -1,8 +1,9 @@
 //! The scene `sliding_panel`, its panel made larger, turned to face its motion, and as fast as a test wants it.
 
 use std::path::Path;
+use std::sync::LazyLock;
 
-use frame::{Alignment, Frame, Image, Raster};
+use frame::{Alignment, Frame, Plane, Raster};
 use glam::{DQuat, DVec2, DVec3};
 use tests::kernels::Steady;
 use tests::{half_plane, unwatched};
@@ -24,6 +25,14 @@ const HALF_BAND: f64 = 16.0;
 /// would see them.
 const TENT: f64 = 2.0;
 pub const EXPOSURE: f64 = 1.0;
+
+/// Two truths of one shot, which two tests look at.
+pub static TRUTHS: LazyLock<(Shot, [(Alignment, Plane); 2])> = LazyLock::new(|| {
+    let shot = Shot::new(24.0, 30.0);
+    let alignments = [Alignment::Trailing, Alignment::Centred];
+    let truths = alignments.map(|alignment| (alignment, shot.true_matte(alignment)));
+    (shot, truths)
+});
 
 /// The panel at the middle of the picture, moving.
 pub struct Shot {
@@ -61,7 +70,7 @@ impl Shot {
             width: WIDTH,
             height: HEIGHT,
             exposure: EXPOSURE,
-            samples_per_pixel: 16,
+            samples_per_pixel: 4,
             ..FrameSettings::default()
         };
         Self {
@@ -87,34 +96,34 @@ impl Shot {
     }
 
     /// White behind the panel's middle and black ahead of it, as if painted on the panel and on what lies beyond.
-    pub fn painted(&self) -> Image {
+    pub fn painted(&self) -> Plane {
         let normal = self.direction();
         let offset = normal.dot(middle());
         Raster::from_fn(WIDTH, HEIGHT, |x, y| {
             let pixel = DVec2::new(f64::from(x), f64::from(y));
-            [half_plane::area(pixel, normal, offset) as f32; 3]
+            half_plane::area(pixel, normal, offset) as f32
         })
     }
 
     /// How much of each pixel the panel covers at the instant.
-    pub fn matte(&self) -> Image {
-        self.frame.coverage[self.panel()].map(|part| [*part; 3])
+    pub fn matte(&self) -> &Plane {
+        &self.frame.coverage[self.panel()]
     }
 
     /// How much of each pixel it covers while the shutter is open.
-    pub fn true_matte(&self, alignment: Alignment) -> Image {
+    fn true_matte(&self, alignment: Alignment) -> Plane {
         let settings = TruthSettings {
             width: WIDTH,
             height: HEIGHT,
             exposure: EXPOSURE,
             alignment,
-            samples_per_pixel: 128,
+            samples_per_pixel: 32,
             replicates: 2,
             seed: 1,
         };
         let truth = trace_truth(&self.scene, &settings, &unwatched).unwrap();
         let [first, second] = truth.halves.map(|half| half.coverage[self.panel()].clone());
-        first.zip(&second, |a, b| [0.5 * (a + b); 3])
+        first.zip(&second, |a, b| 0.5 * (a + b))
     }
 
     fn panel(&self) -> usize {
@@ -124,11 +133,11 @@ impl Shot {
 
     /// Brightness along the motion, at every whole pixel from the panel's middle on: the mean over a band, smoothed by a
     /// tent.
-    pub fn profile(&self, image: &Image) -> Vec<(f64, f64)> {
+    pub fn profile(&self, plane: &Plane) -> Vec<(f64, f64)> {
         let direction = self.direction();
         let reach = (HALF_PANEL + self.speed + 16.0).ceil() as i32;
         let mut sums = vec![(0.0, 0.0); (2 * reach + 1) as usize];
-        for (index, pixel) in image.pixels.iter().enumerate() {
+        for (index, value) in plane.pixels.iter().enumerate() {
             let (x, y) = (index as u32 % WIDTH, index as u32 / WIDTH);
             let from_middle = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5) - middle();
             if direction.perp_dot(from_middle).abs() > HALF_BAND {
@@ -140,7 +149,7 @@ impl Shot {
             for position in first.max(-reach)..=last.min(reach) {
                 let share = TENT - (f64::from(position) - along).abs();
                 let sum = &mut sums[(position + reach) as usize];
-                *sum = (sum.0 + share, sum.1 + share * f64::from(pixel[0]));
+                *sum = (sum.0 + share, sum.1 + share * f64::from(*value));
             }
         }
         let positions = (-reach..=reach).map(f64::from).zip(sums);

@@ -1,12 +1,12 @@
 //! Where a smear lies at the panel's two edges across the motion: as light that the panel puts on the wall, and light that
 //! it loses to it.
 
-use frame::{Alignment, Image};
+use frame::{Alignment, Plane};
 use tests::kernels::{along_motion, expected_ramp, taps};
 
 use crate::fits;
 use crate::outcome::{ANGLES, OUTCOMES, Outcome};
-use crate::panel::{HALF_PANEL, HEIGHT, Shot, WIDTH};
+use crate::panel::{HALF_PANEL, HEIGHT, Shot, TRUTHS, WIDTH};
 
 /// Pixels' worth of the panel, along the motion.
 #[derive(Clone, Copy, Debug)]
@@ -22,8 +22,8 @@ impl Light {
         Self::of(outcome.shot(), &outcome.matte)
     }
 
-    fn of(shot: &Shot, blurred: &Image) -> Self {
-        let before = shot.profile(&shot.matte());
+    fn of(shot: &Shot, blurred: &Plane) -> Self {
+        let before = shot.profile(shot.matte());
         let after = shot.profile(blurred);
         let sum = |from: f64, to: f64| {
             let pairs = before.iter().zip(&after);
@@ -100,15 +100,19 @@ fn expected(outcome: &Outcome) -> [Option<f64>; 4] {
 
 #[test]
 fn the_truth_leaves_half_its_smear_behind_or_an_eighth_on_each_side_of_both_edges() {
-    let shot = Shot::new(24.0, 30.0);
-    for (alignment, expected) in [
-        (Alignment::Trailing, [0.5, 0.0, 0.5, 0.0]),
-        (Alignment::Centred, [0.125; 4]),
-    ] {
-        let found = Light::of(&shot, &shot.true_matte(alignment)).all();
+    let (shot, truths) = &*TRUTHS;
+    for (alignment, truth) in truths {
+        let expected = match alignment {
+            Alignment::Trailing => [0.5, 0.0, 0.5, 0.0],
+            _ => [0.125; 4],
+        };
+        let found = Light::of(shot, truth).all();
         for (found, expected) in found.iter().zip(expected) {
             // The panel's edge lies within a pixel, and the tent is 2 wide.
-            assert!((found - expected * 24.0).abs() < 0.5, "{found} {expected}");
+            assert!(
+                (found - expected * shot.speed).abs() < 0.5,
+                "{found} {expected}"
+            );
         }
     }
 }
