@@ -9,7 +9,7 @@ mod silhouette;
 use frame::Alignment;
 use outcome::{ANGLES, OUTCOMES, Outcome, SHOTS};
 use panel::{HALF_PANEL, TRUTHS};
-use promised::promised;
+use promised::{promised, stated};
 use tests::kernels::{along_motion, expected_ramp, taps};
 use tests::ramp::Ramp;
 
@@ -78,48 +78,75 @@ fn expected(outcome: &Outcome) -> Ramp {
     }
 }
 
+/// What became of the edge painted on the panel; nothing where the panel is too short for it.
+fn measured(outcome: &Outcome) -> Option<Ramp> {
+    let shot = outcome.shot();
+    let before = Ramp::of(&shot.profile(&shot.painted()));
+    fits(outcome).then(|| Ramp::of(&shot.profile(&outcome.painted)).beyond(before))
+}
+
+fn promise(outcome: &Outcome) -> f64 {
+    promised(&outcome.filter, &outcome.preset, &outcome.shot().steady())
+}
+
 #[test]
 fn what_is_painted_on_the_panel_smears_as_far_as_the_taps_of_each_filter_say() {
-    println!("measured / true length (promised / true) at {ANGLES:?} degrees");
     let mut wrong = Vec::new();
-    let mut measured = 0;
-    for row in OUTCOMES.chunks(ANGLES.len()) {
-        let mut cells = Vec::new();
-        for outcome in row {
-            let shot = outcome.shot();
-            if !fits(outcome) {
-                cells.push("longer than the panel".to_owned());
-                continue;
-            }
-            let before = Ramp::of(&shot.profile(&shot.painted()));
-            let found = Ramp::of(&shot.profile(&outcome.painted)).beyond(before);
-            let steady = shot.steady();
-            let promised = promised(&outcome.filter, &outcome.preset, &steady);
-            let expected = expected(outcome);
-            cells.push(format!(
-                "{:.2} ({:.2})",
-                found.length / shot.speed,
-                promised / shot.speed
-            ));
-            let off = [
-                found.length - expected.length,
-                found.middle - expected.middle,
-            ];
-            if off.iter().any(|off| off.abs() > 0.2 + 0.01 * shot.speed) {
-                wrong.push(format!(
-                    "{}: {found:?} instead of {expected:?}",
-                    outcome.said()
-                ));
-            }
-            measured += 1;
+    let mut compared = 0;
+    for outcome in OUTCOMES.iter() {
+        let Some(found) = measured(outcome) else {
+            continue;
+        };
+        let expected = expected(outcome);
+        let off = [
+            found.length - expected.length,
+            found.middle - expected.middle,
+        ];
+        // Noise in a band of 33 pixels, most of it with two taps.
+        if off
+            .iter()
+            .any(|off| off.abs() > 0.2 + 0.01 * outcome.shot().speed)
+        {
+            let said = outcome.said();
+            wrong.push(format!("{said}: {found:?} instead of {expected:?}"));
         }
-        let name = format!("{} {}", row[0].filter, row[0].preset);
-        println!(
-            "{name:<28} {:>2} px  {}",
-            row[0].shot().speed,
-            cells.join("  ")
-        );
+        compared += 1;
     }
-    println!("{measured} measured");
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    // All but long smears of two presets.
+    assert!(compared + 30 > OUTCOMES.len(), "only {compared} compared");
+}
+
+#[test]
+fn smears_are_as_long_as_each_filter_s_text_says() {
+    println!("measured / promised length (promised / true) at {ANGLES:?} degrees");
+    let mut wrong = Vec::new();
+    for row in OUTCOMES.chunks(ANGLES.len()) {
+        let (name, speed) = (
+            format!("{} {}", row[0].filter, row[0].preset),
+            row[0].shot().speed,
+        );
+        let cells = row.iter().map(|outcome| {
+            let Some(found) = measured(outcome) else {
+                return "longer than the panel".to_owned();
+            };
+            let promise = promise(outcome);
+            if promise == 0.0 {
+                if found.length > 0.01 {
+                    wrong.push(format!("{}: {found:?} instead of none", outcome.said()));
+                }
+                return "none".to_owned();
+            }
+            let part = (100.0 * found.length / promise).round() / 100.0;
+            let stated = stated(&outcome.filter, &outcome.preset);
+            // Below, interpolation between pixels and their grid weigh more.
+            if speed >= 8.0 && !stated.contains(&part) {
+                wrong.push(format!("{}: {part}, stated {stated:?}", outcome.said()));
+            }
+            format!("{part:.2} ({:.2})", promise / speed)
+        });
+        let cells: Vec<String> = cells.collect();
+        println!("{name:<28} {speed:>2} px  {}", cells.join("  "));
+    }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

@@ -1,5 +1,7 @@
 //! How long every filter says that its smear is.
 
+use std::ops::RangeInclusive;
+
 use tests::kernels::{Steady, along_motion, jump_flood_trail};
 
 use crate::panel::HEIGHT;
@@ -32,5 +34,23 @@ pub fn promised(filter: &str, preset: &str, steady: &Steady) -> f64 {
             along_motion(steady, [1500.0 * x / width, 1500.0 * y / height])
         }
         _ => trail,
+    }
+}
+
+/// What every filter's text says that an edge on the panel spreads by, from 8 pixels on: parts of the promised length, in
+/// whole hundredths.
+pub fn stated(filter: &str, preset: &str) -> RangeInclusive<f64> {
+    match (filter, preset) {
+        ("jump_flood" | "jump_flood_packed", "paper") => 1.26..=1.31,
+        ("jump_flood" | "jump_flood_packed", "july_2024") => 1.09..=1.12,
+        ("mcguire", "paper") => 0.84..=0.91,
+        ("mcguire", "aliari") => 0.94..=0.97,
+        ("mcguire", "g3d") => 1.02..=1.09,
+        ("guertin", _) => 0.65..=0.87,
+        ("kino", _) => 0.72..=0.78,
+        ("jimenez", "kajiya") => 1.12..=1.14,
+        ("jimenez", "o3de") => 0.94..=0.95,
+        ("jimenez", "wicked") => 0.60..=0.63,
+        _ => 0.985..=1.025,
     }
 }
