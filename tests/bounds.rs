@@ -1,10 +1,11 @@
 //! The shipped bounds tell a blur from none: on every shipped scene where something moves.
 
+use std::fs;
 use std::path::Path;
 
 use frame::{Alignment, Picture};
 use metrics::{Metric, Reference};
-use suite::{Outcome, RenderSettings, SceneChoice, Verdict};
+use suite::{Level, Outcome, RenderSettings, SceneBounds, SceneChoice, Verdict};
 
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
 
@@ -19,8 +20,11 @@ fn verdicts(choice: &SceneChoice) -> [Vec<Verdict>; 2] {
             .unwrap();
     let reference = Reference::new(&frame, &truth, None, &suite::viewing(scene)).unwrap();
     let bounds = suite::read_bounds(Path::new(SCENES), &choice.folder).unwrap();
-    let judged =
-        |picture: &Picture| suite::judge(&reference.measure(picture).unwrap().scores, &bounds);
+    // What is asked of every filter, required or not.
+    let bounds = bounds.of("identity", "default");
+    let judged = |picture: &Picture| {
+        suite::judge(&reference.measure(picture).unwrap().scores, None, &bounds)
+    };
     let identity = Picture {
         color: frame.color.clone(),
         coverage: frame.coverage.clone(),
@@ -40,6 +44,9 @@ fn describe(verdicts: &[Verdict]) -> String {
             Outcome::Kept { value } => format!("  {} = {value:.4} keeps {limit}", verdict.metric),
             Outcome::Broken { value } => {
                 format!("  {} = {value:.4} BREAKS {limit}", verdict.metric)
+            }
+            Outcome::Inconclusive { value } => {
+                unreachable!("{} = {value} has no interval here", verdict.metric)
             }
             Outcome::TooNoisy { floor, strictest } => {
                 format!(
@@ -88,56 +95,191 @@ fn the_identity_breaks_a_bound_in_every_moving_scene_and_64_subframes_break_none
     assert!(failures.is_empty(), "{failures:#?}");
 }
 
-#[test]
-fn every_metric_can_be_bounded_and_nothing_else() {
+/// A folder of scenes with one scene, `fan`; texts of bounds.toml beside the scenes and beside the scene.
+fn read(beside_scenes: &str, beside_scene: &str) -> Result<SceneBounds, String> {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("bounds.toml");
+    let scene = folder.path().join("fan");
+    fs::create_dir(&scene).unwrap();
+    fs::write(scene.join("scene.toml"), "").unwrap();
+    for (place, text) in [(folder.path(), beside_scenes), (&scene, beside_scene)] {
+        fs::write(place.join("bounds.toml"), text).unwrap();
+    }
+    let filters = suite::select_filters(&["identity".to_owned()], None, &[]).unwrap();
+    let check = || {
+        let bounds = suite::read_bounds(folder.path(), &scene)?;
+        suite::check_names(folder.path(), std::iter::once(&bounds), &filters)?;
+        suite::check_bounded(folder.path(), std::iter::once(("fan", &bounds)), &filters)?;
+        Ok(bounds)
+    };
+    check().map_err(|error: suite::Error| {
+        let folder = folder.path().display().to_string();
+        error.to_string().replace(&folder, "scenes")
+    })
+}
+
+fn limit(limit: f64) -> String {
+    format!("{{ limit = {limit}, why = \"it serves a test\" }}\n")
+}
+
+#[test]
+fn every_metric_can_be_bounded_but_those_for_reports() {
     for metric in Metric::all() {
-        std::fs::write(&path, format!("{metric} = 0.25\n")).unwrap();
-        let bounds = suite::read_bounds(folder.path(), folder.path());
+        let bounds = read(&format!("[default]\n{metric} = {}", limit(0.25)), "");
         if metric.report_only().is_some() {
-            let message = bounds.unwrap_err().to_string();
+            let message = bounds.unwrap_err();
+            assert!(message.contains("bounds.toml:2: "), "{message}");
             assert!(message.contains("is for reports and no bound"), "{message}");
             continue;
         }
         let bounds = bounds.unwrap();
-        assert_eq!(
-            bounds.into_iter().collect::<Vec<_>>(),
-            [(metric.name(), 0.25)]
-        );
-    }
-    for (text, expected) in [
-        (
-            "flip = 0.1",
-            "metric \"flip\" is unknown; allowed: mse_moving",
-        ),
-        (
-            "flip_moving = nan",
-            "flip_moving = NaN; allowed: a finite number",
-        ),
-        ("flip_moving = \"low\"", "bounds.toml"),
-        ("flip_moving", "bounds.toml"),
-    ] {
-        std::fs::write(&path, text).unwrap();
-        let message = suite::read_bounds(folder.path(), folder.path())
-            .unwrap_err()
-            .to_string();
-        assert!(message.contains(expected), "{text}: {message}");
+        let bounds = bounds.of("identity", "default");
+        let names: Vec<_> = bounds.iter().map(|(name, b)| (name, b.limit)).collect();
+        assert_eq!(names, [(&metric.name(), 0.25)]);
+        assert_eq!(bounds[&metric.name()].level, Level::Required);
     }
 }
 
 #[test]
-fn a_scenes_own_bounds_override_those_of_all_scenes() {
+fn bounds_that_mean_nothing_are_refused_with_file_and_line() {
+    let good = format!("[default]\nflip_moving = {}", limit(0.1));
+    let rows: &[(&str, &str, &[&str])] = &[
+        (
+            "\n[default]\nflip = { limit = 0.1, why = \"w\" }",
+            "",
+            &["scenes/bounds.toml:3: metric \"flip\" is unknown; allowed: mse_moving"],
+        ),
+        (
+            "[default]\nflip_moving = { limit = nan, why = \"w\" }",
+            "",
+            &["scenes/bounds.toml:2: flip_moving: limit = NaN; allowed: a finite number"],
+        ),
+        (
+            "[default]\nflip_moving = 0.1",
+            "",
+            &["scenes/bounds.toml:2: ", "a bound is a table", "why"],
+        ),
+        (
+            "[default]\nflip_moving = { limit = 0.1 }",
+            "",
+            &["scenes/bounds.toml:2: flip_moving: has no why", "one line"],
+        ),
+        (
+            "[default]\nflip_moving = { limit = 0.1, why = \"a\\nb\" }",
+            "",
+            &["bounds.toml:2: flip_moving: has no why", "one line"],
+        ),
+        (
+            "[default]\nflip_moving = { limit = 0.1, why = \"w\", level = \"maybe\" }",
+            "",
+            &["scenes/bounds.toml:2: ", "maybe", "required", "report"],
+        ),
+        (
+            "flip_moving = 0.05",
+            "",
+            &["scenes/bounds.toml:1: ", "flip_moving", "default"],
+        ),
+        (
+            &good,
+            "[filter.jumpflood]\nextent = { limit = 0.1, why = \"w\" }",
+            &[
+                "scenes/fan/bounds.toml:1: no filter is called \"jumpflood\"; allowed: ",
+                "jump_flood",
+            ],
+        ),
+        (
+            &good,
+            "\n[filter.\"jump_flood:fastest\"]\nextent = { limit = 0.1, why = \"w\" }",
+            &[
+                "scenes/fan/bounds.toml:2: the filter jump_flood has no preset \"fastest\"",
+                "paper",
+            ],
+        ),
+        (
+            "[margin]\nflip_moving = -0.1",
+            "",
+            &["scenes/bounds.toml:2: margin of flip_moving is -0.1; allowed: 0 or more"],
+        ),
+        (
+            &good,
+            "[margin]\nflip_moving = 0.1",
+            &[
+                "scenes/fan/bounds.toml:2: a margin is for all scenes",
+                "scenes/bounds.toml",
+            ],
+        ),
+        (
+            "",
+            "",
+            &["fan / identity:default: has no bound", "[default]"],
+        ),
+        (
+            "[filter.jump_flood]\nextent = { limit = 0.1, why = \"w\" }",
+            "",
+            &["fan / identity:default: has no bound"],
+        ),
+        (
+            "[default]\nflip_moving = { limit = 0.1, why = \"w\", level = \"report\" }",
+            "",
+            &[
+                "no bound of identity:default is required",
+                "level = \"required\"",
+            ],
+        ),
+    ];
+    for (beside_scenes, beside_scene, parts) in rows {
+        let message = read(beside_scenes, beside_scene).unwrap_err();
+        for part in *parts {
+            assert!(
+                message.contains(part),
+                "\"{part}\" is missing from: {message}"
+            );
+        }
+    }
+}
+
+#[test]
+fn bounds_of_a_scene_that_does_not_exist_are_refused() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = folder.path().join("fan");
-    std::fs::create_dir(&scene).unwrap();
-    std::fs::write(
-        folder.path().join("bounds.toml"),
-        "flip_moving = 0.1\nextent = 0.2\n",
-    )
-    .unwrap();
-    std::fs::write(scene.join("bounds.toml"), "flip_moving = 0.3\n").unwrap();
-    let bounds = suite::read_bounds(folder.path(), &scene).unwrap();
-    assert_eq!(bounds["flip_moving"], 0.3);
-    assert_eq!(bounds["extent"], 0.2);
+    fs::create_dir(folder.path().join("fna")).unwrap();
+    fs::write(folder.path().join("fna/bounds.toml"), "").unwrap();
+    let message = suite::check_names(folder.path(), std::iter::empty(), &[]).unwrap_err();
+    assert!(
+        message.to_string().contains("fna has no scene.toml"),
+        "{message}"
+    );
+}
+
+#[test]
+fn the_narrower_bound_overrides_the_wider_and_the_scenes_own_that_of_all_scenes() {
+    let level = |table: &str, limits: &[(&str, f64)]| {
+        let lines = limits
+            .iter()
+            .map(|(name, value)| format!("{name} = {}", limit(*value)));
+        format!("[{table}]\n{}", lines.collect::<String>())
+    };
+    let names = [
+        "flip_moving",
+        "mse_moving",
+        "extent",
+        "energy",
+        "hole",
+        "deficit",
+    ];
+    let limits = |count: usize, value: f64| -> Vec<(&str, f64)> {
+        names[..count].iter().map(|name| (*name, value)).collect()
+    };
+    let all = level("default", &limits(6, 1.0))
+        + &level("filter.identity", &limits(5, 2.0))
+        + &level("filter.\"identity:default\"", &limits(4, 3.0))
+        + &level("filter.jump_flood", &limits(6, 7.0));
+    let own = level("default", &limits(3, 4.0))
+        + &level("filter.identity", &limits(2, 5.0))
+        + &level("filter.\"identity:default\"", &limits(1, 6.0));
+    let bounds = read(&all, &own).unwrap();
+    let found = bounds.of("identity", "default");
+    let found: Vec<f64> = names.iter().map(|name| found[*name].limit).collect();
+    assert_eq!(found, [6.0, 5.0, 4.0, 3.0, 2.0, 1.0]);
+    let other = bounds.of("velocity_gather", "fine");
+    let found: Vec<f64> = names.iter().map(|name| other[*name].limit).collect();
+    assert_eq!(found, [4.0, 4.0, 4.0, 1.0, 1.0, 1.0]);
 }

@@ -90,6 +90,23 @@ impl Bench {
         self.shuttertruth(&[&words, more].concat())
     }
 
+    /// `check` with few samples, outside of any CI; the report is on standard output.
+    pub fn check(&self, more: &[&str]) -> Output {
+        let words = [
+            "check",
+            "--quiet",
+            "--out",
+            "out",
+            "--size",
+            "64x32",
+            "--samples-per-pixel",
+            "64",
+        ];
+        let mut command = self.command(&[&words, more].concat());
+        command.env_remove("CI").env_remove("GITHUB_STEP_SUMMARY");
+        command.output().unwrap()
+    }
+
     /// run.json of the last run.
     pub fn measured(&self) -> suite::Run {
         serde_json::from_slice(&fs::read(self.path("out/run.json")).unwrap()).unwrap()

@@ -41,7 +41,10 @@ fn filters_of_two_alignments_have_a_shutter_in_common() {
 #[test]
 fn bars_are_better_than_filters_and_are_held_to_no_bound() {
     let bench = Bench::new();
-    bench.write("bounds.toml", "flip_moving = 0.0001\n");
+    bench.write(
+        "bounds.toml",
+        "[default]\nflip_moving = { limit = 0.0001, why = \"it serves a test\" }\n",
+    );
     assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
     let cases = bench.measured().cases;
     let oracle = flip(named(&cases, "scatter_oracle"));

@@ -1,6 +1,8 @@
 //! The program as its user meets it: what it prints, what it writes, how it ends.
 
+mod baseline;
 mod bench;
+mod check;
 #[cfg(unix)]
 mod command_filter;
 mod comparison;

@@ -67,7 +67,7 @@ fn words_that_do_not_fit_are_refused_with_what_is_allowed() {
     assert_refused(
         &bench.shuttertruth(&[]),
         2,
-        &["run, render, merge, blur, score, bench, list"],
+        &["run, check, accept, calibrate, render, merge, blur, score, bench, list"],
     );
 }
 
@@ -133,16 +133,22 @@ fn a_bad_scene_is_refused_with_file_and_line_and_leaves_nothing_behind() {
 #[test]
 fn bounds_name_metrics_that_exist() {
     let bench = Bench::new();
-    bench.write("bounds.toml", "flip_moving = 0.0001\n");
+    bench.write(
+        "bounds.toml",
+        "[default]\nflip_moving = { limit = 0.0001, why = \"it serves a test\" }\n",
+    );
     assert_done(&bench.run(&["--filters", "identity"]));
     assert_eq!(bench.measured_filters()[0].verdicts.len(), 1);
-    bench.write("bounds.toml", "flip = 0.1\n");
+    bench.write(
+        "bounds.toml",
+        "[default]\nflip = { limit = 0.1, why = \"it serves a test\" }\n",
+    );
     fs::remove_dir_all(bench.path("out")).unwrap();
     let output = bench.run(&["--filters", "identity"]);
     assert_refused(
         &output,
         2,
-        &["bounds.toml", "metric \"flip\" is unknown", "flip_moving"],
+        &["bounds.toml:2", "metric \"flip\" is unknown", "flip_moving"],
     );
     assert!(!bench.path("out").exists());
 }

@@ -15,7 +15,10 @@ use scenes::scenes;
 
 fn bounds() -> Bounds {
     let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes"));
-    read_bounds(folder, folder).unwrap()
+    // What is asked of every filter, required or not.
+    read_bounds(folder, folder)
+        .unwrap()
+        .of("identity", "default")
 }
 
 fn noisy(seed: u64) -> Sampling {
@@ -61,7 +64,7 @@ const SEEN_BY: [(&str, &[&str]); 13] = [
 
 /// Names of the broken bounds.
 fn broken(scores: &Scores, bounds: &Bounds) -> Vec<String> {
-    let verdicts = judge(scores, bounds).into_iter();
+    let verdicts = judge(scores, None, bounds).into_iter();
     verdicts
         .filter_map(|verdict| match verdict.outcome {
             Outcome::Broken { .. } => Some(verdict.metric),

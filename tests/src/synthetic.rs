@@ -3,8 +3,8 @@
 
 use frame::{
     Accumulation, Alignment, AtInstant, ColorSampling, Display, FAR_DEPTH, FlipExposures, Frame,
-    Image, Ladder, Picture, Plane, Provenance, Raster, Reprojection, Shutter, ShutterProfile,
-    Truth, VelocityKind,
+    Image, Ladder, Picture, Plane, Provenance, Raster, Replicate, Reprojection, Shutter,
+    ShutterProfile, Truth, VelocityKind,
 };
 use metrics::Viewing;
 
@@ -151,6 +151,31 @@ impl Scene {
             halves,
             motion,
         }
+    }
+
+    /// Replicates of the truth of a trailing shutter, one for each sampling.
+    pub fn replicates(&self, samplings: impl IntoIterator<Item = Sampling>) -> Vec<Replicate> {
+        let still = std::iter::once(false);
+        let moving: Vec<bool> = still
+            .chain(self.objects.iter().map(Object::moves))
+            .collect();
+        (0..)
+            .zip(samplings)
+            .map(|(index, sampling)| {
+                let picture = self.render(&Blur::TRUE, sampling);
+                Replicate {
+                    provenance: Provenance::default(),
+                    index,
+                    shutter: shutter(),
+                    shutter_profile: ShutterProfile::default(),
+                    alignment: Alignment::Trailing,
+                    objects: self.names(),
+                    moving: moving.clone(),
+                    at_instant: nothing_unknown(&picture.color),
+                    picture,
+                }
+            })
+            .collect()
     }
 
     /// Accumulations of 1, 2, 4 .. 64 sub-frames; `seeds` gives each half's noise.

@@ -2,9 +2,11 @@
 
 use std::ops::Range;
 use std::path::PathBuf;
+use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use frame::{Alignment, ColorSampling, VelocityKind};
+use metrics::Metric;
 use suite::{Border, DepthFormat, VelocityFormat};
 
 /// How good is a real-time motion blur? Renders the truth of moving scenes, runs filters on one frame of each, and
@@ -25,6 +27,12 @@ pub struct Cli {
 pub enum Command {
     /// Render, filter, measure: the main job. Prints a table; writes run.json, EXR and PNG.
     Run(RunArgs),
+    /// Run, and hold every score to its bound: pass or fail, by the exit code.
+    Check(CheckArgs),
+    /// Make the scores of a finished run the baseline that later ones are compared with.
+    Accept(AcceptArgs),
+    /// Run several times, measure how scores scatter, and propose limits.
+    Calibrate(CalibrateArgs),
     /// Render frames and truths alone, or some replicates of them.
     Render(RenderArgs),
     /// Join the replicates that several machines rendered.
@@ -42,6 +50,75 @@ pub enum Command {
 /// `shuttertruth run`
 #[derive(Debug, Args)]
 pub struct RunArgs {
+    #[command(flatten)]
+    pub measure: MeasureArgs,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+    /// Print run.json to standard output instead of the table.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `shuttertruth check`
+#[derive(Debug, Args)]
+pub struct CheckArgs {
+    #[command(flatten)]
+    pub measure: MeasureArgs,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+    /// Compare with the scores that `accept` wrote there, too: no worse by more than the margins in bounds.toml?
+    #[arg(long, value_name = "FILE")]
+    pub baseline: Option<PathBuf>,
+    /// Write the result as JUnit XML.
+    #[arg(long, value_name = "FILE")]
+    pub junit: Option<PathBuf>,
+    /// Write GitHub's step summary ($GITHUB_STEP_SUMMARY) and print annotations, ten at most.
+    #[arg(long, conflicts_with = "json")]
+    pub github: bool,
+    /// Print the result as JSON instead of text.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `shuttertruth accept`
+#[derive(Debug, Args)]
+pub struct AcceptArgs {
+    /// Folder of the finished run: what --out was for `run` or `check`.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Why these scores are right, in one line.
+    #[arg(long, value_name = "TEXT")]
+    pub reason: String,
+    /// Which cases, by scene/filter:preset, such as 'fan/*' or '*/jump_flood:*' [default: all; others are forgotten].
+    #[arg(long, value_name = "GLOB", value_parser = glob)]
+    pub only: Option<glob::Pattern>,
+    /// The file to write, or to change with --only.
+    #[arg(long, value_name = "FILE", default_value = "base.json")]
+    pub baseline: PathBuf,
+    /// Accept although this is CI (CI=true), or the adapter another class than the baseline's.
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// `shuttertruth calibrate`
+#[derive(Debug, Args)]
+pub struct CalibrateArgs {
+    #[command(flatten)]
+    pub measure: MeasureArgs,
+    /// How many times, each with a truth of another seed: --seed, --seed + 1 ..
+    #[arg(long, value_name = "K", default_value_t = 3, value_parser = runs)]
+    pub runs: u32,
+    /// Adapters, separated by commas, by their numbers in --list-adapters or parts of their names [default: the fastest].
+    #[arg(long, value_delimiter = ',', value_name = "ADAPTERS")]
+    pub adapters: Vec<String>,
+    /// Metrics to propose limits for, separated by commas [default: those that have bounds].
+    #[arg(long, value_delimiter = ',', value_name = "METRICS", value_parser = Metric::from_str)]
+    pub metrics: Vec<Metric>,
+}
+
+/// What is measured by `run`, `check` and `calibrate`.
+#[derive(Debug, Args)]
+pub struct MeasureArgs {
     #[command(flatten)]
     pub scenes: SceneArgs,
     /// Filters: names or folders, each with an optional :preset, separated by commas [default: every built-in one].
@@ -74,11 +151,6 @@ pub struct RunArgs {
     /// Frames of its noise that a noisy filter is tried with, to tell its noise from its other errors; 0 for none.
     #[arg(long, value_name = "N", default_value_t = 16)]
     pub jitter_frames: u32,
-    #[command(flatten)]
-    pub adapter: AdapterArgs,
-    /// Print run.json to standard output instead of the table.
-    #[arg(long)]
-    pub json: bool,
 }
 
 /// `shuttertruth render`
@@ -139,7 +211,7 @@ pub struct MergeArgs {
     pub out: PathBuf,
 }
 
-/// What `run` and `render` share.
+/// What `render` shares with the commands that measure.
 #[derive(Debug, Args)]
 pub struct SceneArgs {
     /// Scenes: names or folders, each with an optional @variant or @all, separated by commas [default: every one].
@@ -308,6 +380,19 @@ fn rounds(text: &str) -> Result<u32, String> {
         Ok(rounds @ 20..=10_000) => Ok(rounds),
         _ => Err("allowed is 20 to 10000: fewer say nothing about the spread".to_owned()),
     }
+}
+
+/// Enough runs for a spread.
+fn runs(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(runs @ 2..=100) => Ok(runs),
+        _ => Err("allowed is 2 to 100: one run says nothing about the spread".to_owned()),
+    }
+}
+
+/// A pattern as shells have it.
+fn glob(text: &str) -> Result<glob::Pattern, String> {
+    glob::Pattern::new(text).map_err(|error| error.to_string())
 }
 
 /// A radiance above 0.

@@ -24,20 +24,27 @@ pub enum Error {
     /// A truth that has more noise than was asked for; its files are written all the same.
     #[error("{0}")]
     TooNoisy(String),
+    /// Required bounds are broken, or scores are worse than the baseline's; the report says which.
+    #[error("{0}")]
+    Broken(String),
+    /// The truth's noise does not tell whether required bounds are kept.
+    #[error("{0}")]
+    Inconclusive(String),
     /// The words of the command line, or of a bounds file, do not fit.
     #[error("{0}")]
     Usage(String),
 }
 
 impl Error {
-    /// 2 for usage and bad input, 3 where there is no adapter, 4 where a truth stayed noisier than asked for, 130 after
-    /// Ctrl-C.
+    /// 1 where a check fails, 2 for usage and bad input, 3 where there is no adapter, 4 where a truth stayed noisier than
+    /// asked for or than a check needs, 130 after Ctrl-C.
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::Trace(tracer::TraceError::Cancelled)
             | Error::Filter(filters::FilterError::Interrupted) => 130,
             Error::Filter(filters::FilterError::NoAdapter) => 3,
-            Error::TooNoisy(_) => 4,
+            Error::Broken(_) => 1,
+            Error::TooNoisy(_) | Error::Inconclusive(_) => 4,
             _ => 2,
         }
     }

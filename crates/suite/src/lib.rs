@@ -1,11 +1,16 @@
 //! Cases, runs and bounds over the scenes, filters and metrics; the command line `shuttertruth` is a thin layer on top.
 
+mod baseline;
 mod bench;
 mod bounds;
+mod calibrate;
 mod case;
+mod decoys;
 mod error;
 mod finished;
+mod gate;
 mod input_format;
+mod intervals;
 mod merge;
 mod pictures;
 mod probe;
@@ -18,14 +23,29 @@ mod scatter_oracle;
 mod score;
 mod selection;
 mod table;
+mod verdict;
+mod witness;
 mod workbench;
+mod worst;
 
+pub use baseline::{
+    Acceptance, BASELINE_FORMAT, Baseline, Comparison, ComparisonKind, accept, compare,
+};
 pub use bench::{BASELINE, Bench, BenchPlan, bench, bench_table};
-pub use bounds::{Bounds, Outcome, Verdict, judge, read_bounds};
+pub use bounds::{
+    BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Level, Margin, SceneBounds,
+    check_bounded, check_names, read_bounds, read_bounds_file,
+};
+pub use calibrate::{Calibration, Proposal, Sample, calibrate};
 pub use case::Case;
+pub use decoys::{Decoys, Resemblance};
 pub use error::Error;
 pub use finished::{Finished, read_finished};
+pub use gate::{
+    CHECK_FORMAT, Check, Decision, Finding, Kind, annotations, check, check_text, junit, summary,
+};
 pub use input_format::{Border, DepthFormat, InputFormat, VelocityFormat};
+pub use intervals::{FEWEST_REPLICATES, Intervals, intervals, truths_without_pairs};
 pub use merge::{Merged, merge};
 pub use progress::{catch_interrupts, with_bar};
 pub use rendered::{
@@ -38,6 +58,8 @@ pub use scatter_oracle::scatter_oracle;
 pub use score::{Scored, missing, score};
 pub use selection::{FilterChoice, SceneChoice, select_filters, select_scenes};
 pub use table::{score_table, table};
+pub use verdict::{Outcome, Verdict, judge};
+pub use worst::Worst;
 
 /// Program name and version, as files and runs record it.
 pub const PROGRAM: &str = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"));

@@ -78,7 +78,7 @@ fn write_shown(path: &Path, image: &Image, scene: &Scene) -> Result<(), FileErro
 }
 
 /// An error in [0, 1] as the magma colours: black is none.
-fn magma(error: &Plane) -> Image {
+pub(crate) fn magma(error: &Plane) -> Image {
     error.map(|value| {
         let color = colorous::MAGMA.eval_continuous(f64::from(value.clamp(0.0, 1.0)));
         color.as_array().map(|byte| f32::from(byte) / 255.0)

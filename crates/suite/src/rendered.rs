@@ -3,7 +3,9 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, ColorSampling, FileError, Frame, Ladder, Region, Truth, VelocityKind};
+use frame::{
+    Alignment, ColorSampling, FileError, Frame, Ladder, Region, Replicate, Truth, VelocityKind,
+};
 use tracer::{FrameSettings, Scene, TruthSettings, Watch};
 
 use crate::Error;
@@ -166,6 +168,20 @@ pub fn deciding_floor(truth: &Truth) -> (Region, f64) {
         .find(|(region, _)| *region == Region::Moving)
         .or(floors.last())
         .expect("a picture has pixels")
+}
+
+/// The replicates of a truth: those kept in `out`, the others rendered anew.
+pub fn replicates_of(
+    scene: &Scene,
+    settings: &RenderSettings,
+    alignment: Alignment,
+    out: &Path,
+    quiet: bool,
+) -> Result<Vec<Replicate>, Error> {
+    let settings = truth_settings(scene, settings, alignment);
+    let shelf = Shelf::new(scene_folder(out, scene), scene, &settings);
+    settings.check(scene)?;
+    shelf.obtain(scene, &settings, 0..settings.replicates, quiet)
 }
 
 /// Renders some replicates of a truth and keeps them in `out`.

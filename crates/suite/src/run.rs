@@ -1,25 +1,26 @@
 //! The main job: render every scene, run every filter on it, measure how far each picture is from the truth.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use filters::{AdapterDescription, Gpu};
-use frame::{Alignment, Frame, Ladder, Truth};
-use metrics::{Reference, Viewing};
+use frame::{Alignment, FileError, Frame, Ladder, Truth};
+use metrics::{MeasureError, Reference, Viewing};
 use serde::{Deserialize, Serialize};
 use tracer::Scene;
 
-use crate::bounds::Bounds;
+use crate::bounds::SceneBounds;
 use crate::case::Case;
 use crate::pictures::write_scene;
 use crate::progress::interrupted;
-use crate::rendered::{frame_of, scene_folder, truth_and_ladder_of};
+use crate::rendered::{frame_of, replicates_of, scene_folder, truth_and_ladder_of};
 use crate::selection::FilterChoice;
+use crate::witness::Witness;
 use crate::workbench::Workbench;
-use crate::{Error, InputFormat, PROGRAM, RenderSettings};
+use crate::{Error, InputFormat, PROGRAM, RenderSettings, truths_without_pairs};
 
 /// Version of the layout of `run.json`; it rises when a reader of the old one would misread the new one.
-pub const FORMAT: u32 = 2;
+pub const FORMAT: u32 = 3;
 
 /// A finished run: `run.json`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -57,10 +58,33 @@ pub struct Run {
     pub cases: Vec<Case>,
 }
 
+impl Run {
+    /// Reads a `run.json` of this program.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let text = std::fs::read_to_string(path).map_err(|source| FileError::Io {
+            path: path.to_owned(),
+            action: "read",
+            source,
+        })?;
+        let refuse = |reason: String| {
+            Error::Usage(format!(
+                "{}: {reason}; `shuttertruth run` or `check` writes one",
+                path.display()
+            ))
+        };
+        let run: Self = serde_json::from_str(&text)
+            .map_err(|error| refuse(format!("no run of this program: {error}")))?;
+        match run.format {
+            FORMAT => Ok(run),
+            other => Err(refuse(format!("has format {other}; allowed: {FORMAT}"))),
+        }
+    }
+}
+
 /// What a run is to do.
 pub struct Plan {
     /// Loaded scenes, each with its bounds.
-    pub scenes: Vec<(Scene, Bounds)>,
+    pub scenes: Vec<(Scene, SceneBounds)>,
     /// Loaded filters.
     pub filters: Vec<FilterChoice>,
     /// The forms in which every filter gets the frame.
@@ -71,6 +95,11 @@ pub struct Plan {
     pub render: RenderSettings,
     /// Where files go.
     pub out: PathBuf,
+    /// Whether the scores of filters get intervals, by which bounds are judged. Takes a few more measurements of every
+    /// picture.
+    pub intervals: bool,
+    /// Whether bounds that are not kept get the place where the picture is worst, and what it is like.
+    pub evidence: bool,
     /// No progress bars.
     pub quiet: bool,
 }
@@ -89,7 +118,32 @@ pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, 
             &frame,
             truths.values().map(|(truth, _)| truth),
         )?;
-        let references = references(scene, &frame.cropped(), &truths)?;
+        let cropped = frame.cropped();
+        let references = references(scene, &cropped, &truths)?;
+        let parts = match plan.intervals {
+            true => parts(plan, scene, &truths)?,
+            false => Parts::new(),
+        };
+        let without = (parts.iter())
+            .map(|(alignment, parts)| {
+                let whole = &references[alignment];
+                let reference = |part| {
+                    let ladder = Some(&truths[alignment].1);
+                    let mut reference = Reference::new(&cropped, part, ladder, &viewing(scene))?;
+                    // What is left out changes scores, not where they are taken.
+                    reference.regions = whole.regions.clone();
+                    Ok(reference)
+                };
+                let references: Result<_, MeasureError> = parts.iter().map(reference).collect();
+                Ok((*alignment, references?))
+            })
+            .collect::<Result<BTreeMap<_, Vec<Reference>>, Error>>()?;
+        let witnesses: BTreeMap<Alignment, Witness> = (truths.iter())
+            .filter(|_| plan.evidence)
+            .map(|(alignment, (truth, ladder))| {
+                (*alignment, Witness::new(scene, &cropped, truth, ladder))
+            })
+            .collect();
         let stored: Vec<(InputFormat, Frame)> = (plan.inputs.iter())
             .map(|format| (*format, format.of(&frame)))
             .collect();
@@ -103,6 +157,8 @@ pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, 
                 ladder,
                 reference: &references[&alignment],
                 common: (alignment != common).then(|| &references[&common]),
+                without: without.get(&alignment).map(Vec::as_slice),
+                witness: witnesses.get(&alignment),
             }
         };
         for alignment in truths.keys() {
@@ -165,6 +221,18 @@ fn render(plan: &Plan, scene: &Scene) -> Result<(Frame, Truths), Error> {
         }
     }
     Ok((frame, truths))
+}
+
+/// Per alignment, the truths that all replicates but a pair each make.
+type Parts = BTreeMap<Alignment, Vec<Truth>>;
+
+fn parts(plan: &Plan, scene: &Scene, truths: &Truths) -> Result<Parts, Error> {
+    (truths.iter())
+        .map(|(alignment, (truth, _))| {
+            let replicates = replicates_of(scene, &plan.render, *alignment, &plan.out, plan.quiet)?;
+            Ok((*alignment, truths_without_pairs(truth, &replicates)?))
+        })
+        .collect()
 }
 
 fn references<'a>(

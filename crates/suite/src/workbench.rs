@@ -5,17 +5,18 @@ use std::path::Path;
 
 use filters::{Command, FilterError, Gpu, Value};
 use frame::{Frame, Ladder, Picture, Truth};
-use metrics::{Jitter, Measurement, ProbeScores, Reference};
+use metrics::{Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference};
 use tracer::Scene;
 
-use crate::bounds::{Bounds, judge};
+use crate::bounds::{Bounds, SceneBounds};
 use crate::case::{ACCUMULATE, Case, SCATTER_ORACLE};
 use crate::pictures::write_case;
 use crate::probe::{Blurred, blurred, noise};
 use crate::run::Plan;
 use crate::scatter_oracle::scatter_oracle;
 use crate::selection::FilterChoice;
-use crate::{Error, InputFormat, Runner};
+use crate::witness::Witness;
+use crate::{Error, InputFormat, Intervals, Runner, Verdict, intervals, judge};
 
 /// Accumulations that are shown beside the filters.
 const SUBFRAMES: [u32; 4] = [4, 8, 16, 64];
@@ -27,12 +28,16 @@ const MOST_NONLINEARITY: f64 = 1e-3;
 pub(crate) struct Workbench<'a> {
     pub plan: &'a Plan,
     pub scene: &'a Scene,
-    pub bounds: &'a Bounds,
+    pub bounds: &'a SceneBounds,
     pub truth: &'a Truth,
     pub ladder: &'a Ladder,
     pub reference: &'a Reference<'a>,
     /// The truth that every case is compared with, unless it is this one.
     pub common: Option<&'a Reference<'a>>,
+    /// The truths that all replicates but a pair each make, where scores are to have intervals.
+    pub without: Option<&'a [Reference<'a>]>,
+    /// Where bounds that are not kept are to have evidence.
+    pub witness: Option<&'a Witness<'a>>,
 }
 
 impl Workbench<'_> {
@@ -60,6 +65,7 @@ impl Workbench<'_> {
         let mut runner = Runner::new(gpu, choice, frame.size())?;
         let blurred = blurred(&mut runner, frame).map_err(|error| on_scene(error, self.scene))?;
         let jitter = self.jitter(&mut runner, frame)?;
+        let measurement = self.measured(self.reference, &blurred)?;
         let subject = Subject {
             filter: choice.filter.name.clone(),
             preset: choice.preset.clone(),
@@ -69,28 +75,36 @@ impl Workbench<'_> {
             command: choice.filter.command.as_ref().map(Command::words),
             nonlinearity: Some(blurred.nonlinearity),
             jitter,
+            intervals: self.intervals(&blurred, &measurement)?,
         };
-        let mut measurement = self.reference.measure(&blurred.picture)?;
-        self.probe(&blurred, &mut measurement);
         self.case(frame, &blurred.picture, measurement, subject)
     }
 
-    /// Adds the scores of probes, or takes out all that need a filter whose weights do not depend on colour.
-    fn probe(&self, blurred: &Blurred, measurement: &mut Measurement) {
-        let scores = &mut measurement.scores;
-        if blurred.nonlinearity > MOST_NONLINEARITY {
-            let reason = format!(
-                "the filter's weights depend on colour: the blur of a mixture differs from the mixture of the blurs by {:.4} \
-                 of it, {MOST_NONLINEARITY} at most allow to tell what it gathers",
-                blurred.nonlinearity
-            );
-            scores.take_out_mattes(&reason);
-            scores.probes = ProbeScores::not_applicable(&reason);
-            return;
-        }
-        let probed = self.reference.measure_probes(&blurred.probes);
-        scores.probes = probed.scores;
-        measurement.probes = Some(probed.maps);
+    /// All that a truth says of what came out of a filter.
+    fn measured(
+        &self,
+        reference: &Reference,
+        blurred: &Blurred,
+    ) -> Result<Measurement, MeasureError> {
+        let mut measurement = reference.measure(&blurred.picture)?;
+        probe(reference, blurred, &mut measurement);
+        Ok(measurement)
+    }
+
+    /// The intervals of the scores, where they are asked for.
+    fn intervals(
+        &self,
+        blurred: &Blurred,
+        measurement: &Measurement,
+    ) -> Result<Option<Intervals>, MeasureError> {
+        let Some(without) = self.without else {
+            return Ok(None);
+        };
+        let without = (without.iter())
+            .map(|reference| Ok(self.measured(reference, blurred)?.scores))
+            .collect::<Result<Vec<_>, MeasureError>>()?;
+        let all = Metric::all();
+        Ok(Some(intervals(&measurement.scores, &without, all)))
     }
 
     fn bar(
@@ -136,7 +150,23 @@ impl Workbench<'_> {
         let folder = Path::new(&self.scene.name).join(subject.folder(self.truth));
         let files = self.plan.out.join(&folder);
         write_case(&files, self.scene, &frame.objects, output, &measurement)?;
-        let scores = measurement.scores;
+        let bounds = match subject.bar {
+            true => Bounds::new(),
+            false => self.bounds.of(&subject.filter, &subject.preset),
+        };
+        let mut verdicts = judge(&measurement.scores, subject.intervals.as_ref(), &bounds);
+        let resembles = match self.witness {
+            Some(witness) if verdicts.iter().any(Verdict::is_notable) => {
+                for verdict in verdicts.iter_mut().filter(|verdict| verdict.is_notable()) {
+                    let regions = &self.reference.regions;
+                    let place = (self.plan.out.as_path(), folder.as_path());
+                    let found = (output, &measurement);
+                    verdict.worst = Some(witness.worst(&verdict.metric, found, regions, place)?);
+                }
+                witness.resemblance(self.reference, &measurement.scores)?
+            }
+            _ => None,
+        };
         Ok(Case {
             scene: self.scene.name.clone(),
             family: self.scene.family,
@@ -153,14 +183,31 @@ impl Workbench<'_> {
             truth_hash: self.truth.provenance.content_hash.clone(),
             common,
             jitter: subject.jitter,
-            verdicts: match subject.bar {
-                true => Vec::new(),
-                false => judge(&scores, self.bounds),
-            },
-            scores,
+            verdicts,
+            intervals: subject.intervals.unwrap_or_default(),
+            resembles,
+            scores: measurement.scores,
             folder,
         })
     }
+}
+
+/// Adds the scores of probes, or takes out all that need a filter whose weights do not depend on colour.
+fn probe(reference: &Reference, blurred: &Blurred, measurement: &mut Measurement) {
+    let scores = &mut measurement.scores;
+    if blurred.nonlinearity > MOST_NONLINEARITY {
+        let reason = format!(
+            "the filter's weights depend on colour: the blur of a mixture differs from the mixture of the blurs by {:.4} \
+             of it, {MOST_NONLINEARITY} at most allow to tell what it gathers",
+            blurred.nonlinearity
+        );
+        scores.take_out_mattes(&reason);
+        scores.probes = ProbeScores::not_applicable(&reason);
+        return;
+    }
+    let probed = reference.measure_probes(&blurred.probes);
+    scores.probes = probed.scores;
+    measurement.probes = Some(probed.maps);
 }
 
 /// What made a picture.
@@ -174,6 +221,7 @@ struct Subject {
     command: Option<Vec<String>>,
     nonlinearity: Option<f64>,
     jitter: Option<Jitter>,
+    intervals: Option<Intervals>,
 }
 
 impl Subject {

@@ -1,8 +1,12 @@
 //! One file per command.
 
+mod accept;
 mod bench;
 mod blur;
+mod calibrate;
+mod check;
 mod list;
+mod measure;
 mod merge;
 mod render;
 mod run;
@@ -20,7 +24,16 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         return list::adapters();
     }
     match cli.command {
-        Some(Command::Run(args)) => with_threads(args.scenes.threads, || run::execute(&args)),
+        Some(Command::Run(args)) => {
+            with_threads(args.measure.scenes.threads, || run::execute(&args))
+        }
+        Some(Command::Check(args)) => {
+            with_threads(args.measure.scenes.threads, || check::execute(&args))
+        }
+        Some(Command::Accept(args)) => accept::execute(&args),
+        Some(Command::Calibrate(args)) => {
+            with_threads(args.measure.scenes.threads, || calibrate::execute(&args))
+        }
         Some(Command::Render(args)) => with_threads(args.scenes.threads, || render::execute(&args)),
         Some(Command::Merge(args)) => merge::execute(&args),
         Some(Command::Blur(args)) => blur::execute(&args),
@@ -28,7 +41,7 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         Some(Command::Bench(args)) => bench::execute(&args),
         Some(Command::List(args)) => list::execute(&args),
         None => Err(Error::Usage(
-            "no command given; allowed: run, render, merge, blur, score, bench, list (see --help)"
+            "no command given; allowed: run, check, accept, calibrate, render, merge, blur, score, bench, list (see --help)"
                 .to_owned(),
         )),
     }

@@ -1,0 +1,104 @@
+//! How far a score may be off because the truth is noisy.
+
+use serde::{Deserialize, Serialize};
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+/// Of how many intervals the converged score lies inside.
+const CONFIDENCE: f64 = 0.95;
+
+/// Where the score against a truth without noise lies, with a confidence of 95 %.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Interval {
+    /// Lower end, in the metric's unit.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+    /// Standard error of the score.
+    pub standard_error: f64,
+}
+
+/// The interval of a score from `whole`, its value by all of the truth's replicates, and from `without`, its values by all
+/// but one group of replicates each, groups being equally large. None for fewer than two groups.
+///
+/// The grouped jackknife (Quenouille 1956, Tukey 1958; Efron and Tibshirani, "An Introduction to the Bootstrap", 1993,
+/// chapter 11), which takes the score for a smooth function of the truth, but not for a linear one. Of G groups, m being
+/// the mean of `without`:
+///
+/// - the squared standard error is (G - 1) / G times the sum of (without - m)^2,
+/// - the centre is `whole` + (G - 1)(`whole` - m): noise that raises a score falls as the number of replicates rises, and
+///   what it still adds is what leaving a group out added, G - 1 times.
+/// - the half width is the standard error times the quantile of Student's t of G - 1 degrees of freedom.
+pub fn jackknife(whole: f64, without: &[f64]) -> Option<Interval> {
+    if without.len() < 2 {
+        return None;
+    }
+    let count = without.len() as f64;
+    let mean = without.iter().sum::<f64>() / count;
+    let squares: f64 = without.iter().map(|value| (value - mean).powi(2)).sum();
+    let standard_error = ((count - 1.0) / count * squares).sqrt();
+    let center = whole + (count - 1.0) * (whole - mean);
+    let half_width = standard_error * quantile(count - 1.0);
+    Some(Interval {
+        low: center - half_width,
+        high: center + half_width,
+        standard_error,
+    })
+}
+
+/// What Student's t stays below on either side with the wanted confidence.
+fn quantile(degrees_of_freedom: f64) -> f64 {
+    StudentsT::new(0.0, 1.0, degrees_of_freedom)
+        .expect("two groups have a degree of freedom")
+        .inverse_cdf(0.5 + CONFIDENCE / 2.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The mean of all numbers, and without each in turn.
+    fn means(numbers: &[f64]) -> (f64, Vec<f64>) {
+        let mean = |left_out: usize| {
+            let kept = (0..numbers.len()).filter(|index| *index != left_out);
+            kept.clone().map(|index| numbers[index]).sum::<f64>() / kept.count() as f64
+        };
+        (mean(usize::MAX), (0..numbers.len()).map(mean).collect())
+    }
+
+    #[test]
+    fn the_interval_of_a_mean_is_the_textbooks() {
+        let (whole, without) = means(&[1.0, 2.0, 4.0, 7.0]);
+        let interval = jackknife(whole, &without).unwrap();
+        // s = sqrt(7) over the root of 4, and the table's t for 3 degrees of freedom, 3.182: to its digits.
+        let error = 7f64.sqrt() / 2.0;
+        assert!(
+            (interval.standard_error - error).abs() < 1e-12,
+            "{interval:?}"
+        );
+        assert!(
+            (interval.high - (3.5 + 3.182 * error)).abs() < 1e-3,
+            "{interval:?}"
+        );
+        assert!(
+            (interval.low - (3.5 - 3.182 * error)).abs() < 1e-3,
+            "{interval:?}"
+        );
+    }
+
+    #[test]
+    fn noise_that_falls_with_the_replicates_is_taken_out() {
+        // The square of a mean is too high by the variance of the mean, and the jackknife of it is unbiased.
+        let numbers = [1.0, 2.0, 4.0, 7.0];
+        let (whole, without) = means(&numbers);
+        let squares: Vec<f64> = without.iter().map(|mean| mean * mean).collect();
+        let interval = jackknife(whole * whole, &squares).unwrap();
+        let center = (interval.low + interval.high) / 2.0;
+        // 3.5^2 less s^2 / 4 = 7 / 4.
+        assert!((center - (12.25 - 1.75)).abs() < 1e-12, "{center}");
+    }
+
+    #[test]
+    fn one_group_says_nothing() {
+        assert_eq!(jackknife(1.0, &[2.0]), None);
+    }
+}

@@ -1,0 +1,125 @@
+//! Whether what bounds name exists, and whether every case is held to some.
+
+use std::path::Path;
+
+use filters::Filter;
+
+use super::{BOUNDS_FILE, BoundsFile, Level, SceneBounds, read_bounds_file};
+use crate::{Error, FilterChoice};
+
+/// Refuses bounds of a scene or a filter that does not exist, in any file below `root` and in those of `scenes`, which are
+/// the bounds of the scenes that take part.
+pub fn check_names<'a>(
+    root: &Path,
+    scenes: impl Iterator<Item = &'a SceneBounds>,
+    filters: &[FilterChoice],
+) -> Result<(), Error> {
+    for file in files_of_scenes(root)? {
+        check_filters(&file, filters)?;
+    }
+    for file in scenes.flat_map(|bounds| &bounds.files) {
+        check_filters(file, filters)?;
+    }
+    Ok(())
+}
+
+/// Refuses a case without a bound, and bounds of which none is required: a check that cannot fail. `scenes` have their names
+/// with them, and `root` is the folder that they lie in.
+pub fn check_bounded<'a>(
+    root: &Path,
+    scenes: impl Iterator<Item = (&'a str, &'a SceneBounds)>,
+    filters: &[FilterChoice],
+) -> Result<(), Error> {
+    let root = root.display();
+    let mut required = false;
+    for (scene, bounds) in scenes {
+        for choice in filters {
+            let bounds = bounds.of(&choice.filter.name, &choice.preset);
+            if bounds.is_empty() {
+                return Err(Error::Usage(format!(
+                    "{scene} / {name}: has no bound, and no check is no success; give it some in {root}/{BOUNDS_FILE} or \
+                     beside the scene, under [default] or [filter.\"{name}\"]",
+                    name = choice.name(),
+                )));
+            }
+            required |= (bounds.values()).any(|bound| bound.level == Level::Required);
+        }
+    }
+    if required {
+        return Ok(());
+    }
+    let names: Vec<String> = filters.iter().map(FilterChoice::name).collect();
+    Err(Error::Usage(format!(
+        "{root}/{BOUNDS_FILE}: no bound of {} is required, so that nothing could fail; give them bounds with level = \
+         \"required\" under [filter.\"..\"]",
+        names.join(", ")
+    )))
+}
+
+/// The bounds of every scene below `root`, whether it is to be judged or not.
+fn files_of_scenes(root: &Path) -> Result<Vec<BoundsFile>, Error> {
+    // Where every scene is given by its path, `root` need not exist.
+    let Ok(entries) = std::fs::read_dir(root) else {
+        return Ok(Vec::new());
+    };
+    let mut folders: Vec<_> = entries.flatten().map(|entry| entry.path()).collect();
+    folders.sort();
+    let mut files = Vec::new();
+    for folder in folders {
+        let path = folder.join(BOUNDS_FILE);
+        if !path.is_file() {
+            continue;
+        }
+        if !folder.join("scene.toml").is_file() {
+            return Err(Error::Usage(format!(
+                "{}: bounds of a scene that does not exist: {} has no scene.toml; rename the folder as the scene, or remove \
+                 the bounds",
+                path.display(),
+                folder.display()
+            )));
+        }
+        files.push(read_bounds_file(&path)?);
+    }
+    Ok(files)
+}
+
+fn check_filters(file: &BoundsFile, choices: &[FilterChoice]) -> Result<(), Error> {
+    for (name, table) in &file.filters {
+        check_filter(name, choices)
+            .map_err(|reason| Error::Usage(format!("{}: {reason}", table.place)))?;
+    }
+    Ok(())
+}
+
+/// `filter` or `filter:preset`, of those that take part and of those built in.
+fn check_filter(key: &str, choices: &[FilterChoice]) -> Result<(), String> {
+    let (name, preset) = match key.split_once(':') {
+        Some((name, preset)) => (name, Some(preset)),
+        None => (key, None),
+    };
+    let taking_part = choices.iter().map(|choice| &choice.filter);
+    let built_in = Filter::builtin(name).ok();
+    let known: Vec<&Filter> = (taking_part.filter(|filter| filter.name == name))
+        .chain(&built_in)
+        .collect();
+    if known.is_empty() {
+        let mut names = Filter::builtin_names();
+        names.extend(choices.iter().map(|choice| choice.filter.name.clone()));
+        names.sort();
+        names.dedup();
+        return Err(format!(
+            "no filter is called \"{name}\"; allowed: {}, and your own that --filter names",
+            names.join(", ")
+        ));
+    }
+    let presets: Vec<&str> = (known.iter().flat_map(|filter| &filter.presets))
+        .map(|preset| preset.name.as_str())
+        .collect();
+    match preset {
+        Some(preset) if !presets.contains(&preset) => Err(format!(
+            "the filter {name} has no preset \"{preset}\"; allowed: {}",
+            presets.join(", ")
+        )),
+        _ => Ok(()),
+    }
+}

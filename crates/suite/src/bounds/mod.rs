@@ -1,0 +1,89 @@
+//! Limits on scores: what a filter must keep on a scene.
+
+mod file;
+mod known;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::Error;
+
+pub use file::{BoundsFile, FilterBounds, Margin, read_bounds_file};
+pub use known::{check_bounded, check_names};
+
+/// Name of the files, beside the scenes and beside one scene.
+pub const BOUNDS_FILE: &str = "bounds.toml";
+
+/// A bound per metric name.
+pub type Bounds = BTreeMap<String, Bound>;
+
+/// What one score is held to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bound {
+    /// The highest value allowed; the lowest where higher is better; the largest distance from the ideal where that is a
+    /// value.
+    pub limit: f64,
+    /// One line: what was measured, and how the limit follows.
+    pub why: String,
+    /// What it means to break it.
+    pub level: Level,
+    /// File and line.
+    pub place: String,
+}
+
+/// What it means to break a bound.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Level {
+    /// The check fails.
+    #[default]
+    Required,
+    /// It is said, and that is all.
+    Report,
+}
+
+/// The bounds of one scene, for every filter.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SceneBounds {
+    /// Those of all scenes and those of this one; the latter override the former.
+    pub files: Vec<BoundsFile>,
+}
+
+impl SceneBounds {
+    /// What a filter preset is held to. A later one overrides an earlier one of the same metric: first the file beside the
+    /// scenes, then that beside the scene; in each the default, then what the filter has, then what its preset has.
+    pub fn of(&self, filter: &str, preset: &str) -> Bounds {
+        let own = format!("{filter}:{preset}");
+        let mut bounds = Bounds::new();
+        for file in &self.files {
+            let of_filter = [filter, &own].map(|name| file.filters.get(name));
+            let named = of_filter.into_iter().flatten().map(|table| &table.bounds);
+            for table in std::iter::once(&file.default).chain(named) {
+                bounds.extend(table.clone());
+            }
+        }
+        bounds
+    }
+}
+
+/// Reads `bounds.toml` beside the scenes and beside the scene, where they exist.
+pub fn read_bounds(root: &Path, scene_folder: &Path) -> Result<SceneBounds, Error> {
+    let read = |folder: &Path| -> Result<Option<BoundsFile>, Error> {
+        let path = folder.join(BOUNDS_FILE);
+        path.exists().then(|| read_bounds_file(&path)).transpose()
+    };
+    let beside_scene = read(scene_folder)?;
+    if let Some(file) = &beside_scene
+        && let Some(margin) = file.margins.values().next()
+    {
+        return Err(Error::Usage(format!(
+            "{}: a margin is for all scenes together; it belongs into {}",
+            margin.place,
+            root.join(BOUNDS_FILE).display()
+        )));
+    }
+    let files = read(root)?.into_iter().chain(beside_scene).collect();
+    Ok(SceneBounds { files })
+}

@@ -1,0 +1,54 @@
+//! `shuttertruth calibrate`
+
+use std::collections::BTreeMap;
+
+use suite::{Error, Run, SceneBounds, calibrate, check_names, open_gpu, run};
+
+use super::measure::{check_replicates, plan, write_run};
+use super::say;
+use crate::cli::CalibrateArgs;
+
+/// Runs with one seed after the other on one adapter after the other, and prints the limits that follow, scene by scene, as
+/// bounds.toml.
+pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
+    let out = &args.measure.scenes.out;
+    let mut plan = plan(&args.measure, out.clone())?;
+    check_replicates(plan.render.replicates)?;
+    plan.intervals = true;
+    // No limit is on a filter's noise apart from its error.
+    plan.jitter_frames = 0;
+    let bounds = plan.scenes.iter().map(|(_, bounds)| bounds);
+    check_names(&args.measure.scenes.scenes_dir, bounds, &plan.filters)?;
+    let first = plan.render.seed;
+    let mut runs: Vec<Run> = Vec::new();
+    for adapter in adapters(args) {
+        let gpu = open_gpu(&plan.filters, adapter)?;
+        for seed in (0..args.runs).map(|run| first + u64::from(run)) {
+            plan.render.seed = seed;
+            // The truths serve every adapter.
+            plan.out = out.join(format!("seed_{seed}"));
+            let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
+            write_run(&run, &plan.out)?;
+            runs.push(run);
+        }
+    }
+    let bounds: BTreeMap<&str, &SceneBounds> = (plan.scenes.iter())
+        .map(|(scene, bounds)| (scene.name.as_str(), bounds))
+        .collect();
+    let calibration = calibrate(&runs, |case| bounds[case.scene.as_str()], &args.metrics);
+    for scene in calibration.scores.keys() {
+        let path = out.join(scene).with_extension("bounds.toml");
+        let text = calibration.toml(scene);
+        frame::write_atomically(&path, text.as_bytes())?;
+        say(&format!("# {}\n\n{text}", path.display()))?;
+    }
+    Ok(())
+}
+
+/// Those that are named; the fastest where none is.
+fn adapters(args: &CalibrateArgs) -> Vec<Option<&str>> {
+    match args.adapters.as_slice() {
+        [] => vec![None],
+        named => named.iter().map(|name| Some(name.as_str())).collect(),
+    }
+}

@@ -1,0 +1,112 @@
+//! `shuttertruth check`
+
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use suite::{
+    BOUNDS_FILE, Baseline, Check, Error, Margin, Plan, annotations, check, check_bounded,
+    check_names, check_text, compare, junit, open_gpu, read_bounds_file, run, summary,
+};
+
+use super::measure::{adapter_line, check_replicates, plan, write_run};
+use super::say;
+use crate::cli::CheckArgs;
+
+/// Runs every case, judges it, reports in every form that is asked for. What is wrong with the words of the command line, the
+/// bounds or the baseline is said before anything is rendered.
+pub fn execute(args: &CheckArgs) -> Result<(), Error> {
+    let mut plan = plan(&args.measure, args.measure.scenes.out.clone())?;
+    plan.intervals = true;
+    plan.evidence = true;
+    check_replicates(plan.render.replicates)?;
+    let baseline = args.baseline.as_deref().map(Baseline::read).transpose()?;
+    check_configuration(args, &plan, baseline.is_some())?;
+    let margins = margins(&args.measure.scenes.scenes_dir)?;
+    let summary_file = args.github.then(summary_file).transpose()?;
+    let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref())?;
+
+    let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
+    write_run(&run, &plan.out)?;
+    let comparisons = match (&baseline, &args.baseline) {
+        (Some(baseline), Some(path)) => compare(&run, baseline, &margins, path)?,
+        _ => Vec::new(),
+    };
+    let check = check(&run, comparisons);
+
+    if let Some(path) = &args.junit {
+        frame::write_atomically(path, junit(&check).as_bytes())?;
+    }
+    if let Some(path) = &summary_file {
+        append(path, &summary(&check))?;
+    }
+    if args.json {
+        say(&json(&check))?;
+    } else {
+        let text = check_text(&check, &plan.out);
+        let adapter = adapter_line(&run.adapter);
+        let other = (baseline.iter()).find(|baseline| !baseline.is_of_class(&run.adapter));
+        let note = other.map_or(String::new(), |baseline| {
+            let theirs = adapter_line(&baseline.adapter);
+            format!("the baseline is of another class of adapter: {theirs}\n")
+        });
+        say(&format!("{text}adapter: {adapter}\n{note}"))?;
+    }
+    if args.github {
+        say(&annotations(&check))?;
+    }
+    check.verdict()
+}
+
+/// With a baseline, nothing else need be bounded.
+fn check_configuration(args: &CheckArgs, plan: &Plan, compared: bool) -> Result<(), Error> {
+    let root = &args.measure.scenes.scenes_dir;
+    let bounds = plan.scenes.iter().map(|(_, bounds)| bounds);
+    check_names(root, bounds, &plan.filters)?;
+    if compared {
+        return Ok(());
+    }
+    let scenes = plan.scenes.iter();
+    check_bounded(
+        root,
+        scenes.map(|(scene, bounds)| (scene.name.as_str(), bounds)),
+        &plan.filters,
+    )
+}
+
+/// By how much scores may be worse than the baseline's.
+fn margins(root: &Path) -> Result<BTreeMap<String, Margin>, Error> {
+    let path = root.join(BOUNDS_FILE);
+    match path.exists() {
+        true => Ok(read_bounds_file(&path)?.margins),
+        false => Ok(BTreeMap::new()),
+    }
+}
+
+fn summary_file() -> Result<PathBuf, Error> {
+    match std::env::var_os("GITHUB_STEP_SUMMARY") {
+        Some(path) if !path.is_empty() => Ok(path.into()),
+        _ => Err(Error::Usage(
+            "--github: GITHUB_STEP_SUMMARY is not set; it is in a step of GitHub Actions, or set it to a file".to_owned(),
+        )),
+    }
+}
+
+/// Adds to a step's summary, which other programs may have written to as well.
+fn append(path: &Path, text: &str) -> Result<(), Error> {
+    let write = || {
+        let mut file = (std::fs::OpenOptions::new().create(true).append(true)).open(path)?;
+        file.write_all(text.as_bytes())
+    };
+    write().map_err(|source| {
+        Error::File(frame::FileError::Io {
+            path: path.to_owned(),
+            action: "write",
+            source,
+        })
+    })
+}
+
+fn json(check: &Check) -> String {
+    serde_json::to_string_pretty(check).expect("a check is plain data") + "\n"
+}

@@ -1,0 +1,69 @@
+//! From the words of the command line to a plan, and from a run to its file: what `run`, `check` and `calibrate` share.
+
+use std::path::{Path, PathBuf};
+
+use filters::AdapterDescription;
+use suite::{
+    Error, FEWEST_REPLICATES, FilterChoice, InputFormat, Plan, Run, read_bounds, select_filters,
+    select_scenes,
+};
+
+use super::render_settings;
+use crate::cli::MeasureArgs;
+
+/// Loads scenes with their bounds, and filters; renders nothing. Scores are to have neither intervals nor evidence.
+pub fn plan(args: &MeasureArgs, out: PathBuf) -> Result<Plan, Error> {
+    let scenes = select_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
+    let filters = filters(args)?;
+    let scenes = scenes
+        .into_iter()
+        .map(|choice| {
+            let bounds = read_bounds(&args.scenes.scenes_dir, &choice.folder)?;
+            Ok((choice.scene, bounds))
+        })
+        .collect::<Result<_, Error>>()?;
+    Ok(Plan {
+        scenes,
+        filters,
+        inputs: InputFormat::one_by_one(&args.velocity_format, &args.depth_format, &args.border),
+        jitter_frames: args.jitter_frames,
+        render: render_settings(&args.scenes, args.size, args.replicates)?,
+        out,
+        intervals: false,
+        evidence: false,
+        quiet: args.scenes.quiet,
+    })
+}
+
+fn filters(args: &MeasureArgs) -> Result<Vec<FilterChoice>, Error> {
+    let folders = args.filter.iter().map(|folder| Path::new(".").join(folder));
+    let words: Vec<String> = (args.filters.iter().cloned())
+        .chain(folders.map(|folder| folder.display().to_string()))
+        .collect();
+    select_filters(&words, args.preset.as_deref(), &args.set)
+}
+
+/// Refuses truths that allow no intervals.
+pub fn check_replicates(replicates: u32) -> Result<(), Error> {
+    match replicates {
+        FEWEST_REPLICATES.. => Ok(()),
+        few => Err(Error::Usage(format!(
+            "--replicates {few}: {FEWEST_REPLICATES} or more are needed to tell how sure a score is"
+        ))),
+    }
+}
+
+/// Writes `run.json` and returns what stands in it.
+pub fn write_run(run: &Run, out: &Path) -> Result<String, Error> {
+    let json = serde_json::to_string_pretty(run).expect("a run is plain data");
+    frame::write_atomically(&out.join("run.json"), json.as_bytes())?;
+    Ok(json)
+}
+
+/// `llvmpipe (LLVM 19), vulkan`
+pub fn adapter_line(adapter: &Option<AdapterDescription>) -> String {
+    match adapter {
+        Some(adapter) => format!("{}, {}", adapter.name, adapter.backend),
+        None => "none, every filter is a command".to_owned(),
+    }
+}

@@ -1,0 +1,114 @@
+//! Wrong blurs of a scene, made from the very frame, and which of them a picture is most like: what a person who looks for
+//! the mistake should think of first.
+
+mod wrong;
+
+use frame::{Frame, Ladder, Truth};
+use metrics::{Ideal, MeasureError, Metric, Reference, Scores};
+use serde::{Deserialize, Serialize};
+
+use wrong::wrong_pictures;
+
+/// What a picture is most like.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Resemblance {
+    /// The wrong blur, in a word.
+    pub decoy: String,
+    /// How far the scores are from the wrong blur's, as a part of how far those are from perfect: 0 is the same.
+    pub distance: f64,
+}
+
+/// Farther than this, a picture is like none.
+const FARTHEST: f64 = 0.5;
+
+/// The scores that tell wrong blurs apart: where mass lies, how long and how wide it is, and how it looks.
+const TELLING: [&str; 13] = [
+    "flip_moving",
+    "label_tv",
+    "bleed_lateral",
+    "bleed_leading",
+    "bleed_trailing",
+    "lateral_growth",
+    "lateral_shrink",
+    "misplacement",
+    "centroid",
+    "extent",
+    "hole",
+    "deficit",
+    "energy",
+];
+
+/// The scores of wrong blurs of one scene against one truth.
+pub struct Decoys {
+    decoys: Vec<(String, Deviations)>,
+    /// Per score, the largest deviation of any wrong blur: what it is measured in.
+    scales: Vec<f64>,
+}
+
+/// Per telling score its signed distance from perfect; none where it does not apply.
+type Deviations = Vec<Option<f64>>;
+
+impl Decoys {
+    /// Makes wrong blurs from a frame without guard band and scores them.
+    pub fn new(
+        frame: &Frame,
+        truth: &Truth,
+        ladder: &Ladder,
+        reference: &Reference,
+    ) -> Result<Self, MeasureError> {
+        let mut decoys = Vec::new();
+        for (name, picture) in wrong_pictures(frame, truth, ladder) {
+            let scores = reference.measure(&picture)?.scores;
+            decoys.push((name, deviations(&scores)));
+        }
+        let scale = |score: usize| {
+            let sizes = decoys.iter().filter_map(|(_, found)| found[score]);
+            sizes.map(f64::abs).fold(0.0, f64::max)
+        };
+        Ok(Self {
+            scales: (0..TELLING.len()).map(scale).collect(),
+            decoys,
+        })
+    }
+
+    /// The wrong blur that these scores are most like; none where they are far from all.
+    pub fn nearest(&self, scores: &Scores) -> Option<Resemblance> {
+        let found = deviations(scores);
+        let distances = self.decoys.iter().filter_map(|(name, decoy)| {
+            let distance = self.distance(&found, decoy)?;
+            (distance <= FARTHEST).then(|| Resemblance {
+                decoy: name.clone(),
+                distance,
+            })
+        });
+        distances.min_by(|a, b| a.distance.total_cmp(&b.distance))
+    }
+
+    /// Distance over the scores that both have, as a part of the decoy's own distance from perfect; none where the decoy is
+    /// perfect in them.
+    fn distance(&self, found: &Deviations, decoy: &Deviations) -> Option<f64> {
+        let (mut apart, mut whole) = (0.0, 0.0);
+        for ((found, decoy), scale) in found.iter().zip(decoy).zip(&self.scales) {
+            if let (Some(found), Some(decoy)) = (found, decoy)
+                && *scale > 0.0
+            {
+                apart += ((found - decoy) / scale).powi(2);
+                whole += (decoy / scale).powi(2);
+            }
+        }
+        (whole > 0.0).then(|| (apart / whole).sqrt())
+    }
+}
+
+fn deviations(scores: &Scores) -> Deviations {
+    TELLING
+        .map(|name| {
+            let metric: Metric = name.parse().expect("the telling scores are metrics");
+            let perfect = match metric.ideal() {
+                Ideal::Target(target) => target,
+                Ideal::Lowest | Ideal::Highest => 0.0,
+            };
+            scores.get(metric).value().map(|value| value - perfect)
+        })
+        .to_vec()
+}

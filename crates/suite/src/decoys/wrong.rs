@@ -1,0 +1,94 @@
+//! The wrong blurs themselves.
+
+use frame::{Alignment, Frame, Ladder, Picture, Plane, Raster, Truth};
+
+use crate::scatter_oracle;
+
+/// Sub-frames whose mean shows bands.
+const FEW_SUBFRAMES: u32 = 4;
+/// Pixels by which what moves is widened.
+const WIDENED: u32 = 2;
+
+/// Wrong blurs by their names, of a frame without guard band. Those that smear do so as the scatter oracle does, which is
+/// the best that the frame allows, so that nothing is wrong with them but what their name says.
+pub fn wrong_pictures(frame: &Frame, truth: &Truth, ladder: &Ladder) -> Vec<(String, Picture)> {
+    let smeared = |frame: &Frame, alignment: Alignment, length: f64| {
+        let shutter = (alignment.shutter(length * frame.exposure))
+            .expect("a part of an exposure is an exposure");
+        scatter_oracle(frame, shutter, &truth.shutter_profile)
+    };
+    let identity = Picture {
+        color: frame.color.clone(),
+        coverage: frame.coverage.clone(),
+    };
+    let own = truth.alignment;
+    let mut pictures = vec![
+        ("half_length".to_owned(), smeared(frame, own, 0.5)),
+        ("half_as_long_again".to_owned(), smeared(frame, own, 1.5)),
+        ("widened".to_owned(), smeared(&widened(frame), own, 1.0)),
+        ("one_color".to_owned(), constant(&identity)),
+        ("no_blur".to_owned(), identity),
+    ];
+    for other in Alignment::ALL {
+        if other != own {
+            pictures.push((format!("{other}_shutter"), smeared(frame, other, 1.0)));
+        }
+    }
+    if let Some(rung) = (ladder.rungs.iter()).find(|rung| rung.subframes == FEW_SUBFRAMES) {
+        let mean = Picture::mean(&rung.halves);
+        pictures.push((format!("mean_of_{FEW_SUBFRAMES}_sub_frames"), mean));
+    }
+    pictures
+}
+
+/// The frame with everything that moves some pixels wider on all sides.
+fn widened(frame: &Frame) -> Frame {
+    let (width, height) = frame.size();
+    let nearest = Raster::from_fn(width, height, |x, y| {
+        let around = |middle: u32, size: u32| {
+            middle.saturating_sub(WIDENED)..=(middle + WIDENED).min(size - 1)
+        };
+        let own = (y * width + x) as usize;
+        let candidates = around(y, height).flat_map(|v| around(x, width).map(move |u| (u, v)));
+        candidates
+            .map(|(u, v)| (v * width + u) as usize)
+            .filter(|at| frame.velocity.pixels[*at] != [0.0, 0.0])
+            .fold(own, |best, at| {
+                match frame.depth.pixels[at] < frame.depth.pixels[best] {
+                    true => at,
+                    false => best,
+                }
+            })
+    });
+    Frame {
+        color: nearest.map(|at| frame.color.pixels[*at]),
+        velocity: nearest.map(|at| frame.velocity.pixels[*at]),
+        depth: nearest.map(|at| frame.depth.pixels[*at]),
+        coverage: (frame.coverage.iter())
+            .map(|plane| nearest.map(|at| plane.pixels[*at]))
+            .collect(),
+        ..frame.clone()
+    }
+}
+
+/// The mean of a picture, everywhere.
+fn constant(picture: &Picture) -> Picture {
+    let count = picture.color.pixels.len() as f64;
+    let color: [f32; 3] = std::array::from_fn(|c| {
+        let sum: f64 = (picture.color.pixels.iter()).map(|p| f64::from(p[c])).sum();
+        (sum / count) as f32
+    });
+    let mean = |plane: &Plane| {
+        let sum: f64 = plane.pixels.iter().map(|value| f64::from(*value)).sum();
+        (sum / count) as f32
+    };
+    Picture {
+        color: picture.color.map(|_| color),
+        coverage: (picture.coverage.iter())
+            .map(|plane| {
+                let mean = mean(plane);
+                plane.map(|_| mean)
+            })
+            .collect(),
+    }
+}

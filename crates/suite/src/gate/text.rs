@@ -1,0 +1,175 @@
+//! A check as text: every score that does not keep its bound, at most 100 columns.
+
+use std::fmt::Write;
+
+use super::finding::{MOST_SAMPLES, number};
+use super::{Check, Finding, Kind};
+use crate::baseline::Comparison;
+use crate::bounds::Level;
+
+/// Columns.
+const WIDTH: usize = 100;
+
+/// What is broken, inconclusive or too narrow, by scene and filter, then the comparisons, then the counts. `out` is the
+/// folder of the run's pictures.
+pub fn check_text(check: &Check, out: &std::path::Path) -> String {
+    let mut text = String::new();
+    let mut case = (String::new(), String::new());
+    for finding in &check.findings {
+        if matches!(finding.kind, Kind::Kept | Kind::NotApplicable) {
+            continue;
+        }
+        let own = (finding.scene.clone(), finding.filter.clone());
+        if case != own {
+            let _ = writeln!(text, "{} / {}", own.0, own.1);
+            case = own;
+        }
+        for (indent, line) in lines(finding, out) {
+            push_wrapped(&mut text, indent, &line);
+        }
+    }
+    if !check.comparisons.is_empty() {
+        text += "compared with the baseline\n";
+        for comparison in &check.comparisons {
+            push_wrapped(&mut text, 2, &comparison_line(comparison));
+        }
+    }
+    text + &counts(check)
+}
+
+fn lines(finding: &Finding, out: &std::path::Path) -> Vec<(usize, String)> {
+    let mut lines = vec![(2, headline(finding)), (6, place(finding))];
+    if let Some(worst) = &finding.worst {
+        let picture = out.join(&worst.picture);
+        lines.push((
+            6,
+            format!("worst at ({}, {}): {}", worst.x, worst.y, picture.display()),
+        ));
+    }
+    if let Some(alike) = &finding.resembles {
+        let distance = (100.0 * alike.distance).round();
+        lines.push((6, format!("most like {}, {distance} % off", alike.decoy)));
+    }
+    if let Some(way_out) = way_out(finding) {
+        lines.push((6, way_out));
+    }
+    if finding.worst.is_some() {
+        lines.push((
+            6,
+            format!("pictures: {}", out.join(&finding.pictures).display()),
+        ));
+    }
+    lines
+}
+
+/// `BROKEN flip_moving 0.0921, with 95 % in 0.0893 to 0.0950; limit 0.0500, floor 0.0021`
+pub(super) fn headline(finding: &Finding) -> String {
+    let word = match (finding.kind, finding.level) {
+        (Kind::Broken, Level::Required) => "BROKEN",
+        (Kind::Broken, Level::Report) => "broken (report)",
+        (Kind::Inconclusive, Level::Required) => "INCONCLUSIVE",
+        (Kind::Inconclusive, Level::Report) => "inconclusive (report)",
+        (Kind::TooNoisy, _) => "TOO STRICT",
+        (Kind::Kept, _) => "kept",
+        (Kind::NotApplicable, _) => "not applicable",
+    };
+    let mut text = format!("{word} {}", finding.metric);
+    if let Some(value) = finding.value {
+        text += &format!(" {}", finding.shown(value));
+    }
+    if let Some(interval) = &finding.interval {
+        let [low, high] = [interval.low, interval.high].map(number);
+        text += &format!(", with 95 % in {low} to {high}");
+    }
+    text += &format!("; limit {}", number(finding.limit));
+    if let Some(floor) = finding.floor {
+        text += &format!(", floor {}", number(floor));
+    }
+    text
+}
+
+fn place(finding: &Finding) -> String {
+    format!("{}: {}", finding.place, finding.why)
+}
+
+/// What to do about a score that was not judged.
+pub(super) fn way_out(finding: &Finding) -> Option<String> {
+    match finding.kind {
+        Kind::TooNoisy => Some(format!(
+            "the noise floor of {} allows {} at the strictest; raise the limit, or --samples-per-pixel",
+            number(finding.floor?),
+            number(finding.strictest?)
+        )),
+        Kind::Inconclusive => Some(match finding.settled_by {
+            None => {
+                "parts of the truth cannot tell this score; raise --samples-per-pixel".to_owned()
+            }
+            Some(MOST_SAMPLES..) => {
+                "too close to the limit for any number of samples; move the limit".to_owned()
+            }
+            Some(samples) => format!("--samples-per-pixel {samples} would settle it"),
+        }),
+        _ => None,
+    }
+}
+
+pub(super) fn comparison_line(comparison: &Comparison) -> String {
+    let Comparison {
+        filter,
+        metric,
+        scenes,
+        worse,
+        bounds: [low, high],
+        margin,
+        ..
+    } = comparison;
+    let scenes = match scenes {
+        1 => "1 scene".to_owned(),
+        count => format!("{count} scenes"),
+    };
+    format!(
+        "{}: {filter} {metric}, worse by {} over {scenes}, one-sided 95 % bounds {} and {}; margin {}",
+        comparison.kind.words(),
+        number(*worse),
+        number(*low),
+        number(*high),
+        number(*margin)
+    )
+}
+
+fn counts(check: &Check) -> String {
+    let count = |kind| check.count(kind);
+    let mut text = format!(
+        "{} bounds: {} kept, {} broken, {} inconclusive, {} too strict, {} not applicable\n",
+        check.findings.len(),
+        count(Kind::Kept),
+        count(Kind::Broken),
+        count(Kind::Inconclusive),
+        count(Kind::TooNoisy),
+        count(Kind::NotApplicable)
+    );
+    if !check.findings.is_empty() {
+        let required = (check.findings.iter()).filter(|finding| finding.level == Level::Required);
+        text += &format!("{} of them required\n", required.count());
+    }
+    text
+}
+
+/// Adds a line, broken between words where it is too long; what follows is indented further.
+fn push_wrapped(text: &mut String, indent: usize, line: &str) {
+    let mut column = indent;
+    *text += &" ".repeat(indent);
+    for (index, word) in line.split(' ').enumerate() {
+        let length = word.chars().count();
+        if index > 0 && column + 1 + length > WIDTH {
+            *text += &format!("\n{}", " ".repeat(indent + 4));
+            column = indent + 4;
+        } else if index > 0 {
+            *text += " ";
+            column += 1;
+        }
+        *text += word;
+        column += length;
+    }
+    *text += "\n";
+}

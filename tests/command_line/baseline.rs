@@ -1,0 +1,182 @@
+//! Scores that were accepted, and whether later ones are no worse.
+
+use std::fs;
+use std::process::Output;
+
+use crate::bench::{Bench, assert_done, assert_refused, stderr, stdout};
+
+const FINE: [&str; 2] = ["--filters", "velocity_gather:fine"];
+const COARSER: [&str; 2] = ["--set", "velocity_gather.samples=2"];
+const BASELINE: [&str; 2] = ["--baseline", "base.json"];
+
+/// A bench with a margin, whose fine gather was measured and accepted.
+fn accepted() -> Bench {
+    let bench = Bench::new();
+    fs::write(
+        bench.path("scenes/bounds.toml"),
+        "[margin]\nflip_moving = 0.005\n",
+    )
+    .unwrap();
+    assert_done(&run(&bench, &FINE));
+    assert_done(&accept(&bench, &["--reason", "the first"]));
+    bench
+}
+
+/// `run` with the samples of a check.
+fn run(bench: &Bench, more: &[&str]) -> Output {
+    let size = ["--size", "64x32", "--samples-per-pixel", "64"];
+    let words = ["run", "--quiet", "--out", "out"];
+    bench.shuttertruth(&[&words[..], &size, more].concat())
+}
+
+fn accept(bench: &Bench, more: &[&str]) -> Output {
+    let mut command = bench.command(&[&["accept", "--out", "out"], more].concat());
+    command.env_remove("CI").output().unwrap()
+}
+
+fn check(bench: &Bench, more: &[&str]) -> Output {
+    bench.check(&[&FINE[..], &BASELINE, more].concat())
+}
+
+fn baseline(bench: &Bench) -> serde_json::Value {
+    serde_json::from_slice(&fs::read(bench.path("base.json")).unwrap()).unwrap()
+}
+
+#[test]
+fn the_same_scores_are_no_worse_and_others_are_told() {
+    let bench = accepted();
+    let same = check(&bench, &[]);
+    assert_done(&same);
+    assert!(
+        stdout(&same).contains("no worse: velocity_gather:fine flip_moving"),
+        "{}",
+        stdout(&same)
+    );
+    let worse = check(&bench, &COARSER);
+    assert_eq!(worse.status.code(), Some(1), "{}", stdout(&worse));
+    assert!(
+        stdout(&worse).contains("WORSE: velocity_gather:fine flip_moving, worse by 0.0"),
+        "{}",
+        stdout(&worse)
+    );
+    let margin = "[margin]\nflip_moving = 0.5\n";
+    fs::write(bench.path("scenes/bounds.toml"), margin).unwrap();
+    assert_done(&check(&bench, &COARSER));
+}
+
+#[test]
+fn a_baseline_has_a_number_a_line_under_sorted_keys() {
+    let bench = accepted();
+    let text = fs::read_to_string(bench.path("base.json")).unwrap();
+    let numbers: Vec<&str> = (text.lines().map(str::trim))
+        .filter(|line| line.starts_with('"') && line.contains("\": ") && !line.ends_with('{'))
+        .skip_while(|line| !line.starts_with("\"bleed"))
+        .collect();
+    assert!(numbers.len() > 20, "{text}");
+    assert!(numbers.is_sorted(), "{numbers:#?}");
+    let found = baseline(&bench);
+    assert_eq!(found["reasons"][0], "the first");
+    let run = bench.measured();
+    assert_eq!(found["adapter"]["name"], run.adapter.unwrap().name);
+    assert_eq!(
+        found["truths"]["plate"]["trailing"],
+        run.cases[0].truth_hash
+    );
+    let before = text;
+    assert_done(&accept(&bench, &["--reason", "the first"]));
+    assert_eq!(fs::read_to_string(bench.path("base.json")).unwrap(), before);
+}
+
+#[test]
+fn only_what_is_named_is_accepted() {
+    let bench = accepted();
+    let flip = |filter: &str| baseline(&bench)["scores"]["plate"][filter]["flip_moving"].clone();
+    let before = flip("velocity_gather:fine");
+    let both = ["--filters", "velocity_gather:fine,identity"];
+    assert_done(&run(&bench, &[&both[..], &COARSER].concat()));
+    let words = ["--only", "plate/ident*", "--reason", "one more"];
+    assert_done(&accept(&bench, &words));
+    assert_eq!(flip("velocity_gather:fine"), before);
+    assert!(flip("identity:default").is_number());
+    assert_eq!(
+        baseline(&bench)["reasons"],
+        serde_json::json!(["the first", "one more"])
+    );
+    assert_done(&accept(&bench, &["--reason", "all anew"]));
+    assert_ne!(flip("velocity_gather:fine"), before);
+    assert_eq!(baseline(&bench)["reasons"], serde_json::json!(["all anew"]));
+}
+
+#[test]
+fn what_must_not_be_accepted_is_refused() {
+    let bench = accepted();
+    let before = fs::read(bench.path("base.json")).unwrap();
+    let in_ci = |more: &[&str]| {
+        let words = [&["accept", "--out", "out", "--reason", "r"], more].concat();
+        bench.command(&words).env("CI", "true").output().unwrap()
+    };
+    assert_refused(&in_ci(&[]), 2, &["CI is set", "--force"]);
+    let rows: &[(&[&str], &[&str])] = &[
+        (&["--reason", " "], &["--reason: needs one line"]),
+        (
+            &["--reason", "r", "--only", "fan/*"],
+            &["--only matches no case", "plate/velocity_gather:fine"],
+        ),
+        (&["--reason", "r", "--only", "["], &["--only"]),
+        (&[], &["--reason"]),
+    ];
+    for (more, parts) in rows {
+        assert_refused(&accept(&bench, more), 2, parts);
+    }
+    assert_eq!(fs::read(bench.path("base.json")).unwrap(), before);
+    // Another truth for one case of a scene would leave the others with the old one.
+    assert_done(&bench.run(&FINE));
+    assert_refused(
+        &accept(&bench, &["--reason", "r", "--only", "plate/*"]),
+        2,
+        &["the truth is another", "without --only"],
+    );
+    // As if it had been made on a graphics card.
+    let text = String::from_utf8(before).unwrap();
+    let kind = bench.measured().adapter.unwrap().kind;
+    let other = text.replace(&format!("\"kind\": \"{kind}\""), "\"kind\": \"quantum\"");
+    assert_ne!(other, text);
+    fs::write(bench.path("base.json"), other).unwrap();
+    assert_refused(
+        &accept(&bench, &["--reason", "r"]),
+        2,
+        &["another class", "quantum", "--force"],
+    );
+    assert_done(&in_ci(&["--force"]));
+    assert!(
+        !fs::read_to_string(bench.path("base.json"))
+            .unwrap()
+            .contains("quantum")
+    );
+}
+
+#[test]
+fn another_truth_is_not_compared() {
+    let bench = accepted();
+    let output = check(&bench, &["--seed", "9"]);
+    assert_refused(
+        &output,
+        2,
+        &[
+            "base.json: its truth of plate (trailing) is another",
+            "shuttertruth accept",
+        ],
+    );
+    let output = bench.check(&[&["--filters", "identity"], &BASELINE[..]].concat());
+    assert_refused(
+        &output,
+        2,
+        &["has no scores of identity:default on plate", "--only"],
+    );
+    fs::remove_file(bench.path("scenes/bounds.toml")).unwrap();
+    assert_refused(&check(&bench, &[]), 2, &["[margin]"]);
+    fs::write(bench.path("base.json"), "{}").unwrap();
+    let output = check(&bench, &[]);
+    assert_refused(&output, 2, &["base.json: no baseline"]);
+    assert!(!stderr(&output).contains("panicked"));
+}
