@@ -7,18 +7,16 @@ use std::path::Path;
 
 use frame::Picture;
 use metrics::{Measured, Metric, Reference, Scores};
-use suite::{Bounds, Outcome, judge, read_bounds};
+use suite::{Bounds, Outcome, judge, read_bounds_file};
 use tests::synthetic::{Blur, Sampling, Scene, VIEWING};
 
 use decoys::{APART, decoys};
 use scenes::scenes;
 
+/// What is asked of every filter on every scene, required or not.
 fn bounds() -> Bounds {
-    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes"));
-    // What is asked of every filter, required or not.
-    read_bounds(folder, folder)
-        .unwrap()
-        .of("identity", "default")
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/bounds.toml");
+    read_bounds_file(Path::new(path)).unwrap().default
 }
 
 fn noisy(seed: u64) -> Sampling {
