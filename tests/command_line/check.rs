@@ -89,19 +89,15 @@ fn a_broken_bound_is_exit_code_1_with_all_that_helps() {
 
 #[test]
 fn a_blur_that_is_like_no_wrong_one_is_said_to_be_like_none() {
-    let bench = Bench::new();
-    // Of the coverage a fine gather gets two thirds right; it is far from doing nothing, and far from all else.
-    bench.write("bounds.toml", &bound("flip_moving", 0.2, "required"));
-    let words = [
-        "--filters",
-        "velocity_gather:fine",
-        "--exposure",
-        "0.05",
-        "--json",
-    ];
-    let output = bench.check(&words);
+    let bench = bounded(0.04, "required");
+    // A box over whatever moves, with front and back swapped: wrong in a way of its own.
+    let output = bench.check(&["--filters", "mcguire:aliari,mcguire:paper", "--json"]);
     let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert!(found["findings"][0]["resembles"].is_null(), "{found}");
+    let [own, short] = [0, 1].map(|filter| &found["findings"][filter]);
+    assert_eq!([&own["kind"], &short["kind"]], ["broken"; 2]);
+    assert!(own["resembles"].is_null(), "{own}");
+    // Its taps count less towards the ends, and at 3 px that is much of them.
+    assert_eq!(short["resembles"]["decoy"], "half_length", "{short}");
 }
 
 #[test]

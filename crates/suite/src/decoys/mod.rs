@@ -21,6 +21,9 @@ pub struct Resemblance {
 /// Farther than this, a picture is like none.
 const FARTHEST: f64 = 0.5;
 
+/// By fewer scores, no likeness can be told.
+const FEWEST_SCORES: usize = 4;
+
 /// The scores that tell wrong blurs apart: where mass lies, how long and how wide it is, and how it looks.
 const TELLING: [&str; 13] = [
     "flip_moving",
@@ -84,19 +87,20 @@ impl Decoys {
         distances.min_by(|a, b| a.distance.total_cmp(&b.distance))
     }
 
-    /// Distance over the scores that both have, as a part of the decoy's own distance from perfect; none where the decoy is
-    /// perfect in them.
+    /// Distance over the scores that both have, as a part of the decoy's own distance from perfect; none where those are too
+    /// few, or the decoy is perfect in them.
     fn distance(&self, found: &Deviations, decoy: &Deviations) -> Option<f64> {
-        let (mut apart, mut whole) = (0.0, 0.0);
+        let (mut apart, mut whole, mut count) = (0.0, 0.0, 0);
         for ((found, decoy), scale) in found.iter().zip(decoy).zip(&self.scales) {
             if let (Some(found), Some(decoy)) = (found, decoy)
                 && *scale > 0.0
             {
                 apart += ((found - decoy) / scale).powi(2);
                 whole += (decoy / scale).powi(2);
+                count += 1;
             }
         }
-        (whole > 0.0).then(|| (apart / whole).sqrt())
+        (whole > 0.0 && count >= FEWEST_SCORES).then(|| (apart / whole).sqrt())
     }
 }
 
