@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use metrics::Measured;
+
 use crate::bench::{Bench, assert_done, stderr};
 
 const README: &str = include_str!("../../README.md");
@@ -96,5 +98,56 @@ fn each_mistake_says_what_the_readme_says() {
         assert_eq!(stderr(&output), mistake.says);
         assert_eq!(output.status.code(), Some(2));
         assert!(!bench.path("out").exists());
+    }
+}
+
+#[test]
+fn weights_that_depend_on_colour_leave_no_scores_of_mattes_and_say_why() {
+    let bench = Bench::new();
+    let toml = "name = 'bright'\nsummary = 'Counts what is bright more.'\nalignment = 'trailing'\n[[pass]]\nentry = 'blur'\n";
+    let wgsl = "\
+@group(0) @binding(2) var color: texture_2d<f32>;
+@group(0) @binding(3) var velocity: texture_2d<f32>;
+@group(0) @binding(4) var output: texture_storage_2d<rgba32float, write>;
+@compute @workgroup_size(8, 8)
+fn blur(@builtin(global_invocation_id) id: vec3<u32>) {
+    let pixel = vec2<i32>(id.xy);
+    if !inside(pixel) { return; }
+    let trail = frame.exposure * textureLoad(velocity, pixel, 0).xy;
+    var sum = vec4<f32>(0.0);
+    for (var tap = 0; tap < 8; tap++) {
+        let there = bilinear(color, centre(pixel) + trail * (f32(tap) + 0.5) / 8.0);
+        let bright = 1.0 + there.g;
+        sum += bright * vec4<f32>(there.rgb, 1.0);
+    }
+    textureStore(output, pixel, sum / sum.a);
+}
+";
+    fs::create_dir(bench.path("bright")).unwrap();
+    fs::write(bench.path("bright/filter.toml"), toml).unwrap();
+    fs::write(bench.path("bright/bright.wgsl"), wgsl).unwrap();
+    assert_done(&bench.run(&["--filters", "identity", "--filter", "bright"]));
+    let [identity, bright] = &bench.measured_filters()[..] else {
+        panic!("two filters on one scene");
+    };
+    assert_eq!(identity.nonlinearity, Some(0.0));
+    // Twice as bright counts up to twice as much.
+    let nonlinearity = bright.nonlinearity.unwrap();
+    assert!(nonlinearity > 0.01, "{nonlinearity}");
+    assert!(bright.scores.moving.flip.value().is_some());
+    for metric in [
+        "label_tv",
+        "lateral_growth",
+        "energy",
+        "unity",
+        "gather_offset",
+        "n_eq_label_tv",
+    ] {
+        let applies = |case: &suite::Case| case.scores.get(metric.parse().unwrap());
+        assert!(applies(identity).value().is_some(), "{metric}");
+        let Measured::NotApplicable { reason } = applies(bright) else {
+            panic!("{metric} of a filter that looks at colour");
+        };
+        assert!(reason.contains("weights depend on colour"), "{reason}");
     }
 }

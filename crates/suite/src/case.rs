@@ -36,7 +36,7 @@ pub struct Case {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub command: Option<Vec<String>>,
     /// How much the filter's weights depend on colour: how far the blur of a mixture is from the mixture of the blurs, relative to
-    /// it; none for bars.
+    /// what the blur changes; none for bars.
     pub nonlinearity: Option<f64>,
     /// The shutter alignment that the filter declares and is scored against.
     pub alignment: String,

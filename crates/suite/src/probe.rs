@@ -12,8 +12,8 @@ pub(crate) struct Blurred {
     pub picture: Picture,
     /// Of ones and coordinates.
     pub probes: Probes,
-    /// How far the blur of a mixture is from the mixture of the blurs, relative to it (root mean square): 0 for a filter
-    /// whose weights do not depend on colour.
+    /// How far the blur of a mixture is from the mixture of the blurs, relative to what the blur changes (root mean square):
+    /// 0 for a filter whose weights do not depend on colour.
     pub nonlinearity: f64,
 }
 
@@ -30,7 +30,11 @@ pub(crate) fn blurred(filter: &mut Runner, frame: &Frame) -> Result<Blurred, Fil
         .map(|output| output.cropped(frame.guard_band))
         .collect();
     Ok(Blurred {
-        nonlinearity: difference(&outputs[3], &mixed(&outputs[0], &outputs[1])),
+        nonlinearity: nonlinearity(
+            &mixture.cropped(frame.guard_band),
+            &outputs[3],
+            &mixed(&outputs[0], &outputs[1]),
+        ),
         probes: Probes::of([&outputs[1], &outputs[2]]),
         picture: Picture {
             color: outputs[0].clone(),
@@ -46,15 +50,19 @@ fn mixed(color: &Image, probe: &Image) -> Image {
     })
 }
 
-/// Root of the summed squares of a difference over that of `expected`.
-fn difference(found: &Image, expected: &Image) -> f64 {
-    let square = |v: &[f32; 3]| v.iter().map(|c| f64::from(*c).powi(2)).sum::<f64>();
-    let error = found.zip(expected, |a, b| {
-        square(&[a[0] - b[0], a[1] - b[1], a[2] - b[2]])
-    });
-    let whole = expected.map(square);
-    let sum = |map: &Raster<f64>| map.pixels.iter().sum::<f64>();
-    (sum(&error) / sum(&whole).max(f64::MIN_POSITIVE)).sqrt()
+/// The blur of a mixture against the mixture of the blurs. What a blur leaves alone counts as a thousandth of the picture at
+/// least, so that rounding is not taken for a dependence on colour.
+fn nonlinearity(mixture: &Image, blurred: &Image, expected: &Image) -> f64 {
+    const LEAST_CHANGE: f64 = 1e-3;
+    let length = |a: &Image, b: &Image| {
+        let squares = a.zip(b, |a, b| -> f64 {
+            (0..3).map(|c| f64::from(a[c] - b[c]).powi(2)).sum()
+        });
+        squares.pixels.iter().sum::<f64>().sqrt()
+    };
+    let nothing = mixture.map(|_| [0.0; 3]);
+    let change = length(blurred, mixture).max(LEAST_CHANGE * length(mixture, &nothing));
+    length(blurred, expected) / change.max(f64::MIN_POSITIVE)
 }
 
 /// Runs the filter on the frame's colour with so many frames of its noise; none where it has no noise.

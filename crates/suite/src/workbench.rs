@@ -21,7 +21,7 @@ use crate::{Error, InputFormat, Intervals, Runner, Verdict, intervals, judge};
 /// Accumulations that are shown beside the filters.
 const SUBFRAMES: [u32; 4] = [4, 8, 16, 64];
 
-/// Blurs of a mixture may differ from mixtures of blurs by this part, which is far above rounding.
+/// Blurs of a mixture may differ from mixtures of blurs by this part of what the blur changes, which is far above rounding.
 const MOST_NONLINEARITY: f64 = 1e-3;
 
 /// One scene and the truth of one alignment.
@@ -198,7 +198,7 @@ fn probe(reference: &Reference, blurred: &Blurred, measurement: &mut Measurement
     if blurred.nonlinearity > MOST_NONLINEARITY {
         let reason = format!(
             "the filter's weights depend on colour: the blur of a mixture differs from the mixture of the blurs by {:.4} \
-             of it, {MOST_NONLINEARITY} at most allow to tell what it gathers",
+             of what the blur changes, {MOST_NONLINEARITY} at most allow to tell what it gathers",
             blurred.nonlinearity
         );
         scores.take_out_mattes(&reason);
