@@ -1,4 +1,4 @@
-//! Eight boxes or four triangles at a time: with AVX2 and FMA where the processor has them, else one by one.
+//! Eight boxes or eight triangles at a time: with AVX2 and FMA where the processor has them, else one by one.
 //!
 //! Both ways only *reject*, and only what is certainly missed; whatever they let pass is decided by the same scalar
 //! code. Hits, and with them all bytes, are therefore the same on every path.
@@ -8,16 +8,16 @@ use glam::DVec3;
 /// Children of a node.
 pub(crate) const WIDTH: usize = 8;
 /// Triangles of a leaf.
-pub(crate) const LEAF: usize = 4;
+pub(crate) const LEAF: usize = 8;
 
 /// Eight boxes side by side: per axis the least and the greatest coordinates, metres. Unused lanes are empty boxes.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct Boxes(pub [[[f32; WIDTH]; 2]; 3]);
 
-/// Four triangles side by side: per vertex and axis. Unused lanes repeat the first triangle.
+/// Eight triangles side by side: per vertex and axis. Unused lanes repeat the first triangle.
 #[derive(Clone, Copy, Debug)]
-#[repr(C, align(16))]
+#[repr(C, align(32))]
 pub(crate) struct Triangles(pub [[[f32; LEAF]; 3]; 3]);
 
 /// A ray as boxes want it: `t = scale * plane + offset` is where it crosses a plane, in units of its direction.
@@ -30,13 +30,18 @@ pub(crate) struct SlabRay {
     first: [usize; 3],
 }
 
-/// A ray as triangles want it.
+/// A ray as triangles want it: seen along its direction, every vertex has a place in the plane across the ray's longest
+/// axis, and the ray is the plane's origin (the shear of Woop, Benthin and Wald 2013).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EdgeRay {
-    origin: [f64; 3],
-    direction: [f64; 3],
-    /// Weights this close to 0 are in doubt.
-    doubt: f64,
+    /// The two axes of the plane, then the one along which the direction is longest.
+    axes: [usize; 3],
+    /// What the ray goes along the plane's axes for one metre along the third.
+    shear: [f32; 2],
+    /// Where its line meets the plane through the world's origin, metres.
+    foot: [f32; 2],
+    /// How far from its true place rounding may have moved a vertex, metres.
+    doubt: f32,
 }
 
 /// Boxes are grown by this fraction of the greatest coordinate involved, for each ray by its own. The test runs in `f32`:
@@ -44,6 +49,11 @@ pub(crate) struct EdgeRay {
 /// times that coordinate, about 1e-6 together. A hit at exactly the limit is therefore still visited, and the caller
 /// decides ties.
 const PAD: f64 = 2e-6;
+/// As a part of the greatest coordinate involved: a vertex's place is rounded five times, each time by 6e-8 of at most three
+/// times that coordinate.
+const EDGE_PAD: f64 = 1e-6;
+/// Squares of greater coordinates, metres, are not numbers of 32 bits: nothing is rejected there.
+const GREATEST_SQUARED: f64 = 1e18;
 /// A smaller part of a direction has no finite inverse worth having: over the size of a scene it leads nowhere.
 const LEAST_DIRECTION: f32 = 1e-18;
 
@@ -56,7 +66,8 @@ pub(crate) trait Lanes: Copy {
     fn enter(self, boxes: &Boxes, ray: &SlabRay, limit: f32) -> (u32, [f32; WIDTH]);
 
     /// One bit per triangle whose plane the ray's line may cross inside it.
-    fn cross(self, triangles: &Triangles, ray: &EdgeRay) -> u32;
+    /// `size` is the greatest extent of any of them along an axis, metres.
+    fn cross(self, triangles: &Triangles, size: f32, ray: &EdgeRay) -> u32;
 }
 
 /// One by one.
@@ -88,14 +99,32 @@ impl SlabRay {
 }
 
 impl EdgeRay {
-    /// `doubt`: how far from 0 rounding may have moved a weight.
+    /// For triangles whose coordinates are at most `reach` metres.
     #[inline(always)]
-    pub fn new(origin: DVec3, direction: DVec3, doubt: f64) -> Self {
+    pub fn new(origin: DVec3, direction: DVec3, reach: f64) -> Self {
+        let [o, d] = [origin, direction].map(|vector| vector.to_array());
+        let longest = direction.abs().max_position();
+        let axes = [(longest + 1) % 3, (longest + 2) % 3, longest];
+        let along = 1.0 / d[longest];
+        let shear = [d[axes[0]] * along, d[axes[1]] * along];
+        let greatest = reach.max(origin.abs().max_element());
         Self {
-            origin: origin.to_array(),
-            direction: direction.to_array(),
-            doubt,
+            axes,
+            shear: shear.map(|shear| shear as f32),
+            foot: [0, 1].map(|axis| (o[axes[axis]] - shear[axis] * o[longest]) as f32),
+            doubt: if greatest < GREATEST_SQUARED {
+                (EDGE_PAD * greatest) as f32 
+            } else {
+                f32::INFINITY
+            },
         }
+    }
+
+    /// How far from 0 rounding may have moved a weight of a triangle of this size that the ray does cross. Its vertices lie
+    /// within twice the size of the ray, and each of a product's four factors errs by `doubt`.
+    #[inline(always)]
+    fn doubt(&self, size: f32) -> f32 {
+        16.0 * self.doubt * (size + self.doubt) + f32::MIN_POSITIVE
     }
 }
 
@@ -126,20 +155,23 @@ impl Lanes for Portable {
     }
 
     #[inline(always)]
-    fn cross(self, triangles: &Triangles, ray: &EdgeRay) -> u32 {
+    fn cross(self, triangles: &Triangles, size: f32, ray: &EdgeRay) -> u32 {
+        let doubt = ray.doubt(size);
+        let places = triangles.0.map(|vertex| {
+            let [x, y, along] = ray.axes.map(|axis| vertex[axis]);
+            [(x, 0), (y, 1)].map(|(across, axis)| -> [f32; LEAF] {
+                std::array::from_fn(|lane| {
+                    across[lane] - ray.foot[axis] - ray.shear[axis] * along[lane]
+                })
+            })
+        });
         (0..LEAF)
             .map(|lane| {
-                let [a, b, c] = triangles.0.map(|vertex| {
-                    DVec3::from_array(std::array::from_fn(|axis| {
-                        f64::from(vertex[axis][lane]) - ray.origin[axis]
-                    }))
-                });
-                let direction = DVec3::from_array(ray.direction);
-                let weights =
-                    [c.cross(b), a.cross(c), b.cross(a)].map(|normal| normal.dot(direction));
+                let [a, b, c] = places.map(|place| place.map(|axis| axis[lane]));
+                let weights = [(c, b), (a, c), (b, a)].map(|(p, q)| p[0] * q[1] - p[1] * q[0]);
                 let least = weights[0].min(weights[1]).min(weights[2]);
                 let greatest = weights[0].max(weights[1]).max(weights[2]);
-                u32::from(least >= -ray.doubt || greatest <= ray.doubt) << lane
+                u32::from(!(least < -doubt && greatest > doubt)) << lane
             })
             .sum()
     }
@@ -147,7 +179,7 @@ impl Lanes for Portable {
 
 #[cfg(target_arch = "x86_64")]
 mod avx2 {
-    use std::arch::x86_64::{__m128, __m256, __m256d, _CMP_GE_OQ, _CMP_LE_OQ};
+    use std::arch::x86_64::{__m256, _CMP_LE_OQ, _CMP_NGT_UQ, _CMP_NLT_UQ};
 
     use pulp::cast;
     use pulp::x86::V3;
@@ -176,32 +208,28 @@ mod avx2 {
             )
         }
 
-        /// Vertices as seen from the ray's origin.
+        /// Where vertices lie, seen along the ray.
         #[inline(always)]
-        fn corner(self, vertex: &[[f32; LEAF]; 3], ray: &EdgeRay) -> [__m256d; 3] {
+        fn place(self, vertex: &[[f32; LEAF]; 3], ray: &EdgeRay) -> [__m256; 2] {
+            let along = cast(vertex[ray.axes[2]]);
             [
-                self.coordinate(vertex[0], ray.origin[0]),
-                self.coordinate(vertex[1], ray.origin[1]),
-                self.coordinate(vertex[2], ray.origin[2]),
+                self.coordinate(cast(vertex[ray.axes[0]]), along, ray.foot[0], ray.shear[0]),
+                self.coordinate(cast(vertex[ray.axes[1]]), along, ray.foot[1], ray.shear[1]),
             ]
         }
 
         #[inline(always)]
-        fn coordinate(self, lanes: [f32; LEAF], origin: f64) -> __m256d {
-            let avx = self.0.avx;
-            let lanes: __m128 = cast(lanes);
-            avx._mm256_sub_pd(avx._mm256_cvtps_pd(lanes), avx._mm256_set1_pd(origin))
+        fn coordinate(self, across: __m256, along: __m256, foot: f32, shear: f32) -> __m256 {
+            let Self(V3 { avx, fma, .. }) = self;
+            let from_foot = avx._mm256_sub_ps(across, avx._mm256_set1_ps(foot));
+            fma._mm256_fnmadd_ps(along, avx._mm256_set1_ps(shear), from_foot)
         }
 
-        /// p x q . direction
+        /// p x q
         #[inline(always)]
-        fn weight(self, p: [__m256d; 3], q: [__m256d; 3], direction: [__m256d; 3]) -> __m256d {
+        fn weight(self, p: [__m256; 2], q: [__m256; 2]) -> __m256 {
             let Self(V3 { avx, fma, .. }) = self;
-            let x = fma._mm256_fmsub_pd(p[1], q[2], avx._mm256_mul_pd(p[2], q[1]));
-            let y = fma._mm256_fmsub_pd(p[2], q[0], avx._mm256_mul_pd(p[0], q[2]));
-            let z = fma._mm256_fmsub_pd(p[0], q[1], avx._mm256_mul_pd(p[1], q[0]));
-            let sum = fma._mm256_fmadd_pd(y, direction[1], avx._mm256_mul_pd(z, direction[2]));
-            fma._mm256_fmadd_pd(x, direction[0], sum)
+            fma._mm256_fmsub_ps(p[0], q[1], avx._mm256_mul_ps(p[1], q[0]))
         }
     }
 
@@ -227,28 +255,23 @@ mod avx2 {
         }
 
         #[inline(always)]
-        fn cross(self, triangles: &Triangles, ray: &EdgeRay) -> u32 {
+        fn cross(self, triangles: &Triangles, size: f32, ray: &EdgeRay) -> u32 {
             let avx = self.0.avx;
             let [a, b, c] = [
-                self.corner(&triangles.0[0], ray),
-                self.corner(&triangles.0[1], ray),
-                self.corner(&triangles.0[2], ray),
+                self.place(&triangles.0[0], ray),
+                self.place(&triangles.0[1], ray),
+                self.place(&triangles.0[2], ray),
             ];
-            let direction = [
-                avx._mm256_set1_pd(ray.direction[0]),
-                avx._mm256_set1_pd(ray.direction[1]),
-                avx._mm256_set1_pd(ray.direction[2]),
-            ];
-            let u = self.weight(c, b, direction);
-            let v = self.weight(a, c, direction);
-            let w = self.weight(b, a, direction);
-            let least = avx._mm256_min_pd(avx._mm256_min_pd(u, v), w);
-            let greatest = avx._mm256_max_pd(avx._mm256_max_pd(u, v), w);
-            let inside = avx._mm256_or_pd(
-                avx._mm256_cmp_pd::<_CMP_GE_OQ>(least, avx._mm256_set1_pd(-ray.doubt)),
-                avx._mm256_cmp_pd::<_CMP_LE_OQ>(greatest, avx._mm256_set1_pd(ray.doubt)),
+            let [u, v, w] = [self.weight(c, b), self.weight(a, c), self.weight(b, a)];
+            let least = avx._mm256_min_ps(avx._mm256_min_ps(u, v), w);
+            let greatest = avx._mm256_max_ps(avx._mm256_max_ps(u, v), w);
+            let doubt = ray.doubt(size);
+            // What is not a number is not rejected.
+            let inside = avx._mm256_or_ps(
+                avx._mm256_cmp_ps::<_CMP_NLT_UQ>(least, avx._mm256_set1_ps(-doubt)),
+                avx._mm256_cmp_ps::<_CMP_NGT_UQ>(greatest, avx._mm256_set1_ps(doubt)),
             );
-            avx._mm256_movemask_pd(inside) as u32
+            avx._mm256_movemask_ps(inside) as u32
         }
     }
 }

@@ -10,10 +10,6 @@ use crate::ray::Ray;
 use crate::scene::Mesh;
 use crate::triangle::{Crossing, cross};
 
-/// Rounding of a weight, as a part of the squared greatest length times the direction's: a few dozen operations err by
-/// 1.1e-16 of at most that, and lengths are bounded by twice the reach.
-const ROUNDING: f64 = 1e-14;
-
 /// Triangles under a tree, those of a leaf side by side.
 pub(crate) struct MeshTree {
     tree: Tree,
@@ -31,6 +27,8 @@ struct Leaf {
     indices: [u32; LEAF],
     /// One bit per used lane.
     used: u32,
+    /// The greatest extent of any of them along an axis, metres.
+    size: f32,
 }
 
 impl MeshTree {
@@ -73,7 +71,7 @@ impl MeshTree {
         let Some(approach) = self.ball.approach(ray) else {
             return;
         };
-        let edges = self.edge_ray(&approach);
+        let edges = EdgeRay::new(approach.ray.origin, approach.ray.direction, self.reach);
         let mut limit = limit;
         self.tree.walk(
             lanes,
@@ -82,7 +80,7 @@ impl MeshTree {
             #[inline(always)]
             |leaf| {
                 let leaf = &self.leaves[leaf as usize];
-                let mut inside = lanes.cross(&leaf.triangles, &edges) & leaf.used;
+                let mut inside = lanes.cross(&leaf.triangles, leaf.size, &edges) & leaf.used;
                 while inside != 0 {
                     let lane = inside.trailing_zeros() as usize;
                     inside &= inside - 1;
@@ -108,18 +106,10 @@ impl MeshTree {
             }
         }
     }
-
-    #[inline(always)]
-    fn edge_ray(&self, approach: &Approach) -> EdgeRay {
-        let Ray { origin, direction } = approach.ray;
-        let longest = 2.0 * origin.abs().max_element().max(self.reach);
-        let doubt = ROUNDING * longest * longest * direction.abs().max_element();
-        EdgeRay::new(origin, direction, doubt)
-    }
 }
 
 impl Leaf {
-    /// Of at most four triangles of the mesh.
+    /// Of at most eight triangles of the mesh.
     fn of(mesh: &Mesh, items: &[u32]) -> Self {
         let indices = std::array::from_fn(|lane| *items.get(lane).unwrap_or(&items[0]));
         let corners = indices.map(|triangle| corners(mesh, triangle as usize));
@@ -129,6 +119,7 @@ impl Leaf {
             })),
             indices,
             used: (1 << items.len()) - 1,
+            size: corners.map(extent).into_iter().fold(0.0, f32::max),
         }
     }
 
@@ -144,4 +135,10 @@ impl Leaf {
 
 fn corners(mesh: &Mesh, triangle: usize) -> [Vec3; 3] {
     mesh.triangles[triangle].map(|index| mesh.positions[index as usize])
+}
+
+/// The greatest extent along an axis, metres; never too small.
+fn extent([a, b, c]: [Vec3; 3]) -> f32 {
+    let sides = a.max(b).max(c) - a.min(b).min(c);
+    sides.max_element().next_up()
 }

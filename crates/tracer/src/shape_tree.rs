@@ -3,12 +3,14 @@
 use crate::approach::{Approach, Ball};
 use crate::bounds::Bounds;
 use crate::bvh::Tree;
-use crate::lanes::{LEAF, Lanes};
+use crate::lanes::Lanes;
 use crate::ray::Ray;
 use crate::scene::Mesh;
 use crate::triangle::{Crossing, cross};
 
 const MOST_SLICES: usize = 16;
+/// Triangles of a leaf.
+const LEAF: u32 = 4;
 
 /// A deforming mesh between two times. Vertices are interpolated to the ray's time in `f64`, the same for every triangle
 /// that has them, so that no gap opens between neighbours.
@@ -128,7 +130,7 @@ impl Slice {
             .iter()
             .fold(Bounds::EMPTY, |union, bounds| union.union(*bounds));
         Self {
-            tree: Tree::over(&boxes, LEAF as u32),
+            tree: Tree::over(&boxes, LEAF),
             ball: Ball::around(bounds.centre(), [bounds.min, bounds.max]),
         }
     }
