@@ -31,19 +31,30 @@ impl<'a> Geometry<'a> {
         }
     }
 
+    /// Room that [`Geometry::walk`] needs for children that wait.
+    pub fn most_waiting(&self) -> usize {
+        match self {
+            Geometry::Rigid(tree) => tree.most_waiting(),
+            Geometry::Deforming(tree) => tree.most_waiting(),
+        }
+    }
+
     /// As [`MeshTree::walk`], at a time.
     #[inline(always)]
-    pub fn walk<L: Lanes>(
+    pub fn walk<L: Lanes, const SORTED: bool>(
         &self,
         lanes: L,
+        waiting: &mut [u64],
         ray: &Ray,
         time: f64,
         limit: f64,
         visit: impl FnMut(u32, Crossing) -> f64,
     ) {
         match self {
-            Geometry::Rigid(tree) => tree.walk(lanes, ray, limit, visit),
-            Geometry::Deforming(tree) => tree.walk(lanes, ray, time, limit, visit),
+            Geometry::Rigid(tree) => tree.walk::<L, SORTED>(lanes, waiting, ray, limit, visit),
+            Geometry::Deforming(tree) => {
+                tree.walk::<L, SORTED>(lanes, waiting, ray, time, limit, visit)
+            }
         }
     }
 

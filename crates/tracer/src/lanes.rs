@@ -3,7 +3,13 @@
 //! Both ways only *reject*, and only what is certainly missed; whatever they let pass is decided by the same scalar
 //! code. Hits, and with them all bytes, are therefore the same on every path.
 
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+
 use glam::DVec3;
+
+#[cfg(target_arch = "x86_64")]
+pub(crate) use avx2::Avx2;
 
 /// Children of a node.
 pub(crate) const WIDTH: usize = 8;
@@ -12,7 +18,7 @@ pub(crate) const LEAF: usize = 8;
 
 /// Eight boxes side by side: per axis the least and the greatest coordinates, metres. Unused lanes are empty boxes.
 #[derive(Clone, Copy, Debug)]
-#[repr(C, align(64))]
+#[repr(C, align(32))]
 pub(crate) struct Boxes(pub [[[f32; WIDTH]; 2]; 3]);
 
 /// Eight triangles side by side: per vertex and axis. Unused lanes repeat the first triangle.
@@ -113,7 +119,7 @@ impl EdgeRay {
             shear: shear.map(|shear| shear as f32),
             foot: [0, 1].map(|axis| (o[axes[axis]] - shear[axis] * o[longest]) as f32),
             doubt: if greatest < GREATEST_SQUARED {
-                (EDGE_PAD * greatest) as f32 
+                (EDGE_PAD * greatest) as f32
             } else {
                 f32::INFINITY
             },
@@ -177,104 +183,95 @@ impl Lanes for Portable {
     }
 }
 
-#[cfg(target_arch = "x86_64")]
-mod avx2 {
-    use std::arch::x86_64::{__m256, _CMP_LE_OQ, _CMP_NGT_UQ, _CMP_NLT_UQ};
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ray::Ray;
+    use crate::triangle::cross;
 
-    use pulp::cast;
-    use pulp::x86::V3;
-
-    use super::{Boxes, EdgeRay, LEAF, Lanes, SlabRay, Triangles, WIDTH};
-
-    /// AVX2 and FMA; a value of this type is proof that the processor has them.
-    #[derive(Clone, Copy)]
-    pub(crate) struct Avx2(V3);
-
-    impl Avx2 {
-        /// None where the processor lacks them.
-        pub fn detect() -> Option<Self> {
-            V3::try_new().map(Self)
-        }
-
-        /// Where the ray enters (end 0) or leaves (end 1) the space between eight pairs of planes.
-        #[inline(always)]
-        fn planes(self, boxes: &Boxes, ray: &SlabRay, axis: usize, end: usize) -> __m256 {
-            let Self(V3 { avx, fma, .. }) = self;
-            let side = ray.first[axis] ^ end;
-            fma._mm256_fmadd_ps(
-                cast(boxes.0[axis][side]),
-                avx._mm256_set1_ps(ray.scale[axis]),
-                avx._mm256_set1_ps(ray.offsets[end][axis]),
-            )
-        }
-
-        /// Where vertices lie, seen along the ray.
-        #[inline(always)]
-        fn place(self, vertex: &[[f32; LEAF]; 3], ray: &EdgeRay) -> [__m256; 2] {
-            let along = cast(vertex[ray.axes[2]]);
-            [
-                self.coordinate(cast(vertex[ray.axes[0]]), along, ray.foot[0], ray.shear[0]),
-                self.coordinate(cast(vertex[ray.axes[1]]), along, ray.foot[1], ray.shear[1]),
-            ]
-        }
-
-        #[inline(always)]
-        fn coordinate(self, across: __m256, along: __m256, foot: f32, shear: f32) -> __m256 {
-            let Self(V3 { avx, fma, .. }) = self;
-            let from_foot = avx._mm256_sub_ps(across, avx._mm256_set1_ps(foot));
-            fma._mm256_fnmadd_ps(along, avx._mm256_set1_ps(shear), from_foot)
-        }
-
-        /// p x q
-        #[inline(always)]
-        fn weight(self, p: [__m256; 2], q: [__m256; 2]) -> __m256 {
-            let Self(V3 { avx, fma, .. }) = self;
-            fma._mm256_fmsub_ps(p[0], q[1], avx._mm256_mul_ps(p[1], q[0]))
-        }
+    /// R2 points (Roberts 2018), rotated per dimension, in [-1, 1).
+    fn number(index: usize, dimension: usize) -> f64 {
+        const STEPS: [f64; 3] = [0.819_172_5, 0.671_043_6, 0.549_700_5];
+        let part = index as f64 * STEPS[dimension % 3] + dimension as f64 * 0.37;
+        2.0 * part.fract() - 1.0
     }
 
-    impl Lanes for Avx2 {
-        #[inline(always)]
-        fn run<R>(self, work: impl FnOnce() -> R) -> R {
-            self.0.vectorize(work)
-        }
+    fn point(index: usize, dimension: usize) -> DVec3 {
+        DVec3::from_array([0, 1, 2].map(|axis| number(index, dimension + axis)))
+    }
 
-        #[inline(always)]
-        fn enter(self, boxes: &Boxes, ray: &SlabRay, limit: f32) -> (u32, [f32; WIDTH]) {
-            let avx = self.0.avx;
-            let near = avx._mm256_max_ps(
-                avx._mm256_max_ps(self.planes(boxes, ray, 0, 0), self.planes(boxes, ray, 1, 0)),
-                avx._mm256_max_ps(self.planes(boxes, ray, 2, 0), avx._mm256_setzero_ps()),
-            );
-            let far = avx._mm256_min_ps(
-                avx._mm256_min_ps(self.planes(boxes, ray, 0, 1), self.planes(boxes, ray, 1, 1)),
-                avx._mm256_min_ps(self.planes(boxes, ray, 2, 1), avx._mm256_set1_ps(limit)),
-            );
-            let entered = avx._mm256_cmp_ps::<_CMP_LE_OQ>(near, far);
-            (avx._mm256_movemask_ps(entered) as u32, cast(near))
-        }
+    /// Eight triangles of this size around places up to a metre from the world's origin, and the size as a leaf knows it.
+    fn triangles(index: usize, size: f64) -> ([[DVec3; 3]; LEAF], Triangles, f32) {
+        let corners: [[DVec3; 3]; LEAF] = std::array::from_fn(|lane| {
+            let centre = point(LEAF * index + lane, 0);
+            [3, 7, 11].map(|dimension| {
+                let corner = centre + size * point(LEAF * index + lane, dimension);
+                corner.as_vec3().as_dvec3()
+            })
+        });
+        let lanes = Triangles(std::array::from_fn(|vertex| {
+            std::array::from_fn(|axis| corners.map(|corners| corners[vertex][axis] as f32))
+        }));
+        let extent = |[a, b, c]: [DVec3; 3]| (a.max(b).max(c) - a.min(b).min(c)).max_element();
+        let greatest = corners.map(extent).into_iter().fold(0.0, f64::max) as f32;
+        (corners, lanes, greatest.next_up())
+    }
 
-        #[inline(always)]
-        fn cross(self, triangles: &Triangles, size: f32, ray: &EdgeRay) -> u32 {
-            let avx = self.0.avx;
-            let [a, b, c] = [
-                self.place(&triangles.0[0], ray),
-                self.place(&triangles.0[1], ray),
-                self.place(&triangles.0[2], ray),
-            ];
-            let [u, v, w] = [self.weight(c, b), self.weight(a, c), self.weight(b, a)];
-            let least = avx._mm256_min_ps(avx._mm256_min_ps(u, v), w);
-            let greatest = avx._mm256_max_ps(avx._mm256_max_ps(u, v), w);
-            let doubt = ray.doubt(size);
-            // What is not a number is not rejected.
-            let inside = avx._mm256_or_ps(
-                avx._mm256_cmp_ps::<_CMP_NLT_UQ>(least, avx._mm256_set1_ps(-doubt)),
-                avx._mm256_cmp_ps::<_CMP_NGT_UQ>(greatest, avx._mm256_set1_ps(doubt)),
-            );
-            avx._mm256_movemask_ps(inside) as u32
+    /// What both ways let pass; they may differ in triangles that the exact test refuses.
+    fn let_through(lanes: &Triangles, size: f32, ray: &EdgeRay) -> Vec<u32> {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx2) = Avx2::detect() {
+            let wide = avx2.run(|| avx2.cross(lanes, size, ray));
+            return vec![Portable.cross(lanes, size, ray), wide];
+        }
+        vec![Portable.cross(lanes, size, ray)]
+    }
+
+    #[test]
+    fn what_the_exact_test_accepts_is_never_rejected() {
+        let mut accepted = 0;
+        for index in 0..20_000 {
+            // From a third of the distance to a millionth of it.
+            let size = 0.3_f64.powi(1 + index as i32 % 12);
+            let (corners, lanes, extent) = triangles(index, size);
+            let aimed = corners[index % LEAF];
+            // At an edge, whose ends are vertices; past the target as far as to it.
+            let along = number(index, 15).abs().min(1.2 * number(index, 16).abs());
+            let target = aimed[0] + along * (aimed[1] - aimed[0]);
+            let origin = 3.0 * point(index, 20);
+            let direction = (target - origin) * 10.0_f64.powi(index as i32 % 7 - 3);
+            let rays = EdgeRay::new(origin, direction, 2.0);
+            for passed in let_through(&lanes, extent, &rays) {
+                for (lane, corners) in corners.into_iter().enumerate() {
+                    if cross(&Ray { origin, direction }, corners).is_some() {
+                        accepted += 1;
+                        assert_eq!(passed >> lane & 1, 1, "triangle {lane} of {index}");
+                    }
+                }
+            }
+        }
+        assert!(accepted > 10_000, "only {accepted} rays met a triangle");
+    }
+
+    #[test]
+    fn what_is_missed_by_a_twentieth_of_its_size_is_rejected() {
+        for index in 0..2000 {
+            let size = 0.01;
+            let (corners, lanes, extent) = triangles(index, size);
+            let [a, b, c] = corners[0];
+            let normal = (b - a).cross(c - a);
+            // A weight is the edge's length times the distance from it: 5e-6 before the shear. The doubt is 16 times a
+            // size of 0.02 times the rounding of coordinates of at most 2.5: 8e-7.
+            if a.distance(b) < size || normal.length() < 0.1 * size * size {
+                continue;
+            }
+            let outwards = (b - a).cross(normal).normalize();
+            let target = 0.5 * (a + b) + 0.05 * size * outwards;
+            let origin = target + normal.normalize() + 0.3 * point(index, 20);
+            let ray = EdgeRay::new(origin, target - origin, 2.0);
+            for passed in let_through(&lanes, extent, &ray) {
+                assert_eq!(passed & 1, 0, "the first triangle of {index}");
+            }
         }
     }
 }
-
-#[cfg(target_arch = "x86_64")]
-pub(crate) use avx2::Avx2;

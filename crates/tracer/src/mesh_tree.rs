@@ -1,10 +1,12 @@
 //! A mesh's triangles under a tree, in object space; shared by every object that shows the mesh.
 
 use glam::{DVec3, Vec3};
+use prefetch_index::prefetch_index;
 
 use crate::approach::{Approach, Ball};
 use crate::bounds::Bounds;
 use crate::bvh::Tree;
+use crate::folding::LeafRules;
 use crate::lanes::{EdgeRay, LEAF, Lanes, Triangles};
 use crate::ray::Ray;
 use crate::scene::Mesh;
@@ -41,9 +43,14 @@ impl MeshTree {
             .fold(Bounds::EMPTY, |union, bounds| union.union(*bounds));
         let vertices = mesh.triangles.iter().flatten();
         let vertices = vertices.map(|&vertex| mesh.positions[vertex as usize].as_dvec3());
-        let tree = Tree::over(&boxes, LEAF as u32);
-        let leaves = (0..tree.leaves())
-            .map(|leaf| Leaf::of(mesh, tree.items(leaf)))
+        // Eight triangles are tested at once, as fast as one.
+        let rules = LeafRules {
+            most: LEAF as u32,
+            item_cost: 0.0,
+        };
+        let (tree, listed) = Tree::over(&boxes, rules);
+        let leaves = (0..listed.count())
+            .map(|leaf| Leaf::of(mesh, listed.items(leaf)))
             .collect();
         Self {
             tree,
@@ -58,12 +65,18 @@ impl MeshTree {
         self.tree.bytes() + size_of_val(self.leaves.as_slice())
     }
 
-    /// Visits the crossings at `0 < t <= limit`, those of equal `t` in any order. `visit` takes the triangle's index in
-    /// the mesh and returns the limit from then on: one below 0 ends the walk.
+    /// Room that [`MeshTree::walk`] needs for children that wait.
+    pub fn most_waiting(&self) -> usize {
+        self.tree.most_waiting
+    }
+
+    /// Visits the crossings at `0 < t <= limit`: roughly from near to far where `SORTED`, else in any order. `visit` takes
+    /// the triangle's index in the mesh and returns the limit from then on: one below 0 ends the walk.
     #[inline(always)]
-    pub fn walk<L: Lanes>(
+    pub fn walk<L: Lanes, const SORTED: bool>(
         &self,
         lanes: L,
+        waiting: &mut [u64],
         ray: &Ray,
         limit: f64,
         mut visit: impl FnMut(u32, Crossing) -> f64,
@@ -73,12 +86,13 @@ impl MeshTree {
         };
         let edges = EdgeRay::new(approach.ray.origin, approach.ray.direction, self.reach);
         let mut limit = limit;
-        self.tree.walk(
+        self.tree.walk::<L, SORTED>(
             lanes,
+            waiting,
             &approach.ray,
             approach.local(limit),
             #[inline(always)]
-            |leaf| {
+            |_, leaf| {
                 let leaf = &self.leaves[leaf as usize];
                 let mut inside = lanes.cross(&leaf.triangles, leaf.size, &edges) & leaf.used;
                 while inside != 0 {
@@ -90,6 +104,8 @@ impl MeshTree {
                 }
                 approach.local(limit)
             },
+            #[inline(always)]
+            |leaf| self.leaves[leaf as usize].fetch(),
         );
     }
 
@@ -123,10 +139,22 @@ impl Leaf {
         }
     }
 
-    #[inline]
+    /// Has the processor fetch it from memory, to be there when it is visited.
+    #[inline(always)]
+    fn fetch(&self) {
+        let [a, b, c] = &self.triangles.0;
+        for lanes in [&a[0], &a[2], &b[1], &c[0], &c[2]] {
+            prefetch_index(lanes, 0);
+        }
+        prefetch_index(self.indices.as_slice(), 0);
+    }
+
+    #[inline(always)]
     fn crossing(&self, approach: &Approach, lane: usize, limit: f64) -> Option<Crossing> {
-        let corners = (self.triangles.0)
-            .map(|vertex| DVec3::from_array(vertex.map(|axis| f64::from(axis[lane]))));
+        let corners = [0, 1, 2].map(|vertex| {
+            let coordinate = |axis: usize| f64::from(self.triangles.0[vertex][axis][lane]);
+            DVec3::new(coordinate(0), coordinate(1), coordinate(2))
+        });
         let mut crossing = cross(&approach.ray, corners)?;
         crossing.t += approach.start;
         (crossing.t > 0.0 && crossing.t <= limit).then_some(crossing)

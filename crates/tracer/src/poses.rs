@@ -24,6 +24,9 @@ pub struct Poses<'a> {
     /// Per object; valid when its stamp is the current one, or for ever.
     poses: Vec<(Stamp, Pose)>,
     current: Stamp,
+    /// Room for the children of tree nodes that wait while a ray is in another. Kept here because clearing such room for
+    /// every ray takes a twentieth of its time.
+    pub(crate) waiting: Vec<u64>,
 }
 
 /// Every motion of a scene.
@@ -69,6 +72,7 @@ impl<'a> Poses<'a> {
             time: from,
             poses,
             current: 1,
+            waiting: Vec::new(),
         }
     }
 
@@ -87,6 +91,16 @@ impl<'a> Poses<'a> {
     /// Frames relative to the instant.
     pub fn time(&self) -> f64 {
         self.time
+    }
+
+    /// Room for so many; to be put back into `waiting` after the walk.
+    #[inline(always)]
+    pub(crate) fn take_waiting(&mut self, most: usize) -> Vec<u64> {
+        let mut waiting = std::mem::take(&mut self.waiting);
+        if waiting.len() < most {
+            waiting.resize(most, 0);
+        }
+        waiting
     }
 
     #[inline]

@@ -2,15 +2,19 @@
 
 use crate::approach::{Approach, Ball};
 use crate::bounds::Bounds;
-use crate::bvh::Tree;
+use crate::bvh::{Leaves, Tree};
+use crate::folding::LeafRules;
 use crate::lanes::Lanes;
 use crate::ray::Ray;
 use crate::scene::Mesh;
 use crate::triangle::{Crossing, cross};
 
 const MOST_SLICES: usize = 16;
-/// Triangles of a leaf.
-const LEAF: u32 = 4;
+/// Triangles are tested one by one, each as long as a visit takes.
+const LEAF_RULES: LeafRules = LeafRules {
+    most: 4,
+    item_cost: 1.0,
+};
 
 /// A deforming mesh between two times. Vertices are interpolated to the ray's time in `f64`, the same for every triangle
 /// that has them, so that no gap opens between neighbours.
@@ -24,6 +28,7 @@ pub(crate) struct ShapeTree<'a> {
 /// Trees over the boxes that triangles sweep within a slice, and a sphere around them.
 struct Slice {
     tree: Tree,
+    leaves: Leaves,
     ball: Ball,
 }
 
@@ -45,15 +50,27 @@ impl<'a> ShapeTree<'a> {
 
     /// Bytes that the trees take.
     pub fn bytes(&self) -> usize {
-        self.slices.iter().map(|slice| slice.tree.bytes()).sum()
+        let slices = self.slices.iter();
+        slices
+            .map(|slice| slice.tree.bytes() + slice.leaves.bytes())
+            .sum()
     }
 
-    /// Visits the crossings at `0 < t <= limit`, those of equal `t` in any order. `visit` takes the triangle's index in
-    /// the mesh and returns the limit from then on: one below 0 ends the walk.
+    /// Room that [`ShapeTree::walk`] needs for children that wait.
+    pub fn most_waiting(&self) -> usize {
+        let slices = self.slices.iter();
+        slices
+            .map(|slice| slice.tree.most_waiting)
+            .max()
+            .unwrap_or(0)
+    }
+
+    /// As [`crate::mesh_tree::MeshTree::walk`], at a time.
     #[inline(always)]
-    pub fn walk<L: Lanes>(
+    pub fn walk<L: Lanes, const SORTED: bool>(
         &self,
         lanes: L,
+        waiting: &mut [u64],
         ray: &Ray,
         time: f64,
         limit: f64,
@@ -64,19 +81,21 @@ impl<'a> ShapeTree<'a> {
             return;
         };
         let mut limit = limit;
-        slice.tree.walk(
+        slice.tree.walk::<L, SORTED>(
             lanes,
+            waiting,
             &approach.ray,
             approach.local(limit),
             #[inline(always)]
-            |leaf| {
-                for &triangle in slice.tree.items(leaf) {
+            |_, leaf| {
+                for &triangle in slice.leaves.items(leaf) {
                     if let Some(crossing) = self.crossing(&approach, time, triangle, limit) {
                         limit = visit(triangle, crossing);
                     }
                 }
                 approach.local(limit)
             },
+            |_| {},
         );
     }
 
@@ -129,8 +148,10 @@ impl Slice {
         let bounds = boxes
             .iter()
             .fold(Bounds::EMPTY, |union, bounds| union.union(*bounds));
+        let (tree, leaves) = Tree::over(&boxes, LEAF_RULES);
         Self {
-            tree: Tree::over(&boxes, LEAF),
+            tree,
+            leaves,
             ball: Ball::around(bounds.centre(), [bounds.min, bounds.max]),
         }
     }

@@ -3,9 +3,6 @@
 use glam::DVec3;
 
 use crate::background::Sky;
-use crate::bounds::Bounds;
-use crate::bvh::Tree;
-use crate::extent::Extent;
 use crate::geometry::Geometry;
 use crate::gloss::Gloss;
 #[cfg(target_arch = "x86_64")]
@@ -14,13 +11,9 @@ use crate::lanes::{Lanes, Portable};
 use crate::poses::Poses;
 use crate::ray::Ray;
 use crate::scene::{Object, Scene};
+use crate::slices::{Slice, slices};
 use crate::surface::{Opacity, Surface};
-use crate::swept::{greatest_speed, swept_bounds};
 use crate::triangle::Crossing;
-
-/// An object travels at most this part of its diagonal within a slice, unless that takes too many slices.
-const TRAVEL_PER_SLICE: f64 = 0.25;
-const MOST_SLICES: usize = 16;
 
 /// A scene between two times, ready for rays.
 ///
@@ -35,7 +28,9 @@ pub struct Stage<'a> {
     /// Per material of the scene.
     glosses: Vec<Option<Gloss>>,
     sky: Sky<'a>,
-    slices: Vec<Tree>,
+    slices: Vec<Slice>,
+    /// Room for the children that wait while a ray is in another.
+    most_waiting: usize,
     poses: Poses<'a>,
     traversal: Traversal,
 }
@@ -70,12 +65,15 @@ impl<'a> Stage<'a> {
     pub fn new(scene: &'a Scene, from: f64, to: f64) -> Self {
         assert!(from <= to, "a stage's interval runs forwards in time");
         let shown: Vec<usize> = scene.objects.iter().map(|object| object.mesh).collect();
-        let meshes = scene
+        let meshes: Vec<Option<Geometry>> = scene
             .meshes
             .iter()
             .enumerate()
             .map(|(index, mesh)| shown.contains(&index).then(|| Geometry::of(mesh, from, to)))
             .collect();
+        let slices = slices(scene, from, to);
+        let in_slices = slices.iter().map(|slice| slice.tree.most_waiting).max();
+        let in_meshes = meshes.iter().flatten().map(Geometry::most_waiting).max();
         Self {
             scene,
             from,
@@ -84,7 +82,8 @@ impl<'a> Stage<'a> {
             opacities: Opacity::of_objects(scene),
             sky: Sky::of(&scene.background),
             glosses: scene.materials.iter().map(Gloss::of).collect(),
-            slices: slices(scene, from, to),
+            slices,
+            most_waiting: in_slices.unwrap_or(0) + in_meshes.unwrap_or(0),
             poses: Poses::new(scene, from, to),
             traversal: Traversal::best(),
         }
@@ -158,26 +157,31 @@ impl<'a> Stage<'a> {
     /// Bytes that trees and triangles take.
     pub fn bytes(&self) -> usize {
         let meshes: usize = self.meshes.iter().flatten().map(Geometry::bytes).sum();
-        meshes + self.slices.iter().map(Tree::bytes).sum::<usize>()
+        let slices = self.slices.iter();
+        let slices = slices.map(|slice| slice.tree.bytes() + slice.leaves.bytes());
+        meshes + slices.sum::<usize>()
     }
 
     #[inline(always)]
     fn closest_by<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
         let time = poses.time();
         let slice = self.slice(time);
+        let mut waiting = poses.take_waiting(self.most_waiting);
         let mut best: Option<Hit> = None;
-        slice.walk(
+        slice.tree.walk::<L, true>(
             lanes,
+            &mut waiting,
             ray,
             f64::INFINITY,
             #[inline(always)]
-            |leaf| {
+            |waiting, leaf| {
                 let limit = |best: &Option<Hit>| best.map_or(f64::INFINITY, |hit| hit.t);
-                for &object in slice.items(leaf) {
+                for &object in slice.leaves.items(leaf) {
                     let object = object as usize;
                     let local = ray.transformed(&poses.pose(object).to_object);
-                    self.mesh(object).walk(
+                    self.mesh(object).walk::<L, true>(
                         lanes,
+                        waiting,
                         &local,
                         time,
                         limit(&best),
@@ -189,7 +193,9 @@ impl<'a> Stage<'a> {
                 }
                 limit(&best)
             },
+            |_| {},
         );
+        poses.waiting = waiting;
         best
     }
 
@@ -197,30 +203,40 @@ impl<'a> Stage<'a> {
     fn blocked_by<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
         let time = poses.time();
         let slice = self.slice(time);
+        let mut waiting = poses.take_waiting(self.most_waiting);
         let mut blocked = false;
-        slice.walk(
+        slice.tree.walk::<L, false>(
             lanes,
+            &mut waiting,
             ray,
             limit,
             #[inline(always)]
-            |leaf| {
-                for &object in slice.items(leaf) {
+            |waiting, leaf| {
+                for &object in slice.leaves.items(leaf) {
                     let object = object as usize;
                     let local = ray.transformed(&poses.pose(object).to_object);
-                    self.mesh(object)
-                        .walk(lanes, &local, time, limit, |triangle, crossing| {
+                    self.mesh(object).walk::<L, false>(
+                        lanes,
+                        waiting,
+                        &local,
+                        time,
+                        limit,
+                        |triangle, crossing| {
                             let opaque =
                                 self.opacities[object].opaque(self.scene, triangle, &crossing);
                             blocked |= crossing.t < limit && opaque;
                             if blocked { NOWHERE } else { limit }
-                        });
+                        },
+                    );
                     if blocked {
                         return NOWHERE;
                     }
                 }
                 limit
             },
+            |_| {},
         );
+        poses.waiting = waiting;
         blocked
     }
 
@@ -272,7 +288,7 @@ impl<'a> Stage<'a> {
             .expect("every shown mesh has a tree")
     }
 
-    fn slice(&self, time: f64) -> &Tree {
+    fn slice(&self, time: f64) -> &Slice {
         assert!(
             self.from <= time && time <= self.to,
             "a ray's time lies in the stage's interval"
@@ -292,32 +308,4 @@ impl Traversal {
         }
         Traversal::Portable
     }
-}
-
-fn slices(scene: &Scene, from: f64, to: f64) -> Vec<Tree> {
-    let extents = Extent::of_meshes(scene);
-    let count = slice_count(scene, &extents, from, to);
-    let border = |slice: usize| from + (to - from) * slice as f64 / count as f64;
-    (0..count)
-        .map(|slice| {
-            let boxes: Vec<Bounds> = (0..scene.objects.len())
-                .map(|object| {
-                    swept_bounds(scene, &extents, object, border(slice), border(slice + 1))
-                })
-                .collect();
-            Tree::over(&boxes, 1)
-        })
-        .collect()
-}
-
-/// The smallest power of two that keeps every object's travel within a slice short of its own size.
-fn slice_count(scene: &Scene, extents: &[Extent], from: f64, to: f64) -> usize {
-    let needed = (0..scene.objects.len())
-        .map(|object| {
-            let diagonal = swept_bounds(scene, extents, object, from, from).diagonal();
-            let travel = greatest_speed(scene, extents, object, from, to) * (to - from);
-            travel / (TRAVEL_PER_SLICE * diagonal).max(f64::MIN_POSITIVE)
-        })
-        .fold(1.0, f64::max);
-    (needed.min(MOST_SLICES as f64).ceil() as usize).next_power_of_two()
 }

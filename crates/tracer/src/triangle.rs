@@ -19,13 +19,16 @@ pub(crate) struct Crossing {
 /// operations errs by 1.1e-16 of at most that.
 const ROUNDING: f64 = 1e-14;
 
-/// Crosses a triangle from either side; its border belongs to it.
+/// What is behind the origin by more than this part of the greatest length is not crossed. Rounding is a thousandth of it.
+const BEHIND: f64 = 1e-12;
+
+/// Crosses a triangle from either side; its border belongs to it. None where that is behind the ray, by more than rounding.
 ///
 /// Edge functions in `f64` (Woop, Benthin and Wald 2013 discuss the sheared form). Two triangles that share an edge
 /// compute its function from the same vertices with exactly the opposite sign, so at least one of them accepts. Around a
 /// vertex that is not enough: rounding could turn a ray away from all triangles that meet there. Where a sign is in
 /// doubt it is therefore decided exactly, for one and the same line (Shewchuk 1997, adaptive predicates).
-#[inline]
+#[inline(always)]
 pub(crate) fn cross(ray: &Ray, corners: [DVec3; 3]) -> Option<Crossing> {
     let [a, b, c] = corners.map(|corner| corner - ray.origin);
     let mut weights = [
@@ -46,6 +49,12 @@ pub(crate) fn cross(ray: &Ray, corners: [DVec3; 3]) -> Option<Crossing> {
     }
     let total: f64 = weights.iter().sum();
     if (least(&weights) < 0.0 && greatest(&weights) > 0.0) || total == 0.0 {
+        return None;
+    }
+    // Before the divisions: rays leave surfaces that their lines cross right behind them.
+    let [wa, wb, wc] = weights;
+    let along = (wa * a + wb * b + wc * c).dot(ray.direction) * total.signum();
+    if along < -BEHIND * longest.max_element() * ray.direction.abs().max_element() * total.abs() {
         return None;
     }
     let [wa, wb, wc] = weights.map(|weight| weight / total);

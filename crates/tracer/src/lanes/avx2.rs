@@ -1,0 +1,97 @@
+//! The wide instructions of x86-64 processors since 2013.
+
+use std::arch::x86_64::{__m256, _CMP_LE_OQ, _CMP_NGT_UQ, _CMP_NLT_UQ};
+
+use pulp::cast;
+use pulp::x86::V3;
+
+use super::{Boxes, EdgeRay, LEAF, Lanes, SlabRay, Triangles, WIDTH};
+
+/// AVX2 and FMA; a value of this type is proof that the processor has them.
+#[derive(Clone, Copy)]
+pub(crate) struct Avx2(V3);
+
+impl Avx2 {
+    /// None where the processor lacks them.
+    pub fn detect() -> Option<Self> {
+        V3::try_new().map(Self)
+    }
+
+    /// Where the ray enters (end 0) or leaves (end 1) the space between eight pairs of planes.
+    #[inline(always)]
+    fn planes(self, boxes: &Boxes, ray: &SlabRay, axis: usize, end: usize) -> __m256 {
+        let Self(V3 { avx, fma, .. }) = self;
+        let side = ray.first[axis] ^ end;
+        fma._mm256_fmadd_ps(
+            cast(boxes.0[axis][side]),
+            avx._mm256_set1_ps(ray.scale[axis]),
+            avx._mm256_set1_ps(ray.offsets[end][axis]),
+        )
+    }
+
+    /// Where vertices lie, seen along the ray.
+    #[inline(always)]
+    fn place(self, vertex: &[[f32; LEAF]; 3], ray: &EdgeRay) -> [__m256; 2] {
+        let along = cast(vertex[ray.axes[2]]);
+        [
+            self.coordinate(cast(vertex[ray.axes[0]]), along, ray.foot[0], ray.shear[0]),
+            self.coordinate(cast(vertex[ray.axes[1]]), along, ray.foot[1], ray.shear[1]),
+        ]
+    }
+
+    #[inline(always)]
+    fn coordinate(self, across: __m256, along: __m256, foot: f32, shear: f32) -> __m256 {
+        let Self(V3 { avx, fma, .. }) = self;
+        let from_foot = avx._mm256_sub_ps(across, avx._mm256_set1_ps(foot));
+        fma._mm256_fnmadd_ps(along, avx._mm256_set1_ps(shear), from_foot)
+    }
+
+    /// p x q
+    #[inline(always)]
+    fn weight(self, p: [__m256; 2], q: [__m256; 2]) -> __m256 {
+        let Self(V3 { avx, fma, .. }) = self;
+        fma._mm256_fmsub_ps(p[0], q[1], avx._mm256_mul_ps(p[1], q[0]))
+    }
+}
+
+impl Lanes for Avx2 {
+    #[inline(always)]
+    fn run<R>(self, work: impl FnOnce() -> R) -> R {
+        self.0.vectorize(work)
+    }
+
+    #[inline(always)]
+    fn enter(self, boxes: &Boxes, ray: &SlabRay, limit: f32) -> (u32, [f32; WIDTH]) {
+        let avx = self.0.avx;
+        let near = avx._mm256_max_ps(
+            avx._mm256_max_ps(self.planes(boxes, ray, 0, 0), self.planes(boxes, ray, 1, 0)),
+            avx._mm256_max_ps(self.planes(boxes, ray, 2, 0), avx._mm256_setzero_ps()),
+        );
+        let far = avx._mm256_min_ps(
+            avx._mm256_min_ps(self.planes(boxes, ray, 0, 1), self.planes(boxes, ray, 1, 1)),
+            avx._mm256_min_ps(self.planes(boxes, ray, 2, 1), avx._mm256_set1_ps(limit)),
+        );
+        let entered = avx._mm256_cmp_ps::<_CMP_LE_OQ>(near, far);
+        (avx._mm256_movemask_ps(entered) as u32, cast(near))
+    }
+
+    #[inline(always)]
+    fn cross(self, triangles: &Triangles, size: f32, ray: &EdgeRay) -> u32 {
+        let avx = self.0.avx;
+        let [a, b, c] = [
+            self.place(&triangles.0[0], ray),
+            self.place(&triangles.0[1], ray),
+            self.place(&triangles.0[2], ray),
+        ];
+        let [u, v, w] = [self.weight(c, b), self.weight(a, c), self.weight(b, a)];
+        let least = avx._mm256_min_ps(avx._mm256_min_ps(u, v), w);
+        let greatest = avx._mm256_max_ps(avx._mm256_max_ps(u, v), w);
+        let doubt = ray.doubt(size);
+        // What is not a number is not rejected.
+        let inside = avx._mm256_or_ps(
+            avx._mm256_cmp_ps::<_CMP_NLT_UQ>(least, avx._mm256_set1_ps(-doubt)),
+            avx._mm256_cmp_ps::<_CMP_NGT_UQ>(greatest, avx._mm256_set1_ps(doubt)),
+        );
+        avx._mm256_movemask_ps(inside) as u32
+    }
+}

@@ -1,0 +1,52 @@
+//! The shutter cut into slices, each with a small tree over the boxes that objects sweep within it.
+
+use crate::bounds::Bounds;
+use crate::bvh::{Leaves, Tree};
+use crate::extent::Extent;
+use crate::folding::LeafRules;
+use crate::scene::Scene;
+use crate::swept::{greatest_speed, swept_bounds};
+
+/// An object travels at most this part of its diagonal within a slice, unless that takes too many slices.
+const TRAVEL_PER_SLICE: f64 = 0.25;
+const MOST_SLICES: usize = 16;
+
+/// A tree over the boxes that objects sweep within a part of the shutter; a leaf is an object.
+pub(crate) struct Slice {
+    pub tree: Tree,
+    pub leaves: Leaves,
+}
+
+/// The slices of `[from, to]`, in time: all equally long.
+pub(crate) fn slices(scene: &Scene, from: f64, to: f64) -> Vec<Slice> {
+    let extents = Extent::of_meshes(scene);
+    let count = slice_count(scene, &extents, from, to);
+    let border = |slice: usize| from + (to - from) * slice as f64 / count as f64;
+    (0..count)
+        .map(|slice| {
+            let boxes: Vec<Bounds> = (0..scene.objects.len())
+                .map(|object| {
+                    swept_bounds(scene, &extents, object, border(slice), border(slice + 1))
+                })
+                .collect();
+            let rules = LeafRules {
+                most: 1,
+                item_cost: 0.0,
+            };
+            let (tree, leaves) = Tree::over(&boxes, rules);
+            Slice { tree, leaves }
+        })
+        .collect()
+}
+
+/// The smallest power of two that keeps every object's travel within a slice short of its own size.
+fn slice_count(scene: &Scene, extents: &[Extent], from: f64, to: f64) -> usize {
+    let needed = (0..scene.objects.len())
+        .map(|object| {
+            let diagonal = swept_bounds(scene, extents, object, from, from).diagonal();
+            let travel = greatest_speed(scene, extents, object, from, to) * (to - from);
+            travel / (TRAVEL_PER_SLICE * diagonal).max(f64::MIN_POSITIVE)
+        })
+        .fold(1.0, f64::max);
+    (needed.min(MOST_SLICES as f64).ceil() as usize).next_power_of_two()
+}
