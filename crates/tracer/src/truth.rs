@@ -58,6 +58,12 @@ impl<'a> TruthTracer<'a> {
         })
     }
 
+    /// Bytes that a pixel takes while a replicate is traced: its mean, and what was recalled of the instant.
+    pub fn bytes_per_pixel(&self) -> usize {
+        let coverages = self.stage.scene.objects.len() + 1;
+        size_of::<PixelMean>() + coverages * size_of::<f32>() + size_of::<Recollected>()
+    }
+
     /// Renders one replicate. The index chooses its random numbers and nothing else; it may lie beyond the number of
     /// replicates that the settings name.
     pub fn trace(&self, index: u32, watch: Watch) -> Result<Replicate, TraceError> {
