@@ -171,14 +171,23 @@ impl Lanes for Portable {
                 })
             })
         });
+        let [a, b, c] = &places;
+        let weight = |p: &[[f32; LEAF]; 2], q: &[[f32; LEAF]; 2]| -> [f32; LEAF] {
+            std::array::from_fn(|lane| p[0][lane] * q[1][lane] - p[1][lane] * q[0][lane])
+        };
+        let [u, v, w] = [weight(c, b), weight(a, c), weight(b, a)];
+        // Written so that processors do it for several lanes at once.
+        let pick = |first: bool, p: f32, q: f32| if first { p } else { q };
+        let least: [f32; LEAF] = std::array::from_fn(|lane| {
+            let least = pick(u[lane] < v[lane], u[lane], v[lane]);
+            pick(least < w[lane], least, w[lane])
+        });
+        let greatest: [f32; LEAF] = std::array::from_fn(|lane| {
+            let greatest = pick(u[lane] > v[lane], u[lane], v[lane]);
+            pick(greatest > w[lane], greatest, w[lane])
+        });
         (0..LEAF)
-            .map(|lane| {
-                let [a, b, c] = places.map(|place| place.map(|axis| axis[lane]));
-                let weights = [(c, b), (a, c), (b, a)].map(|(p, q)| p[0] * q[1] - p[1] * q[0]);
-                let least = weights[0].min(weights[1]).min(weights[2]);
-                let greatest = weights[0].max(weights[1]).max(weights[2]);
-                u32::from(!(least < -doubt && greatest > doubt)) << lane
-            })
+            .map(|lane| u32::from(!(least[lane] < -doubt && greatest[lane] > doubt)) << lane)
             .sum()
     }
 }
