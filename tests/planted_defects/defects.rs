@@ -35,7 +35,7 @@ const fn jump_flood(name: &'static str, sound: &'static str, broken: &'static st
 }
 
 /// Every defect.
-pub const DEFECTS: [Defect; 23] = [
+pub const DEFECTS: [Defect; 24] = [
     mcguire(
         "taps_ahead_only",
         "2.0 * along - 1.0;",
@@ -85,6 +85,11 @@ pub const DEFECTS: [Defect; 23] = [
         "axes_swapped",
         "let half = half_velocity(textureLoad(velocity, pixel, 0).xy);",
         "let half = half_velocity(textureLoad(velocity, pixel, 0).yx);",
+    ),
+    mcguire(
+        "y_axis_flipped",
+        "let half = half_velocity(textureLoad(velocity, pixel, 0).xy);",
+        "let half = half_velocity(textureLoad(velocity, pixel, 0).xy * vec2<f32>(1.0, -1.0));",
     ),
     mcguire(
         "exposure_ignored",

@@ -20,8 +20,13 @@ use defects::{DEFECTS, Defect};
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
 const SHADERS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shaders");
 
-/// One thing that slides over texture, two that pass one another, and many that turn, fly and hide one another.
-const NAMES: [&str; 3] = ["sliding_panel", "two_spheres", "railing"];
+/// One thing that slides, the same aslant, two that pass one another, and many that turn, fly and hide one another.
+const NAMES: [&str; 4] = [
+    "sliding_panel",
+    "sliding_panel@64px_45deg",
+    "two_spheres",
+    "railing",
+];
 
 /// What the filters are bounded in.
 const METRICS: [&str; 14] = [
