@@ -11,13 +11,13 @@ const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
 
 /// Verdicts on the instant itself, and on the mean of 64 sub-frames.
 fn verdicts(choice: &SceneChoice) -> [Vec<Verdict>; 2] {
-    // Truths are kept from one run of the tests to the next, and shared with those of the shipped bounds.
-    let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("truths");
+    let out = tempfile::tempdir().unwrap();
     let settings = RenderSettings::default();
     let scene = &choice.scene;
-    let frame = suite::frame_of(scene, &settings, &out, true).unwrap();
+    let frame = suite::frame_of(scene, &settings, out.path(), true).unwrap();
     let (truth, ladder) =
-        suite::truth_and_ladder_of(scene, &settings, Alignment::Trailing, &out, true).unwrap();
+        suite::truth_and_ladder_of(scene, &settings, Alignment::Trailing, out.path(), true)
+            .unwrap();
     let reference = Reference::new(&frame, &truth, None, &suite::viewing(scene)).unwrap();
     let bounds = suite::read_bounds(Path::new(SCENES), &choice.folder).unwrap();
     // What is asked of every filter, required or not.

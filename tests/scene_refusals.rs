@@ -242,7 +242,7 @@ const SCENE_SLIPS: &[Slip] = &[
     ("no background", "constant = [0, 0, 0]\n", "", 
         "scene.toml:11: a background needs one of: constant = [r, g, b], gradient = { ground, horizon, zenith }, image = \"sky.exr\""),
     ("two backgrounds", "constant = [0, 0, 0]", "constant = [0, 0, 0]\ngradient = { ground = [0, 0, 0], horizon = [0, 0, 0], zenith = [0, 0, 0] }", 
-        "scene.toml:11: a background needs one of: constant = [r, g, b], gradient = { ground, horizon, zenith }"),
+        "scene.toml:11: a background needs one of: constant = [r, g, b], gradient = { ground, horizon, zenith }, image = \"sky.exr\""),
     ("dark light", "constant = [0, 0, 0]", "gradient = { ground = [0, 0, 0], horizon = [0, 0, 0], zenith = [0, -1, 0] }", 
         "scene.toml:12: zenith is [0.0, -1.0, 0.0]; allowed: 0 and above, finite"),
     ("sun nowhere", "direction = [0, 1, 0]", "direction = [0, 0, 0]", 
