@@ -1,6 +1,6 @@
 //! The truth about one object's matte, ready to score any number of outputs against.
 
-use frame::{Frame, Picture, Plane, Raster, Truth};
+use frame::{Frame, Picture, Plane, Raster, Region, Regions, Truth};
 
 use crate::along_motion::{AlongMotion, BORDER, NO_SILHOUETTE, touches_border};
 use crate::bleed::{Bleed, Side, bleed, sides};
@@ -66,15 +66,16 @@ impl ObjectReference {
         }
     }
 
-    /// Scores an output's matte. `variation` and `noise` are the label total variations of the output and of the truth's
-    /// first half; `region` is where they count.
+    /// Scores an output's matte. `variations` are the label total variations of the output and of the truth's first half,
+    /// `gradient` is what [`ObjectReference::gradient_errors`] says of the matte.
     pub fn measure(
         &self,
         matte: &Plane,
-        variation: &Raster<f64>,
-        noise: &Raster<f64>,
-        region: &Raster<bool>,
+        variations: [&Raster<f64>; 2],
+        gradient: Option<&Raster<f64>>,
+        regions: &Regions,
     ) -> ObjectScores {
+        let [variation, noise] = variations.map(|map| on_object(map, &self.truth, &regions.moving));
         let [bleed_lateral, bleed_leading, bleed_trailing] = self.bleed_scores(matte);
         let [
             lateral_growth,
@@ -104,39 +105,29 @@ impl ObjectReference {
             energy,
             label_total_variation: score(
                 ObjectMetric::LabelTotalVariation,
-                on_object(variation, &self.truth, region),
-                on_object(noise, &self.truth, region),
+                variation,
+                noise,
                 "is not seen in the moving region",
             ),
-            gradient_error: self.gradient_score(matte, region),
+            gradient_error: self.gradient_score(gradient, regions),
         }
     }
 
-    /// Squared difference of the gradient magnitudes of matte and truth; zero for what does not move.
-    pub fn gradient_map(&self, matte: &Plane) -> Plane {
-        match &self.mover {
-            Ok(moving) => gradient_error(&gradient_magnitude(matte), &moving.gradient)
-                .map(|error| *error as f32),
-            Err(_) => matte.map(|_| 0.0),
-        }
+    /// Squared difference of the gradient magnitudes of matte and truth; none for what does not move.
+    pub fn gradient_errors(&self, matte: &Plane) -> Option<Raster<f64>> {
+        let moving = self.mover.as_ref().ok()?;
+        Some(gradient_error(&gradient_magnitude(matte), &moving.gradient))
     }
 
-    fn gradient_score(&self, matte: &Plane, region: &Raster<bool>) -> Measured {
+    fn gradient_score(&self, errors: Option<&Raster<f64>>, regions: &Regions) -> Measured {
         let moving = match self.moving() {
             Ok(moving) => moving,
             Err(reason) => return Measured::not_applicable(reason),
         };
-        let pool = |map: &Raster<f64>| {
-            let inside = map.pixels.iter().zip(&region.pixels);
-            let values: Vec<f64> = inside
-                .filter_map(|(v, inside)| inside.then_some(*v))
-                .collect();
-            mean(&values)
-        };
-        let error = gradient_error(&gradient_magnitude(matte), &moving.gradient);
+        let pool = |map| mean(&regions.select(Region::Moving, map));
         score(
             ObjectMetric::GradientError,
-            pool(&error),
+            errors.and_then(pool),
             pool(&moving.gradient_noise),
             "is not seen in the moving region",
         )
@@ -204,11 +195,9 @@ impl ObjectReference {
             pick(ObjectMetric::Misplacement, |found| found.distance),
             pick(ObjectMetric::Centroid, |found| found.centroid),
             pick(ObjectMetric::Extent, |found| found.extent),
-            score(
-                ObjectMetric::TvExcess,
-                Some(grid.total_variation() / rows.truth.total_variation() - 1.0),
-                Some(rows.variation_noise),
-                "",
+            Measured::score(
+                grid.total_variation() / rows.truth.total_variation() - 1.0,
+                ObjectMetric::TvExcess.ideal().floor(rows.variation_noise),
             ),
         ]
     }

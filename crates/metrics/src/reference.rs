@@ -101,16 +101,20 @@ impl<'a> Reference<'a> {
         check_picture(output, self.truth, "the output")?;
         let errors = ErrorMaps::new(output, self.half_colors(), &self.mean, &self.viewing);
         let pairs = || self.objects.iter().zip(&output.coverage[1..]);
-        let objects = pairs().map(|(object, matte)| {
-            let region = &self.regions.moving;
-            object.measure(matte, &errors.label, &self.noise.label, region)
+        let nothing: Plane = errors.label.map(|_| 0.0);
+        let bleed = pairs().fold(nothing.clone(), |sum: Plane, (object, matte)| {
+            sum.zip(&object.bleed_map(matte), |sum, bleed| sum + bleed)
         });
-        let summed = |map: fn(&ObjectReference, &Plane) -> Plane| {
-            let nothing = errors.label.map(|_| 0.0);
-            pairs().fold(nothing, |sum: Plane, (object, matte)| {
-                sum.zip(&map(object, matte), |sum, part| sum + part)
-            })
-        };
+        let gradients: Vec<Option<Raster<f64>>> = pairs()
+            .map(|(object, matte)| object.gradient_errors(matte))
+            .collect();
+        let gradient_error = gradients.iter().flatten().fold(nothing, |sum, errors| {
+            sum.zip(errors, |sum, error| sum + *error as f32)
+        });
+        let objects = pairs().zip(&gradients).map(|((object, matte), gradient)| {
+            let variations = [&errors.label, &self.noise.label];
+            object.measure(matte, variations, gradient.as_ref(), &self.regions)
+        });
         let (frozen, frozen_squared) =
             self.frozen
                 .measure(&output.color, &self.regions, &self.viewing);
@@ -140,14 +144,21 @@ impl<'a> Reference<'a> {
                 output,
                 &self.mean,
                 MoreMaps {
-                    bleed: summed(ObjectReference::bleed_map),
-                    gradient_error: summed(ObjectReference::gradient_map),
+                    bleed,
+                    gradient_error,
                     frozen_squared,
                     static_change,
                 },
             ),
             probes: None,
         })
+    }
+
+    /// The errors of colour over what moves, and nothing else of [`Reference::measure`].
+    pub fn measure_moving(&self, output: &Picture) -> Result<ImageScores, MeasureError> {
+        check_picture(output, self.truth, "the output")?;
+        let errors = ErrorMaps::new(output, self.half_colors(), &self.mean, &self.viewing);
+        Ok(self.image_scores(&errors, Region::Moving))
     }
 
     /// Scores what a filter made of [`Probes::images`]; its weights have to be those of the measured picture.

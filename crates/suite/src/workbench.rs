@@ -144,7 +144,7 @@ impl Workbench<'_> {
         subject: Subject,
     ) -> Result<Case, Error> {
         let common = match self.common {
-            Some(reference) => reference.measure(output)?.scores.moving,
+            Some(reference) => reference.measure_moving(output)?,
             None => measurement.scores.moving.clone(),
         };
         let folder = Path::new(&self.scene.name).join(subject.folder(self.truth));
