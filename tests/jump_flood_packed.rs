@@ -124,7 +124,13 @@ fn painted(
         output,
         seeds: match packed {
             true => (seeds.iter().map(|texel| texel[0].to_bits()))
-                .map(|seed| [seed & 0xffff, seed >> 16])
+                .map(|seed| {
+                    let [x, y] = [seed & 0xffff, (seed & 0x7fff_ffff) >> 16];
+                    let motion = field.velocity.pixels[(y * width + x) as usize];
+                    let moves = seed >> 31 == 1;
+                    assert_eq!(moves, motion != [0.0; 2], "the seed of ({x}, {y}) says");
+                    [x, y]
+                })
                 .collect(),
             false => (seeds.iter().map(|texel| [texel[0], texel[1]]))
                 .map(|position| position.map(|coordinate| coordinate as u32))

@@ -2,9 +2,9 @@
 // decisions from the same arithmetic, so that the pictures differ at most where rounding decides.
 //
 // Every source is the centre of a pixel, where a mixed fetch is that of one texel: one fetch gives its motion and depth.
-// A seed is one packed number. Tiles that no trail can reach are left alone. On the way back, one texel and how much
-// its neighbours differ rule out most probes. What a pixel shows is kept as motion and depth instead of a position, so
-// that a tap is one fetch of it.
+// A seed is one packed number; one bit of it tells which pixels stand still and need no further look. Tiles that no
+// trail can reach are left alone. On the way back, one texel and how much its neighbours differ rule out most probes.
+// What a pixel shows is kept as motion and depth instead of a position, so that a tap is one fetch of it.
 
 struct Parameters {
     samples: i32,
@@ -87,12 +87,19 @@ fn measure() -> Measure {
     );
 }
 
-fn packed(pixel: vec2<i32>) -> u32 {
-    return u32(pixel.x) | (u32(pixel.y) << 16u);
+// Set in the seed of a pixel that moves.
+const MOVES = 0x80000000u;
+
+fn packed(pixel: vec2<i32>, motion: vec2<f32>) -> u32 {
+    return u32(pixel.x) | (u32(pixel.y) << 16u) | select(0u, MOVES, moves(motion));
 }
 
 fn unpacked(seed: u32) -> vec2<i32> {
-    return vec2<i32>(vec2<u32>(seed & 0xffffu, seed >> 16u));
+    return vec2<i32>(vec2<u32>(seed & 0xffffu, (seed & ~MOVES) >> 16u));
+}
+
+fn moves(motion: vec2<f32>) -> bool {
+    return dot(motion, motion) > STILL;
 }
 
 // A surface and how it moves.
@@ -147,7 +154,7 @@ var<workgroup> tile_trails: array<atomic<u32>, 4>;
 // most `trail_frames` ahead along the path and at most the tolerance beside it; rounding is given a pixel and a
 // thousandth. 0 where nothing moves.
 fn trail_of(motion: vec2<f32>) -> vec4<f32> {
-    if dot(motion, motion) <= STILL {
+    if !moves(motion) {
         return vec4<f32>(0.0);
     }
     let by = measure();
@@ -174,7 +181,7 @@ fn pack(
         let longest = sqrt(max(max(dot(right, right), dot(below, below)), dot(across, across)));
         let doubt = select(0.0, longest, parameters.fetch == FETCH_BILINEAR);
         textureStore(surfaces_out, pixel, vec4<f32>(motion, textureLoad(depth, pixel, 0).x, doubt));
-        textureStore(seeds_out, pixel, vec4<u32>(packed(pixel)));
+        textureStore(seeds_out, pixel, vec4<u32>(packed(pixel, motion)));
         let trail = bitcast<vec4<u32>>(trail_of(motion));
         for (var side = 0; side < 4; side++) {
             atomicMax(&tile_trails[side], trail[side]);
@@ -250,7 +257,7 @@ fn fitness(by: Measure, position: vec2<f32>, source: vec2<f32>, motion: vec2<f32
     let beside = abs(path.y * offset.x - path.x * offset.y) / dot(path, path);
     let middle = 0.5 * by.frames;
     let on_trail = abs(along - middle) <= middle;
-    return Fitness(along, dot(motion, motion) > STILL && on_trail && beside <= by.beside);
+    return Fitness(along, moves(motion) && on_trail && beside <= by.beside);
 }
 
 @compute @workgroup_size(8, 8)
@@ -259,15 +266,16 @@ fn dilate(@builtin(global_invocation_id) id: vec3<u32>) {
     if !inside(pixel) {
         return;
     }
-    var best_seed = packed(pixel);
     if !is_reached(pixel) {
-        textureStore(seeds_out, pixel, vec4<u32>(best_seed));
+        // It does not move either, or its own trail would reach it.
+        textureStore(seeds_out, pixel, vec4<u32>(packed(pixel, vec2<f32>(0.0))));
         return;
     }
     let by = measure();
     let size = frame.size;
     let here = centre(pixel);
     let step = (1 << (frame.iterations - 1u - frame.iteration)) * parameters.step_multiplier;
+    var best_seed = 0u;
     var best_depth = 0.0;
     var found = false;
     for (var i = select(1, 0, parameters.kernel == KERNEL_WITH_CENTRE); i < 9; i++) {
@@ -277,6 +285,9 @@ fn dilate(@builtin(global_invocation_id) id: vec3<u32>) {
             continue;
         }
         let seed = textureLoad(seeds, neighbour, 0).x;
+        if (seed & MOVES) == 0u {
+            continue;
+        }
         let source = surface_of(unpacked(seed));
         let candidate = fitness(by, here, centre(unpacked(seed)), source.motion);
         if candidate.valid && (!found || source.depth < best_depth) {
@@ -284,6 +295,9 @@ fn dilate(@builtin(global_invocation_id) id: vec3<u32>) {
             best_depth = source.depth;
             best_seed = seed;
         }
+    }
+    if !found {
+        best_seed = packed(pixel, surface_of(pixel).motion);
     }
     textureStore(seeds_out, pixel, vec4<u32>(best_seed));
 }
@@ -483,7 +497,7 @@ fn gather(@builtin(global_invocation_id) id: vec3<u32>) {
     let here = textureLoad(color, pixel, 0);
     let source = textureLoad(sources, pixel, 0);
     let motion = source.xy;
-    if dot(motion, motion) <= STILL || by.frames == 0.0 {
+    if !moves(motion) || by.frames == 0.0 {
         textureStore(output, pixel, here);
         return;
     }
