@@ -31,6 +31,8 @@ mod nearest;
 mod object;
 #[cfg(test)]
 mod parity;
+mod pooled;
+mod pooled_scores;
 mod pooling;
 mod probes;
 mod reference;

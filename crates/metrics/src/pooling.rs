@@ -5,38 +5,27 @@ pub(crate) fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
-/// The value that at least 95 % of the values do not exceed (nearest rank); `None` of none.
-pub(crate) fn percentile_95(values: &[f64]) -> Option<f64> {
-    percentile(values, 0.95)
-}
-
-/// The value that at least 99 % of the values do not exceed (nearest rank); `None` of none.
-pub(crate) fn percentile_99(values: &[f64]) -> Option<f64> {
-    percentile(values, 0.99)
-}
-
-fn percentile(values: &[f64], part: f64) -> Option<f64> {
-    let sorted = sorted(values);
+/// The value that at least this part of the sorted values does not exceed (nearest rank); `None` of none.
+pub(crate) fn percentile(sorted: &[f64], part: f64) -> Option<f64> {
     let rank = (sorted.len() as f64 * part).ceil() as usize;
     sorted.get(rank.checked_sub(1)?).copied()
 }
 
-/// The smallest value up to which the values add up to half of their sum, as the FLIP tool reports it: pixels without error
-/// do not count. Values are not negative; 0 where all are, `None` of none.
-pub(crate) fn weighted_median(values: &[f64]) -> Option<f64> {
-    let sorted = sorted(values);
+/// The smallest of the sorted values up to which they add up to half of their sum, as the FLIP tool reports it: pixels
+/// without error do not count. Values are not negative; 0 where all are, `None` of none.
+pub(crate) fn weighted_median(sorted: &[f64]) -> Option<f64> {
     let half = 0.5 * sorted.iter().sum::<f64>();
     let mut sum = 0.0;
-    sorted.into_iter().find(|value| {
+    sorted.iter().copied().find(|value| {
         sum += value;
         sum >= half
     })
 }
 
-fn sorted(values: &[f64]) -> Vec<f64> {
-    let mut sorted = values.to_vec();
-    sorted.sort_unstable_by(f64::total_cmp);
-    sorted
+/// In rising order.
+pub(crate) fn sorted(mut values: Vec<f64>) -> Vec<f64> {
+    values.sort_unstable_by(f64::total_cmp);
+    values
 }
 
 #[cfg(test)]
@@ -45,12 +34,12 @@ mod tests {
 
     #[test]
     fn the_percentile_is_the_value_that_95_percent_do_not_exceed() {
-        let values: Vec<f64> = (1..=100).rev().map(f64::from).collect();
-        assert_eq!(percentile_95(&values), Some(95.0));
-        assert_eq!(percentile_95(&values[..10]), Some(100.0));
-        assert_eq!(percentile_95(&[3.0]), Some(3.0));
-        assert_eq!(percentile_95(&[]), None);
-        assert_eq!(percentile_99(&values), Some(99.0));
+        let values = sorted((1..=100).rev().map(f64::from).collect());
+        assert_eq!(percentile(&values, 0.95), Some(95.0));
+        assert_eq!(percentile(&values[90..], 0.95), Some(100.0));
+        assert_eq!(percentile(&[3.0], 0.95), Some(3.0));
+        assert_eq!(percentile(&[], 0.95), None);
+        assert_eq!(percentile(&values, 0.99), Some(99.0));
         assert_eq!(mean(&[]), None);
     }
 
@@ -58,7 +47,7 @@ mod tests {
     fn half_of_the_error_lies_below_the_weighted_median() {
         // 1 + 2 + 3 + 4 = 10: the 3 passes 5.
         assert_eq!(
-            weighted_median(&[4.0, 0.0, 2.0, 0.0, 3.0, 0.0, 1.0]),
+            weighted_median(&sorted(vec![4.0, 0.0, 2.0, 0.0, 3.0, 0.0, 1.0])),
             Some(3.0)
         );
         assert_eq!(weighted_median(&[0.0, 0.0]), Some(0.0));

@@ -5,18 +5,20 @@ use rayon::prelude::*;
 
 use crate::absolute_error::absolute_error;
 use crate::check::{check_agreement, check_picture, check_viewing};
-use crate::cross_error::{psnr, uncertainty};
+use crate::cross_error::uncertainty;
 use crate::equivalent::{Curve, Equivalent};
 use crate::error_maps::{ErrorMaps, MoreMaps};
 use crate::frozen::FrozenReference;
 use crate::ladder::Curves;
 use crate::object::ObjectReference;
-use crate::pooling::{mean, percentile_95, percentile_99, weighted_median};
+use crate::pooled::Pooled;
+use crate::pooled_scores::{Found, image_scores, label_scores};
+use crate::pooling::mean;
 use crate::probes::{ProbeMaps, ProbeMeasurement, Probes, measure_probes};
 use crate::ssim::SSIM_BORDER;
 use crate::{
-    EquivalentScores, ImageScores, LabelScores, Maps, MeasureError, Measured, ProbeScores, Region,
-    Regions, Scores, SkillScores, Viewing,
+    EquivalentScores, ImageScores, Maps, MeasureError, Measured, ProbeScores, Region, Regions,
+    Scores, SkillScores, Viewing,
 };
 
 /// Scores, and the maps that they were pooled from.
@@ -37,13 +39,17 @@ pub struct Reference<'a> {
     truth: &'a Truth,
     mean: Picture,
     viewing: Viewing,
-    /// Errors of the truth's first half against the mean: their difference is as large as the mean's own noise.
-    noise: ErrorMaps,
+    /// Errors of the truth's first half against the mean, whose difference is as large as the mean's own noise.
+    noise: [Option<Pooled>; Region::ALL.len()],
+    /// The same of its labels, pixel by pixel.
+    label_noise: Raster<f64>,
     /// Standard error of the unbiased squared error over the moving region, from the truth's noise.
     mse_uncertainty: f64,
-    /// The picture that does nothing, and its errors.
+    /// The picture that does nothing, and its errors over the moving region.
     instant: Image,
-    instant_errors: ErrorMaps,
+    instant_errors: Option<Pooled>,
+    /// Pixels whose SSIM window lies in the picture.
+    windows: Raster<bool>,
     frozen: FrozenReference,
     objects: Vec<ObjectReference>,
     curves: Option<Curves>,
@@ -57,6 +63,27 @@ impl<'a> Reference<'a> {
         ladder: Option<&Ladder>,
         viewing: &Viewing,
     ) -> Result<Self, MeasureError> {
+        Self::made(frame, truth, ladder, viewing, None)
+    }
+
+    /// The same over the regions of another truth of the scene.
+    pub fn over(
+        regions: Regions,
+        frame: &Frame,
+        truth: &'a Truth,
+        ladder: Option<&Ladder>,
+        viewing: &Viewing,
+    ) -> Result<Self, MeasureError> {
+        Self::made(frame, truth, ladder, viewing, Some(regions))
+    }
+
+    fn made(
+        frame: &Frame,
+        truth: &'a Truth,
+        ladder: Option<&Ladder>,
+        viewing: &Viewing,
+        of_another: Option<Regions>,
+    ) -> Result<Self, MeasureError> {
         check_viewing(viewing)?;
         check_agreement(frame, truth, ladder)?;
         let instant = Picture {
@@ -68,19 +95,20 @@ impl<'a> Reference<'a> {
             check_picture(half, truth, &format!("half {name} of the truth"))?;
         }
         let mean = truth.mean();
-        let regions = regions(truth);
+        let regions = of_another.unwrap_or_else(|| regions(truth));
+        let windows = whole_windows(truth.size());
+        let halves = truth.halves.each_ref().map(|half| &half.color);
+        let noise = ErrorMaps::new(&truth.halves[0], [&mean.color; 2], &mean, viewing);
+        let instant_errors = ErrorMaps::new(&instant, halves, &mean, viewing);
         Ok(Self {
-            noise: ErrorMaps::new(&truth.halves[0], [&mean.color; 2], &mean, viewing),
-            instant_errors: ErrorMaps::new(
-                &instant,
-                truth.halves.each_ref().map(|half| &half.color),
-                &mean,
-                viewing,
-            ),
+            noise: Region::ALL.map(|region| Pooled::new(&noise, &regions, region, &windows)),
+            label_noise: noise.label,
+            instant_errors: Pooled::new(&instant_errors, &regions, Region::Moving, &windows),
+            windows,
             frozen: FrozenReference::new(truth, &regions, viewing),
             mse_uncertainty: uncertainty(
-                &regions.select(Region::Moving, &truth.halves[0].color),
-                &regions.select(Region::Moving, &truth.halves[1].color),
+                &regions.select(Region::Moving, halves[0]),
+                &regions.select(Region::Moving, halves[1]),
                 viewing.scale(),
             ),
             objects: (1..truth.objects.len())
@@ -112,20 +140,22 @@ impl<'a> Reference<'a> {
             sum.zip(errors, |sum, error| sum + *error as f32)
         });
         let objects = pairs().zip(&gradients).map(|((object, matte), gradient)| {
-            let variations = [&errors.label, &self.noise.label];
+            let variations = [&errors.label, &self.label_noise];
             object.measure(matte, variations, gradient.as_ref(), &self.regions)
         });
         let (frozen, frozen_squared) =
             self.frozen
                 .measure(&output.color, &self.regions, &self.viewing);
         let static_change = self.static_change(&output.color);
+        let pooled = Region::ALL.map(|region| self.pooled(&errors, region));
+        let [moving, still, full, knowable, unknowable] = &pooled;
         Ok(Measurement {
             scores: Scores {
-                moving: self.image_scores(&errors, Region::Moving),
-                still: self.image_scores(&errors, Region::Still),
-                full: self.image_scores(&errors, Region::Full),
-                knowable: self.image_scores(&errors, Region::Knowable),
-                unknowable: self.image_scores(&errors, Region::Unknowable),
+                moving: image_scores(moving),
+                still: image_scores(still),
+                full: image_scores(full),
+                knowable: image_scores(knowable),
+                unknowable: image_scores(unknowable),
                 frozen,
                 static_contamination: match mean(
                     &self.regions.select(Region::Still, &static_change),
@@ -134,11 +164,11 @@ impl<'a> Reference<'a> {
                     Some(change) => Measured::score(change, 0.0),
                     None => Measured::not_applicable(empty(Region::Still)),
                 },
-                label_total_variation: self.label_scores(&errors),
+                label_total_variation: label_scores(moving),
                 objects: objects.collect(),
                 probes: ProbeScores::not_applicable("no probes were run through the filter"),
-                skill: self.skill_scores(&errors),
-                equivalent_subframes: self.equivalent_scores(&errors),
+                skill: self.skill_scores(moving),
+                equivalent_subframes: self.equivalent_scores(moving),
             },
             maps: errors.maps(
                 output,
@@ -158,7 +188,7 @@ impl<'a> Reference<'a> {
     pub fn measure_moving(&self, output: &Picture) -> Result<ImageScores, MeasureError> {
         check_picture(output, self.truth, "the output")?;
         let errors = ErrorMaps::new(output, self.half_colors(), &self.mean, &self.viewing);
-        Ok(self.image_scores(&errors, Region::Moving))
+        Ok(image_scores(&self.pooled(&errors, Region::Moving)))
     }
 
     /// Scores what a filter made of [`Probes::images`]; its weights have to be those of the measured picture.
@@ -175,43 +205,13 @@ impl<'a> Reference<'a> {
         self.truth.halves.each_ref().map(|half| &half.color)
     }
 
-    fn image_scores(&self, errors: &ErrorMaps, region: Region) -> ImageScores {
-        let pool = |map, how| self.pool(errors, region, map, how);
-        let mse = pool(|maps| &maps.squared, mean);
-        ImageScores {
-            mse: score(mse, region),
-            psnr: score(
-                mse.map(|(mse, noise)| (psnr(mse, noise), psnr(noise, noise))),
-                region,
-            ),
-            relmse: score(pool(|maps| &maps.relative, mean), region),
-            mae: score(pool(|maps| &maps.absolute, mean), region),
-            smape: score(pool(|maps| &maps.symmetric, mean), region),
-            flip: score(pool(|maps| &maps.flip, mean), region),
-            flip_median: score(pool(|maps| &maps.flip, weighted_median), region),
-            flip_p95: score(pool(|maps| &maps.flip, percentile_95), region),
-            flip_p99: score(pool(|maps| &maps.flip, percentile_99), region),
-            flip_hdr: score(pool(|maps| &maps.flip_hdr, mean), region),
-            ssim: self.ssim_score(errors, region),
-        }
-    }
-
-    /// Windows that reach beyond the picture are left out.
-    fn ssim_score(&self, errors: &ErrorMaps, region: Region) -> Measured {
-        let [width, height] = [self.mean.color.width, self.mean.color.height];
-        let interior = Raster::from_fn(width, height, |x, y| {
-            x.min(y) >= SSIM_BORDER && x + SSIM_BORDER < width && y + SSIM_BORDER < height
-        });
-        let whole = self.regions.select(region, &interior);
-        let pool = |map| {
-            let values = self.regions.select(region, map).into_iter().zip(&whole);
-            let values: Vec<f64> = values.filter_map(|(v, whole)| whole.then_some(v)).collect();
-            mean(&values)
-        };
-        match (pool(&errors.ssim), pool(&self.noise.ssim)) {
-            (Some(value), Some(noise)) => Measured::score(value, noise),
-            _ => Measured::not_applicable(empty(region)),
-        }
+    fn pooled(&self, errors: &ErrorMaps, region: Region) -> Found {
+        let pooled = Pooled::new(errors, &self.regions, region, &self.windows);
+        let noise = self.noise[Region::ALL
+            .iter()
+            .position(|other| *other == region)
+            .expect("Region::ALL holds every region")];
+        pooled.zip(noise).ok_or(empty(region))
     }
 
     /// How much a picture changes what stands still.
@@ -222,83 +222,56 @@ impl<'a> Reference<'a> {
         )
     }
 
-    fn skill_scores(&self, errors: &ErrorMaps) -> SkillScores {
-        let skill = |map: fn(&ErrorMaps) -> &Raster<f64>| {
-            let Some((error, noise)) = self.pool(errors, Region::Moving, map, mean) else {
-                return Measured::not_applicable(empty(Region::Moving));
-            };
-            match mean(
-                &self
-                    .regions
-                    .select(Region::Moving, map(&self.instant_errors)),
-            ) {
-                Some(none) if none > noise => {
-                    Measured::score(1.0 - error / none, 1.0 - noise / none)
-                }
-                _ => Measured::not_applicable(
-                    "the instant itself is no worse than the truth's noise",
-                ),
+    fn skill_scores(&self, moving: &Found) -> SkillScores {
+        let skill = |error: fn(&Pooled) -> f64| match (moving, &self.instant_errors) {
+            (Ok((own, noise)), Some(none)) if error(none) > error(noise) => Measured::score(
+                1.0 - error(own) / error(none),
+                1.0 - error(noise) / error(none),
+            ),
+            (Ok(_), _) => {
+                Measured::not_applicable("the instant itself is no worse than the truth's noise")
             }
+            (Err(reason), _) => Measured::not_applicable(*reason),
         };
         SkillScores {
-            mse: skill(|maps| &maps.squared),
-            flip: skill(|maps| &maps.flip),
-            label_total_variation: skill(|maps| &maps.label),
+            mse: skill(|pooled| pooled.mse),
+            flip: skill(|pooled| pooled.flip),
+            label_total_variation: skill(|pooled| pooled.label),
         }
     }
 
-    fn label_scores(&self, errors: &ErrorMaps) -> LabelScores {
-        let pool = |how| {
-            let pooled = self.pool(errors, Region::Moving, |maps| &maps.label, how);
-            score(pooled, Region::Moving)
-        };
-        LabelScores {
-            mean: pool(mean),
-            p95: pool(percentile_95),
-        }
-    }
-
-    fn equivalent_scores(&self, errors: &ErrorMaps) -> EquivalentScores {
-        let place = |curve: fn(&Curves) -> &Option<Curve>, pooled: Option<(f64, f64)>| {
+    fn equivalent_scores(&self, moving: &Found) -> EquivalentScores {
+        type Of<T> = fn(&Curves) -> &T;
+        let place = |curve: Of<Option<Curve>>, error: fn(&Pooled) -> f64, noise: Option<f64>| {
             let Some(curves) = &self.curves else {
                 return Equivalent::refused("no ladder of accumulations was given");
             };
-            let Some((error, noise)) = pooled else {
-                return Equivalent::refused(empty(Region::Moving));
-            };
-            match curve(curves) {
-                Some(curve) => Equivalent::Subframes(curve.place(error, noise)),
-                None => Equivalent::refused("no accumulation can be told from the truth"),
+            match (moving, curve(curves)) {
+                (Ok((own, own_noise)), Some(curve)) => {
+                    let noise = noise.unwrap_or(error(own_noise));
+                    Equivalent::Subframes(curve.place(error(own), noise))
+                }
+                (Ok(_), None) => Equivalent::refused("no accumulation can be told from the truth"),
+                (Err(reason), _) => Equivalent::refused(*reason),
             }
         };
-        let pool = |map| self.pool(errors, Region::Moving, map, mean);
-        let mse = pool(|maps| &maps.squared).map(|(error, _)| (error, self.mse_uncertainty));
         EquivalentScores {
-            mse: place(|curves| &curves.mse, mse),
-            flip: place(|curves| &curves.flip, pool(|maps| &maps.flip)),
-            label_total_variation: place(|curves| &curves.label, pool(|maps| &maps.label)),
+            mse: place(
+                |curves| &curves.mse,
+                |pooled| pooled.mse,
+                Some(self.mse_uncertainty),
+            ),
+            flip: place(|curves| &curves.flip, |pooled| pooled.flip, None),
+            label_total_variation: place(|curves| &curves.label, |pooled| pooled.label, None),
         }
-    }
-
-    /// A pooled error and the noise in it; none over an empty region.
-    fn pool(
-        &self,
-        errors: &ErrorMaps,
-        region: Region,
-        map: fn(&ErrorMaps) -> &Raster<f64>,
-        how: fn(&[f64]) -> Option<f64>,
-    ) -> Option<(f64, f64)> {
-        let value = how(&self.regions.select(region, map(errors)))?;
-        let noise = how(&self.regions.select(region, map(&self.noise)))?;
-        Some((value, noise))
     }
 }
 
-fn score(pooled: Option<(f64, f64)>, region: Region) -> Measured {
-    match pooled {
-        Some((value, noise)) => Measured::score(value, noise),
-        None => Measured::not_applicable(empty(region)),
-    }
+/// Pixels whose SSIM window lies in the picture.
+fn whole_windows((width, height): (u32, u32)) -> Raster<bool> {
+    Raster::from_fn(width, height, |x, y| {
+        x.min(y) >= SSIM_BORDER && x + SSIM_BORDER < width && y + SSIM_BORDER < height
+    })
 }
 
 fn empty(region: Region) -> &'static str {

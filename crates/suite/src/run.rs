@@ -129,10 +129,9 @@ pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, 
                 let whole = &references[alignment];
                 let reference = |part| {
                     let ladder = Some(&truths[alignment].1);
-                    let mut reference = Reference::new(&cropped, part, ladder, &viewing(scene))?;
                     // What is left out changes scores, not where they are taken.
-                    reference.regions = whole.regions.clone();
-                    Ok(reference)
+                    let regions = whole.regions.clone();
+                    Reference::over(regions, &cropped, part, ladder, &viewing(scene))
                 };
                 let references: Result<_, MeasureError> = parts.iter().map(reference).collect();
                 Ok((*alignment, references?))
