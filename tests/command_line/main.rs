@@ -2,10 +2,12 @@
 
 mod baseline;
 mod bench;
+mod catalogue;
 mod check;
 #[cfg(unix)]
 mod command_filter;
 mod comparison;
+mod import;
 mod kept;
 mod own_filter;
 mod refusals;

@@ -67,7 +67,9 @@ fn words_that_do_not_fit_are_refused_with_what_is_allowed() {
     assert_refused(
         &bench.shuttertruth(&[]),
         2,
-        &["run, check, accept, calibrate, render, merge, blur, score, bench, list"],
+        &[
+            "run, check, accept, calibrate, render, merge, blur, score, bench, catalogue, import, list",
+        ],
     );
 }
 

@@ -7,7 +7,11 @@ use std::str::FromStr;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use frame::{Alignment, ColorSampling, VelocityKind};
 use metrics::Metric;
-use suite::{Border, DepthFormat, VelocityFormat};
+use suite::{Border, DepthFormat, Up, VelocityFormat};
+
+use crate::words::{
+    degrees_per_frame, glob, noise, pixels_per_frame, replicates, rounds, runs, size,
+};
 
 /// How good is a real-time motion blur? Renders the truth of moving scenes, runs filters on one frame of each, and
 /// measures how far they are from it.
@@ -43,6 +47,10 @@ pub enum Command {
     Score(ScoreArgs),
     /// Time filters pass by pass, and against their reach. Prints tables; writes bench.json.
     Bench(BenchArgs),
+    /// Show every scene in pictures: the instant, the truth, the velocity, a filter's error. Writes catalogue.md.
+    Catalogue(CatalogueArgs),
+    /// Make a scene folder of an OBJ file: camera, floor, wall, and motion as asked.
+    Import(ImportArgs),
     /// List scenes, filters, parameters and presets.
     List(ListArgs),
 }
@@ -117,7 +125,7 @@ pub struct CalibrateArgs {
 }
 
 /// What is measured by `run`, `check` and `calibrate`.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct MeasureArgs {
     #[command(flatten)]
     pub scenes: SceneArgs,
@@ -212,7 +220,7 @@ pub struct MergeArgs {
 }
 
 /// What `render` shares with the commands that measure.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct SceneArgs {
     /// Scenes: names or folders, each with an optional @variant or @all, separated by commas [default: every one].
     #[arg(long, value_delimiter = ',', value_name = "SCENES")]
@@ -324,6 +332,44 @@ pub struct BenchArgs {
     pub quiet: bool,
 }
 
+/// `shuttertruth catalogue`
+#[derive(Debug, Args)]
+pub struct CatalogueArgs {
+    #[command(flatten)]
+    pub measure: MeasureArgs,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+}
+
+/// `shuttertruth import`
+#[derive(Debug, Args)]
+pub struct ImportArgs {
+    /// The OBJ file. It is copied, with the MTL and PNG files that it names.
+    #[arg(value_name = "MODEL.OBJ")]
+    pub model: PathBuf,
+    /// The scene's folder: new, named as the scene is to be called.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Turn the model on its stand.
+    #[arg(long, value_name = "SPEED", value_parser = degrees_per_frame, allow_hyphen_values = true)]
+    pub spin: Option<f64>,
+    /// Slide it to the right, in pixels at 640x360.
+    #[arg(long, value_name = "SPEED", value_parser = pixels_per_frame, allow_hyphen_values = true)]
+    pub slide: Option<f64>,
+    /// Lead the camera around it.
+    #[arg(long, value_name = "SPEED", value_parser = degrees_per_frame, allow_hyphen_values = true)]
+    pub orbit: Option<f64>,
+    /// The model's axis that points up.
+    #[arg(long, value_enum, value_name = "AXIS", default_value = "y")]
+    pub up: Up,
+    /// Import the shape alone, in grey, without materials.
+    #[arg(long)]
+    pub plain: bool,
+    /// Exposure in frames; 0.5 is a shutter of 180 degrees.
+    #[arg(long, value_name = "E", default_value_t = 0.5)]
+    pub exposure: f64,
+}
+
 /// `shuttertruth list`
 #[derive(Debug, Args)]
 pub struct ListArgs {
@@ -346,63 +392,6 @@ pub struct AdapterArgs {
     pub adapter: Option<String>,
 }
 
-/// `640x360` as (640, 360).
-fn size(text: &str) -> Result<(u32, u32), String> {
-    let parsed = text
-        .split_once('x')
-        .and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
-    match parsed {
-        Some((width @ 16..=16384, height @ 16..=16384)) => Ok((width, height)),
-        _ => {
-            Err("allowed is WIDTHxHEIGHT, each from 16 to 16384 pixels, such as 640x360".to_owned())
-        }
-    }
-}
-
-/// `8` as all eight, `3..6` as the replicates 3, 4 and 5.
-fn replicates(text: &str) -> Result<Replicates, String> {
-    let parsed = match text.split_once("..") {
-        None => text.parse().ok().map(Replicates::All),
-        Some((first, end)) => (first.parse().ok())
-            .zip(end.parse().ok())
-            .filter(|(first, end)| first < end)
-            .map(|(first, end)| Replicates::Part(first..end)),
-    };
-    parsed.ok_or_else(|| {
-        "allowed is a number, such as 8, or A..B with A below B: 3..6 is replicates 3, 4 and 5"
-            .to_owned()
-    })
-}
-
-/// Enough rounds for quartiles.
-fn rounds(text: &str) -> Result<u32, String> {
-    match text.parse() {
-        Ok(rounds @ 20..=10_000) => Ok(rounds),
-        _ => Err("allowed is 20 to 10000: fewer say nothing about the spread".to_owned()),
-    }
-}
-
-/// Enough runs for a spread.
-fn runs(text: &str) -> Result<u32, String> {
-    match text.parse() {
-        Ok(runs @ 2..=100) => Ok(runs),
-        _ => Err("allowed is 2 to 100: one run says nothing about the spread".to_owned()),
-    }
-}
-
-/// A pattern as shells have it.
-fn glob(text: &str) -> Result<glob::Pattern, String> {
-    glob::Pattern::new(text).map_err(|error| error.to_string())
-}
-
-/// A radiance above 0.
-fn noise(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(target) if target > 0.0 && target.is_finite() => Ok(target),
-        _ => Err("allowed is a radiance above 0, such as 0.002".to_owned()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -411,54 +400,5 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Cli::command().debug_assert();
-    }
-
-    #[test]
-    fn a_size_is_two_numbers() {
-        assert_eq!(size("640x360"), Ok((640, 360)));
-        for wrong in [
-            "640",
-            "640x",
-            "x360",
-            "0x360",
-            "640x99999",
-            "640 x 360",
-            "-1x5",
-        ] {
-            assert!(
-                size(wrong).unwrap_err().contains("640x360"),
-                "{wrong} must be refused"
-            );
-        }
-    }
-
-    #[test]
-    fn replicates_are_a_number_or_a_rising_range() {
-        assert_eq!(replicates("16"), Ok(Replicates::All(16)));
-        assert_eq!(replicates("3..6"), Ok(Replicates::Part(3..6)));
-        for wrong in [
-            "", "x", "3..", "..3", "3..3", "6..3", "3..=6", "-1..2", "1.5",
-        ] {
-            assert!(
-                replicates(wrong).unwrap_err().contains("3..6"),
-                "{wrong} must be refused"
-            );
-        }
-    }
-
-    #[test]
-    fn rounds_suffice_for_quartiles() {
-        assert_eq!(rounds("20"), Ok(20));
-        for wrong in ["19", "0", "-1", "many", "1000000", "20.5"] {
-            assert!(rounds(wrong).is_err(), "{wrong} must be refused");
-        }
-    }
-
-    #[test]
-    fn a_noise_target_is_above_zero() {
-        assert_eq!(noise("0.002"), Ok(0.002));
-        for wrong in ["0", "-1", "nan", "inf", "low"] {
-            assert!(noise(wrong).is_err(), "{wrong} must be refused");
-        }
     }
 }

@@ -5,10 +5,12 @@ mod bench;
 mod bounds;
 mod calibrate;
 mod case;
+mod catalogue;
 mod decoys;
 mod error;
 mod finished;
 mod gate;
+mod import;
 mod input_format;
 mod intervals;
 mod merge;
@@ -38,12 +40,14 @@ pub use bounds::{
 };
 pub use calibrate::{Calibration, Proposal, Sample, calibrate};
 pub use case::Case;
+pub use catalogue::catalogue;
 pub use decoys::{Decoys, Resemblance};
 pub use error::Error;
 pub use finished::{Finished, read_finished};
 pub use gate::{
     CHECK_FORMAT, Check, Decision, Finding, Kind, annotations, check, check_text, junit, summary,
 };
+pub use import::{ImportPlan, Motions, Up, import};
 pub use input_format::{Border, DepthFormat, InputFormat, VelocityFormat};
 pub use intervals::{FEWEST_REPLICATES, Intervals, intervals, truths_without_pairs};
 pub use merge::{Merged, merge};

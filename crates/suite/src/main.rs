@@ -2,6 +2,7 @@
 
 mod cli;
 mod commands;
+mod words;
 
 use std::process::ExitCode;
 

@@ -52,7 +52,7 @@ mod velocity;
 pub use camera::View;
 pub use instant::trace_frame;
 pub use ladder::trace_ladder;
-pub use load::{SceneError, SceneListing, list_scenes, load_scene};
+pub use load::{SceneError, SceneListing, list_scenes, load_scene, load_scene_and_files};
 pub use motion::{Interpolation, Key, Motion, Turn};
 pub use poses::Poses;
 pub use progress::{Progress, Watch};

@@ -65,6 +65,21 @@ pub enum Family {
     Limits,
 }
 
+impl Family {
+    /// The word used in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Family::Translation => "translation",
+            Family::Rotation => "rotation",
+            Family::Camera => "camera",
+            Family::Thin => "thin",
+            Family::Overlap => "overlap",
+            Family::Deforming => "deforming",
+            Family::Limits => "limits",
+        }
+    }
+}
+
 /// A pinhole camera that looks along its own -Z, +Y up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {

@@ -4,7 +4,9 @@ mod accept;
 mod bench;
 mod blur;
 mod calibrate;
+mod catalogue;
 mod check;
+mod import;
 mod list;
 mod measure;
 mod merge;
@@ -39,9 +41,13 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         Some(Command::Blur(args)) => blur::execute(&args),
         Some(Command::Score(args)) => score::execute(&args),
         Some(Command::Bench(args)) => bench::execute(&args),
+        Some(Command::Catalogue(args)) => {
+            with_threads(args.measure.scenes.threads, || catalogue::execute(&args))
+        }
+        Some(Command::Import(args)) => import::execute(&args),
         Some(Command::List(args)) => list::execute(&args),
         None => Err(Error::Usage(
-            "no command given; allowed: run, check, accept, calibrate, render, merge, blur, score, bench, list (see --help)"
+            "no command given; allowed: run, check, accept, calibrate, render, merge, blur, score, bench, catalogue, import, list (see --help)"
                 .to_owned(),
         )),
     }

@@ -35,6 +35,14 @@ impl Files {
             .map_err(|_| io::Error::new(io::ErrorKind::InvalidData, "it is not UTF-8 text"))
     }
 
+    /// Where the files lie that were read, in the order of their names.
+    pub(super) fn paths(&self) -> Vec<PathBuf> {
+        self.read
+            .keys()
+            .map(|name| self.folder.join(name))
+            .collect()
+    }
+
     /// One hash of the names and bytes of all files read and of the choice made, in hexadecimal.
     pub(super) fn hash(&self, variant: Option<&str>) -> String {
         let mut hasher = blake3::Hasher::new();

@@ -22,7 +22,7 @@ mod shutter;
 mod statements;
 mod texture;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use document::Document;
 pub use error::SceneError;
@@ -40,6 +40,14 @@ const LARGEST_SIZE: u32 = 16384;
 ///
 /// Refuses whatever a render could not use, and says where it stands and what is allowed; repairs nothing.
 pub fn load_scene(folder: &Path, variant: Option<&str>) -> Result<Scene, SceneError> {
+    load_scene_and_files(folder, variant).map(|(scene, _)| scene)
+}
+
+/// The same, and where the files lie that it was made from: its scene.toml and all that is named there, and by those.
+pub fn load_scene_and_files(
+    folder: &Path,
+    variant: Option<&str>,
+) -> Result<(Scene, Vec<PathBuf>), SceneError> {
     let mut files = Files::new(folder);
     let document = read_document(&mut files, folder)?;
     let table = document.scene(variant)?;
@@ -59,7 +67,8 @@ pub fn load_scene(folder: &Path, variant: Option<&str>) -> Result<Scene, SceneEr
 
     let [width, height] = *table.size.get_ref();
     let name = folder_name(folder);
-    Ok(Scene {
+    let paths = stage.files.paths();
+    let scene = Scene {
         name: variant.map_or(name.clone(), |variant| format!("{name}@{variant}")),
         exposes: table.exposes.into_inner(),
         family: table.family,
@@ -76,7 +85,8 @@ pub fn load_scene(folder: &Path, variant: Option<&str>) -> Result<Scene, SceneEr
         materials: stage.materials,
         objects: stage.objects,
         hash: stage.files.hash(variant),
-    })
+    };
+    Ok((scene, paths))
 }
 
 fn read_document(files: &mut Files, folder: &Path) -> Result<Document, SceneError> {

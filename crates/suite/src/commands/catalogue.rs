@@ -1,0 +1,25 @@
+//! `shuttertruth catalogue`
+
+use suite::{Error, catalogue, open_gpu, run};
+
+use super::measure::{plan, write_run};
+use super::say;
+use crate::cli::CatalogueArgs;
+
+/// The filter whose error is shown where none is named.
+const SHOWN: &str = "jump_flood:paper";
+
+/// Runs one filter, or those that are named, and writes the page beside their pictures.
+pub fn execute(args: &CatalogueArgs) -> Result<(), Error> {
+    let mut measure = args.measure.clone();
+    if measure.filters.is_empty() && measure.filter.is_empty() {
+        measure.filters = vec![SHOWN.to_owned()];
+    }
+    let plan = plan(&measure, measure.scenes.out.clone())?;
+    let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref())?;
+    let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
+    write_run(&run, &plan.out)?;
+    let page = plan.out.join("catalogue.md");
+    frame::write_atomically(&page, catalogue(&run).as_bytes())?;
+    say(&format!("written: {}\n", page.display()))
+}

@@ -1,0 +1,32 @@
+//! `shuttertruth import`
+
+use suite::{Error, ImportPlan, Motions, import};
+
+use super::{check_exposure, say};
+use crate::cli::ImportArgs;
+
+/// Makes the scene folder and says what is in it.
+pub fn execute(args: &ImportArgs) -> Result<(), Error> {
+    check_exposure(args.exposure)?;
+    let plan = ImportPlan {
+        model: args.model.clone(),
+        out: args.out.clone(),
+        up: args.up,
+        plain: args.plain,
+        motions: Motions {
+            spin: args.spin,
+            slide: args.slide,
+            orbit: args.orbit,
+        },
+        exposure: args.exposure,
+    };
+    let scene = import(&plan)?;
+    let triangles = scene.objects.iter().zip(&scene.meshes);
+    let triangles: usize = triangles.map(|(_, mesh)| mesh.triangles.len()).sum();
+    let folder = args.out.display();
+    say(&format!(
+        "{}\n{triangles} triangles, the set's among them\nwritten: {folder}\nnext: shuttertruth run --scenes {}{folder} --out out\n",
+        scene.exposes,
+        if args.out.is_relative() { "./" } else { "" },
+    ))
+}

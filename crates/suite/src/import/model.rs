@@ -1,0 +1,199 @@
+//! The model that is imported: its files in the scene's folder, and where its middle lies.
+
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+use clap::ValueEnum;
+use frame::FileError;
+use tracer::{SceneError, load_scene_and_files};
+
+use crate::Error;
+
+/// Folder of the model's files below the scene's.
+pub const FOLDER: &str = "model";
+
+/// An axis that points up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Up {
+    /// As in scenes.
+    Y,
+    /// As in many CAD programs.
+    Z,
+}
+
+/// A model in a scene's folder.
+pub struct Model {
+    /// The OBJ file, below the scene's folder, with slashes.
+    pub mesh: String,
+    /// Smallest and largest x, y and z once `up` points up, in metres.
+    pub bounds: [[f64; 3]; 2],
+    /// The axis of the file that points up.
+    pub up: Up,
+}
+
+impl Model {
+    /// Copies the OBJ file and what it names into the folder of a new scene.
+    pub fn copied(path: &Path, plain: bool, up: Up, scene: &Path) -> Result<Self, Error> {
+        let folder = scene.join(FOLDER);
+        create(&folder)?;
+        let path = (path.canonicalize()).map_err(|source| io(path, "read", source))?;
+        let name = path.file_name().unwrap_or_default();
+        let copy = folder.join(name);
+        let read = match plain {
+            true => {
+                write_plain(&path, &copy)?;
+                // Lines are where they were.
+                read(scene, &copy).map_err(|error| SceneError {
+                    path: path.clone(),
+                    ..error
+                })?
+            }
+            false => {
+                let read = read(scene, &path).map_err(|error| plainly(error, &path, scene))?;
+                copy_all(&read.files, &path, &folder)?;
+                read
+            }
+        };
+        let name = name.to_str().ok_or_else(|| {
+            Error::Usage(format!(
+                "{}: the name is not Unicode; rename the file",
+                path.display()
+            ))
+        })?;
+        let upright = |p: [f64; 3]| match up {
+            Up::Y => p,
+            Up::Z => [p[0], p[2], -p[1]],
+        };
+        let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        for position in read.positions.into_iter().map(upright) {
+            for axis in 0..3 {
+                bounds[0][axis] = bounds[0][axis].min(position[axis]);
+                bounds[1][axis] = bounds[1][axis].max(position[axis]);
+            }
+        }
+        Ok(Self {
+            mesh: format!("{FOLDER}/{name}"),
+            bounds,
+            up,
+        })
+    }
+
+    /// Half of the size along each axis, in metres.
+    pub fn half_size(&self) -> [f64; 3] {
+        let [low, high] = self.bounds;
+        std::array::from_fn(|axis| 0.5 * (high[axis] - low[axis]))
+    }
+
+    /// Of the ball around the box around it, in metres.
+    pub fn radius(&self) -> f64 {
+        let [x, y, z] = self.half_size();
+        x.hypot(y).hypot(z)
+    }
+}
+
+/// What a scene with nothing but the model holds.
+struct Read {
+    /// Of the triangles' corners, in metres.
+    positions: Vec<[f64; 3]>,
+    /// The OBJ file and what it names.
+    files: Vec<PathBuf>,
+}
+
+fn read(scene: &Path, obj: &Path) -> Result<Read, SceneError> {
+    let document = scene.join("scene.toml");
+    let text = format!(
+        "exposes = \"the model\"\nfamily = \"limits\"\nexposure = 0.5\nsize = [1, 1]\n\
+         [camera]\nposition = [0, 0, 0]\nlook_at = [0, 0, -1]\nvertical_fov = 40\n\
+         [background]\nconstant = [1, 1, 1]\n[object.model]\nmesh = {}\n",
+        toml::Value::from(obj.to_string_lossy().into_owned())
+    );
+    fs::write(&document, text).map_err(|error| SceneError {
+        path: document.clone(),
+        line: None,
+        reason: format!("cannot be written: {error}"),
+    })?;
+    let (loaded, files) =
+        load_scene_and_files(scene, None).map_err(|error| match error.path == document {
+            // It names the model and nothing else that could be wrong.
+            true => SceneError {
+                path: obj.to_owned(),
+                line: None,
+                ..error
+            },
+            false => error,
+        })?;
+    let mesh = &loaded.meshes[0];
+    let used = mesh.triangles.iter().flatten();
+    Ok(Read {
+        positions: used
+            .map(|index| mesh.positions[*index as usize].as_dvec3().to_array())
+            .collect(),
+        files: files.into_iter().filter(|file| *file != document).collect(),
+    })
+}
+
+/// Says whether leaving materials out would help.
+fn plainly(error: SceneError, path: &Path, scene: &Path) -> SceneError {
+    let copy = scene.join("plain.obj");
+    let helps = write_plain(path, &copy).is_ok() && read(scene, &copy).is_ok();
+    let _ = fs::remove_file(&copy);
+    match helps {
+        true => SceneError {
+            reason: format!(
+                "{}; or give --plain to import the shape alone, in grey",
+                error.reason
+            ),
+            ..error
+        },
+        false => error,
+    }
+}
+
+/// The same OBJ file, line by line, without its materials.
+fn write_plain(path: &Path, copy: &Path) -> Result<(), FileError> {
+    let bytes = fs::read(path).map_err(|source| io(path, "read", source))?;
+    let text = String::from_utf8_lossy(&bytes);
+    let mut plain = String::with_capacity(text.len());
+    for line in text.lines() {
+        let keyword = line.split_whitespace().next();
+        if !matches!(keyword, Some("mtllib" | "usemtl")) {
+            plain += line;
+        }
+        plain += "\n";
+    }
+    fs::write(copy, plain).map_err(|source| io(copy, "write", source))
+}
+
+/// To the same places below `folder` as the files have below the model's.
+fn copy_all(files: &[PathBuf], model: &Path, folder: &Path) -> Result<(), Error> {
+    let home = model.parent().unwrap_or(Path::new(""));
+    for file in files {
+        let below = file.strip_prefix(home).ok().filter(|below| {
+            let mut parts = below.components();
+            parts.all(|part| matches!(part, Component::Normal(_) | Component::CurDir))
+        });
+        let Some(below) = below else {
+            return Err(Error::Usage(format!(
+                "{}: {} lies outside of the model's folder; move it there and mend the file that names it, or give --plain to import the shape alone, in grey",
+                model.display(),
+                file.display()
+            )));
+        };
+        let copy = folder.join(below);
+        create(copy.parent().unwrap_or(folder))?;
+        fs::copy(file, &copy).map_err(|source| io(&copy, "write", source))?;
+    }
+    Ok(())
+}
+
+fn create(folder: &Path) -> Result<(), FileError> {
+    fs::create_dir_all(folder).map_err(|source| io(folder, "create", source))
+}
+
+fn io(path: &Path, action: &'static str, source: std::io::Error) -> FileError {
+    FileError::Io {
+        path: path.to_owned(),
+        action,
+        source,
+    }
+}

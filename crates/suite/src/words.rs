@@ -1,0 +1,156 @@
+//! What single words of the command line mean.
+
+use crate::cli::Replicates;
+
+/// `640x360` as (640, 360).
+pub fn size(text: &str) -> Result<(u32, u32), String> {
+    let parsed = text
+        .split_once('x')
+        .and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
+    match parsed {
+        Some((width @ 16..=16384, height @ 16..=16384)) => Ok((width, height)),
+        _ => {
+            Err("allowed is WIDTHxHEIGHT, each from 16 to 16384 pixels, such as 640x360".to_owned())
+        }
+    }
+}
+
+/// `8` as all eight, `3..6` as the replicates 3, 4 and 5.
+pub fn replicates(text: &str) -> Result<Replicates, String> {
+    let parsed = match text.split_once("..") {
+        None => text.parse().ok().map(Replicates::All),
+        Some((first, end)) => (first.parse().ok())
+            .zip(end.parse().ok())
+            .filter(|(first, end)| first < end)
+            .map(|(first, end)| Replicates::Part(first..end)),
+    };
+    parsed.ok_or_else(|| {
+        "allowed is a number, such as 8, or A..B with A below B: 3..6 is replicates 3, 4 and 5"
+            .to_owned()
+    })
+}
+
+/// Enough rounds for quartiles.
+pub fn rounds(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(rounds @ 20..=10_000) => Ok(rounds),
+        _ => Err("allowed is 20 to 10000: fewer say nothing about the spread".to_owned()),
+    }
+}
+
+/// Enough runs for a spread.
+pub fn runs(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(runs @ 2..=100) => Ok(runs),
+        _ => Err("allowed is 2 to 100: one run says nothing about the spread".to_owned()),
+    }
+}
+
+/// A pattern as shells have it.
+pub fn glob(text: &str) -> Result<glob::Pattern, String> {
+    glob::Pattern::new(text).map_err(|error| error.to_string())
+}
+
+/// A radiance above 0.
+pub fn noise(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(target) if target > 0.0 && target.is_finite() => Ok(target),
+        _ => Err("allowed is a radiance above 0, such as 0.002".to_owned()),
+    }
+}
+
+/// `20deg/frame` as 20.
+pub fn degrees_per_frame(text: &str) -> Result<f64, String> {
+    speed(text, "deg/frame", "20deg/frame")
+}
+
+/// `40px/frame` as 40.
+pub fn pixels_per_frame(text: &str) -> Result<f64, String> {
+    speed(text, "px/frame", "40px/frame")
+}
+
+fn speed(text: &str, unit: &str, example: &str) -> Result<f64, String> {
+    let number = text
+        .strip_suffix(unit)
+        .and_then(|number| number.parse::<f64>().ok());
+    match number {
+        Some(speed) if speed.is_finite() && speed != 0.0 => Ok(speed),
+        _ => Err(format!(
+            "allowed is a speed other than 0 with its unit, such as {example}"
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_size_is_two_numbers() {
+        assert_eq!(size("640x360"), Ok((640, 360)));
+        for wrong in [
+            "640",
+            "640x",
+            "x360",
+            "0x360",
+            "640x99999",
+            "640 x 360",
+            "-1x5",
+        ] {
+            assert!(
+                size(wrong).unwrap_err().contains("640x360"),
+                "{wrong} must be refused"
+            );
+        }
+    }
+
+    #[test]
+    fn replicates_are_a_number_or_a_rising_range() {
+        assert_eq!(replicates("16"), Ok(Replicates::All(16)));
+        assert_eq!(replicates("3..6"), Ok(Replicates::Part(3..6)));
+        for wrong in [
+            "", "x", "3..", "..3", "3..3", "6..3", "3..=6", "-1..2", "1.5",
+        ] {
+            assert!(
+                replicates(wrong).unwrap_err().contains("3..6"),
+                "{wrong} must be refused"
+            );
+        }
+    }
+
+    #[test]
+    fn rounds_suffice_for_quartiles() {
+        assert_eq!(rounds("20"), Ok(20));
+        for wrong in ["19", "0", "-1", "many", "1000000", "20.5"] {
+            assert!(rounds(wrong).is_err(), "{wrong} must be refused");
+        }
+    }
+
+    #[test]
+    fn a_noise_target_is_above_zero() {
+        assert_eq!(noise("0.002"), Ok(0.002));
+        for wrong in ["0", "-1", "nan", "inf", "low"] {
+            assert!(noise(wrong).is_err(), "{wrong} must be refused");
+        }
+    }
+    #[test]
+    fn a_speed_has_its_unit() {
+        assert_eq!(degrees_per_frame("-7.5deg/frame"), Ok(-7.5));
+        assert_eq!(pixels_per_frame("40px/frame"), Ok(40.0));
+        for wrong in [
+            "20",
+            "20deg",
+            "deg/frame",
+            "0deg/frame",
+            "nandeg/frame",
+            "20px/frame",
+        ] {
+            assert!(
+                degrees_per_frame(wrong)
+                    .unwrap_err()
+                    .contains("20deg/frame"),
+                "{wrong} must be refused"
+            );
+        }
+    }
+}
