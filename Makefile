@@ -6,8 +6,11 @@
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
 
+# What `make run` measures; `make run SCENES=` takes all.
+SCENES ?= sliding_panel,panel_over_texture,two_spheres,railing,fan
+
 run: vulkan
-	cargo run --release --locked --bin shuttertruth -- run --out out
+	cargo run --release --locked --bin shuttertruth -- run $(if $(SCENES),--scenes $(SCENES)) --out out
 
 test: vulkan
 	cargo test --workspace --locked

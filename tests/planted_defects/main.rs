@@ -20,18 +20,23 @@ use defects::{DEFECTS, Defect};
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
 const SHADERS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shaders");
 
-/// One thing that slides, the same aslant, two that pass one another, and many that turn, fly and hide one another.
-const NAMES: [&str; 4] = [
-    "sliding_panel",
+/// One thing that slides, far and aslant, two that pass one another, many that turn, fly and hide one another, many that
+/// cross, and some that leave the picture.
+const NAMES: [&str; 6] = [
+    "sliding_panel@128px_0deg",
     "sliding_panel@64px_45deg",
     "two_spheres",
     "railing",
+    "crossing",
+    "frame_edge",
 ];
 
 /// What the filters are bounded in.
-const METRICS: [&str; 14] = [
+const METRICS: [&str; 16] = [
     "mse_moving",
     "flip_moving",
+    "flip_p99_moving",
+    "gather_spread",
     "flip_static",
     "label_tv",
     "bleed_lateral",
