@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 use std::path::Path;
 
 use filters::{Blur, Filter, Gpu, Input};
-use frame::{Alignment, Frame, Image, Picture, Plane, Truth};
+use frame::{Alignment, Frame, Image, Picture, Truth};
 use metrics::{Metric, Reference, Scores};
 use tests::unwatched;
 use tracer::{FrameSettings, Scene, TruthSettings, load_scene, trace_frame, trace_truth};
@@ -17,6 +17,8 @@ pub struct Take {
     /// Of the frame, and of the truth over its two replicates.
     pub samples_per_pixel: u32,
     pub sky_velocity: bool,
+    /// Pixels by which the frame reaches beyond the picture on every side.
+    pub guard_band: u32,
 }
 
 impl Default for Take {
@@ -26,6 +28,7 @@ impl Default for Take {
             height: 90,
             samples_per_pixel: 64,
             sky_velocity: true,
+            guard_band: 0,
         }
     }
 }
@@ -50,13 +53,16 @@ impl Shot {
             Some((name, variant)) => (name, Some(variant)),
             None => (name, None),
         };
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(name);
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../scenes")
+            .join(name);
         let scene = load_scene(&folder, variant).unwrap_or_else(|error| panic!("{error}"));
         let settings = FrameSettings {
             width: take.width,
             height: take.height,
             exposure: scene.exposure,
             sky_velocity: take.sky_velocity,
+            guard_band: take.guard_band,
             samples_per_pixel: take.samples_per_pixel,
             ..FrameSettings::default()
         };
@@ -96,15 +102,16 @@ impl Shot {
             .map(|matte| matte.map(|part| [*part; 3]))
             .collect();
         let colors: Vec<&Image> = [&self.frame.color].into_iter().chain(&mattes).collect();
-        let mut outputs = self.run(&chosen(filter), &colors).into_iter();
+        let (filter, preset) = chosen(filter);
+        let mut outputs = self.run(&filter, &preset, &colors).into_iter();
         Picture {
             color: outputs.next().expect("an output per colour"),
             coverage: outputs.map(|matte| matte.map(|pixel| pixel[0])).collect(),
         }
     }
 
-    /// What a filter makes of these colours in the place of the frame's own.
-    pub fn run(&self, (filter, preset): &(Filter, String), colors: &[&Image]) -> Vec<Image> {
+    /// What a filter makes of these colours in the place of the frame's own, without the guard band.
+    pub fn run(&self, filter: &Filter, preset: &str, colors: &[&Image]) -> Vec<Image> {
         let settings = filter.settings(Some(preset)).unwrap();
         let (width, height) = self.frame.size();
         let mut blur = Blur::new(&self.gpu, filter, &settings, width, height).unwrap();
@@ -112,25 +119,26 @@ impl Shot {
             color: colors,
             velocity: &self.frame.velocity,
             depth: &self.frame.depth,
-            reprojection: Some(self.frame.reprojection),
+            reprojection: Some(
+                self.frame
+                    .reprojection
+                    .moved(f64::from(self.take.guard_band)),
+            ),
             exposure: self.frame.exposure,
             frame_index: 0,
         };
-        blur.run(&input).unwrap()
-    }
-
-    /// The frame as it is.
-    pub fn instant(&self) -> Picture {
-        Picture {
-            color: self.frame.color.clone(),
-            coverage: self.frame.coverage.clone(),
-        }
+        let outputs = blur.run(&input).unwrap();
+        outputs
+            .iter()
+            .map(|output| output.cropped(self.take.guard_band))
+            .collect()
     }
 
     pub fn measured(&self, picture: &Picture, alignment: Alignment) -> Scores {
         let truth = self.truth(alignment);
         let viewing = suite::viewing(&self.scene);
-        let reference = Reference::new(&self.frame, truth, None, &viewing).unwrap();
+        let frame = self.frame.cropped();
+        let reference = Reference::new(&frame, truth, None, &viewing).unwrap();
         reference.measure(picture).unwrap().scores
     }
 
@@ -145,6 +153,14 @@ impl Shot {
         value(&self.scores(filter), metric)
     }
 
+    /// How much of an object a filter gives to others, against the shutter that it declares.
+    pub fn object_label_tv(&self, filter: &str, object: &str) -> f64 {
+        let scores = self.scores(filter);
+        let found = scores.objects.iter().find(|scores| scores.object == object);
+        let found = found.unwrap_or_else(|| panic!("there is no object {object}"));
+        found.label_total_variation.value().expect("it is seen")
+    }
+
     /// Mean over the pixels that `weight` counts of the absolute error of a filter's colour, in radiance.
     pub fn error_over(&self, filter: &str, weight: impl Fn(u32, u32) -> f64) -> f64 {
         let output = self.blurred(filter).color;
@@ -152,18 +168,16 @@ impl Shot {
         let error = output.zip(&truth, |a, b| {
             (0..3).map(|c| f64::from((a[c] - b[c]).abs())).sum::<f64>() / 3.0
         });
-        mean_over(&error.map(|error| *error as f32), weight)
-    }
-
-    /// The true matte of an object, over the shutter of an alignment.
-    pub fn matte(&self, object: &str, alignment: Alignment) -> Plane {
-        self.truth(alignment).mean().coverage[self.object(object)].clone()
-    }
-
-    /// Number of an object.
-    pub fn object(&self, name: &str) -> usize {
-        let place = self.frame.objects.iter().position(|object| object == name);
-        place.unwrap_or_else(|| panic!("{} has no object {name}", self.scene.name))
+        let (mut sum, mut total) = (0.0, 0.0);
+        for y in 0..error.height {
+            for x in 0..error.width {
+                let weight = weight(x, y);
+                sum += weight * error.at(x, y);
+                total += weight;
+            }
+        }
+        assert!(total > 0.0, "some pixels count");
+        sum / total
     }
 }
 
@@ -174,20 +188,6 @@ pub fn value(scores: &Scores, metric: &str) -> f64 {
     found
         .value()
         .unwrap_or_else(|| panic!("{metric} does not apply: {found:?}"))
-}
-
-/// Mean of a plane, weighted by place.
-pub fn mean_over(plane: &Plane, weight: impl Fn(u32, u32) -> f64) -> f64 {
-    let (mut sum, mut total) = (0.0, 0.0);
-    for y in 0..plane.height {
-        for x in 0..plane.width {
-            let weight = weight(x, y);
-            sum += weight * f64::from(*plane.at(x, y));
-            total += weight;
-        }
-    }
-    assert!(total > 0.0, "some pixels count");
-    sum / total
 }
 
 /// A built-in filter and the preset's name.

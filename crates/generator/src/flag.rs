@@ -21,12 +21,12 @@ const PARTS: [usize; 2] = [44, 18];
 const WAVES_PER_FRAME: f64 = 0.17;
 
 const MATERIALS: &str = "\
-newmtl red
-Kd 0.75 0.08 0.07
+newmtl green
+Kd 0.1 0.45 0.2
 newmtl white
 Kd 0.9 0.9 0.86
-newmtl blue
-Kd 0.05 0.13 0.45
+newmtl orange
+Kd 0.9 0.4 0.05
 newmtl pole
 Kd 0.7 0.68 0.62
 newmtl knob
@@ -60,16 +60,16 @@ pub(crate) fn files() -> Files {
     files
 }
 
-/// Stripes, and a blue corner at the pole's upper end.
+/// Stripes, and an orange corner at the pole's upper end.
 fn stripe(column: usize, row: usize) -> &'static str {
     if column < 16 && row >= 8 {
         if (column + row) % 4 == 1 && column % 2 == 0 {
             "white"
         } else {
-            "blue"
+            "orange"
         }
     } else if (row / 2) % 2 == 0 {
-        "red"
+        "green"
     } else {
         "white"
     }

@@ -31,6 +31,7 @@ mod neon_sign;
 mod ornaments;
 mod overhead_line;
 mod panel;
+mod passage;
 mod prism;
 mod railing;
 mod revolution;
@@ -45,7 +46,6 @@ mod texture;
 mod train;
 mod tree;
 mod tube;
-mod underpass;
 mod village;
 mod wall;
 mod wheel;
@@ -118,7 +118,7 @@ pub fn files() -> Vec<File> {
         scene("neon", &[neon_sign::files(), wall::brick()]),
         scene("ornaments", &[ornaments::files(), wall::boards()]),
         scene("pan_sky", &[cloudy_sky::files(), skyline::files()]),
-        scene("ramp_floor", &[underpass::files()]),
+        scene("ramp_floor", &[passage::files()]),
         scene(
             "reversal",
             &[

@@ -1,4 +1,4 @@
-//! Ridges of hills, one behind the other and paler with distance: a far view that does not move by itself.
+//! A meadow just below y = 0 that ends at ridges of hills, one behind the other and paler with distance.
 
 use glam::DVec3;
 
@@ -28,15 +28,27 @@ pub(crate) fn files() -> Files {
     let mut mesh = Mesh::default();
     for (index, (material, distance)) in RIDGES.into_iter().enumerate() {
         mesh.surface(
-            [120, 1],
+            [160, 1],
             |_, _| material,
             |u, v| {
-                let x = 2.2 * distance * (u - 0.5);
-                let crest = distance * crest(14.0 * u + 3.0 * index as f64, index);
+                let x = 4.4 * distance * (u - 0.5);
+                let crest = distance * crest(28.0 * u + 3.0 * index as f64, index);
                 DVec3::new(x, crest * v - 0.05 * distance * (1.0 - v), -distance)
             },
         );
     }
+    let [_, _, _, (material, distance)] = RIDGES;
+    mesh.surface(
+        [1, 1],
+        |_, _| material,
+        |u, v| {
+            DVec3::new(
+                2.2 * distance * (2.0 * u - 1.0),
+                -0.3,
+                20.0 - (distance + 20.0) * v,
+            )
+        },
+    );
     model("ridge", &mesh, MATERIALS)
 }
 

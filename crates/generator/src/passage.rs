@@ -1,11 +1,10 @@
-//! A tiled underpass along the X axis: floor at y = 0, the far wall at z = -2.5, lamps under the ceiling.
+//! A tiled passage along the X axis, open above: floor at y = 0, the wall with posters at z = -2.5.
 
 use glam::{DVec2, DVec3};
 
 use crate::cuboid::cuboid;
 use crate::hash::noise;
 use crate::mesh::Mesh;
-use crate::prism::face;
 use crate::texture::png;
 use crate::{Files, model};
 
@@ -21,11 +20,8 @@ map_Kd tiles.png
 newmtl slabs
 Kd 1 1 1
 map_Kd slabs.png
-newmtl ceiling
+newmtl coping
 Kd 0.6 0.6 0.58
-newmtl lamp
-Kd 0 0 0
-Ke 5 4.8 4.2
 newmtl rail
 Kd 0.6 0.3 0.08
 newmtl poster_red
@@ -54,8 +50,6 @@ pub(crate) fn files() -> Files {
     for part in [
         strip("slabs", [corner(0.0, 2.5), corner(0.0, WALL)], 5.0),
         strip("tiles", [corner(0.0, WALL), corner(HEIGHT, WALL)], 2.8),
-        strip("ceiling", [corner(HEIGHT, WALL), corner(HEIGHT, 2.5)], 5.0),
-        strip("tiles", [corner(HEIGHT, 2.5), corner(0.0, 2.5)], 2.8),
     ] {
         mesh.append(&part, glam::DAffine3::IDENTITY);
     }
@@ -67,14 +61,19 @@ pub(crate) fn files() -> Files {
         rail,
         1,
     );
+    let coping = DVec3::new(2.0 * HALF_LENGTH, 0.15, 0.4);
+    cuboid(
+        &mut mesh,
+        "coping",
+        DVec3::new(0.0, HEIGHT, WALL - 0.1),
+        coping,
+        1,
+    );
     for index in -9..=9 {
         let x = 4.0 * f64::from(index);
-        let lamp = [(0.0, -0.3), (1.6, -0.3), (1.6, 0.3), (0.0, 0.3)];
-        let lamp = lamp.map(|(dx, z)| DVec3::new(x + dx, HEIGHT - 0.02, z));
-        face(&mut mesh, "lamp", &lamp);
         add_poster(&mut mesh, x + 2.8, index);
     }
-    let mut files = model("underpass", &mesh, MATERIALS);
+    let mut files = model("passage", &mesh, MATERIALS);
     files.push(("tiles.png".into(), png(128, tile_color)));
     files.push(("slabs.png".into(), png(128, crate::ground::slabs)));
     files
