@@ -6,27 +6,23 @@ use crate::shot::Shot;
 #[test]
 fn limbs_that_swing_are_harder_than_a_body_that_glides() {
     let shots = ["walker", "walker@gliding"].map(Shot::of);
+    // Measured 3.1, 2.3 and 2.3; 1.3 for what moves every pixel by itself.
     for filter in [
-        "mcguire:paper",
-        "guertin:paper",
-        "jump_flood:paper",
+        "jimenez:kajiya",
+        "jimenez:advanced_warfare",
         "jump_flood:corrected",
     ] {
         let variation = [0, 1].map(|shot: usize| shots[shot].score(filter, "label_tv"));
-        assert_worse(&format!("label_tv of {filter}"), variation, 0.1);
+        assert_worse(&format!("label_tv of {filter}"), variation, 1.6);
     }
 }
 
 #[test]
 fn a_waving_flag_is_harder_than_a_stiff_one() {
     let shots = ["flag", "flag@stiff"].map(Shot::of);
-    for filter in [
-        "mcguire:paper",
-        "guertin:paper",
-        "jump_flood:paper",
-        "jump_flood:corrected",
-    ] {
-        let variation = [0, 1].map(|shot: usize| shots[shot].score(filter, "label_tv"));
-        assert_worse(&format!("label_tv of {filter}"), variation, 0.1);
+    for filter in ["jimenez:kajiya", "jump_flood:corrected"] {
+        // The part of the error of doing nothing that is left: the two flags do not move as far.
+        let left = [0, 1].map(|shot: usize| 1.0 - shots[shot].score(filter, "skill_label_tv"));
+        assert_worse(&format!("label_tv left by {filter}"), left, 1.4);
     }
 }

@@ -8,7 +8,7 @@ use frame::{Alignment, Image, Picture};
 use tests::presets::{every_preset, preset_name};
 
 use crate::assert_worse;
-use crate::shot::{Shot, Take, value};
+use crate::shot::{Shot, Take, chosen, value};
 
 #[test]
 fn what_lies_beyond_the_border_is_missed() {
@@ -21,41 +21,48 @@ fn what_lies_beyond_the_border_is_missed() {
     };
     let [cut, whole] = [0, 24].map(taken);
     let border = |x: u32, y: u32| f64::from(u8::from(x.min(159 - x).min(y).min(89 - y) < 6));
-    for filter in [
-        "jump_flood:corrected",
-        "velocity_gather:fine",
-        "mcguire:paper",
-        "guertin:paper",
-    ] {
+    // Measured 1.8 and 1.9: the trailing shutter saw a part of each smear that lies beyond the border.
+    for filter in ["jump_flood:corrected", "velocity_gather:fine"] {
         let error = [&cut, &whole].map(|shot| shot.error_over(filter, border));
-        assert_worse(&format!("border in {filter}"), error, 0.1);
+        assert_worse(&format!("border in {filter}"), error, 1.4);
     }
 }
 
 #[test]
 fn motion_below_a_pixel_is_left_sharp() {
+    // At the size that the speeds are given for.
     let take = Take {
-        width: 320,
-        height: 180,
+        width: 640,
+        height: 360,
+        samples_per_pixel: 1,
         ..Take::default()
     };
-    let shots = ["creep", "creep@hurried"].map(|name| Shot::taken(name, take));
-    for filter in [
-        "kino:default",
-        "bevy:high",
-        "mcguire:paper",
-        "velocity_gather:fine",
-        "jimenez:kajiya",
-    ] {
-        let skill = [0, 1].map(|shot: usize| shots[shot].score(filter, "skill_mse"));
-        println!("skill of {filter}: {skill:?}");
+    let [creeping, hurried] = ["creep", "creep@hurried"].map(|name| Shot::taken(name, take));
+    // The part of the pixels that move and whose colour a filter changes.
+    let changed = |shot: &Shot, filter: &str| {
+        let (filter, preset) = chosen(filter);
+        let color = &shot.frame.color;
+        let output = shot.run(&filter, &preset, &[color]).remove(0);
+        let moving: Vec<usize> = (shot.frame.velocity.pixels.iter().enumerate())
+            .filter(|(_, velocity)| **velocity != [0.0, 0.0])
+            .map(|(at, _)| at)
+            .collect();
+        let differs = |at: &&usize| output.pixels[**at] != color.pixels[**at];
+        moving.iter().filter(differs).count() as f64 / moving.len() as f64
+    };
+    // Thresholds of 2, 1 and 0.5 pixels.
+    for filter in ["kino:default", "bevy:high", "mcguire:paper"] {
+        let parts = [&hurried, &creeping].map(|shot| changed(shot, filter));
+        println!("changed by {filter}: {parts:?}");
     }
+    let all = changed(&creeping, "velocity_gather:fine");
+    println!("changed by velocity_gather:fine: {all}");
 }
 
 #[test]
 fn averages_in_a_display_s_colours_lose_the_light_of_a_neon_sign() {
     let shots = ["neon", "neon@dim"].map(Shot::of);
-    let (filter, preset) = crate::shot::chosen("velocity_gather:fine");
+    let (filter, preset) = chosen("velocity_gather:fine");
     let toned = |shot: &Shot| {
         let compressed = shot
             .frame
@@ -68,22 +75,15 @@ fn averages_in_a_display_s_colours_lose_the_light_of_a_neon_sign() {
             coverage: shot.frame.coverage.clone(),
         }
     };
-    for metric in [
-        "relmse_moving",
-        "mse_moving",
-        "flip_hdr_moving",
-        "smape_moving",
-    ] {
+    // Measured 27 and 1.6, without the cause 1.0: bright light is a matter of linear averages.
+    for (metric, least) in [("mse_moving", 5.0), ("flip_hdr_moving", 1.25)] {
         let times = [0, 1].map(|shot: usize| {
             let shot = &shots[shot];
             let wrong = value(&shot.measured(&toned(shot), Alignment::Trailing), metric);
             wrong / shot.score("velocity_gather:fine", metric)
         });
-        assert_worse(
-            &format!("{metric} of averages in a display's colours, in linear ones 1"),
-            times,
-            0.1,
-        );
+        let what = format!("{metric} of averages in a display's colours over that of linear ones");
+        assert_worse(&what, times, least);
     }
 }
 
@@ -102,16 +102,14 @@ fn one_velocity_does_not_tell_a_bounce_or_a_brake() {
 }
 
 #[test]
-fn slopes_are_blurred_too_little_where_depth_is_compared_softly() {
+fn on_a_slope_the_fastest_nearby_is_not_what_a_pixel_makes() {
     let shots = ["ramp_floor", "ramp_floor@facing"].map(Shot::of);
-    for (filter, preset) in every_preset()
-        .iter()
-        .map(|(filter, settings)| (filter.name.clone(), settings.preset.clone()))
-    {
-        let filter = format!("{filter}:{preset}");
-        let skill = [0, 1].map(|shot: usize| shots[shot].score(&filter, "skill_mse"));
-        println!("skill of {filter}: {skill:?}");
-    }
+    let flip = [0, 1].map(|shot: usize| shots[shot].score("jimenez:kajiya", "flip_moving"));
+    // Measured 2.1; 1.2 for what moves every pixel by itself.
+    assert_worse("flip_moving of jimenez:kajiya", flip, 1.6);
+    // It is worse than no blur: measured -0.13, and 0.96 before the wall that faces the camera.
+    let skill = [0, 1].map(|shot: usize| shots[shot].score("jimenez:kajiya", "skill_mse"));
+    assert!(skill[0] < 0.2 && skill[1] > 0.8, "{skill:?}");
 }
 
 #[test]
@@ -139,7 +137,12 @@ fn light_that_is_the_same_everywhere_comes_out_unchanged_and_weights_that_amplif
     };
     let sound = Filter::builtin("mcguire").unwrap();
     let times = [&flat, &painted].map(|shot| error(shot, &planted) / error(shot, &sound).max(1e-7));
-    assert_worse("error of amplifying weights, of sound ones 1", times, 0.1);
+    // Measured 2.5e5 (32-bit rounding is all that the sound ones err by) and 2.3.
+    assert_worse(
+        "error of amplifying weights over that of sound ones",
+        times,
+        1000.0,
+    );
 }
 
 /// A copy of a shipped filter whose weights add up to 1.05.

@@ -18,7 +18,7 @@ const TOP: f64 = 4.2;
 const PARTS: [usize; 2] = [44, 18];
 
 /// The wave moves on by so much of its length in a frame.
-const WAVES_PER_FRAME: f64 = 0.17;
+const WAVES_PER_FRAME: f64 = 0.24;
 
 const MATERIALS: &str = "\
 newmtl green
