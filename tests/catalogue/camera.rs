@@ -22,8 +22,8 @@ fn a_sky_without_velocity_stays_sharp_above_a_fast_pan() {
     let above = |x: u32, y: u32| f64::from(u8::from(*sky.at(x, y) > 0.999));
     for filter in ["velocity_gather:fine", "jump_flood:corrected"] {
         let error = [&without, &with].map(|shot| shot.error_over(filter, above));
-        // Measured 14 and 7.8.
-        assert_worse(&format!("sky in {filter}"), error, 4.0);
+        // Measured 114 and 39.
+        assert_worse(&format!("sky in {filter}"), error, 10.0);
     }
 }
 
@@ -35,53 +35,51 @@ fn a_roll_bends_trails_away_from_straight_smears_far_from_the_axis() {
     let between = |from: f64, to: f64| {
         move |x: u32, y: u32| f64::from(u8::from((from..to).contains(&radius(x, y)) && y > 45))
     };
-    for filter in ["velocity_gather:fine", "jump_flood:corrected"] {
+    // Measured 36 and 3.4 far from the axis, 1.6 and 1.1 near it.
+    for (filter, times) in [
+        ("jump_flood:corrected", 10.0),
+        ("velocity_gather:fine", 2.0),
+    ] {
         let error =
             |from, to| [0, 1].map(|shot: usize| shots[shot].error_over(filter, between(from, to)));
         let far = error(60.0, 92.0);
-        assert_worse(&format!("far from the axis in {filter}"), far, 2.0);
-        let near = error(0.0, 25.0);
-        assert_worse(
-            &format!("far from the axis and near it in {filter}"),
-            [far[0], near[0]],
-            1.2,
-        );
+        assert_worse(&format!("far from the axis in {filter}"), far, times);
+        let [fast, slow] = error(0.0, 25.0);
+        let near = fast / slow;
+        assert!(2.0 * near < far[0] / far[1], "near it in {filter}: {near}");
     }
 }
 
 #[test]
 fn the_world_that_rushes_by_smears_the_dashboard() {
     let shots = ["cockpit", "cockpit@crawling"].map(Shot::of);
+    // Measured 126, 17 and 3.3.
     for (filter, times) in [
+        ("mcguire:aliari", 20.0),
         ("jimenez:o3de", 8.0),
-        ("jimenez:kajiya", 0.1),
-        ("mcguire:aliari", 0.1),
-        ("kino:default", 0.1),
+        ("jimenez:kajiya", 2.0),
     ] {
         let dashboard = [0, 1].map(|shot: usize| shots[shot].object_label_tv(filter, "dashboard"));
         assert_worse(&format!("dashboard in {filter}"), dashboard, times);
     }
+    // A filter that compares depth keeps it: measured 0.002, the wrong ones 0.32, 0.15 and 0.02.
     let kept = shots[0].object_label_tv("jimenez:hdrp", "dashboard");
-    println!("dashboard in jimenez:hdrp: {kept}");
-    assert!(kept < 0.05, "{kept}");
+    assert!(kept < 0.008, "{kept}");
 }
 
 #[test]
 fn the_road_that_comes_nearer_smears_over_the_car_ahead() {
     let shots = ["dolly", "dolly@crawling"].map(Shot::of);
+    // Measured 134, 15 and 3.8.
     for (filter, times) in [
-        ("jimenez:kajiya", 0.1),
-        ("jimenez:o3de", 0.1),
-        ("mcguire:aliari", 0.1),
-        ("mcguire:paper", 0.1),
-        ("jimenez:wicked", 0.1),
-        ("kino:default", 0.1),
-        ("jump_flood:corrected", 0.1),
+        ("mcguire:aliari", 20.0),
+        ("jimenez:wicked", 8.0),
+        ("jimenez:kajiya", 2.0),
     ] {
         let car = [0, 1].map(|shot: usize| shots[shot].object_label_tv(filter, "car"));
         assert_worse(&format!("car in {filter}"), car, times);
     }
+    // A filter that compares depth keeps it: measured 0.002, the wrong ones 0.20, 0.27 and 0.03.
     let kept = shots[0].object_label_tv("jimenez:hdrp", "car");
-    println!("car in jimenez:hdrp: {kept}");
-    assert!(kept < 0.05, "{kept}");
+    assert!(kept < 0.008, "{kept}");
 }

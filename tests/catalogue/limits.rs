@@ -21,10 +21,10 @@ fn what_lies_beyond_the_border_is_missed() {
     };
     let [cut, whole] = [0, 24].map(taken);
     let border = |x: u32, y: u32| f64::from(u8::from(x.min(159 - x).min(y).min(89 - y) < 6));
-    // Measured 1.8 and 1.9: the trailing shutter saw a part of each smear that lies beyond the border.
+    // Measured 6.3 and 6.8: the trailing shutter saw a part of each smear that lies beyond the border.
     for filter in ["jump_flood:corrected", "velocity_gather:fine"] {
         let error = [&cut, &whole].map(|shot| shot.error_over(filter, border));
-        assert_worse(&format!("border in {filter}"), error, 1.4);
+        assert_worse(&format!("border in {filter}"), error, 3.0);
     }
 }
 
@@ -43,20 +43,28 @@ fn motion_below_a_pixel_is_left_sharp() {
         let (filter, preset) = chosen(filter);
         let color = &shot.frame.color;
         let output = shot.run(&filter, &preset, &[color]).remove(0);
+        // A fifth of the slowest; still things move by rounding.
+        let moves = |velocity: &[f32; 2]| velocity[0].hypot(velocity[1]) > 0.02;
         let moving: Vec<usize> = (shot.frame.velocity.pixels.iter().enumerate())
-            .filter(|(_, velocity)| **velocity != [0.0, 0.0])
+            .filter(|(_, velocity)| moves(velocity))
             .map(|(at, _)| at)
             .collect();
         let differs = |at: &&usize| output.pixels[**at] != color.pixels[**at];
         moving.iter().filter(differs).count() as f64 / moving.len() as f64
     };
-    // Thresholds of 2, 1 and 0.5 pixels.
-    for filter in ["kino:default", "bevy:high", "mcguire:paper"] {
-        let parts = [&hurried, &creeping].map(|shot| changed(shot, filter));
-        println!("changed by {filter}: {parts:?}");
+    // Their thresholds are 2, 1 and 0.5 pixels. Measured 0.61, 1.00 and 0.61 of those who hurry, 0, 0.40 and 0 of those who creep.
+    for (filter, most) in [
+        ("kino:default", 0.0),
+        ("bevy:high", 0.5),
+        ("mcguire:paper", 0.0),
+    ] {
+        let [fast, slow] = [&hurried, &creeping].map(|shot| changed(shot, filter));
+        println!("{filter} changes {slow:.3}, where they hurry {fast:.3}");
+        assert!(slow <= most && fast > 0.55, "{filter}: {slow}, {fast}");
     }
+    // It can be done: measured 0.997.
     let all = changed(&creeping, "velocity_gather:fine");
-    println!("changed by velocity_gather:fine: {all}");
+    assert!(all > 0.95, "{all}");
 }
 
 #[test]
@@ -90,15 +98,14 @@ fn averages_in_a_display_s_colours_lose_the_light_of_a_neon_sign() {
 #[test]
 fn one_velocity_does_not_tell_a_bounce_or_a_brake() {
     let shots = ["reversal", "reversal@steady"].map(Shot::of);
-    for filter in [
-        "velocity_gather:fine",
-        "jump_flood:corrected",
-        "mcguire:paper",
-        "jimenez:hdrp",
-    ] {
+    // Trailing: measured 4.1 and 1.8.
+    for (filter, times) in [("jump_flood:corrected", 2.0), ("velocity_gather:fine", 1.4)] {
         let variation = [0, 1].map(|shot: usize| shots[shot].score(filter, "label_tv"));
-        assert_worse(&format!("label_tv of {filter}"), variation, 0.1);
+        assert_worse(&format!("label_tv of {filter}"), variation, times);
     }
+    // Centred, where half of the brake makes up for the other half: measured 2.3.
+    let ball = [0, 1].map(|shot: usize| shots[shot].object_label_tv("jimenez:hdrp", "ball"));
+    assert_worse("ball in jimenez:hdrp", ball, 1.5);
 }
 
 #[test]

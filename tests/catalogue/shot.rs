@@ -26,7 +26,7 @@ impl Default for Take {
         Self {
             width: 160,
             height: 90,
-            samples_per_pixel: 64,
+            samples_per_pixel: 32,
             sky_velocity: true,
             guard_band: 0,
         }
@@ -161,18 +161,18 @@ impl Shot {
         found.label_total_variation.value().expect("it is seen")
     }
 
-    /// Mean over the pixels that `weight` counts of the absolute error of a filter's colour, in radiance.
+    /// Mean over the pixels that `weight` counts of the unbiased squared error of a filter's colour, in radiance: the
+    /// truth's halves are independent.
     pub fn error_over(&self, filter: &str, weight: impl Fn(u32, u32) -> f64) -> f64 {
         let output = self.blurred(filter).color;
-        let truth = self.truth(chosen(filter).0.alignment).mean().color;
-        let error = output.zip(&truth, |a, b| {
-            (0..3).map(|c| f64::from((a[c] - b[c]).abs())).sum::<f64>() / 3.0
-        });
+        let [a, b] = &self.truth(chosen(filter).0.alignment).halves;
         let (mut sum, mut total) = (0.0, 0.0);
-        for y in 0..error.height {
-            for x in 0..error.width {
+        for y in 0..output.height {
+            for x in 0..output.width {
+                let [output, a, b] = [&output, &a.color, &b.color].map(|image| image.at(x, y));
+                let product = |c: usize| f64::from((output[c] - a[c]) * (output[c] - b[c]));
                 let weight = weight(x, y);
-                sum += weight * error.at(x, y);
+                sum += weight * (product(0) + product(1) + product(2)) / 3.0;
                 total += weight;
             }
         }
