@@ -63,12 +63,12 @@ pub(crate) fn files() -> Files {
 /// Stripes, and an orange corner at the pole's upper end.
 fn stripe(column: usize, row: usize) -> &'static str {
     if column < 16 && row >= 8 {
-        if (column + row) % 4 == 1 && column % 2 == 0 {
+        if (column + row) % 4 == 1 && column.is_multiple_of(2) {
             "white"
         } else {
             "orange"
         }
-    } else if (row / 2) % 2 == 0 {
+    } else if (row / 2).is_multiple_of(2) {
         "green"
     } else {
         "white"

@@ -1,5 +1,7 @@
 //! Level ground at y = 0, seen from above, with a texture that repeats.
 
+use std::f64::consts::FRAC_PI_8;
+
 use glam::{DVec2, DVec3};
 
 use crate::hash::{noise, soft_noise};
@@ -51,7 +53,7 @@ pub(crate) fn gravel(x: u32, y: u32) -> [f64; 3] {
 }
 
 pub(crate) fn sand(x: u32, y: u32) -> [f64; 3] {
-    let ripple = 0.06 * (0.39270 * f64::from(y) + 3.0 * soft_noise(x, y, 32, TEXELS)).sin();
+    let ripple = 0.06 * (FRAC_PI_8 * f64::from(y) + 3.0 * soft_noise(x, y, 32, TEXELS)).sin();
     let light = 0.82 + ripple + 0.12 * grains(x, y);
     [light, 0.88 * light, 0.66 * light]
 }
@@ -63,7 +65,7 @@ pub(crate) fn asphalt(x: u32, y: u32) -> [f64; 3] {
 /// Boards along x, 16 texels wide.
 pub(crate) fn boards(x: u32, y: u32) -> [f64; 3] {
     let board = y / 16;
-    let joint = y % 16 == 0 || (x + 40 * board) % TEXELS == 0;
+    let joint = y.is_multiple_of(16) || (x + 40 * board).is_multiple_of(TEXELS);
     let vein = 0.1 * (soft_noise(x, 8 * y % TEXELS, 16, TEXELS) - 0.5);
     let light = if joint {
         0.35

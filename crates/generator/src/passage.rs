@@ -104,7 +104,7 @@ fn add_poster(mesh: &mut Mesh, x: f64, index: i32) {
 /// Square tiles of 16 texels, a coloured course in each metre.
 fn tile_color(x: u32, y: u32) -> [f64; 3] {
     let shade = 0.12 * (noise(x / 16, y / 16) - 0.5);
-    if x % 16 == 0 || y % 16 == 0 {
+    if x.is_multiple_of(16) || y.is_multiple_of(16) {
         [0.42, 0.4, 0.38]
     } else if y / 16 == 5 {
         [0.15 + shade, 0.42 + shade, 0.5 + shade]

@@ -47,7 +47,11 @@ pub(crate) fn star(points: usize, inner: f64, outer: f64) -> Vec<DVec2> {
     let step = std::f64::consts::PI / points as f64;
     (0..2 * points)
         .map(|corner| {
-            let radius = if corner % 2 == 0 { outer } else { inner };
+            let radius = if corner.is_multiple_of(2) {
+                outer
+            } else {
+                inner
+            };
             radius * DVec2::from_angle(std::f64::consts::FRAC_PI_2 + step * corner as f64)
         })
         .collect()

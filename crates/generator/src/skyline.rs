@@ -44,7 +44,11 @@ pub(crate) fn files() -> Files {
         let random = |seed: u32| noise(index, 40 + seed);
         // Two rows of towers on an arc of 140 degrees around the viewer.
         let angle = (140.0 * (f64::from(index) + 0.3 * random(0)) / 34.0 - 70.0).to_radians();
-        let distance = if index % 2 == 0 { 260.0 } else { 380.0 };
+        let distance = if index.is_multiple_of(2) {
+            260.0
+        } else {
+            380.0
+        };
         let middle = distance * DVec2::new(angle.sin(), -angle.cos());
         let size = DVec3::new(
             26.0 + 18.0 * random(1),

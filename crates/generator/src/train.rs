@@ -101,7 +101,7 @@ fn wheels() -> Mesh {
 /// Upright planks of 8 texels, a white band with a number's worth of marks in it.
 fn plank_color(x: u32, y: u32) -> [f64; 3] {
     let marks = (70..92).contains(&y) && (18..46).contains(&x) && noise(x / 7, 3 + y / 8) < 0.6;
-    let light = if x % 8 == 0 {
+    let light = if x.is_multiple_of(8) {
         0.4
     } else {
         0.82 + 0.25 * (noise(x / 8, 1) - 0.5)

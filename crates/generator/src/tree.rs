@@ -29,7 +29,7 @@ pub(crate) fn tree(mesh: &mut Mesh, foot: DVec3, height: f64, kind: u32) {
         let random = |seed: u32| noise(7 * kind + blob, seed) - 0.5;
         let centre = DVec3::new(0.34 * random(1), 0.66 + 0.3 * random(2), 0.34 * random(3));
         let radius = 0.17 + 0.1 * random(4);
-        let material = if blob % 2 == 0 {
+        let material = if blob.is_multiple_of(2) {
             "crown"
         } else {
             "crown_light"

@@ -52,7 +52,7 @@ pub(crate) fn files() -> Files {
     );
     for index in 0..24u32 {
         let random = |seed: u32| noise(index, 70 + seed);
-        let side = if index % 2 == 0 { 1.0 } else { -1.0 };
+        let side = if index.is_multiple_of(2) { 1.0 } else { -1.0 };
         let at = DVec3::new(
             side * (16.0 + 75.0 * random(1).powi(2)),
             0.0,
@@ -61,7 +61,7 @@ pub(crate) fn files() -> Files {
         let turn = DAffine3::from_rotation_y(0.4 * random(2) + 1.57 * f64::from(index % 2));
         let size = DVec3::new(12.0 + 6.0 * random(3), 6.0 + 3.0 * random(4), 9.0);
         mesh.append(&house(size), DAffine3::from_translation(at) * turn);
-        if index % 2 == 0 {
+        if index.is_multiple_of(2) {
             let beside = at + DVec3::new(side * 14.0, 0.0, 5.0 - 10.0 * random(5));
             tree::tree(&mut mesh, beside, 7.0 + 6.0 * random(6), index);
         }
@@ -152,7 +152,7 @@ fn field_color(x: u32, y: u32) -> [f64; 3] {
         2 => [0.52, 0.4, 0.28],
         _ => [0.34, 0.48, 0.22],
     };
-    let hedge = x % 32 == 0 || y % 32 == 0;
+    let hedge = x.is_multiple_of(32) || y.is_multiple_of(32);
     if hedge {
         [0.14, 0.24, 0.1]
     } else {
