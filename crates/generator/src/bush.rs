@@ -37,7 +37,8 @@ pub(crate) fn files(leaves: u32) -> Files {
         let end = MIDDLE + RADII * DVec3::new(1.3 * random(1), 0.5 + random(2), 1.3 * random(3));
         let bend = DVec3::new(0.3 * random(4), 0.5, 0.3 * random(5));
         let path = curve(5, |part| {
-            (0.12 * end).lerp(bend.lerp(end, part), part) * DVec3::new(1.0, part.max(0.0), 1.0)
+            let bent = (0.12 * end).lerp(bend.lerp(end, part), part);
+            bent * DVec3::new(1.0, part, 1.0)
         });
         tube(&mut mesh, "bark", 6, &path, |part| {
             0.035 * (1.0 - 0.8 * part)
