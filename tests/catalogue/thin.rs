@@ -57,10 +57,10 @@ fn leaves_are_harder_than_a_smooth_bush() {
     let [leafy, smooth] = ["foliage", "foliage@smooth"].map(Shot::of);
     for filter in ["guertin:paper", "mcguire:paper"] {
         let variation = [&leafy, &smooth].map(|shot| shot.score(filter, "label_tv"));
-        // Measured 1.73 and 1.70.
+        // Measured 1.75 and 1.70.
         assert_worse(&format!("label_tv of {filter}"), variation, 1.4);
     }
-    // Dilation in full resolution keeps the leaves apart: measured 0.030, tiles 0.062.
+    // Dilation in full resolution keeps the leaves apart: measured 0.032, tiles 0.063.
     let [tiles, full] =
         ["guertin:paper", "jump_flood:corrected"].map(|filter| leafy.score(filter, "label_tv"));
     assert_worse("label_tv of tiles and of single pixels", [tiles, full], 1.4);
