@@ -54,11 +54,29 @@ fn every_scene_loads_with_every_variant() {
         .map(|listing| listing.name.as_str())
         .collect();
     for name in [
+        "cockpit",
+        "creep",
+        "crossing",
+        "dolly",
         "fan",
+        "fence",
+        "flag",
+        "flat_field",
+        "foliage",
+        "frame_edge",
+        "neon",
+        "ornaments",
+        "pan_sky",
         "panel_over_texture",
         "railing",
+        "ramp_floor",
+        "reversal",
+        "roll",
         "sliding_panel",
         "two_spheres",
+        "walker",
+        "wheel_roll",
+        "wires",
     ] {
         assert!(names.contains(&name), "{name} is missing");
     }

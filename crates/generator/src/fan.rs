@@ -91,6 +91,6 @@ fn stand() -> Mesh {
         DVec3::new(0.14, 2.5, 0.14),
         2,
     );
-    ring(&mut mesh, "guard", 1.4, 0.03, 0.0);
+    ring(&mut mesh, "guard", [1.4, 0.03], 0.0, [96, 10]);
     mesh
 }

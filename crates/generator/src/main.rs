@@ -6,6 +6,7 @@ fn main() -> std::io::Result<()> {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     for file in generator::files() {
         let path = scenes.join(&file.path);
+        std::fs::create_dir_all(path.parent().expect("it lies in a scene's folder"))?;
         std::fs::write(&path, &file.bytes)?;
         println!("{} ({} bytes)", file.path, file.bytes.len());
     }

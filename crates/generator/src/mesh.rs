@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec2Swizzles};
 
 /// A point of a surface.
 #[derive(Clone, Copy)]
@@ -73,6 +73,13 @@ impl Mesh {
     pub(crate) fn repeat_texture(&mut self, times: DVec2) {
         for vertex in &mut self.vertices {
             vertex.texcoord *= times;
+        }
+    }
+
+    /// Exchanges u and v: what ran across a texture runs up it.
+    pub(crate) fn turn_texture(&mut self) {
+        for vertex in &mut self.vertices {
+            vertex.texcoord = vertex.texcoord.yx();
         }
     }
 

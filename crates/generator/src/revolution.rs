@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 
 use crate::mesh::Mesh;
 
@@ -30,10 +30,31 @@ pub(crate) fn revolve(
     }
 }
 
-/// A ring about the Z axis at `height`: the tube has radius `tube`, its middle runs at `radius`.
-pub(crate) fn ring(mesh: &mut Mesh, material: &'static str, radius: f64, tube: f64, height: f64) {
+/// Turns the outline `(radius, height)` about the vertical through `foot`.
+pub(crate) fn turned(
+    mesh: &mut Mesh,
+    material: &'static str,
+    around: usize,
+    outline: &[(f64, f64)],
+    foot: DVec3,
+) {
+    let mut about_z = Mesh::default();
+    revolve(&mut about_z, |_| material, around, outline);
+    let upright = DAffine3::from_rotation_x(-TAU / 4.0);
+    mesh.append(&about_z, DAffine3::from_translation(foot) * upright);
+}
+
+/// A ring about the Z axis at `height`, of `parts` quads around the axis and around the tube: the tube has radius `tube`,
+/// its middle runs at `radius`.
+pub(crate) fn ring(
+    mesh: &mut Mesh,
+    material: &'static str,
+    [radius, tube]: [f64; 2],
+    height: f64,
+    parts: [usize; 2],
+) {
     mesh.surface(
-        [96, 10],
+        parts,
         |_, _| material,
         |u, v| {
             let (sine, cosine) = (u * TAU).sin_cos();

@@ -9,10 +9,10 @@ use crate::{Files, model};
 
 /// In metres; z = 0 is the middle.
 const HALF_LENGTH: f64 = 60.0;
-const HALF_WIDTH: f64 = 3.2;
+pub(crate) const HALF_WIDTH: f64 = 3.2;
 
 /// One texture is this long, in metres: a dash and a gap.
-const TILE: f64 = 4.0;
+pub(crate) const TILE: f64 = 4.0;
 
 pub(crate) fn files() -> Files {
     let mut mesh = Mesh::default();
@@ -34,7 +34,7 @@ pub(crate) fn files() -> Files {
 }
 
 /// Lines at the edges, dashes in the middle, grains of asphalt between.
-fn color(x: u32, y: u32) -> [f64; 3] {
+pub(crate) fn color(x: u32, y: u32) -> [f64; 3] {
     let edge = (8..14).contains(&y) || (242..248).contains(&y);
     let dash = (125..131).contains(&y) && x < 128;
     let grain = 0.09 * (noise(x / 2, y / 2) - 0.5) + 0.05 * (noise(x, y + 999) - 0.5);

@@ -29,6 +29,14 @@ pub(crate) fn brick() -> Files {
     files
 }
 
+/// A wall of boards.
+pub(crate) fn boards() -> Files {
+    let materials = "newmtl wall\nKd 1 1 1\nmap_Kd wall.png\n";
+    let mut files = model("wall", &wall(), materials);
+    files.push(("wall.png".into(), png(128, crate::ground::boards)));
+    files
+}
+
 /// 12 m x 8 m about the origin, facing +Z, of tiles of 2 m that bear the whole texture each.
 fn wall() -> Mesh {
     let mut tile = Mesh::default();
