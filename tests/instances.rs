@@ -68,6 +68,11 @@ fn what_stands_still_is_met_among_what_moves_as_every_triangle_in_turn_says() {
         if index % 5 < 3 {
             object.motion.keys.truncate(1);
         }
+        // Of those that move half keep their size.
+        if index % 2 == 0 {
+            let scale = object.motion.keys[0].scale;
+            (object.motion.keys.iter_mut()).for_each(|key| key.scale = scale);
+        }
     }
     // Shares the mesh and is all hole.
     let mut hole = glowing(1.0);
