@@ -1,4 +1,4 @@
-//! Hundreds of moving objects that share one mesh.
+//! Hundreds of objects that share one mesh, moving and standing still.
 
 use glam::{DQuat, DVec3};
 use tests::brute_force::expect_what_every_triangle_gives;
@@ -58,4 +58,30 @@ fn swarm(count: usize) -> Scene {
 fn four_hundred_objects_of_one_mesh_are_met_as_every_triangle_in_turn_says() {
     let scene = swarm(400);
     expect_what_every_triangle_gives(&scene, [-0.9, 0.5], 10.0, 600);
+}
+
+#[test]
+fn what_stands_still_is_met_among_what_moves_as_every_triangle_in_turn_says() {
+    let mut scene = swarm(60);
+    for (index, object) in scene.objects.iter_mut().enumerate() {
+        // Some of those that stand still follow one that moves, or the other way round.
+        if index % 5 < 3 {
+            object.motion.keys.truncate(1);
+        }
+        // Of those that move half keep their size.
+        if index % 2 == 0 {
+            let scale = object.motion.keys[0].scale;
+            (object.motion.keys.iter_mut()).for_each(|key| key.scale = scale);
+        }
+    }
+    // Shares the mesh and is all hole.
+    let mut hole = glowing(1.0);
+    hole.opacity = 0.0;
+    scene.materials.push(hole);
+    for index in [1, 12, 13] {
+        scene.objects[index].materials = vec![1];
+    }
+    expect_what_every_triangle_gives(&scene, [-0.9, 0.5], 8.0, 3000);
+    // At one time all stand still.
+    expect_what_every_triangle_gives(&scene, [-0.4, -0.4], 8.0, 1000);
 }

@@ -34,21 +34,25 @@ pub fn expect_what_every_triangle_gives(
         hits += u32::from(expected.is_some());
         for stage in &stages {
             let path = stage.traversal();
+            // Asked anew each time: what is known of the poses changes the way to the hit.
             assert_eq!(
-                stage.closest(&mut poses, &ray),
+                stage.closest(poses.at(time), &ray),
                 expected,
                 "{path}, time {time}, {ray:?}"
             );
             match expected {
                 Some(hit) => {
                     assert!(
-                        stage.blocked(&mut poses, &ray, hit.t * (1.0 + 1e-9)),
+                        stage.blocked(poses.at(time), &ray, hit.t * (1.0 + 1e-9)),
                         "{path}, {ray:?}"
                     );
-                    assert!(!stage.blocked(&mut poses, &ray, hit.t), "{path}, {ray:?}");
+                    assert!(
+                        !stage.blocked(poses.at(time), &ray, hit.t),
+                        "{path}, {ray:?}"
+                    );
                 }
                 None => assert!(
-                    !stage.blocked(&mut poses, &ray, f64::INFINITY),
+                    !stage.blocked(poses.at(time), &ray, f64::INFINITY),
                     "{path}, {ray:?}"
                 ),
             }

@@ -52,6 +52,12 @@ impl Bounds {
         (self.max - self.min).length()
     }
 
+    /// Half the area of its surface, square metres.
+    pub fn half_area(self) -> f64 {
+        let size = self.max - self.min;
+        size.x * size.y + size.y * size.z + size.z * size.x
+    }
+
     /// The greatest absolute coordinate of any corner, metres.
     pub fn reach(self) -> f64 {
         self.min.abs().max(self.max.abs()).max_element()

@@ -23,6 +23,15 @@ impl<'a> Geometry<'a> {
         }
     }
 
+    /// The leaves of a rigid mesh, which may lie in the tree of the world.
+    #[inline(always)]
+    pub fn rigid(&self) -> &MeshTree {
+        match self {
+            Geometry::Rigid(tree) => tree,
+            Geometry::Deforming(_) => panic!("only rigid meshes lie in the tree of the world"),
+        }
+    }
+
     /// Bytes that trees and triangles take.
     pub fn bytes(&self) -> usize {
         match self {

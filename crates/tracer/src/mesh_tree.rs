@@ -1,27 +1,37 @@
 //! A mesh's triangles under a tree, in object space; shared by every object that shows the mesh.
 
-use glam::{DVec3, Vec3};
+use bytemuck::{Pod, Zeroable};
+use glam::{DAffine3, DVec3, Vec3};
 use prefetch_index::prefetch_index;
 
 use crate::approach::{Approach, Ball};
 use crate::bounds::Bounds;
-use crate::bvh::Tree;
+use crate::bvh::{Child, Tree};
 use crate::folding::LeafRules;
 use crate::lanes::{EdgeRay, LEAF, Lanes, Triangles};
+use crate::pages::Pages;
 use crate::ray::Ray;
 use crate::scene::Mesh;
 use crate::triangle::{Crossing, cross};
 
-/// Triangles under a tree, those of a leaf side by side.
+/// Triangles in leaves, those of a leaf side by side, and a tree over the leaves.
 pub(crate) struct MeshTree {
-    tree: Tree,
-    leaves: Vec<Leaf>,
+    /// None where no walk needs it: where every object that shows the mesh has its leaves in the tree of the world.
+    tree: Option<Tree>,
+    leaves: Pages<Leaf>,
     ball: Ball,
     /// The greatest coordinate of the mesh, metres.
     reach: f64,
 }
 
+/// A ray made ready for the leaves of a mesh, in the mesh's space.
+pub(crate) struct Aim {
+    approach: Approach,
+    edges: EdgeRay,
+}
+
 /// Triangles that are tested together, by the tree's number of the leaf.
+#[derive(Clone, Copy, Pod, Zeroable)]
 #[repr(C, align(32))]
 struct Leaf {
     triangles: Triangles,
@@ -31,6 +41,8 @@ struct Leaf {
     used: u32,
     /// The greatest extent of any of them along an axis, metres.
     size: f32,
+    /// Room up to the next one's beginning.
+    unused: [u32; 6],
 }
 
 impl MeshTree {
@@ -53,21 +65,51 @@ impl MeshTree {
             .map(|leaf| Leaf::of(mesh, listed.items(leaf)))
             .collect();
         Self {
-            tree,
-            leaves,
+            tree: Some(tree),
+            leaves: Pages::of(leaves),
             ball: Ball::around(bounds.centre(), vertices),
             reach: bounds.reach(),
         }
     }
 
+    /// Leaves the tree over the leaves out: only [`MeshTree::meet`] remains.
+    pub fn drop_tree(&mut self) {
+        self.tree = None;
+    }
+
     /// Bytes that tree and triangles take.
     pub fn bytes(&self) -> usize {
-        self.tree.bytes() + size_of_val(self.leaves.as_slice())
+        self.tree.as_ref().map_or(0, Tree::bytes) + size_of_val::<[Leaf]>(&self.leaves)
     }
 
     /// Room that [`MeshTree::walk`] needs for children that wait.
     pub fn most_waiting(&self) -> usize {
-        self.tree.most_waiting
+        self.tree.as_ref().map_or(0, |tree| tree.most_waiting)
+    }
+
+    /// How many leaves there are.
+    pub fn leaf_count(&self) -> usize {
+        self.leaves.len()
+    }
+
+    /// Boxes around the leaves, at a pose.
+    pub fn leaf_bounds(&self, pose: &DAffine3) -> Vec<Bounds> {
+        let posed = |corner| pose.transform_point3(corner);
+        let leaves = self.leaves.iter();
+        leaves
+            .map(|leaf| {
+                let corners = leaf.lanes().flat_map(|lane| leaf.corners(lane));
+                Bounds::around(corners.map(posed))
+            })
+            .collect()
+    }
+
+    /// None where the ray misses the mesh.
+    #[inline(always)]
+    pub fn aim(&self, ray: &Ray) -> Option<Aim> {
+        let approach = self.ball.approach(ray)?;
+        let edges = EdgeRay::new(approach.ray.origin, approach.ray.direction, self.reach);
+        Some(Aim { approach, edges })
     }
 
     /// Visits the crossings at `0 < t <= limit`: roughly from near to far where `SORTED`, else in any order. `visit` takes
@@ -81,32 +123,55 @@ impl MeshTree {
         limit: f64,
         mut visit: impl FnMut(u32, Crossing) -> f64,
     ) {
-        let Some(approach) = self.ball.approach(ray) else {
+        let Some(aim) = self.aim(ray) else {
             return;
         };
-        let edges = EdgeRay::new(approach.ray.origin, approach.ray.direction, self.reach);
+        let tree = self
+            .tree
+            .as_ref()
+            .expect("only meshes with trees are walked through");
         let mut limit = limit;
-        self.tree.walk::<L, SORTED>(
+        tree.walk::<L, SORTED>(
             lanes,
             waiting,
-            &approach.ray,
-            approach.local(limit),
+            (&aim.approach.ray, Child::ROOT),
+            aim.approach.local(limit),
             #[inline(always)]
             |_, leaf| {
-                let leaf = &self.leaves[leaf as usize];
-                let mut inside = lanes.cross(&leaf.triangles, leaf.size, &edges) & leaf.used;
-                while inside != 0 {
-                    let lane = inside.trailing_zeros() as usize;
-                    inside &= inside - 1;
-                    if let Some(crossing) = leaf.crossing(&approach, lane, limit) {
-                        limit = visit(leaf.indices[lane], crossing);
-                    }
-                }
-                approach.local(limit)
+                limit = self.meet(lanes, leaf, &aim, limit, &mut visit);
+                aim.approach.local(limit)
             },
             #[inline(always)]
-            |leaf| self.leaves[leaf as usize].fetch(),
+            |leaf| self.fetch(leaf),
         );
+    }
+
+    /// Visits the crossings of one leaf, as [`MeshTree::walk`] does; returns the limit from then on.
+    #[inline(always)]
+    pub fn meet<L: Lanes>(
+        &self,
+        lanes: L,
+        leaf: u32,
+        aim: &Aim,
+        mut limit: f64,
+        mut visit: impl FnMut(u32, Crossing) -> f64,
+    ) -> f64 {
+        let leaf = &self.leaves[leaf as usize];
+        let mut inside = lanes.cross(&leaf.triangles, leaf.size, &aim.edges) & leaf.used;
+        while inside != 0 {
+            let lane = inside.trailing_zeros() as usize;
+            inside &= inside - 1;
+            if let Some(crossing) = leaf.crossing(&aim.approach, lane, limit) {
+                limit = visit(leaf.indices[lane], crossing);
+            }
+        }
+        limit
+    }
+
+    /// Has the processor fetch a leaf from memory, to be there when it is met.
+    #[inline(always)]
+    pub fn fetch(&self, leaf: u32) {
+        self.leaves[leaf as usize].fetch();
     }
 
     /// Every crossing at `0 < t`, tree or no tree: what the walks are tested against.
@@ -114,8 +179,8 @@ impl MeshTree {
         let Some(approach) = self.ball.approach(ray) else {
             return;
         };
-        for leaf in &self.leaves {
-            for lane in (0..LEAF).filter(|lane| leaf.used >> lane & 1 == 1) {
+        for leaf in self.leaves.iter() {
+            for lane in leaf.lanes() {
                 if let Some(crossing) = leaf.crossing(&approach, lane, f64::INFINITY) {
                     visit(leaf.indices[lane], crossing);
                 }
@@ -136,10 +201,15 @@ impl Leaf {
             indices,
             used: (1 << items.len()) - 1,
             size: corners.map(extent).into_iter().fold(0.0, f32::max),
+            unused: [0; 6],
         }
     }
 
-    /// Has the processor fetch it from memory, to be there when it is visited.
+    /// The used lanes.
+    fn lanes(&self) -> impl Iterator<Item = usize> {
+        (0..LEAF).filter(|lane| self.used >> lane & 1 == 1)
+    }
+
     #[inline(always)]
     fn fetch(&self) {
         let [a, b, c] = &self.triangles.0;
@@ -150,12 +220,16 @@ impl Leaf {
     }
 
     #[inline(always)]
-    fn crossing(&self, approach: &Approach, lane: usize, limit: f64) -> Option<Crossing> {
-        let corners = [0, 1, 2].map(|vertex| {
+    fn corners(&self, lane: usize) -> [DVec3; 3] {
+        [0, 1, 2].map(|vertex| {
             let coordinate = |axis: usize| f64::from(self.triangles.0[vertex][axis][lane]);
             DVec3::new(coordinate(0), coordinate(1), coordinate(2))
-        });
-        let mut crossing = cross(&approach.ray, corners)?;
+        })
+    }
+
+    #[inline(always)]
+    fn crossing(&self, approach: &Approach, lane: usize, limit: f64) -> Option<Crossing> {
+        let mut crossing = cross(&approach.ray, self.corners(lane))?;
         crossing.t += approach.start;
         (crossing.t > 0.0 && crossing.t <= limit).then_some(crossing)
     }

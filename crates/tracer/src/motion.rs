@@ -54,31 +54,23 @@ pub struct Motion {
     pub interpolation: Interpolation,
 }
 
-/// A motion whose segments are worked out once, for poses at many times.
-pub(crate) struct Path {
-    /// Of the keys, in frames.
-    times: Vec<f64>,
-    /// Before the first key, and from each key on.
-    segments: Vec<Segment>,
-}
-
 /// A stretch of a motion without keys inside: every part is a polynomial in time.
 pub(crate) struct Segment {
     /// The time that the curves count from, in frames.
-    start: f64,
+    pub start: f64,
     pub translation: Cubic<DVec3>,
     pub scale: Cubic<DVec3>,
     /// At the start.
-    orientation: DQuat,
-    turn: Turning,
+    pub orientation: DQuat,
+    pub turn: Turning,
     /// Before and after the turn.
-    swings: Option<[Turning; 2]>,
+    pub swings: Option<[Turning; 2]>,
 }
 
 /// A rotation about a fixed axis.
 pub(crate) struct Turning {
     /// Unit vector.
-    axis: DVec3,
+    pub axis: DVec3,
     /// Radians.
     pub angle: Cubic<f64>,
 }
@@ -121,14 +113,9 @@ impl Motion {
         self.segment_of(self.keyed().stretch(time))
     }
 
-    /// The same poses, sooner.
-    pub(crate) fn path(&self) -> Path {
-        Path {
-            times: self.keys.iter().map(|key| key.time).collect(),
-            segments: (0..=self.keys.len())
-                .map(|stretch| self.segment_of(stretch))
-                .collect(),
-        }
+    /// All stretches: before the first key, and from each key on.
+    pub(crate) fn segments(&self) -> impl Iterator<Item = Segment> {
+        (0..=self.keys.len()).map(|stretch| self.segment_of(stretch))
     }
 
     fn keyed(&self) -> Keyed<'_, Key> {
@@ -200,17 +187,9 @@ impl Turning {
     }
 }
 
-impl Path {
-    /// As [`Motion::at`].
-    pub fn at(&self, time: f64) -> DAffine3 {
-        let segment = self.times.partition_point(|key| *key <= time);
-        self.segments[segment].at(time)
-    }
-}
-
 impl Segment {
     /// The pose at `time` (frames) within the segment.
-    fn at(&self, time: f64) -> DAffine3 {
+    pub fn at(&self, time: f64) -> DAffine3 {
         let since = self.since(time);
         let mut turn = self.turn.at(since);
         if let Some([before, after]) = &self.swings {

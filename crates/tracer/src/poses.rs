@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use glam::DAffine3;
 
-use crate::motion::Path;
-use crate::scene::{Parent, Scene};
+use crate::motion::{Motion, Segment};
+use crate::ray::Ray;
+use crate::scene::{Mesh, Parent, Scene};
+use crate::screw::Screw;
 use crate::swept::{chain, key_times};
 
 /// An object's place at one time.
@@ -19,7 +21,7 @@ pub(crate) struct Pose {
 #[derive(Clone)]
 pub struct Poses<'a> {
     scene: &'a Scene,
-    paths: Arc<Paths>,
+    ways: Arc<Ways>,
     time: f64,
     /// Per object; valid when its stamp is the current one, or for ever.
     poses: Vec<(Stamp, Pose)>,
@@ -30,10 +32,25 @@ pub struct Poses<'a> {
 }
 
 /// Every motion of a scene.
-struct Paths {
-    camera: Path,
+struct Ways {
+    camera: Way,
     /// Per object, relative to its parent.
-    objects: Vec<Path>,
+    objects: Vec<Way>,
+    /// Per object, how far its mesh reaches from its origin, metres; infinite where that changes.
+    reaches: Vec<f64>,
+}
+
+/// A motion whose stretches are worked out once, for poses at many times.
+struct Way {
+    /// Of the keys, in frames.
+    times: Vec<f64>,
+    /// Before the first key, and from each key on.
+    stretches: Vec<Stretch>,
+}
+
+enum Stretch {
+    Screw(Screw),
+    Other(Segment),
 }
 
 type Stamp = u64;
@@ -44,6 +61,41 @@ impl Pose {
         Self {
             to_world,
             to_object: to_world.inverse(),
+        }
+    }
+
+    /// Of what stands at `own` in a space that stands at this pose.
+    fn carrying(&self, own: &Pose) -> Self {
+        Self {
+            to_world: self.to_world * own.to_world,
+            to_object: own.to_object * self.to_object,
+        }
+    }
+}
+
+impl Way {
+    fn of(motion: &Motion) -> Self {
+        Self {
+            times: motion.keys.iter().map(|key| key.time).collect(),
+            stretches: motion
+                .segments()
+                .map(|segment| match Screw::of(&segment) {
+                    Some(screw) => Stretch::Screw(screw),
+                    None => Stretch::Other(segment),
+                })
+                .collect(),
+        }
+    }
+
+    fn stretch(&self, time: f64) -> &Stretch {
+        &self.stretches[self.times.partition_point(|key| *key <= time)]
+    }
+
+    /// As [`Motion::at`].
+    fn at(&self, time: f64) -> Pose {
+        match self.stretch(time) {
+            Stretch::Screw(screw) => screw.at(time),
+            Stretch::Other(segment) => Pose::new(segment.at(time)),
         }
     }
 }
@@ -61,14 +113,16 @@ impl<'a> Poses<'a> {
                 }
             })
             .collect();
+        let reaches: Vec<f64> = scene.meshes.iter().map(reach).collect();
         let objects = scene.objects.iter();
-        let paths = Paths {
-            camera: scene.camera.motion.path(),
-            objects: objects.map(|object| object.motion.path()).collect(),
+        let ways = Ways {
+            camera: Way::of(&scene.camera.motion),
+            reaches: objects.clone().map(|object| reaches[object.mesh]).collect(),
+            objects: objects.map(|object| Way::of(&object.motion)).collect(),
         };
         Self {
             scene,
-            paths: Arc::new(paths),
+            ways: Arc::new(ways),
             time: from,
             poses,
             current: 1,
@@ -76,9 +130,9 @@ impl<'a> Poses<'a> {
         }
     }
 
-    /// Whether no object ever moves.
-    pub(crate) fn stand_still(&self) -> bool {
-        self.poses.iter().all(|(stamp, _)| *stamp == FOR_EVER)
+    /// Whether an object never moves.
+    pub(crate) fn stands_still(&self, object: usize) -> bool {
+        self.poses[object].0 == FOR_EVER
     }
 
     /// Moves to another time; returns itself.
@@ -103,20 +157,48 @@ impl<'a> Poses<'a> {
         waiting
     }
 
+    /// Whether a ray certainly misses an object, told without its pose where that is not yet known.
+    #[inline(always)]
+    pub(crate) fn missed(&self, object: usize, ray: &Ray) -> bool {
+        let stamp = self.poses[object].0;
+        if stamp == FOR_EVER || stamp == self.current {
+            return false;
+        }
+        match (
+            self.scene.objects[object].parent,
+            self.ways.objects[object].stretch(self.time),
+        ) {
+            (Parent::World, Stretch::Screw(screw)) => {
+                let reach = self.ways.reaches[object];
+                screw.ball(reach, self.time).is_missed(ray)
+            }
+            _ => false,
+        }
+    }
+
     #[inline]
     pub(crate) fn pose(&mut self, object: usize) -> &Pose {
         let stamp = self.poses[object].0;
         if stamp != FOR_EVER && stamp != self.current {
-            let own = self.paths.objects[object].at(self.time);
-            let to_world = match self.scene.objects[object].parent {
+            let own = self.ways.objects[object].at(self.time);
+            let pose = match self.scene.objects[object].parent {
                 Parent::World => own,
-                Parent::Camera => self.paths.camera.at(self.time) * own,
-                Parent::Object(parent) => self.pose(parent).to_world * own,
+                Parent::Camera => self.ways.camera.at(self.time).carrying(&own),
+                Parent::Object(parent) => self.pose(parent).carrying(&own),
             };
-            self.poses[object] = (self.current, Pose::new(to_world));
+            self.poses[object] = (self.current, pose);
         }
         &self.poses[object].1
     }
+}
+
+/// The greatest distance of a vertex from the origin, metres; infinite where the mesh deforms.
+fn reach(mesh: &Mesh) -> f64 {
+    if mesh.deforms() {
+        return f64::INFINITY;
+    }
+    let lengths = mesh.positions.iter().map(|p| p.as_dvec3().length());
+    lengths.fold(0.0, f64::max)
 }
 
 /// Whether no motion between the object and the world changes anything within the interval.

@@ -2,7 +2,7 @@
 
 use crate::approach::{Approach, Ball};
 use crate::bounds::Bounds;
-use crate::bvh::{Leaves, Tree};
+use crate::bvh::{Child, Leaves, Tree};
 use crate::folding::LeafRules;
 use crate::lanes::Lanes;
 use crate::ray::Ray;
@@ -84,7 +84,7 @@ impl<'a> ShapeTree<'a> {
         slice.tree.walk::<L, SORTED>(
             lanes,
             waiting,
-            &approach.ray,
+            (&approach.ray, Child::ROOT),
             approach.local(limit),
             #[inline(always)]
             |_, leaf| {

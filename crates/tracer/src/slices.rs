@@ -1,9 +1,7 @@
-//! The shutter cut into slices, each with a small tree over the boxes that objects sweep within it.
+//! The shutter cut into slices, and the boxes that objects sweep within each.
 
 use crate::bounds::Bounds;
-use crate::bvh::{Leaves, Tree};
 use crate::extent::Extent;
-use crate::folding::LeafRules;
 use crate::scene::Scene;
 use crate::swept::{greatest_speed, swept_bounds};
 
@@ -11,30 +9,17 @@ use crate::swept::{greatest_speed, swept_bounds};
 const TRAVEL_PER_SLICE: f64 = 0.25;
 const MOST_SLICES: usize = 16;
 
-/// A tree over the boxes that objects sweep within a part of the shutter; a leaf is an object.
-pub(crate) struct Slice {
-    pub tree: Tree,
-    pub leaves: Leaves,
-}
-
-/// The slices of `[from, to]`, in time: all equally long.
-pub(crate) fn slices(scene: &Scene, from: f64, to: f64) -> Vec<Slice> {
+/// Per slice of `[from, to]`, in time and all equally long, the boxes that the objects sweep.
+pub(crate) fn slices(scene: &Scene, from: f64, to: f64) -> Vec<Vec<Bounds>> {
     let extents = Extent::of_meshes(scene);
     let count = slice_count(scene, &extents, from, to);
     let border = |slice: usize| from + (to - from) * slice as f64 / count as f64;
     (0..count)
         .map(|slice| {
-            let boxes: Vec<Bounds> = (0..scene.objects.len())
-                .map(|object| {
-                    swept_bounds(scene, &extents, object, border(slice), border(slice + 1))
-                })
-                .collect();
-            let rules = LeafRules {
-                most: 1,
-                item_cost: 0.0,
-            };
-            let (tree, leaves) = Tree::over(&boxes, rules);
-            Slice { tree, leaves }
+            let [from, to] = [slice, slice + 1].map(border);
+            (0..scene.objects.len())
+                .map(|object| swept_bounds(scene, &extents, object, from, to))
+                .collect()
         })
         .collect()
 }

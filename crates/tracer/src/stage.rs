@@ -1,36 +1,37 @@
-//! The scene made ready for rays: one tree per mesh, and trees over the boxes that the objects sweep.
+//! The scene made ready for rays: one tree over all that stands still, and one per mesh that moves.
 
 use glam::DVec3;
 
 use crate::background::Sky;
 use crate::geometry::Geometry;
 use crate::gloss::Gloss;
+use crate::joining::joining;
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::Avx2;
 use crate::lanes::{Lanes, Portable};
 use crate::poses::Poses;
 use crate::ray::Ray;
-use crate::scene::{Object, Scene};
-use crate::slices::{Slice, slices};
+use crate::scene::Scene;
+use crate::slices::slices;
 use crate::surface::{Opacity, Surface};
-use crate::triangle::Crossing;
+use crate::world_tree::WorldTree;
 
 /// A scene between two times, ready for rays.
 ///
-/// A ray is moved into an object's space by the exact pose at its time; nothing about the motion is linearised. The
-/// shutter is cut into slices, each with its own small tree over the boxes swept within it.
+/// Objects that stand still lie in one tree, leaf by leaf. The shutter is cut into slices, each with its own small tree over
+/// the topmost nodes of that one and the boxes that moving objects sweep. A ray is moved into an object's space by the exact
+/// pose at its time; nothing about the motion is linearised.
 pub struct Stage<'a> {
     pub(crate) scene: &'a Scene,
-    from: f64,
-    to: f64,
+    /// Per mesh of the scene; none where no object shows it.
     meshes: Vec<Option<Geometry<'a>>>,
-    opacities: Vec<Opacity>,
+    pub(crate) world: WorldTree,
+    pub(crate) opacities: Vec<Opacity>,
     /// Per material of the scene.
     glosses: Vec<Option<Gloss>>,
     sky: Sky<'a>,
-    slices: Vec<Slice>,
     /// Room for the children that wait while a ray is in another.
-    most_waiting: usize,
+    pub(crate) most_waiting: usize,
     poses: Poses<'a>,
     traversal: Traversal,
 }
@@ -41,9 +42,6 @@ enum Traversal {
     Avx2(Avx2),
     Portable,
 }
-
-/// A limit that nothing lies before: it ends a walk.
-const NOWHERE: f64 = f64::NEG_INFINITY;
 
 /// Where a ray meets a surface first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,34 +63,44 @@ impl<'a> Stage<'a> {
     pub fn new(scene: &'a Scene, from: f64, to: f64) -> Self {
         assert!(from <= to, "a stage's interval runs forwards in time");
         let shown: Vec<usize> = scene.objects.iter().map(|object| object.mesh).collect();
-        let meshes: Vec<Option<Geometry>> = scene
+        let mut meshes: Vec<Option<Geometry>> = scene
             .meshes
             .iter()
             .enumerate()
             .map(|(index, mesh)| shown.contains(&index).then(|| Geometry::of(mesh, from, to)))
             .collect();
+        let mut poses = Poses::new(scene, from, to);
         let slices = slices(scene, from, to);
-        let in_slices = slices.iter().map(|slice| slice.tree.most_waiting).max();
+        let swept = slices.iter().flatten().map(|bounds| bounds.reach());
+        let joining = joining(scene, &meshes, &mut poses, swept.fold(0.0, f64::max));
+        let world = WorldTree::over(&joining, &slices, [from, to]);
+        for (mesh, geometry) in meshes.iter_mut().enumerate() {
+            let walked = (joining.iter().zip(&shown))
+                .any(|(leaves, shown)| *shown == mesh && leaves.is_none());
+            if let (Some(Geometry::Rigid(tree)), false) = (geometry, walked) {
+                tree.drop_tree();
+            }
+        }
         let in_meshes = meshes.iter().flatten().map(Geometry::most_waiting).max();
         Self {
             scene,
-            from,
-            to,
+            most_waiting: world.most_waiting() + in_meshes.unwrap_or(0),
             meshes,
+            world,
             opacities: Opacity::of_objects(scene),
             sky: Sky::of(&scene.background),
             glosses: scene.materials.iter().map(Gloss::of).collect(),
-            slices,
-            most_waiting: in_slices.unwrap_or(0) + in_meshes.unwrap_or(0),
-            poses: Poses::new(scene, from, to),
+            poses,
             traversal: Traversal::best(),
         }
     }
 
     /// Whether nothing in the world changes its place or shape.
     pub(crate) fn stands_still(&self) -> bool {
-        let deforms = |object: &Object| self.scene.meshes[object.mesh].deforms();
-        self.poses.stand_still() && !self.scene.objects.iter().any(deforms)
+        let mut objects = self.scene.objects.iter().enumerate();
+        objects.all(|(index, object)| {
+            self.poses.stands_still(index) && !self.scene.meshes[object.mesh].deforms()
+        })
     }
 
     /// Whether all surfaces look the same from everywhere.
@@ -157,87 +165,7 @@ impl<'a> Stage<'a> {
     /// Bytes that trees and triangles take.
     pub fn bytes(&self) -> usize {
         let meshes: usize = self.meshes.iter().flatten().map(Geometry::bytes).sum();
-        let slices = self.slices.iter();
-        let slices = slices.map(|slice| slice.tree.bytes() + slice.leaves.bytes());
-        meshes + slices.sum::<usize>()
-    }
-
-    #[inline(always)]
-    fn closest_by<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
-        let time = poses.time();
-        let slice = self.slice(time);
-        let mut waiting = poses.take_waiting(self.most_waiting);
-        let mut best: Option<Hit> = None;
-        slice.tree.walk::<L, true>(
-            lanes,
-            &mut waiting,
-            ray,
-            f64::INFINITY,
-            #[inline(always)]
-            |waiting, leaf| {
-                let limit = |best: &Option<Hit>| best.map_or(f64::INFINITY, |hit| hit.t);
-                for &object in slice.leaves.items(leaf) {
-                    let object = object as usize;
-                    let local = ray.transformed(&poses.pose(object).to_object);
-                    self.mesh(object).walk::<L, true>(
-                        lanes,
-                        waiting,
-                        &local,
-                        time,
-                        limit(&best),
-                        |triangle, crossing| {
-                            self.keep_nearer(&mut best, time, object, triangle, crossing);
-                            limit(&best)
-                        },
-                    );
-                }
-                limit(&best)
-            },
-            |_| {},
-        );
-        poses.waiting = waiting;
-        best
-    }
-
-    #[inline(always)]
-    fn blocked_by<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
-        let time = poses.time();
-        let slice = self.slice(time);
-        let mut waiting = poses.take_waiting(self.most_waiting);
-        let mut blocked = false;
-        slice.tree.walk::<L, false>(
-            lanes,
-            &mut waiting,
-            ray,
-            limit,
-            #[inline(always)]
-            |waiting, leaf| {
-                for &object in slice.leaves.items(leaf) {
-                    let object = object as usize;
-                    let local = ray.transformed(&poses.pose(object).to_object);
-                    self.mesh(object).walk::<L, false>(
-                        lanes,
-                        waiting,
-                        &local,
-                        time,
-                        limit,
-                        |triangle, crossing| {
-                            let opaque =
-                                self.opacities[object].opaque(self.scene, triangle, &crossing);
-                            blocked |= crossing.t < limit && opaque;
-                            if blocked { NOWHERE } else { limit }
-                        },
-                    );
-                    if blocked {
-                        return NOWHERE;
-                    }
-                }
-                limit
-            },
-            |_| {},
-        );
-        poses.waiting = waiting;
-        blocked
+        meshes + self.world.bytes()
     }
 
     /// The unit normal of the facet that a ray met, on the ray's side.
@@ -259,43 +187,11 @@ impl<'a> Stage<'a> {
         best
     }
 
-    #[inline]
-    fn keep_nearer(
-        &self,
-        best: &mut Option<Hit>,
-        time: f64,
-        object: usize,
-        triangle: u32,
-        crossing: Crossing,
-    ) {
-        let nearer = best.is_none_or(|best| {
-            (crossing.t, object, triangle) < (best.t, best.object, best.triangle)
-        });
-        if nearer && self.opacities[object].opaque(self.scene, triangle, &crossing) {
-            *best = Some(Hit {
-                t: crossing.t,
-                object,
-                triangle,
-                weights: [crossing.u, crossing.v],
-                time,
-            });
-        }
-    }
-
-    fn mesh(&self, object: usize) -> &Geometry<'a> {
+    #[inline(always)]
+    pub(crate) fn mesh(&self, object: usize) -> &Geometry<'a> {
         self.meshes[self.scene.objects[object].mesh]
             .as_ref()
             .expect("every shown mesh has a tree")
-    }
-
-    fn slice(&self, time: f64) -> &Slice {
-        assert!(
-            self.from <= time && time <= self.to,
-            "a ray's time lies in the stage's interval"
-        );
-        let fraction = (time - self.from) / (self.to - self.from).max(f64::MIN_POSITIVE);
-        let slice = (fraction * self.slices.len() as f64) as usize;
-        &self.slices[slice.min(self.slices.len() - 1)]
     }
 }
 

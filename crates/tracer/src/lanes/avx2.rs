@@ -17,16 +17,42 @@ impl Avx2 {
         V3::try_new().map(Self)
     }
 
-    /// Where the ray enters (end 0) or leaves (end 1) the space between eight pairs of planes.
+    /// Where the ray enters (end 0) or leaves (end 1) the space between the pairs of planes of one half of the boxes.
     #[inline(always)]
-    fn planes(self, boxes: &Boxes, ray: &SlabRay, axis: usize, end: usize) -> __m256 {
+    fn planes(self, boxes: &Boxes, half: usize, ray: &SlabRay, axis: usize, end: usize) -> __m256 {
         let Self(V3 { avx, fma, .. }) = self;
         let side = ray.first[axis] ^ end;
+        let halves: &[[f32; 8]] = boxes.0[axis][side].as_chunks().0;
         fma._mm256_fmadd_ps(
-            cast(boxes.0[axis][side]),
+            cast(halves[half]),
             avx._mm256_set1_ps(ray.scale[axis]),
             avx._mm256_set1_ps(ray.offsets[end][axis]),
         )
+    }
+
+    /// [`Lanes::enter`] for one half of the boxes.
+    #[inline(always)]
+    fn half(self, boxes: &Boxes, half: usize, ray: &SlabRay, limit: f32) -> (u32, __m256) {
+        let avx = self.0.avx;
+        let near = avx._mm256_max_ps(
+            avx._mm256_max_ps(
+                self.planes(boxes, half, ray, 0, 0),
+                self.planes(boxes, half, ray, 1, 0),
+            ),
+            avx._mm256_max_ps(self.planes(boxes, half, ray, 2, 0), avx._mm256_setzero_ps()),
+        );
+        let far = avx._mm256_min_ps(
+            avx._mm256_min_ps(
+                self.planes(boxes, half, ray, 0, 1),
+                self.planes(boxes, half, ray, 1, 1),
+            ),
+            avx._mm256_min_ps(
+                self.planes(boxes, half, ray, 2, 1),
+                avx._mm256_set1_ps(limit),
+            ),
+        );
+        let entered = avx._mm256_cmp_ps::<_CMP_LE_OQ>(near, far);
+        (avx._mm256_movemask_ps(entered) as u32, near)
     }
 
     /// Where vertices lie, seen along the ray.
@@ -62,17 +88,11 @@ impl Lanes for Avx2 {
 
     #[inline(always)]
     fn enter(self, boxes: &Boxes, ray: &SlabRay, limit: f32) -> (u32, [f32; WIDTH]) {
-        let avx = self.0.avx;
-        let near = avx._mm256_max_ps(
-            avx._mm256_max_ps(self.planes(boxes, ray, 0, 0), self.planes(boxes, ray, 1, 0)),
-            avx._mm256_max_ps(self.planes(boxes, ray, 2, 0), avx._mm256_setzero_ps()),
-        );
-        let far = avx._mm256_min_ps(
-            avx._mm256_min_ps(self.planes(boxes, ray, 0, 1), self.planes(boxes, ray, 1, 1)),
-            avx._mm256_min_ps(self.planes(boxes, ray, 2, 1), avx._mm256_set1_ps(limit)),
-        );
-        let entered = avx._mm256_cmp_ps::<_CMP_LE_OQ>(near, far);
-        (avx._mm256_movemask_ps(entered) as u32, cast(near))
+        let [(a, p), (b, q)] = [
+            self.half(boxes, 0, ray, limit),
+            self.half(boxes, 1, ray, limit),
+        ];
+        (a | b << 8, cast([p, q]))
     }
 
     #[inline(always)]
