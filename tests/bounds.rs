@@ -9,10 +9,18 @@ use suite::{Level, Outcome, RenderSettings, SceneBounds, SceneChoice, Verdict};
 
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
 
+/// Nothing in them moves farther than the bounds allow: what they expose is told by changed pixels, in the test `catalogue`.
+const HARDLY_MOVING: [&str; 1] = ["creep"];
+
 /// Verdicts on the instant itself, and on the mean of 64 sub-frames.
 fn verdicts(choice: &SceneChoice) -> [Vec<Verdict>; 2] {
     let out = tempfile::tempdir().unwrap();
-    let settings = RenderSettings::default();
+    // Small: there are many scenes.
+    let settings = RenderSettings {
+        width: 128,
+        height: 72,
+        ..RenderSettings::default()
+    };
     let scene = &choice.scene;
     let frame = suite::frame_of(scene, &settings, out.path(), true).unwrap();
     let (truth, ladder) =
@@ -80,7 +88,9 @@ fn the_identity_breaks_a_bound_in_every_moving_scene_and_64_subframes_break_none
         let name = &choice.scene.name;
         println!("{name}, identity:\n{}", describe(&identity));
         println!("{name}, 64 sub-frames:\n{}", describe(&accumulation));
-        if !broken(&identity) {
+        if HARDLY_MOVING.contains(&name.as_str()) {
+            assert!(!broken(&identity), "{name} is no exception");
+        } else if !broken(&identity) {
             failures.push(format!("{name}: the identity keeps every bound"));
         }
         if broken(&accumulation) {
