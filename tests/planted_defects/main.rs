@@ -21,14 +21,15 @@ const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
 const SHADERS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shaders");
 
 /// One thing that slides, far and aslant, two that pass one another, many that turn, fly and hide one another, many that
-/// cross, and some that leave the picture.
-const NAMES: [&str; 6] = [
+/// cross, some that leave the picture, and thin ones.
+const NAMES: [&str; 7] = [
     "sliding_panel@128px_0deg",
     "sliding_panel@64px_45deg",
     "two_spheres",
     "railing",
     "crossing",
     "frame_edge",
+    "ornaments",
 ];
 
 /// What the filters are bounded in.
@@ -55,6 +56,9 @@ const METRICS: [&str; 16] = [
 /// bound that is too strict for one would say nothing about defects.
 const CALIBRATED_WITH: [u64; 2] = [1, 2];
 const CHECKED_WITH: u64 = CALIBRATED_WITH[0];
+
+/// Tiles to these small pictures what 20 pixels are at 320x180: trails reach from tile to tile.
+const SMALL_TILES: &str = "mcguire.tile_size=8";
 
 /// The filters as they are.
 const SOUND: [&str; 2] = ["mcguire:paper", "jump_flood:corrected"];
@@ -158,7 +162,8 @@ impl Bench {
 }
 
 fn choices(words: impl Iterator<Item = String>) -> Vec<FilterChoice> {
-    select_filters(&words.collect::<Vec<_>>(), None, &[]).unwrap()
+    let overrides = [SMALL_TILES.to_owned()];
+    select_filters(&words.collect::<Vec<_>>(), None, &overrides).unwrap()
 }
 
 /// Names of the metrics whose bounds are broken, with their scenes.
