@@ -77,31 +77,13 @@ impl Bench {
 
     /// `run` with few samples; the table is on standard output.
     pub fn run(&self, more: &[&str]) -> Output {
-        let words = [
-            "run",
-            "--quiet",
-            "--out",
-            "out",
-            "--size",
-            "64x32",
-            "--samples-per-pixel",
-            "16",
-        ];
+        let words = quick("run", "16");
         self.shuttertruth(&[&words, more].concat())
     }
 
     /// `check` with few samples, outside of any CI; the report is on standard output.
     pub fn check(&self, more: &[&str]) -> Output {
-        let words = [
-            "check",
-            "--quiet",
-            "--out",
-            "out",
-            "--size",
-            "64x32",
-            "--samples-per-pixel",
-            "64",
-        ];
+        let words = quick("check", "64");
         let mut command = self.command(&[&words, more].concat());
         command.env_remove("CI").env_remove("GITHUB_STEP_SUMMARY");
         command.output().unwrap()
@@ -166,4 +148,18 @@ pub fn files_below(folder: &Path) -> Vec<PathBuf> {
     }
     files.sort();
     files
+}
+
+/// Words of a command that renders and measures, at a size that takes no time.
+pub fn quick<'a>(command: &'a str, samples_per_pixel: &'a str) -> [&'a str; 8] {
+    [
+        command,
+        "--quiet",
+        "--out",
+        "out",
+        "--size",
+        "64x32",
+        "--samples-per-pixel",
+        samples_per_pixel,
+    ]
 }

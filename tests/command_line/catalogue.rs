@@ -2,22 +2,12 @@
 
 use std::fs;
 
-use crate::bench::{Bench, assert_done, stdout};
+use crate::bench::{Bench, assert_done, quick, stdout};
 
 #[test]
 fn the_catalogue_shows_every_scene_and_all_its_pictures_are_there() {
     let bench = Bench::new();
-    let words = [
-        "catalogue",
-        "--quiet",
-        "--out",
-        "out",
-        "--size",
-        "64x32",
-        "--samples-per-pixel",
-        "16",
-    ];
-    let output = bench.shuttertruth(&words);
+    let output = bench.shuttertruth(&quick("catalogue", "16"));
     assert_done(&output);
     assert!(stdout(&output).contains("catalogue.md"));
     let page = fs::read_to_string(bench.path("out/catalogue.md")).unwrap();
@@ -26,6 +16,8 @@ fn the_catalogue_shows_every_scene_and_all_its_pictures_are_there() {
         "{page}"
     );
     assert!(page.contains("jump_flood:paper, FLIP 0."), "{page}");
+    // A page is no run: what is there of one stays.
+    assert!(!bench.path("out/run.json").exists());
     let pictures: Vec<&str> = (page.split("](").skip(1))
         .map(|rest| rest.split_once(')').unwrap().0)
         .collect();

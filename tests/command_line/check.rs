@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Output;
 
-use crate::bench::{Bench, assert_done, assert_refused, stderr, stdout};
+use crate::bench::{Bench, assert_done, assert_refused, quick, stderr, stdout};
 
 const IDENTITY: [&str; 2] = ["--filters", "identity"];
 
@@ -315,20 +315,8 @@ fn github_gets_ten_annotations_at_most_and_a_summary_of_all() {
     bench.write("bounds.toml", &format!("[default]\n{}", lines.concat()));
     fs::write(bench.path("summary.md"), "before\n").unwrap();
     let check = |filters: &str| {
-        let words = [
-            "check",
-            "--quiet",
-            "--out",
-            "out",
-            "--size",
-            "64x32",
-            "--samples-per-pixel",
-            "64",
-            "--github",
-            "--filters",
-            filters,
-        ];
-        let mut command = bench.command(&words);
+        let more = ["--github", "--filters", filters];
+        let mut command = bench.command(&[&quick("check", "64")[..], &more].concat());
         command
             .env("GITHUB_STEP_SUMMARY", bench.path("summary.md"))
             .output()

@@ -72,8 +72,11 @@ fn broken(scores: &Scores, bounds: &Bounds) -> Vec<String> {
         .collect()
 }
 
+/// A scene, and per decoy the bounds that it breaks there.
+type Column<'a> = (&'a str, Vec<(&'a str, Vec<String>)>);
+
 /// The page's table: a row per decoy, a column per scene.
-fn table(columns: &[(&str, Vec<(&str, Vec<String>)>)]) -> String {
+fn table(columns: &[Column]) -> String {
     let mut text = "| |".to_owned();
     for (scene, _) in columns {
         text += &format!(" {scene} |");

@@ -252,7 +252,7 @@ impl<'a> Reference<'a> {
                     Equivalent::Subframes(curve.place(error(own), noise))
                 }
                 (Ok(_), None) => Equivalent::refused("no accumulation can be told from the truth"),
-                (Err(reason), _) => Equivalent::refused(*reason),
+                (Err(reason), _) => Equivalent::refused(reason),
             }
         };
         EquivalentScores {

@@ -236,7 +236,7 @@ fn tile_clamped(half: [f64; 2]) -> [f64; 2] {
     if length == 0.0 {
         return half;
     }
-    half.map(|part| part / length * length.min(TILE).max(0.5))
+    half.map(|part| part / length * length.clamp(0.5, TILE))
 }
 
 /// Pixels that the fastest pixel covers while the shutter is open.

@@ -47,7 +47,7 @@ pub use finished::{Finished, read_finished};
 pub use gate::{
     CHECK_FORMAT, Check, Decision, Finding, Kind, annotations, check, check_text, junit, summary,
 };
-pub use import::{ImportPlan, Motions, Up, import};
+pub use import::{ImportPlan, Imported, Motions, Up, import};
 pub use input_format::{Border, DepthFormat, InputFormat, VelocityFormat};
 pub use intervals::{FEWEST_REPLICATES, Intervals, intervals, truths_without_pairs};
 pub use merge::{Merged, merge};

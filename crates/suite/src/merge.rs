@@ -143,11 +143,7 @@ fn is_replicate(path: &Path) -> bool {
 }
 
 fn files_below(folder: &Path) -> Result<Vec<PathBuf>, Error> {
-    let fail = |source| FileError::Io {
-        path: folder.to_owned(),
-        action: "read",
-        source,
-    };
+    let fail = |source| FileError::io(folder, "read", source);
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).map_err(fail)? {
         let path = entry.map_err(fail)?.path();
@@ -162,12 +158,5 @@ fn files_below(folder: &Path) -> Result<Vec<PathBuf>, Error> {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Error> {
-    fs::read(path).map_err(|source| {
-        FileError::Io {
-            path: path.to_owned(),
-            action: "read",
-            source,
-        }
-        .into()
-    })
+    Ok(fs::read(path).map_err(|source| FileError::io(path, "read", source))?)
 }

@@ -61,11 +61,8 @@ pub struct Run {
 impl Run {
     /// Reads a `run.json` of this program.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let text = std::fs::read_to_string(path).map_err(|source| FileError::Io {
-            path: path.to_owned(),
-            action: "read",
-            source,
-        })?;
+        let text =
+            std::fs::read_to_string(path).map_err(|source| FileError::io(path, "read", source))?;
         let refuse = |reason: String| {
             Error::Usage(format!(
                 "{}: {reason}; `shuttertruth run` or `check` writes one",

@@ -85,7 +85,7 @@ impl View {
 
     /// From a place of this view's picture to the same point's place in `other`'s: three rows that act on (x, y, 1, 1 / depth),
     /// pixels and metres, and give (x', y', 1) times what is common to all three, which is positive before the camera.
-    pub(crate) fn to_picture_of(&self, other: &View) -> [[f64; 4]; 3] {
+    pub(crate) fn to_picture_of(self, other: &View) -> [[f64; 4]; 3] {
         let to_other = other.to_camera * self.to_world;
         // Half the picture and the focal length take a place to a direction, and a direction to a place.
         let [half_x, half_y] = self.half;

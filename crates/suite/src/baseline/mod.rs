@@ -40,11 +40,8 @@ pub struct Baseline {
 impl Baseline {
     /// Reads a file that [`Baseline::write`] wrote.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let text = std::fs::read_to_string(path).map_err(|source| FileError::Io {
-            path: path.to_owned(),
-            action: "read",
-            source,
-        })?;
+        let text =
+            std::fs::read_to_string(path).map_err(|source| FileError::io(path, "read", source))?;
         let baseline: Self = serde_json::from_str(&text).map_err(|error| {
             Error::Usage(format!(
                 "{}: no baseline: {error}; `shuttertruth accept` writes one",

@@ -2,7 +2,7 @@
 
 use suite::{Error, catalogue, open_gpu, run};
 
-use super::measure::{plan, write_run};
+use super::measure::plan;
 use super::say;
 use crate::cli::CatalogueArgs;
 
@@ -15,10 +15,11 @@ pub fn execute(args: &CatalogueArgs) -> Result<(), Error> {
     if measure.filters.is_empty() && measure.filter.is_empty() {
         measure.filters = vec![SHOWN.to_owned()];
     }
+    // The page shows no noise.
+    measure.jitter_frames = 0;
     let plan = plan(&measure, measure.scenes.out.clone())?;
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref())?;
     let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
-    write_run(&run, &plan.out)?;
     let page = plan.out.join("catalogue.md");
     frame::write_atomically(&page, catalogue(&run).as_bytes())?;
     say(&format!("written: {}\n", page.display()))

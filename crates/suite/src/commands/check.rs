@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use frame::FileError;
 use suite::{
     BOUNDS_FILE, Baseline, Check, Error, Margin, Plan, annotations, check, check_bounded,
     check_names, check_text, compare, junit, open_gpu, read_bounds_file, run, summary,
@@ -98,13 +99,7 @@ fn append(path: &Path, text: &str) -> Result<(), Error> {
         let mut file = (std::fs::OpenOptions::new().create(true).append(true)).open(path)?;
         file.write_all(text.as_bytes())
     };
-    write().map_err(|source| {
-        Error::File(frame::FileError::Io {
-            path: path.to_owned(),
-            action: "write",
-            source,
-        })
-    })
+    Ok(write().map_err(|source| FileError::io(path, "write", source))?)
 }
 
 fn json(check: &Check) -> String {

@@ -1,6 +1,6 @@
 //! `shuttertruth import`
 
-use suite::{Error, ImportPlan, Motions, import};
+use suite::{Error, ImportPlan, Imported, Motions, import};
 
 use super::{check_exposure, say};
 use crate::cli::ImportArgs;
@@ -20,13 +20,10 @@ pub fn execute(args: &ImportArgs) -> Result<(), Error> {
         },
         exposure: args.exposure,
     };
-    let scene = import(&plan)?;
-    let triangles = scene.objects.iter().zip(&scene.meshes);
-    let triangles: usize = triangles.map(|(_, mesh)| mesh.triangles.len()).sum();
+    let Imported { exposes, triangles } = import(&plan)?;
     let folder = args.out.display();
     say(&format!(
-        "{}\n{triangles} triangles, the set's among them\nwritten: {folder}\nnext: shuttertruth run --scenes {}{folder} --out out\n",
-        scene.exposes,
+        "{exposes}\n{triangles} triangles, the set's among them\nwritten: {folder}\nnext: shuttertruth run --scenes {}{folder} --out out\n",
         if args.out.is_relative() { "./" } else { "" },
     ))
 }

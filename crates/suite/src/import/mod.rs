@@ -10,7 +10,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use frame::FileError;
-use tracer::{Scene, load_scene};
+use tracer::load_scene;
 
 use crate::Error;
 use model::Model;
@@ -33,33 +33,45 @@ pub struct ImportPlan {
     pub exposure: f64,
 }
 
-/// Makes the folder, whole or not at all, and loads what it made.
-pub fn import(plan: &ImportPlan) -> Result<Scene, Error> {
+/// What was imported.
+pub struct Imported {
+    /// What the scene exposes.
+    pub exposes: String,
+    /// The model's and the set's.
+    pub triangles: usize,
+}
+
+/// Makes the folder, whole or not at all.
+pub fn import(plan: &ImportPlan) -> Result<Imported, Error> {
     plan.motions.check()?;
     check_new(&plan.out)?;
     let parent = match plan.out.parent() {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),
     };
-    let wrong = |path: &Path, action, source| FileError::Io {
-        path: path.to_owned(),
-        action,
-        source,
-    };
-    fs::create_dir_all(parent).map_err(|error| wrong(parent, "create", error))?;
-    let staging =
-        tempfile::tempdir_in(parent).map_err(|error| wrong(parent, "create a folder in", error))?;
+    create(parent)?;
+    let staging = tempfile::tempdir_in(parent)
+        .map_err(|source| FileError::io(parent, "create a folder in", source))?;
+    // A folder of its own: the temporary one is for its owner's eyes only.
+    let folder = staging.path().join("scene");
+    create(&folder)?;
 
-    let model = Model::copied(&plan.model, plan.plain, plan.up, staging.path())?;
-    set::write(staging.path(), &model)?;
+    let model = Model::copied(&plan.model, plan.plain, plan.up, &folder)?;
+    set::write(&folder, &model)?;
     let document = document::scene_toml(plan, &model);
-    let path = staging.path().join("scene.toml");
-    fs::write(&path, document).map_err(|error| wrong(&path, "write", error))?;
-    load_scene(staging.path(), None)?;
+    let path = folder.join("scene.toml");
+    fs::write(&path, document).map_err(|source| FileError::io(&path, "write", source))?;
+    let scene = load_scene(&folder, None)?;
 
-    let staging = staging.keep();
-    fs::rename(&staging, &plan.out).map_err(|error| wrong(&plan.out, "write", error))?;
-    Ok(load_scene(&plan.out, None)?)
+    fs::rename(&folder, &plan.out).map_err(|source| FileError::io(&plan.out, "write", source))?;
+    Ok(Imported {
+        exposes: scene.exposes,
+        triangles: (scene.meshes.iter()).map(|mesh| mesh.triangles.len()).sum(),
+    })
+}
+
+fn create(folder: &Path) -> Result<(), FileError> {
+    fs::create_dir_all(folder).map_err(|source| FileError::io(folder, "create", source))
 }
 
 fn check_new(out: &Path) -> Result<(), Error> {

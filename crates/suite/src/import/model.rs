@@ -7,6 +7,7 @@ use clap::ValueEnum;
 use frame::FileError;
 use tracer::{SceneError, load_scene_and_files};
 
+use super::create;
 use crate::Error;
 
 /// Folder of the model's files below the scene's.
@@ -36,7 +37,7 @@ impl Model {
     pub fn copied(path: &Path, plain: bool, up: Up, scene: &Path) -> Result<Self, Error> {
         let folder = scene.join(FOLDER);
         create(&folder)?;
-        let path = (path.canonicalize()).map_err(|source| io(path, "read", source))?;
+        let path = (path.canonicalize()).map_err(|source| FileError::io(path, "read", source))?;
         let name = path.file_name().unwrap_or_default();
         let copy = folder.join(name);
         let read = match plain {
@@ -151,7 +152,7 @@ fn plainly(error: SceneError, path: &Path, scene: &Path) -> SceneError {
 
 /// The same OBJ file, line by line, without its materials.
 fn write_plain(path: &Path, copy: &Path) -> Result<(), FileError> {
-    let bytes = fs::read(path).map_err(|source| io(path, "read", source))?;
+    let bytes = fs::read(path).map_err(|source| FileError::io(path, "read", source))?;
     let text = String::from_utf8_lossy(&bytes);
     let mut plain = String::with_capacity(text.len());
     for line in text.lines() {
@@ -161,7 +162,7 @@ fn write_plain(path: &Path, copy: &Path) -> Result<(), FileError> {
         }
         plain += "\n";
     }
-    fs::write(copy, plain).map_err(|source| io(copy, "write", source))
+    fs::write(copy, plain).map_err(|source| FileError::io(copy, "write", source))
 }
 
 /// To the same places below `folder` as the files have below the model's.
@@ -181,19 +182,7 @@ fn copy_all(files: &[PathBuf], model: &Path, folder: &Path) -> Result<(), Error>
         };
         let copy = folder.join(below);
         create(copy.parent().unwrap_or(folder))?;
-        fs::copy(file, &copy).map_err(|source| io(&copy, "write", source))?;
+        fs::copy(file, &copy).map_err(|source| FileError::io(&copy, "write", source))?;
     }
     Ok(())
-}
-
-fn create(folder: &Path) -> Result<(), FileError> {
-    fs::create_dir_all(folder).map_err(|source| io(folder, "create", source))
-}
-
-fn io(path: &Path, action: &'static str, source: std::io::Error) -> FileError {
-    FileError::Io {
-        path: path.to_owned(),
-        action,
-        source,
-    }
 }

@@ -44,11 +44,7 @@ pub fn write(scene: &Path, model: &Model) -> Result<(), FileError> {
         ("stand.obj", stand(model)),
     ] {
         let path = scene.join(name);
-        fs::write(&path, text).map_err(|source| FileError::Io {
-            path,
-            action: "write",
-            source,
-        })?;
+        fs::write(&path, text).map_err(|source| FileError::io(&path, "write", source))?;
     }
     write_png(
         &scene.join("floor.png"),
