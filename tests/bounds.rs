@@ -14,18 +14,17 @@ const HARDLY_MOVING: [&str; 1] = ["creep"];
 
 /// Verdicts on the instant itself, and on the mean of 64 sub-frames.
 fn verdicts(choice: &SceneChoice) -> [Vec<Verdict>; 2] {
-    let out = tempfile::tempdir().unwrap();
-    // Small: there are many scenes.
+    // Truths are kept, from one run of the tests to the next, and for the test `shipped_bounds`, which has them as small as here.
+    let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("truths");
     let settings = RenderSettings {
-        width: 128,
-        height: 72,
+        width: 160,
+        height: 90,
         ..RenderSettings::default()
     };
     let scene = &choice.scene;
-    let frame = suite::frame_of(scene, &settings, out.path(), true).unwrap();
+    let frame = suite::frame_of(scene, &settings, &out, true).unwrap();
     let (truth, ladder) =
-        suite::truth_and_ladder_of(scene, &settings, Alignment::Trailing, out.path(), true)
-            .unwrap();
+        suite::truth_and_ladder_of(scene, &settings, Alignment::Trailing, &out, true).unwrap();
     let reference = Reference::new(&frame, &truth, None, &suite::viewing(scene)).unwrap();
     let bounds = suite::read_bounds(Path::new(SCENES), &choice.folder).unwrap();
     // What is asked of every filter, required or not.
@@ -150,6 +149,51 @@ fn every_metric_can_be_bounded_but_those_for_reports() {
 }
 
 #[test]
+fn limits_hold_for_the_size_that_they_were_measured_at() {
+    let everywhere = format!("[default]\nflip_moving = {}", limit(0.1));
+    let of = |filter: &str, size: &str| {
+        let text = format!(
+            "[filter.{filter}]\nflip_moving = {{ limit = 0.2, {size} why = \"it serves a test\" }}\n"
+        );
+        read(&everywhere, &text).unwrap()
+    };
+    let small = of("identity", "size = [160, 90],");
+    let large = of("identity", "size = [320, 180],");
+    let any = of("identity", "");
+    let another = of("kino", "size = [320, 180],");
+    let filters = suite::select_filters(&["identity".to_owned()], None, &[]).unwrap();
+    let size = |bounds: &[&SceneBounds], asked| {
+        let size = suite::bounded_size(bounds.iter().copied(), &filters, asked);
+        size.map_err(|error| error.to_string())
+    };
+    assert_eq!(size(&[&any, &small], None), Ok(Some((160, 90))));
+    assert_eq!(
+        size(&[&small, &another], Some((160, 90))),
+        Ok(Some((160, 90)))
+    );
+    assert_eq!(size(&[&any, &another], Some((64, 32))), Ok(Some((64, 32))));
+    assert_eq!(size(&[&any], None), Ok(None));
+    let refused = size(&[&small], Some((320, 180))).unwrap_err();
+    for part in [
+        "fan/bounds.toml:2: the limit on flip_moving holds for 160x90, and --size is 320x180",
+        "calibrate --size 320x180",
+    ] {
+        assert!(refused.contains(part), "{refused}");
+    }
+    let two = size(&[&small, &large], None).unwrap_err();
+    for part in [
+        "fan/bounds.toml:2: ",
+        "for 320x180, that of",
+        "for 160x90; check them apart",
+    ] {
+        assert!(two.contains(part), "{two}");
+    }
+    // At another size the limit that holds for any is left.
+    let left = |size| small.clone().at(size).of("identity", "default")["flip_moving"].limit;
+    assert_eq!([left((160, 90)), left((320, 180))], [0.2, 0.1]);
+}
+
+#[test]
 fn bounds_that_mean_nothing_are_refused_with_file_and_line() {
     let good = format!("[default]\nflip_moving = {}", limit(0.1));
     let rows: &[(&str, &str, &[&str])] = &[
@@ -182,6 +226,18 @@ fn bounds_that_mean_nothing_are_refused_with_file_and_line() {
             "[default]\nflip_moving = { limit = 0.1, why = \"w\", level = \"maybe\" }",
             "",
             &["scenes/bounds.toml:2: ", "maybe", "required", "report"],
+        ),
+        (
+            "[default]\nflip_moving = { limit = 0.1, size = [160, 0], why = \"w\" }",
+            "",
+            &[
+                "scenes/bounds.toml:2: flip_moving: size = [160, 0]; allowed: columns and rows from 16 to 16384",
+            ],
+        ),
+        (
+            "[default]\nflip_moving = { limit = 0.1, size = \"160x90\", why = \"w\" }",
+            "",
+            &["scenes/bounds.toml:2: ", "160x90"],
         ),
         (
             "flip_moving = 0.05",

@@ -1,11 +1,11 @@
-//! Image error and edge bleed of the filters that people will compare with stay where they were measured.
+//! Image error and edge bleed of the filters that people will compare with stay where they were measured, on every scene.
 
 use std::path::Path;
 
 use filters::Gpu;
 use suite::{
-    Decision, InputFormat, Kind, Level, Plan, RenderSettings, check, read_bounds, run,
-    select_filters, select_scenes,
+    Check, Decision, Finding, InputFormat, Kind, Level, Plan, RenderSettings, bounded_size, check,
+    read_bounds, run, select_filters, select_scenes,
 };
 
 /// What is bounded there.
@@ -16,31 +16,31 @@ const GUARDED: [&str; 4] = [
     "guertin:paper",
 ];
 
-/// Scenes with limits of their own.
-const CALIBRATED: [&str; 5] = [
-    "fan",
-    "panel_over_texture",
-    "railing",
-    "sliding_panel",
-    "two_spheres",
-];
-
 #[test]
-fn guarded_filters_keep_what_is_required_of_them_on_calibrated_scenes() {
+fn guarded_filters_keep_what_is_required_of_them_on_every_scene() {
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes"));
     let gpu = Gpu::new(None).expect("this test runs filters");
-    let scenes = select_scenes(root, &CALIBRATED.map(str::to_owned)).unwrap();
-    let scenes = scenes.into_iter().map(|choice| {
-        let bounds = read_bounds(root, &choice.folder).unwrap();
-        (choice.scene, bounds)
-    });
+    let filters = select_filters(&GUARDED.map(str::to_owned), None, &[]).unwrap();
+    let scenes: Vec<_> = (select_scenes(root, &[]).unwrap().into_iter())
+        .map(|choice| {
+            let bounds = read_bounds(root, &choice.folder).unwrap();
+            (choice.scene, bounds)
+        })
+        .collect();
+    assert!(scenes.len() >= 23, "the shipped scenes are missing");
+    let bounds = scenes.iter().map(|(_, bounds)| bounds);
+    let (width, height) = bounded_size(bounds, &filters, None).unwrap().unwrap();
     let plan = Plan {
-        scenes: scenes.collect(),
-        filters: select_filters(&GUARDED.map(str::to_owned), None, &[]).unwrap(),
+        scenes,
+        filters,
         inputs: vec![InputFormat::default()],
         jitter_frames: 0,
-        render: RenderSettings::default(),
-        // Truths are kept from one run of the tests to the next.
+        render: RenderSettings {
+            width,
+            height,
+            ..RenderSettings::default()
+        },
+        // Truths are kept from one run of the tests to the next; those of the test `bounds` serve here too.
         out: Path::new(env!("CARGO_TARGET_TMPDIR")).join("truths"),
         intervals: true,
         evidence: false,
@@ -51,34 +51,39 @@ fn guarded_filters_keep_what_is_required_of_them_on_calibrated_scenes() {
     for (scene, _) in &plan.scenes {
         for filter in GUARDED {
             for metric in ["flip_moving", "bleed_lateral"] {
-                let required = check.findings.iter().any(|finding| {
-                    (&finding.scene[..], &finding.filter[..]) == (&scene.name, filter)
-                        && finding.metric == metric
-                        && finding.level == Level::Required
-                });
-                assert!(
-                    required,
-                    "{}: nothing is required of {filter}'s {metric}",
-                    scene.name
-                );
+                assert_required(&check, &scene.name, filter, metric);
             }
         }
     }
     let not_kept: Vec<String> = (check.findings.iter())
         .filter(|finding| finding.level == Level::Required)
         .filter(|finding| !matches!(finding.kind, Kind::Kept | Kind::NotApplicable))
-        .map(|finding| {
-            format!(
-                "{} {} {} is {:?}: {:?} within {:?}, limit {}",
-                finding.scene,
-                finding.filter,
-                finding.metric,
-                finding.kind,
-                finding.value,
-                finding.interval,
-                finding.limit
-            )
-        })
+        .map(described)
         .collect();
     assert_eq!(check.decision, Decision::Pass, "{}", not_kept.join("\n"));
+}
+
+fn assert_required(check: &Check, scene: &str, filter: &str, metric: &str) {
+    let required = (check.findings.iter()).any(|finding| {
+        (&finding.scene[..], &finding.filter[..]) == (scene, filter)
+            && finding.metric == metric
+            && finding.level == Level::Required
+    });
+    assert!(
+        required,
+        "{scene}: nothing is required of {filter}'s {metric}"
+    );
+}
+
+fn described(finding: &Finding) -> String {
+    format!(
+        "{} {} {} is {:?}: {:?} within {:?}, limit {}",
+        finding.scene,
+        finding.filter,
+        finding.metric,
+        finding.kind,
+        finding.value,
+        finding.interval,
+        finding.limit
+    )
 }

@@ -26,6 +26,8 @@ const LEAST_LIMITS: [(&str, f64); 2] = [("px", 0.1), ("", 0.005)];
 pub struct Calibration {
     /// Per scene, `filter:preset` and metric, its score in every run where it applies.
     pub scores: BTreeMap<String, BTreeMap<String, BTreeMap<String, Vec<Sample>>>>,
+    /// Columns and rows of the pictures.
+    pub size: (u32, u32),
 }
 
 /// A score of one run.
@@ -48,13 +50,16 @@ pub struct Proposal {
     pub why: String,
 }
 
-/// Gathers the scores of several runs of the same scenes and filters that have a bound; of all `metrics` if any are given.
+/// Gathers the scores of several runs of the same scenes, size and filters that have a bound; of all `metrics` if any are given.
 pub fn calibrate<'a>(
     runs: &[Run],
     bounds: impl Fn(&Case) -> &'a SceneBounds,
     metrics: &[Metric],
 ) -> Calibration {
-    let mut calibration = Calibration::default();
+    let mut calibration = Calibration {
+        size: runs.first().map_or((0, 0), |run| (run.width, run.height)),
+        ..Calibration::default()
+    };
     for case in runs.iter().flat_map(|run| &run.cases) {
         if case.bar || case.input.change().is_some() {
             continue;
@@ -151,13 +156,17 @@ fn round_away(value: f64, rounding: fn(f64) -> f64) -> f64 {
 impl Calibration {
     /// The proposed bounds of one scene as its bounds.toml.
     pub fn toml(&self, scene: &str) -> String {
+        let (width, height) = self.size;
         let mut text = String::new();
         for (filter, metrics) in self.scores.get(scene).into_iter().flatten() {
             let _ = writeln!(text, "[filter.\"{filter}\"]");
             for (name, samples) in metrics {
                 let metric: Metric = name.parse().expect("calibrated scores are of metrics");
                 let Proposal { metric, limit, why } = propose(metric, samples);
-                let _ = writeln!(text, "{metric} = {{ limit = {limit:?}, why = \"{why}\" }}");
+                let _ = writeln!(
+                    text,
+                    "{metric} = {{ limit = {limit:?}, size = [{width}, {height}], why = \"{why}\" }}"
+                );
             }
             text += "\n";
         }

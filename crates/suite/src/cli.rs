@@ -141,9 +141,9 @@ pub struct MeasureArgs {
     /// Override a parameter; may be repeated.
     #[arg(long, value_name = "FILTER.PARAMETER=VALUE")]
     pub set: Vec<String>,
-    /// Picture size in pixels.
-    #[arg(long, value_name = "WxH", default_value = "320x180", value_parser = size)]
-    pub size: (u32, u32),
+    /// Picture size in pixels [default: 320x180; of `check`, the size that its bounds hold at].
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<(u32, u32)>,
     /// Independent renders behind each truth, an even number; each has an eighth of --samples-per-pixel.
     #[arg(long, value_name = "N", default_value_t = 8)]
     pub replicates: u32,

@@ -35,7 +35,7 @@ pub use baseline::{
 };
 pub use bench::{BASELINE, Bench, BenchPlan, bench, bench_table};
 pub use bounds::{
-    BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Level, Margin, SceneBounds,
+    BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Level, Margin, SceneBounds, bounded_size,
     check_bounded, check_names, read_bounds, read_bounds_file,
 };
 pub use calibrate::{Calibration, Proposal, Sample, calibrate};
@@ -53,8 +53,8 @@ pub use intervals::{FEWEST_REPLICATES, Intervals, intervals, truths_without_pair
 pub use merge::{Merged, merge};
 pub use progress::{catch_interrupts, with_bar};
 pub use rendered::{
-    LADDER, RenderSettings, deciding_floor, frame_of, part_of, scene_folder, truth_and_ladder_of,
-    truth_of, truth_until,
+    LADDER, RenderSettings, SIDES, deciding_floor, frame_of, part_of, scene_folder,
+    truth_and_ladder_of, truth_of, truth_until,
 };
 pub use run::{FORMAT, Plan, Run, run, viewing};
 pub use runner::{Runner, open_gpu};

@@ -1,6 +1,6 @@
 //! What the tracer makes of a scene, kept on disk so that a second run need not render it again.
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 use std::path::{Path, PathBuf};
 
 use frame::{
@@ -14,6 +14,9 @@ use crate::replicates::Shelf;
 
 /// Sub-frame counts of the ladder that N_eq is read from.
 pub const LADDER: [u32; 7] = [1, 2, 4, 8, 16, 32, 64];
+
+/// Columns and rows that a picture may have.
+pub const SIDES: RangeInclusive<u32> = 16..=16384;
 
 /// A frame has as many samples as so many replicates of a truth, however many the truth has.
 const FRAME_REPLICATES: u32 = 8;

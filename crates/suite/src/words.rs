@@ -1,5 +1,7 @@
 //! What single words of the command line mean.
 
+use suite::SIDES;
+
 use crate::cli::Replicates;
 
 /// `640x360` as (640, 360).
@@ -8,10 +10,14 @@ pub fn size(text: &str) -> Result<(u32, u32), String> {
         .split_once('x')
         .and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
     match parsed {
-        Some((width @ 16..=16384, height @ 16..=16384)) => Ok((width, height)),
-        _ => {
-            Err("allowed is WIDTHxHEIGHT, each from 16 to 16384 pixels, such as 640x360".to_owned())
+        Some((width, height)) if SIDES.contains(&width) && SIDES.contains(&height) => {
+            Ok((width, height))
         }
+        _ => Err(format!(
+            "allowed is WIDTHxHEIGHT, each from {} to {} pixels, such as 640x360",
+            SIDES.start(),
+            SIDES.end()
+        )),
     }
 }
 

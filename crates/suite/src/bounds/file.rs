@@ -9,7 +9,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::{Bound, Bounds, Level};
-use crate::Error;
+use crate::{Error, SIDES};
 
 /// What a bounds.toml holds.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -62,6 +62,7 @@ struct Contents {
 )]
 struct Entry {
     limit: f64,
+    size: Option<(u32, u32)>,
     why: Option<String>,
     #[serde(default)]
     level: Level,
@@ -109,11 +110,26 @@ impl Source<'_> {
                         "{metric} is for reports and no bound: it {reason}"
                     )));
                 }
-                let Entry { limit, why, level } = entry;
+                let Entry {
+                    limit,
+                    size,
+                    why,
+                    level,
+                } = entry;
                 if !limit.is_finite() {
                     return Err(refuse(&format!(
                         "{}: limit = {limit}; allowed: a finite number",
                         name.get_ref()
+                    )));
+                }
+                if let Some((width, height)) = size
+                    && ![width, height].iter().all(|side| SIDES.contains(side))
+                {
+                    return Err(refuse(&format!(
+                        "{}: size = [{width}, {height}]; allowed: columns and rows from {} to {}",
+                        name.get_ref(),
+                        SIDES.start(),
+                        SIDES.end()
                     )));
                 }
                 let why = why.unwrap_or_default();
@@ -125,6 +141,7 @@ impl Source<'_> {
                 }
                 let bound = Bound {
                     limit,
+                    size,
                     why,
                     level,
                     place: self.place(Some(start)),

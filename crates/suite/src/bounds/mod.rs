@@ -2,6 +2,7 @@
 
 mod file;
 mod known;
+mod size;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -12,6 +13,7 @@ use crate::Error;
 
 pub use file::{BoundsFile, FilterBounds, Margin, read_bounds_file};
 pub use known::{check_bounded, check_names};
+pub use size::bounded_size;
 
 /// Name of the files, beside the scenes and beside one scene.
 pub const BOUNDS_FILE: &str = "bounds.toml";
@@ -25,6 +27,8 @@ pub struct Bound {
     /// The highest value allowed; the lowest where higher is better; the largest distance from the ideal where that is a
     /// value.
     pub limit: f64,
+    /// Columns and rows of the pictures that it holds for; none where it holds for all.
+    pub size: Option<(u32, u32)>,
     /// One line: what was measured, and how the limit follows.
     pub why: String,
     /// What it means to break it.
@@ -65,6 +69,17 @@ impl SceneBounds {
             }
         }
         bounds
+    }
+
+    /// Without limits that hold for other picture sizes only.
+    pub fn at(mut self, size: (u32, u32)) -> Self {
+        for file in &mut self.files {
+            let filters = file.filters.values_mut().map(|table| &mut table.bounds);
+            for bounds in std::iter::once(&mut file.default).chain(filters) {
+                bounds.retain(|_, bound| bound.size.is_none_or(|own| own == size));
+            }
+        }
+        self
     }
 }
 

@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 
 use frame::FileError;
 use suite::{
-    BOUNDS_FILE, Baseline, Check, Error, Margin, Plan, annotations, check, check_bounded,
-    check_names, check_text, compare, junit, open_gpu, read_bounds_file, run, summary,
+    BOUNDS_FILE, Baseline, Check, Error, Margin, Plan, annotations, bounded_size, check,
+    check_bounded, check_names, check_text, compare, junit, open_gpu, read_bounds_file, run,
+    summary,
 };
 
 use super::measure::{adapter_line, check_replicates, plan, write_run};
@@ -18,6 +19,10 @@ use crate::cli::CheckArgs;
 /// bounds or the baseline is said before anything is rendered.
 pub fn execute(args: &CheckArgs) -> Result<(), Error> {
     let mut plan = plan(&args.measure, args.measure.scenes.out.clone())?;
+    let bounds = plan.scenes.iter().map(|(_, bounds)| bounds);
+    if let Some((width, height)) = bounded_size(bounds, &plan.filters, args.measure.size)? {
+        (plan.render.width, plan.render.height) = (width, height);
+    }
     plan.intervals = true;
     plan.evidence = true;
     check_replicates(plan.render.replicates)?;

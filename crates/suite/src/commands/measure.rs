@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use filters::AdapterDescription;
 use suite::{
-    Error, FEWEST_REPLICATES, FilterChoice, InputFormat, Plan, Run, read_bounds, select_filters,
-    select_scenes,
+    Error, FEWEST_REPLICATES, FilterChoice, InputFormat, Plan, RenderSettings, Run, read_bounds,
+    select_filters, select_scenes,
 };
 
 use super::render_settings;
@@ -22,12 +22,14 @@ pub fn plan(args: &MeasureArgs, out: PathBuf) -> Result<Plan, Error> {
             Ok((choice.scene, bounds))
         })
         .collect::<Result<_, Error>>()?;
+    let usual = RenderSettings::default();
+    let size = args.size.unwrap_or((usual.width, usual.height));
     Ok(Plan {
         scenes,
         filters,
         inputs: InputFormat::one_by_one(&args.velocity_format, &args.depth_format, &args.border),
         jitter_frames: args.jitter_frames,
-        render: render_settings(&args.scenes, args.size, args.replicates)?,
+        render: render_settings(&args.scenes, size, args.replicates)?,
         out,
         intervals: false,
         evidence: false,

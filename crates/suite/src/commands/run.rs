@@ -10,7 +10,11 @@ use crate::cli::RunArgs;
 
 /// Loads what is named, runs every case, writes `run.json`, prints the table.
 pub fn execute(args: &RunArgs) -> Result<(), Error> {
-    let plan = plan(&args.measure, args.measure.scenes.out.clone())?;
+    let mut plan = plan(&args.measure, args.measure.scenes.out.clone())?;
+    let size = (plan.render.width, plan.render.height);
+    for (_, bounds) in &mut plan.scenes {
+        *bounds = std::mem::take(bounds).at(size);
+    }
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref())?;
     let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
     let json = write_run(&run, &plan.out)?;
