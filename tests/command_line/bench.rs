@@ -65,6 +65,18 @@ impl Bench {
         fs::write(self.path("scenes/plate").join(name), text).unwrap();
     }
 
+    /// Another scene, which is the plate's but for its scene.toml.
+    pub fn copy_scene(&self, name: &str, changed: impl FnOnce(&str) -> String) {
+        let copy = self.path("scenes").join(name);
+        fs::create_dir(&copy).unwrap();
+        for file in ["plate.obj", "plate.mtl"] {
+            fs::copy(self.path("scenes/plate").join(file), copy.join(file)).unwrap();
+        }
+        let text = changed(SCENE);
+        assert_ne!(text, SCENE, "a scene that is no other");
+        fs::write(copy.join("scene.toml"), text).unwrap();
+    }
+
     pub fn shuttertruth(&self, words: &[&str]) -> Output {
         self.command(words).output().unwrap()
     }

@@ -1,6 +1,6 @@
 //! What a run sets beside the filters' own scores: bars, a common shutter, noise apart, and frames stored less finely.
 
-use suite::{Case, DepthFormat, VelocityFormat};
+use suite::{Case, DepthFormat, Overall, Run, VelocityFormat};
 
 use crate::bench::{Bench, assert_done, assert_refused, stdout};
 
@@ -143,4 +143,61 @@ fn a_clamped_border_is_cropped_before_anything_is_measured() {
     assert_eq!(clamped.scores.objects, whole.scores.objects);
     let output = bench.run(&["--border", "mirror"]);
     assert_refused(&output, 2, &["mirror", "leave, clamp"]);
+}
+
+#[test]
+fn means_over_scenes_come_with_intervals_that_the_truths_noise_widens() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&["--filters", "identity"]));
+    assert!(bench.measured().overall.is_empty(), "one scene is no mean");
+    assert!(!stdout(&bench.run(&["--filters", "identity"])).contains("mean over"));
+
+    bench.copy_scene("farther", |text| text.replace("-1.6, 0, 0", "-3.2, 0, 0"));
+    bench.write(
+        "../bounds.toml",
+        "[default]\nflip_moving = { limit = 0.9, why = \"it serves a test\" }\n",
+    );
+    let filters = ["--filters", "identity,velocity_gather:fine"];
+    let output = bench.run(&filters);
+    assert_done(&output);
+    let (scores, mean) = identity_overall(&bench.measured());
+    assert_eq!(mean.scenes, 2);
+    assert!((mean.mean - 0.5 * (scores[0] + scores[1])).abs() < 1e-12);
+    // A quarter of all samples of two are twice the one, and a quarter twice the other.
+    assert_eq!(mean.interval, scores);
+    let text = stdout(&output);
+    let ranking = &text[text.find("mean over 2 scenes").unwrap()..];
+    let place = |name: &str| ranking.find(name).unwrap();
+    assert!(place("accumulate:64 (trailing)") < place("velocity_gather:fine"));
+    assert!(
+        place("velocity_gather:fine") < place("identity:default"),
+        "{ranking}"
+    );
+    assert!(
+        ranking.contains(&format!("{:.3}-{:.3}", scores[0], scores[1])),
+        "{ranking}"
+    );
+    assert!(
+        text.lines()
+            .all(|line| line.chars().count() <= 80 || line.starts_with("written"))
+    );
+
+    assert_done(&bench.check(&filters));
+    let (scores, mean) = identity_overall(&bench.measured());
+    let [low, high] = mean.interval;
+    assert!(low < scores[0] && high > scores[1], "{mean:?} {scores:?}");
+}
+
+/// FLIP of the identity, on both scenes and over both; the better one first.
+fn identity_overall(run: &Run) -> ([f64; 2], Overall) {
+    let mut scores: Vec<f64> = (run.cases.iter())
+        .filter(|case| case.name() == "identity:default")
+        .map(flip)
+        .collect();
+    scores.sort_by(f64::total_cmp);
+    let mean = run
+        .overall
+        .iter()
+        .find(|mean| (&mean.filter[..], &mean.metric[..]) == ("identity:default", "flip_moving"));
+    (scores.try_into().unwrap(), mean.unwrap().clone())
 }

@@ -2,6 +2,7 @@
 
 mod baseline;
 mod bench;
+mod bootstrap;
 mod bounds;
 mod calibrate;
 mod case;
@@ -14,6 +15,7 @@ mod import;
 mod input_format;
 mod intervals;
 mod merge;
+mod overall;
 mod pictures;
 mod probe;
 mod progress;
@@ -51,6 +53,7 @@ pub use import::{ImportPlan, Imported, Motions, Up, import};
 pub use input_format::{Border, DepthFormat, InputFormat, VelocityFormat};
 pub use intervals::{FEWEST_REPLICATES, Intervals, intervals, truths_without_pairs};
 pub use merge::{Merged, merge};
+pub use overall::{Overall, overall};
 pub use progress::{catch_interrupts, with_bar};
 pub use rendered::{
     LADDER, RenderSettings, SIDES, deciding_floor, frame_of, part_of, scene_folder,

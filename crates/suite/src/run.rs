@@ -11,6 +11,7 @@ use tracer::Scene;
 
 use crate::bounds::SceneBounds;
 use crate::case::Case;
+use crate::overall::{Overall, overall};
 use crate::pictures::write_scene;
 use crate::progress::interrupted;
 use crate::rendered::{frame_of, replicates_of, scene_folder, truth_and_ladder_of};
@@ -56,6 +57,9 @@ pub struct Run {
     pub common_alignment: String,
     /// Per scene: the bars, then one per filter preset and form of the input, in the order they ran.
     pub cases: Vec<Case>,
+    /// Means over the scenes.
+    #[serde(default)]
+    pub overall: Vec<Overall>,
 }
 
 impl Run {
@@ -185,6 +189,7 @@ pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, 
         sky_velocity: plan.render.sky_velocity,
         guard_band: plan.render.guard_band,
         common_alignment: common.name().to_owned(),
+        overall: overall(&cases),
         cases,
     })
 }

@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use metrics::{ImageMetric, Measured, Metric, ObjectMetric, Region, Scores};
 
-use crate::Case;
 use crate::run::Run;
+use crate::{Case, Overall};
 
 /// Columns that names take.
 const NAMES: usize = 29;
@@ -19,6 +19,10 @@ const COLUMNS: [(&str, usize, Metric); 6] = [
     ("TV", 6, Metric::LabelTotalVariation),
     ("N_eq", 6, Metric::EquivalentSubframes),
 ];
+/// So many of them, from the first, have a mean over scenes.
+const MEANS: usize = 5;
+/// Width of the column of intervals.
+const INTERVAL: usize = 13;
 /// Of the columns that a run has beside the scores.
 const WIDTH: usize = 6;
 
@@ -31,14 +35,58 @@ pub fn table(run: &Run) -> String {
             scene = &case.scene;
             let _ = writeln!(text, "{scene}");
         }
-        let name = match case.bar {
-            // Bars come first, and are made anew for every alignment that a filter has.
-            true => format!("{} ({})", case.name(), case.alignment),
-            false => case.name(),
-        };
-        text += &line(&name, &case.scores, &[noise(case), common(case)]);
+        text += &line(
+            &with_alignment(&case.name(), case.bar, &case.alignment),
+            &case.scores,
+            &[noise(case), common(case)],
+        );
+    }
+    text + &over_scenes(&run.overall)
+}
+
+/// Means over scenes, the best FLIP first; nothing of a single scene.
+fn over_scenes(overall: &[Overall]) -> String {
+    let [first, others @ ..] = &COLUMNS[..MEANS] else {
+        unreachable!("there are columns");
+    };
+    let of = |metric: Metric| {
+        let name = metric.name();
+        (overall.iter()).filter(move |mean| mean.metric == name)
+    };
+    let mut ranked: Vec<&Overall> = of(first.2).collect();
+    ranked.sort_by(|a, b| a.mean.total_cmp(&b.mean));
+    let Some(best) = ranked.first() else {
+        return String::new();
+    };
+    let mut text = format!("{:<NAMES$}", format!("mean over {} scenes", best.scenes));
+    let _ = write!(text, "{:>1$}{2:>INTERVAL$}", first.0, first.1, "95 % in");
+    for (title, width, _) in others {
+        let _ = write!(text, "{title:>width$}");
+    }
+    text += "\n";
+    for row in ranked {
+        let [low, high] = row.interval;
+        text += &name_cell(&with_alignment(&row.filter, row.bar, &row.alignment));
+        let _ = write!(text, "{:>1$.3}", row.mean, first.1);
+        let _ = write!(text, "{:>INTERVAL$}", format!("{low:.3}-{high:.3}"));
+        for (_, width, metric) in others {
+            let own = of(*metric).find(|mean| mean.is_of_same(row));
+            let cell = own.map_or("n/a".to_owned(), |own| {
+                format!("{:.*}", digits(*metric), own.mean)
+            });
+            let _ = write!(text, "{cell:>width$}");
+        }
+        text += "\n";
     }
     text
+}
+
+/// Bars come first, and are made anew for every alignment that a filter has.
+fn with_alignment(name: &str, bar: bool, alignment: &str) -> String {
+    match bar {
+        true => format!("{name} ({alignment})"),
+        false => name.to_owned(),
+    }
 }
 
 /// The scores of one picture of a scene, in the manner of [`table`].
@@ -58,11 +106,7 @@ fn heading(title: &str, more: &[&str]) -> String {
 }
 
 fn line(name: &str, scores: &Scores, more: &[String]) -> String {
-    let mut text = format!("  {name:<0$}", NAMES - 2);
-    if name.chars().count() > NAMES - 2 {
-        // A long name has a line of its own.
-        text += &format!("\n{:<NAMES$}", "");
-    }
+    let mut text = name_cell(name);
     for (_, width, metric) in COLUMNS {
         let _ = write!(text, "{:>width$}", cell(metric, scores));
     }
@@ -70,6 +114,14 @@ fn line(name: &str, scores: &Scores, more: &[String]) -> String {
         let _ = write!(text, "{cell:>WIDTH$}");
     }
     text + "\n"
+}
+
+/// A long name has a line of its own.
+fn name_cell(name: &str) -> String {
+    match name.chars().count() > NAMES - 2 {
+        true => format!("  {name}\n{:<NAMES$}", ""),
+        false => format!("  {name:<0$}", NAMES - 2),
+    }
 }
 
 /// The part of the squared error that is the filter's noise.

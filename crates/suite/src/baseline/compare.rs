@@ -8,10 +8,13 @@ use metrics::{Measured, Metric};
 use serde::Serialize;
 
 use super::Baseline;
-use super::bootstrap::bootstrap;
+use crate::bootstrap::bootstrap;
 use crate::bounds::Margin;
 use crate::gate::Decision;
 use crate::{Case, Error, Run};
+
+/// The mean over other scenes lies beyond either bound with this probability.
+const TAIL: f64 = 0.05;
 
 /// One metric of one filter, over all scenes that it applies to.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -112,7 +115,7 @@ pub fn compare(
 }
 
 fn comparison(filter: &str, metric: &str, differences: &[f64], margin: f64) -> Comparison {
-    let bounds = bootstrap(differences);
+    let bounds = bootstrap(differences, TAIL);
     let [low, high] = bounds;
     let kind = if high <= margin {
         ComparisonKind::NoWorse

@@ -1,7 +1,6 @@
 //! Scores that were accepted, to be compared with: numbers in a file that a person reviews.
 
 mod accept;
-mod bootstrap;
 mod compare;
 
 use std::collections::BTreeMap;
