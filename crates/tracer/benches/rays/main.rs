@@ -1,12 +1,14 @@
 //! Rays per second. Timed variants take turns, part by part, and the best of several turns of every part counts, so that
 //! rates hold on a machine that does other things as well.
 
+mod arithmetic;
 mod frames;
 mod made_scene;
 
 use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
 
+use arithmetic::arithmetic;
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use glam::DVec3;
@@ -75,14 +77,6 @@ impl<'a> Field<'a> {
         .count()
     }
 
-    /// Traces a part of the rays of a kind on each of two threads.
-    fn trace_twice(&self, kind: Kind, part: usize) -> usize {
-        std::thread::scope(|scope| {
-            let other = scope.spawn(|| self.trace(kind, part));
-            self.trace(kind, part) + other.join().expect("tracing does not panic")
-        })
-    }
-
     fn portable(self) -> Self {
         let stage = self.stage.portable();
         Self { stage, ..self }
@@ -127,8 +121,15 @@ fn ratios() {
         "\n{triangles} triangles, one thread, {RAYS} rays, best of {TURNS} turns of each of {PARTS} parts, Mray/s"
     );
     println!(
-        "{:10} {:>8} {:>8} {:>14} {:>9} {:>14} {:>12}",
-        "", "still", "moving", "still/moving", "portable", "still/portable", "two threads"
+        "{:10} {:>8} {:>8} {:>14} {:>9} {:>14} {:>12} {:>14}",
+        "",
+        "still",
+        "moving",
+        "still/moving",
+        "portable",
+        "still/portable",
+        "two threads",
+        "of arithmetic"
     );
     let portable = Field::new(&scenes[0]).portable();
     for kind in KINDS {
@@ -136,15 +137,20 @@ fn ratios() {
             &|part| fields[0].trace(kind, part),
             &|part| fields[1].trace(kind, part),
             &|part| portable.trace(kind, part),
-            &|part| fields[0].trace_twice(kind, part),
+            &|part| twice(|| fields[0].trace(kind, part)),
+            &|_| arithmetic(),
+            &|_| twice(arithmetic),
         ]);
-        let [still, moving, portable, twice] = best.map(|best| fields[0].rate(kind, best) / 1e6);
+        let [once_sums, twice_sums] = [best[4], best[5]].map(|best| best.as_secs_f64());
+        let [still, moving, portable, twice, ..] =
+            best.map(|best| fields[0].rate(kind, best) / 1e6);
         let name = format!("{kind:?}").to_lowercase();
         println!(
-            "{name:10} {still:8.2} {moving:8.2} {:14.2} {portable:9.2} {:14.2} {:11.2}x",
+            "{name:10} {still:8.2} {moving:8.2} {:14.2} {portable:9.2} {:14.2} {:11.2}x {:13.2}x",
             still / moving,
             still / portable,
-            2.0 * twice / still
+            2.0 * twice / still,
+            2.0 * once_sums / twice_sums
         );
     }
     let stored: usize = scenes[0]
@@ -158,6 +164,14 @@ fn ratios() {
         fields[0].stage.bytes() as f64 / stored as f64
     );
     frames::report();
+}
+
+/// Does the same on each of two threads.
+fn twice(work: impl Fn() -> usize + Sync) -> usize {
+    std::thread::scope(|scope| {
+        let other = scope.spawn(&work);
+        work() + other.join().expect("no work here panics")
+    })
 }
 
 /// The time that each of several works takes, in parts and in turns: the sum of every part's shortest.

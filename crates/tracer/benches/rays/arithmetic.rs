@@ -1,0 +1,24 @@
+//! What two threads can gain at most: work without memory, which tells a machine that shares its cores from rays that hinder one
+//! another.
+
+use divan::black_box;
+
+/// Numbers that are worked on side by side: few enough for registers, enough to keep all units busy.
+const NUMBERS: usize = 32;
+/// About as long as a part of the rays.
+const ROUNDS: usize = 60_000;
+
+/// Multiplies and adds in 32 bits; the count is of no use but must be made.
+pub fn arithmetic() -> usize {
+    let mut numbers: [f32; NUMBERS] = std::array::from_fn(|at| at as f32);
+    let factor = black_box(0.999_f32);
+    for _ in 0..ROUNDS {
+        for number in &mut numbers {
+            *number = *number * factor + 1.0;
+        }
+    }
+    black_box(numbers)
+        .iter()
+        .filter(|number| **number > 0.0)
+        .count()
+}
