@@ -247,6 +247,26 @@ fn texture_colours_are_decoded_and_opacities_are_not() {
 }
 
 #[test]
+fn a_jpeg_is_a_texture_too_and_a_name_from_windows_finds_it() {
+    let folder = Folder::new();
+    // One colour, so that nothing is lost: 128 of 255.
+    let grey = image::GrayImage::from_pixel(16, 8, image::Luma([128]));
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    grey.write_to(&mut bytes, image::ImageFormat::Jpeg).unwrap();
+    std::fs::create_dir(folder.path.join("paints")).unwrap();
+    folder.write("paints/grey.jpg", bytes.into_inner());
+    folder.edit("mesh.mtl", "map_Kd dots.png", "map_Kd paints\\grey.jpg");
+    let scene = folder.load().unwrap();
+    let paint = scene.materials.iter().find(|m| m.name == "paint").unwrap();
+    let color = &scene.textures[paint.diffuse_texture.unwrap()];
+    assert_eq!((color.width, color.height), (16, 8));
+    for texel in &color.texels {
+        assert!((texel[0] - 0.215_861).abs() < 1e-6, "{texel:?}");
+        assert_eq!(*texel, [texel[0], texel[0], texel[0], 1.0]);
+    }
+}
+
+#[test]
 fn a_textures_factor_is_one_unless_given() {
     let folder = Folder::new();
     folder.write(

@@ -1,4 +1,4 @@
-//! From `scenes/<name>/scene.toml` and the OBJ, MTL and PNG files that it names to a checked [`Scene`].
+//! From `scenes/<name>/scene.toml` and the OBJ, MTL and texture files that it names to a checked [`Scene`].
 //!
 //! The format is documented in `scenes/README.md`, with a complete example.
 

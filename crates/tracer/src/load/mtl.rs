@@ -127,7 +127,8 @@ impl Libraries {
         let mut texture = |keyword, name: Option<&str>, usage| {
             let Some(name) = name else { return Ok(None) };
             let (library, line) = &self.places[&(read.name.clone(), keyword)];
-            let path = library.with_file_name("").join(name);
+            // Programs on Windows write their own separator.
+            let path = library.with_file_name("").join(name.replace('\\', "/"));
             let index = textures.load(files, &path, usage);
             index
                 .map(Some)
@@ -207,7 +208,7 @@ fn amiss_in_statement(statement: &Statement) -> Option<String> {
             Some(format!("{} names no file", statement.keyword))
         }
         "map_Kd" | "map_Ke" | "map_d" if statement.rest.starts_with('-') => Some(format!(
-            "{} has options (\"{}\"); allowed: the name of a PNG file alone",
+            "{} has options (\"{}\"); allowed: the name of a file alone",
             statement.keyword, statement.rest
         )),
         _ => None,

@@ -1,6 +1,8 @@
-//! PNG files as linear texels.
+//! PNG and JPEG files as linear texels.
 
 use std::path::{Path, PathBuf};
+
+use image::{DynamicImage, ImageFormat};
 
 use crate::Texture;
 
@@ -37,14 +39,8 @@ impl Textures {
         let bytes = files
             .bytes(path)
             .map_err(|error| format!("texture {} cannot be read: {error}", path.display()))?;
-        let image = image::load_from_memory_with_format(&bytes, image::ImageFormat::Png).map_err(
-            |error| {
-                format!(
-                    "texture {} is not a readable PNG file: {error}",
-                    path.display()
-                )
-            },
-        )?;
+        let image =
+            decode(&bytes).map_err(|reason| format!("texture {} {reason}", path.display()))?;
         let has_alpha = image.color().has_alpha();
         // 16 bits hold 8-bit and 16-bit files alike: 8-bit values are spread by 257, exactly.
         let image = image.into_rgba16();
@@ -61,6 +57,17 @@ impl Textures {
             texels,
         });
         Ok(self.decoded.len() - 1)
+    }
+}
+
+/// Whatever the name ends in; the error is a reason that follows the file's name.
+fn decode(bytes: &[u8]) -> Result<DynamicImage, String> {
+    match image::guess_format(bytes) {
+        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => {
+            image::load_from_memory_with_format(bytes, format)
+                .map_err(|error| format!("is broken: {error}"))
+        }
+        _ => Err("is neither a PNG nor a JPEG file".to_owned()),
     }
 }
 
