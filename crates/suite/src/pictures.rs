@@ -8,49 +8,73 @@ use frame::{
 use metrics::Measurement;
 use tracer::Scene;
 
-/// Writes the frame's and the truths' PNGs beside their EXR files.
-pub fn write_scene<'a>(
-    folder: &Path,
-    scene: &Scene,
-    frame: &Frame,
-    truths: impl Iterator<Item = &'a Truth>,
-) -> Result<(), FileError> {
+/// Writes a frame's PNGs beside its EXR file; returns the names of all.
+pub fn write_frame(folder: &Path, scene: &Scene, frame: &Frame) -> Result<Vec<String>, FileError> {
     write_shown(&folder.join("frame.png"), &frame.color, scene)?;
     write_png(&folder.join("velocity.png"), &velocity_wheel(frame))?;
-    for truth in truths {
-        let path = folder.join(format!("truth_{}.png", truth.alignment));
-        write_shown(&path, &truth.mean().color, scene)?;
-    }
-    Ok(())
+    Ok(["frame.exr", "frame.png", "velocity.png"]
+        .map(str::to_owned)
+        .into())
 }
 
-/// Writes a case: the filter's output and the error maps.
+/// Writes a truth's PNG beside its EXR file and that of its ladder; returns the names of all.
+pub fn write_truth(folder: &Path, scene: &Scene, truth: &Truth) -> Result<Vec<String>, FileError> {
+    let alignment = truth.alignment;
+    let picture = format!("truth_{alignment}.png");
+    write_shown(&folder.join(&picture), &truth.mean().color, scene)?;
+    Ok(vec![
+        picture,
+        format!("truth_{alignment}.exr"),
+        format!("ladder_{alignment}.exr"),
+    ])
+}
+
+/// Writes a case: the filter's output and the error maps; returns the names of the files.
 pub fn write_case(
     folder: &Path,
     scene: &Scene,
     objects: &[String],
     output: &Picture,
     measurement: &Measurement,
-) -> Result<(), FileError> {
+) -> Result<Vec<String>, FileError> {
     let maps = &measurement.maps;
-    write_shown(&folder.join("output.png"), &output.color, scene)?;
-    write_png(&folder.join("flip.png"), &magma(&maps.flip))?;
-    write_png(
-        &folder.join("label_tv.png"),
-        &magma(&maps.label_total_variation),
-    )?;
-    write_png(&folder.join("bleed.png"), &magma(&maps.bleed))?;
+    let shown = [
+        (
+            "output.png",
+            display_srgb(&output.color, scene.display.stops),
+        ),
+        ("flip.png", magma(&maps.flip)),
+        ("label_tv.png", magma(&maps.label_total_variation)),
+        ("bleed.png", magma(&maps.bleed)),
+    ];
+    for (name, picture) in &shown {
+        write_png(&folder.join(name), picture)?;
+    }
+    let exact = [
+        ("output.exr", output_file(objects, output)),
+        ("errors.exr", errors_file(measurement)),
+    ];
+    for (name, file) in &exact {
+        write_exr(&folder.join(name), file)?;
+    }
+    let names = shown.iter().map(|(name, _)| *name);
+    let names = names.chain(exact.iter().map(|(name, _)| *name));
+    Ok(names.map(str::to_owned).collect())
+}
 
-    let (width, height) = (output.color.width, output.color.height);
-    let mut file = ExrFile::new(width, height);
+fn output_file(objects: &[String], output: &Picture) -> ExrFile {
+    let mut file = ExrFile::new(output.color.width, output.color.height);
     file.push_color("", &output.color);
     for (object, matte) in objects.iter().zip(&output.coverage) {
         file.push_plane(&format!("coverage.{object}"), matte);
     }
     file.set("kind", "output");
-    write_exr(&folder.join("output.exr"), &file)?;
+    file
+}
 
-    let mut file = ExrFile::new(width, height);
+fn errors_file(measurement: &Measurement) -> ExrFile {
+    let maps = &measurement.maps;
+    let mut file = ExrFile::new(maps.flip.width, maps.flip.height);
     file.push_color("signed", &maps.signed_error);
     file.push_plane("squared_error", &maps.squared_error);
     file.push_plane("relative_squared_error", &maps.relative_squared_error);
@@ -70,7 +94,7 @@ pub fn write_case(
         file.push_plane("gather_spread", &probes.spread);
     }
     file.set("kind", "errors");
-    write_exr(&folder.join("errors.exr"), &file)
+    file
 }
 
 fn write_shown(path: &Path, image: &Image, scene: &Scene) -> Result<(), FileError> {

@@ -87,17 +87,7 @@ pub fn frame_of(
     out: &Path,
     quiet: bool,
 ) -> Result<Frame, Error> {
-    let settings = FrameSettings {
-        width: settings.width,
-        height: settings.height,
-        exposure: settings.exposure.unwrap_or(scene.exposure),
-        velocity: settings.velocity,
-        color: settings.color,
-        sky_velocity: settings.sky_velocity,
-        guard_band: settings.guard_band,
-        samples_per_pixel: FRAME_REPLICATES * settings.samples_per_pixel / settings.replicates,
-        seed: settings.seed,
-    };
+    let settings = frame_settings(scene, settings);
     let artefact = Artefact {
         path: scene_folder(out, scene).join("frame.exr"),
         label: format!("{} frame", scene.name),
@@ -215,7 +205,7 @@ pub fn truth_and_ladder_of(
     let artefact = Artefact {
         path: scene_folder(out, scene).join(format!("ladder_{alignment}.exr")),
         label: format!("{} sub-frames, {alignment}", scene.name),
-        hash: tracer::ladder_hash(scene, &settings, &LADDER),
+        hash: ladder_hash(scene, &settings),
     };
     let ladder = artefact.obtain(
         quiet,
@@ -227,7 +217,25 @@ pub fn truth_and_ladder_of(
     Ok((truth, ladder))
 }
 
-fn truth_settings(scene: &Scene, settings: &RenderSettings, alignment: Alignment) -> TruthSettings {
+pub(crate) fn frame_settings(scene: &Scene, settings: &RenderSettings) -> FrameSettings {
+    FrameSettings {
+        width: settings.width,
+        height: settings.height,
+        exposure: settings.exposure.unwrap_or(scene.exposure),
+        velocity: settings.velocity,
+        color: settings.color,
+        sky_velocity: settings.sky_velocity,
+        guard_band: settings.guard_band,
+        samples_per_pixel: FRAME_REPLICATES * settings.samples_per_pixel / settings.replicates,
+        seed: settings.seed,
+    }
+}
+
+pub(crate) fn truth_settings(
+    scene: &Scene,
+    settings: &RenderSettings,
+    alignment: Alignment,
+) -> TruthSettings {
     TruthSettings {
         width: settings.width,
         height: settings.height,
@@ -237,6 +245,11 @@ fn truth_settings(scene: &Scene, settings: &RenderSettings, alignment: Alignment
         replicates: settings.replicates,
         seed: settings.seed,
     }
+}
+
+/// Of the ladder that goes with the truth of these settings.
+pub(crate) fn ladder_hash(scene: &Scene, settings: &TruthSettings) -> String {
+    tracer::ladder_hash(scene, settings, &LADDER)
 }
 
 /// A rendered file: where it lies and what it must have been made from.

@@ -1,24 +1,21 @@
 //! The main job: render every scene, run every filter on it, measure how far each picture is from the truth.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use filters::{AdapterDescription, Gpu};
-use frame::{Alignment, FileError, Frame, Ladder, Truth};
-use metrics::{MeasureError, Reference, Viewing};
+use frame::{Alignment, FileError};
+use metrics::Viewing;
 use serde::{Deserialize, Serialize};
 use tracer::Scene;
 
 use crate::bounds::SceneBounds;
 use crate::case::Case;
+use crate::inputs::SceneInputs;
+use crate::kept::hash_of_program;
 use crate::overall::{Overall, overall};
-use crate::pictures::write_scene;
-use crate::progress::interrupted;
-use crate::rendered::{frame_of, replicates_of, scene_folder, truth_and_ladder_of};
+use crate::scene_run::SceneRun;
 use crate::selection::FilterChoice;
-use crate::witness::Witness;
-use crate::workbench::Workbench;
-use crate::{Error, InputFormat, PROGRAM, RenderSettings, truths_without_pairs};
+use crate::{Error, InputFormat, PROGRAM, RenderSettings};
 
 /// Version of the layout of `run.json`; it rises when a reader of the old one would misread the new one.
 pub const FORMAT: u32 = 3;
@@ -105,74 +102,35 @@ pub struct Plan {
     pub quiet: bool,
 }
 
-/// Renders, filters, measures and writes every case below `plan.out`, but not `run.json` itself. `gpu` is what
-/// [`open_gpu`](crate::open_gpu) opened for the plan's filters.
+impl Plan {
+    /// The alignments that take part, each once.
+    pub(crate) fn alignments(&self) -> Vec<Alignment> {
+        let takes_part = |alignment: &Alignment| {
+            (self.filters.iter()).any(|choice| choice.filter.alignment == *alignment)
+        };
+        Alignment::ALL.into_iter().filter(takes_part).collect()
+    }
+}
+
+/// Renders, filters, measures and writes every case below `plan.out`, but not `run.json` itself; what was measured of the same
+/// inputs before, and lies there still, is read back. `gpu` is what [`open_gpu`](crate::open_gpu) opened for the plan's
+/// filters.
 pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, Error> {
-    let common = common_alignment(&plan.filters);
+    let common = common_alignment(&plan.alignments());
+    let program = hash_of_program();
     let mut cases = Vec::new();
     for (scene, bounds) in &plan.scenes {
-        let (frame, truths) = render(plan, scene)?;
-        let folder = scene_folder(&plan.out, scene);
-        write_scene(
-            &folder,
+        let inputs = (program.as_ref())
+            .map(|program| SceneInputs::new(program, scene, &plan.render, plan.alignments()));
+        let scene_run = SceneRun {
+            plan,
+            gpu,
             scene,
-            &frame,
-            truths.values().map(|(truth, _)| truth),
-        )?;
-        let cropped = frame.cropped();
-        let references = references(scene, &cropped, &truths)?;
-        let parts = match plan.intervals {
-            true => parts(plan, scene, &truths)?,
-            false => Parts::new(),
+            bounds,
+            common,
+            inputs,
         };
-        let without = (parts.iter())
-            .map(|(alignment, parts)| {
-                let whole = &references[alignment];
-                let reference = |part| {
-                    let ladder = Some(&truths[alignment].1);
-                    // What is left out changes scores, not where they are taken.
-                    let regions = whole.regions.clone();
-                    Reference::over(regions, &cropped, part, ladder, &viewing(scene))
-                };
-                let references: Result<_, MeasureError> = parts.iter().map(reference).collect();
-                Ok((*alignment, references?))
-            })
-            .collect::<Result<BTreeMap<_, Vec<Reference>>, Error>>()?;
-        let witnesses: BTreeMap<Alignment, Witness> = (truths.iter())
-            .filter(|_| plan.evidence)
-            .map(|(alignment, (truth, ladder))| {
-                (*alignment, Witness::new(scene, &cropped, truth, ladder))
-            })
-            .collect();
-        let stored: Vec<(InputFormat, Frame)> = (plan.inputs.iter())
-            .map(|format| (*format, format.of(&frame)))
-            .collect();
-        let workbench = |alignment| {
-            let (truth, ladder) = &truths[&alignment];
-            Workbench {
-                plan,
-                scene,
-                bounds,
-                truth,
-                ladder,
-                reference: &references[&alignment],
-                common: (alignment != common).then(|| &references[&common]),
-                without: without.get(&alignment).map(Vec::as_slice),
-                witness: witnesses.get(&alignment),
-            }
-        };
-        for alignment in truths.keys() {
-            cases.extend(workbench(*alignment).bars(&frame)?);
-        }
-        for choice in &plan.filters {
-            let workbench = workbench(choice.filter.alignment);
-            for (format, frame) in &stored {
-                if interrupted() {
-                    return Err(tracer::TraceError::Cancelled.into());
-                }
-                cases.push(workbench.filter(gpu, choice, *format, frame)?);
-            }
-        }
+        cases.extend(scene_run.cases()?);
     }
     Ok(Run {
         format: FORMAT,
@@ -195,61 +153,11 @@ pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, 
 }
 
 /// Of the alignments that take part, the one that all are compared with; no truth is rendered for it alone.
-fn common_alignment(filters: &[FilterChoice]) -> Alignment {
-    let takes_part = |alignment: &Alignment| {
-        (filters.iter()).any(|choice| choice.filter.alignment == *alignment)
-    };
+fn common_alignment(taking_part: &[Alignment]) -> Alignment {
     [Alignment::Centred, Alignment::Trailing]
         .into_iter()
-        .find(takes_part)
+        .find(|alignment| taking_part.contains(alignment))
         .unwrap_or(Alignment::Leading)
-}
-
-type Truths = BTreeMap<Alignment, (Truth, Ladder)>;
-
-/// The scene's frame and one truth per alignment that a filter of the plan declares.
-fn render(plan: &Plan, scene: &Scene) -> Result<(Frame, Truths), Error> {
-    let frame = frame_of(scene, &plan.render, &plan.out, plan.quiet)?;
-    let mut truths = Truths::new();
-    for alignment in Alignment::ALL {
-        if plan
-            .filters
-            .iter()
-            .any(|choice| choice.filter.alignment == alignment)
-        {
-            let made = truth_and_ladder_of(scene, &plan.render, alignment, &plan.out, plan.quiet)?;
-            truths.insert(alignment, made);
-        }
-    }
-    Ok((frame, truths))
-}
-
-/// Per alignment, the truths that all replicates but a pair each make.
-type Parts = BTreeMap<Alignment, Vec<Truth>>;
-
-fn parts(plan: &Plan, scene: &Scene, truths: &Truths) -> Result<Parts, Error> {
-    (truths.iter())
-        .map(|(alignment, (truth, _))| {
-            let replicates = replicates_of(scene, &plan.render, *alignment, &plan.out, plan.quiet)?;
-            Ok((*alignment, truths_without_pairs(truth, &replicates)?))
-        })
-        .collect()
-}
-
-fn references<'a>(
-    scene: &Scene,
-    frame: &Frame,
-    truths: &'a Truths,
-) -> Result<BTreeMap<Alignment, Reference<'a>>, Error> {
-    truths
-        .iter()
-        .map(|(alignment, (truth, ladder))| {
-            Ok((
-                *alignment,
-                Reference::new(frame, truth, Some(ladder), &viewing(scene))?,
-            ))
-        })
-        .collect()
 }
 
 /// The photographic exposures that a scene is compared at.

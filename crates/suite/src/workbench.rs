@@ -1,25 +1,22 @@
 //! A scene ready to measure pictures of it.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
-use filters::{Command, FilterError, Gpu, Value};
+use filters::{Command, FilterError, Gpu};
 use frame::{Frame, Ladder, Picture, Truth};
 use metrics::{Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference};
 use tracer::Scene;
 
-use crate::bounds::{Bounds, SceneBounds};
-use crate::case::{ACCUMULATE, Case, SCATTER_ORACLE};
+use crate::bounds::SceneBounds;
+use crate::case::Case;
 use crate::pictures::write_case;
 use crate::probe::{Blurred, blurred, noise};
 use crate::run::Plan;
 use crate::scatter_oracle::scatter_oracle;
 use crate::selection::FilterChoice;
+use crate::subject::{Maker, Subject};
 use crate::witness::Witness;
 use crate::{Error, InputFormat, Intervals, Runner, Verdict, intervals, judge};
-
-/// Accumulations that are shown beside the filters.
-const SUBFRAMES: [u32; 4] = [4, 8, 16, 64];
 
 /// Blurs of a mixture may differ from mixtures of blurs by this part of what the blur changes, which is far above rounding.
 const MOST_NONLINEARITY: f64 = 1e-3;
@@ -27,8 +24,12 @@ const MOST_NONLINEARITY: f64 = 1e-3;
 /// One scene and the truth of one alignment.
 pub(crate) struct Workbench<'a> {
     pub plan: &'a Plan,
+    pub gpu: Option<&'a Gpu>,
     pub scene: &'a Scene,
     pub bounds: &'a SceneBounds,
+    pub frame: &'a Frame,
+    /// The frame in the forms in which filters get it.
+    pub stored: &'a [(InputFormat, Frame)],
     pub truth: &'a Truth,
     pub ladder: &'a Ladder,
     pub reference: &'a Reference<'a>,
@@ -40,44 +41,66 @@ pub(crate) struct Workbench<'a> {
     pub witness: Option<&'a Witness<'a>>,
 }
 
+/// A picture, and what was found out about it.
+struct Found {
+    picture: Picture,
+    measurement: Measurement,
+    nonlinearity: Option<f64>,
+    jitter: Option<Jitter>,
+    intervals: Option<Intervals>,
+}
+
 impl Workbench<'_> {
-    /// What filters are measured by: the best that the frame allows, and averages of sub-frames.
-    pub fn bars(&self, frame: &Frame) -> Result<Vec<Case>, Error> {
-        let oracle = scatter_oracle(frame, self.truth.shutter, &self.truth.shutter_profile);
-        let oracle = oracle.cropped(frame.guard_band);
-        let mut bars = vec![self.bar(frame, SCATTER_ORACLE, "", &oracle)?];
-        let rungs = self.ladder.rungs.iter();
-        for rung in rungs.filter(|rung| SUBFRAMES.contains(&rung.subframes)) {
-            let mean = Picture::mean(&rung.halves);
-            bars.push(self.bar(frame, ACCUMULATE, &rung.subframes.to_string(), &mean)?);
-        }
-        Ok(bars)
+    /// Makes the picture and measures it; writes it and its error maps, and returns the names of the files as well.
+    pub fn case(&self, subject: &Subject) -> Result<(Case, Vec<String>), Error> {
+        let found = match subject.maker {
+            Maker::ScatterOracle => self.bar(self.scatter_oracle())?,
+            Maker::Accumulation(subframes) => self.bar(self.accumulation(subframes))?,
+            Maker::Filter(choice, input) => self.filter(choice, input)?,
+        };
+        self.written(subject, found)
     }
 
-    /// Runs a filter on a frame of this form.
-    pub fn filter(
-        &self,
-        gpu: Option<&Gpu>,
-        choice: &FilterChoice,
-        input: InputFormat,
-        frame: &Frame,
-    ) -> Result<Case, Error> {
-        let mut runner = Runner::new(gpu, choice, frame.size())?;
+    fn scatter_oracle(&self) -> Picture {
+        let Truth {
+            shutter,
+            shutter_profile,
+            ..
+        } = self.truth;
+        scatter_oracle(self.frame, *shutter, shutter_profile).cropped(self.frame.guard_band)
+    }
+
+    fn accumulation(&self, subframes: u32) -> Picture {
+        let mut rungs = self.ladder.rungs.iter();
+        let rung = rungs.find(|rung| rung.subframes == subframes);
+        Picture::mean(&rung.expect("bars are rungs of the ladder").halves)
+    }
+
+    fn bar(&self, picture: Picture) -> Result<Found, Error> {
+        Ok(Found {
+            measurement: self.reference.measure(&picture)?,
+            picture,
+            nonlinearity: None,
+            jitter: None,
+            intervals: None,
+        })
+    }
+
+    fn filter(&self, choice: &FilterChoice, input: InputFormat) -> Result<Found, Error> {
+        let mut stored = self.stored.iter();
+        let frame = stored.find(|(format, _)| *format == input);
+        let (_, frame) = frame.expect("the frame was stored in every form of the plan");
+        let mut runner = Runner::new(self.gpu, choice, frame.size())?;
         let blurred = blurred(&mut runner, frame).map_err(|error| on_scene(error, self.scene))?;
         let jitter = self.jitter(&mut runner, frame)?;
         let measurement = self.measured(self.reference, &blurred)?;
-        let subject = Subject {
-            filter: choice.filter.name.clone(),
-            preset: choice.preset.clone(),
-            bar: false,
-            input,
-            parameters: choice.settings.values.clone(),
-            command: choice.filter.command.as_ref().map(Command::words),
-            nonlinearity: Some(blurred.nonlinearity),
-            jitter,
+        Ok(Found {
             intervals: self.intervals(&blurred, &measurement)?,
-        };
-        self.case(frame, &blurred.picture, measurement, subject)
+            nonlinearity: Some(blurred.nonlinearity),
+            picture: blurred.picture,
+            measurement,
+            jitter,
+        })
     }
 
     /// All that a truth says of what came out of a filter.
@@ -107,22 +130,6 @@ impl Workbench<'_> {
         Ok(Some(intervals(&measurement.scores, &without, all)))
     }
 
-    fn bar(
-        &self,
-        frame: &Frame,
-        name: &str,
-        preset: &str,
-        output: &Picture,
-    ) -> Result<Case, Error> {
-        let subject = Subject {
-            filter: name.to_owned(),
-            preset: preset.to_owned(),
-            bar: true,
-            ..Subject::default()
-        };
-        self.case(frame, output, self.reference.measure(output)?, subject)
-    }
-
     /// Takes the filter's noise apart; none where it has none, or too few frames are asked for.
     fn jitter(&self, runner: &mut Runner, frame: &Frame) -> Result<Option<Jitter>, Error> {
         if self.plan.jitter_frames < 2 {
@@ -135,60 +142,70 @@ impl Workbench<'_> {
             .and_then(|outputs| self.reference.jitter(&outputs)))
     }
 
-    /// Writes a measured picture and its error maps.
-    fn case(
-        &self,
-        frame: &Frame,
-        output: &Picture,
-        measurement: Measurement,
-        subject: Subject,
-    ) -> Result<Case, Error> {
+    fn written(&self, subject: &Subject, found: Found) -> Result<(Case, Vec<String>), Error> {
+        let Found {
+            picture,
+            measurement,
+            ..
+        } = &found;
         let common = match self.common {
-            Some(reference) => reference.measure_moving(output)?,
+            Some(reference) => reference.measure_moving(picture)?,
             None => measurement.scores.moving.clone(),
         };
-        let folder = Path::new(&self.scene.name).join(subject.folder(self.truth));
+        let folder = subject.folder(self.scene);
         let files = self.plan.out.join(&folder);
-        write_case(&files, self.scene, &frame.objects, output, &measurement)?;
-        let bounds = match subject.bar {
-            true => Bounds::new(),
-            false => self.bounds.of(&subject.filter, &subject.preset),
-        };
-        let mut verdicts = judge(&measurement.scores, subject.intervals.as_ref(), &bounds);
+        let mut files = write_case(
+            &files,
+            self.scene,
+            &self.frame.objects,
+            picture,
+            measurement,
+        )?;
+        let bounds = subject.bounds(self.bounds);
+        let mut verdicts = judge(&measurement.scores, found.intervals.as_ref(), &bounds);
         let resembles = match self.witness {
             Some(witness) if verdicts.iter().any(Verdict::is_notable) => {
                 for verdict in verdicts.iter_mut().filter(|verdict| verdict.is_notable()) {
                     let regions = &self.reference.regions;
                     let place = (self.plan.out.as_path(), folder.as_path());
-                    let found = (output, &measurement);
-                    verdict.worst = Some(witness.worst(&verdict.metric, found, regions, place)?);
+                    let worst =
+                        witness.worst(&verdict.metric, (picture, measurement), regions, place)?;
+                    let name = worst.picture.file_name();
+                    files.extend(name.map(|name| name.to_string_lossy().into_owned()));
+                    verdict.worst = Some(worst);
                 }
                 witness.resemblance(self.reference, &measurement.scores)?
             }
             _ => None,
         };
-        Ok(Case {
+        let choice = match subject.maker {
+            Maker::Filter(choice, _) => Some(choice),
+            _ => None,
+        };
+        let command = choice.and_then(|choice| choice.filter.command.as_ref());
+        let case = Case {
             scene: self.scene.name.clone(),
             family: self.scene.family,
             exposes: self.scene.exposes.clone(),
-            exposure: frame.exposure,
-            filter: subject.filter,
-            preset: subject.preset,
-            bar: subject.bar,
-            input: subject.input,
-            parameters: subject.parameters,
-            command: subject.command,
-            nonlinearity: subject.nonlinearity,
+            exposure: self.frame.exposure,
+            filter: subject.filter().to_owned(),
+            preset: subject.preset(),
+            bar: subject.is_bar(),
+            input: subject.input(),
+            parameters: choice.map_or_else(BTreeMap::new, |choice| choice.settings.values.clone()),
+            command: command.map(Command::words),
+            nonlinearity: found.nonlinearity,
             alignment: self.truth.alignment.name().to_owned(),
             truth_hash: self.truth.provenance.content_hash.clone(),
             common,
-            jitter: subject.jitter,
+            jitter: found.jitter,
             verdicts,
-            intervals: subject.intervals.unwrap_or_default(),
+            intervals: found.intervals.unwrap_or_default(),
             resembles,
-            scores: measurement.scores,
+            scores: found.measurement.scores,
             folder,
-        })
+        };
+        Ok((case, files))
     }
 }
 
@@ -208,33 +225,6 @@ fn probe(reference: &Reference, blurred: &Blurred, measurement: &mut Measurement
     let probed = reference.measure_probes(&blurred.probes);
     scores.probes = probed.scores;
     measurement.probes = Some(probed.maps);
-}
-
-/// What made a picture.
-#[derive(Default)]
-struct Subject {
-    filter: String,
-    preset: String,
-    bar: bool,
-    input: InputFormat,
-    parameters: BTreeMap<String, Value>,
-    command: Option<Vec<String>>,
-    nonlinearity: Option<f64>,
-    jitter: Option<Jitter>,
-    intervals: Option<Intervals>,
-}
-
-impl Subject {
-    /// Name of the folder of its pictures. A bar may be made for several alignments.
-    fn folder(&self, truth: &Truth) -> String {
-        let mut parts = vec![self.filter.clone(), self.preset.clone()];
-        if self.bar {
-            parts.push(truth.alignment.name().to_owned());
-        }
-        parts.extend(self.input.change().map(|change| change.replace('=', "_")));
-        parts.retain(|part| !part.is_empty());
-        parts.join("_")
-    }
 }
 
 /// A program may fail on one scene and not on another.

@@ -1,0 +1,115 @@
+//! What was made before, beside the inputs that it was made of: read back where those are the same still, and nothing has
+//! touched the files since.
+
+use std::collections::BTreeMap;
+use std::fmt::Debug;
+use std::path::Path;
+
+use frame::{FileError, write_atomically};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+/// A piece of work, as it is kept.
+#[derive(Serialize, Deserialize)]
+struct Kept<T> {
+    /// Hash of all that determines it.
+    inputs: String,
+    /// The files that belong to it, by their names beside this one, each with the hash of its bytes.
+    files: BTreeMap<String, String>,
+    /// What was found.
+    made: T,
+    /// Hash of all of the above: what was altered is not taken for what was found.
+    seal: String,
+}
+
+/// Keeps what was `made` of such inputs at `record`, after the `files` beside it have been written.
+pub(crate) fn keep<T: Serialize>(
+    record: &Path,
+    inputs: String,
+    files: &[String],
+    made: &T,
+) -> Result<(), FileError> {
+    let files: BTreeMap<String, String> = (files.iter())
+        .map(|name| Ok((name.clone(), hash_of_file(&record.with_file_name(name))?)))
+        .collect::<std::io::Result<_>>()
+        .map_err(|source| FileError::Io {
+            path: record.to_owned(),
+            action: "read what belongs to",
+            source,
+        })?;
+    let kept = Kept {
+        seal: seal(&inputs, &files, made),
+        inputs,
+        files,
+        made,
+    };
+    let text = serde_json::to_string_pretty(&kept).expect("what is kept is plain data") + "\n";
+    write_atomically(record, text.as_bytes())
+}
+
+/// What was made of such inputs. None where there is no such thing, where the record is broken, or where any of its files is
+/// missing or not as it was written: then it has to be made anew, as truths are.
+pub(crate) fn recall<T: Serialize + DeserializeOwned>(record: &Path, inputs: &str) -> Option<T> {
+    let kept: Kept<T> = serde_json::from_slice(&std::fs::read(record).ok()?).ok()?;
+    let is_whole = kept.inputs == inputs
+        && kept.seal == seal(&kept.inputs, &kept.files, &kept.made)
+        && (kept.files.iter()).all(|(name, hash)| {
+            hash_of_file(&record.with_file_name(name)).is_ok_and(|found| found == *hash)
+        });
+    is_whole.then_some(kept.made)
+}
+
+/// One hash of all inputs. Debug output holds every field, and numbers so that they read back equal: a new field cannot be
+/// forgotten.
+pub(crate) fn hash_of(inputs: &dyn Debug) -> String {
+    hex(format!("{inputs:?}").as_bytes())
+}
+
+/// Hash of the running program: whatever may change a number and is no other input, sources, dependencies, compiler and its
+/// options, changes these bytes. None where they cannot be read, and nothing can be kept.
+pub(crate) fn hash_of_program() -> Option<String> {
+    hash_of_file(&std::env::current_exe().ok()?).ok()
+}
+
+fn seal<T: Serialize>(inputs: &str, files: &BTreeMap<String, String>, made: &T) -> String {
+    hex(&serde_json::to_vec(&(inputs, files, made)).expect("what is kept is plain data"))
+}
+
+fn hash_of_file(path: &Path) -> std::io::Result<String> {
+    Ok(hex(&std::fs::read(path)?))
+}
+
+fn hex(bytes: &[u8]) -> String {
+    blake3::hash(bytes).to_hex().to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_kept_is_recalled_until_anything_about_it_changes() {
+        let folder = tempfile::tempdir().unwrap();
+        let (record, picture) = (folder.path().join("case.json"), folder.path().join("a.png"));
+        let recalled = || recall::<f64>(&record, "these");
+        assert_eq!(recalled(), None, "nothing is there yet");
+        std::fs::write(&picture, "picture").unwrap();
+        let files = ["a.png".to_owned()];
+        keep(&record, "these".to_owned(), &files, &0.1).unwrap();
+        assert_eq!(recalled(), Some(0.1));
+        assert_eq!(recall::<f64>(&record, "others"), None);
+
+        std::fs::write(&picture, "picturE").unwrap();
+        assert_eq!(recalled(), None, "a picture was altered");
+        std::fs::remove_file(&picture).unwrap();
+        assert_eq!(recalled(), None, "a picture is missing");
+        std::fs::write(&picture, "picture").unwrap();
+        assert_eq!(recalled(), Some(0.1));
+
+        let text = std::fs::read_to_string(&record).unwrap();
+        std::fs::write(&record, text.replace("0.1", "0.2")).unwrap();
+        assert_eq!(recalled(), None, "the score was altered");
+        std::fs::write(&record, &text[..text.len() / 2]).unwrap();
+        assert_eq!(recalled(), None, "the record was cut short");
+    }
+}

@@ -1,0 +1,208 @@
+//! All cases of one scene: those whose inputs are what they were are read back, the others measured.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
+
+use filters::Gpu;
+use frame::{Alignment, Frame, Ladder, Truth};
+use metrics::{MeasureError, Reference};
+use tracer::Scene;
+
+use crate::bounds::SceneBounds;
+use crate::case::Case;
+use crate::inputs::SceneInputs;
+use crate::kept::{keep, recall};
+use crate::pictures::{write_frame, write_truth};
+use crate::progress::interrupted;
+use crate::rendered::{frame_of, replicates_of, scene_folder, truth_and_ladder_of};
+use crate::run::{Plan, viewing};
+use crate::subject::Subject;
+use crate::witness::Witness;
+use crate::workbench::Workbench;
+use crate::{Error, InputFormat, truths_without_pairs};
+
+/// One scene of a run.
+pub(crate) struct SceneRun<'a> {
+    pub plan: &'a Plan,
+    pub gpu: Option<&'a Gpu>,
+    pub scene: &'a Scene,
+    pub bounds: &'a SceneBounds,
+    /// The alignment that every case is compared with.
+    pub common: Alignment,
+    /// What is kept is known by these; none where nothing can be kept.
+    pub inputs: Option<SceneInputs>,
+}
+
+/// Beside a case's pictures.
+const CASE_RECORD: &str = "case.json";
+
+type Truths = BTreeMap<Alignment, (Truth, Ladder)>;
+
+impl SceneRun<'_> {
+    /// Per alignment the bars, then one case per filter preset and form of the input.
+    pub fn cases(&self) -> Result<Vec<Case>, Error> {
+        let subjects = Subject::all(self.plan);
+        let kept: Vec<Option<Case>> = subjects.iter().map(|subject| self.kept(subject)).collect();
+        if kept.iter().all(Option::is_some) && self.has_its_files() {
+            return Ok(kept.into_iter().flatten().collect());
+        }
+        let (frame, truths) = self.render()?;
+        let due = (subjects.iter().zip(&kept)).filter(|(_, kept)| kept.is_none());
+        let due: Vec<&Subject> = due.map(|(subject, _)| subject).collect();
+        let mut made = self.measured(&due, &frame, &truths)?.into_iter();
+        let cases = kept.into_iter().map(|kept| kept.or_else(|| made.next()));
+        Ok(cases.flatten().collect())
+    }
+
+    /// Measures some of the cases, each of which is kept as soon as it is whole.
+    fn measured(
+        &self,
+        due: &[&Subject],
+        frame: &Frame,
+        truths: &Truths,
+    ) -> Result<Vec<Case>, Error> {
+        if due.is_empty() {
+            return Ok(Vec::new());
+        }
+        let cropped = frame.cropped();
+        let judged: BTreeSet<Alignment> = due.iter().map(|subject| subject.alignment).collect();
+        let references = (truths.iter())
+            .filter(|(alignment, _)| judged.contains(alignment) || **alignment == self.common)
+            .map(|(alignment, (truth, ladder))| {
+                let viewing = viewing(self.scene);
+                let reference = Reference::new(&cropped, truth, Some(ladder), &viewing)?;
+                Ok((*alignment, reference))
+            })
+            .collect::<Result<BTreeMap<_, _>, Error>>()?;
+        let parts = self.parts(due, truths)?;
+        let without = (parts.iter())
+            .map(|(alignment, parts)| {
+                let whole = &references[alignment];
+                let reference = |part| {
+                    let ladder = Some(&truths[alignment].1);
+                    // What is left out changes scores, not where they are taken.
+                    let regions = whole.regions.clone();
+                    Reference::over(regions, &cropped, part, ladder, &viewing(self.scene))
+                };
+                let references: Result<_, MeasureError> = parts.iter().map(reference).collect();
+                Ok((*alignment, references?))
+            })
+            .collect::<Result<BTreeMap<_, Vec<Reference>>, Error>>()?;
+        let witnesses: BTreeMap<Alignment, Witness> = (truths.iter())
+            .filter(|_| self.plan.evidence)
+            .map(|(alignment, (truth, ladder))| {
+                (
+                    *alignment,
+                    Witness::new(self.scene, &cropped, truth, ladder),
+                )
+            })
+            .collect();
+        let stored: Vec<(InputFormat, Frame)> = (self.plan.inputs.iter())
+            .map(|format| (*format, format.of(frame)))
+            .collect();
+        let mut cases = Vec::with_capacity(due.len());
+        for subject in due {
+            if interrupted() {
+                return Err(tracer::TraceError::Cancelled.into());
+            }
+            let alignment = subject.alignment;
+            let (truth, ladder) = &truths[&alignment];
+            let workbench = Workbench {
+                plan: self.plan,
+                gpu: self.gpu,
+                scene: self.scene,
+                bounds: self.bounds,
+                frame,
+                stored: &stored,
+                truth,
+                ladder,
+                reference: &references[&alignment],
+                common: (alignment != self.common).then(|| &references[&self.common]),
+                without: without.get(&alignment).map(Vec::as_slice),
+                witness: witnesses.get(&alignment),
+            };
+            let (case, files) = workbench.case(subject)?;
+            if let Some(inputs) = self.inputs_of(subject) {
+                keep(&self.record(subject), inputs, &files, &case)?;
+            }
+            cases.push(case);
+        }
+        Ok(cases)
+    }
+
+    /// The scene's frame and one truth per alignment that a filter of the plan declares, with their pictures.
+    fn render(&self) -> Result<(Frame, Truths), Error> {
+        let Plan {
+            render, out, quiet, ..
+        } = self.plan;
+        let folder = scene_folder(out, self.scene);
+        let frame = frame_of(self.scene, render, out, *quiet)?;
+        let files = write_frame(&folder, self.scene, &frame)?;
+        if let Some(inputs) = &self.inputs {
+            keep(&folder.join("frame.json"), inputs.frame(), &files, &())?;
+        }
+        let mut truths = Truths::new();
+        for alignment in self.plan.alignments() {
+            let made = truth_and_ladder_of(self.scene, render, alignment, out, *quiet)?;
+            let files = write_truth(&folder, self.scene, &made.0)?;
+            if let Some(inputs) = &self.inputs {
+                let record = folder.join(format!("truth_{alignment}.json"));
+                keep(&record, inputs.truth(alignment), &files, &())?;
+            }
+            truths.insert(alignment, made);
+        }
+        Ok((frame, truths))
+    }
+
+    /// Per alignment that filters are judged by, the truths that all replicates but a pair each make.
+    fn parts(
+        &self,
+        due: &[&Subject],
+        truths: &Truths,
+    ) -> Result<BTreeMap<Alignment, Vec<Truth>>, Error> {
+        let Plan {
+            render, out, quiet, ..
+        } = self.plan;
+        let filters = due.iter().filter(|subject| !subject.is_bar());
+        let judged: BTreeSet<Alignment> = filters.map(|subject| subject.alignment).collect();
+        (judged.into_iter())
+            .filter(|_| self.plan.intervals)
+            .map(|alignment| {
+                let replicates = replicates_of(self.scene, render, alignment, out, *quiet)?;
+                let (truth, _) = &truths[&alignment];
+                Ok((alignment, truths_without_pairs(truth, &replicates)?))
+            })
+            .collect()
+    }
+
+    fn kept(&self, subject: &Subject) -> Option<Case> {
+        recall(&self.record(subject), &self.inputs_of(subject)?)
+    }
+
+    fn inputs_of(&self, subject: &Subject) -> Option<String> {
+        let adapter = self.gpu.map(|gpu| &gpu.adapter);
+        let own = subject.inputs(self.plan, adapter, self.bounds)?;
+        let inputs = self.inputs.as_ref()?;
+        Some(inputs.case(&own, subject.alignment, self.common))
+    }
+
+    fn record(&self, subject: &Subject) -> PathBuf {
+        let folder = self.plan.out.join(subject.folder(self.scene));
+        folder.join(CASE_RECORD)
+    }
+
+    /// Whether frame, truths and their pictures are there as they were written.
+    fn has_its_files(&self) -> bool {
+        let Some(inputs) = &self.inputs else {
+            return false;
+        };
+        let folder = scene_folder(&self.plan.out, self.scene);
+        let is_there =
+            |record: String, inputs: &str| recall::<()>(&folder.join(record), inputs).is_some();
+        is_there("frame.json".to_owned(), &inputs.frame())
+            && (self.plan.alignments().into_iter()).all(|alignment| {
+                let record = format!("truth_{alignment}.json");
+                is_there(record, &inputs.truth(alignment))
+            })
+    }
+}
