@@ -9,6 +9,7 @@ mod command_filter;
 mod comparison;
 mod import;
 mod kept;
+mod kept_cases;
 mod own_filter;
 mod refusals;
 mod score;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::exr_file::{ExrFile, read_exr, write_exr};
+use crate::exr_file::{ExrFile, read_exr, write_small_exr};
 use crate::truth::{get_shutter, set_shutter};
 use crate::{Alignment, FileError, Picture, Provenance, Shutter, ShutterProfile};
 
@@ -58,7 +58,8 @@ impl Ladder {
         file.set("objects", self.objects.join(" "));
         file.set("subframes", subframes.join(" "));
         self.provenance.set(&mut file);
-        write_exr(path, &file)
+        // Away from motion all rungs hold the truth's mean.
+        write_small_exr(path, &file)
     }
 
     /// Reads a ladder that [`Ladder::write`] wrote, bit for bit.

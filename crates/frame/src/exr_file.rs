@@ -8,8 +8,8 @@ use std::str::FromStr;
 
 use exr::meta::attribute::{AttributeValue, Text};
 use exr::prelude::{
-    AnyChannel, AnyChannels, Encoding, FlatSamples, Layer, LayerAttributes, ReadChannels,
-    ReadLayers, WritableImage,
+    AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Layer, LayerAttributes,
+    ReadChannels, ReadLayers, WritableImage,
 };
 
 use crate::{FileError, Image, Plane, Raster};
@@ -188,9 +188,28 @@ pub(crate) fn in_layer(layer: &str, name: &str) -> String {
     }
 }
 
-/// Writes single-part, lossless (ZIP16) OpenEXR under a temporary name and renames it: the path holds the whole file
-/// or what it held before.
+/// Writes single-part, lossless OpenEXR under a temporary name and renames it: the path holds the whole file or what it held
+/// before.
+///
+/// Run lengths leave noise a sixth to a third larger than deflate would, and take a sixth to a fourteenth of its time, which
+/// was a fifth of what measuring a picture takes.
 pub fn write_exr(path: &Path, file: &ExrFile) -> Result<(), FileError> {
+    write_encoded(
+        path,
+        file,
+        Encoding {
+            compression: Compression::RLE,
+            ..Encoding::SMALL_LOSSLESS
+        },
+    )
+}
+
+/// The same, smaller (ZIP16) and much slower: for files that repeat themselves.
+pub(crate) fn write_small_exr(path: &Path, file: &ExrFile) -> Result<(), FileError> {
+    write_encoded(path, file, Encoding::SMALL_LOSSLESS)
+}
+
+fn write_encoded(path: &Path, file: &ExrFile, encoding: Encoding) -> Result<(), FileError> {
     let pixels = file.width as usize * file.height as usize;
     let channels = file.channels.iter().map(|channel| {
         let samples = match &channel.samples {
@@ -208,7 +227,7 @@ pub fn write_exr(path: &Path, file: &ExrFile) -> Result<(), FileError> {
     let mut layer = Layer::new(
         (file.width as usize, file.height as usize),
         LayerAttributes::default(),
-        Encoding::SMALL_LOSSLESS,
+        encoding,
         AnyChannels::sort(channels.collect()),
     );
     for (name, value) in &file.attributes {

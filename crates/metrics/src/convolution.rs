@@ -24,13 +24,14 @@ pub fn gaussian(sigma: f64, truncate: f64, derivative: bool) -> Vec<f64> {
 pub fn separable(map: &Raster<f64>, rows: &[f64], columns: &[f64]) -> Raster<f64> {
     let (width, height) = (map.width as usize, map.height as usize);
     let beyond = rows.len() / 2;
+    let places: Vec<usize> = (0..width + 2 * beyond)
+        .map(|at| reflected(at, beyond, width))
+        .collect();
     let mut along = vec![0.0; map.pixels.len()];
     let lines = along.par_chunks_mut(width);
     lines.enumerate().for_each(|(y, sums)| {
         let line = &map.pixels[y * width..][..width];
-        let padded: Vec<f64> = (0..width + 2 * beyond)
-            .map(|at| line[reflected(at, beyond, width)])
-            .collect();
+        let padded: Vec<f64> = places.iter().map(|place| line[*place]).collect();
         for (offset, weight) in rows.iter().enumerate() {
             add(sums, *weight, &padded[offset..]);
         }

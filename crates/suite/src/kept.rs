@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Debug;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use frame::{FileError, write_atomically};
 use serde::de::DeserializeOwned;
@@ -50,13 +50,39 @@ pub(crate) fn keep<T: Serialize>(
 /// What was made of such inputs. None where there is no such thing, where the record is broken, or where any of its files is
 /// missing or not as it was written: then it has to be made anew, as truths are.
 pub(crate) fn recall<T: Serialize + DeserializeOwned>(record: &Path, inputs: &str) -> Option<T> {
+    let kept = read::<T>(record, inputs)?;
+    kept.altered(record).is_empty().then_some(kept.made)
+}
+
+/// Removes the files of such inputs that are not as they were written: what a file says of itself may have outlived its
+/// content.
+pub(crate) fn discard_altered(record: &Path, inputs: &str) {
+    for path in read::<()>(record, inputs)
+        .iter()
+        .flat_map(|kept| kept.altered(record))
+    {
+        // One that is missing is as good as removed.
+        let _ = std::fs::remove_file(path);
+    }
+}
+
+/// A whole record of such inputs.
+fn read<T: Serialize + DeserializeOwned>(record: &Path, inputs: &str) -> Option<Kept<T>> {
     let kept: Kept<T> = serde_json::from_slice(&std::fs::read(record).ok()?).ok()?;
-    let is_whole = kept.inputs == inputs
-        && kept.seal == seal(&kept.inputs, &kept.files, &kept.made)
-        && (kept.files.iter()).all(|(name, hash)| {
-            hash_of_file(&record.with_file_name(name)).is_ok_and(|found| found == *hash)
-        });
-    is_whole.then_some(kept.made)
+    let is_whole =
+        kept.inputs == inputs && kept.seal == seal(&kept.inputs, &kept.files, &kept.made);
+    is_whole.then_some(kept)
+}
+
+impl<T> Kept<T> {
+    /// Its files that are missing, or not as they were written.
+    fn altered(&self, record: &Path) -> Vec<PathBuf> {
+        let paths = (self.files.iter()).map(|(name, hash)| (record.with_file_name(name), hash));
+        paths
+            .filter(|(path, hash)| !hash_of_file(path).is_ok_and(|found| found == **hash))
+            .map(|(path, _)| path)
+            .collect()
+    }
 }
 
 /// One hash of all inputs. Debug output holds every field, and numbers so that they read back equal: a new field cannot be

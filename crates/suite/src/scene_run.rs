@@ -11,7 +11,7 @@ use tracer::Scene;
 use crate::bounds::SceneBounds;
 use crate::case::Case;
 use crate::inputs::SceneInputs;
-use crate::kept::{keep, recall};
+use crate::kept::{discard_altered, keep, recall};
 use crate::pictures::{write_frame, write_truth};
 use crate::progress::interrupted;
 use crate::rendered::{frame_of, replicates_of, scene_folder, truth_and_ladder_of};
@@ -135,21 +135,20 @@ impl SceneRun<'_> {
         let Plan {
             render, out, quiet, ..
         } = self.plan;
+        for (record, inputs) in self.records() {
+            discard_altered(&record, &inputs);
+        }
         let folder = scene_folder(out, self.scene);
         let frame = frame_of(self.scene, render, out, *quiet)?;
-        let files = write_frame(&folder, self.scene, &frame)?;
-        if let Some(inputs) = &self.inputs {
-            keep(&folder.join("frame.json"), inputs.frame(), &files, &())?;
-        }
+        let mut files = vec![write_frame(&folder, self.scene, &frame)?];
         let mut truths = Truths::new();
         for alignment in self.plan.alignments() {
             let made = truth_and_ladder_of(self.scene, render, alignment, out, *quiet)?;
-            let files = write_truth(&folder, self.scene, &made.0)?;
-            if let Some(inputs) = &self.inputs {
-                let record = folder.join(format!("truth_{alignment}.json"));
-                keep(&record, inputs.truth(alignment), &files, &())?;
-            }
+            files.push(write_truth(&folder, self.scene, &made.0)?);
             truths.insert(alignment, made);
+        }
+        for ((record, inputs), files) in self.records().into_iter().zip(files) {
+            keep(&record, inputs, &files, &())?;
         }
         Ok((frame, truths))
     }
@@ -193,16 +192,22 @@ impl SceneRun<'_> {
 
     /// Whether frame, truths and their pictures are there as they were written.
     fn has_its_files(&self) -> bool {
+        let mut records = self.records().into_iter();
+        self.inputs.is_some()
+            && records.all(|(record, inputs)| recall::<()>(&record, &inputs).is_some())
+    }
+
+    /// The records of the frame and of every truth, in this order, with their inputs; none where nothing can be kept.
+    fn records(&self) -> Vec<(PathBuf, String)> {
         let Some(inputs) = &self.inputs else {
-            return false;
+            return Vec::new();
         };
         let folder = scene_folder(&self.plan.out, self.scene);
-        let is_there =
-            |record: String, inputs: &str| recall::<()>(&folder.join(record), inputs).is_some();
-        is_there("frame.json".to_owned(), &inputs.frame())
-            && (self.plan.alignments().into_iter()).all(|alignment| {
-                let record = format!("truth_{alignment}.json");
-                is_there(record, &inputs.truth(alignment))
-            })
+        let mut records = vec![(folder.join("frame.json"), inputs.frame())];
+        records.extend(self.plan.alignments().into_iter().map(|alignment| {
+            let record = folder.join(format!("truth_{alignment}.json"));
+            (record, inputs.truth(alignment))
+        }));
+        records
     }
 }

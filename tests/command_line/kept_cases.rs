@@ -1,0 +1,234 @@
+//! What was measured is kept: a case is measured again where something that it was made of has changed, and only there.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::PathBuf;
+use std::time::SystemTime;
+
+use crate::bench::{Bench, assert_done, files_below, stdout};
+
+/// Two presets of a filter of the tests' own, beside one that does nothing.
+const FILTERS: [&str; 4] = ["--filters", "identity", "--filter", "mine"];
+const BARS: [&str; 5] = [
+    "accumulate_16_trailing",
+    "accumulate_4_trailing",
+    "accumulate_64_trailing",
+    "accumulate_8_trailing",
+    "scatter_oracle_trailing",
+];
+const OF_FILTERS: [&str; 4] = [
+    "identity_default",
+    "velocity_gather_coarse",
+    "velocity_gather_departure",
+    "velocity_gather_fine",
+];
+
+/// A bench whose filter `mine` is a copy of one that is built in.
+fn bench() -> Bench {
+    let bench = Bench::new();
+    let shaders = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../shaders/velocity_gather");
+    fs::create_dir(bench.path("mine")).unwrap();
+    for name in ["filter.toml", "velocity_gather.wgsl"] {
+        fs::copy(shaders.join(name), bench.path("mine").join(name)).unwrap();
+    }
+    bench
+}
+
+fn run(bench: &Bench, more: &[&str]) {
+    assert_done(&bench.run(&[&FILTERS[..], more].concat()));
+}
+
+/// When every file below `out` was last written, but for run.json.
+fn times(bench: &Bench) -> BTreeMap<String, SystemTime> {
+    let out = bench.path("out/plate");
+    (files_below(&out).into_iter())
+        .map(|path| {
+            let name = path.strip_prefix(&out).unwrap().display().to_string();
+            (name, fs::metadata(path).unwrap().modified().unwrap())
+        })
+        .collect()
+}
+
+/// The folders of the cases that a run measures although it could have kept them.
+fn measured_again(bench: &Bench, more: &[&str]) -> BTreeSet<String> {
+    let before = times(bench);
+    run(bench, more);
+    (times(bench).into_iter())
+        .filter(|(name, time)| name.ends_with("/case.json") && before.get(name) != Some(time))
+        .map(|(name, _)| name.trim_end_matches("/case.json").to_owned())
+        .collect()
+}
+
+fn names<'a>(lists: impl IntoIterator<Item = &'a [&'a str]>) -> BTreeSet<String> {
+    let names = lists.into_iter().flatten();
+    names.map(|name| (*name).to_owned()).collect()
+}
+
+/// Writes one text for another in a file of the bench.
+fn change(bench: &Bench, file: &str, from: &str, to: &str) {
+    let text = fs::read_to_string(bench.path(file)).unwrap();
+    assert!(text.contains(from), "{file} holds \"{from}\"");
+    fs::write(bench.path(file), text.replacen(from, to, 1)).unwrap();
+}
+
+#[test]
+fn a_second_run_touches_no_file_and_says_the_same() {
+    let bench = bench();
+    run(&bench, &[]);
+    let first = fs::read(bench.path("out/run.json")).unwrap();
+    let before = times(&bench);
+    run(&bench, &[]);
+    assert_eq!(times(&bench), before);
+    assert!(fs::read(bench.path("out/run.json")).unwrap() == first);
+    assert!(before.len() > 60, "{} files", before.len());
+}
+
+#[test]
+fn a_check_is_kept_with_its_intervals_and_its_evidence() {
+    let bench = bench();
+    bench.write(
+        "bounds.toml",
+        "[default]\nflip_moving = { limit = 0.0001, why = \"none keeps it\" }\n",
+    );
+    let check = || bench.check(&FILTERS);
+    let first = stdout(&check());
+    assert!(first.contains("flip_moving"), "{first}");
+    let (run, before) = (bench.measured(), times(&bench));
+    assert!(before.contains_key("identity_default/worst_flip_moving.png"));
+    assert_eq!(stdout(&check()), first);
+    assert_eq!(times(&bench), before);
+    let text = |run: &suite::Run| serde_json::to_string(run).unwrap();
+    assert_eq!(text(&bench.measured()), text(&run));
+
+    let evidence = bench.path("out/plate/identity_default/worst_flip_moving.png");
+    fs::remove_file(&evidence).unwrap();
+    check();
+    assert!(evidence.is_file(), "the evidence was not made anew");
+}
+
+#[test]
+fn what_changes_one_case_measures_that_one_again() {
+    let bench = bench();
+    run(&bench, &[]);
+    let mine = names([&OF_FILTERS[1..]]);
+
+    let kernels = "mine/velocity_gather.wgsl";
+    let text = fs::read_to_string(bench.path(kernels)).unwrap();
+    fs::write(bench.path(kernels), format!(" {text}")).unwrap();
+    assert_eq!(measured_again(&bench, &[]), mine, "a byte of WGSL");
+
+    change(&bench, "mine/filter.toml", "samples = 8 ", "samples = 7 ");
+    assert_eq!(measured_again(&bench, &[]), mine, "a preset's value");
+
+    let set = ["--set", "velocity_gather.samples=9"];
+    assert_eq!(measured_again(&bench, &set), mine, "a parameter");
+    assert_eq!(measured_again(&bench, &set), BTreeSet::new());
+
+    bench.write(
+        "bounds.toml",
+        "[filter.\"velocity_gather:fine\"]\nflip_moving = { limit = 0.5, why = \"any\" }\n",
+    );
+    let one = names([&["velocity_gather_fine"][..]]);
+    assert_eq!(measured_again(&bench, &set), one, "a bound");
+
+    let filters = names([&OF_FILTERS[..]]);
+    let more = [&set[..], &["--jitter-frames", "3"]].concat();
+    assert_eq!(measured_again(&bench, &more), filters, "frames of noise");
+}
+
+#[test]
+fn what_changes_the_truth_or_the_frame_measures_all_again() {
+    let bench = bench();
+    run(&bench, &[]);
+    let all = names([&BARS[..], &OF_FILTERS]);
+    for more in [["--seed", "2"], ["--velocity", "previous_frame"]] {
+        assert_eq!(measured_again(&bench, &more), all, "{more:?}");
+    }
+    change(
+        &bench,
+        "scenes/plate/scene.toml",
+        "nothing: it serves",
+        "nothing. It serves",
+    );
+    run(&bench, &[]);
+    let said = bench.measured().cases.into_iter().map(|case| case.exposes);
+    assert_eq!(
+        said.collect::<BTreeSet<_>>(),
+        names([&["nothing. It serves the tests of the command line"][..]])
+    );
+}
+
+#[test]
+fn another_common_shutter_measures_again_what_is_compared_with_it() {
+    let bench = bench();
+    run(&bench, &[]);
+    let centred = bench.run(&["--filters", "identity,bevy:default", "--filter", "mine"]);
+    assert_done(&centred);
+    assert_eq!(bench.measured().common_alignment, "centred");
+    let all = names([&BARS[..], &OF_FILTERS]);
+    assert_eq!(measured_again(&bench, &[]), all);
+}
+
+#[test]
+fn what_is_missing_cut_short_or_altered_is_made_anew() {
+    let bench = bench();
+    run(&bench, &[]);
+    let contents = |name: &str| fs::read(bench.path("out/plate").join(name)).unwrap();
+    let run_json = fs::read(bench.path("out/run.json")).unwrap();
+    let cut = |bytes: &[u8]| bytes[..bytes.len() / 2].to_vec();
+    type Damage<'a> = &'a dyn Fn(&[u8]) -> Option<Vec<u8>>;
+    let damages: [Damage; 3] = [&|_| None, &|bytes| Some(cut(bytes)), &|bytes| {
+        let mut bytes = bytes.to_vec();
+        // A score's digit, or some bits of a pixel.
+        let mut later = bytes.len() * 3 / 4..bytes.len();
+        let digit = later.find(|at| bytes[*at].is_ascii_digit());
+        let middle = bytes.len() / 2;
+        bytes[digit.unwrap_or(middle)] ^= 1;
+        Some(bytes)
+    }];
+    let one = names([&["identity_default"][..]]);
+    for (name, expected) in [
+        ("identity_default/case.json", &one),
+        ("identity_default/errors.exr", &one),
+        ("identity_default/flip.png", &one),
+        ("frame.png", &BTreeSet::new()),
+        ("frame.exr", &BTreeSet::new()),
+        ("truth_trailing.exr", &BTreeSet::new()),
+        ("ladder_trailing.exr", &BTreeSet::new()),
+    ] {
+        let whole = contents(name);
+        for damage in damages {
+            let path = bench.path("out/plate").join(name);
+            match damage(&whole) {
+                None => fs::remove_file(&path).unwrap(),
+                Some(bytes) => fs::write(&path, bytes).unwrap(),
+            }
+            assert_eq!(measured_again(&bench, &[]), *expected, "{name}");
+            assert!(contents(name) == whole, "{name} is not as it was");
+            assert!(fs::read(bench.path("out/run.json")).unwrap() == run_json);
+        }
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_program_is_run_again_every_time() {
+    use std::os::unix::fs::PermissionsExt;
+    let bench = Bench::new();
+    fs::create_dir(bench.path("copy")).unwrap();
+    let manifest = "name = \"copy\"\nsummary = \"A program.\"\nalignment = \"trailing\"\n\
+                    command = [\"./blur.sh\", \"{frame}\", \"{out}\"]\n";
+    fs::write(bench.path("copy/filter.toml"), manifest).unwrap();
+    let script = bench.path("copy/blur.sh");
+    fs::write(&script, "#!/bin/sh\necho again >> runs\ncp $1 $2\n").unwrap();
+    fs::set_permissions(&script, fs::Permissions::from_mode(0o755)).unwrap();
+    let runs = || {
+        assert_done(&bench.run(&["--filter", "copy"]));
+        let text = fs::read_to_string(bench.path("copy/runs")).unwrap();
+        text.lines().count()
+    };
+    let first = runs();
+    assert!(first > 0);
+    assert_eq!(runs(), 2 * first);
+    assert!(!bench.path("out/plate/copy_default/case.json").exists());
+}
