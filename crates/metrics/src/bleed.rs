@@ -1,9 +1,11 @@
 //! Mass where the truth never shows the object.
 
+use std::collections::HashMap;
+
 use frame::{Plane, Raster};
 
 use crate::mover::Silhouette;
-use crate::nearest::{at_distance, distance_squared, nearest};
+use crate::nearest::{circle, distance_squared, nearest, on_circle};
 
 /// On which side of the swept support a pixel lies, as seen along the motion of the nearest part of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +39,8 @@ pub struct Bleed {
 pub fn sides(truth: &Plane, directions: &Raster<[f64; 2]>) -> Option<Raster<Side>> {
     let support = truth.map(|matte| *matte > 0.0);
     let nearest = nearest(&support)?;
+    // Straight outlines have whole rows of pixels at one distance.
+    let mut circles: HashMap<u64, Vec<[i64; 2]>> = HashMap::new();
     Some(Raster::from_fn(truth.width, truth.height, |x, y| {
         let distance = distance_squared([x, y], *nearest.at(x, y));
         // The eight neighbours of the support are still inside.
@@ -44,7 +48,8 @@ pub fn sides(truth: &Plane, directions: &Raster<[f64; 2]>) -> Option<Raster<Side
             return Side::Inside;
         }
         let (mut away, mut along) = ([0.0; 2], [0.0; 2]);
-        for [u, v] in at_distance(&support, [x, y], distance) {
+        let circle = (circles.entry(distance)).or_insert_with(|| circle(distance));
+        for [u, v] in on_circle(&support, [x, y], circle) {
             let offset = [f64::from(x) - f64::from(u), f64::from(y) - f64::from(v)];
             let direction = *directions.at(u, v);
             away = [0, 1].map(|axis| away[axis] + offset[axis]);

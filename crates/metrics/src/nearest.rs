@@ -38,21 +38,23 @@ pub fn distance_squared(a: [u32; 2], b: [u32; 2]) -> u64 {
     x * x + y * y
 }
 
-/// Every pixel of `set` at exactly this squared distance from `at`: all nearest ones where several are equally near, so
-/// that a mirrored picture finds the mirrored pixels.
-pub fn at_distance(set: &Raster<bool>, at: [u32; 2], squared: u64) -> Vec<[u32; 2]> {
+/// Every pixel of `set` on this circle about `at`: all nearest ones where several are equally near, so that a mirrored
+/// picture finds the mirrored pixels.
+pub fn on_circle<'a>(
+    set: &'a Raster<bool>,
+    at: [u32; 2],
+    circle: &'a [[i64; 2]],
+) -> impl Iterator<Item = [u32; 2]> {
+    circle.iter().filter_map(move |[right, down]| {
+        let x = u32::try_from(i64::from(at[0]) + right).ok()?;
+        let y = u32::try_from(i64::from(at[1]) + down).ok()?;
+        (x < set.width && y < set.height && *set.at(x, y)).then_some([x, y])
+    })
+}
+
+/// Every whole offset, right and down, of exactly this squared length above 0.
+pub fn circle(squared: u64) -> Vec<[i64; 2]> {
     let mut found = Vec::new();
-    let mut add = |right: i64, down: i64| {
-        let x = u32::try_from(i64::from(at[0]) + right).ok();
-        let y = u32::try_from(i64::from(at[1]) + down).ok();
-        if let (Some(x), Some(y)) = (x, y)
-            && x < set.width
-            && y < set.height
-            && *set.at(x, y)
-        {
-            found.push([x, y]);
-        }
-    };
     // Along the circle's first quadrant, both ends of an axis counted once.
     let squared = squared as i64;
     let (mut right, mut down) = (squared.isqrt(), 0);
@@ -60,14 +62,12 @@ pub fn at_distance(set: &Raster<bool>, at: [u32; 2], squared: u64) -> Vec<[u32; 
         let excess = right * right + down * down - squared;
         if excess == 0 {
             // Quarter turns of one offset.
-            for (right, down) in [
-                (right, down),
-                (-down, right),
-                (-right, -down),
-                (down, -right),
-            ] {
-                add(right, down);
-            }
+            found.extend([
+                [right, down],
+                [-down, right],
+                [-right, -down],
+                [down, -right],
+            ]);
         }
         if excess > 0 {
             right -= 1;
@@ -172,7 +172,10 @@ mod tests {
     fn all_pixels_at_one_distance_are_found_once() {
         let set = Raster::filled(40, 40, true);
         // 25 = 5^2 + 0^2 = 3^2 + 4^2: four and eight offsets.
-        let mut found = at_distance(&set, [20, 20], 25);
+        let at = |at: [u32; 2], squared: u64| -> Vec<[u32; 2]> {
+            on_circle(&set, at, &circle(squared)).collect()
+        };
+        let mut found = at([20, 20], 25);
         assert!(
             found
                 .iter()
@@ -181,8 +184,8 @@ mod tests {
         found.sort_unstable();
         found.dedup();
         assert_eq!(found.len(), 12);
-        assert_eq!(at_distance(&set, [0, 0], 25).len(), 4);
-        assert_eq!(at_distance(&set, [20, 20], 3), Vec::<[u32; 2]>::new());
+        assert_eq!(at([0, 0], 25).len(), 4);
+        assert_eq!(at([20, 20], 3), Vec::<[u32; 2]>::new());
     }
 
     #[test]

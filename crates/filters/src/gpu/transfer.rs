@@ -170,9 +170,8 @@ impl Gpu {
         let row = padded as usize / 4;
         Ok(Raster::from_fn(width, height, |x, y| {
             let start = y as usize * row + x as usize * components;
-            let mut texel = [0.0; 4];
-            texel[..components].copy_from_slice(&values[start..start + components]);
-            texel
+            let texel = &values[start..start + components];
+            std::array::from_fn(|component| texel.get(component).copied().unwrap_or(0.0))
         }))
     }
 
