@@ -254,7 +254,7 @@ pub struct SceneArgs {
     /// Seed of all randomness.
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
-    /// Folder for all files. Truths found there are used again if nothing about them has changed.
+    /// Folder for all files. Truths and cases found there are used again if nothing about them has changed.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// No progress bars.
