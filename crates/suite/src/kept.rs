@@ -32,11 +32,7 @@ pub(crate) fn keep<T: Serialize>(
     let files: BTreeMap<String, String> = (files.iter())
         .map(|name| Ok((name.clone(), hash_of_file(&record.with_file_name(name))?)))
         .collect::<std::io::Result<_>>()
-        .map_err(|source| FileError::Io {
-            path: record.to_owned(),
-            action: "read what belongs to",
-            source,
-        })?;
+        .map_err(|source| FileError::io(record, "read what belongs to", source))?;
     let kept = Kept {
         seal: seal(&inputs, &files, made),
         inputs,
