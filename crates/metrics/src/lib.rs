@@ -41,6 +41,7 @@ mod score;
 mod scores;
 mod ssim;
 mod viewing;
+mod worst_bleed;
 
 pub use absolute_error::SMAPE_EPSILON;
 pub use cross_error::{PSNR_LIMIT, RELATIVE_EPSILON};

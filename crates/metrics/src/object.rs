@@ -146,7 +146,7 @@ impl ObjectReference {
         }
     }
 
-    fn bleed_scores(&self, matte: &Plane) -> [Measured; 3] {
+    pub(crate) fn bleed_scores(&self, matte: &Plane) -> [Measured; 3] {
         let moving = match self.moving() {
             Ok(moving) => moving,
             Err(reason) => return [(); 3].map(|()| Measured::not_applicable(&reason)),

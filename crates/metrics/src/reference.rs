@@ -51,7 +51,7 @@ pub struct Reference<'a> {
     /// Pixels whose SSIM window lies in the picture.
     windows: Raster<bool>,
     frozen: FrozenReference,
-    objects: Vec<ObjectReference>,
+    pub(crate) objects: Vec<ObjectReference>,
     curves: Option<Curves>,
 }
 

@@ -1,5 +1,7 @@
 //! The words of the command line.
 
+mod tune;
+
 use std::ops::Range;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -8,6 +10,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use frame::{Alignment, ColorSampling, VelocityKind};
 use metrics::Metric;
 use suite::{Border, DepthFormat, Up, VelocityFormat};
+
+pub use tune::{CandidateArgs, EvaluateArgs, ServeArgs, TuneArgs};
 
 use crate::words::{
     degrees_per_frame, glob, noise, pixels_per_frame, replicates, rounds, runs, size,
@@ -47,6 +51,12 @@ pub enum Command {
     Score(ScoreArgs),
     /// Time filters pass by pass, and against their reach. Prints tables; writes bench.json.
     Bench(BenchArgs),
+    /// Find parameters that bring a filter nearer to the truth. Writes journal.jsonl and tune.json.
+    Tune(TuneArgs),
+    /// Score one set of parameters. Prints JSON.
+    Evaluate(EvaluateArgs),
+    /// Score sets of parameters as they come: JSON lines on standard input and output.
+    Serve(ServeArgs),
     /// Show every scene in pictures: the instant, the truth, the velocity, a filter's error. Writes catalogue.md.
     Catalogue(CatalogueArgs),
     /// Make a scene folder of an OBJ file: camera, floor, wall, and motion as asked.

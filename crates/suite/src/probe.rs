@@ -91,7 +91,7 @@ fn input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
 }
 
 /// Three planes to an image; the last is filled up with zeros.
-fn pack(planes: &[Plane]) -> Vec<Image> {
+pub(crate) fn pack(planes: &[Plane]) -> Vec<Image> {
     planes
         .chunks(3)
         .map(|chunk| {
@@ -109,7 +109,7 @@ fn pack(planes: &[Plane]) -> Vec<Image> {
         .collect()
 }
 
-fn unpack(images: &[Image], count: usize) -> Vec<Plane> {
+pub(crate) fn unpack(images: &[Image], count: usize) -> Vec<Plane> {
     (0..count)
         .map(|plane| images[plane / 3].map(|pixel| pixel[plane % 3]))
         .collect()

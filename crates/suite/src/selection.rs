@@ -8,6 +8,7 @@ use tracer::{Scene, list_scenes, load_scene};
 use crate::Error;
 
 /// A filter with one set of parameters.
+#[derive(Clone)]
 pub struct FilterChoice {
     /// The filter.
     pub filter: Filter,

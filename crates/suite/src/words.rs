@@ -65,6 +65,14 @@ pub fn noise(text: &str) -> Result<f64, String> {
     }
 }
 
+/// `1.2x` as 1.2.
+pub fn ratio(text: &str) -> Result<f64, String> {
+    match text.strip_suffix('x').unwrap_or(text).parse::<f64>() {
+        Ok(ratio) if ratio > 0.0 && ratio.is_finite() => Ok(ratio),
+        _ => Err("allowed is a ratio above 0, such as 1.0x".to_owned()),
+    }
+}
+
 /// `20deg/frame` as 20.
 pub fn degrees_per_frame(text: &str) -> Result<f64, String> {
     speed(text, "deg/frame", "20deg/frame")
@@ -139,6 +147,16 @@ mod tests {
             assert!(noise(wrong).is_err(), "{wrong} must be refused");
         }
     }
+
+    #[test]
+    fn a_ratio_is_above_zero() {
+        assert_eq!(ratio("1.25x"), Ok(1.25));
+        assert_eq!(ratio("2"), Ok(2.0));
+        for wrong in ["0x", "-1x", "x", "nan", "infx", "1.0 x"] {
+            assert!(ratio(wrong).unwrap_err().contains("1.0x"), "{wrong}");
+        }
+    }
+
     #[test]
     fn a_speed_has_its_unit() {
         assert_eq!(degrees_per_frame("-7.5deg/frame"), Ok(-7.5));

@@ -6,6 +6,7 @@ mod blur;
 mod calibrate;
 mod catalogue;
 mod check;
+mod evaluate;
 mod import;
 mod list;
 mod measure;
@@ -13,6 +14,8 @@ mod merge;
 mod render;
 mod run;
 mod score;
+mod serve;
+mod tune;
 
 use std::io::{ErrorKind, Write};
 
@@ -41,13 +44,22 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         Some(Command::Blur(args)) => blur::execute(&args),
         Some(Command::Score(args)) => score::execute(&args),
         Some(Command::Bench(args)) => bench::execute(&args),
+        Some(Command::Tune(args)) => {
+            with_threads(args.candidate.scenes.threads, || tune::execute(&args))
+        }
+        Some(Command::Evaluate(args)) => {
+            with_threads(args.candidate.scenes.threads, || evaluate::execute(&args))
+        }
+        Some(Command::Serve(args)) => {
+            with_threads(args.candidate.scenes.threads, || serve::execute(&args))
+        }
         Some(Command::Catalogue(args)) => {
             with_threads(args.measure.scenes.threads, || catalogue::execute(&args))
         }
         Some(Command::Import(args)) => import::execute(&args),
         Some(Command::List(args)) => list::execute(&args),
         None => Err(Error::Usage(
-            "no command given; allowed: run, check, accept, calibrate, render, merge, blur, score, bench, catalogue, import, list (see --help)"
+            "no command given; allowed: run, check, accept, calibrate, render, merge, blur, score, bench, tune, evaluate, serve, catalogue, import, list (see --help)"
                 .to_owned(),
         )),
     }

@@ -1,0 +1,194 @@
+//! `shuttertruth serve`
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::io::BufRead;
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+use filters::Value;
+use serde::Deserialize;
+use serde_json::json;
+use suite::{Error, Evaluator, Objective, SceneScore, answer, evaluator, shots};
+
+use super::evaluate::changed;
+use super::say;
+use super::tune::{open, render, scenes, select_candidate};
+use crate::cli::ServeArgs;
+
+/// One line of standard input.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, untagged)]
+enum Request {
+    /// `{"id": 7, "params": {"samples": 12}, "scenes": ["fan"]}`; no `scenes` are all.
+    Score {
+        id: u64,
+        params: BTreeMap<String, Value>,
+        #[serde(default)]
+        scenes: Option<Vec<String>>,
+    },
+    /// `{"cancel": 7}`
+    Cancel { cancel: u64 },
+}
+
+/// Answers until standard input ends and all is answered.
+pub fn execute(args: &ServeArgs) -> Result<(), Error> {
+    let candidate = &args.candidate;
+    let choice = select_candidate(candidate)?;
+    let scenes = scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
+    let gpu = open(&choice, candidate)?;
+    let args = &candidate.scenes;
+    let shots = shots(&scenes, &choice, &render(candidate)?, &args.out, args.quiet)?;
+    let bleed = candidate.objective.contains(&Objective::Bleed);
+    let mut service = Service {
+        evaluator: evaluator(&shots, &choice, gpu.as_ref(), bleed)?,
+        cost: candidate.objective.contains(&Objective::Cost),
+        inbox: Inbox {
+            lines: lines(),
+            waiting: VecDeque::new(),
+            cancelled: BTreeSet::new(),
+        },
+    };
+    let names: Vec<&String> = shots.iter().map(|shot| &shot.name).collect();
+    line(json!({"ready": true, "filter": choice.filter.name, "scenes": names}))?;
+    while let Some(request) = service.inbox.next()? {
+        service.answer(request)?;
+    }
+    Ok(())
+}
+
+struct Service<'a> {
+    evaluator: Evaluator<'a>,
+    cost: bool,
+    inbox: Inbox,
+}
+
+/// Requests that are not yet answered.
+struct Inbox {
+    lines: Receiver<String>,
+    waiting: VecDeque<Scoring>,
+    cancelled: BTreeSet<u64>,
+}
+
+/// What is to be scored.
+struct Scoring {
+    id: u64,
+    params: BTreeMap<String, Value>,
+    scenes: Option<Vec<String>>,
+}
+
+impl Service<'_> {
+    /// Scores one candidate, scene by scene, and sums up; a request that cannot be answered gets an error and ends nothing.
+    fn answer(&mut self, request: Scoring) -> Result<(), Error> {
+        let id = request.id;
+        if self.inbox.cancelled.remove(&id) {
+            return line(json!({"id": id, "cancelled": true}));
+        }
+        let known: Vec<String> = (self.evaluator.targets.iter())
+            .map(|target| target.shot.name.clone())
+            .collect();
+        let found = scene_indices(&known, request.scenes).and_then(|scenes| {
+            let settings = changed(&self.evaluator.choice, request.params)?;
+            let inbox = &mut self.inbox;
+            answer(
+                &mut self.evaluator,
+                &settings,
+                &scenes,
+                self.cost,
+                |scene, score| heard(inbox, id, &known[scene], score),
+            )
+        });
+        match found {
+            Ok(answer) => line(json!({"id": id, "done": answer})),
+            Err(_) if self.inbox.cancelled.remove(&id) => {
+                line(json!({"id": id, "cancelled": true}))
+            }
+            Err(error) if error.exit_code() == 130 => Err(error),
+            Err(error) => line(json!({"id": id, "error": error.to_string()})),
+        }
+    }
+}
+
+/// Tells of one scene; false where nobody wants to hear more.
+fn heard(inbox: &mut Inbox, id: u64, scene: &str, score: &SceneScore) -> bool {
+    let told = line(json!({"id": id, "scene": scene, "flip": score.flip, "bleed": score.bleed}));
+    told.is_ok() && inbox.read().is_ok() && !inbox.cancelled.contains(&id)
+}
+
+impl Inbox {
+    /// The next request; none where standard input has ended.
+    fn next(&mut self) -> Result<Option<Scoring>, Error> {
+        self.read()?;
+        while self.waiting.is_empty() {
+            match self.lines.recv() {
+                Ok(text) => self.take(&text)?,
+                Err(_) => return Ok(None),
+            }
+        }
+        Ok(self.waiting.pop_front())
+    }
+
+    /// Takes in whatever has arrived.
+    fn read(&mut self) -> Result<(), Error> {
+        loop {
+            match self.lines.try_recv() {
+                Ok(text) => self.take(&text)?,
+                Err(TryRecvError::Empty | TryRecvError::Disconnected) => return Ok(()),
+            }
+        }
+    }
+
+    fn take(&mut self, text: &str) -> Result<(), Error> {
+        if text.trim().is_empty() {
+            return Ok(());
+        }
+        match serde_json::from_str(text) {
+            Ok(Request::Score { id, params, scenes }) => {
+                self.waiting.push_back(Scoring { id, params, scenes });
+                Ok(())
+            }
+            Ok(Request::Cancel { cancel }) => {
+                self.cancelled.insert(cancel);
+                Ok(())
+            }
+            Err(_) => line(json!({
+                "error": format!(
+                    "{text}: allowed are {{\"id\": 7, \"params\": {{\"samples\": 12}}, \"scenes\": [\"fan\"]}} and \
+                     {{\"cancel\": 7}}, each on a line of its own"
+                )
+            })),
+        }
+    }
+}
+
+fn scene_indices(known: &[String], names: Option<Vec<String>>) -> Result<Vec<usize>, Error> {
+    let Some(names) = names else {
+        return Ok((0..known.len()).collect());
+    };
+    (names.iter())
+        .map(|name| {
+            let index = known.iter().position(|it| it == name);
+            index.ok_or_else(|| {
+                Error::Usage(format!(
+                    "scenes: \"{name}\" was not loaded; allowed: {}",
+                    known.join(", ")
+                ))
+            })
+        })
+        .collect()
+}
+
+/// Standard input, read while scenes are scored.
+fn lines() -> Receiver<String> {
+    let (sender, receiver) = channel();
+    std::thread::spawn(move || {
+        for text in std::io::stdin().lock().lines().map_while(Result::ok) {
+            if sender.send(text).is_err() {
+                return;
+            }
+        }
+    });
+    receiver
+}
+
+fn line(value: serde_json::Value) -> Result<(), Error> {
+    say(&format!("{value}\n"))
+}

@@ -1,0 +1,173 @@
+//! `shuttertruth tune`
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use filters::Gpu;
+use suite::{
+    Error, FilterChoice, Objective, RenderSettings, SceneBounds, Space, TunePlan, Tuning,
+    compare_paired, evaluator, interleaved, open_gpu, paired_table, preset_text, read_bounds,
+    select_filters, select_scenes, shots, tune, tuning_table,
+};
+use tracer::Scene;
+
+use super::{render_settings, say};
+use crate::cli::{CandidateArgs, TuneArgs};
+
+/// Tunes, writes `journal.jsonl`, `tune.json` and the choice's values; or compares two presets.
+pub fn execute(args: &TuneArgs) -> Result<(), Error> {
+    let candidate = &args.candidate;
+    let choice = select_candidate(candidate)?;
+    match args.compare.as_slice() {
+        [] => run(args, choice),
+        [first, second] => compare(candidate, choice, [first, second]),
+        other => Err(Error::Usage(format!(
+            "--compare {}: allowed are two presets, such as --compare paper,tuned",
+            other.join(",")
+        ))),
+    }
+}
+
+fn run(args: &TuneArgs, choice: FilterChoice) -> Result<(), Error> {
+    let plan = plan(args, choice)?;
+    plan.check()?;
+    let gpu = open(&plan.choice, &args.candidate)?;
+    let began = Instant::now();
+    let mut tried = 0;
+    let tuning = tune(&plan, gpu.as_ref(), |trial| {
+        tried += 1;
+        if !plan.quiet {
+            let error = trial
+                .error
+                .map_or("failed".to_owned(), |it| format!("{it:+.4}"));
+            eprint!("\rtrial {}: {error}   ", trial.trial);
+        }
+    })?;
+    if !plan.quiet {
+        let seconds = began.elapsed().as_secs_f64();
+        eprintln!("\r{tried} trials in {seconds:.1} s");
+    }
+    say(&write(&tuning, &plan)?)
+}
+
+fn plan(args: &TuneArgs, choice: FilterChoice) -> Result<TunePlan, Error> {
+    let candidate = &args.candidate;
+    let scene_args = &candidate.scenes;
+    let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;
+    let sealed = match args.sealed.as_slice() {
+        [] => Vec::new(),
+        words => scenes(&scene_args.scenes_dir, words)?,
+    };
+    let mut open = scenes(&scene_args.scenes_dir, &scene_args.scenes)?;
+    if scene_args.scenes.is_empty() {
+        // Every scene means every one that is not sealed.
+        open.retain(|(scene, _)| sealed.iter().all(|(other, _)| other.name != scene.name));
+    }
+    let mut sealed_args = scene_args.clone();
+    sealed_args.samples_per_pixel = args.sealed_samples_per_pixel;
+    Ok(TunePlan {
+        choice,
+        space,
+        scenes: interleaved(open),
+        sealed,
+        render: render(candidate)?,
+        sealed_render: render_settings(
+            &sealed_args,
+            args.sealed_size,
+            RenderSettings::default().replicates,
+        )?,
+        objectives: candidate.objective.clone(),
+        cost_at_most: args.cost_at_most,
+        bleed_at_most: args.bleed_at_most,
+        budget: args.budget,
+        time: args.minutes.map(|it| Duration::from_secs_f64(60.0 * it)),
+        race: !args.no_race,
+        seed: args.search_seed,
+        out: scene_args.out.clone(),
+        quiet: scene_args.quiet,
+    })
+}
+
+/// Writes what was found and returns what is printed.
+fn write(tuning: &Tuning, plan: &TunePlan) -> Result<String, Error> {
+    let pretty = |json: Result<String, serde_json::Error>| json.expect("a tuning is plain data");
+    let write = |name: &str, text: &str| {
+        frame::write_atomically(&plan.out.join(name), text.as_bytes()).map_err(Error::from)
+    };
+    write("tune.json", &pretty(serde_json::to_string_pretty(tuning)))?;
+    write(
+        "params.json",
+        &pretty(serde_json::to_string_pretty(&tuning.values)),
+    )?;
+    let doc = format!(
+        "Tuned from {} with {} trials on {} scenes.",
+        tuning.journal.start,
+        tuning.trials,
+        tuning.journal.scenes.len()
+    );
+    let parameters = &plan.choice.filter.parameters;
+    let preset = preset_text("tuned", &doc, &tuning.values, parameters);
+    write("preset.toml", &preset)?;
+    Ok(format!(
+        "{}\nwritten: {} (the choice: params.json, preset.toml)\n",
+        tuning_table(tuning),
+        plan.out.join("tune.json").display()
+    ))
+}
+
+fn compare(args: &CandidateArgs, choice: FilterChoice, presets: [&String; 2]) -> Result<(), Error> {
+    let [first, second] = presets.map(|preset| choice.filter.settings(Some(preset)));
+    let (first, second) = (first?, second?);
+    let scenes = scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
+    let gpu = open(&choice, args)?;
+    let shots = shots(
+        &scenes,
+        &choice,
+        &render(args)?,
+        &args.scenes.out,
+        args.scenes.quiet,
+    )?;
+    let bleed = args.objective.contains(&Objective::Bleed);
+    let mut evaluator = evaluator(&shots, &choice, gpu.as_ref(), bleed)?;
+    let paired = compare_paired(&mut evaluator, &first, &second)?;
+    let names = presets.map(|preset| preset.as_str());
+    let json = serde_json::to_string_pretty(&paired).expect("a comparison is plain data");
+    let path = args.scenes.out.join("compare.json");
+    frame::write_atomically(&path, json.as_bytes())?;
+    say(&format!(
+        "{}\nwritten: {}\n",
+        paired_table(&paired, names),
+        path.display()
+    ))
+}
+
+/// The filter with the preset to start from.
+pub fn select_candidate(args: &CandidateArgs) -> Result<FilterChoice, Error> {
+    let words = [args.filter.clone()];
+    Ok(select_filters(&words, args.from.as_deref(), &[])?.remove(0))
+}
+
+/// How scenes are rendered.
+pub fn render(args: &CandidateArgs) -> Result<RenderSettings, Error> {
+    render_settings(
+        &args.scenes,
+        args.size,
+        RenderSettings::default().replicates,
+    )
+}
+
+/// The adapter, where the filter needs one.
+pub fn open(choice: &FilterChoice, args: &CandidateArgs) -> Result<Option<Gpu>, Error> {
+    let adapter = args.adapter.adapter.as_deref();
+    Ok(open_gpu(std::slice::from_ref(choice), adapter)?)
+}
+
+/// Scenes with their bounds.
+pub fn scenes(root: &Path, words: &[String]) -> Result<Vec<(Scene, SceneBounds)>, Error> {
+    (select_scenes(root, words)?.into_iter())
+        .map(|choice| {
+            let bounds = read_bounds(root, &choice.folder)?;
+            Ok((choice.scene, bounds))
+        })
+        .collect()
+}

@@ -1,0 +1,49 @@
+//! What a candidate costs beside the values that tuning starts from.
+
+use filters::{Blur, FilterError, Gpu, Input, Settings};
+use frame::Frame;
+
+use crate::FilterChoice;
+
+/// Rounds of one candidate and the start in turn; odd, so that the median is one of them.
+const ROUNDS: usize = 5;
+
+/// A filter to be timed on one frame.
+pub struct Stopwatch<'a> {
+    /// What it runs on.
+    pub gpu: &'a Gpu,
+    /// The filter, with the values that cost 1.
+    pub choice: &'a FilterChoice,
+    /// What it is given.
+    pub frame: &'a Frame,
+}
+
+impl Stopwatch<'_> {
+    /// GPU time of all passes over that of the start, in turns: the median of the rounds' ratios. A round before the first is
+    /// not counted.
+    pub fn ratio(&self, settings: &Settings) -> Result<f64, FilterError> {
+        let (width, height) = self.frame.size();
+        let blur = |settings| Blur::new(self.gpu, &self.choice.filter, settings, width, height);
+        let input = Input {
+            color: &[&self.frame.color],
+            velocity: &self.frame.velocity,
+            depth: &self.frame.depth,
+            reprojection: Some(self.frame.reprojection),
+            exposure: self.frame.exposure,
+            frame_index: 0,
+        };
+        let (mut start, mut candidate) = (blur(&self.choice.settings)?, blur(settings)?);
+        let (start, candidate) = (start.load(&input)?, candidate.load(&input)?);
+        let mut ratios = Vec::new();
+        for round in 0..=ROUNDS {
+            let [before, own] = [&start, &candidate].map(|it| {
+                let passes = it.time()?;
+                Ok::<f64, FilterError>(passes.iter().map(|pass| pass.seconds).sum())
+            });
+            let ratio = own? / before?;
+            ratios.extend((round > 0).then_some(ratio));
+        }
+        ratios.sort_by(f64::total_cmp);
+        Ok(ratios[ROUNDS / 2])
+    }
+}

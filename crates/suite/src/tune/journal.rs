@@ -1,0 +1,148 @@
+//! Every trial as a line of a file, written before the next one begins.
+
+use std::collections::BTreeMap;
+use std::fs::{File, OpenOptions};
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use filters::Value;
+use frame::FileError;
+use serde::{Deserialize, Serialize};
+
+use super::Trial;
+use crate::Error;
+
+/// Version of the layout of a journal.
+pub const JOURNAL_FORMAT: u32 = 1;
+
+/// The first line: all that trials depend on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Header {
+    /// [`JOURNAL_FORMAT`].
+    pub format: u32,
+    /// Program name and version.
+    pub program: String,
+    /// Filter name.
+    pub filter: String,
+    /// The preset that tuning started from.
+    pub start: String,
+    /// Its value of every parameter.
+    pub values: BTreeMap<String, Value>,
+    /// What may change, with its range in words.
+    pub vary: BTreeMap<String, String>,
+    /// The points that the search begins with, one coordinate per line of `vary` in the order of the filter's parameters.
+    pub design: Vec<Vec<f64>>,
+    /// Scene names in the order in which candidates meet them, each with the content hash of its truth.
+    pub scenes: Vec<(String, String)>,
+    /// What is measured: `flip`, `bleed`, `cost`.
+    pub objectives: Vec<String>,
+    /// The largest cost, as a ratio to the start's.
+    pub cost_at_most: Option<f64>,
+    /// The largest bleed of the worst scene, as a ratio to the start's.
+    pub bleed_at_most: Option<f64>,
+    /// Whether candidates that are clearly worse are dropped.
+    pub race: bool,
+    /// Of the search's randomness.
+    pub seed: u64,
+}
+
+/// A journal that can be appended to.
+pub struct Journal {
+    path: PathBuf,
+    file: File,
+    /// All trials that it holds.
+    pub trials: Vec<Trial>,
+}
+
+impl Journal {
+    /// Opens the journal at `path`, or begins it. A line that a killed process left half written is cut off: its trial is
+    /// done again. Refuses a journal that another command began.
+    pub fn open(path: &Path, header: &Header) -> Result<Self, Error> {
+        let fail = |action, source| FileError::Io {
+            path: path.to_owned(),
+            action,
+            source,
+        };
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|error| fail("write", error))?;
+        }
+        let mut options = OpenOptions::new();
+        let mut file = (options.read(true).write(true).create(true).truncate(false))
+            .open(path)
+            .map_err(|error| fail("write", error))?;
+        let mut text = String::new();
+        file.read_to_string(&mut text)
+            .map_err(|error| fail("read", error))?;
+        let whole = text.rfind('\n').map_or(0, |end| end + 1);
+        file.set_len(whole as u64)
+            .and_then(|()| file.seek(SeekFrom::End(0)))
+            .map_err(|error| fail("write", error))?;
+        let mut journal = Self {
+            path: path.to_owned(),
+            file,
+            trials: Vec::new(),
+        };
+        let mut lines = text[..whole].lines().enumerate();
+        match lines.next() {
+            None => journal.write(header)?,
+            Some((_, line)) => check_header(path, line, header)?,
+        }
+        for (index, line) in lines {
+            let trial: Trial = serde_json::from_str(line)
+                .map_err(|error| refuse(path, index, &format!("no trial: {error}")))?;
+            if trial.trial != journal.trials.len() {
+                let found = format!("trial {}, expected {}", trial.trial, journal.trials.len());
+                return Err(refuse(path, index, &found));
+            }
+            journal.trials.push(trial);
+        }
+        Ok(journal)
+    }
+
+    /// Writes a trial, down to the disk.
+    pub fn append(&mut self, trial: Trial) -> Result<(), Error> {
+        self.write(&trial)?;
+        self.trials.push(trial);
+        Ok(())
+    }
+
+    fn write(&mut self, line: &impl Serialize) -> Result<(), Error> {
+        let mut text = serde_json::to_string(line).expect("a line is plain data");
+        text.push('\n');
+        let written = (self.file.write_all(text.as_bytes())).and_then(|()| self.file.sync_data());
+        written.map_err(|source: io::Error| {
+            Error::Usage(format!(
+                "{}: cannot be written: {source}; its {} whole trials are safe: make room and run the same command again, \
+                 which goes on after them",
+                self.path.display(),
+                self.trials.len()
+            ))
+        })
+    }
+}
+
+fn refuse(path: &Path, index: usize, reason: &str) -> Error {
+    Error::Usage(format!(
+        "{}:{}: {reason}; choose another --out, or delete the file to begin anew",
+        path.display(),
+        index + 1
+    ))
+}
+
+/// Names the first thing that differs.
+fn check_header(path: &Path, line: &str, expected: &Header) -> Result<(), Error> {
+    let found: serde_json::Value = serde_json::from_str(line)
+        .map_err(|error| refuse(path, 0, &format!("no journal of a tuning: {error}")))?;
+    let expected = serde_json::to_value(expected).expect("a header is plain data");
+    let fields = expected.as_object().expect("a header is a table");
+    for (name, expected) in fields {
+        let found = &found[name];
+        if found != expected {
+            let reason = format!(
+                "it was begun with another {name}: found {found}, this command has {expected}"
+            );
+            return Err(refuse(path, 0, &reason));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,146 @@
+//! Which trial becomes the choice.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use filters::Settings;
+use serde::{Deserialize, Serialize};
+
+use super::loss::{log_ratio, mean_log_ratio};
+use super::{SceneScore, Space, Trial};
+
+/// What the choice has to keep.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Limits {
+    /// GPU time over that of the start.
+    pub cost: Option<f64>,
+    /// Bleed of the worst scene, in pixels.
+    pub bleed: Option<f64>,
+}
+
+impl Limits {
+    /// Whether a trial ran everywhere and keeps the limits.
+    pub fn allow(&self, trial: &Trial) -> bool {
+        let kept = |value: Option<f64>, limit: Option<f64>| match limit {
+            Some(limit) => value.is_some_and(|value| value <= limit),
+            None => true,
+        };
+        // The start defines what the limits are relative to; noise of a clock does not put it out.
+        let is_start = trial.trial == 0;
+        trial.is_done()
+            && (is_start || kept(trial.cost, self.cost) && kept(trial.bleed, self.bleed))
+    }
+}
+
+/// The trial that the one-standard-error rule takes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Choice {
+    /// Its number.
+    pub trial: usize,
+    /// The number of the trial with the least loss.
+    pub best: usize,
+    /// Standard error of the best one's mean over scenes of log(error / error of the start).
+    pub standard_error: f64,
+}
+
+/// Of the trials within limits, whose mean over the scenes that `counts` takes is no more than one standard error above the
+/// best one's, the one nearest to the start: what the scenes cannot tell apart is decided for what there was (Breiman,
+/// Friedman, Olshen and Stone, "Classification and Regression Trees", 1984, section 3.4.3). None where no scene counts.
+pub fn choose(
+    trials: &[Trial],
+    space: &Space,
+    limits: Limits,
+    counts: impl Fn(&str) -> bool,
+) -> Option<Choice> {
+    let start = &trials.first()?.scenes;
+    let allowed: Vec<(&Trial, f64)> = (trials.iter())
+        .filter(|trial| limits.allow(trial))
+        .map(|trial| Some((trial, mean_log_ratio(&trial.scenes, start, &counts)?)))
+        .collect::<Option<_>>()?;
+    let (best, least) = (allowed.iter().copied()).min_by(|(_, a), (_, b)| a.total_cmp(b))?;
+    let standard_error = standard_error(best, start, &counts);
+    let distance = |trial: &Trial| space.distance(&settings(space, trial), &space.start);
+    let (chosen, _) = (allowed.iter())
+        .filter(|(_, error)| *error <= least + standard_error)
+        .min_by(|(a, a_error), (b, b_error)| {
+            let nearer = distance(a).total_cmp(&distance(b));
+            nearer.then(a_error.total_cmp(b_error))
+        })?;
+    Some(Choice {
+        trial: chosen.trial,
+        best: best.trial,
+        standard_error,
+    })
+}
+
+/// A trial's values with those that all share.
+pub fn settings(space: &Space, trial: &Trial) -> Settings {
+    let mut settings = space.start.clone();
+    settings.values.extend(trial.values.clone());
+    settings
+}
+
+/// 0 of a single scene, which says nothing about others.
+fn standard_error(
+    trial: &Trial,
+    start: &BTreeMap<String, SceneScore>,
+    counts: &impl Fn(&str) -> bool,
+) -> f64 {
+    let scenes = trial.scenes.iter().filter(|(scene, _)| counts(scene));
+    let ratios: Vec<f64> = scenes
+        .map(|(scene, score)| log_ratio(score, &start[scene]))
+        .collect();
+    if ratios.len() < 2 {
+        return 0.0;
+    }
+    let count = ratios.len() as f64;
+    let mean = ratios.iter().sum::<f64>() / count;
+    let squares: f64 = ratios.iter().map(|it| (it - mean).powi(2)).sum();
+    (squares / (count - 1.0) / count).sqrt()
+}
+
+/// How a choice that was made without one family of scenes does on it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Fold {
+    /// The family that was left out.
+    pub family: String,
+    /// How many scenes it has.
+    pub scenes: usize,
+    /// The trial that the other families choose.
+    pub trial: usize,
+    /// Its mean log(error / error of the start) on the others.
+    pub others: f64,
+    /// The same on the family that was left out.
+    pub held_out: f64,
+    /// `held_out - others`: above 0, the choice is worse where it was not chosen for.
+    pub gap: f64,
+}
+
+/// Leaves each family out of the choice in turn; nothing of a single family. The trials themselves were searched for on all
+/// scenes: what the folds tell is the overfit of the choice among them, and a sealed set tells that of the search as well.
+pub fn folds(
+    trials: &[Trial],
+    space: &Space,
+    limits: Limits,
+    families: &BTreeMap<&str, Vec<&str>>,
+) -> Vec<Fold> {
+    if families.len() < 2 {
+        return Vec::new();
+    }
+    let fold = |(family, scenes): (&&str, &Vec<&str>)| {
+        let held: BTreeSet<&str> = scenes.iter().copied().collect();
+        let choice = choose(trials, space, limits, |scene| !held.contains(scene))?;
+        let start = &trials[0].scenes;
+        let chosen = &trials[choice.trial].scenes;
+        let others = mean_log_ratio(chosen, start, |scene| !held.contains(scene))?;
+        let held_out = mean_log_ratio(chosen, start, |scene| held.contains(scene))?;
+        Some(Fold {
+            family: family.to_string(),
+            scenes: scenes.len(),
+            trial: choice.trial,
+            others,
+            held_out,
+            gap: held_out - others,
+        })
+    };
+    families.iter().filter_map(fold).collect()
+}

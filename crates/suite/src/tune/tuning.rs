@@ -1,0 +1,370 @@
+//! The main loop: ask, try, write down, tell.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::Instant;
+
+use filters::{FilterError, Gpu, Settings, Value};
+use serde::{Deserialize, Serialize};
+use tracer::{Scene, TraceError};
+
+use super::compare::compare_paired;
+use super::cost::Stopwatch;
+use super::journal::{Header, JOURNAL_FORMAT, Journal};
+use super::loss::{FAILED, bounds_penalty, log_ratio, mean_log_ratio, penalty, worst_bleed};
+use super::plan::{Objective, TunePlan};
+use super::sealed::{Opening, record};
+use super::selection::{Choice, Fold, Limits, choose, folds, settings};
+use super::wilcoxon::probability_not_above;
+use super::{Evaluator, SceneScore, Search, Shot, Target, Trial, TrialOutcome, front};
+use crate::bounds::SceneBounds;
+use crate::progress::interrupted;
+use crate::{Error, FilterChoice, PROGRAM, RenderSettings};
+
+/// Version of the layout of `tune.json`.
+pub const TUNE_FORMAT: u32 = 1;
+
+/// Scenes that a candidate runs on before it can be dropped.
+const RACE_FROM: usize = 6;
+/// How many more before it is looked at again: as many as are worked on at once.
+const RACE_STEP: usize = 2;
+/// A candidate is dropped where it would lean this far to the worse side by chance less often than this.
+const RACE_LEVEL: f64 = 0.1;
+
+/// A finished tuning: `tune.json`.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Tuning {
+    /// [`TUNE_FORMAT`].
+    pub format: u32,
+    /// What the trials depended on.
+    pub journal: Header,
+    /// How many there were.
+    pub trials: usize,
+    /// How many of them were dropped.
+    pub dropped: usize,
+    /// Those that did not run, with the reason.
+    pub failed: BTreeMap<usize, String>,
+    /// The start.
+    pub start: Trial,
+    /// What no other trial beats in everything, by their error.
+    pub front: Vec<Trial>,
+    /// What became of it.
+    pub choice: Choice,
+    /// The choice.
+    pub chosen: Trial,
+    /// The choice's value of every parameter: what `evaluate --params` reads.
+    pub values: BTreeMap<String, Value>,
+    /// How a choice without one family does on it.
+    pub folds: Vec<Fold>,
+    /// Looks at the sealed scenes, the last one at this choice; empty where there are none.
+    pub openings: Vec<Opening>,
+}
+
+/// Tunes, and writes the journal; `told` hears every trial that is done.
+pub fn tune(
+    plan: &TunePlan,
+    gpu: Option<&Gpu>,
+    mut told: impl FnMut(&Trial),
+) -> Result<Tuning, Error> {
+    plan.check()?;
+    let began = Instant::now();
+    let shots = shots(
+        &plan.scenes,
+        &plan.choice,
+        &plan.render,
+        &plan.out,
+        plan.quiet,
+    )?;
+    let mut evaluator = evaluator(&shots, &plan.choice, gpu, plan.measures(Objective::Bleed))?;
+    let search = search(plan)?;
+    let header = header(plan, &evaluator, &search);
+    let mut journal = Journal::open(&plan.out.join("journal.jsonl"), &header)?;
+    recall(&mut evaluator, plan, &journal.trials);
+    while journal.trials.len() < plan.budget {
+        if interrupted() {
+            return Err(TraceError::Cancelled.into());
+        }
+        let over = plan.time.is_some_and(|time| began.elapsed() >= time);
+        if over && !journal.trials.is_empty() {
+            break;
+        }
+        let trial = next(plan, &mut evaluator, &search, &journal.trials)?;
+        told(&trial);
+        journal.append(trial)?;
+    }
+    let mut tuning = conclude(plan, header, &journal.trials)?;
+    if !plan.sealed.is_empty() {
+        tuning.openings = open(plan, gpu, &tuning.values)?;
+    }
+    Ok(tuning)
+}
+
+/// Frames and truths of scenes, for the filter's alignment.
+pub fn shots(
+    scenes: &[(Scene, SceneBounds)],
+    choice: &FilterChoice,
+    render: &RenderSettings,
+    out: &Path,
+    quiet: bool,
+) -> Result<Vec<Shot>, Error> {
+    let alignment = choice.filter.alignment;
+    (scenes.iter())
+        .map(|(scene, bounds)| Shot::new((scene, bounds.clone()), alignment, render, out, quiet))
+        .collect()
+}
+
+/// A filter on shots, nothing measured yet.
+pub fn evaluator<'a>(
+    shots: &'a [Shot],
+    choice: &FilterChoice,
+    gpu: Option<&'a Gpu>,
+    bleed: bool,
+) -> Result<Evaluator<'a>, Error> {
+    let targets = (shots.iter())
+        .map(|shot| Target::new(shot, &choice.filter.name, &choice.preset))
+        .collect::<Result<_, _>>()?;
+    Ok(Evaluator::new(gpu, choice.clone(), targets, bleed))
+}
+
+/// The start, the other presets, and what follows.
+fn search(plan: &TunePlan) -> Result<Search, Error> {
+    let mut points = vec![plan.space.point(&plan.space.start)];
+    for preset in &plan.choice.filter.presets {
+        let point = plan
+            .space
+            .point(&plan.choice.filter.settings(Some(&preset.name))?);
+        if !points.contains(&point) {
+            points.push(point);
+        }
+    }
+    Ok(Search::new(points, plan.space.axes.len(), plan.seed))
+}
+
+fn header(plan: &TunePlan, evaluator: &Evaluator, search: &Search) -> Header {
+    let scene = |target: &Target| {
+        let hash = &target.shot.truth.provenance.content_hash;
+        (target.shot.name.clone(), hash.clone())
+    };
+    let axis = |axis: &filters::Parameter| (axis.name.clone(), axis.kind.allowed());
+    Header {
+        format: JOURNAL_FORMAT,
+        program: PROGRAM.to_owned(),
+        filter: plan.choice.filter.name.clone(),
+        start: plan.choice.preset.clone(),
+        values: plan.space.start.values.clone(),
+        vary: plan.space.axes.iter().map(axis).collect(),
+        design: search.design.clone(),
+        scenes: evaluator.targets.iter().map(scene).collect(),
+        objectives: (plan.objectives.iter())
+            .map(|objective| objective.name().to_owned())
+            .collect(),
+        cost_at_most: plan.cost_at_most,
+        bleed_at_most: plan.bleed_at_most,
+        race: plan.race,
+        seed: plan.seed,
+    }
+}
+
+/// What a journal knows need not be measured again.
+fn recall(evaluator: &mut Evaluator, plan: &TunePlan, trials: &[Trial]) {
+    for trial in trials {
+        let settings = settings(&plan.space, trial);
+        for (scene, score) in &trial.scenes {
+            evaluator.remember(&settings, scene, *score);
+        }
+    }
+}
+
+/// Asks for the next candidate and tries it.
+fn next(
+    plan: &TunePlan,
+    evaluator: &mut Evaluator,
+    search: &Search,
+    trials: &[Trial],
+) -> Result<Trial, Error> {
+    let losses: Vec<f64> = trials.iter().map(|trial| trial.loss).collect();
+    let settings = match trials.len() {
+        0 => plan.space.start.clone(),
+        _ => plan.space.settings(&search.ask(&losses)),
+    };
+    let values = (plan.space.axes.iter())
+        .map(|axis| (axis.name.clone(), settings.values[&axis.name].clone()))
+        .collect();
+    let mut trial = Trial {
+        trial: trials.len(),
+        values,
+        outcome: TrialOutcome::Done,
+        loss: FAILED,
+        error: None,
+        bleed: None,
+        cost: None,
+        scenes: BTreeMap::new(),
+    };
+    match measure(plan, evaluator, trials, &settings, &mut trial) {
+        Ok(()) => Ok(trial),
+        Err(error @ (Error::Trace(_) | Error::Filter(FilterError::Interrupted))) => Err(error),
+        Err(error) if trials.is_empty() => Err(error),
+        Err(error) => {
+            trial.outcome = TrialOutcome::Failed {
+                reason: error.to_string(),
+            };
+            trial.loss = FAILED;
+            trial.error = None;
+            Ok(trial)
+        }
+    }
+}
+
+/// Runs a candidate on scene after scene, and fills in what it comes to.
+fn measure(
+    plan: &TunePlan,
+    evaluator: &mut Evaluator,
+    trials: &[Trial],
+    settings: &Settings,
+    trial: &mut Trial,
+) -> Result<(), Error> {
+    let all: Vec<usize> = (0..evaluator.targets.len()).collect();
+    let best = (trials.iter().filter(|trial| trial.is_done()))
+        .min_by(|a, b| a.loss.total_cmp(&b.loss))
+        .filter(|_| plan.race);
+    let mut met = 0;
+    while met < all.len() {
+        let until = match (best, met) {
+            (None, _) => all.len(),
+            (Some(_), 0) => RACE_FROM.min(all.len()),
+            (Some(_), _) => (met + RACE_STEP).min(all.len()),
+        };
+        let scores = evaluator.scores(settings, &all[met..until], |_, _| !interrupted())?;
+        if scores.len() < until - met {
+            return Err(TraceError::Cancelled.into());
+        }
+        for (target, score) in evaluator.targets[met..until].iter().zip(scores) {
+            trial.scenes.insert(target.shot.name.clone(), score);
+        }
+        met = until;
+        if met < all.len() && best.is_some_and(|best| is_clearly_worse(&trial.scenes, &best.scenes))
+        {
+            trial.outcome = TrialOutcome::Dropped;
+            break;
+        }
+    }
+    let start = trials.first().map_or(&trial.scenes, |trial| &trial.scenes);
+    let error = mean_log_ratio(&trial.scenes, start, |_| true).expect("there are scenes");
+    let excess: f64 = (evaluator.targets.iter())
+        .filter_map(|target| Some(target.excess(trial.scenes.get(&target.shot.name)?)))
+        .sum::<f64>()
+        / trial.scenes.len() as f64;
+    trial.error = Some(error);
+    trial.bleed = worst_bleed(&trial.scenes);
+    if plan.measures(Objective::Cost) && trial.is_done() {
+        trial.cost = Some(cost(evaluator, settings, trial, trials)?);
+    }
+    let limits = match trials.is_empty() {
+        true => Limits::default(),
+        false => limits(plan, trials),
+    };
+    trial.loss = error
+        + bounds_penalty(excess)
+        + penalty(trial.bleed, limits.bleed)
+        + penalty(trial.cost, limits.cost);
+    Ok(())
+}
+
+fn is_clearly_worse(
+    scores: &BTreeMap<String, SceneScore>,
+    best: &BTreeMap<String, SceneScore>,
+) -> bool {
+    let differences: Vec<f64> = (scores.iter())
+        .map(|(scene, score)| log_ratio(score, &best[scene]))
+        .collect();
+    probability_not_above(&differences) < RACE_LEVEL
+}
+
+/// 1 of the start; what was measured before of values that were tried before.
+fn cost(
+    evaluator: &Evaluator,
+    settings: &Settings,
+    trial: &Trial,
+    trials: &[Trial],
+) -> Result<f64, Error> {
+    let same = trials.iter().find(|other| other.values == trial.values);
+    if trials.is_empty() {
+        return Ok(1.0);
+    }
+    if let Some(cost) = same.and_then(|same| same.cost) {
+        return Ok(cost);
+    }
+    let stopwatch = Stopwatch {
+        gpu: evaluator.gpu.expect("only kernels are timed"),
+        choice: &evaluator.choice,
+        frame: &evaluator.targets[0].shot.frame,
+    };
+    Ok(stopwatch.ratio(settings)?)
+}
+
+fn limits(plan: &TunePlan, trials: &[Trial]) -> Limits {
+    Limits {
+        cost: plan.cost_at_most,
+        bleed: (plan.bleed_at_most.zip(trials[0].bleed)).map(|(ratio, start)| ratio * start),
+    }
+}
+
+/// What the trials come to.
+fn conclude(plan: &TunePlan, header: Header, trials: &[Trial]) -> Result<Tuning, Error> {
+    let limits = limits(plan, trials);
+    let choice = choose(trials, &plan.space, limits, |_| true)
+        .expect("the start is always allowed, and has scenes");
+    let done: Vec<&Trial> = trials.iter().filter(|trial| trial.is_done()).collect();
+    let rows: Vec<Vec<f64>> = done.iter().map(|trial| objectives(trial)).collect();
+    let mut front: Vec<Trial> = (front(&rows).into_iter())
+        .map(|index| done[index].clone())
+        .collect();
+    let error = |trial: &Trial| trial.error.expect("it is done");
+    front.sort_by(|a, b| error(a).total_cmp(&error(b)));
+    let failed = trials.iter().filter_map(|trial| match &trial.outcome {
+        TrialOutcome::Failed { reason } => Some((trial.trial, reason.clone())),
+        _ => None,
+    });
+    let chosen = trials[choice.trial].clone();
+    Ok(Tuning {
+        format: TUNE_FORMAT,
+        journal: header,
+        trials: trials.len(),
+        dropped: (trials.iter())
+            .filter(|trial| trial.outcome == TrialOutcome::Dropped)
+            .count(),
+        failed: failed.collect(),
+        start: trials[0].clone(),
+        front,
+        choice,
+        values: settings(&plan.space, &chosen).values,
+        chosen,
+        folds: folds(trials, &plan.space, limits, &plan.families()),
+        openings: Vec::new(),
+    })
+}
+
+/// What is measured of a trial that is done, in the same order for all.
+fn objectives(trial: &Trial) -> Vec<f64> {
+    let measured = [trial.error, trial.bleed, trial.cost];
+    measured.into_iter().flatten().collect()
+}
+
+/// Compares start and choice on the sealed scenes, and counts the look.
+fn open(
+    plan: &TunePlan,
+    gpu: Option<&Gpu>,
+    values: &BTreeMap<String, Value>,
+) -> Result<Vec<Opening>, Error> {
+    let render = &plan.sealed_render;
+    let out = plan.out.join("sealed");
+    let shots = shots(&plan.sealed, &plan.choice, render, &out, plan.quiet)?;
+    let mut evaluator = evaluator(&shots, &plan.choice, gpu, true)?;
+    let chosen = Settings {
+        values: values.clone(),
+        ..plan.space.start.clone()
+    };
+    let paired = compare_paired(&mut evaluator, &plan.space.start, &chosen)?;
+    let size = [render.width, render.height, render.samples_per_pixel];
+    record(&plan.out.join("openings.jsonl"), values, size, paired)
+}
