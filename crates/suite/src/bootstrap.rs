@@ -33,11 +33,11 @@ pub fn bootstrap_noisy(values: &[[f64; 2]], tail: f64) -> [f64; 2] {
 }
 
 /// SplitMix64 (Steele, Lea and Flood 2014): small, and the same in every version.
-struct Random(u64);
+pub(crate) struct Random(pub u64);
 
 impl Random {
     /// A number below `count`.
-    fn below(&mut self, count: usize) -> usize {
+    pub fn below(&mut self, count: usize) -> usize {
         ((u128::from(self.bits()) * count as u128) >> 64) as usize
     }
 

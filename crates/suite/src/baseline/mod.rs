@@ -13,7 +13,6 @@ use serde::{Deserialize, Serialize};
 use crate::Error;
 
 pub use accept::{Acceptance, accept};
-pub(crate) use bootstrap::bootstrap;
 pub use compare::{Comparison, ComparisonKind, compare};
 
 /// Version of the layout of a baseline.

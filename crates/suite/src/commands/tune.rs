@@ -5,9 +5,9 @@ use std::time::{Duration, Instant};
 
 use filters::Gpu;
 use suite::{
-    Error, FilterChoice, Objective, RenderSettings, SceneBounds, Space, TunePlan, Tuning,
+    Effort, Error, FilterChoice, Objective, RenderSettings, SceneBounds, Space, TunePlan, Tuning,
     compare_paired, evaluator, interleaved, open_gpu, paired_table, preset_text, read_bounds,
-    select_filters, select_scenes, shots, tune, tuning_table,
+    select_filters, select_scenes, sensitivity, sensitivity_table, shots, tune, tuning_table,
 };
 use tracer::Scene;
 
@@ -18,6 +18,13 @@ use crate::cli::{CandidateArgs, TuneArgs};
 pub fn execute(args: &TuneArgs) -> Result<(), Error> {
     let candidate = &args.candidate;
     let choice = select_candidate(candidate)?;
+    let effort = Effort {
+        trajectories: args.morris,
+        rows: args.sobol,
+    };
+    if effort != Effort::default() {
+        return study(args, choice, effort);
+    }
     match args.compare.as_slice() {
         [] => run(args, choice),
         [first, second] => compare(candidate, choice, [first, second]),
@@ -137,6 +144,31 @@ fn compare(args: &CandidateArgs, choice: FilterChoice, presets: [&String; 2]) ->
     say(&format!(
         "{}\nwritten: {}\n",
         paired_table(&paired, names),
+        path.display()
+    ))
+}
+
+fn study(args: &TuneArgs, choice: FilterChoice, effort: Effort) -> Result<(), Error> {
+    let candidate = &args.candidate;
+    let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;
+    let scenes = scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
+    let gpu = open(&choice, candidate)?;
+    let out = &candidate.scenes.out;
+    let shots = shots(
+        &scenes,
+        &choice,
+        &render(candidate)?,
+        out,
+        candidate.scenes.quiet,
+    )?;
+    let mut evaluator = evaluator(&shots, &choice, gpu.as_ref(), false)?;
+    let found = sensitivity(&mut evaluator, &space, effort, args.search_seed)?;
+    let json = serde_json::to_string_pretty(&found).expect("a study is plain data");
+    let path = out.join("sensitivity.json");
+    frame::write_atomically(&path, json.as_bytes())?;
+    say(&format!(
+        "{}\nwritten: {}\n",
+        sensitivity_table(&found),
         path.display()
     ))
 }

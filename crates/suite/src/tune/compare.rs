@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::loss::log_ratio;
 use super::{Evaluator, SceneScore};
 use crate::Error;
-use crate::baseline::bootstrap;
+use crate::bootstrap::bootstrap;
 
 /// Scores of two candidates, scene by scene, and what they come to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -22,7 +22,8 @@ pub struct Search {
     pub seed: u64,
     /// The points to begin with.
     pub design: Vec<Vec<f64>>,
-    axes: usize,
+    /// Coordinates of a point.
+    pub axes: usize,
 }
 
 impl Search {

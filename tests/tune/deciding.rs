@@ -1,0 +1,224 @@
+//! Which candidates are dropped, which one is chosen, and what is said about it.
+
+use std::collections::BTreeMap;
+
+use filters::{Filter, Value};
+use suite::{
+    Limits, Paired, Preference, SceneScore, Space, Trial, TrialOutcome, choose, folds, front,
+    probability_not_above,
+};
+
+#[test]
+fn the_signed_rank_test_has_wilcoxons_probabilities() {
+    // All six on one side: 1 of 2^6 arrangements.
+    assert_eq!(
+        probability_not_above(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]),
+        1.0 / 64.0
+    );
+    assert_eq!(
+        probability_not_above(&[-1.0, -2.0, -3.0, -4.0, -5.0, -6.0]),
+        1.0
+    );
+    // In Wilcoxon's table for n = 8, the smaller sum 5 is the last one below 5 % on one side, and 3 below 2.5 %.
+    let eight = |below: &[usize]| {
+        let rank = |rank: usize| if below.contains(&rank) { -1.0 } else { 1.0 } * rank as f64;
+        probability_not_above(&(1..=8).map(rank).collect::<Vec<_>>())
+    };
+    // Subsets of 1 to 8 with a sum of at most 3, 5 and 6.
+    assert_eq!(eight(&[3]), 5.0 / 256.0);
+    assert_eq!(eight(&[5]), 10.0 / 256.0);
+    assert_eq!(eight(&[6]), 14.0 / 256.0);
+}
+
+#[test]
+fn darwins_plants_have_the_published_probability() {
+    // Heights of crossed less self-fertilised plants, in eighths of an inch: scipy.stats.wilcoxon gives W+ = 96 and, with
+    // alternative "greater", p = 0.0206.
+    let plants = [49, -67, 8, 16, 6, 23, 28, 41, 14, 29, 56, 24, 75, 60, -48];
+    let probability = probability_not_above(&plants.map(f64::from));
+    assert!((probability - 0.0206).abs() < 1e-4, "{probability}");
+}
+
+#[test]
+fn equal_sizes_share_their_ranks_and_zeros_say_nothing() {
+    // Both ranks are 1.5: the sums 3, 1.5, 1.5 and 0 are equally likely.
+    assert_eq!(probability_not_above(&[1.0, 1.0]), 0.25);
+    assert_eq!(probability_not_above(&[1.0, -1.0]), 0.75);
+    assert_eq!(probability_not_above(&[0.0, 1.0, 0.0, -1.0]), 0.75);
+    assert_eq!(probability_not_above(&[]), 1.0);
+}
+
+#[test]
+fn the_front_holds_what_nothing_beats() {
+    let rows = [
+        [1.0, 5.0],
+        [2.0, 4.0],
+        [3.0, 4.0],
+        [4.0, 1.0],
+        [2.0, 4.0],
+        [5.0, 5.0],
+    ];
+    let rows: Vec<Vec<f64>> = rows.iter().map(|row| row.to_vec()).collect();
+    // The third is beaten by the second, the fifth equals it, the last is beaten by all.
+    assert_eq!(front(&rows), [0, 1, 3]);
+    assert!(front(&[]).is_empty());
+}
+
+/// A start with samples = 8, and trials with other numbers of samples and the given FLIP on scenes a, b, c, d.
+fn trials(rows: &[(i32, [f64; 4])]) -> Vec<Trial> {
+    (rows.iter().enumerate())
+        .map(|(trial, (samples, flips))| Trial {
+            trial,
+            values: BTreeMap::from([("samples".to_owned(), Value::Integer(*samples))]),
+            outcome: TrialOutcome::Done,
+            loss: 0.0,
+            error: None,
+            bleed: Some(f64::from(*samples) / 8.0),
+            cost: Some(f64::from(*samples) / 8.0),
+            scenes: (["a", "b", "c", "d"].iter().zip(flips))
+                .map(|(name, flip)| {
+                    (
+                        name.to_string(),
+                        SceneScore {
+                            flip: *flip,
+                            bleed: None,
+                        },
+                    )
+                })
+                .collect(),
+        })
+        .collect()
+}
+
+fn space() -> Space {
+    let filter = Filter::builtin("jump_flood").unwrap();
+    let start = filter.settings(Some("paper")).unwrap();
+    Space::new(&filter, start, &["samples".to_owned()]).unwrap()
+}
+
+#[test]
+fn of_what_the_scenes_cannot_tell_apart_the_nearest_to_the_start_is_chosen() {
+    let rows = [
+        (8, [0.1, 0.1, 0.1, 0.1]),
+        // Half the error everywhere, give or take: the best.
+        (60, [0.05, 0.04, 0.06, 0.05]),
+        // Hardly worse, and much nearer.
+        (12, [0.05, 0.042, 0.06, 0.05]),
+        // Nearer still, and clearly worse.
+        (10, [0.08, 0.08, 0.08, 0.08]),
+    ];
+    let choice = choose(&trials(&rows), &space(), Limits::default(), |_| true).unwrap();
+    assert_eq!((choice.best, choice.trial), (1, 2));
+    // Logs of 0.5, 0.4, 0.6 and 0.5: standard deviation 0.1659, of the mean 0.0830.
+    assert!(
+        (choice.standard_error - 0.0830).abs() < 1e-4,
+        "{}",
+        choice.standard_error
+    );
+}
+
+#[test]
+fn a_start_that_nothing_clearly_beats_stays() {
+    let rows = [(8, [0.1; 4]), (9, [0.05, 0.16, 0.09, 0.11])];
+    let choice = choose(&trials(&rows), &space(), Limits::default(), |_| true).unwrap();
+    assert_eq!((choice.best, choice.trial), (1, 0));
+}
+
+#[test]
+fn limits_and_failures_keep_trials_out_of_the_choice() {
+    let rows = [
+        (8, [0.1; 4]),
+        (16, [0.02; 4]),
+        (12, [0.05; 4]),
+        (4, [0.06; 4]),
+    ];
+    let mut trials = trials(&rows);
+    let chosen =
+        |trials: &[Trial], limits| choose(trials, &space(), limits, |_| true).unwrap().trial;
+    assert_eq!(chosen(&trials, Limits::default()), 1);
+    let limits = Limits {
+        cost: Some(1.5),
+        bleed: None,
+    };
+    assert_eq!(chosen(&trials, limits), 2);
+    let limits = Limits {
+        cost: None,
+        bleed: Some(1.0),
+    };
+    assert_eq!(chosen(&trials, limits), 3);
+    trials[1].outcome = TrialOutcome::Dropped;
+    assert_eq!(chosen(&trials, Limits::default()), 2);
+    trials[2].outcome = TrialOutcome::Failed {
+        reason: "it serves a test".to_owned(),
+    };
+    assert_eq!(chosen(&trials, Limits::default()), 3);
+}
+
+#[test]
+fn a_choice_that_suits_one_family_alone_shows_its_gap() {
+    let families = BTreeMap::from([("camera", vec!["a", "b"]), ("thin", vec!["c", "d"])]);
+    // One trial is made for the camera, the other for what is thin; each doubles the other's error.
+    let rows = [
+        (8, [0.1; 4]),
+        (9, [0.05, 0.05, 0.2, 0.2]),
+        (10, [0.2, 0.2, 0.05, 0.05]),
+    ];
+    let folds = folds(&trials(&rows), &space(), Limits::default(), &families);
+    let two = 2f64.ln();
+    for (fold, (family, trial)) in folds.iter().zip([("camera", 2), ("thin", 1)]) {
+        assert_eq!(
+            (fold.family.as_str(), fold.trial, fold.scenes),
+            (family, trial, 2)
+        );
+        // Exact but for the logarithm's rounding.
+        assert!((fold.others + two).abs() < 1e-12 && (fold.held_out - two).abs() < 1e-12);
+        assert!((fold.gap - 2.0 * two).abs() < 1e-12, "{}", fold.gap);
+    }
+    assert_eq!(folds.len(), 2);
+    let alone = BTreeMap::from([("camera", vec!["a", "b", "c", "d"])]);
+    assert!(suite::folds(&trials(&rows), &space(), Limits::default(), &alone).is_empty());
+}
+
+fn paired(rows: &[(f64, f64)]) -> Paired {
+    let score = |flip| SceneScore {
+        flip,
+        bleed: Some(10.0 * flip),
+    };
+    let scenes = rows.iter().enumerate();
+    Paired::of(
+        scenes
+            .map(|(index, (first, second))| (index.to_string(), [score(*first), score(*second)]))
+            .collect(),
+    )
+}
+
+#[test]
+fn the_lower_error_on_every_scene_is_better_and_one_on_half_of_them_is_undecided() {
+    let better = paired(&[
+        (0.2, 0.1),
+        (0.3, 0.2),
+        (0.1, 0.08),
+        (0.2, 0.15),
+        (0.1, 0.07),
+    ]);
+    assert_eq!(better.flip.verdict, Preference::Second);
+    assert_eq!(better.bleed.as_ref().unwrap().verdict, Preference::Second);
+    // Mean of -1, -1, -0.2, -0.5 and -0.3 pixels.
+    assert!((better.bleed.unwrap().mean + 0.6).abs() < 1e-9);
+    let worse = paired(&[
+        (0.1, 0.2),
+        (0.2, 0.3),
+        (0.08, 0.1),
+        (0.15, 0.2),
+        (0.07, 0.1),
+    ]);
+    assert_eq!(worse.flip.verdict, Preference::First);
+    let even = paired(&[(0.1, 0.2), (0.2, 0.1), (0.1, 0.2), (0.2, 0.1), (0.1, 0.1)]);
+    assert_eq!(even.flip.verdict, Preference::Undecided);
+    let few = paired(&[(0.2, 0.1), (0.3, 0.2), (0.1, 0.08), (0.2, 0.15)]);
+    assert_eq!(
+        few.flip.verdict,
+        Preference::Undecided,
+        "four scenes decide nothing"
+    );
+}

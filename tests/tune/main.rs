@@ -1,0 +1,5 @@
+//! Tuning: known answers of everything that decides.
+
+mod deciding;
+mod searching;
+mod sensitivity;

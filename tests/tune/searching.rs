@@ -1,0 +1,195 @@
+//! The space of parameters, the search through it, and the journal.
+
+use std::collections::BTreeMap;
+
+use filters::{Filter, Value};
+use suite::{Search, Space};
+
+fn jump_flood() -> Filter {
+    Filter::builtin("jump_flood").unwrap()
+}
+
+fn space(vary: &[&str]) -> Result<Space, String> {
+    let filter = jump_flood();
+    let words: Vec<String> = vary.iter().map(|word| word.to_string()).collect();
+    let start = filter.settings(Some("paper")).unwrap();
+    Space::new(&filter, start, &words).map_err(|error| error.to_string())
+}
+
+#[test]
+fn every_tunable_parameter_is_an_axis_and_no_other() {
+    let names: Vec<String> = (space(&[]).unwrap().axes.iter())
+        .map(|axis| axis.name.clone())
+        .collect();
+    assert!(names.contains(&"samples".to_owned()));
+    for fixed in ["intensity", "metric", "near_plane"] {
+        assert!(!names.contains(&fixed.to_owned()), "{fixed} is not tunable");
+    }
+}
+
+#[test]
+fn the_values_of_every_preset_come_back_from_their_points() {
+    for name in Filter::builtin_names() {
+        let filter = Filter::builtin(&name).unwrap();
+        for preset in &filter.presets {
+            let settings = filter.settings(Some(&preset.name)).unwrap();
+            let Ok(space) = Space::new(&filter, settings.clone(), &[]) else {
+                continue;
+            };
+            let back = space.settings(&space.point(&settings));
+            assert_eq!(back.values, settings.values, "{name}:{}", preset.name);
+        }
+    }
+}
+
+#[test]
+fn the_middle_of_a_logarithmic_range_is_its_geometric_mean() {
+    let space = space(&["foreground_extent=0.01..1"]).unwrap();
+    let middle = space.settings(&[0.5]).values["foreground_extent"].clone();
+    assert_eq!(middle, Value::Real(0.1));
+}
+
+#[test]
+fn every_whole_number_and_every_choice_is_met_and_none_beyond() {
+    let space = space(&["passes=2..5", "jitter"]).unwrap();
+    let mut met: BTreeMap<String, usize> = BTreeMap::new();
+    for step in 0..=400 {
+        let at = f64::from(step) / 400.0;
+        let values = space.settings(&[at, at]).values;
+        *met.entry(values["passes"].to_string()).or_default() += 1;
+        *met.entry(values["jitter"].to_string()).or_default() += 1;
+    }
+    let counts: Vec<(&str, usize)> = met
+        .iter()
+        .map(|(name, count)| (&name[..], *count))
+        .collect();
+    let names: Vec<&str> = counts.iter().map(|(name, _)| *name).collect();
+    let expected = [
+        "2",
+        "3",
+        "4",
+        "5",
+        "none",
+        "start_offset",
+        "step_offset",
+        "step_scale",
+    ];
+    assert_eq!(names, expected);
+    for (name, count) in counts {
+        // A quarter of 401 points each, give or take those on the ends.
+        assert!((99..=102).contains(&count), "{name} is met {count} times");
+    }
+}
+
+#[test]
+fn what_cannot_be_varied_is_refused_with_what_can() {
+    for (word, parts) in [
+        (
+            "sample",
+            vec!["no parameter \"sample\"", "allowed: samples"],
+        ),
+        ("metric", vec!["tunable = false", "allowed: samples"]),
+        (
+            "samples=16..4",
+            vec!["the range is empty", "from 1 to 64", "samples=4..16"],
+        ),
+        ("samples=4..4", vec!["the range is empty"]),
+        ("samples=0..4", vec!["no range within", "from 1 to 64"]),
+        ("samples=4", vec!["no range within"]),
+        ("jitter=a..b", vec!["a choice has no range"]),
+    ] {
+        let text = space(&[word]).unwrap_err();
+        assert!(text.contains(&format!("--vary {word}")), "{text}");
+        for part in parts {
+            assert!(text.contains(part), "\"{part}\" is missing from: {text}");
+        }
+    }
+    assert!(
+        space(&["samples", "samples"])
+            .unwrap_err()
+            .contains("named twice")
+    );
+    let identity = Filter::builtin("identity").unwrap();
+    let start = identity.settings(None).unwrap();
+    let text = Space::new(&identity, start, &[]).unwrap_err().to_string();
+    assert!(text.contains("nothing to tune"), "{text}");
+}
+
+/// A valley that is narrow along a diagonal, with its lowest point off every axis and off the middle.
+fn valley(point: &[f64]) -> f64 {
+    let lowest = [0.31, 0.62, 0.18, 0.77];
+    let off: Vec<f64> = point.iter().zip(lowest).map(|(at, low)| at - low).collect();
+    let across = off[0] + off[1] - off[2] - off[3];
+    off.iter().map(|it| it * it).sum::<f64>() + 10.0 * across * across
+}
+
+fn searched(search: &Search, count: usize) -> (Vec<Vec<f64>>, Vec<f64>) {
+    let (mut points, mut losses) = (Vec::new(), Vec::new());
+    for _ in 0..count {
+        let point = search.ask(&losses);
+        losses.push(valley(&point));
+        points.push(point);
+    }
+    (points, losses)
+}
+
+fn least(losses: &[f64]) -> f64 {
+    losses.iter().copied().fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn the_search_finds_the_lowest_point_of_a_valley() {
+    for seed in [1, 2, 3] {
+        let search = Search::new(vec![vec![0.9, 0.1, 0.9, 0.1]], 4, seed);
+        let (points, losses) = searched(&search, 400);
+        assert!(points.iter().flatten().all(|at| (0.0..=1.0).contains(at)));
+        assert_eq!(
+            points[0],
+            [0.9, 0.1, 0.9, 0.1],
+            "it begins with the presets"
+        );
+        // Within 0.03 of the lowest point along the valley, and ten times less across: among 400 points that fill four
+        // dimensions evenly, the nearest is about 0.15 away, and most of that across.
+        assert!(least(&losses) < 1e-3, "seed {seed}: {}", least(&losses));
+        let even = Search::new(Vec::new(), 200, seed).design;
+        let even: Vec<f64> = even.iter().map(|point| valley(&point[..4])).collect();
+        assert!(least(&even) > 1e-2, "seed {seed}: {}", least(&even));
+    }
+}
+
+#[test]
+fn the_same_seed_asks_the_same_and_another_one_does_not() {
+    let search = |seed| Search::new(vec![vec![0.5; 4]], 4, seed);
+    assert_eq!(searched(&search(1), 60).0, searched(&search(1), 60).0);
+    let (one, other) = (searched(&search(1), 60).0, searched(&search(2), 60).0);
+    assert_ne!(one[1], other[1], "the design has its own seed");
+    assert_ne!(one[59], other[59]);
+}
+
+#[test]
+fn what_is_asked_next_depends_on_nothing_but_the_losses() {
+    let search = Search::new(vec![vec![0.5; 4]], 4, 7);
+    let (points, losses) = searched(&search, 80);
+    for count in [0, 5, 9, 10, 41, 79] {
+        assert_eq!(
+            search.ask(&losses[..count]),
+            points[count],
+            "after {count} losses"
+        );
+    }
+}
+
+#[test]
+fn a_search_that_has_settled_begins_again_elsewhere() {
+    let search = Search::new(vec![vec![0.5; 2]], 2, 1);
+    // A plane without slope ends every climb: 120 points are several of them.
+    let mut losses = Vec::new();
+    let mut points = Vec::new();
+    for _ in 0..120 {
+        points.push(search.ask(&losses));
+        losses.push(0.25);
+    }
+    points.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    points.dedup();
+    assert_eq!(points.len(), 120, "no point is asked for twice");
+}

@@ -1,0 +1,119 @@
+//! Morris screening and Sobol indices against functions whose indices are known.
+
+use std::convert::Infallible;
+use std::f64::consts::PI;
+
+use suite::{morris, sobol_indices};
+
+/// Ishigami and Homma 1990 with a = 7, b = 0.1, on the unit cube.
+fn ishigami(point: &[f64]) -> Result<f64, Infallible> {
+    let [x, y, z] = [0, 1, 2].map(|axis| PI * (2.0 * point[axis] - 1.0));
+    Ok(x.sin() + 7.0 * y.sin().powi(2) + 0.1 * z.powi(4) * x.sin())
+}
+
+/// Sobol's g-function; the first parameters matter most.
+const G: [f64; 6] = [0.0, 1.0, 4.5, 9.0, 99.0, 99.0];
+
+fn g_function(point: &[f64]) -> Result<f64, Infallible> {
+    let factor = |(x, a): (&f64, f64)| ((4.0 * x - 2.0).abs() + a) / (1.0 + a);
+    Ok(point.iter().zip(G).map(factor).product())
+}
+
+#[test]
+fn the_indices_of_ishigamis_function_are_the_published_ones() {
+    let found = sobol_indices(3, 1024, 1, ishigami).unwrap();
+    // Closed form: variance 13.845, of which 0.3139, 0.4424 and 0 alone, 0.5576, 0.4424 and 0.2437 in all.
+    let expected = [(0.3139, 0.5576), (0.4424, 0.4424), (0.0, 0.2437)];
+    for (indices, (first, total)) in found.iter().zip(expected) {
+        // Four standard errors of 1024 rows, about a quarter of the intervals' widths.
+        let tolerance = |estimate: suite::Estimate| estimate.high - estimate.low;
+        assert!(
+            (indices.first.value - first).abs() < tolerance(indices.first),
+            "{indices:?}"
+        );
+        assert!(
+            (indices.total.value - total).abs() < tolerance(indices.total),
+            "{indices:?}"
+        );
+        assert!(
+            tolerance(indices.first) < 0.25 && tolerance(indices.total) < 0.25,
+            "{indices:?}"
+        );
+    }
+}
+
+#[test]
+fn the_indices_of_sobols_g_function_follow_its_formula() {
+    let found = sobol_indices(6, 1024, 1, g_function).unwrap();
+    let own = G.map(|a| 1.0 / (3.0 * (1.0 + a) * (1.0 + a)));
+    let variance = own.iter().map(|own| 1.0 + own).product::<f64>() - 1.0;
+    for (axis, indices) in found.iter().enumerate() {
+        let others: f64 = (0..6)
+            .filter(|it| *it != axis)
+            .map(|it| 1.0 + own[it])
+            .product();
+        let (first, total) = (own[axis] / variance, own[axis] * others / variance);
+        // The widest interval of these is 0.15; an index of the wrong axis is off by 0.3 and more.
+        assert!(
+            (indices.first.value - first).abs() < 0.1,
+            "{axis}: {indices:?}, {first}"
+        );
+        assert!(
+            (indices.total.value - total).abs() < 0.1,
+            "{axis}: {indices:?}, {total}"
+        );
+    }
+    assert!(
+        found[4].total.high < 0.02,
+        "what hardly matters could be a constant"
+    );
+    assert!(found[1].total.low > 0.02, "what matters could not");
+}
+
+#[test]
+fn a_constant_function_has_no_sensitivity() {
+    let constant = |_: &[f64]| Ok::<f64, Infallible>(3.0);
+    for indices in sobol_indices(2, 16, 1, constant).unwrap() {
+        assert_eq!((indices.first.value, indices.total.high), (0.0, 0.0));
+    }
+    for effects in morris(2, 4, 1, constant).unwrap() {
+        assert_eq!((effects.mean_size, effects.deviation), (0.0, 0.0));
+    }
+}
+
+#[test]
+fn the_elementary_effects_of_a_plane_are_its_slopes() {
+    let slopes = [3.0, -2.0, 0.0, 0.5];
+    let plane = |point: &[f64]| -> Result<f64, Infallible> {
+        Ok(point.iter().zip(slopes).map(|(x, slope)| x * slope).sum())
+    };
+    for (effects, slope) in morris(4, 6, 1, plane).unwrap().iter().zip(slopes) {
+        // Rounding of a few sums.
+        assert!((effects.mean - slope).abs() < 1e-12, "{effects:?}");
+        assert!(
+            (effects.mean_size - slope.abs()).abs() < 1e-12,
+            "{effects:?}"
+        );
+        assert!(effects.deviation < 1e-12, "{effects:?}");
+    }
+}
+
+#[test]
+fn screening_ranks_the_g_function_as_its_formula_does_and_asks_as_often_as_it_says() {
+    let mut asked = 0;
+    let found = morris(6, 20, 1, |point| {
+        asked += 1;
+        assert!(
+            point.iter().all(|x| (-1e-9..=1.0 + 1e-9).contains(x)),
+            "{point:?}"
+        );
+        g_function(point)
+    })
+    .unwrap();
+    assert_eq!(asked, 20 * (6 + 1));
+    let sizes: Vec<f64> = found.iter().map(|effects| effects.mean_size).collect();
+    // The last two are equals.
+    assert!(sizes[..5].is_sorted_by(|a, b| a > b), "{sizes:?}");
+    assert!(sizes[4] < 0.05 * sizes[0], "{sizes:?}");
+    assert!(found[0].deviation > 0.1, "its effect depends on the others");
+}
