@@ -13,7 +13,9 @@ mod kept_cases;
 mod own_filter;
 mod refusals;
 mod score;
+mod serve;
 mod timing;
+mod tune;
 mod variants;
 
 use std::fs;

@@ -27,7 +27,7 @@ pub struct TuneArgs {
     /// Choose nothing that takes more GPU time than so many times the start's.
     #[arg(long, value_name = "RATIO", value_parser = ratio)]
     pub cost_at_most: Option<f64>,
-    /// Choose nothing whose bleed on its worst scene is more than so many times the start's on its own.
+    /// Choose nothing whose bleed on its worst scene is more than so many times the start's on its own, and 0.01 px.
     #[arg(long, value_name = "RATIO", value_parser = ratio)]
     pub bleed_at_most: Option<f64>,
     /// Run every candidate on every scene, however bad it is.

@@ -107,13 +107,17 @@ impl<'a> Target<'a> {
         sum / count
     }
 
-    /// By how much the scores break bounds, in parts of the limits; 0 where they keep all of them.
-    pub fn excess(&self, score: &SceneScore) -> f64 {
+    /// By how much the scores break bounds, in parts of the limits; 0 where they keep all of them. A bound that the start
+    /// breaks is held at what the start has.
+    pub fn excess(&self, score: &SceneScore, start: &SceneScore) -> f64 {
         let flip = Metric::Image(ImageMetric::Flip, Region::Moving);
         let bleed = Metric::Object(ObjectMetric::BleedLateral);
-        let measured = [(flip, Some(score.flip)), (bleed, score.bleed)];
-        let excess = measured.into_iter().filter_map(|(metric, value)| {
-            let limit = self.bounds.get(&metric.name())?.limit;
+        let measured = [
+            (flip, Some(score.flip), Some(start.flip)),
+            (bleed, score.bleed, start.bleed),
+        ];
+        let excess = measured.into_iter().filter_map(|(metric, value, start)| {
+            let limit = self.bounds.get(&metric.name())?.limit.max(start?);
             Some((value? / limit - 1.0).max(0.0))
         });
         excess.filter(|it| it.is_finite()).sum()

@@ -31,6 +31,9 @@ const RACE_STEP: usize = 2;
 /// A candidate is dropped where it would lean this far to the worse side by chance less often than this.
 const RACE_LEVEL: f64 = 0.1;
 
+/// Bleed, in pixels, that is too little to be told from none.
+const LEAST_BLEED: f64 = 0.01;
+
 /// A finished tuning: `tune.json`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Tuning {
@@ -251,7 +254,10 @@ fn measure(
     let start = trials.first().map_or(&trial.scenes, |trial| &trial.scenes);
     let error = mean_log_ratio(&trial.scenes, start, |_| true).expect("there are scenes");
     let excess: f64 = (evaluator.targets.iter())
-        .filter_map(|target| Some(target.excess(trial.scenes.get(&target.shot.name)?)))
+        .filter_map(|target| {
+            let name = &target.shot.name;
+            Some(target.excess(trial.scenes.get(name)?, &start[name]))
+        })
         .sum::<f64>()
         / trial.scenes.len() as f64;
     trial.error = Some(error);
@@ -305,7 +311,8 @@ fn cost(
 fn limits(plan: &TunePlan, trials: &[Trial]) -> Limits {
     Limits {
         cost: plan.cost_at_most,
-        bleed: (plan.bleed_at_most.zip(trials[0].bleed)).map(|(ratio, start)| ratio * start),
+        bleed: (plan.bleed_at_most.zip(trials[0].bleed))
+            .map(|(ratio, start)| ratio * start + LEAST_BLEED),
     }
 }
 

@@ -1,0 +1,173 @@
+//! `serve` and `evaluate`: the search driven from outside.
+
+use std::fs;
+use std::io::{BufRead, BufReader, Write};
+use std::process::{ChildStdin, Stdio};
+
+use serde_json::{Value, json};
+
+use crate::bench::{Bench, assert_refused};
+
+const SERVE: [&str; 12] = [
+    "serve",
+    "--quiet",
+    "--filter",
+    "jump_flood",
+    "--objective",
+    "flip",
+    "--size",
+    "64x32",
+    "--samples-per-pixel",
+    "16",
+    "--out",
+    "out",
+];
+
+/// Says one line after the other and hears all answers; `after_ready` are said once the scenes are loaded.
+fn conversation(bench: &Bench, more: &[&str], lines: &[Value]) -> Vec<Value> {
+    let mut child = bench
+        .command(&[&SERVE[..], more].concat())
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut input: ChildStdin = child.stdin.take().unwrap();
+    for line in lines {
+        match line {
+            Value::String(text) => writeln!(input, "{text}").unwrap(),
+            json => writeln!(input, "{json}").unwrap(),
+        }
+    }
+    drop(input);
+    let output = BufReader::new(child.stdout.take().unwrap());
+    let heard = output
+        .lines()
+        .map(|line| serde_json::from_str(&line.unwrap()).unwrap());
+    let heard: Vec<Value> = heard.collect();
+    assert!(child.wait().unwrap().success());
+    heard
+}
+
+#[test]
+fn a_request_is_answered_scene_by_scene_and_then_in_full() {
+    let bench = Bench::new();
+    let heard = conversation(&bench, &[], &[json!({"id": 7, "params": {"samples": 12}})]);
+    assert_eq!(heard[0]["ready"], true);
+    assert_eq!(heard[0]["scenes"], json!(["plate"]));
+    assert_eq!(
+        (&heard[1]["id"], &heard[1]["scene"]),
+        (&json!(7), &json!("plate"))
+    );
+    let done = &heard[2]["done"];
+    assert_eq!(done["values"]["samples"], 12);
+    assert_eq!(done["scenes"]["plate"]["flip"], heard[1]["flip"]);
+    assert!(
+        done["error"].as_f64().unwrap() != 0.0,
+        "it differs from the start"
+    );
+    assert_eq!(heard.len(), 3);
+}
+
+#[test]
+fn what_cannot_be_answered_is_an_error_and_not_the_end() {
+    let bench = Bench::new();
+    let heard = conversation(
+        &bench,
+        &[],
+        &[
+            json!("samples = 3"),
+            json!({"id": 1, "params": {"sample": 3}}),
+            json!({"id": 2, "params": {"samples": 0}}),
+            json!({"id": 3, "params": {}, "scenes": ["fan"]}),
+            json!({"id": 4, "params": {}, "scenes": []}),
+            json!({"id": 5, "params": {"match_threshold": 1}}),
+        ],
+    );
+    let errors: Vec<&str> = heard
+        .iter()
+        .filter_map(|line| line["error"].as_str())
+        .collect();
+    let parts = [
+        "allowed are {\"id\": 7",
+        "sample",
+        "from 1 to 64",
+        "allowed: plate",
+        "name at least one",
+    ];
+    assert_eq!(errors.len(), parts.len(), "{heard:?}");
+    for (error, part) in errors.iter().zip(parts) {
+        assert!(error.contains(part), "\"{part}\" is missing from: {error}");
+    }
+    // A whole number is a real one as well.
+    assert_eq!(
+        heard.last().unwrap()["done"]["values"]["match_threshold"],
+        1.0
+    );
+}
+
+#[test]
+fn what_is_cancelled_is_not_summed_up() {
+    let bench = Bench::new();
+    let heard = conversation(
+        &bench,
+        &[],
+        &[
+            json!({"cancel": 2}),
+            json!({"id": 2, "params": {"samples": 3}}),
+            json!({"id": 3, "params": {"samples": 4}}),
+        ],
+    );
+    let of = |id: u64| {
+        heard
+            .iter()
+            .filter(move |line| line["id"] == id)
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(of(2), [&json!({"id": 2, "cancelled": true})]);
+    assert!(of(3).last().unwrap()["done"].is_object());
+}
+
+#[test]
+fn parameters_of_a_file_are_checked() {
+    let bench = Bench::new();
+    let evaluate = |text: &str| {
+        fs::write(bench.path("p.json"), text).unwrap();
+        let words = [
+            "evaluate",
+            "--quiet",
+            "--filter",
+            "jump_flood",
+            "--params",
+            "p.json",
+        ];
+        bench.shuttertruth(&[&words[..], &["--out", "out"]].concat())
+    };
+    for (text, parts) in [
+        (
+            "{\"sample\": 3}",
+            ["p.json: jump_flood.sample", "allowed: samples"],
+        ),
+        (
+            "{\"samples\": 3.5}",
+            ["p.json: jump_flood.samples: found 3.5", "from 1 to 64"],
+        ),
+        (
+            "samples = 3",
+            ["p.json", "allowed is one table of parameters"],
+        ),
+    ] {
+        assert_refused(&evaluate(text), 2, &parts);
+    }
+    fs::remove_file(bench.path("p.json")).unwrap();
+    let words = [
+        "evaluate",
+        "--filter",
+        "jump_flood",
+        "--params",
+        "p.json",
+        "--out",
+        "out",
+    ];
+    assert_refused(&bench.shuttertruth(&words), 2, &["p.json: cannot be read"]);
+    assert!(!bench.path("out").exists());
+}
