@@ -45,6 +45,8 @@ fn equal_sizes_share_their_ranks_and_zeros_say_nothing() {
     assert_eq!(probability_not_above(&[1.0, 1.0]), 0.25);
     assert_eq!(probability_not_above(&[1.0, -1.0]), 0.75);
     assert_eq!(probability_not_above(&[0.0, 1.0, 0.0, -1.0]), 0.75);
+    // Ranks 2, 2, 2 and 4, and a sum of 6: as much or more have 8 of 16 arrangements; 9 have if the three were of rank 1.
+    assert_eq!(probability_not_above(&[1.0, 1.0, 1.0, -2.0]), 0.5);
     assert_eq!(probability_not_above(&[]), 1.0);
 }
 
