@@ -2,11 +2,12 @@
 
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
-use std::process::{ChildStdin, Stdio};
+use std::path::Path;
+use std::process::{ChildStdin, Command, Stdio};
 
 use serde_json::{Value, json};
 
-use crate::bench::{Bench, assert_refused};
+use crate::bench::{Bench, assert_refused, stderr, stdout};
 
 const SERVE: [&str; 12] = [
     "serve",
@@ -23,7 +24,7 @@ const SERVE: [&str; 12] = [
     "out",
 ];
 
-/// Says one line after the other and hears all answers; `after_ready` are said once the scenes are loaded.
+/// Says one line after the other and hears all answers.
 fn conversation(bench: &Bench, more: &[&str], lines: &[Value]) -> Vec<Value> {
     let mut child = bench
         .command(&[&SERVE[..], more].concat())
@@ -170,4 +171,39 @@ fn parameters_of_a_file_are_checked() {
     ];
     assert_refused(&bench.shuttertruth(&words), 2, &["p.json: cannot be read"]);
     assert!(!bench.path("out").exists());
+}
+
+/// Runs where Python has Optuna: PYTHON names another one than python3.
+#[test]
+fn optuna_finds_something_better_through_the_service() {
+    let python = std::env::var("PYTHON").unwrap_or("python3".to_owned());
+    let has_optuna = Command::new(&python).args(["-c", "import optuna"]).output();
+    if !has_optuna.is_ok_and(|output| output.status.success()) {
+        eprintln!(
+            "not run: {python} has no Optuna; pip install optuna, and set PYTHON where it is elsewhere"
+        );
+        return;
+    }
+    let bench = Bench::new();
+    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/optuna_tune.py");
+    let program = Path::new(env!("CARGO_BIN_EXE_shuttertruth"))
+        .parent()
+        .unwrap();
+    let path = std::env::var("PATH").unwrap_or_default();
+    let mut command = Command::new(python);
+    command.current_dir(bench.path("")).arg(example);
+    command.env("PATH", format!("{}:{path}", program.display()));
+    let words = SERVE[1..]
+        .iter()
+        .map(|word| if *word == "flip" { "flip,bleed" } else { word });
+    let output = command.args(words).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let found: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let errors = found
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|best| best[0][0].as_f64().unwrap());
+    let least = errors.fold(f64::INFINITY, f64::min);
+    assert!(least < 0.0, "20 trials beat the start: {found}");
 }
