@@ -46,13 +46,16 @@ pub enum Preference {
     Undecided,
 }
 
+/// So likely lies the mean below the lower bound, and so likely above the upper one.
+const TAIL: f64 = 0.05;
+
 /// Fewer scenes than this decide nothing: with four, all of one sign are met by chance once in eight times.
 pub const FEWEST_SCENES: usize = 5;
 
 impl Difference {
     /// Of at least one paired difference.
     pub fn of(differences: &[f64]) -> Self {
-        let bounds = bootstrap(differences);
+        let bounds = bootstrap(differences, TAIL);
         let verdict = match bounds {
             _ if differences.len() < FEWEST_SCENES => Preference::Undecided,
             [low, _] if low > 0.0 => Preference::First,

@@ -117,7 +117,10 @@ impl<'a> Target<'a> {
             (bleed, score.bleed, start.bleed),
         ];
         let excess = measured.into_iter().filter_map(|(metric, value, start)| {
-            let limit = self.bounds.get(&metric.name())?.limit.max(start?);
+            let bound = self.bounds.get(&metric.name())?;
+            // A limit for another picture size says nothing about this one.
+            (bound.size.is_none_or(|size| size == self.shot.truth.size())).then_some(())?;
+            let limit = bound.limit.max(start?);
             Some((value? / limit - 1.0).max(0.0))
         });
         excess.filter(|it| it.is_finite()).sum()
