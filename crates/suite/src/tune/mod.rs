@@ -18,6 +18,7 @@ mod sobol;
 mod space;
 mod table;
 mod trial;
+mod trying;
 mod tuning;
 mod wilcoxon;
 

@@ -1,0 +1,164 @@
+//! One candidate: asked for, run on scene after scene, judged.
+
+use std::collections::BTreeMap;
+
+use filters::{FilterError, Settings};
+use tracer::TraceError;
+
+use super::cost::Stopwatch;
+use super::loss::{FAILED, bounds_penalty, log_ratio, mean_log_ratio, penalty, worst_bleed};
+use super::plan::{Objective, TunePlan};
+use super::selection::Limits;
+use super::wilcoxon::probability_not_above;
+use super::{Evaluator, SceneScore, Search, Trial, TrialOutcome};
+use crate::Error;
+use crate::progress::interrupted;
+
+/// Scenes that a candidate runs on before it can be dropped.
+const RACE_FROM: usize = 6;
+/// How many more before it is looked at again: as many as are worked on at once.
+const RACE_STEP: usize = 2;
+/// A candidate is dropped where it would lean this far to the worse side by chance less often than this.
+const RACE_LEVEL: f64 = 0.1;
+
+/// Bleed, in pixels, that is too little to be told from none.
+const LEAST_BLEED: f64 = 0.01;
+
+/// Asks for the next candidate and tries it.
+pub fn next(
+    plan: &TunePlan,
+    evaluator: &mut Evaluator,
+    search: &Search,
+    trials: &[Trial],
+) -> Result<Trial, Error> {
+    let losses: Vec<f64> = trials.iter().map(|trial| trial.loss).collect();
+    let settings = match trials.len() {
+        0 => plan.space.start.clone(),
+        _ => plan.space.settings(&search.ask(&losses)),
+    };
+    let values = (plan.space.axes.iter())
+        .map(|axis| (axis.name.clone(), settings.values[&axis.name].clone()))
+        .collect();
+    let mut trial = Trial {
+        trial: trials.len(),
+        values,
+        outcome: TrialOutcome::Done,
+        loss: FAILED,
+        error: None,
+        bleed: None,
+        cost: None,
+        scenes: BTreeMap::new(),
+    };
+    match measure(plan, evaluator, trials, &settings, &mut trial) {
+        Ok(()) => Ok(trial),
+        Err(error @ (Error::Trace(_) | Error::Filter(FilterError::Interrupted))) => Err(error),
+        Err(error) if trials.is_empty() => Err(error),
+        Err(error) => {
+            trial.outcome = TrialOutcome::Failed {
+                reason: error.to_string(),
+            };
+            trial.loss = FAILED;
+            trial.error = None;
+            Ok(trial)
+        }
+    }
+}
+
+/// Runs a candidate on scene after scene, and fills in what it comes to.
+fn measure(
+    plan: &TunePlan,
+    evaluator: &mut Evaluator,
+    trials: &[Trial],
+    settings: &Settings,
+    trial: &mut Trial,
+) -> Result<(), Error> {
+    let all: Vec<usize> = (0..evaluator.targets.len()).collect();
+    let best = (trials.iter().filter(|trial| trial.is_done()))
+        .min_by(|a, b| a.loss.total_cmp(&b.loss))
+        .filter(|_| plan.race);
+    let mut met = 0;
+    while met < all.len() {
+        let until = match (best, met) {
+            (None, _) => all.len(),
+            (Some(_), 0) => RACE_FROM.min(all.len()),
+            (Some(_), _) => (met + RACE_STEP).min(all.len()),
+        };
+        let scores = evaluator.scores(settings, &all[met..until], |_, _| !interrupted())?;
+        if scores.len() < until - met {
+            return Err(TraceError::Cancelled.into());
+        }
+        for (target, score) in evaluator.targets[met..until].iter().zip(scores) {
+            trial.scenes.insert(target.shot.name.clone(), score);
+        }
+        met = until;
+        if met < all.len() && best.is_some_and(|best| is_clearly_worse(&trial.scenes, &best.scenes))
+        {
+            trial.outcome = TrialOutcome::Dropped;
+            break;
+        }
+    }
+    let start = trials.first().map_or(&trial.scenes, |trial| &trial.scenes);
+    let error = mean_log_ratio(&trial.scenes, start, |_| true).expect("there are scenes");
+    let excess: f64 = (evaluator.targets.iter())
+        .filter_map(|target| {
+            let name = &target.shot.name;
+            Some(target.excess(trial.scenes.get(name)?, &start[name]))
+        })
+        .sum::<f64>()
+        / trial.scenes.len() as f64;
+    trial.error = Some(error);
+    trial.bleed = worst_bleed(&trial.scenes);
+    if plan.measures(Objective::Cost) && trial.is_done() {
+        trial.cost = Some(cost(evaluator, settings, trial, trials)?);
+    }
+    let limits = match trials.is_empty() {
+        true => Limits::default(),
+        false => limits(plan, trials),
+    };
+    trial.loss = error
+        + bounds_penalty(excess)
+        + penalty(trial.bleed, limits.bleed)
+        + penalty(trial.cost, limits.cost);
+    Ok(())
+}
+
+fn is_clearly_worse(
+    scores: &BTreeMap<String, SceneScore>,
+    best: &BTreeMap<String, SceneScore>,
+) -> bool {
+    let differences: Vec<f64> = (scores.iter())
+        .map(|(scene, score)| log_ratio(score, &best[scene]))
+        .collect();
+    probability_not_above(&differences) < RACE_LEVEL
+}
+
+/// 1 of the start; what was measured before of values that were tried before.
+fn cost(
+    evaluator: &Evaluator,
+    settings: &Settings,
+    trial: &Trial,
+    trials: &[Trial],
+) -> Result<f64, Error> {
+    let same = trials.iter().find(|other| other.values == trial.values);
+    if trials.is_empty() {
+        return Ok(1.0);
+    }
+    if let Some(cost) = same.and_then(|same| same.cost) {
+        return Ok(cost);
+    }
+    let stopwatch = Stopwatch {
+        gpu: evaluator.gpu.expect("only kernels are timed"),
+        choice: &evaluator.choice,
+        frame: &evaluator.targets[0].shot.frame,
+    };
+    Ok(stopwatch.ratio(settings)?)
+}
+
+/// The limits of a choice, from those that are relative to the start.
+pub fn limits(plan: &TunePlan, trials: &[Trial]) -> Limits {
+    Limits {
+        cost: plan.cost_at_most,
+        bleed: (plan.bleed_at_most.zip(trials[0].bleed))
+            .map(|(ratio, start)| ratio * start + LEAST_BLEED),
+    }
+}
