@@ -4,6 +4,7 @@ use maud::{Markup, html};
 use metrics::{Measured, Metric};
 
 use super::shown::Shown;
+use crate::bounds::Level;
 use crate::gate::number;
 use crate::verdict::limit_as_badness;
 use crate::{Case, Outcome, Verdict};
@@ -48,6 +49,7 @@ pub fn cell(shown: &Shown, case: &Case, number_of_case: usize) -> Markup {
     let judged = verdict.and_then(|verdict| Some((verdict, standing(&verdict.outcome)?)));
     html! {
         td class=[judged.map(|(_, standing)| standing.word)]
+            .required[judged.is_some_and(|(verdict, _)| fails(verdict))]
             style=[judged.and_then(|(verdict, _)| strength(shown.metric, &measured, verdict))]
             data-value=[measured.value()]
             title=[reason(&measured)] {
@@ -57,10 +59,22 @@ pub fn cell(shown: &Shown, case: &Case, number_of_case: usize) -> Markup {
                 }
                 (shown.text(case))
                 @if let Some((verdict, standing)) = judged {
-                    span.unseen { ", " (standing.word) ", limit " (number(verdict.limit)) }
+                    span.unseen { ", " (standing.word) ", " (level(verdict)) " limit " (number(verdict.limit)) }
                 }
             }
         }
+    }
+}
+
+/// Whether it fails a check.
+fn fails(verdict: &Verdict) -> bool {
+    verdict.level == Level::Required && matches!(verdict.outcome, Outcome::Broken { .. })
+}
+
+fn level(verdict: &Verdict) -> &'static str {
+    match verdict.level {
+        Level::Required => "required",
+        Level::Report => "reported",
     }
 }
 

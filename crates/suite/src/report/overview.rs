@@ -125,6 +125,7 @@ fn key() -> Markup {
     html! {
         p.key {
             span.kept { "✓ kept" } " " span.broken { "✗ broken" } " "
+            span.broken.required { "✗ broken, and a check fails" } " "
             span.inconclusive { "? the noise does not tell" } " "
             span.undecided { "~ limit stricter than the noise allows" }
             " The stronger the colour, the farther from the limit; no colour: no bound. Names in italics are bars to measure \

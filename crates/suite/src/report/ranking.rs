@@ -36,7 +36,11 @@ pub fn ranking(run: &Run, shown: &Shown) -> Markup {
                         th scope="col" { "95 % in" }
                         th scope="col" { "scenes" }
                         th.chart scope="col" {
-                            (format!("{:.digits$}", axis.low)) span.to { " to " } (format!("{:.digits$}", axis.high))
+                            div.ends {
+                                span { (format!("{:.digits$}", axis.low)) }
+                                span.unseen { " to " }
+                                span { (format!("{:.digits$}", axis.high)) }
+                            }
                         }
                     }
                 }
@@ -58,7 +62,7 @@ pub fn ranking(run: &Run, shown: &Shown) -> Markup {
                     }
                 }
             }
-            p.note { "Hatched: what the truth's own noise makes of the score, its floor. Open marks are bars." }
+            p.note { "Grey: what the truth's own noise makes of the score, its floor. Open marks are bars." }
         }
     }
 }

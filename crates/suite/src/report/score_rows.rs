@@ -87,7 +87,10 @@ const GROUPS: [Group; 6] = [
 pub fn score_rows(case: &Case) -> Markup {
     html! {
         table.scores {
-            caption { "Scores; run.json holds more" }
+            caption {
+                "Scores; behind them, small, where they would lie against a truth without noise (95 %), and the object they are of. \
+                 run.json holds more."
+            }
             thead {
                 tr {
                     th scope="col" { "score" }
@@ -134,7 +137,7 @@ fn row(case: &Case, metric: Metric) -> Markup {
                     td {
                         (value(case, metric, score.value))
                         @if let Some(interval) = case.intervals.get(&name) {
-                            span.note { " " (number(interval.low)) "–" (number(interval.high)) }
+                            span.note { " " (number(interval.low)) " to " (number(interval.high)) }
                         }
                         @if let Some((object, _)) = case.scores.worst_object(metric) {
                             span.note { " " (object) }

@@ -1,7 +1,10 @@
 "use strict";
 // The pictures of the case that is open. All of them zoom and move together.
 {
+  // Largest magnification.
   const MOST = 32;
+  // Side of the blocks that the worst place is looked for in, in pixels.
+  const BLOCK = Number(document.getElementById("viewer").dataset.block);
   const pictures = JSON.parse(document.getElementById("pictures").textContent);
   const viewer = document.getElementById("viewer");
   const [width, height, band] = ["width", "height", "band"].map((name) => Number(viewer.dataset[name]));
@@ -66,12 +69,14 @@
       const scale = (pane.clientWidth / width) * view.zoom;
       for (const layer of pane.querySelectorAll(".layer")) {
         layer.style.transform = `scale(${scale}) translate(${-view.x}px, ${-view.y}px)`;
-        const frame = layer.querySelector(".mark");
-        frame.hidden = mark === null;
-        if (mark) {
-          frame.style.left = `${mark.x - 8}px`;
-          frame.style.top = `${mark.y - 8}px`;
-        }
+      }
+      const frame = pane.querySelector(".mark");
+      frame.hidden = mark === null;
+      if (mark) {
+        const side = `${BLOCK * scale}px`;
+        const left = `${(mark.x - BLOCK / 2 - view.x) * scale}px`;
+        const top = `${(mark.y - BLOCK / 2 - view.y) * scale}px`;
+        Object.assign(frame.style, { left, top, width: side, height: side });
       }
     }
     viewer.classList.toggle("zoomed", view.zoom > 1);
@@ -163,7 +168,9 @@
   };
 
   const route = () => {
-    open = document.querySelector("article.case:target");
+    // While the page loads, no element is the target yet.
+    const named = document.getElementById(location.hash.slice(1));
+    open = named?.matches("article.case") ? named : null;
     viewer.hidden = !open;
     document.title = open ? `${open.dataset.title} - Shuttertruth` : "Shuttertruth report";
     mark = null;

@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::layer::Layer;
 use crate::Run;
+use crate::worst::BLOCK;
 
 /// How pictures are set against each other: the script's word, what a reader calls it, and its key.
 const WAYS: [(&str, &str, &str); 4] = [
@@ -35,7 +36,8 @@ const KEYS: [(&str, &str); 9] = [
 /// Hidden until a case is open.
 pub fn viewer(run: &Run) -> Markup {
     html! {
-        div #viewer hidden data-width=(run.width) data-height=(run.height) data-band=(run.guard_band) {
+        div #viewer hidden data-width=(run.width) data-height=(run.height) data-band=(run.guard_band)
+            data-block=(BLOCK) {
             div.controls {
                 fieldset.choice {
                     legend { "Compare" }
@@ -59,6 +61,7 @@ pub fn viewer(run: &Run) -> Markup {
                     aria-label="Two pictures; arrows move, plus and minus zoom" {
                     (layer("under"))
                     div.over { (layer("over")) }
+                    div.mark hidden {}
                     div.divider aria-hidden="true" {}
                     p.tag.right data-tag="under" {}
                     p.tag.left data-tag="over" {}
@@ -67,6 +70,7 @@ pub fn viewer(run: &Run) -> Markup {
                     div.pane.single tabindex="0" role="group"
                         aria-label="One picture; arrows move, plus and minus zoom" hidden {
                         (layer(place))
+                        div.mark hidden {}
                         p.tag.left data-tag=(place) {}
                     }
                 }
@@ -105,6 +109,6 @@ fn choice(legend: &str, name: &str, layers: &[Layer], first: Layer) -> Markup {
 /// A picture that zooms and moves with all others.
 fn layer(place: &str) -> Markup {
     html! {
-        div.layer data-place=(place) { img alt="" draggable="false"; div.mark hidden {} }
+        div.layer data-place=(place) { img alt="" draggable="false"; }
     }
 }
