@@ -6,7 +6,14 @@ use super::gallery::Gallery;
 use super::viewer::viewer;
 use crate::Run;
 
-const STYLE: &str = include_str!("report.css");
+/// In the order in which later ones override earlier ones.
+const STYLES: [&str; 5] = [
+    include_str!("base.css"),
+    include_str!("tables.css"),
+    include_str!("case.css"),
+    include_str!("viewer.css"),
+    include_str!("media.css"),
+];
 
 /// In the order in which they run.
 const SCRIPTS: [&str; 4] = [
@@ -31,7 +38,7 @@ pub fn page(run: &Run, overview: &Markup, cases: &[Markup], gallery: &Gallery) -
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { "Shuttertruth report" }
                 link rel="icon" href="data:,";
-                style { (PreEscaped(STYLE)) }
+                @for style in STYLES { style { (PreEscaped(style)) } }
             }
             body {
                 header {
