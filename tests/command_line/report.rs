@@ -197,8 +197,11 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
 
     assert!(page.contains("2 bounds: 1 kept, 1 broken, 0 inconclusive"));
     let flip = case.scores.moving.flip.value().unwrap();
+    // A limit's half again is half of the strongest colour.
+    let strength = 100.0 * (flip / 0.2 - 1.0);
     let cell = format!(
-        "<a href=\"#case-{index}\"><span class=\"sign\" aria-hidden=\"true\">✗</span>{flip:.3}\
+        "<td class=\"broken required\" style=\"--strength:{strength:.0}%\" data-value=\"{flip}\">\
+         <a href=\"#case-{index}\"><span class=\"sign\" aria-hidden=\"true\">✗</span>{flip:.3}\
          <span class=\"unseen\">, broken, required limit 0.2000</span></a>"
     );
     assert!(page.contains(&cell), "{cell}");

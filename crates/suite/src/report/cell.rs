@@ -48,8 +48,7 @@ pub fn cell(shown: &Shown, case: &Case, number_of_case: usize) -> Markup {
     let verdict = case.verdicts.iter().find(|verdict| verdict.metric == name);
     let judged = verdict.and_then(|verdict| Some((verdict, standing(&verdict.outcome)?)));
     html! {
-        td class=[judged.map(|(_, standing)| standing.word)]
-            .required[judged.is_some_and(|(verdict, _)| fails(verdict))]
+        td class=[judged.map(|(verdict, standing)| class(verdict, standing))]
             style=[judged.and_then(|(verdict, _)| strength(shown.metric, &measured, verdict))]
             data-value=[measured.value()]
             title=[reason(&measured)] {
@@ -66,9 +65,14 @@ pub fn cell(shown: &Shown, case: &Case, number_of_case: usize) -> Markup {
     }
 }
 
-/// Whether it fails a check.
-fn fails(verdict: &Verdict) -> bool {
-    verdict.level == Level::Required && matches!(verdict.outcome, Outcome::Broken { .. })
+/// What fails a check stands out.
+fn class(verdict: &Verdict, standing: Standing) -> String {
+    let fails =
+        verdict.level == Level::Required && matches!(verdict.outcome, Outcome::Broken { .. });
+    match fails {
+        true => format!("{} required", standing.word),
+        false => standing.word.to_owned(),
+    }
 }
 
 fn level(verdict: &Verdict) -> &'static str {
