@@ -12,6 +12,7 @@ mod kept;
 mod kept_cases;
 mod own_filter;
 mod refusals;
+mod report;
 mod score;
 mod serve;
 mod timing;

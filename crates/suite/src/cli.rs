@@ -49,6 +49,8 @@ pub enum Command {
     Blur(BlurArgs),
     /// Measure a finished picture, wherever it comes from.
     Score(ScoreArgs),
+    /// Show a finished run as one page that opens in a browser, without a network.
+    Report(ReportArgs),
     /// Time filters pass by pass, and against their reach. Prints tables; writes bench.json.
     Bench(BenchArgs),
     /// Find parameters that bring a filter nearer to the truth. Writes journal.jsonl and tune.json.
@@ -318,6 +320,17 @@ pub struct ScoreArgs {
     /// Print all scores as JSON instead of the table.
     #[arg(long)]
     pub json: bool,
+}
+
+/// `shuttertruth report`
+#[derive(Debug, Args)]
+pub struct ReportArgs {
+    /// run.json of a finished `run` or `check`, in its folder: the pictures lie beside it.
+    #[arg(value_name = "RUN.JSON")]
+    pub run: PathBuf,
+    /// The page to write.
+    #[arg(long, value_name = "FILE")]
+    pub html: PathBuf,
 }
 
 /// `shuttertruth bench`

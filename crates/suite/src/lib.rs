@@ -23,6 +23,7 @@ mod probe;
 mod progress;
 mod rendered;
 mod replicates;
+mod report;
 mod run;
 mod runner;
 mod scatter_oracle;
@@ -64,6 +65,7 @@ pub use rendered::{
     LADDER, RenderSettings, SIDES, deciding_floor, frame_of, part_of, scene_folder,
     truth_and_ladder_of, truth_of, truth_until,
 };
+pub use report::report;
 pub use run::{FORMAT, Plan, Run, run, viewing};
 pub use runner::{Runner, open_gpu};
 pub use scatter_oracle::scatter_oracle;

@@ -24,7 +24,7 @@ pub struct Worst {
 }
 
 /// Side of the blocks whose sums are compared, in pixels: larger than the noise of pixels, smaller than most movers.
-const BLOCK: u32 = 16;
+pub(crate) const BLOCK: u32 = 16;
 /// Side of what is shown around the worst block, in pixels.
 const CROP: u32 = 64;
 /// Every pixel is shown as so many by so many.

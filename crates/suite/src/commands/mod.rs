@@ -12,6 +12,7 @@ mod list;
 mod measure;
 mod merge;
 mod render;
+mod report;
 mod run;
 mod score;
 mod serve;
@@ -43,6 +44,7 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         Some(Command::Merge(args)) => merge::execute(&args),
         Some(Command::Blur(args)) => blur::execute(&args),
         Some(Command::Score(args)) => score::execute(&args),
+        Some(Command::Report(args)) => report::execute(&args),
         Some(Command::Bench(args)) => bench::execute(&args),
         Some(Command::Tune(args)) => {
             with_threads(args.candidate.scenes.threads, || tune::execute(&args))
@@ -59,7 +61,7 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         Some(Command::Import(args)) => import::execute(&args),
         Some(Command::List(args)) => list::execute(&args),
         None => Err(Error::Usage(
-            "no command given; allowed: run, check, accept, calibrate, render, merge, blur, score, bench, tune, evaluate, serve, catalogue, import, list (see --help)"
+            "no command given; allowed: run, check, accept, calibrate, render, merge, blur, score, report, bench, tune, evaluate, serve, catalogue, import, list (see --help)"
                 .to_owned(),
         )),
     }

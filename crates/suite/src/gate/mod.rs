@@ -14,6 +14,7 @@ pub use finding::{Finding, Kind, findings, number};
 pub use github::{annotations, summary};
 pub use junit::junit;
 pub use text::check_text;
+pub(crate) use text::{headline, way_out};
 
 /// Version of the layout of what `check --json` prints.
 pub const CHECK_FORMAT: u32 = 1;

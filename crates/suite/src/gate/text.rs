@@ -63,7 +63,7 @@ fn lines(finding: &Finding, out: &std::path::Path) -> Vec<(usize, String)> {
 }
 
 /// `BROKEN flip_moving 0.0921, with 95 % in 0.0893 to 0.0950; limit 0.0500, floor 0.0021`
-pub(super) fn headline(finding: &Finding) -> String {
+pub(crate) fn headline(finding: &Finding) -> String {
     let word = match (finding.kind, finding.level) {
         (Kind::Broken, Level::Required) => "BROKEN",
         (Kind::Broken, Level::Report) => "broken (report)",
@@ -93,7 +93,7 @@ fn place(finding: &Finding) -> String {
 }
 
 /// What to do about a score that was not judged.
-pub(super) fn way_out(finding: &Finding) -> Option<String> {
+pub(crate) fn way_out(finding: &Finding) -> Option<String> {
     match finding.kind {
         Kind::TooNoisy => Some(format!(
             "the noise floor of {} allows {} at the strictest; raise the limit, or --samples-per-pixel",

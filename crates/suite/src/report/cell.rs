@@ -1,0 +1,120 @@
+//! One score in a table, against its bound.
+
+use maud::{Markup, html};
+use metrics::{Measured, Metric};
+
+use super::shown::Shown;
+use crate::bounds::Level;
+use crate::gate::number;
+use crate::verdict::limit_as_badness;
+use crate::{Case, Outcome, Verdict};
+
+/// How a score stands to its bound, as colour, sign and word say it: never the colour alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Standing {
+    /// Class in the style sheet, and word for a reader.
+    pub word: &'static str,
+    /// Before the number.
+    pub sign: &'static str,
+}
+
+/// None where the metric does not apply.
+pub fn standing(outcome: &Outcome) -> Option<Standing> {
+    let (word, sign) = match outcome {
+        Outcome::Kept { .. } => ("kept", "✓"),
+        Outcome::Broken { .. } => ("broken", "✗"),
+        Outcome::Inconclusive { .. } => ("inconclusive", "?"),
+        Outcome::TooNoisy { .. } => ("undecided", "~"),
+        Outcome::NotApplicable { .. } => return None,
+    };
+    Some(Standing { word, sign })
+}
+
+/// How far a value is from its limit as a part of that: -1 is perfect, 0 at the limit, 1 twice as bad as allowed, or worse.
+pub fn distance(metric: Metric, value: f64, limit: f64) -> f64 {
+    let ideal = metric.ideal();
+    let limit = limit_as_badness(ideal, limit);
+    let beyond = ideal.badness(value) - limit;
+    match limit == 0.0 {
+        true => beyond.signum() * f64::from(beyond != 0.0),
+        false => (beyond / limit.abs()).clamp(-1.0, 1.0),
+    }
+}
+
+/// The cell of the overview that leads to a case by its number.
+pub fn cell(shown: &Shown, case: &Case, number_of_case: usize) -> Markup {
+    let measured = case.scores.get(shown.metric);
+    let name = shown.metric.name();
+    let verdict = case.verdicts.iter().find(|verdict| verdict.metric == name);
+    let judged = verdict.and_then(|verdict| Some((verdict, standing(&verdict.outcome)?)));
+    html! {
+        td class=[judged.map(|(verdict, standing)| class(verdict, standing))]
+            style=[judged.and_then(|(verdict, _)| strength(shown.metric, &measured, verdict))]
+            data-value=[measured.value()]
+            title=[reason(&measured)] {
+            a href=(format!("#case-{number_of_case}")) {
+                @if let Some((_, standing)) = judged {
+                    span.sign aria-hidden="true" { (standing.sign) }
+                }
+                (shown.text(case))
+                @if let Some((verdict, standing)) = judged {
+                    span.unseen { ", " (standing.word) ", " (level(verdict)) " limit " (number(verdict.limit)) }
+                }
+            }
+        }
+    }
+}
+
+/// What fails a check stands out.
+fn class(verdict: &Verdict, standing: Standing) -> String {
+    let fails =
+        verdict.level == Level::Required && matches!(verdict.outcome, Outcome::Broken { .. });
+    match fails {
+        true => format!("{} required", standing.word),
+        false => standing.word.to_owned(),
+    }
+}
+
+fn level(verdict: &Verdict) -> &'static str {
+    match verdict.level {
+        Level::Required => "required",
+        Level::Report => "reported",
+    }
+}
+
+/// How strong the colour is, in percent.
+fn strength(metric: Metric, measured: &Measured, verdict: &Verdict) -> Option<String> {
+    let far = distance(metric, measured.value()?, verdict.limit).abs();
+    Some(format!("--strength:{:.0}%", 100.0 * far))
+}
+
+fn reason(measured: &Measured) -> Option<&str> {
+    match measured {
+        Measured::Score(_) => None,
+        Measured::NotApplicable { reason } => Some(reason),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_distance_is_a_part_of_the_limit_whichever_way_is_better() {
+        for (metric, value, limit, expected) in [
+            ("flip_moving", 0.0, 0.05, -1.0),
+            ("flip_moving", 0.025, 0.05, -0.5),
+            ("flip_moving", 0.05, 0.05, 0.0),
+            ("flip_moving", 0.2, 0.05, 1.0),
+            ("n_eq", 4.0, 8.0, 0.5),
+            ("n_eq", 12.0, 8.0, -0.5),
+            ("extent", 0.75, 0.5, -0.5),
+            ("extent", 1.75, 0.5, 0.5),
+            ("hole", 0.0, 0.0, 0.0),
+            ("hole", 0.1, 0.0, 1.0),
+        ] {
+            let metric: Metric = metric.parse().unwrap();
+            assert_eq!(distance(metric, value, limit), expected, "{metric} {value}");
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! All scenes and all filters at a glance.
+
+use maud::{Markup, html};
+use metrics::Ideal;
+
+use super::case_page::Page;
+use super::cell::cell;
+use super::meaning::meaning;
+use super::provenance::provenance;
+use super::ranking::ranking;
+use super::shown::{SHOWN, Shown};
+use super::subject::{case_of, scenes, subjects};
+use super::verdicts::broken_bounds;
+use crate::Run;
+use crate::gate::Kind;
+
+/// The first thing that a reader sees.
+pub fn overview(run: &Run, pages: &[Page]) -> Markup {
+    html! {
+        section #overview {
+            p.lead { (summary(run, pages)) }
+            (broken_bounds(pages))
+            fieldset.choice #metrics {
+                legend { "Score" }
+                @for (index, shown) in SHOWN.iter().enumerate() {
+                    label {
+                        input type="radio" name="metric" value=(shown.metric.name()) checked[index == 0];
+                        span { (shown.title) }
+                    }
+                }
+            }
+            @for shown in &SHOWN { (panel(run, shown)) }
+            (key())
+            (provenance(run))
+        }
+    }
+}
+
+/// `5 scenes, 23 filters; 230 bounds: 180 kept, 50 broken`
+fn summary(run: &Run, pages: &[Page]) -> String {
+    let all = subjects(run);
+    let filters = all.iter().filter(|subject| !subject.bar).count();
+    let mut text = format!(
+        "{} and {}, beside {}.",
+        counted(scenes(run).len(), "scene"),
+        counted(filters, "filter preset"),
+        counted(all.len() - filters, "bar"),
+    );
+    let findings = || pages.iter().flat_map(|page| &page.findings);
+    let count = |kind| findings().filter(|finding| finding.kind == kind).count();
+    match findings().count() {
+        0 => text += " No score is bounded.",
+        bounds => {
+            text += &format!(
+                " {}: {} kept, {} broken, {} inconclusive, {} stricter than the noise allows, {} not applicable.",
+                counted(bounds, "bound"),
+                count(Kind::Kept),
+                count(Kind::Broken),
+                count(Kind::Inconclusive),
+                count(Kind::TooNoisy),
+                count(Kind::NotApplicable),
+            );
+        }
+    }
+    text
+}
+
+/// `1 scene`, `2 scenes`.
+fn counted(count: usize, what: &str) -> String {
+    match count {
+        1 => format!("1 {what}"),
+        count => format!("{count} {what}s"),
+    }
+}
+
+fn panel(run: &Run, shown: &Shown) -> Markup {
+    html! {
+        div.panel data-metric=(shown.metric.name()) {
+            h2 { (shown.title) }
+            p { (meaning(shown.metric)) "; " (shown.better()) "." }
+            (ranking(run, shown))
+            (table(run, shown))
+        }
+    }
+}
+
+/// One row per filter preset or bar, one column per scene.
+fn table(run: &Run, shown: &Shown) -> Markup {
+    let scenes = scenes(run);
+    // What a reader looks for comes first.
+    let order = match shown.metric.ideal() {
+        Ideal::Highest => "descending",
+        Ideal::Lowest | Ideal::Target(_) => "ascending",
+    };
+    html! {
+        div.scroll tabindex="0" role="region" aria-label=(format!("{} of every case", shown.title)) {
+            table.sortable data-first=(order) {
+                caption { (shown.metric.name()) " of every case" }
+                thead {
+                    tr {
+                        th scope="col" { button { "filter" } }
+                        @for scene in &scenes { th scope="col" { button { (scene) } } }
+                    }
+                }
+                tbody {
+                    @for subject in subjects(run) {
+                        tr.bar[subject.bar] {
+                            th scope="row" { (subject.title()) }
+                            @for scene in &scenes {
+                                @match case_of(run, &subject, scene) {
+                                    Some(index) => (cell(shown, &run.cases[index], index)),
+                                    None => td { "-" },
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// What signs and colours mean.
+fn key() -> Markup {
+    html! {
+        p.key {
+            span.kept { "✓ kept" } " " span.broken { "✗ broken" } " "
+            span.broken.required { "✗ broken, and a check fails" } " "
+            span.inconclusive { "? the noise does not tell" } " "
+            span.undecided { "~ limit stricter than the noise allows" }
+            " The stronger the colour, the farther from the limit; no colour: no bound. Names in italics are bars to measure \
+             filters by. Numbers lead to their case; the headings sort."
+        }
+    }
+}
