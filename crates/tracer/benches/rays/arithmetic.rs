@@ -6,7 +6,7 @@ use divan::black_box;
 /// Numbers that are worked on side by side: few enough for registers, enough to keep all units busy.
 const NUMBERS: usize = 32;
 /// About as long as a part of the rays.
-const ROUNDS: usize = 60_000;
+const ROUNDS: usize = 450_000;
 
 /// Multiplies and adds in 32 bits; the count is of no use but must be made.
 pub fn arithmetic() -> usize {

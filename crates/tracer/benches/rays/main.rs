@@ -6,6 +6,7 @@ mod frames;
 mod made_scene;
 
 use std::f64::consts::TAU;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use arithmetic::arithmetic;
@@ -134,11 +135,11 @@ fn ratios() {
     let portable = Field::new(&scenes[0]).portable();
     for kind in KINDS {
         let best = best_of([
-            &|part| fields[0].trace(kind, part),
-            &|part| fields[1].trace(kind, part),
-            &|part| portable.trace(kind, part),
+            &|part| once(|| fields[0].trace(kind, part)),
+            &|part| once(|| fields[1].trace(kind, part)),
+            &|part| once(|| portable.trace(kind, part)),
             &|part| twice(|| fields[0].trace(kind, part)),
-            &|_| arithmetic(),
+            &|_| once(arithmetic),
             &|_| twice(arithmetic),
         ]);
         let [once_sums, twice_sums] = [best[4], best[5]].map(|best| best.as_secs_f64());
@@ -166,23 +167,36 @@ fn ratios() {
     frames::report();
 }
 
-/// Does the same on each of two threads.
-fn twice(work: impl Fn() -> usize + Sync) -> usize {
+/// The time that a work takes.
+fn once(work: impl Fn() -> usize) -> Duration {
+    let start = Instant::now();
+    black_box(work());
+    start.elapsed()
+}
+
+/// The time that it takes on the slower of two threads, which both do it, and begin when both are there.
+fn twice(work: impl Fn() -> usize + Sync) -> Duration {
+    let there = AtomicUsize::new(0);
+    let timed = || {
+        there.fetch_add(1, Ordering::Relaxed);
+        while there.load(Ordering::Relaxed) < 2 {
+            std::hint::spin_loop();
+        }
+        once(&work)
+    };
     std::thread::scope(|scope| {
-        let other = scope.spawn(&work);
-        work() + other.join().expect("no work here panics")
+        let other = scope.spawn(timed);
+        timed().max(other.join().expect("no work here panics"))
     })
 }
 
 /// The time that each of several works takes, in parts and in turns: the sum of every part's shortest.
-fn best_of<const N: usize>(works: [&dyn Fn(usize) -> usize; N]) -> [Duration; N] {
+fn best_of<const N: usize>(works: [&dyn Fn(usize) -> Duration; N]) -> [Duration; N] {
     let mut best = [[Duration::MAX; PARTS]; N];
     for _ in 0..TURNS {
         for part in 0..PARTS {
             for (best, work) in best.iter_mut().zip(works) {
-                let start = Instant::now();
-                black_box(work(part));
-                best[part] = start.elapsed().min(best[part]);
+                best[part] = work(part).min(best[part]);
             }
         }
     }
