@@ -105,9 +105,6 @@ fn an_imported_model_stands_in_the_middle_and_slides_as_fast_as_asked() {
         "{}",
         stdout(&output)
     );
-    // Whoever may look into other folders may look into this one.
-    let permissions = |folder: &str| fs::metadata(bench.path(folder)).unwrap().permissions();
-    assert_eq!(permissions("scenes/house"), permissions("scenes/plate"));
     let frame = frame(&bench);
     let house = shown(&frame, "model");
     let count = house.len() as f64;

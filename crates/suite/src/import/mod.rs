@@ -52,7 +52,7 @@ pub fn import(plan: &ImportPlan) -> Result<Imported, Error> {
     create(parent)?;
     let staging = tempfile::tempdir_in(parent)
         .map_err(|source| FileError::io(parent, "create a folder in", source))?;
-    // A folder of its own: the temporary one is for its owner's eyes only.
+    // A folder of its own, to be renamed: the temporary one vanishes whatever happens.
     let folder = staging.path().join("scene");
     create(&folder)?;
 
