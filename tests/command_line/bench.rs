@@ -162,6 +162,11 @@ pub fn files_below(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
+/// A command line without quotes, word by word.
+pub fn split(line: &str) -> Vec<&str> {
+    line.split_whitespace().collect()
+}
+
 /// Words of a command that renders and measures, at a size that takes no time.
 pub fn quick<'a>(command: &'a str, samples_per_pixel: &'a str) -> [&'a str; 8] {
     [

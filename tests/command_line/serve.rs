@@ -7,7 +7,7 @@ use std::process::{ChildStdin, Command, Stdio};
 
 use serde_json::{Value, json};
 
-use crate::bench::{Bench, assert_refused, stderr, stdout};
+use crate::bench::{Bench, assert_refused, split, stderr, stdout};
 
 const SERVE: [&str; 12] = [
     "serve",
@@ -115,7 +115,8 @@ fn what_is_cancelled_is_not_summed_up() {
         &[
             json!({"cancel": 2}),
             json!({"id": 2, "params": {"samples": 3}}),
-            json!({"id": 3, "params": {"samples": 4}}),
+            // JSON has one kind of numbers.
+            json!({"id": 3, "params": {"samples": 4, "match_threshold": 1}}),
         ],
     );
     let of = |id: u64| {
@@ -133,14 +134,7 @@ fn parameters_of_a_file_are_checked() {
     let bench = Bench::new();
     let evaluate = |text: &str| {
         fs::write(bench.path("p.json"), text).unwrap();
-        let words = [
-            "evaluate",
-            "--quiet",
-            "--filter",
-            "jump_flood",
-            "--params",
-            "p.json",
-        ];
+        let words = split("evaluate --quiet --filter jump_flood --params p.json");
         bench.shuttertruth(&[&words[..], &["--out", "out"]].concat())
     };
     for (text, parts) in [
@@ -160,15 +154,7 @@ fn parameters_of_a_file_are_checked() {
         assert_refused(&evaluate(text), 2, &parts);
     }
     fs::remove_file(bench.path("p.json")).unwrap();
-    let words = [
-        "evaluate",
-        "--filter",
-        "jump_flood",
-        "--params",
-        "p.json",
-        "--out",
-        "out",
-    ];
+    let words = split("evaluate --filter jump_flood --params p.json --out out");
     assert_refused(&bench.shuttertruth(&words), 2, &["p.json: cannot be read"]);
     assert!(!bench.path("out").exists());
 }

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use suite::{Trial, TrialOutcome, Tuning};
 
-use crate::bench::{Bench, MTL, OBJ, SCENE, assert_done, assert_refused, stderr, stdout};
+use crate::bench::{Bench, MTL, OBJ, SCENE, assert_done, assert_refused, split, stderr, stdout};
 
 /// Ways of the plate in one frame, in metres, and the families that its scenes claim.
 const SCENES: [(&str, &str, &str); 7] = [
@@ -61,7 +61,7 @@ const TUNE: [&str; 17] = [
     "--budget",
 ];
 
-fn words<'w>(out: &'w str, budget: &'w str, more: &[&'w str]) -> Vec<&'w str> {
+fn tuning_words<'w>(out: &'w str, budget: &'w str, more: &[&'w str]) -> Vec<&'w str> {
     [&TUNE[..], &[budget, "--out", out], more].concat()
 }
 
@@ -83,7 +83,7 @@ fn tuning(bench: &Bench, out: &str) -> Tuning {
 #[test]
 fn a_tuning_beats_the_start_and_writes_down_how() {
     let bench = bench();
-    let output = bench.shuttertruth(&words("out", "40", &["--sealed", "plate"]));
+    let output = bench.shuttertruth(&tuning_words("out", "40", &["--sealed", "plate"]));
     assert_done(&output);
     let table = stdout(&output);
     for part in [
@@ -127,25 +127,8 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
 
     // The choice as a file is what the choice was.
     let params = bench.path("out/params.json");
-    let words = [
-        "evaluate",
-        "--quiet",
-        "--filter",
-        "jump_flood",
-        "--from",
-        "paper",
-        "--params",
-    ];
-    let scene = [
-        "--scenes",
-        "a",
-        "--size",
-        "64x32",
-        "--samples-per-pixel",
-        "16",
-        "--out",
-        "out",
-    ];
+    let words = split("evaluate --quiet --filter jump_flood --from paper --params");
+    let scene = split("--scenes a --size 64x32 --samples-per-pixel 16 --out out");
     let params = [params.to_str().unwrap(), "--objective", "flip,bleed"];
     let output = bench.shuttertruth(&[&words[..], &params, &scene].concat());
     assert_done(&output);
@@ -157,10 +140,10 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
     assert_eq!(preset["preset"][0]["name"].as_str(), Some("tuned"));
 
     // Another look at the same is no second opening; one at something else is.
-    assert_done(&bench.shuttertruth(&self::words("out", "40", &["--sealed", "plate"])));
+    assert_done(&bench.shuttertruth(&tuning_words("out", "40", &["--sealed", "plate"])));
     assert_eq!(self::tuning(&bench, "out").openings.len(), 1);
     let other = ["--sealed", "plate", "--sealed-size", "64x32"];
-    let output = bench.shuttertruth(&self::words("out", "40", &other));
+    let output = bench.shuttertruth(&tuning_words("out", "40", &other));
     assert!(
         stdout(&output).contains("opened 2 times"),
         "{}",
@@ -172,7 +155,7 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
 #[test]
 fn a_score_of_a_trial_is_that_of_a_run() {
     let bench = bench();
-    assert_done(&bench.shuttertruth(&words("out", "1", &[])));
+    assert_done(&bench.shuttertruth(&tuning_words("out", "1", &[])));
     assert_done(&bench.run(&["--filters", "jump_flood:paper", "--scenes", "a,b,c,d,e,f,g"]));
     let trial = &trials(&journal(&bench, "out"))[0];
     for case in bench.measured_filters() {
@@ -191,8 +174,11 @@ fn a_score_of_a_trial_is_that_of_a_run() {
 #[test]
 fn a_killed_tuning_goes_on_where_it_was_and_ends_with_the_same_bytes() {
     let bench = bench();
-    assert_done(&bench.shuttertruth(&words("whole", "30", &[])));
-    let mut child = bench.command(&words("killed", "30", &[])).spawn().unwrap();
+    assert_done(&bench.shuttertruth(&tuning_words("whole", "30", &[])));
+    let mut child = bench
+        .command(&tuning_words("killed", "30", &[]))
+        .spawn()
+        .unwrap();
     let path = bench.path("killed/journal.jsonl");
     let began = Instant::now();
     while fs::read_to_string(&path).map_or(0, |text| text.lines().count()) < 8 {
@@ -209,19 +195,19 @@ fn a_killed_tuning_goes_on_where_it_was_and_ends_with_the_same_bytes() {
     assert!(left.lines().count() < 31, "it was killed on its way");
     // A line that was half written when the power failed.
     fs::write(&path, format!("{left}{{\"trial\":7")).unwrap();
-    assert_done(&bench.shuttertruth(&words("killed", "30", &[])));
+    assert_done(&bench.shuttertruth(&tuning_words("killed", "30", &[])));
     assert_eq!(journal(&bench, "killed"), journal(&bench, "whole"));
 }
 
 #[test]
 fn a_smaller_budget_is_the_beginning_of_a_larger_one_and_another_seed_is_another_search() {
     let bench = bench();
-    assert_done(&bench.shuttertruth(&words("out", "12", &[])));
+    assert_done(&bench.shuttertruth(&tuning_words("out", "12", &[])));
     let first = journal(&bench, "out");
-    assert_done(&bench.shuttertruth(&words("out", "16", &[])));
+    assert_done(&bench.shuttertruth(&tuning_words("out", "16", &[])));
     let second = journal(&bench, "out");
     assert!(second.starts_with(&first) && second.lines().count() == 17);
-    let other = words("out", "16", &["--search-seed", "2"]);
+    let other = tuning_words("out", "16", &["--search-seed", "2"]);
     assert_refused(
         &bench.shuttertruth(&other),
         2,
@@ -289,18 +275,7 @@ fn what_cannot_be_tuned_is_refused_and_leaves_nothing_behind() {
             "{more:?} left something behind"
         );
     }
-    let still = [
-        "tune",
-        "--quiet",
-        "--filter",
-        "jump_flood",
-        "--scenes",
-        "g",
-        "--size",
-        "64x32",
-        "--out",
-        "out",
-    ];
+    let still = split("tune --quiet --filter jump_flood --scenes g --size 64x32 --out out");
     let few = ["--samples-per-pixel", "16"];
     let output = bench.shuttertruth(&[&still[..], &few].concat());
     assert_refused(
@@ -345,16 +320,7 @@ fn a_candidate_that_fails_is_told_of_and_the_others_go_on() {
             "--scenes",
             "a,b",
         ];
-        let more = [
-            "--size",
-            "64x32",
-            "--samples-per-pixel",
-            "16",
-            "--budget",
-            "8",
-            "--out",
-            "out",
-        ];
+        let more = split("--size 64x32 --samples-per-pixel 16 --budget 8 --out out");
         bench.shuttertruth(&[&words[..], &more].concat())
     };
     let output = tune("./fragile");
@@ -387,7 +353,7 @@ fn a_candidate_that_fails_is_told_of_and_the_others_go_on() {
 #[test]
 fn a_full_disk_loses_nothing() {
     let bench = bench();
-    assert_done(&bench.shuttertruth(&words("out", "1", &[])));
+    assert_done(&bench.shuttertruth(&tuning_words("out", "1", &[])));
     let begun = journal(&bench, "out");
     // Blocks of 512 bytes: room for some trials more.
     let blocks = (begun.len() + 2000).div_ceil(512).to_string();
@@ -395,7 +361,7 @@ fn a_full_disk_loses_nothing() {
     let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec {program} \"$@\"");
     let mut full = Command::new("sh");
     full.current_dir(bench.path("")).args(["-c", &script, "sh"]);
-    let output = full.args(words("out", "20", &[])).output().unwrap();
+    let output = full.args(tuning_words("out", "20", &[])).output().unwrap();
     assert_refused(
         &output,
         2,
@@ -407,32 +373,16 @@ fn a_full_disk_loses_nothing() {
     );
     let left = journal(&bench, "out");
     assert!(left.starts_with(&begun) && left.len() > begun.len());
-    assert_done(&bench.shuttertruth(&words("out", "20", &[])));
-    assert_done(&bench.shuttertruth(&words("whole", "20", &[])));
+    assert_done(&bench.shuttertruth(&tuning_words("out", "20", &[])));
+    assert_done(&bench.shuttertruth(&tuning_words("whole", "20", &[])));
     assert_eq!(journal(&bench, "out"), journal(&bench, "whole"));
 }
 
 #[test]
 fn two_presets_are_compared_scene_by_scene() {
     let bench = bench();
-    let words = [
-        "tune",
-        "--quiet",
-        "--filter",
-        "jump_flood",
-        "--compare",
-        "paper,corrected",
-    ];
-    let more = [
-        "--scenes",
-        "a,b,c,d,e,f,g",
-        "--size",
-        "64x32",
-        "--samples-per-pixel",
-        "16",
-        "--out",
-        "out",
-    ];
+    let words = split("tune --quiet --filter jump_flood --compare paper,corrected");
+    let more = split("--scenes a,b,c,d,e,f,g --size 64x32 --samples-per-pixel 16 --out out");
     let output = bench.shuttertruth(&[&words[..], &more].concat());
     assert_done(&output);
     let text = stdout(&output);
@@ -444,28 +394,14 @@ fn two_presets_are_compared_scene_by_scene() {
         text.contains("over 7 scenes: corrected is better"),
         "{text}"
     );
-    let same = [
-        "tune",
-        "--quiet",
-        "--filter",
-        "jump_flood",
-        "--compare",
-        "paper,paper",
-    ];
+    let same = split("tune --quiet --filter jump_flood --compare paper,paper");
     let output = bench.shuttertruth(&[&same[..], &more].concat());
     let text = stdout(&output);
     assert!(
         text.contains("+0.0 % (+0.0 % to +0.0 %) over 7 scenes: undecided"),
         "{text}"
     );
-    let one = [
-        "tune",
-        "--quiet",
-        "--filter",
-        "jump_flood",
-        "--compare",
-        "paper",
-    ];
+    let one = split("tune --quiet --filter jump_flood --compare paper");
     let output = bench.shuttertruth(&[&one[..], &more].concat());
     assert_refused(&output, 2, &["--compare paper", "allowed are two presets"]);
 }
@@ -473,24 +409,8 @@ fn two_presets_are_compared_scene_by_scene() {
 #[test]
 fn a_study_tells_what_matters() {
     let bench = bench();
-    let words = [
-        "tune",
-        "--quiet",
-        "--filter",
-        "jump_flood",
-        "--from",
-        "corrected",
-        "--morris",
-        "4",
-    ];
-    let more = [
-        "--vary",
-        "samples,behind_extent",
-        "--scenes",
-        "a,b",
-        "--size",
-        "64x32",
-    ];
+    let words = split("tune --quiet --filter jump_flood --from corrected --morris 4");
+    let more = split("--vary samples,behind_extent --scenes a,b --size 64x32");
     let few = ["--samples-per-pixel", "16", "--out", "out"];
     let output = bench.shuttertruth(&[&words[..], &more, &few].concat());
     assert_done(&output);
@@ -520,26 +440,8 @@ fn a_study_tells_what_matters() {
 #[test]
 fn a_cost_is_a_ratio_to_the_start() {
     let bench = bench();
-    let words = [
-        "tune",
-        "--quiet",
-        "--filter",
-        "jump_flood",
-        "--vary",
-        "samples",
-        "--scenes",
-        "a",
-    ];
-    let more = [
-        "--size",
-        "64x32",
-        "--samples-per-pixel",
-        "16",
-        "--budget",
-        "6",
-        "--out",
-        "out",
-    ];
+    let words = split("tune --quiet --filter jump_flood --vary samples --scenes a");
+    let more = split("--size 64x32 --samples-per-pixel 16 --budget 6 --out out");
     assert_done(&bench.shuttertruth(&[&words[..], &more].concat()));
     let trials = trials(&journal(&bench, "out"));
     assert_eq!(trials[0].cost, Some(1.0));

@@ -153,9 +153,8 @@ impl Workbench<'_> {
             None => measurement.scores.moving.clone(),
         };
         let folder = subject.folder(self.scene);
-        let files = self.plan.out.join(&folder);
         let mut files = write_case(
-            &files,
+            &self.plan.out.join(&folder),
             self.scene,
             &self.frame.objects,
             picture,

@@ -6,8 +6,9 @@ use std::path::Path;
 use filters::{Settings, Value};
 use suite::{Answer, Error, FilterChoice, Objective, answer, evaluator, shots};
 
+use super::measure::scenes;
 use super::say;
-use super::tune::{open, render, scenes, select_candidate};
+use super::tune::{open, render, select_candidate};
 use crate::cli::EvaluateArgs;
 
 /// Scores one set of parameters on every scene and prints JSON.

@@ -4,24 +4,19 @@ use std::path::{Path, PathBuf};
 
 use filters::AdapterDescription;
 use suite::{
-    Error, FEWEST_REPLICATES, FilterChoice, InputFormat, Plan, RenderSettings, Run, read_bounds,
-    select_filters, select_scenes,
+    Error, FEWEST_REPLICATES, FilterChoice, InputFormat, Plan, RenderSettings, Run, SceneBounds,
+    read_bounds, select_filters, select_scenes,
 };
+
+use tracer::Scene;
 
 use super::render_settings;
 use crate::cli::MeasureArgs;
 
 /// Loads scenes with their bounds, and filters; renders nothing. Scores are to have neither intervals nor evidence.
 pub fn plan(args: &MeasureArgs, out: PathBuf) -> Result<Plan, Error> {
-    let scenes = select_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
+    let scenes = scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
     let filters = filters(args)?;
-    let scenes = scenes
-        .into_iter()
-        .map(|choice| {
-            let bounds = read_bounds(&args.scenes.scenes_dir, &choice.folder)?;
-            Ok((choice.scene, bounds))
-        })
-        .collect::<Result<_, Error>>()?;
     let usual = RenderSettings::default();
     let size = args.size.unwrap_or((usual.width, usual.height));
     Ok(Plan {
@@ -35,6 +30,16 @@ pub fn plan(args: &MeasureArgs, out: PathBuf) -> Result<Plan, Error> {
         evidence: false,
         quiet: args.scenes.quiet,
     })
+}
+
+/// Scenes with their bounds, of the folder `root`; all of it where there are no words.
+pub fn scenes(root: &Path, words: &[String]) -> Result<Vec<(Scene, SceneBounds)>, Error> {
+    (select_scenes(root, words)?.into_iter())
+        .map(|choice| {
+            let bounds = read_bounds(root, &choice.folder)?;
+            Ok((choice.scene, bounds))
+        })
+        .collect()
 }
 
 fn filters(args: &MeasureArgs) -> Result<Vec<FilterChoice>, Error> {

@@ -10,8 +10,9 @@ use serde_json::json;
 use suite::{Error, Evaluator, Objective, SceneScore, answer, evaluator, shots};
 
 use super::evaluate::changed;
+use super::measure::scenes;
 use super::say;
-use super::tune::{open, render, scenes, select_candidate};
+use super::tune::{open, render, select_candidate};
 use crate::cli::ServeArgs;
 
 /// One line of standard input.
@@ -191,4 +192,28 @@ fn lines() -> Receiver<String> {
 
 fn line(value: serde_json::Value) -> Result<(), Error> {
     say(&format!("{value}\n"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_request_under_way_ends_when_it_is_cancelled_and_no_other_does() {
+        let (sender, lines) = channel();
+        let mut inbox = Inbox {
+            lines,
+            waiting: VecDeque::new(),
+            cancelled: BTreeSet::new(),
+        };
+        let score = SceneScore {
+            flip: 0.1,
+            bleed: None,
+        };
+        assert!(heard(&mut inbox, 7, "fan", &score));
+        sender.send("{\"cancel\": 8}".to_owned()).unwrap();
+        assert!(heard(&mut inbox, 7, "fan", &score));
+        sender.send("{\"cancel\": 7}".to_owned()).unwrap();
+        assert!(!heard(&mut inbox, 7, "fan", &score));
+    }
 }

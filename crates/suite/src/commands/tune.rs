@@ -1,16 +1,15 @@
 //! `shuttertruth tune`
 
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use filters::Gpu;
 use suite::{
-    Effort, Error, FilterChoice, Objective, RenderSettings, SceneBounds, Space, TunePlan, Tuning,
-    compare_paired, evaluator, interleaved, open_gpu, paired_table, preset_text, read_bounds,
-    select_filters, select_scenes, sensitivity, sensitivity_table, shots, tune, tuning_table,
+    Effort, Error, FilterChoice, Objective, RenderSettings, Space, TunePlan, Tuning,
+    compare_paired, evaluator, interleaved, open_gpu, paired_table, preset_text, select_filters,
+    sensitivity, sensitivity_table, shots, tune, tuning_table,
 };
-use tracer::Scene;
 
+use super::measure::scenes;
 use super::{render_settings, say};
 use crate::cli::{CandidateArgs, TuneArgs};
 
@@ -192,14 +191,4 @@ pub fn render(args: &CandidateArgs) -> Result<RenderSettings, Error> {
 pub fn open(choice: &FilterChoice, args: &CandidateArgs) -> Result<Option<Gpu>, Error> {
     let adapter = args.adapter.adapter.as_deref();
     Ok(open_gpu(std::slice::from_ref(choice), adapter)?)
-}
-
-/// Scenes with their bounds.
-pub fn scenes(root: &Path, words: &[String]) -> Result<Vec<(Scene, SceneBounds)>, Error> {
-    (select_scenes(root, words)?.into_iter())
-        .map(|choice| {
-            let bounds = read_bounds(root, &choice.folder)?;
-            Ok((choice.scene, bounds))
-        })
-        .collect()
 }
