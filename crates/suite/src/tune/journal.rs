@@ -58,11 +58,7 @@ impl Journal {
     /// Opens the journal at `path`, or begins it. A line that a killed process left half written is cut off: its trial is
     /// done again. Refuses a journal that another command began.
     pub fn open(path: &Path, header: &Header) -> Result<Self, Error> {
-        let fail = |action, source| FileError::Io {
-            path: path.to_owned(),
-            action,
-            source,
-        };
+        let fail = |action, source| FileError::io(path, action, source);
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder).map_err(|error| fail("write", error))?;
         }

@@ -29,11 +29,7 @@ pub fn openings(path: &Path) -> Result<Vec<Opening>, Error> {
         Ok(text) => text,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
         Err(source) => {
-            return Err(Error::File(FileError::Io {
-                path: path.to_owned(),
-                action: "read",
-                source,
-            }));
+            return Err(FileError::io(path, "read", source).into());
         }
     };
     let line = |(index, line): (usize, &str)| {
