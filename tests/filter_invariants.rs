@@ -1,6 +1,6 @@
 //! What must hold for every filter that the program brings, with every preset.
 
-use filters::{Blur, Filter, Gpu, Input, Settings};
+use filters::{Blur, Filter, Gpu, Input, Kernels, Settings};
 use frame::{Alignment, FAR_DEPTH, Image, Plane, Raster, Reprojection, Vectors};
 use tests::kernels::{Steady, expected_ramp};
 use tests::presets::{every_preset, preset_name};
@@ -150,27 +150,50 @@ fn two_runs_give_the_same_bytes_whatever_ran_before() {
         blur.run(&other.input(&[&other.color])).unwrap();
         let again = blur.run(&field.input(&[&field.color])).unwrap();
         let fresh = field.blurred(&gpu, &filter, &settings);
-        // Compared as bits: NaN would equal nothing, and -0 equals 0.
-        let bits = |image: &Image| -> Vec<u32> {
-            image
-                .pixels
-                .as_flattened()
-                .iter()
-                .map(|v| v.to_bits())
-                .collect()
-        };
-        assert_eq!(
-            bits(&first[0]),
-            bits(&again[0]),
-            "{}",
-            preset_name(&filter, &settings)
-        );
-        assert_eq!(
-            bits(&first[0]),
-            bits(&fresh),
-            "{}",
-            preset_name(&filter, &settings)
-        );
+        let name = preset_name(&filter, &settings);
+        assert_eq!(bits(&first[0]), bits(&again[0]), "{name}");
+        assert_eq!(bits(&first[0]), bits(&fresh), "{name}");
+    }
+}
+
+/// Compared as bits: NaN would equal nothing, and -0 equals 0.
+fn bits(image: &Image) -> Vec<u32> {
+    let values = image.pixels.as_flattened().iter();
+    values.map(|value| value.to_bits()).collect()
+}
+
+#[test]
+fn inputs_and_kernels_that_stay_on_the_gpu_give_the_bytes_of_fresh_ones() {
+    let gpu = gpu();
+    let (field, other) = (Field::random(6), Field::random(7));
+    let matte = field.color.map(|[r, ..]| [*r, 0.0, 0.5]);
+    let mut filter_before: Option<(Filter, Kernels)> = None;
+    for (filter, settings) in every_preset() {
+        // The presets of a filter share its kernels.
+        if filter_before
+            .as_ref()
+            .is_none_or(|(before, _)| before.name != filter.name)
+        {
+            let kernels = Kernels::compile(&gpu, &filter).unwrap();
+            filter_before = Some((filter.clone(), kernels));
+        }
+        let (_, kernels) = filter_before.as_ref().expect("it was compiled above");
+        let colors = [&field.color, &matte];
+        let [input, between] = [field.input(&colors), other.input(&[&other.color])]
+            .map(|input| kernels.keep(&input).unwrap());
+        let mut blur = Blur::of(kernels, &settings, WIDTH, HEIGHT).unwrap();
+        blur.run_resident(&between).unwrap();
+        let kept = blur.run_resident(&input).unwrap();
+        let fresh = field.blurred_colors(&gpu, &filter, &settings, &colors);
+        for (kept, fresh) in kept.iter().zip(&fresh) {
+            assert_eq!(
+                bits(kept),
+                bits(fresh),
+                "{}",
+                preset_name(&filter, &settings)
+            );
+        }
+        assert_eq!(kept.len(), 2);
     }
 }
 

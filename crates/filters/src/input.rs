@@ -24,7 +24,12 @@ pub struct Input<'a> {
 
 impl Input<'_> {
     /// Refuses rasters of another size than `width` x `height`, values that are no numbers, and what no frame holds.
-    pub(crate) fn check(&self, filter: &str, [width, height]: [u32; 2]) -> Result<(), FilterError> {
+    pub(crate) fn check(
+        &self,
+        filter: &str,
+        [width, height]: [u32; 2],
+        reads_reprojection: bool,
+    ) -> Result<(), FilterError> {
         let refuse = |reason: String| {
             Err(FilterError::Input {
                 filter: filter.to_owned(),
@@ -78,6 +83,13 @@ impl Input<'_> {
                 let (x, y) = (index as u32 % width, index as u32 / width);
                 return refuse(format!("{name} at ({x}, {y}) is not {allowed}"));
             }
+        }
+        if reads_reprojection && self.reprojection.is_none() {
+            return refuse(
+                "the frame does not say how the camera moved, which this filter reads; give it an attribute \
+                 \"reprojection\" of twelve numbers, or choose another filter"
+                    .to_owned(),
+            );
         }
         Ok(())
     }

@@ -18,7 +18,10 @@ mod wiring;
 pub use command::{Command, CommandBlur};
 pub use error::FilterError;
 pub use filter::{Filter, Format, Pass, Preset, Repeat, Texture};
-pub use gpu::{AdapterDescription, Blur, BufferCopy, Clock, Gpu, Loaded, PassTime, list_adapters};
+pub use gpu::{
+    AdapterDescription, Blur, BufferCopy, Clock, Gpu, Kernels, Loaded, PassTime, Resident,
+    list_adapters,
+};
 pub use input::Input;
 pub use parameter::{Kind, Parameter, Scale, Value};
 pub use reach::{Growth, Length, ReachBy};

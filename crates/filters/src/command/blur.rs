@@ -44,7 +44,7 @@ impl CommandBlur {
 
     /// Blurs every colour image of the input, in order: one run of the program each.
     pub fn run(&self, input: &Input) -> Result<Vec<Image>, FilterError> {
-        input.check(&self.filter, self.size)?;
+        input.check(&self.filter, self.size, false)?;
         (input.color.iter())
             .map(|color| self.blur(color, input))
             .collect()

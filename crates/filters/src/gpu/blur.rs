@@ -1,10 +1,12 @@
 //! Runs a filter: uploads the frame, dispatches the passes, reads the image back.
 
-use frame::{Image, Raster, Reprojection};
+use frame::{Image, Raster};
 
 use super::adapter::Gpu;
+use super::kernels::Kernels;
 use super::plan::{Plan, Step};
-use super::transfer::{Place, padded_row};
+use super::resident::Resident;
+use super::transfer::{Place, padded_row, texels};
 use super::uniforms::FrameUniform;
 use crate::{Filter, FilterError, Format, Input, Settings};
 
@@ -27,12 +29,19 @@ impl<'g> Blur<'g> {
         width: u32,
         height: u32,
     ) -> Result<Self, FilterError> {
-        if filter.command.is_some() {
-            return Err(FilterError::Command {
-                filter: filter.name.clone(),
-                reason: "it is a command and has no kernels that an adapter could run".into(),
-            });
-        }
+        // A size that cannot be is refused before anything is compiled.
+        check_size(gpu, filter, width, height)?;
+        Self::of(&Kernels::compile(gpu, filter)?, settings, width, height)
+    }
+
+    /// Makes the textures for kernels that are compiled already, for other settings or another size than before.
+    pub fn of(
+        kernels: &Kernels<'g>,
+        settings: &Settings,
+        width: u32,
+        height: u32,
+    ) -> Result<Self, FilterError> {
+        let Kernels { gpu, filter, .. } = kernels;
         settings.check(filter)?;
         check_size(gpu, filter, width, height)?;
         Ok(Self {
@@ -40,22 +49,13 @@ impl<'g> Blur<'g> {
             filter: filter.name.clone(),
             size: [width, height],
             reads_reprojection: filter.shader.reads_reprojection,
-            plan: Plan::new(gpu, filter, settings, [width, height])?,
+            plan: Plan::new(kernels, settings, [width, height])?,
         })
     }
 
     /// Refuses an input that the filter cannot read.
     pub(super) fn check(&self, input: &Input) -> Result<(), FilterError> {
-        input.check(&self.filter, self.size)?;
-        if self.reads_reprojection && input.reprojection.is_none() {
-            return Err(FilterError::Input {
-                filter: self.filter.clone(),
-                reason: "the frame does not say how the camera moved, which this filter reads; give it an attribute \
-                         \"reprojection\" of twelve numbers, or choose another filter"
-                    .to_owned(),
-            });
-        }
-        Ok(())
+        input.check(&self.filter, self.size, self.reads_reprojection)
     }
 
     /// Blurs every colour image of the input, in order. The same input gives the same bytes on the same adapter.
@@ -66,6 +66,30 @@ impl<'g> Blur<'g> {
         for color in input.color {
             self.upload_color(color)?;
             // What does not depend on colour is still there from the first image.
+            let first = outputs.is_empty();
+            self.dispatch(|step| first || step.depends_on_color)?;
+            outputs.push(self.output()?);
+        }
+        Ok(outputs)
+    }
+
+    /// As [`Blur::run`], on an input that is on the GPU already.
+    pub fn run_resident(&mut self, input: &Resident) -> Result<Vec<Image>, FilterError> {
+        assert_eq!(
+            (&self.filter, self.size),
+            (&input.filter, input.size),
+            "an input stays on the GPU for one filter and size"
+        );
+        let place = self.place("upload");
+        self.gpu.guarded(place, || {
+            self.plan.upload_frame(self.gpu, input.frame);
+            self.gpu.copy(&input.velocity, self.plan.target("velocity"));
+            self.gpu.copy(&input.depth, self.plan.target("depth"));
+        })?;
+        let mut outputs = Vec::new();
+        for color in &input.color {
+            self.gpu
+                .guarded(place, || self.gpu.copy(color, self.plan.target("color")))?;
             let first = outputs.is_empty();
             self.dispatch(|step| first || step.depends_on_color)?;
             outputs.push(self.output()?);
@@ -120,31 +144,18 @@ impl<'g> Blur<'g> {
     }
 
     pub(super) fn upload(&self, input: &Input) -> Result<(), FilterError> {
-        let [width, height] = self.size;
-        let frame = FrameUniform {
-            size: [width as i32, height as i32],
-            exposure: input.exposure as f32,
-            frame_index: input.frame_index,
-            reprojection: columns(input.reprojection.unwrap_or(Reprojection::STILL)),
-            ..FrameUniform::default()
-        };
         self.gpu.guarded(self.place("upload"), || {
             let velocity = bytemuck::cast_slice(&input.velocity.pixels);
             self.gpu.upload(self.plan.target("velocity"), velocity);
             self.gpu
                 .upload(self.plan.target("depth"), &input.depth.pixels);
-            self.plan.upload_frame(self.gpu, frame);
+            self.plan.upload_frame(self.gpu, FrameUniform::of(input));
         })
     }
 
     pub(super) fn upload_color(&self, color: &Image) -> Result<(), FilterError> {
-        let texels: Vec<f32> = color
-            .pixels
-            .iter()
-            .flat_map(|[r, g, b]| [*r, *g, *b, 1.0])
-            .collect();
         self.gpu.guarded(self.place("upload"), || {
-            self.gpu.upload(self.plan.target("color"), &texels);
+            self.gpu.upload(self.plan.target("color"), &texels(color));
         })
     }
 
@@ -158,19 +169,6 @@ impl<'g> Blur<'g> {
         }
         Ok(())
     }
-}
-
-/// As WGSL lays out a mat4x3: columns, each filled up to four numbers.
-fn columns(reprojection: Reprojection) -> [[f32; 4]; 4] {
-    let [x, y, common] = reprojection.rows;
-    [0, 1, 2, 3].map(|column| {
-        [
-            x[column] as f32,
-            y[column] as f32,
-            common[column] as f32,
-            0.0,
-        ]
-    })
 }
 
 fn check_size(gpu: &Gpu, filter: &Filter, width: u32, height: u32) -> Result<(), FilterError> {

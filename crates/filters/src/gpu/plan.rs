@@ -1,12 +1,13 @@
-//! The passes of one filter, settings and size, compiled and bound: what a run only has to dispatch.
+//! The passes of one filter, settings and size, bound to their textures: what a run only has to dispatch.
 
 use super::adapter::Gpu;
-use super::binding::{bind_group, layout, pipeline};
+use super::binding::bind_group;
+use super::kernels::Kernels;
 use super::targets::Targets;
 use super::transfer::{Place, Target};
 use super::uniforms::{FrameUniform, Uniforms};
 use crate::wiring::{color_dependent, noise_dependent};
-use crate::{Filter, FilterError, Pass, Repeat, Settings};
+use crate::{FilterError, Pass, Repeat, Settings};
 
 /// Everything of a filter that lives on the GPU.
 #[derive(Debug)]
@@ -46,24 +47,21 @@ impl Step {
 
 impl Plan {
     pub fn new(
-        gpu: &Gpu,
-        filter: &Filter,
+        kernels: &Kernels,
         settings: &Settings,
         size: [u32; 2],
     ) -> Result<Self, FilterError> {
+        let Kernels {
+            gpu,
+            filter,
+            passes,
+        } = kernels;
         let place = |pass| Place {
             filter: &filter.name,
             pass,
         };
         let mut targets = gpu.guarded(place("textures"), || {
             Targets::new(gpu, filter, settings, size)
-        })?;
-        let module = gpu.guarded(place("kernels"), || {
-            gpu.device
-                .create_shader_module(wgpu::ShaderModuleDescriptor {
-                    label: Some(&filter.name),
-                    source: wgpu::ShaderSource::Wgsl(filter.shader.source.as_str().into()),
-                })
         })?;
         let times = |pass: &Pass| match &pass.repeat {
             Repeat::Times(times) => *times,
@@ -77,7 +75,8 @@ impl Plan {
             .into_iter()
             .zip(noise_dependent(filter));
         let mut steps = Vec::new();
-        for (pass, (depends_on_color, depends_on_noise)) in filter.passes.iter().zip(dependence) {
+        let bound = filter.passes.iter().zip(passes).zip(dependence);
+        for ((pass, compiled), (depends_on_color, depends_on_noise)) in bound {
             let entry = filter.entry_point(pass);
             let over = pass.over.as_deref().unwrap_or("output");
             let over = targets.current(over).texture.size();
@@ -87,32 +86,23 @@ impl Plan {
                 false => [entry.workgroup_size[0], entry.workgroup_size[1]],
             };
             let place = place(&pass.entry);
-            let (layout, pipeline) = gpu.guarded(place, || {
-                let layout = layout(gpu, &filter.shader, entry);
-                let pipeline = pipeline(gpu, &layout, &module, entry);
-                (layout, pipeline)
-            })?;
             let iterations = times(pass);
             for iteration in 0..iterations {
                 let frame = uniforms.frame(steps.len());
                 let bind_group = gpu.guarded(place, || {
-                    bind_group(
-                        gpu,
-                        &filter.shader,
-                        entry,
-                        &layout,
-                        |variable| match variable.name.as_str() {
+                    bind_group(gpu, &filter.shader, entry, &compiled.layout, |variable| {
+                        match variable.name.as_str() {
                             "frame" => frame.clone(),
                             "parameters" => uniforms.parameters.as_entire_binding(),
                             _ => wgpu::BindingResource::TextureView(
                                 &targets.of_variable(entry, variable).view,
                             ),
-                        },
-                    )
+                        }
+                    })
                 })?;
                 steps.push(Step {
                     entry: pass.entry.clone(),
-                    pipeline: pipeline.clone(),
+                    pipeline: compiled.pipeline.clone(),
                     bind_group,
                     workgroups: [
                         over.width.div_ceil(group_width),

@@ -1,6 +1,6 @@
 //! Images to and from the GPU, and wgpu's errors as ours.
 
-use frame::Raster;
+use frame::{Image, Raster};
 
 use super::adapter::Gpu;
 use super::shader::Texel;
@@ -65,6 +65,12 @@ impl Place<'_> {
             reason: reason.to_string(),
         }
     }
+}
+
+/// A colour as the kernels read it, with a fourth component of 1.
+pub(super) fn texels(color: &Image) -> Vec<f32> {
+    let pixels = color.pixels.iter();
+    pixels.flat_map(|[r, g, b]| [*r, *g, *b, 1.0]).collect()
 }
 
 /// Bytes per row of a buffer that a texture is copied to.
@@ -132,6 +138,17 @@ impl Gpu {
             },
             target.texture.size(),
         );
+    }
+
+    /// Copies one texture to another of the same size and format, without leaving the GPU.
+    pub(super) fn copy(&self, from: &Target, to: &Target) {
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        encoder.copy_texture_to_texture(
+            from.texture.as_image_copy(),
+            to.texture.as_image_copy(),
+            from.texture.size(),
+        );
+        self.queue.submit([encoder.finish()]);
     }
 
     /// Waits for the GPU and reads a texture; components that its format lacks are 0.

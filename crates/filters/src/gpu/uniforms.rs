@@ -1,6 +1,9 @@
 //! The uniforms that every kernel may read.
 
+use frame::Reprojection;
+
 use super::adapter::Gpu;
+use crate::Input;
 
 /// The uniform `frame`: the WGSL struct `Frame` of common.wgsl.
 #[repr(C)]
@@ -14,6 +17,33 @@ pub(super) struct FrameUniform {
     /// WGSL aligns matrices to 16 bytes.
     pub gap: [u32; 2],
     pub reprojection: [[f32; 4]; 4],
+}
+
+impl FrameUniform {
+    /// Of every dispatch of an input.
+    pub fn of(input: &Input) -> Self {
+        let velocity = input.velocity;
+        Self {
+            size: [velocity.width as i32, velocity.height as i32],
+            exposure: input.exposure as f32,
+            frame_index: input.frame_index,
+            reprojection: columns(input.reprojection.unwrap_or(Reprojection::STILL)),
+            ..Self::default()
+        }
+    }
+}
+
+/// As WGSL lays out a mat4x3: columns, each filled up to four numbers.
+fn columns(reprojection: Reprojection) -> [[f32; 4]; 4] {
+    let [x, y, common] = reprojection.rows;
+    [0, 1, 2, 3].map(|column| {
+        [
+            x[column] as f32,
+            y[column] as f32,
+            common[column] as f32,
+            0.0,
+        ]
+    })
 }
 
 /// The uniforms `parameters` and `frame`.

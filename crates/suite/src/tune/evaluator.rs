@@ -3,12 +3,12 @@
 use std::collections::HashMap;
 use std::sync::mpsc;
 
-use filters::{FilterError, Gpu, Input, Settings};
-use frame::{Frame, Image, Plane};
+use filters::{Gpu, Settings};
+use frame::{Image, Plane};
 
+use super::engine::Engine;
 use super::shot::{SceneScore, Target};
-use crate::probe::{pack, unpack};
-use crate::{Error, FilterChoice, Runner};
+use crate::{Error, FilterChoice};
 
 /// A filter on scenes that are loaded once; what was measured once is answered from memory.
 pub struct Evaluator<'a> {
@@ -20,25 +20,27 @@ pub struct Evaluator<'a> {
     pub targets: Vec<Target<'a>>,
     /// Whether mattes are blurred as well, which takes about twice the time.
     pub bleed: bool,
+    engine: Engine<'a>,
     /// By candidate and scene.
     memory: HashMap<(String, usize), SceneScore>,
 }
 
 impl<'a> Evaluator<'a> {
-    /// Nothing measured yet.
+    /// Compiles the filter's kernels and takes the scenes to the GPU; nothing is measured yet.
     pub fn new(
         gpu: Option<&'a Gpu>,
         choice: FilterChoice,
         targets: Vec<Target<'a>>,
         bleed: bool,
-    ) -> Self {
-        Self {
+    ) -> Result<Self, Error> {
+        Ok(Self {
+            engine: Engine::new(gpu, &choice.filter, &targets, bleed)?,
             gpu,
             choice,
             targets,
             bleed,
             memory: HashMap::new(),
-        }
+        })
     }
 
     /// Takes a score for granted; scenes of other names are of no interest.
@@ -87,26 +89,13 @@ impl<'a> Evaluator<'a> {
         scenes: &[usize],
         heard: &mut impl FnMut(usize, &SceneScore) -> bool,
     ) -> Result<Vec<(usize, SceneScore)>, Error> {
-        let choice = FilterChoice {
-            filter: self.choice.filter.clone(),
-            preset: self.choice.preset.clone(),
-            settings: settings.clone(),
-        };
         let (sender, receiver) = mpsc::channel();
         let mut found = Vec::new();
         rayon::in_place_scope(|scope| {
-            let mut runner: Option<((u32, u32), Runner)> = None;
+            let mut candidate = self.engine.candidate(settings);
             for scene in scenes {
                 let target = &self.targets[*scene];
-                let size = target.shot.frame.size();
-                if runner
-                    .as_ref()
-                    .is_none_or(|(made_for, _)| *made_for != size)
-                {
-                    runner = Some((size, Runner::new(self.gpu, &choice, size)?));
-                }
-                let (_, runner) = runner.as_mut().expect("it was made above");
-                let (color, mattes) = blurred(runner, &target.shot.frame, self.bleed)?;
+                let (color, mattes) = candidate.blur((*scene, target), self.bleed)?;
                 check(&target.shot.name, &color, mattes.as_deref())?;
                 let sender = sender.clone();
                 scope.spawn(move |_| {
@@ -134,32 +123,6 @@ impl<'a> Evaluator<'a> {
 
 fn key(settings: &Settings) -> String {
     serde_json::to_string(&settings.values).expect("values are plain data")
-}
-
-/// The blurred colour, and the blurred coverage of each object where it is asked for.
-fn blurred(
-    runner: &mut Runner,
-    frame: &Frame,
-    bleed: bool,
-) -> Result<(Image, Option<Vec<Plane>>), FilterError> {
-    let mattes = match bleed {
-        true => pack(&frame.coverage),
-        false => Vec::new(),
-    };
-    let colors: Vec<&Image> = std::iter::once(&frame.color).chain(&mattes).collect();
-    let outputs = runner.run(&Input {
-        color: &colors,
-        velocity: &frame.velocity,
-        depth: &frame.depth,
-        reprojection: Some(frame.reprojection.moved(f64::from(frame.guard_band))),
-        exposure: frame.exposure,
-        frame_index: 0,
-    })?;
-    let outputs: Vec<Image> = (outputs.iter())
-        .map(|output| output.cropped(frame.guard_band))
-        .collect();
-    let coverage = bleed.then(|| unpack(&outputs[1..], frame.coverage.len()));
-    Ok((outputs[0].clone(), coverage))
 }
 
 /// Refuses a picture that no score can be taken of.

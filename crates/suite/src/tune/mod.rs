@@ -3,6 +3,7 @@
 mod answer;
 mod compare;
 mod cost;
+mod engine;
 mod evaluator;
 mod journal;
 mod loss;

@@ -114,7 +114,7 @@ pub fn evaluator<'a>(
     let targets = (shots.iter())
         .map(|shot| Target::new(shot, &choice.filter.name, &choice.preset))
         .collect::<Result<_, _>>()?;
-    Ok(Evaluator::new(gpu, choice.clone(), targets, bleed))
+    Evaluator::new(gpu, choice.clone(), targets, bleed)
 }
 
 /// The start, the other presets, and what follows.
