@@ -1,7 +1,8 @@
 # `make run` does the main job; `make test` passes the tests. Both check for a Vulkan driver first and, on Debian and
-# Ubuntu, install the software one where none is found. On macOS and Windows plain cargo commands work.
+# Ubuntu, install the software one where none is found; the tests want Optuna as well, which drives the tuning service. On
+# macOS and Windows plain cargo commands work.
 
-.PHONY: run test vulkan
+.PHONY: run test vulkan optuna
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -12,8 +13,23 @@ SCENES ?= sliding_panel,panel_over_texture,two_spheres,railing,fan
 run: vulkan
 	cargo run --release --locked --bin shuttertruth -- run $(if $(SCENES),--scenes $(SCENES)) --out out
 
-test: vulkan
+test: vulkan optuna
 	cargo test --workspace --locked
+
+# The Python that has Optuna; one of your own is used as it is.
+VENV := $(abspath $(or $(CARGO_TARGET_DIR),target))/python
+export PYTHON ?= $(VENV)/bin/python3
+
+# `$(call INSTALL,what is missing,packages,way out)`: from Debian's packages, as root.
+define INSTALL
+    command -v apt-get >/dev/null || { echo "no $(1) found; $(3)" >&2; exit 1; }; \
+    if [ "$$(id -u)" = 0 ]; then as_root=""; \
+    elif command -v sudo >/dev/null; then as_root="sudo"; \
+    else echo "no $(1) found, and neither root nor sudo to install one; $(3)" >&2; exit 1; fi; \
+    echo "no $(1) found: installing $(2)" >&2; \
+    { $$as_root apt-get update -q && $$as_root env DEBIAN_FRONTEND=noninteractive apt-get install -yq $(2); } >&2 || \
+    { echo "the installation failed; $(3)" >&2; exit 1; }
+endef
 
 # A Vulkan driver is a manifest (an ICD) in one of the loader's folders, or one named by its variables.
 define FIND_VULKAN
@@ -29,18 +45,21 @@ loader() { \
 }
 endef
 
+VULKAN_WAY_OUT := install a Vulkan driver and loader, for example the software one: apt-get install mesa-vulkan-drivers libvulkan1 (Debian, Ubuntu), dnf install mesa-vulkan-drivers vulkan-loader (Fedora), pacman -S vulkan-swrast vulkan-icd-loader (Arch)
+
 vulkan:
 	@command -v cargo >/dev/null || { echo "cargo is not on the PATH: install Rust (https://rustup.rs) first" >&2; exit 1; }
 	@[ "$$(uname -s)" = Linux ] || exit 0; \
 	$(FIND_VULKAN); \
 	found && loader && exit 0; \
-	way_out="install a Vulkan driver and loader, for example the software one: apt-get install mesa-vulkan-drivers libvulkan1 (Debian, Ubuntu), dnf install mesa-vulkan-drivers vulkan-loader (Fedora), pacman -S vulkan-swrast vulkan-icd-loader (Arch)"; \
-	command -v apt-get >/dev/null || { echo "no Vulkan driver found; $$way_out" >&2; exit 1; }; \
-	if [ "$$(id -u)" = 0 ]; then as_root=""; \
-	elif command -v sudo >/dev/null; then as_root="sudo"; \
-	else echo "no Vulkan driver found, and neither root nor sudo to install one; $$way_out" >&2; exit 1; fi; \
-	echo "no Vulkan driver found: installing mesa-vulkan-drivers and libvulkan1" >&2; \
-	$$as_root apt-get update -q >&2 && \
-	$$as_root env DEBIAN_FRONTEND=noninteractive apt-get install -yq mesa-vulkan-drivers libvulkan1 >&2 || \
-	{ echo "the installation failed; $$way_out" >&2; exit 1; }; \
-	found && loader || { echo "still no Vulkan driver after the installation; $$way_out" >&2; exit 1; }
+	$(call INSTALL,Vulkan driver,mesa-vulkan-drivers libvulkan1,$(VULKAN_WAY_OUT)); \
+	found && loader || { echo "still no Vulkan driver after the installation; $(VULKAN_WAY_OUT)" >&2; exit 1; }
+
+optuna:
+	@"$(PYTHON)" -c 'import optuna' 2>/dev/null && exit 0; \
+	[ "$(PYTHON)" = "$(VENV)/bin/python3" ] || \
+	{ echo "$(PYTHON) has no Optuna: pip install optuna, or leave PYTHON unset to have it installed" >&2; exit 1; }; \
+	python3 -c 'import ensurepip' 2>/dev/null || \
+	{ $(call INSTALL,Python that can make environments,python3-venv,install Python 3 with venv and pip); }; \
+	echo "installing Optuna to $(VENV)" >&2; \
+	python3 -m venv "$(VENV)" && "$(VENV)/bin/pip" install -q optuna==5.0.0 >&2

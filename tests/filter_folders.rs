@@ -355,6 +355,8 @@ fn a_wrong_folder_says_where_and_what() {
         ("filter.toml", "values = { samples = 30", "values = { sample = 30", &["filter.toml:", "preset \"fine\"", "sample is no parameter"]),
         ("filter.toml", "values = { samples = 30", "values = { samples = 300", &["preset \"fine\"", "samples = 300", "from 2 to 64"]),
         ("filter.toml", "name = \"fine\"", "name = \"fast\"", &["preset \"fast\"", "no two presets"]),
+        ("filter.toml", "name = \"fine\"", "name = \"fine\"\ntuned = { by = \"a\", from = \"slow\", seed = 1, trials = 9, size = [8, 8], samples_per_pixel = 8, scenes = [] }", &["filter.toml:", "preset \"fine\"", "tuned from \"slow\", which is no preset before it"]),
+        ("filter.toml", "name = \"fine\"", "name = \"fine\"\ntuned = { by = \"a\", from = \"fast\" }", &["filter.toml:", "missing field", "seed"]),
         ("filter.toml", "rg32float", "rg8unorm", &["rg8unorm", "rg32float"]),
         ("filter.toml", "rg32float", "rgba32float", &["centre_blur.wgsl:11:", "tile_motion_out", "Rg32Float", "Rgba32Float"]),
         ("filter.toml", "divided_by = \"tile_size\"", "divided_by = \"spacing\"", &["tile_motion", "spacing", "integer parameter"]),

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
+use filters::Filter;
 use suite::{Trial, TrialOutcome, Tuning};
 
 use crate::bench::{Bench, MTL, OBJ, SCENE, assert_done, assert_refused, split, stderr, stdout};
@@ -135,9 +136,19 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
     let answer: suite::Answer = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!(answer.scenes["a"], tuning.chosen.scenes["a"]);
     assert_eq!(answer.values, tuning.values);
-    let preset = fs::read_to_string(bench.path("out/preset.toml")).unwrap();
-    let preset: toml::Table = preset.parse().unwrap();
-    assert_eq!(preset["preset"][0]["name"].as_str(), Some("tuned"));
+    // And as the preset of a filter.
+    let filter = with_preset(&bench, "out/preset.toml");
+    let preset = filter.presets.last().unwrap();
+    assert_eq!(
+        filter.settings(Some(&preset.name)).unwrap().values,
+        tuning.values
+    );
+    let tuned = preset.tuned.as_ref().unwrap();
+    assert_eq!((&tuned.from[..], tuned.trials), ("paper", tuning.trials));
+    assert_eq!(tuned.size, [64, 32]);
+    assert_eq!(tuned.samples_per_pixel, 16);
+    let scenes: Vec<&String> = tuning.journal.scenes.iter().map(|(name, _)| name).collect();
+    assert_eq!(tuned.scenes.iter().collect::<Vec<_>>(), scenes);
 
     // Another look at the same is no second opening; one at something else is.
     assert_done(&bench.shuttertruth(&tuning_words("out", "40", &["--sealed", "plate"])));
@@ -376,6 +387,22 @@ fn a_full_disk_loses_nothing() {
     assert_done(&bench.shuttertruth(&tuning_words("out", "20", &[])));
     assert_done(&bench.shuttertruth(&tuning_words("whole", "20", &[])));
     assert_eq!(journal(&bench, "out"), journal(&bench, "whole"));
+}
+
+/// The built-in jump flood with a preset of a file instead of a tuned one of its own.
+fn with_preset(bench: &Bench, preset: &str) -> Filter {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shaders/jump_flood");
+    let read = |path: &Path| fs::read_to_string(path).unwrap();
+    let mut filter: toml::Table = read(&folder.join("filter.toml")).parse().unwrap();
+    let mut added: toml::Table = read(&bench.path(preset)).parse().unwrap();
+    let presets = filter["preset"].as_array_mut().unwrap();
+    presets.retain(|preset| preset["name"].as_str() != Some("tuned"));
+    presets.append(added["preset"].as_array_mut().unwrap());
+    let copy = bench.path("jump_flood");
+    fs::create_dir(&copy).unwrap();
+    fs::write(copy.join("filter.toml"), filter.to_string()).unwrap();
+    fs::copy(folder.join("jump_flood.wgsl"), copy.join("jump_flood.wgsl")).unwrap();
+    Filter::load(&copy).unwrap()
 }
 
 #[test]

@@ -7,7 +7,9 @@ use frame::Alignment;
 use include_dir::{Dir, include_dir};
 
 use crate::gpu::{EntryPoint, Shader};
-use crate::{Command, FilterError, Length, Parameter, ReachBy, Settings, Value, manifest, wiring};
+use crate::{
+    Command, FilterError, Length, Parameter, ReachBy, Settings, Tuned, Value, manifest, wiring,
+};
 
 static BUILTIN: Dir = include_dir!("$CARGO_MANIFEST_DIR/../../shaders");
 
@@ -52,6 +54,8 @@ pub struct Preset {
     pub doc: String,
     /// The values that differ from the parameters' defaults.
     pub values: BTreeMap<String, Value>,
+    /// How the values were found, where tuning found them.
+    pub tuned: Option<Tuned>,
 }
 
 /// What one pass leaves for another.

@@ -13,6 +13,7 @@ mod manifest;
 mod parameter;
 mod reach;
 mod settings;
+mod tuned;
 mod wiring;
 
 pub use command::{Command, CommandBlur};
@@ -26,3 +27,4 @@ pub use input::Input;
 pub use parameter::{Kind, Parameter, Scale, Value};
 pub use reach::{Growth, Length, ReachBy};
 pub use settings::Settings;
+pub use tuned::Tuned;

@@ -74,9 +74,9 @@ pub use selection::{FilterChoice, SceneChoice, select_filters, select_scenes};
 pub use table::{score_table, table};
 pub use tune::{
     Answer, Choice, Difference, Effort, ElementaryEffects, Estimate, Evaluator, Fold, Header,
-    JOURNAL_FORMAT, Journal, Limits, Objective, Opening, Paired, ParameterSensitivity, Preference,
-    SceneScore, Search, Sensitivity, Shot, SobolIndices, Space, TUNE_FORMAT, Target, Trial,
-    TrialOutcome, TunePlan, Tuning, answer, choose, compare_paired, evaluator, folds, front,
+    JOURNAL_FORMAT, Journal, LEAST_BLEED, Limits, Objective, Opening, Paired, ParameterSensitivity,
+    Preference, SceneScore, Search, Sensitivity, Shot, SobolIndices, Space, TUNE_FORMAT, Target,
+    Trial, TrialOutcome, TunePlan, Tuning, answer, choose, compare_paired, evaluator, folds, front,
     interleaved, morris, paired_table, preset_text, probability_not_above, sensitivity,
     sensitivity_table, shots, sobol_indices, tune, tuning_table,
 };

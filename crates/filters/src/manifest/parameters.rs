@@ -7,7 +7,7 @@ use toml::Spanned;
 
 use super::{File, IDENTIFIER, is_identifier};
 use crate::filter::Preset;
-use crate::{FilterError, Kind, Parameter, Scale, Value};
+use crate::{FilterError, Kind, Parameter, Scale, Tuned, Value};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -38,6 +38,7 @@ pub(super) struct PresetEntry {
     doc: String,
     #[serde(default)]
     values: BTreeMap<String, Spanned<toml::Value>>,
+    tuned: Option<Tuned>,
 }
 
 fn yes() -> bool {
@@ -146,10 +147,20 @@ pub(super) fn presets(
             })?;
             values.insert(name.clone(), value);
         }
+        if let Some(tuned) = &entry.tuned
+            && presets.iter().all(|known| known.name != tuned.from)
+        {
+            let reason = format!(
+                "preset \"{}\": tuned from \"{}\", which is no preset before it",
+                entry.name, tuned.from
+            );
+            return Err(file.at(spanned, reason));
+        }
         presets.push(Preset {
             name: entry.name.clone(),
             doc: entry.doc.clone(),
             values,
+            tuned: entry.tuned.clone(),
         });
     }
     if presets.is_empty() {
@@ -157,6 +168,7 @@ pub(super) fn presets(
             name: "default".into(),
             doc: "Every parameter at its default.".into(),
             values: BTreeMap::new(),
+            tuned: None,
         });
     }
     Ok(presets)

@@ -67,7 +67,14 @@ fn filter_json(filter: &Filter) -> serde_json::Value {
             "doc": parameter.doc,
         })
     };
-    let preset = |preset: &Preset| serde_json::json!({ "name": preset.name, "doc": preset.doc, "values": preset.values });
+    let preset = |preset: &Preset| {
+        serde_json::json!({
+            "name": preset.name,
+            "doc": preset.doc,
+            "values": preset.values,
+            "tuned": preset.tuned,
+        })
+    };
     serde_json::json!({
         "name": filter.name,
         "summary": filter.summary,

@@ -105,15 +105,11 @@ fn write(tuning: &Tuning, plan: &TunePlan) -> Result<String, Error> {
         "params.json",
         &pretty(serde_json::to_string_pretty(&tuning.values)),
     )?;
-    let doc = format!(
-        "Tuned from {} with {} trials on {} scenes.",
-        tuning.journal.start,
-        tuning.trials,
-        tuning.journal.scenes.len()
-    );
     let parameters = &plan.choice.filter.parameters;
-    let preset = preset_text("tuned", &doc, &tuning.values, parameters);
-    write("preset.toml", &preset)?;
+    write(
+        "preset.toml",
+        &preset_text(tuning, &plan.render, parameters),
+    )?;
     Ok(format!(
         "{}\nwritten: {} (the choice: params.json, preset.toml)\n",
         tuning_table(tuning),

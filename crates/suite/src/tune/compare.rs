@@ -53,6 +53,11 @@ const TAIL: f64 = 0.05;
 pub const FEWEST_SCENES: usize = 5;
 
 impl Difference {
+    /// Whether the second is no worse than the first by more than `margin`: the upper bound lies below it.
+    pub fn is_no_worse(&self, margin: f64) -> bool {
+        self.scenes >= FEWEST_SCENES && self.bounds[1] < margin
+    }
+
     /// Of at least one paired difference.
     pub fn of(differences: &[f64]) -> Self {
         let bounds = bootstrap(differences, TAIL);

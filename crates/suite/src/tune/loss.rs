@@ -6,6 +6,8 @@ use super::SceneScore;
 
 /// What a candidate that does not run is told to have: as bad as an error e^3 = 20 times the start's.
 pub const FAILED: f64 = 3.0;
+/// Bleed, in pixels, that is too little to be told from none.
+pub const LEAST_BLEED: f64 = 0.01;
 /// An error below this is as good as none: FLIP of half a step of 8 bits in one pixel of a thousand.
 const LEAST_FLIP: f64 = 1e-6;
 /// Weight of what a broken limit or bound is exceeded by, in parts of it: 10 % too much cost weighs as much as an error

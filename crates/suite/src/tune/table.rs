@@ -1,10 +1,7 @@
 //! A finished tuning as text.
 
-use std::collections::BTreeMap;
-
-use filters::Value;
-
 use super::compare::{Difference, Paired, Preference};
+use super::loss::LEAST_BLEED;
 use super::{Trial, Tuning};
 
 /// Rows of the front that are printed; `tune.json` has all.
@@ -114,7 +111,7 @@ pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
         "{:width$}  {:>9} FLIP {:>9} FLIP {:>9} bleed {:>9} bleed\n",
         "scene", names[0], names[1], names[0], names[1]
     );
-    let bleed = |bleed: Option<f64>| bleed.map_or("n/a".to_owned(), |bleed| format!("{bleed:.2}"));
+    let bleed = |bleed: Option<f64>| bleed.map_or("n/a".to_owned(), |bleed| format!("{bleed:.3}"));
     for (scene, [first, second]) in &paired.scenes {
         text += &format!(
             "{scene:width$}  {:14.4} {:14.4} {:>15} {:>15}\n",
@@ -148,7 +145,10 @@ pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
             bleed.bounds[0],
             bleed.bounds[1],
             bleed.scenes,
-            verdict(bleed, names)
+            match bleed.is_no_worse(LEAST_BLEED) {
+                true => format!("{}, and no worse", verdict(bleed, names)),
+                false => verdict(bleed, names),
+            }
         );
     }
     text
@@ -165,25 +165,4 @@ fn verdict(difference: &Difference, names: [&str; 2]) -> String {
 /// A mean of logs as a change of the error.
 fn percent(log: f64) -> String {
     format!("{:+.1} %", 100.0 * log.exp_m1())
-}
-
-/// The values as a preset of filter.toml, those that differ from the parameters' defaults.
-pub fn preset_text(
-    name: &str,
-    doc: &str,
-    values: &BTreeMap<String, Value>,
-    parameters: &[filters::Parameter],
-) -> String {
-    let mut text = format!("[[preset]]\nname = \"{name}\"\ndoc = \"{doc}\"\n[preset.values]\n");
-    for parameter in parameters {
-        let value = &values[&parameter.name];
-        if *value != parameter.default {
-            text += &match value {
-                Value::Integer(value) => format!("{} = {value}\n", parameter.name),
-                Value::Real(value) => format!("{} = {value:?}\n", parameter.name),
-                Value::Choice(value) => format!("{} = \"{value}\"\n", parameter.name),
-            };
-        }
-    }
-    text
 }

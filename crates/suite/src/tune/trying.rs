@@ -6,7 +6,9 @@ use filters::{FilterError, Settings};
 use tracer::TraceError;
 
 use super::cost::Stopwatch;
-use super::loss::{FAILED, bounds_penalty, log_ratio, mean_log_ratio, penalty, worst_bleed};
+use super::loss::{
+    FAILED, LEAST_BLEED, bounds_penalty, log_ratio, mean_log_ratio, penalty, worst_bleed,
+};
 use super::plan::{Objective, TunePlan};
 use super::selection::Limits;
 use super::wilcoxon::probability_not_above;
@@ -20,9 +22,6 @@ const RACE_FROM: usize = 6;
 const RACE_STEP: usize = 2;
 /// A candidate is dropped where it would lean this far to the worse side by chance less often than this.
 const RACE_LEVEL: f64 = 0.1;
-
-/// Bleed, in pixels, that is too little to be told from none.
-const LEAST_BLEED: f64 = 0.01;
 
 /// Asks for the next candidate and tries it.
 pub fn next(
