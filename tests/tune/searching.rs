@@ -182,14 +182,14 @@ fn what_is_asked_next_depends_on_nothing_but_the_losses() {
 #[test]
 fn a_search_that_has_settled_begins_again_elsewhere() {
     let search = Search::new(vec![vec![0.5; 2]], 2, 1);
-    // A plane without slope ends every climb: 120 points are several of them.
+    // A plane without slope ends a climb of two axes after twenty generations of six points: 400 are at least two climbs.
     let mut losses = Vec::new();
     let mut points = Vec::new();
-    for _ in 0..120 {
+    for _ in 0..400 {
         points.push(search.ask(&losses));
         losses.push(0.25);
     }
     points.sort_by(|a, b| a.partial_cmp(b).unwrap());
     points.dedup();
-    assert_eq!(points.len(), 120, "no point is asked for twice");
+    assert_eq!(points.len(), 400, "no point is asked for twice");
 }
