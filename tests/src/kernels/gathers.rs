@@ -26,7 +26,7 @@ pub fn jump_flood(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
             taps.push(own(1.0));
             taps
         }
-        "corrected" => on_trail(trail, (0..8).map(|i| (f64::from(i) + noise) / 8.0)),
+        "corrected" | "tuned" => on_trail(trail, (0..8).map(|i| (f64::from(i) + noise) / 8.0)),
         _ => panic!("say here how {preset} gathers"),
     }
 }
@@ -35,7 +35,7 @@ pub fn jump_flood(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
 /// the picture's longer side and of a path in parts of width and height.
 pub fn jump_flood_trail(preset: &str, steady: &Steady) -> [f64; 2] {
     let cut = match preset {
-        "paper" => 32.0,
+        "paper" | "tuned" => 32.0,
         "july_2024" => 64.0,
         _ => return steady.trail(),
     };
