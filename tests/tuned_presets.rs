@@ -9,7 +9,7 @@ use suite::{
 };
 use tracer::Scene;
 
-const TUNED: [&str; 2] = ["jump_flood", "guertin"];
+const TUNED: [&str; 2] = ["jump_flood", "mcguire"];
 
 /// The shipped scenes without some.
 fn scenes_but(left_out: &[String]) -> Vec<(Scene, SceneBounds)> {

@@ -17,7 +17,7 @@ pub fn promised(filter: &str, preset: &str, steady: &Steady) -> f64 {
             along_motion(steady, jump_flood_trail(preset, steady))
         }
         // Half-velocities are cut at the side of a tile, or at half of it.
-        ("mcguire", "paper") => trail.min(2.0 * 20.0),
+        ("mcguire", "paper" | "tuned") => trail.min(2.0 * 20.0),
         ("mcguire", "aliari") => trail.min(20.0),
         ("mcguire", "g3d") => trail.min(2.0 * 64.0),
         ("guertin", _) => trail.min(2.0 * 40.0),
@@ -46,6 +46,7 @@ pub fn stated(filter: &str, preset: &str) -> RangeInclusive<f64> {
         ("mcguire", "paper") => 0.84..=0.91,
         ("mcguire", "aliari") => 0.94..=0.97,
         ("mcguire", "g3d") => 1.02..=1.09,
+        ("mcguire", "tuned") => 0.86..=1.04,
         ("guertin", _) => 0.65..=0.87,
         ("kino", _) => 0.72..=0.78,
         ("jimenez", "kajiya") => 1.12..=1.14,

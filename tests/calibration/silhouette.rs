@@ -161,7 +161,15 @@ fn a_mover_stays_opaque_and_grows_under_cones_and_cylinders() {
         let light = Light::measured(outcome);
         let share = |light: f64| light / outcome.shot().speed;
         // The truth has an eighth in all four places: its smear takes from the panel what it gives to the wall.
-        assert!(share(light.behind) > 0.13, "{}: {light:?}", outcome.said());
+        let grown = match outcome.preset.as_str() {
+            "tuned" => 0.11..0.125,
+            _ => 0.13..0.25,
+        };
+        assert!(
+            grown.contains(&share(light.behind)),
+            "{}: {light:?}",
+            outcome.said()
+        );
         assert!(
             share(light.lost_at_back) < 0.02,
             "{}: {light:?}",

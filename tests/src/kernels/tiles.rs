@@ -10,12 +10,19 @@ pub fn mcguire(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
         2.0 * (f64::from(i) + jitter + 1.0) / f64::from(count + 1) - 1.0
     };
     match preset {
-        "paper" => {
+        // Tuned, 1.2 times as far and held at the ends; the pixel's own direction is that of all.
+        "paper" | "tuned" => {
+            let (count, spread) = if preset == "paper" {
+                (15, 1.0)
+            } else {
+                (13, 1.2)
+            };
             let half = half_velocity(half, 20.0);
             let radius = length(half);
             let mut taps = vec![own(1.0 / radius)];
-            taps.extend((0..15).filter(|i| *i != 7).map(|i| {
-                let offset = scaled(half, along(i, noise - 0.5, 15)).map(nearest);
+            taps.extend((0..count).filter(|i| *i != count / 2).map(|i| {
+                let place: f64 = spread * along(i, noise - 0.5, count);
+                let offset = scaled(half, place.clamp(-1.0, 1.0)).map(nearest);
                 let distance = length(offset);
                 Tap {
                     offset,
