@@ -100,6 +100,17 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
     let journal = journal(&bench, "out");
     let trials = trials(&journal);
     assert_eq!(trials.len(), 40);
+    // It begins with what was published and not with what another tuning found.
+    let begun = |preset: &str| {
+        let filter = Filter::builtin("jump_flood").unwrap();
+        let values = filter.settings(Some(preset)).unwrap().values;
+        trials[..13].iter().any(|trial| {
+            let mut tried = trial.values.iter();
+            tried.all(|(name, value)| values[name] == *value)
+        })
+    };
+    assert!(["paper", "july_2024", "corrected"].map(begun) == [true; 3]);
+    assert!(!begun("tuned"), "{journal}");
     // The published demo scales each trail by noise; another jitter alone takes some percent off, on these small plates.
     let tuning = tuning(&bench, "out");
     assert!(tuning.chosen.error.unwrap() < -0.01, "{table}");

@@ -117,10 +117,12 @@ pub fn evaluator<'a>(
     Evaluator::new(gpu, choice.clone(), targets, bleed)
 }
 
-/// The start, the other presets, and what follows.
+/// The start, the other presets, and what follows. What tuning itself has found is left out: a search that is done again finds
+/// it again, or not.
 fn search(plan: &TunePlan) -> Result<Search, Error> {
     let mut points = vec![plan.space.point(&plan.space.start)];
-    for preset in &plan.choice.filter.presets {
+    let published = plan.choice.filter.presets.iter();
+    for preset in published.filter(|preset| preset.tuned.is_none()) {
         let point = plan
             .space
             .point(&plan.choice.filter.settings(Some(&preset.name))?);
