@@ -145,9 +145,11 @@ pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
             bleed.bounds[0],
             bleed.bounds[1],
             bleed.scenes,
-            match bleed.is_no_worse(LEAST_BLEED) {
-                true => format!("{}, and no worse", verdict(bleed, names)),
-                false => verdict(bleed, names),
+            match bleed.verdict {
+                Preference::Undecided if bleed.is_no_worse(LEAST_BLEED) => {
+                    "undecided, and no worse".to_owned()
+                }
+                _ => verdict(bleed, names),
             }
         );
     }
