@@ -65,7 +65,7 @@ pub use rendered::{
     LADDER, RenderSettings, SIDES, deciding_floor, frame_of, part_of, scene_folder,
     truth_and_ladder_of, truth_of, truth_until,
 };
-pub use report::report;
+pub use report::{LARGEST_PAGE, Report, report};
 pub use run::{FORMAT, Plan, Run, run, viewing};
 pub use runner::{Runner, open_gpu};
 pub use scatter_oracle::scatter_oracle;
