@@ -33,16 +33,22 @@ pub fn read_bench(folder: &Path) -> Result<Option<Bench>, Error> {
         .map_err(|error| refuse(format!("no bench of this program: {error}")))?;
     match bench.format {
         BENCH_FORMAT => Ok(Some(bench)),
-        other => Err(refuse(format!("has format {other}; allowed: {BENCH_FORMAT}"))),
+        other => Err(refuse(format!(
+            "has format {other}; allowed: {BENCH_FORMAT}"
+        ))),
     }
 }
 
 /// What a subject cost; none for bars, and for filters that were not timed with these very parameters.
 pub fn cost_of<'a>(run: &Run, bench: Option<&'a Bench>, subject: &Subject) -> Option<&'a CaseCost> {
-    let case = run.cases.iter().find(|case| Subject::of(case) == *subject)?;
+    let case = run
+        .cases
+        .iter()
+        .find(|case| Subject::of(case) == *subject)?;
     let mut costs = bench?.cases.iter();
     costs.find(|cost| {
-        (&cost.filter, &cost.preset, &cost.parameters) == (&case.filter, &case.preset, &case.parameters)
+        (&cost.filter, &cost.preset, &cost.parameters)
+            == (&case.filter, &case.preset, &case.parameters)
     })
 }
 
@@ -114,8 +120,13 @@ fn bars(run: &Run) -> Vec<(String, f64)> {
 /// Mean over the scenes that have one.
 fn mean_error(run: &Run, subject: &Subject) -> Option<f64> {
     let metric = SHOWN[0].metric;
-    let own = run.cases.iter().filter(|case| Subject::of(case) == *subject);
-    let values: Vec<f64> = own.filter_map(|case| case.scores.get(metric).value()).collect();
+    let own = run
+        .cases
+        .iter()
+        .filter(|case| Subject::of(case) == *subject);
+    let values: Vec<f64> = own
+        .filter_map(|case| case.scores.get(metric).value())
+        .collect();
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 

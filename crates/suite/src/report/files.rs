@@ -27,7 +27,12 @@ pub struct Report {
 impl Report {
     /// Bytes of all files.
     pub fn bytes(&self) -> usize {
-        self.page.len() + self.siblings.iter().map(|(_, text)| text.len()).sum::<usize>()
+        self.page.len()
+            + self
+                .siblings
+                .iter()
+                .map(|(_, text)| text.len())
+                .sum::<usize>()
     }
 
     /// Writes all files, the page last.
@@ -112,7 +117,9 @@ impl Shelves {
         let texts = self.texts.iter().enumerate();
         texts
             .map(|(scene, text)| {
-                let path = html.with_file_name(folder).join(format!("scene_{scene}.js"));
+                let path = html
+                    .with_file_name(folder)
+                    .join(format!("scene_{scene}.js"));
                 (path, format!("shuttertruth.arrived({scene}, {text});\n"))
             })
             .collect()
@@ -154,9 +161,19 @@ mod tests {
             let shelves = packed.shelves(html);
             assert_eq!(shelves.precision, precision, "{planes} planes");
             assert_eq!(shelves.texts.len(), 2);
-            let paths: Vec<PathBuf> = shelves.siblings(html).into_iter().map(|(path, _)| path).collect();
+            let paths: Vec<PathBuf> = shelves
+                .siblings(html)
+                .into_iter()
+                .map(|(path, _)| path)
+                .collect();
             let due = ["out/a page_files/scene_0.js", "out/a page_files/scene_1.js"];
-            assert_eq!(paths, due[..2 * usize::from(beside)].iter().map(PathBuf::from).collect::<Vec<_>>());
+            assert_eq!(
+                paths,
+                due[..2 * usize::from(beside)]
+                    .iter()
+                    .map(PathBuf::from)
+                    .collect::<Vec<_>>()
+            );
         }
     }
 }

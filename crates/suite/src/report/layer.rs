@@ -102,12 +102,18 @@ impl Layer {
             Layer::Instant => "the frame that the filter got: sharp, at one instant",
             Layer::Flip => "visible difference from the truth",
             Layer::SignedError => "brightness of the output minus that of the truth",
-            Layer::Bleed => "mover where the truth never shows it, by the side as seen along its motion",
+            Layer::Bleed => {
+                "mover where the truth never shows it, by the side as seen along its motion"
+            }
             Layer::LabelTotalVariation => "share of the shutter that went to the wrong object",
-            Layer::Knowability => "share of the shutter that saw what the instant's frame does not show",
+            Layer::Knowability => {
+                "share of the shutter that saw what the instant's frame does not show"
+            }
             Layer::Velocity => "motion of the instant, in pixels per frame",
             Layer::Depth => "distance along the view axis at the instant, in metres",
-            Layer::Dilated => "the velocity that the filter carried to each pixel before it gathered",
+            Layer::Dilated => {
+                "the velocity that the filter carried to each pixel before it gathered"
+            }
         }
     }
 

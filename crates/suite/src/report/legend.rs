@@ -12,7 +12,11 @@ const CIVIDIS: Gradient = colorous::CIVIDIS;
 /// Of signed errors: purple is too dark, orange too bright, white is right.
 const PURPLE_ORANGE: Gradient = colorous::PURPLE_ORANGE;
 /// Beside, ahead, behind: three colours that every kind of colour vision tells apart (Okabe and Ito).
-const SIDES: [(&str, &str); 3] = [("e69f00", "beside"), ("56b4e9", "ahead"), ("cc79a7", "behind")];
+const SIDES: [(&str, &str); 3] = [
+    ("e69f00", "beside"),
+    ("56b4e9", "ahead"),
+    ("cc79a7", "behind"),
+];
 
 /// What the script paints with: per gradient 256 colours in hexadecimal digits, and the colours of the sides.
 pub fn colors() -> String {
@@ -59,7 +63,9 @@ pub fn legends() -> Markup {
 }
 
 fn legend(painter: Painter, content: Markup) -> Markup {
-    let layers = Layer::ALL.into_iter().filter(|layer| layer.painter() == painter);
+    let layers = Layer::ALL
+        .into_iter()
+        .filter(|layer| layer.painter() == painter);
     let names: Vec<&str> = layers.map(Layer::name).collect();
     html! { p.legend data-legend=(names.join(" ")) hidden { (content) } }
 }
@@ -84,7 +90,9 @@ mod tests {
     fn every_way_of_drawing_but_radiance_has_a_key() {
         let legends = legends().into_string();
         for layer in Layer::ALL {
-            let named = legends.split('"').any(|text| text.split(' ').any(|word| word == layer.name()));
+            let named = legends
+                .split('"')
+                .any(|text| text.split(' ').any(|word| word == layer.name()));
             assert_eq!(named, layer.painter() != Painter::Radiance, "{layer:?}");
         }
     }
@@ -93,7 +101,11 @@ mod tests {
     fn the_script_gets_as_many_colours_as_it_looks_for() {
         let colors: serde_json::Value = serde_json::from_str(&colors()).unwrap();
         for gradient in ["magma", "cividis", "purple_orange"] {
-            assert_eq!(colors[gradient].as_str().unwrap().len(), 6 * 256, "{gradient}");
+            assert_eq!(
+                colors[gradient].as_str().unwrap().len(),
+                6 * 256,
+                "{gradient}"
+            );
         }
     }
 }

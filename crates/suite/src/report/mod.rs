@@ -53,7 +53,12 @@ pub fn report(run: &Run, folder: &Path, html: &Path, largest: usize) -> Result<R
     let mut pages = Vec::new();
     let mut findings = findings_by_case(run);
     for (scene, name) in scenes(run).into_iter().enumerate() {
-        let own = || run.cases.iter().enumerate().filter(|(_, case)| case.scene == name);
+        let own = || {
+            run.cases
+                .iter()
+                .enumerate()
+                .filter(|(_, case)| case.scene == name)
+        };
         let cases: Vec<&Case> = own().map(|(_, case)| case).collect();
         let mut files = SceneFiles::read(&cases, folder)?;
         for (index, _) in own() {
@@ -70,7 +75,12 @@ pub fn report(run: &Run, folder: &Path, html: &Path, largest: usize) -> Result<R
     pages.sort_by_key(|page| page.index);
     let cases: Vec<_> = pages.iter().map(case_page).collect();
     let shelves = packed.shelves(html);
-    let page = page(run, &overview(run, &pages, bench.as_ref()), &cases, &shelves);
+    let page = page(
+        run,
+        &overview(run, &pages, bench.as_ref()),
+        &cases,
+        &shelves,
+    );
     Ok(Report {
         html: html.to_owned(),
         page: page.into_string(),

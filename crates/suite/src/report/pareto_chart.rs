@@ -40,8 +40,14 @@ pub fn pareto_chart(points: &[Point], bars: &[(String, f64)]) -> Markup {
     }
     let mut sorted = points.to_vec();
     sorted.sort_by(|a, b| a.milliseconds.total_cmp(&b.milliseconds));
-    let (fastest, slowest) = (sorted[0].milliseconds, sorted[sorted.len() - 1].milliseconds);
-    let errors = sorted.iter().map(|point| point.error).chain(bars.iter().map(|bar| bar.1));
+    let (fastest, slowest) = (
+        sorted[0].milliseconds,
+        sorted[sorted.len() - 1].milliseconds,
+    );
+    let errors = sorted
+        .iter()
+        .map(|point| point.error)
+        .chain(bars.iter().map(|bar| bar.1));
     let top = 1.05 * errors.fold(f64::MIN_POSITIVE, f64::max);
     let across = |milliseconds: f64| {
         let span = (slowest / fastest).ln().max(1e-3);
@@ -117,7 +123,12 @@ mod tests {
             milliseconds,
             error,
         };
-        let all = [point(1.0, 0.3), point(2.0, 0.1), point(2.0, 0.2), point(3.0, 0.1)];
+        let all = [
+            point(1.0, 0.3),
+            point(2.0, 0.1),
+            point(2.0, 0.2),
+            point(3.0, 0.1),
+        ];
         let best: Vec<bool> = all.iter().map(|own| is_best(own, &all)).collect();
         assert_eq!(best, [true, true, false, false]);
     }

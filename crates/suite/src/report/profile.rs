@@ -60,7 +60,11 @@ pub fn profile(place: [u32; 2], case: &Case, scene: &SceneFiles, files: &CaseFil
     let mut curves = vec![
         curve("truth", "truth", &truth.mean.color),
         curve("output", "output", &files.output),
-        curve("instant (what identity leaves)", "instant", &scene.frame.color),
+        curve(
+            "instant (what identity leaves)",
+            "instant",
+            &scene.frame.color,
+        ),
     ];
     let accumulation = scene.accumulations.get(&case.alignment);
     curves.extend(accumulation.map(|(title, image)| curve(title, "accumulation", image)));

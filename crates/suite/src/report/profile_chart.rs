@@ -73,7 +73,10 @@ fn points(
 
 /// `truth 0.31, output 0.52 at the place`
 fn in_words(profile: &Profile) -> String {
-    let middle = profile.distances.iter().position(|distance| *distance == 0.0);
+    let middle = profile
+        .distances
+        .iter()
+        .position(|distance| *distance == 0.0);
     let middle = middle.expect("a line goes through its place");
     let words: Vec<String> = (profile.curves.iter())
         .map(|curve| format!("{} {:.3}", curve.title, curve.values[middle]))

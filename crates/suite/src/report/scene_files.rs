@@ -150,7 +150,10 @@ impl SceneFiles {
         layers.push((Layer::Output, colors));
         let bleeds = bleeds.map(|plane| self.shelf.plane("bleed", Nature::Share, &plane));
         layers.push((Layer::Bleed, bleeds.to_vec()));
-        for (layer, name) in [(Layer::Flip, "flip"), (Layer::LabelTotalVariation, "label_tv")] {
+        for (layer, name) in [
+            (Layer::Flip, "flip"),
+            (Layer::LabelTotalVariation, "label_tv"),
+        ] {
             let plane = self.shelf.plane(name, Nature::Share, &errors.plane(name)?);
             layers.push((layer, vec![plane]));
         }
@@ -175,8 +178,14 @@ fn bleeds(file: &ExrFile, objects: &[String], truth: &TruthFile) -> Result<[Plan
     let mut bleeds = [(); 3].map(|()| nothing.clone());
     for (object, sides) in &truth.sides {
         let matte = file.plane(&format!("coverage.{}", objects[*object]))?;
-        for (bleed, wanted) in bleeds.iter_mut().zip([Side::Lateral, Side::Leading, Side::Trailing]) {
-            let own = matte.zip(sides, |matte, side| if *side == wanted { *matte } else { 0.0 });
+        for (bleed, wanted) in bleeds
+            .iter_mut()
+            .zip([Side::Lateral, Side::Leading, Side::Trailing])
+        {
+            let own = matte.zip(
+                sides,
+                |matte, side| if *side == wanted { *matte } else { 0.0 },
+            );
             *bleed = bleed.zip(&own, |sum, own| sum + own);
         }
     }

@@ -78,7 +78,12 @@ impl Shelf {
     /// the base, or without a base as the difference of its bits to those of the pixel before.
     pub fn json(&self, precision: Precision) -> String {
         let planes: Vec<String> = (self.planes.par_iter())
-            .map(|kept| format!("\"{}\"", STANDARD.encode(deflated(&self.bytes(kept, precision)))))
+            .map(|kept| {
+                format!(
+                    "\"{}\"",
+                    STANDARD.encode(deflated(&self.bytes(kept, precision)))
+                )
+            })
             .collect();
         let bases: Vec<String> = (self.planes.iter())
             .map(|kept| kept.base.map_or("null".to_owned(), |base| base.to_string()))
@@ -101,7 +106,10 @@ impl Shelf {
         let differences: Vec<u32> = match kept.base {
             Some(base) => {
                 let base = bits(&self.planes[base]);
-                own.iter().zip(&base).map(|(own, base)| own ^ base).collect()
+                own.iter()
+                    .zip(&base)
+                    .map(|(own, base)| own ^ base)
+                    .collect()
             }
             None => {
                 let before = std::iter::once(&0).chain(&own);
@@ -111,7 +119,11 @@ impl Shelf {
             }
         };
         (0..precision.width())
-            .flat_map(|byte| differences.iter().map(move |bits| (bits >> (8 * byte)) as u8))
+            .flat_map(|byte| {
+                differences
+                    .iter()
+                    .map(move |bits| (bits >> (8 * byte)) as u8)
+            })
             .collect()
     }
 }
@@ -134,9 +146,13 @@ mod tests {
 
     /// What a reader of the JSON makes of a plane.
     fn read(shelf: &Value, number: usize, precision: Precision) -> Vec<u32> {
-        let packed = STANDARD.decode(shelf["planes"][number].as_str().unwrap()).unwrap();
+        let packed = STANDARD
+            .decode(shelf["planes"][number].as_str().unwrap())
+            .unwrap();
         let mut bytes = Vec::new();
-        ZlibDecoder::new(&packed[..]).read_to_end(&mut bytes).unwrap();
+        ZlibDecoder::new(&packed[..])
+            .read_to_end(&mut bytes)
+            .unwrap();
         let count = bytes.len() / precision.width();
         let mut bits: Vec<u32> = (0..count)
             .map(|at| {
@@ -149,7 +165,9 @@ mod tests {
         match shelf["bases"][number].as_u64() {
             Some(base) => {
                 let base = read(shelf, base as usize, precision);
-                bits.iter_mut().zip(base).for_each(|(own, base)| *own ^= base);
+                bits.iter_mut()
+                    .zip(base)
+                    .for_each(|(own, base)| *own ^= base);
             }
             None => {
                 for at in 1..count {
@@ -173,14 +191,20 @@ mod tests {
         let planes = [&instant, &output, &instant];
         let numbers = planes.map(|plane| shelf.plane("R", Nature::Number, plane));
         assert_eq!(numbers, [0, 1, 0]);
-        let error = shelf.plane("flip", Nature::Share, &instant.map(|value| value.abs() / 4.0));
+        let error = shelf.plane(
+            "flip",
+            Nature::Share,
+            &instant.map(|value| value.abs() / 4.0),
+        );
         for precision in [Precision::Float, Precision::Half] {
             let json: Value = serde_json::from_str(&shelf.json(precision)).unwrap();
             assert_eq!(json["bases"], serde_json::json!([null, 0, null]));
             for (number, plane) in [(0, &instant), (1, &output)] {
                 let kept = read(&json, number, precision);
                 let due = plane.pixels.iter();
-                let due: Vec<u32> = due.map(|value| precision.bits(*value, Nature::Number)).collect();
+                let due: Vec<u32> = due
+                    .map(|value| precision.bits(*value, Nature::Number))
+                    .collect();
                 assert!(kept == due, "{precision:?} {number}");
             }
             assert_eq!(read(&json, error, precision).len(), 200);

@@ -88,6 +88,7 @@
       legend.hidden = !legend.dataset.legend.split(" ").includes(shown);
     }
     asked += 1;
+    viewer.dataset.asked = asked;
     draw(asked, places).catch(failed);
     place();
   };
