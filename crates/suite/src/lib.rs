@@ -8,6 +8,7 @@ mod calibrate;
 mod case;
 mod catalogue;
 mod decoys;
+mod dilated;
 mod error;
 mod finished;
 mod gate;

@@ -9,6 +9,8 @@ const HEIGHT: f64 = 300.0;
 const LEFT: f64 = 52.0;
 const BELOW: f64 = 36.0;
 const MARGIN: f64 = 12.0;
+/// Lines nearer than this part of the height have no room for a name each.
+const NEAR: f64 = 0.05;
 
 /// A filter that was timed.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,9 +70,9 @@ pub fn pareto_chart(points: &[Point], bars: &[(String, f64)]) -> Markup {
                     text x=(place(across(slowest))) y=(bottom + 14.0) text-anchor="middle" { (format!("{slowest:.2}")) }
                 }
                 text x=((LEFT + WIDTH) / 2.0) y=(HEIGHT - 4.0) text-anchor="middle" { "ms, logarithmic; upwards: mean FLIP, low is good" }
-                @for (title, error) in bars {
-                    line.bar x1=(LEFT) x2=(WIDTH - MARGIN) y1=(place(up(*error))) y2=(place(up(*error))) { title { (title) } }
-                    text.bar x=(WIDTH - MARGIN) y=(place(up(*error) - 2.0)) text-anchor="end" { (title) }
+                @for (title, error) in labelled(bars, top) {
+                    line.bar x1=(LEFT) x2=(WIDTH - MARGIN) y1=(place(up(error))) y2=(place(up(error))) {}
+                    text.bar x=(WIDTH - MARGIN) y=(place(up(error) - 3.0)) text-anchor="end" { (title) }
                 }
                 @for (index, point) in sorted.iter().enumerate() {
                     circle.full[is_best(point, points)].open[!is_best(point, points)] r="5"
@@ -101,10 +103,42 @@ pub fn pareto_chart(points: &[Point], bars: &[(String, f64)]) -> Markup {
                             td { @if is_best(point, points) { "✓" } }
                         }
                     }
+                    @for (title, error) in bars {
+                        tr.bar {
+                            th scope="row" { (title) }
+                            td { "-" }
+                            td { "-" }
+                            td { (format!("{error:.4}")) }
+                            td {}
+                        }
+                    }
                 }
             }
         }
     }
+}
+
+/// The bars, lowest first; of those whose lines lie too near for a name each, the uppermost names all.
+fn labelled(bars: &[(String, f64)], top: f64) -> Vec<(String, f64)> {
+    let mut sorted = bars.to_vec();
+    sorted.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let near = |a: &(String, f64), b: &(String, f64)| b.1 - a.1 < NEAR * top;
+    let groups = sorted.chunk_by(near).flat_map(|group| {
+        let last = group.len() - 1;
+        let title = match group.len() {
+            1 => group[0].0.clone(),
+            count => format!("{count} bars: {:.3} to {:.3}", group[0].1, group[last].1),
+        };
+        let name = move |index: usize| {
+            if index == last {
+                title.clone()
+            } else {
+                String::new()
+            }
+        };
+        (group.iter().enumerate()).map(move |(index, bar)| (name(index), bar.1))
+    });
+    groups.collect()
 }
 
 /// A tenth of a unit is less than a line is wide.
@@ -131,5 +165,14 @@ mod tests {
         ];
         let best: Vec<bool> = all.iter().map(|own| is_best(own, &all)).collect();
         assert_eq!(best, [true, true, false, false]);
+    }
+
+    #[test]
+    fn bars_that_lie_together_share_a_name() {
+        let bars = [("far", 0.9), ("b", 0.52), ("a", 0.5)];
+        let bars = bars.map(|(title, error)| (title.to_owned(), error));
+        let labels = labelled(&bars, 1.0);
+        let due = [("", 0.5), ("2 bars: 0.500 to 0.520", 0.52), ("far", 0.9)];
+        assert_eq!(labels, due.map(|(title, error)| (title.to_owned(), error)));
     }
 }

@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, ExrFile, Frame, Image, Picture, Plane, Regions, Truth, read_exr, regions};
+use frame::{
+    Alignment, ExrFile, FileError, Frame, Image, Picture, Plane, Regions, Truth, read_exr, regions,
+};
 use metrics::{Side, object_sides};
 
 use super::layer::Layer;
@@ -156,6 +158,19 @@ impl SceneFiles {
         ] {
             let plane = self.shelf.plane(name, Nature::Share, &errors.plane(name)?);
             layers.push((layer, vec![plane]));
+        }
+        if file
+            .channels
+            .iter()
+            .any(|channel| channel.name == "dilated.X")
+        {
+            let planes = ["dilated.X", "dilated.Y"].map(|name| {
+                Ok(self
+                    .shelf
+                    .plane("velocity", Nature::Number, &file.plane(name)?))
+            });
+            let planes: Result<_, FileError> = planes.into_iter().collect();
+            layers.push((Layer::Dilated, planes?));
         }
         layers.sort();
         Ok(CaseFiles {
