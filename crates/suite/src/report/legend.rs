@@ -42,7 +42,7 @@ pub fn legends() -> Markup {
             "0 " (strip(MAGMA, false)) " 1"
         }))
         (legend(Painter::Signed, html! {
-            "darker than the truth " (strip(PURPLE_ORANGE, false)) " brighter, from display black to display white"
+            "darker than the truth " (strip(PURPLE_ORANGE, false)) " brighter; the ends are the way from display black to white, half as strong a quarter of it"
         }))
         (legend(Painter::Sides, html! {
             @for (color, side) in SIDES {

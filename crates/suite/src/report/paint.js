@@ -61,8 +61,9 @@
     signed: ([r, g, b, tr, tg, tb], { stops }) => {
       const scale = 2 ** stops;
       return (at) => {
-        const difference = luminance(r[at] - tr[at], g[at] - tg[at], b[at] - tb[at]);
-        return looked(orange, 0.5 + 0.5 * scale * difference);
+        const difference = scale * luminance(r[at] - tr[at], g[at] - tg[at], b[at] - tb[at]);
+        // The root lets small differences be seen.
+        return looked(orange, 0.5 + 0.5 * Math.sign(difference) * Math.sqrt(Math.abs(difference)));
       };
     },
     share: ([values], { most = 1 }) => (at) => looked(magma, values[at] / most),
