@@ -11,8 +11,8 @@ use super::shelf::Shelf;
 /// too large still becomes files beside the page, of which a browser opens one scene at a time.
 pub const LARGEST_PAGE: usize = 25_000_000;
 
-/// Left for text and tables.
-const TEXT: usize = 1_500_000;
+/// Styles, scripts and the frame of the page take less.
+const REST: usize = 100_000;
 
 /// A finished report.
 pub struct Report {
@@ -46,8 +46,8 @@ impl Report {
 
 /// The shelves of all scenes as JSON, in both precisions until it is known which fits.
 pub struct Packed {
-    /// What a page may hold of them, in bytes.
-    room: usize,
+    /// What a page may hold, in bytes.
+    largest: usize,
     /// Empty as soon as they are too many.
     floats: Vec<String>,
     halves: Vec<String>,
@@ -67,31 +67,33 @@ impl Packed {
     /// For a page of up to `largest` bytes.
     pub fn new(largest: usize) -> Self {
         Self {
-            room: largest.saturating_sub(TEXT),
+            largest,
             floats: Vec::new(),
             halves: Vec::new(),
         }
     }
 
-    fn fit(&self, texts: &[String]) -> bool {
-        texts.iter().map(String::len).sum::<usize>() <= self.room
+    /// Whether they have room beside so much text.
+    fn fit(&self, texts: &[String], beside: usize) -> bool {
+        texts.iter().map(String::len).sum::<usize>() + beside + REST <= self.largest
     }
 
     /// Adds the next scene's.
     pub fn add(&mut self, shelf: &Shelf) {
-        if self.floats.len() == self.halves.len() && self.fit(&self.floats) {
+        if self.floats.len() == self.halves.len() && self.fit(&self.floats, 0) {
             self.floats.push(shelf.json(Precision::Float));
         }
         self.halves.push(shelf.json(Precision::Half));
-        if !self.fit(&self.floats) {
+        if !self.fit(&self.floats, 0) {
             self.floats.clear();
         }
     }
 
-    /// Floats in the page where they fit, else halves, else halves beside it: in a folder named like the page at `html`.
-    pub fn shelves(self, html: &Path) -> Shelves {
-        let exact = self.floats.len() == self.halves.len();
-        let fits = self.fit(if exact { &self.floats } else { &self.halves });
+    /// Floats in the page beside so many bytes of text where they fit, else halves, else halves beside it: in a folder named
+    /// like the page at `html`.
+    pub fn shelves(self, html: &Path, text: usize) -> Shelves {
+        let exact = self.floats.len() == self.halves.len() && self.fit(&self.floats, text);
+        let fits = exact || self.fit(&self.halves, text);
         let (precision, texts) = match exact {
             true => (Precision::Float, self.floats),
             false => (Precision::Half, self.halves),
@@ -133,14 +135,14 @@ mod tests {
     use super::super::precision::Nature;
     use super::*;
 
-    /// Numbers that no compression makes smaller: so many planes of a million pixels.
+    /// Numbers that no compression makes much smaller, on so many planes: each takes 260 kB as floats, 130 kB as halves.
     fn shelf(planes: u32) -> Shelf {
         let mut shelf = Shelf::default();
         let mut state = 1_u32;
         for _ in 0..planes {
-            let plane = Raster::from_fn(1024, 1024, |_, _| {
+            let plane = Raster::from_fn(256, 256, |_, _| {
                 state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                (state >> 9) as f32
+                (state >> 9) as f32 / (1 << 23) as f32
             });
             shelf.plane("R", Nature::Number, &plane);
         }
@@ -153,12 +155,12 @@ mod tests {
         for (planes, precision, beside) in [
             (1, Precision::Float, false),
             (6, Precision::Half, false),
-            (12, Precision::Half, true),
+            (14, Precision::Half, true),
         ] {
-            let mut packed = Packed::new(LARGEST_PAGE);
+            let mut packed = Packed::new(1_600_000 + REST);
             packed.add(&shelf(planes));
             packed.add(&shelf(1));
-            let shelves = packed.shelves(html);
+            let shelves = packed.shelves(html, 100_000);
             assert_eq!(shelves.precision, precision, "{planes} planes");
             assert_eq!(shelves.texts.len(), 2);
             let paths: Vec<PathBuf> = shelves

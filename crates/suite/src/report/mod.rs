@@ -10,6 +10,7 @@ mod layer;
 mod legend;
 mod meaning;
 mod overview;
+mod packing;
 mod page;
 mod pareto_chart;
 mod precision;
@@ -74,13 +75,10 @@ pub fn report(run: &Run, folder: &Path, html: &Path, largest: usize) -> Result<R
     }
     pages.sort_by_key(|page| page.index);
     let cases: Vec<_> = pages.iter().map(case_page).collect();
-    let shelves = packed.shelves(html);
-    let page = page(
-        run,
-        &overview(run, &pages, bench.as_ref()),
-        &cases,
-        &shelves,
-    );
+    let overview = overview(run, &pages, bench.as_ref());
+    let text: usize = cases.iter().map(|case| case.0.len()).sum::<usize>() + overview.0.len();
+    let shelves = packed.shelves(html, text);
+    let page = page(run, &overview, &cases, &shelves);
     Ok(Report {
         html: html.to_owned(),
         page: page.into_string(),

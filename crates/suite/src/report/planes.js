@@ -4,6 +4,8 @@
   const store = document.getElementById("shelves");
   const { precision, folder } = store.dataset;
   const width = precision === "float" ? 4 : 2;
+  const { width: columns, height: rows } = document.getElementById("viewer").dataset;
+  const count = columns * rows;
   const waiting = new Map();
   // Of the scene that is open; those of others are dropped.
   let shelf = { scene: null, packed: null, planes: new Map() };
@@ -35,22 +37,30 @@
     return new Uint8Array(await new Response(stream).arrayBuffer());
   };
 
-  // The bits of every number of a plane.
+  // The bits of every number of a plane: those that it shares with its base, and of the others what neighbour and component do
+  // not tell.
   const bitsOf = async (own, number) => {
     const packed = await own.packed;
     const bytes = await inflated(packed.planes[number]);
-    const count = bytes.length / width;
+    const against = async (other) => (other === null ? null : (await kept(own, other)).bits);
+    const base = await against(packed.bases[number]);
+    const component = await against(packed.components[number]);
+    const start = Math.ceil(count / 8);
+    const residues = (bytes.length - start) / width;
+    const mask = width === 4 ? 0xffffffff : 0xffff;
     const bits = new Uint32Array(count);
-    for (let byte = 0; byte < width; byte++) {
-      for (let at = 0; at < count; at++) bits[at] |= bytes[byte * count + at] << (8 * byte);
-    }
-    const base = packed.bases[number];
-    if (base !== null) {
-      const others = (await kept(own, base)).bits;
-      for (let at = 0; at < count; at++) bits[at] ^= others[at];
-    } else {
-      const mask = width === 4 ? 0xffffffff : 0xffff;
-      for (let at = 1; at < count; at++) bits[at] = (bits[at] + bits[at - 1]) & mask;
+    for (let at = 0, next = start; at < count; at++) {
+      if ((bytes[at >> 3] >> (at & 7)) & 1) {
+        bits[at] = base[at];
+        continue;
+      }
+      let folded = 0;
+      for (let byte = 0; byte < width; byte++) folded |= bytes[next + byte * residues] << (8 * byte);
+      next += 1;
+      let value = (folded >>> 1) ^ -(folded & 1);
+      if (at > 0) value += bits[at - 1];
+      if (component) value += component[at] - (at > 0 ? component[at - 1] : 0);
+      bits[at] = value & mask;
     }
     return bits;
   };

@@ -1,19 +1,17 @@
 //! The numbers behind the pictures of one scene, each plane kept once however many cases show it.
 
 use std::collections::HashMap;
-use std::io::Write;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use flate2::Compression;
-use flate2::write::ZlibEncoder;
 use frame::{Image, Plane};
 use rayon::prelude::*;
 
+use super::packing::{Against, packed};
 use super::precision::{Nature, Precision};
 
-/// A plane is kept as its difference from an earlier one of its kind where at least this part of both is the same: filters
-/// leave alone what does not move.
+/// A plane is kept against an earlier one of its kind where at least this part of both is the same: filters leave alone what
+/// does not move.
 const LEAST_SHARED: f64 = 0.1;
 
 /// Planes by the order in which they were first asked for. Equal planes are one.
@@ -30,11 +28,24 @@ struct Kept {
     kind: String,
     /// The earlier plane that it is kept against.
     base: Option<usize>,
+    /// The component before it.
+    component: Option<usize>,
 }
 
 impl Shelf {
     /// The number of a plane.
     pub fn plane(&mut self, kind: &str, nature: Nature, plane: &Plane) -> usize {
+        self.beside(None, kind, nature, plane)
+    }
+
+    /// The same of one that is another's next component.
+    fn beside(
+        &mut self,
+        component: Option<usize>,
+        kind: &str,
+        nature: Nature,
+        plane: &Plane,
+    ) -> usize {
         let bits: Vec<u32> = plane.pixels.iter().map(|value| value.to_bits()).collect();
         if let Some(number) = self.known.get(&bits) {
             return *number;
@@ -42,6 +53,7 @@ impl Shelf {
         let number = self.planes.len();
         self.planes.push(Kept {
             base: self.base(kind, &plane.pixels),
+            component,
             values: plane.pixels.clone(),
             nature,
             kind: kind.to_owned(),
@@ -52,10 +64,13 @@ impl Shelf {
 
     /// The numbers of an image's components.
     pub fn image(&mut self, image: &Image) -> Vec<usize> {
-        let component = |index: usize| image.map(|pixel| pixel[index]);
-        (["R", "G", "B"].iter().enumerate())
-            .map(|(index, kind)| self.plane(kind, Nature::Number, &component(index)))
-            .collect()
+        let mut numbers = Vec::new();
+        for (index, kind) in ["R", "G", "B"].into_iter().enumerate() {
+            let before = numbers.last().copied();
+            let plane = image.map(|pixel| pixel[index]);
+            numbers.push(self.beside(before, kind, Nature::Number, &plane));
+        }
+        numbers
     }
 
     /// Of the planes of a kind, the first of those that share most with these values.
@@ -73,141 +88,71 @@ impl Shelf {
         best.0
     }
 
-    /// Every plane as JSON: `{"bases": [null, 0, ..], "planes": ["..", ..]}`, the latter base64 of zlib of bytes. These are
-    /// the lowest bytes of all numbers, then the next, up to the highest. A number is kept as its bits exclusive-or those of
-    /// the base, or without a base as the difference of its bits to those of the pixel before.
+    /// Every plane as JSON: `{"bases": [null, 0, ..], "components": [null, ..], "planes": ["..", ..]}`: the numbers of the
+    /// planes that each is kept against, and base64 of what [`packed`] makes of it.
     pub fn json(&self, precision: Precision) -> String {
         let planes: Vec<String> = (self.planes.par_iter())
-            .map(|kept| {
-                format!(
-                    "\"{}\"",
-                    STANDARD.encode(deflated(&self.bytes(kept, precision)))
-                )
-            })
+            .map(|kept| format!("\"{}\"", STANDARD.encode(self.packed(kept, precision))))
             .collect();
-        let bases: Vec<String> = (self.planes.iter())
-            .map(|kept| kept.base.map_or("null".to_owned(), |base| base.to_string()))
-            .collect();
+        let numbers = |of: fn(&Kept) -> Option<usize>| {
+            let numbers = self.planes.iter().map(of);
+            let words: Vec<String> = numbers
+                .map(|number| number.map_or("null".to_owned(), |number| number.to_string()))
+                .collect();
+            words.join(",")
+        };
         format!(
-            "{{\"bases\":[{}],\n\"planes\":[{}]}}",
-            bases.join(","),
+            "{{\"bases\":[{}],\n\"components\":[{}],\n\"planes\":[{}]}}",
+            numbers(|kept| kept.base),
+            numbers(|kept| kept.component),
             planes.join(",\n")
         )
     }
 
-    fn bytes(&self, kept: &Kept, precision: Precision) -> Vec<u8> {
+    fn packed(&self, kept: &Kept, precision: Precision) -> Vec<u8> {
         let bits = |kept: &Kept| -> Vec<u32> {
             let values = kept.values.iter();
-            values
-                .map(|value| precision.bits(*value, kept.nature))
-                .collect()
+            let bits = values.map(|value| precision.bits(*value, kept.nature));
+            bits.collect()
         };
-        let own = bits(kept);
-        let differences: Vec<u32> = match kept.base {
-            Some(base) => {
-                let base = bits(&self.planes[base]);
-                own.iter()
-                    .zip(&base)
-                    .map(|(own, base)| own ^ base)
-                    .collect()
-            }
-            None => {
-                let before = std::iter::once(&0).chain(&own);
-                (own.iter().zip(before))
-                    .map(|(own, before)| own.wrapping_sub(*before))
-                    .collect()
-            }
+        let of = |number: Option<usize>| number.map(|number| bits(&self.planes[number]));
+        let (base, component) = (of(kept.base), of(kept.component));
+        let against = Against {
+            base: base.as_deref(),
+            component: component.as_deref(),
         };
-        (0..precision.width())
-            .flat_map(|byte| {
-                differences
-                    .iter()
-                    .map(move |bits| (bits >> (8 * byte)) as u8)
-            })
-            .collect()
+        packed(&bits(kept), against, precision)
     }
-}
-
-fn deflated(bytes: &[u8]) -> Vec<u8> {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
-    encoder.write_all(bytes).expect("memory takes every byte");
-    encoder.finish().expect("memory takes every byte")
 }
 
 #[cfg(test)]
 mod tests {
-    use std::io::Read;
-
-    use flate2::read::ZlibDecoder;
     use frame::Raster;
-    use serde_json::Value;
+    use serde_json::{Value, json};
 
     use super::*;
 
-    /// What a reader of the JSON makes of a plane.
-    fn read(shelf: &Value, number: usize, precision: Precision) -> Vec<u32> {
-        let packed = STANDARD
-            .decode(shelf["planes"][number].as_str().unwrap())
-            .unwrap();
-        let mut bytes = Vec::new();
-        ZlibDecoder::new(&packed[..])
-            .read_to_end(&mut bytes)
-            .unwrap();
-        let count = bytes.len() / precision.width();
-        let mut bits: Vec<u32> = (0..count)
-            .map(|at| {
-                (0..precision.width())
-                    .map(|byte| u32::from(bytes[byte * count + at]) << (8 * byte))
-                    .sum()
-            })
-            .collect();
-        let mask = u32::MAX >> (32 - 8 * precision.width());
-        match shelf["bases"][number].as_u64() {
-            Some(base) => {
-                let base = read(shelf, base as usize, precision);
-                bits.iter_mut()
-                    .zip(base)
-                    .for_each(|(own, base)| *own ^= base);
-            }
-            None => {
-                for at in 1..count {
-                    bits[at] = bits[at].wrapping_add(bits[at - 1]) & mask;
-                }
-            }
-        }
-        bits
-    }
-
     #[test]
-    fn planes_are_kept_once_and_come_back_bit_for_bit() {
+    fn planes_are_kept_once_and_against_those_that_are_like_them() {
         let noise = |x: u32, y: u32| ((x * 7 + y * 13) % 31) as f32 / 9.0 - 1.0;
-        let instant = Raster::from_fn(20, 10, noise);
+        let instant = Raster::from_fn(20, 10, |x, y| {
+            [0.5, 0.6, 0.7].map(|part| part * noise(x, y))
+        });
         // Half of it was left alone.
         let output = Raster::from_fn(20, 10, |x, y| match x < 10 {
-            true => noise(x, y),
-            false => -3.0 * noise(x, y) + 1e-3,
+            true => *instant.at(x, y),
+            false => [1.0, 2.0, 3.0].map(|part| part + noise(x, y)),
         });
         let mut shelf = Shelf::default();
-        let planes = [&instant, &output, &instant];
-        let numbers = planes.map(|plane| shelf.plane("R", Nature::Number, plane));
-        assert_eq!(numbers, [0, 1, 0]);
-        let error = shelf.plane(
-            "flip",
-            Nature::Share,
-            &instant.map(|value| value.abs() / 4.0),
-        );
+        let numbers = [&instant, &output, &instant].map(|image| shelf.image(image));
+        assert_eq!(numbers, [vec![0, 1, 2], vec![3, 4, 5], vec![0, 1, 2]]);
+        let error = instant.map(|pixel| pixel[0].abs() / 4.0);
+        assert_eq!(shelf.plane("flip", Nature::Share, &error), 6);
         for precision in [Precision::Float, Precision::Half] {
             let json: Value = serde_json::from_str(&shelf.json(precision)).unwrap();
-            assert_eq!(json["bases"], serde_json::json!([null, 0, null]));
-            for (number, plane) in [(0, &instant), (1, &output)] {
-                let kept = read(&json, number, precision);
-                let due = plane.pixels.iter();
-                let due: Vec<u32> = due
-                    .map(|value| precision.bits(*value, Nature::Number))
-                    .collect();
-                assert!(kept == due, "{precision:?} {number}");
-            }
-            assert_eq!(read(&json, error, precision).len(), 200);
+            assert_eq!(json["bases"], json!([null, null, null, 0, 1, 2, null]));
+            assert_eq!(json["components"], json!([null, 0, 1, null, 3, 4, null]));
+            assert_eq!(json["planes"].as_array().unwrap().len(), 7);
         }
     }
 }
