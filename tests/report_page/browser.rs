@@ -162,14 +162,15 @@ impl Browser {
 
     /// Everything that the page complained about: errors, warnings, and what was refused.
     pub fn complaints(&mut self) -> Vec<String> {
+        const COMPLAINTS: [&str; 4] = [
+            "Runtime.exceptionThrown",
+            "Runtime.consoleAPICalled",
+            "Log.entryAdded",
+            "Page.javascriptDialogOpening",
+        ];
         // Whatever happened before this answer has been heard by then.
         self.value("0");
-        let complains = |event: &&Value| match event["method"].as_str() {
-            Some("Runtime.exceptionThrown" | "Page.javascriptDialogOpening") => true,
-            Some("Runtime.consoleAPICalled") => true,
-            Some("Log.entryAdded") => true,
-            _ => false,
-        };
+        let complains = |event: &&Value| COMPLAINTS.iter().any(|method| event["method"] == *method);
         self.events
             .iter()
             .filter(complains)

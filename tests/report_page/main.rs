@@ -60,7 +60,7 @@ fn read_out(browser: &mut Browser, x: u32, y: u32) -> serde_json::Value {
 }
 
 /// Layer by layer the channels that the read-out shows.
-fn channels<'a>(files: &'a [ExrFile; 4]) -> Vec<(&'static str, &'a ExrFile, Vec<&'static str>)> {
+fn channels(files: &[ExrFile; 4]) -> Vec<(&'static str, &ExrFile, Vec<&'static str>)> {
     let [truth, output, frame, errors] = files;
     let color = || vec!["R", "G", "B"];
     vec![
