@@ -8,6 +8,7 @@ use super::evidence::{Evidence, evidence};
 use super::layer::Layer;
 use super::profile::{Profile, profile, worst_pixel};
 use super::profile_chart::profile_chart;
+use super::provenance::provenance_line;
 use super::scene_files::SceneFiles;
 use super::score_rows::score_rows;
 use super::subject::{Subject, case_of, scenes};
@@ -113,6 +114,7 @@ pub fn case_page(page: &Page) -> Markup {
                 (facts(case))
             }
             (score_rows(case))
+            p.note { (provenance_line(page.run)) }
         }
     }
 }

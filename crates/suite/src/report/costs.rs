@@ -7,6 +7,7 @@ use frame::FileError;
 use maud::{Markup, html};
 
 use super::pareto_chart::{Point, pareto_chart};
+use super::reach_chart::{reach_chart, span};
 use super::shown::SHOWN;
 use super::subject::{Subject, subjects};
 use crate::bench::{BASELINE, BENCH_FORMAT, CaseCost, GROWTH_FROM, REACHES, Spread};
@@ -179,15 +180,20 @@ fn passes(run: &Run, bench: &Bench) -> Markup {
 
 fn reaches(bench: &Bench) -> Markup {
     let last = REACHES[REACHES.len() - 1];
+    let span = span(&bench.reaches);
     html! {
         div.scroll tabindex="0" role="region" aria-label="Cost against reach" {
             table {
-                caption { "Cost against reach: milliseconds where motion is so many pixels, and the filter is set to cover it" }
+                caption {
+                    "Cost against reach: milliseconds where motion is so many pixels, and the filter is set to cover it; the \
+                     pictures are logarithmic both ways, and of one scale"
+                }
                 thead {
                     tr {
                         th scope="col" { "filter" }
                         @for pixels in REACHES { th scope="col" { (pixels) " px" } }
                         th scope="col" { (last) " / " (GROWTH_FROM) }
+                        th scope="col" { span.unseen { "picture" } }
                     }
                 }
                 tbody {
@@ -198,6 +204,7 @@ fn reaches(bench: &Bench) -> Markup {
                                 td { (point.seconds.map_or("-".to_owned(), |own| milliseconds(own.median))) }
                             }
                             td { (cost.growth.map_or("-".to_owned(), |own| format!("{:.2}", own.median))) }
+                            td { (reach_chart(cost, span)) }
                         }
                     }
                 }

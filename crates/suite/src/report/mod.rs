@@ -18,6 +18,7 @@ mod profile;
 mod profile_chart;
 mod provenance;
 mod ranking;
+mod reach_chart;
 mod scene_files;
 mod score_rows;
 mod shelf;
