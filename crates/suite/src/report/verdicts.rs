@@ -41,7 +41,8 @@ pub fn verdicts(page: &Page) -> Markup {
     let kept = (page.findings.iter()).filter(|finding| finding.kind == Kind::Kept);
     let kept = kept.count();
     let notable = || page.findings.iter().zip(&page.evidence);
-    let broken = page.evidence.iter().any(Option::is_some);
+    let explained = page.evidence.iter().any(Option::is_some);
+    let broken = (page.findings.iter()).any(|finding| finding.kind == Kind::Broken);
     html! {
         section.verdicts {
             h3 { @if broken { "Why it failed" } @else { "Bounds" } }
@@ -49,7 +50,7 @@ pub fn verdicts(page: &Page) -> Markup {
                 0 => p { "This picture is held to no bound." },
                 all => p { (kept) " of " (all) " kept." },
             }
-            @if broken { (alike(page)) }
+            @if explained { (alike(page)) }
             @for (finding, evidence) in notable() {
                 @if let Some(evidence) = evidence { (verdict(page, finding, evidence)) }
             }
