@@ -5,14 +5,16 @@ mod cell;
 mod gallery;
 mod interval_chart;
 mod layer;
-mod meaning;
+pub(crate) mod meaning;
 mod overview;
 mod page;
 mod provenance;
 mod ranking;
 mod score_rows;
+pub(crate) mod shell;
 mod shown;
 mod subject;
+mod tuning;
 mod verdicts;
 mod viewer;
 
@@ -28,6 +30,8 @@ use case_page::{Page, case_page};
 use gallery::Gallery;
 use overview::overview;
 use page::page;
+
+pub use tuning::{TuneFolder, tuning_page};
 
 /// The page of a run whose pictures lie below `folder`, that of its run.json. Reads pictures and writes nothing; the same
 /// run makes the same bytes.
