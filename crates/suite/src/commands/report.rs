@@ -1,21 +1,116 @@
 //! `shuttertruth report`
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use suite::{Error, Run, report};
+use suite::{Error, Run, TuneFolder, report, tuning_page, with_bar, write_layers};
 
 use super::say;
 use crate::cli::ReportArgs;
 
-/// Reads a finished run and writes its page.
+/// Reads a finished run, or a tuning, and writes its page, and its layers where they are asked for.
 pub fn execute(args: &ReportArgs) -> Result<(), Error> {
-    let run = Run::read(&args.run)?;
-    let folder = args.run.parent().unwrap_or(Path::new(""));
-    let page = report(&run, folder)?;
-    frame::write_atomically(&args.html, page.as_bytes())?;
-    say(&format!(
-        "written: {} ({:.1} MB)\n",
-        args.html.display(),
-        page.len() as f64 / 1e6
-    ))
+    let written = match subject(&args.run) {
+        Subject::Run(path) => of_run(args, &path)?,
+        Subject::Tuning(folder) => of_tuning(args, &folder)?,
+    };
+    if args.json {
+        let json = serde_json::to_string_pretty(&written).expect("a list of paths is plain data");
+        return say(&format!("{json}\n"));
+    }
+    say(&written.iter().map(Written::line).collect::<String>())
+}
+
+enum Subject {
+    /// A run.json.
+    Run(PathBuf),
+    /// A folder.
+    Tuning(PathBuf),
+}
+
+/// What lies there, by the names that `run` and `tune` give to their files.
+fn subject(path: &Path) -> Subject {
+    let run = path.join("run.json");
+    let file = path.file_name().unwrap_or_default();
+    if path.is_dir() && run.is_file() {
+        Subject::Run(run)
+    } else if path.is_dir() {
+        Subject::Tuning(path.to_owned())
+    } else if file == "tune.json" || file == "sensitivity.json" {
+        Subject::Tuning(path.parent().unwrap_or(Path::new("")).to_owned())
+    } else {
+        Subject::Run(path.to_owned())
+    }
+}
+
+fn of_run(args: &ReportArgs, path: &Path) -> Result<Vec<Written>, Error> {
+    let run = Run::read(path)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut written = Vec::new();
+    if let Some(html) = &args.html {
+        written.push(write_page(&report(&run, folder)?, html)?);
+    }
+    if let Some(out) = &args.exr {
+        let files = with_bar("layers", args.quiet, |watch| {
+            write_layers(&run, folder, out, watch)
+        })?;
+        written.extend(
+            files
+                .into_iter()
+                .map(Written::of)
+                .collect::<Result<Vec<_>, _>>()?,
+        );
+    }
+    Ok(written)
+}
+
+fn of_tuning(args: &ReportArgs, folder: &Path) -> Result<Vec<Written>, Error> {
+    if args.exr.is_some() {
+        return Err(Error::Usage(format!(
+            "--exr: {} is a tuning, which keeps no pictures; give the folder of a run",
+            folder.display()
+        )));
+    }
+    let page = tuning_page(&TuneFolder::read(folder)?)?;
+    let html = (args.html.as_deref()).expect("clap requires a page where there are no layers");
+    Ok(vec![write_page(&page, html)?])
+}
+
+/// A file that is there now.
+#[derive(serde::Serialize)]
+pub struct Written {
+    /// Where.
+    pub path: PathBuf,
+    /// How large.
+    pub bytes: u64,
+}
+
+impl Written {
+    fn of(path: PathBuf) -> Result<Self, Error> {
+        let found = std::fs::metadata(&path)
+            .map_err(|source| frame::FileError::io(&path, "read", source))?;
+        Ok(Self {
+            bytes: found.len(),
+            path,
+        })
+    }
+
+    /// `written: report.html (4.5 MB)`
+    pub fn line(&self) -> String {
+        format!(
+            "written: {} ({:.1} MB)\n",
+            self.path.display(),
+            self.bytes as f64 / 1e6
+        )
+    }
+}
+
+/// Writes the page of a run whose pictures lie below `folder`; returns the line that says so.
+pub fn write_report(run: &Run, folder: &Path, html: &Path) -> Result<String, Error> {
+    Ok(write_page(&report(run, folder)?, html)?.line())
+}
+
+/// Writes a page.
+pub fn write_page(page: &str, html: &Path) -> Result<Written, Error> {
+    frame::write_atomically(html, page.as_bytes())?;
+    Written::of(html.to_owned())
 }

@@ -5,10 +5,11 @@ use std::path::Path;
 use suite::{Error, Outcome, Run, open_gpu, run, table};
 
 use super::measure::{adapter_line, plan, write_run};
+use super::report::write_report;
 use super::say;
 use crate::cli::RunArgs;
 
-/// Loads what is named, runs every case, writes `run.json`, prints the table.
+/// Loads what is named, runs every case, writes `run.json` and the page, prints the table.
 pub fn execute(args: &RunArgs) -> Result<(), Error> {
     let mut plan = plan(&args.measure, args.measure.scenes.out.clone())?;
     let size = (plan.render.width, plan.render.height);
@@ -18,10 +19,13 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref())?;
     let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
     let json = write_run(&run, &plan.out)?;
+    let page = (args.html.as_deref())
+        .map(|html| write_report(&run, &plan.out, html))
+        .transpose()?;
     if args.json {
         say(&format!("{json}\n"))
     } else {
-        say(&(table(&run) + &closing(&run, &plan.out)))
+        say(&(table(&run) + &closing(&run, &plan.out) + &page.unwrap_or_default()))
     }
 }
 
