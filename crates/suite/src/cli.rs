@@ -464,4 +464,48 @@ mod tests {
     fn the_command_line_is_consistent() {
         Cli::command().debug_assert();
     }
+
+    /// Every page that shows commands.
+    const PAGES: [&str; 8] = [
+        include_str!("../../../README.md"),
+        include_str!("../../../docs/reading-a-report.md"),
+        include_str!("../../../docs/conventions.md"),
+        include_str!("../../../docs/add-a-filter.md"),
+        include_str!("../../../docs/add-a-scene.md"),
+        include_str!("../../../docs/ci.md"),
+        include_str!("../../../docs/not-measured.md"),
+        include_str!("../../../scenes/README.md"),
+    ];
+
+    /// The commands of a page, each in its words; those with a shell's variables are left out.
+    fn commands(page: &str) -> Vec<Vec<String>> {
+        let joined = page.replace("\\\n", " ");
+        let lines = joined
+            .lines()
+            .filter(|line| line.starts_with("    shuttertruth "));
+        let plain = lines.filter(|line| !line.contains('$'));
+        plain.map(words).collect()
+    }
+
+    /// As a shell splits them, which knows quotes and comments.
+    fn words(line: &str) -> Vec<String> {
+        let command = line.split(" #").next().unwrap_or_default();
+        let parts = command.split(['"', '\'']).enumerate();
+        let words = parts.flat_map(|(index, part)| match index % 2 {
+            0 => part.split_whitespace().map(str::to_owned).collect(),
+            _ => vec![part.to_owned()],
+        });
+        words.collect()
+    }
+
+    #[test]
+    fn every_command_that_the_guides_show_is_one() {
+        let all: Vec<Vec<String>> = PAGES.into_iter().flat_map(commands).collect();
+        assert!(all.len() > 40, "only {} commands were found", all.len());
+        for command in all {
+            if let Err(error) = Cli::try_parse_from(&command) {
+                panic!("{}: {error}", command.join(" "));
+            }
+        }
+    }
 }

@@ -91,6 +91,7 @@ pub use tune::{
 };
 pub use verdict::{Outcome, Verdict, judge};
 pub use worst::Worst;
+pub use wrapped::push_wrapped;
 
 /// Program name and version, as files and runs record it.
 pub const PROGRAM: &str = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"));

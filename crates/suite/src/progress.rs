@@ -1,12 +1,13 @@
 //! Progress with the remaining time on standard error, and Ctrl-C.
 
+use std::fmt;
 use std::io::{IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{LazyLock, Mutex};
 use std::time::{Duration, Instant};
 
-use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+use indicatif::{MultiProgress, ProgressBar, ProgressState, ProgressStyle};
 use tracer::Progress;
 
 /// Between two lines where no terminal shows a bar: what a log of some hours can hold.
@@ -36,8 +37,17 @@ pub fn with_bar<T>(label: &str, quiet: bool, work: impl FnOnce(tracer::Watch) ->
         true => ProgressBar::hidden(),
         false => BARS.add(ProgressBar::no_length()),
     };
-    let style = ProgressStyle::with_template("{msg:36} {bar:20} {percent:>3} % {eta:>4} left")
-        .expect("the template is a constant");
+    let style = ProgressStyle::with_template("{msg:36} {bar:20} {percent:>3} % {left}")
+        .expect("the template is a constant")
+        .with_key(
+            "left",
+            |state: &ProgressState, text: &mut dyn fmt::Write| {
+                // Nothing done says nothing about the rest.
+                if state.pos() > 0 {
+                    let _ = write!(text, "{} left", clock(state.eta()));
+                }
+            },
+        );
     bar.set_style(style);
     bar.set_message(label.to_owned());
     let lines = (!quiet && !on_terminal).then(|| Mutex::new(Lines::new(label, Instant::now())));
@@ -60,6 +70,12 @@ pub fn with_bar<T>(label: &str, quiet: bool, work: impl FnOnce(tracer::Watch) ->
     bar.finish_and_clear();
     BARS.remove(&bar);
     result
+}
+
+/// `1:30`: minutes and seconds.
+fn clock(time: Duration) -> String {
+    let seconds = time.as_secs_f64().round() as u64;
+    format!("{}:{:02}", seconds / 60, seconds % 60)
 }
 
 /// Progress as lines of a log.
@@ -88,8 +104,8 @@ impl Lines {
         let left = match part > 0.0 {
             true => {
                 let elapsed = now.duration_since(self.began).as_secs_f64();
-                let seconds = (elapsed * (1.0 - part) / part).round() as u64;
-                format!(", {}:{:02} left", seconds / 60, seconds % 60)
+                let left = Duration::from_secs_f64(elapsed * (1.0 - part) / part);
+                format!(", {} left", clock(left))
             }
             false => String::new(),
         };

@@ -118,9 +118,13 @@ impl Plan {
 /// filters.
 pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, Error> {
     let common = common_alignment(&plan.alignments());
-    let cases = with_bar(&scenes_label(plan), plan.quiet, |watch| {
-        all_cases(plan, gpu, common, watch)
-    })?;
+    // Of one scene, its own steps say all.
+    let quiet = plan.quiet || plan.scenes.len() == 1;
+    let cases = with_bar(
+        &format!("{} scenes in all", plan.scenes.len()),
+        quiet,
+        |watch| all_cases(plan, gpu, common, watch),
+    )?;
     Ok(Run {
         format: FORMAT,
         program: PROGRAM.to_owned(),
@@ -169,14 +173,6 @@ fn all_cases(
         cases.extend(scene_run.cases()?);
     }
     Ok(cases)
-}
-
-/// `23 scenes in all`
-fn scenes_label(plan: &Plan) -> String {
-    match plan.scenes.len() {
-        1 => "1 scene in all".to_owned(),
-        count => format!("{count} scenes in all"),
-    }
 }
 
 /// Of the alignments that take part, the one that all are compared with; no truth is rendered for it alone.

@@ -17,7 +17,18 @@ pub fn execute(args: &ReportArgs) -> Result<(), Error> {
         let json = serde_json::to_string_pretty(&written).expect("a list of paths is plain data");
         return say(&format!("{json}\n"));
     }
-    say(&written.iter().map(Written::line).collect::<String>())
+    let (pages, layers): (Vec<&Written>, Vec<&Written>) =
+        (written.iter()).partition(|file| Some(&file.path) == args.html.as_ref());
+    let mut text: String = pages.into_iter().map(Written::line).collect();
+    if let Some(folder) = &args.exr {
+        let bytes: u64 = layers.iter().map(|file| file.bytes).sum();
+        let (count, size) = (layers.len(), bytes as f64 / 1e6);
+        text += &format!(
+            "written: {count} files below {} ({size:.1} MB)\n",
+            folder.display()
+        );
+    }
+    say(&text)
 }
 
 enum Subject {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use suite::{Error, Outcome, Run, open_gpu, run, table};
+use suite::{Error, Outcome, Run, open_gpu, push_wrapped, run, table};
 
 use super::measure::{adapter_line, plan, write_run};
 use super::report::write_report;
@@ -38,15 +38,17 @@ fn closing(run: &Run, out: &Path) -> String {
     let noisy = verdicts()
         .filter(|verdict| matches!(verdict.outcome, Outcome::TooNoisy { .. }))
         .count();
-    let mut text = format!("\n{broken} of {} bounds broken", verdicts().count());
+    let mut bounds = format!("{broken} of {} bounds broken", verdicts().count());
     if noisy > 0 {
-        text += &format!(
+        bounds += &format!(
             "; {noisy} narrower than 3 noise floors: raise --samples-per-pixel or --replicates (now {} samples per pixel in all)",
             run.samples_per_pixel
         );
     }
+    let mut text = "\n".to_owned();
+    push_wrapped(&mut text, 0, &bounds);
     text += &format!(
-        "\nadapter: {}\nwritten: {}\n",
+        "adapter: {}\nwritten: {}\n",
         adapter_line(&run.adapter),
         out.join("run.json").display()
     );

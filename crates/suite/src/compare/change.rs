@@ -97,16 +97,7 @@ impl Change {
         let badness = |value: f64| metric.ideal().badness(value);
         let worse = badness(second.value) - badness(first.value);
         let floor = first.floor.max(second.floor);
-        let [low, high] = uncertainty.map_or([worse - floor, worse + floor], |own| own.interval);
-        let kind = if worse == 0.0 {
-            ChangeKind::Same
-        } else if low > 0.0 {
-            ChangeKind::Worse
-        } else if high < 0.0 {
-            ChangeKind::Better
-        } else {
-            ChangeKind::WithinNoise
-        };
+        let interval = uncertainty.map_or([worse - floor, worse + floor], |own| own.interval);
         Some(Self {
             scene: pair.first.scene.clone(),
             filter: subject(pair.first),
@@ -124,8 +115,13 @@ impl Change {
                 Some(_) => Basis::Replicates,
                 None => Basis::Floor,
             },
-            kind,
+            kind: kind(worse, interval),
         })
+    }
+
+    /// Whether it is better or worse.
+    pub fn is_beyond_noise(&self) -> bool {
+        matches!(self.kind, ChangeKind::Better | ChangeKind::Worse)
     }
 
     /// The change as a part of the larger score.
@@ -133,6 +129,51 @@ impl Change {
         match self.first.abs().max(self.second.abs()) {
             0.0 => 0.0,
             larger => self.worse.abs() / larger,
+        }
+    }
+}
+
+/// Scene and filter of cases that changed by more than noise, by the largest part of a score that changed.
+pub fn ranked(changes: &[Change]) -> Vec<(&str, &str)> {
+    let mut ranked: Vec<(f64, (&str, &str))> = Vec::new();
+    for change in changes.iter().filter(|change| change.is_beyond_noise()) {
+        let key = (change.scene.as_str(), change.filter.as_str());
+        match ranked.iter_mut().find(|(_, own)| *own == key) {
+            Some((size, _)) => *size = size.max(change.size()),
+            None => ranked.push((change.size(), key)),
+        }
+    }
+    ranked.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    ranked.into_iter().map(|(_, key)| key).collect()
+}
+
+/// What a difference and its interval come to.
+fn kind(worse: f64, [low, high]: [f64; 2]) -> ChangeKind {
+    if worse == 0.0 {
+        ChangeKind::Same
+    } else if low > 0.0 {
+        ChangeKind::Worse
+    } else if high < 0.0 {
+        ChangeKind::Better
+    } else {
+        ChangeKind::WithinNoise
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_change_is_what_its_interval_leaves_no_doubt_of() {
+        for (worse, interval, expected) in [
+            (0.0, [-0.1, 0.1], ChangeKind::Same),
+            (0.2, [0.1, 0.3], ChangeKind::Worse),
+            (-0.2, [-0.3, -0.1], ChangeKind::Better),
+            (0.2, [-0.1, 0.5], ChangeKind::WithinNoise),
+            (-0.2, [-0.4, 0.0], ChangeKind::WithinNoise),
+        ] {
+            assert_eq!(kind(worse, interval), expected, "{worse} {interval:?}");
         }
     }
 }

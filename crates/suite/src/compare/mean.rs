@@ -107,3 +107,54 @@ fn mean(changes: &[&Change]) -> MeanChange {
         kind,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::change::Basis;
+    use super::*;
+
+    /// One filter on as many scenes as there are numbers, by which each is worse.
+    fn changes(worse: &[f64]) -> Vec<Change> {
+        let change = |(index, worse): (usize, &f64)| Change {
+            scene: format!("scene_{index}"),
+            filter: "one:paper".to_owned(),
+            bar: false,
+            metric: "flip_moving".to_owned(),
+            first: 0.5,
+            second: 0.5 + worse,
+            worse: *worse,
+            interval: None,
+            standard_error: None,
+            basis: Basis::Floor,
+            kind: match *worse {
+                0.0 => ChangeKind::Same,
+                worse if worse > 0.0 => ChangeKind::Worse,
+                _ => ChangeKind::Better,
+            },
+        };
+        worse.iter().enumerate().map(change).collect()
+    }
+
+    #[test]
+    fn a_mean_is_worse_where_other_scenes_would_say_so_too() {
+        for (worse, expected) in [
+            (&[0.1, 0.2, 0.1, 0.2, 0.1][..], MeanKind::Worse),
+            (&[-0.1, -0.2, -0.1, -0.2, -0.1], MeanKind::Better),
+            (&[-0.3, 0.2, 0.1, -0.2, 0.1], MeanKind::Undecided),
+            (&[0.1, 0.2, 0.1, 0.2], MeanKind::TooFewScenes),
+            (&[0.0, 0.0], MeanKind::Same),
+        ] {
+            let means = means(&changes(worse));
+            assert_eq!(means.len(), 1);
+            assert_eq!(means[0].kind, expected, "{worse:?}");
+            assert_eq!(means[0].scenes, worse.len());
+        }
+    }
+
+    #[test]
+    fn bars_have_no_means() {
+        let mut all = changes(&[0.1; 5]);
+        all[0].bar = true;
+        assert_eq!(means(&all)[0].scenes, 4);
+    }
+}

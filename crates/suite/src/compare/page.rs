@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::change::{Basis, Change, ChangeKind};
+use super::change::{Basis, Change, ChangeKind, ranked};
 use super::chart::chart;
 use super::mean::{MeanChange, MeanKind};
 use super::pairing::{Pair, pairs, subject};
@@ -55,24 +55,6 @@ pub fn compare_page(compared: &Compared, first: &Side, second: &Side) -> Result<
         &[include_str!("split.js")],
     );
     Ok(page.into_string())
-}
-
-fn is_change(change: &Change) -> bool {
-    matches!(change.kind, ChangeKind::Better | ChangeKind::Worse)
-}
-
-/// Cases that changed by more than noise, by the largest part of a score that changed.
-fn ranked(changes: &[Change]) -> Vec<(&str, &str)> {
-    let mut ranked: Vec<(f64, (&str, &str))> = Vec::new();
-    for change in changes.iter().filter(|change| is_change(change)) {
-        let key = (change.scene.as_str(), change.filter.as_str());
-        match ranked.iter_mut().find(|(_, own)| *own == key) {
-            Some((size, _)) => *size = size.max(change.size()),
-            None => ranked.push((change.size(), key)),
-        }
-    }
-    ranked.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-    ranked.into_iter().map(|(_, key)| key).collect()
 }
 
 fn summary(compared: &Compared) -> String {
@@ -164,12 +146,12 @@ fn metric_means(metric: &str, means: &[&MeanChange]) -> Markup {
                 thead {
                     tr {
                         th scope="col" { "filter" }
-                        th scope="col" { "first" }
-                        th scope="col" { "second" }
+                        th.text scope="col" { "verdict" }
                         th scope="col" { "worse by" }
                         th scope="col" { "95 % in" }
+                        th scope="col" { "first" }
+                        th scope="col" { "second" }
                         th scope="col" { "scenes" }
-                        th.text scope="col" { "verdict" }
                         th.chart scope="col" { "← better, worse →" }
                     }
                 }
@@ -177,12 +159,12 @@ fn metric_means(metric: &str, means: &[&MeanChange]) -> Markup {
                     @for mean in means.iter().filter(|mean| mean.kind != MeanKind::Same) {
                         tr {
                             th scope="row" { (mean.filter) }
-                            td { (number(mean.first)) }
-                            td { (number(mean.second)) }
+                            (mean_verdict(mean.kind))
                             td { (signed(mean.worse)) }
                             td { (signed(mean.interval[0])) " to " (signed(mean.interval[1])) }
+                            td { (number(mean.first)) }
+                            td { (number(mean.second)) }
                             td { (mean.scenes) ": " (mean.better_worse[0]) " ▼ " (mean.better_worse[1]) " ▲" }
-                            (mean_verdict(mean.kind))
                             td.chart { (chart(mean.worse, mean.interval, most)) }
                         }
                     }
@@ -263,11 +245,11 @@ fn change_heading(named: bool) -> Markup {
             tr {
                 @if named { th scope="col" { "scene / filter" } }
                 th.text scope="col" { "metric" }
-                th scope="col" { "first" }
-                th scope="col" { "second" }
+                th.text scope="col" { "verdict" }
                 th scope="col" { "worse by" }
                 th scope="col" { "95 % in" }
-                th.text scope="col" { "verdict" }
+                th scope="col" { "first" }
+                th scope="col" { "second" }
             }
         }
     }
@@ -284,8 +266,7 @@ fn change_row(change: &Change, named: bool) -> Markup {
         tr {
             @if named { th scope="row" { (change.scene) " / " (change.filter) } }
             th.text scope="row" { (change.metric) }
-            td { (number(change.first)) }
-            td { (number(change.second)) }
+            td class=(class) { (sign) (change.kind.words()) }
             td { (signed(change.worse)) }
             td {
                 @match (change.interval, change.basis) {
@@ -294,7 +275,8 @@ fn change_row(change: &Change, named: bool) -> Markup {
                     (None, Basis::Floor | Basis::Replicates) => "by the floor",
                 }
             }
-            td class=(class) { (sign) (change.kind.words()) }
+            td { (number(change.first)) }
+            td { (number(change.second)) }
         }
     }
 }

@@ -1,14 +1,14 @@
 //! What a comparison prints: 80 columns.
 
-use super::change::{Basis, Change, ChangeKind};
+use super::change::{Basis, Change, ChangeKind, ranked};
 use super::mean::{MeanChange, MeanKind};
 use super::{Compared, SettingChange};
 use crate::gate::number;
 use crate::paint::{bad, doubtful, faint, good, heading};
 use crate::wrapped::push_wrapped;
 
-/// Rows of changed cases that are printed; `--json` and the page have all.
-const ROWS: usize = 24;
+/// Changed cases that are printed; `--json` and the page have all.
+const CASES: usize = 12;
 
 /// Settings, cases of one run alone, means over scenes, cases that changed, counts.
 pub fn compare_table(compared: &Compared) -> String {
@@ -95,44 +95,50 @@ fn means_table(means: &[MeanChange]) -> String {
     text
 }
 
-/// The cases with the largest changes of visible difference first.
+/// Case by case, those with the largest changes first.
 fn changes_table(changes: &[Change]) -> String {
-    let changed = |change: &&Change| matches!(change.kind, ChangeKind::Better | ChangeKind::Worse);
-    let mut rows: Vec<&Change> = changes.iter().filter(changed).collect();
-    if rows.is_empty() {
+    let ranked = ranked(changes);
+    if ranked.is_empty() {
         return String::new();
     }
-    rows.sort_by(|a, b| b.size().total_cmp(&a.size()));
-    let more = rows.len().saturating_sub(ROWS);
-    rows.truncate(ROWS);
     let mut text = format!(
         "\n{}{}",
         heading(&format!("{:<22}", "scene / filter")),
         columns("95 % in")
     );
-    for change in rows {
-        let interval = match (change.interval, change.basis) {
-            (Some([low, high]), Basis::Replicates) => {
-                format!("{} to {}", signed(low), signed(high))
-            }
-            _ => "beyond the floor".to_owned(),
-        };
-        let verdict = match change.kind {
-            ChangeKind::Better => good(change.kind.words()),
-            _ => bad(change.kind.words()),
-        };
-        text += &format!("{} / {}\n", change.scene, change.filter);
-        text += &row(
-            &change.metric,
-            [change.first, change.second, change.worse],
-            &interval,
-            &verdict,
-        );
+    for (scene, filter) in ranked.iter().take(CASES) {
+        text += &format!("{scene} / {filter}\n");
+        let own = changes
+            .iter()
+            .filter(|change| change.scene == *scene && change.filter == *filter);
+        for change in own.filter(|change| change.is_beyond_noise()) {
+            text += &change_row(change);
+        }
     }
-    if more > 0 {
-        text += &faint(&format!("and {more} more: --json or --html show them\n"));
+    if ranked.len() > CASES {
+        let more = ranked.len() - CASES;
+        text += &faint(&format!(
+            "and {more} cases more: --json or --html show them\n"
+        ));
     }
     text
+}
+
+fn change_row(change: &Change) -> String {
+    let interval = match (change.interval, change.basis) {
+        (Some([low, high]), Basis::Replicates) => format!("{} to {}", signed(low), signed(high)),
+        _ => "beyond the floor".to_owned(),
+    };
+    let verdict = match change.kind {
+        ChangeKind::Better => good(change.kind.words()),
+        _ => bad(change.kind.words()),
+    };
+    row(
+        &change.metric,
+        [change.first, change.second, change.worse],
+        &interval,
+        &verdict,
+    )
 }
 
 fn columns(interval: &str) -> String {

@@ -168,7 +168,7 @@ pub fn sensitivity_table(found: &Sensitivity) -> String {
     let width = found.parameters.keys().map(String::len).max().unwrap_or(0);
     let width = width.max("parameter".len());
     let mut text = format!(
-        "{:width$}  effect  spread  first  total (95 %)           could be constant\n",
+        "{:width$}  effect  spread  first  total (95 %)           constant?\n",
         "parameter"
     );
     for (name, it) in rows {

@@ -70,7 +70,9 @@ pub fn values(tuning: &Tuning) -> Markup {
                     }
                 }
             }
-            p.note { "params.json and preset.toml in the folder hold the choice for `evaluate` and for a filter.toml." }
+            p.note {
+                "In the folder, params.json holds the choice for " code { "evaluate --params" } ", preset.toml for a filter.toml."
+            }
         }
     }
 }

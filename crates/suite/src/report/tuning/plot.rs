@@ -6,7 +6,7 @@ use maud::{Markup, html};
 const WIDTH: f64 = 360.0;
 const HEIGHT: f64 = 220.0;
 /// Room for the labels of either axis, and at the other sides.
-const LEFT: f64 = 46.0;
+const LEFT: f64 = 56.0;
 const BOTTOM: f64 = 34.0;
 const RIGHT: f64 = 10.0;
 const TOP: f64 = 10.0;

@@ -36,7 +36,7 @@ pub fn slices(folder: &TuneFolder) -> Markup {
             h2 { "Error along each parameter" }
             p.key {
                 "Marks: trials, in which the other parameters vary as well; blue ran on every scene, grey only on the first ones. The \
-                 line, where there is one: from `tune --morris` or `--sobol`, all others at the start. Errors are mean logs against the \
+                 line, where there is one: all others at the start, from a study of sensitivity. Errors are mean logs against the \
                  start; those above 1 are drawn at 1."
             }
             div.drawings {
