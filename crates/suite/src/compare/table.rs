@@ -52,7 +52,7 @@ fn means_table(means: &[MeanChange]) -> String {
     let mut filter = "";
     for mean in means.iter().filter(|mean| mean.kind != MeanKind::Same) {
         if text.is_empty() {
-            text += &heading(&format!("{:<22}", "mean over scenes"));
+            text += &heading(&format!("{:<19}", "mean over scenes"));
             text += &columns("95 % in");
         }
         if filter != mean.filter {
@@ -103,7 +103,7 @@ fn changes_table(changes: &[Change]) -> String {
     }
     let mut text = format!(
         "\n{}{}",
-        heading(&format!("{:<22}", "scene / filter")),
+        heading(&format!("{:<19}", "scene / filter")),
         columns("95 % in")
     );
     for (scene, filter) in ranked.iter().take(CASES) {
@@ -150,7 +150,7 @@ fn columns(interval: &str) -> String {
 
 fn row(metric: &str, [first, second, worse]: [f64; 3], interval: &str, verdict: &str) -> String {
     format!(
-        "  {metric:<20}{:>8} {:>8} {:>9}  {interval:>20}  {verdict}\n",
+        "  {metric:<17}{:>8} {:>8} {:>9}  {interval:>20}  {verdict}\n",
         number(first),
         number(second),
         signed(worse)

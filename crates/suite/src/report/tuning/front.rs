@@ -43,7 +43,7 @@ pub fn front(folder: &TuneFolder) -> Markup {
             div.drawings {
                 @for against in &AGAINST { (chart(&done, &on_front, chosen, against)) }
             }
-            @if let Some(tuning) = &folder.tuning { (table(&tuning.front, tuning.choice.trial)) }
+            @if let Some(tuning) = &folder.tuning { (table(&tuning.front, &tuning.start, tuning.choice.trial)) }
         }
     }
 }
@@ -87,7 +87,7 @@ fn change(trial: &Trial) -> Option<f64> {
     Some(100.0 * trial.error?.exp_m1())
 }
 
-fn table(front: &[Trial], chosen: usize) -> Markup {
+fn table(front: &[Trial], start: &Trial, chosen: usize) -> Markup {
     let number =
         |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"));
     html! {
@@ -100,7 +100,7 @@ fn table(front: &[Trial], chosen: usize) -> Markup {
                         th scope="col" { "error" }
                         th scope="col" { "bleed, px" }
                         th scope="col" { "GPU time" }
-                        th.text scope="col" { "values" }
+                        th.text scope="col" { "values that differ from the start" }
                     }
                 }
                 tbody {
@@ -110,16 +110,23 @@ fn table(front: &[Trial], chosen: usize) -> Markup {
                             td { (trial.error.map_or_else(|| "-".to_owned(), percent)) }
                             td { (number(trial.bleed)) }
                             td { (number(trial.cost)) }
-                            td.text {
-                                @for (index, (name, value)) in trial.values.iter().enumerate() {
-                                    @if index > 0 { ", " }
-                                    (name) " " (value)
-                                }
-                            }
+                            td.text { (differing(trial, start)) }
                         }
                     }
                 }
             }
         }
     }
+}
+
+/// `samples 16, jitter start_offset`
+fn differing(trial: &Trial, start: &Trial) -> String {
+    let differ = trial
+        .values
+        .iter()
+        .filter(|(name, value)| start.values.get(*name) != Some(value));
+    let words: Vec<String> = differ
+        .map(|(name, value)| format!("{name} {value}"))
+        .collect();
+    words.join(", ")
 }

@@ -64,8 +64,9 @@ fn slice(folder: &TuneFolder, trials: &[&Trial], name: &str) -> Markup {
         .flat_map(|own| &own.slice)
         .map(|(value, error)| (value, error.min(MOST_ERROR)))
         .collect();
-    let values: Vec<&Value> = (points.iter().map(|(value, _, _)| *value))
-        .chain(line.iter().map(|(value, _)| *value))
+    // A line has the order of the filter's own choices.
+    let values: Vec<&Value> = (line.iter().map(|(value, _)| *value))
+        .chain(points.iter().map(|(value, _, _)| *value))
         .collect();
     let errors = points
         .iter()
@@ -89,13 +90,17 @@ fn slice(folder: &TuneFolder, trials: &[&Trial], name: &str) -> Markup {
     html! { figure { (plot.draw(&format!("Error against {name}"), &marks)) } }
 }
 
-/// The words of a choice, each once; none of numbers.
+/// The words of a choice, each once, in the order in which they are met; none of numbers.
 fn words(values: &[&Value]) -> Vec<String> {
-    let words = values.iter().filter_map(|value| match value {
-        Value::Choice(word) => Some(word.clone()),
-        _ => None,
-    });
-    words.collect::<BTreeSet<_>>().into_iter().collect()
+    let mut words: Vec<String> = Vec::new();
+    for value in values {
+        if let Value::Choice(word) = value
+            && !words.contains(word)
+        {
+            words.push(word.clone());
+        }
+    }
+    words
 }
 
 fn place(value: &Value, words: &[String]) -> f64 {
