@@ -31,7 +31,7 @@ mod tests {
     #[test]
     fn long_lines_break_between_words_and_long_words_do_not() {
         let mut text = String::new();
-        push_wrapped(&mut text, 2, &"word ".repeat(30));
+        push_wrapped(&mut text, 2, &["word"; 30].join(" "));
         push_wrapped(&mut text, 2, &"x".repeat(100));
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(lines.len(), 3);
