@@ -9,17 +9,16 @@ use crate::cli::ReportArgs;
 
 /// Reads a finished run, or a tuning, and writes its page, and its layers where they are asked for.
 pub fn execute(args: &ReportArgs) -> Result<(), Error> {
-    let written = match subject(&args.run) {
+    let (pages, layers) = match subject(&args.run) {
         Subject::Run(path) => of_run(args, &path)?,
-        Subject::Tuning(folder) => of_tuning(args, &folder)?,
+        Subject::Tuning(folder) => (of_tuning(args, &folder)?, Vec::new()),
     };
     if args.json {
+        let written: Vec<&Written> = pages.iter().chain(&layers).collect();
         let json = serde_json::to_string_pretty(&written).expect("a list of paths is plain data");
         return say(&format!("{json}\n"));
     }
-    let (pages, layers): (Vec<&Written>, Vec<&Written>) =
-        (written.iter()).partition(|file| Some(&file.path) == args.html.as_ref());
-    let mut text: String = pages.into_iter().map(Written::line).collect();
+    let mut text: String = pages.iter().map(Written::line).collect();
     if let Some(folder) = &args.exr {
         let bytes: u64 = layers.iter().map(|file| file.bytes).sum();
         let (count, size) = (layers.len(), bytes as f64 / 1e6);
@@ -53,25 +52,22 @@ fn subject(path: &Path) -> Subject {
     }
 }
 
-fn of_run(args: &ReportArgs, path: &Path) -> Result<Vec<Written>, Error> {
+/// The page's files, and those of the layers.
+fn of_run(args: &ReportArgs, path: &Path) -> Result<(Vec<Written>, Vec<Written>), Error> {
     let run = Run::read(path)?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let mut written = Vec::new();
-    if let Some(html) = &args.html {
-        written.push(write_page(&report(&run, folder)?, html)?);
-    }
-    if let Some(out) = &args.exr {
-        let files = with_bar("layers", args.quiet, |watch| {
+    let pages = match &args.html {
+        Some(html) => write_report_files(&run, folder, html)?,
+        None => Vec::new(),
+    };
+    let layers = match &args.exr {
+        Some(out) => with_bar("layers", args.quiet, |watch| {
             write_layers(&run, folder, out, watch)
-        })?;
-        written.extend(
-            files
-                .into_iter()
-                .map(Written::of)
-                .collect::<Result<Vec<_>, _>>()?,
-        );
-    }
-    Ok(written)
+        })?,
+        None => Vec::new(),
+    };
+    let layers = layers.into_iter().map(Written::of);
+    Ok((pages, layers.collect::<Result<_, _>>()?))
 }
 
 fn of_tuning(args: &ReportArgs, folder: &Path) -> Result<Vec<Written>, Error> {
@@ -115,9 +111,15 @@ impl Written {
     }
 }
 
-/// Writes the page of a run whose pictures lie below `folder`; returns the line that says so.
+/// Writes the page of a run whose pictures lie below `folder`; returns the lines that say so.
 pub fn write_report(run: &Run, folder: &Path, html: &Path) -> Result<String, Error> {
-    Ok(write_page(&report(run, folder)?, html)?.line())
+    let written = write_report_files(run, folder, html)?;
+    Ok(written.iter().map(Written::line).collect())
+}
+
+/// Writes the page of a run, and whatever has to lie beside it.
+fn write_report_files(run: &Run, folder: &Path, html: &Path) -> Result<Vec<Written>, Error> {
+    Ok(vec![write_page(&report(run, folder)?, html)?])
 }
 
 /// Writes a page.
