@@ -8,7 +8,7 @@ mod files;
 mod interval_chart;
 mod layer;
 mod legend;
-mod meaning;
+pub(crate) mod meaning;
 mod overview;
 mod packing;
 mod page;
@@ -22,8 +22,10 @@ mod reach_chart;
 mod scene_files;
 mod score_rows;
 mod shelf;
+pub(crate) mod shell;
 mod shown;
 mod subject;
+mod tuning;
 mod verdicts;
 mod viewer;
 
@@ -44,6 +46,7 @@ use scene_files::SceneFiles;
 use subject::scenes;
 
 pub use files::{LARGEST_PAGE, Report};
+pub use tuning::{TuneFolder, tuning_page};
 
 /// The page of a run whose files lie below `folder`, that of its run.json, to be written to `html`. A bench.json that lies
 /// there too says what the filters cost. A page of more than `largest` bytes, [`LARGEST_PAGE`] for instance, keeps halves for
