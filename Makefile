@@ -1,8 +1,8 @@
 # `make run` does the main job; `make test` passes the tests. Both check for a Vulkan driver first and, on Debian and
-# Ubuntu, install the software one where none is found; the tests want Optuna as well, which drives the tuning service. On
-# macOS and Windows plain cargo commands work.
+# Ubuntu, install the software one where none is found; the tests want Optuna as well, which drives the tuning service, and
+# Chromium, which reports are looked at with. On macOS and Windows plain cargo commands work.
 
-.PHONY: run test vulkan optuna
+.PHONY: run test vulkan optuna chromium
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -13,7 +13,7 @@ SCENES ?= sliding_panel,panel_over_texture,two_spheres,railing,fan
 run: vulkan
 	cargo run --release --locked --bin shuttertruth -- run $(if $(SCENES),--scenes $(SCENES)) --out out
 
-test: vulkan optuna
+test: vulkan optuna chromium
 	cargo test --workspace --locked
 
 # The Python that has Optuna; one of your own is used as it is.
@@ -63,3 +63,13 @@ optuna:
 	{ $(call INSTALL,Python that can make environments,python3-venv,install Python 3 with venv and pip); }; \
 	echo "installing Optuna to $(VENV)" >&2; \
 	python3 -m venv "$(VENV)" && "$(VENV)/bin/pip" install -q optuna==5.0.0 >&2
+
+CHROMIUM_WAY_OUT := install it, for example: apt-get install chromium (Debian), dnf install chromium (Fedora), pacman -S chromium (Arch), or name a Chromium or Chrome in CHROMIUM
+
+# The tests take $CHROMIUM, or the first of these that there is.
+chromium:
+	@[ "$$(uname -s)" = Linux ] || exit 0; \
+	found() { [ -n "$${CHROMIUM:-}" ] || command -v chromium || command -v chromium-browser || command -v google-chrome; }; \
+	found >/dev/null && exit 0; \
+	$(call INSTALL,Chromium,chromium,$(CHROMIUM_WAY_OUT)); \
+	found >/dev/null || { echo "still no Chromium after the installation; $(CHROMIUM_WAY_OUT)" >&2; exit 1; }

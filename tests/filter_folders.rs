@@ -374,6 +374,7 @@ fn a_wrong_folder_says_where_and_what() {
         ("filter.toml", "[[pass]]\nentry = \"fastest\"\nover = \"tile_motion\"\n", "", &["gather", "reads \"tile_motion\" before"]),
         ("filter.toml", "[[pass]]\nentry = \"gather\"\n", "", &["no pass writes \"output\""]),
         ("filter.toml", "name = \"tile_size\"\nkind = \"integer\"\ndefault = 16\nrange = [2, 64]", "name = \"tile_size\"\nkind = \"integer\"\ndefault = 16\nrange = [0, 64]", &["tile_motion", "begins at 1"]),
+        ("filter.toml", "divided_by = \"tile_size\"", "divided_by = 1\nholds = \"places\"", &["tile_motion", "holds = \"places\"", "rg32float or rgba32float, and no divided_by"]),
         ("filter.toml", "divided_by = \"tile_size\"", "divided_by = 0", &["tile_motion", "divided_by = 0", "1 pixel or more"]),
         ("filter.toml", "divided_by = \"tile_size\"", "divided_by = 1.5", &["a number of pixels or the name of an integer parameter"]),
         ("filter.toml", "[[preset]]", "[reach_by]\nparameter = \"spacing\"\ngrowth = \"linear\"\n[[preset]]", &["filter.toml:", "reach_by", "\"spacing\" is not an integer"]),

@@ -2,12 +2,8 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-
-use crate::bench::{Bench, assert_done, assert_refused, files_below, stdout};
+use crate::bench::{Bench, assert_done, assert_refused, quick, split, stdout};
 
 const WORDS: [&str; 4] = ["report", "out/run.json", "--html", "page/report.html"];
 
@@ -27,19 +23,15 @@ fn between<'a>(page: &'a str, before: &str, after: &str) -> Vec<&'a str> {
         .collect()
 }
 
-/// The pictures of a page, by their numbers.
-fn pictures(page: &str) -> Vec<Vec<u8>> {
-    let store = between(
+/// The numbers of a page's scenes, as JSON.
+fn shelves(page: &str) -> Vec<serde_json::Value> {
+    let texts = between(
         page,
-        "<script id=\"pictures\" type=\"application/json\">",
+        "<script type=\"application/json\" data-scene=\"",
         "</script>",
     );
-    let addresses: Vec<String> = serde_json::from_str(store[0]).unwrap();
-    (addresses.iter())
-        .map(|address| {
-            let text = address.strip_prefix("data:image/png;base64,").unwrap();
-            STANDARD.decode(text).unwrap()
-        })
+    (texts.into_iter())
+        .map(|text| serde_json::from_str(text.split_once('>').unwrap().1).unwrap())
         .collect()
 }
 
@@ -105,39 +97,53 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
 }
 
 #[test]
-fn a_page_holds_every_picture_once_and_fetches_nothing() {
+fn a_page_holds_every_plane_once_and_fetches_nothing() {
     let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
+    bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
+    assert_done(&bench.run(&["--filters", "identity,jump_flood:paper"]));
     let page = reported(&bench);
-    let pictures = pictures(&page);
-    let once: BTreeSet<&Vec<u8>> = pictures.iter().collect();
-    assert_eq!(once.len(), pictures.len(), "a picture stands there twice");
-    let files: BTreeSet<Vec<u8>> = (files_below(&bench.path("out")).iter())
-        .filter(|path| path.extension().is_some_and(|ending| ending == "png"))
-        .map(|path| fs::read(path).unwrap())
-        .collect();
-    assert_eq!(once, files.iter().collect());
-
-    for (index, case) in bench.measured().cases.iter().enumerate() {
-        let layers = between(article(&page, index), "data-layers=\"", "\"")[0];
-        let file = |name: &str| match name {
-            "instant" => Path::new(&case.scene).join("frame.png"),
-            "velocity" => Path::new(&case.scene).join("velocity.png"),
-            "truth" => Path::new(&case.scene).join("truth_trailing.png"),
-            own => case.folder.join(format!("{own}.png")),
-        };
-        let pairs: Vec<(&str, &str)> = (layers.split(' '))
-            .map(|pair| pair.split_once(':').unwrap())
+    let shelves = shelves(&page);
+    assert_eq!(shelves.len(), 2, "one per scene");
+    for shelf in &shelves {
+        let planes: Vec<&str> = (shelf["planes"].as_array().unwrap().iter())
+            .map(|plane| plane.as_str().unwrap())
             .collect();
-        assert_eq!(pairs.len(), 7, "{layers}");
-        for (name, number) in pairs {
-            let bytes = fs::read(bench.path("out").join(file(name))).unwrap();
-            assert!(
-                pictures[number.parse::<usize>().unwrap()] == bytes,
-                "{} shows another picture as {name}",
-                case.name()
-            );
+        let once: BTreeSet<(&str, String)> =
+            (planes.iter().zip(shelf["bases"].as_array().unwrap()))
+                .map(|(plane, base)| (*plane, base.to_string()))
+                .collect();
+        assert_eq!(once.len(), planes.len(), "a plane stands there twice");
+    }
+    for (index, case) in bench.measured().cases.iter().enumerate() {
+        let article = article(&page, index);
+        let layers = between(article, "data-layers=\"", "\"")[0];
+        let scene: usize = between(article, "data-scene=\"", "\"")[0].parse().unwrap();
+        let mut names = Vec::new();
+        for pair in layers.split(' ') {
+            let (name, planes) = pair.split_once(':').unwrap();
+            names.push(name);
+            for plane in planes.split(',') {
+                let plane: usize = plane.parse().unwrap();
+                assert!(shelves[scene]["planes"][plane].is_string(), "{pair}");
+            }
         }
+        let mut due = vec![
+            "truth",
+            "output",
+            "instant",
+            "flip",
+            "signed",
+            "bleed",
+            "label_tv",
+            "unknowable",
+            "velocity",
+            "depth",
+        ];
+        if case.filter == "jump_flood" {
+            due.push("dilated");
+        }
+        due.push("objects");
+        assert_eq!(names, due, "{}", case.name());
     }
 
     assert!(page.contains("content=\"default-src 'none'; img-src data:;"));
@@ -175,8 +181,8 @@ fn a_scene_called_script_is_shown_and_not_run() {
     assert!(page.contains("<h2 tabindex=\"-1\">&lt;script&gt;alert(1) / identity:default</h2>"));
     assert!(page.contains("This scene exposes: &lt;img src=x onerror=alert(2)&gt; &amp; it"));
     assert!(!page.contains("<script>alert") && !page.contains("<img src=x"));
-    // Four scripts and the pictures are the page's own.
-    assert_eq!(page.matches("<script").count(), 5);
+    // Seven scripts, the colours and the numbers of one scene are the page's own.
+    assert_eq!(page.matches("<script").count(), 9);
 }
 
 #[test]
@@ -222,10 +228,126 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
             "\"{words}\" is missing from:\n{article}"
         );
     }
-    let shown = between(article, "<img data-picture=\"", "\"");
-    assert_eq!(shown.len(), 1, "what is kept needs no picture");
-    let crop = fs::read(bench.path("out").join(&worst.picture)).unwrap();
-    assert!(pictures(&page)[shown[0].parse::<usize>().unwrap()] == crop);
+    let crop = format!(
+        "<figure class=\"crop\" data-x=\"{}\" data-y=\"{}\"",
+        worst.x, worst.y
+    );
+    assert_eq!(article.matches(&crop).count(), 1);
+    assert_eq!(
+        article.matches("<figure class=\"crop\"").count(),
+        1,
+        "what is kept needs no picture"
+    );
+}
+
+#[test]
+fn a_run_that_looked_for_no_place_gets_one_in_its_report() {
+    let bench = Bench::new();
+    bench.write(
+        "bounds.toml",
+        "[default]\nflip_moving = { limit = 0.2, why = \"it serves a test\" }\n",
+    );
+    let output = bench.check(&["--filters", "identity"]);
+    assert_eq!(output.status.code(), Some(1));
+    let page = reported(&bench);
+    let case = |bench: &Bench| {
+        bench
+            .measured()
+            .cases
+            .iter()
+            .position(|case| !case.bar)
+            .unwrap()
+    };
+    let checked = between(
+        article(&page, case(&bench)),
+        "<figure class=\"crop\" ",
+        " data-map",
+    )[0]
+    .to_owned();
+    let words = [&quick("run", "64")[..], &["--filters", "identity"]].concat();
+    assert_done(&bench.shuttertruth(&words));
+    let page = reported(&bench);
+    let article = article(&page, case(&bench));
+    assert_eq!(
+        between(article, "<figure class=\"crop\" ", " data-map")[0],
+        checked
+    );
+    assert!(article.contains("<code>check</code> compares them, <code>run</code> does not"));
+}
+
+#[test]
+fn costs_are_those_of_the_bench_beside_the_run() {
+    let bench = Bench::new();
+    let words = "--filters identity,mcguire:paper --set mcguire.samples=7";
+    assert_done(&bench.run(&split(words)));
+    let without = reported(&bench);
+    assert!(without.contains("Nothing was timed beside this run."));
+    let words =
+        "bench --quiet --filters identity,jump_flood:paper,mcguire:paper --size 64x32 --out out";
+    assert_done(&bench.shuttertruth(&split(words)));
+    let page = reported(&bench);
+    let text = fs::read_to_string(bench.path("out/bench.json")).unwrap();
+    let timed: suite::Bench = serde_json::from_str(&text).unwrap();
+    let seconds = timed
+        .cases
+        .iter()
+        .find(|cost| cost.filter == "identity")
+        .unwrap()
+        .seconds;
+    // In every table of scores one cell of the filter that was run and timed, and none of those that were only timed, or run with
+    // other parameters.
+    let cell = format!("<td class=\"cost\" data-value=\"{}\">", seconds.median);
+    assert_eq!(page.matches(&cell).count(), 6);
+    assert_eq!(page.matches("<td class=\"cost\" data-value").count(), 6);
+    let costs = between(&page, "<section class=\"costs\">", "</section>")[0];
+    for words in [
+        "identity:default",
+        "copy",
+        "256 px",
+        "accumulate:64 (trailing)",
+        timed.adapter.name.as_str(),
+    ] {
+        assert!(
+            costs.contains(words),
+            "\"{words}\" is missing from:\n{costs}"
+        );
+    }
+    fs::write(
+        bench.path("out/bench.json"),
+        text.replace("\"format\": 1", "\"format\": 0"),
+    )
+    .unwrap();
+    let parts = [
+        "out/bench.json: has format 0; allowed: 1",
+        "`shuttertruth bench`",
+    ];
+    assert_refused(&bench.shuttertruth(&WORDS), 2, &parts);
+}
+
+#[test]
+fn a_run_keeps_what_the_jump_flood_dilated() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&["--filters", "jump_flood:corrected"]));
+    let case = &bench.measured_filters()[0];
+    let output = frame::read_exr(&bench.path("out").join(&case.folder).join("output.exr")).unwrap();
+    let frame = frame::Frame::read(&bench.path("out/plate/frame.exr")).unwrap();
+    let [x, y] = ["dilated.X", "dilated.Y"].map(|name| output.plane(name).unwrap());
+    let motion = *frame.velocity.at(32, 16);
+    assert!(motion[0] > 5.0, "the plate moves to the right: {motion:?}");
+    // On the plate and a pixel behind it the plate's own velocity; nothing far ahead, and none above it.
+    let behind = (0..32).find(|x| *frame.object_id.at(*x, 16) == 1).unwrap() - 1;
+    for (column, row, due) in [
+        (32, 16, motion),
+        (behind, 16, motion),
+        (60, 16, [0.0; 2]),
+        (32, 2, [0.0; 2]),
+    ] {
+        assert_eq!(
+            [*x.at(column, row), *y.at(column, row)],
+            due,
+            "({column}, {row})"
+        );
+    }
 }
 
 #[test]
@@ -240,14 +362,21 @@ fn what_is_no_run_or_lacks_its_pictures_is_refused() {
     fs::write(bench.path("out/run.json"), "{}").unwrap();
     refused(&["out/run.json: no run of this program", "`shuttertruth run`"]);
     assert_done(&bench.run(&["--filters", "identity"]));
-    let picture = bench.path("out/plate/identity_default/flip.png");
+    let picture = bench.path("out/plate/identity_default/output.exr");
+    let other = bench.path("out/other.exr");
+    fs::copy(&picture, &other).unwrap();
     fs::write(&picture, "no picture").unwrap();
+    refused(&["out/plate/identity_default/output.exr"]);
+    fs::remove_file(&picture).unwrap();
+    refused(&["out/plate/identity_default/output.exr", "read"]);
+    let mut small = frame::ExrFile::new(16, 16);
+    small.push_color("", &frame::Raster::filled(16, 16, [0.0; 3]));
+    frame::write_exr(&picture, &small).unwrap();
     refused(&[
-        "out/plate/identity_default/flip.png: is no PNG",
+        "out/plate/identity_default: output.exr has 16x16 pixels, errors.exr 64x32, the scene's frame 64x32",
         "run the case again",
     ]);
-    fs::remove_file(&picture).unwrap();
-    refused(&["out/plate/identity_default/flip.png", "read"]);
+    fs::rename(&other, &picture).unwrap();
 
     let text = fs::read_to_string(bench.path("out/run.json")).unwrap();
     let mut run: serde_json::Value = serde_json::from_str(&text).unwrap();

@@ -423,7 +423,11 @@ fn two_presets_are_compared_scene_by_scene() {
     let more = split("--scenes a,b,c,d,e,f,g --size 64x32 --samples-per-pixel 16 --out out");
     let output = bench.shuttertruth(&[&words[..], &more].concat());
     assert_done(&output);
-    let text = stdout(&output);
+    // Lines break where the terminal ends.
+    let text = stdout(&output)
+        .split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ");
     assert!(
         text.contains("FLIP of corrected against paper: -"),
         "{text}"

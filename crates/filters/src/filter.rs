@@ -67,6 +67,16 @@ pub struct Texture {
     pub format: Format,
     /// By what the image's size is divided, rounded up; `None` for the image's own size.
     pub divided_by: Option<Length>,
+    /// What its numbers are, where a person may want to see them.
+    pub holds: Option<Holds>,
+}
+
+/// What a texture between the passes says of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Holds {
+    /// As x and y, in pixels from the image's top left corner, the place that gives the pixel its velocity.
+    Places,
 }
 
 /// Texel format: numbers of 32 bits.

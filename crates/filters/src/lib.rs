@@ -18,7 +18,7 @@ mod wiring;
 
 pub use command::{Command, CommandBlur};
 pub use error::FilterError;
-pub use filter::{Filter, Format, Pass, Preset, Repeat, Texture};
+pub use filter::{Filter, Format, Holds, Pass, Preset, Repeat, Texture};
 pub use gpu::{
     AdapterDescription, Blur, BufferCopy, Clock, Gpu, Kernels, Loaded, PassTime, Resident,
     list_adapters,

@@ -29,6 +29,7 @@ mod misplacement;
 mod mover;
 mod nearest;
 mod object;
+mod object_sides;
 #[cfg(test)]
 mod parity;
 mod pooled;
@@ -44,6 +45,7 @@ mod viewing;
 mod worst_bleed;
 
 pub use absolute_error::SMAPE_EPSILON;
+pub use bleed::Side;
 pub use cross_error::{PSNR_LIMIT, RELATIVE_EPSILON};
 pub use equivalent::{Equivalent, Reach, Subframes};
 pub use error::MeasureError;
@@ -54,6 +56,7 @@ pub use interval::{Interval, jackknife};
 pub use jitter::Jitter;
 pub use maps::Maps;
 pub use metric::{FrozenMetric, ImageMetric, Metric, ObjectMetric, ProbeMetric, SkillMetric};
+pub use object_sides::object_sides;
 pub use probes::{ProbeMaps, ProbeMeasurement, Probes};
 pub use reference::{Measurement, Reference};
 pub use score::{Ideal, Measured, Score};

@@ -49,8 +49,10 @@ pub enum Command {
     Blur(BlurArgs),
     /// Measure a finished picture, wherever it comes from.
     Score(ScoreArgs),
-    /// Show a finished run as one page that opens in a browser, without a network.
+    /// Show a finished run, or a tuning, as one page that opens in a browser, without a network.
     Report(ReportArgs),
+    /// Compare two finished runs of the same cases: what changed, and is it more than noise?
+    Compare(CompareArgs),
     /// Time filters pass by pass, and against their reach. Prints tables; writes bench.json.
     Bench(BenchArgs),
     /// Find parameters that bring a filter nearer to the truth. Writes journal.jsonl and tune.json.
@@ -74,6 +76,9 @@ pub struct RunArgs {
     pub measure: MeasureArgs,
     #[command(flatten)]
     pub adapter: AdapterArgs,
+    /// Write the run as one page, as `report` does.
+    #[arg(long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
     /// Print run.json to standard output instead of the table.
     #[arg(long)]
     pub json: bool,
@@ -89,6 +94,9 @@ pub struct CheckArgs {
     /// Compare with the scores that `accept` wrote there, too: no worse by more than the margins in bounds.toml?
     #[arg(long, value_name = "FILE")]
     pub baseline: Option<PathBuf>,
+    /// Write the run as one page, as `report` does, whether the check passes or not.
+    #[arg(long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
     /// Write the result as JUnit XML.
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
@@ -325,12 +333,41 @@ pub struct ScoreArgs {
 /// `shuttertruth report`
 #[derive(Debug, Args)]
 pub struct ReportArgs {
-    /// run.json of a finished `run` or `check`, in its folder: the pictures lie beside it.
-    #[arg(value_name = "RUN.JSON")]
+    /// run.json of a finished `run` or `check`, or its folder, where the pictures lie; or the folder of a `tune`.
+    #[arg(value_name = "RUN")]
     pub run: PathBuf,
     /// The page to write.
+    #[arg(long, value_name = "FILE", required_unless_present = "exr")]
+    pub html: Option<PathBuf>,
+    /// Folder for one multi-layer OpenEXR file per case: truth, output, instant, flip, velocity, coverage and more.
+    #[arg(long, value_name = "DIR")]
+    pub exr: Option<PathBuf>,
+    /// Print what was written as JSON.
+    #[arg(long)]
+    pub json: bool,
+    /// No progress bar.
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// `shuttertruth compare`
+#[derive(Debug, Args)]
+pub struct CompareArgs {
+    /// run.json of the first run, or its folder.
+    #[arg(value_name = "RUN_A")]
+    pub first: PathBuf,
+    /// run.json of the second run, or its folder.
+    #[arg(value_name = "RUN_B")]
+    pub second: PathBuf,
+    /// Write the comparison as a page with the pictures that changed.
     #[arg(long, value_name = "FILE")]
-    pub html: PathBuf,
+    pub html: Option<PathBuf>,
+    /// Print all changes as JSON instead of the table.
+    #[arg(long)]
+    pub json: bool,
+    /// No progress bar.
+    #[arg(long)]
+    pub quiet: bool,
 }
 
 /// `shuttertruth bench`
@@ -350,6 +387,9 @@ pub struct BenchArgs {
     /// Folder for bench.json.
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
+    /// Print bench.json to standard output instead of the tables.
+    #[arg(long)]
+    pub json: bool,
     /// No progress bar.
     #[arg(long)]
     pub quiet: bool,
@@ -423,5 +463,49 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Cli::command().debug_assert();
+    }
+
+    /// Every page that shows commands.
+    const PAGES: [&str; 8] = [
+        include_str!("../../../README.md"),
+        include_str!("../../../docs/reading-a-report.md"),
+        include_str!("../../../docs/conventions.md"),
+        include_str!("../../../docs/add-a-filter.md"),
+        include_str!("../../../docs/add-a-scene.md"),
+        include_str!("../../../docs/ci.md"),
+        include_str!("../../../docs/not-measured.md"),
+        include_str!("../../../scenes/README.md"),
+    ];
+
+    /// The commands of a page, each in its words; those with a shell's variables are left out.
+    fn commands(page: &str) -> Vec<Vec<String>> {
+        let joined = page.replace("\\\n", " ");
+        let lines = joined
+            .lines()
+            .filter(|line| line.starts_with("    shuttertruth "));
+        let plain = lines.filter(|line| !line.contains('$'));
+        plain.map(words).collect()
+    }
+
+    /// As a shell splits them, which knows quotes and comments.
+    fn words(line: &str) -> Vec<String> {
+        let command = line.split(" #").next().unwrap_or_default();
+        let parts = command.split(['"', '\'']).enumerate();
+        let words = parts.flat_map(|(index, part)| match index % 2 {
+            0 => part.split_whitespace().map(str::to_owned).collect(),
+            _ => vec![part.to_owned()],
+        });
+        words.collect()
+    }
+
+    #[test]
+    fn every_command_that_the_guides_show_is_one() {
+        let all: Vec<Vec<String>> = PAGES.into_iter().flat_map(commands).collect();
+        assert!(all.len() > 40, "only {} commands were found", all.len());
+        for command in all {
+            if let Err(error) = Cli::try_parse_from(&command) {
+                panic!("{}: {error}", command.join(" "));
+            }
+        }
     }
 }

@@ -7,7 +7,9 @@ mod bounds;
 mod calibrate;
 mod case;
 mod catalogue;
+mod compare;
 mod decoys;
+mod dilated;
 mod error;
 mod finished;
 mod gate;
@@ -16,8 +18,10 @@ mod input_format;
 mod inputs;
 mod intervals;
 mod kept;
+mod layers;
 mod merge;
 mod overall;
+mod paint;
 mod pictures;
 mod probe;
 mod progress;
@@ -37,6 +41,7 @@ mod verdict;
 mod witness;
 mod workbench;
 mod worst;
+mod wrapped;
 
 pub use baseline::{
     Acceptance, BASELINE_FORMAT, Baseline, Comparison, ComparisonKind, accept, compare,
@@ -49,6 +54,10 @@ pub use bounds::{
 pub use calibrate::{Calibration, Proposal, Sample, calibrate};
 pub use case::Case;
 pub use catalogue::catalogue;
+pub use compare::{
+    Basis, COMPARE_FORMAT, Change, ChangeKind, Compared, MeanChange, MeanKind, SettingChange, Side,
+    compare_page, compare_runs, compare_table,
+};
 pub use decoys::{Decoys, Resemblance};
 pub use error::Error;
 pub use finished::{Finished, read_finished};
@@ -58,6 +67,7 @@ pub use gate::{
 pub use import::{ImportPlan, Imported, Motions, Up, import};
 pub use input_format::{Border, DepthFormat, InputFormat, VelocityFormat};
 pub use intervals::{FEWEST_REPLICATES, Intervals, intervals, truths_without_pairs};
+pub use layers::write_layers;
 pub use merge::{Merged, merge};
 pub use overall::{Overall, overall};
 pub use progress::{catch_interrupts, with_bar};
@@ -65,7 +75,7 @@ pub use rendered::{
     LADDER, RenderSettings, SIDES, deciding_floor, frame_of, part_of, scene_folder,
     truth_and_ladder_of, truth_of, truth_until,
 };
-pub use report::report;
+pub use report::{LARGEST_PAGE, Report, TuneFolder, report, tuning_page};
 pub use run::{FORMAT, Plan, Run, run, viewing};
 pub use runner::{Runner, open_gpu};
 pub use scatter_oracle::scatter_oracle;
@@ -82,6 +92,7 @@ pub use tune::{
 };
 pub use verdict::{Outcome, Verdict, judge};
 pub use worst::Worst;
+pub use wrapped::push_wrapped;
 
 /// Program name and version, as files and runs record it.
 pub const PROGRAM: &str = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"));

@@ -7,7 +7,7 @@ use crate::Case;
 use crate::bootstrap::bootstrap_noisy;
 
 /// What is brought together.
-const METRICS: [Metric; 5] = [
+pub(crate) const METRICS: [Metric; 5] = [
     Metric::Image(ImageMetric::Flip, Region::Moving),
     Metric::Image(ImageMetric::Psnr, Region::Moving),
     Metric::Object(ObjectMetric::LateralGrowth),

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use frame::{
-    ExrFile, FileError, Frame, Image, Picture, Plane, Truth, display_srgb, write_exr, write_png,
+    ExrFile, FileError, Frame, Image, Picture, Plane, Truth, Vectors, display_srgb, write_exr,
+    write_png,
 };
 use metrics::Measurement;
 use tracer::Scene;
@@ -29,12 +30,12 @@ pub fn write_truth(folder: &Path, scene: &Scene, truth: &Truth) -> Result<Vec<St
     ])
 }
 
-/// Writes a case: the filter's output and the error maps; returns the names of the files.
+/// Writes a case: the filter's output, with what it dilated the velocities to, and the error maps; returns the names of the files.
 pub fn write_case(
     folder: &Path,
     scene: &Scene,
     objects: &[String],
-    output: &Picture,
+    (output, dilated): (&Picture, Option<&Vectors>),
     measurement: &Measurement,
 ) -> Result<Vec<String>, FileError> {
     let maps = &measurement.maps;
@@ -51,7 +52,7 @@ pub fn write_case(
         write_png(&folder.join(name), picture)?;
     }
     let exact = [
-        ("output.exr", output_file(objects, output)),
+        ("output.exr", output_file(objects, output, dilated)),
         ("errors.exr", errors_file(measurement)),
     ];
     for (name, file) in &exact {
@@ -62,11 +63,16 @@ pub fn write_case(
     Ok(names.map(str::to_owned).collect())
 }
 
-fn output_file(objects: &[String], output: &Picture) -> ExrFile {
+fn output_file(objects: &[String], output: &Picture, dilated: Option<&Vectors>) -> ExrFile {
     let mut file = ExrFile::new(output.color.width, output.color.height);
     file.push_color("", &output.color);
     for (object, matte) in objects.iter().zip(&output.coverage) {
         file.push_plane(&format!("coverage.{object}"), matte);
+    }
+    if let Some(dilated) = dilated {
+        for (axis, name) in ["dilated.X", "dilated.Y"].into_iter().enumerate() {
+            file.push_plane(name, &dilated.map(|motion| motion[axis]));
+        }
     }
     file.set("kind", "output");
     file

@@ -6,13 +6,14 @@ use filters::{AdapterDescription, Gpu};
 use frame::{Alignment, FileError};
 use metrics::Viewing;
 use serde::{Deserialize, Serialize};
-use tracer::Scene;
+use tracer::{Progress, Scene, Watch};
 
 use crate::bounds::SceneBounds;
 use crate::case::Case;
 use crate::inputs::SceneInputs;
 use crate::kept::hash_of_program;
 use crate::overall::{Overall, overall};
+use crate::progress::with_bar;
 use crate::scene_run::SceneRun;
 use crate::selection::FilterChoice;
 use crate::{Error, InputFormat, PROGRAM, RenderSettings};
@@ -117,21 +118,13 @@ impl Plan {
 /// filters.
 pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, Error> {
     let common = common_alignment(&plan.alignments());
-    let program = hash_of_program();
-    let mut cases = Vec::new();
-    for (scene, bounds) in &plan.scenes {
-        let inputs = (program.as_ref())
-            .map(|program| SceneInputs::new(program, scene, &plan.render, plan.alignments()));
-        let scene_run = SceneRun {
-            plan,
-            gpu,
-            scene,
-            bounds,
-            common,
-            inputs,
-        };
-        cases.extend(scene_run.cases()?);
-    }
+    // Of one scene, its own steps say all.
+    let quiet = plan.quiet || plan.scenes.len() == 1;
+    let cases = with_bar(
+        &format!("{} scenes in all", plan.scenes.len()),
+        quiet,
+        |watch| all_cases(plan, gpu, common, watch),
+    )?;
     Ok(Run {
         format: FORMAT,
         program: PROGRAM.to_owned(),
@@ -150,6 +143,36 @@ pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, 
         overall: overall(&cases),
         cases,
     })
+}
+
+/// Scene after scene.
+fn all_cases(
+    plan: &Plan,
+    gpu: Option<&Gpu>,
+    common: Alignment,
+    watch: Watch,
+) -> Result<Vec<Case>, Error> {
+    let program = hash_of_program();
+    let mut cases = Vec::new();
+    for (done, (scene, bounds)) in plan.scenes.iter().enumerate() {
+        // A scene that is interrupted says so itself.
+        let _ = watch(Progress {
+            done: done as u64,
+            total: plan.scenes.len() as u64,
+        });
+        let inputs = (program.as_ref())
+            .map(|program| SceneInputs::new(program, scene, &plan.render, plan.alignments()));
+        let scene_run = SceneRun {
+            plan,
+            gpu,
+            scene,
+            bounds,
+            common,
+            inputs,
+        };
+        cases.extend(scene_run.cases()?);
+    }
+    Ok(cases)
 }
 
 /// Of the alignments that take part, the one that all are compared with; no truth is rendered for it alone.

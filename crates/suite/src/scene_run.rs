@@ -6,14 +6,14 @@ use std::path::PathBuf;
 use filters::Gpu;
 use frame::{Alignment, Frame, Ladder, Truth};
 use metrics::{MeasureError, Reference};
-use tracer::Scene;
+use tracer::{Progress, Scene, Watch};
 
 use crate::bounds::SceneBounds;
 use crate::case::Case;
 use crate::inputs::SceneInputs;
 use crate::kept::{discard_altered, keep, recall};
 use crate::pictures::{write_frame, write_truth};
-use crate::progress::interrupted;
+use crate::progress::with_bar;
 use crate::rendered::{frame_of, replicates_of, scene_folder, truth_and_ladder_of};
 use crate::run::{Plan, viewing};
 use crate::subject::Subject;
@@ -49,7 +49,11 @@ impl SceneRun<'_> {
         let (frame, truths) = self.render()?;
         let due = (subjects.iter().zip(&kept)).filter(|(_, kept)| kept.is_none());
         let due: Vec<&Subject> = due.map(|(subject, _)| subject).collect();
-        let mut made = self.measured(&due, &frame, &truths)?.into_iter();
+        let label = format!("{} blurs and scores", self.scene.name);
+        let made = with_bar(&label, self.plan.quiet, |watch| {
+            self.measured(&due, &frame, &truths, watch)
+        })?;
+        let mut made = made.into_iter();
         let cases = kept.into_iter().map(|kept| kept.or_else(|| made.next()));
         Ok(cases.flatten().collect())
     }
@@ -60,6 +64,7 @@ impl SceneRun<'_> {
         due: &[&Subject],
         frame: &Frame,
         truths: &Truths,
+        watch: Watch,
     ) -> Result<Vec<Case>, Error> {
         if due.is_empty() {
             return Ok(Vec::new());
@@ -101,8 +106,12 @@ impl SceneRun<'_> {
             .map(|format| (*format, format.of(frame)))
             .collect();
         let mut cases = Vec::with_capacity(due.len());
-        for subject in due {
-            if interrupted() {
+        for (done, subject) in due.iter().enumerate() {
+            let progress = Progress {
+                done: done as u64,
+                total: due.len() as u64,
+            };
+            if watch(progress).is_break() {
                 return Err(tracer::TraceError::Cancelled.into());
             }
             let alignment = subject.alignment;

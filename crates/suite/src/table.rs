@@ -5,7 +5,7 @@ use std::fmt::Write;
 use metrics::{ImageMetric, Measured, Metric, ObjectMetric, Region, Scores};
 
 use crate::run::Run;
-use crate::{Case, Overall};
+use crate::{Case, Overall, paint};
 
 /// Columns that names take.
 const NAMES: usize = 29;
@@ -33,13 +33,14 @@ pub fn table(run: &Run) -> String {
     for case in &run.cases {
         if case.scene != scene {
             scene = &case.scene;
-            let _ = writeln!(text, "{scene}");
+            let _ = writeln!(text, "{}", paint::heading(scene));
         }
-        text += &line(
+        let line = line(
             &with_alignment(&case.name(), case.bar, &case.alignment),
             &case.scores,
             &[noise(case), common(case)],
         );
+        text += &behind(case.bar, &line);
     }
     text + &over_scenes(&run.overall)
 }
@@ -63,20 +64,21 @@ fn over_scenes(overall: &[Overall]) -> String {
     for (title, width, _) in others {
         let _ = write!(text, "{title:>width$}");
     }
-    text += "\n";
+    let mut text = paint::heading(&text) + "\n";
     for row in ranked {
         let [low, high] = row.interval;
-        text += &name_cell(&with_alignment(&row.filter, row.bar, &row.alignment));
-        let _ = write!(text, "{:>1$.3}", row.mean, first.1);
-        let _ = write!(text, "{:>INTERVAL$}", format!("{low:.3}-{high:.3}"));
+        let mut line = name_cell(&with_alignment(&row.filter, row.bar, &row.alignment));
+        let _ = write!(line, "{:>1$.3}", row.mean, first.1);
+        let _ = write!(line, "{:>INTERVAL$}", format!("{low:.3}-{high:.3}"));
         for (_, width, metric) in others {
             let own = of(*metric).find(|mean| mean.is_of_same(row));
             let cell = own.map_or("n/a".to_owned(), |own| {
                 format!("{:.*}", digits(*metric), own.mean)
             });
-            let _ = write!(text, "{cell:>width$}");
+            let _ = write!(line, "{cell:>width$}");
         }
-        text += "\n";
+        line += "\n";
+        text += &behind(row.bar, &line);
     }
     text
 }
@@ -102,7 +104,15 @@ fn heading(title: &str, more: &[&str]) -> String {
     for title in more {
         let _ = write!(text, "{title:>WIDTH$}");
     }
-    text + "\n"
+    paint::heading(&text) + "\n"
+}
+
+/// Bars are no filters, and stand behind.
+fn behind(bar: bool, lines: &str) -> String {
+    match bar {
+        true => paint::faint(lines),
+        false => lines.to_owned(),
+    }
 }
 
 fn line(name: &str, scores: &Scores, more: &[String]) -> String {

@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 
 use filters::{Command, FilterError, Gpu};
-use frame::{Frame, Ladder, Picture, Truth};
+use frame::{Frame, Ladder, Picture, Truth, Vectors};
 use metrics::{Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference};
 use tracer::Scene;
 
 use crate::bounds::SceneBounds;
 use crate::case::Case;
+use crate::dilated::dilated;
 use crate::pictures::write_case;
 use crate::probe::{Blurred, blurred, noise};
 use crate::run::Plan;
@@ -48,6 +49,7 @@ struct Found {
     nonlinearity: Option<f64>,
     jitter: Option<Jitter>,
     intervals: Option<Intervals>,
+    dilated: Option<Vectors>,
 }
 
 impl Workbench<'_> {
@@ -83,6 +85,7 @@ impl Workbench<'_> {
             nonlinearity: None,
             jitter: None,
             intervals: None,
+            dilated: None,
         })
     }
 
@@ -92,6 +95,7 @@ impl Workbench<'_> {
         let (_, frame) = frame.expect("the frame was stored in every form of the plan");
         let mut runner = Runner::new(self.gpu, choice, frame.size())?;
         let blurred = blurred(&mut runner, frame).map_err(|error| on_scene(error, self.scene))?;
+        let dilated = dilated(&choice.filter, &runner, frame)?;
         let jitter = self.jitter(&mut runner, frame)?;
         let measurement = self.measured(self.reference, &blurred)?;
         Ok(Found {
@@ -100,6 +104,7 @@ impl Workbench<'_> {
             picture: blurred.picture,
             measurement,
             jitter,
+            dilated,
         })
     }
 
@@ -157,7 +162,7 @@ impl Workbench<'_> {
             &self.plan.out.join(&folder),
             self.scene,
             &self.frame.objects,
-            picture,
+            (picture, found.dilated.as_ref()),
             measurement,
         )?;
         let bounds = subject.bounds(self.bounds);

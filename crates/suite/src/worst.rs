@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use frame::{FileError, Image, Plane, Raster, display_srgb, write_png};
 use metrics::{
-    FrozenMetric, ImageMetric, Measurement, Metric, ObjectMetric, ProbeMetric, Region, Regions,
+    FrozenMetric, ImageMetric, Measurement, Metric, ObjectMetric, ProbeMaps, ProbeMetric, Region,
+    Regions,
 };
 use serde::{Deserialize, Serialize};
 
@@ -26,43 +27,62 @@ pub struct Worst {
 /// Side of the blocks whose sums are compared, in pixels: larger than the noise of pixels, smaller than most movers.
 pub(crate) const BLOCK: u32 = 16;
 /// Side of what is shown around the worst block, in pixels.
-const CROP: u32 = 64;
+pub(crate) const CROP: u32 = 64;
 /// Every pixel is shown as so many by so many.
 const ENLARGED: u32 = 4;
 /// Between the panels, in shown pixels.
 const GAP: u32 = 8;
 
-/// The map that a metric was pooled from, or where that is no map, the one that shows what it measures; by its name in
-/// errors.exr.
-pub fn map_of(metric: Metric, measurement: &Measurement) -> (&'static str, &Plane) {
-    let maps = &measurement.maps;
+/// The name in errors.exr of the map that a metric was pooled from, or where that is no map, of the one that shows what it
+/// measures. `probed` says whether there are maps of probes.
+pub fn map_name(metric: Metric, probed: bool) -> &'static str {
     match metric {
         Metric::Image(ImageMetric::Mse | ImageMetric::Psnr, _) | Metric::EquivalentSubframes => {
-            ("squared_error", &maps.squared_error)
+            "squared_error"
         }
-        Metric::Image(ImageMetric::Relmse, _) => {
-            ("relative_squared_error", &maps.relative_squared_error)
-        }
-        Metric::Image(ImageMetric::Mae, _) => ("absolute_error", &maps.absolute_error),
-        Metric::Image(ImageMetric::Smape, _) => ("symmetric_error", &maps.symmetric_error),
-        Metric::Image(ImageMetric::FlipHdr, _) => ("flip_hdr", &maps.flip_hdr),
-        Metric::Frozen(FrozenMetric::Mse) => ("frozen_squared_error", &maps.frozen_squared_error),
-        Metric::StaticContamination => ("static_change", &maps.static_change),
-        Metric::Image(..) | Metric::Frozen(_) | Metric::EquivalentSubframesFlip => {
-            ("flip", &maps.flip)
-        }
+        Metric::Image(ImageMetric::Relmse, _) => "relative_squared_error",
+        Metric::Image(ImageMetric::Mae, _) => "absolute_error",
+        Metric::Image(ImageMetric::Smape, _) => "symmetric_error",
+        Metric::Image(ImageMetric::FlipHdr, _) => "flip_hdr",
+        Metric::Frozen(FrozenMetric::Mse) => "frozen_squared_error",
+        Metric::StaticContamination => "static_change",
+        Metric::Image(..) | Metric::Frozen(_) | Metric::EquivalentSubframesFlip => "flip",
         Metric::Object(
             ObjectMetric::BleedLateral | ObjectMetric::BleedLeading | ObjectMetric::BleedTrailing,
-        ) => ("bleed", &maps.bleed),
-        Metric::Object(ObjectMetric::GradientError) => ("gradient_error", &maps.gradient_error),
-        Metric::Probe(metric) => match (metric, &measurement.probes) {
-            (ProbeMetric::Unity, Some(probes)) => ("unity", &probes.unity),
-            (ProbeMetric::GatherOffset, Some(probes)) => ("gather_offset", &probes.offset),
-            (ProbeMetric::GatherSpread, Some(probes)) => ("gather_spread", &probes.spread),
-            (_, None) => ("label_tv", &maps.label_total_variation),
-        },
-        _ => ("label_tv", &maps.label_total_variation),
+        ) => "bleed",
+        Metric::Object(ObjectMetric::GradientError) => "gradient_error",
+        Metric::Probe(ProbeMetric::Unity) if probed => "unity",
+        Metric::Probe(ProbeMetric::GatherOffset) if probed => "gather_offset",
+        Metric::Probe(ProbeMetric::GatherSpread) if probed => "gather_spread",
+        _ => "label_tv",
     }
+}
+
+/// That map, with its name.
+pub fn map_of(metric: Metric, measurement: &Measurement) -> (&'static str, &Plane) {
+    let maps = &measurement.maps;
+    let name = map_name(metric, measurement.probes.is_some());
+    let probe = |map: fn(&ProbeMaps) -> &Plane| {
+        let probes = measurement.probes.as_ref();
+        map(probes.expect("maps of probes are named where there are any"))
+    };
+    let map = match name {
+        "squared_error" => &maps.squared_error,
+        "relative_squared_error" => &maps.relative_squared_error,
+        "absolute_error" => &maps.absolute_error,
+        "symmetric_error" => &maps.symmetric_error,
+        "flip_hdr" => &maps.flip_hdr,
+        "frozen_squared_error" => &maps.frozen_squared_error,
+        "static_change" => &maps.static_change,
+        "flip" => &maps.flip,
+        "bleed" => &maps.bleed,
+        "gradient_error" => &maps.gradient_error,
+        "unity" => probe(|probes| &probes.unity),
+        "gather_offset" => probe(|probes| &probes.offset),
+        "gather_spread" => probe(|probes| &probes.spread),
+        _ => &maps.label_total_variation,
+    };
+    (name, map)
 }
 
 /// The middle of the block whose sum over the metric's region is largest; the first of equal ones.

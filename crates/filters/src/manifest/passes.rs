@@ -5,7 +5,7 @@ use toml::Spanned;
 
 use super::reach::{LengthEntry, length};
 use super::{File, IDENTIFIER, is_identifier};
-use crate::filter::{Format, Pass, Repeat, Texture};
+use crate::filter::{Format, Holds, Pass, Repeat, Texture};
 use crate::{FilterError, Kind, Parameter};
 
 #[derive(Deserialize)]
@@ -14,6 +14,7 @@ pub(super) struct TextureEntry {
     name: String,
     format: Format,
     divided_by: Option<LengthEntry>,
+    holds: Option<Holds>,
 }
 
 #[derive(Deserialize)]
@@ -57,6 +58,7 @@ pub(super) fn textures(
             name,
             format,
             divided_by,
+            holds,
         } = spanned.get_ref();
         if !is_identifier(name) || BUILTIN_VARIABLES.contains(&name.as_str()) {
             let reason = format!(
@@ -78,10 +80,19 @@ pub(super) fn textures(
                     format!("texture \"{name}\": divided_by = {reason}"),
                 )
             })?;
+        let two_numbers = matches!(format, Format::Rg32Float | Format::Rgba32Float);
+        if holds.is_some() && (divided_by.is_some() || !two_numbers) {
+            let reason = format!(
+                "texture \"{name}\": holds = \"places\" is an x and a y per pixel; allowed with it: format rg32float or \
+                 rgba32float, and no divided_by"
+            );
+            return Err(file.at(spanned, reason));
+        }
         textures.push(Texture {
             name: name.clone(),
             format: *format,
             divided_by,
+            holds: *holds,
         });
     }
     Ok(textures)

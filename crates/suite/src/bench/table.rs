@@ -5,6 +5,7 @@ use std::fmt::Write;
 use filters::Clock;
 
 use super::{BASELINE, Bench, CaseCost, GROWTH_FROM, REACHES, ReachCost, Spread};
+use crate::wrapped::push_wrapped;
 
 /// The bench as text: cost per filter and pass, then cost against reach.
 pub fn bench_table(bench: &Bench) -> String {
@@ -12,10 +13,13 @@ pub fn bench_table(bench: &Bench) -> String {
         Clock::Timestamps => "the GPU's own clock",
         Clock::WallClock => "wall clock around each pass: the adapter has no timestamps",
     };
-    let mut text = format!(
-        "{} ({}), {}x{}, median (quartiles) of {} rounds by {clock}\n\n",
+    let about = format!(
+        "{} ({}), {}x{}, median (quartiles) of {} rounds by {clock}",
         bench.adapter.name, bench.adapter.backend, bench.width, bench.height, bench.rounds
     );
+    let mut text = String::new();
+    push_wrapped(&mut text, 0, &about);
+    text += "\n";
     costs(&mut text, bench);
     reaches(&mut text, bench);
     text
@@ -24,13 +28,13 @@ pub fn bench_table(bench: &Bench) -> String {
 fn costs(text: &mut String, bench: &Bench) {
     let _ = writeln!(
         text,
-        "panels that move {} pixels\n{:<30}{:>22}{:>20}{:>8}{:>8}",
+        "panels that move {} pixels\n{:<28}{:>20}{:>18}{:>6}{:>8}",
         bench.speed, "filter / pass", "ms", "x baseline", "B/px", "of copy"
     );
     for case in &bench.cases {
         let _ = writeln!(
             text,
-            "{:<30}{:>22}{:>20}{:>8.0}{:>7.0}%",
+            "{:<28}{:>20}{:>18}{:>6.0}{:>7.0}%",
             name(&case.filter, &case.preset),
             spread(&case.seconds, 1e3),
             spread(&case.ratio, 1.0),
@@ -41,11 +45,10 @@ fn costs(text: &mut String, bench: &Bench) {
     }
     let _ = writeln!(
         text,
-        "{:<30}{:>22}{:>20}{:>8}{:>7.1} GB/s\n\nbaseline: {BASELINE}. B/px: every texture that a pass reads or writes, \
-         counted once per pass.\nof copy: those bytes per second, as a part of what copying a buffer reached.\n",
+        "{:<28}{:>20}{:>18}{:>9.1} GB/s\n\nbaseline: {BASELINE}. B/px: every texture that a pass reads or writes, \
+         counted once\nper pass. of copy: those bytes per second, as a part of what copying a buffer\nreached.\n",
         "copy of a buffer",
         spread(&bench.copy.seconds, 1e3),
-        "",
         "",
         bench.copy.bytes_per_second * 1e-9
     );
@@ -59,7 +62,7 @@ fn passes(text: &mut String, case: &CaseCost) {
         };
         let _ = writeln!(
             text,
-            "{:<30}{:>22}{:>20}{:>8.0}",
+            "{:<28}{:>20}{:>18}{:>6.0}",
             format!("  {}{times}", pass.entry),
             spread(&pass.seconds, 1e3),
             "",
@@ -69,31 +72,32 @@ fn passes(text: &mut String, case: &CaseCost) {
 }
 
 fn reaches(text: &mut String, bench: &Bench) {
-    let _ = write!(text, "{:<30}", "ms at a reach of (pixels)");
+    let _ = write!(text, "{:<27}", "ms at a reach of (pixels)");
     for pixels in REACHES {
-        let _ = write!(text, "{pixels:>8}");
+        let _ = write!(text, "{pixels:>6}");
     }
     let last = REACHES[REACHES.len() - 1];
-    let _ = writeln!(text, "{:>20}", format!("{last} / {GROWTH_FROM}"));
+    let _ = writeln!(text, "{:>17}", format!("{last} / {GROWTH_FROM}"));
     for cost in &bench.reaches {
         reach(text, cost);
     }
 }
 
 fn reach(text: &mut String, cost: &ReachCost) {
-    let _ = write!(text, "{:<30}", name(&cost.filter, &cost.preset));
+    let _ = write!(text, "{:<27}", name(&cost.filter, &cost.preset));
     for point in &cost.points {
         let cell = match &point.seconds {
-            Some(seconds) => format!("{:.2}", 1e3 * seconds.median),
+            Some(seconds) if seconds.median < 0.1 => format!("{:.2}", 1e3 * seconds.median),
+            Some(seconds) => format!("{:.0}", 1e3 * seconds.median),
             None => "n/a".to_owned(),
         };
-        let _ = write!(text, "{cell:>8}");
+        let _ = write!(text, "{cell:>6}");
     }
     let growth = match &cost.growth {
         Some(growth) => spread(growth, 1.0),
         None => "n/a".to_owned(),
     };
-    let _ = writeln!(text, "{growth:>20}");
+    let _ = writeln!(text, "{growth:>17}");
 }
 
 fn name(filter: &str, preset: &str) -> String {

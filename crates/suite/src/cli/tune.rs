@@ -54,6 +54,9 @@ pub struct TuneArgs {
     /// Tune nothing: compare two presets over the scenes.
     #[arg(long, value_delimiter = ',', num_args = 1, value_name = "PRESET,PRESET", conflicts_with_all = ["vary", "sealed", "minutes"])]
     pub compare: Vec<String>,
+    /// Print what is written as JSON instead of the table: tune.json, sensitivity.json or compare.json.
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// `shuttertruth evaluate`

@@ -27,14 +27,19 @@ pub fn execute(args: &BenchArgs) -> Result<(), Error> {
         rounds: args.rounds,
     };
     let done = with_bar("bench", args.quiet, |watch| bench(plan, &gpu, watch))?;
-    write_bench(&done, args)?;
+    let json = write_bench(&done, args)?;
+    if args.json {
+        return say(&format!("{json}\n"));
+    }
     say(&bench_table(&done))?;
     say(&format!("\nwritten: {}\n", path(args).display()))
 }
 
-fn write_bench(done: &Bench, args: &BenchArgs) -> Result<(), Error> {
+/// Returns what stands in the file.
+fn write_bench(done: &Bench, args: &BenchArgs) -> Result<String, Error> {
     let json = serde_json::to_string_pretty(done).expect("a bench is plain data");
-    Ok(frame::write_atomically(&path(args), json.as_bytes())?)
+    frame::write_atomically(&path(args), json.as_bytes())?;
+    Ok(json)
 }
 
 fn path(args: &BenchArgs) -> std::path::PathBuf {

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use suite::{Error, Run, SceneBounds, calibrate, check_names, open_gpu, run};
+use suite::{Error, Plan, Run, SceneBounds, calibrate, check_names, open_gpu, run, with_bar};
+use tracer::{Progress, Watch};
 
 use super::measure::{check_replicates, plan, write_run};
 use super::say;
@@ -19,19 +20,9 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     plan.jitter_frames = 0;
     let bounds = plan.scenes.iter().map(|(_, bounds)| bounds);
     check_names(&args.measure.scenes.scenes_dir, bounds, &plan.filters)?;
-    let first = plan.render.seed;
-    let mut runs: Vec<Run> = Vec::new();
-    for adapter in adapters(args) {
-        let gpu = open_gpu(&plan.filters, adapter)?;
-        for seed in (0..args.runs).map(|run| first + u64::from(run)) {
-            plan.render.seed = seed;
-            // The truths serve every adapter.
-            plan.out = out.join(format!("seed_{seed}"));
-            let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
-            write_run(&run, &plan.out)?;
-            runs.push(run);
-        }
-    }
+    let runs = with_bar("runs in all", plan.quiet, |watch| {
+        all_runs(args, &mut plan, watch)
+    })?;
     let bounds: BTreeMap<&str, &SceneBounds> = (plan.scenes.iter())
         .map(|(scene, bounds)| (scene.name.as_str(), bounds))
         .collect();
@@ -43,6 +34,31 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
         say(&format!("# {}\n\n{text}", path.display()))?;
     }
     Ok(())
+}
+
+/// One run per adapter and seed.
+fn all_runs(args: &CalibrateArgs, plan: &mut Plan, watch: Watch) -> Result<Vec<Run>, Error> {
+    let adapters = adapters(args);
+    let total = adapters.len() as u64 * u64::from(args.runs);
+    let first = plan.render.seed;
+    let mut runs: Vec<Run> = Vec::new();
+    for adapter in adapters {
+        let gpu = open_gpu(&plan.filters, adapter)?;
+        for seed in (0..args.runs).map(|run| first + u64::from(run)) {
+            // A run that is interrupted says so itself.
+            let _ = watch(Progress {
+                done: runs.len() as u64,
+                total,
+            });
+            plan.render.seed = seed;
+            // The truths serve every adapter.
+            plan.out = args.measure.scenes.out.join(format!("seed_{seed}"));
+            let run = run(plan, gpu.as_ref(), std::env::args().collect())?;
+            write_run(&run, &plan.out)?;
+            runs.push(run);
+        }
+    }
+    Ok(runs)
 }
 
 /// Those that are named; the fastest where none is.

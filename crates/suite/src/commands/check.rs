@@ -12,6 +12,7 @@ use suite::{
 };
 
 use super::measure::{adapter_line, check_replicates, plan, write_run};
+use super::report::write_report;
 use super::say;
 use crate::cli::CheckArgs;
 
@@ -39,6 +40,9 @@ pub fn execute(args: &CheckArgs) -> Result<(), Error> {
         _ => Vec::new(),
     };
     let check = check(&run, comparisons);
+    let page = (args.html.as_deref())
+        .map(|html| write_report(&run, &plan.out, html))
+        .transpose()?;
 
     if let Some(path) = &args.junit {
         frame::write_atomically(path, junit(&check).as_bytes())?;
@@ -56,7 +60,8 @@ pub fn execute(args: &CheckArgs) -> Result<(), Error> {
             let theirs = adapter_line(&baseline.adapter);
             format!("the baseline is of another class of adapter: {theirs}\n")
         });
-        say(&format!("{text}adapter: {adapter}\n{note}"))?;
+        let page = page.unwrap_or_default();
+        say(&format!("{text}adapter: {adapter}\n{note}{page}"))?;
     }
     if args.github {
         say(&annotations(&check))?;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use filters::{AdapterDescription, Command, Filter, Parameter, Preset, list_adapters};
-use suite::Error;
+use suite::{Error, push_wrapped};
 use tracer::{SceneListing, list_scenes};
 
 use super::say;
@@ -29,8 +29,21 @@ pub fn execute(args: &ListArgs) -> Result<(), Error> {
     } else {
         let scenes: String = scenes.iter().map(scene_text).collect();
         let filters: String = filters.iter().map(filter_text).collect();
-        say(&format!("scenes\n\n{scenes}filters\n\n{filters}"))
+        say(&wrapped(&format!("scenes\n\n{scenes}filters\n\n{filters}")))
     }
+}
+
+/// Every line as far to the right as it was, in as many as it takes.
+fn wrapped(text: &str) -> String {
+    let mut wrapped = String::new();
+    for line in text.lines() {
+        let words = line.trim_start_matches(' ');
+        match words.is_empty() {
+            true => wrapped += "\n",
+            false => push_wrapped(&mut wrapped, line.len() - words.len(), words),
+        }
+    }
+    wrapped
 }
 
 /// Prints one adapter a line, numbered as `--adapter` takes them.

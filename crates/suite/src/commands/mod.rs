@@ -6,6 +6,7 @@ mod blur;
 mod calibrate;
 mod catalogue;
 mod check;
+mod compare;
 mod evaluate;
 mod import;
 mod list;
@@ -45,6 +46,7 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         Some(Command::Blur(args)) => blur::execute(&args),
         Some(Command::Score(args)) => score::execute(&args),
         Some(Command::Report(args)) => report::execute(&args),
+        Some(Command::Compare(args)) => compare::execute(&args),
         Some(Command::Bench(args)) => bench::execute(&args),
         Some(Command::Tune(args)) => {
             with_threads(args.candidate.scenes.threads, || tune::execute(&args))
@@ -61,15 +63,15 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         Some(Command::Import(args)) => import::execute(&args),
         Some(Command::List(args)) => list::execute(&args),
         None => Err(Error::Usage(
-            "no command given; allowed: run, check, accept, calibrate, render, merge, blur, score, report, bench, tune, evaluate, serve, catalogue, import, list (see --help)"
+            "no command given; allowed: run, check, accept, calibrate, render, merge, blur, score, report, compare, bench, tune, evaluate, serve, catalogue, import, list (see --help)"
                 .to_owned(),
         )),
     }
 }
 
-/// Prints to standard output. A reader that has read enough, such as `head`, is no error.
+/// Prints to standard output, in colours where that is a terminal that shows them. A reader that has read enough, such as `head`, is no error.
 fn say(text: &str) -> Result<(), Error> {
-    match std::io::stdout().write_all(text.as_bytes()) {
+    match anstream::stdout().write_all(text.as_bytes()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Error::Usage(format!(
             "standard output: cannot write: {error}"
         ))),

@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
-use suite::{Error, Outcome, Run, open_gpu, run, table};
+use suite::{Error, Outcome, Run, open_gpu, push_wrapped, run, table};
 
 use super::measure::{adapter_line, plan, write_run};
+use super::report::write_report;
 use super::say;
 use crate::cli::RunArgs;
 
-/// Loads what is named, runs every case, writes `run.json`, prints the table.
+/// Loads what is named, runs every case, writes `run.json` and the page, prints the table.
 pub fn execute(args: &RunArgs) -> Result<(), Error> {
     let mut plan = plan(&args.measure, args.measure.scenes.out.clone())?;
     let size = (plan.render.width, plan.render.height);
@@ -18,10 +19,13 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref())?;
     let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
     let json = write_run(&run, &plan.out)?;
+    let page = (args.html.as_deref())
+        .map(|html| write_report(&run, &plan.out, html))
+        .transpose()?;
     if args.json {
         say(&format!("{json}\n"))
     } else {
-        say(&(table(&run) + &closing(&run, &plan.out)))
+        say(&(table(&run) + &closing(&run, &plan.out) + &page.unwrap_or_default()))
     }
 }
 
@@ -34,15 +38,17 @@ fn closing(run: &Run, out: &Path) -> String {
     let noisy = verdicts()
         .filter(|verdict| matches!(verdict.outcome, Outcome::TooNoisy { .. }))
         .count();
-    let mut text = format!("\n{broken} of {} bounds broken", verdicts().count());
+    let mut bounds = format!("{broken} of {} bounds broken", verdicts().count());
     if noisy > 0 {
-        text += &format!(
+        bounds += &format!(
             "; {noisy} narrower than 3 noise floors: raise --samples-per-pixel or --replicates (now {} samples per pixel in all)",
             run.samples_per_pixel
         );
     }
+    let mut text = "\n".to_owned();
+    push_wrapped(&mut text, 0, &bounds);
     text += &format!(
-        "\nadapter: {}\nwritten: {}\n",
+        "adapter: {}\nwritten: {}\n",
         adapter_line(&run.adapter),
         out.join("run.json").display()
     );

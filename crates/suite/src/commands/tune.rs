@@ -1,13 +1,15 @@
 //! `shuttertruth tune`
 
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use filters::Gpu;
 use suite::{
     Effort, Error, FilterChoice, Objective, RenderSettings, Space, TunePlan, Tuning,
     compare_paired, evaluator, interleaved, open_gpu, paired_table, preset_text, select_filters,
-    sensitivity, sensitivity_table, shots, tune, tuning_table,
+    sensitivity, sensitivity_table, shots, tune, tuning_table, with_bar,
 };
+use tracer::Progress;
 
 use super::measure::scenes;
 use super::{render_settings, say};
@@ -26,7 +28,7 @@ pub fn execute(args: &TuneArgs) -> Result<(), Error> {
     }
     match args.compare.as_slice() {
         [] => run(args, choice),
-        [first, second] => compare(candidate, choice, [first, second]),
+        [first, second] => compare(args, choice, [first, second]),
         other => Err(Error::Usage(format!(
             "--compare {}: allowed are two presets, such as --compare paper,tuned",
             other.join(",")
@@ -39,21 +41,21 @@ fn run(args: &TuneArgs, choice: FilterChoice) -> Result<(), Error> {
     plan.check()?;
     let gpu = open(&plan.choice, &args.candidate)?;
     let began = Instant::now();
-    let mut tried = 0;
-    let tuning = tune(&plan, gpu.as_ref(), |trial| {
-        tried += 1;
-        if !plan.quiet {
-            let error = trial
-                .error
-                .map_or("failed".to_owned(), |it| format!("{it:+.4}"));
-            eprint!("\rtrial {}: {error}   ", trial.trial);
-        }
+    let label = format!("tuning {}", plan.choice.filter.name);
+    let tuning = with_bar(&label, plan.quiet, |watch| {
+        tune(&plan, gpu.as_ref(), |trial| {
+            // The loop itself ends where it is interrupted.
+            let _ = watch(Progress {
+                done: trial.trial as u64 + 1,
+                total: plan.budget as u64,
+            });
+        })
     })?;
     if !plan.quiet {
         let seconds = began.elapsed().as_secs_f64();
-        eprintln!("\r{tried} trials in {seconds:.1} s");
+        eprintln!("{} trials in {seconds:.1} s", tuning.trials);
     }
-    say(&write(&tuning, &plan)?)
+    print(args, &write(&tuning, &plan)?)
 }
 
 fn plan(args: &TuneArgs, choice: FilterChoice) -> Result<TunePlan, Error> {
@@ -94,13 +96,29 @@ fn plan(args: &TuneArgs, choice: FilterChoice) -> Result<TunePlan, Error> {
     })
 }
 
-/// Writes what was found and returns what is printed.
-fn write(tuning: &Tuning, plan: &TunePlan) -> Result<String, Error> {
+/// What a command found, for people and for machines.
+struct Found {
+    table: String,
+    json: String,
+    path: PathBuf,
+}
+
+fn print(args: &TuneArgs, found: &Found) -> Result<(), Error> {
+    let Found { table, json, path } = found;
+    match args.json {
+        true => say(&format!("{json}\n")),
+        false => say(&format!("{table}\nwritten: {}\n", path.display())),
+    }
+}
+
+/// Writes what was found.
+fn write(tuning: &Tuning, plan: &TunePlan) -> Result<Found, Error> {
     let pretty = |json: Result<String, serde_json::Error>| json.expect("a tuning is plain data");
     let write = |name: &str, text: &str| {
         frame::write_atomically(&plan.out.join(name), text.as_bytes()).map_err(Error::from)
     };
-    write("tune.json", &pretty(serde_json::to_string_pretty(tuning)))?;
+    let json = pretty(serde_json::to_string_pretty(tuning));
+    write("tune.json", &json)?;
     write(
         "params.json",
         &pretty(serde_json::to_string_pretty(&tuning.values)),
@@ -110,14 +128,15 @@ fn write(tuning: &Tuning, plan: &TunePlan) -> Result<String, Error> {
         "preset.toml",
         &preset_text(tuning, &plan.render, parameters),
     )?;
-    Ok(format!(
-        "{}\nwritten: {} (the choice: params.json, preset.toml)\n",
-        tuning_table(tuning),
-        plan.out.join("tune.json").display()
-    ))
+    Ok(Found {
+        table: tuning_table(tuning) + "\nthe choice: params.json and preset.toml beside tune.json",
+        json,
+        path: plan.out.join("tune.json"),
+    })
 }
 
-fn compare(args: &CandidateArgs, choice: FilterChoice, presets: [&String; 2]) -> Result<(), Error> {
+fn compare(tune: &TuneArgs, choice: FilterChoice, presets: [&String; 2]) -> Result<(), Error> {
+    let args = &tune.candidate;
     let [first, second] = presets.map(|preset| choice.filter.settings(Some(preset)));
     let (first, second) = (first?, second?);
     let scenes = scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
@@ -136,11 +155,8 @@ fn compare(args: &CandidateArgs, choice: FilterChoice, presets: [&String; 2]) ->
     let json = serde_json::to_string_pretty(&paired).expect("a comparison is plain data");
     let path = args.scenes.out.join("compare.json");
     frame::write_atomically(&path, json.as_bytes())?;
-    say(&format!(
-        "{}\nwritten: {}\n",
-        paired_table(&paired, names),
-        path.display()
-    ))
+    let table = paired_table(&paired, names);
+    print(tune, &Found { table, json, path })
 }
 
 fn study(args: &TuneArgs, choice: FilterChoice, effort: Effort) -> Result<(), Error> {
@@ -157,15 +173,15 @@ fn study(args: &TuneArgs, choice: FilterChoice, effort: Effort) -> Result<(), Er
         candidate.scenes.quiet,
     )?;
     let mut evaluator = evaluator(&shots, &choice, gpu.as_ref(), false)?;
-    let found = sensitivity(&mut evaluator, &space, effort, args.search_seed)?;
+    let label = format!("parameters of {}", choice.filter.name);
+    let found = with_bar(&label, candidate.scenes.quiet, |watch| {
+        sensitivity(&mut evaluator, &space, effort, args.search_seed, watch)
+    })?;
     let json = serde_json::to_string_pretty(&found).expect("a study is plain data");
     let path = out.join("sensitivity.json");
     frame::write_atomically(&path, json.as_bytes())?;
-    say(&format!(
-        "{}\nwritten: {}\n",
-        sensitivity_table(&found),
-        path.display()
-    ))
+    let table = sensitivity_table(&found);
+    print(args, &Found { table, json, path })
 }
 
 /// The filter with the preset to start from.

@@ -1,4 +1,4 @@
-//! A check as text: every score that does not keep its bound, at most 100 columns.
+//! A check as text: every score that does not keep its bound.
 
 use std::fmt::Write;
 
@@ -6,9 +6,8 @@ use super::finding::{MOST_SAMPLES, number};
 use super::{Check, Finding, Kind};
 use crate::baseline::Comparison;
 use crate::bounds::Level;
-
-/// Columns.
-const WIDTH: usize = 100;
+use crate::paint::{bad, doubtful, good, heading};
+use crate::wrapped::push_wrapped;
 
 /// What is broken, inconclusive or too narrow, by scene and filter, then the comparisons, then the counts. `out` is the
 /// folder of the run's pictures.
@@ -21,7 +20,7 @@ pub fn check_text(check: &Check, out: &std::path::Path) -> String {
         }
         let own = (finding.scene.clone(), finding.filter.clone());
         if case != own {
-            let _ = writeln!(text, "{} / {}", own.0, own.1);
+            let _ = writeln!(text, "{}", heading(&format!("{} / {}", own.0, own.1)));
             case = own;
         }
         for (indent, line) in lines(finding, out) {
@@ -29,7 +28,7 @@ pub fn check_text(check: &Check, out: &std::path::Path) -> String {
         }
     }
     if !check.comparisons.is_empty() {
-        text += "compared with the baseline\n";
+        text += &(heading("compared with the baseline") + "\n");
         for comparison in &check.comparisons {
             push_wrapped(&mut text, 2, &comparison_line(comparison));
         }
@@ -38,7 +37,15 @@ pub fn check_text(check: &Check, out: &std::path::Path) -> String {
 }
 
 fn lines(finding: &Finding, out: &std::path::Path) -> Vec<(usize, String)> {
-    let mut lines = vec![(2, headline(finding)), (6, place(finding))];
+    let status = match finding.kind {
+        Kind::Broken => bad(status(finding)),
+        Kind::Kept => good(status(finding)),
+        _ => doubtful(status(finding)),
+    };
+    let mut lines = vec![
+        (2, format!("{status} {}", score(finding))),
+        (6, place(finding)),
+    ];
     if let Some(worst) = &finding.worst {
         let picture = out.join(&worst.picture);
         lines.push((
@@ -64,7 +71,11 @@ fn lines(finding: &Finding, out: &std::path::Path) -> Vec<(usize, String)> {
 
 /// `BROKEN flip_moving 0.0921, with 95 % in 0.0893 to 0.0950; limit 0.0500, floor 0.0021`
 pub(crate) fn headline(finding: &Finding) -> String {
-    let word = match (finding.kind, finding.level) {
+    format!("{} {}", status(finding), score(finding))
+}
+
+fn status(finding: &Finding) -> &'static str {
+    match (finding.kind, finding.level) {
         (Kind::Broken, Level::Required) => "BROKEN",
         (Kind::Broken, Level::Report) => "broken (report)",
         (Kind::Inconclusive, Level::Required) => "INCONCLUSIVE",
@@ -72,8 +83,11 @@ pub(crate) fn headline(finding: &Finding) -> String {
         (Kind::TooNoisy, _) => "TOO STRICT",
         (Kind::Kept, _) => "kept",
         (Kind::NotApplicable, _) => "not applicable",
-    };
-    let mut text = format!("{word} {}", finding.metric);
+    }
+}
+
+fn score(finding: &Finding) -> String {
+    let mut text = finding.metric.clone();
     if let Some(value) = finding.value {
         text += &format!(" {}", finding.shown(value));
     }
@@ -153,23 +167,4 @@ fn counts(check: &Check) -> String {
         text += &format!("{} of them required\n", required.count());
     }
     text
-}
-
-/// Adds a line, broken between words where it is too long; what follows is indented further.
-fn push_wrapped(text: &mut String, indent: usize, line: &str) {
-    let mut column = indent;
-    *text += &" ".repeat(indent);
-    for (index, word) in line.split(' ').enumerate() {
-        let length = word.chars().count();
-        if index > 0 && column + 1 + length > WIDTH {
-            *text += &format!("\n{}", " ".repeat(indent + 4));
-            column = indent + 4;
-        } else if index > 0 {
-            *text += " ";
-            column += 1;
-        }
-        *text += word;
-        column += length;
-    }
-    *text += "\n";
 }

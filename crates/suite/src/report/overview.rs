@@ -5,17 +5,19 @@ use metrics::Ideal;
 
 use super::case_page::Page;
 use super::cell::cell;
+use super::costs::{cost_of, cost_text, costs};
 use super::meaning::meaning;
 use super::provenance::provenance;
 use super::ranking::ranking;
 use super::shown::{SHOWN, Shown};
 use super::subject::{case_of, scenes, subjects};
 use super::verdicts::broken_bounds;
-use crate::Run;
+use crate::bench::CaseCost;
 use crate::gate::Kind;
+use crate::{Bench, Run};
 
 /// The first thing that a reader sees.
-pub fn overview(run: &Run, pages: &[Page]) -> Markup {
+pub fn overview(run: &Run, pages: &[Page], bench: Option<&Bench>) -> Markup {
     html! {
         section #overview {
             p.lead { (summary(run, pages)) }
@@ -29,8 +31,9 @@ pub fn overview(run: &Run, pages: &[Page]) -> Markup {
                     }
                 }
             }
-            @for shown in &SHOWN { (panel(run, shown)) }
+            @for shown in &SHOWN { (panel(run, shown, bench)) }
             (key())
+            (costs(run, bench))
             (provenance(run))
         }
     }
@@ -73,19 +76,19 @@ fn counted(count: usize, what: &str) -> String {
     }
 }
 
-fn panel(run: &Run, shown: &Shown) -> Markup {
+fn panel(run: &Run, shown: &Shown, bench: Option<&Bench>) -> Markup {
     html! {
         div.panel data-metric=(shown.metric.name()) {
             h2 { (shown.title) }
             p { (meaning(shown.metric)) "; " (shown.better()) "." }
-            (ranking(run, shown))
-            (table(run, shown))
+            (ranking(run, shown, bench))
+            (table(run, shown, bench))
         }
     }
 }
 
 /// One row per filter preset or bar, one column per scene.
-fn table(run: &Run, shown: &Shown) -> Markup {
+fn table(run: &Run, shown: &Shown, bench: Option<&Bench>) -> Markup {
     let scenes = scenes(run);
     // What a reader looks for comes first.
     let order = match shown.metric.ideal() {
@@ -100,6 +103,7 @@ fn table(run: &Run, shown: &Shown) -> Markup {
                     tr {
                         th scope="col" { button { "filter" } }
                         @for scene in &scenes { th scope="col" { button { (scene) } } }
+                        th scope="col" { button { "cost, ms" } }
                     }
                 }
                 tbody {
@@ -112,11 +116,19 @@ fn table(run: &Run, shown: &Shown) -> Markup {
                                     None => td { "-" },
                                 }
                             }
+                            (cost(cost_of(run, bench, &subject)))
                         }
                     }
                 }
             }
         }
+    }
+}
+
+/// Sorts as the scores do.
+fn cost(cost: Option<&CaseCost>) -> Markup {
+    html! {
+        td.cost data-value=[cost.map(|cost| cost.seconds.median)] { (cost_text(cost)) }
     }
 }
 
@@ -129,7 +141,7 @@ fn key() -> Markup {
             span.inconclusive { "? the noise does not tell" } " "
             span.undecided { "~ limit stricter than the noise allows" }
             " The stronger the colour, the farther from the limit; no colour: no bound. Names in italics are bars to measure \
-             filters by. Numbers lead to their case; the headings sort."
+             filters by. Costs are those of the last section; \"-\" was not timed. Numbers lead to their case; the headings sort."
         }
     }
 }

@@ -2,39 +2,46 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::gallery::Gallery;
+use super::files::Shelves;
+use super::legend::colors;
 use super::viewer::viewer;
 use crate::Run;
 
 /// In the order in which later ones override earlier ones.
-const STYLES: [&str; 5] = [
+const STYLES: [&str; 6] = [
     include_str!("base.css"),
     include_str!("tables.css"),
     include_str!("case.css"),
+    include_str!("charts.css"),
     include_str!("viewer.css"),
     include_str!("media.css"),
 ];
 
 /// In the order in which they run.
-const SCRIPTS: [&str; 4] = [
+const SCRIPTS: [&str; 7] = [
     include_str!("theme.js"),
     include_str!("sorting.js"),
+    include_str!("planes.js"),
+    include_str!("paint.js"),
     include_str!("viewer.js"),
+    include_str!("readout.js"),
     include_str!("keys.js"),
 ];
 
 /// What a browser may do for this page: show what stands in it, and fetch nothing.
-const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'; base-uri 'none'; \
-     form-action 'none'";
+const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'; \
+     script-src 'unsafe-inline'";
 
 /// The whole document.
-pub fn page(run: &Run, overview: &Markup, cases: &[Markup], gallery: &Gallery) -> Markup {
+pub fn page(run: &Run, overview: &Markup, cases: &[Markup], shelves: &Shelves) -> Markup {
+    // Files beside the page count as its own; browsers differ in what they call them on a disk.
+    let beside = shelves.folder.as_ref().map_or("", |_| " 'self' file:");
     html! {
         (DOCTYPE)
         html lang="en" {
             head {
                 meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta http-equiv="Content-Security-Policy" content=(format!("{POLICY}{beside}"));
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { "Shuttertruth report" }
                 link rel="icon" href="data:,";
@@ -53,9 +60,23 @@ pub fn page(run: &Run, overview: &Markup, cases: &[Markup], gallery: &Gallery) -
                     (overview)
                     @for case in cases { (case) }
                 }
-                (viewer(run))
-                script #pictures type="application/json" { (PreEscaped(gallery.json())) }
+                (viewer(run, shelves.precision))
+                (numbers(shelves))
+                script #colors type="application/json" { (PreEscaped(colors())) }
                 @for script in SCRIPTS { script { (PreEscaped(script)) } }
+            }
+        }
+    }
+}
+
+/// Base64 and numbers hold no character that HTML escapes.
+fn numbers(shelves: &Shelves) -> Markup {
+    html! {
+        div #shelves hidden data-precision=(shelves.precision.name()) data-folder=[shelves.folder.as_ref()] {
+            @if shelves.folder.is_none() {
+                @for (scene, text) in shelves.texts.iter().enumerate() {
+                    script type="application/json" data-scene=(scene) { (PreEscaped(text)) }
+                }
             }
         }
     }

@@ -69,6 +69,23 @@ fn facts(run: &Run) -> Vec<(&'static str, String)> {
     ]
 }
 
+/// The same in one line, for every case.
+pub fn provenance_line(run: &Run) -> String {
+    let adapter = match &run.adapter {
+        Some(own) => format!("{}, driver {}", own.name, own.driver),
+        None => "no adapter".to_owned(),
+    };
+    format!(
+        "{}, {adapter}; {}x{}, {} samples per pixel, seed {}; made by: {}",
+        run.program,
+        run.width,
+        run.height,
+        run.samples_per_pixel,
+        run.seed,
+        command(run)
+    )
+}
+
 /// The words of the command line, the program's by its name alone.
 fn command(run: &Run) -> String {
     let words = run.command.iter().skip(1).map(String::as_str);

@@ -3,13 +3,14 @@
 use maud::{Markup, html};
 use metrics::Ideal;
 
+use super::costs::{cost_of, cost_text};
 use super::interval_chart::{Axis, interval_chart};
 use super::shown::Shown;
 use super::subject::{Subject, mean_floor, subjects};
-use crate::{Overall, Run};
+use crate::{Bench, Overall, Run};
 
 /// Best first, bars among them: mean, 95 % interval, and both in a picture. Nothing of a score without means.
-pub fn ranking(run: &Run, shown: &Shown) -> Markup {
+pub fn ranking(run: &Run, shown: &Shown, bench: Option<&Bench>) -> Markup {
     let name = shown.metric.name();
     let ideal = shown.metric.ideal();
     let mut ranked: Vec<&Overall> = (run.overall.iter())
@@ -35,6 +36,7 @@ pub fn ranking(run: &Run, shown: &Shown) -> Markup {
                         th scope="col" { "mean" }
                         th scope="col" { "95 % in" }
                         th scope="col" { "scenes" }
+                        th scope="col" { "cost, ms" }
                         th.chart scope="col" {
                             div.ends {
                                 span { (format!("{:.digits$}", axis.low)) }
@@ -55,6 +57,7 @@ pub fn ranking(run: &Run, shown: &Shown) -> Markup {
                                 (format!("{:.digits$}–{:.digits$}", mean.interval[0], mean.interval[1]))
                             }
                             td { (mean.scenes) }
+                            td { (cost_text(subject.and_then(|subject| cost_of(run, bench, subject)))) }
                             td.chart {
                                 (interval_chart(&axis, mean, floor(run, *subject, shown, ideal)))
                             }

@@ -1,11 +1,15 @@
 //! Bounds that are not kept, and why.
 
 use maud::{Markup, html};
+use metrics::Metric;
 
 use super::case_page::Page;
 use super::cell::standing;
+use super::evidence::{Evidence, is_notable};
+use super::meaning::meaning;
 use crate::bounds::Level;
-use crate::gate::{Finding, Kind, headline, way_out};
+use crate::gate::{Finding, Kind, headline, number, way_out};
+use crate::worst::CROP;
 
 /// The required bounds of a run that are not kept, each with the way to its case.
 pub fn broken_bounds(pages: &[Page]) -> Markup {
@@ -36,60 +40,88 @@ pub fn broken_bounds(pages: &[Page]) -> Markup {
 pub fn verdicts(page: &Page) -> Markup {
     let kept = (page.findings.iter()).filter(|finding| finding.kind == Kind::Kept);
     let kept = kept.count();
-    let notable = || (page.findings.iter().zip(&page.crops)).filter(|(own, _)| is_notable(own));
+    let notable = || page.findings.iter().zip(&page.evidence);
+    let explained = page.evidence.iter().any(Option::is_some);
+    let broken = (page.findings.iter()).any(|finding| finding.kind == Kind::Broken);
     html! {
         section.verdicts {
-            h3 { "Bounds" }
+            h3 { @if broken { "Why it failed" } @else { "Bounds" } }
             @match page.findings.len() {
                 0 => p { "This picture is held to no bound." },
                 all => p { (kept) " of " (all) " kept." },
             }
-            @for (finding, crop) in notable() {
-                (verdict(page, finding, *crop))
+            @if explained { (alike(page)) }
+            @for (finding, evidence) in notable() {
+                @if let Some(evidence) = evidence { (verdict(page, finding, evidence)) }
             }
-            @if let Some(alike) = &page.case.resembles {
-                p.alike {
+        }
+    }
+}
+
+/// The wrong blur that all scores together are most like.
+fn alike(page: &Page) -> Markup {
+    html! {
+        p.alike {
+            @match &page.case.resembles {
+                Some(alike) => {
                     "The scores are most like those of the wrong blur " strong { (alike.decoy) } ", "
-                    (format!("{:.0}", 100.0 * alike.distance)) " % off."
+                    (format!("{:.0}", 100.0 * alike.distance))
+                    " % off: the distance over the scores that tell wrong blurs apart, as a part of how far that blur's own \
+                     are from perfect."
+                }
+                None => {
+                    "The scores are near those of no wrong blur, or nobody looked: "
+                    code { "check" } " compares them, " code { "run" } " does not."
                 }
             }
         }
     }
 }
 
-/// `crop` is the number of the picture of the worst place.
-fn verdict(page: &Page, finding: &Finding, crop: Option<usize>) -> Markup {
+fn verdict(page: &Page, finding: &Finding, evidence: &Evidence) -> Markup {
     let class = (page.case.verdicts.iter())
         .find(|verdict| verdict.metric == finding.metric)
         .and_then(|verdict| standing(&verdict.outcome))
         .map(|standing| standing.word);
+    let [x, y] = evidence.place;
     html! {
         div class=(format!("verdict {}", class.unwrap_or_default())) {
             p { strong { (headline(finding)) } }
-            p.note { (finding.place) ": " (finding.why) }
+            (facts(finding))
             @if let Some(way_out) = way_out(finding) { p.note { (way_out) } }
-            @if let Some(worst) = &finding.worst {
-                p {
-                    "Worst at (" (worst.x) ", " (worst.y) ") of " (worst.map) ". "
-                    button.place type="button" data-x=(worst.x) data-y=(worst.y) { "Show it above" }
-                }
-                @if let Some(crop) = crop {
-                    figure {
-                        img data-picture=(crop)
-                            alt=(format!(
-                                "Truth, output and error around ({}, {}), side by side", worst.x, worst.y
-                            ));
-                        figcaption { "truth, output, error" }
+            p {
+                "Worst at (" (x) ", " (y) ") of " (evidence.map) ". "
+                button.place type="button" data-x=(x) data-y=(y) { "Show it above" }
+            }
+            figure.crop data-x=(x) data-y=(y) data-map=(evidence.plane) {
+                div.panels {
+                    @for what in ["truth", "output", "error"] {
+                        canvas width=(CROP.min(page.run.width)) height=(CROP.min(page.run.height)) role="img"
+                            aria-label=(format!("{what} around ({x}, {y})")) {}
                     }
                 }
+                figcaption { "truth, output, " (evidence.map) " (as bright as it is here)" }
             }
         }
     }
 }
 
-fn is_notable(finding: &Finding) -> bool {
-    matches!(
-        finding.kind,
-        Kind::Broken | Kind::Inconclusive | Kind::TooNoisy
-    )
+/// Metric, limit, value and interval, each by its name.
+fn facts(finding: &Finding) -> Markup {
+    let metric: Option<Metric> = finding.metric.parse().ok();
+    html! {
+        dl {
+            div { dt { "metric" } dd { (finding.metric) @if let Some(metric) = metric { ": " (meaning(metric)) } } }
+            @if let Some(value) = finding.value {
+                div { dt { "value" } dd { (finding.shown(value)) } }
+            }
+            @if let Some(own) = &finding.interval {
+                div { dt { "95 % in" } dd { (number(own.low)) " to " (number(own.high)) } }
+            }
+            div { dt { "limit" } dd { (number(finding.limit)) ", " (finding.place) ": " (finding.why) } }
+            @if let Some(floor) = finding.floor {
+                div { dt { "noise floor" } dd { (number(floor)) } }
+            }
+        }
+    }
 }

@@ -3,6 +3,8 @@
 use maud::{Markup, html};
 
 use super::layer::Layer;
+use super::legend::legends;
+use super::precision::Precision;
 use crate::Run;
 use crate::worst::BLOCK;
 
@@ -17,16 +19,21 @@ const WAYS: [(&str, &str, &str); 4] = [
 /// What may lie on the left.
 const LEFT: [Layer; 3] = [Layer::Truth, Layer::Instant, Layer::Output];
 
+/// Exposures beside the scene's own, in stops.
+const EXPOSURES: [(i32, &str); 3] = [(-2, "−2 EV"), (0, "0 EV"), (2, "+2 EV")];
+
 /// What each key does.
-const KEYS: [(&str, &str); 9] = [
+const KEYS: [(&str, &str); 11] = [
     ("1 2 3 4", "slide, blink, onion skin, side by side"),
     ("b", "blink: swap the pictures"),
     ("a", "next picture on the left"),
     ("m, M", "next or last picture on the right"),
+    ("e", "next exposure"),
+    ("[, ]", "move the divider"),
     ("+, -, 0", "zoom in, out, fit"),
     (
         "arrows",
-        "on the picture: move it; at fit, the divider. Page up and down zoom",
+        "on the picture: read the next pixel, with shift the tenth; the view follows. Page up and down zoom",
     ),
     ("j, k", "next or last filter of the scene"),
     ("l, h", "the same filter in the next or last scene"),
@@ -34,10 +41,9 @@ const KEYS: [(&str, &str); 9] = [
 ];
 
 /// Hidden until a case is open.
-pub fn viewer(run: &Run) -> Markup {
+pub fn viewer(run: &Run, precision: Precision) -> Markup {
     html! {
-        div #viewer hidden data-width=(run.width) data-height=(run.height) data-band=(run.guard_band)
-            data-block=(BLOCK) {
+        div #viewer hidden data-width=(run.width) data-height=(run.height) data-block=(BLOCK) {
             div.controls {
                 fieldset.choice {
                     legend { "Compare" }
@@ -50,27 +56,36 @@ pub fn viewer(run: &Run) -> Markup {
                 }
                 (choice("Left", "over", &LEFT, Layer::Truth))
                 (choice("Right", "under", &Layer::ALL, Layer::Output))
+                fieldset.choice {
+                    legend { "Exposure" }
+                    @for (stops, title) in EXPOSURES {
+                        label {
+                            input type="radio" name="exposure" value=(stops) checked[stops == 0];
+                            span { (title) }
+                        }
+                    }
+                }
                 div.choice role="group" aria-label="Zoom" {
                     button type="button" data-zoom="out" aria-label="Zoom out" { "−" }
                     button type="button" data-zoom="fit" { "Fit" }
                     button type="button" data-zoom="in" aria-label="Zoom in" { "+" }
                 }
             }
-            div.stage style=(format!("--ratio:{}/{};--band:{}", run.width, run.height, run.guard_band)) {
+            div.stage style=(format!("--ratio:{}/{}", run.width, run.height)) {
                 div.pane.stack tabindex="0" role="group"
-                    aria-label="Two pictures; arrows move, plus and minus zoom" {
-                    (layer("under"))
-                    div.over { (layer("over")) }
-                    div.mark hidden {}
+                    aria-label="Two pictures; arrows read pixels, plus and minus zoom" {
+                    (layer(run, "under"))
+                    div.over { (layer(run, "over")) }
+                    (marks(run))
                     div.divider aria-hidden="true" {}
                     p.tag.right data-tag="under" {}
                     p.tag.left data-tag="over" {}
                 }
                 @for place in ["instant", "truth", "output", "map"] {
                     div.pane.single tabindex="0" role="group"
-                        aria-label="One picture; arrows move, plus and minus zoom" hidden {
-                        (layer(place))
-                        div.mark hidden {}
+                        aria-label="One picture; arrows read pixels, plus and minus zoom" hidden {
+                        (layer(run, place))
+                        (marks(run))
                         p.tag.left data-tag=(place) {}
                     }
                 }
@@ -80,7 +95,9 @@ pub fn viewer(run: &Run) -> Markup {
                 input type="range" name="split" min="0" max="100" step="0.5" value="50";
             }
             p.hint aria-live="polite" {}
-            p.readout {}
+            (legends())
+            (readout(precision))
+            p.spoken.unseen aria-live="polite" {}
             details.keys {
                 summary { "Keys" }
                 dl {
@@ -98,7 +115,7 @@ fn choice(legend: &str, name: &str, layers: &[Layer], first: Layer) -> Markup {
             @for layer in layers {
                 label {
                     input type="radio" name=(name) value=(layer.name()) data-hint=(layer.hint())
-                        data-banded[layer.has_band()] checked[*layer == first];
+                        data-painter=(layer.painter().name()) checked[*layer == first];
                     span { (layer.title()) }
                 }
             }
@@ -107,8 +124,44 @@ fn choice(legend: &str, name: &str, layers: &[Layer], first: Layer) -> Markup {
 }
 
 /// A picture that zooms and moves with all others.
-fn layer(place: &str) -> Markup {
+fn layer(run: &Run, place: &str) -> Markup {
     html! {
-        div.layer data-place=(place) { img alt="" draggable="false"; }
+        div.layer data-place=(place) { canvas width=(run.width) height=(run.height) role="img" {} }
+    }
+}
+
+/// The line of the profile, the worst place of a bound, and the pixel that is read.
+fn marks(run: &Run) -> Markup {
+    html! {
+        div.layer aria-hidden="true" {
+            svg.overlay width=(run.width) height=(run.height) viewBox=(format!("0 0 {} {}", run.width, run.height)) {
+                path.line fill="none" {}
+            }
+        }
+        div.mark hidden {}
+        div.pixel hidden {}
+    }
+}
+
+/// One row per picture; the script fills it and hides what a case lacks.
+fn readout(precision: Precision) -> Markup {
+    let note = match precision {
+        Precision::Float => "linear values, as the OpenEXR files hold them",
+        Precision::Half => "linear values to three digits; errors and shares in steps of 1/256",
+    };
+    html! {
+        table.readout {
+            caption { span { "Point at a picture, or choose it and press an arrow" } " (" (note) ")" }
+            tbody {
+                @for layer in Layer::ALL {
+                    tr data-layer=(layer.name()) hidden {
+                        th scope="row" { (layer.title()) }
+                        @for component in 0..3 {
+                            td data-label=[layer.components().split(' ').nth(component).filter(|name| !name.is_empty())] {}
+                        }
+                    }
+                }
+            }
+        }
     }
 }

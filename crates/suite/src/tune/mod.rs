@@ -25,10 +25,12 @@ mod tuning;
 mod wilcoxon;
 
 pub use answer::{Answer, answer};
+pub(crate) use compare::FEWEST_SCENES;
 pub use compare::{Difference, Paired, Preference, compare_paired};
 pub use evaluator::Evaluator;
 pub use journal::{Header, JOURNAL_FORMAT, Journal};
 pub use loss::LEAST_BLEED;
+pub(crate) use loss::log_ratio;
 pub use morris::{ElementaryEffects, morris};
 pub use pareto::front;
 pub use plan::{Objective, TunePlan, interleaved};

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use filters::Value;
 use serde::{Deserialize, Serialize};
+use tracer::{Progress, TraceError, Watch};
 
 use super::loss::{FAILED, mean_log_ratio};
 use super::morris::{ElementaryEffects, morris};
@@ -37,6 +38,9 @@ pub struct Sensitivity {
     pub candidates: usize,
     /// How many of them did not run; they count as very bad.
     pub failed: usize,
+    /// Trajectories of the screening; 0 where there was none.
+    #[serde(default)]
+    pub trajectories: usize,
     /// By parameter.
     pub parameters: BTreeMap<String, ParameterSensitivity>,
 }
@@ -54,12 +58,31 @@ pub struct ParameterSensitivity {
     pub slice: Vec<(Value, f64)>,
 }
 
-/// Scores many candidates all over the space.
+impl ParameterSensitivity {
+    /// How much it matters beside the others of the same study.
+    pub fn importance(&self) -> f64 {
+        match (self.indices, self.effects) {
+            (Some(indices), _) => indices.total.value,
+            (None, Some(effects)) => effects.mean_size,
+            (None, None) => 0.0,
+        }
+    }
+}
+
+impl Effort {
+    /// How many candidates are scored, the slices among them.
+    fn candidates(self, axes: usize) -> usize {
+        self.trajectories * (axes + 1) + self.rows * (axes + 2) + axes * SLICE
+    }
+}
+
+/// Scores many candidates all over the space; `watch` hears of each.
 pub fn sensitivity(
     evaluator: &mut Evaluator,
     space: &Space,
     effort: Effort,
     seed: u64,
+    watch: Watch,
 ) -> Result<Sensitivity, Error> {
     if effort == Effort::default() || effort.trajectories == 1 || effort.rows == 1 {
         return Err(Error::Usage(
@@ -74,13 +97,20 @@ pub fn sensitivity(
     let start: BTreeMap<_, _> = names.iter().cloned().zip(start).collect();
     let (mut candidates, mut failed) = (0, 0);
     let mut error = |point: &[f64]| -> Result<f64, Error> {
+        let progress = Progress {
+            done: candidates as u64,
+            total: effort.candidates(space.axes.len()) as u64,
+        };
+        if watch(progress).is_break() {
+            return Err(TraceError::Cancelled.into());
+        }
         candidates += 1;
         match evaluator.scores(&space.settings(point), &all, |_, _| !interrupted()) {
             Ok(scores) if scores.len() == all.len() => {
                 let scores = names.iter().cloned().zip(scores).collect();
                 Ok(mean_log_ratio(&scores, &start, |_| true).expect("there are scenes"))
             }
-            Ok(_) => Err(tracer::TraceError::Cancelled.into()),
+            Ok(_) => Err(TraceError::Cancelled.into()),
             Err(error) if error.exit_code() == 130 => Err(error),
             Err(_) => {
                 failed += 1;
@@ -126,23 +156,19 @@ pub fn sensitivity(
     Ok(Sensitivity {
         candidates,
         failed,
+        trajectories: effort.trajectories,
         parameters,
     })
 }
 
 /// The parameters, those that matter most first.
 pub fn sensitivity_table(found: &Sensitivity) -> String {
-    let importance = |it: &ParameterSensitivity| match (it.indices, it.effects) {
-        (Some(indices), _) => indices.total.value,
-        (None, Some(effects)) => effects.mean_size,
-        (None, None) => 0.0,
-    };
     let mut rows: Vec<(&String, &ParameterSensitivity)> = found.parameters.iter().collect();
-    rows.sort_by(|(_, a), (_, b)| importance(b).total_cmp(&importance(a)));
+    rows.sort_by(|(_, a), (_, b)| b.importance().total_cmp(&a.importance()));
     let width = found.parameters.keys().map(String::len).max().unwrap_or(0);
     let width = width.max("parameter".len());
     let mut text = format!(
-        "{:width$}  effect  spread  first  total (95 %)           could be constant\n",
+        "{:width$}  effect  spread  first  total (95 %)           constant?\n",
         "parameter"
     );
     for (name, it) in rows {

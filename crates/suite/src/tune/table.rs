@@ -3,23 +3,28 @@
 use super::compare::{Difference, Paired, Preference};
 use super::loss::LEAST_BLEED;
 use super::{Trial, Tuning};
+use crate::paint::heading;
+use crate::wrapped::push_wrapped;
 
 /// Rows of the front that are printed; `tune.json` has all.
 const ROWS: usize = 12;
+/// Where their values begin.
+const VALUES: usize = 34;
 
 /// Start, front, choice, folds and sealed scenes.
 pub fn tuning_table(tuning: &Tuning) -> String {
     let journal = &tuning.journal;
-    let mut text = format!(
-        "{}:{}, {} trials on {} scenes: {} dropped early, {} failed\n\n",
+    let mut text = heading(&format!(
+        "{}:{}, {} trials on {} scenes: {} dropped early, {} failed",
         journal.filter,
         journal.start,
         tuning.trials,
         journal.scenes.len(),
         tuning.dropped,
         tuning.failed.len(),
-    );
-    text += "trial    error    bleed     cost  values that differ from the start\n";
+    ));
+    text += "\n\n";
+    text += &heading("trial    error    bleed     cost  values that differ from the start\n");
     let mut rows = vec![&tuning.start];
     rows.extend(tuning.front.iter().take(ROWS));
     if !rows.iter().any(|row| row.trial == tuning.chosen.trial) {
@@ -33,8 +38,8 @@ pub fn tuning_table(tuning: &Tuning) -> String {
     if tuning.front.len() > ROWS {
         text += &format!("and {} more in tune.json\n", tuning.front.len() - ROWS);
     }
-    text += &format!(
-        "\nchosen: trial {}, {}; the best is trial {}, and {} lies within its standard error of {:.3}\n",
+    let chosen = format!(
+        "chosen: trial {}, {}; the best is trial {}, and {} lies within its standard error of {:.3}",
         tuning.choice.trial,
         percent(tuning.chosen.error.expect("the choice is done")),
         tuning.choice.best,
@@ -44,11 +49,14 @@ pub fn tuning_table(tuning: &Tuning) -> String {
         },
         tuning.choice.standard_error,
     );
+    text += "\n";
+    push_wrapped(&mut text, 0, &chosen);
     if tuning.choice.trial == 0 {
         text += "no trial beats the start by more than the scenes can tell\n";
     }
     if !tuning.folds.is_empty() {
-        text += "\nfamily left out  scenes  trial  on the others  on the family    gap\n";
+        text += "\n";
+        text += &heading("family left out  scenes  trial  on the others  on the family    gap\n");
         for fold in &tuning.folds {
             text += &format!(
                 "{:15} {:7} {:6} {:14.3} {:14.3} {:6.3}\n",
@@ -70,7 +78,7 @@ pub fn tuning_table(tuning: &Tuning) -> String {
         text += &paired_table(&last.paired, ["start", "chosen"]);
     }
     for (trial, reason) in &tuning.failed {
-        text += &format!("failed: trial {trial}: {reason}\n");
+        push_wrapped(&mut text, 0, &format!("failed: trial {trial}: {reason}"));
     }
     text
 }
@@ -84,18 +92,22 @@ fn row(trial: &Trial, start: &Trial, chosen: usize) -> String {
         Some(value) => format!("{value:8.3}"),
         None => format!("{:>8}", "-"),
     };
-    format!(
-        "{:4}{} {} {} {}  {}\n",
+    let changed = match trial.trial {
+        0 => "the start".to_owned(),
+        _ => changed.join(" "),
+    };
+    let numbers = format!(
+        "{:4}{} {} {} {}",
         trial.trial,
         if trial.trial == chosen { "*" } else { " " },
         number(trial.error),
         number(trial.bleed),
         number(trial.cost),
-        match trial.trial {
-            0 => "the start".to_owned(),
-            _ => changed.join(" "),
-        }
-    )
+    );
+    let mut values = String::new();
+    // As far to the right as the numbers are wide.
+    push_wrapped(&mut values, VALUES, &changed);
+    numbers + values.get(VALUES - 2..).unwrap_or_default()
 }
 
 /// Two candidates scene by scene, and the verdicts.
@@ -108,13 +120,17 @@ pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
         .unwrap_or(0)
         .max(5);
     let mut text = format!(
-        "{:width$}  {:>9} FLIP {:>9} FLIP {:>9} bleed {:>9} bleed\n",
-        "scene", names[0], names[1], names[0], names[1]
+        "{:width$} {:>13} {:>13} {:>13} {:>13}\n",
+        "scene",
+        format!("FLIP {}", names[0]),
+        format!("{}", names[1]),
+        format!("bleed {}", names[0]),
+        format!("{}", names[1])
     );
     let bleed = |bleed: Option<f64>| bleed.map_or("n/a".to_owned(), |bleed| format!("{bleed:.3}"));
     for (scene, [first, second]) in &paired.scenes {
         text += &format!(
-            "{scene:width$}  {:14.4} {:14.4} {:>15} {:>15}\n",
+            "{scene:width$} {:13.4} {:13.4} {:>13} {:>13}\n",
             first.flip,
             second.flip,
             bleed(first.bleed),
@@ -127,8 +143,8 @@ pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
         scenes,
         ..
     } = &paired.flip;
-    text += &format!(
-        "FLIP of {} against {}: {} ({} to {}) over {scenes} scenes: {}\n",
+    let flip = format!(
+        "FLIP of {} against {}: {} ({} to {}) over {scenes} scenes: {}",
         names[1],
         names[0],
         percent(*mean),
@@ -136,9 +152,10 @@ pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
         percent(bounds[1]),
         verdict(&paired.flip, names)
     );
+    push_wrapped(&mut text, 0, &flip);
     if let Some(bleed) = &paired.bleed {
-        text += &format!(
-            "bleed of {} against {}: {:+.3} px ({:+.3} to {:+.3}) over {} scenes: {}\n",
+        let bleed = format!(
+            "bleed of {} against {}: {:+.3} px ({:+.3} to {:+.3}) over {} scenes: {}",
             names[1],
             names[0],
             bleed.mean,
@@ -152,6 +169,7 @@ pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
                 _ => verdict(bleed, names),
             }
         );
+        push_wrapped(&mut text, 0, &bleed);
     }
     text
 }

@@ -1,0 +1,24 @@
+//! `shuttertruth compare`
+
+use suite::{Error, Side, compare_page, compare_runs, compare_table, with_bar};
+
+use super::report::write_page;
+use super::say;
+use crate::cli::CompareArgs;
+
+/// Reads two finished runs, prints what changed, and writes the page.
+pub fn execute(args: &CompareArgs) -> Result<(), Error> {
+    let (first, second) = (Side::read(&args.first)?, Side::read(&args.second)?);
+    let compared = with_bar("cases that changed", args.quiet, |watch| {
+        compare_runs(&first, &second, watch)
+    })?;
+    let written = match &args.html {
+        Some(html) => write_page(&compare_page(&compared, &first, &second)?, html)?.line(),
+        None => String::new(),
+    };
+    if args.json {
+        let json = serde_json::to_string_pretty(&compared).expect("a comparison is plain data");
+        return say(&format!("{json}\n"));
+    }
+    say(&(compare_table(&compared) + &written))
+}

@@ -1,0 +1,160 @@
+//! A filter's scores over all scenes of two runs.
+
+use serde::Serialize;
+
+use super::change::{Change, ChangeKind};
+use crate::bootstrap::bootstrap_noisy;
+use crate::tune::FEWEST_SCENES;
+
+/// The mean over other scenes lies beyond either end of its interval with this probability.
+const TAIL: f64 = 0.025;
+
+/// One metric of one filter, over the scenes that it applies to in both runs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MeanChange {
+    /// `jump_flood:paper`.
+    pub filter: String,
+    /// Name of the metric.
+    pub metric: String,
+    /// How many scenes.
+    pub scenes: usize,
+    /// How many of them are better, and worse, by more than noise.
+    pub better_worse: [usize; 2],
+    /// Mean of the first run, in the metric's unit.
+    pub first: f64,
+    /// Of the second.
+    pub second: f64,
+    /// By how much the second is worse; negative is better.
+    pub worse: f64,
+    /// 95 % interval of that mean over other scenes, the noise of the truths in it where their replicates tell.
+    pub interval: [f64; 2],
+    /// The verdict.
+    pub kind: MeanKind,
+}
+
+/// What the interval of a mean says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MeanKind {
+    /// No scene changed.
+    Same,
+    /// The second run is better.
+    Better,
+    /// The second run is worse.
+    Worse,
+    /// The interval holds 0.
+    Undecided,
+    /// Fewer scenes than an interval can be trusted for.
+    TooFewScenes,
+}
+
+impl MeanKind {
+    /// As a report says it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Same => "same",
+            Self::Better => "better",
+            Self::Worse => "worse",
+            Self::Undecided => "undecided",
+            Self::TooFewScenes => "few scenes",
+        }
+    }
+}
+
+/// Per filter and metric, in the order of the changes.
+pub fn means(changes: &[Change]) -> Vec<MeanChange> {
+    let mut keys: Vec<(&str, &str)> = Vec::new();
+    for change in changes.iter().filter(|change| !change.bar) {
+        let key = (change.filter.as_str(), change.metric.as_str());
+        if !keys.contains(&key) {
+            keys.push(key);
+        }
+    }
+    let of_key = |(filter, metric): (&str, &str)| {
+        let own = (changes.iter())
+            .filter(|change| change.filter == filter && change.metric == metric && !change.bar);
+        mean(&own.collect::<Vec<_>>())
+    };
+    keys.into_iter().map(of_key).collect()
+}
+
+fn mean(changes: &[&Change]) -> MeanChange {
+    let count = changes.len();
+    let mean = |value: fn(&Change) -> f64| {
+        changes.iter().map(|change| value(change)).sum::<f64>() / count as f64
+    };
+    let worse: Vec<[f64; 2]> = (changes.iter())
+        .map(|change| [change.worse, change.standard_error.unwrap_or(0.0)])
+        .collect();
+    let interval = bootstrap_noisy(&worse, TAIL);
+    let of_kind = |kind| changes.iter().filter(|change| change.kind == kind).count();
+    let kind = match interval {
+        _ if of_kind(ChangeKind::Same) == count => MeanKind::Same,
+        _ if count < FEWEST_SCENES => MeanKind::TooFewScenes,
+        [low, _] if low > 0.0 => MeanKind::Worse,
+        [_, high] if high < 0.0 => MeanKind::Better,
+        _ => MeanKind::Undecided,
+    };
+    MeanChange {
+        filter: changes[0].filter.clone(),
+        metric: changes[0].metric.clone(),
+        scenes: count,
+        better_worse: [of_kind(ChangeKind::Better), of_kind(ChangeKind::Worse)],
+        first: mean(|change| change.first),
+        second: mean(|change| change.second),
+        worse: mean(|change| change.worse),
+        interval,
+        kind,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::change::Basis;
+    use super::*;
+
+    /// One filter on as many scenes as there are numbers, by which each is worse.
+    fn changes(worse: &[f64]) -> Vec<Change> {
+        let change = |(index, worse): (usize, &f64)| Change {
+            scene: format!("scene_{index}"),
+            filter: "one:paper".to_owned(),
+            bar: false,
+            metric: "flip_moving".to_owned(),
+            first: 0.5,
+            second: 0.5 + worse,
+            worse: *worse,
+            interval: None,
+            standard_error: None,
+            basis: Basis::Floor,
+            kind: match *worse {
+                0.0 => ChangeKind::Same,
+                worse if worse > 0.0 => ChangeKind::Worse,
+                _ => ChangeKind::Better,
+            },
+        };
+        worse.iter().enumerate().map(change).collect()
+    }
+
+    #[test]
+    fn a_mean_is_worse_where_other_scenes_would_say_so_too() {
+        for (worse, expected) in [
+            (&[0.1, 0.2, 0.1, 0.2, 0.1][..], MeanKind::Worse),
+            (&[-0.1, -0.2, -0.1, -0.2, -0.1], MeanKind::Better),
+            (&[-0.3, 0.2, 0.1, -0.2, 0.1], MeanKind::Undecided),
+            (&[0.1, 0.2, 0.1, 0.2], MeanKind::TooFewScenes),
+            (&[0.0, 0.0], MeanKind::Same),
+        ] {
+            let means = means(&changes(worse));
+            assert_eq!(means.len(), 1);
+            assert_eq!(means[0].kind, expected, "{worse:?}");
+            assert_eq!(means[0].scenes, worse.len());
+        }
+    }
+
+    #[test]
+    fn bars_have_no_means() {
+        let mut all = changes(&[0.1; 5]);
+        all[0].bar = true;
+        assert_eq!(means(&all)[0].scenes, 4);
+    }
+}

@@ -1,0 +1,173 @@
+//! What of a change the truth's noise could have made: both pictures against the truth without each pair of its replicates.
+
+use std::path::{Path, PathBuf};
+
+use frame::{Alignment, Frame, Picture, Replicate, Truth, read_exr};
+use metrics::{Metric, Reference, Scores, jackknife};
+use tracer::{Progress, TraceError, Watch};
+
+use super::change::{Change, Uncertainty};
+use super::pairing::Pair;
+use super::side::Side;
+use crate::overall::METRICS;
+use crate::replicates::replicates_folder;
+use crate::{Error, FEWEST_REPLICATES, truths_without_pairs};
+
+/// Every score of every pair.
+pub fn changes(sides: [&Side; 2], pairs: &[Pair], watch: Watch) -> Result<Vec<Change>, Error> {
+    let mut changes = Vec::new();
+    let mut shared: Option<(String, Option<Parts>)> = None;
+    for (done, pair) in pairs.iter().enumerate() {
+        let progress = Progress {
+            done: done as u64,
+            total: pairs.len() as u64,
+        };
+        if watch(progress).is_break() {
+            return Err(TraceError::Cancelled.into());
+        }
+        let differs = (METRICS.iter())
+            .any(|metric| pair.first.scores.get(*metric) != pair.second.scores.get(*metric));
+        let measured = match differs {
+            true => {
+                // Pairs of one truth follow one another.
+                if shared
+                    .as_ref()
+                    .is_none_or(|(hash, _)| *hash != pair.first.truth_hash)
+                {
+                    shared = Some((pair.first.truth_hash.clone(), Parts::read(sides, pair)?));
+                }
+                let parts = shared.as_ref().and_then(|(_, parts)| parts.as_ref());
+                parts
+                    .map(|parts| parts.compare(sides, pair))
+                    .transpose()?
+                    .flatten()
+            }
+            false => None,
+        };
+        changes.extend(METRICS.iter().filter_map(|metric| {
+            let uncertainty = measured.as_ref().and_then(|own| own.uncertainty(*metric));
+            Change::of(pair, *metric, uncertainty)
+        }));
+    }
+    Ok(changes)
+}
+
+/// A truth as a whole and without each pair of its replicates, with the frame of its scene.
+struct Parts {
+    frame: Frame,
+    whole: Truth,
+    without: Vec<Truth>,
+}
+
+impl Parts {
+    /// From the first run that still has all files of the truth; none where neither has.
+    fn read(sides: [&Side; 2], pair: &Pair) -> Result<Option<Self>, Error> {
+        for side in sides {
+            let folder = side.folder().join(&pair.first.scene);
+            if let Some(parts) = Self::read_below(&folder, pair, side.run.replicates)? {
+                return Ok(Some(parts));
+            }
+        }
+        Ok(None)
+    }
+
+    fn read_below(folder: &Path, pair: &Pair, count: u32) -> Result<Option<Self>, Error> {
+        let alignment: Alignment = pair.first.alignment.parse().map_err(Error::Usage)?;
+        let truth = folder.join(format!("truth_{alignment}.exr"));
+        let frame = folder.join("frame.exr");
+        let replicates: Vec<PathBuf> = (0..count)
+            .map(|index| {
+                replicates_folder(folder, alignment).join(format!("replicate_{index:03}.exr"))
+            })
+            .collect();
+        let there = [&truth, &frame]
+            .into_iter()
+            .chain(&replicates)
+            .all(|file| file.is_file());
+        if !there || count < FEWEST_REPLICATES {
+            return Ok(None);
+        }
+        let whole = Truth::read(&truth)?;
+        if whole.provenance.content_hash != pair.first.truth_hash {
+            return Ok(None);
+        }
+        let replicates: Vec<Replicate> =
+            (replicates.iter().map(|path| Replicate::read(path))).collect::<Result<_, _>>()?;
+        Ok(Some(Self {
+            frame: Frame::read(&frame)?.cropped(),
+            without: truths_without_pairs(&whole, &replicates)?,
+            whole,
+        }))
+    }
+
+    /// None where a picture is not there.
+    fn compare(&self, sides: [&Side; 2], pair: &Pair) -> Result<Option<Paired>, Error> {
+        let files = [
+            sides[0].file(pair.first, "output.exr"),
+            sides[1].file(pair.second, "output.exr"),
+        ];
+        if !files.iter().all(|file| file.is_file()) {
+            return Ok(None);
+        }
+        let [first, second] = files.map(|file| picture(&file, &self.whole.objects));
+        let (first, second) = (first?, second?);
+        let viewing = self.frame.display.into();
+        let whole = Reference::new(&self.frame, &self.whole, None, &viewing)?;
+        let scores = |reference: &Reference| -> Result<[Scores; 2], Error> {
+            Ok([
+                reference.measure(&first)?.scores,
+                reference.measure(&second)?.scores,
+            ])
+        };
+        let without = self.without.iter().map(|part| {
+            // What is left out changes scores, not where they are taken.
+            let regions = whole.regions.clone();
+            scores(&Reference::over(
+                regions,
+                &self.frame,
+                part,
+                None,
+                &viewing,
+            )?)
+        });
+        Ok(Some(Paired {
+            whole: scores(&whole)?,
+            without: without.collect::<Result<_, Error>>()?,
+        }))
+    }
+}
+
+/// What a filter made, as its run kept it.
+fn picture(path: &Path, objects: &[String]) -> Result<Picture, Error> {
+    let file = read_exr(path)?;
+    let mattes = objects
+        .iter()
+        .map(|object| file.plane(&format!("coverage.{object}")));
+    Ok(Picture {
+        color: file.color("")?,
+        coverage: mattes.collect::<Result<_, _>>()?,
+    })
+}
+
+/// Both pictures' scores against the whole truth, and against it without each pair of replicates.
+struct Paired {
+    whole: [Scores; 2],
+    without: Vec<[Scores; 2]>,
+}
+
+impl Paired {
+    /// None where a part of the truth cannot tell the score.
+    fn uncertainty(&self, metric: Metric) -> Option<Uncertainty> {
+        let worse = |[first, second]: &[Scores; 2]| {
+            let badness =
+                |scores: &Scores| Some(metric.ideal().badness(scores.get(metric).value()?));
+            Some(badness(second)? - badness(first)?)
+        };
+        let without: Option<Vec<f64>> = self.without.iter().map(worse).collect();
+        let interval = jackknife(worse(&self.whole)?, &without?)?;
+        Some(Uncertainty {
+            interval: [interval.low, interval.high],
+            standard_error: interval.standard_error,
+        })
+    }
+}

@@ -1,0 +1,109 @@
+//! Which case of one run belongs to which of the other.
+
+use super::side::Side;
+use crate::{Case, Error, Run};
+
+/// The same case in two runs.
+#[derive(Clone, Copy, Debug)]
+pub struct Pair<'a> {
+    /// Of the first run.
+    pub first: &'a Case,
+    /// Of the second one.
+    pub second: &'a Case,
+}
+
+/// The cases that both runs have, in the order of the first.
+pub fn pairs<'a>(first: &'a Run, second: &'a Run) -> Vec<Pair<'a>> {
+    let pair = |first: &'a Case| {
+        let second = second.cases.iter().find(|case| key(case) == key(first))?;
+        Some(Pair { first, second })
+    };
+    first.cases.iter().filter_map(pair).collect()
+}
+
+/// The cases of `run` that `other` lacks.
+pub fn only_in(run: &Run, other: &Run) -> Vec<String> {
+    let lacks = |case: &&Case| !other.cases.iter().any(|own| key(own) == key(case));
+    run.cases.iter().filter(lacks).map(title).collect()
+}
+
+/// `fan / jump_flood:paper`; bars with their alignment.
+pub fn title(case: &Case) -> String {
+    format!("{} / {}", case.scene, subject(case))
+}
+
+/// `jump_flood:paper`; bars are made anew for every alignment.
+pub fn subject(case: &Case) -> String {
+    match case.bar {
+        true => format!("{} ({})", case.name(), case.alignment),
+        false => case.name(),
+    }
+}
+
+/// Refuses runs whose scores do not say the same.
+pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(), Error> {
+    let refuse = |reason: String| Err(Error::Usage(format!("{}: {reason}", second.path.display())));
+    let there = first.path.display();
+    let size = |side: &Side| (side.run.width, side.run.height);
+    if size(first) != size(second) {
+        let [(w, h), (width, height)] = [size(first), size(second)];
+        return refuse(format!(
+            "its pictures have {width}x{height} pixels, those of {there} {w}x{h}; scores of two sizes say different things: \
+             run one of them again with the other's --size"
+        ));
+    }
+    if pairs.is_empty() {
+        let scenes = |side: &Side| names(side.run.cases.iter().map(|case| case.scene.as_str()));
+        let filters = |side: &Side| {
+            names(
+                side.run
+                    .cases
+                    .iter()
+                    .filter(|case| !case.bar)
+                    .map(|case| case.filter.as_str()),
+            )
+        };
+        return refuse(format!(
+            "it has no case in common with {there}: scenes {} there and {} here, filters {} there and {} here; run the same \
+             scenes and filters twice",
+            scenes(first),
+            scenes(second),
+            filters(first),
+            filters(second)
+        ));
+    }
+    match pairs
+        .iter()
+        .find(|pair| pair.first.truth_hash != pair.second.truth_hash)
+    {
+        None => Ok(()),
+        Some(Pair { first, .. }) => refuse(format!(
+            "its truth of {} ({}) is another than that of {there}: scene, exposure, samples, seed or tracer have changed, and \
+             scores against two truths differ for that alone; run both with the same --samples-per-pixel, --replicates, --seed \
+             and --exposure by the same version",
+            first.scene, first.alignment
+        )),
+    }
+}
+
+fn key(case: &Case) -> (&str, String, &str, bool) {
+    (&case.scene, case.name(), &case.alignment, case.bar)
+}
+
+/// Each once, at most six.
+fn names<'a>(all: impl Iterator<Item = &'a str>) -> String {
+    const MOST: usize = 6;
+    let mut once: Vec<&str> = Vec::new();
+    for name in all {
+        if !once.contains(&name) {
+            once.push(name);
+        }
+    }
+    let more = once.len().saturating_sub(MOST);
+    once.truncate(MOST);
+    let text = once.join(", ");
+    match more {
+        0 => text,
+        more => format!("{text} and {more} more"),
+    }
+}

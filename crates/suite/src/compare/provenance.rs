@@ -1,0 +1,102 @@
+//! Where the numbers of a comparison come from.
+
+use maud::{Markup, html};
+
+use super::side::Side;
+use crate::Run;
+
+/// Both runs side by side, and the truths that they share.
+pub fn provenance(first: &Side, second: &Side) -> Markup {
+    let rows = facts(&first.run).into_iter().zip(facts(&second.run));
+    html! {
+        section.provenance {
+            h2 { "Provenance" }
+            div.scroll tabindex="0" role="region" aria-label="Both runs" {
+                table.wide {
+                    thead {
+                        tr { th scope="col" {} th.text scope="col" { "first" } th.text scope="col" { "second" } }
+                    }
+                    tbody {
+                        tr {
+                            th scope="row" { "file" }
+                            td.text { (first.path.display()) }
+                            td.text { (second.path.display()) }
+                        }
+                        @for ((name, first), (_, second)) in rows {
+                            tr { th scope="row" { (name) } td.text { (first) } td.text { (second) } }
+                        }
+                    }
+                }
+            }
+            div.scroll tabindex="0" role="region" aria-label="Truths" {
+                table {
+                    caption { "Truths, which both runs share" }
+                    thead {
+                        tr {
+                            th scope="col" { "scene" }
+                            th.text scope="col" { "shutter" }
+                            th.text scope="col" { "hash of the truth" }
+                        }
+                    }
+                    tbody {
+                        @for [scene, alignment, hash] in truths(&first.run, &second.run) {
+                            tr { th scope="row" { (scene) } td.text { (alignment) } td.text { code { (hash) } } }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn facts(run: &Run) -> Vec<(&'static str, String)> {
+    let adapter = match &run.adapter {
+        Some(own) => format!(
+            "{} ({}, {}, driver {})",
+            own.name, own.kind, own.backend, own.driver
+        ),
+        None => "none: every filter is a program".to_owned(),
+    };
+    vec![
+        (
+            "command",
+            run.command
+                .iter()
+                .skip(1)
+                .fold("shuttertruth".to_owned(), |line, word| line + " " + word),
+        ),
+        ("program", run.program.clone()),
+        ("adapter", adapter),
+        ("pictures", format!("{}x{} pixels", run.width, run.height)),
+        (
+            "truth",
+            format!(
+                "{} samples per pixel in {} replicates, seed {}",
+                run.samples_per_pixel, run.replicates, run.seed
+            ),
+        ),
+        (
+            "frame",
+            format!(
+                "velocity {}, colour {}, guard band of {} pixels",
+                run.velocity, run.color, run.guard_band
+            ),
+        ),
+    ]
+}
+
+/// Scene, alignment and hash of what both have, each once.
+fn truths<'a>(first: &'a Run, second: &Run) -> Vec<[&'a str; 3]> {
+    let mut truths = Vec::new();
+    for case in &first.cases {
+        let shared = second
+            .cases
+            .iter()
+            .any(|own| own.scene == case.scene && own.truth_hash == case.truth_hash);
+        let truth = [case.scene.as_str(), &case.alignment, &case.truth_hash];
+        if shared && !truths.contains(&truth) {
+            truths.push(truth);
+        }
+    }
+    truths
+}

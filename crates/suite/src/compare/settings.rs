@@ -1,0 +1,78 @@
+//! In what two runs were set up differently.
+
+use std::collections::BTreeSet;
+
+use filters::AdapterDescription;
+use serde::Serialize;
+
+use super::pairing::Pair;
+use crate::Run;
+
+/// One setting with two values.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct SettingChange {
+    /// `adapter`, or `jump_flood:paper.samples`.
+    pub name: String,
+    /// In the first run; empty where it has none.
+    pub first: String,
+    /// In the second one.
+    pub second: String,
+}
+
+/// Settings of the runs, then parameters of the filters that both have, where they differ.
+pub fn settings(first: &Run, second: &Run, pairs: &[Pair]) -> Vec<SettingChange> {
+    let of_runs = facts(first).into_iter().zip(facts(second));
+    let mut all: Vec<SettingChange> = of_runs
+        .map(|((name, first), (_, second))| SettingChange {
+            name: name.to_owned(),
+            first,
+            second,
+        })
+        .collect();
+    for pair in pairs {
+        all.extend(parameters(pair));
+    }
+    let mut known = BTreeSet::new();
+    all.retain(|own| {
+        own.first != own.second
+            && known.insert((own.name.clone(), own.first.clone(), own.second.clone()))
+    });
+    all
+}
+
+fn facts(run: &Run) -> Vec<(&'static str, String)> {
+    vec![
+        ("program", run.program.clone()),
+        ("adapter", adapter(&run.adapter)),
+        ("velocity", run.velocity.clone()),
+        ("color", run.color.clone()),
+        ("sky velocity", run.sky_velocity.to_string()),
+        ("guard band", format!("{} px", run.guard_band)),
+    ]
+}
+
+fn adapter(adapter: &Option<AdapterDescription>) -> String {
+    match adapter {
+        Some(own) => format!("{}, {}, driver {}", own.name, own.backend, own.driver),
+        None => "none".to_owned(),
+    }
+}
+
+fn parameters(pair: &Pair) -> Vec<SettingChange> {
+    let names: BTreeSet<&String> = [pair.first, pair.second]
+        .into_iter()
+        .flat_map(|case| case.parameters.keys())
+        .collect();
+    let value = |case: &crate::Case, name| {
+        case.parameters
+            .get(name)
+            .map_or_else(String::new, ToString::to_string)
+    };
+    (names.into_iter())
+        .map(|name| SettingChange {
+            name: format!("{}.{name}", pair.first.name()),
+            first: value(pair.first, name),
+            second: value(pair.second, name),
+        })
+        .collect()
+}

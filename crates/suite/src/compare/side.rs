@@ -1,0 +1,38 @@
+//! One of two runs.
+
+use std::path::{Path, PathBuf};
+
+use crate::{Case, Error, Run};
+
+/// A finished run and where it lies.
+#[derive(Clone, Debug)]
+pub struct Side {
+    /// Its run.json.
+    pub path: PathBuf,
+    /// What stands in it.
+    pub run: Run,
+}
+
+impl Side {
+    /// Reads a run.json, or that of a folder.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let path = match path.is_dir() {
+            true => path.join("run.json"),
+            false => path.to_owned(),
+        };
+        Ok(Self {
+            run: Run::read(&path)?,
+            path,
+        })
+    }
+
+    /// The folder that the run's pictures lie below.
+    pub fn folder(&self) -> &Path {
+        self.path.parent().unwrap_or(Path::new(""))
+    }
+
+    /// A file of a case.
+    pub fn file(&self, case: &Case, name: &str) -> PathBuf {
+        self.folder().join(&case.folder).join(name)
+    }
+}

@@ -1,0 +1,103 @@
+//! A case as one multi-layer OpenEXR file, for programs that group channels by their layers.
+
+use std::path::{Path, PathBuf};
+
+use frame::{ExrFile, Frame, Truth, read_exr, write_exr};
+use tracer::{Progress, TraceError, Watch};
+
+use crate::{Case, Error, Run};
+
+/// Single channels of errors.exr that become layers.
+const MAPS: [&str; 3] = ["flip", "label_tv", "bleed"];
+
+/// Writes one file a case below `out`, named as the case's folder below `folder`, that of run.json; returns them. `watch`
+/// hears of every case.
+pub fn write_layers(
+    run: &Run,
+    folder: &Path,
+    out: &Path,
+    watch: Watch,
+) -> Result<Vec<PathBuf>, Error> {
+    let mut written = Vec::new();
+    let mut scene: Option<Inputs> = None;
+    for (done, case) in run.cases.iter().enumerate() {
+        let progress = Progress {
+            done: done as u64,
+            total: run.cases.len() as u64,
+        };
+        if watch(progress).is_break() {
+            return Err(TraceError::Cancelled.into());
+        }
+        // Cases of one scene and alignment follow one another.
+        let inputs = match scene.take() {
+            Some(inputs) if inputs.is_of(case) => inputs,
+            _ => Inputs::read(case, folder)?,
+        };
+        let path = out.join(format!("{}.exr", case.folder.display()));
+        write_exr(&path, &layers(run, case, &inputs, folder)?)?;
+        written.push(path);
+        scene = Some(inputs);
+    }
+    Ok(written)
+}
+
+/// What all cases of one scene and alignment share.
+struct Inputs {
+    scene: String,
+    alignment: String,
+    frame: Frame,
+    truth: Truth,
+}
+
+impl Inputs {
+    fn read(case: &Case, folder: &Path) -> Result<Self, Error> {
+        let files = folder.join(&case.scene);
+        Ok(Self {
+            scene: case.scene.clone(),
+            alignment: case.alignment.clone(),
+            frame: Frame::read(&files.join("frame.exr"))?.cropped(),
+            truth: Truth::read(&files.join(format!("truth_{}.exr", case.alignment)))?,
+        })
+    }
+
+    fn is_of(&self, case: &Case) -> bool {
+        self.scene == case.scene && self.alignment == case.alignment
+    }
+}
+
+fn layers(run: &Run, case: &Case, inputs: &Inputs, folder: &Path) -> Result<ExrFile, Error> {
+    let own = folder.join(&case.folder);
+    let (output, errors) = (
+        read_exr(&own.join("output.exr"))?,
+        read_exr(&own.join("errors.exr"))?,
+    );
+    let Inputs { frame, truth, .. } = inputs;
+    let mean = truth.mean();
+    let (width, height) = truth.size();
+    let mut file = ExrFile::new(width, height);
+    file.push_color("truth", &mean.color);
+    file.push_color("output", &output.color("")?);
+    file.push_color("instant", &frame.color);
+    file.push_color("signed", &errors.color("signed")?);
+    for map in MAPS {
+        file.push_plane(map, &errors.plane(map)?);
+    }
+    file.push_plane("velocity.X", &frame.velocity.map(|velocity| velocity[0]));
+    file.push_plane("velocity.Y", &frame.velocity.map(|velocity| velocity[1]));
+    file.push_plane("depth.Z", &frame.depth);
+    for (object, plane) in truth.objects.iter().zip(&mean.coverage) {
+        file.push_plane(&format!("coverage.{object}"), plane);
+    }
+    for object in &truth.objects {
+        let matte = output.plane(&format!("coverage.{object}"))?;
+        file.push_plane(&format!("output_coverage.{object}"), &matte);
+    }
+    file.set("kind", "layers");
+    file.set("program", &run.program);
+    file.set("scene", &case.scene);
+    file.set("filter", case.name());
+    file.set("alignment", &case.alignment);
+    file.set("exposure", case.exposure);
+    file.set("truth_hash", &case.truth_hash);
+    Ok(file)
+}

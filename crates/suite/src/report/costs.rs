@@ -1,0 +1,226 @@
+//! What filters cost, beside what they are worth: from the bench that lies beside the run, where there is one.
+
+use std::path::Path;
+
+use filters::Clock;
+use frame::FileError;
+use maud::{Markup, html};
+
+use super::pareto_chart::{Point, pareto_chart};
+use super::reach_chart::{reach_chart, span};
+use super::shown::SHOWN;
+use super::subject::{Subject, subjects};
+use crate::bench::{BASELINE, BENCH_FORMAT, CaseCost, GROWTH_FROM, REACHES, Spread};
+use crate::{Bench, Error, Run};
+
+/// What `shuttertruth bench` calls its file.
+const BENCH_FILE: &str = "bench.json";
+
+/// The bench that was written into the folder of a run; none where there is no such file.
+pub fn read_bench(folder: &Path) -> Result<Option<Bench>, Error> {
+    let path = folder.join(BENCH_FILE);
+    let text = match std::fs::read_to_string(&path) {
+        Ok(text) => text,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+        Err(error) => return Err(FileError::io(&path, "read", error).into()),
+    };
+    let refuse = |reason: String| {
+        Error::Usage(format!(
+            "{}: {reason}; `shuttertruth bench` writes one; delete it to have a report without costs",
+            path.display()
+        ))
+    };
+    let bench: Bench = serde_json::from_str(&text)
+        .map_err(|error| refuse(format!("no bench of this program: {error}")))?;
+    match bench.format {
+        BENCH_FORMAT => Ok(Some(bench)),
+        other => Err(refuse(format!(
+            "has format {other}; allowed: {BENCH_FORMAT}"
+        ))),
+    }
+}
+
+/// What a subject cost; none for bars, and for filters that were not timed with these very parameters.
+pub fn cost_of<'a>(run: &Run, bench: Option<&'a Bench>, subject: &Subject) -> Option<&'a CaseCost> {
+    let case = run
+        .cases
+        .iter()
+        .find(|case| Subject::of(case) == *subject)?;
+    let mut costs = bench?.cases.iter();
+    costs.find(|cost| {
+        (&cost.filter, &cost.preset, &cost.parameters)
+            == (&case.filter, &case.preset, &case.parameters)
+    })
+}
+
+/// `1.23`, in milliseconds; `-` where nothing was timed.
+pub fn cost_text(cost: Option<&CaseCost>) -> String {
+    cost.map_or("-".to_owned(), |cost| milliseconds(cost.seconds.median))
+}
+
+/// Quality against time, passes, and cost against reach.
+pub fn costs(run: &Run, bench: Option<&Bench>) -> Markup {
+    html! {
+        section.costs {
+            h2 { "Costs" }
+            @match bench {
+                None => p {
+                    "Nothing was timed beside this run. " code { "shuttertruth bench --out FOLDER" }
+                    ", with the run's folder, times its filters; then report again."
+                },
+                Some(bench) => {
+                    p.note { (provenance(bench)) }
+                    (pareto_chart(&points(run, bench), &bars(run)))
+                    (passes(run, bench))
+                    (reaches(bench))
+                }
+            }
+        }
+    }
+}
+
+fn provenance(bench: &Bench) -> String {
+    let clock = match bench.clock {
+        Clock::Timestamps => "by the GPU's own clock",
+        Clock::WallClock => "by the wall clock around each pass: the adapter has no timestamps",
+    };
+    format!(
+        "Timed on {} ({}, {}, driver {}) at {}x{}, on panels that move {} pixels: median of {} rounds {clock}. Quality is that of \
+         this run's pictures.",
+        bench.adapter.name,
+        bench.adapter.kind,
+        bench.adapter.backend,
+        bench.adapter.driver,
+        bench.width,
+        bench.height,
+        bench.speed,
+        bench.rounds
+    )
+}
+
+/// FLIP of every filter that was timed, against its time.
+fn points(run: &Run, bench: &Bench) -> Vec<Point> {
+    let timed = subjects(run).into_iter().filter_map(|subject| {
+        let cost = cost_of(run, Some(bench), &subject)?;
+        Some(Point {
+            title: subject.title(),
+            milliseconds: 1e3 * cost.seconds.median,
+            error: mean_error(run, &subject)?,
+        })
+    });
+    timed.collect()
+}
+
+/// The bars' errors, which no time belongs to.
+fn bars(run: &Run) -> Vec<(String, f64)> {
+    let bars = subjects(run).into_iter().filter(|subject| subject.bar);
+    bars.filter_map(|bar| Some((bar.title(), mean_error(run, &bar)?)))
+        .collect()
+}
+
+/// Mean over the scenes that have one.
+fn mean_error(run: &Run, subject: &Subject) -> Option<f64> {
+    let metric = SHOWN[0].metric;
+    let own = run
+        .cases
+        .iter()
+        .filter(|case| Subject::of(case) == *subject);
+    let values: Vec<f64> = own
+        .filter_map(|case| case.scores.get(metric).value())
+        .collect();
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}
+
+/// The run's filters that were timed.
+fn timed<'a>(run: &Run, bench: &'a Bench) -> Vec<(String, &'a CaseCost)> {
+    let timed = subjects(run).into_iter();
+    timed
+        .filter_map(|subject| Some((subject.title(), cost_of(run, Some(bench), &subject)?)))
+        .collect()
+}
+
+fn passes(run: &Run, bench: &Bench) -> Markup {
+    html! {
+        div.scroll tabindex="0" role="region" aria-label="Time of every pass" {
+            table.passes {
+                caption { "Time of every pass; baseline: " (BASELINE) }
+                thead {
+                    tr {
+                        th scope="col" { "filter / pass" }
+                        th scope="col" { "ms" }
+                        th scope="col" { "quartiles" }
+                        th scope="col" { "x baseline" }
+                        th scope="col" { "bytes per pixel" }
+                    }
+                }
+                @for (title, cost) in timed(run, bench) {
+                    tbody {
+                        tr.group {
+                            th scope="row" { (title) }
+                            (spread(&cost.seconds))
+                            td { (format!("{:.2}", cost.ratio.median)) }
+                            td { (format!("{:.0}", cost.bytes_per_pixel)) }
+                        }
+                        @for pass in &cost.passes {
+                            tr.pass {
+                                th scope="row" {
+                                    (pass.entry) @if pass.iterations > 1 { " x " (pass.iterations) }
+                                }
+                                (spread(&pass.seconds))
+                                td {}
+                                td { (format!("{:.0}", pass.bytes_per_pixel)) }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn reaches(bench: &Bench) -> Markup {
+    let last = REACHES[REACHES.len() - 1];
+    let span = span(&bench.reaches);
+    html! {
+        div.scroll tabindex="0" role="region" aria-label="Cost against reach" {
+            table {
+                caption {
+                    "Cost against reach: milliseconds where motion is so many pixels, and the filter is set to cover it; the \
+                     pictures are logarithmic both ways, and of one scale"
+                }
+                thead {
+                    tr {
+                        th scope="col" { "filter" }
+                        @for pixels in REACHES { th scope="col" { (pixels) " px" } }
+                        th scope="col" { (last) " / " (GROWTH_FROM) }
+                        th scope="col" { span.unseen { "picture" } }
+                    }
+                }
+                tbody {
+                    @for cost in &bench.reaches {
+                        tr {
+                            th scope="row" { (cost.filter) ":" (cost.preset) }
+                            @for point in &cost.points {
+                                td { (point.seconds.map_or("-".to_owned(), |own| milliseconds(own.median))) }
+                            }
+                            td { (cost.growth.map_or("-".to_owned(), |own| format!("{:.2}", own.median))) }
+                            td { (reach_chart(cost, span)) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn spread(seconds: &Spread) -> Markup {
+    html! {
+        td { (milliseconds(seconds.median)) }
+        td { (milliseconds(seconds.lower_quartile)) "–" (milliseconds(seconds.upper_quartile)) }
+    }
+}
+
+fn milliseconds(seconds: f64) -> String {
+    let digits = if seconds < 0.01 { 2 } else { 1 };
+    format!("{:.digits$}", 1e3 * seconds)
+}

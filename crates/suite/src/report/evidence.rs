@@ -1,0 +1,58 @@
+//! Why a bound is not kept: the place to look at, and what was searched for it.
+
+use std::str::FromStr;
+
+use metrics::Metric;
+
+use super::precision::Nature;
+use super::scene_files::{CaseFiles, SceneFiles};
+use crate::gate::{Finding, Kind};
+use crate::worst::{map_name, worst_block};
+use crate::{Case, Error};
+
+/// The worst place of one score.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Evidence {
+    /// Middle of the block whose error is largest.
+    pub place: [u32; 2],
+    /// The error map, as errors.exr calls it.
+    pub map: String,
+    /// The map's plane on the scene's shelf.
+    pub plane: usize,
+}
+
+/// None for a finding that needs no explanation. A `check` has looked for the place; for a `run` it is looked for here.
+pub fn evidence(
+    finding: &Finding,
+    case: &Case,
+    files: &CaseFiles,
+    scene: &mut SceneFiles,
+) -> Result<Option<Evidence>, Error> {
+    if !is_notable(finding) {
+        return Ok(None);
+    }
+    let metric = Metric::from_str(&finding.metric).expect("a run's verdicts are about metrics");
+    let probed = (files.errors.channels.iter()).any(|channel| channel.name == "unity");
+    let map = match &finding.worst {
+        Some(worst) => worst.map.clone(),
+        None => map_name(metric, probed).to_owned(),
+    };
+    let plane = files.errors.plane(&map)?;
+    let (x, y) = match &finding.worst {
+        Some(worst) => (worst.x, worst.y),
+        None => worst_block(metric, &plane, &scene.truths[&case.alignment].regions),
+    };
+    Ok(Some(Evidence {
+        place: [x, y],
+        plane: scene.shelf.plane(&map, Nature::Number, &plane),
+        map,
+    }))
+}
+
+/// Whether a reader will want to see why.
+pub fn is_notable(finding: &Finding) -> bool {
+    matches!(
+        finding.kind,
+        Kind::Broken | Kind::Inconclusive | Kind::TooNoisy
+    )
+}

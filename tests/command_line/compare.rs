@@ -1,0 +1,258 @@
+//! Two runs side by side: what changed, and what is noise.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::bench::{Bench, assert_done, assert_refused, quick, stdout};
+
+const GATHER: [&str; 2] = ["--filters", "identity,velocity_gather:fine"];
+
+/// A run into `out`, and the same with `more` into `other`.
+fn two_runs(more: &[&str]) -> Bench {
+    let bench = Bench::new();
+    assert_done(&bench.run(&GATHER));
+    assert_done(&run_into(&bench, "other", "16", &[&GATHER, more].concat()));
+    bench
+}
+
+fn run_into(
+    bench: &Bench,
+    out: &str,
+    samples_per_pixel: &str,
+    more: &[&str],
+) -> std::process::Output {
+    let mut words = quick("run", samples_per_pixel);
+    words[3] = out;
+    bench.shuttertruth(&[&words, more].concat())
+}
+
+/// The same at half the size.
+fn smaller_run_into(bench: &Bench, out: &str, more: &[&str]) -> std::process::Output {
+    let mut words = quick("run", "16");
+    (words[3], words[5]) = (out, "32x16");
+    bench.shuttertruth(&[&words, more].concat())
+}
+
+fn compared(bench: &Bench) -> Value {
+    let output = bench.shuttertruth(&["compare", "out/run.json", "other", "--json"]);
+    assert_done(&output);
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn changes<'a>(compared: &'a Value, filter: &str) -> Vec<&'a Value> {
+    let all = compared["changes"].as_array().unwrap();
+    all.iter()
+        .filter(|change| change["filter"] == filter)
+        .collect()
+}
+
+#[test]
+fn a_run_compared_with_itself_did_not_change() {
+    let bench = two_runs(&[]);
+    let compared = compared(&bench);
+    let all = compared["changes"].as_array().unwrap();
+    // Five bars and two filters, each with at least FLIP, PSNR and label TV.
+    assert!(all.len() >= 21, "{}", all.len());
+    for change in all {
+        assert_eq!(change["kind"], "same", "{change}");
+        assert_eq!(change["worse"], 0.0);
+    }
+    for key in ["settings", "only_in_first", "only_in_second"] {
+        assert_eq!(compared[key].as_array().unwrap().len(), 0, "{key}");
+    }
+    let table = stdout(&bench.shuttertruth(&["compare", "out", "other"]));
+    assert!(
+        table.contains("nothing changed of: identity:default, velocity_gather:fine"),
+        "{table}"
+    );
+    assert!(
+        table.contains("0 worse, 0 better, 0 within noise"),
+        "{table}"
+    );
+}
+
+#[test]
+fn a_changed_parameter_is_named_and_its_changes_have_intervals() {
+    let bench = two_runs(&["--set", "velocity_gather.samples=2"]);
+    let compared = compared(&bench);
+    let settings = compared["settings"].as_array().unwrap();
+    assert_eq!(settings.len(), 1, "{settings:?}");
+    assert_eq!(settings[0]["name"], "velocity_gather:fine.samples");
+    assert_eq!(settings[0]["second"], "2");
+    for change in changes(&compared, "identity:default") {
+        assert_eq!(change["kind"], "same", "{change}");
+    }
+    let run = |out: &str| -> suite::Run {
+        serde_json::from_slice(&fs::read(bench.path(out).join("run.json")).unwrap()).unwrap()
+    };
+    let score = |run: &suite::Run| {
+        let case = run
+            .cases
+            .iter()
+            .find(|case| case.filter == "velocity_gather")
+            .unwrap();
+        case.scores
+            .get("flip_moving".parse().unwrap())
+            .value()
+            .unwrap()
+    };
+    let (first, second) = (score(&run("out")), score(&run("other")));
+    let own = changes(&compared, "velocity_gather:fine");
+    let flip = own
+        .iter()
+        .find(|change| change["metric"] == "flip_moving")
+        .unwrap();
+    assert_eq!(flip["first"], first);
+    assert_eq!(flip["second"], second);
+    assert_eq!(flip["worse"], second - first);
+    // Two taps instead of many leave gaps that no noise of a truth explains.
+    assert_eq!(flip["kind"], "worse", "{flip}");
+    assert_eq!(flip["basis"], "replicates");
+    let ends = flip["interval"].as_array().unwrap();
+    let [low, high] = [0, 1].map(|end| ends[end].as_f64().unwrap());
+    assert!(
+        0.0 < low && low < second - first && second - first < high,
+        "{flip}"
+    );
+    // What both scores share falls out: the floor of either is wider than the interval of their difference.
+    let case = run("out")
+        .cases
+        .into_iter()
+        .find(|case| case.filter == "velocity_gather")
+        .unwrap();
+    let metrics::Measured::Score(score) = case.scores.get("flip_moving".parse().unwrap()) else {
+        panic!("the metric applies");
+    };
+    assert!(
+        high - low < 2.0 * score.floor,
+        "{low} {high} {}",
+        score.floor
+    );
+}
+
+#[test]
+fn without_replicates_the_floors_decide_and_the_output_says_so() {
+    let bench = two_runs(&["--set", "velocity_gather.samples=2"]);
+    for out in ["out", "other"] {
+        fs::remove_dir_all(bench.path(out).join("plate/truth_trailing")).unwrap();
+    }
+    let compared = compared(&bench);
+    let own = changes(&compared, "velocity_gather:fine");
+    let flip = own
+        .iter()
+        .find(|change| change["metric"] == "flip_moving")
+        .unwrap();
+    assert_eq!(flip["basis"], "floor");
+    assert_eq!(flip["interval"], Value::Null);
+    let table = stdout(&bench.shuttertruth(&["compare", "out", "other"]));
+    assert!(
+        table.contains("told from noise by their floors alone"),
+        "{table}"
+    );
+}
+
+#[test]
+fn cases_of_one_run_alone_are_named() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&["--filters", "identity"]));
+    assert_done(&run_into(&bench, "other", "16", &GATHER));
+    let compared = compared(&bench);
+    assert_eq!(compared["only_in_first"].as_array().unwrap().len(), 0);
+    assert_eq!(
+        compared["only_in_second"],
+        serde_json::json!(["plate / velocity_gather:fine"])
+    );
+    let table = stdout(&bench.shuttertruth(&["compare", "out", "other"]));
+    assert!(
+        table.contains("only in other/run.json:\n  plate / velocity_gather:fine\n"),
+        "{table}"
+    );
+}
+
+#[test]
+fn runs_that_say_different_things_are_refused() {
+    let bench = Bench::new();
+    let identity = ["--filters", "identity"];
+    assert_done(&bench.run(&identity));
+    let refused = |parts: &[&str]| {
+        assert_refused(&bench.shuttertruth(&["compare", "out", "other"]), 2, parts);
+    };
+    assert_done(&smaller_run_into(&bench, "other", &identity));
+    refused(&["other/run.json", "32x16", "64x32", "--size"]);
+    fs::remove_dir_all(bench.path("other")).unwrap();
+    assert_done(&run_into(&bench, "other", "32", &identity));
+    refused(&[
+        "other/run.json",
+        "truth of plate (trailing)",
+        "--samples-per-pixel",
+    ]);
+    fs::remove_dir_all(bench.path("other")).unwrap();
+    bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
+    assert_done(&run_into(
+        &bench,
+        "other",
+        "16",
+        &["--filters", "identity", "--scenes", "slow"],
+    ));
+    refused(&["no case in common", "plate there and slow here"]);
+    fs::write(bench.path("other/run.json"), "{}").unwrap();
+    refused(&["other/run.json", "no run of this program"]);
+    fs::remove_file(bench.path("other/run.json")).unwrap();
+    refused(&["other/run.json", "cannot read"]);
+}
+
+#[test]
+fn the_page_holds_both_pictures_and_says_what_each_run_was() {
+    let bench = two_runs(&["--set", "velocity_gather.samples=2"]);
+    let page = bench.path("page.html");
+    let words = ["compare", "out", "other", "--html", "page.html"];
+    assert!(stdout(&bench.shuttertruth(&words)).contains("written: page.html ("));
+    let text = fs::read_to_string(&page).unwrap();
+    let address = |out: &str, name: &str| {
+        use base64::Engine;
+        let bytes = fs::read(bench.path(out).join("plate").join(name)).unwrap();
+        let engine = base64::engine::general_purpose::STANDARD;
+        format!("src=\"data:image/png;base64,{}\"", engine.encode(bytes))
+    };
+    for (out, name) in [
+        ("out", "velocity_gather_fine/output.png"),
+        ("other", "velocity_gather_fine/output.png"),
+        ("out", "truth_trailing.png"),
+    ] {
+        assert_eq!(text.matches(&address(out, name)).count(), 1, "{out} {name}");
+    }
+    for words in ["plate / velocity_gather:fine", "--out other", "▲ worse"] {
+        assert!(text.contains(words), "{words}");
+    }
+    assert!(
+        !text.contains("http:") && !text.contains("https:"),
+        "something is fetched"
+    );
+    assert!(text.contains("default-src 'none'"));
+    assert_done(&bench.shuttertruth(&words));
+    assert_eq!(
+        fs::read_to_string(&page).unwrap(),
+        text,
+        "the same runs make another page"
+    );
+}
+
+#[test]
+fn a_scene_called_script_is_shown_and_not_run() {
+    let bench = Bench::new();
+    bench.copy_scene("<script>alert(1)", |text| text.replace("-1.6", "-0.8"));
+    assert_done(&bench.run(&GATHER));
+    let more = [&GATHER[..], &["--set", "velocity_gather.samples=2"]].concat();
+    assert_done(&run_into(&bench, "other", "16", &more));
+    assert_done(&bench.shuttertruth(&["compare", "out", "other", "--html", "page.html"]));
+    let page = fs::read_to_string(bench.path("page.html")).unwrap();
+    assert!(
+        page.contains("&lt;script&gt;alert(1)"),
+        "the scene is not shown"
+    );
+    assert!(
+        !page.contains("<script>alert(1)"),
+        "the scene's name is a script"
+    );
+}

@@ -1,0 +1,125 @@
+//! Pages that `run` and `check` write themselves, and the layers beside a report.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use frame::{Frame, Truth, read_exr};
+
+use crate::bench::{Bench, assert_done, assert_refused, files_below, stdout};
+
+const IDENTITY: [&str; 2] = ["--filters", "identity"];
+
+#[test]
+fn run_and_check_write_the_page_that_report_writes() {
+    let bench = Bench::new();
+    bench.write(
+        "bounds.toml",
+        "[default]\nflip_moving = { limit = 0.2, why = \"it is broken\" }\n",
+    );
+    let reported = || {
+        assert_done(&bench.shuttertruth(&["report", "out", "--html", "reported.html"]));
+        fs::read(bench.path("reported.html")).unwrap()
+    };
+    let output = bench.run(&[&IDENTITY[..], &["--html", "own.html"]].concat());
+    assert_done(&output);
+    assert!(
+        stdout(&output).contains("written: own.html ("),
+        "{}",
+        stdout(&output)
+    );
+    assert!(
+        fs::read(bench.path("own.html")).unwrap() == reported(),
+        "run writes another page"
+    );
+    let output = bench.check(&[&IDENTITY[..], &["--html", "own.html"]].concat());
+    assert_eq!(output.status.code(), Some(1), "the bound is broken");
+    assert!(
+        stdout(&output).contains("written: own.html ("),
+        "{}",
+        stdout(&output)
+    );
+    assert!(
+        fs::read(bench.path("own.html")).unwrap() == reported(),
+        "check writes another page"
+    );
+}
+
+#[test]
+fn layers_hold_what_the_files_of_the_case_hold() {
+    let bench = Bench::new();
+    let words = ["--filters", "velocity_gather:fine", "--guard-band", "4"];
+    assert_done(&bench.run(&words));
+    assert_done(&bench.shuttertruth(&["report", "out", "--exr", "layers", "--quiet"]));
+    let run = bench.measured();
+    assert_eq!(
+        files_below(&bench.path("layers")).len(),
+        run.cases.len(),
+        "one file a case"
+    );
+    let layers = read_exr(&bench.path("layers/plate/velocity_gather_fine.exr")).unwrap();
+    let case = bench.path("out/plate/velocity_gather_fine");
+    let output = read_exr(&case.join("output.exr")).unwrap();
+    let errors = read_exr(&case.join("errors.exr")).unwrap();
+    let truth = Truth::read(&bench.path("out/plate/truth_trailing.exr")).unwrap();
+    let frame = Frame::read(&bench.path("out/plate/frame.exr"))
+        .unwrap()
+        .cropped();
+    assert_eq!(
+        (layers.width, layers.height),
+        (64, 32),
+        "the guard band is cropped"
+    );
+    assert_eq!(layers.color("truth").unwrap(), truth.mean().color);
+    assert_eq!(layers.color("output").unwrap(), output.color("").unwrap());
+    assert_eq!(layers.color("instant").unwrap(), frame.color);
+    assert_eq!(layers.plane("flip").unwrap(), errors.plane("flip").unwrap());
+    assert_eq!(
+        layers.plane("velocity.X").unwrap(),
+        frame.velocity.map(|velocity| velocity[0])
+    );
+    assert_eq!(
+        layers.plane("velocity.Y").unwrap(),
+        frame.velocity.map(|velocity| velocity[1])
+    );
+    assert_eq!(
+        layers.plane("coverage.plate").unwrap(),
+        truth.mean().coverage[1]
+    );
+    assert_eq!(
+        layers.plane("output_coverage.plate").unwrap(),
+        output.plane("coverage.plate").unwrap()
+    );
+    assert_eq!(layers.attributes["filter"], "velocity_gather:fine");
+    // What stands before the last point is the group that tev shows.
+    let mut groups: BTreeMap<&str, usize> = BTreeMap::new();
+    for channel in &layers.channels {
+        let group = channel.name.rsplit_once('.').map_or("", |(group, _)| group);
+        *groups.entry(group).or_default() += 1;
+    }
+    let expected = [
+        ("", 3),
+        ("coverage", 2),
+        ("depth", 1),
+        ("instant", 3),
+        ("output", 3),
+        ("output_coverage", 2),
+        ("signed", 3),
+        ("truth", 3),
+        ("velocity", 2),
+    ];
+    assert_eq!(groups, BTreeMap::from(expected));
+}
+
+#[test]
+fn a_report_of_nothing_is_refused() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&IDENTITY));
+    assert_refused(&bench.shuttertruth(&["report", "out"]), 2, &["--html"]);
+    fs::remove_file(bench.path("out/plate/identity_default/errors.exr")).unwrap();
+    let words = ["report", "out", "--exr", "layers", "--quiet"];
+    assert_refused(
+        &bench.shuttertruth(&words),
+        2,
+        &["identity_default/errors.exr"],
+    );
+}

@@ -1,0 +1,192 @@
+//! What a terminal shows, and what everything else gets.
+
+use std::fs;
+
+use crate::bench::{Bench, assert_done, quick, stderr, stdout};
+
+/// Begins every colour.
+const ESCAPE: char = '\u{1b}';
+
+const IDENTITY: [&str; 2] = ["--filters", "identity"];
+
+/// A bench whose scenes are held to a limit that the identity breaks.
+fn bounded() -> Bench {
+    let bench = Bench::new();
+    fs::write(
+        bench.path("scenes/bounds.toml"),
+        "[default]\nflip_moving = { limit = 0.2, why = \"it serves a test of the terminal, and has a reason that takes \
+         more than one line of eighty columns to say\" }\n",
+    )
+    .unwrap();
+    bench
+}
+
+#[track_caller]
+fn assert_fits(text: &str) {
+    for line in text.lines() {
+        let columns = line.chars().count();
+        // A path may be longer than the line it stands on.
+        assert!(
+            columns <= 80 || line.contains('/'),
+            "{columns} columns: {line}"
+        );
+    }
+}
+
+#[test]
+fn what_is_printed_fits_80_columns() {
+    let bench = bounded();
+    bench.copy_scene("a_scene_with_a_rather_long_name", |text| {
+        text.replace("-1.6", "-0.8")
+    });
+    let filters = ["--filters", "jump_flood_packed:corrected,identity"];
+    let run = bench.run(&filters);
+    assert_done(&run);
+    assert_fits(&stdout(&run));
+    let check = stdout(&bench.check(&filters));
+    assert!(check.contains("BROKEN flip_moving"), "{check}");
+    assert_fits(&check);
+    fs::rename(bench.path("out"), bench.path("first")).unwrap();
+    let check = bench.check(&[&filters[..], &["--set", "jump_flood_packed.samples=2"]].concat());
+    assert_eq!(check.status.code(), Some(1), "{}", stderr(&check));
+    let compared = bench.shuttertruth(&["compare", "first", "out"]);
+    assert_done(&compared);
+    assert!(stdout(&compared).contains("jump_flood_packed:corrected.samples"));
+    assert_fits(&stdout(&compared));
+    let list = bench.shuttertruth(&["list"]);
+    assert_done(&list);
+    assert_fits(&stdout(&list));
+}
+
+#[test]
+fn colours_are_for_terminals_and_no_color_takes_them_away() {
+    let bench = bounded();
+    let with = |variables: &[(&str, &str)], more: &[&str]| {
+        let words = quick("check", "64");
+        let mut command = bench.command(&[&words[..], &IDENTITY, more].concat());
+        for name in ["CI", "NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
+            command.env_remove(name);
+        }
+        command.envs(variables.iter().copied());
+        stdout(&command.output().unwrap())
+    };
+    let plain = with(&[], &[]);
+    assert!(
+        plain.contains("BROKEN") && !plain.contains(ESCAPE),
+        "{plain:?}"
+    );
+    let forced = with(&[("CLICOLOR_FORCE", "1")], &[]);
+    assert!(forced.contains(ESCAPE), "{forced:?}");
+    let refused = with(&[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")], &[]);
+    assert_eq!(refused, plain);
+    let json = with(&[("CLICOLOR_FORCE", "1")], &["--json"]);
+    assert!(!json.contains(ESCAPE), "{json:?}");
+}
+
+/// On a terminal of its own; `script` is part of every Debian (util-linux).
+#[cfg(target_os = "linux")]
+#[test]
+fn a_terminal_sees_how_far_a_run_is_and_what_no_color_says() {
+    let bench = bounded();
+    bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
+    // A replicate takes longer than bars take to be drawn again.
+    let words = quick("check", "2048");
+    let words: Vec<&str> = words
+        .into_iter()
+        .filter(|word| *word != "--quiet")
+        .collect();
+    let on_terminal = |out: &str, no_color: bool| {
+        let line = [&[env!("CARGO_BIN_EXE_shuttertruth")], &words[..], &IDENTITY].concat();
+        let line = line.join(" ").replace("--out out", &format!("--out {out}"));
+        let mut command = std::process::Command::new("script");
+        command.args(["--quiet", "--return", "--command", &line, "/dev/null"]);
+        command.current_dir(bench.path(".")).env("TERM", "xterm");
+        for name in ["CI", "NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
+            command.env_remove(name);
+        }
+        if no_color {
+            command.env("NO_COLOR", "1");
+        }
+        let output = command.output().expect("script, of util-linux");
+        assert_eq!(output.status.code(), Some(1), "{}", stdout(&output));
+        stdout(&output)
+    };
+    // The code before the word is bold and red.
+    let coloured = on_terminal("out", false);
+    assert!(
+        coloured.contains("\u{1b}[1m\u{1b}[31mBROKEN"),
+        "{coloured:?}"
+    );
+    for label in [
+        "2 scenes in all",
+        "plate trailing, replicate ",
+        "plate blurs and scores",
+    ] {
+        assert!(
+            coloured.contains(label),
+            "{label} is missing from {coloured:?}"
+        );
+    }
+    assert!(coloured.contains(" left"), "{coloured:?}");
+    let plain = on_terminal("other", true);
+    assert!(
+        plain.contains("BROKEN") && !plain.contains("[31m"),
+        "{plain:?}"
+    );
+}
+
+#[test]
+fn a_short_run_says_nothing_on_standard_error_where_no_terminal_is() {
+    let bench = Bench::new();
+    let words = quick("run", "16");
+    let words: Vec<&str> = words
+        .into_iter()
+        .filter(|word| *word != "--quiet")
+        .collect();
+    let output = bench.shuttertruth(&[&words[..], &IDENTITY].concat());
+    assert_done(&output);
+    assert_eq!(stderr(&output), "");
+}
+
+#[test]
+fn json_is_all_that_a_machine_gets() {
+    let bench = bounded();
+    let run = quick("run", "16");
+    let run = [&run[..], &IDENTITY, &["--html", "page.html"]].concat();
+    let check = quick("check", "64");
+    let check = [&check[..], &IDENTITY, &["--html", "page.html"]].concat();
+    let tune = "tune --quiet --filter jump_flood --objective flip --size 64x32 --samples-per-pixel 16 --out tuned";
+    let tune: Vec<&str> = tune.split(' ').collect();
+    for (words, key) in [
+        (run, "cases"),
+        (check, "findings"),
+        (vec!["compare", "out", "out"], "changes"),
+        (vec!["report", "out", "--html", "page.html"], ""),
+        (vec!["list"], "scenes"),
+        (
+            [&tune[..], &["--vary", "samples", "--budget", "2"]].concat(),
+            "front",
+        ),
+        (
+            [&tune[..], &["--vary", "samples", "--morris", "2"]].concat(),
+            "parameters",
+        ),
+        (
+            [&tune[..], &["--compare", "paper,corrected"]].concat(),
+            "flip",
+        ),
+    ] {
+        let output = bench
+            .command(&[&words[..], &["--json"]].concat())
+            .env_remove("CI")
+            .output()
+            .unwrap();
+        let text = stdout(&output);
+        let value: serde_json::Value = serde_json::from_str(&text)
+            .unwrap_or_else(|error| panic!("{words:?}: {error}: {text}{}", stderr(&output)));
+        match key {
+            "" => assert!(value[0]["bytes"].as_u64().unwrap() > 0, "{value}"),
+            key => assert!(!value[key].is_null(), "{words:?}: {key}"),
+        }
+    }
+}

@@ -1,0 +1,288 @@
+//! A real Chromium without a window, driven by the DevTools protocol.
+
+use std::io::{BufRead, BufReader};
+use std::net::TcpStream;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use serde_json::{Value, json};
+use tungstenite::{Message, WebSocket};
+
+/// Far longer than anything here takes on a busy machine: what is not done by then will never be.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Looked for on the PATH where the variable CHROMIUM names none.
+const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
+
+/// One open tab.
+pub struct Browser {
+    process: Child,
+    socket: WebSocket<TcpStream>,
+    session: Option<String>,
+    calls: u64,
+    /// What happened, in order: objects with `method` and `params`.
+    pub events: Vec<Value>,
+    _profile: tempfile::TempDir,
+}
+
+impl Browser {
+    /// Starts Chromium with an empty tab of so many pixels.
+    pub fn new(width: u32, height: u32) -> Self {
+        let profile = tempfile::tempdir().unwrap();
+        let mut process = Command::new(program())
+            .args([
+                "--headless",
+                "--no-sandbox",
+                "--disable-gpu",
+                "--hide-scrollbars",
+                "--no-first-run",
+            ])
+            .args(["--remote-debugging-port=0", "--force-color-profile=srgb"])
+            .arg(format!("--user-data-dir={}", profile.path().display()))
+            .arg("about:blank")
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let address = address(&mut process);
+        let host = address.strip_prefix("ws://").unwrap();
+        let stream = TcpStream::connect(host.split('/').next().unwrap()).unwrap();
+        stream.set_read_timeout(Some(PATIENCE)).unwrap();
+        let (socket, _) = tungstenite::client(&address, stream).unwrap();
+        let mut browser = Self {
+            process,
+            socket,
+            session: None,
+            calls: 0,
+            events: Vec::new(),
+            _profile: profile,
+        };
+        let target = browser.call("Target.createTarget", json!({"url": "about:blank"}));
+        let target = json!({"targetId": target["targetId"], "flatten": true});
+        let session = browser.call("Target.attachToTarget", target);
+        browser.session = session["sessionId"].as_str().map(str::to_owned);
+        for domain in ["Page", "Runtime", "Network", "Log"] {
+            browser.call(&format!("{domain}.enable"), json!({}));
+        }
+        let screen =
+            json!({"width": width, "height": height, "deviceScaleFactor": 1, "mobile": false});
+        browser.call("Emulation.setDeviceMetricsOverride", screen);
+        browser
+    }
+
+    /// Opens a file, at a part of it such as `#case-3`.
+    pub fn open(&mut self, page: &Path, part: &str) {
+        let url = format!("{}{part}", address_of(page));
+        self.call("Page.navigate", json!({"url": url}));
+        self.until("document.readyState === 'complete'");
+    }
+
+    /// The value of an expression; promises are waited for.
+    pub fn value(&mut self, expression: &str) -> Value {
+        let words = json!({"expression": expression, "returnByValue": true, "awaitPromise": true});
+        let answer = self.call("Runtime.evaluate", words);
+        assert!(
+            answer.get("exceptionDetails").is_none(),
+            "{expression}: {answer}"
+        );
+        answer["result"]["value"].clone()
+    }
+
+    /// The same, of texts.
+    pub fn text(&mut self, expression: &str) -> String {
+        let value = self.value(expression);
+        let text = value.as_str();
+        text.unwrap_or_else(|| panic!("{expression}: {value}"))
+            .to_owned()
+    }
+
+    /// Waits until an expression is true.
+    pub fn until(&mut self, expression: &str) {
+        let start = Instant::now();
+        while self.value(expression) != true {
+            assert!(start.elapsed() < PATIENCE, "never: {expression}");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    /// Presses and releases a key, as `KeyboardEvent.key` calls it.
+    pub fn press(&mut self, key: &str) {
+        let text = match key.chars().count() {
+            1 => key,
+            _ => "",
+        };
+        for kind in ["keyDown", "keyUp"] {
+            let words = json!({"type": kind, "key": key, "text": if kind == "keyDown" { text } else { "" }});
+            self.call("Input.dispatchKeyEvent", words);
+        }
+    }
+
+    /// Moves the mouse to a place of the window, in pixels.
+    pub fn point(&mut self, x: f64, y: f64) {
+        self.mouse("mouseMoved", x, y);
+    }
+
+    /// Presses there, moves to another place, and lets go.
+    pub fn drag(&mut self, from: [f64; 2], to: [f64; 2]) {
+        self.mouse("mousePressed", from[0], from[1]);
+        self.mouse("mouseMoved", to[0], to[1]);
+        self.mouse("mouseReleased", to[0], to[1]);
+    }
+
+    fn mouse(&mut self, kind: &str, x: f64, y: f64) {
+        let pressed = u32::from(kind != "mouseReleased");
+        let words = json!({"type": kind, "x": x, "y": y, "button": "left", "buttons": pressed, "clickCount": 1});
+        self.call("Input.dispatchMouseEvent", words);
+    }
+
+    /// Left, top, width and height of the first element that a selector finds, in the window.
+    pub fn place(&mut self, selector: &str) -> [f64; 4] {
+        let place = self.value(&format!(
+            "(() => {{ const box = document.querySelector('{selector}').getBoundingClientRect(); \
+             return [box.left, box.top, box.width, box.height]; }})()"
+        ));
+        [0, 1, 2, 3].map(|at| place[at].as_f64().unwrap())
+    }
+
+    /// What an element looks like, as PNG.
+    pub fn picture(&mut self, selector: &str) -> Vec<u8> {
+        let [x, y, width, height] = self.place(selector);
+        let [left, top] = ["scrollX", "scrollY"].map(|name| self.value(name).as_f64().unwrap());
+        let clip =
+            json!({"x": x + left, "y": y + top, "width": width, "height": height, "scale": 1});
+        let shot = self.call(
+            "Page.captureScreenshot",
+            json!({"clip": clip, "captureBeyondViewport": true}),
+        );
+        STANDARD.decode(shot["data"].as_str().unwrap()).unwrap()
+    }
+
+    /// Everything that the page complained about: errors, warnings, and what was refused.
+    pub fn complaints(&mut self) -> Vec<String> {
+        const COMPLAINTS: [&str; 4] = [
+            "Runtime.exceptionThrown",
+            "Runtime.consoleAPICalled",
+            "Log.entryAdded",
+            "Page.javascriptDialogOpening",
+        ];
+        // Whatever happened before this answer has been heard by then.
+        self.value("0");
+        let complains = |event: &&Value| COMPLAINTS.iter().any(|method| event["method"] == *method);
+        self.events
+            .iter()
+            .filter(complains)
+            .map(Value::to_string)
+            .collect()
+    }
+
+    /// The addresses of everything that was asked for.
+    pub fn requests(&mut self) -> Vec<String> {
+        self.value("0");
+        let sent =
+            (self.events.iter()).filter(|event| event["method"] == "Network.requestWillBeSent");
+        sent.map(|event| {
+            event["params"]["request"]["url"]
+                .as_str()
+                .unwrap()
+                .to_owned()
+        })
+        .collect()
+    }
+
+    fn call(&mut self, method: &str, params: Value) -> Value {
+        self.calls += 1;
+        let mut message = json!({"id": self.calls, "method": method, "params": params});
+        if let Some(session) = &self.session {
+            message["sessionId"] = json!(session);
+        }
+        self.socket
+            .send(Message::text(message.to_string()))
+            .unwrap();
+        loop {
+            let Message::Text(text) = self.socket.read().unwrap() else {
+                continue;
+            };
+            let heard: Value = serde_json::from_str(&text).unwrap();
+            if heard["id"] == self.calls {
+                assert!(heard.get("error").is_none(), "{method}: {heard}");
+                return heard["result"].clone();
+            }
+            if heard["method"] == "Page.javascriptDialogOpening" {
+                // Otherwise nothing answers any more; that it opened is kept.
+                let close = json!({"id": 0, "method": "Page.handleJavaScriptDialog", "sessionId": self.session,
+                    "params": {"accept": false}});
+                self.socket.send(Message::text(close.to_string())).unwrap();
+            }
+            self.events.push(heard);
+        }
+    }
+}
+
+impl Drop for Browser {
+    fn drop(&mut self) {
+        let close = json!({"id": 0, "method": "Browser.close"});
+        let sent = self.socket.send(Message::text(close.to_string()));
+        let start = Instant::now();
+        while sent.is_ok() && start.elapsed() < Duration::from_secs(5) {
+            if let Ok(Some(_)) = self.process.try_wait() {
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
+
+fn program() -> PathBuf {
+    if let Some(named) = std::env::var_os("CHROMIUM") {
+        return PathBuf::from(named);
+    }
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let folders: Vec<PathBuf> = std::env::split_paths(&path).collect();
+    let files = NAMES
+        .iter()
+        .flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
+    let found = files.into_iter().find(|file| file.is_file());
+    found.unwrap_or_else(|| {
+        panic!(
+            "no Chromium on the PATH ({}), and reports cannot be looked at without one: apt-get install chromium, as `make \
+             test` does, or name one in the variable CHROMIUM",
+            NAMES.join(", ")
+        )
+    })
+}
+
+/// Where Chromium listens, which it says once it does.
+fn address(process: &mut Child) -> String {
+    let mut said = Vec::new();
+    let mut lines = BufReader::new(process.stderr.take().unwrap()).lines();
+    for line in lines.by_ref().map_while(Result::ok) {
+        if let Some(address) = line.strip_prefix("DevTools listening on ") {
+            let address = address.to_owned();
+            // It would stop where nobody reads what else it says.
+            std::thread::spawn(move || lines.for_each(drop));
+            return address;
+        }
+        said.push(line);
+    }
+    panic!("Chromium ended before it listened: {}", said.join("\n"));
+}
+
+/// As a browser's address line has it.
+pub fn address_of(page: &Path) -> String {
+    let path = page.to_str().unwrap();
+    let escaped: String = (path.chars())
+        .map(|letter| match letter {
+            ' ' => "%20".to_owned(),
+            '#' => "%23".to_owned(),
+            '<' => "%3C".to_owned(),
+            '>' => "%3E".to_owned(),
+            other => other.to_string(),
+        })
+        .collect();
+    format!("file://{escaped}")
+}

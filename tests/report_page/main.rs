@@ -1,0 +1,392 @@
+//! A report in a real browser: what a person sees, points at and presses.
+
+#[path = "../command_line/bench.rs"]
+#[expect(dead_code, reason = "the tests of the command line need more of it")]
+mod bench;
+mod browser;
+
+use std::fs;
+use std::path::PathBuf;
+
+use frame::{ExrFile, read_exr};
+use suite::{Case, LARGEST_PAGE, report};
+
+use bench::{Bench, assert_done};
+use browser::{Browser, address_of};
+
+/// Makes the page of the bench's last run; returns its path.
+fn reported(bench: &Bench) -> PathBuf {
+    reported_within(bench, LARGEST_PAGE)
+}
+
+fn reported_within(bench: &Bench, largest: usize) -> PathBuf {
+    let html = bench.path("page/a report.html");
+    let report = report(&bench.measured(), &bench.path("out"), &html, largest).unwrap();
+    report.write().unwrap();
+    html
+}
+
+/// The number of a filter's case.
+fn number_of(bench: &Bench, name: &str) -> usize {
+    let cases = bench.measured().cases;
+    cases.iter().position(|case| case.name() == name).unwrap()
+}
+
+/// Opens a case and waits for its pictures.
+fn open_case(browser: &mut Browser, page: &std::path::Path, case: usize) {
+    browser.open(page, &format!("#case-{case}"));
+    settle(browser);
+}
+
+/// Waits until what was asked for last is drawn.
+fn settle(browser: &mut Browser) {
+    browser.until("document.getElementById('viewer').dataset.drawn === document.getElementById('viewer').dataset.asked");
+}
+
+fn press(browser: &mut Browser, key: &str) {
+    browser.press(key);
+    settle(browser);
+}
+
+/// The read-out's rows by the layer, each with its texts.
+fn read_out(browser: &mut Browser, x: u32, y: u32) -> serde_json::Value {
+    browser.until(&format!(
+        "document.querySelector('.readout').dataset.pixel === '{x},{y}'"
+    ));
+    browser.value(
+        "Object.fromEntries([...document.querySelectorAll('.readout tr:not([hidden])')].map(row => \
+         [row.dataset.layer, [...row.cells].slice(1).map(cell => cell.textContent).filter(text => text)]))",
+    )
+}
+
+/// Layer by layer the channels that the read-out shows.
+fn channels(files: &[ExrFile; 4]) -> Vec<(&'static str, &ExrFile, Vec<&'static str>)> {
+    let [truth, output, frame, errors] = files;
+    let color = || vec!["R", "G", "B"];
+    vec![
+        ("truth", truth, color()),
+        ("unknowable", truth, vec!["unknowable"]),
+        ("output", output, color()),
+        ("instant", frame, color()),
+        ("velocity", frame, vec!["velocity.X", "velocity.Y"]),
+        ("flip", errors, vec!["flip"]),
+        ("label_tv", errors, vec!["label_tv"]),
+        ("signed", errors, vec!["signed.R", "signed.G", "signed.B"]),
+    ]
+}
+
+/// What a run left of a case: truth, output, frame, errors.
+fn files_of(bench: &Bench, case: &Case) -> [ExrFile; 4] {
+    let own = bench.path("out").join(&case.folder);
+    let scene = bench.path("out").join(&case.scene);
+    [
+        scene.join(format!("truth_{}.exr", case.alignment)),
+        own.join("output.exr"),
+        scene.join("frame.exr"),
+        own.join("errors.exr"),
+    ]
+    .map(|path| read_exr(&path).unwrap())
+}
+
+#[test]
+fn a_page_opens_without_complaint_and_asks_for_nothing_else() {
+    let bench = Bench::new();
+    bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
+    assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
+    let page = reported(&bench);
+    let mut browser = Browser::new(1280, 900);
+    browser.open(&page, "");
+    for case in 0..bench.measured().cases.len() {
+        browser.value(&format!("location.hash = '#case-{case}'"));
+        browser.until(&format!("!!document.querySelector('#case-{case} #viewer')"));
+        for _ in 0..11 {
+            press(&mut browser, "m");
+        }
+    }
+    // The test hears what goes wrong: it says something itself.
+    assert_eq!(browser.complaints(), [""; 0]);
+    assert_eq!(browser.requests(), [address_of(&page)]);
+    browser.value("console.error('heard')");
+    assert_eq!(browser.complaints().len(), 1);
+    browser
+        .value("document.head.append(Object.assign(new Image(), {src: 'https://example.org/'}))");
+    browser.until("new Promise(done => setTimeout(() => done(true), 200))");
+    assert!(browser.complaints().len() > 1, "the page may fetch nothing");
+}
+
+#[test]
+fn divider_and_keys_change_what_is_seen() {
+    const STAGE: &str = ".stage";
+    let bench = Bench::new();
+    assert_done(&bench.run(&["--filters", "identity"]));
+    let page = reported(&bench);
+    let mut browser = Browser::new(1280, 900);
+    open_case(&mut browser, &page, number_of(&bench, "identity:default"));
+    let first = browser.picture(STAGE);
+    assert!(first == browser.picture(STAGE), "nothing was pressed");
+
+    let [left, top, width, height] = browser.place(".stack");
+    let [middle, row] = [left + width / 2.0, top + height / 2.0];
+    browser.drag([middle, row], [left + 0.9 * width, row]);
+    assert_eq!(
+        browser.value("document.querySelector('[name=split]').value"),
+        "90"
+    );
+    let mut seen = vec![first, browser.picture(STAGE)];
+    for key in [
+        "2",
+        "b",
+        "3",
+        "4",
+        "1",
+        "m",
+        "m",
+        "e",
+        "e",
+        "+",
+        "[",
+        "ArrowRight",
+    ] {
+        if key == "ArrowRight" {
+            browser.value("document.querySelector('.stack').focus()");
+        }
+        press(&mut browser, key);
+        let now = browser.picture(STAGE);
+        assert!(seen.last() != Some(&now), "{key} changes nothing");
+        seen.push(now);
+    }
+    let mode = browser.text("document.querySelector('[name=under]:checked').value");
+    assert_eq!(mode, "flip", "m went on twice from the output");
+
+    browser.value("location.hash = '#overview'");
+    browser.until("document.querySelector('#overview').checkVisibility()");
+    assert_eq!(
+        browser.value("document.getElementById('viewer').checkVisibility()"),
+        false
+    );
+    assert_eq!(browser.complaints(), [""; 0]);
+}
+
+#[test]
+fn the_read_out_is_the_value_of_the_openexr_files() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
+    let page = reported(&bench);
+    let number = number_of(&bench, "velocity_gather:fine");
+    let case = &bench.measured().cases[number];
+    let files = files_of(&bench, case);
+    let mut browser = Browser::new(1280, 900);
+    open_case(&mut browser, &page, number);
+    let [left, top, width, _] = browser.place(".stack");
+    let scale = width / 64.0;
+    let check = |browser: &mut Browser, x: u32, y: u32| {
+        let shown = read_out(browser, x, y);
+        for (layer, file, names) in channels(&files) {
+            for (index, name) in names.into_iter().enumerate() {
+                let text = shown[layer][index].as_str().unwrap();
+                let value: f32 = text.parse().unwrap();
+                let due = *file.plane(name).unwrap().at(x, y);
+                assert!(
+                    value == due,
+                    "{layer} {name} at ({x}, {y}): {text}, the file has {due:?}"
+                );
+            }
+        }
+        let depth = &shown["depth"][0];
+        assert!(
+            depth == "4" || depth == "no surface",
+            "the plate stands 4 m away: {depth}"
+        );
+    };
+    for (x, y) in [(20_u32, 15_u32), (30, 17), (3, 2)] {
+        let at = [x, y].map(|pixel| scale * (f64::from(pixel) + 0.5));
+        browser.point(left + at[0], top + at[1]);
+        check(&mut browser, x, y);
+    }
+    browser.value("document.querySelector('.stack').focus()");
+    browser.press("ArrowRight");
+    browser.press("ArrowDown");
+    check(&mut browser, 4, 3);
+    let spoken = browser.text("document.querySelector('.spoken').textContent");
+    assert!(
+        spoken.starts_with("x 4, y 3, background; Truth 0.2 0.2 0.2"),
+        "{spoken}"
+    );
+}
+
+#[test]
+fn numbers_beside_the_page_are_found_and_have_three_digits() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
+    let page = reported_within(&bench, 0);
+    let beside = bench.path("page/a report_files/scene_0.js");
+    assert!(beside.is_file());
+    let number = number_of(&bench, "velocity_gather:fine");
+    let files = files_of(&bench, &bench.measured().cases[number]);
+    let mut browser = Browser::new(1280, 900);
+    open_case(&mut browser, &page, number);
+    let [left, top, width, _] = browser.place(".stack");
+    browser.point(left + 20.5 * width / 64.0, top + 15.5 * width / 64.0);
+    let shown = read_out(&mut browser, 20, 15);
+    for (layer, file, names) in channels(&files) {
+        // Half a step of a half is 1/2048 of the number, and three digits round by 1/200 at most; shares have steps of 1/256, and
+        // differences the error of both.
+        let allowed = |due: f32| match layer {
+            "flip" | "label_tv" | "unknowable" => 0.5 / 256.0 + 0.006 * due.abs(),
+            "signed" => 0.002,
+            _ => 0.0055 * due.abs(),
+        };
+        for (index, name) in names.into_iter().enumerate() {
+            let value: f32 = shown[layer][index].as_str().unwrap().parse().unwrap();
+            let due = *file.plane(name).unwrap().at(20, 15);
+            assert!(
+                (value - due).abs() <= allowed(due),
+                "{layer} {name}: {value}, the file has {due}"
+            );
+        }
+    }
+    assert_eq!(browser.complaints(), [""; 0]);
+    assert_eq!(browser.requests(), [address_of(&page), address_of(&beside)]);
+
+    fs::remove_file(&beside).unwrap();
+    browser.open(&page, "");
+    browser.open(&page, &format!("#case-{number}"));
+    browser.until("document.querySelector('.hint').textContent.includes('scene_0.js is missing')");
+}
+
+#[test]
+fn headings_sort_both_ways() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&[
+        "--filters",
+        "identity,velocity_gather:fine,jump_flood:paper",
+    ]));
+    let page = reported(&bench);
+    let mut browser = Browser::new(1280, 900);
+    browser.open(&page, "");
+    let column = |browser: &mut Browser, press: bool| -> Vec<f64> {
+        if press {
+            browser.value("document.querySelectorAll('.sortable')[0].tHead.rows[0].cells[1].querySelector('button').click()");
+        }
+        let values = browser.value(
+            "[...document.querySelectorAll('.sortable')[0].tBodies[0].rows].map(row => Number(row.cells[1].dataset.value))",
+        );
+        values
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|value| value.as_f64().unwrap())
+            .collect()
+    };
+    let before = column(&mut browser, false);
+    assert!(!before.is_sorted(), "bars come first, whatever they score");
+    let rising = column(&mut browser, true);
+    assert!(
+        rising.is_sorted() && rising.len() == before.len(),
+        "{rising:?}"
+    );
+    let falling = column(&mut browser, true);
+    assert!(falling.iter().rev().is_sorted(), "{falling:?}");
+}
+
+#[test]
+fn a_broken_bound_is_seen_with_its_place_and_its_pictures() {
+    let bench = Bench::new();
+    bench.write(
+        "bounds.toml",
+        "[default]\nflip_moving = { limit = 0.2, why = \"it serves a test\" }\n",
+    );
+    let output = bench.check(&["--filters", "identity"]);
+    assert_eq!(output.status.code(), Some(1));
+    let page = reported(&bench);
+    let number = number_of(&bench, "identity:default");
+    let mut browser = Browser::new(1280, 900);
+    browser.open(&page, "");
+    browser.value("document.querySelector('.failures a').click()");
+    browser.until(&format!("location.hash === '#case-{number}'"));
+    settle(&mut browser);
+    let section = browser.text(&format!(
+        "document.querySelector('#case-{number} .verdicts').innerText"
+    ));
+    for words in [
+        "Why it failed",
+        "BROKEN flip_moving 0.2",
+        "it serves a test",
+        "no_blur",
+        "95 % in",
+        "noise floor",
+    ] {
+        assert!(
+            section.contains(words),
+            "\"{words}\" is missing from: {section}"
+        );
+    }
+    // Truth, output and error are drawn, and no two of them are alike.
+    let canvas = |at: usize| {
+        format!("document.querySelectorAll('#case-{number} .crop canvas')[{at}].toDataURL()")
+    };
+    browser.until(&format!(
+        "new Set([{}, {}, {}, (() => {{ const own = document.querySelector('#case-{number} .crop canvas'); \
+         return Object.assign(document.createElement('canvas'), {{width: own.width, height: own.height}}).toDataURL(); }})()]).size === 4",
+        canvas(0),
+        canvas(1),
+        canvas(2)
+    ));
+    let worst = bench.measured().cases[number].verdicts[0]
+        .worst
+        .clone()
+        .unwrap();
+    browser.value(&format!(
+        "document.querySelector('#case-{number} button.place').click()"
+    ));
+    read_out(&mut browser, worst.x, worst.y);
+    assert_eq!(
+        browser.value("document.querySelector('.stack .mark').checkVisibility()"),
+        true
+    );
+    assert_eq!(browser.complaints(), [""; 0]);
+}
+
+#[cfg(unix)] // Elsewhere no folder has such a name.
+#[test]
+fn a_scene_called_script_is_shown_and_not_run() {
+    const NAME: &str = "<script>alert(1)";
+    let bench = Bench::new();
+    bench.copy_scene(NAME, |text| {
+        text.replace("nothing: it serves", "<img src=x onerror=alert(2)> & it's")
+    });
+    assert_done(&bench.run(&["--filters", "identity", "--scenes", NAME]));
+    let page = reported(&bench);
+    let number = number_of(&bench, "identity:default");
+    let mut browser = Browser::new(1280, 900);
+    open_case(&mut browser, &page, number);
+    let title = browser.text(&format!(
+        "document.querySelector('#case-{number} h2').textContent"
+    ));
+    assert_eq!(title, "<script>alert(1) / identity:default");
+    assert_eq!(
+        browser.text("document.title"),
+        "<script>alert(1) / identity:default - Shuttertruth"
+    );
+    assert_eq!(browser.value("document.images.length"), 0);
+    assert_eq!(browser.complaints(), [""; 0]);
+}
+
+#[test]
+fn everything_fits_a_narrow_screen() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&["--filters", "identity"]));
+    let page = reported(&bench);
+    let mut browser = Browser::new(360, 800);
+    for part in [
+        "".to_owned(),
+        format!("#case-{}", number_of(&bench, "identity:default")),
+    ] {
+        browser.open(&page, &part);
+        let width = browser.value("document.documentElement.scrollWidth");
+        assert_eq!(
+            width, 360,
+            "the page at \"{part}\" has to be scrolled sideways"
+        );
+    }
+}
