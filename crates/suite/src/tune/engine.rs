@@ -18,7 +18,7 @@ pub enum Engine<'a> {
         inputs: Vec<Resident>,
     },
     /// A program, which reads files.
-    Program(Filter),
+    Program(Box<Filter>),
 }
 
 /// A candidate, ready for scenes of one size after another.
@@ -40,7 +40,7 @@ impl<'a> Engine<'a> {
         bleed: bool,
     ) -> Result<Self, FilterError> {
         if filter.command.is_some() {
-            return Ok(Self::Program(filter.clone()));
+            return Ok(Self::Program(Box::new(filter.clone())));
         }
         let gpu = gpu.expect("an adapter was opened for the kernels");
         let kernels = Kernels::compile(gpu, filter)?;
