@@ -1,21 +1,22 @@
 //! The words of the command line.
 
+mod gate;
+mod look;
+mod render;
 mod tune;
 
-use std::ops::Range;
 use std::path::PathBuf;
-use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use frame::{Alignment, ColorSampling, VelocityKind};
-use metrics::Metric;
+use frame::{ColorSampling, VelocityKind};
 use suite::{Border, DepthFormat, Up, VelocityFormat};
 
+pub use gate::{AcceptArgs, CalibrateArgs, CheckArgs};
+pub use look::{CompareArgs, ReportArgs};
+pub use render::{MergeArgs, RenderArgs, Replicates};
 pub use tune::{CandidateArgs, EvaluateArgs, ServeArgs, TuneArgs};
 
-use crate::words::{
-    degrees_per_frame, glob, noise, pixels_per_frame, replicates, rounds, runs, size,
-};
+use crate::words::{degrees_per_frame, pixels_per_frame, rounds, size};
 
 /// How good is a real-time motion blur? Renders the truth of moving scenes, runs filters on one frame of each, and
 /// measures how far they are from it.
@@ -84,66 +85,6 @@ pub struct RunArgs {
     pub json: bool,
 }
 
-/// `shuttertruth check`
-#[derive(Debug, Args)]
-pub struct CheckArgs {
-    #[command(flatten)]
-    pub measure: MeasureArgs,
-    #[command(flatten)]
-    pub adapter: AdapterArgs,
-    /// Compare with the scores that `accept` wrote there, too: no worse by more than the margins in bounds.toml?
-    #[arg(long, value_name = "FILE")]
-    pub baseline: Option<PathBuf>,
-    /// Write the run as one page, as `report` does, whether the check passes or not.
-    #[arg(long, value_name = "FILE")]
-    pub html: Option<PathBuf>,
-    /// Write the result as JUnit XML.
-    #[arg(long, value_name = "FILE")]
-    pub junit: Option<PathBuf>,
-    /// Write GitHub's step summary ($GITHUB_STEP_SUMMARY) and print annotations, ten at most.
-    #[arg(long, conflicts_with = "json")]
-    pub github: bool,
-    /// Print the result as JSON instead of text.
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// `shuttertruth accept`
-#[derive(Debug, Args)]
-pub struct AcceptArgs {
-    /// Folder of the finished run: what --out was for `run` or `check`.
-    #[arg(long, value_name = "DIR")]
-    pub out: PathBuf,
-    /// Why these scores are right, in one line.
-    #[arg(long, value_name = "TEXT")]
-    pub reason: String,
-    /// Which cases, by scene/filter:preset, such as 'fan/*' or '*/jump_flood:*' [default: all; others are forgotten].
-    #[arg(long, value_name = "GLOB", value_parser = glob)]
-    pub only: Option<glob::Pattern>,
-    /// The file to write, or to change with --only.
-    #[arg(long, value_name = "FILE", default_value = "base.json")]
-    pub baseline: PathBuf,
-    /// Accept although this is CI (CI=true), or the adapter another class than the baseline's.
-    #[arg(long)]
-    pub force: bool,
-}
-
-/// `shuttertruth calibrate`
-#[derive(Debug, Args)]
-pub struct CalibrateArgs {
-    #[command(flatten)]
-    pub measure: MeasureArgs,
-    /// How many times, each with a truth of another seed: --seed, --seed + 1 ..
-    #[arg(long, value_name = "K", default_value_t = 3, value_parser = runs)]
-    pub runs: u32,
-    /// Adapters, separated by commas, by their numbers in --list-adapters or parts of their names [default: the fastest].
-    #[arg(long, value_delimiter = ',', value_name = "ADAPTERS")]
-    pub adapters: Vec<String>,
-    /// Metrics to propose limits for, separated by commas [default: those that have bounds].
-    #[arg(long, value_delimiter = ',', value_name = "METRICS", value_parser = Metric::from_str)]
-    pub metrics: Vec<Metric>,
-}
-
 /// What is measured by `run`, `check` and `calibrate`.
 #[derive(Clone, Debug, Args)]
 pub struct MeasureArgs {
@@ -181,35 +122,6 @@ pub struct MeasureArgs {
     pub jitter_frames: u32,
 }
 
-/// `shuttertruth render`
-#[derive(Debug, Args)]
-pub struct RenderArgs {
-    #[command(flatten)]
-    pub scenes: SceneArgs,
-    /// Picture size in pixels [default: each scene's own].
-    #[arg(long, value_name = "WxH", value_parser = size)]
-    pub size: Option<(u32, u32)>,
-    /// Shutter alignments of the truths, separated by commas.
-    #[arg(
-        long,
-        value_delimiter = ',',
-        default_value = "trailing",
-        value_name = "ALIGNMENTS"
-    )]
-    pub alignments: Vec<Alignment>,
-    /// Independent renders behind each truth: an even number, or a part A..B (from A to B-1) to be joined with others by
-    /// `merge`. Each has an eighth of --samples-per-pixel. The part with replicate 0 renders the frame too.
-    #[arg(long, value_name = "N|A..B", default_value = "8", value_parser = replicates)]
-    pub replicates: Replicates,
-    /// Render more replicates until the noise of each truth (root mean square radiance, where anything moves) is at
-    /// most this; ends with exit code 4 where --most-replicates do not suffice.
-    #[arg(long, value_name = "TARGET", value_parser = noise)]
-    pub noise: Option<f64>,
-    /// The most replicates that --noise may render.
-    #[arg(long, value_name = "N", default_value_t = 64, requires = "noise")]
-    pub most_replicates: u32,
-}
-
 /// On or off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Switch {
@@ -217,26 +129,6 @@ pub enum Switch {
     On,
     /// It is not.
     Off,
-}
-
-/// How many replicates, or which.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Replicates {
-    /// All of a truth that has so many.
-    All(u32),
-    /// Some, by their indices.
-    Part(Range<u32>),
-}
-
-/// `shuttertruth merge`
-#[derive(Debug, Args)]
-pub struct MergeArgs {
-    /// Folders that `render --replicates A..B --out` wrote.
-    #[arg(required = true, value_name = "FOLDER")]
-    pub parts: Vec<PathBuf>,
-    /// Folder for the whole: what one machine would have written.
-    #[arg(long, value_name = "DIR")]
-    pub out: PathBuf,
 }
 
 /// What `render` shares with the commands that measure.
@@ -328,46 +220,6 @@ pub struct ScoreArgs {
     /// Print all scores as JSON instead of the table.
     #[arg(long)]
     pub json: bool,
-}
-
-/// `shuttertruth report`
-#[derive(Debug, Args)]
-pub struct ReportArgs {
-    /// run.json of a finished `run` or `check`, or its folder, where the pictures lie; or the folder of a `tune`.
-    #[arg(value_name = "RUN")]
-    pub run: PathBuf,
-    /// The page to write.
-    #[arg(long, value_name = "FILE", required_unless_present = "exr")]
-    pub html: Option<PathBuf>,
-    /// Folder for one multi-layer OpenEXR file per case: truth, output, instant, flip, velocity, coverage and more.
-    #[arg(long, value_name = "DIR")]
-    pub exr: Option<PathBuf>,
-    /// Print what was written as JSON.
-    #[arg(long)]
-    pub json: bool,
-    /// No progress bar.
-    #[arg(long)]
-    pub quiet: bool,
-}
-
-/// `shuttertruth compare`
-#[derive(Debug, Args)]
-pub struct CompareArgs {
-    /// run.json of the first run, or its folder.
-    #[arg(value_name = "RUN_A")]
-    pub first: PathBuf,
-    /// run.json of the second run, or its folder.
-    #[arg(value_name = "RUN_B")]
-    pub second: PathBuf,
-    /// Write the comparison as a page with the pictures that changed.
-    #[arg(long, value_name = "FILE")]
-    pub html: Option<PathBuf>,
-    /// Print all changes as JSON instead of the table.
-    #[arg(long)]
-    pub json: bool,
-    /// No progress bar.
-    #[arg(long)]
-    pub quiet: bool,
 }
 
 /// `shuttertruth bench`
