@@ -7,8 +7,8 @@ use frame::{FileError, write_atomically};
 use super::precision::Precision;
 use super::shelf::Shelf;
 
-/// A page up to so many bytes opens within seconds, and mails still carry it. Larger reports keep halves for floats; what is
-/// too large still becomes files beside the page, of which a browser opens one scene at a time.
+/// A page up to so many bytes opens within seconds, and mails still carry it. Larger reports keep halves for floats, then what
+/// a screen shows; what is too large still becomes halves beside the page, of which a browser opens one scene at a time.
 pub const LARGEST_PAGE: usize = 25_000_000;
 
 /// Styles, scripts and the frame of the page take less.
@@ -44,13 +44,14 @@ impl Report {
     }
 }
 
-/// The shelves of all scenes as JSON, in both precisions until it is known which fits.
+/// The shelves of all scenes as JSON, in every precision until it is known which fits.
 pub struct Packed {
     /// What a page may hold, in bytes.
     largest: usize,
-    /// Empty as soon as they are too many.
-    floats: Vec<String>,
-    halves: Vec<String>,
+    /// How many scenes there are.
+    scenes: usize,
+    /// By falling precision; empty as soon as they are too many for a page, but for those that may lie beside it.
+    tried: [(Precision, Vec<String>); 3],
 }
 
 /// Where the numbers of a page are.
@@ -66,48 +67,58 @@ pub struct Shelves {
 impl Packed {
     /// For a page of up to `largest` bytes.
     pub fn new(largest: usize) -> Self {
+        let tried = [Precision::Float, Precision::Half, Precision::Screen];
         Self {
             largest,
-            floats: Vec::new(),
-            halves: Vec::new(),
+            scenes: 0,
+            tried: tried.map(|precision| (precision, Vec::new())),
         }
-    }
-
-    /// Whether they have room beside so much text.
-    fn fit(&self, texts: &[String], beside: usize) -> bool {
-        texts.iter().map(String::len).sum::<usize>() + beside + REST <= self.largest
     }
 
     /// Adds the next scene's.
     pub fn add(&mut self, shelf: &Shelf) {
-        if self.floats.len() == self.halves.len() && self.fit(&self.floats, 0) {
-            self.floats.push(shelf.json(Precision::Float));
+        for (precision, texts) in &mut self.tried {
+            let whole = texts.len() == self.scenes;
+            if whole && (fit(self.largest, texts, 0) || *precision == BESIDE) {
+                texts.push(shelf.json(*precision));
+            } else {
+                texts.clear();
+            }
         }
-        self.halves.push(shelf.json(Precision::Half));
-        if !self.fit(&self.floats, 0) {
-            self.floats.clear();
-        }
+        self.scenes += 1;
     }
 
-    /// Floats in the page beside so many bytes of text where they fit, else halves, else halves beside it: in a folder named
-    /// like the page at `html`.
+    /// In the page beside so many bytes of text, as precisely as they fit, else beside it: in a folder named like the page at
+    /// `html`.
     pub fn shelves(self, html: &Path, text: usize) -> Shelves {
-        let exact = self.floats.len() == self.halves.len() && self.fit(&self.floats, text);
-        let fits = exact || self.fit(&self.halves, text);
-        let (precision, texts) = match exact {
-            true => (Precision::Float, self.floats),
-            false => (Precision::Half, self.halves),
-        };
-        let folder = (!fits).then(|| {
+        let Self {
+            largest,
+            scenes,
+            tried,
+        } = self;
+        let whole = |texts: &[String]| texts.len() == scenes && fit(largest, texts, text);
+        let folder = || {
             let stem = html.file_stem().unwrap_or_default();
             format!("{}_files", stem.to_string_lossy())
-        });
+        };
+        let fitting = tried.iter().position(|(_, texts)| whole(texts));
+        let beside = tried.iter().position(|(precision, _)| *precision == BESIDE);
+        let chosen = fitting.or(beside).expect("one of them is kept beside");
+        let (precision, texts) = (tried.into_iter().nth(chosen)).expect("it was found there");
         Shelves {
             precision,
             texts,
-            folder,
+            folder: fitting.is_none().then(folder),
         }
     }
+}
+
+/// What is kept beside a page, where room is no matter.
+const BESIDE: Precision = Precision::Half;
+
+/// Whether they have room beside so much text.
+fn fit(largest: usize, texts: &[String], beside: usize) -> bool {
+    texts.iter().map(String::len).sum::<usize>() + beside + REST <= largest
 }
 
 impl Shelves {
@@ -135,7 +146,8 @@ mod tests {
     use super::super::precision::Nature;
     use super::*;
 
-    /// Numbers that no compression makes much smaller, on so many planes: each takes 260 kB as floats, 130 kB as halves.
+    /// Numbers that no compression makes much smaller, on so many planes: each takes 260 kB as floats, 150 kB as halves, 100 kB
+    /// for the screen.
     fn shelf(planes: u32) -> Shelf {
         let mut shelf = Shelf::default();
         let mut state = 1_u32;
@@ -155,7 +167,8 @@ mod tests {
         for (planes, precision, beside) in [
             (1, Precision::Float, false),
             (6, Precision::Half, false),
-            (14, Precision::Half, true),
+            (11, Precision::Screen, false),
+            (20, Precision::Half, true),
         ] {
             let mut packed = Packed::new(1_600_000 + REST);
             packed.add(&shelf(planes));

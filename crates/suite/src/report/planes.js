@@ -65,7 +65,9 @@
     return bits;
   };
 
-  const fromHalf = (bits) => {
+  const fromHalf = (kept) => {
+    // Of what is kept for the screen the lowest four bits were dropped.
+    const bits = precision === "screen" ? kept << 4 : kept;
     const sign = bits & 0x8000 ? -1 : 1;
     const exponent = (bits >> 10) & 31;
     const fraction = (bits & 1023) / 1024;

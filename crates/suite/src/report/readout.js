@@ -17,8 +17,9 @@
     }
     return String(Number(value.toPrecision(9)));
   };
-  // A half has three digits that count.
-  const rounded = (value) => (Number.isFinite(value) ? String(Number(value.toPrecision(3))) : String(value));
+  // A half has three digits that count, what is kept for the screen has two.
+  const digits = precision === "half" ? 3 : 2;
+  const rounded = (value) => (Number.isFinite(value) ? String(Number(value.toPrecision(digits))) : String(value));
   const written = precision === "float" ? exact : rounded;
 
   const numbers = (row, own, at) => {

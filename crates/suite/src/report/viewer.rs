@@ -148,6 +148,7 @@ fn readout(precision: Precision) -> Markup {
     let note = match precision {
         Precision::Float => "linear values, as the OpenEXR files hold them",
         Precision::Half => "linear values to three digits; errors and shares in steps of 1/256",
+        Precision::Screen => "linear values to two digits; errors and shares in steps of 1/64",
     };
     html! {
         table.readout {
