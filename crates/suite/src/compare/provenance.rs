@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::side::Side;
 use crate::Run;
+use crate::report::provenance::facts;
 
 /// Both runs side by side, and the truths that they share.
 pub fn provenance(first: &Side, second: &Side) -> Markup {
@@ -47,42 +48,6 @@ pub fn provenance(first: &Side, second: &Side) -> Markup {
             }
         }
     }
-}
-
-fn facts(run: &Run) -> Vec<(&'static str, String)> {
-    let adapter = match &run.adapter {
-        Some(own) => format!(
-            "{} ({}, {}, driver {})",
-            own.name, own.kind, own.backend, own.driver
-        ),
-        None => "none: every filter is a program".to_owned(),
-    };
-    vec![
-        (
-            "command",
-            run.command
-                .iter()
-                .skip(1)
-                .fold("shuttertruth".to_owned(), |line, word| line + " " + word),
-        ),
-        ("program", run.program.clone()),
-        ("adapter", adapter),
-        ("pictures", format!("{}x{} pixels", run.width, run.height)),
-        (
-            "truth",
-            format!(
-                "{} samples per pixel in {} replicates, seed {}",
-                run.samples_per_pixel, run.replicates, run.seed
-            ),
-        ),
-        (
-            "frame",
-            format!(
-                "velocity {}, colour {}, guard band of {} pixels",
-                run.velocity, run.color, run.guard_band
-            ),
-        ),
-    ]
 }
 
 /// Scene, alignment and hash of what both have, each once.

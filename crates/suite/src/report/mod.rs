@@ -16,7 +16,7 @@ mod pareto_chart;
 mod precision;
 mod profile;
 mod profile_chart;
-mod provenance;
+pub(crate) mod provenance;
 mod ranking;
 mod reach_chart;
 mod scene_files;

@@ -34,7 +34,8 @@ pub fn provenance(run: &Run) -> Markup {
     }
 }
 
-fn facts(run: &Run) -> Vec<(&'static str, String)> {
+/// Term and text of all that a run's scores depend on.
+pub fn facts(run: &Run) -> Vec<(&'static str, String)> {
     let adapter = match &run.adapter {
         Some(own) => format!(
             "{} ({}, {}, driver {})",
