@@ -1,6 +1,6 @@
 //! A filter ready to run, whether it is made of kernels or a program.
 
-use filters::{Blur, CommandBlur, FilterError, Gpu, Input};
+use filters::{Blur, CommandBlur, Filter, FilterError, Gpu, Input, Settings};
 use frame::Image;
 
 use crate::FilterChoice;
@@ -36,18 +36,22 @@ impl<'g> Runner<'g> {
             filter, settings, ..
         } = choice;
         Ok(match filter.command {
-            Some(_) => Self::Command(CommandBlur::new(
-                filter,
-                settings,
-                width,
-                height,
-                interrupted,
-            )?),
+            Some(_) => Self::command(filter, settings, (width, height))?,
             None => {
                 let gpu = gpu.expect("an adapter was opened for the kernels");
                 Self::Kernels(Box::new(Blur::new(gpu, filter, settings, width, height)?))
             }
         })
+    }
+
+    /// Makes a program ready.
+    pub fn command(
+        filter: &Filter,
+        settings: &Settings,
+        (width, height): (u32, u32),
+    ) -> Result<Self, FilterError> {
+        let blur = CommandBlur::new(filter, settings, width, height, interrupted)?;
+        Ok(Self::Command(blur))
     }
 
     /// Blurs the first colour image of the input once per index of a frame; none where the index changes nothing, which a

@@ -1,12 +1,11 @@
 //! A filter with all scenes on the GPU, so that a candidate costs its blurs and nothing else.
 
-use filters::{Blur, CommandBlur, Filter, FilterError, Gpu, Input, Kernels, Resident, Settings};
+use filters::{Blur, Filter, FilterError, Gpu, Input, Kernels, Resident, Settings};
 use frame::{Image, Plane};
 
 use super::shot::Target;
 use crate::Runner;
 use crate::probe::{pack, unpack};
-use crate::progress::interrupted;
 
 /// What candidates of one filter run on.
 pub enum Engine<'a> {
@@ -62,23 +61,14 @@ impl<'a> Engine<'a> {
         }
     }
 
-    fn runner(
-        &self,
-        settings: &Settings,
-        (width, height): (u32, u32),
-    ) -> Result<Runner<'a>, FilterError> {
-        Ok(match self {
+    fn runner(&self, settings: &Settings, size: (u32, u32)) -> Result<Runner<'a>, FilterError> {
+        match self {
             Self::Kernels { kernels, .. } => {
-                Runner::Kernels(Box::new(Blur::of(kernels, settings, width, height)?))
+                let blur = Blur::of(kernels, settings, size.0, size.1)?;
+                Ok(Runner::Kernels(Box::new(blur)))
             }
-            Self::Program(filter) => Runner::Command(CommandBlur::new(
-                filter,
-                settings,
-                width,
-                height,
-                interrupted,
-            )?),
-        })
+            Self::Program(filter) => Runner::command(filter, settings, size),
+        }
     }
 }
 
