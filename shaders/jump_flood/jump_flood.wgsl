@@ -23,6 +23,9 @@ struct Parameters {
     tap: u32,
     behind_extent: f32,
     near_plane: f32,
+    way_back: u32,
+    depth_match: f32,
+    map: u32,
 }
 
 @group(0) @binding(1) var<uniform> parameters: Parameters;
@@ -38,12 +41,14 @@ struct Parameters {
 @group(0) @binding(9) var output: texture_storage_2d<rgba32float, write>;
 
 const METRIC_UV = 0u;
-const REACH_CAPPED = 0u;
 const REACH_DOUBLE = 1u;
+const REACH_NONE = 2u;
 const JITTER_STEP_SCALE = 0u;
 const JITTER_START_OFFSET = 1u;
 const JITTER_STEP_OFFSET = 2u;
 const TAP_REPLACED = 1u;
+const WAY_BACK_THIRD_MATCH = 1u;
+const MAP_FLOAT16 = 1u;
 const KERNEL_WITH_CENTRE = 1u;
 const FETCH_BILINEAR = 0u;
 
@@ -86,20 +91,34 @@ fn reach() -> f32 {
     return select(pixels, pixels / side, parameters.metric == METRIC_UV);
 }
 
-// `frames` of motion, cut where the dilation's reach ends. The quotient is the paper's; it is a time only for m = 1.
-fn within_reach(frames: f32, motion: vec2<f32>) -> f32 {
+// `frames` of motion, cut at `reaches` times the dilation's reach. The quotient is the paper's; it is a time only for m = 1.
+fn within_reach(frames: f32, motion: vec2<f32>, reaches: f32) -> f32 {
     let quotient = reach() / (length(motion * metric()) * trail_frames());
-    switch parameters.reach_cap {
-        case REACH_CAPPED: {
-            return min(frames, quotient);
-        }
-        case REACH_DOUBLE: {
-            return min(frames, 2.0 * quotient);
-        }
-        default: {
-            return frames;
-        }
+    return select(frames, min(frames, reaches * quotient), parameters.reach_cap != REACH_NONE);
+}
+
+// Rounds a fraction of a side towards zero to 16 bits. Vulkan leaves the rounding of a store to the driver; Direct3D
+// prescribes this one, and Mesa's llvmpipe has it. A fraction below 2^-14 lies outside pictures of up to 8192 pixels.
+fn half(fraction: vec2<f32>) -> vec2<f32> {
+    return bitcast<vec2<f32>>(bitcast<vec2<u32>>(fraction) & vec2<u32>(0xffffe000u));
+}
+
+// The position that comes back from the map, which holds fractions of width and height.
+fn stored(position: vec2<f32>) -> vec2<f32> {
+    if parameters.map != MAP_FLOAT16 {
+        return position;
     }
+    let size = vec2<f32>(frame.size);
+    return half(position / size) * size;
+}
+
+// The place of the source that a texel of `seeds` names. Only what an earlier step of the dilation stored went through
+// the map. `seeds` itself names pixels, so that nothing is rounded twice.
+fn place(seed: vec2<f32>, steps_before: u32) -> vec2<f32> {
+    if steps_before == 0u {
+        return seed;
+    }
+    return stored(seed);
 }
 
 fn motion_at(position: vec2<f32>) -> vec2<f32> {
@@ -186,25 +205,25 @@ fn dilate(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let step = (1 << (frame.iterations - 1u - frame.iteration)) * parameters.step_multiplier;
     var best = Fitness(0.0, 0.0, false);
-    var best_source = centre(pixel);
+    var best_seed = centre(pixel);
     for (var i = select(1, 0, parameters.kernel == KERNEL_WITH_CENTRE); i < 9; i++) {
         var kernel = KERNEL;
         let neighbour = pixel + step * kernel[i];
         if !inside(neighbour) {
             continue;
         }
-        let source = textureLoad(seeds, neighbour, 0).xy;
-        let candidate = fitness(centre(pixel), source);
+        let seed = textureLoad(seeds, neighbour, 0).xy;
+        let candidate = fitness(centre(pixel), place(seed, frame.iteration));
         if candidate.valid && (!best.valid || candidate.depth < best.depth) {
             best = candidate;
-            best_source = source;
+            best_seed = seed;
         }
     }
-    textureStore(seeds_out, pixel, vec4<f32>(best_source, 0.0, f32(best.valid)));
+    textureStore(seeds_out, pixel, vec4<f32>(best_seed, 0.0, f32(best.valid)));
 }
 
-// Rejects sources behind the pixel, and walks from the pixel towards the source for the first that moves like it, so
-// that what the flood carried sideways falls away. The demo does this at the end of its last iteration.
+// Rejects sources behind the pixel, and walks from the pixel towards the source for what moves like it, so that what the
+// flood carried sideways falls away. The demo does this at the end of its last iteration.
 @compute @workgroup_size(8, 8)
 fn backtrack(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
@@ -213,25 +232,47 @@ fn backtrack(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let here = centre(pixel);
     let found = textureLoad(seeds, pixel, 0);
-    let best = fitness(here, found.xy);
+    let source = place(found.xy, u32(parameters.passes - 1));
+    let best = fitness(here, source);
     if found.w == 0.0 || depth_at(here) < best.depth {
-        textureStore(sources_out, pixel, vec4<f32>(here, 0.0, 0.0));
+        textureStore(sources_out, pixel, vec4<f32>(stored(here), 0.0, 0.0));
         return;
     }
-    let motion = motion_at(found.xy);
-    let frames = within_reach(best.frames, motion);
+    let motion = motion_at(source);
+    // Of the demo's two cuts, two days later, only that of the gather is doubled.
+    let frames = within_reach(best.frames, motion, 1.0);
+    let third = parameters.way_back == WAY_BACK_THIRD_MATCH;
+    let enough = select(1, 3, third);
+    var hits = 0;
+    var last_hit = here;
     for (var probe = -parameters.probes; probe <= parameters.probes; probe++) {
         let back = frames * (1.0 + f32(probe) / f32(parameters.probes));
         let position = here + motion * back;
+        // A probe that is left out is no miss.
         if back > trail_frames() + PROBE_SLACK || back < NO_TIME || !on_screen(position) {
             continue;
         }
-        if motion_difference(motion, motion_at(position)) <= parameters.match_threshold {
-            textureStore(sources_out, pixel, vec4<f32>(position, 0.0, 0.0));
+        var matches = motion_difference(motion, motion_at(position)) <= parameters.match_threshold;
+        if third && matches {
+            matches = at_depth(position, best.depth);
+        }
+        if matches {
+            hits++;
+            last_hit = position;
+        }
+        // Hits that the last probe cuts short count nothing.
+        if hits == enough || (hits > 0 && !matches) {
+            textureStore(sources_out, pixel, vec4<f32>(stored(last_hit), 0.0, 0.0));
             return;
         }
     }
-    textureStore(sources_out, pixel, vec4<f32>(here, 0.0, 1.0));
+    textureStore(sources_out, pixel, vec4<f32>(stored(here), 0.0, 1.0));
+}
+
+// Whether a position lies as deep as a source, in the demo's device depth.
+fn at_depth(position: vec2<f32>, source_depth: f32) -> bool {
+    let device = parameters.near_plane / vec2<f32>(depth_at(position), source_depth);
+    return abs(device.x - device.y) < parameters.depth_match;
 }
 
 // How much a tap counts whose source is `other`: less where that lies in front of `source` and moves otherwise.
@@ -245,8 +286,8 @@ fn tap_weight(source: vec2<f32>, other: vec2<f32>) -> f32 {
     return 1.0 - in_front * mismatch;
 }
 
-// How much of a tap is taken from the tap itself, the rest being the pixel's own place (the demo of two days later): all
-// of it where the pixel is not behind its source, or where the tap is not behind it.
+// How much of a tap is taken from the tap itself, the rest being the pixel's own place (the demo of two days later, which
+// weighs taps as well): all of it where the pixel is not behind its source, or where the tap is not behind it.
 fn tap_share(here: vec2<f32>, source: vec2<f32>, tap: vec2<f32>) -> f32 {
     let device = parameters.near_plane / vec2<f32>(depth_at(source), depth_at(here));
     let not_behind = saturate(1.0 - (device.x - device.y) / parameters.behind_extent);
@@ -291,7 +332,8 @@ fn gather(@builtin(global_invocation_id) id: vec3<u32>) {
         textureStore(output, pixel, here);
         return;
     }
-    let trail = motion * within_reach(trail_frames(), motion);
+    let reaches = select(1.0, 2.0, parameters.reach_cap == REACH_DOUBLE);
+    let trail = motion * within_reach(trail_frames(), motion, reaches);
     // A running mean keeps a constant colour exactly as it is. The pixel itself counts once: with shifted taps, the
     // first of them stands for it.
     var mean = here;
@@ -301,18 +343,16 @@ fn gather(@builtin(global_invocation_id) id: vec3<u32>) {
         if !on_screen(position) {
             break;
         }
-        var weight = 1.0;
-        var place = position;
+        let other = textureLoad(sources, pixel_at(position), 0).xy;
+        let weight = tap_weight(source, other);
+        var taken_from = position;
         if parameters.tap == TAP_REPLACED {
             let share = tap_share(centre(pixel), source, position);
-            place = mix(centre(pixel), position, share);
-        } else {
-            let other = textureLoad(sources, pixel_at(position), 0).xy;
-            weight = tap_weight(source, other);
+            taken_from = mix(centre(pixel), position, share);
         }
         total += weight;
         if weight > 0.0 {
-            mean += (bilinear(color, place) - mean) * (weight / total);
+            mean += (bilinear(color, taken_from) - mean) * (weight / total);
         }
     }
     textureStore(output, pixel, mean);

@@ -2,6 +2,7 @@
 // decisions from the same arithmetic, so that the pictures differ at most where rounding decides.
 //
 // Every source is the centre of a pixel, where a mixed fetch is that of one texel: one fetch gives its motion and depth.
+// A map of 16 bits moves sources off the centres, and costs the mixed fetch.
 // A seed is one packed number; one bit of it tells which pixels stand still and need no further look. Tiles that no
 // trail can reach are left alone. On the way back, one texel and how much its neighbours differ rule out most probes.
 // What a pixel shows is kept as motion and depth instead of a position, so that a tap is one fetch of it.
@@ -26,6 +27,9 @@ struct Parameters {
     tap: u32,
     behind_extent: f32,
     near_plane: f32,
+    way_back: u32,
+    depth_match: f32,
+    map: u32,
 }
 
 @group(0) @binding(1) var<uniform> parameters: Parameters;
@@ -50,12 +54,14 @@ struct Parameters {
 const TILE = 16;
 
 const METRIC_UV = 0u;
-const REACH_CAPPED = 0u;
 const REACH_DOUBLE = 1u;
+const REACH_NONE = 2u;
 const JITTER_STEP_SCALE = 0u;
 const JITTER_START_OFFSET = 1u;
 const JITTER_STEP_OFFSET = 2u;
 const TAP_REPLACED = 1u;
+const WAY_BACK_THIRD_MATCH = 1u;
+const MAP_FLOAT16 = 1u;
 const KERNEL_WITH_CENTRE = 1u;
 const FETCH_BILINEAR = 0u;
 
@@ -87,15 +93,17 @@ fn measure() -> Measure {
     );
 }
 
-// Set in the seed of a pixel that moves.
+// Set in the seed of a place that moves.
 const MOVES = 0x80000000u;
+// Set in a seed that passed over the pixel that holds it.
+const PASSED = 0x8000u;
 
 fn packed(pixel: vec2<i32>, motion: vec2<f32>) -> u32 {
     return u32(pixel.x) | (u32(pixel.y) << 16u) | select(0u, MOVES, moves(motion));
 }
 
 fn unpacked(seed: u32) -> vec2<i32> {
-    return vec2<i32>(vec2<u32>(seed & 0xffffu, (seed & ~MOVES) >> 16u));
+    return vec2<i32>(vec2<u32>(seed & 0x7fffu, (seed & ~MOVES) >> 16u));
 }
 
 fn moves(motion: vec2<f32>) -> bool {
@@ -147,6 +155,38 @@ fn mixed_depth(depths: vec4<f32>, fraction: vec2<f32>) -> f32 {
     return select(between, depths.x, all(fraction == vec2<f32>(0.0)));
 }
 
+// Rounds a fraction of a side towards zero to 16 bits. Vulkan leaves the rounding of a store to the driver; Direct3D
+// prescribes this one, and Mesa's llvmpipe has it. A fraction below 2^-14 lies outside pictures of up to 8192 pixels.
+fn half(fraction: vec2<f32>) -> vec2<f32> {
+    return bitcast<vec2<f32>>(bitcast<vec2<u32>>(fraction) & vec2<u32>(0xffffe000u));
+}
+
+// The position that comes back from the map, which holds fractions of width and height.
+fn stored(position: vec2<f32>) -> vec2<f32> {
+    if parameters.map != MAP_FLOAT16 {
+        return position;
+    }
+    let size = vec2<f32>(frame.size);
+    return half(position / size) * size;
+}
+
+// The place of the source that a seed names. Only what an earlier step of the dilation stored went through the map.
+fn place(seed: u32, steps_before: u32) -> vec2<f32> {
+    let position = centre(unpacked(seed));
+    if steps_before == 0u {
+        return position;
+    }
+    return stored(position);
+}
+
+// The surface at that place.
+fn source_of(seed: u32, steps_before: u32) -> Surface {
+    if parameters.map == MAP_FLOAT16 && steps_before > 0u {
+        return mixed(mixed_at(place(seed, steps_before)));
+    }
+    return surface_of(unpacked(seed));
+}
+
 // How far the trails of the workgroup's tile reach left, up, right and down; floats from 0 are ordered as their bits.
 var<workgroup> tile_trails: array<atomic<u32>, 4>;
 
@@ -161,6 +201,21 @@ fn trail_of(motion: vec2<f32>) -> vec4<f32> {
     let ahead = by.frames * max(vec4<f32>(motion, -motion), vec4<f32>(0.0));
     let beside = by.beside * abs(motion * by.metric).yx / by.metric;
     return 1.0 + 1.001 * (ahead + beside.xyxy);
+}
+
+fn velocity_at(position: vec2<f32>) -> vec2<f32> {
+    if parameters.fetch == FETCH_BILINEAR {
+        return bilinear(velocity, position).xy;
+    }
+    return textureLoad(velocity, pixel_at(position), 0).xy;
+}
+
+// How far the trail of what a map of 16 bits holds in the place of a pixel reaches beyond that pixel.
+fn trail_of_stored(pixel: vec2<i32>) -> vec4<f32> {
+    let position = stored(centre(pixel));
+    let trail = trail_of(velocity_at(position));
+    let shift = abs(position - centre(pixel)).xyxy;
+    return select(vec4<f32>(0.0), trail + shift, trail > vec4<f32>(0.0));
 }
 
 // Gathers what is known of each pixel, and of each tile.
@@ -182,9 +237,13 @@ fn pack(
         let doubt = select(0.0, longest, parameters.fetch == FETCH_BILINEAR);
         textureStore(surfaces_out, pixel, vec4<f32>(motion, textureLoad(depth, pixel, 0).x, doubt));
         textureStore(seeds_out, pixel, vec4<u32>(packed(pixel, motion)));
-        let trail = bitcast<vec4<u32>>(trail_of(motion));
+        var trail = trail_of(motion);
+        if parameters.map == MAP_FLOAT16 {
+            trail = max(trail, trail_of_stored(pixel));
+        }
+        let ordered = bitcast<vec4<u32>>(trail);
         for (var side = 0; side < 4; side++) {
-            atomicMax(&tile_trails[side], trail[side]);
+            atomicMax(&tile_trails[side], ordered[side]);
         }
     }
     workgroupBarrier();
@@ -288,16 +347,21 @@ fn dilate(@builtin(global_invocation_id) id: vec3<u32>) {
         if (seed & MOVES) == 0u {
             continue;
         }
-        let source = surface_of(unpacked(seed));
-        let candidate = fitness(by, here, centre(unpacked(seed)), source.motion);
+        let source = source_of(seed, frame.iteration);
+        let candidate = fitness(by, here, place(seed, frame.iteration), source.motion);
         if candidate.valid && (!found || source.depth < best_depth) {
             found = true;
             best_depth = source.depth;
-            best_seed = seed;
+            best_seed = seed | PASSED;
         }
     }
     if !found {
         best_seed = packed(pixel, surface_of(pixel).motion);
+    }
+    if parameters.map == MAP_FLOAT16 {
+        // At its rounded place a still pixel may move, and a moving one stand still.
+        let moving = moves(source_of(best_seed, 1u).motion);
+        best_seed = select(best_seed & ~MOVES, best_seed | MOVES, moving);
     }
     textureStore(seeds_out, pixel, vec4<u32>(best_seed));
 }
@@ -309,19 +373,9 @@ fn reach() -> f32 {
     return select(pixels, pixels / side, parameters.metric == METRIC_UV);
 }
 
-fn within_reach(by: Measure, frames: f32, motion: vec2<f32>) -> f32 {
+fn within_reach(by: Measure, frames: f32, motion: vec2<f32>, reaches: f32) -> f32 {
     let quotient = reach() / (length(motion * by.metric) * by.frames);
-    switch parameters.reach_cap {
-        case REACH_CAPPED: {
-            return min(frames, quotient);
-        }
-        case REACH_DOUBLE: {
-            return min(frames, 2.0 * quotient);
-        }
-        default: {
-            return frames;
-        }
-    }
+    return select(frames, min(frames, reaches * quotient), parameters.reach_cap != REACH_NONE);
 }
 
 // How much another path differs from `path`, relative to it; not cut at 1 yet. `sensitivity`: parallel, perpendicular.
@@ -342,6 +396,20 @@ fn least_difference(sensitivity: vec2<f32>, path: vec2<f32>, texel: vec4<f32>, m
     return path_difference(sensitivity, path, other) - taken;
 }
 
+// Whether a surface lies as deep as a source, in the demo's device depth.
+fn at_depth(surface_depth: f32, source_depth: f32) -> bool {
+    let device = parameters.near_plane / vec2<f32>(surface_depth, source_depth);
+    return abs(device.x - device.y) < parameters.depth_match;
+}
+
+// What the map shows of a position where `surface` lies.
+fn shown_from(position: vec2<f32>, surface: Surface) -> Surface {
+    if parameters.map == MAP_FLOAT16 {
+        return mixed(mixed_at(stored(position)));
+    }
+    return surface;
+}
+
 @compute @workgroup_size(8, 8)
 fn backtrack(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
@@ -352,25 +420,35 @@ fn backtrack(@builtin(global_invocation_id) id: vec3<u32>) {
     let probes = parameters.probes;
     let threshold = parameters.match_threshold;
     let sensitivity = vec2<f32>(parameters.parallel_sensitivity, parameters.perpendicular_sensitivity);
+    let third = parameters.way_back == WAY_BACK_THIRD_MATCH;
+    let enough = select(1, 3, third);
     let here = centre(pixel);
-    let seed = unpacked(textureLoad(seeds, pixel, 0).x);
-    let source = surface_of(seed);
-    var shown = surface_of(pixel);
-    // Its own source, or one behind it: nothing to look for.
-    let walks = any(seed != pixel) && shown.depth >= source.depth;
+    let seed = textureLoad(seeds, pixel, 0).x;
+    let before = u32(parameters.passes - 1);
+    let source = source_of(seed, before);
+    let own = surface_of(pixel);
+    // Its own source has no way back, unless the map moved it.
+    let another = any(unpacked(seed) != pixel) || parameters.map == MAP_FLOAT16;
+    let walks = (seed & PASSED) != 0u && another && own.depth >= source.depth;
     let path = source.motion * by.metric;
-    let arrival = fitness(by, here, centre(seed), source.motion).frames;
-    let frames = within_reach(by, arrival, source.motion);
+    let arrival = fitness(by, here, place(seed, before), source.motion).frames;
+    let frames = within_reach(by, arrival, source.motion, 1.0);
+    var hits = 0;
+    var ends = false;
+    var last_hit = here;
+    var hit = own;
     var probe = select(probes + 1, -probes, walks);
-    while probe <= probes {
+    while probe <= probes && !ends {
         var position = here;
-        // To the next probe that may be like the source.
+        var misses = false;
+        // To the next probe that may be like the source, or that ends a row of hits.
         while probe <= probes {
             let back = frames * (1.0 + f32(probe) / f32(probes));
             position = here + source.motion * back;
             if back <= by.frames + PROBE_SLACK && back >= NO_TIME && on_screen(position) {
                 let texel = textureLoad(surfaces, mixed_at(position).low, 0);
-                if saturate(least_difference(sensitivity, path, texel, by.metric)) <= threshold {
+                misses = saturate(least_difference(sensitivity, path, texel, by.metric)) > threshold;
+                if !misses || hits > 0 {
                     break;
                 }
             }
@@ -379,12 +457,22 @@ fn backtrack(@builtin(global_invocation_id) id: vec3<u32>) {
         if probe > probes {
             break;
         }
-        let other = mixed(mixed_at(position));
-        if saturate(path_difference(sensitivity, path, other.motion * by.metric)) <= threshold {
-            shown = other;
-            break;
+        if !misses {
+            let other = mixed(mixed_at(position));
+            misses = saturate(path_difference(sensitivity, path, other.motion * by.metric)) > threshold
+                || (third && !at_depth(other.depth, source.depth));
+            if !misses {
+                hits++;
+                last_hit = position;
+                hit = other;
+            }
         }
+        ends = hits == enough || (hits > 0 && misses);
         probe++;
+    }
+    var shown = shown_from(here, own);
+    if ends {
+        shown = shown_from(last_hit, hit);
     }
     textureStore(sources_out, pixel, vec4<f32>(shown.motion, shown.depth, 0.0));
 }
@@ -434,24 +522,6 @@ fn tap_weight(trail: Trail, other: vec2<f32>, depth: f32) -> f32 {
     return 1.0 - in_front * mismatch;
 }
 
-fn mean_of_weighted_taps(here: vec4<f32>, trail: Trail, metric: vec2<f32>) -> vec4<f32> {
-    var mean = here;
-    var total = f32(first_tap());
-    for (var i = first_tap(); i < parameters.samples; i++) {
-        let position = tap(trail, i);
-        if !on_screen(position) {
-            break;
-        }
-        let other = textureLoad(sources, pixel_at(position), 0);
-        let weight = tap_weight(trail, other.xy * metric, other.z);
-        total += weight;
-        if weight > 0.0 {
-            mean += (bilinear(color, position) - mean) * (weight / total);
-        }
-    }
-    return mean;
-}
-
 fn depth_at(position: vec2<f32>) -> f32 {
     let at = mixed_at(position);
     let depths = vec4<f32>(
@@ -470,9 +540,10 @@ fn tap_share(not_behind: f32, trail: Trail, position: vec2<f32>) -> f32 {
     return max(not_behind, in_front);
 }
 
-fn mean_of_replaced_taps(here: vec4<f32>, trail: Trail, own_depth: f32) -> vec4<f32> {
+fn mean_of_taps(here: vec4<f32>, trail: Trail, own_depth: f32, metric: vec2<f32>) -> vec4<f32> {
     let device = parameters.near_plane / vec2<f32>(trail.depth, own_depth);
     let not_behind = saturate(1.0 - (device.x - device.y) / parameters.behind_extent);
+    let replaced = parameters.tap == TAP_REPLACED;
     var mean = here;
     var total = f32(first_tap());
     for (var i = first_tap(); i < parameters.samples; i++) {
@@ -480,9 +551,16 @@ fn mean_of_replaced_taps(here: vec4<f32>, trail: Trail, own_depth: f32) -> vec4<
         if !on_screen(position) {
             break;
         }
-        let place = mix(trail.start, position, tap_share(not_behind, trail, position));
-        total += 1.0;
-        mean += (bilinear(color, place) - mean) * (1.0 / total);
+        let other = textureLoad(sources, pixel_at(position), 0);
+        let weight = tap_weight(trail, other.xy * metric, other.z);
+        var taken_from = position;
+        if replaced {
+            taken_from = mix(trail.start, position, tap_share(not_behind, trail, position));
+        }
+        total += weight;
+        if weight > 0.0 {
+            mean += (bilinear(color, taken_from) - mean) * (weight / total);
+        }
     }
     return mean;
 }
@@ -503,18 +581,14 @@ fn gather(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     // The demo walks a cycle of 8 frames.
     let walk = f32(frame.frame_index % 8u) * vec2<f32>(47.0, 17.0) * 0.695;
+    let reaches = select(1.0, 2.0, parameters.reach_cap == REACH_DOUBLE);
     let trail = Trail(
         centre(pixel),
-        motion * within_reach(by, by.frames, motion),
+        motion * within_reach(by, by.frames, motion, reaches),
         motion * by.metric,
         source.z,
         interleaved_gradient_noise(vec2<f32>(pixel) + walk),
     );
-    var mean: vec4<f32>;
-    if parameters.tap == TAP_REPLACED {
-        mean = mean_of_replaced_taps(here, trail, textureLoad(depth, pixel, 0).x);
-    } else {
-        mean = mean_of_weighted_taps(here, trail, by.metric);
-    }
-    textureStore(output, pixel, mean);
+    let own_depth = textureLoad(depth, pixel, 0).x;
+    textureStore(output, pixel, mean_of_taps(here, trail, own_depth, by.metric));
 }
