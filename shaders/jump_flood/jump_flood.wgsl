@@ -98,9 +98,10 @@ fn within_reach(frames: f32, motion: vec2<f32>, reaches: f32) -> f32 {
 }
 
 // Rounds a fraction of a side towards zero to 16 bits. Vulkan leaves the rounding of a store to the driver; Direct3D
-// prescribes this one, and Mesa's llvmpipe has it. A fraction below 2^-14 lies outside pictures of up to 8192 pixels.
+// prescribes this one, and Mesa's llvmpipe has it. A quotient that misses a 16-bit number by its last bits is that
+// number, however a GPU divides. No centre of a pixel lies below 2^-14 in a picture of up to 8192 pixels.
 fn half(fraction: vec2<f32>) -> vec2<f32> {
-    return bitcast<vec2<f32>>(bitcast<vec2<u32>>(fraction) & vec2<u32>(0xffffe000u));
+    return bitcast<vec2<f32>>((bitcast<vec2<u32>>(fraction) + 3u) & vec2<u32>(0xffffe000u));
 }
 
 // The position that comes back from the map, which holds fractions of width and height.
@@ -140,12 +141,17 @@ fn depth_at(position: vec2<f32>) -> f32 {
     if all(at.fraction == vec2<f32>(0.0)) {
         return textureLoad(depth, at.low, 0).x;
     }
-    let inverse = 1.0 / vec4<f32>(
+    let depths = vec4<f32>(
         textureLoad(depth, at.low, 0).x,
         textureLoad(depth, vec2<i32>(at.high.x, at.low.y), 0).x,
         textureLoad(depth, vec2<i32>(at.low.x, at.high.y), 0).x,
         textureLoad(depth, at.high, 0).x,
     );
+    // A map of 16 bits moves sources off their texels, and leaves them as deep as their neighbours on a level surface.
+    if parameters.map == MAP_FLOAT16 && all(depths == depths.xxxx) {
+        return depths.x;
+    }
+    let inverse = 1.0 / depths;
     let rows = inverse.xz + at.fraction.x * (inverse.yw - inverse.xz);
     return 1.0 / (rows.x + at.fraction.y * (rows.y - rows.x));
 }

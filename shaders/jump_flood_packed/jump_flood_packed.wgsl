@@ -147,18 +147,21 @@ fn mixed(at: Corners) -> Surface {
     return Surface(motion, mixed_depth(depths, at.fraction), 0.0);
 }
 
-// Of the texels top left, top right, bottom left and bottom right: mixed as the inverse, and at a texel that texel's.
+// Of the texels top left, top right, bottom left and bottom right: mixed as the inverse, and at a texel that texel's; in a
+// map of 16 bits also what all four have.
 fn mixed_depth(depths: vec4<f32>, fraction: vec2<f32>) -> f32 {
     let inverse = 1.0 / depths;
     let rows = inverse.xz + fraction.x * (inverse.yw - inverse.xz);
     let between = 1.0 / (rows.x + fraction.y * (rows.y - rows.x));
-    return select(between, depths.x, all(fraction == vec2<f32>(0.0)));
+    let level = parameters.map == MAP_FLOAT16 && all(depths == depths.xxxx);
+    return select(between, depths.x, level || all(fraction == vec2<f32>(0.0)));
 }
 
 // Rounds a fraction of a side towards zero to 16 bits. Vulkan leaves the rounding of a store to the driver; Direct3D
-// prescribes this one, and Mesa's llvmpipe has it. A fraction below 2^-14 lies outside pictures of up to 8192 pixels.
+// prescribes this one, and Mesa's llvmpipe has it. A quotient that misses a 16-bit number by its last bits is that
+// number, however a GPU divides. No centre of a pixel lies below 2^-14 in a picture of up to 8192 pixels.
 fn half(fraction: vec2<f32>) -> vec2<f32> {
-    return bitcast<vec2<f32>>(bitcast<vec2<u32>>(fraction) & vec2<u32>(0xffffe000u));
+    return bitcast<vec2<f32>>((bitcast<vec2<u32>>(fraction) + 3u) & vec2<u32>(0xffffe000u));
 }
 
 // The position that comes back from the map, which holds fractions of width and height.

@@ -63,13 +63,27 @@ impl Reference<'_> {
         for iteration in 0..=last {
             let step = (1 << (last - iteration)) * self.paper.step_multiplier;
             map = pixels()
-                .map(|pixel| self.outcomes(pixel, step, &map))
+                .map(|pixel| self.outcomes(pixel, step, iteration, &map))
                 .collect();
         }
         map
     }
 
-    fn outcomes(&self, pixel: [i64; 2], step: i64, map: &[Vec<Chosen>]) -> Vec<Chosen> {
+    /// Where a pixel lies as a source in an iteration: what an earlier one stored went through the map.
+    pub fn place(&self, pixel: [i64; 2], iteration: u32) -> Vec2 {
+        match iteration {
+            0 => self.uv(pixel),
+            _ => self.stored(self.uv(pixel)),
+        }
+    }
+
+    fn outcomes(
+        &self,
+        pixel: [i64; 2],
+        step: i64,
+        iteration: u32,
+        map: &[Vec<Chosen>],
+    ) -> Vec<Chosen> {
         struct Candidate {
             order: usize,
             pixel: [i64; 2],
@@ -85,7 +99,7 @@ impl Reference<'_> {
             }
             let held = &map[(neighbour[1] * self.size[0] + neighbour[0]) as usize];
             for source in held {
-                let s = self.uv(source.pixel);
+                let s = self.place(source.pixel, iteration);
                 candidates.push(Candidate {
                     order,
                     pixel: source.pixel,

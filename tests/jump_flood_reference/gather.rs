@@ -28,7 +28,7 @@ impl Reference<'_> {
         if v == [0.0, 0.0] {
             return Some((self.color(p), 0.0));
         }
-        let length = self.paper.m.min(self.cut(v));
+        let length = self.paper.m.min(self.cut(v, self.paper.reach_factor));
         let n = f64::from(self.paper.samples);
         let start_offset = self.paper.jitter == Jitter::StartOffset;
         let (noise, noise_error) = match self.paper.jitter {
@@ -58,13 +58,14 @@ impl Reference<'_> {
                 break;
             }
             let other = source_uv(position.map(|c| c.floor() as i64));
-            let (weight, tap) = match self.paper.behind_extent {
-                None => (self.weight(own, other)?, self.color(x)),
+            let weight = self.weight(own, other)?;
+            let tap = match self.paper.behind_extent {
+                None => self.color(x),
                 Some(extent) => {
                     let share = self.share(p, own, x, extent);
                     misplaced += share.error * length * trail_x.hypot(trail_y);
                     let place = [0, 1].map(|axis| p[axis] + share.value * (x[axis] - p[axis]));
-                    (1.0, self.color(place))
+                    self.color(place)
                 }
             };
             sum = [0, 1, 2].map(|c| sum[c] + tap[c] * weight);

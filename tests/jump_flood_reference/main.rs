@@ -26,7 +26,7 @@ fn fields() -> Vec<(&'static str, Field)> {
 type Changes = &'static [(&'static str, &'static str)];
 
 /// Changes to a preset, and the exposure in frames.
-const CASES: [(&str, Changes, f64); 9] = [
+const CASES: [(&str, Changes, f64); 12] = [
     ("paper", &[], 1.0),
     ("paper", &[("jitter", "none")], 0.5),
     (
@@ -53,6 +53,17 @@ const CASES: [(&str, Changes, f64); 9] = [
         1.0,
     ),
     ("july_2024", &[], 1.0),
+    ("july_2024", &[("map", "float32")], 1.0),
+    (
+        "july_2024",
+        &[("kernel", "with_centre"), ("depth_match", "0.02")],
+        1.5,
+    ),
+    (
+        "paper",
+        &[("map", "float16"), ("passes", "5"), ("step_multiplier", "2")],
+        1.0,
+    ),
     (
         "july_2024",
         &[("fetch", "nearest"), ("behind_extent", "0.01")],
@@ -153,6 +164,8 @@ impl Case {
                 _ => Jitter::None,
             },
             behind_extent: (choice("tap") == "replaced").then(|| real("behind_extent")),
+            third_match: (choice("way_back") == "third_match").then(|| real("depth_match")),
+            half_map: choice("map") == "float16",
             with_centre: choice("kernel") == "with_centre",
             nearest: choice("fetch") == "nearest",
             frame_index: FRAME_INDEX,

@@ -22,12 +22,17 @@ pub struct Paper {
     pub samples: u32,
     /// Measure paths in pixels instead of UV.
     pub pixel_metric: bool,
-    /// Factor on the paper's cut of trails; infinite for none.
+    /// Factor on the paper's cut of trails in the gather; infinite for none, on the way back too.
     pub reach_factor: f64,
     pub jitter: Jitter,
     /// The demo of two days later: the difference of reverse depth over which a pixel turns from level with its source to
     /// behind it. None where taps are weighted.
     pub behind_extent: Option<f64>,
+    /// Two days later: the difference of reverse depth under which a probe matches, and three matches end the way back.
+    /// None where the first match of velocities does.
+    pub third_match: Option<f64>,
+    /// Two days later: the map has 16 bits.
+    pub half_map: bool,
     pub with_centre: bool,
     /// Read velocity and depth without filtering.
     pub nearest: bool,
@@ -161,9 +166,17 @@ impl<'f> Reference<'f> {
         }
     }
 
-    /// R / (|V| m), the time at which a trail is cut.
-    pub fn cut(&self, v: Vec2) -> f64 {
-        if self.paper.reach_factor.is_infinite() {
+    /// What the map holds of a UV: 11 binary digits, towards zero.
+    pub fn stored(&self, uv: Vec2) -> Vec2 {
+        match self.paper.half_map {
+            true => uv.map(|c| f64::from_bits(c.to_bits() & !((1 << 42) - 1))),
+            false => uv,
+        }
+    }
+
+    /// `factor` R / (|V| m), the time at which a trail is cut.
+    pub fn cut(&self, v: Vec2, factor: f64) -> f64 {
+        if factor.is_infinite() {
             return f64::INFINITY;
         }
         let largest = (1 << (self.paper.passes - 1)) * self.paper.step_multiplier;
@@ -171,7 +184,7 @@ impl<'f> Reference<'f> {
             true => 1,
             false => self.size[0].max(self.size[1]),
         };
-        let r = self.paper.reach_factor * largest as f64 / side as f64;
+        let r = factor * largest as f64 / side as f64;
         let v = self.measured(v);
         r / (dot(v, v).sqrt() * self.paper.m)
     }
