@@ -36,7 +36,9 @@ impl Reference<'_> {
             _ => (self.noise(pixel)?, NOISE),
         };
         let [trail_x, trail_y] = self.pixels(v);
-        let mut misplaced = POSITION + noise_error * length * trail_x.hypot(trail_y);
+        let misplaced = POSITION + noise_error * length * trail_x.hypot(trail_y);
+        // A share moves what is read of the colours, and no tap.
+        let mut misread = misplaced;
         let (mut sum, mut weights) = match start_offset {
             true => ([0.0; 3], 0.0),
             false => (self.color(p), 1.0),
@@ -63,7 +65,7 @@ impl Reference<'_> {
                 None => self.color(x),
                 Some(extent) => {
                     let share = self.share(p, own, x, extent);
-                    misplaced += share.error * length * trail_x.hypot(trail_y);
+                    misread += share.error * length * trail_x.hypot(trail_y);
                     let place = [0, 1].map(|axis| p[axis] + share.value * (x[axis] - p[axis]));
                     self.color(place)
                 }
@@ -71,7 +73,7 @@ impl Reference<'_> {
             sum = [0, 1, 2].map(|c| sum[c] + tap[c] * weight);
             weights += weight;
         }
-        (weights > 0.0).then(|| (sum.map(|component| component / weights), misplaced))
+        (weights > 0.0).then(|| (sum.map(|component| component / weights), misread))
     }
 
     fn color(&self, uv: Vec2) -> [f64; 3] {
@@ -90,9 +92,14 @@ impl Reference<'_> {
         let nf = 1.0 - ((tap - 0.1) - source) / 0.1;
         let [nb, nf] = [nb, nf].map(|part| part.clamp(0.0, 1.0));
         let between = |part: f64| part > 0.0 && part < 1.0;
-        let error = match between(nb) || between(nf) {
-            true => ROUNDING * (source_reverse / extent + (tap + source) / 0.1),
-            false => 0.0,
+        let error = if between(nb) && between(nf) {
+            ROUNDING * (source_reverse / extent + (tap + source) / 0.1)
+        } else if between(nb) {
+            ROUNDING * source_reverse / extent
+        } else if between(nf) && nb == 0.0 {
+            ROUNDING * (tap + source) / 0.1
+        } else {
+            0.0
         };
         Share {
             value: nb.max(nf),
@@ -100,16 +107,17 @@ impl Reference<'_> {
         }
     }
 
-    /// w = 1 - fg * D^0.1, or nothing where D is rounding noise that the root would blow up.
+    /// w = 1 - fg * D^0.1, or nothing where D is rounding noise that the root would blow up and that counts.
     fn weight(&self, own: Vec2, other: Vec2) -> Option<f64> {
         let v = self.measured(self.velocity(own));
         let w = self.measured(self.velocity(other));
         let d = dot(minus(v, w), v) / dot(v, v);
-        if d != 0.0 && d.abs() < 1e-3 {
-            return None;
-        }
         let ahead = (self.depth(other) - self.depth(own)) / self.paper.foreground_extent;
         let fg = (1.0 - ahead).clamp(0.0, 1.0);
+        // Motion is known to 1e-4 of itself.
+        if fg > 0.0 && d != 0.0 && d > -1e-4 && d < 1e-3 {
+            return None;
+        }
         Some(1.0 - fg * d.clamp(0.0, 1.0).powf(self.paper.mismatch_exponent))
     }
 

@@ -56,12 +56,16 @@ const CASES: [(&str, Changes, f64); 12] = [
     ("july_2024", &[("map", "float32")], 1.0),
     (
         "july_2024",
-        &[("kernel", "with_centre"), ("depth_match", "0.02")],
+        &[("passes", "4"), ("depth_match", "0.02"), ("probes", "5")],
         1.5,
     ),
     (
         "paper",
-        &[("map", "float16"), ("passes", "5"), ("step_multiplier", "2")],
+        &[
+            ("map", "float16"),
+            ("passes", "5"),
+            ("step_multiplier", "2"),
+        ],
         1.0,
     ),
     (

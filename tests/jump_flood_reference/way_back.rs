@@ -10,6 +10,9 @@ pub struct Source {
     pub flag: f64,
 }
 
+/// In pixels: what 32-bit floats make of positions up to 100 after a product and a sum.
+const STORED: f64 = 3e-5;
+
 /// A row of matching probes that a correct run may be in.
 #[derive(Clone, Copy, PartialEq)]
 struct Row {
@@ -101,8 +104,8 @@ impl Reference<'_> {
             let [width, height] = self.size.map(|side| side as f64);
             let near = match self.paper.half_map {
                 true => [
-                    uv[0] + right * POSITION / width,
-                    uv[1] + down * POSITION / height,
+                    uv[0] + right * STORED / width,
+                    uv[1] + down * STORED / height,
                 ],
                 false => uv,
             };
