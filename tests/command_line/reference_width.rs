@@ -161,7 +161,7 @@ fn every_command_that_runs_filters_scales_and_can_be_told_not_to() {
             "--params",
             "params.json",
         ];
-        json(&[&words[..], more].concat())["error"].clone()
+        json(&[&words[..], more].concat())["scenes"]["plate"]["flip"].clone()
     };
     let (scaled, written) = (evaluate("{}", &[]), evaluate("{}", &["--as-written"]));
     assert_ne!(scaled, written);
