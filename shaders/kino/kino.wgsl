@@ -8,6 +8,7 @@ struct Parameters {
     storage: u32,
     far_plane: f32,
     jitter: u32,
+    least_motion: f32,
 }
 
 @group(0) @binding(1) var<uniform> parameters: Parameters;
@@ -28,8 +29,6 @@ const STORAGE_PACKED = 0u;
 const JITTER_NOISE = 0u;
 
 const TAU = 6.2831853;
-// Half-motion in pixels under which nothing blurs.
-const STILL = 2.0;
 // A tile's own motion counts for this much more than its neighbours'.
 const OWN_TILE = 1.01;
 // A tap is wholly foreground where it is nearer than the pixel by one part in this many of the pixel's depth.
@@ -173,7 +172,7 @@ fn reconstruct(@builtin(global_invocation_id) id: vec3<u32>) {
     let here = textureLoad(color, pixel, 0);
     let longest = longest_near(pixel);
     let reach = length(longest);
-    if reach < STILL {
+    if reach < parameters.least_motion {
         textureStore(output, pixel, here);
         return;
     }
@@ -182,7 +181,7 @@ fn reconstruct(@builtin(global_invocation_id) id: vec3<u32>) {
     // The pixel's own direction, where it moves at least half as far as the fastest.
     let other = select(longest, own.xy * (reach / own_length), 2.0 * own_length > reach);
 
-    let pairs = i32(min(f32(parameters.samples / 2), 0.5 * reach));
+    let pairs = i32(min(f32(parameters.samples / 2), reach / parameters.least_motion));
     let step = 1.0 / f32(pairs);
     let shift = select(0.0, (noise(vec2<f32>(pixel)) - 0.5) * step, parameters.jitter == JITTER_NOISE);
     // How far the background moves, as far as the taps so far know.

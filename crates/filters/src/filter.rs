@@ -1,6 +1,6 @@
 //! A filter: what `filter.toml` and its kernels say, checked.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use frame::Alignment;
@@ -8,7 +8,8 @@ use include_dir::{Dir, include_dir};
 
 use crate::gpu::{EntryPoint, Shader};
 use crate::{
-    Command, FilterError, Length, Parameter, ReachBy, Settings, Tuned, Value, manifest, wiring,
+    Command, FilterError, Length, Parameter, ReachBy, Settings, Source, Tuned, Value, manifest,
+    wiring,
 };
 
 static BUILTIN: Dir = include_dir!("$CARGO_MANIFEST_DIR/../../shaders");
@@ -52,6 +53,11 @@ pub struct Preset {
     pub name: String,
     /// What it stands for.
     pub doc: String,
+    /// Whose work it follows, where it is somebody's.
+    pub source: Option<Source>,
+    /// Width in pixels of the pictures that its author made it for; `None` where no parameter depends on that, or nobody
+    /// knows.
+    pub reference_width: Option<u32>,
     /// The values that differ from the parameters' defaults.
     pub values: BTreeMap<String, Value>,
     /// How the values were found, where tuning found them.
@@ -182,6 +188,8 @@ impl Filter {
         Ok(Settings {
             preset: preset.name.clone(),
             values,
+            reference_width: preset.reference_width,
+            fixed: BTreeSet::new(),
         })
     }
 

@@ -13,6 +13,7 @@ mod manifest;
 mod parameter;
 mod reach;
 mod settings;
+mod source;
 mod tuned;
 mod wiring;
 
@@ -24,7 +25,8 @@ pub use gpu::{
     list_adapters,
 };
 pub use input::Input;
-pub use parameter::{Kind, Parameter, Scale, Value};
+pub use parameter::{Kind, Parameter, Scale, Unit, Value};
 pub use reach::{Growth, Length, ReachBy};
 pub use settings::Settings;
+pub use source::{Code, Source};
 pub use tuned::Tuned;

@@ -11,6 +11,8 @@ pub struct Parameter {
     pub kind: Kind,
     /// The value where a preset names none.
     pub default: Value,
+    /// What it is counted in, where that depends on the size of the picture.
+    pub unit: Option<Unit>,
     /// Whether a tuner may change it.
     pub tunable: bool,
     /// Meaning and unit, and what raising it costs.
@@ -54,6 +56,14 @@ pub enum Scale {
     Linear,
     /// Equal ratios.
     Log,
+}
+
+/// What a number is counted in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Unit {
+    /// Pixels of the picture: what is as large in a picture of twice the width has twice the value there.
+    Pixels,
 }
 
 /// A parameter's value.
@@ -106,6 +116,21 @@ impl Kind {
             Kind::Choice { .. } => Value::Choice(text.to_owned()),
         };
         self.allows(&value).then_some(value)
+    }
+
+    /// A number times a factor, as near to that as this kind allows: rounded where it is whole, and moved to the range's
+    /// nearer end where it lies outside of it. Choices stay as they are.
+    pub(crate) fn scaled(&self, value: &Value, factor: f64) -> Value {
+        match (self, value) {
+            (Kind::Integer { min, max, .. }, Value::Integer(value)) => {
+                let scaled = (f64::from(*value) * factor).round();
+                Value::Integer(scaled.clamp(f64::from(*min), f64::from(*max)) as i32)
+            }
+            (Kind::Real { min, max, .. }, Value::Real(value)) => {
+                Value::Real((value * factor).clamp(*min, *max))
+            }
+            (_, value) => value.clone(),
+        }
     }
 
     /// The scalar type of the member in the WGSL struct.

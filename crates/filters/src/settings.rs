@@ -1,10 +1,10 @@
 //! The parameter values that a filter runs with.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Serialize;
 
-use crate::{Filter, FilterError, Parameter, Value};
+use crate::{Filter, FilterError, Parameter, Unit, Value};
 
 /// A value for every parameter of one filter.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -13,6 +13,10 @@ pub struct Settings {
     pub preset: String,
     /// By parameter name.
     pub values: BTreeMap<String, Value>,
+    /// Width of the pictures that the values in pixels are meant for; `None` where they are meant for every width.
+    pub reference_width: Option<u32>,
+    /// Parameters that stay as they are at every width: set by hand, or scaled already.
+    pub fixed: BTreeSet<String>,
 }
 
 impl Settings {
@@ -23,7 +27,7 @@ impl Settings {
             .kind
             .parse(text)
             .ok_or_else(|| refuse(filter, known, text))?;
-        self.values.insert(parameter.to_owned(), value);
+        self.fix(parameter, value);
         Ok(())
     }
 
@@ -38,8 +42,36 @@ impl Settings {
         if !known.kind.allows(&value) {
             return Err(refuse(filter, known, &value.to_string()));
         }
-        self.values.insert(parameter.to_owned(), value);
+        self.fix(parameter, value);
         Ok(())
+    }
+
+    /// Leaves every value as the preset has it, whatever the width.
+    pub fn as_written(mut self) -> Self {
+        self.reference_width = None;
+        self
+    }
+
+    /// Fits the values in pixels to pictures `width` pixels wide: width / reference width times as much, unless they were set
+    /// by hand. Whole numbers are rounded, and all of them stay in range.
+    pub fn scaled_to(&self, filter: &Filter, width: u32) -> Self {
+        let mut scaled = self.clone();
+        let Some(reference_width) = self.reference_width else {
+            return scaled;
+        };
+        let factor = f64::from(width) / f64::from(reference_width);
+        let in_pixels =
+            (filter.parameters.iter()).filter(|parameter| parameter.unit == Some(Unit::Pixels));
+        for parameter in in_pixels.filter(|parameter| !self.fixed.contains(&parameter.name)) {
+            let value = &self.values[&parameter.name];
+            scaled.fix(&parameter.name, parameter.kind.scaled(value, factor));
+        }
+        scaled
+    }
+
+    fn fix(&mut self, parameter: &str, value: Value) {
+        self.values.insert(parameter.to_owned(), value);
+        self.fixed.insert(parameter.to_owned());
     }
 
     /// Refuses settings that were made for another filter, or changed past what it allows.

@@ -4,6 +4,7 @@ mod command;
 mod parameters;
 mod passes;
 mod reach;
+mod source;
 
 use std::path::{Path, PathBuf};
 use std::str::FromStr;

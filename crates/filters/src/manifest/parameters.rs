@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::source::{SourceEntry, source};
 use super::{File, IDENTIFIER, is_identifier};
 use crate::filter::Preset;
-use crate::{FilterError, Kind, Parameter, Scale, Tuned, Value};
+use crate::{FilterError, Kind, Parameter, Scale, Tuned, Unit, Value};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -18,6 +19,7 @@ pub(super) struct ParameterEntry {
     range: Option<[f64; 2]>,
     choices: Option<Vec<String>>,
     scale: Option<Scale>,
+    unit: Option<Unit>,
     #[serde(default = "yes")]
     tunable: bool,
     doc: String,
@@ -38,6 +40,8 @@ pub(super) struct PresetEntry {
     doc: String,
     #[serde(default)]
     values: BTreeMap<String, Spanned<toml::Value>>,
+    source: Option<Spanned<SourceEntry>>,
+    reference_width: Option<Spanned<u32>>,
     tuned: Option<Tuned>,
 }
 
@@ -67,10 +71,15 @@ pub(super) fn parameters(
                 named(format!("default {} is not {allowed}", entry.default)),
             )
         })?;
+        if entry.unit.is_some() && matches!(kind, Kind::Choice { .. }) {
+            let reason = "a choice is counted in nothing; leave unit out";
+            return Err(file.at(spanned, named(reason.into())));
+        }
         parameters.push(Parameter {
             name: entry.name.clone(),
             kind,
             default,
+            unit: entry.unit,
             tunable: entry.tunable,
             doc: entry.doc.clone(),
         });
@@ -159,6 +168,8 @@ pub(super) fn presets(
         presets.push(Preset {
             name: entry.name.clone(),
             doc: entry.doc.clone(),
+            source: source(file, &entry.name, entry.source.as_ref())?,
+            reference_width: reference_width(file, entry, parameters)?,
             values,
             tuned: entry.tuned.clone(),
         });
@@ -167,11 +178,39 @@ pub(super) fn presets(
         presets.push(Preset {
             name: "default".into(),
             doc: "Every parameter at its default.".into(),
+            source: None,
+            reference_width: None,
             values: BTreeMap::new(),
             tuned: None,
         });
     }
     Ok(presets)
+}
+
+/// The width that a preset was made for; refused where that changes no parameter.
+fn reference_width(
+    file: &File,
+    entry: &PresetEntry,
+    parameters: &[Parameter],
+) -> Result<Option<u32>, FilterError> {
+    let Some(spanned) = &entry.reference_width else {
+        return Ok(None);
+    };
+    let width = *spanned.get_ref();
+    let refuse = |reason: &str| {
+        let name = &entry.name;
+        let reason = format!("preset \"{name}\": reference_width = {width}{reason}");
+        file.at(spanned, reason)
+    };
+    if width == 0 {
+        return Err(refuse("; allowed: 1 pixel or more"));
+    }
+    if parameters.iter().all(|parameter| parameter.unit.is_none()) {
+        return Err(refuse(
+            ", but no parameter has unit = \"pixels\", so that there is nothing to scale; leave it out",
+        ));
+    }
+    Ok(Some(width))
 }
 
 /// A TOML value as one of `kind`; whole numbers stand for real ones too.

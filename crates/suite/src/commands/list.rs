@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use filters::{AdapterDescription, Command, Filter, Parameter, Preset, list_adapters};
+use filters::{AdapterDescription, Command, Filter, Parameter, Preset, Unit, list_adapters};
 use suite::{Error, push_wrapped};
 use tracer::{SceneListing, list_scenes};
 
@@ -76,6 +76,7 @@ fn filter_json(filter: &Filter) -> serde_json::Value {
             "name": parameter.name,
             "default": parameter.default,
             "allowed": parameter.kind.allowed(),
+            "unit": parameter.unit,
             "tunable": parameter.tunable,
             "doc": parameter.doc,
         })
@@ -84,6 +85,8 @@ fn filter_json(filter: &Filter) -> serde_json::Value {
         serde_json::json!({
             "name": preset.name,
             "doc": preset.doc,
+            "source": preset.source,
+            "reference_width": preset.reference_width,
             "values": preset.values,
             "tuned": preset.tuned,
         })
@@ -114,12 +117,12 @@ fn scene_text(scene: &SceneListing) -> String {
 }
 
 fn filter_text(filter: &Filter) -> String {
-    let preset = |preset: &Preset| format!("    :{}  {}\n", preset.name, preset.doc);
     let parameter = |parameter: &Parameter| {
         format!(
-            "    .{} = {} ({})\n        {}\n",
+            "    .{} = {}{} ({})\n        {}\n",
             parameter.name,
             parameter.default,
+            parameter.unit.map_or("", |Unit::Pixels| " pixels"),
             parameter.kind.allowed(),
             parameter.doc
         )
@@ -134,7 +137,28 @@ fn filter_text(filter: &Filter) -> String {
         filter.alignment,
         filter.summary,
         filter.cannot,
-        filter.presets.iter().map(preset).collect::<String>(),
+        filter.presets.iter().map(preset_text).collect::<String>(),
         filter.parameters.iter().map(parameter).collect::<String>()
     )
+}
+
+/// A preset, and below it whose work it follows and where it leaves that.
+fn preset_text(preset: &Preset) -> String {
+    let mut text = format!("    :{}  {}\n", preset.name, preset.doc);
+    let mut line = |words: String| text += &format!("        {words}\n");
+    if let Some(source) = &preset.source {
+        if let Some(code) = &source.code {
+            line(format!("source: {code}"));
+        }
+        if let Some(publication) = &source.publication {
+            line(format!("published: {publication}"));
+        }
+        for difference in &source.differs {
+            line(format!("differs: {difference}"));
+        }
+    }
+    if let Some(width) = preset.reference_width {
+        line(format!("made for pictures {width} pixels wide"));
+    }
+    text
 }

@@ -1,0 +1,211 @@
+//! What a preset says of where it comes from, and the pictures that it was made for.
+
+use filters::{Filter, FilterError, Settings, Value};
+
+const COMMIT: &str = "0123456789abcdef0123456789abcdef01234567";
+
+const MANIFEST: &str = r#"
+name = "still"
+summary = "Copies the frame."
+alignment = "trailing"
+
+[[parameter]]
+name = "tile_size"
+kind = "integer"
+default = 20
+range = [2, 256]
+unit = "pixels"
+doc = "Side of a tile."
+
+[[parameter]]
+name = "threshold"
+kind = "real"
+default = 1.5
+range = [0.25, 4.0]
+unit = "pixels"
+doc = "Shortest trail."
+
+[[parameter]]
+name = "samples"
+kind = "integer"
+default = 8
+range = [1, 64]
+doc = "Taps."
+
+[[preset]]
+name = "engine"
+doc = "As an engine has it."
+reference_width = 1920
+[preset.values]
+samples = 9
+[preset.source]
+repository = "https://example.org/engine"
+commit = "0123456789abcdef0123456789abcdef01234567"
+paths = ["blur.hlsl", "shared/noise.hlsl"]
+publication = "A talk."
+differs = ["Noise is another."]
+
+[[preset]]
+name = "anywhere"
+doc = "The same in pixels at every width."
+
+[[pass]]
+entry = "copy"
+"#;
+
+const KERNELS: &str = "
+struct Parameters { tile_size: i32, threshold: f32, samples: i32 }
+@group(0) @binding(1) var<uniform> parameters: Parameters;
+@group(0) @binding(2) var color: texture_2d<f32>;
+@group(0) @binding(3) var output: texture_storage_2d<rgba32float, write>;
+@compute @workgroup_size(8, 8)
+fn copy(@builtin(global_invocation_id) id: vec3<u32>) {
+    if inside(vec2<i32>(id.xy)) {
+        let used = f32(parameters.tile_size) + parameters.threshold + f32(parameters.samples);
+        textureStore(output, id.xy, textureLoad(color, id.xy, 0) + 0.0 * used);
+    }
+}
+";
+
+/// Loads the filter with one piece of its filter.toml replaced.
+fn load_changed(from: &str, to: &str) -> Result<Filter, FilterError> {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(MANIFEST.contains(from), "the filter holds \"{from}\"");
+    let manifest = MANIFEST.replacen(from, to, 1);
+    std::fs::write(folder.path().join("filter.toml"), manifest).unwrap();
+    std::fs::write(folder.path().join("still.wgsl"), KERNELS).unwrap();
+    Filter::load(folder.path())
+}
+
+fn filter() -> Filter {
+    load_changed("", "").unwrap()
+}
+
+fn scaled(filter: &Filter, settings: &Settings, width: u32) -> [Value; 3] {
+    let values = settings.scaled_to(filter, width).values;
+    ["tile_size", "threshold", "samples"].map(|name| values[name].clone())
+}
+
+fn values(tile_size: i32, threshold: f64, samples: i32) -> [Value; 3] {
+    [
+        Value::Integer(tile_size),
+        Value::Real(threshold),
+        Value::Integer(samples),
+    ]
+}
+
+#[test]
+fn a_source_names_repository_commit_files_and_differences() {
+    let filter = filter();
+    let source = filter.presets[0].source.as_ref().unwrap();
+    let code = source.code.as_ref().unwrap();
+    assert_eq!(code.repository, "https://example.org/engine");
+    assert_eq!(code.commit, COMMIT);
+    assert_eq!(code.paths, ["blur.hlsl", "shared/noise.hlsl"]);
+    assert_eq!(source.publication.as_deref(), Some("A talk."));
+    assert_eq!(source.differs, ["Noise is another."]);
+    assert_eq!(filter.presets[1].source, None);
+}
+
+#[test]
+fn a_wrong_source_says_where_and_what() {
+    let commit = format!("commit = \"{COMMIT}\"\n");
+    let repository = "repository = \"https://example.org/engine\"\n";
+    let paths = "paths = [\"blur.hlsl\", \"shared/noise.hlsl\"]\n";
+    let publication = "publication = \"A talk.\"\n";
+    let all = format!("{repository}{commit}{paths}{publication}");
+    #[rustfmt::skip]
+    let cases: Vec<(&str, &str, &[&str])> = vec![
+        (&commit, "", &["filter.toml:35", "preset \"engine\"", "commit is missing", "go together"]),
+        (repository, "", &["filter.toml:35", "repository is missing"]),
+        (paths, "", &["filter.toml:35", "paths is missing"]),
+        (&all, "", &["filter.toml:35", "names nothing", "publication"]),
+        (COMMIT, "0123456", &["filter.toml:37", "commit = \"0123456\"", "40 digits"]),
+        (COMMIT, "0123456789ABCDEF0123456789abcdef01234567", &["filter.toml:37", "40 digits"]),
+        ("https://example.org/engine", "git@example.org:engine", &["filter.toml:36", "https://"]),
+        ("[\"blur.hlsl\", \"shared/noise.hlsl\"]", "[]", &["filter.toml:38", "one file or more"]),
+        ("\"blur.hlsl\"", "\"/blur.hlsl\"", &["filter.toml:38", "from the top of the repository"]),
+        ("Noise is another.", " ", &["filter.toml:40", "an empty text"]),
+        ("A talk.", "", &["filter.toml:39", "an empty text"]),
+        ("differs", "differ", &["filter.toml:40", "differ"]),
+        ("reference_width = 1920", "reference_width = 0", &["filter.toml:32", "reference_width = 0", "1 pixel or more"]),
+        ("range = [1, 64]\n", "range = [1, 64]\nunit = \"metres\"\n", &["filter.toml:27", "metres", "pixels"]),
+    ];
+    for (from, to, parts) in cases {
+        let message = load_changed(from, to).unwrap_err().to_string();
+        for part in parts {
+            assert!(
+                message.contains(part),
+                "{to:?}: \"{part}\" is missing from: {message}"
+            );
+        }
+    }
+}
+
+#[test]
+fn only_what_has_pixels_can_be_scaled() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |manifest: &str, parts: &[&str]| {
+        std::fs::write(folder.path().join("filter.toml"), manifest).unwrap();
+        std::fs::write(folder.path().join("still.wgsl"), KERNELS).unwrap();
+        let message = Filter::load(folder.path()).unwrap_err().to_string();
+        for part in parts {
+            assert!(
+                message.contains(part),
+                "\"{part}\" is missing from: {message}"
+            );
+        }
+    };
+    let without = MANIFEST.replace("unit = \"pixels\"\n", "");
+    refused(
+        &without,
+        &[
+            "filter.toml:30",
+            "reference_width = 1920",
+            "no parameter has unit",
+        ],
+    );
+    let choice = "kind = \"choice\"\nchoices = [\"a\", \"b\"]\ndefault = \"a\"\n";
+    let number = "kind = \"integer\"\ndefault = 20\nrange = [2, 256]\n";
+    refused(
+        &MANIFEST.replace(number, choice),
+        &["tile_size", "a choice is counted in nothing"],
+    );
+}
+
+#[test]
+fn lengths_grow_with_the_width_are_rounded_and_stay_in_range() {
+    let filter = filter();
+    let engine = filter.settings(Some("engine")).unwrap();
+    assert_eq!(scaled(&filter, &engine, 1920), values(20, 1.5, 9));
+    assert_eq!(scaled(&filter, &engine, 960), values(10, 0.75, 9));
+    // 20 x 600 / 1920 = 6.25 and 20 x 1000 / 1920 = 10.42.
+    assert_eq!(scaled(&filter, &engine, 600)[0], Value::Integer(6));
+    assert_eq!(scaled(&filter, &engine, 1000)[0], Value::Integer(10));
+    // 1.67 tiles and 0.125 pixels lie below the ranges, 400 and 30 above.
+    assert_eq!(scaled(&filter, &engine, 160), values(2, 0.25, 9));
+    assert_eq!(scaled(&filter, &engine, 38_400), values(256, 4.0, 9));
+    let anywhere = filter.settings(Some("anywhere")).unwrap();
+    assert_eq!(scaled(&filter, &anywhere, 160), values(20, 1.5, 8));
+}
+
+#[test]
+fn what_a_person_sets_is_not_scaled_nor_anything_twice() {
+    let filter = filter();
+    let mut settings = filter.settings(Some("engine")).unwrap();
+    settings.set(&filter, "tile_size", "20").unwrap();
+    assert_eq!(scaled(&filter, &settings, 960), values(20, 0.75, 9));
+    let once = settings.scaled_to(&filter, 960);
+    assert_eq!(once.scaled_to(&filter, 480), once);
+    let value = Value::Real(1.5);
+    settings.set_value(&filter, "threshold", value).unwrap();
+    assert_eq!(scaled(&filter, &settings, 960), values(20, 1.5, 9));
+}
+
+#[test]
+fn as_written_nothing_is_scaled() {
+    let filter = filter();
+    let settings = filter.settings(Some("engine")).unwrap().as_written();
+    assert_eq!(settings.reference_width, None);
+    assert_eq!(scaled(&filter, &settings, 160), values(20, 1.5, 9));
+}
