@@ -3,5 +3,6 @@
 
 mod acceptance;
 mod foreground;
+mod map;
 mod mover;
 mod trail;

@@ -127,8 +127,8 @@ pub const DEFECTS: [Defect; 29] = [
     ),
     jump_flood(
         "trail_half_as_long",
-        "let trail = motion * within_reach(trail_frames(), motion);",
-        "let trail = 0.5 * motion * within_reach(trail_frames(), motion);",
+        "let trail = motion * within_reach(trail_frames(), motion, reaches);",
+        "let trail = 0.5 * motion * within_reach(trail_frames(), motion, reaches);",
     ),
     jump_flood(
         "kernel_one_sided",

@@ -27,6 +27,10 @@ What differs from the demo on purpose, here as in the filters:
 - `july_2024` rounds its map of 16 bits towards zero. Vulkan leaves the rounding to the driver. Direct3D prescribes this one, and
   Mesa's llvmpipe, on which the original ran for comparison, has it.
 - The colour of the result alone is kept: no debug views, and no frozen past frame.
+
+The filters keep places in pixels, exact at their centres, and the demo in UV, which miss them by their last bits. That decides
+where a source lies exactly at the end of a trail, and the tenth root makes much of it where motions are alike but for their last
+bits. Another order of the shader's own operations changes as many pixels there: see ../fidelity.toml.
 """
 
 from dataclasses import dataclass
