@@ -150,6 +150,9 @@ fn packed(motion: vec2<f32>) -> vec2<u32> {
 fn scaled(motion: vec2<f32>) -> vec2<f32> {
     let whole = parameters.strength * frame.exposure * motion;
     let speed = speed_of(whole);
+    if parameters.measure == MEASURE_DIAGONALS && speed < STILL * length(screen()) {
+        return vec2<f32>(0.0);
+    }
     return select(whole, whole * (parameters.longest / speed), speed > parameters.longest);
 }
 
@@ -492,7 +495,7 @@ fn spread(own: Tap, tap: Tap, trail: vec2<f32>, distance: f32, count: i32) -> ve
 
 // Part of the way along the trail that a tap's own motion goes.
 fn along_trail(own: Tap, tap: Tap, trail: vec2<f32>) -> f32 {
-    if own.speed < STILL * length(screen()) || tap.speed <= parameters.direction_from {
+    if own.speed == 0.0 || tap.speed <= parameters.direction_from {
         return 1.0;
     }
     // Unity HDRP divides by the square of half the trail.
