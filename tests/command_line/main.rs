@@ -12,6 +12,7 @@ mod import;
 mod kept;
 mod kept_cases;
 mod own_filter;
+mod reference_width;
 mod refusals;
 mod report;
 mod report_layers;

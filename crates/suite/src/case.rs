@@ -31,6 +31,10 @@ pub struct Case {
     pub input: InputFormat,
     /// Every parameter's value.
     pub parameters: BTreeMap<String, Value>,
+    /// Width of the pictures that the preset was made for, from which values in pixels were scaled to this run's; none where
+    /// the preset names none, or values were left as written.
+    #[serde(default)]
+    pub reference_width: Option<u32>,
     /// Program and arguments of a filter that is a command, as filter.toml has them. What the program itself does is
     /// recorded nowhere.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -102,6 +102,10 @@ pub struct MeasureArgs {
     /// Override a parameter; may be repeated.
     #[arg(long, value_name = "FILTER.PARAMETER=VALUE")]
     pub set: Vec<String>,
+    /// Presets keep their constants in pixels as published; otherwise they are scaled from the width that their author had in
+    /// mind to the picture's.
+    #[arg(long)]
+    pub as_written: bool,
     /// Picture size in pixels [default: 320x180; of `check`, the size that its bounds hold at].
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<(u32, u32)>,
@@ -186,6 +190,10 @@ pub struct BlurArgs {
     /// Override a parameter; may be repeated.
     #[arg(long, value_name = "FILTER.PARAMETER=VALUE")]
     pub set: Vec<String>,
+    /// Presets keep their constants in pixels as published; otherwise they are scaled from the width that their author had in
+    /// mind to the picture's.
+    #[arg(long)]
+    pub as_written: bool,
     /// OpenEXR file with the channels R G B, Z, velocity.X, velocity.Y.
     #[arg(long, value_name = "FILE")]
     pub frame: PathBuf,
@@ -234,6 +242,10 @@ pub struct BenchArgs {
     /// How often each filter is timed, in turns with the others; 20 or more.
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = rounds)]
     pub rounds: u32,
+    /// Presets keep their constants in pixels as published; otherwise they are scaled from the width that their author had in
+    /// mind to the picture's.
+    #[arg(long)]
+    pub as_written: bool,
     #[command(flatten)]
     pub adapter: AdapterArgs,
     /// Folder for bench.json.

@@ -153,6 +153,9 @@ fn all_cases(
     watch: Watch,
 ) -> Result<Vec<Case>, Error> {
     let program = hash_of_program();
+    let filters: Vec<FilterChoice> = (plan.filters.iter())
+        .map(|choice| choice.scaled_to(plan.render.width))
+        .collect();
     let mut cases = Vec::new();
     for (done, (scene, bounds)) in plan.scenes.iter().enumerate() {
         // A scene that is interrupted says so itself.
@@ -164,6 +167,7 @@ fn all_cases(
             .map(|program| SceneInputs::new(program, scene, &plan.render, plan.alignments()));
         let scene_run = SceneRun {
             plan,
+            filters: &filters,
             gpu,
             scene,
             bounds,

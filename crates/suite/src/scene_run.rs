@@ -16,6 +16,7 @@ use crate::pictures::{write_frame, write_truth};
 use crate::progress::with_bar;
 use crate::rendered::{frame_of, replicates_of, scene_folder, truth_and_ladder_of};
 use crate::run::{Plan, viewing};
+use crate::selection::FilterChoice;
 use crate::subject::Subject;
 use crate::witness::Witness;
 use crate::workbench::Workbench;
@@ -24,6 +25,8 @@ use crate::{Error, InputFormat, truths_without_pairs};
 /// One scene of a run.
 pub(crate) struct SceneRun<'a> {
     pub plan: &'a Plan,
+    /// The plan's filters, for pictures of its width.
+    pub filters: &'a [FilterChoice],
     pub gpu: Option<&'a Gpu>,
     pub scene: &'a Scene,
     pub bounds: &'a SceneBounds,
@@ -41,7 +44,7 @@ type Truths = BTreeMap<Alignment, (Truth, Ladder)>;
 impl SceneRun<'_> {
     /// Per alignment the bars, then one case per filter preset and form of the input.
     pub fn cases(&self) -> Result<Vec<Case>, Error> {
-        let subjects = Subject::all(self.plan);
+        let subjects = Subject::all(self.plan, self.filters);
         let kept: Vec<Option<Case>> = subjects.iter().map(|subject| self.kept(subject)).collect();
         if kept.iter().all(Option::is_some) && self.has_its_files() {
             return Ok(kept.into_iter().flatten().collect());

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use filters::{Filter, Settings};
+use filters::{Filter, FilterError, Settings};
 use tracer::{Scene, list_scenes, load_scene};
 
 use crate::Error;
@@ -16,12 +16,40 @@ pub struct FilterChoice {
     pub preset: String,
     /// Its parameters.
     pub settings: Settings,
+    /// Whether values in pixels stay as the preset has them, whatever the picture's width.
+    pub as_written: bool,
 }
 
 impl FilterChoice {
     /// How tables and folders call it: `jump_flood:paper`.
     pub fn name(&self) -> String {
         format!("{}:{}", self.filter.name, self.preset)
+    }
+
+    /// Keeps values in pixels as the presets have them, if that is asked for.
+    pub fn as_written(mut self, asked: bool) -> Self {
+        if asked {
+            self.settings = self.settings.as_written();
+        }
+        self.as_written |= asked;
+        self
+    }
+
+    /// The same for pictures `width` pixels wide, guard band left out.
+    pub fn scaled_to(&self, width: u32) -> Self {
+        Self {
+            settings: self.settings.scaled_to(&self.filter, width),
+            ..self.clone()
+        }
+    }
+
+    /// The parameters of any preset of the filter, for pictures `width` pixels wide.
+    pub fn preset_at(&self, preset: &str, width: u32) -> Result<Settings, FilterError> {
+        let settings = self.filter.settings(Some(preset))?;
+        Ok(match self.as_written {
+            true => settings.as_written(),
+            false => settings.scaled_to(&self.filter, width),
+        })
     }
 }
 
@@ -129,6 +157,7 @@ pub fn select_filters(
                 filter,
                 preset,
                 settings,
+                as_written: false,
             });
         }
     }

@@ -36,7 +36,7 @@ pub(crate) enum Maker<'a> {
 
 impl<'a> Subject<'a> {
     /// Per alignment the bars, then one per filter preset and form of its input.
-    pub fn all(plan: &'a Plan) -> Vec<Self> {
+    pub fn all(plan: &'a Plan, filters: &'a [FilterChoice]) -> Vec<Self> {
         debug_assert!(SUBFRAMES.iter().all(|count| LADDER.contains(count)));
         let bars = plan.alignments().into_iter().flat_map(|alignment| {
             let accumulations = SUBFRAMES.map(Maker::Accumulation);
@@ -44,7 +44,7 @@ impl<'a> Subject<'a> {
                 .chain(accumulations)
                 .map(move |maker| Self { alignment, maker })
         });
-        let filters = plan.filters.iter().flat_map(|choice| {
+        let filters = filters.iter().flat_map(|choice| {
             plan.inputs.iter().map(|input| Self {
                 alignment: choice.filter.alignment,
                 maker: Maker::Filter(choice, *input),
@@ -118,6 +118,7 @@ impl<'a> Subject<'a> {
             filter,
             preset,
             settings,
+            ..
         } = choice;
         // A filter holds the text of its kernels.
         filter.command.is_none().then(|| {

@@ -197,6 +197,7 @@ impl Workbench<'_> {
             bar: subject.is_bar(),
             input: subject.input(),
             parameters: choice.map_or_else(BTreeMap::new, |choice| choice.settings.values.clone()),
+            reference_width: choice.and_then(|choice| choice.settings.reference_width),
             command: command.map(Command::words),
             nonlinearity: found.nonlinearity,
             alignment: self.truth.alignment.name().to_owned(),

@@ -26,6 +26,8 @@ pub struct BenchPlan {
     pub height: u32,
     /// How often each filter runs.
     pub rounds: u32,
+    /// Whether values in pixels stay as the presets have them.
+    pub as_written: bool,
 }
 
 /// Every dispatch of one run of a filter.
@@ -38,6 +40,10 @@ pub fn bench(mut plan: BenchPlan, gpu: &Gpu, watch: Watch) -> Result<Bench, Erro
         plan.filters
             .splice(0..0, select_filters(&[BASELINE.to_owned()], None, &[])?);
     }
+    let (width, as_written) = (plan.width, plan.as_written);
+    plan.filters = (plan.filters.into_iter())
+        .map(|choice| choice.as_written(as_written).scaled_to(width))
+        .collect();
     let turns = Turns {
         rounds: plan.rounds,
         watch,
@@ -158,6 +164,7 @@ fn case_cost(
         filter: choice.filter.name.clone(),
         preset: choice.preset.clone(),
         parameters: choice.settings.values.clone(),
+        reference_width: choice.settings.reference_width,
         seconds,
         ratio: Spread::of(
             runs.iter()

@@ -78,6 +78,10 @@ pub struct CaseCost {
     pub preset: String,
     /// Every parameter's value.
     pub parameters: BTreeMap<String, Value>,
+    /// Width of the pictures that the preset was made for, from which values in pixels were scaled; none where the preset
+    /// names none, or values were left as written.
+    #[serde(default)]
+    pub reference_width: Option<u32>,
     /// Of all passes.
     pub seconds: Spread,
     /// To the time of [`BASELINE`] in the same round.

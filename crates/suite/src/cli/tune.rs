@@ -85,6 +85,10 @@ pub struct CandidateArgs {
     /// The preset to start from [default: the filter's first].
     #[arg(long, value_name = "PRESET")]
     pub from: Option<String>,
+    /// Presets keep their constants in pixels as published; otherwise they are scaled from the width that their author had in
+    /// mind to the picture's.
+    #[arg(long)]
+    pub as_written: bool,
     /// What is measured, separated by commas: flip (always), bleed, cost.
     #[arg(long, value_delimiter = ',', default_value = "flip,bleed,cost", value_name = "OBJECTIVES", value_parser = Objective::from_str)]
     pub objective: Vec<Objective>,

@@ -25,6 +25,7 @@ pub fn execute(args: &BenchArgs) -> Result<(), Error> {
         width,
         height,
         rounds: args.rounds,
+        as_written: args.as_written,
     };
     let done = with_bar("bench", args.quiet, |watch| bench(plan, &gpu, watch))?;
     let json = write_bench(&done, args)?;

@@ -13,6 +13,7 @@ use crate::cli::BlurArgs;
 pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     let choice = select_filter(args)?;
     let buffers = read_buffers(&args.frame, args.exposure)?;
+    let choice = choice.scaled_to(buffers.picture_width());
     let gpu = open_gpu(
         std::slice::from_ref(&choice),
         args.adapter.adapter.as_deref(),
@@ -49,7 +50,8 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
 
 fn select_filter(args: &BlurArgs) -> Result<FilterChoice, Error> {
     let words = [args.filter.clone()];
-    Ok(select_filters(&words, args.preset.as_deref(), &args.set)?.remove(0))
+    let mut filters = select_filters(&words, args.preset.as_deref(), &args.set)?;
+    Ok(filters.remove(0).as_written(args.as_written))
 }
 
 /// What a filter needs of a frame file: any OpenEXR file that has the channels will do.
@@ -59,28 +61,37 @@ struct Buffers {
     depth: Plane,
     reprojection: Option<Reprojection>,
     exposure: f64,
+    guard_band: u32,
+}
+
+impl Buffers {
+    /// Pixels per row without the guard band.
+    fn picture_width(&self) -> u32 {
+        self.color.width.saturating_sub(2 * self.guard_band).max(1)
+    }
 }
 
 /// The camera's motion between places of the file's rasters, if the file tells it.
-fn reprojection(file: &ExrFile) -> Result<Option<Reprojection>, Error> {
+fn reprojection(file: &ExrFile, band: u32) -> Result<Option<Reprojection>, Error> {
     if !file.attributes.contains_key("reprojection") {
         return Ok(None);
     }
-    let band: u32 = match file.attributes.contains_key("guard_band") {
-        true => file.get("guard_band")?,
-        false => 0,
-    };
     Ok(Some(Reprojection::from_exr(file)?.moved(f64::from(band))))
 }
 
 fn read_buffers(path: &Path, exposure: Option<f64>) -> Result<Buffers, Error> {
     let file = read_exr(path)?;
+    let guard_band: u32 = match file.attributes.contains_key("guard_band") {
+        true => file.get("guard_band")?,
+        false => 0,
+    };
     let [x, y] = [file.plane("velocity.X")?, file.plane("velocity.Y")?];
     let buffers = Buffers {
         color: file.color("")?,
         velocity: x.zip(&y, |x, y| [*x, *y]),
         depth: file.plane("Z")?,
-        reprojection: reprojection(&file)?,
+        reprojection: reprojection(&file, guard_band)?,
+        guard_band,
         exposure: match exposure {
             Some(exposure) => exposure,
             None if file.attributes.contains_key("exposure") => file.get("exposure")?,

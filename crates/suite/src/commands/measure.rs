@@ -47,7 +47,10 @@ fn filters(args: &MeasureArgs) -> Result<Vec<FilterChoice>, Error> {
     let words: Vec<String> = (args.filters.iter().cloned())
         .chain(folders.map(|folder| folder.display().to_string()))
         .collect();
-    select_filters(&words, args.preset.as_deref(), &args.set)
+    let filters = select_filters(&words, args.preset.as_deref(), &args.set)?;
+    Ok((filters.into_iter())
+        .map(|choice| choice.as_written(args.as_written))
+        .collect())
 }
 
 /// Refuses truths that allow no intervals.

@@ -123,11 +123,7 @@ fn write(tuning: &Tuning, plan: &TunePlan) -> Result<Found, Error> {
         "params.json",
         &pretty(serde_json::to_string_pretty(&tuning.values)),
     )?;
-    let parameters = &plan.choice.filter.parameters;
-    write(
-        "preset.toml",
-        &preset_text(tuning, &plan.render, parameters),
-    )?;
+    write("preset.toml", &preset_text(tuning, plan))?;
     Ok(Found {
         table: tuning_table(tuning) + "\nthe choice: params.json and preset.toml beside tune.json",
         json,
@@ -137,7 +133,7 @@ fn write(tuning: &Tuning, plan: &TunePlan) -> Result<Found, Error> {
 
 fn compare(tune: &TuneArgs, choice: FilterChoice, presets: [&String; 2]) -> Result<(), Error> {
     let args = &tune.candidate;
-    let [first, second] = presets.map(|preset| choice.filter.settings(Some(preset)));
+    let [first, second] = presets.map(|preset| choice.preset_at(preset, args.size.0));
     let (first, second) = (first?, second?);
     let scenes = scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
     let gpu = open(&choice, args)?;
@@ -184,10 +180,11 @@ fn study(args: &TuneArgs, choice: FilterChoice, effort: Effort) -> Result<(), Er
     print(args, &Found { table, json, path })
 }
 
-/// The filter with the preset to start from.
+/// The filter with the preset to start from, for pictures of the size that is asked for.
 pub fn select_candidate(args: &CandidateArgs) -> Result<FilterChoice, Error> {
     let words = [args.filter.clone()];
-    Ok(select_filters(&words, args.from.as_deref(), &[])?.remove(0))
+    let choice = select_filters(&words, args.from.as_deref(), &[])?.remove(0);
+    Ok(choice.as_written(args.as_written).scaled_to(args.size.0))
 }
 
 /// How scenes are rendered.

@@ -68,11 +68,20 @@ fn parameters(pair: &Pair) -> Vec<SettingChange> {
             .get(name)
             .map_or_else(String::new, ToString::to_string)
     };
-    (names.into_iter())
-        .map(|name| SettingChange {
+    let width = |case: &crate::Case| match case.reference_width {
+        Some(width) => format!("{width} px"),
+        None => "as written".to_owned(),
+    };
+    let widths = SettingChange {
+        name: format!("{} reference width", pair.first.name()),
+        first: width(pair.first),
+        second: width(pair.second),
+    };
+    std::iter::once(widths)
+        .chain(names.into_iter().map(|name| SettingChange {
             name: format!("{}.{name}", pair.first.name()),
             first: value(pair.first, name),
             second: value(pair.second, name),
-        })
+        }))
         .collect()
 }

@@ -191,6 +191,9 @@ fn facts(case: &Case) -> Markup {
                 @if let Some(command) = &case.command {
                     div { dt { "command" } dd { code { (command.join(" ")) } } }
                 }
+                @if let Some(width) = case.reference_width {
+                    div { dt { "values in pixels" } dd { "scaled from pictures " (width) " pixels wide" } }
+                }
                 @for (name, value) in &case.parameters {
                     div { dt { (name) } dd { (value) } }
                 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use filters::Clock;
+use filters::{Clock, Value};
 use frame::FileError;
 use maud::{Markup, html};
 
@@ -40,17 +40,38 @@ pub fn read_bench(folder: &Path) -> Result<Option<Bench>, Error> {
     }
 }
 
-/// What a subject cost; none for bars, and for filters that were not timed with these very parameters.
+/// What a subject cost; none for bars, and for filters that were not timed with these very parameters. A bench of another width has its own
+/// values in pixels.
 pub fn cost_of<'a>(run: &Run, bench: Option<&'a Bench>, subject: &Subject) -> Option<&'a CaseCost> {
     let case = run
         .cases
         .iter()
         .find(|case| Subject::of(case) == *subject)?;
     let mut costs = bench?.cases.iter();
+    let ratio = f64::from(bench?.width) / f64::from(run.width);
     costs.find(|cost| {
-        (&cost.filter, &cost.preset, &cost.parameters)
-            == (&case.filter, &case.preset, &case.parameters)
+        let scaled = case.reference_width.is_some();
+        (&cost.filter, &cost.preset, cost.reference_width)
+            == (&case.filter, &case.preset, case.reference_width)
+            && cost.parameters.len() == case.parameters.len()
+            && (cost.parameters.iter().zip(&case.parameters)).all(|(cost, case)| {
+                cost == case || scaled && cost.0 == case.0 && is_scaled(case.1, cost.1, ratio)
+            })
     })
+}
+
+/// Whether a value in pixels is another one for pictures `ratio` times as wide, but for what rounding may do to the
+/// smaller of both.
+fn is_scaled(first: &Value, second: &Value, ratio: f64) -> bool {
+    let number = |value: &Value| match value {
+        Value::Integer(value) => Some(f64::from(*value)),
+        Value::Real(value) => Some(*value),
+        Value::Choice(_) => None,
+    };
+    match (number(first), number(second)) {
+        (Some(first), Some(second)) => (first * ratio - second).abs() <= ratio.max(1.0),
+        _ => false,
+    }
 }
 
 /// `1.23`, in milliseconds; `-` where nothing was timed.

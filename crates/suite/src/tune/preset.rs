@@ -1,12 +1,13 @@
 //! The choice as a preset of filter.toml.
 
-use filters::{Parameter, Tuned, Value};
+use filters::{Tuned, Value};
 
-use super::Tuning;
-use crate::RenderSettings;
+use super::{TunePlan, Tuning};
 
 /// A `[[preset]]` called `tuned`, with how it was found and the values that differ from the parameters' defaults.
-pub fn preset_text(tuning: &Tuning, render: &RenderSettings, parameters: &[Parameter]) -> String {
+/// Values in pixels that were scaled to the width of the scenes are meant for that width.
+pub fn preset_text(tuning: &Tuning, plan: &TunePlan) -> String {
+    let render = &plan.render;
     let journal = &tuning.journal;
     let tuned = Tuned {
         by: journal.program.clone(),
@@ -19,12 +20,16 @@ pub fn preset_text(tuning: &Tuning, render: &RenderSettings, parameters: &[Param
             .map(|(scene, _)| scene.clone())
             .collect(),
     };
+    let width = match plan.space.start.reference_width {
+        Some(_) => format!("reference_width = {}\n", render.width),
+        None => String::new(),
+    };
     let mut text = format!(
-        "[[preset]]\nname = \"tuned\"\ndoc = \"{}'s values, tuned for a smaller error.\"\n[preset.tuned]\n{}[preset.values]\n",
+        "[[preset]]\nname = \"tuned\"\ndoc = \"{}'s values, tuned for a smaller error.\"\n{width}[preset.tuned]\n{}[preset.values]\n",
         journal.start,
         toml::to_string(&tuned).expect("a provenance is plain data")
     );
-    for parameter in parameters {
+    for parameter in &plan.choice.filter.parameters {
         let value = &tuning.values[&parameter.name];
         if *value != parameter.default {
             text += &match value {

@@ -1,6 +1,6 @@
 //! The main loop: ask, try, write down, tell.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::time::Instant;
 
@@ -125,7 +125,7 @@ fn search(plan: &TunePlan) -> Result<Search, Error> {
     for preset in published.filter(|preset| preset.tuned.is_none()) {
         let point = plan
             .space
-            .point(&plan.choice.filter.settings(Some(&preset.name))?);
+            .point(&plan.choice.preset_at(&preset.name, plan.render.width)?);
         if !points.contains(&point) {
             points.push(point);
         }
@@ -219,11 +219,17 @@ fn open(
     let out = plan.out.join("sealed");
     let shots = shots(&plan.sealed, &plan.choice, render, &out, plan.quiet)?;
     let mut evaluator = evaluator(&shots, &plan.choice, gpu, true)?;
+    let start = plan.choice.preset_at(&plan.choice.preset, render.width)?;
+    // What was found on pictures of one width is scaled to those of another as the start is.
+    let start_width = plan.space.start.reference_width;
     let chosen = Settings {
         values: values.clone(),
-        ..plan.space.start.clone()
+        reference_width: start_width.map(|_| plan.render.width),
+        fixed: BTreeSet::new(),
+        ..start.clone()
     };
-    let paired = compare_paired(&mut evaluator, &plan.space.start, &chosen)?;
+    let chosen = chosen.scaled_to(&plan.choice.filter, render.width);
+    let paired = compare_paired(&mut evaluator, &start, &chosen)?;
     let size = [render.width, render.height, render.samples_per_pixel];
     record(&plan.out.join("openings.jsonl"), values, size, paired)
 }

@@ -1,0 +1,215 @@
+//! Presets that were made for pictures of another width.
+
+use std::fs;
+
+use filters::Value;
+use suite::Case;
+
+use crate::bench::{Bench, assert_done, stdout};
+
+/// Blurs by as many pixels as its parameter says, which was made for pictures four times as wide as the bench's.
+const MANIFEST: &str = r#"
+name = "mine"
+summary = "Averages pixels to the right."
+alignment = "trailing"
+
+[[parameter]]
+name = "radius"
+kind = "integer"
+default = 16
+range = [1, 64]
+unit = "pixels"
+doc = "More costs more."
+
+[[preset]]
+name = "engine"
+doc = "As an engine has it."
+reference_width = 256
+
+[[pass]]
+entry = "average"
+"#;
+
+const KERNELS: &str = "
+struct Parameters { radius: i32 }
+@group(0) @binding(1) var<uniform> parameters: Parameters;
+@group(0) @binding(2) var color: texture_2d<f32>;
+@group(0) @binding(3) var output: texture_storage_2d<rgba32float, write>;
+@compute @workgroup_size(8, 8)
+fn average(@builtin(global_invocation_id) id: vec3<u32>) {
+    let pixel = vec2<i32>(id.xy);
+    if !inside(pixel) { return; }
+    var sum = vec4<f32>(0.0);
+    for (var i = 0; i < parameters.radius; i++) {
+        sum += bilinear(color, centre(pixel) + vec2<f32>(f32(i), 0.0));
+    }
+    textureStore(output, pixel, sum / f32(parameters.radius));
+}
+";
+
+fn bench() -> Bench {
+    let bench = Bench::new();
+    fs::create_dir(bench.path("mine")).unwrap();
+    fs::write(bench.path("mine/filter.toml"), MANIFEST).unwrap();
+    fs::write(bench.path("mine/mine.wgsl"), KERNELS).unwrap();
+    bench
+}
+
+/// Runs the filter and returns its case.
+fn case(bench: &Bench, more: &[&str]) -> Case {
+    assert_done(&bench.run(&[&["--filter", "mine"], more].concat()));
+    let mut cases = bench.measured().cases.into_iter();
+    cases.find(|case| case.filter == "mine").unwrap()
+}
+
+#[test]
+fn a_run_scales_a_preset_to_its_width_and_says_so() {
+    let bench = bench();
+    let scaled = case(&bench, &[]);
+    assert_eq!(scaled.parameters["radius"], Value::Integer(4));
+    assert_eq!(scaled.reference_width, Some(256));
+
+    // The case was kept; what follows is another one, and so is not read back.
+    let written = case(&bench, &["--as-written"]);
+    assert_eq!(written.parameters["radius"], Value::Integer(16));
+    assert_eq!(written.reference_width, None);
+    let flip = |case: &Case| serde_json::to_string(&case.scores.moving).unwrap();
+    assert_ne!(flip(&written), flip(&scaled));
+
+    let set = case(&bench, &["--set", "mine.radius=16"]);
+    assert_eq!(set.parameters["radius"], Value::Integer(16));
+    assert_eq!(set.reference_width, Some(256));
+    assert_eq!(flip(&set), flip(&written));
+    assert_eq!(flip(&case(&bench, &[])), flip(&scaled));
+}
+
+#[test]
+fn a_guard_band_is_not_part_of_the_width() {
+    let bench = bench();
+    let case = case(&bench, &["--guard-band", "32"]);
+    assert_eq!(case.parameters["radius"], Value::Integer(4));
+
+    let words = [
+        "blur",
+        "--filter",
+        "./mine",
+        "--frame",
+        "out/plate/frame.exr",
+        "--out",
+    ];
+    let blur = |out: &str, more: &[&str]| {
+        assert_done(&bench.shuttertruth(&[&words[..], &[out], more].concat()));
+        let file = frame::read_exr(&bench.path(out)).unwrap();
+        file.color("").unwrap()
+    };
+    let scaled = blur("scaled.exr", &[]);
+    assert_eq!(
+        scaled,
+        blur("set.exr", &["--set", "mine.radius=4", "--as-written"])
+    );
+    assert_ne!(scaled, blur("written.exr", &["--as-written"]));
+}
+
+#[test]
+fn every_command_that_runs_filters_scales_and_can_be_told_not_to() {
+    let bench = bench();
+    let json = |words: &[&str]| -> serde_json::Value {
+        let output = bench.shuttertruth(words);
+        assert_done(&output);
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    let bench_words = [
+        "bench",
+        "--filters",
+        "./mine",
+        "--size",
+        "64x32",
+        "--json",
+        "--quiet",
+    ];
+    let radius = |more: &[&str]| {
+        let done = json(&[&bench_words[..], more].concat());
+        let mut cases = done["cases"].as_array().unwrap().iter();
+        let case = cases.find(|case| case["filter"] == "mine").unwrap().clone();
+        (
+            case["parameters"]["radius"].clone(),
+            case["reference_width"].clone(),
+        )
+    };
+    assert_eq!(radius(&[]), (4.into(), 256.into()));
+    assert_eq!(
+        radius(&["--as-written"]),
+        (16.into(), serde_json::Value::Null)
+    );
+
+    // 4 pixels are the preset's own here, and 16 as written.
+    let evaluate = |params: &str, more: &[&str]| {
+        fs::write(bench.path("params.json"), params).unwrap();
+        let words = [
+            "evaluate",
+            "--quiet",
+            "--filter",
+            "./mine",
+            "--objective",
+            "flip",
+            "--size",
+            "64x32",
+            "--samples-per-pixel",
+            "16",
+            "--out",
+            "tuned",
+            "--params",
+            "params.json",
+        ];
+        json(&[&words[..], more].concat())["scenes"]["plate"]["flip"].clone()
+    };
+    let (scaled, written) = (evaluate("{}", &[]), evaluate("{}", &["--as-written"]));
+    assert_ne!(scaled, written);
+    assert_eq!(scaled, evaluate("{\"radius\": 4}", &["--as-written"]));
+    assert_eq!(written, evaluate("{\"radius\": 16}", &[]));
+}
+
+#[test]
+fn what_tuning_finds_is_meant_for_the_width_it_was_found_at() {
+    let bench = bench();
+    let words = [
+        "tune",
+        "--quiet",
+        "--filter",
+        "./mine",
+        "--objective",
+        "flip",
+        "--size",
+        "64x32",
+        "--samples-per-pixel",
+        "16",
+        "--budget",
+        "1",
+        "--out",
+        "tuned",
+    ];
+    let preset = |more: &[&str]| {
+        let _ = fs::remove_dir_all(bench.path("tuned"));
+        assert_done(&bench.shuttertruth(&[&words[..], more].concat()));
+        fs::read_to_string(bench.path("tuned/preset.toml")).unwrap()
+    };
+    let scaled = preset(&[]);
+    assert!(scaled.contains("reference_width = 64\n"), "{scaled}");
+    assert!(scaled.contains("\nradius = 4\n"), "{scaled}");
+    let written = preset(&["--as-written"]);
+    assert!(!written.contains("reference_width"), "{written}");
+    assert!(!written.contains("radius"), "16 is the default: {written}");
+
+    // The preset is one of the filter's as soon as it is appended.
+    fs::write(
+        bench.path("mine/filter.toml"),
+        format!("{MANIFEST}\n{scaled}"),
+    )
+    .unwrap();
+    let listed = stdout(&bench.shuttertruth(&["list", "--filter", "mine"]));
+    assert!(
+        listed.contains("made for pictures 64 pixels wide"),
+        "{listed}"
+    );
+    assert!(listed.contains(".radius = 16 pixels"), "{listed}");
+}
