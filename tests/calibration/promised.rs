@@ -56,11 +56,13 @@ pub fn stated(filter: &str, preset: &str) -> RangeInclusive<f64> {
         ("mcguire", "tuned") => 0.86..=1.04,
         ("guertin", _) => 0.65..=0.87,
         ("kino", _) => 0.72..=0.78,
-        ("jimenez", "hdrp" | "hdrp_mirrored") => 0.9..=1.1,
-        ("jimenez", "kajiya" | "kajiya_scaled") => 0.9..=1.1,
+        ("jimenez", "hdrp" | "hdrp_mirrored") => 1.00..=1.03,
+        ("jimenez", "kajiya") => 1.00..=1.07,
+        ("jimenez", "kajiya_scaled") => 0.99..=1.02,
         ("jimenez", "o3de") => 0.94..=0.95,
-        ("jimenez", "o3de_scaled") => 0.8..=0.95,
-        ("jimenez", "wicked" | "wicked_scaled") => 0.60..=0.63,
+        ("jimenez", "o3de_scaled") => 0.72..=0.94,
+        ("jimenez", "wicked") => 0.60..=0.63,
+        ("jimenez", "wicked_scaled") => 0.61..=0.64,
         _ => 0.985..=1.025,
     }
 }
