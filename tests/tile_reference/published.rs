@@ -241,7 +241,9 @@ fn colour_comes_from_the_opposite_border() {
     let frame = steady(|x| if x == WIDTH - 1 { 1.0 } else { 0.0 });
     assert!(frame.motion_blur_demo(&[]).at(0, HEIGHT / 2)[0] > 0.01);
     assert_eq!(
-        frame.motion_blur_demo(&[("fetch", "nearest")]).at(0, HEIGHT / 2)[0],
+        frame
+            .motion_blur_demo(&[("fetch", "nearest")])
+            .at(0, HEIGHT / 2)[0],
         0.0
     );
 }
