@@ -3,6 +3,7 @@
 struct Parameters {
     samples: i32,
     metric: u32,
+    fetch: u32,
 }
 
 @group(0) @binding(1) var<uniform> parameters: Parameters;
@@ -12,6 +13,7 @@ struct Parameters {
 @group(0) @binding(5) var output: texture_storage_2d<rgba32float, write>;
 
 const METRIC_UV = 0u;
+const FETCH_FILTERED = 0u;
 
 // Depth from which a surface counts as sky, in metres.
 const SKY = 1e10;
@@ -21,6 +23,14 @@ const STILL = 1.0;
 // From pixels to the space in which taps are judged.
 fn metric() -> vec2<f32> {
     return select(vec2<f32>(1.0), 1.0 / vec2<f32>(frame.size), parameters.metric == METRIC_UV);
+}
+
+// Between texels, or, where the engine has several samples per pixel, the nearest one.
+fn fetched(image: texture_2d<f32>, position: vec2<f32>) -> vec4<f32> {
+    if parameters.fetch == FETCH_FILTERED {
+        return bilinear(image, position);
+    }
+    return textureLoad(image, pixel_at(position), 0);
 }
 
 // Whether the surface at a tap came as far as the pixel: its motion along the way there, half of it because the
@@ -36,7 +46,7 @@ fn counts(pixel: vec2<i32>, offset: vec2<f32>) -> bool {
     let position = centre(pixel) + offset;
     let tap_depth = textureLoad(depth, pixel_at(position), 0).x;
     let behind = tap_depth > textureLoad(depth, pixel, 0).x;
-    return behind || tap_depth >= SKY || reaches(offset, bilinear(velocity, position).xy);
+    return behind || tap_depth >= SKY || reaches(offset, fetched(velocity, position).xy);
 }
 
 @compute @workgroup_size(8, 8)
@@ -62,7 +72,7 @@ fn gather(@builtin(global_invocation_id) id: vec3<u32>) {
         let offset = along * frame.exposure * motion;
         if on_screen(centre(pixel) + offset) && counts(pixel, offset) {
             taps++;
-            mean += (bilinear(color, centre(pixel) + offset) - mean) / f32(taps);
+            mean += (fetched(color, centre(pixel) + offset) - mean) / f32(taps);
         }
     }
     textureStore(output, pixel, select(here, mean, taps > 0));

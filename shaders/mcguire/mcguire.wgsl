@@ -22,6 +22,9 @@ struct Parameters {
     fetch: u32,
     distance: u32,
     cylinder_edge: u32,
+    neighbor_rule: u32,
+    own_direction_from: f32,
+    only_own_direction_from: f32,
 }
 
 @group(0) @binding(1) var<uniform> parameters: Parameters;
@@ -54,14 +57,12 @@ const FETCH_NEAREST = 0u;
 const DISTANCE_TO_PIXEL = 0u;
 const DISTANCE_TO_TAP = 1u;
 const CYLINDER_SMOOTH = 0u;
+const NEIGHBORS_ALL = 0u;
 
 // The paper's epsilon, in pixels.
 const EPSILON = 1e-5;
 // A neighbourhood whose longest half-velocity is no longer than this stands still: half a pixel, and what rounding adds.
 const STILL = 0.5001;
-// G3D: a radius in pixels from which a pixel trusts its own direction, and one from which it trusts no other.
-const OWN_DIRECTION_FROM = 1.5;
-const ONLY_OWN_DIRECTION_FROM = 5.0;
 // G3D: a neighbourhood counts as uniform if its shortest radius is at least this, in pixels and as part of the longest.
 const UNIFORM_FROM = 4.0;
 const UNIFORM_PART = 0.65;
@@ -156,6 +157,16 @@ fn tile_count() -> vec2<i32> {
     return max(frame.size / parameters.tile_size, vec2<i32>(1));
 }
 
+// Whether the motion of the tile at an offset counts for the tile in the middle. G3D: on every axis that the offset has,
+// it moves, and on a diagonal to both or from both.
+fn reaches(half_velocity: vec2<f32>, offset: vec2<i32>) -> bool {
+    if parameters.neighbor_rule == NEIGHBORS_ALL {
+        return true;
+    }
+    let heading = sign(half_velocity * vec2<f32>(offset));
+    return abs(heading.x + heading.y) == f32(abs(offset.x) + abs(offset.y));
+}
+
 @compute @workgroup_size(8, 8)
 fn neighbor_max(
     @builtin(global_invocation_id) id: vec3<u32>,
@@ -167,7 +178,12 @@ fn neighbor_max(
     var region = NO_MOTION;
     for (var y = -1; y <= 1; y++) {
         for (var x = -1; x <= 1; x++) {
-            region = merged(region, tile_beside(local.xy, vec2<i32>(x, y)));
+            let offset = vec2<i32>(x, y);
+            var neighbor = tile_beside(local.xy, offset);
+            if !reaches(neighbor.xy, offset) {
+                neighbor = vec3<f32>(0.0, 0.0, neighbor.z);
+            }
+            region = merged(region, neighbor);
         }
     }
     if all(id.xy < textureDimensions(tiles)) {
@@ -254,8 +270,8 @@ fn directions(longest: vec2<f32>, own: vec2<f32>) -> Directions {
     }
     let own_radius = radius_of(own);
     let along_own = own * (length(longest) / own_radius);
-    let even = select(longest, along_own, own_radius >= ONLY_OWN_DIRECTION_FROM);
-    return Directions(even, select(even, along_own, own_radius >= OWN_DIRECTION_FROM));
+    let even = select(longest, along_own, own_radius >= parameters.only_own_direction_from);
+    return Directions(even, select(even, along_own, own_radius >= parameters.own_direction_from));
 }
 
 struct Tap {

@@ -18,7 +18,7 @@ pub fn promised(filter: &str, preset: &str, steady: &Steady) -> f64 {
         }
         // Half-velocities are cut at the side of a tile, or at half of it.
         ("mcguire", "paper" | "tuned") => trail.min(2.0 * 20.0),
-        ("mcguire", "aliari") => trail.min(20.0),
+        ("mcguire", "motion_blur_demo") => trail.min(20.0),
         ("mcguire", "g3d") => trail.min(2.0 * 64.0),
         ("guertin", _) => trail.min(2.0 * 40.0),
         // Whole pixels of 5 % of the rows, on either side; under 2 nothing.
@@ -51,7 +51,7 @@ pub fn stated(filter: &str, preset: &str) -> RangeInclusive<f64> {
         ("jump_flood" | "jump_flood_packed", "paper") => 1.26..=1.31,
         ("jump_flood" | "jump_flood_packed", "july_2024") => 1.09..=1.12,
         ("mcguire", "paper") => 0.84..=0.91,
-        ("mcguire", "aliari") => 0.94..=0.97,
+        ("mcguire", "motion_blur_demo") => 0.94..=0.97,
         ("mcguire", "g3d") => 1.02..=1.09,
         ("mcguire", "tuned") => 0.86..=1.04,
         ("guertin", _) => 0.65..=0.87,

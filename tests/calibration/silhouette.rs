@@ -158,7 +158,8 @@ fn light_lies_where_the_taps_of_each_filter_put_it() {
 #[test]
 fn a_mover_stays_opaque_and_grows_under_cones_and_cylinders() {
     let tile_filters = OUTCOMES.iter().filter(|outcome| {
-        let longest_of_the_uncut = outcome.shot().speed == 24.0 && outcome.preset != "aliari";
+        let longest_of_the_uncut =
+            outcome.shot().speed == 24.0 && outcome.preset != "motion_blur_demo";
         longest_of_the_uncut && ["mcguire", "guertin"].contains(&outcome.filter.as_str())
     });
     for outcome in tile_filters {

@@ -58,7 +58,7 @@ fn the_world_that_rushes_by_smears_the_dashboard() {
     let shots = ["cockpit", "cockpit@crawling"].map(Shot::of);
     // Measured 71, 17 and 3.0.
     for (filter, times) in [
-        ("mcguire:aliari", 20.0),
+        ("mcguire:motion_blur_demo", 20.0),
         ("jimenez:o3de", 8.0),
         ("jimenez:kajiya", 2.0),
     ] {
@@ -77,7 +77,7 @@ fn the_road_that_comes_nearer_smears_over_the_car_ahead() {
     let shots = ["dolly", "dolly@crawling"].map(Shot::of);
     // Measured 87, 14 and 3.6.
     for (filter, times) in [
-        ("mcguire:aliari", 20.0),
+        ("mcguire:motion_blur_demo", 20.0),
         ("jimenez:wicked", 8.0),
         ("jimenez:kajiya", 2.0),
     ] {

@@ -44,7 +44,7 @@ fn ornaments_widen_with_their_speed() {
     for (filter, times) in [
         // Measured 33 and 14.
         ("guertin:paper", 10.0),
-        ("mcguire:aliari", 5.0),
+        ("mcguire:motion_blur_demo", 5.0),
     ] {
         let growth =
             [&fast, &slow].map(|shot| of_object(shot, filter, "ornaments", "lateral_growth"));

@@ -94,7 +94,11 @@ fn a_broken_bound_is_exit_code_1_with_all_that_helps() {
 fn a_blur_that_is_like_no_wrong_one_is_said_to_be_like_none() {
     let bench = bounded(0.04, "required");
     // A box over whatever moves, with front and back swapped: wrong in a way of its own.
-    let output = bench.check(&["--filters", "mcguire:aliari,mcguire:paper", "--json"]);
+    let output = bench.check(&[
+        "--filters",
+        "mcguire:motion_blur_demo,mcguire:paper",
+        "--json",
+    ]);
     let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     let [own, short] = [0, 1].map(|filter| &found["findings"][filter]);
     assert_eq!([&own["kind"], &short["kind"]], ["broken"; 2]);

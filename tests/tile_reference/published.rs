@@ -1,4 +1,4 @@
-//! What was deduced from reading the published repository that the preset `aliari` stands for, shown true or false one
+//! What was deduced from reading the published repository that the preset `motion_blur_demo` stands for, shown true or false one
 //! by one; shaders/mcguire/README.md lists the outcomes.
 
 use filters::{Blur, Filter, Gpu, Input};
@@ -63,14 +63,14 @@ impl Frame {
         blur.run(&input).unwrap().remove(0)
     }
 
-    fn aliari(&self, changes: Changes) -> Image {
-        self.blurred("mcguire", "aliari", changes)
+    fn motion_blur_demo(&self, changes: Changes) -> Image {
+        self.blurred("mcguire", "motion_blur_demo", changes)
     }
 }
 
 /// What a pixel takes of the tap at -7 to 7 pixels from it, as parts of the whole.
 fn tap_weights(changes: Changes) -> impl Fn(i64) -> f32 {
-    let output = steady(|x| if x == EDGE { 1.0 } else { 0.0 }).aliari(changes);
+    let output = steady(|x| if x == EDGE { 1.0 } else { 0.0 }).motion_blur_demo(changes);
     move |offset| output.at((i64::from(EDGE) - offset) as u32, HEIGHT / 2)[0]
 }
 
@@ -91,7 +91,7 @@ fn distances_in_uv_make_far_taps_weigh_as_near_ones() {
 #[test]
 fn it_is_a_box_of_what_moves_and_not_of_every_tap() {
     let changes: Changes = &[("jitter", "none"), ("center_tap", "skipped")];
-    let output = mover_beside_still(5.0, 5.0).aliari(changes);
+    let output = mover_beside_still(5.0, 5.0).motion_blur_demo(changes);
     for (beside, movers) in [(0, 7.0), (3, 4.0), (6, 1.0)] {
         // Each mover within reach weighs a cone of 0.99 to 1, near or far. Still taps weigh nothing on a still pixel,
         // whose own weight is 1 / 0.5.
@@ -109,7 +109,7 @@ fn clamping_before_halving_halves_the_reach() {
     let mut frame = steady(|x| if x < EDGE { 1.0 } else { 0.0 });
     frame.velocity = frame.velocity.map(|_| [200.0, 0.0]);
     let reach = |changes: Changes| {
-        let output = frame.aliari(changes);
+        let output = frame.motion_blur_demo(changes);
         let lit = |x: &u32| (0..HEIGHT).any(|y| output.at(*x, y)[0] > 0.0);
         (EDGE..WIDTH - 25).filter(lit).count()
     };
@@ -131,7 +131,7 @@ fn the_centre_tap_counts_beside_the_pixel_itself() {
 
 /// How far noise displaces the picture at each pixel, in pixels.
 fn displacements(changes: Changes) -> Vec<f32> {
-    let output = steady(|x| x as f32).aliari(changes);
+    let output = steady(|x| x as f32).motion_blur_demo(changes);
     let inner = 12..WIDTH - 12;
     inner
         .flat_map(|x| (0..HEIGHT).map(move |y| (x, y)))
@@ -171,7 +171,7 @@ fn filtering_between_tiles_leaves_moving_pixels_unblurred() {
         depth: Raster::filled(120, 20, 5.0),
     };
     let unblurred = |changes: Changes| {
-        let output = frame.aliari(changes);
+        let output = frame.motion_blur_demo(changes);
         let column = |x: &u32| (0..20).all(|y| output.at(*x, y) == frame.color.at(*x, y));
         (0..120).filter(column).collect::<Vec<u32>>()
     };
@@ -188,8 +188,8 @@ fn what_moves_only_in_the_last_partial_tile_is_not_blurred() {
         velocity: Raster::from_fn(59, 40, |x, _| [if x < 45 { 0.0 } else { SPEED }, 0.0]),
         depth: Raster::filled(59, 40, 5.0),
     };
-    assert!(frame.aliari(&[]) == frame.color);
-    assert!(frame.aliari(&[("tile_lookup", "own")]) != frame.color);
+    assert!(frame.motion_blur_demo(&[]) == frame.color);
+    assert!(frame.motion_blur_demo(&[("tile_lookup", "own")]) != frame.color);
 }
 
 #[test]
@@ -218,7 +218,7 @@ fn front_and_back_are_swapped() {
         let mut all = vec![("jitter", "none"), ("center_tap", "skipped")];
         all.extend(changes);
         mover_beside_still(mover, still)
-            .aliari(&all)
+            .motion_blur_demo(&all)
             .at(EDGE + 4, HEIGHT / 2)[0]
     };
     // Depth buffers of 0.5 and 0.9: a mover in front weighs 1 - 0.4 / 0.5, one behind 1.
@@ -239,9 +239,11 @@ fn front_and_back_are_swapped() {
 #[test]
 fn colour_comes_from_the_opposite_border() {
     let frame = steady(|x| if x == WIDTH - 1 { 1.0 } else { 0.0 });
-    assert!(frame.aliari(&[]).at(0, HEIGHT / 2)[0] > 0.01);
+    assert!(frame.motion_blur_demo(&[]).at(0, HEIGHT / 2)[0] > 0.01);
     assert_eq!(
-        frame.aliari(&[("fetch", "nearest")]).at(0, HEIGHT / 2)[0],
+        frame
+            .motion_blur_demo(&[("fetch", "nearest")])
+            .at(0, HEIGHT / 2)[0],
         0.0
     );
 }

@@ -32,7 +32,7 @@ pub fn mcguire(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
             taps
         }
         // Cut at half a tile. Distances are next to nothing in its unit, so all taps weigh alike, and the middle one counts.
-        "aliari" => {
+        "motion_blur_demo" => {
             let half = scaled(half, (10.0 / length(half)).min(1.0));
             let jitter = 2.0 * (noise * std::f64::consts::TAU).sin().rem_euclid(1.0) - 1.0;
             let mut taps = vec![own(1.0 / length(half))];

@@ -1,0 +1,189 @@
+"""Compares presets with transcriptions of the programs that they follow, on frames of three scenes.
+
+    python3 examples/fidelity/compare.py --program target/release/shuttertruth --scenes-dir scenes --out out/fidelity
+
+It renders the frames, blurs them with every preset that names a source, calls the transcription in `originals/`, and prints one row
+per preset as Markdown. It ends with 1 where a preset is farther from its original than `fidelity.toml` allows. README.md has more.
+"""
+
+import argparse
+import importlib.util
+import json
+import subprocess
+import sys
+import tomllib
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import OpenEXR
+
+HERE = Path(__file__).resolve().parent
+SCENES = ["fan", "railing", "two_spheres"]
+# Differences that count, in scene-linear radiance.
+SMALL, LARGE = 1e-3, 0.02
+
+
+def main():
+    arguments = parse()
+    listing = json.loads(shuttertruth(arguments, ["list", "--json", "--scenes-dir", arguments.scenes_dir]))
+    settings = tomllib.loads((HERE / "fidelity.toml").read_text())
+    originals, as_listed = transcriptions()
+    known, missing = presets(listing, originals)
+    check(settings, known, missing, originals)
+    for name in arguments.only:
+        if name not in known:
+            sys.exit(f"--only {name}: has no transcription; allowed: {', '.join(known)}")
+    compare = arguments.only or list(known)
+    frames = render(arguments)
+    with ThreadPoolExecutor(2) as pool:
+        blurred = pool.map(lambda case: blur(arguments, *case), [(name, scene) for name in compare for scene in SCENES])
+    rows, failures = [], []
+    for name in compare:
+        source, parameters = known[name]
+        pictures = [next(blurred) for _ in SCENES]
+        found = compared(originals[name], frames, pictures, parameters)
+        listed = compared(as_listed[name], frames, pictures, parameters) if name in as_listed else None
+        verdict = judged(settings["default"] | settings["preset"].get(name, {}), found, listed)
+        rows.append([f"`{name}`", source, *found.cells(), listed.cells()[0] if listed else "", verdict])
+        failures += [name] if verdict != "kept" else []
+    print(table(["preset", "original", "largest", "> 0.001", "> 0.02", "largest as listed", "limit"], rows))
+    print(f"\n{', '.join(SCENES)} at {arguments.size}: {frames[0].depth.size * len(SCENES)} pixels.")
+    if not arguments.only:
+        print()
+        print(table(["preset without a transcription", "why"], [[f"`{name}`", why] for name, why in missing.items()]))
+    if failures:
+        sys.exit(f"farther from the original than fidelity.toml allows: {', '.join(failures)}")
+
+
+def parse():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--program", default="shuttertruth", help="the program [default: the one on the PATH]")
+    parser.add_argument("--scenes-dir", default="scenes", help="folder that holds the scenes")
+    parser.add_argument("--out", type=Path, required=True, help="folder for frames and pictures")
+    parser.add_argument("--size", default="160x90", help="picture size in pixels")
+    parser.add_argument("--only", action="append", default=[], metavar="FILTER:PRESET", help="compare this one; may be repeated")
+    parser.add_argument("--set", action="append", default=[], metavar="FILTER.PARAMETER=VALUE", help="of the filter alone: see it differ")
+    return parser.parse_args()
+
+
+def shuttertruth(arguments, words):
+    done = subprocess.run([arguments.program, *words], capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{arguments.program} {' '.join(words)} ended with {done.returncode}: {done.stderr}")
+    return done.stdout
+
+
+def transcriptions():
+    """Every module of originals/: what its ORIGINALS and its AS_LISTED hold."""
+    originals, as_listed = {}, {}
+    for path in sorted((HERE / "originals").glob("*.py")):
+        spec = importlib.util.spec_from_file_location(path.stem, path)
+        module = importlib.util.module_from_spec(spec)
+        sys.modules[path.stem] = module
+        spec.loader.exec_module(module)
+        originals |= module.ORIGINALS
+        as_listed |= getattr(module, "AS_LISTED", {})
+    return originals, as_listed
+
+
+def presets(listing, originals):
+    """The presets that have a transcription, with their source and every value; and the others, with the reason."""
+    known, missing = {}, {}
+    for filter in listing["filters"]:
+        defaults = {parameter["name"]: parameter["default"] for parameter in filter["parameters"]}
+        for preset in filter["presets"]:
+            name = f"{filter['name']}:{preset['name']}"
+            source = preset["source"]
+            if name in originals:
+                known[name] = (place(source or {}), defaults | preset["values"])
+            elif source is None:
+                missing[name] = "a setting of this project, nobody else's"
+            elif source.get("repository") is None:
+                missing[name] = f"published without source code: {source['publication']}"
+            else:
+                missing[name] = f"nobody has transcribed {place(source)}"
+    return known, missing
+
+
+def place(source):
+    if source.get("repository") is None:
+        return source.get("publication") or "names no source"
+    return f"{source['repository'].removeprefix('https://')} at {source['commit'][:7]}"
+
+
+def check(settings, known, missing, originals):
+    """Refuses words that stand for nothing."""
+    for name in originals:
+        if name not in known:
+            sys.exit(f"originals/ transcribe {name}, which is no preset; presets: {', '.join([*known, *missing])}")
+    for name in settings["preset"]:
+        if name not in known:
+            sys.exit(f"fidelity.toml: {name} has no transcription; allowed: {', '.join(known)}")
+
+
+class Frame:
+    """What filters get of one scene."""
+
+    def __init__(self, path):
+        with OpenEXR.File(str(path), separate_channels=True) as file:
+            plane = {name: channel.pixels.astype(np.float32) for name, channel in file.channels().items()}
+            self.exposure = float(text(file.header()["exposure"]))
+        self.color = np.stack([plane["R"], plane["G"], plane["B"]], -1)
+        self.velocity = np.stack([plane["velocity.X"], plane["velocity.Y"]], -1)
+        self.depth = plane["Z"]
+
+
+def text(value):
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+def render(arguments):
+    shuttertruth(arguments, [
+        "render", "--quiet", "--scenes", ",".join(SCENES), "--scenes-dir", arguments.scenes_dir, "--size", arguments.size,
+        "--samples-per-pixel", "8", "--replicates", "2", "--out", str(arguments.out)])
+    return [Frame(arguments.out / scene / "frame.exr") for scene in SCENES]
+
+
+def blur(arguments, name, scene):
+    out = arguments.out / scene / f"{name.replace(':', '_')}.exr"
+    words = ["blur", "--as-written", "--filter", name, "--frame", str(arguments.out / scene / "frame.exr"), "--out", str(out)]
+    for value in arguments.set:
+        words += ["--set", value] if value.split(".")[0] == name.split(":")[0] else []
+    shuttertruth(arguments, words)
+    with OpenEXR.File(str(out), separate_channels=True) as file:
+        return np.stack([file.channels()[channel].pixels for channel in "RGB"], -1)
+
+
+class Difference:
+    """How far pictures are apart: the largest channel of every pixel."""
+
+    def __init__(self, pairs):
+        found = np.concatenate([np.abs(ours - theirs).max(-1).ravel() for ours, theirs in pairs])
+        self.largest = float(found.max()) if np.isfinite(found).all() else float("inf")
+        self.small, self.large = int((~(found <= SMALL)).sum()), int((~(found <= LARGE)).sum())
+
+    def cells(self):
+        return [f"{self.largest:.0e}", str(self.small), str(self.large)]
+
+
+def compared(original, frames, pictures, parameters):
+    theirs = [original(f.color, f.velocity, f.depth, f.exposure, 0, parameters) for f in frames]
+    return Difference(zip(pictures, theirs))
+
+
+def judged(limits, found, listed):
+    """Whether the differences are as few as is allowed."""
+    few = found.small <= limits["small"] and found.large <= limits["large"]
+    near = listed is None or listed.small <= limits["small_as_listed"]
+    return "kept" if few and near else "BROKEN"
+
+
+def table(head, rows):
+    """Markdown."""
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
+
+
+if __name__ == "__main__":
+    main()
