@@ -282,7 +282,7 @@ fn scrambled(pixel: vec2<i32>) -> vec3<i32> {
     var place = pixel;
     place.x += place.x << 4u;
     place.x ^= place.x >> 6u;
-    place.y += place.y << 1u;
+    place.y += place.x << 1u;
     place.y += place.y << 6u;
     place.y ^= place.y >> 2u;
     place.x ^= place.y;

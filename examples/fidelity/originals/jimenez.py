@@ -462,7 +462,7 @@ def kajiya(color, velocity, depth, exposure, frame_index, parameters, motion_blu
     place_x, place_y = x.astype(np.int32), y.astype(np.int32)
     place_x = place_x + (place_x << 4)
     place_x = place_x ^ (place_x >> 6)
-    place_y = place_y + (place_y << 1)
+    place_y = place_y + (place_x << 1)
     place_y = place_y + (place_y << 6)
     place_y = place_y ^ (place_y >> 2)
     place_x = place_x ^ place_y
