@@ -502,7 +502,15 @@ fn filters_that_carry_motion_smear_over_what_lies_beside_a_mover() {
             }
             "mcguire" | "guertin" | "jimenez" => {
                 let sides = [light(true), light(false)];
-                assert!(sides.iter().all(|light| *light > 1.5), "{name}: {sides:?}");
+                // Seven sixteenths of that, and noise that shortens most trails.
+                let least = match settings.preset.as_str() {
+                    "kajiya" | "wicked_scaled" => 0.6,
+                    _ => 1.5,
+                };
+                assert!(
+                    sides.iter().all(|light| *light > least),
+                    "{name}: {sides:?}"
+                );
             }
             _ => assert_eq!(light(false), 0.0, "{name}"),
         }

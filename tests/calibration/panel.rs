@@ -87,6 +87,12 @@ impl Shot {
         DVec2::new(cosine, -sine)
     }
 
+    /// From the middle of the picture along the motion, in pixels.
+    pub fn to_border(&self) -> f64 {
+        let [across, down] = self.direction().to_array().map(f64::abs);
+        (middle().x / across).min(middle().y / down)
+    }
+
     pub fn steady(&self) -> Steady {
         Steady {
             velocity: (self.speed * self.direction()).to_array(),

@@ -26,8 +26,15 @@ pub fn promised(filter: &str, preset: &str, steady: &Steady) -> f64 {
             _ if trail < 4.0 => 0.0,
             radius => trail.min(2.0 * radius),
         },
-        ("jimenez", "hdrp") => trail.min(200.0),
+        // Twice the trail, in parts of the picture times its diagonal, is cut at 200 pixels.
+        ("jimenez", "hdrp" | "hdrp_mirrored") => {
+            let [width, height] = steady.size.map(f64::from);
+            let diagonal = width.hypot(height);
+            trail * (200.0 / (2.0 * (x / width).hypot(y / height) * diagonal)).min(1.0)
+        }
         ("jimenez", "o3de") => 10.0 * trail,
+        // Seven steps of a sixteenth.
+        ("jimenez", "kajiya") => 7.0 / 16.0 * trail,
         // 1500 pixels per width and height of motion, by noise from 0 to 1.
         ("jimenez", "wicked") => {
             let [width, height] = steady.size.map(f64::from);
@@ -49,9 +56,13 @@ pub fn stated(filter: &str, preset: &str) -> RangeInclusive<f64> {
         ("mcguire", "tuned") => 0.86..=1.04,
         ("guertin", _) => 0.65..=0.87,
         ("kino", _) => 0.72..=0.78,
-        ("jimenez", "kajiya") => 1.12..=1.14,
+        ("jimenez", "hdrp" | "hdrp_mirrored") => 1.00..=1.03,
+        ("jimenez", "kajiya") => 1.00..=1.07,
+        ("jimenez", "kajiya_scaled") => 0.99..=1.02,
         ("jimenez", "o3de") => 0.94..=0.95,
+        ("jimenez", "o3de_scaled") => 0.72..=0.94,
         ("jimenez", "wicked") => 0.60..=0.63,
+        ("jimenez", "wicked_scaled") => 0.61..=0.64,
         _ => 0.985..=1.025,
     }
 }

@@ -28,8 +28,8 @@ fn movers_that_share_a_tile_take_one_another_s_motion() {
     let variation = |filter: &str| [&together, &apart].map(|shot| shot.score(filter, "label_tv"));
     // Measured 2.6 and 1.7.
     assert_worse(
-        "label_tv of jimenez:advanced_warfare",
-        variation("jimenez:advanced_warfare"),
+        "label_tv of jimenez:slides_2014",
+        variation("jimenez:slides_2014"),
         1.8,
     );
     assert_worse("label_tv of mcguire:paper", variation("mcguire:paper"), 1.4);

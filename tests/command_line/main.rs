@@ -8,6 +8,7 @@ mod check;
 mod command_filter;
 mod compare;
 mod comparison;
+mod fidelity;
 mod import;
 mod kept;
 mod kept_cases;

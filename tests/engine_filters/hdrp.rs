@@ -1,8 +1,130 @@
-//! The preset of Unity HDRP.
+//! The presets of Unity HDRP.
 
 use tests::random::Random;
 
-use tests::picture::{BLACK_WALL, Picture, Surface, column, light, white};
+use tests::picture::{
+    BLACK_WALL, Picture, Surface, column, light, moving_edge, ramp_length, white,
+};
+
+#[test]
+fn an_intensity_of_one_is_a_shutter_of_180_degrees() {
+    let picture = moving_edge(160, 64, [24.0, 0.0]);
+    let length = |intensity: &str| {
+        let overrides = [("strength", intensity)];
+        ramp_length(&picture.blurred("jimenez", "hdrp", &overrides))
+    };
+    // A quarter of the motion to each side. Half a pixel for reading the nearest ones.
+    assert!((length("1") - 12.0).abs() < 0.5, "{}", length("1"));
+    assert!((length("2") - 24.0).abs() < 0.5, "{}", length("2"));
+}
+
+#[test]
+fn the_noise_of_hdrp_shifts_all_taps_of_a_pixel_to_one_side() {
+    // Brightness is the column: a mean of taps is their mean place.
+    let picture = Picture::new(200, 64, |x, _| Surface {
+        gray: x as f32,
+        ..white(24.0)
+    });
+    let output = picture.blurred("jimenez", "hdrp", &[]);
+    let pixels = (50..150).flat_map(|x| (0..48).map(move |y| (x, y)));
+    let shifts: Vec<f32> = pixels.map(|(x, y)| output.at(x, y)[0] - x as f32).collect();
+    let mean = shifts.iter().map(|shift| shift.abs()).sum::<f32>() / shifts.len() as f32;
+    // Up to half a step of 3 pixels. Read at the nearest ones, taps shift by 1.5 for a third of the noise and by 0.5 for the
+    // rest; mirrored, they would not.
+    assert!((mean - 5.0 / 6.0).abs() < 0.05, "{mean}");
+}
+
+#[test]
+fn hdrp_reads_the_nearest_pixels() {
+    let picture = Picture::new(160, 64, |x, _| Surface {
+        gray: (x % 2) as f32,
+        ..white(25.0)
+    });
+    let output = picture.blurred("jimenez", "hdrp", &[]);
+    // All taps weigh alike: a mean of eight zeros and ones.
+    for pixel in &output.pixels {
+        let ones = 8.0 * pixel[0];
+        assert!((ones - ones.round()).abs() < 1e-5, "{ones} of 8");
+    }
+}
+
+#[test]
+fn short_trails_of_hdrp_have_fewer_taps() {
+    // As above, but for a length in parts of the picture's diagonal, a tenth longer, of 5 pixels and a bit.
+    let picture = Picture::new(160, 64, |x, _| Surface {
+        gray: (x % 2) as f32,
+        ..white(2.4)
+    });
+    let output = picture.blurred("jimenez", "hdrp", &[]);
+    for pixel in &output.pixels {
+        let ones = 6.0 * pixel[0];
+        assert!((ones - ones.round()).abs() < 1e-5, "{ones} of 6");
+    }
+}
+
+#[test]
+fn a_tap_that_moves_half_as_far_as_the_trail_counts_whole() {
+    // In front something white that moves half as fast as what lies behind it.
+    let picture = Picture::new(160, 64, |x, _| match x {
+        80.. => white(12.0),
+        _ => Surface {
+            velocity: [24.0, 0.0],
+            ..BLACK_WALL
+        },
+    });
+    let output = |direction: &str| {
+        let overrides = [("direction", direction), ("plain_tiles", "never")];
+        picture.blurred("jimenez", "hdrp", &overrides)
+    };
+    let (weighted, ignored) = (output("weighted"), output("ignored"));
+    let pairs = weighted.pixels.iter().zip(&ignored.pixels);
+    let apart = pairs.map(|(a, b)| (a[0] - b[0]).abs()).fold(0.0, f32::max);
+    assert!(apart < 1e-5, "{apart}");
+}
+
+#[test]
+fn directions_count_only_where_the_pixel_itself_moves() {
+    // Below, something fast in front gives the trail; above, something white moves down past a wall.
+    let seen = |wall: f32| {
+        let picture = Picture::new(160, 64, |x, y| match (x, y) {
+            (_, 40..) => Surface {
+                gray: 0.0,
+                ..white(25.0)
+            },
+            (80.., _) => Surface {
+                velocity: [0.0, 9.0],
+                ..white(0.0)
+            },
+            _ => Surface {
+                velocity: [wall, 0.0],
+                ..BLACK_WALL
+            },
+        });
+        let output = picture.blurred("jimenez", "hdrp", &[("plain_tiles", "never")]);
+        (32..38).map(|y| output.at(76, y)[0]).fold(0.0, f32::max)
+    };
+    // 4 pixels away, of 12 that trails reach.
+    assert!(seen(0.0) > 0.1, "{}", seen(0.0));
+    assert_eq!(seen(4.0), 0.0);
+}
+
+#[test]
+fn what_moves_like_the_fastest_shows_only_what_its_taps_saw() {
+    // A wall that moves behind something still: half of its taps count for nothing beside that.
+    let picture = Picture::new(160, 64, |x, _| match x {
+        0..80 => white(0.0),
+        _ => Surface {
+            gray: if x < 81 { 1.0 } else { 0.0 },
+            velocity: [24.0, 0.0],
+            ..BLACK_WALL
+        },
+    });
+    let seen = |rest: &str| column(&picture.blurred("jimenez", "hdrp", &[("rest", rest)]), 80);
+    // Of itself, white, half remains beside the wall's black.
+    assert!(seen("own") > 0.5, "{}", seen("own"));
+    // One of some four taps may read the pixel itself.
+    assert!(seen("layers") < 0.3, "{}", seen("layers"));
+}
 
 /// A speckled background that moves right, and on the left something still and black in front.
 fn still_in_front() -> Picture {
@@ -25,7 +147,7 @@ fn still_in_front() -> Picture {
 fn hdrp_leaves_moving_background_sharp_beside_something_still_in_front() {
     let picture = still_in_front();
     let change = |mirror: &str| {
-        let output = picture.blurred("jimenez", "hdrp", &[("mirror", mirror)]);
+        let output = picture.blurred("jimenez", "hdrp_mirrored", &[("mirror", mirror)]);
         let changes = (0..64).map(|y| output.at(80, y)[0] - picture.color.at(80, y)[0]);
         changes.map(|change| f64::from(change.abs())).sum::<f64>() / 64.0
     };
@@ -58,8 +180,7 @@ fn steps_that_end_late_keep_still_things_out_of_the_trail_at_its_start() {
     };
     // One of eight taps is less than a step to the left, and counts for what is left of the step.
     assert!(seen("steps") > 0.03, "{}", seen("steps"));
-    // What bilinear fetches mix into the half pixel at the edge.
-    assert!(seen("late_steps") < 0.01, "{}", seen("late_steps"));
+    assert_eq!(seen("late_steps"), 0.0);
 }
 
 #[test]
@@ -74,7 +195,7 @@ fn late_steps_are_steps_from_the_first_whole_one_on() {
         picture.blurred("jimenez", "hdrp", &overrides)
     };
     // Taps at the ends of steps lie one step away or more.
-    assert!(output("ends", "late_steps") == output("ends", "steps"));
+    assert!(output("with_centre", "late_steps") == output("with_centre", "steps"));
     assert!(output("middles", "late_steps") != output("middles", "steps"));
 }
 
@@ -83,7 +204,7 @@ fn weighted_directions_leave_out_what_crosses_the_trail() {
     // On the right something white that moves down; around it everything moves right.
     let picture = Picture::new(160, 64, |x, _| match x {
         80.. => Surface {
-            velocity: [0.0, 24.0],
+            velocity: [0.0, 9.0],
             ..white(0.0)
         },
         _ => Surface {
@@ -101,86 +222,17 @@ fn weighted_directions_leave_out_what_crosses_the_trail() {
     };
     // A third of the right half of the taps lies beyond 4 pixels of 12.
     assert!(seen("ignored") > 0.2, "{}", seen("ignored"));
-    // What bilinear fetches mix into the half pixel at its edge.
-    assert!(seen("weighted") < 0.01, "{}", seen("weighted"));
-}
-
-#[test]
-fn plain_tiles_forget_depth_where_motions_are_alike() {
-    // In front something white that moves 8 pixels, behind it 24: in their tiles the least is over a quarter.
-    let picture = Picture::new(160, 64, |x, _| match x {
-        80.. => white(8.0),
-        _ => Surface {
-            velocity: [24.0, 0.0],
-            ..BLACK_WALL
-        },
-    });
-    let seen = |plain: &str| {
-        let overrides = [("plain_tiles", plain), ("mirror", "off")];
-        column(&picture.blurred("jimenez", "hdrp", &overrides), 72)
-    };
-    // It comes 4 pixels to each side, and 8 are beyond a step of 3 more.
-    assert!(seen("never") < 0.01, "{}", seen("never"));
-    // A box of 24 pixels, of which 4.5 lie in it.
-    assert!(
-        (seen("similar") - 4.5 / 24.0).abs() < 0.03,
-        "{}",
-        seen("similar")
-    );
+    assert_eq!(seen("weighted"), 0.0);
 }
 
 #[test]
 fn what_stands_still_in_front_stays_sharp() {
     let picture = still_in_front();
-    for preset in ["advanced_warfare", "hdrp"] {
+    for preset in ["slides_2014", "hdrp", "hdrp_mirrored"] {
         let output = picture.blurred("jimenez", preset, &[]);
         // Up to the one step, 12 / pairs pixels, in which a still pixel's spread ends.
         assert_eq!(light(&output, 0..76), 0.0, "{preset}");
     }
     let output = picture.blurred("jimenez", "hdrp", &[]);
     assert!(light(&output, 0..80) < 0.01, "late steps end at once");
-}
-
-#[test]
-fn tiles_around_end_long_smears_that_tiles_along_the_motion_carry() {
-    // Half of 160 pixels to each side.
-    let picture = Picture::new(
-        320,
-        64,
-        |x, _| {
-            if x < 160 { BLACK_WALL } else { white(160.0) }
-        },
-    );
-    let reach = |preset: &str| {
-        let output = picture.blurred("jimenez", preset, &[("tile_dither", "0")]);
-        (0..160).filter(|x| column(&output, *x) > 0.0).count()
-    };
-    // One tile of 20 pixels beside the mover's.
-    assert_eq!(reach("advanced_warfare"), 20);
-    // All but the last pixels, which only the outermost taps reach.
-    assert!(reach("hdrp") > 70, "{}", reach("hdrp"));
-}
-
-#[test]
-fn tiles_along_the_motion_leave_those_beside_it_alone() {
-    let picture = Picture::new(320, 160, |x, y| {
-        if (x, y) == (160, 72) {
-            white(100.0)
-        } else {
-            BLACK_WALL
-        }
-    });
-    let overrides = [
-        ("tile_size", "16"),
-        ("tile_reach", "7"),
-        ("dilation", "along_motion"),
-    ];
-    let tiles = picture.texture("jimenez", &overrides, "near_motion");
-    let reached: Vec<(u32, u32)> = (0..10)
-        .flat_map(|y| (0..20).map(move |x| (x, y)))
-        .filter(|(x, y)| tiles.at(*x, *y)[0] > 0.0)
-        .collect();
-    // Half of 100 pixels to each side of tile (10, 4), wherever in it the mover is: four tiles, in its own row.
-    let expected: Vec<(u32, u32)> = (6..=14).map(|x| (x, 4)).collect();
-    assert_eq!(reached, expected);
 }

@@ -2,21 +2,70 @@
 
 use tests::random::Random;
 
-use tests::picture::{BLACK_WALL, Picture, Surface, column, light_above, slow_above_fast, white};
+use tests::picture::{
+    BLACK_WALL, Picture, Surface, column, light_above, moving_edge, ramp_length, slow_above_fast,
+    white,
+};
+
+#[test]
+fn kajiya_smears_seven_sixteenths_of_the_motion() {
+    let picture = moving_edge(160, 64, [48.0, 0.0]);
+    let length = |preset: &str| ramp_length(&picture.blurred("jimenez", preset, &[]));
+    // Seven steps of a sixteenth; half a pixel for 32 shifts in 64 rows.
+    assert!(
+        (length("kajiya") - 21.0).abs() < 0.5,
+        "{}",
+        length("kajiya")
+    );
+    assert!(
+        (length("kajiya_scaled") - 48.0).abs() < 1.0,
+        "{}",
+        length("kajiya_scaled")
+    );
+}
 
 #[test]
 fn kajiya_lets_things_smear_twice_as_far_as_they_move() {
-    // To each side the slow thing should smear 6 pixels; steps are 24 / 16 pixels.
+    // To each side the slow thing should smear 12 * 3.5 / 16, 2.6 pixels; steps are 9 / 16 pixels.
     let picture = slow_above_fast(12.0, 48.0);
     let smear = |spread: &str| {
         let overrides = [("pairs", "16"), ("spread", spread)];
         picture.blurred("jimenez", "kajiya", &overrides)
     };
-    assert!(light_above(&smear("pixels"), 9..12) > 0.5);
-    // A pixel more than its whole motion, and half a pixel for fetches.
-    assert_eq!(light_above(&smear("pixels"), 14..30), 0.0);
-    // One step more than its half motion, and as much for the pixel's own displacement.
-    assert_eq!(light_above(&smear("steps"), 9..12), 0.0);
+    // Three of 33 taps, of which a half counts.
+    assert!(light_above(&smear("pixels"), 3..5) > 0.2);
+    // A pixel less than half its motion, and one for fetches.
+    assert_eq!(light_above(&smear("pixels"), 6..30), 0.0);
+    // One step more than its own.
+    assert_eq!(light_above(&smear("steps"), 3..30), 0.0);
+}
+
+#[test]
+fn kajiya_shifts_taps_by_one_of_32_numbers() {
+    // Brightness is the column: a mean of taps is their mean place.
+    let picture = Picture::new(256, 64, |x, _| Surface {
+        gray: x as f32,
+        ..white(-48.0)
+    });
+    let output = picture.blurred("jimenez", "kajiya", &[]);
+    let mut shifts: Vec<i32> = (64..192)
+        .flat_map(|x| (0..64).map(move |y| (x, y)))
+        // Taps lie 3 pixels apart; the centre, one of seven, is read at whole ones.
+        .map(|(x, y)| {
+            let mean = output.at(x, y)[0] - x as f32;
+            (-20..=20)
+                .min_by_key(|shift| {
+                    let place = *shift as f32 * 0.1;
+                    let taps = (6.0 * place + (place + 0.5).floor()) / 7.0;
+                    ((taps - mean).abs() * 1e6) as i32
+                })
+                .expect("there are some")
+        })
+        .collect();
+    shifts.sort_unstable();
+    shifts.dedup();
+    // From -15 to 16 thirtieths of a step.
+    assert_eq!(shifts, (-15..=16).collect::<Vec<_>>());
 }
 
 #[test]
@@ -36,9 +85,9 @@ fn kajiya_displaces_still_pixels_near_a_mover() {
         wall.filter(|(x, y)| (output.at(*x, *y)[0] - picture.color.at(*x, *y)[0]).abs() > 0.05)
             .count()
     };
-    // Of 6080 pixels, those in tiles that know the mover.
-    assert!(changed("kajiya", &[]) > 3000, "{}", changed("kajiya", &[]));
-    // Without noise, the pixel stays where it is; taps are 6 pixels apart, and a still pixel's spread is one.
+    // Of 6080 pixels, those in tiles that know the mover and that are shifted by half a pixel or more of 1.5.
+    assert!(changed("kajiya", &[]) > 2000, "{}", changed("kajiya", &[]));
+    // Without noise, the pixel stays where it is, and a still pixel has no spread.
     assert_eq!(changed("kajiya", &[("noise", "none")]), 0);
 }
 
@@ -47,18 +96,19 @@ fn taps_off_the_picture_are_dropped_or_read_its_border() {
     // A white column at the border, in motion with everything else.
     let picture = Picture::new(80, 64, |x, _| Surface {
         gray: if x == 0 { 1.0 } else { 0.0 },
-        velocity: [24.0, 0.0],
+        velocity: [48.0, 0.0],
         depth: 2.0,
     });
     let seen = |border: &str| {
         let output = picture.blurred("jimenez", "kajiya", &[("border", border)]);
         column(&output, 4)
     };
-    // Trails go 13.5 pixels to the left of 4.5: a third of the 27 reads the border, or one pixel of the 18 that are left.
+    // Of seven taps 3 pixels apart around 4.5, two lie off the picture; one is anywhere in the first three columns.
+    let one = 1.0 / 3.0;
     assert!(
-        (seen("clamp") - 10.0 / 27.0).abs() < 0.05,
+        (seen("clamp") - (2.0 + one) / 7.0).abs() < 0.05,
         "{}",
         seen("clamp")
     );
-    assert!((seen("drop") - 1.0 / 18.0).abs() < 0.03, "{}", seen("drop"));
+    assert!((seen("drop") - one / 5.0).abs() < 0.04, "{}", seen("drop"));
 }

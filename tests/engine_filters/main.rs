@@ -2,6 +2,7 @@
 
 mod bevy;
 mod hdrp;
+mod hdrp_tiles;
 mod jimenez;
 mod kajiya;
 mod kino;

@@ -1,5 +1,7 @@
 //! The preset of the Open 3D Engine.
 
+use tests::random::Random;
+
 use tests::picture::{BLACK_WALL, Picture, Surface, column, moving_edge, ramp_length, white};
 
 #[test]
@@ -50,6 +52,41 @@ fn post_above_motion() -> Picture {
         },
         _ => BLACK_WALL,
     })
+}
+
+#[test]
+fn o3de_keeps_the_sign_of_its_innermost_offset() {
+    let picture = post_above_motion();
+    let output = picture.blurred("jimenez", "o3de", &[("pairs", "24")]);
+    // Beside the post, and in odd rows, taps lie at i - 1/4 steps of 5 pixels, cut: -1, 3, 8 .. and the same to the left.
+    // The first on the post is at -1/4 steps, so that a still thing's spread of one step covers it and more: whole. At 3/4
+    // steps a quarter counts, and no farther one.
+    for row in [37, 39] {
+        let found = output.at(70, row)[0];
+        let expected = (1.0 + 0.25) / 48.0;
+        assert!((found - expected).abs() < 1e-5, "{found} {expected}");
+    }
+}
+
+#[test]
+fn o3de_mixes_the_motion_of_tiles() {
+    let mut random = Random::new(11);
+    let speckles: Vec<f32> = (0..400 * 200).map(|_| random.real(0.0, 1.0)).collect();
+    let picture = Picture::new(400, 200, |x, y| match x {
+        0..200 => Surface {
+            gray: speckles[(y * 400 + x) as usize],
+            ..BLACK_WALL
+        },
+        _ => white(24.0),
+    });
+    let changes = |lookup: &str, x: u32| {
+        let overrides = [("tile_dither", "0"), ("tile_lookup", lookup)];
+        let output = picture.blurred("jimenez", "o3de_scaled", &overrides);
+        (0..200).any(|y| output.at(x, y) != picture.color.at(x, y))
+    };
+    // The tile left of the mover knows it, the next does not. Mixed, motion begins between their centres.
+    assert!(changes("nearest", 180) && !changes("nearest", 179));
+    assert!(changes("linear", 175) && !changes("linear", 170));
 }
 
 #[test]

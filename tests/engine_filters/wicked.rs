@@ -1,6 +1,8 @@
 //! The preset of Wicked Engine.
 
-use tests::picture::{column, light_above, moving_edge, ramp_length, slow_above_fast};
+use tests::picture::{
+    Picture, Surface, column, light_above, moving_edge, ramp_length, slow_above_fast,
+};
 
 #[test]
 fn the_smear_of_wicked_depends_on_the_width_of_the_picture() {
@@ -70,4 +72,36 @@ fn motion_counts_for_wicked_all_or_nothing_from_a_tenth_of_the_fastest_on() {
     assert!(light(0.095) > 0.0 && light(0.095) < 0.9 * light(0.11));
     // Below, the fast half hides itself; equal up to rounding.
     assert!((light(0.11) / light(0.8) - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn wicked_scaled_goes_as_far_as_the_exposure_says_at_any_width() {
+    for width in [160, 320] {
+        let picture = moving_edge(width, 64, [24.0, 0.0]);
+        let output = picture.blurred("jimenez", "wicked_scaled", &[]);
+        let middle = width / 2;
+        // 12 pixels to each side, which the largest of 64 rows of noise almost reaches.
+        assert_eq!(column(&output, middle - 13), 0.0);
+        assert!(column(&output, middle - 11) > 0.0);
+        assert!(column(&output, middle + 10) < 1.0);
+        assert_eq!(column(&output, middle + 12), 1.0);
+    }
+}
+
+#[test]
+fn wicked_pushes_trails_inwards_where_they_begin() {
+    // All move by as much as makes taps of 2 pixels, over which a white column at the border spreads.
+    let seen = |speed: f32, border: &str| {
+        let picture = Picture::new(80, 64, |x, _| Surface {
+            gray: if x == 0 { 1.0 } else { 0.0 },
+            velocity: [speed, 0.0],
+            depth: 2.0,
+        });
+        let overrides = [("noise", "none"), ("tile_dither", "0"), ("border", border)];
+        column(&picture.blurred("jimenez", "wicked", &overrides), 2)
+    };
+    // Motion points back there, so that trails begin ahead. Of 16 taps around 2.5, seven lie off the picture.
+    assert!((seen(-1.6, "push") - 1.0 / 16.0).abs() < 1e-5);
+    assert!((seen(1.6, "push") - 7.0 / 16.0).abs() < 1e-5);
+    assert!((seen(-1.6, "clamp") - 7.0 / 16.0).abs() < 1e-5);
 }

@@ -1,65 +1,114 @@
-//! Jimenez 2014 and the engines that follow it. On one surface in even motion all their taps weigh alike.
+//! Jimenez 2014 and the engines that follow it, from their sources.
+//!
+//! Where everything moves alike at one depth, weights are whole but for kajiya's, which compare in pixels.
 
-use super::{Steady, Tap, bilinear, length, own, scaled};
+use super::{Steady, Tap, bilinear, length, on_trail, own, scaled};
 
 /// What a preset averages.
 pub fn taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
-    let trail = steady.trail();
     match preset {
-        "advanced_warfare" => {
-            // A quarter of a step to and fro, in turn between pixels.
-            let shift = if noise < 0.5 { -0.25 } else { 0.25 };
-            pairs(
-                8,
-                |i| [i + 0.5 + shift, -i - 0.5 - shift],
-                scaled(trail, 0.5 / 8.0),
-            )
-        }
-        // Below 2 pixels nothing blurs; 200 are the longest.
-        "hdrp" if length(trail) < 2.0 => vec![own(1.0)],
-        "hdrp" => {
-            let cut = scaled(trail, (200.0 / length(trail)).min(1.0));
-            let shift = noise - 0.5;
-            pairs(
-                4,
-                |i| [i + 0.5 + shift, -i - 0.5 - shift],
-                scaled(cut, 0.5 / 4.0),
-            )
-        }
-        // Five times the motion to each side, of which whole pixels count.
-        "o3de" if length(trail) < 0.2 => vec![own(1.0)],
-        "o3de" => {
-            let shift = if noise < 0.5 { -0.25 } else { 0.25 };
-            let step = scaled(trail, 5.0 / 24.0);
-            let sides = (0..24).flat_map(|i| [f64::from(i) + shift, -f64::from(i) - shift]);
-            let whole = |steps: f64| scaled(step, steps).map(f64::trunc);
-            sides
-                .map(|steps| Tap {
-                    offset: whole(steps),
-                    weight: 1.0,
-                })
-                .collect()
-        }
+        "slides_2014" => slides(steady, noise),
+        "hdrp" | "hdrp_mirrored" => hdrp(steady, noise),
+        // Ships with a strength of 5; the exposure's trail goes half of itself to each side.
+        "o3de" => o3de(steady, 5.0, noise),
+        "o3de_scaled" => o3de(steady, 0.5, noise),
+        // A direction is 100 widths and heights of motion, taken for pixels, and goes 7.5 steps to each side.
         "wicked" => {
-            // 750 pixels to each side per width and height of motion, scaled by noise; 16 taps from end to end.
             let [width, height] = steady.size();
-            let half = [750.0 * trail[0] / width, 750.0 * trail[1] / height];
-            let parts = (0..16).map(|i| noise * (2.0 * f64::from(i) - 15.0) / 15.0);
-            super::on_trail(half, parts)
+            let [x, y] = steady.trail();
+            wicked([750.0 * x / width, 750.0 * y / height], noise)
         }
-        "kajiya" => {
-            // The pixel and four steps on each side, shifted together.
-            let shift = noise - 0.5;
-            let step = scaled(trail, 0.5 / 4.0);
-            super::on_trail(step, (-4..=4).map(|i| f64::from(i) + shift))
-        }
+        "wicked_scaled" => wicked(scaled(steady.trail(), 0.5), noise),
+        "kajiya" => kajiya(steady, 1.0, noise),
+        "kajiya_scaled" => kajiya(steady, 16.0 / 7.0, noise),
         _ => panic!("say here what {preset} averages"),
     }
 }
 
-fn pairs(count: i32, steps: impl Fn(f64) -> [f64; 2], step: [f64; 2]) -> Vec<Tap> {
-    (0..count)
-        .flat_map(|i| steps(f64::from(i)))
-        .flat_map(|steps| bilinear(scaled(step, steps), 1.0))
+/// Eight pairs in the middles of steps, a quarter of a step to and fro in turn between pixels.
+fn slides(steady: &Steady, noise: f64) -> Vec<Tap> {
+    let shift = if noise < 0.5 { -0.25 } else { 0.25 };
+    let sides = (0..8).flat_map(|i| [0.5 + f64::from(i) + shift, -0.5 - f64::from(i) - shift]);
+    on_trail(scaled(steady.trail(), 0.5 / 8.0), sides)
+}
+
+/// MotionBlur.compute of Unity HDRP, 8 samples.
+fn hdrp(steady: &Steady, noise: f64) -> Vec<Tap> {
+    let [width, height] = steady.size();
+    let intensity = 2.0;
+    let motion = scaled(steady.trail(), intensity);
+    // Lengths are those of parts of the picture, times its diagonal.
+    let pixels = length([motion[0] / width, motion[1] / height]) * width.hypot(height);
+    if pixels <= 2.0 {
+        return vec![own(1.0)];
+    }
+    let motion = scaled(motion, (200.0 / pixels).min(1.0));
+    let whole = pixels.min(200.0).floor() as u32;
+    let samples = (whole + whole % 2).clamp(2, 8);
+    let direction = scaled(motion, 0.5);
+    let sides = (0..samples / 2).flat_map(|i| {
+        let middle = f64::from(i) + 0.5;
+        [-1.0, 1.0].map(|sign| sign * (middle + sign * (noise - 0.5)))
+    });
+    sides
+        .map(|offset| nearest(scaled(direction, offset / f64::from(samples))))
         .collect()
+}
+
+/// MotionBlur.azsl of O3DE at quality High, of whose offsets whole pixels count.
+fn o3de(steady: &Steady, strength: f64, noise: f64) -> Vec<Tap> {
+    let motion = scaled(steady.trail(), strength);
+    if length(motion) < 1.0 {
+        return vec![own(1.0)];
+    }
+    let dither = if noise < 0.5 { -0.25 } else { 0.25 };
+    let step = scaled(motion, 1.0 / 24.0);
+    let offsets = (0..24).map(|i| scaled(step, f64::from(i) + dither).map(f64::trunc));
+    let sides = offsets.flat_map(|offset| [offset, scaled(offset, -1.0)]);
+    sides
+        .map(|offset| Tap {
+            offset,
+            weight: 1.0,
+        })
+        .collect()
+}
+
+/// motionblurCS.hlsl of Wicked Engine: 16 taps from end to end of a trail that noise scales.
+fn wicked(half: [f64; 2], noise: f64) -> Vec<Tap> {
+    let steps = (0..16).map(|i| f64::from(i) - 7.5);
+    steps
+        .map(|step| nearest(scaled(half, noise * step / 7.5)))
+        .collect()
+}
+
+/// motion_blur.rs of kajiya: the pixel and three steps on each side, of an eighth of half the motion, shifted together.
+fn kajiya(steady: &Steady, scale: f64, noise: f64) -> Vec<Tap> {
+    // Its map of motion points back.
+    let half = scaled(steady.trail(), -0.5 * scale);
+    let shift = 0.5 * ((noise * 32.0).floor() - 15.0) / 15.0;
+    let along = |steps: f64| scaled(half, steps / 4.0 * 0.5);
+    let mut taps = Vec::new();
+    let mut covered = 0.0;
+    for i in [1.0, 2.0, 3.0] {
+        let distance = length(along(i + shift));
+        // Of equals, the second takes the first's.
+        let weight = (length(half) - (distance + 1.0)).clamp(0.0, 1.0) / 7.0;
+        covered += 2.0 * weight;
+        taps.extend(bilinear(along(i + shift), weight));
+        taps.extend(bilinear(along(-i + shift), weight));
+    }
+    let rest = Tap {
+        weight: 1.0 - covered,
+        ..nearest(along(shift))
+    };
+    taps.push(rest);
+    taps
+}
+
+/// A tap that reads the nearest pixel.
+fn nearest(offset: [f64; 2]) -> Tap {
+    Tap {
+        offset: offset.map(|part| (part + 0.5).floor()),
+        weight: 1.0,
+    }
 }

@@ -1,0 +1,103 @@
+//! The tiles of Unity HDRP.
+
+use tests::picture::{BLACK_WALL, Picture, Surface, column, white};
+
+#[test]
+fn plain_tiles_forget_depth_where_motions_are_alike() {
+    // In front something white that moves 8 pixels, behind it 24: in their tiles the least is over a quarter.
+    let picture = Picture::new(160, 64, |x, _| match x {
+        80.. => white(8.0),
+        _ => Surface {
+            velocity: [24.0, 0.0],
+            ..BLACK_WALL
+        },
+    });
+    let seen = |plain: &str| {
+        let overrides = [("plain_tiles", plain), ("mirror", "off")];
+        column(&picture.blurred("jimenez", "hdrp", &overrides), 72)
+    };
+    // It comes 4 pixels to each side, and 8 are beyond a step of 3 more.
+    assert!(seen("never") < 0.01, "{}", seen("never"));
+    // A box of 24 pixels, of which 4.5 lie in it.
+    assert!(
+        (seen("similar") - 4.5 / 24.0).abs() < 0.03,
+        "{}",
+        seen("similar")
+    );
+}
+
+#[test]
+fn tiles_around_end_long_smears_that_tiles_along_the_motion_carry() {
+    // Half of 160 pixels to each side; Unity HDRP cuts twice that at 200, parts of the picture's diagonal.
+    let picture = Picture::new(
+        320,
+        64,
+        |x, _| {
+            if x < 160 { BLACK_WALL } else { white(160.0) }
+        },
+    );
+    let reach = |preset: &str| {
+        let output = picture.blurred("jimenez", preset, &[("tile_dither", "0")]);
+        (0..160).filter(|x| column(&output, *x) > 0.0).count()
+    };
+    // One tile of 20 pixels beside the mover's.
+    assert_eq!(reach("slides_2014"), 20);
+    // A quarter of 200 pixels, less a fiftieth for the diagonal.
+    assert!((47..=50).contains(&reach("hdrp")), "{}", reach("hdrp"));
+}
+
+/// Tiles of 16 pixels that know of one moving pixel in tile (10, 4), by its velocity.
+fn tiles_told_of(velocity: [f32; 2]) -> Vec<(u32, u32)> {
+    let picture = Picture::new(320, 160, |x, y| match (x, y) {
+        (160, 72) => Surface {
+            velocity,
+            ..white(0.0)
+        },
+        _ => BLACK_WALL,
+    });
+    let overrides = [
+        ("tile_size", "16"),
+        ("tile_reach", "9"),
+        ("dilation", "walk"),
+    ];
+    let tiles = picture.texture("jimenez", &overrides, "near_motion");
+    let places = (0..10).flat_map(|y| (0..20).map(move |x| (x, y)));
+    let is_told = |x: u32, y: u32| tiles.at(x, y)[..2] != [0.0, 0.0];
+    places.filter(|(x, y)| is_told(*x, *y)).collect()
+}
+
+#[test]
+fn unity_walks_over_tiles_and_misses_the_one_to_the_left() {
+    // Half of 100 pixels is a bit over three tiles. From (9, 3) the walk goes 5 to the right and 1 down, and 2 to the left
+    // and 1 down, by the integers of Cohen 1994.
+    let expected = [
+        (8, 3),
+        (10, 3),
+        (11, 3),
+        (7, 4),
+        (8, 4),
+        (10, 4),
+        (11, 4),
+        (12, 4),
+        (13, 4),
+        (14, 4),
+    ];
+    assert_eq!(tiles_told_of([100.0, 0.0]), expected);
+    // Up to half a pixel, motion stays in its tile.
+    assert_eq!(tiles_told_of([0.5, 0.0]), [(10, 4)]);
+}
+
+#[test]
+fn the_last_tiles_of_unity_know_only_the_pixel_in_their_corner() {
+    let told = |x: u32, last_tiles: &str| {
+        let picture = Picture::new(160, 96, |column, row| match (column, row) {
+            (at, 40) if at == x => white(24.0),
+            _ => BLACK_WALL,
+        });
+        let overrides = [("tile_size", "16"), ("last_tiles", last_tiles)];
+        let tiles = picture.texture("jimenez", &overrides, "tile_motion");
+        tiles.at(x / 16, 2)[0] > 0.0
+    };
+    assert!(told(150, "whole") && !told(150, "corner"));
+    assert!(told(140, "whole") && told(140, "corner"));
+}
