@@ -52,9 +52,10 @@ fn value(scores: &Scores, metric: &str) -> f64 {
 }
 
 /// Scores that need rows along a translation.
-const ROW_SCORES: [&str; 5] = [
+const ROW_SCORES: [&str; 6] = [
     "lateral_growth",
-    "lateral_shrink",
+    "row_gain",
+    "row_loss",
     "misplacement",
     "centroid",
     "extent",
@@ -349,6 +350,34 @@ fn the_worst_object_speaks_for_all() {
         scores.worst_object(extent).map(|(name, _)| name),
         Some("object2")
     );
+}
+
+#[test]
+fn the_largest_bleed_is_found_on_whichever_side_it_is() {
+    let mut scores = measured(&small_scene(BESIDE), Blur::IDENTITY).scores;
+    let mut largest = |values: [f64; 3]| {
+        let [lateral, leading, trailing] = values.map(|value| Measured::score(value, 0.0));
+        scores.objects[1].bleed_lateral = lateral;
+        scores.objects[1].bleed_leading = leading;
+        scores.objects[1].bleed_trailing = trailing;
+        scores
+            .largest_bleed()
+            .map(|(side, score)| (side, score.value))
+    };
+    assert_eq!(
+        largest([0.0, 4.8, 4.7]),
+        Some((ObjectMetric::BleedLeading, 4.8))
+    );
+    assert_eq!(
+        largest([0.0, 4.7, 4.8]),
+        Some((ObjectMetric::BleedTrailing, 4.8))
+    );
+    assert_eq!(
+        largest([0.1, 0.1, 0.1]),
+        Some((ObjectMetric::BleedLateral, 0.1))
+    );
+    scores.take_out_mattes("no mattes");
+    assert_eq!(scores.largest_bleed(), None);
 }
 
 #[test]
