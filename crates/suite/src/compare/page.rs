@@ -148,7 +148,7 @@ fn metric_means(metric: &str, means: &[&MeanChange]) -> Markup {
                         th scope="col" { "filter" }
                         th.text scope="col" { "verdict" }
                         th scope="col" { "worse by" }
-                        th scope="col" { "95 % in" }
+                        th scope="col" { "95 % CI" }
                         th scope="col" { "first" }
                         th scope="col" { "second" }
                         th scope="col" { "scenes" }
@@ -247,7 +247,7 @@ fn change_heading(named: bool) -> Markup {
                 th.text scope="col" { "metric" }
                 th.text scope="col" { "verdict" }
                 th scope="col" { "worse by" }
-                th scope="col" { "95 % in" }
+                th scope="col" { "95 % CI" }
                 th scope="col" { "first" }
                 th scope="col" { "second" }
             }

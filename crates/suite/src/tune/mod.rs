@@ -11,6 +11,7 @@ mod morris;
 mod pareto;
 mod plan;
 mod preset;
+mod random;
 mod sealed;
 mod search;
 mod selection;
