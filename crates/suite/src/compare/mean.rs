@@ -154,6 +154,13 @@ mod tests {
     }
 
     #[test]
+    fn a_mean_of_skills_counts_scenes_by_what_is_to_be_gained_on_them() {
+        let mut all = changes(&[0.1, 0.4]);
+        all[0].weight = 3.0;
+        assert!((means(&all)[0].worse - 0.175).abs() < 1e-12);
+    }
+
+    #[test]
     fn bars_have_no_means() {
         let mut all = changes(&[0.1; 5]);
         all[0].bar = true;
