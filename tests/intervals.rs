@@ -104,7 +104,11 @@ fn about_95_of_100_intervals_hold_the_converged_score() {
             );
         }
         // Intervals of percentiles are wider than need be.
-        for metric in ["flip_p95_moving", "flip_median_moving", "label_tv_p95"] {
+        for metric in [
+            "flip_p95_moving",
+            "flip_weighted_median_moving",
+            "label_tv_p95",
+        ] {
             let held = held(metric, &measured);
             assert!(
                 held >= about_95_percent.start,

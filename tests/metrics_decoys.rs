@@ -132,7 +132,7 @@ fn blurs_that_only_err_along_the_motion_neither_grow_nor_shrink() {
         ];
         for (scores, blur) in disc.score_blurs(blurs).iter().zip(blurs) {
             let what = |name: &str| format!("{name} of {blur:?} at {degrees} degrees");
-            for name in ["lateral_growth", "lateral_shrink"] {
+            for name in ["lateral_growth", "row_loss"] {
                 assert_near(&what(name), get(scores, name), 0.0, ROWS);
             }
             for name in ["bleed_lateral", "bleed_leading", "bleed_trailing"] {
@@ -148,7 +148,7 @@ fn blurs_that_only_err_along_the_motion_neither_grow_nor_shrink() {
 fn the_floor_of_growth_is_what_the_instants_own_rows_differ_by() {
     for (degrees, disc) in discs() {
         let [scores] = disc.score_blurs([Blur::IDENTITY]);
-        for name in ["lateral_growth", "lateral_shrink"] {
+        for name in ["lateral_growth", "row_loss"] {
             let score = scores.get(name.parse().expect("a metric's name"));
             let Measured::Score(Score { value, floor }) = score else {
                 panic!("{name} of a translation at {degrees} degrees: {score:?}");
@@ -232,7 +232,7 @@ fn lateral_growth_reads_the_dilation_in_pixels() {
                 let what = format!("growth of a {name} at {degrees} degrees");
                 // The silhouette's length is known to 2 % at any angle: its gradients span two pixels.
                 assert_near(&what, get(scores, "lateral_growth"), dilation, 0.1);
-                assert_near(&what, get(scores, "lateral_shrink"), 0.0, ROWS);
+                assert_near(&what, get(scores, "row_loss"), 0.0, ROWS);
             }
         }
     }
@@ -266,7 +266,7 @@ fn a_shift_across_the_motion_grows_on_one_side_and_shrinks_on_the_other() {
             ..Blur::TRUE
         };
         let [scores] = disc.score_blurs([aside]);
-        for name in ["lateral_growth", "lateral_shrink"] {
+        for name in ["lateral_growth", "row_loss"] {
             assert_near(name, get(&scores, name), 1.5, 0.05);
         }
         assert_near("centroid", get(&scores, "centroid"), 0.0, 0.05);
@@ -305,7 +305,7 @@ fn an_isotropic_blur_bleeds_to_all_sides_though_its_extent_looks_right() {
             "bleed_lateral",
             "bleed_leading",
             "lateral_growth",
-            "lateral_shrink",
+            "row_loss",
         ] {
             assert!(get(scores, name) > 1.0, "{name} at {degrees} degrees");
         }
@@ -323,7 +323,7 @@ fn a_constant_picture_keeps_the_energy_and_fails_everything_else() {
         ("bleed_leading", 1.0),
         ("bleed_trailing", 1.0),
         ("lateral_growth", 1.0),
-        ("lateral_shrink", 1.0),
+        ("row_loss", 1.0),
         ("misplacement", 10.0),
         ("extent", 2.0),
         ("label_tv", 0.1),

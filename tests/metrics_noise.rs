@@ -129,7 +129,7 @@ fn a_converged_picture_scores_about_the_floor_of_a_noisy_truth() {
         // for noise in both pictures.
         assert!((0.7..1.4).contains(&ratio), "{name}: {score:?}");
     }
-    for name in ["lateral_growth", "lateral_shrink"] {
+    for name in ["lateral_growth", "row_gain", "row_loss"] {
         let score = get(&scores, name);
         assert!(
             score.floor > 0.0 && score.value < 2.0 * score.floor,

@@ -52,9 +52,10 @@ fn value(scores: &Scores, metric: &str) -> f64 {
 }
 
 /// Scores that need rows along a translation.
-const ROW_SCORES: [&str; 5] = [
+const ROW_SCORES: [&str; 6] = [
     "lateral_growth",
-    "lateral_shrink",
+    "row_gain",
+    "row_loss",
     "misplacement",
     "centroid",
     "extent",

@@ -33,7 +33,7 @@ const NAMES: [&str; 7] = [
 ];
 
 /// What the filters are bounded in.
-const METRICS: [&str; 16] = [
+const METRICS: [&str; 17] = [
     "mse_moving",
     "flip_moving",
     "flip_p99_moving",
@@ -44,7 +44,8 @@ const METRICS: [&str; 16] = [
     "bleed_leading",
     "bleed_trailing",
     "lateral_growth",
-    "lateral_shrink",
+    "row_gain",
+    "row_loss",
     "misplacement",
     "extent",
     "energy",

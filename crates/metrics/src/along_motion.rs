@@ -2,12 +2,12 @@
 
 use frame::Plane;
 
-use crate::lateral::{Lateral, lateral};
 use crate::misplacement::{Misplacement, misplacement};
 use crate::mover::Mover;
+use crate::row_mass::RowMass;
 use crate::rows::{Grid, Rows};
 
-/// Rows along the motion may differ between instant and shutter by this many pixels of silhouette, growth and shrink
+/// Rows along the motion may differ between instant and shutter by this many pixels of silhouette, gains and losses
 /// together. Above it, growth would measure what hides the object, not what a filter did.
 const LARGEST_ROW_CHANGE: f64 = 0.25;
 
@@ -17,12 +17,14 @@ pub struct AlongMotion {
     pub rows: Rows,
     /// The truth's matte in them.
     pub truth: Grid,
+    /// How much of each row's height the silhouette covers at the instant, from 0 to 1.
+    pub heights: Vec<f64>,
     /// Misplacement of the truth's first half.
     pub misplacement_noise: Option<Misplacement>,
     /// Excess of total variation of the truth's first half.
     pub variation_noise: f64,
     /// Noise plus the difference between the instant's rows and the shutter's; a reason where that is too large.
-    pub lateral_floor: Result<Lateral, String>,
+    pub mass_floor: Result<RowMass, String>,
 }
 
 impl AlongMotion {
@@ -47,13 +49,15 @@ impl AlongMotion {
         if truth.total_variation() <= 0.0 {
             return Err("is not seen while the shutter is open".to_owned());
         }
-        let change = lateral(&instant, &truth, length);
-        let noise = lateral(&half, &truth, length);
-        let changed = change.growth + change.shrink;
-        let lateral_floor = if changed <= LARGEST_ROW_CHANGE {
-            Ok(Lateral {
+        let heights = instant.heights();
+        let change = RowMass::new(&instant, &truth, &heights, length);
+        let noise = RowMass::new(&half, &truth, &heights, length);
+        let changed = change.growth + change.gain + change.loss;
+        let mass_floor = if changed <= LARGEST_ROW_CHANGE {
+            Ok(RowMass {
                 growth: noise.growth + change.growth,
-                shrink: noise.shrink + change.shrink,
+                gain: noise.gain + change.gain,
+                loss: noise.loss + change.loss,
             })
         } else {
             Err(format!(
@@ -64,9 +68,10 @@ impl AlongMotion {
         Ok(Self {
             misplacement_noise: misplacement(&half, &truth),
             variation_noise: half.total_variation() / truth.total_variation() - 1.0,
-            lateral_floor,
+            mass_floor,
             rows,
             truth,
+            heights,
         })
     }
 }

@@ -35,11 +35,11 @@ pub struct Subframes {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Reach {
-    /// Worse than the first rung: "< 1".
+    /// Worse than the first rung: `<1`.
     Below,
-    /// Between two rungs.
+    /// Between the first rung and the last.
     Within,
-    /// Better than the last: "> 64".
+    /// No worse than the last: `>64`.
     Above,
 }
 
@@ -118,18 +118,20 @@ impl Curve {
         if error > first.1 {
             return (first.0, Reach::Below);
         }
-        if error < last.1 {
+        if error <= last.1 {
             return (last.0, Reach::Above);
         }
         let next = self
             .points
             .iter()
             .position(|point| point.1 <= error)
-            .expect("an error not below the last rung's has a rung not above it");
-        let Some(before) = next.checked_sub(1) else {
-            return (first.0, Reach::Within);
-        };
-        let (low, high) = (self.points[before], self.points[next]);
+            .expect("an error above the last rung's has a rung not above it");
+        let high = self.points[next];
+        // A rung's own error is its own count; through logarithms it would be off by a rounding.
+        if error == high.1 {
+            return (high.0, Reach::Within);
+        }
+        let low = self.points[next - 1];
         let fraction = (low.1 / error).ln() / (low.1 / high.1).ln();
         let count = (low.0.ln() + fraction * (high.0 / low.0).ln()).exp();
         (count, Reach::Within)
@@ -159,10 +161,16 @@ mod tests {
         assert_eq!(halving().subframes(0.1), (8.0, Reach::Above));
         assert_eq!(halving().subframes(-0.1), (8.0, Reach::Above));
         assert_eq!(halving().subframes(1.0), (1.0, Reach::Within));
-        let (last, reach) = halving().subframes(0.125);
-        // Through a logarithm and back: rounding only.
-        assert!((last - 8.0).abs() < 1e-12, "{last}");
-        assert_eq!(reach, Reach::Within);
+    }
+
+    #[test]
+    fn a_rungs_own_error_is_its_own_count_and_the_last_rungs_the_end() {
+        let curve = Curve::new(&[(1, 0.3), (2, 0.17), (4, 0.071), (16, 0.0123)]).expect("a curve");
+        assert_eq!(curve.subframes(0.17), (2.0, Reach::Within));
+        assert_eq!(curve.subframes(0.071), (4.0, Reach::Within));
+        assert_eq!(curve.subframes(0.0123), (16.0, Reach::Above));
+        let only = Curve::new(&[(4, 0.5)]).expect("a curve");
+        assert_eq!(only.subframes(0.5), (4.0, Reach::Above));
     }
 
     #[test]

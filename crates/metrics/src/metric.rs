@@ -49,8 +49,8 @@ pub enum ImageMetric {
     Smape,
     /// Mean LDR-FLIP.
     Flip,
-    /// Weighted median of LDR-FLIP.
-    FlipMedian,
+    /// LDR-FLIP's median, each pixel weighted by its FLIP.
+    FlipWeightedMedian,
     /// 95th percentile of LDR-FLIP.
     FlipP95,
     /// 99th percentile of LDR-FLIP.
@@ -72,8 +72,10 @@ pub enum ObjectMetric {
     BleedTrailing,
     /// Growth across the motion.
     LateralGrowth,
-    /// Shrinking across the motion.
-    LateralShrink,
+    /// Mass that rows along the motion gain.
+    RowGain,
+    /// Mass that they lose.
+    RowLoss,
     /// Wasserstein distance along the motion.
     Misplacement,
     /// Signed shift along the motion.
@@ -136,7 +138,7 @@ impl ImageMetric {
         ImageMetric::Mae,
         ImageMetric::Smape,
         ImageMetric::Flip,
-        ImageMetric::FlipMedian,
+        ImageMetric::FlipWeightedMedian,
         ImageMetric::FlipP95,
         ImageMetric::FlipP99,
         ImageMetric::FlipHdr,
@@ -152,7 +154,7 @@ impl ImageMetric {
             ImageMetric::Mae => ("mae", "white", Ideal::Lowest),
             ImageMetric::Smape => ("smape", "", Ideal::Lowest),
             ImageMetric::Flip => ("flip", "", Ideal::Lowest),
-            ImageMetric::FlipMedian => ("flip_median", "", Ideal::Lowest),
+            ImageMetric::FlipWeightedMedian => ("flip_weighted_median", "", Ideal::Lowest),
             ImageMetric::FlipP95 => ("flip_p95", "", Ideal::Lowest),
             ImageMetric::FlipP99 => ("flip_p99", "", Ideal::Lowest),
             ImageMetric::FlipHdr => ("flip_hdr", "", Ideal::Lowest),
@@ -168,12 +170,13 @@ impl ImageMetric {
 
 impl ObjectMetric {
     /// Every score of a matte.
-    pub const ALL: [ObjectMetric; 14] = [
+    pub const ALL: [ObjectMetric; 15] = [
         ObjectMetric::BleedLateral,
         ObjectMetric::BleedLeading,
         ObjectMetric::BleedTrailing,
         ObjectMetric::LateralGrowth,
-        ObjectMetric::LateralShrink,
+        ObjectMetric::RowGain,
+        ObjectMetric::RowLoss,
         ObjectMetric::Misplacement,
         ObjectMetric::Centroid,
         ObjectMetric::Extent,
@@ -185,6 +188,13 @@ impl ObjectMetric {
         ObjectMetric::GradientError,
     ];
 
+    /// Hard bleed on all sides: beside, ahead and behind.
+    pub const BLEEDS: [ObjectMetric; 3] = [
+        ObjectMetric::BleedLateral,
+        ObjectMetric::BleedLeading,
+        ObjectMetric::BleedTrailing,
+    ];
+
     /// Name, unit and ideal.
     fn describe(self) -> (&'static str, &'static str, Ideal) {
         match self {
@@ -192,7 +202,8 @@ impl ObjectMetric {
             ObjectMetric::BleedLeading => ("bleed_leading", "px", Ideal::Lowest),
             ObjectMetric::BleedTrailing => ("bleed_trailing", "px", Ideal::Lowest),
             ObjectMetric::LateralGrowth => ("lateral_growth", "px", Ideal::Lowest),
-            ObjectMetric::LateralShrink => ("lateral_shrink", "px", Ideal::Lowest),
+            ObjectMetric::RowGain => ("row_gain", "px", Ideal::Lowest),
+            ObjectMetric::RowLoss => ("row_loss", "px", Ideal::Lowest),
             ObjectMetric::Misplacement => ("misplacement", "px", Ideal::Lowest),
             ObjectMetric::Centroid => ("centroid", "px", Ideal::Target(0.0)),
             ObjectMetric::Extent => ("extent", "", Ideal::Target(1.0)),

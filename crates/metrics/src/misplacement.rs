@@ -7,17 +7,18 @@ use crate::rows::Grid;
 pub struct Misplacement {
     /// Mean distance along the motion that mass would have to travel to lie as in the truth (Wasserstein-1), in pixels.
     pub distance: f64,
-    /// Mean signed shift of the centre of mass, in pixels; positive = ahead.
+    /// Signed shift of the centre of all mass, in pixels; positive = ahead.
     pub centroid: f64,
     /// Standard deviation along the motion over the truth's: 1 = right length.
     pub extent: f64,
 }
 
-/// Compares rows after each is normalised to the mass of one, so that lateral errors do not count. Rows weigh as the
-/// truth's mass in them; rows that either leaves empty are left out. `None` when that is all of them, or when the truth
-/// has no length along the motion.
+/// Compares rows. For `distance` and `extent` each is normalised to the mass of one, so that lateral errors do not count; rows
+/// weigh as the truth's mass in them, and rows that either leaves empty are left out. `centroid` is of the whole mattes. `None`
+/// when either has no mass, when no row is left, or when the truth has no length along the motion.
 pub fn misplacement(output: &Grid, truth: &Grid) -> Option<Misplacement> {
-    let (mut weight, mut distance, mut centroid) = (0.0, 0.0, 0.0);
+    let centroid = output.center()? - truth.center()?;
+    let (mut weight, mut distance) = (0.0, 0.0);
     let (mut variance, mut true_variance) = (0.0, 0.0);
     for (output, truth) in output.rows().zip(truth.rows()) {
         let (Some(found), Some(expected)) = (moments(output), moments(truth)) else {
@@ -25,20 +26,18 @@ pub fn misplacement(output: &Grid, truth: &Grid) -> Option<Misplacement> {
         };
         weight += expected.mass;
         distance += expected.mass * distance_between(output, found.mass, truth, expected.mass);
-        centroid += expected.mass * (found.center - expected.center);
         variance += expected.mass * found.variance;
         true_variance += expected.mass * expected.variance;
     }
     (weight > 0.0 && true_variance > 0.0).then(|| Misplacement {
         distance: distance / weight,
-        centroid: centroid / weight,
+        centroid,
         extent: (variance / true_variance).sqrt(),
     })
 }
 
 struct Moments {
     mass: f64,
-    center: f64,
     variance: f64,
 }
 
@@ -56,11 +55,7 @@ fn moments(row: &[f64]) -> Option<Moments> {
     };
     let center: f64 = cells().map(|(m, s)| m * s).sum();
     let variance = cells().map(|(m, s)| m * (s - center).powi(2)).sum();
-    Some(Moments {
-        mass,
-        center,
-        variance,
-    })
+    Some(Moments { mass, variance })
 }
 
 /// Wasserstein-1 distance of two rows on a line: the area between their cumulative sums.

@@ -6,11 +6,11 @@ use crate::along_motion::{AlongMotion, BORDER, NO_SILHOUETTE, touches_border};
 use crate::bleed::{Bleed, Side, bleed, sides};
 use crate::gradient::{gradient_error, gradient_magnitude};
 use crate::label::on_object;
-use crate::lateral::lateral;
 use crate::mass::{Mass, mass};
 use crate::misplacement::{Misplacement, misplacement};
 use crate::mover::{Mover, Stillness};
 use crate::pooling::mean;
+use crate::row_mass::RowMass;
 use crate::{Measured, ObjectMetric, ObjectScores};
 
 /// One object, and what the truth's own noise scores on it.
@@ -79,7 +79,8 @@ impl ObjectReference {
         let [bleed_lateral, bleed_leading, bleed_trailing] = self.bleed_scores(matte);
         let [
             lateral_growth,
-            lateral_shrink,
+            row_gain,
+            row_loss,
             misplacement,
             centroid,
             extent,
@@ -95,7 +96,8 @@ impl ObjectReference {
             bleed_leading,
             bleed_trailing,
             lateral_growth,
-            lateral_shrink,
+            row_gain,
+            row_loss,
             misplacement,
             centroid,
             extent,
@@ -166,22 +168,24 @@ impl ObjectReference {
         ]
     }
 
-    /// Growth, shrink, misplacement, centroid, extent and excess of total variation.
-    fn row_scores(&self, matte: &Plane) -> [Measured; 6] {
+    /// Growth, gain, loss, misplacement, centroid, extent and excess of total variation.
+    fn row_scores(&self, matte: &Plane) -> [Measured; 7] {
         let (rows, mover) = match self.along_motion() {
             Ok(found) => found,
-            Err(reason) => return [(); 6].map(|()| Measured::not_applicable(&reason)),
+            Err(reason) => return [(); 7].map(|()| Measured::not_applicable(&reason)),
         };
         let grid = rows.rows.spread(matte);
-        let [growth, shrink] = match &rows.lateral_floor {
+        let [growth, gain, loss] = match &rows.mass_floor {
             Ok(floor) => {
-                let found = lateral(&grid, &rows.truth, mover.silhouette.lateral);
+                let length = mover.silhouette.lateral;
+                let found = RowMass::new(&grid, &rows.truth, &rows.heights, length);
                 [
                     Measured::score(found.growth, floor.growth),
-                    Measured::score(found.shrink, floor.shrink),
+                    Measured::score(found.gain, floor.gain),
+                    Measured::score(found.loss, floor.loss),
                 ]
             }
-            Err(reason) => [(); 2].map(|()| Measured::not_applicable(reason)),
+            Err(reason) => [(); 3].map(|()| Measured::not_applicable(reason)),
         };
         let found = misplacement(&grid, &rows.truth);
         let noise = rows.misplacement_noise;
@@ -191,7 +195,8 @@ impl ObjectReference {
         };
         [
             growth,
-            shrink,
+            gain,
+            loss,
             pick(ObjectMetric::Misplacement, |found| found.distance),
             pick(ObjectMetric::Centroid, |found| found.centroid),
             pick(ObjectMetric::Extent, |found| found.extent),

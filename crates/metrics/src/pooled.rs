@@ -19,7 +19,7 @@ pub struct Pooled {
     /// Mean of LDR-FLIP.
     pub flip: f64,
     /// Half of the sum of LDR-FLIP lies at or below it.
-    pub flip_median: f64,
+    pub flip_weighted_median: f64,
     /// What 95 % of the pixels do not exceed in LDR-FLIP.
     pub flip_p95: f64,
     /// What 99 % do not.
@@ -56,7 +56,7 @@ impl Pooled {
             mae: mean(&inside(&errors.absolute))?,
             smape: mean(&inside(&errors.symmetric))?,
             flip: mean(&inside(&errors.flip))?,
-            flip_median: weighted_median(&flip)?,
+            flip_weighted_median: weighted_median(&flip)?,
             flip_p95: percentile(&flip, 0.95)?,
             flip_p99: percentile(&flip, 0.99)?,
             flip_hdr: mean(&inside(&errors.flip_hdr))?,

@@ -24,7 +24,7 @@ pub fn image_scores(found: &Found) -> ImageScores {
         mae: score(|pooled| pooled.mae),
         smape: score(|pooled| pooled.smape),
         flip: score(|pooled| pooled.flip),
-        flip_median: score(|pooled| pooled.flip_median),
+        flip_weighted_median: score(|pooled| pooled.flip_weighted_median),
         flip_p95: score(|pooled| pooled.flip_p95),
         flip_p99: score(|pooled| pooled.flip_p99),
         flip_hdr: score(|pooled| pooled.flip_hdr),

@@ -97,6 +97,35 @@ impl Grid {
         self.rows().map(steps).sum()
     }
 
+    /// Mass per row.
+    pub fn row_masses(&self) -> Vec<f64> {
+        self.rows().map(|row| row.iter().sum()).collect()
+    }
+
+    /// How much of each row's height the matte covers where it covers most, against the row that it covers most of: 0 where it
+    /// covers nothing, 1 all over a silhouette, in between at its rim.
+    pub fn heights(&self) -> Vec<f64> {
+        let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+        let heights: Vec<f64> = self.rows().map(largest).collect();
+        let whole = largest(&heights);
+        match whole > 0.0 {
+            true => heights.iter().map(|height| height / whole).collect(),
+            false => heights,
+        }
+    }
+
+    /// The centre of mass along the motion, in cells; none of a matte without mass.
+    pub fn center(&self) -> Option<f64> {
+        let (mut mass, mut moment) = (0.0, 0.0);
+        for row in self.rows() {
+            for (cell, place) in row.iter().zip(0..) {
+                mass += cell;
+                moment += cell * f64::from(place);
+            }
+        }
+        (mass > 0.0).then(|| moment / mass)
+    }
+
     /// The rows from one side of the motion to the other; each holds mass per pixel of length along the motion.
     pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
         self.masses.chunks_exact(self.cells)

@@ -53,8 +53,8 @@ pub struct ImageScores {
     pub smape: Measured,
     /// Mean LDR-FLIP.
     pub flip: Measured,
-    /// LDR-FLIP above which lies half of its sum.
-    pub flip_median: Measured,
+    /// LDR-FLIP up to which half of its sum lies.
+    pub flip_weighted_median: Measured,
     /// LDR-FLIP that 95 % of the pixels do not exceed.
     pub flip_p95: Measured,
     /// LDR-FLIP that 99 % of the pixels do not exceed.
@@ -126,11 +126,13 @@ pub struct ObjectScores {
     pub bleed_trailing: Measured,
     /// Pixels that each lateral silhouette grew by.
     pub lateral_growth: Measured,
-    /// Pixels that it shrank by.
-    pub lateral_shrink: Measured,
+    /// Mass that rows along the motion gained within the silhouette, in pixels of lateral silhouette.
+    pub row_gain: Measured,
+    /// Mass that they lost, likewise.
+    pub row_loss: Measured,
     /// Distance of its mass from where it should lie along the motion, in pixels.
     pub misplacement: Measured,
-    /// Signed shift along the motion, in pixels; positive = ahead.
+    /// Signed shift of the centre of mass along the motion, in pixels; positive = ahead.
     pub centroid: Measured,
     /// Length along the motion over the true length.
     pub extent: Measured,
@@ -183,6 +185,20 @@ impl Scores {
         }
     }
 
+    /// The largest of the three bleeds of the worst moving objects, and which one it is; none where none applies. Where two are
+    /// equal, lateral comes before leading and trailing.
+    pub fn largest_bleed(&self) -> Option<(ObjectMetric, Score)> {
+        let bleeds = ObjectMetric::BLEEDS.into_iter();
+        let found = bleeds.filter_map(|bleed| {
+            let (_, score) = self.worst_object(Metric::Object(bleed))?;
+            Some((bleed, score))
+        });
+        found.reduce(|largest, other| match other.1.value > largest.1.value {
+            true => other,
+            false => largest,
+        })
+    }
+
     /// The object whose score is worst, and that score: by name, for messages. None for metrics that are not per object.
     pub fn worst_object(&self, metric: Metric) -> Option<(&str, Score)> {
         let (object, moves) = match metric {
@@ -221,7 +237,8 @@ impl Scores {
                 bleed_leading: none(),
                 bleed_trailing: none(),
                 lateral_growth: none(),
-                lateral_shrink: none(),
+                row_gain: none(),
+                row_loss: none(),
                 misplacement: none(),
                 centroid: none(),
                 extent: none(),
@@ -280,7 +297,7 @@ impl ImageScores {
             ImageMetric::Mae => &self.mae,
             ImageMetric::Smape => &self.smape,
             ImageMetric::Flip => &self.flip,
-            ImageMetric::FlipMedian => &self.flip_median,
+            ImageMetric::FlipWeightedMedian => &self.flip_weighted_median,
             ImageMetric::FlipP95 => &self.flip_p95,
             ImageMetric::FlipP99 => &self.flip_p99,
             ImageMetric::FlipHdr => &self.flip_hdr,
@@ -340,7 +357,8 @@ impl ObjectScores {
             ObjectMetric::BleedLeading => &self.bleed_leading,
             ObjectMetric::BleedTrailing => &self.bleed_trailing,
             ObjectMetric::LateralGrowth => &self.lateral_growth,
-            ObjectMetric::LateralShrink => &self.lateral_shrink,
+            ObjectMetric::RowGain => &self.row_gain,
+            ObjectMetric::RowLoss => &self.row_loss,
             ObjectMetric::Misplacement => &self.misplacement,
             ObjectMetric::Centroid => &self.centroid,
             ObjectMetric::Extent => &self.extent,

@@ -25,14 +25,15 @@ const FARTHEST: f64 = 0.5;
 const FEWEST_SCORES: usize = 4;
 
 /// The scores that tell wrong blurs apart: where mass lies, how long and how wide it is, and how it looks.
-const TELLING: [&str; 13] = [
+const TELLING: [&str; 14] = [
     "flip_moving",
     "label_tv",
     "bleed_lateral",
     "bleed_leading",
     "bleed_trailing",
     "lateral_growth",
-    "lateral_shrink",
+    "row_gain",
+    "row_loss",
     "misplacement",
     "centroid",
     "extent",

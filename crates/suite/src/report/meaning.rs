@@ -44,7 +44,9 @@ fn of_image(metric: ImageMetric) -> &'static str {
         ImageMetric::Mae => "absolute error of colour",
         ImageMetric::Smape => "absolute error of colour relative to both pictures",
         ImageMetric::Flip => "visible difference",
-        ImageMetric::FlipMedian => "visible difference of the pixels that make up half of it",
+        ImageMetric::FlipWeightedMedian => {
+            "visible difference up to which half of all visible difference lies"
+        }
         ImageMetric::FlipP95 => "visible difference that 19 of 20 pixels do not exceed",
         ImageMetric::FlipP99 => "visible difference that 99 of 100 pixels do not exceed",
         ImageMetric::FlipHdr => "visible difference at the exposure that shows most of it",
@@ -68,9 +70,14 @@ fn of_object(metric: ObjectMetric) -> &'static str {
         ObjectMetric::BleedLeading => "mover spilled ahead of where it ever was",
         ObjectMetric::BleedTrailing => "mover spilled behind where it ever was",
         ObjectMetric::LateralGrowth => "how far the silhouette grew sideways",
-        ObjectMetric::LateralShrink => "how far the silhouette shrank sideways",
+        ObjectMetric::RowGain => {
+            "how much more of the mover its own rows hold, as pixels of silhouette"
+        }
+        ObjectMetric::RowLoss => {
+            "how much less of the mover rows along the motion hold, as pixels of silhouette"
+        }
         ObjectMetric::Misplacement => "how far the smear's mass lies off along the motion",
-        ObjectMetric::Centroid => "how far the smear's middle lies ahead; 0 is right",
+        ObjectMetric::Centroid => "how far the smear's centre of mass lies ahead; 0 is right",
         ObjectMetric::Extent => "length of the smear to the true length; 1 is right",
         ObjectMetric::TvExcess => "steps, ripples and grain along the smear; 0 is right",
         ObjectMetric::Hole => "how much shows through where the mover hides all; 0 is right",

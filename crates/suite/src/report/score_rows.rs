@@ -51,7 +51,8 @@ const GROUPS: [Group; 6] = [
         title: "The worst mover's silhouette and mass",
         metrics: &[
             Metric::Object(ObjectMetric::LateralGrowth),
-            Metric::Object(ObjectMetric::LateralShrink),
+            Metric::Object(ObjectMetric::RowGain),
+            Metric::Object(ObjectMetric::RowLoss),
             Metric::Object(ObjectMetric::BleedLateral),
             Metric::Object(ObjectMetric::BleedLeading),
             Metric::Object(ObjectMetric::BleedTrailing),

@@ -1,0 +1,105 @@
+//! What rows along the motion gain and lose, sideways and within.
+
+use crate::rows::Grid;
+
+/// How the mass of rows along the motion differs from the truth's, in pixels of lateral silhouette.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RowMass {
+    /// Mass that a silhouette which grew sideways adds.
+    pub growth: f64,
+    /// Mass that the truth's own rows gain together.
+    pub gain: f64,
+    /// Mass that rows lack.
+    pub loss: f64,
+}
+
+impl RowMass {
+    /// Compares rows. A translation only shifts mass along its rows, so that rows keep their mass whatever the blur's length
+    /// or side; a silhouette of `length` pixels (both sides together) that is dilated by d pixels adds `d * length` of mass.
+    ///
+    /// `heights` says how much of each row's height the silhouette covers, from 0 to 1. As much as the heaviest row gained,
+    /// a row that is covered in its whole height may gain as well, and others in proportion: that is gain within. What
+    /// exceeds it is growth: all mass in rows that the silhouette does not touch, and what fills rows at its rim.
+    pub fn new(output: &Grid, truth: &Grid, heights: &[f64], length: f64) -> Self {
+        let (output, truth) = (output.row_masses(), truth.row_masses());
+        let heaviest = |masses: &[f64]| masses.iter().copied().fold(0.0, f64::max);
+        let gained = (heaviest(&output) - heaviest(&truth)).max(0.0);
+        let (mut growth, mut gain, mut loss) = (0.0, 0.0, 0.0);
+        for ((output, truth), height) in output.iter().zip(&truth).zip(heights) {
+            let more = (output - truth).max(0.0);
+            let within = more.min(gained * height);
+            gain += within;
+            growth += more - within;
+            loss += (truth - output).max(0.0);
+        }
+        Self {
+            growth: growth / length,
+            gain: gain / length,
+            loss: loss / length,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rows::Rows;
+    use frame::Raster;
+
+    /// A bar of 20 columns that covers rows 10 to 20 of a picture and a third of row 9; each row as much longer as `more`.
+    fn bar(more: f64, top: f64) -> Grid {
+        let matte = Raster::from_fn(60, 32, |x, y| {
+            let height = (f64::from(y) + 1.0 - top).clamp(0.0, 1.0);
+            let row = if y < 20 { height } else { 0.0 };
+            let length = (20.0 + more + 10.0 - f64::from(x)).clamp(0.0, 1.0);
+            (if x < 10 { 0.0 } else { row * length }) as f32
+        });
+        Rows::new([1.0, 0.0], 60, 32).spread(&matte)
+    }
+
+    const TRUE_TOP: f64 = 9.0 + 2.0 / 3.0;
+
+    fn compared(more: f64, top: f64) -> RowMass {
+        let truth = bar(0.0, TRUE_TOP);
+        // Both lateral silhouettes of the bar are 20 px long.
+        RowMass::new(&bar(more, top), &truth, &truth.heights(), 40.0)
+    }
+
+    #[track_caller]
+    fn assert_near(found: f64, expected: f64) {
+        // Mattes are single-precision.
+        assert!((found - expected).abs() < 1e-6, "{found} for {expected}");
+    }
+
+    #[test]
+    fn rows_that_all_become_heavier_gain_and_do_not_grow() {
+        let found = compared(2.0, TRUE_TOP);
+        assert_near(found.growth, 0.0);
+        assert_near(found.gain, 2.0 * (10.0 + 1.0 / 3.0) / 40.0);
+        assert_near(found.loss, 0.0);
+    }
+
+    #[test]
+    fn widening_by_a_third_of_a_pixel_shows_although_it_only_fills_a_row_of_the_truth() {
+        let found = compared(0.0, TRUE_TOP - 1.0 / 3.0);
+        // One of the two sides.
+        assert_near(found.growth, 1.0 / 6.0);
+        assert_near(found.gain, 0.0);
+    }
+
+    #[test]
+    fn widening_and_gain_are_told_apart_but_for_the_row_at_the_rim() {
+        let found = compared(2.0, TRUE_TOP - 2.0);
+        // Two rows of 22 px more on one side; the row at the rim is granted a third of the 2 px that the others gain.
+        let rim = 22.0 - 20.0 / 3.0 - 2.0 / 3.0;
+        assert_near(found.growth, (rim + 22.0 + 22.0 / 3.0) / 40.0);
+        assert_near(found.gain, (10.0 * 2.0 + 2.0 / 3.0) / 40.0);
+    }
+
+    #[test]
+    fn a_row_that_is_left_empty_is_loss() {
+        let found = compared(0.0, TRUE_TOP + 1.0);
+        assert_near(found.loss, 0.5);
+        assert_near(found.growth + found.gain, 0.0);
+    }
+}
