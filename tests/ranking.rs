@@ -135,18 +135,27 @@ fn a_trailing_filter_of_more_skill_ranks_above_a_centred_one_of_less_flip() {
     });
     assert!(flip[0] > flip[1], "{flip:?}");
     // (0.270 - 0.126) / (0.270 - 0.050) and (0.154 - 0.087) / (0.154 - 0.024).
-    assert!((skill[0] - 0.6545).abs() < 1e-3 && (skill[1] - 0.5154).abs() < 1e-3, "{skill:?}");
+    assert!(
+        (skill[0] - 0.6545).abs() < 1e-3 && (skill[1] - 0.5154).abs() < 1e-3,
+        "{skill:?}"
+    );
     let text = printed(&run);
     let (_, ranking) = text.rsplit_once("mean over 5 scenes").unwrap();
     let place = |name: &str| ranking.find(name).expect(name);
-    assert!(place("jump_flood:paper") < place("kino:default"), "{ranking}");
+    assert!(
+        place("jump_flood:paper") < place("kino:default"),
+        "{ranking}"
+    );
 }
 
 #[test]
 fn what_is_worse_than_doing_nothing_ranks_below_it() {
     let run = run();
     let skill = mean(&run, "jimenez:wicked", "skill_flip");
-    assert!((skill.mean - (0.154 - 0.253) / 0.130).abs() < 1e-9, "{skill:?}");
+    assert!(
+        (skill.mean - (0.154 - 0.253) / 0.130).abs() < 1e-9,
+        "{skill:?}"
+    );
     assert!(skill.interval[1] < 0.0);
     // Its FLIP is smaller than that of doing nothing against the trailing truth all the same.
     assert!(mean(&run, "jimenez:wicked", "flip_moving").mean < 0.270);
@@ -167,9 +176,17 @@ fn a_ranking_by_flip_stays_within_a_shutter_and_shows_its_references() {
     );
     assert_eq!(
         rows(means, "centred shutter", "\n\n"),
-        ["[scatter_oracle]", "kino:default", "[identity]", "jimenez:wicked"]
+        [
+            "[scatter_oracle]",
+            "kino:default",
+            "[identity]",
+            "jimenez:wicked"
+        ]
     );
-    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 80),
+        "{text}"
+    );
 }
 
 #[test]
@@ -202,7 +219,9 @@ fn skill_over_scenes_is_a_ratio_of_means() {
 fn flip_against_the_common_shutter_has_a_mean_of_its_own() {
     let run = run();
     assert!((mean(&run, "jump_flood:paper", "flip_common").mean - 0.140).abs() < 1e-12);
-    let own = run.cases[0].scores.get(metrics::Metric::Image(ImageMetric::Flip, Region::Moving));
+    let own = run.cases[0]
+        .scores
+        .get(metrics::Metric::Image(ImageMetric::Flip, Region::Moving));
     assert_ne!(run.cases[0].common.flip, own);
 }
 
@@ -223,12 +242,19 @@ fn bleed_is_the_largest_of_three_and_says_which() {
     let ahead = printed(&run);
     let line = |text: &str| {
         let mut lines = text.lines();
-        lines.find(|line| line.contains("wicked")).unwrap().to_owned()
+        lines
+            .find(|line| line.contains("wicked"))
+            .unwrap()
+            .to_owned()
     };
     assert!(line(&ahead).contains(" 4.80> "), "{ahead}");
     let mover = &mut run.cases[6].scores.objects[0];
     mover.bleed_trailing = Measured::score(14.72, 0.0);
-    assert!(line(&printed(&run)).contains(" 14.7< "), "{}", printed(&run));
+    assert!(
+        line(&printed(&run)).contains(" 14.7< "),
+        "{}",
+        printed(&run)
+    );
     let mover = &mut run.cases[6].scores.objects[0];
     mover.bleed_lateral = Measured::score(15.0, 0.0);
     assert!(line(&printed(&run)).contains(" 15.0 "), "{}", printed(&run));

@@ -60,7 +60,7 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
     let page = reported(&bench);
     let run = bench.measured();
     for (index, case) in run.cases.iter().enumerate() {
-        for (metric, digits) in [("flip_moving", 3), ("lateral_shrink", 2), ("psnr_moving", 1)] {
+        for (metric, digits) in [("flip_moving", 3), ("row_loss", 2), ("psnr_moving", 1)] {
             let value = case.scores.get(metric.parse().unwrap()).value().unwrap();
             let cell = format!("href=\"#case-{index}\">{value:.digits$}</a>");
             assert_eq!(

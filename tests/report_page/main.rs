@@ -186,7 +186,7 @@ fn a_broken_bound_is_seen_with_its_place_and_its_pictures() {
         "BROKEN flip_moving 0.2",
         "it serves a test",
         "no_blur",
-        "95 % in",
+        "95 % CI",
         "noise floor",
     ] {
         assert!(

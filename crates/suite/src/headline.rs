@@ -25,7 +25,7 @@ pub(crate) const SKILL_LABEL: Headline =
 pub(crate) const PSNR: Headline =
     Headline::Metric(Metric::Image(ImageMetric::Psnr, Region::Moving));
 pub(crate) const GROWTH: Headline = Headline::Metric(Metric::Object(ObjectMetric::LateralGrowth));
-pub(crate) const LOSS: Headline = Headline::Metric(Metric::Object(ObjectMetric::LateralShrink));
+pub(crate) const LOSS: Headline = Headline::Metric(Metric::Object(ObjectMetric::RowLoss));
 pub(crate) const LABEL: Headline = Headline::Metric(Metric::LabelTotalVariation);
 pub(crate) const SUBFRAMES: Headline = Headline::Metric(Metric::EquivalentSubframes);
 
@@ -41,13 +41,6 @@ pub(crate) const OF_MEANS: [Headline; 10] = [
     LOSS,
     Headline::Bleed,
     LABEL,
-];
-
-/// The bleeds, each with the mark behind its number.
-pub(crate) const BLEEDS: [(ObjectMetric, &str); 3] = [
-    (ObjectMetric::BleedLateral, ""),
-    (ObjectMetric::BleedLeading, ">"),
-    (ObjectMetric::BleedTrailing, "<"),
 ];
 
 impl Headline {
@@ -77,7 +70,11 @@ impl Headline {
     pub fn metric(self, scores: &Scores) -> Option<Metric> {
         match self {
             Self::Metric(metric) => Some(metric),
-            Self::Bleed => Some(Metric::Object(largest_bleed(scores).0)),
+            Self::Bleed => {
+                let largest = scores.largest_bleed();
+                let side = largest.map_or(ObjectMetric::BleedLateral, |(side, _)| side);
+                Some(Metric::Object(side))
+            }
             Self::CommonFlip => None,
         }
     }
@@ -112,9 +109,7 @@ impl Headline {
         match (self, measured) {
             (SUBFRAMES, _) => scores.equivalent_subframes.mse.to_string(),
             (_, Measured::NotApplicable { .. }) => "n/a".to_owned(),
-            (Self::Bleed, Measured::Score(score)) => {
-                self.number(score.value) + largest_bleed(scores).1
-            }
+            (Self::Bleed, Measured::Score(score)) => self.number(score.value) + bleed_mark(scores),
             (_, Measured::Score(score)) => self.number(score.value),
         }
     }
@@ -152,20 +147,13 @@ impl Headline {
     }
 }
 
-/// The side of a mover with the largest bleed, and its mark; beside it where none applies.
-fn largest_bleed(scores: &Scores) -> (ObjectMetric, &'static str) {
-    let value = |(metric, _): &(ObjectMetric, &str)| {
-        let measured = scores.get(Metric::Object(*metric));
-        measured.value().unwrap_or(f64::NEG_INFINITY)
-    };
-    // Of equals the first.
-    let mut largest = BLEEDS[0];
-    for bleed in &BLEEDS[1..] {
-        if value(bleed) > value(&largest) {
-            largest = *bleed;
-        }
+/// Stands behind the largest bleed: where it lies.
+fn bleed_mark(scores: &Scores) -> &'static str {
+    match scores.largest_bleed() {
+        Some((ObjectMetric::BleedLeading, _)) => ">",
+        Some((ObjectMetric::BleedTrailing, _)) => "<",
+        _ => "",
     }
-    largest
 }
 
 #[cfg(test)]

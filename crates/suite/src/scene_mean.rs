@@ -175,7 +175,9 @@ mod tests {
         let mut random = Random(2);
         let mut means: Vec<f64> = (0..400)
             .map(|_| {
-                let drawn = scores.iter().map(|_| scores[random.below(scores.len())].value);
+                let drawn = scores
+                    .iter()
+                    .map(|_| scores[random.below(scores.len())].value);
                 drawn.sum::<f64>() / scores.len() as f64
             })
             .collect();
@@ -187,9 +189,8 @@ mod tests {
     fn of_100_intervals_over_5_skewed_scenes_90_hold_the_mean_and_over_23_scenes_92() {
         for (scenes, least) in [(5, 0.90), (23, 0.92)] {
             let of = |sets, interval: fn(&[Weighted]) -> [f64; 2]| {
-                let all = FLIP.map(|scores| {
-                    coverage(&scores.map(Weighted::plain), scenes, sets, interval)
-                });
+                let all = FLIP
+                    .map(|scores| coverage(&scores.map(Weighted::plain), scenes, sets, interval));
                 all.iter().sum::<f64>() / 3.0
             };
             // Measured 0.92 and 0.93. A standard error of the three is 0.002.

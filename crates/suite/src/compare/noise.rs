@@ -22,7 +22,7 @@ const METRICS: [Metric; 9] = [
     Metric::Skill(SkillMetric::Flip),
     Metric::Image(ImageMetric::Psnr, Region::Moving),
     Metric::Object(ObjectMetric::LateralGrowth),
-    Metric::Object(ObjectMetric::LateralShrink),
+    Metric::Object(ObjectMetric::RowLoss),
     Metric::Object(ObjectMetric::BleedLateral),
     Metric::Object(ObjectMetric::BleedLeading),
     Metric::Object(ObjectMetric::BleedTrailing),

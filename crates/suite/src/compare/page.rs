@@ -142,7 +142,7 @@ fn metric_means(metric: &str, means: &[&MeanChange]) -> Markup {
         p.note { (metric.parse().map_or_else(|_| String::new(), meaning)) }
         div.scroll tabindex="0" role="region" aria-label=(format!("Means of {metric}")) {
             table {
-                caption { "95 % intervals over scenes; " (same) " filters did not change" }
+                caption { "95 % CI: over scenes, by Student's t; " (same) " filters did not change" }
                 thead {
                     tr {
                         th scope="col" { "filter" }
