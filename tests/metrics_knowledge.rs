@@ -159,8 +159,12 @@ fn skill_is_the_share_of_the_way_from_doing_nothing_to_the_one_frame_oracle() {
     let half = scores(&between(&nothing, &truth.mean(), 0.5));
     assert!((value(&half, "skill_label_tv") - 0.5 / 0.75).abs() < 1e-5);
     assert!((value(&half, "skill_mse") - 0.75 / (1.0 - 1.0 / 16.0)).abs() < 1e-5);
-    // The truth is better than what one frame can tell, and what goes the other way is worse than doing nothing.
-    let worse = between(&nothing, &truth.mean(), -0.3);
+    // The truth is better than what one frame can tell, and a negative with mover and background exchanged worse than doing
+    // nothing.
+    let worse = Picture {
+        color: (frame.color).map(|color| color.map(|part| (1.0 - part).max(0.0))),
+        coverage: frame.coverage.iter().rev().cloned().collect(),
+    };
     for name in SKILLS {
         assert!(value(&scores(&truth.mean()), name) > 1.0, "{name}");
         assert!(value(&scores(&worse), name) < 0.0, "{name}");
