@@ -27,12 +27,21 @@ fn filters_of_two_alignments_have_a_shutter_in_common() {
         assert_eq!(own, case.alignment == "centred", "{}", case.name());
     }
     // The mean of many sub-frames of half an exposure earlier is not of the common interval.
-    let trailing = run.cases.iter().find(|case| case.alignment == "trailing");
-    let late = trailing.unwrap().common.flip.value().unwrap();
     let bars = run.cases.iter().filter(|case| case.preset == "64");
     let many: Vec<&Case> = bars.collect();
     assert_eq!(many.len(), 2, "64 sub-frames of each alignment");
+    assert_eq!(many[0].alignment, "trailing");
+    let late = many[0].common.flip.value().unwrap();
     assert!(late > 4.0 * flip(many[0]), "{late}");
+    // Doing nothing and the one-frame oracle are there for every alignment, and are the ends of skill.
+    for alignment in ["trailing", "centred"] {
+        for (bar, expected) in [("identity", 0.0), ("scatter_oracle", 1.0)] {
+            let mut found = run.cases.iter();
+            let found = found.find(|case| case.name() == bar && case.alignment == alignment);
+            let skill = found.unwrap().scores.get("skill_flip".parse().unwrap());
+            assert_eq!(skill.value(), Some(expected), "{bar} {alignment}");
+        }
+    }
 
     assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
     assert_eq!(bench.measured().common_alignment, "trailing");

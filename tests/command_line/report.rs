@@ -97,6 +97,38 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
 }
 
 #[test]
+fn a_ranking_by_flip_has_a_group_per_shutter_and_one_by_skill_has_all_in_one() {
+    let bench = Bench::new();
+    bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
+    assert_done(&bench.run(&["--filters", "velocity_gather:fine,bevy:high"]));
+    let page = reported(&bench);
+    let ranking = |title: &str| {
+        let label = format!("aria-label=\"Ranking by {title}\"");
+        between(&page, &label, "</table>")[0]
+    };
+    let by_flip = ranking("FLIP");
+    let (trailing, centred) = by_flip.split_once("centred shutter").unwrap();
+    assert!(trailing.contains("trailing shutter"));
+    for (group, own, other) in [
+        (trailing, "velocity_gather:fine", "bevy:high"),
+        (centred, "bevy:high", "velocity_gather:fine"),
+    ] {
+        assert!(group.contains(own) && !group.contains(other), "{group}");
+        for bar in [">identity<", ">scatter_oracle<"] {
+            assert_eq!(group.matches(bar).count(), 1, "{bar}: {group}");
+        }
+    }
+    for title in ["Skill", "FLIP*"] {
+        let across = ranking(title);
+        assert!(!across.contains("shutter</th>"), "{across}");
+        for name in ["velocity_gather:fine", "bevy:high"] {
+            assert!(across.contains(name), "{name}: {across}");
+        }
+        assert_eq!(across.matches("identity").count(), 2, "{across}");
+    }
+}
+
+#[test]
 fn a_page_holds_every_plane_once_and_fetches_nothing() {
     let bench = Bench::new();
     bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
