@@ -119,18 +119,72 @@ fn a_change_of_what_stands_still_is_contamination() {
     }
 }
 
-#[test]
-fn skill_is_0_for_doing_nothing_and_1_for_the_truth() {
-    let (frame, truth) = frame_and_truth();
-    let instant = Picture {
+const SKILLS: [&str; 3] = ["skill_mse", "skill_flip", "skill_label_tv"];
+
+fn instant(frame: &Frame) -> Picture {
+    Picture {
         color: frame.color.clone(),
         coverage: frame.coverage.clone(),
-    };
-    for (picture, expected) in [(instant, 0.0), (truth.mean(), 1.0)] {
-        let scores = scores(&frame, &truth, &picture);
-        for name in ["skill_mse", "skill_flip", "skill_label_tv"] {
+    }
+}
+
+/// Between two pictures, `part` of the way to the second.
+fn between(first: &Picture, second: &Picture, part: f32) -> Picture {
+    let mixed = |a: f32, b: f32| (1.0 - part) * a + part * b;
+    Picture {
+        color: first.color.zip(&second.color, |a, b| {
+            std::array::from_fn(|c| mixed(a[c], b[c]))
+        }),
+        coverage: (first.coverage.iter().zip(&second.coverage))
+            .map(|(a, b)| a.zip(b, |a, b| mixed(*a, *b)))
+            .collect(),
+    }
+}
+
+#[test]
+fn skill_is_the_share_of_the_way_from_doing_nothing_to_the_one_frame_oracle() {
+    let (frame, truth) = frame_and_truth();
+    let nothing = instant(&frame);
+    let oracle = between(&nothing, &truth.mean(), 0.75);
+    let reference = reference(&frame, &truth).with_best(&oracle).unwrap();
+    let scores = |picture: &Picture| reference.measure(picture).unwrap().scores;
+    for (picture, expected) in [(&nothing, 0.0), (&oracle, 1.0)] {
+        let scores = scores(picture);
+        for name in SKILLS {
             assert!((value(&scores, name) - expected).abs() < 1e-6, "{name}");
         }
+    }
+    // Half of the way to the truth leaves half of what is given to the wrong object, the oracle a quarter; of squared errors the
+    // squares of both.
+    let half = scores(&between(&nothing, &truth.mean(), 0.5));
+    assert!((value(&half, "skill_label_tv") - 0.5 / 0.75).abs() < 1e-5);
+    assert!((value(&half, "skill_mse") - 0.75 / (1.0 - 1.0 / 16.0)).abs() < 1e-5);
+    // The truth is better than what one frame can tell, and a negative with mover and background exchanged worse than doing
+    // nothing.
+    let worse = Picture {
+        color: (frame.color).map(|color| color.map(|part| (1.0 - part).max(0.0))),
+        coverage: frame.coverage.iter().rev().cloned().collect(),
+    };
+    for name in SKILLS {
+        assert!(value(&scores(&truth.mean()), name) > 1.0, "{name}");
+        assert!(value(&scores(&worse), name) < 0.0, "{name}");
+    }
+}
+
+#[test]
+fn skill_does_not_apply_where_the_oracle_is_no_better_than_doing_nothing_or_is_not_known() {
+    let (frame, truth) = frame_and_truth();
+    let nothing = instant(&frame);
+    let reason = |scores: &Scores, name: &str| match scores.get(name.parse().unwrap()) {
+        Measured::NotApplicable { reason } => reason,
+        Measured::Score(score) => panic!("{name}: {score:?}"),
+    };
+    let unknown = scores(&frame, &truth, &truth.mean());
+    let reference = reference(&frame, &truth).with_best(&nothing).unwrap();
+    let equal = reference.measure(&truth.mean()).unwrap().scores;
+    for name in SKILLS {
+        assert!(reason(&unknown, name).contains("no picture of the one-frame oracle was given"));
+        assert!(reason(&equal, name).contains("no more than the truth's noise makes"));
     }
 }
 

@@ -153,6 +153,17 @@ impl Shot {
         value(&self.scores(filter), metric)
     }
 
+    /// The part of the error of doing nothing that a filter leaves, against the shutter that it declares.
+    pub fn left_by(&self, filter: &str, metric: &str) -> f64 {
+        let frame = self.frame.cropped();
+        let nothing = Picture {
+            color: frame.color,
+            coverage: frame.coverage,
+        };
+        let nothing = self.measured(&nothing, chosen(filter).0.alignment);
+        self.score(filter, metric) / value(&nothing, metric)
+    }
+
     /// How much of an object a filter gives to others, against the shutter that it declares.
     pub fn object_label_tv(&self, filter: &str, object: &str) -> f64 {
         let scores = self.scores(filter);

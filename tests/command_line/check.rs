@@ -69,7 +69,7 @@ fn a_broken_bound_is_exit_code_1_with_all_that_helps() {
         &[
             "plate / identity:default",
             "BROKEN flip_moving 0.2",
-            "95 % in 0.2",
+            "95 % CI 0.2",
             "limit 0.2000, floor 0.0",
             "scenes/plate/bounds.toml:2: it serves a test",
             "worst at (24, 8): out/plate/identity_default/worst_flip_moving.png",
@@ -341,7 +341,7 @@ fn github_gets_ten_annotations_at_most_and_a_summary_of_all() {
         "{}",
         few[0]
     );
-    assert!(few[0].contains("95 %25 in"), "{}", few[0]);
+    assert!(few[0].contains("95 %25 CI"), "{}", few[0]);
     let many = annotations(&check("identity,velocity_gather:fine"));
     assert_eq!(many.len(), 10, "{many:#?}");
     assert!(

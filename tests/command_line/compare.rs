@@ -52,8 +52,8 @@ fn a_run_compared_with_itself_did_not_change() {
     let bench = two_runs(&[]);
     let compared = compared(&bench);
     let all = compared["changes"].as_array().unwrap();
-    // Five bars and two filters, each with at least FLIP, PSNR and label TV.
-    assert!(all.len() >= 21, "{}", all.len());
+    // Six bars and two filters, each with at least FLIP, PSNR and label TV.
+    assert!(all.len() >= 24, "{}", all.len());
     for change in all {
         assert_eq!(change["kind"], "same", "{change}");
         assert_eq!(change["worse"], 0.0);

@@ -27,12 +27,21 @@ fn filters_of_two_alignments_have_a_shutter_in_common() {
         assert_eq!(own, case.alignment == "centred", "{}", case.name());
     }
     // The mean of many sub-frames of half an exposure earlier is not of the common interval.
-    let trailing = run.cases.iter().find(|case| case.alignment == "trailing");
-    let late = trailing.unwrap().common.flip.value().unwrap();
     let bars = run.cases.iter().filter(|case| case.preset == "64");
     let many: Vec<&Case> = bars.collect();
     assert_eq!(many.len(), 2, "64 sub-frames of each alignment");
+    assert_eq!(many[0].alignment, "trailing");
+    let late = many[0].common.flip.value().unwrap();
     assert!(late > 4.0 * flip(many[0]), "{late}");
+    // Doing nothing and the one-frame oracle are there for every alignment, and are the ends of skill.
+    for alignment in ["trailing", "centred"] {
+        for (bar, expected) in [("identity", 0.0), ("scatter_oracle", 1.0)] {
+            let mut found = run.cases.iter();
+            let found = found.find(|case| case.name() == bar && case.alignment == alignment);
+            let skill = found.unwrap().scores.get("skill_flip".parse().unwrap());
+            assert_eq!(skill.value(), Some(expected), "{bar} {alignment}");
+        }
+    }
 
     assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
     assert_eq!(bench.measured().common_alignment, "trailing");
@@ -146,7 +155,7 @@ fn a_clamped_border_is_cropped_before_anything_is_measured() {
 }
 
 #[test]
-fn means_over_scenes_come_with_intervals_that_the_truths_noise_widens() {
+fn means_over_scenes_come_with_students_interval() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "identity"]));
     assert!(bench.measured().overall.is_empty(), "one scene is no mean");
@@ -163,18 +172,21 @@ fn means_over_scenes_come_with_intervals_that_the_truths_noise_widens() {
     let (scores, mean) = identity_overall(&bench.measured());
     assert_eq!(mean.scenes, 2);
     assert!((mean.mean - 0.5 * (scores[0] + scores[1])).abs() < 1e-12);
-    // A quarter of all samples of two are twice the one, and a quarter twice the other.
-    assert_eq!(mean.interval, scores);
+    // Of two scores the standard error is half of what is between them, and t for one degree of freedom is 12.706.
+    let half = 12.706 * 0.5 * (scores[1] - scores[0]);
+    let [low, high] = mean.interval;
+    assert!((0.5 * (high - low) / half - 1.0).abs() < 1e-4, "{mean:?}");
+    assert!((0.5 * (high + low) - mean.mean).abs() < 1e-12, "{mean:?}");
     let text = stdout(&output);
     let ranking = &text[text.find("mean over 2 scenes").unwrap()..];
     let place = |name: &str| ranking.find(name).unwrap();
-    assert!(place("accumulate:64 (trailing)") < place("velocity_gather:fine"));
+    assert!(place("[accumulate:64]") < place("velocity_gather:fine"));
     assert!(
         place("velocity_gather:fine") < place("identity:default"),
         "{ranking}"
     );
     assert!(
-        ranking.contains(&format!("{:.3}-{:.3}", scores[0], scores[1])),
+        ranking.contains(&format!("{low:.3} to {high:.3}")),
         "{ranking}"
     );
     assert!(
@@ -183,9 +195,11 @@ fn means_over_scenes_come_with_intervals_that_the_truths_noise_widens() {
     );
 
     assert_done(&bench.check(&filters));
+    // The noise of each truth is in the scores already: a check, which knows it, says the same.
     let (scores, mean) = identity_overall(&bench.measured());
+    let half = 12.706 * 0.5 * (scores[1] - scores[0]);
     let [low, high] = mean.interval;
-    assert!(low < scores[0] && high > scores[1], "{mean:?} {scores:?}");
+    assert!((0.5 * (high - low) / half - 1.0).abs() < 1e-4, "{mean:?}");
 }
 
 /// FLIP of the identity, on both scenes and over both; the better one first.

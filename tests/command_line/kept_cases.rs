@@ -9,11 +9,12 @@ use crate::bench::{Bench, assert_done, files_below, stdout};
 
 /// Two presets of a filter of the tests' own, beside one that does nothing.
 const FILTERS: [&str; 4] = ["--filters", "identity", "--filter", "mine"];
-const BARS: [&str; 5] = [
+const BARS: [&str; 6] = [
     "accumulate_16_trailing",
     "accumulate_4_trailing",
     "accumulate_64_trailing",
     "accumulate_8_trailing",
+    "identity_trailing",
     "scatter_oracle_trailing",
 ];
 const OF_FILTERS: [&str; 4] = [

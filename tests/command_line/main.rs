@@ -41,9 +41,12 @@ fn a_run_writes_scores_and_pictures_of_every_case() {
         "plate",
         "identity:",
         "jump_flood:paper",
+        "plate, trailing shutter",
+        "[identity]",
         "FLIP",
-        "PSNR",
-        "growth",
+        "skill",
+        "grow",
+        "loss",
         "bleed",
         "TV",
         "N_eq",
@@ -71,6 +74,7 @@ fn a_run_writes_scores_and_pictures_of_every_case() {
         .map(|case| (case.bar, case.name()))
         .collect();
     let expected = [
+        (true, "identity"),
         (true, "scatter_oracle"),
         (true, "accumulate:4"),
         (true, "accumulate:8"),

@@ -60,7 +60,7 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
     let page = reported(&bench);
     let run = bench.measured();
     for (index, case) in run.cases.iter().enumerate() {
-        for (metric, digits) in [("flip_moving", 3), ("bleed_lateral", 2), ("psnr_moving", 1)] {
+        for (metric, digits) in [("flip_moving", 3), ("row_loss", 2), ("psnr_moving", 1)] {
             let value = case.scores.get(metric.parse().unwrap()).value().unwrap();
             let cell = format!("href=\"#case-{index}\">{value:.digits$}</a>");
             assert_eq!(
@@ -83,16 +83,48 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
         .filter(|mean| mean.metric == "flip_moving")
         .collect();
     means.sort_by(|a, b| a.mean.total_cmp(&b.mean));
-    assert_eq!(means.len(), 7, "five bars and two filters");
+    assert_eq!(means.len(), 8, "six bars and two filters");
     let mut rest = ranking;
     for mean in means {
         let [low, high] = mean.interval;
-        let cells = format!("<td>{:.3}</td><td>{low:.3}–{high:.3}</td>", mean.mean);
+        let cells = format!("<td>{:.3}</td><td>{low:.3} to {high:.3}</td>", mean.mean);
         // Each behind the one before.
         rest = rest.split_once(&cells).expect(&cells).1;
     }
     for words in [&run.program, "--samples-per-pixel 16", "seed 1"] {
         assert!(page.contains(words), "{words}");
+    }
+}
+
+#[test]
+fn a_ranking_by_flip_has_a_group_per_shutter_and_one_by_skill_has_all_in_one() {
+    let bench = Bench::new();
+    bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
+    assert_done(&bench.run(&["--filters", "velocity_gather:fine,bevy:high"]));
+    let page = reported(&bench);
+    let ranking = |title: &str| {
+        let label = format!("aria-label=\"Ranking by {title}\"");
+        between(&page, &label, "</table>")[0]
+    };
+    let by_flip = ranking("FLIP");
+    let (trailing, centred) = by_flip.split_once("centred shutter").unwrap();
+    assert!(trailing.contains("trailing shutter"));
+    for (group, own, other) in [
+        (trailing, "velocity_gather:fine", "bevy:high"),
+        (centred, "bevy:high", "velocity_gather:fine"),
+    ] {
+        assert!(group.contains(own) && !group.contains(other), "{group}");
+        for bar in [">identity<", ">scatter_oracle<"] {
+            assert_eq!(group.matches(bar).count(), 1, "{bar}: {group}");
+        }
+    }
+    for title in ["Skill", "FLIP*"] {
+        let across = ranking(title);
+        assert!(!across.contains("shutter</th>"), "{across}");
+        for name in ["velocity_gather:fine", "bevy:high"] {
+            assert!(across.contains(name), "{name}: {across}");
+        }
+        assert_eq!(across.matches("identity").count(), 2, "{across}");
     }
 }
 
@@ -297,8 +329,8 @@ fn costs_are_those_of_the_bench_beside_the_run() {
     // In every table of scores one cell of the filter that was run and timed, and none of those that were only timed, or run with
     // other parameters.
     let cell = format!("<td class=\"cost\" data-value=\"{}\">", seconds.median);
-    assert_eq!(page.matches(&cell).count(), 6);
-    assert_eq!(page.matches("<td class=\"cost\" data-value").count(), 6);
+    assert_eq!(page.matches(&cell).count(), 9);
+    assert_eq!(page.matches("<td class=\"cost\" data-value").count(), 9);
     let costs = between(&page, "<section class=\"costs\">", "</section>")[0];
     for words in [
         "identity:default",

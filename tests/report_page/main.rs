@@ -142,7 +142,7 @@ fn headings_sort_both_ways() {
             browser.value("document.querySelectorAll('.sortable')[0].tHead.rows[0].cells[1].querySelector('button').click()");
         }
         let values = browser.value(
-            "[...document.querySelectorAll('.sortable')[0].tBodies[0].rows].map(row => Number(row.cells[1].dataset.value))",
+            "[...document.querySelector('.sortable tbody:not(.group)').rows].map(row => Number(row.cells[1].dataset.value))",
         );
         values
             .as_array()
@@ -160,6 +160,32 @@ fn headings_sort_both_ways() {
     );
     let falling = column(&mut browser, true);
     assert!(falling.iter().rev().is_sorted(), "{falling:?}");
+}
+
+#[test]
+fn rows_of_one_shutter_stay_together_when_headings_sort() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&["--filters", "velocity_gather:fine,bevy:high"]));
+    let page = reported(&bench);
+    let mut browser = Browser::new(1280, 900);
+    browser.open(&page, "");
+    let names = |browser: &mut Browser| {
+        let rows = browser.text(
+            "[...document.querySelector('.sortable').tBodies].map(group => [...group.rows].map(row => \
+             row.cells[0].textContent).sort().join(', ')).join('; ')",
+        );
+        rows.split("; ").map(str::to_owned).collect::<Vec<_>>()
+    };
+    let before = names(&mut browser);
+    assert_eq!(before.len(), 4, "{before:?}");
+    assert_eq!(
+        [&before[0], &before[2]],
+        ["trailing shutter", "centred shutter"]
+    );
+    assert!(before[1].contains("velocity_gather:fine") && before[3].contains("bevy:high"));
+    browser.value("document.querySelector('.sortable').tHead.rows[0].cells[1].querySelector('button').click()");
+    assert_eq!(names(&mut browser), before);
+    assert_eq!(browser.complaints(), [""; 0]);
 }
 
 #[test]
@@ -186,7 +212,7 @@ fn a_broken_bound_is_seen_with_its_place_and_its_pictures() {
         "BROKEN flip_moving 0.2",
         "it serves a test",
         "no_blur",
-        "95 % in",
+        "95 % CI",
         "noise floor",
     ] {
         assert!(

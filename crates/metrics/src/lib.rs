@@ -40,6 +40,7 @@ mod row_mass;
 mod rows;
 mod score;
 mod scores;
+mod skill;
 mod ssim;
 mod viewing;
 mod worst_bleed;

@@ -24,7 +24,7 @@ pub enum Metric {
     Frozen(FrozenMetric),
     /// Of pictures of ones and coordinates: `unity`.
     Probe(ProbeMetric),
-    /// Beside the instant itself: `skill_flip`.
+    /// Share of the way from doing nothing to the one-frame oracle: `skill_flip`.
     Skill(SkillMetric),
     /// `n_eq`: by squared error, the headline.
     EquivalentSubframes,
@@ -118,7 +118,7 @@ pub enum ProbeMetric {
     GatherSpread,
 }
 
-/// What a picture is worth beside the instant itself, over the moving region.
+/// Share of the way from doing nothing to the one-frame oracle, over the moving region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SkillMetric {
     /// By unbiased squared error.
@@ -243,6 +243,15 @@ impl ProbeMetric {
 }
 
 impl SkillMetric {
+    /// The error that it is the skill of.
+    pub fn error(self) -> Metric {
+        match self {
+            SkillMetric::Mse => Metric::Image(ImageMetric::Mse, Region::Moving),
+            SkillMetric::Flip => Metric::Image(ImageMetric::Flip, Region::Moving),
+            SkillMetric::LabelTotalVariation => Metric::LabelTotalVariation,
+        }
+    }
+
     fn describe(self) -> (&'static str, &'static str, Ideal) {
         match self {
             SkillMetric::Mse => ("skill_mse", "", Ideal::Highest),

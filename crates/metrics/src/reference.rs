@@ -15,10 +15,11 @@ use crate::pooled::Pooled;
 use crate::pooled_scores::{Found, image_scores, label_scores};
 use crate::pooling::mean;
 use crate::probes::{ProbeMaps, ProbeMeasurement, Probes, measure_probes};
+use crate::skill::{Ends, skill_scores};
 use crate::ssim::SSIM_BORDER;
 use crate::{
     EquivalentScores, ImageScores, Maps, MeasureError, Measured, ProbeScores, Region, Regions,
-    Scores, SkillScores, Viewing,
+    Scores, Viewing,
 };
 
 /// Scores, and the maps that they were pooled from.
@@ -45,9 +46,10 @@ pub struct Reference<'a> {
     label_noise: Raster<f64>,
     /// Standard error of the unbiased squared error over the moving region, from the truth's noise.
     mse_uncertainty: f64,
-    /// The picture that does nothing, and its errors over the moving region.
+    /// The picture that does nothing.
     instant: Image,
-    instant_errors: Option<Pooled>,
+    /// What skill is measured by.
+    ends: Ends,
     /// Pixels whose SSIM window lies in the picture.
     windows: Raster<bool>,
     frozen: FrozenReference,
@@ -103,7 +105,10 @@ impl<'a> Reference<'a> {
         Ok(Self {
             noise: Region::ALL.map(|region| Pooled::new(&noise, &regions, region, &windows)),
             label_noise: noise.label,
-            instant_errors: Pooled::new(&instant_errors, &regions, Region::Moving, &windows),
+            ends: Ends {
+                nothing: Pooled::new(&instant_errors, &regions, Region::Moving, &windows),
+                best: None,
+            },
             windows,
             frozen: FrozenReference::new(truth, &regions, viewing),
             mse_uncertainty: uncertainty(
@@ -122,6 +127,15 @@ impl<'a> Reference<'a> {
             instant: instant.color,
             viewing: *viewing,
         })
+    }
+
+    /// Names the picture of the one-frame oracle, the best that one frame can give: it has a skill of 1. Without it no picture
+    /// has any.
+    pub fn with_best(mut self, best: &Picture) -> Result<Self, MeasureError> {
+        check_picture(best, self.truth, "the one-frame oracle")?;
+        let errors = ErrorMaps::new(best, self.half_colors(), &self.mean, &self.viewing);
+        self.ends.best = Pooled::new(&errors, &self.regions, Region::Moving, &self.windows);
+        Ok(self)
     }
 
     /// Measures one picture.
@@ -167,7 +181,7 @@ impl<'a> Reference<'a> {
                 label_total_variation: label_scores(moving),
                 objects: objects.collect(),
                 probes: ProbeScores::not_applicable("no probes were run through the filter"),
-                skill: self.skill_scores(moving),
+                skill: skill_scores(moving, &self.ends),
                 equivalent_subframes: self.equivalent_scores(moving),
             },
             maps: errors.maps(
@@ -220,24 +234,6 @@ impl<'a> Reference<'a> {
             &self.regions.still,
             |change, still| if *still { *change } else { 0.0 },
         )
-    }
-
-    fn skill_scores(&self, moving: &Found) -> SkillScores {
-        let skill = |error: fn(&Pooled) -> f64| match (moving, &self.instant_errors) {
-            (Ok((own, noise)), Some(none)) if error(none) > error(noise) => Measured::score(
-                1.0 - error(own) / error(none),
-                1.0 - error(noise) / error(none),
-            ),
-            (Ok(_), _) => {
-                Measured::not_applicable("the instant itself is no worse than the truth's noise")
-            }
-            (Err(reason), _) => Measured::not_applicable(*reason),
-        };
-        SkillScores {
-            mse: skill(|pooled| pooled.mse),
-            flip: skill(|pooled| pooled.flip),
-            label_total_variation: skill(|pooled| pooled.label),
-        }
     }
 
     fn equivalent_scores(&self, moving: &Found) -> EquivalentScores {

@@ -32,7 +32,7 @@ pub struct Scores {
     pub objects: Vec<ObjectScores>,
     /// What the filter makes of pictures of ones and of coordinates.
     pub probes: ProbeScores,
-    /// What the picture is worth beside the instant itself.
+    /// Share of the way from doing nothing to the one-frame oracle.
     pub skill: SkillScores,
     /// As good as the mean of how many sub-frames.
     pub equivalent_subframes: EquivalentScores,
@@ -88,7 +88,8 @@ pub struct ProbeScores {
     pub gather_spread: Measured,
 }
 
-/// 1 - error / error of the instant itself, over the moving region: 1 is perfect, 0 as good as doing nothing.
+/// Share of the way from doing nothing to the one-frame oracle, by errors over the moving region: 0 is as good as doing
+/// nothing, 1 as good as the oracle; below 0 is worse than doing nothing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SkillScores {
     /// By unbiased squared error of colour.

@@ -21,7 +21,7 @@ pub struct Case {
     pub exposes: String,
     /// Exposure in frames.
     pub exposure: f64,
-    /// Filter name; a bar's is `scatter_oracle` or `accumulate`.
+    /// Filter name; a bar's is `identity`, `scatter_oracle` or `accumulate`.
     pub filter: String,
     /// The preset that the parameters started from; of `accumulate` the number of sub-frames.
     pub preset: String,
@@ -67,9 +67,9 @@ pub struct Case {
 impl Case {
     /// How tables and folders call it: `jump_flood:paper`, and behind that what is not as usual.
     pub fn name(&self) -> String {
-        let mut name = match self.filter.as_str() {
-            SCATTER_ORACLE => self.filter.clone(),
-            _ => format!("{}:{}", self.filter, self.preset),
+        let mut name = match self.preset.as_str() {
+            "" => self.filter.clone(),
+            preset => format!("{}:{preset}", self.filter),
         };
         if let Some(change) = self.input.change() {
             name += &format!(" {change}");
@@ -78,6 +78,8 @@ impl Case {
     }
 }
 
+/// The bar that doing nothing sets.
+pub(crate) const IDENTITY: &str = "identity";
 /// The bar that [`crate::scatter_oracle`] sets.
 pub(crate) const SCATTER_ORACLE: &str = "scatter_oracle";
 /// The bars that averages of sub-frames set.

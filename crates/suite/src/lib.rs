@@ -2,7 +2,6 @@
 
 mod baseline;
 mod bench;
-mod bootstrap;
 mod bounds;
 mod calibrate;
 mod case;
@@ -13,6 +12,7 @@ mod dilated;
 mod error;
 mod finished;
 mod gate;
+mod headline;
 mod import;
 mod input_format;
 mod inputs;
@@ -31,6 +31,7 @@ mod report;
 mod run;
 mod runner;
 mod scatter_oracle;
+mod scene_mean;
 mod scene_run;
 mod score;
 mod selection;

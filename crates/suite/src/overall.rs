@@ -1,21 +1,13 @@
 //! What filters score over all scenes of a run.
 
-use metrics::{ImageMetric, Measured, Metric, ObjectMetric, Region};
+use metrics::Measured;
 use serde::{Deserialize, Serialize};
 
 use crate::Case;
-use crate::bootstrap::bootstrap_noisy;
+use crate::headline::{Headline, OF_MEANS};
+use crate::scene_mean::{Weighted, scene_mean};
 
-/// What is brought together.
-pub(crate) const METRICS: [Metric; 5] = [
-    Metric::Image(ImageMetric::Flip, Region::Moving),
-    Metric::Image(ImageMetric::Psnr, Region::Moving),
-    Metric::Object(ObjectMetric::LateralGrowth),
-    Metric::Object(ObjectMetric::BleedLateral),
-    Metric::LabelTotalVariation,
-];
-
-/// The mean over other scenes lies beyond either end of its interval with this probability.
+/// The mean over all such scenes lies beyond either end of its interval with this probability.
 const TAIL: f64 = 0.025;
 
 /// One metric of one filter preset, or of one bar, over the scenes that it applies to.
@@ -27,13 +19,13 @@ pub struct Overall {
     pub bar: bool,
     /// The shutter alignment that it is scored against.
     pub alignment: String,
-    /// Name of the metric.
+    /// Name of the metric, `bleed` or `flip_common`.
     pub metric: String,
     /// How many scenes, each variant of one counted.
     pub scenes: usize,
-    /// Mean over the scenes, in the metric's unit.
+    /// Mean over the scenes, in the metric's unit; of a skill the ratio of means.
     pub mean: f64,
-    /// The lower and the upper end of the mean's 95 % interval.
+    /// The lower and the upper end of the mean's 95 % confidence interval over scenes.
     pub interval: [f64; 2],
 }
 
@@ -45,8 +37,7 @@ impl Overall {
     }
 }
 
-/// Means over at least two scenes, in the order of the cases, with intervals from a bootstrap over scenes. Where scores have
-/// intervals of their own, from the replicates of their truths, these widen it.
+/// Means over at least two scenes, in the order of the cases, with Student's intervals over scenes.
 pub fn overall(cases: &[Case]) -> Vec<Overall> {
     let mut subjects: Vec<&Case> = Vec::new();
     for case in cases {
@@ -55,13 +46,33 @@ pub fn overall(cases: &[Case]) -> Vec<Overall> {
         }
     }
     let of_subject = |subject: &Case| {
-        let cases: Vec<&Case> = (cases.iter())
+        let own: Vec<&Case> = (cases.iter())
             .filter(|case| are_of_one(subject, case))
             .collect();
-        let means = METRICS.map(|metric| mean(&cases, metric));
+        let means = OF_MEANS.map(|headline| mean(&own, headline, cases));
         means.into_iter().flatten().collect::<Vec<_>>()
     };
     subjects.into_iter().flat_map(of_subject).collect()
+}
+
+/// The means of one score, the best first: those of filters of one shutter alignment beside the bars of that alignment. One
+/// group, of all alignments, of a score that compares across them.
+pub(crate) fn ranked(overall: &[Overall], headline: Headline) -> Vec<Vec<&Overall>> {
+    let name = headline.name();
+    let mut groups: Vec<Vec<&Overall>> = Vec::new();
+    for mean in overall.iter().filter(|mean| mean.metric == name) {
+        let group = (groups.iter_mut())
+            .find(|group| headline.spans_alignments() || group[0].alignment == mean.alignment);
+        match group {
+            Some(group) => group.push(mean),
+            None => groups.push(vec![mean]),
+        }
+    }
+    let badness = |mean: &Overall| headline.ideal().badness(mean.mean);
+    for group in &mut groups {
+        group.sort_by(|a, b| badness(a).total_cmp(&badness(b)));
+    }
+    groups
 }
 
 /// Whether both are of the same filter preset or bar.
@@ -70,25 +81,26 @@ fn are_of_one(a: &Case, b: &Case) -> bool {
     key(a) == key(b)
 }
 
-fn mean(cases: &[&Case], metric: Metric) -> Option<Overall> {
-    let name = metric.name();
-    let values: Vec<[f64; 2]> = (cases.iter())
-        .filter_map(|case| match case.scores.get(metric) {
+fn mean(own: &[&Case], headline: Headline, all: &[Case]) -> Option<Overall> {
+    let scores: Vec<Weighted> = (own.iter())
+        .filter_map(|case| match headline.measured(case) {
             Measured::NotApplicable { .. } => None,
-            Measured::Score(score) => {
-                let interval = case.intervals.get(&name);
-                Some([score.value, interval.map_or(0.0, |own| own.standard_error)])
-            }
+            Measured::Score(score) => Some(Weighted {
+                value: score.value,
+                weight: headline.weight(case, all)?,
+            }),
         })
         .collect();
-    let count = values.len();
-    (count >= 2).then(|| Overall {
-        filter: cases[0].name(),
-        bar: cases[0].bar,
-        alignment: cases[0].alignment.clone(),
-        metric: name,
-        scenes: count,
-        mean: values.iter().map(|[value, _]| value).sum::<f64>() / count as f64,
-        interval: bootstrap_noisy(&values, TAIL),
+    (scores.len() >= 2).then(|| {
+        let found = scene_mean(&scores, TAIL);
+        Overall {
+            filter: own[0].name(),
+            bar: own[0].bar,
+            alignment: own[0].alignment.clone(),
+            metric: headline.name(),
+            scenes: scores.len(),
+            mean: found.mean,
+            interval: found.bounds,
+        }
     })
 }

@@ -1,6 +1,6 @@
 //! The best picture that one frame with straight motion can give: a bar for filters, far too slow to be one.
 
-use frame::{Efficiency, Frame, Image, Picture, Plane, Raster, Shutter, ShutterProfile};
+use frame::{Efficiency, Frame, Image, Picture, Plane, Raster, Shutter, ShutterProfile, Truth};
 use rayon::prelude::*;
 
 /// Instants are at least so many, and so many per pixel that the fastest pixel moves.
@@ -33,6 +33,11 @@ pub fn scatter_oracle(frame: &Frame, shutter: Shutter, profile: &ShutterProfile)
         }
     }
     sums.picture(frame)
+}
+
+/// The same through the shutter of a truth, and without the frame's guard band.
+pub(crate) fn oracle_of(frame: &Frame, truth: &Truth) -> Picture {
+    scatter_oracle(frame, truth.shutter, &truth.shutter_profile).cropped(frame.guard_band)
 }
 
 /// A time of the shutter, and its share of the light.

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use filters::Gpu;
-use frame::{Alignment, Frame, Ladder, Truth};
+use frame::{Alignment, Frame, Ladder, Picture, Truth};
 use metrics::{MeasureError, Reference};
 use tracer::{Progress, Scene, Watch};
 
@@ -16,6 +16,7 @@ use crate::pictures::{write_frame, write_truth};
 use crate::progress::with_bar;
 use crate::rendered::{frame_of, replicates_of, scene_folder, truth_and_ladder_of};
 use crate::run::{Plan, viewing};
+use crate::scatter_oracle::oracle_of;
 use crate::selection::FilterChoice;
 use crate::subject::Subject;
 use crate::witness::Witness;
@@ -74,11 +75,20 @@ impl SceneRun<'_> {
         }
         let cropped = frame.cropped();
         let judged: BTreeSet<Alignment> = due.iter().map(|subject| subject.alignment).collect();
+        let oracles: BTreeMap<Alignment, Picture> = (truths.iter())
+            .filter(|(alignment, _)| judged.contains(alignment))
+            .map(|(alignment, (truth, _))| (*alignment, oracle_of(frame, truth)))
+            .collect();
         let references = (truths.iter())
             .filter(|(alignment, _)| judged.contains(alignment) || **alignment == self.common)
             .map(|(alignment, (truth, ladder))| {
                 let viewing = viewing(self.scene);
                 let reference = Reference::new(&cropped, truth, Some(ladder), &viewing)?;
+                let reference = match oracles.get(alignment) {
+                    Some(oracle) => reference.with_best(oracle)?,
+                    // Only FLIP is measured against it.
+                    None => reference,
+                };
                 Ok((*alignment, reference))
             })
             .collect::<Result<BTreeMap<_, _>, Error>>()?;
@@ -90,7 +100,8 @@ impl SceneRun<'_> {
                     let ladder = Some(&truths[alignment].1);
                     // What is left out changes scores, not where they are taken.
                     let regions = whole.regions.clone();
-                    Reference::over(regions, &cropped, part, ladder, &viewing(self.scene))
+                    Reference::over(regions, &cropped, part, ladder, &viewing(self.scene))?
+                        .with_best(&oracles[alignment])
                 };
                 let references: Result<_, MeasureError> = parts.iter().map(reference).collect();
                 Ok((*alignment, references?))
@@ -129,6 +140,7 @@ impl SceneRun<'_> {
                 truth,
                 ladder,
                 reference: &references[&alignment],
+                oracle: &oracles[&alignment],
                 common: (alignment != self.common).then(|| &references[&self.common]),
                 without: without.get(&alignment).map(Vec::as_slice),
                 witness: witnesses.get(&alignment),

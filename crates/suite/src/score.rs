@@ -4,6 +4,7 @@ use frame::{Frame, Image, Ladder, Picture, Truth, display_srgb, scene_linear};
 use metrics::{ImageScores, MeasureError, Measured, Metric, Reference, Scores};
 
 use crate::finished::Finished;
+use crate::scatter_oracle::oracle_of;
 
 const NO_MATTES: &str = "the picture has no mattes, channels coverage.<object> that say which share of a pixel it gives \
                          to each object";
@@ -24,8 +25,10 @@ pub fn score(
     truth: &Truth,
     ladder: Option<&Ladder>,
 ) -> Result<Scored, MeasureError> {
+    let oracle = oracle_of(frame, truth);
     let frame = frame.cropped();
-    let reference = Reference::new(&frame, truth, ladder, &frame.display.into())?;
+    let reference =
+        Reference::new(&frame, truth, ladder, &frame.display.into())?.with_best(&oracle)?;
     // No colour's score looks at mattes, and those of mattes are taken out below.
     let mattes = finished.mattes.as_ref().unwrap_or(&frame.coverage);
     let measured = |color: Image| {

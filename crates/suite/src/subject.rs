@@ -7,7 +7,7 @@ use frame::Alignment;
 use tracer::Scene;
 
 use crate::bounds::{Bounds, SceneBounds};
-use crate::case::{ACCUMULATE, SCATTER_ORACLE};
+use crate::case::{ACCUMULATE, IDENTITY, SCATTER_ORACLE};
 use crate::run::Plan;
 use crate::selection::FilterChoice;
 use crate::{InputFormat, LADDER};
@@ -26,9 +26,11 @@ pub(crate) struct Subject<'a> {
 /// What makes a picture.
 #[derive(Clone, Copy)]
 pub(crate) enum Maker<'a> {
-    /// The best that the frame allows: a bar to measure filters by.
+    /// The frame as it is: a bar to measure filters by.
+    Identity,
+    /// The best that the frame allows: another.
     ScatterOracle,
-    /// The mean of so many sub-frames: another.
+    /// The mean of so many sub-frames: a third.
     Accumulation(u32),
     /// A filter that gets the frame in some form.
     Filter(&'a FilterChoice, InputFormat),
@@ -40,7 +42,8 @@ impl<'a> Subject<'a> {
         debug_assert!(SUBFRAMES.iter().all(|count| LADDER.contains(count)));
         let bars = plan.alignments().into_iter().flat_map(|alignment| {
             let accumulations = SUBFRAMES.map(Maker::Accumulation);
-            std::iter::once(Maker::ScatterOracle)
+            [Maker::Identity, Maker::ScatterOracle]
+                .into_iter()
                 .chain(accumulations)
                 .map(move |maker| Self { alignment, maker })
         });
@@ -61,6 +64,7 @@ impl<'a> Subject<'a> {
     /// Name of the filter, or of the bar.
     pub fn filter(&self) -> &str {
         match self.maker {
+            Maker::Identity => IDENTITY,
             Maker::ScatterOracle => SCATTER_ORACLE,
             Maker::Accumulation(_) => ACCUMULATE,
             Maker::Filter(choice, _) => &choice.filter.name,
@@ -70,7 +74,7 @@ impl<'a> Subject<'a> {
     /// The preset that the parameters started from; of an accumulation the number of sub-frames.
     pub fn preset(&self) -> String {
         match self.maker {
-            Maker::ScatterOracle => String::new(),
+            Maker::Identity | Maker::ScatterOracle => String::new(),
             Maker::Accumulation(subframes) => subframes.to_string(),
             Maker::Filter(choice, _) => choice.preset.clone(),
         }

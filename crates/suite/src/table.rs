@@ -1,104 +1,168 @@
-//! The table that a run prints: one line per case, 80 columns.
+//! The tables that a run prints, in 80 columns: one line per case, then means over the scenes.
 
 use std::fmt::Write;
 
-use metrics::{ImageMetric, Measured, Metric, ObjectMetric, Region, Scores};
+use metrics::Scores;
 
+use crate::headline::{
+    FLIP, GROWTH, Headline, LABEL, LOSS, PSNR, SKILL, SKILL_LABEL, SKILL_MSE, SUBFRAMES,
+};
+use crate::overall::ranked;
 use crate::run::Run;
+use crate::wrapped::push_wrapped;
 use crate::{Case, Overall, paint};
 
 /// Columns that names take.
 const NAMES: usize = 29;
 
 /// Title and width.
-const COLUMNS: [(&str, usize, Metric); 6] = [
-    ("FLIP", 6, Metric::Image(ImageMetric::Flip, Region::Moving)),
-    ("PSNR", 6, Metric::Image(ImageMetric::Psnr, Region::Moving)),
-    ("growth", 7, Metric::Object(ObjectMetric::LateralGrowth)),
-    ("bleed", 7, Metric::Object(ObjectMetric::BleedLateral)),
-    ("TV", 6, Metric::LabelTotalVariation),
-    ("N_eq", 6, Metric::EquivalentSubframes),
+type Column = (&'static str, usize, Headline);
+
+const OF_CASES: [Column; 7] = [
+    ("FLIP", 6, FLIP),
+    ("skill", 6, SKILL),
+    ("grow", 5, GROWTH),
+    ("loss", 5, LOSS),
+    ("bleed", 6, Headline::Bleed),
+    ("TV", 6, LABEL),
+    ("N_eq", 5, SUBFRAMES),
 ];
-/// So many of them, from the first, have a mean over scenes.
-const MEANS: usize = 5;
-/// Width of the column of intervals.
-const INTERVAL: usize = 13;
 /// Of the columns that a run has beside the scores.
 const WIDTH: usize = 6;
+/// Behind the score that filters of one alignment are ranked by.
+const OF_MEANS: [Column; 5] = [
+    ("PSNR", 6, PSNR),
+    ("grow", 5, GROWTH),
+    ("loss", 5, LOSS),
+    ("bleed", 6, Headline::Bleed),
+    ("TV", 6, LABEL),
+];
+/// Behind the skill that filters of all alignments are ranked by.
+const OF_SKILLS: [Column; 3] = [
+    ("MSE", 6, SKILL_MSE),
+    ("TV", 6, SKILL_LABEL),
+    ("FLIP*", 6, Headline::CommonFlip),
+];
+/// Of the score that is ranked by.
+const RANKED: usize = 6;
+/// Of its interval.
+const INTERVAL: usize = 16;
+const SHUTTER: usize = 10;
 
 /// The run as text; a score that does not apply is `n/a`.
 pub fn table(run: &Run) -> String {
     let mut text = heading("scene / filter", &["noise", "FLIP*"]);
-    let mut scene = "";
-    for case in &run.cases {
-        if case.scene != scene {
-            scene = &case.scene;
-            let _ = writeln!(text, "{}", paint::heading(scene));
+    for scene in once(run.cases.iter().map(|case| case.scene.as_str())) {
+        let of_scene = || run.cases.iter().filter(|case| case.scene == scene);
+        for alignment in once(of_scene().map(|case| case.alignment.as_str())) {
+            let title = format!("{scene}, {alignment} shutter");
+            let _ = writeln!(text, "{}", paint::heading(&title));
+            for case in of_scene().filter(|case| case.alignment == alignment) {
+                let more = [noise(case), Headline::CommonFlip.text(case)];
+                let line = line(&titled(&case.name(), case.bar), &case.scores, &more);
+                text += &behind(case.bar, &line);
+            }
         }
-        let line = line(
-            &with_alignment(&case.name(), case.bar, &case.alignment),
-            &case.scores,
-            &[noise(case), common(case)],
-        );
-        text += &behind(case.bar, &line);
     }
+    text += &legend(&format!(
+        "FLIP* is against the {} shutter. {KEY}",
+        run.common_alignment
+    ));
     text + &over_scenes(&run.overall)
 }
 
-/// Means over scenes, the best FLIP first; nothing of a single scene.
+/// What titles and marks mean.
+const KEY: &str = "Skill by FLIP: 0 is [identity], 1 is [scatter_oracle]. Bleed: the largest of beside, ahead (>) and behind \
+                   (<); grow, loss and bleed in pixels.";
+
+/// The scores of one picture of a scene, in the manner of [`table`].
+pub fn score_table(scene: &str, picture: &str, scores: &Scores) -> String {
+    heading("scene / picture", &[])
+        + &format!("{scene}\n")
+        + &line(picture, scores, &[])
+        + &legend(KEY)
+}
+
+/// Means over scenes, and who is best: among filters of one shutter alignment by FLIP, among all by skill. Nothing of a single
+/// scene.
 fn over_scenes(overall: &[Overall]) -> String {
-    let [first, others @ ..] = &COLUMNS[..MEANS] else {
-        unreachable!("there are columns");
-    };
-    let of = |metric: Metric| {
-        let name = metric.name();
-        (overall.iter()).filter(move |mean| mean.metric == name)
-    };
-    let mut ranked: Vec<&Overall> = of(first.2).collect();
-    ranked.sort_by(|a, b| a.mean.total_cmp(&b.mean));
-    let Some(best) = ranked.first() else {
-        return String::new();
-    };
-    let mut text = format!("{:<NAMES$}", format!("mean over {} scenes", best.scenes));
-    let _ = write!(text, "{:>1$}{2:>INTERVAL$}", first.0, first.1, "95 % in");
-    for (title, width, _) in others {
-        let _ = write!(text, "{title:>width$}");
-    }
-    let mut text = paint::heading(&text) + "\n";
-    for row in ranked {
-        let [low, high] = row.interval;
-        let mut line = name_cell(&with_alignment(&row.filter, row.bar, &row.alignment));
-        let _ = write!(line, "{:>1$.3}", row.mean, first.1);
-        let _ = write!(line, "{:>INTERVAL$}", format!("{low:.3}-{high:.3}"));
-        for (_, width, metric) in others {
-            let own = of(*metric).find(|mean| mean.is_of_same(row));
-            let cell = own.map_or("n/a".to_owned(), |own| {
-                format!("{:.*}", digits(*metric), own.mean)
-            });
-            let _ = write!(line, "{cell:>width$}");
+    let mut text = String::new();
+    for group in ranked(overall, FLIP) {
+        let first = group[0];
+        if text.is_empty() {
+            text += "\n";
+            text += &means_heading(overall, "FLIP", &OF_MEANS, "");
         }
-        line += "\n";
-        text += &behind(row.bar, &line);
+        let _ = writeln!(
+            text,
+            "{}",
+            paint::heading(&format!("{} shutter", first.alignment))
+        );
+        for row in group {
+            text += &mean_line(overall, row, FLIP, &OF_MEANS, "");
+        }
+    }
+    for group in ranked(overall, SKILL) {
+        text += "\n";
+        text += &means_heading(overall, "skill", &OF_SKILLS, "shutter");
+        for row in group {
+            text += &mean_line(overall, row, SKILL, &OF_SKILLS, &row.alignment);
+        }
+        text += &legend(
+            "Skill is by FLIP, by MSE and by label TV: the share of the way from [identity], 0, to [scatter_oracle], 1; below 0 \
+             is worse than doing nothing.",
+        );
     }
     text
 }
 
-/// Bars come first, and are made anew for every alignment that a filter has.
-fn with_alignment(name: &str, bar: bool, alignment: &str) -> String {
+fn means_heading(overall: &[Overall], by: &str, others: &[Column], shutter: &str) -> String {
+    let scenes = overall.iter().map(|mean| mean.scenes).max().unwrap_or(0);
+    let mut text = format!("{:<NAMES$}", format!("mean over {scenes} scenes"));
+    let _ = write!(text, "{by:>RANKED$}{:>INTERVAL$}", "95 % CI");
+    for (title, width, _) in others {
+        let _ = write!(text, "{title:>width$}");
+    }
+    if !shutter.is_empty() {
+        let _ = write!(text, "{shutter:>SHUTTER$}");
+    }
+    paint::heading(&text) + "\n"
+}
+
+fn mean_line(
+    overall: &[Overall],
+    row: &Overall,
+    by: Headline,
+    others: &[Column],
+    shutter: &str,
+) -> String {
+    let [low, high] = row.interval.map(|end| by.number(end));
+    let mut line = name_cell(&titled(&row.filter, row.bar));
+    let _ = write!(line, "{:>RANKED$}", by.number(row.mean));
+    let _ = write!(line, "{:>INTERVAL$}", format!("{low} to {high}"));
+    for (_, width, headline) in others {
+        let name = headline.name();
+        let own = (overall.iter()).find(|mean| mean.metric == name && mean.is_of_same(row));
+        let cell = own.map_or("n/a".to_owned(), |own| headline.number(own.mean));
+        let _ = write!(line, "{cell:>width$}");
+    }
+    if !shutter.is_empty() {
+        let _ = write!(line, "{shutter:>SHUTTER$}");
+    }
+    behind(row.bar, &(line + "\n"))
+}
+
+/// Bars stand in brackets: they are no filters.
+fn titled(name: &str, bar: bool) -> String {
     match bar {
-        true => format!("{name} ({alignment})"),
+        true => format!("[{name}]"),
         false => name.to_owned(),
     }
 }
 
-/// The scores of one picture of a scene, in the manner of [`table`].
-pub fn score_table(scene: &str, picture: &str, scores: &Scores) -> String {
-    heading("scene / picture", &[]) + &format!("{scene}\n") + &line(picture, scores, &[])
-}
-
 fn heading(title: &str, more: &[&str]) -> String {
     let mut text = format!("{title:<NAMES$}");
-    for (title, width, _) in COLUMNS {
+    for (title, width, _) in OF_CASES {
         let _ = write!(text, "{title:>width$}");
     }
     for title in more {
@@ -107,7 +171,13 @@ fn heading(title: &str, more: &[&str]) -> String {
     paint::heading(&text) + "\n"
 }
 
-/// Bars are no filters, and stand behind.
+fn legend(words: &str) -> String {
+    let mut text = String::new();
+    push_wrapped(&mut text, 0, words);
+    paint::faint(&text)
+}
+
+/// Bars stand behind.
 fn behind(bar: bool, lines: &str) -> String {
     match bar {
         true => paint::faint(lines),
@@ -117,8 +187,8 @@ fn behind(bar: bool, lines: &str) -> String {
 
 fn line(name: &str, scores: &Scores, more: &[String]) -> String {
     let mut text = name_cell(name);
-    for (_, width, metric) in COLUMNS {
-        let _ = write!(text, "{:>width$}", cell(metric, scores));
+    for (_, width, headline) in OF_CASES {
+        let _ = write!(text, "{:>width$}", headline.text_of_scores(scores));
     }
     for cell in more {
         let _ = write!(text, "{cell:>WIDTH$}");
@@ -140,28 +210,12 @@ fn noise(case: &Case) -> String {
     share.map_or("-".to_owned(), |share| format!("{share:.0}%"))
 }
 
-/// FLIP against the shutter that all cases are compared with.
-fn common(case: &Case) -> String {
-    match &case.common.flip {
-        Measured::NotApplicable { .. } => "n/a".to_owned(),
-        Measured::Score(score) => format!("{:.3}", score.value),
+fn once<'a>(all: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut once = Vec::new();
+    for one in all {
+        if !once.contains(&one) {
+            once.push(one);
+        }
     }
-}
-
-fn cell(metric: Metric, scores: &Scores) -> String {
-    if metric == Metric::EquivalentSubframes {
-        return scores.equivalent_subframes.mse.to_string();
-    }
-    match scores.get(metric) {
-        Measured::NotApplicable { .. } => "n/a".to_owned(),
-        Measured::Score(score) => format!("{:.*}", digits(metric), score.value),
-    }
-}
-
-fn digits(metric: Metric) -> usize {
-    match metric {
-        Metric::Image(ImageMetric::Psnr, _) => 1,
-        Metric::Object(_) => 2,
-        _ => 3,
-    }
+    once
 }

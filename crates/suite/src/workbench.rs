@@ -13,7 +13,6 @@ use crate::dilated::dilated;
 use crate::pictures::write_case;
 use crate::probe::{Blurred, blurred, noise};
 use crate::run::Plan;
-use crate::scatter_oracle::scatter_oracle;
 use crate::selection::FilterChoice;
 use crate::subject::{Maker, Subject};
 use crate::witness::Witness;
@@ -34,6 +33,8 @@ pub(crate) struct Workbench<'a> {
     pub truth: &'a Truth,
     pub ladder: &'a Ladder,
     pub reference: &'a Reference<'a>,
+    /// What the one-frame oracle makes of the frame.
+    pub oracle: &'a Picture,
     /// The truth that every case is compared with, unless it is this one.
     pub common: Option<&'a Reference<'a>>,
     /// The truths that all replicates but a pair each make, where scores are to have intervals.
@@ -56,20 +57,21 @@ impl Workbench<'_> {
     /// Makes the picture and measures it; writes it and its error maps, and returns the names of the files as well.
     pub fn case(&self, subject: &Subject) -> Result<(Case, Vec<String>), Error> {
         let found = match subject.maker {
-            Maker::ScatterOracle => self.bar(self.scatter_oracle())?,
+            Maker::Identity => self.bar(self.identity())?,
+            Maker::ScatterOracle => self.bar(self.oracle.clone())?,
             Maker::Accumulation(subframes) => self.bar(self.accumulation(subframes))?,
             Maker::Filter(choice, input) => self.filter(choice, input)?,
         };
         self.written(subject, found)
     }
 
-    fn scatter_oracle(&self) -> Picture {
-        let Truth {
-            shutter,
-            shutter_profile,
-            ..
-        } = self.truth;
-        scatter_oracle(self.frame, *shutter, shutter_profile).cropped(self.frame.guard_band)
+    /// The frame as it is.
+    fn identity(&self) -> Picture {
+        let frame = self.frame.cropped();
+        Picture {
+            color: frame.color,
+            coverage: frame.coverage,
+        }
     }
 
     fn accumulation(&self, subframes: u32) -> Picture {

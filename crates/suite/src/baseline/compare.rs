@@ -8,12 +8,12 @@ use metrics::{Measured, Metric};
 use serde::Serialize;
 
 use super::Baseline;
-use crate::bootstrap::bootstrap;
 use crate::bounds::Margin;
 use crate::gate::Decision;
+use crate::scene_mean::plain_mean;
 use crate::{Case, Error, Run};
 
-/// The mean over other scenes lies beyond either bound with this probability.
+/// The mean over all such scenes lies beyond either bound with this probability.
 const TAIL: f64 = 0.05;
 
 /// One metric of one filter, over all scenes that it applies to.
@@ -115,8 +115,8 @@ pub fn compare(
 }
 
 fn comparison(filter: &str, metric: &str, differences: &[f64], margin: f64) -> Comparison {
-    let bounds = bootstrap(differences, TAIL);
-    let [low, high] = bounds;
+    let found = plain_mean(differences, TAIL);
+    let [low, high] = found.bounds;
     let kind = if high <= margin {
         ComparisonKind::NoWorse
     } else if low > margin {
@@ -129,8 +129,8 @@ fn comparison(filter: &str, metric: &str, differences: &[f64], margin: f64) -> C
         filter: filter.to_owned(),
         metric: metric.to_owned(),
         scenes: differences.len(),
-        worse: differences.iter().sum::<f64>() / differences.len() as f64,
-        bounds,
+        worse: found.mean,
+        bounds: found.bounds,
         margin,
     }
 }

@@ -22,6 +22,8 @@ pub struct Change {
     pub second: f64,
     /// By how much the second is worse; negative is better.
     pub worse: f64,
+    /// How much the scene counts in a mean over scenes: 1, or of a skill the error that the one-frame oracle takes away.
+    pub weight: f64,
     /// Where that lies against a truth without noise with a confidence of 95 %; none without replicates.
     pub interval: Option<[f64; 2]>,
     /// Its standard error; 0 where nothing changed, none without replicates.
@@ -87,7 +89,12 @@ pub struct Uncertainty {
 
 impl Change {
     /// None where the metric does not apply to both.
-    pub fn of(pair: &Pair, metric: Metric, uncertainty: Option<Uncertainty>) -> Option<Self> {
+    pub fn of(
+        pair: &Pair,
+        metric: Metric,
+        weight: f64,
+        uncertainty: Option<Uncertainty>,
+    ) -> Option<Self> {
         let (Measured::Score(first), Measured::Score(second)) = (
             pair.first.scores.get(metric),
             pair.second.scores.get(metric),
@@ -106,6 +113,7 @@ impl Change {
             first: first.value,
             second: second.value,
             worse,
+            weight,
             interval: uncertainty.map(|own| own.interval),
             standard_error: match worse == 0.0 {
                 true => Some(0.0),

@@ -3,10 +3,10 @@
 use serde::Serialize;
 
 use super::change::{Change, ChangeKind};
-use crate::bootstrap::bootstrap_noisy;
+use crate::scene_mean::{Weighted, scene_mean};
 use crate::tune::FEWEST_SCENES;
 
-/// The mean over other scenes lies beyond either end of its interval with this probability.
+/// The mean over all such scenes lies beyond either end of its interval with this probability.
 const TAIL: f64 = 0.025;
 
 /// One metric of one filter, over the scenes that it applies to in both runs.
@@ -20,13 +20,13 @@ pub struct MeanChange {
     pub scenes: usize,
     /// How many of them are better, and worse, by more than noise.
     pub better_worse: [usize; 2],
-    /// Mean of the first run, in the metric's unit.
+    /// Mean of the first run, in the metric's unit; of a skill the ratio of means, as in run.json.
     pub first: f64,
     /// Of the second.
     pub second: f64,
     /// By how much the second is worse; negative is better.
     pub worse: f64,
-    /// 95 % interval of that mean over other scenes, the noise of the truths in it where their replicates tell.
+    /// 95 % confidence interval of that mean over scenes.
     pub interval: [f64; 2],
     /// The verdict.
     pub kind: MeanKind,
@@ -81,14 +81,15 @@ pub fn means(changes: &[Change]) -> Vec<MeanChange> {
 fn mean(changes: &[&Change]) -> MeanChange {
     let count = changes.len();
     let mean = |value: fn(&Change) -> f64| {
-        changes.iter().map(|change| value(change)).sum::<f64>() / count as f64
+        let weighted = changes.iter().map(|change| Weighted {
+            value: value(change),
+            weight: change.weight,
+        });
+        scene_mean(&weighted.collect::<Vec<_>>(), TAIL)
     };
-    let worse: Vec<[f64; 2]> = (changes.iter())
-        .map(|change| [change.worse, change.standard_error.unwrap_or(0.0)])
-        .collect();
-    let interval = bootstrap_noisy(&worse, TAIL);
+    let worse = mean(|change| change.worse);
     let of_kind = |kind| changes.iter().filter(|change| change.kind == kind).count();
-    let kind = match interval {
+    let kind = match worse.bounds {
         _ if of_kind(ChangeKind::Same) == count => MeanKind::Same,
         _ if count < FEWEST_SCENES => MeanKind::TooFewScenes,
         [low, _] if low > 0.0 => MeanKind::Worse,
@@ -100,10 +101,10 @@ fn mean(changes: &[&Change]) -> MeanChange {
         metric: changes[0].metric.clone(),
         scenes: count,
         better_worse: [of_kind(ChangeKind::Better), of_kind(ChangeKind::Worse)],
-        first: mean(|change| change.first),
-        second: mean(|change| change.second),
-        worse: mean(|change| change.worse),
-        interval,
+        first: mean(|change| change.first).mean,
+        second: mean(|change| change.second).mean,
+        worse: worse.mean,
+        interval: worse.bounds,
         kind,
     }
 }
@@ -123,6 +124,7 @@ mod tests {
             first: 0.5,
             second: 0.5 + worse,
             worse: *worse,
+            weight: 1.0,
             interval: None,
             standard_error: None,
             basis: Basis::Floor,
@@ -149,6 +151,13 @@ mod tests {
             assert_eq!(means[0].kind, expected, "{worse:?}");
             assert_eq!(means[0].scenes, worse.len());
         }
+    }
+
+    #[test]
+    fn a_mean_of_skills_counts_scenes_by_what_is_to_be_gained_on_them() {
+        let mut all = changes(&[0.1, 0.4]);
+        all[0].weight = 3.0;
+        assert!((means(&all)[0].worse - 0.175).abs() < 1e-12);
     }
 
     #[test]

@@ -3,15 +3,31 @@
 use std::path::{Path, PathBuf};
 
 use frame::{Alignment, Frame, Picture, Replicate, Truth, read_exr};
-use metrics::{Metric, Reference, Scores, jackknife};
+use metrics::{
+    ImageMetric, Metric, ObjectMetric, Reference, Region, Scores, SkillMetric, jackknife,
+};
 use tracer::{Progress, TraceError, Watch};
 
 use super::change::{Change, Uncertainty};
 use super::pairing::Pair;
 use super::side::Side;
-use crate::overall::METRICS;
+use crate::headline::Headline;
 use crate::replicates::replicates_folder;
+use crate::scatter_oracle::oracle_of;
 use crate::{Error, FEWEST_REPLICATES, truths_without_pairs};
+
+/// What is compared.
+const METRICS: [Metric; 9] = [
+    Metric::Image(ImageMetric::Flip, Region::Moving),
+    Metric::Skill(SkillMetric::Flip),
+    Metric::Image(ImageMetric::Psnr, Region::Moving),
+    Metric::Object(ObjectMetric::LateralGrowth),
+    Metric::Object(ObjectMetric::RowLoss),
+    Metric::Object(ObjectMetric::BleedLateral),
+    Metric::Object(ObjectMetric::BleedLeading),
+    Metric::Object(ObjectMetric::BleedTrailing),
+    Metric::LabelTotalVariation,
+];
 
 /// Every score of every pair.
 pub fn changes(sides: [&Side; 2], pairs: &[Pair], watch: Watch) -> Result<Vec<Change>, Error> {
@@ -46,7 +62,8 @@ pub fn changes(sides: [&Side; 2], pairs: &[Pair], watch: Watch) -> Result<Vec<Ch
         };
         changes.extend(METRICS.iter().filter_map(|metric| {
             let uncertainty = measured.as_ref().and_then(|own| own.uncertainty(*metric));
-            Change::of(pair, *metric, uncertainty)
+            let weight = Headline::Metric(*metric).weight(pair.first, &sides[0].run.cases)?;
+            Change::of(pair, *metric, weight, uncertainty)
         }));
     }
     Ok(changes)
@@ -55,6 +72,8 @@ pub fn changes(sides: [&Side; 2], pairs: &[Pair], watch: Watch) -> Result<Vec<Ch
 /// A truth as a whole and without each pair of its replicates, with the frame of its scene.
 struct Parts {
     frame: Frame,
+    /// What the one-frame oracle makes of it.
+    oracle: Picture,
     whole: Truth,
     without: Vec<Truth>,
 }
@@ -93,8 +112,10 @@ impl Parts {
         }
         let replicates: Vec<Replicate> =
             (replicates.iter().map(|path| Replicate::read(path))).collect::<Result<_, _>>()?;
+        let frame = Frame::read(&frame)?;
         Ok(Some(Self {
-            frame: Frame::read(&frame)?.cropped(),
+            oracle: oracle_of(&frame, &whole),
+            frame: frame.cropped(),
             without: truths_without_pairs(&whole, &replicates)?,
             whole,
         }))
@@ -112,7 +133,8 @@ impl Parts {
         let [first, second] = files.map(|file| picture(&file, &self.whole.objects));
         let (first, second) = (first?, second?);
         let viewing = self.frame.display.into();
-        let whole = Reference::new(&self.frame, &self.whole, None, &viewing)?;
+        let whole =
+            Reference::new(&self.frame, &self.whole, None, &viewing)?.with_best(&self.oracle)?;
         let scores = |reference: &Reference| -> Result<[Scores; 2], Error> {
             Ok([
                 reference.measure(&first)?.scores,
@@ -122,13 +144,8 @@ impl Parts {
         let without = self.without.iter().map(|part| {
             // What is left out changes scores, not where they are taken.
             let regions = whole.regions.clone();
-            scores(&Reference::over(
-                regions,
-                &self.frame,
-                part,
-                None,
-                &viewing,
-            )?)
+            let part = Reference::over(regions, &self.frame, part, None, &viewing)?;
+            scores(&part.with_best(&self.oracle)?)
         });
         Ok(Some(Paired {
             whole: scores(&whole)?,

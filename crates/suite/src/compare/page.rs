@@ -142,13 +142,13 @@ fn metric_means(metric: &str, means: &[&MeanChange]) -> Markup {
         p.note { (metric.parse().map_or_else(|_| String::new(), meaning)) }
         div.scroll tabindex="0" role="region" aria-label=(format!("Means of {metric}")) {
             table {
-                caption { "95 % intervals over scenes; " (same) " filters did not change" }
+                caption { "95 % CI: over scenes, by Student's t; " (same) " filters did not change" }
                 thead {
                     tr {
                         th scope="col" { "filter" }
                         th.text scope="col" { "verdict" }
                         th scope="col" { "worse by" }
-                        th scope="col" { "95 % in" }
+                        th scope="col" { "95 % CI" }
                         th scope="col" { "first" }
                         th scope="col" { "second" }
                         th scope="col" { "scenes" }
@@ -247,7 +247,7 @@ fn change_heading(named: bool) -> Markup {
                 th.text scope="col" { "metric" }
                 th.text scope="col" { "verdict" }
                 th scope="col" { "worse by" }
-                th scope="col" { "95 % in" }
+                th scope="col" { "95 % CI" }
                 th scope="col" { "first" }
                 th scope="col" { "second" }
             }

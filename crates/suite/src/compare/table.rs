@@ -53,7 +53,7 @@ fn means_table(means: &[MeanChange]) -> String {
     for mean in means.iter().filter(|mean| mean.kind != MeanKind::Same) {
         if text.is_empty() {
             text += &heading(&format!("{:<19}", "mean over scenes"));
-            text += &columns("95 % in");
+            text += &columns("95 % CI");
         }
         if filter != mean.filter {
             filter = &mean.filter;
@@ -104,7 +104,7 @@ fn changes_table(changes: &[Change]) -> String {
     let mut text = format!(
         "\n{}{}",
         heading(&format!("{:<19}", "scene / filter")),
-        columns("95 % in")
+        columns("95 % CI")
     );
     for (scene, filter) in ranked.iter().take(CASES) {
         text += &format!("{scene} / {filter}\n");

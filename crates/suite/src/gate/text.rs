@@ -69,7 +69,7 @@ fn lines(finding: &Finding, out: &std::path::Path) -> Vec<(usize, String)> {
     lines
 }
 
-/// `BROKEN flip_moving 0.0921, with 95 % in 0.0893 to 0.0950; limit 0.0500, floor 0.0021`
+/// `BROKEN flip_moving 0.0921 (95 % CI 0.0893 to 0.0950); limit 0.0500, floor 0.0021`
 pub(crate) fn headline(finding: &Finding) -> String {
     format!("{} {}", status(finding), score(finding))
 }
@@ -93,7 +93,7 @@ fn score(finding: &Finding) -> String {
     }
     if let Some(interval) = &finding.interval {
         let [low, high] = [interval.low, interval.high].map(number);
-        text += &format!(", with 95 % in {low} to {high}");
+        text += &format!(" (95 % CI {low} to {high})");
     }
     text += &format!("; limit {}", number(finding.limit));
     if let Some(floor) = finding.floor {

@@ -43,26 +43,35 @@ pub fn distance(metric: Metric, value: f64, limit: f64) -> f64 {
 
 /// The cell of the overview that leads to a case by its number.
 pub fn cell(shown: &Shown, case: &Case, number_of_case: usize) -> Markup {
-    let measured = case.scores.get(shown.metric);
-    let name = shown.metric.name();
-    let verdict = case.verdicts.iter().find(|verdict| verdict.metric == name);
-    let judged = verdict.and_then(|verdict| Some((verdict, standing(&verdict.outcome)?)));
+    let measured = shown.headline.measured(case);
+    let judged = judged(shown, case);
     html! {
-        td class=[judged.map(|(verdict, standing)| class(verdict, standing))]
-            style=[judged.and_then(|(verdict, _)| strength(shown.metric, &measured, verdict))]
+        td class=[judged.map(|(_, verdict, standing)| class(verdict, standing))]
+            style=[judged.and_then(|(metric, verdict, _)| strength(metric, &measured, verdict))]
             data-value=[measured.value()]
             title=[reason(&measured)] {
             a href=(format!("#case-{number_of_case}")) {
-                @if let Some((_, standing)) = judged {
+                @if let Some((_, _, standing)) = judged {
                     span.sign aria-hidden="true" { (standing.sign) }
                 }
-                (shown.text(case))
-                @if let Some((verdict, standing)) = judged {
+                (shown.headline.text(case))
+                @if let Some((_, verdict, standing)) = judged {
                     span.unseen { ", " (standing.word) ", " (level(verdict)) " limit " (number(verdict.limit)) }
                 }
             }
         }
     }
+}
+
+/// The bound on a case's score, and how the score stands to it; none where it has no bound, or does not apply.
+fn judged<'a>(shown: &Shown, case: &'a Case) -> Option<(Metric, &'a Verdict, Standing)> {
+    let metric = shown.headline.metric(&case.scores)?;
+    let name = metric.name();
+    let verdict = case
+        .verdicts
+        .iter()
+        .find(|verdict| verdict.metric == name)?;
+    Some((metric, verdict, standing(&verdict.outcome)?))
 }
 
 /// What fails a check stands out.

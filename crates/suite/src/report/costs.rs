@@ -8,9 +8,9 @@ use maud::{Markup, html};
 
 use super::pareto_chart::{Point, pareto_chart};
 use super::reach_chart::{reach_chart, span};
-use super::shown::SHOWN;
 use super::subject::{Subject, subjects};
 use crate::bench::{BASELINE, BENCH_FORMAT, CaseCost, GROWTH_FROM, REACHES, Spread};
+use crate::headline::Headline;
 use crate::{Bench, Error, Run};
 
 /// What `shuttertruth bench` calls its file.
@@ -119,7 +119,8 @@ fn provenance(bench: &Bench) -> String {
     )
 }
 
-/// FLIP of every filter that was timed, against its time.
+/// FLIP of every filter that was timed, against its time. Filters of all shutters stand in one picture, and so does FLIP
+/// against one shutter for all.
 fn points(run: &Run, bench: &Bench) -> Vec<Point> {
     let timed = subjects(run).into_iter().filter_map(|subject| {
         let cost = cost_of(run, Some(bench), &subject)?;
@@ -141,13 +142,12 @@ fn bars(run: &Run) -> Vec<(String, f64)> {
 
 /// Mean over the scenes that have one.
 fn mean_error(run: &Run, subject: &Subject) -> Option<f64> {
-    let metric = SHOWN[0].metric;
     let own = run
         .cases
         .iter()
         .filter(|case| Subject::of(case) == *subject);
     let values: Vec<f64> = own
-        .filter_map(|case| case.scores.get(metric).value())
+        .filter_map(|case| Headline::CommonFlip.measured(case).value())
         .collect();
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
@@ -254,7 +254,11 @@ mod tests {
     fn values_in_pixels_belong_together_if_they_are_as_long_in_their_pictures() {
         // 20 pixels of 1920 are 3.3 of 320.
         assert!(is_scaled(&Value::Integer(3), &Value::Integer(20), 6.0));
-        assert!(is_scaled(&Value::Integer(20), &Value::Integer(3), 1.0 / 6.0));
+        assert!(is_scaled(
+            &Value::Integer(20),
+            &Value::Integer(3),
+            1.0 / 6.0
+        ));
         assert!(is_scaled(&Value::Real(0.25), &Value::Real(1.5), 6.0));
         assert!(!is_scaled(&Value::Integer(3), &Value::Integer(40), 6.0));
         assert!(!is_scaled(&Value::Integer(8), &Value::Integer(15), 1.0));

@@ -10,7 +10,7 @@ pub fn meaning(metric: Metric) -> String {
         Metric::Frozen(metric) => of_frozen(metric).to_owned(),
         Metric::Probe(metric) => of_probe(metric).to_owned(),
         Metric::Skill(metric) => format!(
-            "part of the instant's own error that the filter takes away, by {}; 1 is perfect",
+            "share of the way from no blur, 0, to the one-frame oracle, 1, by {}",
             of_skill(metric)
         ),
         other => of_whole(other).to_owned(),

@@ -6,11 +6,10 @@ use metrics::Ideal;
 use super::case_page::Page;
 use super::cell::cell;
 use super::costs::{cost_of, cost_text, costs};
-use super::meaning::meaning;
 use super::provenance::provenance;
 use super::ranking::ranking;
 use super::shown::{SHOWN, Shown};
-use super::subject::{case_of, scenes, subjects};
+use super::subject::{alignments, case_of, scenes, subjects};
 use super::verdicts::broken_bounds;
 use crate::bench::CaseCost;
 use crate::gate::Kind;
@@ -26,7 +25,7 @@ pub fn overview(run: &Run, pages: &[Page], bench: Option<&Bench>) -> Markup {
                 legend { "Score" }
                 @for (index, shown) in SHOWN.iter().enumerate() {
                     label {
-                        input type="radio" name="metric" value=(shown.metric.name()) checked[index == 0];
+                        input type="radio" name="metric" value=(shown.headline.name()) checked[index == 0];
                         span { (shown.title) }
                     }
                 }
@@ -78,27 +77,28 @@ fn counted(count: usize, what: &str) -> String {
 
 fn panel(run: &Run, shown: &Shown, bench: Option<&Bench>) -> Markup {
     html! {
-        div.panel data-metric=(shown.metric.name()) {
+        div.panel data-metric=(shown.headline.name()) {
             h2 { (shown.title) }
-            p { (meaning(shown.metric)) "; " (shown.better()) "." }
+            p { (shown.meaning()) "; " (shown.better()) "." }
             (ranking(run, shown, bench))
             (table(run, shown, bench))
         }
     }
 }
 
-/// One row per filter preset or bar, one column per scene.
+/// One row per filter preset or bar, those of one shutter together; one column per scene.
 fn table(run: &Run, shown: &Shown, bench: Option<&Bench>) -> Markup {
     let scenes = scenes(run);
+    let subjects = subjects(run);
     // What a reader looks for comes first.
-    let order = match shown.metric.ideal() {
+    let order = match shown.headline.ideal() {
         Ideal::Highest => "descending",
         Ideal::Lowest | Ideal::Target(_) => "ascending",
     };
     html! {
         div.scroll tabindex="0" role="region" aria-label=(format!("{} of every case", shown.title)) {
             table.sortable data-first=(order) {
-                caption { (shown.metric.name()) " of every case" }
+                caption { (shown.headline.name()) " of every case" }
                 thead {
                     tr {
                         th scope="col" { button { "filter" } }
@@ -106,18 +106,23 @@ fn table(run: &Run, shown: &Shown, bench: Option<&Bench>) -> Markup {
                         th scope="col" { button { "cost, ms" } }
                     }
                 }
-                tbody {
-                    @for subject in subjects(run) {
+                @for alignment in alignments(&subjects) {
+                    tbody.group {
+                        tr { th scope="rowgroup" colspan=(scenes.len() + 2) { (alignment) " shutter" } }
+                    }
+                    tbody {
+                    @for subject in subjects.iter().filter(|subject| subject.alignment == *alignment) {
                         tr.bar[subject.bar] {
-                            th scope="row" { (subject.title()) }
+                            th scope="row" { (subject.name) }
                             @for scene in &scenes {
-                                @match case_of(run, &subject, scene) {
+                                @match case_of(run, subject, scene) {
                                     Some(index) => (cell(shown, &run.cases[index], index)),
                                     None => td { "-" },
                                 }
                             }
-                            (cost(cost_of(run, bench, &subject)))
+                            (cost(cost_of(run, bench, subject)))
                         }
+                    }
                     }
                 }
             }

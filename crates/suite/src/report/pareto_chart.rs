@@ -19,7 +19,7 @@ pub struct Point {
     pub title: String,
     /// Time of all its passes.
     pub milliseconds: f64,
-    /// Mean FLIP where anything moves.
+    /// Mean FLIP where anything moves, against one shutter for all.
     pub error: f64,
 }
 
@@ -60,7 +60,7 @@ pub fn pareto_chart(points: &[Point], bars: &[(String, f64)]) -> Markup {
     html! {
         figure.pareto {
             svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img"
-                aria-label="Mean FLIP against time; the table below has the numbers" {
+                aria-label="Mean FLIP* against time; the table below has the numbers" {
                 line.axis x1=(LEFT) x2=(WIDTH - MARGIN) y1=(bottom) y2=(bottom) {}
                 line.axis x1=(LEFT) x2=(LEFT) y1=(MARGIN) y2=(bottom) {}
                 text x=(LEFT - 6.0) y=(bottom) text-anchor="end" { "0" }
@@ -69,7 +69,7 @@ pub fn pareto_chart(points: &[Point], bars: &[(String, f64)]) -> Markup {
                 @if slowest > fastest {
                     text x=(place(across(slowest))) y=(bottom + 14.0) text-anchor="middle" { (format!("{slowest:.2}")) }
                 }
-                text x=((LEFT + WIDTH) / 2.0) y=(HEIGHT - 4.0) text-anchor="middle" { "ms, logarithmic; upwards: mean FLIP, low is good" }
+                text x=((LEFT + WIDTH) / 2.0) y=(HEIGHT - 4.0) text-anchor="middle" { "ms, logarithmic; upwards: mean FLIP*, low is good" }
                 @for (title, error) in labelled(bars, top) {
                     line.bar x1=(LEFT) x2=(WIDTH - MARGIN) y1=(place(up(error))) y2=(place(up(error))) {}
                     text.bar x=(WIDTH - MARGIN) y=(place(up(error) - 3.0)) text-anchor="end" { (title) }
@@ -80,7 +80,7 @@ pub fn pareto_chart(points: &[Point], bars: &[(String, f64)]) -> Markup {
                     text x=(place(across(point.milliseconds))) y=(place(up(point.error) - 8.0)) text-anchor="middle" { (index + 1) }
                 }
             }
-            figcaption { "Full marks: no other filter is both as fast and as good. Dashed lines: bars, which no time belongs to." }
+            figcaption { "FLIP* is FLIP against one shutter for all. Full marks: no other filter is both as fast and as good. Dashed lines: bars, which no time belongs to." }
         }
         div.scroll tabindex="0" role="region" aria-label="Quality against time" {
             table {
@@ -89,7 +89,7 @@ pub fn pareto_chart(points: &[Point], bars: &[(String, f64)]) -> Markup {
                         th scope="col" { "filter" }
                         th scope="col" { "mark" }
                         th scope="col" { "ms" }
-                        th scope="col" { "mean FLIP" }
+                        th scope="col" { "mean FLIP*" }
                         th scope="col" { "nothing beats it" }
                     }
                 }

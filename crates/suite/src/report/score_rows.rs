@@ -37,6 +37,8 @@ const GROUPS: [Group; 6] = [
             Metric::EquivalentSubframesFlip,
             Metric::EquivalentSubframesLabel,
             Metric::Skill(SkillMetric::Flip),
+            Metric::Skill(SkillMetric::Mse),
+            Metric::Skill(SkillMetric::LabelTotalVariation),
         ],
     },
     Group {

@@ -1,68 +1,77 @@
 //! The scores of the overview.
 
-use metrics::{Ideal, ImageMetric, Measured, Metric, ObjectMetric, Region};
+use metrics::Ideal;
 
-use crate::Case;
+use super::meaning::meaning;
+use crate::headline::{FLIP, GROWTH, Headline, LABEL, LOSS, PSNR, SKILL, SUBFRAMES};
 
 /// A score that has a table of its own.
 pub struct Shown {
     /// Which.
-    pub metric: Metric,
+    pub headline: Headline,
     /// What its table is called.
     pub title: &'static str,
-    /// Digits behind the point.
-    pub digits: usize,
 }
 
 /// Every table, in the order of the page.
-pub const SHOWN: [Shown; 6] = [
+pub const SHOWN: [Shown; 9] = [
     Shown {
-        metric: Metric::Image(ImageMetric::Flip, Region::Moving),
+        headline: FLIP,
         title: "FLIP",
-        digits: 3,
     },
     Shown {
-        metric: Metric::EquivalentSubframes,
+        headline: SKILL,
+        title: "Skill",
+    },
+    Shown {
+        headline: Headline::CommonFlip,
+        title: "FLIP*",
+    },
+    Shown {
+        headline: SUBFRAMES,
         title: "N_eq",
-        digits: 1,
     },
     Shown {
-        metric: Metric::Object(ObjectMetric::LateralGrowth),
+        headline: GROWTH,
         title: "Growth",
-        digits: 2,
     },
     Shown {
-        metric: Metric::Object(ObjectMetric::BleedLateral),
+        headline: LOSS,
+        title: "Loss",
+    },
+    Shown {
+        headline: Headline::Bleed,
         title: "Bleed",
-        digits: 2,
     },
     Shown {
-        metric: Metric::LabelTotalVariation,
+        headline: LABEL,
         title: "Label TV",
-        digits: 3,
     },
     Shown {
-        metric: Metric::Image(ImageMetric::Psnr, Region::Moving),
+        headline: PSNR,
         title: "PSNR",
-        digits: 1,
     },
 ];
 
 impl Shown {
-    /// A case's score as text: `0.063`, `<1`, `n/a`.
-    pub fn text(&self, case: &Case) -> String {
-        if self.metric == Metric::EquivalentSubframes {
-            return case.scores.equivalent_subframes.mse.to_string();
-        }
-        match case.scores.get(self.metric) {
-            Measured::Score(score) => format!("{:.*}", self.digits, score.value),
-            Measured::NotApplicable { .. } => "n/a".to_owned(),
+    /// What it says, in one line.
+    pub fn meaning(&self) -> String {
+        match self.headline {
+            Headline::Metric(metric) => meaning(metric),
+            Headline::Bleed => {
+                "mover spilled where it never was: the largest of beside, ahead (>) and behind (<)"
+                    .to_owned()
+            }
+            Headline::CommonFlip => {
+                "visible difference where anything moves, from the truth of one shutter for all"
+                    .to_owned()
+            }
         }
     }
 
     /// Which values are good.
     pub fn better(&self) -> String {
-        match self.metric.ideal() {
+        match self.headline.ideal() {
             Ideal::Lowest => "low is good".to_owned(),
             Ideal::Highest => "high is good".to_owned(),
             Ideal::Target(target) => format!("{target} is good"),

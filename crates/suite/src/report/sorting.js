@@ -1,5 +1,6 @@
 "use strict";
-// Tables sort by any heading; a second press turns the order around. What has no number comes last.
+// Tables sort by any heading, each group of rows by itself; a second press turns the order around. What has no number comes
+// last.
 {
   const value = (row, column) => {
     const cell = row.cells[column];
@@ -20,9 +21,12 @@
         for (const one of headings) one.ariaSort = null;
         heading.ariaSort = order;
         const sign = order === "ascending" ? 1 : -1;
-        const rows = [...table.tBodies[0].rows];
-        rows.sort((a, b) => compare(value(a, column), value(b, column), sign));
-        table.tBodies[0].append(...rows);
+        for (const group of table.tBodies) {
+          if (group.classList.contains("group")) continue;
+          const rows = [...group.rows];
+          rows.sort((a, b) => compare(value(a, column), value(b, column), sign));
+          group.append(...rows);
+        }
       });
     });
   }

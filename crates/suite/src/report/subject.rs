@@ -1,7 +1,8 @@
 //! What is compared: the rows of the overview.
 
-use metrics::Metric;
+use metrics::Measured;
 
+use crate::headline::Headline;
 use crate::{Case, Overall, Run};
 
 /// One filter preset with one form of its input, or one bar.
@@ -50,21 +51,26 @@ pub fn scenes(run: &Run) -> Vec<&str> {
     once(run.cases.iter().map(|case| case.scene.as_str()))
 }
 
+/// Every shutter alignment of some subjects.
+pub fn alignments(subjects: &[Subject]) -> Vec<&str> {
+    once(subjects.iter().map(|subject| subject.alignment.as_str()))
+}
+
 /// The number of a subject's case of one scene.
 pub fn case_of(run: &Run, subject: &Subject, scene: &str) -> Option<usize> {
     (run.cases.iter()).position(|case| case.scene == scene && Subject::of(case) == *subject)
 }
 
 /// The mean over a subject's scenes of a score's noise floor; none where the score applies to none.
-pub fn mean_floor(run: &Run, subject: &Subject, metric: Metric) -> Option<f64> {
+pub fn mean_floor(run: &Run, subject: &Subject, headline: Headline) -> Option<f64> {
     let own = run
         .cases
         .iter()
         .filter(|case| Subject::of(case) == *subject);
     let floors: Vec<f64> = own
-        .filter_map(|case| match case.scores.get(metric) {
-            metrics::Measured::Score(score) => Some(score.floor),
-            metrics::Measured::NotApplicable { .. } => None,
+        .filter_map(|case| match headline.measured(case) {
+            Measured::Score(score) => Some(score.floor),
+            Measured::NotApplicable { .. } => None,
         })
         .collect();
     (!floors.is_empty()).then(|| floors.iter().sum::<f64>() / floors.len() as f64)

@@ -116,7 +116,7 @@ fn facts(finding: &Finding) -> Markup {
                 div { dt { "value" } dd { (finding.shown(value)) } }
             }
             @if let Some(own) = &finding.interval {
-                div { dt { "95 % in" } dd { (number(own.low)) " to " (number(own.high)) } }
+                div { dt { "95 % CI" } dd { (number(own.low)) " to " (number(own.high)) } }
             }
             div { dt { "limit" } dd { (number(finding.limit)) ", " (finding.place) ": " (finding.why) } }
             @if let Some(floor) = finding.floor {

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::loss::log_ratio;
 use super::{Evaluator, SceneScore};
 use crate::Error;
-use crate::bootstrap::bootstrap;
+use crate::scene_mean::plain_mean;
 
 /// Scores of two candidates, scene by scene, and what they come to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,7 +26,7 @@ pub struct Paired {
 pub struct Difference {
     /// Over the scenes.
     pub mean: f64,
-    /// One-sided 95 % bounds, the lower and the upper one, by the bootstrap over scenes.
+    /// One-sided 95 % bounds, the lower and the upper one, by Student's t over scenes.
     pub bounds: [f64; 2],
     /// How many scenes.
     pub scenes: usize,
@@ -60,16 +60,16 @@ impl Difference {
 
     /// Of at least one paired difference.
     pub fn of(differences: &[f64]) -> Self {
-        let bounds = bootstrap(differences, TAIL);
-        let verdict = match bounds {
+        let found = plain_mean(differences, TAIL);
+        let verdict = match found.bounds {
             _ if differences.len() < FEWEST_SCENES => Preference::Undecided,
             [low, _] if low > 0.0 => Preference::First,
             [_, high] if high < 0.0 => Preference::Second,
             _ => Preference::Undecided,
         };
         Self {
-            mean: differences.iter().sum::<f64>() / differences.len() as f64,
-            bounds,
+            mean: found.mean,
+            bounds: found.bounds,
             scenes: differences.len(),
             verdict,
         }

@@ -11,6 +11,7 @@ mod morris;
 mod pareto;
 mod plan;
 mod preset;
+mod random;
 mod sealed;
 mod search;
 mod selection;
@@ -35,6 +36,8 @@ pub use morris::{ElementaryEffects, morris};
 pub use pareto::front;
 pub use plan::{Objective, TunePlan, interleaved};
 pub use preset::preset_text;
+#[cfg(test)]
+pub(crate) use random::Random;
 pub use sealed::Opening;
 pub use search::Search;
 pub use selection::{Choice, Fold, Limits, choose, folds};

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use crate::bootstrap::Random;
+use super::random::Random;
 
 /// Levels of each coordinate, an even number.
 const LEVELS: usize = 4;

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::random::Random;
 use super::search::sobol;
-use crate::bootstrap::Random;
 
 /// Samples of rows behind an interval.
 const SAMPLES: usize = 1000;

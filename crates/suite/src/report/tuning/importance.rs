@@ -29,7 +29,7 @@ pub fn importance(found: &Sensitivity) -> Markup {
                 @if indices {
                     "First and total (Sobol): share of the error's variance that the parameter causes alone, and with all others. "
                 }
-                "Lines are 95 % intervals."
+                "Lines are 95 % CIs."
             }
             div.scroll tabindex="0" role="region" aria-label="Sensitivity" {
                 table {
