@@ -9,6 +9,8 @@ mod command_filter;
 mod compare;
 mod comparison;
 mod import;
+#[cfg(unix)]
+mod interrupts;
 mod kept;
 mod kept_cases;
 mod own_filter;
