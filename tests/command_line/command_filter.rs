@@ -369,8 +369,8 @@ fn folders_of_programs_that_cannot_be_are_refused_with_the_line() {
         ),
         (format!("{copy}\ntime_limit = 1e9"), &["at most 86400"]),
         (
-            format!("time_limit = 3\n{pass}"),
-            &["filter.toml:4:", "for filters that are a command"],
+            format!("time_limit = -3\n{pass}"),
+            &["filter.toml:4: time_limit = -3;", "above 0"],
         ),
         (String::new(), &["neither a [[pass]] nor a command"]),
     ];

@@ -137,6 +137,32 @@ fn a_broken_replicate_is_rendered_anew() {
     assert_same(&bench, "whole", "out");
 }
 
+/// Turns one bit of a file's pixels over, far behind its header.
+fn flip_a_bit(path: &Path) {
+    let mut bytes = fs::read(path).unwrap();
+    let middle = bytes.len() * 3 / 4;
+    bytes[middle] ^= 1;
+    fs::write(path, bytes).unwrap();
+}
+
+#[test]
+fn a_flipped_bit_in_a_replicate_never_reaches_a_truth() {
+    let bench = Bench::new();
+    assert_done(&bench.shuttertruth(&render("whole", &[])));
+    assert_done(&bench.shuttertruth(&render("out", &["--replicates", "0..7"])));
+    assert_done(&bench.shuttertruth(&render("rest", &["--replicates", "7..8"])));
+    flip_a_bit(&bench.path("out/plate/truth_trailing/replicate_002.exr"));
+    let merged = bench.shuttertruth(&["merge", "out", "rest", "--out", "joined"]);
+    assert_refused(&merged, 2, &["out/plate/truth_trailing/replicate_002.exr"]);
+    assert!(!bench.path("joined").exists());
+    assert_done(&bench.shuttertruth(&render("out", &[])));
+    assert_same(&bench, "whole", "out");
+    // A truth that was damaged is made again as well.
+    flip_a_bit(&bench.path("out/plate/truth_trailing.exr"));
+    assert_done(&bench.shuttertruth(&render("out", &[])));
+    assert_same(&bench, "whole", "out");
+}
+
 #[test]
 fn a_changed_byte_in_a_mesh_renders_anew() {
     let bench = Bench::new();

@@ -10,6 +10,8 @@ mod compare;
 mod comparison;
 mod fidelity;
 mod import;
+#[cfg(unix)]
+mod interrupts;
 mod kept;
 mod kept_cases;
 mod own_filter;

@@ -27,6 +27,18 @@ fn words_that_do_not_fit_are_refused_with_what_is_allowed() {
             &["no scene \"plates\"", "allowed: plate"],
         ),
         (&["--scenes", "plate@fast"], &["fast"]),
+        (
+            &["--scenes", "plate,plate"],
+            &["plate is named twice", "each name once"],
+        ),
+        (
+            &["--scenes", "plate,./scenes/plate"],
+            &["plate is named twice", "./scenes/plate"],
+        ),
+        (
+            &["--filters", "identity,identity:default"],
+            &["identity:default is named twice"],
+        ),
         (&["--filters", "jumpflood"], &["jumpflood", "jump_flood"]),
         (&["--filters", "no/such/folder"], &["no/such/folder"]),
         (&["--filters", "jump_flood:fastest"], &["fastest", "paper"]),

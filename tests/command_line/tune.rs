@@ -222,6 +222,23 @@ fn a_killed_tuning_goes_on_where_it_was_and_ends_with_the_same_bytes() {
 }
 
 #[test]
+fn a_file_that_is_no_journal_of_this_tuning_is_left_as_it_was() {
+    let bench = bench();
+    let path = bench.path("out/journal.jsonl");
+    fs::create_dir_all(bench.path("out")).unwrap();
+    for foreign in [
+        "my notes, without an end of line",
+        "{\"format\":1}\nand half a line",
+        "first line\nsecond line\n",
+    ] {
+        fs::write(&path, foreign).unwrap();
+        let refused = bench.shuttertruth(&tuning_words("out", "4", &[]));
+        assert_refused(&refused, 2, &["journal.jsonl:1:", "another --out"]);
+        assert_eq!(fs::read_to_string(&path).unwrap(), foreign);
+    }
+}
+
+#[test]
 fn a_smaller_budget_is_the_beginning_of_a_larger_one_and_another_seed_is_another_search() {
     let bench = bench();
     assert_done(&bench.shuttertruth(&tuning_words("out", "12", &[])));

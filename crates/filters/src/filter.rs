@@ -14,6 +14,9 @@ use crate::{
 
 static BUILTIN: Dir = include_dir!("$CARGO_MANIFEST_DIR/../../shaders");
 
+/// Seconds that one run of a program, or one dispatch of a pass, may take where filter.toml does not say.
+pub(crate) const DEFAULT_TIME_LIMIT: f64 = 60.0;
+
 /// A filter folder, read and checked: everything but the adapter is known to fit.
 #[derive(Clone, Debug)]
 pub struct Filter {
@@ -39,6 +42,8 @@ pub struct Filter {
     pub presets: Vec<Preset>,
     /// The program that it is; one that is none has kernels, and passes that run them.
     pub command: Option<Command>,
+    /// Seconds that one run of the program, or one dispatch of a pass, may take.
+    pub time_limit: f64,
     /// Textures between its passes.
     pub textures: Vec<Texture>,
     /// In the order in which they run.

@@ -21,8 +21,8 @@ pub use command::{Command, CommandBlur};
 pub use error::FilterError;
 pub use filter::{Filter, Format, Holds, Pass, Preset, Repeat, Texture};
 pub use gpu::{
-    AdapterDescription, Blur, BufferCopy, Clock, Gpu, Kernels, Loaded, PassTime, Resident,
-    list_adapters,
+    AdapterDescription, Blur, BufferCopy, Clock, Gpu, Kernels, Loaded, LoopLimit, PassTime,
+    Resident, list_adapters,
 };
 pub use input::Input;
 pub use parameter::{Kind, Parameter, Scale, Unit, Value};

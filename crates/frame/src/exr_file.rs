@@ -12,6 +12,7 @@ use exr::prelude::{
     ReadChannels, ReadLayers, WritableImage,
 };
 
+use crate::checksum::CHECKSUM;
 use crate::{FileError, Image, Plane, Raster};
 
 /// The samples of one channel, row by row from the top left.
@@ -144,10 +145,10 @@ impl ExrFile {
         })
     }
 
-    /// Refuses a file whose `kind` attribute is another.
+    /// Refuses a file whose `kind` attribute is another, or whose content is not what was written.
     pub fn expect_kind(&self, kind: &str) -> Result<(), FileError> {
         match self.attributes.get("kind").map(String::as_str) {
-            Some(found) if found == kind => Ok(()),
+            Some(found) if found == kind => self.expect_checksum(),
             Some(found) => Err(self.foreign(format!("is a {found}; a {kind} is needed"))),
             None => Err(self.foreign(format!(
                 "was not written by shuttertruth (no attribute \"kind\"); a {kind} is needed: make one with \
@@ -188,7 +189,7 @@ pub(crate) fn in_layer(layer: &str, name: &str) -> String {
     }
 }
 
-/// Writes single-part, lossless OpenEXR under a temporary name and renames it: the path holds the whole file or what it held
+/// Writes single-part, lossless OpenEXR with the checksum of its content, under a temporary name and renames it: the path holds the whole file or what it held
 /// before.
 ///
 /// Run lengths leave noise a sixth to a third larger than deflate would, and take a sixth to a fourteenth of its time, which
@@ -230,7 +231,8 @@ fn write_encoded(path: &Path, file: &ExrFile, encoding: Encoding) -> Result<(), 
         encoding,
         AnyChannels::sort(channels.collect()),
     );
-    for (name, value) in &file.attributes {
+    let checksum = (CHECKSUM.to_owned(), file.checksum());
+    for (name, value) in file.attributes.clone().into_iter().chain([checksum]) {
         layer.attributes.other.insert(
             Text::from(name.as_str()),
             AttributeValue::Text(Text::from(value.as_str())),

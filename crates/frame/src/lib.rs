@@ -21,6 +21,7 @@
 
 mod accumulation;
 mod at_instant;
+mod checksum;
 mod display;
 mod error;
 mod exr_file;

@@ -41,7 +41,7 @@ impl Error {
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::Trace(tracer::TraceError::Cancelled)
-            | Error::Filter(filters::FilterError::Interrupted) => 130,
+            | Error::Filter(filters::FilterError::Interrupted) => crate::progress::INTERRUPTED_CODE,
             Error::Filter(filters::FilterError::NoAdapter) => 3,
             Error::Broken(_) => 1,
             Error::TooNoisy(_) | Error::Inconclusive(_) => 4,

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Debug;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use frame::{FileError, write_atomically};
 use serde::de::DeserializeOwned;
@@ -62,12 +62,19 @@ pub(crate) fn discard_altered(record: &Path, inputs: &str) {
     }
 }
 
-/// A whole record of such inputs.
+/// A whole record of such inputs. One that names a file outside its own folder is none: nothing out there is read or removed.
 fn read<T: Serialize + DeserializeOwned>(record: &Path, inputs: &str) -> Option<Kept<T>> {
     let kept: Kept<T> = serde_json::from_slice(&std::fs::read(record).ok()?).ok()?;
     let is_whole =
         kept.inputs == inputs && kept.seal == seal(&kept.inputs, &kept.files, &kept.made);
-    is_whole.then_some(kept)
+    (is_whole && kept.files.keys().all(|name| is_plain(name))).then_some(kept)
+}
+
+/// Whether a name is that of a file in the same folder, and no path.
+fn is_plain(name: &str) -> bool {
+    let mut parts = Path::new(name).components();
+    let first = parts.next();
+    matches!(first, Some(Component::Normal(part)) if part == name) && parts.next().is_none()
 }
 
 impl<T> Kept<T> {
@@ -108,6 +115,37 @@ fn hex(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_record_that_names_a_file_elsewhere_is_no_record_and_removes_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let elsewhere = folder.path().join("mine.txt");
+        std::fs::write(&elsewhere, "mine").unwrap();
+        let record = folder.path().join("out/frame.json");
+        std::fs::create_dir(folder.path().join("out")).unwrap();
+        for name in [
+            "../mine.txt",
+            elsewhere.to_str().unwrap(),
+            "a/../../mine.txt",
+            "..",
+            "",
+        ] {
+            // Sealed as a record of the program's own would be.
+            let files = BTreeMap::from([(name.to_owned(), "0".repeat(64))]);
+            let inputs = "these".to_owned();
+            let (seal, made) = (seal(&inputs, &files, &()), ());
+            let kept = Kept {
+                inputs,
+                files,
+                made,
+                seal,
+            };
+            std::fs::write(&record, serde_json::to_vec(&kept).unwrap()).unwrap();
+            discard_altered(&record, "these");
+            assert!(elsewhere.exists(), "{name}");
+            assert_eq!(recall::<()>(&record, "these"), None, "{name}");
+        }
+    }
 
     #[test]
     fn what_was_kept_is_recalled_until_anything_about_it_changes() {

@@ -78,7 +78,7 @@ pub use rendered::{
 };
 pub use report::{LARGEST_PAGE, Report, TuneFolder, report, tuning_page};
 pub use run::{FORMAT, Plan, Run, run, viewing};
-pub use runner::{Runner, open_gpu};
+pub use runner::{Runner, open_adapter, open_gpu};
 pub use scatter_oracle::scatter_oracle;
 pub use score::{Scored, missing, score};
 pub use selection::{FilterChoice, SceneChoice, select_filters, select_scenes};

@@ -18,10 +18,22 @@ static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 /// All bars on the screen: a long step has one, and so has the part of it that is under way.
 static BARS: LazyLock<MultiProgress> = LazyLock::new(MultiProgress::new);
 
-/// Makes Ctrl-C end the render that is under way instead of the process, so that no file is left half written.
+/// How long work has to end by itself after Ctrl-C.
+const GRACE: Duration = Duration::from_millis(1500);
+
+/// What a process ends with that Ctrl-C ended.
+pub(crate) const INTERRUPTED_CODE: u8 = 130;
+
+/// Makes Ctrl-C end the work that is under way, so that it can say how far it came. Work that does not look ends with the
+/// process a moment later. No file is left half written: files are renamed into place when they are whole.
 pub fn catch_interrupts() {
-    // A handler that cannot be set leaves Ctrl-C as it is: files are renamed into place only when whole.
-    let _ = ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
+    // A handler that cannot be set leaves Ctrl-C as it is.
+    let _ = ctrlc::set_handler(|| {
+        INTERRUPTED.store(true, Ordering::Relaxed);
+        std::thread::sleep(GRACE);
+        eprintln!("shuttertruth: interrupted");
+        std::process::exit(INTERRUPTED_CODE.into());
+    });
 }
 
 /// Whether Ctrl-C was pressed.

@@ -1,6 +1,6 @@
 //! The main job: render every scene, run every filter on it, measure how far each picture is from the truth.
 
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use filters::{AdapterDescription, Gpu};
 use frame::{Alignment, FileError};
@@ -73,11 +73,27 @@ impl Run {
         };
         let run: Self = serde_json::from_str(&text)
             .map_err(|error| refuse(format!("no run of this program: {error}")))?;
+        if let Some(case) = run.cases.iter().find(|case| !lies_below(case)) {
+            return Err(refuse(format!(
+                "scene \"{}\", folder \"{}\": a case lies in a folder below run.json, and nowhere else",
+                case.scene,
+                case.folder.display()
+            )));
+        }
         match run.format {
             FORMAT => Ok(run),
             other => Err(refuse(format!("has format {other}; allowed: {FORMAT}"))),
         }
     }
+}
+
+/// Whether the files that a case names lie below run.json: what names files elsewhere is not read, and nothing is written there.
+fn lies_below(case: &Case) -> bool {
+    let is_below = |path: &Path| {
+        let mut parts = path.components();
+        path.components().next().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
+    };
+    is_below(Path::new(&case.scene)) && is_below(&case.folder)
 }
 
 /// What a run is to do.

@@ -21,8 +21,15 @@ pub fn open_gpu(
 ) -> Result<Option<Gpu>, FilterError> {
     let needed = choices.iter().any(|choice| choice.filter.command.is_none());
     (needed || adapter.is_some())
-        .then(|| Gpu::new(adapter))
+        .then(|| open_adapter(adapter))
         .transpose()
+}
+
+/// An adapter whose work ends at Ctrl-C.
+pub fn open_adapter(adapter: Option<&str>) -> Result<Gpu, FilterError> {
+    let mut gpu = Gpu::new(adapter)?;
+    gpu.interrupted = interrupted;
+    Ok(gpu)
 }
 
 impl<'g> Runner<'g> {

@@ -77,7 +77,7 @@ pub fn select_scenes(root: &Path, words: &[String]) -> Result<Vec<SceneChoice>, 
             .map(|listing| load(&listing.folder, None))
             .collect();
     }
-    let mut scenes = Vec::new();
+    let mut scenes: Vec<SceneChoice> = Vec::new();
     for word in words {
         let (name, variant) = match word.split_once('@') {
             Some((name, variant)) => (name, Some(variant)),
@@ -108,7 +108,25 @@ pub fn select_scenes(root: &Path, words: &[String]) -> Result<Vec<SceneChoice>, 
             _ => scenes.push(load(&folder, variant)?),
         }
     }
+    refuse_twins(&scenes)?;
     Ok(scenes)
+}
+
+/// Refuses two scenes of one name: both would be written to one folder and counted as two.
+fn refuse_twins(scenes: &[SceneChoice]) -> Result<(), Error> {
+    for (index, scene) in scenes.iter().enumerate() {
+        let name = &scene.scene.name;
+        let mut before = scenes[..index].iter();
+        if let Some(twin) = before.find(|twin| twin.scene.name == *name) {
+            return Err(Error::Usage(format!(
+                "--scenes: {name} is named twice, as {} and {}; allowed: each name once; rename one of the folders, or \
+                 run them into two --out folders",
+                twin.folder.display(),
+                scene.folder.display()
+            )));
+        }
+    }
+    Ok(())
 }
 
 fn load(folder: &Path, variant: Option<&str>) -> Result<SceneChoice, Error> {
@@ -132,7 +150,7 @@ pub fn select_filters(
     } else {
         words.to_vec()
     };
-    let mut choices = Vec::new();
+    let mut choices: Vec<FilterChoice> = Vec::new();
     for word in &words {
         let (name, own_preset) = match word.rsplit_once(':') {
             Some((name, preset)) if !preset.contains(['/', '\\']) => (name, Some(preset)),
@@ -164,7 +182,22 @@ pub fn select_filters(
     for text in overrides {
         apply_override(&mut choices, text)?;
     }
+    refuse_twin_filters(&choices)?;
     Ok(choices)
+}
+
+/// Refuses a preset that is named twice, or two filters of one name: both would be written to one folder and counted as two.
+fn refuse_twin_filters(choices: &[FilterChoice]) -> Result<(), Error> {
+    for (index, choice) in choices.iter().enumerate() {
+        let name = choice.name();
+        if choices[..index].iter().any(|twin| twin.name() == name) {
+            return Err(Error::Usage(format!(
+                "--filters: {name} is named twice; allowed: each filter and preset once; give a folder of your own \
+                 another name in its filter.toml"
+            )));
+        }
+    }
+    Ok(())
 }
 
 fn apply_override(choices: &mut [FilterChoice], text: &str) -> Result<(), Error> {

@@ -18,6 +18,8 @@ pub struct CommandBlur {
     command: Command,
     settings: Settings,
     size: [u32; 2],
+    /// How long one run may take, in seconds.
+    time_limit: f64,
     interrupted: fn() -> bool,
 }
 
@@ -38,6 +40,7 @@ impl CommandBlur {
             command: command.expect("a filter that is a command has one"),
             settings: settings.clone(),
             size: [width, height],
+            time_limit: filter.time_limit,
             interrupted,
         })
     }
@@ -59,14 +62,14 @@ impl CommandBlur {
         process
             .args(self.arguments(input, &frame, &out))
             .current_dir(&self.command.folder);
-        let limit = Duration::from_secs_f64(self.command.time_limit);
+        let limit = Duration::from_secs_f64(self.time_limit);
         let (end, printed) = process::run(process, limit, self.interrupted)
             .map_err(|error| self.refuse(self.cannot_start(&error)))?;
         let outcome = match end {
             End::Interrupted => return Err(FilterError::Interrupted),
             End::OutOfTime => Err(format!(
                 "took longer than {} s and was stopped; raise time_limit in {}",
-                self.command.time_limit,
+                self.time_limit,
                 self.command.folder.join("filter.toml").display()
             )),
             End::Exited(status) if !status.success() => Err(format!("ended with {status}")),

@@ -16,8 +16,6 @@ pub struct Command {
     pub program: String,
     /// Its arguments; names in braces stand for files and values.
     pub arguments: Vec<String>,
-    /// How long one run may take, in seconds.
-    pub time_limit: f64,
     /// Absolute folder of filter.toml, in which the program runs.
     pub folder: PathBuf,
 }

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::clock::Clock;
+use super::loops::{LoopLimit, probe};
 use crate::FilterError;
 
 /// What a run records about the GPU that it used.
@@ -25,6 +26,10 @@ pub struct Gpu {
     pub adapter: AdapterDescription,
     /// How durations are taken: by timestamps where the adapter has them.
     pub clock: Clock,
+    /// The loop iterations that it grants an invocation, where it ends loops early.
+    pub loop_limit: Option<LoopLimit>,
+    /// Asked while the GPU works; work stops where it says true. Never, where nothing else is set.
+    pub interrupted: fn() -> bool,
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
 }
@@ -72,15 +77,20 @@ impl Gpu {
                     reason: error.to_string(),
                 }
             })?;
-        Ok(Self {
+        let lanes = chosen.get_info().subgroup_max_size;
+        let mut gpu = Self {
             adapter: description,
             clock: match device.features().contains(TIMESTAMPS) {
                 true => Clock::Timestamps,
                 false => Clock::WallClock,
             },
+            loop_limit: None,
+            interrupted: || false,
             device,
             queue,
-        })
+        };
+        gpu.loop_limit = probe(&gpu)?.map(|iterations| LoopLimit { iterations, lanes });
+        Ok(gpu)
     }
 }
 

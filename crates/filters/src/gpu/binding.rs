@@ -3,8 +3,23 @@
 use super::adapter::Gpu;
 use super::shader::{EntryPoint, Role, Shader, Variable};
 
-/// The layout of group 0 as the kernel uses it.
-pub(super) fn layout(gpu: &Gpu, shader: &Shader, entry: &EntryPoint) -> wgpu::BindGroupLayout {
+/// The layout of group 0 as the kernel uses it, with the buffer of loop iterations where there is one.
+pub(super) fn layout(
+    gpu: &Gpu,
+    shader: &Shader,
+    entry: &EntryPoint,
+    counted_at: Option<u32>,
+) -> wgpu::BindGroupLayout {
+    let counted = counted_at.map(|binding| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: false },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    });
     let entries: Vec<wgpu::BindGroupLayoutEntry> = entry
         .variables
         .iter()
@@ -31,6 +46,7 @@ pub(super) fn layout(gpu: &Gpu, shader: &Shader, entry: &EntryPoint) -> wgpu::Bi
             },
             count: None,
         })
+        .chain(counted)
         .collect();
     gpu.device
         .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
@@ -64,12 +80,13 @@ pub(super) fn pipeline(
         })
 }
 
-/// Group 0, each variable with its resource.
+/// Group 0, each variable with its resource, and the buffer of loop iterations where there is one.
 pub(super) fn bind_group<'r>(
     gpu: &Gpu,
     shader: &Shader,
     entry: &EntryPoint,
     layout: &wgpu::BindGroupLayout,
+    counted: Option<wgpu::BindGroupEntry<'r>>,
     resource: impl Fn(&Variable) -> wgpu::BindingResource<'r>,
 ) -> wgpu::BindGroup {
     let entries: Vec<wgpu::BindGroupEntry> = entry
@@ -80,6 +97,7 @@ pub(super) fn bind_group<'r>(
             binding: variable.binding,
             resource: resource(variable),
         })
+        .chain(counted)
         .collect();
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some(&entry.name),

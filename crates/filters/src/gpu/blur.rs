@@ -4,7 +4,7 @@ use frame::{Image, Raster};
 
 use super::adapter::Gpu;
 use super::kernels::Kernels;
-use super::plan::{Plan, Step};
+use super::plan::{MARK, Plan, Step};
 use super::resident::Resident;
 use super::transfer::{Place, padded_row, texels};
 use super::uniforms::FrameUniform;
@@ -67,9 +67,9 @@ impl<'g> Blur<'g> {
             self.upload_color(color)?;
             // What does not depend on colour is still there from the first image.
             let first = outputs.is_empty();
-            self.dispatch(|step| first || step.depends_on_color)?;
-            outputs.push(self.output()?);
+            outputs.push(self.blur(|step| first || step.depends_on_color)?);
         }
+        self.check_loops()?;
         Ok(outputs)
     }
 
@@ -91,9 +91,9 @@ impl<'g> Blur<'g> {
             self.gpu
                 .guarded(place, || self.gpu.copy(color, self.plan.target("color")))?;
             let first = outputs.is_empty();
-            self.dispatch(|step| first || step.depends_on_color)?;
-            outputs.push(self.output()?);
+            outputs.push(self.blur(|step| first || step.depends_on_color)?);
         }
+        self.check_loops()?;
         Ok(outputs)
     }
 
@@ -117,16 +117,58 @@ impl<'g> Blur<'g> {
                 ..*input
             })?;
             let first = outputs.is_empty();
-            self.dispatch(|step| first || step.depends_on_noise)?;
-            outputs.push(self.output()?);
+            outputs.push(self.blur(|step| first || step.depends_on_noise)?);
         }
+        self.check_loops()?;
         Ok(Some(outputs))
     }
 
+    /// Runs the passes that are due on what has been uploaded, and reads the output.
+    fn blur(&self, due: impl Fn(&Step) -> bool) -> Result<Image, FilterError> {
+        let place = self.place("upload");
+        self.gpu
+            .guarded(place, || self.plan.mark_output(self.gpu, &due))?;
+        for step in self.plan.steps.iter().filter(|step| due(step)) {
+            self.dispatch(step)?;
+        }
+        self.output()
+    }
+
+    /// The output, where every pixel was written and is finite.
     fn output(&self) -> Result<Image, FilterError> {
         let target = self.plan.target("output");
         let output = self.gpu.download(target, self.place("read back"))?;
-        Ok(output.map(|[r, g, b, _]| [*r, *g, *b]))
+        let broken = |texel: &[f32; 4]| texel[..3].iter().any(|value| !value.is_finite());
+        match output.pixels.iter().position(broken) {
+            None => Ok(output.map(|[r, g, b, _]| [*r, *g, *b])),
+            Some(index) => Err(self.refuse_pixel(index as u32, output.pixels[index])),
+        }
+    }
+
+    fn refuse_pixel(&self, index: u32, texel: [f32; 4]) -> FilterError {
+        let [width, height] = self.size;
+        let (x, y) = (index % width, index / width);
+        let mut writers = self.plan.steps.iter().filter(|step| step.writes_output);
+        let writer = writers.next_back();
+        let place = self.place(writer.map_or("output", |step| &step.entry));
+        if texel[..3].iter().any(|value| value.to_bits() == MARK) {
+            return place.refuse(format!(
+                "leaves pixel ({x}, {y}) of the output unwritten; every pixel of {width}x{height} must be written"
+            ));
+        }
+        let [r, g, b, _] = texel;
+        place.refuse(format!(
+            "writes [{r}, {g}, {b}] to pixel ({x}, {y}); every value must be finite"
+        ))
+    }
+
+    /// Refuses loops that the adapter may have ended early.
+    fn check_loops(&self) -> Result<(), FilterError> {
+        let entry = |dispatch: usize| self.place(&self.plan.steps[dispatch].entry);
+        match &self.plan.iterations {
+            Some(iterations) => iterations.check(self.gpu, entry),
+            None => Ok(()),
+        }
     }
 
     /// What the last run left in a texture between the passes; components that its format lacks are 0, and a whole
@@ -159,15 +201,15 @@ impl<'g> Blur<'g> {
         })
     }
 
-    fn dispatch(&self, due: impl Fn(&Step) -> bool) -> Result<(), FilterError> {
-        for step in self.plan.steps.iter().filter(|step| due(step)) {
-            self.gpu.guarded(self.place(&step.entry), || {
-                let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-                step.encode(&mut encoder);
-                self.gpu.queue.submit([encoder.finish()]);
-            })?;
-        }
-        Ok(())
+    /// Runs one pass and waits for it: what takes too long is found by its name.
+    fn dispatch(&self, step: &Step) -> Result<(), FilterError> {
+        let place = self.place(&step.entry);
+        self.gpu.guarded(place, || {
+            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+            step.encode(&mut encoder);
+            self.gpu.queue.submit([encoder.finish()]);
+        })?;
+        self.gpu.wait(place, self.plan.time_limit)
     }
 }
 

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::adapter::Gpu;
 use super::transfer::Place;
 use crate::FilterError;
+use crate::filter::DEFAULT_TIME_LIMIT;
 
 /// How durations are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -89,10 +90,10 @@ impl Gpu {
             encode(&mut encoder);
             encoder.finish()
         })?;
-        self.wait(place)?;
+        self.wait(place, DEFAULT_TIME_LIMIT)?;
         let start = Instant::now();
         self.guarded(place, || self.queue.submit([commands]))?;
-        self.wait(place)?;
+        self.wait(place, DEFAULT_TIME_LIMIT)?;
         Ok(start.elapsed().as_secs_f64())
     }
 }

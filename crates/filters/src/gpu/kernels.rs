@@ -2,6 +2,7 @@
 
 use super::adapter::Gpu;
 use super::binding::{layout, pipeline};
+use super::loops::count;
 use super::resident::Resident;
 use super::transfer::Place;
 use crate::{Filter, FilterError, Input};
@@ -13,6 +14,8 @@ pub struct Kernels<'g> {
     pub(super) filter: Filter,
     /// In the order of the filter's passes.
     pub(super) passes: Vec<Compiled>,
+    /// Binding of the buffer of loop iterations, where they are counted.
+    pub(super) counted_at: Option<u32>,
 }
 
 /// The kernel of one pass.
@@ -35,18 +38,24 @@ impl<'g> Kernels<'g> {
             filter: &filter.name,
             pass,
         };
+        let shader = &filter.shader;
+        let counted_at = gpu.loop_limit.map(|_| shader.free_binding());
+        let source = match (gpu.loop_limit, counted_at) {
+            (Some(limit), Some(binding)) => count(&shader.source, binding, limit.safe()),
+            _ => wgpu::ShaderSource::Wgsl(shader.source.as_str().into()),
+        };
         let module = gpu.guarded(place("kernels"), || {
             gpu.device
                 .create_shader_module(wgpu::ShaderModuleDescriptor {
                     label: Some(&filter.name),
-                    source: wgpu::ShaderSource::Wgsl(filter.shader.source.as_str().into()),
+                    source,
                 })
         })?;
         let passes = (filter.passes.iter())
             .map(|pass| {
                 let entry = filter.entry_point(pass);
                 gpu.guarded(place(&pass.entry), || {
-                    let layout = layout(gpu, &filter.shader, entry);
+                    let layout = layout(gpu, shader, entry, counted_at);
                     let pipeline = pipeline(gpu, &layout, &module, entry);
                     Compiled { layout, pipeline }
                 })
@@ -56,6 +65,7 @@ impl<'g> Kernels<'g> {
             gpu,
             filter: filter.clone(),
             passes,
+            counted_at,
         })
     }
 

@@ -2,18 +2,25 @@
 
 use super::adapter::Gpu;
 use super::binding::bind_group;
+use super::iterations::Iterations;
 use super::kernels::Kernels;
 use super::targets::Targets;
 use super::transfer::{Place, Target};
 use super::uniforms::{FrameUniform, Uniforms};
 use crate::wiring::{color_dependent, noise_dependent};
-use crate::{FilterError, Pass, Repeat, Settings};
+use crate::{FilterError, Format, Pass, Repeat, Settings};
 
 /// Everything of a filter that lives on the GPU.
 #[derive(Debug)]
 pub(super) struct Plan {
     /// In the order in which they run.
     pub steps: Vec<Step>,
+    /// How long each of them may take, in seconds.
+    pub time_limit: f64,
+    /// Loop iterations of every dispatch, where they are counted.
+    pub iterations: Option<Iterations>,
+    /// What the output holds until a pass has written it.
+    pub mark: Target,
     targets: Targets,
     uniforms: Uniforms,
 }
@@ -31,6 +38,8 @@ pub(super) struct Step {
     pub depends_on_color: bool,
     /// Whether its result changes with the frame's index.
     pub depends_on_noise: bool,
+    /// Whether it writes the output.
+    pub writes_output: bool,
     iteration: u32,
     iterations: u32,
 }
@@ -55,6 +64,7 @@ impl Plan {
             gpu,
             filter,
             passes,
+            counted_at,
         } = kernels;
         let place = |pass| Place {
             filter: &filter.name,
@@ -71,6 +81,10 @@ impl Plan {
         let uniforms = gpu.guarded(place("uniforms"), || {
             Uniforms::new(gpu, &settings.bytes(filter), dispatches)
         })?;
+        let iterations = (gpu.loop_limit)
+            .map(|limit| gpu.guarded(place("counts"), || Iterations::new(gpu, limit, dispatches)))
+            .transpose()?;
+        let mark = gpu.guarded(place("textures"), || marked(gpu, size))?;
         let dependence = color_dependent(filter)
             .into_iter()
             .zip(noise_dependent(filter));
@@ -86,19 +100,30 @@ impl Plan {
                 false => [entry.workgroup_size[0], entry.workgroup_size[1]],
             };
             let place = place(&pass.entry);
-            let iterations = times(pass);
-            for iteration in 0..iterations {
+            let repeats = times(pass);
+            for iteration in 0..repeats {
                 let frame = uniforms.frame(steps.len());
+                let counted = (iterations.as_ref())
+                    .zip(*counted_at)
+                    .map(|(counts, binding)| {
+                        let resource = counts.of_dispatch(steps.len());
+                        wgpu::BindGroupEntry { binding, resource }
+                    });
                 let bind_group = gpu.guarded(place, || {
-                    bind_group(gpu, &filter.shader, entry, &compiled.layout, |variable| {
-                        match variable.name.as_str() {
+                    bind_group(
+                        gpu,
+                        &filter.shader,
+                        entry,
+                        &compiled.layout,
+                        counted,
+                        |variable| match variable.name.as_str() {
                             "frame" => frame.clone(),
                             "parameters" => uniforms.parameters.as_entire_binding(),
                             _ => wgpu::BindingResource::TextureView(
                                 &targets.of_variable(entry, variable).view,
                             ),
-                        }
-                    })
+                        },
+                    )
                 })?;
                 steps.push(Step {
                     entry: pass.entry.clone(),
@@ -111,17 +136,29 @@ impl Plan {
                     bytes: targets.bytes(&filter.shader, entry),
                     depends_on_color,
                     depends_on_noise,
+                    writes_output: entry.writes.contains("output"),
                     iteration,
-                    iterations,
+                    iterations: repeats,
                 });
                 targets.exchange(entry);
             }
         }
         Ok(Self {
             steps,
+            time_limit: filter.time_limit,
+            iterations,
+            mark,
             targets,
             uniforms,
         })
+    }
+
+    /// Copies the mark to the output where every pass that writes it is due: what is left of it was not written.
+    pub fn mark_output(&self, gpu: &Gpu, due: impl Fn(&Step) -> bool) {
+        let mut writers = self.steps.iter().filter(|step| step.writes_output);
+        if writers.all(due) {
+            gpu.copy(&self.mark, self.target("output"));
+        }
     }
 
     /// A texture by name, as the last pass leaves it.
@@ -140,4 +177,15 @@ impl Plan {
             self.uniforms.upload_frame(gpu, index, frame);
         }
     }
+}
+
+/// The bits of every component of a pixel that no pass has written: a NaN that no arithmetic makes.
+pub(super) const MARK: u32 = 0x7fd3_5a17;
+
+/// A texture like the output that holds nothing but the mark.
+fn marked(gpu: &Gpu, [width, height]: [u32; 2]) -> Target {
+    let target = gpu.target("mark", width, height, Format::Rgba32Float);
+    let components = width as usize * height as usize * 4;
+    gpu.upload(&target, &vec![f32::from_bits(MARK); components]);
+    target
 }

@@ -146,6 +146,13 @@ impl Shader {
         })
     }
 
+    /// A binding of group 0 that no variable has.
+    pub fn free_binding(&self) -> u32 {
+        let used = |binding| (self.variables.iter()).any(|variable| variable.binding == binding);
+        let free = (0..).find(|binding| !used(*binding));
+        free.expect("a kernel has fewer variables than there are numbers")
+    }
+
     /// The entry point of that name.
     pub fn entry_point(&self, name: &str) -> Option<&EntryPoint> {
         self.entry_points.iter().find(|entry| entry.name == name)

@@ -4,6 +4,7 @@ use frame::{Image, Raster};
 
 use super::adapter::Gpu;
 use super::shader::Texel;
+use crate::filter::DEFAULT_TIME_LIMIT;
 use crate::{FilterError, Format};
 
 impl Format {
@@ -192,12 +193,6 @@ impl Gpu {
         }))
     }
 
-    /// Waits until the GPU has done everything that it was given.
-    pub(super) fn wait(&self, place: Place) -> Result<(), FilterError> {
-        let polled = self.device.poll(wgpu::PollType::wait_indefinitely());
-        polled.map(drop).map_err(|error| place.refuse(error))
-    }
-
     /// Waits for the GPU and reads a whole buffer.
     pub(super) fn read_buffer<T: bytemuck::Pod>(
         &self,
@@ -208,7 +203,7 @@ impl Gpu {
         buffer.map_async(wgpu::MapMode::Read, .., move |result| {
             _ = sender.send(result);
         });
-        self.wait(place)?;
+        self.wait(place, DEFAULT_TIME_LIMIT)?;
         match receiver.try_recv() {
             Ok(Ok(())) => {}
             Ok(Err(error)) => return Err(place.refuse(error)),

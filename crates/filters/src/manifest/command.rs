@@ -1,4 +1,4 @@
-//! `command` and `time_limit`.
+//! `command`.
 
 use toml::Spanned;
 
@@ -6,16 +6,9 @@ use super::File;
 use crate::command::{PLACEHOLDERS, fill};
 use crate::{Command, FilterError, Parameter};
 
-/// Seconds that one run may take where filter.toml does not say.
-const DEFAULT_TIME_LIMIT: f64 = 60.0;
-
-/// A day: a program that takes longer is not waiting to be measured.
-const LONGEST_TIME_LIMIT: f64 = 86_400.0;
-
 pub(super) fn command(
     file: &File,
     words: &Spanned<Vec<String>>,
-    time_limit: Option<&Spanned<f64>>,
     parameters: &[Parameter],
 ) -> Result<Command, FilterError> {
     let refuse = |reason: String| file.at(words, format!("command: {reason}"));
@@ -64,25 +57,8 @@ pub(super) fn command(
     Ok(Command {
         program: program.clone(),
         arguments: arguments.to_vec(),
-        time_limit: limit(file, time_limit)?,
         folder: folder(file)?,
     })
-}
-
-fn limit(file: &File, time_limit: Option<&Spanned<f64>>) -> Result<f64, FilterError> {
-    match time_limit {
-        None => Ok(DEFAULT_TIME_LIMIT),
-        Some(limit) if *limit.get_ref() > 0.0 && *limit.get_ref() <= LONGEST_TIME_LIMIT => {
-            Ok(*limit.get_ref())
-        }
-        Some(limit) => Err(file.at(
-            limit,
-            format!(
-                "time_limit = {}; allowed: seconds, above 0 and at most {LONGEST_TIME_LIMIT}",
-                limit.get_ref()
-            ),
-        )),
-    }
 }
 
 /// The folder of filter.toml, such that it holds wherever a program is started.

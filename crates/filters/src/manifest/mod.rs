@@ -5,6 +5,7 @@ mod parameters;
 mod passes;
 mod reach;
 mod source;
+mod time_limit;
 
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -19,6 +20,7 @@ use command::command;
 use parameters::{ParameterEntry, PresetEntry, parameters, presets};
 use passes::{PassEntry, TextureEntry, passes, textures};
 use reach::{ReachEntry, reach_by};
+use time_limit::time_limit;
 
 /// Where things are declared in `filter.toml`, for messages: lines from 1.
 pub(crate) struct Lines {
@@ -76,9 +78,8 @@ pub(crate) fn read(path: &Path, text: &str) -> Result<(Filter, Lines), FilterErr
     }
     check_method(&file, &manifest)?;
     let parameters = parameters(&file, &manifest.parameter)?;
-    let time_limit = manifest.time_limit.as_ref();
     let command = (manifest.command.as_ref())
-        .map(|words| command(&file, words, time_limit, &parameters))
+        .map(|words| command(&file, words, &parameters))
         .transpose()?;
     let textures = textures(&file, &manifest.texture, &parameters)?;
     let filter = Filter {
@@ -86,6 +87,7 @@ pub(crate) fn read(path: &Path, text: &str) -> Result<(Filter, Lines), FilterErr
         presets: presets(&file, &manifest.preset, &parameters)?,
         passes: passes(&file, &manifest.pass, &textures, &parameters)?,
         command,
+        time_limit: time_limit(&file, manifest.time_limit.as_ref())?,
         reach_by: reach_by(&file, manifest.reach_by.as_ref(), &parameters)?,
         textures,
         parameters,
@@ -110,23 +112,18 @@ pub(crate) fn read(path: &Path, text: &str) -> Result<(Filter, Lines), FilterErr
 fn check_method(file: &File, manifest: &Manifest) -> Result<(), FilterError> {
     let Manifest {
         command,
-        time_limit,
         pass,
         texture,
         ..
     } = manifest;
     let kernels = pass.first().map(Spanned::span);
     let kernels = kernels.or(texture.first().map(Spanned::span));
-    match (command, time_limit, kernels) {
-        (Some(_), _, Some(place)) => Err(file.refuse(
+    match (command, kernels) {
+        (Some(_), Some(place)) => Err(file.refuse(
             Some(place.start),
             "a filter that is a command has neither [[pass]] nor [[texture]]".into(),
         )),
-        (None, Some(time_limit), _) => Err(file.at(
-            time_limit,
-            "time_limit is for filters that are a command".into(),
-        )),
-        (None, None, _) if pass.is_empty() => Err(file.refuse(
+        (None, _) if pass.is_empty() => Err(file.refuse(
             None,
             "has neither a [[pass]] nor a command; one of them is needed".into(),
         )),

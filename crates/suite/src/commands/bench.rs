@@ -1,7 +1,6 @@
 //! `shuttertruth bench`
 
-use filters::Gpu;
-use suite::{Bench, BenchPlan, Error, bench, bench_table, select_filters, with_bar};
+use suite::{Bench, BenchPlan, Error, bench, bench_table, open_adapter, select_filters, with_bar};
 
 use super::say;
 use crate::cli::BenchArgs;
@@ -15,7 +14,7 @@ pub fn execute(args: &BenchArgs) -> Result<(), Error> {
             choice.filter.name
         )));
     }
-    let gpu = Gpu::new(args.adapter.adapter.as_deref())?;
+    let gpu = open_adapter(args.adapter.adapter.as_deref())?;
     let (width, height) = args.size.unwrap_or(match gpu.adapter.kind.as_str() {
         "software" => (320, 180),
         _ => (1920, 1080),

@@ -70,6 +70,12 @@ impl Journal {
         file.read_to_string(&mut text)
             .map_err(|error| fail("read", error))?;
         let whole = text.rfind('\n').map_or(0, |end| end + 1);
+        // Nothing is cut off before the file is known to be this command's.
+        match text[..whole].lines().next() {
+            Some(line) => check_header(path, line, header)?,
+            None if line_of(header).starts_with(&text) => {}
+            None => return Err(refuse(path, 0, "no journal of a tuning")),
+        }
         file.set_len(whole as u64)
             .and_then(|()| file.seek(SeekFrom::End(0)))
             .map_err(|error| fail("write", error))?;
@@ -79,9 +85,8 @@ impl Journal {
             trials: Vec::new(),
         };
         let mut lines = text[..whole].lines().enumerate();
-        match lines.next() {
-            None => journal.write(header)?,
-            Some((_, line)) => check_header(path, line, header)?,
+        if lines.next().is_none() {
+            journal.write(header)?;
         }
         for (index, line) in lines {
             let trial: Trial = serde_json::from_str(line)
@@ -103,8 +108,7 @@ impl Journal {
     }
 
     fn write(&mut self, line: &impl Serialize) -> Result<(), Error> {
-        let mut text = serde_json::to_string(line).expect("a line is plain data");
-        text.push('\n');
+        let text = line_of(line);
         let written = (self.file.write_all(text.as_bytes())).and_then(|()| self.file.sync_data());
         written.map_err(|source: io::Error| {
             Error::Usage(format!(
@@ -115,6 +119,11 @@ impl Journal {
             ))
         })
     }
+}
+
+/// A line of the journal with its end.
+fn line_of(content: &impl Serialize) -> String {
+    serde_json::to_string(content).expect("a line is plain data") + "\n"
 }
 
 fn refuse(path: &Path, index: usize, reason: &str) -> Error {

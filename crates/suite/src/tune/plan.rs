@@ -141,17 +141,6 @@ fn check_scenes(option: &str, scenes: &[(Scene, SceneBounds)]) -> Result<(), Err
             "{option}: no scene is left to tune on; name at least one"
         )));
     }
-    for (index, (scene, _)) in scenes.iter().enumerate() {
-        if scenes[..index]
-            .iter()
-            .any(|(other, _)| other.name == scene.name)
-        {
-            return Err(Error::Usage(format!(
-                "{option}: {} is named twice, and would count twice",
-                scene.name
-            )));
-        }
-    }
     Ok(())
 }
 

@@ -1,0 +1,44 @@
+//! Waiting for the GPU, with an end to it.
+
+use std::time::{Duration, Instant};
+
+use super::adapter::Gpu;
+use super::transfer::Place;
+use crate::FilterError;
+
+/// Between two looks at the clock and at interrupts.
+const SLICE: Duration = Duration::from_millis(100);
+
+impl Gpu {
+    /// Waits until the GPU has done everything that it was given. Gives up after `time_limit` seconds, and when the user
+    /// interrupts.
+    pub(super) fn wait(&self, place: Place, time_limit: f64) -> Result<(), FilterError> {
+        let start = Instant::now();
+        loop {
+            let left = Duration::from_secs_f64(time_limit).saturating_sub(start.elapsed());
+            let slice = wgpu::PollType::Wait {
+                submission_index: None,
+                timeout: Some(SLICE.min(left)),
+            };
+            match self.device.poll(slice) {
+                Ok(_) => return Ok(()),
+                Err(wgpu::PollError::Timeout) => {}
+                Err(error) => return Err(place.refuse(error)),
+            }
+            let error = match (self.interrupted)() {
+                true => FilterError::Interrupted,
+                false if !left.is_zero() => continue,
+                false => place.refuse(format!(
+                    "took longer than {time_limit} s and was given up; make it faster, or raise time_limit in filter.toml"
+                )),
+            };
+            self.abandon();
+            return Err(error);
+        }
+    }
+
+    /// Keeps the device open until the process ends: closing it would wait for the work that was given up.
+    fn abandon(&self) {
+        std::mem::forget((self.device.clone(), self.queue.clone()));
+    }
+}

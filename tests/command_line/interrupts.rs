@@ -1,0 +1,73 @@
+//! Ctrl-C ends every command within two seconds, whatever the GPU is doing.
+
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use crate::bench::{Bench, assert_done, quick};
+
+/// Passes that take minutes together.
+const MANIFEST: &str = r#"
+name = "slow"
+summary = "Takes its time."
+alignment = "trailing"
+
+[[pass]]
+entry = "work"
+repeat = 1000
+"#;
+
+const KERNELS: &str = "
+@group(0) @binding(1) var color: texture_2d<f32>;
+@group(0) @binding(2) var output: texture_storage_2d<rgba32float, write>;
+
+@compute @workgroup_size(8, 8)
+fn work(@builtin(global_invocation_id) id: vec3<u32>) {
+    let pixel = vec2<i32>(id.xy);
+    if !inside(pixel) { return; }
+    var sum = vec4<f32>(0.0);
+    for (var i = 0; i < 8000; i++) {
+        sum += textureLoad(color, (pixel + i) % frame.size, 0);
+    }
+    textureStore(output, pixel, sum / 8000.0);
+}
+";
+
+/// Longest time from Ctrl-C to the end of a process.
+const LIMIT: Duration = Duration::from_secs(2);
+
+#[test]
+fn ctrl_c_ends_work_on_the_gpu_within_two_seconds() {
+    let bench = Bench::new();
+    std::fs::create_dir_all(bench.path("slow")).unwrap();
+    std::fs::write(bench.path("slow/filter.toml"), MANIFEST).unwrap();
+    std::fs::write(bench.path("slow/slow.wgsl"), KERNELS).unwrap();
+    // The frame and the truth are there, so that both commands are at the GPU soon.
+    assert_done(&bench.run(&["--filters", "identity"]));
+    let frame = bench.path("out/plate/frame.exr").display().to_string();
+    let blur = [
+        "blur", "--filter", "./slow", "--frame", &frame, "--out", "b.exr",
+    ];
+    let quick = quick("run", "16");
+    let run = [&quick[..], &["--filter", "slow"]].concat();
+    for words in [blur.to_vec(), run] {
+        let mut child = bench.command(&words).spawn().unwrap();
+        std::thread::sleep(Duration::from_secs(2));
+        assert!(
+            child.try_wait().unwrap().is_none(),
+            "it ended by itself: {words:?}"
+        );
+        let pressed = Instant::now();
+        let interrupt = Command::new("kill")
+            .args(["-INT", &child.id().to_string()])
+            .status();
+        assert!(interrupt.unwrap().success());
+        let status = child.wait().unwrap();
+        assert_eq!(status.code(), Some(130), "{words:?}");
+        assert!(
+            pressed.elapsed() < LIMIT,
+            "{words:?}: {:?}",
+            pressed.elapsed()
+        );
+    }
+    assert!(!bench.path("b.exr").exists());
+}

@@ -1,0 +1,180 @@
+//! Kernels that would make a wrong picture are refused with their place: none is scored.
+
+use std::path::Path;
+
+use filters::{Blur, Filter, FilterError, Gpu, Input};
+use frame::{Image, Raster};
+
+const MANIFEST: &str = r#"
+name = "wrong"
+summary = "Does something wrong."
+alignment = "trailing"
+time_limit = LIMIT
+
+[[parameter]]
+name = "steps"
+kind = "integer"
+default = 1
+range = [0, 2000000000]
+doc = "Loop iterations; more take longer."
+
+[[pass]]
+entry = "work"
+"#;
+
+const KERNELS: &str = "
+struct Parameters {
+    steps: i32,
+}
+@group(0) @binding(1) var<uniform> parameters: Parameters;
+@group(0) @binding(2) var color: texture_2d<f32>;
+@group(0) @binding(3) var output: texture_storage_2d<rgba32float, write>;
+
+@compute @workgroup_size(8, 8)
+fn work(@builtin(global_invocation_id) id: vec3<u32>) {
+    let pixel = vec2<i32>(id.xy);
+    if !inside(pixel) { return; }
+    BODY
+}
+";
+
+/// Loads a filter with one kernel around `body`, which takes at most `limit` seconds.
+fn load(folder: &Path, body: &str, limit: f64) -> Filter {
+    let manifest = MANIFEST.replace("LIMIT", &limit.to_string());
+    std::fs::write(folder.join("filter.toml"), manifest).unwrap();
+    std::fs::write(folder.join("wrong.wgsl"), KERNELS.replace("BODY", body)).unwrap();
+    Filter::load(folder).unwrap()
+}
+
+/// What comes of `body` with that many steps, on a grey picture of 40x20 pixels.
+fn blurred(gpu: &Gpu, body: &str, steps: i64, limit: f64) -> Result<Vec<Image>, FilterError> {
+    let folder = tempfile::tempdir().unwrap();
+    let filter = load(folder.path(), body, limit);
+    let mut settings = filter.settings(None).unwrap();
+    settings.set(&filter, "steps", &steps.to_string()).unwrap();
+    let (width, height) = (40, 20);
+    let color = Raster::filled(width, height, [0.5; 3]);
+    let velocity = Raster::filled(width, height, [3.0, 0.0]);
+    let depth = Raster::filled(width, height, 3.0);
+    Blur::new(gpu, &filter, &settings, width, height)?.run(&Input {
+        color: &[&color],
+        velocity: &velocity,
+        depth: &depth,
+        reprojection: None,
+        exposure: 0.5,
+        frame_index: 0,
+    })
+}
+
+/// Counts to `steps` in a way that no compiler shortens, and writes the count.
+const COUNT: &str = "
+    var value = u32(pixel.x);
+    var count = 0u;
+    for (var i = 0; i < parameters.steps; i++) {
+        value = value * 1664525u + 1013904223u;
+        count += 1u;
+    }
+    textureStore(output, pixel, vec4<f32>(f32(count), f32(value & 1u), 0.0, 1.0));
+";
+
+fn refusal(result: Result<Vec<Image>, FilterError>) -> String {
+    match result {
+        Ok(_) => panic!("this is to be refused"),
+        Err(error) => error.to_string(),
+    }
+}
+
+#[test]
+fn loops_that_the_adapter_ends_early_are_refused_and_shorter_ones_are_whole() {
+    let gpu = Gpu::new(None).expect("this test runs filters");
+    let Some(limit) = gpu.loop_limit else {
+        // An adapter without a limit counts to the end.
+        let output = blurred(&gpu, COUNT, 1_000_000, 60.0).unwrap();
+        assert_eq!(output[0].at(39, 19)[0], 1e6);
+        return;
+    };
+    println!("{limit:?}");
+    // The iteration that finds the end counts as well.
+    let longest = i64::from(limit.safe()) - 2;
+    let output = blurred(&gpu, COUNT, longest, 60.0).unwrap();
+    assert_eq!(output[0].at(39, 19)[0], longest as f32);
+    for steps in [
+        i64::from(limit.safe()),
+        i64::from(limit.iterations) + 1,
+        200_000,
+    ] {
+        let text = refusal(blurred(&gpu, COUNT, steps, 60.0));
+        for part in [
+            "filter wrong, pass work",
+            &limit.iterations.to_string(),
+            "allowed",
+        ] {
+            assert!(text.contains(part), "{steps} steps: {text}");
+        }
+    }
+}
+
+#[test]
+fn iterations_of_all_loops_and_functions_count_together() {
+    let gpu = Gpu::new(None).expect("this test runs filters");
+    let Some(limit) = gpu.loop_limit else {
+        return;
+    };
+    // Nested loops: as many iterations inside as the square of those outside.
+    let nested = "
+    var value = u32(pixel.x);
+    for (var i = 0; i < parameters.steps; i++) {
+        for (var k = 0; k < parameters.steps; k++) {
+            value = value * 1664525u + 1013904223u;
+        }
+    }
+    textureStore(output, pixel, vec4<f32>(f32(value & 255u)));
+    ";
+    let side = f64::from(limit.safe()).sqrt() as i64;
+    blurred(&gpu, nested, side / 2, 60.0).unwrap();
+    assert!(refusal(blurred(&gpu, nested, side + 1, 60.0)).contains("loop iterations"));
+}
+
+#[test]
+fn a_pixel_that_no_pass_writes_is_named() {
+    let gpu = Gpu::new(None).expect("this test runs filters");
+    let body = "
+    if pixel.y == 7 && pixel.x >= 12 { return; }
+    textureStore(output, pixel, textureLoad(color, pixel, 0));
+    ";
+    let text = refusal(blurred(&gpu, body, 1, 60.0));
+    assert!(text.contains("pass work"), "{text}");
+    assert!(
+        text.contains("pixel (12, 7) of the output unwritten"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_pixel_that_is_not_finite_is_named() {
+    let gpu = Gpu::new(None).expect("this test runs filters");
+    let body = "
+    let zero = f32(parameters.steps);
+    var grey = textureLoad(color, pixel, 0);
+    if pixel.y == 3 && pixel.x == 5 { grey = grey / zero; }
+    textureStore(output, pixel, grey);
+    ";
+    blurred(&gpu, body, 1, 60.0).unwrap();
+    let text = refusal(blurred(&gpu, body, 0, 60.0));
+    assert!(text.contains("to pixel (5, 3)"), "{text}");
+    assert!(text.contains("finite"), "{text}");
+}
+
+#[test]
+fn a_pass_that_takes_too_long_is_given_up_with_its_name() {
+    let gpu = Gpu::new(None).expect("this test runs filters");
+    // Far more work than a hundredth of a second allows, in loops that are no longer than allowed.
+    let text = refusal(blurred(&gpu, COUNT, 8000, 1e-4));
+    for part in [
+        "filter wrong, pass work",
+        "took longer than 0.0001 s",
+        "time_limit",
+    ] {
+        assert!(text.contains(part), "{text}");
+    }
+}
