@@ -16,7 +16,8 @@ run: vulkan
 test: vulkan python chromium
 	cargo test --workspace --locked
 
-# The Python that has these packages; one of your own is used as it is.
+# The Python that has these packages; one of your own is used as it is. Its pip is called through it: in a copied folder the script
+# `pip` still belongs to the original.
 VENV := $(abspath $(or $(CARGO_TARGET_DIR),target))/python
 export PYTHON ?= $(VENV)/bin/python3
 
@@ -62,7 +63,7 @@ python:
 	python3 -c 'import ensurepip' 2>/dev/null || \
 	{ $(call INSTALL,Python that can make environments,python3-venv,install Python 3 with venv and pip); }; \
 	echo "installing Optuna, numpy and OpenEXR to $(VENV)" >&2; \
-	python3 -m venv "$(VENV)" && "$(VENV)/bin/pip" install -q optuna==5.0.0 numpy==2.4.6 OpenEXR==3.5.3 >&2
+	python3 -m venv "$(VENV)" && "$(VENV)/bin/python3" -m pip install -q optuna==5.0.0 numpy==2.4.6 OpenEXR==3.5.3 >&2
 
 CHROMIUM_WAY_OUT := install it, for example: apt-get install chromium (Debian), dnf install chromium (Fedora), pacman -S chromium (Arch), or name a Chromium or Chrome in CHROMIUM
 
