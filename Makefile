@@ -1,8 +1,8 @@
 # `make run` does the main job; `make test` passes the tests. Both check for a Vulkan driver first and, on Debian and
-# Ubuntu, install the software one where none is found; the tests want Optuna as well, which drives the tuning service, and
-# Chromium, which reports are looked at with. On macOS and Windows plain cargo commands work.
+# Ubuntu, install the software one where none is found; the tests want a Python with Optuna, which drives the tuning service, and
+# with numpy and OpenEXR, which presets are compared with their originals in; and Chromium, which reports are looked at with. On macOS and Windows plain cargo commands work.
 
-.PHONY: run test vulkan optuna chromium
+.PHONY: run test vulkan python chromium
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -13,10 +13,10 @@ SCENES ?= sliding_panel,panel_over_texture,two_spheres,railing,fan
 run: vulkan
 	cargo run --release --locked --bin shuttertruth -- run $(if $(SCENES),--scenes $(SCENES)) --out out
 
-test: vulkan optuna chromium
+test: vulkan python chromium
 	cargo test --workspace --locked
 
-# The Python that has Optuna; one of your own is used as it is.
+# The Python that has these packages; one of your own is used as it is.
 VENV := $(abspath $(or $(CARGO_TARGET_DIR),target))/python
 export PYTHON ?= $(VENV)/bin/python3
 
@@ -55,14 +55,14 @@ vulkan:
 	$(call INSTALL,Vulkan driver,mesa-vulkan-drivers libvulkan1,$(VULKAN_WAY_OUT)); \
 	found && loader || { echo "still no Vulkan driver after the installation; $(VULKAN_WAY_OUT)" >&2; exit 1; }
 
-optuna:
-	@"$(PYTHON)" -c 'import optuna' 2>/dev/null && exit 0; \
+python:
+	@"$(PYTHON)" -c 'import optuna, numpy, OpenEXR' 2>/dev/null && exit 0; \
 	[ "$(PYTHON)" = "$(VENV)/bin/python3" ] || \
-	{ echo "$(PYTHON) has no Optuna: pip install optuna, or leave PYTHON unset to have it installed" >&2; exit 1; }; \
+	{ echo "$(PYTHON) lacks one of optuna, numpy and OpenEXR: pip install them, or leave PYTHON unset to have them installed" >&2; exit 1; }; \
 	python3 -c 'import ensurepip' 2>/dev/null || \
 	{ $(call INSTALL,Python that can make environments,python3-venv,install Python 3 with venv and pip); }; \
-	echo "installing Optuna to $(VENV)" >&2; \
-	python3 -m venv "$(VENV)" && "$(VENV)/bin/pip" install -q optuna==5.0.0 >&2
+	echo "installing Optuna, numpy and OpenEXR to $(VENV)" >&2; \
+	python3 -m venv "$(VENV)" && "$(VENV)/bin/pip" install -q optuna==5.0.0 numpy==2.4.6 OpenEXR==3.5.3 >&2
 
 CHROMIUM_WAY_OUT := install it, for example: apt-get install chromium (Debian), dnf install chromium (Fedora), pacman -S chromium (Arch), or name a Chromium or Chrome in CHROMIUM
 

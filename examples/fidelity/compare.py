@@ -12,6 +12,7 @@ import json
 import subprocess
 import sys
 import tomllib
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -30,21 +31,27 @@ def main():
     originals, as_listed = transcriptions()
     known, missing = presets(listing, originals)
     check(settings, known, missing, originals)
+    for name in arguments.only:
+        if name not in known:
+            sys.exit(f"--only {name}: has no transcription; allowed: {', '.join(known)}")
+    compare = arguments.only or list(known)
     frames = render(arguments)
+    with ThreadPoolExecutor(2) as pool:
+        blurred = pool.map(lambda case: blur(arguments, *case), [(name, scene) for name in compare for scene in SCENES])
     rows, failures = [], []
-    for name, (source, parameters) in known.items():
-        overrides = settings["preset"].get(name, {}).get("set", {})
-        pictures = [blur(arguments, name, scene, overrides) for scene in SCENES]
-        parameters = parameters | overrides
+    for name in compare:
+        source, parameters = known[name]
+        pictures = [next(blurred) for _ in SCENES]
         found = compared(originals[name], frames, pictures, parameters)
         listed = compared(as_listed[name], frames, pictures, parameters) if name in as_listed else None
-        allowed = settings["preset"].get(name, {})
-        verdict = judged(settings["default"], allowed, found, listed)
+        verdict = judged(settings["default"] | settings["preset"].get(name, {}), found, listed)
         rows.append([f"`{name}`", source, *found.cells(), listed.cells()[0] if listed else "", verdict])
         failures += [name] if verdict != "kept" else []
     print(table(["preset", "original", "largest", "> 0.001", "> 0.02", "largest as listed", "limit"], rows))
-    print(f"\n{len(SCENES)} scenes ({', '.join(SCENES)}), {arguments.size}, {frames[0].color[..., 0].size * len(SCENES)} pixels\n")
-    print(table(["preset without a transcription", "why"], [[f"`{name}`", why] for name, why in missing.items()]))
+    print(f"\n{', '.join(SCENES)} at {arguments.size}: {frames[0].depth.size * len(SCENES)} pixels.")
+    if not arguments.only:
+        print()
+        print(table(["preset without a transcription", "why"], [[f"`{name}`", why] for name, why in missing.items()]))
     if failures:
         sys.exit(f"farther from the original than fidelity.toml allows: {', '.join(failures)}")
 
@@ -55,6 +62,8 @@ def parse():
     parser.add_argument("--scenes-dir", default="scenes", help="folder that holds the scenes")
     parser.add_argument("--out", type=Path, required=True, help="folder for frames and pictures")
     parser.add_argument("--size", default="160x90", help="picture size in pixels")
+    parser.add_argument("--only", action="append", default=[], metavar="FILTER:PRESET", help="compare this one; may be repeated")
+    parser.add_argument("--set", action="append", default=[], metavar="FILTER.PARAMETER=VALUE", help="of the filter alone: see it differ")
     return parser.parse_args()
 
 
@@ -136,11 +145,11 @@ def render(arguments):
     return [Frame(arguments.out / scene / "frame.exr") for scene in SCENES]
 
 
-def blur(arguments, name, scene, overrides):
+def blur(arguments, name, scene):
     out = arguments.out / scene / f"{name.replace(':', '_')}.exr"
     words = ["blur", "--as-written", "--filter", name, "--frame", str(arguments.out / scene / "frame.exr"), "--out", str(out)]
-    for parameter, value in overrides.items():
-        words += ["--set", f"{name.split(':')[0]}.{parameter}={value}"]
+    for value in arguments.set:
+        words += ["--set", value] if value.split(".")[0] == name.split(":")[0] else []
     shuttertruth(arguments, words)
     with OpenEXR.File(str(out), separate_channels=True) as file:
         return np.stack([file.channels()[channel].pixels for channel in "RGB"], -1)
@@ -163,9 +172,8 @@ def compared(original, frames, pictures, parameters):
     return Difference(zip(pictures, theirs))
 
 
-def judged(default, allowed, found, listed):
+def judged(limits, found, listed):
     """Whether the differences are as few as is allowed."""
-    limits = default | allowed
     few = found.small <= limits["small"] and found.large <= limits["large"]
     near = listed is None or listed.small <= limits["small_as_listed"]
     return "kept" if few and near else "BROKEN"

@@ -9,6 +9,7 @@ struct Parameters {
     far_plane: f32,
     jitter: u32,
     least_motion: f32,
+    tiles: u32,
 }
 
 @group(0) @binding(1) var<uniform> parameters: Parameters;
@@ -27,6 +28,7 @@ struct Parameters {
 
 const STORAGE_PACKED = 0u;
 const JITTER_NOISE = 0u;
+const TILES_STRETCHED = 0u;
 
 const TAU = 6.2831853;
 // A tile's own motion counts for this much more than its neighbours'.
@@ -50,12 +52,53 @@ fn tile_size() -> i32 {
     return blocks_per_tile() * parameters.block_size;
 }
 
+// How many squares of that side there are: whole ones alone where they are stretched, at least one.
+fn count_of(side: i32) -> vec2<i32> {
+    if parameters.tiles == TILES_STRETCHED {
+        return max(frame.size / side, vec2<i32>(1));
+    }
+    return (frame.size + side - 1) / side;
+}
+
 fn tile_count() -> vec2<i32> {
-    return (frame.size + tile_size() - 1) / tile_size();
+    return count_of(tile_size());
 }
 
 fn block_count() -> vec2<i32> {
-    return (frame.size + parameters.block_size - 1) / parameters.block_size;
+    return count_of(parameters.block_size);
+}
+
+// The texel of a finer grid that a tap beside the middle of a coarser grid's texel falls on.
+fn finer(texel: vec2<i32>, coarse: vec2<i32>, fine: vec2<i32>, tap: vec2<f32>) -> vec2<i32> {
+    let middle = (vec2<f32>(texel) + 0.5) / vec2<f32>(coarse) * vec2<f32>(fine);
+    return clamp(vec2<i32>(floor(middle + tap)), vec2<i32>(0), fine - 1);
+}
+
+// The pixel that a block takes as one of its own, by column and row in the block.
+fn pixel_of(block: vec2<i32>, place: vec2<i32>) -> vec2<i32> {
+    let side = parameters.block_size;
+    if parameters.tiles != TILES_STRETCHED {
+        return block * side + place;
+    }
+    if countOneBits(side) != 1 {
+        let tap = vec2<f32>(place) - 0.5 * f32(side - 1);
+        return finer(block, block_count(), frame.size, tap);
+    }
+    // The original halves the picture until a texel is a block, and every time reads two texels by two.
+    var texel = block;
+    for (var step = side / 2; step > 0; step /= 2) {
+        texel = finer(texel, count_of(2 * step), count_of(step), vec2<f32>((place / step) % 2) - 0.5);
+    }
+    return texel;
+}
+
+// The block that a tile takes as one of its own, by column and row in the tile.
+fn block_of(tile: vec2<i32>, place: vec2<i32>) -> vec2<i32> {
+    if parameters.tiles != TILES_STRETCHED {
+        return tile * blocks_per_tile() + place;
+    }
+    let tap = vec2<f32>(place) - 0.5 * f32(blocks_per_tile() - 1);
+    return finer(tile, tile_count(), block_count(), tap);
 }
 
 // The longer of two vectors; the first of two equal ones.
@@ -86,14 +129,16 @@ fn pack(@builtin(global_invocation_id) id: vec3<u32>) {
     textureStore(motion_out, pixel, vec4<f32>(stored, 0.0));
 }
 
-// The original halves three times, two pixels by two; with blocks of eight this comes to the same.
 @compute @workgroup_size(8, 8)
 fn reduce_to_blocks(@builtin(global_invocation_id) id: vec3<u32>) {
     let block = vec2<i32>(id.xy);
+    if any(block >= block_count()) {
+        return;
+    }
     var longest = vec2<f32>(0.0);
     for (var y = 0; y < parameters.block_size; y++) {
         for (var x = 0; x < parameters.block_size; x++) {
-            let pixel = block * parameters.block_size + vec2<i32>(x, y);
+            let pixel = pixel_of(block, vec2<i32>(x, y));
             if inside(pixel) {
                 longest = longer(longest, textureLoad(motion, pixel, 0).xy);
             }
@@ -111,7 +156,7 @@ fn reduce_to_tiles(@builtin(global_invocation_id) id: vec3<u32>) {
     var longest = vec2<f32>(0.0);
     for (var y = 0; y < blocks_per_tile(); y++) {
         for (var x = 0; x < blocks_per_tile(); x++) {
-            let block = tile * blocks_per_tile() + vec2<i32>(x, y);
+            let block = block_of(tile, vec2<i32>(x, y));
             if all(block < block_count()) {
                 longest = longer(longest, textureLoad(block_max, block, 0).xy);
             }
@@ -139,6 +184,14 @@ fn spread_to_neighbors(@builtin(global_invocation_id) id: vec3<u32>) {
     textureStore(neighbor_max_out, tile, vec4<f32>(longest / OWN_TILE, 0.0, 0.0));
 }
 
+// Pixels of the picture that a tile stands for.
+fn tile_extent() -> vec2<f32> {
+    if parameters.tiles == TILES_STRETCHED {
+        return vec2<f32>(frame.size) / vec2<f32>(tile_count());
+    }
+    return vec2<f32>(f32(tile_size()));
+}
+
 // In [0, 1). The original drives its noise by the clock; here it walks a cycle of 64 frames.
 fn noise(position: vec2<f32>) -> f32 {
     return interleaved_gradient_noise(position + 5.588238 * f32(frame.frame_index % 64u));
@@ -149,9 +202,10 @@ fn longest_near(pixel: vec2<i32>) -> vec2<f32> {
     var position = centre(pixel);
     if parameters.jitter == JITTER_NOISE {
         let angle = TAU * noise(vec2<f32>(pixel) + vec2<f32>(2.0 * f32(frame.size.x), 0.0));
-        position += 0.25 * f32(tile_size()) * vec2<f32>(cos(angle), sin(angle));
+        position += 0.25 * tile_extent() * vec2<f32>(cos(angle), sin(angle));
     }
-    return textureLoad(neighbor_max, pixel_at(position) / tile_size(), 0).xy;
+    let tile = vec2<i32>(floor(position / tile_extent()));
+    return textureLoad(neighbor_max, clamp(tile, vec2<i32>(0), tile_count() - 1), 0).xy;
 }
 
 // How much a tap counts as foreground: 1 where it is nearer by a twentieth of the pixel's depth or more.

@@ -48,6 +48,7 @@ pub fn stated(filter: &str, preset: &str) -> RangeInclusive<f64> {
         ("mcguire", "g3d") => 1.02..=1.09,
         ("mcguire", "tuned") => 0.86..=1.04,
         ("guertin", _) => 0.65..=0.87,
+        ("bevy", "msaa") => 0.955..=1.025,
         ("kino", _) => 0.72..=0.78,
         ("jimenez", "kajiya") => 1.12..=1.14,
         ("jimenez", "o3de") => 0.94..=0.95,

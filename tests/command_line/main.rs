@@ -8,6 +8,7 @@ mod check;
 mod command_filter;
 mod compare;
 mod comparison;
+mod fidelity;
 mod import;
 mod kept;
 mod kept_cases;
@@ -309,6 +310,11 @@ fn list_shows_scenes_filters_parameters_and_presets() {
         "jump_flood",
         "paper",
         "samples",
+        "source: https://github.com/keijiro/KinoMotion at",
+        "differs: Tiles hold 32-bit floats",
+        "published: McGuire, Hennessy, Bukowski and Osman 2012",
+        "made for pictures 1280 pixels wide",
+        ".tile_size = 20 pixels",
     ] {
         assert!(
             stdout(&output).contains(words),
@@ -323,6 +329,19 @@ fn list_shows_scenes_filters_parameters_and_presets() {
         json["filters"].as_array().unwrap().len(),
         filters::Filter::builtin_names().len()
     );
+    let mut filters = json["filters"].as_array().unwrap().iter();
+    let bevy = filters.find(|filter| filter["name"] == "bevy").unwrap();
+    let source = &bevy["presets"][0]["source"];
+    assert_eq!(source["repository"], "https://github.com/bevyengine/bevy");
+    assert_eq!(source["commit"].as_str().unwrap().len(), 40);
+    assert!(
+        source["paths"][0]
+            .as_str()
+            .unwrap()
+            .ends_with("motion_blur.wesl")
+    );
+    assert!(source["differs"].as_array().unwrap().len() > 1);
+    assert_eq!(source["publication"], serde_json::Value::Null);
 }
 
 #[test]

@@ -98,7 +98,7 @@ fn a_tile_is_the_radius_rounded_up_to_eight() {
                 BLACK_WALL
             }
         });
-        let overrides = [("storage", "exact")];
+        let overrides = [("storage", "exact"), ("tiles", "partial")];
         let tiles = picture.texture("kino", &overrides, "tile_max");
         let radius = (rows * 5 / 100) as f32;
         // Motion is cut at the radius.

@@ -330,13 +330,14 @@ mod tests {
     }
 
     /// Every page that shows commands.
-    const PAGES: [&str; 8] = [
+    const PAGES: [&str; 9] = [
         include_str!("../../../README.md"),
         include_str!("../../../docs/reading-a-report.md"),
         include_str!("../../../docs/conventions.md"),
         include_str!("../../../docs/add-a-filter.md"),
         include_str!("../../../docs/add-a-scene.md"),
         include_str!("../../../docs/ci.md"),
+        include_str!("../../../docs/fidelity.md"),
         include_str!("../../../docs/not-measured.md"),
         include_str!("../../../scenes/README.md"),
     ];

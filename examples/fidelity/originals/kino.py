@@ -1,8 +1,8 @@
 """KinoMotion, in numpy, from ReconstructionFilter.cs, Prefilter.cginc and Reconstruction.cginc at 35d5d51.
 
 Textures between the passes are sampled at points, at UV: where the picture's sides are no multiples of a tile, the original has
-fewer tiles and stretches them. The clock stands at 0. `as_listed` has what the preset lists as different instead: tiles of
-32-bit floats that may be partial.
+fewer tiles and stretches them. The clock stands at 0. `default_as_listed` has what the preset lists as different: tiles of
+32-bit floats.
 """
 
 import numpy as np
@@ -67,9 +67,8 @@ def halved(motion, width, height, stored):
     return stored(longer(longer(longer(tap(-1, -1), tap(1, -1)), tap(-1, 1)), tap(1, 1)))
 
 
-def tiles_as_published(motion, tile):
+def tiles_of(motion, tile, stored):
     height, width = motion.shape[:2]
-    stored = lambda v: v.astype(np.float16).astype(F)
     for divider in (2, 4, 8):
         motion = halved(motion, width // divider, height // divider, stored)
     columns, rows = width // tile, height // tile
@@ -80,18 +79,6 @@ def tiles_as_published(motion, tile):
         for y in range(tile // 8):
             longest = longer(longest, point(motion, corner + texel * np.array([x, y], F)))
     return stored(neighbors(stored(longest)))
-
-
-def tiles_as_listed(motion, tile):
-    height, width = motion.shape[:2]
-    columns, rows = -(-width // tile), -(-height // tile)
-    padded = np.zeros((rows * tile, columns * tile, 2), F)
-    padded[:height, :width] = motion
-    longest = np.zeros((rows, columns, 2), F)
-    for y in range(tile):
-        for x in range(tile):
-            longest = longer(longest, padded[y::tile, x::tile])
-    return neighbors(longest)
 
 
 def neighbors(tiles):
@@ -109,7 +96,7 @@ def gradient_noise(x, y):
     return (F(52.9829189) * inner) % F(1)
 
 
-def blur(color, velocity, depth, exposure, as_listed):
+def blur(color, velocity, depth, exposure, stored):
     height, width = depth.shape
     size = np.array([width, height], F)
     radius = MAX_BLUR_PERCENT * height // 100
@@ -118,17 +105,12 @@ def blur(color, velocity, depth, exposure, as_listed):
     uv = grid(width, height)
     columns, rows = np.meshgrid(np.arange(width, dtype=F), np.arange(height, dtype=F))
 
-    # JitterTile, a quarter of a tile of which the original's are as many as divide the picture.
+    # JitterTile
     angle = gradient_noise(columns + F(2 * width), rows) * F(2 * np.pi)
     around = np.stack([np.cos(angle), np.sin(angle)], -1)
-    if as_listed:
-        tiles = tiles_as_listed(motion, tile)
-        at = np.floor((uv * size + around * F(tile / 4)).clip(0, size - F(0.5)) / F(tile)).astype(int)
-        v_max = tiles[at[..., 1], at[..., 0]]
-    else:
-        tiles = tiles_as_published(motion, tile)
-        count = np.array([tiles.shape[1], tiles.shape[0]], F)
-        v_max = point(tiles, uv + around / count / 4)
+    tiles = tiles_of(motion, tile, stored)
+    count = np.array([tiles.shape[1], tiles.shape[0]], F)
+    v_max = point(tiles, uv + around / count / 4)
 
     l_v_p = np.maximum(length(motion), F(0.5))
     l_v_max = length(v_max)
@@ -161,11 +143,11 @@ def blur(color, velocity, depth, exposure, as_listed):
 
 
 def default(color, velocity, depth, exposure, frame_index, parameters):
-    return blur(color, velocity, depth, exposure, as_listed=False)
+    return blur(color, velocity, depth, exposure, stored=lambda v: v.astype(np.float16).astype(F))
 
 
 def default_as_listed(color, velocity, depth, exposure, frame_index, parameters):
-    return blur(color, velocity, depth, exposure, as_listed=True)
+    return blur(color, velocity, depth, exposure, stored=lambda v: v)
 
 
 ORIGINALS = {"kino:default": default}

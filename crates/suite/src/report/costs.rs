@@ -245,3 +245,24 @@ fn milliseconds(seconds: f64) -> String {
     let digits = if seconds < 0.01 { 2 } else { 1 };
     format!("{:.digits$}", 1e3 * seconds)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_in_pixels_belong_together_if_they_are_as_long_in_their_pictures() {
+        // 20 pixels of 1920 are 3.3 of 320.
+        assert!(is_scaled(&Value::Integer(3), &Value::Integer(20), 6.0));
+        assert!(is_scaled(
+            &Value::Integer(20),
+            &Value::Integer(3),
+            1.0 / 6.0
+        ));
+        assert!(is_scaled(&Value::Real(0.25), &Value::Real(1.5), 6.0));
+        assert!(!is_scaled(&Value::Integer(3), &Value::Integer(40), 6.0));
+        assert!(!is_scaled(&Value::Integer(8), &Value::Integer(15), 1.0));
+        let [a, b] = ["a", "b"].map(|name| Value::Choice(name.to_owned()));
+        assert!(!is_scaled(&a, &b, 1.0));
+    }
+}

@@ -1,0 +1,82 @@
+//! Presets against transcriptions of the programs that they follow.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use crate::bench::{stderr, stdout};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Runs examples/fidelity/compare.py; `make test` installs what it needs and says in PYTHON which Python has it.
+fn compare(more: &[&str]) -> Output {
+    let python = std::env::var("PYTHON").unwrap_or("python3".to_owned());
+    let has_packages = Command::new(&python)
+        .args(["-c", "import numpy, OpenEXR"])
+        .output();
+    assert!(
+        has_packages.is_ok_and(|output| output.status.success()),
+        "{python} lacks numpy or OpenEXR: `make test` installs them; or pip install numpy OpenEXR, and set PYTHON to the \
+         Python that has them"
+    );
+    let out = tempfile::tempdir().unwrap();
+    let mut command = Command::new(python);
+    command
+        .arg("-B")
+        .arg(root().join("examples/fidelity/compare.py"))
+        .args(["--program", env!("CARGO_BIN_EXE_shuttertruth")]);
+    command.arg("--scenes-dir").arg(root().join("scenes"));
+    command.arg("--out").arg(out.path()).args(more);
+    command.output().unwrap()
+}
+
+/// The rows of all tables without the columns of numbers, which adapters change.
+fn rows(page: &str) -> Vec<Vec<String>> {
+    let cells = |line: &str| -> Vec<String> {
+        let cells = line.trim_matches('|').split('|');
+        cells.map(|cell| cell.trim().to_owned()).collect()
+    };
+    let rows = page
+        .lines()
+        .filter(|line| line.starts_with("| `"))
+        .map(cells);
+    rows.map(|row| match row.as_slice() {
+        [preset, original, .., verdict] => vec![preset.clone(), original.clone(), verdict.clone()],
+        short => short.to_vec(),
+    })
+    .collect()
+}
+
+#[test]
+fn presets_do_what_their_originals_do_as_far_as_the_page_says() {
+    let output = compare(&[]);
+    let printed = stdout(&output);
+    assert!(output.status.success(), "{printed}{}", stderr(&output));
+    let page = std::fs::read_to_string(root().join("docs/fidelity.md")).unwrap();
+    let kept = page.split("\n## ").next().unwrap();
+    assert!(
+        rows(kept) == rows(&printed),
+        "docs/fidelity.md keeps another table; put there what the script prints:\n{printed}"
+    );
+    assert!(rows(kept).len() > 20, "{} rows", rows(kept).len());
+}
+
+#[test]
+fn a_filter_that_does_something_else_is_told_from_its_original() {
+    for (preset, change) in [
+        ("bevy:default", "bevy.metric=pixel"),
+        ("bevy:msaa", "bevy.fetch=filtered"),
+        ("mcguire:g3d", "mcguire.neighbor_rule=all"),
+        ("kino:default", "kino.least_motion=1"),
+    ] {
+        let output = compare(&["--only", preset, "--set", change]);
+        assert_eq!(output.status.code(), Some(1), "{preset} with {change}");
+        assert!(
+            stdout(&output).contains("| BROKEN |"),
+            "{}",
+            stdout(&output)
+        );
+        assert!(stderr(&output).contains(preset), "{}", stderr(&output));
+    }
+}
