@@ -109,11 +109,14 @@ fn what_is_painted_on_the_panel_smears_as_far_as_the_taps_of_each_filter_say() {
             found.length - expected.length,
             found.middle - expected.middle,
         ];
-        // Noise in a band of 33 pixels, most of it with two taps.
-        if off
-            .iter()
-            .any(|off| off.abs() > 0.2 + 0.01 * outcome.shot().speed)
-        {
+        let tolerance = match outcome.preset.as_str() {
+            // Two taps at whole pixels: the noise has some nine values along a row, and rounding moves either end of a smear by up
+            // to half a pixel. Measured 1.1 at most.
+            "msaa" => 1.2,
+            // Noise in a band of 33 pixels, most of it with two taps.
+            _ => 0.2 + 0.01 * outcome.shot().speed,
+        };
+        if off.iter().any(|off| off.abs() > tolerance) {
             let said = outcome.said();
             wrong.push(format!("{said}: {found:?} instead of {expected:?}"));
         }

@@ -55,6 +55,7 @@ pub fn stated(filter: &str, preset: &str) -> RangeInclusive<f64> {
         ("mcguire", "g3d") => 1.02..=1.09,
         ("mcguire", "tuned") => 0.86..=1.04,
         ("guertin", _) => 0.65..=0.87,
+        ("bevy", "msaa") => 0.955..=1.025,
         ("kino", _) => 0.72..=0.78,
         ("jimenez", "hdrp" | "hdrp_mirrored") => 1.00..=1.03,
         ("jimenez", "kajiya") => 1.00..=1.07,

@@ -102,6 +102,10 @@ fn bilinear(offset: [f64; 2], weight: f64) -> [Tap; 4] {
     })
 }
 
+fn nearest(offset: f64) -> f64 {
+    (offset + 0.5).floor()
+}
+
 /// Even weights at these parts of a trail, read between pixels.
 fn on_trail(trail: [f64; 2], parts: impl IntoIterator<Item = f64>) -> Vec<Tap> {
     parts

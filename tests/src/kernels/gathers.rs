@@ -1,6 +1,6 @@
 //! Filters that average along a pixel's own motion, or one that was brought to it.
 
-use super::{Steady, Tap, length, on_trail, own, scaled};
+use super::{Steady, Tap, length, nearest, on_trail, own, scaled};
 
 /// Taps at i/N of the trail: Ctrl-Alt-Test 2011, and the blur by the camera's motion.
 pub fn plain(preset: &str, steady: &Steady) -> Vec<Tap> {
@@ -52,7 +52,7 @@ pub fn jump_flood_trail(preset: &str, steady: &Steady) -> [f64; 2] {
 /// Bevy: twice as many taps as its `samples` says, within half the trail to each side.
 pub fn bevy(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     let samples = match preset {
-        "default" => 1,
+        "default" | "msaa" => 1,
         "high" => 8,
         _ => panic!("say here how many samples {preset} has"),
     };
@@ -60,5 +60,13 @@ pub fn bevy(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
         return vec![own(1.0)];
     }
     let parts = (-samples..samples).map(|i| 0.5 * (f64::from(i) + noise) / f64::from(samples));
-    on_trail(steady.trail(), parts)
+    match preset {
+        "msaa" => parts
+            .map(|part| Tap {
+                offset: scaled(steady.trail(), part).map(nearest),
+                weight: 1.0,
+            })
+            .collect(),
+        _ => on_trail(steady.trail(), parts),
+    }
 }

@@ -1,7 +1,7 @@
 //! Filters whose taps count by a cone and a cylinder. Where everything moves alike at one depth, every tap is in front and
 //! behind: two cones and two cylinders.
 
-use super::{Steady, Tap, bilinear, length, own, scaled};
+use super::{Steady, Tap, bilinear, length, nearest, own, scaled};
 
 /// McGuire et al. 2012, and what two implementations make of it.
 pub fn mcguire(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
@@ -83,10 +83,6 @@ fn half_velocity(half: [f64; 2], longest: f64) -> [f64; 2] {
         half,
         length(half).clamp(0.5, longest) / (length(half) + 1e-5),
     )
-}
-
-fn nearest(offset: f64) -> f64 {
-    (offset + 0.5).floor()
 }
 
 fn cone(distance: f64, radius: f64) -> f64 {

@@ -254,7 +254,11 @@ mod tests {
     fn values_in_pixels_belong_together_if_they_are_as_long_in_their_pictures() {
         // 20 pixels of 1920 are 3.3 of 320.
         assert!(is_scaled(&Value::Integer(3), &Value::Integer(20), 6.0));
-        assert!(is_scaled(&Value::Integer(20), &Value::Integer(3), 1.0 / 6.0));
+        assert!(is_scaled(
+            &Value::Integer(20),
+            &Value::Integer(3),
+            1.0 / 6.0
+        ));
         assert!(is_scaled(&Value::Real(0.25), &Value::Real(1.5), 6.0));
         assert!(!is_scaled(&Value::Integer(3), &Value::Integer(40), 6.0));
         assert!(!is_scaled(&Value::Integer(8), &Value::Integer(15), 1.0));
