@@ -114,14 +114,14 @@ fn on_a_slope_the_fastest_nearby_is_not_what_a_pixel_makes() {
     let shots = ["ramp_floor", "ramp_floor@facing"].map(Shot::of);
     let flip = shots
         .each_ref()
-        .map(|shot| shot.score("jimenez:kajiya", "flip_moving"));
-    // Measured 2.5; 1.2 for what moves every pixel by itself.
-    assert_worse("flip_moving of jimenez:kajiya", flip, 1.6);
-    // It is worse than no blur: measured 1.13 of its squared error, and 0.04 before the wall that faces the camera.
+        .map(|shot| shot.score("jimenez:kajiya_scaled", "flip_moving"));
+    // Measured 2.3; 1.2 for what moves every pixel by itself.
+    assert_worse("flip_moving of jimenez:kajiya_scaled", flip, 1.6);
+    // It is hardly better than no blur: it leaves 0.76 of its squared error, and 0.03 before the wall that faces the camera.
     let left = shots
         .each_ref()
-        .map(|shot| shot.left_by("jimenez:kajiya", "mse_moving"));
-    assert!(left[0] > 0.8 && left[1] < 0.2, "{left:?}");
+        .map(|shot| shot.left_by("jimenez:kajiya_scaled", "mse_moving"));
+    assert!(left[0] > 0.65 && left[1] < 0.2, "{left:?}");
 }
 
 #[test]

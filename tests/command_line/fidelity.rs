@@ -66,6 +66,11 @@ fn presets_do_what_their_originals_do_as_far_as_the_page_says() {
 fn a_filter_that_does_something_else_is_told_from_its_original() {
     for (preset, change) in [
         ("bevy:default", "bevy.metric=pixel"),
+        ("jimenez:hdrp", "jimenez.extent=0.5"),
+        ("jimenez:hdrp_mirrored", "jimenez.mirror=slow_background"),
+        ("jimenez:kajiya", "jimenez.noise=shift"),
+        ("jimenez:o3de", "jimenez.tile_lookup=nearest"),
+        ("jimenez:wicked", "jimenez.border=clamp"),
         ("bevy:msaa", "bevy.fetch=filtered"),
         ("mcguire:g3d", "mcguire.neighbor_rule=all"),
         ("kino:default", "kino.least_motion=1"),

@@ -83,7 +83,7 @@ def depth_cmp(center, sample, scale):
 
 
 def hdrp(color, velocity, depth, exposure, frame_index, parameters, mirror_weights=False, layers=True):
-    """Unity HDRP as of October 2025.
+    """Unity HDRP, 8 samples, with its intensity at twice the exposure.
 
     https://github.com/Unity-Technologies/Graphics at 8bdf5073c28fadabda28ae4782e749cb44715642, below
     Packages/com.unity.render-pipelines.high-definition/Runtime/PostProcessing/Shaders: MotionBlurMotionVecPrep.compute,
