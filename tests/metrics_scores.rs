@@ -353,6 +353,34 @@ fn the_worst_object_speaks_for_all() {
 }
 
 #[test]
+fn the_largest_bleed_is_found_on_whichever_side_it_is() {
+    let mut scores = measured(&small_scene(BESIDE), Blur::IDENTITY).scores;
+    let mut largest = |values: [f64; 3]| {
+        let [lateral, leading, trailing] = values.map(|value| Measured::score(value, 0.0));
+        scores.objects[1].bleed_lateral = lateral;
+        scores.objects[1].bleed_leading = leading;
+        scores.objects[1].bleed_trailing = trailing;
+        scores
+            .largest_bleed()
+            .map(|(side, score)| (side, score.value))
+    };
+    assert_eq!(
+        largest([0.0, 4.8, 4.7]),
+        Some((ObjectMetric::BleedLeading, 4.8))
+    );
+    assert_eq!(
+        largest([0.0, 4.7, 4.8]),
+        Some((ObjectMetric::BleedTrailing, 4.8))
+    );
+    assert_eq!(
+        largest([0.1, 0.1, 0.1]),
+        Some((ObjectMetric::BleedLateral, 0.1))
+    );
+    scores.take_out_mattes("no mattes");
+    assert_eq!(scores.largest_bleed(), None);
+}
+
+#[test]
 fn scores_survive_being_written_as_json() {
     let scores = measured(&small_scene(BEFORE), Blur::IDENTITY).scores;
     let text = serde_json::to_string(&scores).expect("scores are plain data");

@@ -46,6 +46,10 @@ pub fn decoys(scene: &Scene, frame: &Frame) -> Vec<(&'static str, Picture)> {
             rescaled(&blurred(Blur::TRUE), &blurred(wide(6.0)), &instant),
         ),
         ("own velocity", gathered(frame)),
+        (
+            "sharp core",
+            sharpened(&blurred(Blur::TRUE), &instant, scene),
+        ),
         ("banding", blurred(Blur::accumulation(3))),
     ]
 }
@@ -74,6 +78,28 @@ fn rescaled(right: &Picture, wide: &Picture, instant: &Picture) -> Picture {
             .iter()
             .enumerate()
             .map(|(k, a)| background(k, a))
+            .collect(),
+    }
+}
+
+/// The instant's movers over their own true smears.
+fn sharpened(right: &Picture, instant: &Picture, scene: &Scene) -> Picture {
+    let movers = (scene.objects.iter().zip(&instant.coverage[1..]))
+        .filter(|(object, _)| object.displacement != [0.0; 2] || object.turn != 0.0);
+    let nothing: Plane = instant.coverage[0].map(|_| 0.0);
+    let core = movers.fold(nothing, |sum, (_, matte)| sum.zip(matte, |sum, a| sum + a));
+    let over = |(a, b): (f32, f32), core: f32| core * a + (1.0 - core) * b;
+    let color = instant
+        .color
+        .zip(&right.color, |a, b| [0, 1, 2].map(|c| (a[c], b[c])));
+    let mattes = instant.coverage.iter().zip(&right.coverage);
+    Picture {
+        color: color.zip(&core, |pairs, core| pairs.map(|pair| over(pair, *core))),
+        coverage: mattes
+            .map(|(a, b)| {
+                a.zip(b, |a, b| (*a, *b))
+                    .zip(&core, |pair, core| over(*pair, *core))
+            })
             .collect(),
     }
 }

@@ -44,7 +44,7 @@ fn scored(scene: &Scene) -> Vec<(&'static str, Scores)> {
 }
 
 /// Per decoy the scores that should see it: the first that applies to a scene has to.
-const SEEN_BY: [(&str, &[&str]); 13] = [
+const SEEN_BY: [(&str, &[&str]); 14] = [
     ("identity", &["misplacement", "label_tv"]),
     ("constant", &["bleed_lateral"]),
     ("half length", &["extent", "label_tv"]),
@@ -57,6 +57,7 @@ const SEEN_BY: [(&str, &[&str]); 13] = [
     ("isotropic", &["bleed_leading"]),
     ("fat, rescaled", &["lateral_growth", "label_tv"]),
     ("own velocity", &["misplacement", "label_tv"]),
+    ("sharp core", &["row_gain", "label_tv"]),
     ("banding", &["flip_p95_moving"]),
 ];
 

@@ -4,7 +4,7 @@ use frame::Plane;
 
 use crate::misplacement::{Misplacement, misplacement};
 use crate::mover::Mover;
-use crate::row_mass::RowMass;
+use crate::row_mass::{InstantRows, RowMass};
 use crate::rows::{Grid, Rows};
 
 /// Rows along the motion may differ between instant and shutter by this many pixels of silhouette, gains and losses
@@ -17,8 +17,8 @@ pub struct AlongMotion {
     pub rows: Rows,
     /// The truth's matte in them.
     pub truth: Grid,
-    /// How much of each row's height the silhouette covers at the instant, from 0 to 1.
-    pub heights: Vec<f64>,
+    /// The instant's matte in them.
+    pub instant: InstantRows,
     /// Misplacement of the truth's first half.
     pub misplacement_noise: Option<Misplacement>,
     /// Excess of total variation of the truth's first half.
@@ -49,9 +49,9 @@ impl AlongMotion {
         if truth.total_variation() <= 0.0 {
             return Err("is not seen while the shutter is open".to_owned());
         }
-        let heights = instant.heights();
-        let change = RowMass::new(&instant, &truth, &heights, length);
-        let noise = RowMass::new(&half, &truth, &heights, length);
+        let instant_rows = InstantRows::new(&instant);
+        let change = RowMass::new(&instant, &truth, &instant_rows, length);
+        let noise = RowMass::new(&half, &truth, &instant_rows, length);
         let changed = change.growth + change.gain + change.loss;
         let mass_floor = if changed <= LARGEST_ROW_CHANGE {
             Ok(RowMass {
@@ -71,7 +71,7 @@ impl AlongMotion {
             mass_floor,
             rows,
             truth,
-            heights,
+            instant: instant_rows,
         })
     }
 }

@@ -58,7 +58,7 @@ fn moments(row: &[f64]) -> Option<Moments> {
     Some(Moments { mass, variance })
 }
 
-/// Wasserstein-1 distance of two rows on a line: the area between their cumulative sums.
+/// Returns the Wasserstein-1 distance of two rows on a line: the area between their cumulative sums.
 fn distance_between(a: &[f64], a_mass: f64, b: &[f64], b_mass: f64) -> f64 {
     let mut ahead = 0.0;
     let mut area = 0.0;
@@ -67,4 +67,28 @@ fn distance_between(a: &[f64], a_mass: f64, b: &[f64], b_mass: f64) -> f64 {
         area += f64::abs(ahead);
     }
     area
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rows::Rows;
+    use frame::Raster;
+
+    #[test]
+    fn the_centroid_is_the_centre_of_all_mass_and_not_the_mean_of_rows() {
+        let rows = Rows::new([1.0, 0.0], 20, 2);
+        let truth = Raster::from_fn(20, 2, |x, _| if (4..8).contains(&x) { 0.5 } else { 0.0 });
+        // The upper row has thrice its mass, 4 px ahead; the lower one is right.
+        let output = Raster::from_fn(20, 2, |x, y| match y {
+            0 if (6..14).contains(&x) => 0.75,
+            1 if (4..8).contains(&x) => 0.5,
+            _ => 0.0,
+        });
+        let found =
+            misplacement(&rows.spread(&output), &rows.spread(&truth)).expect("both have mass");
+        // 6 of 8 px of mass lie 4 px ahead; the mean over rows would be 2. Exact in binary.
+        assert_eq!(found.centroid, 3.0);
+        assert_eq!(found.distance, 2.0);
+    }
 }

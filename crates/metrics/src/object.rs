@@ -178,7 +178,7 @@ impl ObjectReference {
         let [growth, gain, loss] = match &rows.mass_floor {
             Ok(floor) => {
                 let length = mover.silhouette.lateral;
-                let found = RowMass::new(&grid, &rows.truth, &rows.heights, length);
+                let found = RowMass::new(&grid, &rows.truth, &rows.instant, length);
                 [
                     Measured::score(found.growth, floor.growth),
                     Measured::score(found.gain, floor.gain),

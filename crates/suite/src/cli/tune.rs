@@ -27,7 +27,7 @@ pub struct TuneArgs {
     /// Choose nothing that takes more GPU time than so many times the start's.
     #[arg(long, value_name = "RATIO", value_parser = ratio)]
     pub cost_at_most: Option<f64>,
-    /// Choose nothing whose bleed on its worst scene is more than so many times the start's on its own, and 0.01 px.
+    /// Choose nothing whose lateral bleed on its worst scene is more than so many times the start's on its own, and 0.01 px.
     #[arg(long, value_name = "RATIO", value_parser = ratio)]
     pub bleed_at_most: Option<f64>,
     /// Run every candidate on every scene, however bad it is.
@@ -85,7 +85,7 @@ pub struct CandidateArgs {
     /// The preset to start from [default: the filter's first].
     #[arg(long, value_name = "PRESET")]
     pub from: Option<String>,
-    /// What is measured, separated by commas: flip (always), bleed, cost.
+    /// What is measured, separated by commas: flip (always), bleed (`bleed_lateral`, not ahead or behind), cost.
     #[arg(long, value_delimiter = ',', default_value = "flip,bleed,cost", value_name = "OBJECTIVES", value_parser = Objective::from_str)]
     pub objective: Vec<Objective>,
     /// Picture size in pixels.

@@ -17,7 +17,7 @@ pub struct Answer {
     pub values: BTreeMap<String, Value>,
     /// Mean over scenes of log(error / error of the start): below 0 is better.
     pub error: f64,
-    /// Bleed of the worst scene, in pixels.
+    /// Lateral bleed of the worst scene, in pixels.
     pub bleed: Option<f64>,
     /// GPU time over that of the start.
     pub cost: Option<f64>,

@@ -17,7 +17,7 @@ pub struct Paired {
     pub scenes: BTreeMap<String, [SceneScore; 2]>,
     /// Of log(FLIP of the second / FLIP of the first).
     pub flip: Difference,
-    /// Of the second's bleed minus the first's, in pixels; none where bleed was not measured or applies to no scene.
+    /// The second's lateral bleed minus the first's, in pixels; none where it was not measured or applies to no scene.
     pub bleed: Option<Difference>,
 }
 

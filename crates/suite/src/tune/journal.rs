@@ -34,11 +34,11 @@ pub struct Header {
     pub design: Vec<Vec<f64>>,
     /// Scene names in the order in which candidates meet them, each with the content hash of its truth.
     pub scenes: Vec<(String, String)>,
-    /// What is measured: `flip`, `bleed`, `cost`.
+    /// What is measured: `flip`, `bleed` (lateral), `cost`.
     pub objectives: Vec<String>,
     /// The largest cost, as a ratio to the start's.
     pub cost_at_most: Option<f64>,
-    /// The largest bleed of the worst scene, as a ratio to the start's.
+    /// The largest lateral bleed of the worst scene, as a ratio to the start's.
     pub bleed_at_most: Option<f64>,
     /// Whether candidates that are clearly worse are dropped.
     pub race: bool,

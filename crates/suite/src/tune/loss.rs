@@ -6,7 +6,7 @@ use super::SceneScore;
 
 /// What a candidate that does not run is told to have: as bad as an error e^3 = 20 times the start's.
 pub const FAILED: f64 = 3.0;
-/// Bleed, in pixels, that is too little to be told from none.
+/// Lateral bleed, in pixels, that is too little to be told from none.
 pub const LEAST_BLEED: f64 = 0.01;
 /// An error below this is as good as none: FLIP of half a step of 8 bits in one pixel of a thousand.
 const LEAST_FLIP: f64 = 1e-6;
@@ -32,7 +32,7 @@ pub fn mean_log_ratio(
     (!ratios.is_empty()).then(|| ratios.iter().sum::<f64>() / ratios.len() as f64)
 }
 
-/// Bleed of the worst scene, in pixels.
+/// Returns the lateral bleed of the worst scene, in pixels.
 pub fn worst_bleed(scores: &BTreeMap<String, SceneScore>) -> Option<f64> {
     let bleeds = scores.values().filter_map(|score| score.bleed);
     bleeds.max_by(f64::total_cmp)

@@ -62,7 +62,7 @@ pub struct TunePlan {
     pub objectives: Vec<Objective>,
     /// The largest cost of the choice, as a ratio to the start's.
     pub cost_at_most: Option<f64>,
-    /// The largest bleed of the choice's worst scene, as a ratio to the start's.
+    /// The largest lateral bleed of the choice's worst scene, as a ratio to the start's.
     pub bleed_at_most: Option<f64>,
     /// How many trials the journal is to hold.
     pub budget: usize,

@@ -13,7 +13,7 @@ use super::{SceneScore, Space, Trial};
 pub struct Limits {
     /// GPU time over that of the start.
     pub cost: Option<f64>,
-    /// Bleed of the worst scene, in pixels.
+    /// Lateral bleed of the worst scene, in pixels.
     pub bleed: Option<f64>,
 }
 

@@ -35,6 +35,7 @@ pub fn tuning_table(tuning: &Tuning) -> String {
             text += &row(trial, &tuning.start, tuning.chosen.trial);
         }
     }
+    text += "bleed: bleed_lateral of the worst scene, in pixels\n";
     if tuning.front.len() > ROWS {
         text += &format!("and {} more in tune.json\n", tuning.front.len() - ROWS);
     }
@@ -155,7 +156,7 @@ pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
     push_wrapped(&mut text, 0, &flip);
     if let Some(bleed) = &paired.bleed {
         let bleed = format!(
-            "bleed of {} against {}: {:+.3} px ({:+.3} to {:+.3}) over {} scenes: {}",
+            "lateral bleed of {} against {}: {:+.3} px ({:+.3} to {:+.3}) over {} scenes: {}",
             names[1],
             names[0],
             bleed.mean,

@@ -21,7 +21,7 @@ pub struct Trial {
     /// The same mean without penalties; none where nothing was measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<f64>,
-    /// Bleed of the worst scene, in pixels; none where it was not asked for.
+    /// Lateral bleed of the worst scene, in pixels; none where it was not asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bleed: Option<f64>,
     /// GPU time over that of the start, a median; none where it was not asked for.

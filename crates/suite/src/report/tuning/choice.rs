@@ -19,7 +19,7 @@ pub fn summary(tuning: &Tuning) -> Markup {
             } @else {
                 "Chosen: trial " (choice.trial) ", with an error " (error) " against the start's"
                 @if let Some(cost) = tuning.chosen.cost { ", at " (format!("{cost:.2}")) " times its GPU time" }
-                @if let Some(bleed) = tuning.chosen.bleed { ", bleed on the worst scene " (format!("{bleed:.3}")) " px" }
+                @if let Some(bleed) = tuning.chosen.bleed { ", lateral bleed on the worst scene " (format!("{bleed:.3}")) " px" }
                 "."
             }
             @if let Some(opening) = tuning.openings.last() {

@@ -19,7 +19,7 @@ const AGAINST: [Against; 2] = [
         value: |trial| trial.cost,
     },
     Against {
-        title: "bleed on the worst scene, px",
+        title: "lateral bleed on the worst scene, px",
         value: |trial| trial.bleed,
     },
 ];
@@ -98,7 +98,7 @@ fn table(front: &[Trial], start: &Trial, chosen: usize) -> Markup {
                     tr {
                         th scope="col" { "trial" }
                         th scope="col" { "error" }
-                        th scope="col" { "bleed, px" }
+                        th scope="col" { "lateral bleed, px" }
                         th scope="col" { "GPU time" }
                         th.text scope="col" { "values that differ from the start" }
                     }

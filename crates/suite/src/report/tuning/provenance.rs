@@ -17,7 +17,7 @@ pub fn provenance(header: &Header) -> Markup {
         ("filter", format!("{}:{}", header.filter, header.start)),
         ("measured", header.objectives.join(", ")),
         ("cost at most", limit(header.cost_at_most)),
-        ("bleed at most", limit(header.bleed_at_most)),
+        ("lateral bleed at most", limit(header.bleed_at_most)),
         (
             "racing",
             if header.race {

@@ -65,8 +65,8 @@ fn table(caption: &str, pairs: &BTreeMap<String, [SceneScore; 2]>) -> Markup {
                         th scope="col" { "FLIP, chosen" }
                         th scope="col" { "change" }
                         th.chart scope="col" { "← better, worse →" }
-                        th scope="col" { "bleed px, start" }
-                        th scope="col" { "bleed px, chosen" }
+                        th scope="col" { "lateral bleed px, start" }
+                        th scope="col" { "lateral bleed px, chosen" }
                     }
                 }
                 tbody {
