@@ -217,6 +217,22 @@ fn skill_over_scenes_is_a_ratio_of_means() {
 }
 
 #[test]
+fn scenes_that_skill_does_not_apply_to_are_counted() {
+    let mut run = run();
+    assert!(!printed(&run).contains("Scenes that skill applies to"));
+    let centred = run.cases.iter_mut();
+    for case in centred.filter(|case| case.scene == "scene_2" && case.alignment == "centred") {
+        case.scores.skill.flip = Measured::not_applicable("it serves a test");
+    }
+    run.overall = overall(&run.cases);
+    let text = printed(&run);
+    assert!(
+        text.contains("Scenes that skill applies to: 4 of 5 centred."),
+        "{text}"
+    );
+}
+
+#[test]
 fn flip_against_the_common_shutter_has_a_mean_of_its_own() {
     let run = run();
     assert!((mean(&run, "jump_flood:paper", "flip_common").mean - 0.140).abs() < 1e-12);

@@ -99,7 +99,8 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
 #[test]
 fn a_ranking_by_flip_has_a_group_per_shutter_and_one_by_skill_has_all_in_one() {
     let bench = Bench::new();
-    bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
+    // A slow scene of few samples has no skill: what the oracle gains there is noise.
+    bench.copy_scene("fast", |text| text.replace("-1.6, 0, 0", "-3.2, 0, 0"));
     assert_done(&bench.run(&["--filters", "velocity_gather:fine,bevy:high"]));
     let page = reported(&bench);
     let ranking = |title: &str| {

@@ -112,8 +112,32 @@ fn over_scenes(overall: &[Overall]) -> String {
             "Skill is by FLIP, by MSE and by label TV: the share of the way from [identity], 0, to [scatter_oracle], 1; below 0 \
              is worse than doing nothing.",
         );
+        text += &fewer_scenes(overall);
     }
     text
+}
+
+/// On which shutters skill by FLIP has fewer scenes than FLIP.
+fn fewer_scenes(overall: &[Overall]) -> String {
+    let count = |headline: Headline, alignment: &str| {
+        let name = headline.name();
+        let mut own = overall.iter();
+        let own = own.find(|mean| mean.metric == name && mean.alignment == alignment);
+        own.map_or(0, |mean| mean.scenes)
+    };
+    let alignments = once(overall.iter().map(|mean| mean.alignment.as_str()));
+    let counted = alignments.into_iter().filter_map(|alignment| {
+        let [skill, flip] = [SKILL, FLIP].map(|headline| count(headline, alignment));
+        (skill < flip).then(|| format!("{skill} of {flip} {alignment}"))
+    });
+    let counted: Vec<String> = counted.collect();
+    match counted.is_empty() {
+        true => String::new(),
+        false => legend(&format!(
+            "Scenes that skill applies to: {}. On the others the oracle gains no more than noise makes.",
+            counted.join(", ")
+        )),
+    }
 }
 
 fn means_heading(overall: &[Overall], by: &str, others: &[Column], shutter: &str) -> String {

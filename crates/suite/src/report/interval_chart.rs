@@ -50,8 +50,8 @@ pub fn interval_chart(axis: &Axis, mean: &Overall, floor: Option<f64>) -> Markup
         svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) aria-hidden="true" focusable="false" {
             line.axis x1=(MARGIN) x2=(WIDTH - MARGIN) y1=(middle) y2=(middle) {}
             @if let Some(floor) = floor {
-                rect.floor x=(MARGIN) y="1" height=(HEIGHT - 2.0)
-                    width=(format!("{:.1}", axis.place(floor) - MARGIN)) {}
+                rect.floor x=(format!("{:.1}", axis.place(0.0))) y="1" height=(HEIGHT - 2.0)
+                    width=(format!("{:.1}", axis.place(floor) - axis.place(0.0))) {}
             }
             line.interval x1=(format!("{low:.1}")) x2=(format!("{high:.1}")) y1=(middle) y2=(middle) {}
             @if mean.bar {
@@ -76,6 +76,9 @@ mod tests {
         assert_eq!(axis.place(0.8), WIDTH - MARGIN);
         let axis = Axis::over([[20.0, 30.0]].into_iter(), Ideal::Highest);
         assert_eq!((axis.low, axis.high), (20.0, 30.0));
+        // An interval of few scenes may reach below perfect.
+        let axis = Axis::over([[-0.2, 0.8]].into_iter(), Ideal::Lowest);
+        assert!(axis.place(0.0) > MARGIN && axis.place(0.0) < WIDTH / 2.0);
         let point = Axis::over([[0.0, 0.0]].into_iter(), Ideal::Lowest);
         assert_eq!(point.place(0.0), MARGIN);
     }
