@@ -33,6 +33,7 @@ mod replicate;
 mod reprojection;
 mod shutter;
 mod shutter_profile;
+mod support;
 mod truth;
 
 pub use accumulation::{Accumulation, Ladder};
@@ -49,4 +50,5 @@ pub use replicate::Replicate;
 pub use reprojection::Reprojection;
 pub use shutter::{Alignment, Shutter, ShutterError};
 pub use shutter_profile::{Efficiency, ShutterProfile};
+pub use support::Support;
 pub use truth::{Truth, TruthError, truth_hash};
