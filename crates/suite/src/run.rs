@@ -19,7 +19,7 @@ use crate::selection::FilterChoice;
 use crate::{Error, InputFormat, PROGRAM, RenderSettings};
 
 /// Version of the layout of `run.json`; it rises when a reader of the old one would misread the new one.
-pub const FORMAT: u32 = 3;
+pub const FORMAT: u32 = 4;
 
 /// A finished run: `run.json`.
 #[derive(Clone, Debug, Serialize, Deserialize)]

@@ -79,16 +79,12 @@ impl SceneRun<'_> {
                 Ok((*alignment, reference))
             })
             .collect::<Result<BTreeMap<_, _>, Error>>()?;
-        let parts = self.parts(due, truths)?;
+        let parts = self.parts(due)?;
         let without = (parts.iter())
             .map(|(alignment, parts)| {
-                let whole = &references[alignment];
-                let reference = |part| {
-                    let ladder = Some(&truths[alignment].1);
-                    // What is left out changes scores, not where they are taken.
-                    let regions = whole.regions.clone();
-                    Reference::over(regions, &cropped, part, ladder, &viewing(self.scene))
-                };
+                let ladder = Some(&truths[alignment].1);
+                let viewing = viewing(self.scene);
+                let reference = |part| Reference::new(&cropped, part, ladder, &viewing);
                 let references: Result<_, MeasureError> = parts.iter().map(reference).collect();
                 Ok((*alignment, references?))
             })
@@ -163,11 +159,7 @@ impl SceneRun<'_> {
     }
 
     /// Per alignment that filters are judged by, the truths that all replicates but a pair each make.
-    fn parts(
-        &self,
-        due: &[&Subject],
-        truths: &Truths,
-    ) -> Result<BTreeMap<Alignment, Vec<Truth>>, Error> {
+    fn parts(&self, due: &[&Subject]) -> Result<BTreeMap<Alignment, Vec<Truth>>, Error> {
         let Plan {
             render, out, quiet, ..
         } = self.plan;
@@ -177,8 +169,7 @@ impl SceneRun<'_> {
             .filter(|_| self.plan.intervals)
             .map(|alignment| {
                 let replicates = replicates_of(self.scene, render, alignment, out, *quiet)?;
-                let (truth, _) = &truths[&alignment];
-                Ok((alignment, truths_without_pairs(truth, &replicates)?))
+                Ok((alignment, truths_without_pairs(&replicates)?))
             })
             .collect()
     }

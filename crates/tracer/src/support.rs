@@ -36,7 +36,9 @@ pub(crate) fn trace_support(
             // No progress of a replicate, but a chance to cancel it.
             meter.advance(0);
             meter.check()?;
-            Ok((task.iter()).map(|&pixel| glimpse(film, &mut eye, pixel)).collect())
+            Ok((task.iter())
+                .map(|&pixel| glimpse(film, &mut eye, pixel))
+                .collect())
         })
         .collect::<Result<Vec<Vec<Glimpse>>, TraceError>>()?;
     let glimpses = Raster {
@@ -44,7 +46,8 @@ pub(crate) fn trace_support(
         height: film.canvas.rows(),
         pixels: tasks.into_iter().flatten().collect(),
     };
-    let moves = |glimpse: &Glimpse| (glimpse.seen.iter().zip(moving)).any(|(seen, moves)| *seen && *moves);
+    let moves =
+        |glimpse: &Glimpse| (glimpse.seen.iter().zip(moving)).any(|(seen, moves)| *seen && *moves);
     Ok(Support {
         seen: (0..moving.len())
             .map(|object| glimpses.map(|glimpse| glimpse.seen[object]))
@@ -56,7 +59,10 @@ pub(crate) fn trace_support(
 
 fn glimpse(film: &Film, eye: &mut Eye, pixel: u32) -> Glimpse {
     let stage = film.integrator.stage;
-    let recall = film.recall.as_ref().expect("the film of a truth recalls the instant");
+    let recall = film
+        .recall
+        .as_ref()
+        .expect("the film of a truth recalls the instant");
     let [left, top] = film.canvas.corner(pixel);
     let row = pixel / film.canvas.columns();
     let seed = pixel_seed(SEED, Stream::Support, film.canvas.number(pixel), 0);

@@ -95,7 +95,7 @@ impl Parts {
             (replicates.iter().map(|path| Replicate::read(path))).collect::<Result<_, _>>()?;
         Ok(Some(Self {
             frame: Frame::read(&frame)?.cropped(),
-            without: truths_without_pairs(&whole, &replicates)?,
+            without: truths_without_pairs(&replicates)?,
             whole,
         }))
     }
@@ -119,17 +119,10 @@ impl Parts {
                 reference.measure(&second)?.scores,
             ])
         };
-        let without = self.without.iter().map(|part| {
-            // What is left out changes scores, not where they are taken.
-            let regions = whole.regions.clone();
-            scores(&Reference::over(
-                regions,
-                &self.frame,
-                part,
-                None,
-                &viewing,
-            )?)
-        });
+        let without = self
+            .without
+            .iter()
+            .map(|part| scores(&Reference::new(&self.frame, part, None, &viewing)?));
         Ok(Some(Paired {
             whole: scores(&whole)?,
             without: without.collect::<Result<_, Error>>()?,
