@@ -6,8 +6,8 @@ use std::path::Path;
 use frame::{
     Accumulation, Alignment, AtInstant, Channel, ColorSampling, Display, Efficiency, ExrFile,
     FileError, FlipExposures, Frame, Image, Ladder, Picture, Plane, Provenance, Raster,
-    Reprojection, Samples, ShutterProfile, Truth, VelocityKind, read_exr, write_atomically,
-    write_exr,
+    Reprojection, Samples, ShutterProfile, Support, Truth, VelocityKind, read_exr,
+    write_atomically, write_exr,
 };
 
 const WIDTH: u32 = 13;
@@ -108,6 +108,16 @@ fn a_truth() -> Truth {
         at_instant: [at_instant(60), at_instant(70)],
         standard_error: image(40),
         motion: plane(50),
+        support: support(),
+    }
+}
+
+fn support() -> Support {
+    let mask = |salt: u32| Raster::from_fn(WIDTH, HEIGHT, |x, y| (x + salt * y) % 3 == 0);
+    Support {
+        seen: vec![mask(1), mask(2)],
+        moving: mask(4),
+        unknowable: mask(5),
     }
 }
 
@@ -139,6 +149,45 @@ fn every_shutter_comes_back_bit_for_bit() {
         truth.write(&path).unwrap();
         assert_eq!(Truth::read(&path).unwrap(), truth);
     }
+}
+
+#[test]
+fn a_truth_without_a_support_is_refused_with_the_way_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("truth.exr");
+    a_truth().write(&path).unwrap();
+    let whole = read_exr(&path).unwrap();
+    let refused = |file: &ExrFile| {
+        write_exr(&path, file).unwrap();
+        Truth::read(&path)
+            .expect_err("no whole support")
+            .to_string()
+    };
+    let mut old = whole.clone();
+    old.channels
+        .retain(|channel| !channel.name.starts_with("support."));
+    let message = refused(&old);
+    assert!(
+        message.contains("truth.exr: holds no support")
+            && message.contains("`shuttertruth render`"),
+        "{message}"
+    );
+    let mut part = whole.clone();
+    part.channels
+        .retain(|channel| channel.name != "support.unknowable");
+    let message = refused(&part);
+    assert!(
+        message.contains("lacks the channel \"support.unknowable\""),
+        "{message}"
+    );
+    let mut gray = whole;
+    let mut masks = gray.channels.iter_mut();
+    let mask = masks
+        .find(|channel| channel.name == "support.moving")
+        .unwrap();
+    mask.samples = Samples::F32(plane(1).map(|_| 0.5).pixels);
+    let message = refused(&gray);
+    assert!(message.contains("holds 0.5; allowed: 0 and 1"), "{message}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! What the scores do not depend on: the picture's orientation, whole pixels, object numbers, threads.
 
-use frame::{AtInstant, Frame, Image, Picture, Raster, Truth};
+use frame::{AtInstant, Frame, Image, Picture, Raster, Support, Truth};
 use metrics::{Measured, Measurement, Metric, ObjectMetric, Scores, Viewing, measure};
 use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
 
@@ -77,6 +77,13 @@ fn remapped(
         halves: truth.halves.each_ref().map(picture),
         standard_error: take(&truth.standard_error, width, height, &source),
         motion: take(&truth.motion, width, height, &source),
+        support: Support {
+            seen: (truth.support.seen.iter())
+                .map(|seen| take(seen, width, height, &source))
+                .collect(),
+            moving: take(&truth.support.moving, width, height, &source),
+            unknowable: take(&truth.support.unknowable, width, height, &source),
+        },
         at_instant: truth.at_instant.each_ref().map(|half| AtInstant {
             frozen: take(&half.frozen, width, height, &source),
             unknowable: take(&half.unknowable, width, height, &source),

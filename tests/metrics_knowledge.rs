@@ -46,9 +46,7 @@ fn brighter(image: &Image, by: f32, where_: impl Fn(u32, u32) -> bool) -> Image 
 fn errors_are_split_by_what_the_frame_shows() {
     let (frame, mut truth) = frame_and_truth();
     // The right half of the picture cannot be known.
-    for half in &mut truth.at_instant {
-        half.unknowable = Raster::from_fn(72, 48, |x, _| if x >= 36 { 0.25 } else { 0.0 });
-    }
+    truth.support.unknowable = Raster::from_fn(72, 48, |x, _| x >= 36);
     let pools = regions(&truth);
     let count = |mask: &Raster<bool>| mask.pixels.iter().filter(|inside| **inside).count();
     assert_eq!(
@@ -274,6 +272,13 @@ fn every_region_pools_its_own_pixels() {
     let names: Vec<&str> = Region::ALL.map(Region::name).to_vec();
     assert_eq!(
         names,
-        ["moving", "static", "full", "knowable", "unknowable"]
+        [
+            "moving",
+            "support",
+            "static",
+            "full",
+            "knowable",
+            "unknowable"
+        ]
     );
 }

@@ -196,13 +196,14 @@ fn a_hole_needs_a_pixel_that_is_covered_throughout() {
 #[test]
 fn the_moving_region_reaches_a_fifteenth_of_the_height_beyond_what_moves() {
     let mut truth = clean_truth(&small_scene(BESIDE));
-    truth.motion = Raster::from_fn(80, 60, |x, y| if (x, y) == (40, 30) { 0.001 } else { 0.0 });
+    truth.support.moving = Raster::from_fn(80, 60, |x, y| (x, y) == (40, 30));
     let regions = regions(&truth);
     for (reach, inside) in [(4, true), (5, false)] {
         assert_eq!(*regions.moving.at(40 + reach, 30), inside);
         assert_eq!(*regions.moving.at(40, 30 - reach), inside);
         assert_eq!(*regions.still.at(40 + reach, 30), !inside);
     }
+    assert_eq!(regions.support, truth.support.moving);
 }
 
 #[test]

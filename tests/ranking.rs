@@ -61,6 +61,7 @@ fn case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common): Ent
         bar,
         input: InputFormat::default(),
         parameters: BTreeMap::new(),
+        reference_width: None,
         command: None,
         nonlinearity: None,
         alignment: alignment.to_owned(),

@@ -5,6 +5,8 @@ use std::path::Path;
 use std::process::{Child, Stdio};
 use std::time::Duration;
 
+use frame::{read_exr, write_exr};
+
 use crate::bench::{Bench, OBJ, assert_done, assert_refused, files_below, stdout};
 
 /// `render` of the plate into `out`, with more words.
@@ -117,6 +119,39 @@ fn a_killed_render_goes_on_to_the_same_bytes() {
         "a replicate that was whole was rendered again"
     );
     assert_same(&bench, "whole", "killed");
+}
+
+#[test]
+fn files_of_older_versions_are_rendered_anew_and_never_joined() {
+    let bench = Bench::new();
+    for out in ["whole", "old"] {
+        assert_done(&bench.shuttertruth(&render(out, &[])));
+    }
+    let truths = files_below(&bench.path("old")).into_iter().filter(|path| {
+        let name = path.file_name().unwrap().to_string_lossy();
+        name.starts_with("truth_") || name.starts_with("replicate_")
+    });
+    for path in truths {
+        let mut file = read_exr(&path).unwrap();
+        let written = file.channels.len();
+        (file.channels).retain(|channel| !channel.name.starts_with("support."));
+        assert!(
+            file.channels.len() < written,
+            "{} has a support",
+            path.display()
+        );
+        write_exr(&path, &file).unwrap();
+    }
+    assert_refused(
+        &bench.shuttertruth(&["merge", "old", "--out", "joined"]),
+        2,
+        &[
+            "replicate_000.exr: holds no support",
+            "make it anew with `shuttertruth render`",
+        ],
+    );
+    assert_done(&bench.shuttertruth(&render("old", &[])));
+    assert_same(&bench, "whole", "old");
 }
 
 #[test]

@@ -256,6 +256,27 @@ fn pictures_that_cannot_be_scored_are_refused_with_their_name() {
 }
 
 #[test]
+fn a_truth_of_an_older_version_is_refused_with_the_way_out() {
+    let bench = Bench::new();
+    run(&bench, &[]);
+    let mut file = read_exr(&bench.path(TRUTH[1])).unwrap();
+    (file.channels).retain(|channel| !channel.name.starts_with("support."));
+    write_exr(&bench.path("old.exr"), &file).unwrap();
+    let words = [
+        &["score", "--image", OUTPUT, "--truth", "old.exr"][..],
+        &FRAME,
+    ];
+    assert_refused(
+        &bench.shuttertruth(&words.concat()),
+        2,
+        &[
+            "old.exr: holds no support",
+            "make it anew with `shuttertruth render`",
+        ],
+    );
+}
+
+#[test]
 fn the_truth_itself_is_without_error_as_exr_and_rounded_as_png() {
     let bench = Bench::new();
     run(&bench, &[]);

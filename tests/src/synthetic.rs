@@ -4,7 +4,7 @@
 use frame::{
     Accumulation, Alignment, AtInstant, ColorSampling, Display, FAR_DEPTH, FlipExposures, Frame,
     Image, Ladder, Picture, Plane, Provenance, Raster, Replicate, Reprojection, Shutter,
-    ShutterProfile, Truth, VelocityKind,
+    ShutterProfile, Support, Truth, VelocityKind,
 };
 use metrics::Viewing;
 
@@ -150,6 +150,27 @@ impl Scene {
             at_instant: halves.each_ref().map(|half| nothing_unknown(&half.color)),
             halves,
             motion,
+            support: self.support(),
+        }
+    }
+
+    /// What the open shutter sees: the same for all truths of the scene, whatever their noise.
+    pub fn support(&self) -> Support {
+        let probe = self.render(&Blur::TRUE, Sampling::CLEAN);
+        let seen: Vec<Raster<bool>> = (probe.coverage.iter())
+            .map(|plane| plane.map(|share| *share > 0.0))
+            .collect();
+        let nothing = seen[0].map(|_| false);
+        let movers = self.objects.iter().zip(&seen[1..]);
+        let moving = movers
+            .filter(|(object, _)| object.moves())
+            .fold(nothing.clone(), |moving, (_, seen)| {
+                moving.zip(seen, |moving, seen| *moving || *seen)
+            });
+        Support {
+            seen,
+            moving,
+            unknowable: nothing,
         }
     }
 
@@ -159,6 +180,7 @@ impl Scene {
         let moving: Vec<bool> = still
             .chain(self.objects.iter().map(Object::moves))
             .collect();
+        let support = self.support();
         (0..)
             .zip(samplings)
             .map(|(index, sampling)| {
@@ -172,6 +194,7 @@ impl Scene {
                     objects: self.names(),
                     moving: moving.clone(),
                     at_instant: nothing_unknown(&picture.color),
+                    support: support.clone(),
                     picture,
                 }
             })

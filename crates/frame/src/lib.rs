@@ -17,6 +17,7 @@
 //! | depth | distance along the view axis in metres; the background holds [`FAR_DEPTH`] |
 //! | coverage | per object: the fraction of (shutter x pixel area) in which that object is the visible surface; sums to 1 with the background |
 //! | noise | a truth is R independent, complete replicates; two halves A and B and the standard error travel with it |
+//! | support | what the open shutter sees at all: a function of scene, shutter and size, which no noise of a truth changes; see [`Support`] |
 //! | determinism | the same inputs give the same bytes on any number of threads |
 
 mod accumulation;
@@ -34,6 +35,7 @@ mod replicate;
 mod reprojection;
 mod shutter;
 mod shutter_profile;
+mod support;
 mod truth;
 
 pub use accumulation::{Accumulation, Ladder};
@@ -50,4 +52,5 @@ pub use replicate::Replicate;
 pub use reprojection::Reprojection;
 pub use shutter::{Alignment, Shutter, ShutterError};
 pub use shutter_profile::{Efficiency, ShutterProfile};
+pub use support::Support;
 pub use truth::{Truth, TruthError, truth_hash};

@@ -9,6 +9,8 @@ use crate::{Image, Raster, Truth};
 pub enum Region {
     /// Where anything moved on screen while the shutter was open, and the band that a bleed would reach.
     Moving,
+    /// Where anything moved on screen while the shutter was open, without that band: a thin smear is not diluted.
+    Support,
     /// Where nothing did: the picture there is that of the instant. `static` in names and files.
     Still,
     /// The whole picture: reported because readers expect it; a filter that does nothing looks good here.
@@ -25,6 +27,8 @@ pub enum Region {
 pub struct Regions {
     /// [`Region::Moving`].
     pub moving: Raster<bool>,
+    /// [`Region::Support`].
+    pub support: Raster<bool>,
     /// [`Region::Still`].
     pub still: Raster<bool>,
     /// [`Region::Knowable`].
@@ -35,8 +39,9 @@ pub struct Regions {
 
 impl Region {
     /// Every region.
-    pub const ALL: [Region; 5] = [
+    pub const ALL: [Region; 6] = [
         Region::Moving,
+        Region::Support,
         Region::Still,
         Region::Full,
         Region::Knowable,
@@ -47,6 +52,7 @@ impl Region {
     pub fn name(self) -> &'static str {
         match self {
             Region::Moving => "moving",
+            Region::Support => "support",
             Region::Still => "static",
             Region::Full => "full",
             Region::Knowable => "knowable",
@@ -66,6 +72,7 @@ impl Regions {
     pub fn select<T: Copy>(&self, region: Region, map: &Raster<T>) -> Vec<T> {
         let mask = match region {
             Region::Moving => &self.moving,
+            Region::Support => &self.support,
             Region::Still => &self.still,
             Region::Full => return map.pixels.clone(),
             Region::Knowable => &self.knowable,
@@ -83,18 +90,19 @@ impl Regions {
     }
 }
 
-/// Moving: `truth.motion > 0` dilated by a fifteenth of the height (a bleed leaves the support); static: the rest. Moving
-/// pixels are knowable where not a single sample of the truth saw what the frame does not show.
+/// Derives the regions from the truth's [`Support`](crate::Support), which its noise does not change.
+///
+/// Support: where anything moves. Moving: that dilated by a disc of a fifteenth of the height (a bleed leaves the support).
+/// Static: the rest. Moving pixels are knowable where the support saw nothing that the frame does not show.
 pub fn regions(truth: &Truth) -> Regions {
-    let moving = dilated(
-        &truth.motion.map(|fraction| *fraction > 0.0),
-        truth.motion_margin(),
-    );
-    let hidden = truth.at_instant_mean().unknowable.map(|part| *part > 0.0);
+    let support = &truth.support.moving;
+    let hidden = &truth.support.unknowable;
+    let moving = dilated(support, truth.motion_margin());
     Regions {
         still: moving.map(|moves| !moves),
-        knowable: moving.zip(&hidden, |moves, hidden| *moves && !hidden),
-        unknowable: moving.zip(&hidden, |moves, hidden| *moves && *hidden),
+        knowable: moving.zip(hidden, |moves, hidden| *moves && !hidden),
+        unknowable: moving.zip(hidden, |moves, hidden| *moves && *hidden),
+        support: support.clone(),
         moving,
     }
 }
@@ -160,6 +168,7 @@ mod tests {
         let regions = Regions {
             knowable: moving.clone(),
             unknowable: moving.map(|_| false),
+            support: moving.clone(),
             moving,
             still,
         };
@@ -168,6 +177,7 @@ mod tests {
         let all = ((0.1_f64.powi(2) + 3.0 * one_of_three.powi(2)) / 4.0).sqrt();
         for (region, expected) in [
             (Region::Moving, 0.1),
+            (Region::Support, 0.1),
             (Region::Still, one_of_three),
             (Region::Full, all),
             (Region::Knowable, 0.1),

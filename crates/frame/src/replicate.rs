@@ -4,7 +4,9 @@ use std::path::Path;
 
 use crate::exr_file::{ExrFile, read_exr, write_exr};
 use crate::truth::{get_shutter, set_shutter};
-use crate::{Alignment, AtInstant, FileError, Picture, Provenance, Shutter, ShutterProfile};
+use crate::{
+    Alignment, AtInstant, FileError, Picture, Provenance, Shutter, ShutterProfile, Support,
+};
 
 /// One of the renders that a [`Truth`](crate::Truth) is the mean of. All rasters have the same size.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,15 +29,19 @@ pub struct Replicate {
     pub picture: Picture,
     /// The same as it was at the instant.
     pub at_instant: AtInstant,
+    /// What scores are pooled over: the same for all replicates of a scene, shutter and size.
+    pub support: Support,
 }
 
 impl Replicate {
-    /// Writes the replicate as OpenEXR: `R G B`, `coverage.<object>`, and what [`AtInstant`] holds.
+    /// Writes the replicate as OpenEXR: `R G B`, `coverage.<object>`, and what [`AtInstant`] and [`Support`]
+    /// hold.
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
         let color = &self.picture.color;
         let mut file = ExrFile::new(color.width, color.height);
         self.picture.push(&mut file, "", &self.objects);
         self.at_instant.push(&mut file, "");
+        self.support.push(&mut file, &self.objects);
         file.set("kind", "replicate");
         file.set("replicate", self.index);
         set_shutter(&mut file, self.shutter, self.alignment);
@@ -66,6 +72,7 @@ impl Replicate {
             moving: objects.iter().map(|name| moving.contains(name)).collect(),
             picture: Picture::from_exr(&file, "", &objects)?,
             at_instant: AtInstant::from_exr(&file, "")?,
+            support: Support::from_exr(&file, &objects)?,
             objects,
         })
     }

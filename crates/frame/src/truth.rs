@@ -6,7 +6,7 @@ use crate::exr_file::{ExrFile, read_exr, write_exr};
 use crate::region::noise_floor;
 use crate::{
     Alignment, AtInstant, FileError, Image, Picture, Plane, Provenance, Region, Regions, Replicate,
-    Shutter, ShutterProfile, regions,
+    Shutter, ShutterProfile, Support, regions,
 };
 
 /// Radiance and visibility integrated over the shutter, with its own noise. All rasters have the same size.
@@ -30,6 +30,8 @@ pub struct Truth {
     pub standard_error: Image,
     /// Fraction of (shutter x pixel area) whose visible surface moves on screen while the shutter is open.
     pub motion: Plane,
+    /// What scores are pooled over; unlike the other rasters it has no noise.
+    pub support: Support,
 }
 
 /// Replicates that make no truth: what was found, and what is allowed.
@@ -61,6 +63,15 @@ pub enum TruthError {
         /// That of the first.
         expected: String,
     },
+    /// Replicates that name one origin and were altered since.
+    #[error(
+        "replicate {index} has another support than replicate 0, though both name one content hash; replicates of one \
+         scene, size and shutter have one support: remove both files and render them anew"
+    )]
+    Support {
+        /// Which replicate.
+        index: u32,
+    },
 }
 
 impl Truth {
@@ -85,6 +96,9 @@ impl Truth {
                     expected,
                 });
             }
+            if replicate.support != first.support {
+                return Err(TruthError::Support { index });
+            }
         }
         let half = |first: usize| {
             Picture::mean(replicates.iter().skip(first).step_by(2).map(|r| &r.picture))
@@ -107,6 +121,7 @@ impl Truth {
             objects: first.objects.clone(),
             motion: motion(&Picture::mean(&halves), &first.moving),
             standard_error: standard_error(replicates),
+            support: first.support.clone(),
             halves,
             at_instant,
         })
@@ -146,7 +161,7 @@ impl Truth {
 
     /// Writes the truth as OpenEXR: the mean as `R G B` and `coverage.<object>`, what [`AtInstant`] holds, the
     /// halves of both as layers `A` and `B`,
-    /// `stderr.R/G/B`, and `motion`. The attributes `noise_floor_<region>` report [`Truth::noise_floors`].
+    /// `stderr.R/G/B`, `motion`, and what [`Support`] holds. The attributes `noise_floor_<region>` report [`Truth::noise_floors`].
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
         let (width, height) = self.size();
         let mut file = ExrFile::new(width, height);
@@ -158,6 +173,7 @@ impl Truth {
         self.at_instant[1].push(&mut file, "B");
         file.push_color("stderr", &self.standard_error);
         file.push_plane("motion", &self.motion);
+        self.support.push(&mut file, &self.objects);
         file.set("kind", "truth");
         for (region, floor) in self.noise_floors() {
             file.set(&format!("noise_floor_{region}"), floor);
@@ -188,6 +204,7 @@ impl Truth {
                 Picture::from_exr(&file, "A", &objects)?,
                 Picture::from_exr(&file, "B", &objects)?,
             ],
+            support: Support::from_exr(&file, &objects)?,
             objects,
             at_instant: [
                 AtInstant::from_exr(&file, "A")?,

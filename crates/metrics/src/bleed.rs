@@ -31,17 +31,17 @@ pub struct Bleed {
     pub trailing: f64,
 }
 
-/// Sorts every pixel by where it lies from the support `{truth > 0}`, which reaches one pixel further: partial pixels of
-/// a rounded edge. `directions` holds the unit vector of motion to judge each pixel of the support by.
+/// Sorts every pixel by where it lies from the support, which is where the object was seen while the shutter was open, and
+/// reaches one pixel further: partial pixels of a rounded edge. `directions` holds the unit vector of motion to judge each
+/// pixel of the support by.
 ///
 /// A pixel without direction (the centre of a rotation) has everything beside it. Equally near parts of the support decide
-/// together. `None` when the truth never shows the object.
-pub fn sides(truth: &Plane, directions: &Raster<[f64; 2]>) -> Option<Raster<Side>> {
-    let support = truth.map(|matte| *matte > 0.0);
-    let nearest = nearest(&support)?;
+/// together, by the sum of their offsets and the sum of their directions. `None` when the object is never seen.
+pub fn sides(support: &Raster<bool>, directions: &Raster<[f64; 2]>) -> Option<Raster<Side>> {
+    let nearest = nearest(support)?;
     // Straight outlines have whole rows of pixels at one distance.
     let mut circles: HashMap<u64, Vec<[i64; 2]>> = HashMap::new();
-    Some(Raster::from_fn(truth.width, truth.height, |x, y| {
+    Some(Raster::from_fn(support.width, support.height, |x, y| {
         let distance = distance_squared([x, y], *nearest.at(x, y));
         // The eight neighbours of the support are still inside.
         if distance <= 2 {
@@ -49,7 +49,7 @@ pub fn sides(truth: &Plane, directions: &Raster<[f64; 2]>) -> Option<Raster<Side
         }
         let (mut away, mut along) = ([0.0; 2], [0.0; 2]);
         let circle = (circles.entry(distance)).or_insert_with(|| circle(distance));
-        for [u, v] in on_circle(&support, [x, y], circle) {
+        for [u, v] in on_circle(support, [x, y], circle) {
             let offset = [f64::from(x) - f64::from(u), f64::from(y) - f64::from(v)];
             let direction = *directions.at(u, v);
             away = [0, 1].map(|axis| away[axis] + offset[axis]);

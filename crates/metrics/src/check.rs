@@ -4,7 +4,7 @@ use frame::{Frame, Ladder, Picture, Raster, Truth};
 
 use crate::{MeasureError, Viewing};
 
-/// flip-rs refuses work beyond 2^34 additions, which its kernels at 67 pixels per degree reach at 28.5 million pixels.
+/// flip-rs refuses work beyond 2^34 additions, which its kernels at 67.02 pixels per degree reach at 28.5 million pixels.
 const LARGEST_PICTURE: u64 = 28_000_000;
 
 /// Refuses HDR-FLIP exposures that make no range.
@@ -68,9 +68,25 @@ pub fn check_agreement(
         check_size(plane, truth, what)?;
         check_finite(plane, what, |value| [*value])?;
     }
+    check_support(truth)?;
     check_size(&frame.object_id, truth, "the frame's object id")?;
     check_size(&frame.velocity, truth, "the frame's velocity")?;
     check_finite(&frame.velocity, "the frame's velocity", |value| *value)
+}
+
+/// Refuses a support of another size or of other objects.
+fn check_support(truth: &Truth) -> Result<(), MeasureError> {
+    let support = &truth.support;
+    agree(
+        "the truth's support: number of objects",
+        &support.seen.len(),
+        &truth.objects.len(),
+    )?;
+    let masks = support.seen.iter();
+    for mask in masks.chain([&support.moving, &support.unknowable]) {
+        check_size(mask, truth, "the truth's support")?;
+    }
+    Ok(())
 }
 
 /// Refuses a picture of another size, with missing mattes, or with values that are no numbers.

@@ -2,7 +2,7 @@
 
 use frame::{Image, Raster, Region, Regions, Truth};
 
-use crate::cross_error::{cross, squared_error};
+use crate::cross_error::{cross, scatter, squared_error};
 use crate::error_maps::widen;
 use crate::flip::flip_ldr;
 use crate::pooling::mean;
@@ -32,7 +32,7 @@ impl FrozenReference {
         let against_itself = [&reference.mean; 2];
         let squared = squared_error(&reference.halves[0], against_itself, viewing.scale());
         let flip = reference.flip(&reference.halves[0], viewing);
-        reference.noise = pooled(&squared, regions)
+        reference.noise = scattered(&squared, regions)
             .zip(pooled(&flip, regions))
             .map(<[f64; 2]>::from);
         reference
@@ -67,7 +67,7 @@ impl FrozenReference {
 
 const NOTHING_MOVES: &str = "nothing moves on screen";
 
-/// `(A - A')(B - B')` where A' and B' are the frozen halves, and a quarter of `((A - A') - (B - B'))^2` as its floor.
+/// `(A - A')(B - B')` where A' and B' are the frozen halves. Where shading stands still it scatters about 0, by its floor.
 fn shading(truth: &Truth, frozen: &[Image; 2], regions: &Regions, viewing: &Viewing) -> Measured {
     let scale = viewing.scale();
     let colors = truth.halves.each_ref().map(|half| &half.color);
@@ -78,10 +78,14 @@ fn shading(truth: &Truth, frozen: &[Image; 2], regions: &Regions, viewing: &View
         })
     });
     let noise = squared_error(&differences[0], [&differences[1]; 2], 0.5 * scale);
-    match (pooled(&product, regions), pooled(&noise, regions)) {
+    match (pooled(&product, regions), scattered(&noise, regions)) {
         (Some(value), Some(noise)) => Measured::score(value, noise),
         _ => Measured::not_applicable(NOTHING_MOVES),
     }
+}
+
+fn scattered(noise: &Raster<f64>, regions: &Regions) -> Option<f64> {
+    scatter(&regions.select(Region::Moving, noise))
 }
 
 fn pooled(map: &Raster<f64>, regions: &Regions) -> Option<f64> {

@@ -33,10 +33,12 @@ pub fn jackknife(whole: f64, without: &[f64]) -> Option<Interval> {
         return None;
     }
     let count = without.len() as f64;
-    let mean = without.iter().sum::<f64>() / count;
-    let squares: f64 = without.iter().map(|value| (value - mean).powi(2)).sum();
+    // By how much leaving a group out raises the score: exactly 0 for a score that no group changes.
+    let raised: Vec<f64> = without.iter().map(|value| value - whole).collect();
+    let mean = raised.iter().sum::<f64>() / count;
+    let squares: f64 = raised.iter().map(|value| (value - mean).powi(2)).sum();
     let standard_error = ((count - 1.0) / count * squares).sqrt();
-    let center = whole + (count - 1.0) * (whole - mean);
+    let center = whole - (count - 1.0) * mean;
     let half_width = standard_error * quantile(count - 1.0);
     Some(Interval {
         low: center - half_width,
@@ -95,6 +97,16 @@ mod tests {
         let center = (interval.low + interval.high) / 2.0;
         // 3.5^2 less s^2 / 4 = 7 / 4.
         assert!((center - (12.25 - 1.75)).abs() < 1e-12, "{center}");
+    }
+
+    #[test]
+    fn a_score_that_no_group_changes_is_known_exactly() {
+        // A tenth three times does not add up to three tenths.
+        let interval = jackknife(0.1, &[0.1; 3]).unwrap();
+        assert_eq!(
+            [interval.low, interval.high, interval.standard_error],
+            [0.1, 0.1, 0.0]
+        );
     }
 
     #[test]

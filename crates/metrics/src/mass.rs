@@ -1,14 +1,13 @@
 //! Whether a blur keeps the object's mass, and its unblurred core.
 
-use frame::Plane;
+use frame::{Plane, Raster};
 
-/// A matte this close to 1 covers its pixel throughout the shutter: within the rounding of a mean of 32-bit halves.
-const FULL: f64 = 1.0 - 1e-6;
+use crate::pooling::mean;
 
 /// Sums over a whole matte.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mass {
-    /// Mean of `1 - a` where the truth covers the pixel throughout the shutter; `None` where it covers none so.
+    /// Mean of `1 - a` over the core; `None` where that is empty.
     pub hole: Option<f64>,
     /// Missing mass over the truth's mass.
     pub deficit: f64,
@@ -16,8 +15,9 @@ pub struct Mass {
     pub energy: f64,
 }
 
-/// Compares sums of mattes; `None` when the truth never shows the object.
-pub fn mass(output: &Plane, truth: &Plane) -> Option<Mass> {
+/// Compares sums of mattes; `core` is where the object is seen throughout the shutter. `None` when the truth never shows the
+/// object.
+pub fn mass(output: &Plane, truth: &Plane, core: &Raster<bool>) -> Option<Mass> {
     let pairs = || {
         output
             .pixels
@@ -26,12 +26,11 @@ pub fn mass(output: &Plane, truth: &Plane) -> Option<Mass> {
             .map(|(a, b)| (f64::from(*a), f64::from(*b)))
     };
     let total: f64 = pairs().map(|(_, truth)| truth).sum();
-    let core: Vec<f64> = pairs()
-        .filter(|(_, truth)| *truth >= FULL)
-        .map(|(output, _)| 1.0 - output)
+    let missing: Vec<f64> = (output.pixels.iter().zip(&core.pixels))
+        .filter_map(|(output, inside)| inside.then_some(1.0 - f64::from(*output)))
         .collect();
     (total > 0.0).then(|| Mass {
-        hole: crate::pooling::mean(&core),
+        hole: mean(&missing),
         deficit: pairs().map(|(a, truth)| (truth - a).max(0.0)).sum::<f64>() / total,
         energy: pairs().map(|(a, _)| a).sum::<f64>() / total,
     })

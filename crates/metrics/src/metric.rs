@@ -84,7 +84,7 @@ pub enum ObjectMetric {
     Extent,
     /// Steps, ripples and noise along the motion.
     TvExcess,
-    /// Holes in the unblurred core.
+    /// Holes where nothing else is seen.
     Hole,
     /// Missing mass.
     Deficit,
@@ -325,8 +325,9 @@ impl Metric {
         }
     }
 
-    /// The strictest bound that a truth with this noise floor can carry: three floors away from perfect. For PSNR that is
-    /// three times the floor's squared error; for equivalent sub-frames a third of the highest count that the truth can
+    /// The strictest bound that a truth with this noise floor can carry: three floors away from perfect. For unbiased squared
+    /// errors these are three standard deviations of what a perfect picture scores, for PSNR three times the floor's squared
+    /// error; for equivalent sub-frames a third of the highest count that the truth can
     /// tell, because error falls at least as fast as the count rises.
     pub fn strictest_bound(self, floor: f64) -> f64 {
         match (self, self.ideal()) {

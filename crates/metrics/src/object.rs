@@ -17,10 +17,12 @@ use crate::{Measured, ObjectMetric, ObjectScores};
 pub struct ObjectReference {
     name: String,
     truth: Plane,
+    /// Where the object is seen throughout the shutter.
+    core: Raster<bool>,
     mover: Result<Moving, Stillness>,
     /// Mass scores of the truth's first half.
     mass_noise: Option<Mass>,
-    /// Whether the matte of truth or instant reaches the picture's border.
+    /// Whether the object is seen at the picture's border, at the instant or while the shutter is open.
     touches_border: bool,
 }
 
@@ -28,7 +30,7 @@ pub struct ObjectReference {
 struct Moving {
     mover: Mover,
     sides: Option<Raster<Side>>,
-    /// Bleed of one half out of the other's support.
+    /// Bleed of the truth's first half.
     bleed_noise: Option<Bleed>,
     rows: Result<AlongMotion, String>,
     /// Gradient magnitude of the true matte, and the error of the first half's.
@@ -42,15 +44,17 @@ impl ObjectReference {
         let matte = mean.coverage[id].clone();
         let half = &truth.halves[0].coverage[id];
         let instant = &frame.coverage[id];
-        let touches_border = touches_border(&matte) || touches_border(instant);
+        let support = &truth.support.seen[id];
+        let core = truth.support.throughout(id);
+        let seen = support.map(|seen| f32::from(*seen));
+        let touches_border = touches_border(&seen) || touches_border(instant);
         let moving = |mover: Mover| {
             let gradient = gradient_magnitude(&matte);
-            let other = &truth.halves[1].coverage[id];
-            let bleed_noise = sides(other, &mover.directions)
-                .and_then(|sides| bleed(half, &sides, &mover.silhouette));
+            let sides = sides(support, &mover.directions);
             Moving {
-                sides: sides(&matte, &mover.directions),
-                bleed_noise,
+                bleed_noise: (sides.as_ref())
+                    .and_then(|sides| bleed(half, sides, &mover.silhouette)),
+                sides,
                 rows: AlongMotion::new(&mover, touches_border, instant, &matte, half),
                 gradient_noise: gradient_error(&gradient_magnitude(half), &gradient),
                 gradient,
@@ -60,7 +64,8 @@ impl ObjectReference {
         Self {
             name: truth.objects[id].clone(),
             mover: Mover::new(frame, id as u32).map(moving),
-            mass_noise: mass(half, &matte),
+            mass_noise: mass(half, &matte, &core),
+            core,
             touches_border,
             truth: matte,
         }
@@ -135,7 +140,7 @@ impl ObjectReference {
         )
     }
 
-    /// The object's matte outside its true support, zero elsewhere and for what does not move.
+    /// The object's matte outside its support, zero elsewhere and for what does not move.
     pub fn bleed_map(&self, matte: &Plane) -> Plane {
         match &self.mover {
             Ok(Moving {
@@ -211,7 +216,7 @@ impl ObjectReference {
         if let Err(reason) = self.moving() {
             return [(); 3].map(|()| Measured::not_applicable(&reason));
         }
-        let (found, noise) = (mass(matte, &self.truth), self.mass_noise);
+        let (found, noise) = (mass(matte, &self.truth, &self.core), self.mass_noise);
         let unseen = "is not seen while the shutter is open";
         let energy = if self.touches_border {
             Measured::not_applicable(BORDER)

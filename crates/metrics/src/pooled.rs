@@ -2,6 +2,7 @@
 
 use frame::{Raster, Region, Regions};
 
+use crate::cross_error::scatter;
 use crate::error_maps::ErrorMaps;
 use crate::pooling::{mean, percentile, sorted, weighted_median};
 
@@ -63,6 +64,21 @@ impl Pooled {
             ssim: mean(&ssim),
             label: mean(&label)?,
             label_p95: percentile(&sorted(label), 0.95)?,
+        })
+    }
+
+    /// The floors, from the errors of the truth's first half against the mean. Unbiased errors of a picture without error
+    /// are not as large as the noise: they scatter about 0, see [`scatter`].
+    pub fn of_noise(
+        noise: &ErrorMaps,
+        regions: &Regions,
+        region: Region,
+        windows: &Raster<bool>,
+    ) -> Option<Self> {
+        Some(Self {
+            mse: scatter(&regions.select(region, &noise.squared))?,
+            relmse: scatter(&regions.select(region, &noise.relative))?,
+            ..Self::new(noise, regions, region, windows)?
         })
     }
 }

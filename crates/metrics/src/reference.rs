@@ -5,7 +5,6 @@ use rayon::prelude::*;
 
 use crate::absolute_error::absolute_error;
 use crate::check::{check_agreement, check_picture, check_viewing};
-use crate::cross_error::uncertainty;
 use crate::equivalent::{Curve, Equivalent};
 use crate::error_maps::{ErrorMaps, MoreMaps};
 use crate::frozen::FrozenReference;
@@ -40,12 +39,11 @@ pub struct Reference<'a> {
     truth: &'a Truth,
     mean: Picture,
     viewing: Viewing,
-    /// Errors of the truth's first half against the mean, whose difference is as large as the mean's own noise.
+    /// Floors: from the errors of the truth's first half against the mean, whose difference is as large as the mean's own
+    /// noise.
     noise: [Option<Pooled>; Region::ALL.len()],
     /// The same of its labels, pixel by pixel.
     label_noise: Raster<f64>,
-    /// Standard error of the unbiased squared error over the moving region, from the truth's noise.
-    mse_uncertainty: f64,
     /// The picture that does nothing.
     instant: Image,
     /// What skill is measured by.
@@ -65,27 +63,6 @@ impl<'a> Reference<'a> {
         ladder: Option<&Ladder>,
         viewing: &Viewing,
     ) -> Result<Self, MeasureError> {
-        Self::made(frame, truth, ladder, viewing, None)
-    }
-
-    /// The same over the regions of another truth of the scene.
-    pub fn over(
-        regions: Regions,
-        frame: &Frame,
-        truth: &'a Truth,
-        ladder: Option<&Ladder>,
-        viewing: &Viewing,
-    ) -> Result<Self, MeasureError> {
-        Self::made(frame, truth, ladder, viewing, Some(regions))
-    }
-
-    fn made(
-        frame: &Frame,
-        truth: &'a Truth,
-        ladder: Option<&Ladder>,
-        viewing: &Viewing,
-        of_another: Option<Regions>,
-    ) -> Result<Self, MeasureError> {
         check_viewing(viewing)?;
         check_agreement(frame, truth, ladder)?;
         let instant = Picture {
@@ -97,13 +74,13 @@ impl<'a> Reference<'a> {
             check_picture(half, truth, &format!("half {name} of the truth"))?;
         }
         let mean = truth.mean();
-        let regions = of_another.unwrap_or_else(|| regions(truth));
+        let regions = regions(truth);
         let windows = whole_windows(truth.size());
         let halves = truth.halves.each_ref().map(|half| &half.color);
         let noise = ErrorMaps::new(&truth.halves[0], [&mean.color; 2], &mean, viewing);
         let instant_errors = ErrorMaps::new(&instant, halves, &mean, viewing);
         Ok(Self {
-            noise: Region::ALL.map(|region| Pooled::new(&noise, &regions, region, &windows)),
+            noise: Region::ALL.map(|region| Pooled::of_noise(&noise, &regions, region, &windows)),
             label_noise: noise.label,
             ends: Ends {
                 nothing: Pooled::new(&instant_errors, &regions, Region::Moving, &windows),
@@ -111,11 +88,6 @@ impl<'a> Reference<'a> {
             },
             windows,
             frozen: FrozenReference::new(truth, &regions, viewing),
-            mse_uncertainty: uncertainty(
-                &regions.select(Region::Moving, halves[0]),
-                &regions.select(Region::Moving, halves[1]),
-                viewing.scale(),
-            ),
             objects: (1..truth.objects.len())
                 .into_par_iter()
                 .map(|id| ObjectReference::new(frame, truth, &mean, id))
@@ -162,10 +134,11 @@ impl<'a> Reference<'a> {
                 .measure(&output.color, &self.regions, &self.viewing);
         let static_change = self.static_change(&output.color);
         let pooled = Region::ALL.map(|region| self.pooled(&errors, region));
-        let [moving, still, full, knowable, unknowable] = &pooled;
+        let [moving, support, still, full, knowable, unknowable] = &pooled;
         Ok(Measurement {
             scores: Scores {
                 moving: image_scores(moving),
+                support: image_scores(support),
                 still: image_scores(still),
                 full: image_scores(full),
                 knowable: image_scores(knowable),
@@ -238,27 +211,22 @@ impl<'a> Reference<'a> {
 
     fn equivalent_scores(&self, moving: &Found) -> EquivalentScores {
         type Of<T> = fn(&Curves) -> &T;
-        let place = |curve: Of<Option<Curve>>, error: fn(&Pooled) -> f64, noise: Option<f64>| {
+        let place = |curve: Of<Option<Curve>>, error: fn(&Pooled) -> f64| {
             let Some(curves) = &self.curves else {
                 return Equivalent::refused("no ladder of accumulations was given");
             };
             match (moving, curve(curves)) {
-                (Ok((own, own_noise)), Some(curve)) => {
-                    let noise = noise.unwrap_or(error(own_noise));
-                    Equivalent::Subframes(curve.place(error(own), noise))
+                (Ok((own, noise)), Some(curve)) => {
+                    Equivalent::Subframes(curve.place(error(own), error(noise)))
                 }
                 (Ok(_), None) => Equivalent::refused("no accumulation can be told from the truth"),
                 (Err(reason), _) => Equivalent::refused(reason),
             }
         };
         EquivalentScores {
-            mse: place(
-                |curves| &curves.mse,
-                |pooled| pooled.mse,
-                Some(self.mse_uncertainty),
-            ),
-            flip: place(|curves| &curves.flip, |pooled| pooled.flip, None),
-            label_total_variation: place(|curves| &curves.label, |pooled| pooled.label, None),
+            mse: place(|curves| &curves.mse, |pooled| pooled.mse),
+            flip: place(|curves| &curves.flip, |pooled| pooled.flip),
+            label_total_variation: place(|curves| &curves.label, |pooled| pooled.label),
         }
     }
 }
@@ -272,7 +240,7 @@ fn whole_windows((width, height): (u32, u32)) -> Raster<bool> {
 
 fn empty(region: Region) -> &'static str {
     match region {
-        Region::Moving => "nothing moves on screen",
+        Region::Moving | Region::Support => "nothing moves on screen",
         Region::Still => "no pixel stands still",
         Region::Full => "the picture has no pixel",
         Region::Knowable => "no moving pixel is seen whole in the frame of the instant",

@@ -13,6 +13,8 @@ use crate::{
 pub struct Scores {
     /// Where anything moved.
     pub moving: ImageScores,
+    /// The same without the band that a bleed would reach.
+    pub support: ImageScores,
     /// Where nothing did.
     #[serde(rename = "static")]
     pub still: ImageScores,
@@ -138,7 +140,7 @@ pub struct ObjectScores {
     pub extent: Measured,
     /// Total variation along the motion over the true one, less 1: steps, ripples and noise raise it.
     pub tv_excess: Measured,
-    /// Mean of what is missing where the object covers the pixel throughout.
+    /// Mean of what is missing where nothing but the object is seen while the shutter is open.
     pub hole: Measured,
     /// Missing mass over true mass.
     pub deficit: Measured,
@@ -255,6 +257,7 @@ impl Scores {
     fn region(&self, region: Region) -> &ImageScores {
         match region {
             Region::Moving => &self.moving,
+            Region::Support => &self.support,
             Region::Still => &self.still,
             Region::Full => &self.full,
             Region::Knowable => &self.knowable,

@@ -14,12 +14,9 @@ const GROUP: usize = 2;
 /// The fewest replicates that have an interval: two groups.
 pub const FEWEST_REPLICATES: u32 = 4;
 
-/// The truths that all of `replicates` but one pair each make. The pixels that scores are pooled over stay those of `whole`,
-/// their truth.
-pub fn truths_without_pairs(
-    whole: &Truth,
-    replicates: &[Replicate],
-) -> Result<Vec<Truth>, TruthError> {
+/// The truths that all of `replicates` but one pair each make. Replicates share one support, so that the pixels that scores are
+/// pooled over stay the same.
+pub fn truths_without_pairs(replicates: &[Replicate]) -> Result<Vec<Truth>, TruthError> {
     (0..replicates.len() / GROUP)
         .map(|pair| {
             let kept = (replicates.iter().enumerate()).filter(|(at, _)| at / GROUP != pair);
@@ -29,10 +26,7 @@ pub fn truths_without_pairs(
                     ..replicate.clone()
                 })
                 .collect();
-            Ok(Truth {
-                motion: whole.motion.clone(),
-                ..Truth::of(&kept)?
-            })
+            Truth::of(&kept)
         })
         .collect()
 }
@@ -41,8 +35,7 @@ pub fn truths_without_pairs(
 /// pairs: [`jackknife`].
 ///
 /// A percentile is no smooth function of the truth, and its jackknife is too narrow: its interval is wider by the score's
-/// floor at either end. What bleeds is told by where the truth shows the object at all, which grows a little with every
-/// sample; no interval knows of that.
+/// floor at either end.
 pub fn intervals(
     whole: &Scores,
     without: &[Scores],

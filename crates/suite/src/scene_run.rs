@@ -92,16 +92,13 @@ impl SceneRun<'_> {
                 Ok((*alignment, reference))
             })
             .collect::<Result<BTreeMap<_, _>, Error>>()?;
-        let parts = self.parts(due, truths)?;
+        let parts = self.parts(due)?;
         let without = (parts.iter())
             .map(|(alignment, parts)| {
-                let whole = &references[alignment];
+                let ladder = Some(&truths[alignment].1);
+                let viewing = viewing(self.scene);
                 let reference = |part| {
-                    let ladder = Some(&truths[alignment].1);
-                    // What is left out changes scores, not where they are taken.
-                    let regions = whole.regions.clone();
-                    Reference::over(regions, &cropped, part, ladder, &viewing(self.scene))?
-                        .with_best(&oracles[alignment])
+                    Reference::new(&cropped, part, ladder, &viewing)?.with_best(&oracles[alignment])
                 };
                 let references: Result<_, MeasureError> = parts.iter().map(reference).collect();
                 Ok((*alignment, references?))
@@ -178,11 +175,7 @@ impl SceneRun<'_> {
     }
 
     /// Per alignment that filters are judged by, the truths that all replicates but a pair each make.
-    fn parts(
-        &self,
-        due: &[&Subject],
-        truths: &Truths,
-    ) -> Result<BTreeMap<Alignment, Vec<Truth>>, Error> {
+    fn parts(&self, due: &[&Subject]) -> Result<BTreeMap<Alignment, Vec<Truth>>, Error> {
         let Plan {
             render, out, quiet, ..
         } = self.plan;
@@ -192,8 +185,7 @@ impl SceneRun<'_> {
             .filter(|_| self.plan.intervals)
             .map(|alignment| {
                 let replicates = replicates_of(self.scene, render, alignment, out, *quiet)?;
-                let (truth, _) = &truths[&alignment];
-                Ok((alignment, truths_without_pairs(truth, &replicates)?))
+                Ok((alignment, truths_without_pairs(&replicates)?))
             })
             .collect()
     }

@@ -44,6 +44,7 @@ pub fn score(
     if finished.shown {
         for region in [
             &mut scores.moving,
+            &mut scores.support,
             &mut scores.still,
             &mut scores.full,
             &mut scores.knowable,

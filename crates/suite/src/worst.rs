@@ -89,6 +89,7 @@ pub fn map_of(metric: Metric, measurement: &Measurement) -> (&'static str, &Plan
 pub fn worst_block(metric: Metric, map: &Plane, regions: &Regions) -> (u32, u32) {
     let inside = |x: u32, y: u32| match metric {
         Metric::Image(_, Region::Full) => true,
+        Metric::Image(_, Region::Support) => *regions.support.at(x, y),
         Metric::Image(_, Region::Still) | Metric::StaticContamination => *regions.still.at(x, y),
         Metric::Image(_, Region::Knowable) | Metric::Probe(_) => *regions.knowable.at(x, y),
         Metric::Image(_, Region::Unknowable) => *regions.unknowable.at(x, y),
@@ -170,6 +171,7 @@ mod tests {
             still: moving.map(|moves| !moves),
             knowable: moving.clone(),
             unknowable: moving.map(|_| false),
+            support: Raster::from_fn(40, 40, |x, _| x < 16),
             moving,
         };
         // A faint error over all of one block, one bright pixel in another, and the brightest in the last.
@@ -181,6 +183,7 @@ mod tests {
         });
         let place = |name: &str| worst_block(name.parse().unwrap(), &map, &regions);
         assert_eq!(place("flip_moving"), (24, 24));
+        assert_eq!(place("flip_support"), (8, 8));
         assert_eq!(place("label_tv"), (24, 24));
         assert_eq!(place("flip_static"), (39, 39));
         assert_eq!(place("flip_full"), (39, 39));

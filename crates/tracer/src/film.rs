@@ -6,20 +6,17 @@ use frame::{Image, Picture, Plane};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::camera::View;
 use crate::canvas::Canvas;
+use crate::eye::Eye;
 use crate::opening::Opening;
 use crate::path::Integrator;
-use crate::poses::Poses;
 use crate::progress::Meter;
 use crate::recall::{Recall, Recollected, Recollection};
 use crate::sampler::{Sampler, Stream, pixel_seed};
-use crate::scene::Scene;
 use crate::settings::TraceError;
-use crate::stage::Stage;
 
 /// Pixels between two looks at the meter.
-const PIXELS_PER_TASK: usize = 32;
+pub(crate) const PIXELS_PER_TASK: usize = 32;
 
 /// One sample in so many is shaded once more as at the instant.
 const SHADED_AGAIN: u32 = 4;
@@ -79,7 +76,7 @@ pub(crate) struct PixelMean {
 
 impl Times<'_> {
     /// From a number in [0, 1), for a row of the picture.
-    fn at(self, part: f64, row: u32, height: u32) -> f64 {
+    pub fn at(self, part: f64, row: u32, height: u32) -> f64 {
         match self {
             Times::Instant => 0.0,
             Times::Open(opening) => opening.at(part, row, height),
@@ -107,7 +104,7 @@ impl<'a> Film<'a> {
         let tasks = pixels
             .par_chunks(PIXELS_PER_TASK)
             .map(|task| {
-                let mut eye = Eye::new(self);
+                let mut eye = Eye::new(self.integrator.stage, self.canvas);
                 let mut results = Vec::with_capacity(task.len());
                 for &pixel in task {
                     meter.check()?;
@@ -133,7 +130,7 @@ impl<'a> Film<'a> {
         let seed = pixel_seed(self.seed, self.stream, number, replicate);
         let mut sum = DVec3::ZERO;
         let mut recollection = Recollection::default();
-        let mut seen = vec![0; eye.scene.objects.len() + 1];
+        let mut seen = vec![0; self.integrator.stage.scene.objects.len() + 1];
         for index in 0..self.samples_per_replicate {
             let sampler = Sampler::new(seed, index);
             let [x, y, part, _] = sampler.camera();
@@ -168,46 +165,6 @@ impl<'a> Film<'a> {
                 None => Recollected::default(),
             },
         }
-    }
-}
-
-/// The camera and all poses, moving from sample to sample.
-struct Eye<'a> {
-    scene: &'a Scene,
-    poses: Poses<'a>,
-    /// As everything is at `t = 0`.
-    instant: Poses<'a>,
-    view: View,
-    moves: bool,
-    size: [u32; 2],
-}
-
-impl<'a> Eye<'a> {
-    fn new(film: &Film<'a>) -> Self {
-        let stage: &Stage<'a> = film.integrator.stage;
-        let scene = stage.scene;
-        let poses = stage.poses();
-        let mut instant = stage.poses();
-        instant.at(0.0);
-        Self {
-            scene,
-            view: scene
-                .camera
-                .view(poses.time(), film.canvas.width, film.canvas.height),
-            poses,
-            instant,
-            moves: scene.camera.motion.keys.len() > 1 || scene.camera.vertical_fov.len() > 1,
-            size: [film.canvas.width, film.canvas.height],
-        }
-    }
-
-    /// Everything as it is at `time`.
-    fn look(&mut self, time: f64) -> &View {
-        self.poses.at(time);
-        if self.moves {
-            self.view = self.scene.camera.view(time, self.size[0], self.size[1]);
-        }
-        &self.view
     }
 }
 

@@ -1,6 +1,6 @@
 //! Accumulations of a few sub-frames, for comparison with the truth of the same shutter.
 
-use frame::{Accumulation, Ladder, Picture, Plane, Truth};
+use frame::{Accumulation, Ladder, Picture, Plane, Raster, Truth};
 
 use crate::canvas::Canvas;
 use crate::film::{Estimate, Film, PixelMean, Places, Times};
@@ -42,7 +42,7 @@ pub fn trace_ladder(
     let whole = scene.shutter_profile.whole(shutter);
     let stage = Stage::new(scene, whole.open, whole.close);
     let opening = Opening::new(shutter, &scene.shutter_profile);
-    let pixels = pixels_near_motion(&truth.motion, truth.motion_margin());
+    let pixels = pixels_near_motion(&truth.support.moving, truth.motion_margin());
     let mean = truth.mean();
     let samples_per_replicate = affordable(settings, &mean.coverage[0], &pixels, subframes.len());
     let samples_per_pixel = REPLICATES * samples_per_replicate;
@@ -129,16 +129,15 @@ fn affordable(settings: &TruthSettings, background: &Plane, pixels: &[u32], rung
 
 /// Indices of the pixels within the margin of any pixel that shows motion, rising: a square's reach, which contains
 /// the disc's.
-fn pixels_near_motion(motion: &Plane, margin: u32) -> Vec<u32> {
-    let moving = |x: u32, y: u32| *motion.at(x, y) > 0.0;
+fn pixels_near_motion(motion: &Raster<bool>, margin: u32) -> Vec<u32> {
     let reached = |at: u32, end: u32| at.saturating_sub(margin)..(at + margin + 1).min(end);
-    let across = Plane::from_fn(motion.width, motion.height, |x, y| {
-        f32::from(reached(x, motion.width).any(|x| moving(x, y)))
+    let across = Raster::from_fn(motion.width, motion.height, |x, y| {
+        reached(x, motion.width).any(|x| *motion.at(x, y))
     });
     (0..motion.width * motion.height)
         .filter(|pixel| {
             let (x, y) = (pixel % motion.width, pixel / motion.width);
-            reached(y, motion.height).any(|y| *across.at(x, y) > 0.0)
+            reached(y, motion.height).any(|y| *across.at(x, y))
         })
         .collect()
 }

@@ -93,10 +93,38 @@ impl Recall {
         Recalled {
             shift,
             place,
-            known: sight.same_side
-                && place.is_some_and(|place| self.shows(place))
-                && !self.hidden(integrator.stage, then, &sight),
+            known: self.is_shown(integrator.stage, then, &sight, place),
         }
+    }
+
+    /// Whether the frame shows what `ray` meets at the time of `poses`; `then` are the poses of the instant.
+    pub fn knows(
+        &self,
+        stage: &Stage,
+        (poses, then): (&mut Poses, &mut Poses),
+        ray: &Ray,
+        hit: Option<&Hit>,
+    ) -> bool {
+        let Some(hit) = hit else {
+            return self.background(stage, then, ray.direction, false).known;
+        };
+        let point = self.point(stage, then, hit);
+        let sight = self.sight(stage, (poses, then), ray, hit, point);
+        let place = self.view.project(point).map(DVec2::from);
+        self.is_shown(stage, then, &sight, place)
+    }
+
+    /// Whether the frame shows the point that was looked at, which lay at `place` in it.
+    fn is_shown(
+        &self,
+        stage: &Stage,
+        then: &mut Poses,
+        sight: &Sight,
+        place: Option<DVec2>,
+    ) -> bool {
+        sight.same_side
+            && place.is_some_and(|place| self.shows(place))
+            && !self.hidden(stage, then, sight)
     }
 
     /// Infinity sends the same at all times.

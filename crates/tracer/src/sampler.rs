@@ -16,6 +16,7 @@ pub(crate) enum Stream {
     Truth,
     /// An accumulation of so many sub-frames.
     Accumulation(u32),
+    Support,
 }
 
 /// One sample of one pixel.
@@ -31,6 +32,8 @@ pub(crate) fn pixel_seed(seed: u64, stream: Stream, pixel: u32, replicate: u32) 
         Stream::Frame => 0,
         Stream::Truth => 1,
         Stream::Accumulation(subframes) => 1 + u64::from(subframes),
+        // Beyond any number of sub-frames.
+        Stream::Support => u64::MAX,
     };
     let of_pixel = mixed64(mixed64(mixed64(seed) ^ stream) ^ u64::from(pixel));
     mixed32((of_pixel as u32).wrapping_add(replicate))

@@ -1,6 +1,8 @@
 //! The truth: radiance and visibility integrated over the shutter.
 
-use frame::{AtInstant, Raster, Replicate, Shutter, Truth};
+use std::sync::OnceLock;
+
+use frame::{AtInstant, Raster, Replicate, Shutter, Support, Truth};
 
 use crate::canvas::Canvas;
 use crate::film::{Film, PixelMean, Places, Times, picture};
@@ -14,6 +16,7 @@ use crate::sampler::Stream;
 use crate::scene::Scene;
 use crate::settings::{TraceError, TruthSettings};
 use crate::stage::Stage;
+use crate::support::trace_support;
 
 /// A scene made ready to render the replicates of one truth.
 pub struct TruthTracer<'a> {
@@ -22,6 +25,8 @@ pub struct TruthTracer<'a> {
     shutter: Shutter,
     opening: Opening,
     moving: Vec<bool>,
+    /// Probed with the first replicate.
+    support: OnceLock<Support>,
 }
 
 /// Renders what a camera with an open shutter would have seen, with its own noise.
@@ -55,13 +60,18 @@ impl<'a> TruthTracer<'a> {
             shutter,
             opening: Opening::new(shutter, &scene.shutter_profile),
             moving: moving_objects(scene, whole),
+            support: OnceLock::new(),
         })
     }
 
-    /// Bytes that a pixel takes while a replicate is traced: its mean, and what was recalled of the instant.
+    /// Bytes that a pixel takes while a replicate is traced: its mean, what was recalled of the instant, and the support.
     pub fn bytes_per_pixel(&self) -> usize {
         let coverages = self.stage.scene.objects.len() + 1;
-        size_of::<PixelMean>() + coverages * size_of::<f32>() + size_of::<Recollected>()
+        let masks = coverages + 2;
+        size_of::<PixelMean>()
+            + coverages * size_of::<f32>()
+            + size_of::<Recollected>()
+            + masks * size_of::<bool>()
     }
 
     /// Renders one replicate. The index chooses its random numbers and nothing else; it may lie beyond the number of
@@ -81,6 +91,7 @@ impl<'a> TruthTracer<'a> {
         };
         let pixels = canvas.pixels();
         let meter = Meter::new(watch, pixels.len() as u64 * film.samples_per_pixel());
+        let support = self.support(&film, &meter)?;
         let developed = film.develop(&pixels, &meter, |estimates| {
             (PixelMean::of(estimates), estimates[0].recollected)
         })?;
@@ -103,7 +114,18 @@ impl<'a> TruthTracer<'a> {
             moving: self.moving.clone(),
             picture: picture(canvas, &means),
             at_instant: at_instant(canvas, &recollected),
+            support,
         })
+    }
+
+    /// The support of every replicate: no number of the film's own has a part in it.
+    fn support(&self, film: &Film, meter: &Meter) -> Result<Support, TraceError> {
+        if self.support.get().is_none() {
+            let found = trace_support(film, &self.moving, meter)?;
+            // Another thread may have been faster, with the same.
+            self.support.get_or_init(|| found);
+        }
+        Ok(self.support.get().expect("it was just probed").clone())
     }
 }
 

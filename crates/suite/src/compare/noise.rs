@@ -116,7 +116,7 @@ impl Parts {
         Ok(Some(Self {
             oracle: oracle_of(&frame, &whole),
             frame: frame.cropped(),
-            without: truths_without_pairs(&whole, &replicates)?,
+            without: truths_without_pairs(&replicates)?,
             whole,
         }))
     }
@@ -142,9 +142,7 @@ impl Parts {
             ])
         };
         let without = self.without.iter().map(|part| {
-            // What is left out changes scores, not where they are taken.
-            let regions = whole.regions.clone();
-            let part = Reference::over(regions, &self.frame, part, None, &viewing)?;
+            let part = Reference::new(&self.frame, part, None, &viewing)?;
             scores(&part.with_best(&self.oracle)?)
         });
         Ok(Some(Paired {

@@ -57,6 +57,7 @@ fn of_image(metric: ImageMetric) -> &'static str {
 fn place(region: Region) -> &'static str {
     match region {
         Region::Moving => "where anything moves",
+        Region::Support => "where anything moves, without the margin",
         Region::Still => "where nothing moves",
         Region::Full => "over the whole picture",
         Region::Knowable => "where the instant shows all that the shutter saw",

@@ -111,7 +111,7 @@ impl SceneFiles {
             }),
             regions: regions(&truth),
             sides: objects
-                .filter_map(|id| Some((id, object_sides(&self.frame, &mean, id as u32)?)))
+                .filter_map(|id| Some((id, object_sides(&self.frame, &truth.support, id as u32)?)))
                 .collect(),
             layers: vec![
                 (Layer::Truth, self.shelf.image(&mean.color)),

@@ -22,6 +22,7 @@ const GROUPS: [Group; 6] = [
         title: "What is seen",
         metrics: &[
             Metric::Image(ImageMetric::Flip, Region::Moving),
+            Metric::Image(ImageMetric::Flip, Region::Support),
             Metric::Image(ImageMetric::FlipP95, Region::Moving),
             Metric::Image(ImageMetric::FlipHdr, Region::Moving),
             Metric::Image(ImageMetric::Psnr, Region::Moving),

@@ -1,0 +1,94 @@
+//! What an open shutter sees at all: where scores are pooled, whatever noise a truth has.
+
+use crate::exr_file::ExrFile;
+use crate::{FileError, Plane, Raster};
+
+/// What a probe of visibility saw in each pixel while the shutter was open.
+///
+/// The probe is a pure function of scene, shutter and picture size: no seed and no number of samples of a truth changes it.
+/// What it holds stays the same while a truth converges. All rasters have the same size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Support {
+    /// Per object, the background first: where it was seen.
+    pub seen: Vec<Raster<bool>>,
+    /// Where anything was seen that moves on screen while the shutter is open.
+    pub moving: Raster<bool>,
+    /// Where anything was seen that the frame of the instant does not show.
+    pub unknowable: Raster<bool>,
+}
+
+impl Support {
+    /// Marks where object `id` was seen and nothing else.
+    pub fn throughout(&self, id: usize) -> Raster<bool> {
+        let others = self.seen.iter().enumerate().filter(|(at, _)| *at != id);
+        others.fold(self.seen[id].clone(), |own, (_, other)| {
+            own.zip(other, |own, other| *own && !*other)
+        })
+    }
+
+    /// Adds `support.seen.<object>`, `support.moving` and `support.unknowable`, 1 where the mask holds and 0 elsewhere.
+    pub(crate) fn push(&self, file: &mut ExrFile, objects: &[String]) {
+        let mut push = |name: &str, mask: &Raster<bool>| {
+            file.push_plane(&channel(name), &mask.map(|holds| f32::from(*holds)));
+        };
+        for (object, seen) in objects.iter().zip(&self.seen) {
+            push(&format!("seen.{object}"), seen);
+        }
+        push("moving", &self.moving);
+        push("unknowable", &self.unknowable);
+    }
+
+    pub(crate) fn from_exr(file: &ExrFile, objects: &[String]) -> Result<Self, FileError> {
+        let prefix = channel("");
+        if !(file.channels.iter()).any(|channel| channel.name.starts_with(&prefix)) {
+            return Err(file.foreign(
+                "holds no support (channels support.*), which older versions of shuttertruth did not write; make it anew \
+                 with `shuttertruth render`"
+                    .to_owned(),
+            ));
+        }
+        let mask = |name: &str| {
+            let name = channel(name);
+            let plane: Plane = file.plane(&name)?;
+            match (plane.pixels.iter()).find(|value| **value != 0.0 && **value != 1.0) {
+                Some(value) => Err(file.foreign(format!(
+                    "channel \"{name}\" holds {value}; allowed: 0 and 1; make the file anew with `shuttertruth render`"
+                ))),
+                None => Ok(plane.map(|value| *value == 1.0)),
+            }
+        };
+        Ok(Self {
+            seen: (objects.iter())
+                .map(|object| mask(&format!("seen.{object}")))
+                .collect::<Result<_, _>>()?,
+            moving: mask("moving")?,
+            unknowable: mask("unknowable")?,
+        })
+    }
+}
+
+fn channel(name: &str) -> String {
+    format!("support.{name}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_object_is_seen_throughout_where_nothing_else_is_seen() {
+        let mask = |holds: [bool; 4]| Raster::from_fn(4, 1, |x, _| holds[x as usize]);
+        let support = Support {
+            seen: vec![
+                mask([true, true, false, false]),
+                mask([false, true, true, true]),
+                mask([false, false, false, true]),
+            ],
+            moving: mask([false; 4]),
+            unknowable: mask([false; 4]),
+        };
+        assert_eq!(support.throughout(0), mask([true, false, false, false]));
+        assert_eq!(support.throughout(1), mask([false, false, true, false]));
+        assert_eq!(support.throughout(2), mask([false; 4]));
+    }
+}

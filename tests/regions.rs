@@ -1,0 +1,108 @@
+//! Regions are a property of scene, shutter and size: no noise of a truth moves them.
+
+use std::path::Path;
+
+use frame::{Replicate, Truth, TruthError};
+use metrics::{Region, Regions, measure, regions};
+use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
+use tests::unwatched;
+use tracer::{TruthSettings, TruthTracer, load_scene, trace_truth};
+
+fn scene(name: &str) -> tracer::Scene {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+    load_scene(&folder.join(name), None).unwrap()
+}
+
+fn settings(samples_per_pixel: u32, replicates: u32, seed: u64) -> TruthSettings {
+    TruthSettings {
+        width: 80,
+        height: 45,
+        samples_per_pixel,
+        replicates,
+        seed,
+        ..TruthSettings::default()
+    }
+}
+
+fn count(regions: &Regions, region: Region) -> usize {
+    let all = regions.moving.map(|_| ());
+    regions.select(region, &all).len()
+}
+
+#[test]
+fn regions_depend_on_no_seed_no_samples_and_no_replicates() {
+    for name in ["two_spheres", "fan", "railing"] {
+        let scene = scene(name);
+        let few = trace_truth(&scene, &settings(16, 2, 1), &unwatched).unwrap();
+        let many = trace_truth(&scene, &settings(256, 4, 2), &unwatched).unwrap();
+        assert!(few.motion != many.motion, "{name}: noise differs");
+        assert!(few.support == many.support, "{name}");
+        let regions = [&few, &many].map(regions);
+        assert!(regions[0] == regions[1], "{name}");
+        assert!(count(&regions[0], Region::Support) > 0, "{name}");
+    }
+}
+
+#[test]
+fn the_support_holds_nearly_all_that_a_truth_sees() {
+    for name in ["two_spheres", "fan", "wires"] {
+        let truth = trace_truth(&scene(name), &settings(1024, 2, 1), &unwatched).unwrap();
+        let mean = truth.mean();
+        for (object, seen) in truth.support.seen.iter().enumerate() {
+            let missed: f64 = (mean.coverage[object].pixels.iter().zip(&seen.pixels))
+                .filter(|(_, seen)| !**seen)
+                .map(|(matte, _)| f64::from(*matte))
+                .sum();
+            let all: f64 = mean.coverage[object]
+                .pixels
+                .iter()
+                .map(|matte| f64::from(*matte))
+                .sum();
+            // 64 rays miss half of what covers a part in 100 of a pixel; wires are worst, by 0.24 %.
+            assert!(
+                missed <= 0.005 * all + 0.01,
+                "{name}, object {object}: misses {missed} of {all}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_support_that_differs_between_replicates_makes_no_truth() {
+    let scene = scene("two_spheres");
+    let tracer = TruthTracer::new(&scene, &settings(16, 2, 1)).unwrap();
+    let mut replicates: Vec<Replicate> = (0..2)
+        .map(|index| tracer.trace(index, &unwatched).unwrap())
+        .collect();
+    assert!(Truth::of(&replicates).is_ok());
+    let pixel = &mut replicates[1].support.moving.pixels[0];
+    *pixel = !*pixel;
+    let refused = Truth::of(&replicates);
+    assert_eq!(refused, Err(TruthError::Support { index: 1 }));
+}
+
+#[test]
+fn the_margin_does_not_dilute_an_error_over_the_support() {
+    let scene = Scene {
+        width: 90,
+        height: 90,
+        objects: vec![Object::sliding(Shape::Disc(6.0), [50.0, 45.0], [20.0, 0.0])],
+    };
+    let (frame, truth) = (scene.frame(), scene.truth([Sampling::CLEAN; 2]));
+    let regions = regions(&truth);
+    let [support, moving] = [Region::Support, Region::Moving].map(|region| count(&regions, region));
+    assert!(moving > 2 * support, "{moving} {support}");
+    // Of this picture all errors lie where the object passes.
+    let output = scene.render(&Blur::IDENTITY, Sampling::CLEAN);
+    let scores = measure(&output, &frame, &truth, None, &VIEWING)
+        .unwrap()
+        .scores;
+    let value = |name: &str| scores.get(name.parse().unwrap()).value().unwrap();
+    let ratio = value("mse_support") / value("mse_moving");
+    // Colours are rounded to 32 bits.
+    assert!(
+        (ratio / (moving as f64 / support as f64) - 1.0).abs() < 1e-6,
+        "{ratio}"
+    );
+    assert!(value("flip_support") > 1.5 * value("flip_moving"));
+}
