@@ -165,13 +165,20 @@ struct Fitness {
 }
 
 // Whether the surface at `source` passed over `position` while the shutter was open (sample_fitness of the paper).
-fn fitness(position: vec2<f32>, source: vec2<f32>) -> Fitness {
+fn fitness(position: vec2<f32>, source: vec2<f32>, steps_before: u32) -> Fitness {
     let motion = motion_at(source);
     if dot(motion, motion) <= STILL {
         return Fitness(0.0, 0.0, false);
     }
-    let path = motion * metric();
-    let offset = (source - position) * metric();
+    var path = motion * metric();
+    var offset = (source - position) * metric();
+    // What came through a map of 16 bits the demo measures between fractions: their last bits decide where a source lies
+    // exactly at the end of a trail.
+    if parameters.map == MAP_FLOAT16 && parameters.metric == METRIC_UV && steps_before > 0u {
+        let size = vec2<f32>(frame.size);
+        path = motion / size;
+        offset = source / size - position / size;
+    }
     let along = dot(path, offset) / dot(path, path);
     let beside = abs(path.y * offset.x - path.x * offset.y) / dot(path, path);
     let middle = 0.5 * trail_frames();
@@ -219,7 +226,7 @@ fn dilate(@builtin(global_invocation_id) id: vec3<u32>) {
             continue;
         }
         let seed = textureLoad(seeds, neighbour, 0).xy;
-        let candidate = fitness(centre(pixel), place(seed, frame.iteration));
+        let candidate = fitness(centre(pixel), place(seed, frame.iteration), frame.iteration);
         if candidate.valid && (!best.valid || candidate.depth < best.depth) {
             best = candidate;
             best_seed = seed;
@@ -238,8 +245,9 @@ fn backtrack(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let here = centre(pixel);
     let found = textureLoad(seeds, pixel, 0);
-    let source = place(found.xy, u32(parameters.passes - 1));
-    let best = fitness(here, source);
+    let steps_before = u32(parameters.passes - 1);
+    let source = place(found.xy, steps_before);
+    let best = fitness(here, source, steps_before);
     if found.w == 0.0 || depth_at(here) < best.depth {
         textureStore(sources_out, pixel, vec4<f32>(stored(here), 0.0, 0.0));
         return;

@@ -312,9 +312,22 @@ struct Fitness {
 }
 
 // Whether a surface at `source` passed over `position` while the shutter was open.
-fn fitness(by: Measure, position: vec2<f32>, source: vec2<f32>, motion: vec2<f32>) -> Fitness {
-    let path = motion * by.metric;
-    let offset = (source - position) * by.metric;
+fn fitness(
+    by: Measure,
+    position: vec2<f32>,
+    source: vec2<f32>,
+    motion: vec2<f32>,
+    steps_before: u32,
+) -> Fitness {
+    var path = motion * by.metric;
+    var offset = (source - position) * by.metric;
+    // What came through a map of 16 bits the demo measures between fractions: their last bits decide where a source lies
+    // exactly at the end of a trail.
+    if parameters.map == MAP_FLOAT16 && parameters.metric == METRIC_UV && steps_before > 0u {
+        let size = vec2<f32>(frame.size);
+        path = motion / size;
+        offset = source / size - position / size;
+    }
     let along = dot(path, offset) / dot(path, path);
     let beside = abs(path.y * offset.x - path.x * offset.y) / dot(path, path);
     let middle = 0.5 * by.frames;
@@ -351,7 +364,7 @@ fn dilate(@builtin(global_invocation_id) id: vec3<u32>) {
             continue;
         }
         let source = source_of(seed, frame.iteration);
-        let candidate = fitness(by, here, place(seed, frame.iteration), source.motion);
+        let candidate = fitness(by, here, place(seed, frame.iteration), source.motion, frame.iteration);
         if candidate.valid && (!found || source.depth < best_depth) {
             found = true;
             best_depth = source.depth;
@@ -434,7 +447,7 @@ fn backtrack(@builtin(global_invocation_id) id: vec3<u32>) {
     let another = any(unpacked(seed) != pixel) || parameters.map == MAP_FLOAT16;
     let walks = (seed & PASSED) != 0u && another && own.depth >= source.depth;
     let path = source.motion * by.metric;
-    let arrival = fitness(by, here, place(seed, before), source.motion).frames;
+    let arrival = fitness(by, here, place(seed, before), source.motion, before).frames;
     let frames = within_reach(by, arrival, source.motion, 1.0);
     var hits = 0;
     var ends = false;

@@ -74,6 +74,8 @@ fn a_filter_that_does_something_else_is_told_from_its_original() {
         ("bevy:msaa", "bevy.fetch=filtered"),
         ("mcguire:g3d", "mcguire.neighbor_rule=all"),
         ("kino:default", "kino.least_motion=1"),
+        ("jump_flood:july_2024", "jump_flood.map=float32"),
+        ("jump_flood:july_2024", "jump_flood.way_back=first_match"),
     ] {
         let output = compare(&["--only", preset, "--set", change]);
         assert_eq!(output.status.code(), Some(1), "{preset} with {change}");
