@@ -58,7 +58,7 @@ pub fn stated(filter: &str, preset: &str) -> RangeInclusive<f64> {
         ("bevy", "msaa") => 0.955..=1.025,
         ("kino", _) => 0.72..=0.78,
         ("jimenez", "hdrp" | "hdrp_mirrored") => 1.00..=1.03,
-        ("jimenez", "kajiya") => 1.00..=1.07,
+        ("jimenez", "kajiya") => 1.00..=1.08,
         ("jimenez", "kajiya_scaled") => 0.99..=1.02,
         ("jimenez", "o3de") => 0.94..=0.95,
         ("jimenez", "o3de_scaled") => 0.72..=0.94,
