@@ -19,6 +19,7 @@ mod inputs;
 mod intervals;
 mod kept;
 mod layers;
+mod means_table;
 mod merge;
 mod overall;
 mod paint;
