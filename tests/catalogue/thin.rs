@@ -10,7 +10,7 @@ fn of_object(shot: &Shot, filter: &str, object: &str, metric: &str) -> f64 {
     let found = found.expect("the scene has it");
     let score = match metric {
         "deficit" => &found.deficit,
-        "lateral_growth" => &found.lateral_growth,
+        "row_gain" => &found.row_gain,
         other => panic!("{other} is asked of no object here"),
     };
     score
@@ -39,16 +39,15 @@ fn a_dilation_in_steps_of_8_pixels_loses_the_smear_of_wires() {
 }
 
 #[test]
-fn ornaments_widen_with_their_speed() {
+fn ornaments_become_heavier_with_their_speed() {
     let [fast, slow] = ["ornaments@48px", "ornaments@8px"].map(Shot::of);
     for (filter, times) in [
-        // Measured 33 and 14.
+        // Measured 163 and 32; nothing lies beside the rows of the ornaments.
         ("guertin:paper", 10.0),
         ("mcguire:aliari", 5.0),
     ] {
-        let growth =
-            [&fast, &slow].map(|shot| of_object(shot, filter, "ornaments", "lateral_growth"));
-        assert_worse(&format!("growth in {filter}"), growth, times);
+        let gain = [&fast, &slow].map(|shot| of_object(shot, filter, "ornaments", "row_gain"));
+        assert_worse(&format!("gain of rows in {filter}"), gain, times);
     }
 }
 
