@@ -76,6 +76,16 @@ fn words_that_do_not_fit_are_refused_with_what_is_allowed() {
         );
     }
     assert_refused(&bench.shuttertruth(&["run"]), 2, &["--out"]);
+    for command in ["run", "render"] {
+        let before = files_below(&bench.path("scenes"));
+        let words = [command, "--quiet", "--out", "scenes"];
+        assert_refused(
+            &bench.shuttertruth(&words),
+            2,
+            &["scenes/plate holds a scene"],
+        );
+        assert_eq!(files_below(&bench.path("scenes")), before, "{command}");
+    }
     assert_refused(
         &bench.shuttertruth(&[]),
         2,

@@ -10,6 +10,7 @@ fn a_bench_prints_tables_and_writes_what_they_show() {
     let output = bench.shuttertruth(&[
         "bench",
         "--quiet",
+        "--as-written",
         "--size",
         "32x16",
         "--filters",

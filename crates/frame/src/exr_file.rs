@@ -189,8 +189,8 @@ pub(crate) fn in_layer(layer: &str, name: &str) -> String {
     }
 }
 
-/// Writes single-part, lossless OpenEXR with the checksum of its content, under a temporary name and renames it: the path holds the whole file or what it held
-/// before.
+/// Writes single-part, lossless OpenEXR under a temporary name and renames it: the path holds the whole file or what it held
+/// before. A file that says its kind gets the checksum of its content.
 ///
 /// Run lengths leave noise a sixth to a third larger than deflate would, and take a sixth to a fourteenth of its time, which
 /// was a fifth of what measuring a picture takes.
@@ -231,8 +231,12 @@ fn write_encoded(path: &Path, file: &ExrFile, encoding: Encoding) -> Result<(), 
         encoding,
         AnyChannels::sort(channels.collect()),
     );
-    let checksum = (CHECKSUM.to_owned(), file.checksum());
-    for (name, value) in file.attributes.clone().into_iter().chain([checksum]) {
+    let mut attributes = file.attributes.clone();
+    // What other programs are handed is theirs to change.
+    if attributes.contains_key("kind") {
+        attributes.insert(CHECKSUM.to_owned(), file.checksum());
+    }
+    for (name, value) in attributes {
         layer.attributes.other.insert(
             Text::from(name.as_str()),
             AttributeValue::Text(Text::from(value.as_str())),

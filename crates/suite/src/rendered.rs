@@ -80,6 +80,18 @@ pub fn scene_folder(out: &Path, scene: &Scene) -> PathBuf {
     out.join(&scene.name)
 }
 
+/// Refuses to write into the folder of a scene: its textures may be called as our pictures are.
+fn refuse_scene(folder: &Path) -> Result<(), Error> {
+    let file = folder.join("scene.toml");
+    match file.exists() {
+        false => Ok(()),
+        true => Err(Error::Usage(format!(
+            "--out: {} holds a scene, whose files would be overwritten; allowed: a folder that holds none, such as out",
+            folder.display()
+        ))),
+    }
+}
+
 /// The frame of `scene`: read from `out` if its inputs are the same, else rendered and written there.
 pub fn frame_of(
     scene: &Scene,
@@ -87,6 +99,7 @@ pub fn frame_of(
     out: &Path,
     quiet: bool,
 ) -> Result<Frame, Error> {
+    refuse_scene(&scene_folder(out, scene))?;
     let settings = frame_settings(scene, settings);
     let artefact = Artefact {
         path: scene_folder(out, scene).join("frame.exr"),
@@ -186,8 +199,10 @@ pub fn part_of(
     out: &Path,
     quiet: bool,
 ) -> Result<(), Error> {
+    let folder = scene_folder(out, scene);
+    refuse_scene(&folder)?;
     let settings = truth_settings(scene, settings, alignment);
-    let shelf = Shelf::new(scene_folder(out, scene), scene, &settings);
+    let shelf = Shelf::new(folder, scene, &settings);
     settings.check(scene)?;
     shelf.obtain(scene, &settings, indices, quiet).map(drop)
 }
