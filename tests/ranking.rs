@@ -97,6 +97,7 @@ fn run() -> Run {
         guard_band: 0,
         common_alignment: "centred".to_owned(),
         overall: overall(&cases),
+        failures: Vec::new(),
         cases,
     }
 }

@@ -8,6 +8,7 @@ mod check;
 mod command_filter;
 mod compare;
 mod comparison;
+mod failures;
 mod fidelity;
 mod import;
 #[cfg(unix)]

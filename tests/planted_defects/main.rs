@@ -58,8 +58,8 @@ const METRICS: [&str; 17] = [
 const CALIBRATED_WITH: [u64; 2] = [1, 2];
 const CHECKED_WITH: u64 = CALIBRATED_WITH[0];
 
-/// Tiles to these small pictures what 20 pixels are at 320x180: trails reach from tile to tile.
-const SMALL_TILES: &str = "mcguire.tile_size=8";
+/// Side of McGuire's tiles, to these small pictures what 20 pixels are at 320x180: trails reach from tile to tile.
+const SMALL_TILES: &str = "8";
 
 /// The filters as they are.
 const SOUND: [&str; 2] = ["mcguire:paper", "jump_flood:corrected"];
@@ -162,9 +162,20 @@ impl Bench {
     }
 }
 
+/// Each filter by itself: copies have the name of what they are copies of.
 fn choices(words: impl Iterator<Item = String>) -> Vec<FilterChoice> {
-    let overrides = [SMALL_TILES.to_owned()];
-    select_filters(&words.collect::<Vec<_>>(), None, &overrides).unwrap()
+    words
+        .flat_map(|word| select_filters(&[word], None, &[]).unwrap())
+        .map(|mut choice| {
+            if choice.filter.name == "mcguire" {
+                let FilterChoice {
+                    filter, settings, ..
+                } = &mut choice;
+                settings.set(filter, "tile_size", SMALL_TILES).unwrap();
+            }
+            choice
+        })
+        .collect()
 }
 
 /// Names of the metrics whose bounds are broken, with their scenes.

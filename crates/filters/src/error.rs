@@ -108,6 +108,19 @@ pub enum FilterError {
     /// A command was stopped on request.
     #[error("interrupted")]
     Interrupted,
+    /// A pass was given up. The adapter may still be at work on it, so nothing else is run there.
+    #[error(
+        "filter {filter}, pass {pass}: took longer than {time_limit} s and was given up; make it faster, or raise \
+         time_limit in filter.toml"
+    )]
+    TooSlow {
+        /// The filter.
+        filter: String,
+        /// Entry point of the pass.
+        pass: String,
+        /// Seconds that it was given.
+        time_limit: f64,
+    },
     /// wgpu or the driver refused a pass.
     #[error("filter {filter}, pass {pass}: {reason}")]
     Gpu {

@@ -10,6 +10,7 @@ mod compare;
 mod decoys;
 mod dilated;
 mod error;
+mod failure;
 mod finished;
 mod gate;
 mod headline;
@@ -62,6 +63,7 @@ pub use compare::{
 };
 pub use decoys::{Decoys, Resemblance};
 pub use error::Error;
+pub use failure::{Failure, failures_text, refuse_failures};
 pub use finished::{Finished, read_finished};
 pub use gate::{
     CHECK_FORMAT, Check, Decision, Finding, Kind, annotations, check, check_text, junit, summary,

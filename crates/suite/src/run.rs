@@ -10,6 +10,7 @@ use tracer::{Progress, Scene, Watch};
 
 use crate::bounds::SceneBounds;
 use crate::case::Case;
+use crate::failure::Failure;
 use crate::inputs::SceneInputs;
 use crate::kept::hash_of_program;
 use crate::overall::{Overall, overall};
@@ -55,6 +56,9 @@ pub struct Run {
     pub common_alignment: String,
     /// Per scene: the bars, then one per filter preset and form of the input, in the order they ran.
     pub cases: Vec<Case>,
+    /// Cases that failed, with their reasons; they have no scores.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub failures: Vec<Failure>,
     /// Means over the scenes.
     #[serde(default)]
     pub overall: Vec<Overall>,
@@ -136,7 +140,7 @@ pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, 
     let common = common_alignment(&plan.alignments());
     // Of one scene, its own steps say all.
     let quiet = plan.quiet || plan.scenes.len() == 1;
-    let cases = with_bar(
+    let (cases, failures) = with_bar(
         &format!("{} scenes in all", plan.scenes.len()),
         quiet,
         |watch| all_cases(plan, gpu, common, watch),
@@ -157,6 +161,7 @@ pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, 
         guard_band: plan.render.guard_band,
         common_alignment: common.name().to_owned(),
         overall: overall(&cases),
+        failures,
         cases,
     })
 }
@@ -167,12 +172,12 @@ fn all_cases(
     gpu: Option<&Gpu>,
     common: Alignment,
     watch: Watch,
-) -> Result<Vec<Case>, Error> {
+) -> Result<(Vec<Case>, Vec<Failure>), Error> {
     let program = hash_of_program();
     let filters: Vec<FilterChoice> = (plan.filters.iter())
         .map(|choice| choice.scaled_to(plan.render.width))
         .collect();
-    let mut cases = Vec::new();
+    let (mut cases, mut failures) = (Vec::new(), Vec::new());
     for (done, (scene, bounds)) in plan.scenes.iter().enumerate() {
         // A scene that is interrupted says so itself.
         let _ = watch(Progress {
@@ -190,9 +195,14 @@ fn all_cases(
             common,
             inputs,
         };
-        cases.extend(scene_run.cases()?);
+        for case in scene_run.cases()? {
+            match case {
+                Ok(case) => cases.push(case),
+                Err(failure) => failures.push(failure),
+            }
+        }
     }
-    Ok(cases)
+    Ok((cases, failures))
 }
 
 /// Of the alignments that take part, the one that all are compared with; no truth is rendered for it alone.

@@ -10,6 +10,7 @@ use tracer::{Progress, Scene, Watch};
 
 use crate::bounds::SceneBounds;
 use crate::case::Case;
+use crate::failure::Failure;
 use crate::inputs::SceneInputs;
 use crate::kept::{discard_altered, keep, recall};
 use crate::pictures::{write_frame, write_truth};
@@ -43,12 +44,13 @@ const CASE_RECORD: &str = "case.json";
 type Truths = BTreeMap<Alignment, (Truth, Ladder)>;
 
 impl SceneRun<'_> {
-    /// Per alignment the bars, then one case per filter preset and form of the input.
-    pub fn cases(&self) -> Result<Vec<Case>, Error> {
+    /// Per alignment the bars, then one case per filter preset and form of the input; a failure where one made no picture that
+    /// can be measured.
+    pub fn cases(&self) -> Result<Vec<Result<Case, Failure>>, Error> {
         let subjects = Subject::all(self.plan, self.filters);
         let kept: Vec<Option<Case>> = subjects.iter().map(|subject| self.kept(subject)).collect();
         if kept.iter().all(Option::is_some) && self.has_its_files() {
-            return Ok(kept.into_iter().flatten().collect());
+            return Ok(kept.into_iter().flatten().map(Ok).collect());
         }
         let (frame, truths) = self.render()?;
         let due = (subjects.iter().zip(&kept)).filter(|(_, kept)| kept.is_none());
@@ -58,8 +60,11 @@ impl SceneRun<'_> {
             self.measured(&due, &frame, &truths, watch)
         })?;
         let mut made = made.into_iter();
-        let cases = kept.into_iter().map(|kept| kept.or_else(|| made.next()));
-        Ok(cases.flatten().collect())
+        let cases = kept.into_iter().map(|kept| match kept {
+            Some(case) => Ok(case),
+            None => made.next().expect("every case that is due was tried"),
+        });
+        Ok(cases.collect())
     }
 
     /// Measures some of the cases, each of which is kept as soon as it is whole.
@@ -69,7 +74,7 @@ impl SceneRun<'_> {
         frame: &Frame,
         truths: &Truths,
         watch: Watch,
-    ) -> Result<Vec<Case>, Error> {
+    ) -> Result<Vec<Result<Case, Failure>>, Error> {
         if due.is_empty() {
             return Ok(Vec::new());
         }
@@ -142,11 +147,15 @@ impl SceneRun<'_> {
                 without: without.get(&alignment).map(Vec::as_slice),
                 witness: witnesses.get(&alignment),
             };
-            let (case, files) = workbench.case(subject)?;
-            if let Some(inputs) = self.inputs_of(subject) {
-                keep(&self.record(subject), inputs, &files, &case)?;
-            }
-            cases.push(case);
+            cases.push(match workbench.case(subject) {
+                Ok((case, files)) => {
+                    if let Some(inputs) = self.inputs_of(subject) {
+                        keep(&self.record(subject), inputs, &files, &case)?;
+                    }
+                    Ok(case)
+                }
+                Err(error) => Err(Failure::of(error, subject, self.scene)?),
+            });
         }
         Ok(cases)
     }

@@ -80,6 +80,13 @@ impl<'a> Subject<'a> {
         }
     }
 
+    /// How messages call it: `jump_flood:paper`, and behind that what is not as usual.
+    pub fn name(&self) -> String {
+        let mut name = format!("{}:{}", self.filter(), self.preset());
+        name.extend(self.input().change().map(|change| format!(" {change}")));
+        name
+    }
+
     /// The form in which a filter gets the frame.
     pub fn input(&self) -> InputFormat {
         match self.maker {

@@ -28,9 +28,11 @@ impl Gpu {
             let error = match (self.interrupted)() {
                 true => FilterError::Interrupted,
                 false if !left.is_zero() => continue,
-                false => place.refuse(format!(
-                    "took longer than {time_limit} s and was given up; make it faster, or raise time_limit in filter.toml"
-                )),
+                false => FilterError::TooSlow {
+                    filter: place.filter.to_owned(),
+                    pass: place.pass.to_owned(),
+                    time_limit,
+                },
             };
             self.abandon();
             return Err(error);

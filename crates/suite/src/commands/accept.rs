@@ -1,6 +1,6 @@
 //! `shuttertruth accept`
 
-use suite::{Acceptance, Baseline, Error, Run, accept};
+use suite::{Acceptance, Baseline, Error, Run, accept, refuse_failures};
 
 use super::say;
 use crate::cli::AcceptArgs;
@@ -15,6 +15,7 @@ pub fn execute(args: &AcceptArgs) -> Result<(), Error> {
         ));
     }
     let run = Run::read(&args.out.join("run.json"))?;
+    refuse_failures(&run.failures)?;
     let old = match args.baseline.exists() {
         true => Some(Baseline::read(&args.baseline)?),
         false => None,

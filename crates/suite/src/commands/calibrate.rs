@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use suite::{Error, Plan, Run, SceneBounds, calibrate, check_names, open_gpu, run, with_bar};
+use suite::{
+    Error, Plan, Run, SceneBounds, calibrate, check_names, open_gpu, refuse_failures, run, with_bar,
+};
 use tracer::{Progress, Watch};
 
 use super::measure::{check_replicates, plan, write_run};
@@ -55,6 +57,7 @@ fn all_runs(args: &CalibrateArgs, plan: &mut Plan, watch: Watch) -> Result<Vec<R
             plan.out = args.measure.scenes.out.join(format!("seed_{seed}"));
             let run = run(plan, gpu.as_ref(), std::env::args().collect())?;
             write_run(&run, &plan.out)?;
+            refuse_failures(&run.failures)?;
             runs.push(run);
         }
     }

@@ -1,6 +1,6 @@
 //! `shuttertruth catalogue`
 
-use suite::{Error, catalogue, open_gpu, run};
+use suite::{Error, catalogue, open_gpu, refuse_failures, run};
 
 use super::measure::plan;
 use super::say;
@@ -22,5 +22,6 @@ pub fn execute(args: &CatalogueArgs) -> Result<(), Error> {
     let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
     let page = plan.out.join("catalogue.md");
     frame::write_atomically(&page, catalogue(&run).as_bytes())?;
-    say(&format!("written: {}\n", page.display()))
+    say(&format!("written: {}\n", page.display()))?;
+    refuse_failures(&run.failures)
 }

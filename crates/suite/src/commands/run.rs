@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use suite::{Error, Outcome, Run, open_gpu, push_wrapped, run, table};
+use suite::{
+    Error, Outcome, Run, failures_text, open_gpu, push_wrapped, refuse_failures, run, table,
+};
 
 use super::measure::{adapter_line, plan, write_run};
 use super::report::write_report;
@@ -23,10 +25,12 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
         .map(|html| write_report(&run, &plan.out, html))
         .transpose()?;
     if args.json {
-        say(&format!("{json}\n"))
+        say(&format!("{json}\n"))?;
     } else {
-        say(&(table(&run) + &closing(&run, &plan.out) + &page.unwrap_or_default()))
+        let scores = table(&run) + &failures_text(&run.failures);
+        say(&(scores + &closing(&run, &plan.out) + &page.unwrap_or_default()))?;
     }
+    refuse_failures(&run.failures)
 }
 
 /// What the table does not say: bounds, adapter, where the files are.

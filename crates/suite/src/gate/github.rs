@@ -23,7 +23,11 @@ pub fn annotations(check: &Check) -> String {
     let comparisons = (check.comparisons.iter())
         .filter(|comparison| comparison.decision() != Decision::Pass)
         .map(|comparison| (comparison.filter.clone(), comparison_line(comparison)));
-    let mut all: Vec<(String, String)> = findings.chain(comparisons).collect();
+    let failures = check.failures.iter().map(|failure| {
+        let title = format!("{} / {}", failure.scene, failure.filter);
+        (title, format!("FAILED {}", failure.reason))
+    });
+    let mut all: Vec<(String, String)> = failures.chain(findings).chain(comparisons).collect();
     if all.len() > MOST_ANNOTATIONS {
         let more = all.len() - (MOST_ANNOTATIONS - 1);
         all.truncate(MOST_ANNOTATIONS - 1);
@@ -53,6 +57,14 @@ pub fn summary(check: &Check) -> String {
         check.count(Kind::TooNoisy),
         check.count(Kind::NotApplicable),
     );
+    for failure in &check.failures {
+        let (scene, filter) = (cell(&failure.scene), cell(&failure.filter));
+        let _ = writeln!(
+            text,
+            "- **{scene} / {filter} failed**: {}\n",
+            cell(&failure.reason)
+        );
+    }
     if !notable.is_empty() {
         text +=
             "| scene | filter | metric | value | 95 % | limit | floor | worst at | most like | |\n";

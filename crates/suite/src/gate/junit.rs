@@ -6,7 +6,7 @@ use super::text::{comparison_line, headline, way_out};
 use super::{Check, Decision, Finding, Kind};
 use crate::bounds::Level;
 
-/// The document. A broken required bound is a failure; an inconclusive one and one that is too strict are errors; what does not
+/// The document. A case that failed and a broken required bound are failures; an inconclusive one and one that is too strict are errors; what does not
 /// apply, and what is broken but only reported, is skipped.
 pub fn junit(check: &Check) -> String {
     let mut report = Report::new("shuttertruth check");
@@ -28,6 +28,13 @@ pub fn junit(check: &Check) -> String {
         );
         case.set_classname(format!("{}.{}", finding.scene, finding.filter));
         add(&finding.scene, case);
+    }
+    for failure in &check.failures {
+        let reason = failure.reason.clone();
+        let status = with_message(NonSuccessKind::Failure, "failed", reason);
+        let mut case = TestCase::new(format!("{} runs", failure.filter), status);
+        case.set_classname(format!("{}.{}", failure.scene, failure.filter));
+        add(&failure.scene, case);
     }
     for comparison in &check.comparisons {
         let line = comparison_line(comparison);

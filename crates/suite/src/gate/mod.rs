@@ -8,7 +8,8 @@ mod text;
 use serde::Serialize;
 
 use crate::baseline::Comparison;
-use crate::{Error, Run};
+use crate::failure::refuse_failures;
+use crate::{Error, Failure, Run};
 
 pub use finding::{Finding, Kind, findings, number};
 pub use github::{annotations, summary};
@@ -28,6 +29,8 @@ pub struct Check {
     pub program: String,
     /// What it comes to.
     pub decision: Decision,
+    /// Cases that failed and have no scores.
+    pub failures: Vec<Failure>,
     /// One per bounded score, in the order of the run.
     pub findings: Vec<Finding>,
     /// Against a baseline, one per filter and metric with a margin; empty without a baseline.
@@ -42,7 +45,7 @@ pub enum Decision {
     Pass,
     /// None is broken, but of some the truth cannot tell.
     Inconclusive,
-    /// A required bound is broken.
+    /// A required bound is broken, or a case failed.
     Broken,
     /// A bound is narrower than the truth's noise can carry, or a case has none that applies.
     Misconfigured,
@@ -60,12 +63,14 @@ pub fn check(run: &Run, comparisons: Vec<Comparison>) -> Check {
         false => false,
     };
     let unchecked = unchecked.then_some(Decision::Misconfigured);
+    let failed = run.failures.iter().map(|_| Decision::Broken);
     Check {
         format: CHECK_FORMAT,
         program: run.program.clone(),
-        decision: (bounds.chain(baseline).chain(unchecked))
+        decision: (bounds.chain(baseline).chain(failed).chain(unchecked))
             .max()
             .unwrap_or(Decision::Misconfigured),
+        failures: run.failures.clone(),
         findings,
         comparisons,
     }
@@ -95,6 +100,7 @@ impl Check {
                 "{} cannot be told from the truth's noise; raise --samples-per-pixel as said above",
                 count(self.decision, "a required score", "required scores")
             ))),
+            Decision::Broken if !self.failures.is_empty() => refuse_failures(&self.failures),
             Decision::Broken => Err(Error::Broken(format!(
                 "{} broken",
                 count(self.decision, "a required bound is", "required bounds are")

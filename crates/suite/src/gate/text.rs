@@ -6,13 +6,14 @@ use super::finding::{MOST_SAMPLES, number};
 use super::{Check, Finding, Kind};
 use crate::baseline::Comparison;
 use crate::bounds::Level;
+use crate::failure::failures_text;
 use crate::paint::{bad, doubtful, good, heading};
 use crate::wrapped::push_wrapped;
 
 /// What is broken, inconclusive or too narrow, by scene and filter, then the comparisons, then the counts. `out` is the
 /// folder of the run's pictures.
 pub fn check_text(check: &Check, out: &std::path::Path) -> String {
-    let mut text = String::new();
+    let mut text = failures_text(&check.failures);
     let mut case = (String::new(), String::new());
     for finding in &check.findings {
         if matches!(finding.kind, Kind::Kept | Kind::NotApplicable) {

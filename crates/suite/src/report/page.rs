@@ -57,6 +57,7 @@ pub fn page(run: &Run, overview: &Markup, cases: &[Markup], shelves: &Shelves) -
                     noscript {
                         p { "The numbers need no script; pictures, sorting and keys do." }
                     }
+                    (failed(run))
                     (overview)
                     @for case in cases { (case) }
                 }
@@ -64,6 +65,22 @@ pub fn page(run: &Run, overview: &Markup, cases: &[Markup], shelves: &Shelves) -
                 (numbers(shelves))
                 script #colors type="application/json" { (PreEscaped(colors())) }
                 @for script in SCRIPTS { script { (PreEscaped(script)) } }
+            }
+        }
+    }
+}
+
+/// The cases that failed, above all others.
+fn failed(run: &Run) -> Markup {
+    html! {
+        @if !run.failures.is_empty() {
+            section #failed {
+                h2 { "Failed" }
+                ul {
+                    @for failure in &run.failures {
+                        li { strong { (failure.scene) " / " (failure.filter) } ": " (failure.reason) }
+                    }
+                }
             }
         }
     }

@@ -1,0 +1,131 @@
+//! A filter that fails on a scene costs that case, and not the run; every output says so.
+
+use std::fs;
+
+use crate::bench::{Bench, assert_done, assert_refused, stderr, stdout};
+
+const MANIFEST: &str = r#"
+name = "torn"
+summary = "Divides by what may be zero."
+alignment = "trailing"
+
+[[pass]]
+entry = "work"
+"#;
+
+/// Not finite at one pixel where the exposure is that of the scene `dim`.
+const KERNELS: &str = "
+@group(0) @binding(1) var color: texture_2d<f32>;
+@group(0) @binding(2) var output: texture_storage_2d<rgba32float, write>;
+
+@compute @workgroup_size(8, 8)
+fn work(@builtin(global_invocation_id) id: vec3<u32>) {
+    let pixel = vec2<i32>(id.xy);
+    if !inside(pixel) { return; }
+    var value = textureLoad(color, pixel, 0);
+    if pixel.x == 9 && pixel.y == 4 { value /= frame.exposure - 0.25; }
+    textureStore(output, pixel, value);
+}
+";
+
+/// Two scenes, on one of which the filter `torn` fails.
+fn torn() -> Bench {
+    let bench = Bench::new();
+    bench.copy_scene("dim", |scene| {
+        scene.replace("exposure = 0.5", "exposure = 0.25")
+    });
+    fs::create_dir(bench.path("torn")).unwrap();
+    fs::write(bench.path("torn/filter.toml"), MANIFEST).unwrap();
+    fs::write(bench.path("torn/torn.wgsl"), KERNELS).unwrap();
+    bench
+}
+
+#[test]
+fn a_run_names_the_case_that_failed_and_goes_on() {
+    let bench = torn();
+    let words = ["--filters", "identity,./torn", "--html", "page.html"];
+    let output = bench.run(&words);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    let run = bench.measured();
+    let [failure] = &run.failures[..] else {
+        panic!("one case fails: {:?}", run.failures);
+    };
+    assert_eq!(
+        (&failure.scene[..], &failure.filter[..]),
+        ("dim", "torn:default")
+    );
+    assert!(
+        failure.reason.contains("pass work: writes ["),
+        "{}",
+        failure.reason
+    );
+    assert!(
+        failure.reason.contains("to pixel (9, 4)"),
+        "{}",
+        failure.reason
+    );
+    let measured: Vec<_> = (bench.measured_filters().iter())
+        .map(|case| (case.scene.clone(), case.name()))
+        .collect();
+    let expected = [
+        ("dim", "identity:default"),
+        ("plate", "identity:default"),
+        ("plate", "torn:default"),
+    ];
+    assert_eq!(
+        measured,
+        expected.map(|(scene, name)| (scene.to_owned(), name.to_owned()))
+    );
+    let table = stdout(&output);
+    assert!(
+        table.contains("dim / torn:default\n  FAILED filter torn"),
+        "{table}"
+    );
+    assert!(
+        stderr(&output).contains("1 case failed"),
+        "{}",
+        stderr(&output)
+    );
+    let page = fs::read_to_string(bench.path("page.html")).unwrap();
+    assert!(page.contains("<strong>dim / torn:default</strong>"));
+    // What was measured is kept; what failed is tried again.
+    let again = bench.run(&words);
+    assert_eq!(again.status.code(), Some(1));
+    assert_eq!(bench.measured().failures, run.failures);
+    // A run with failures is no baseline.
+    let accept = [
+        "accept",
+        "--out",
+        "out",
+        "--baseline",
+        "base.json",
+        "--reason",
+        "none",
+    ];
+    let mut command = bench.command(&accept);
+    let refused = command.env_remove("CI").output().unwrap();
+    assert_refused(&refused, 1, &["1 case failed", "torn:default on dim"]);
+    assert!(!bench.path("base.json").exists());
+}
+
+#[test]
+fn a_check_with_a_failed_case_is_broken() {
+    let bench = torn();
+    let bounds = "[default]\nflip_moving = { limit = 0.99, why = \"it serves a test\" }\n";
+    fs::write(bench.path("scenes/bounds.toml"), bounds).unwrap();
+    let words = ["--filters", "./torn", "--junit", "junit.xml"];
+    let output = bench.check(&words);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(
+        stdout(&output).contains("dim / torn:default\n  FAILED"),
+        "{}",
+        stdout(&output)
+    );
+    let junit = fs::read_to_string(bench.path("junit.xml")).unwrap();
+    assert!(junit.contains("type=\"failed\""), "{junit}");
+    let json = bench.check(&["--filters", "./torn", "--json"]);
+    let found: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
+    assert_eq!(found["decision"], "broken");
+    assert_eq!(found["failures"][0]["scene"], "dim");
+    assert_done(&bench.check(&["--filters", "./torn", "--scenes", "plate"]));
+}
