@@ -113,7 +113,7 @@ fn a_truth() -> Truth {
 }
 
 fn support() -> Support {
-    let mask = |salt: u32| Raster::from_fn(WIDTH, HEIGHT, |x, y| (x + salt * y) % 3 == 0);
+    let mask = |salt: u32| Raster::from_fn(WIDTH, HEIGHT, |x, y| (x + salt * y).is_multiple_of(3));
     Support {
         seen: vec![mask(1), mask(2)],
         moving: mask(4),
