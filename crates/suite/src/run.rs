@@ -94,8 +94,8 @@ impl Run {
 /// Whether the files that a case names lie below run.json: what names files elsewhere is not read, and nothing is written there.
 fn lies_below(case: &Case) -> bool {
     let is_below = |path: &Path| {
-        let mut parts = path.components();
-        path.components().next().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
+        let mut parts = path.components().peekable();
+        parts.peek().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
     };
     is_below(Path::new(&case.scene)) && is_below(&case.folder)
 }

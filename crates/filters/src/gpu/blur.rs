@@ -131,7 +131,11 @@ impl<'g> Blur<'g> {
         for step in self.plan.steps.iter().filter(|step| due(step)) {
             self.dispatch(step)?;
         }
-        self.output()
+        self.output().or_else(|error| {
+            // A loop that was ended early is the cause, and a broken pixel its effect.
+            self.check_loops()?;
+            Err(error)
+        })
     }
 
     /// The output, where every pixel was written and is finite.

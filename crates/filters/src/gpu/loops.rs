@@ -7,8 +7,8 @@ use std::borrow::Cow;
 
 use wgpu::naga::{
     AddressSpace, AtomicFunction, BinaryOperator, Block, EntryPoint, Expression, Function,
-    GlobalVariable, Handle, Literal, MemoryDecorations, Module, Range, ResourceBinding, Scalar,
-    Span, Statement, StorageAccess, Type, TypeInner, front,
+    FunctionArgument, GlobalVariable, Handle, Literal, MemoryDecorations, Module, Range,
+    ResourceBinding, Scalar, Span, Statement, StorageAccess, Type, TypeInner, front,
 };
 
 use super::adapter::Gpu;
@@ -122,14 +122,13 @@ pub(super) fn count(source: &str, binding: u32, least: u32) -> wgpu::ShaderSourc
         let kernel = std::mem::take(&mut entry.function);
         let (inner, arguments) = inner(entry, kernel);
         let inner = module.functions.append(inner, Span::UNDEFINED);
-        let arguments: Vec<_> = arguments.into_iter().collect();
         module.entry_points[index].function = counter.reporting(inner, arguments, least);
     }
     wgpu::ShaderSource::Naga(Cow::Owned(module))
 }
 
 /// The body of an entry point as a function that another one can call, and the arguments of the entry point.
-fn inner(entry: &EntryPoint, kernel: Function) -> (Function, Vec<wgpu::naga::FunctionArgument>) {
+fn inner(entry: &EntryPoint, kernel: Function) -> (Function, Vec<FunctionArgument>) {
     let arguments = kernel.arguments.clone();
     let mut inner = kernel;
     inner.name = Some(format!("{}_counted", entry.name));
@@ -237,7 +236,7 @@ impl Counter {
     fn reporting(
         &self,
         kernel: Handle<Function>,
-        arguments: Vec<wgpu::naga::FunctionArgument>,
+        arguments: Vec<FunctionArgument>,
         least: u32,
     ) -> Function {
         let mut function = Function {

@@ -6,8 +6,8 @@ use super::text::{comparison_line, headline, way_out};
 use super::{Check, Decision, Finding, Kind};
 use crate::bounds::Level;
 
-/// The document. A case that failed and a broken required bound are failures; an inconclusive one and one that is too strict are errors; what does not
-/// apply, and what is broken but only reported, is skipped.
+/// The document. A case that failed and a broken required bound are failures; an inconclusive one and one that is too strict are
+/// errors; what does not apply, and what is broken but only reported, is skipped.
 pub fn junit(check: &Check) -> String {
     let mut report = Report::new("shuttertruth check");
     let mut suites: Vec<TestSuite> = Vec::new();
