@@ -10,6 +10,7 @@ mod compare;
 mod comparison;
 mod failures;
 mod fidelity;
+mod hostile;
 mod import;
 #[cfg(unix)]
 mod interrupts;

@@ -1,0 +1,1 @@
+//! Filter folders that the device, the compiler or the numbers cannot take.

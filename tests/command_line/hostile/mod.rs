@@ -1,0 +1,8 @@
+//! Hostile and broken input: each is refused with an error that names it, and none ends the program in another way.
+
+mod kernels;
+mod programs;
+mod records;
+mod scene_files;
+mod terminal;
+mod trees;

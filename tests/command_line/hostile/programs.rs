@@ -1,0 +1,1 @@
+//! Filters that are programs, and the folders that runs write to.

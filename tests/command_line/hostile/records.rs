@@ -1,0 +1,1 @@
+//! Files of this program, damaged or made up.

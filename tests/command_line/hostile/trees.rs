@@ -1,0 +1,1 @@
+//! Geometry that a tree cannot split.
