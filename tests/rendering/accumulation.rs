@@ -53,10 +53,7 @@ fn n_subframes_are_worth_n() {
         let picture = Picture::mean(&rung.halves);
         let scores = reference.measure(&picture).unwrap().scores;
         let n = f64::from(rung.subframes);
-        let found = scores
-            .get(metrics::Metric::EquivalentSubframes)
-            .value()
-            .unwrap();
+        let found = scores.get(metrics::Metric::SUBFRAMES).value().unwrap();
         println!("{n} sub-frames are worth {found:.3}");
         assert!(
             (found / n - 1.0).abs() < 0.05,

@@ -2,8 +2,8 @@
 
 use frame::{Frame, Picture, Raster, Truth};
 use metrics::{
-    Ideal, ImageMetric, MeasureError, Measured, Measurement, Metric, ObjectMetric, Region, Scores,
-    Viewing, measure, regions,
+    Group, Ideal, ImageMetric, MeasureError, Measured, Measurement, Metric, ObjectMetric, Region,
+    Scores, Viewing, measure, regions,
 };
 use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
 
@@ -257,22 +257,28 @@ fn errors_of_colour_are_those_of_the_viewing_exposure() {
 }
 
 #[test]
-fn scores_are_pooled_from_the_maps_beside_them() {
+fn scores_are_pooled_from_the_maps_that_their_rows_name() {
     let measurement = measured(&small_scene(BESIDE), Blur::accumulation(2));
-    let region = regions(&clean_truth(&small_scene(BESIDE)));
-    let (maps, scores) = (&measurement.maps, &measurement.scores);
-    for (name, map) in [
-        ("mse_moving", &maps.squared_error),
-        ("relmse_moving", &maps.relative_squared_error),
-        ("flip_moving", &maps.flip),
-        ("flip_hdr_moving", &maps.flip_hdr),
-        ("label_tv", &maps.label_total_variation),
+    let regions = regions(&clean_truth(&small_scene(BESIDE)));
+    for name in [
+        "mse_moving",
+        "relmse_moving",
+        "mae_moving",
+        "smape_moving",
+        "flip_moving",
+        "flip_full",
+        "flip_hdr_moving",
+        "label_tv",
+        "mse_frozen",
     ] {
-        let values = region.select(Region::Moving, map);
+        let metric: Metric = name.parse().unwrap();
+        let map = measurement.map(metric.row().map).expect("no probe's map");
+        let values = regions.select(metric.region(), map);
         let mean = values.iter().map(|value| f64::from(*value)).sum::<f64>() / values.len() as f64;
         assert!(mean > 0.0, "{name} has an error to show");
         // Maps are stored in 32 bits.
-        assert!((value(scores, name) / mean - 1.0).abs() < 1e-6, "{name}");
+        let score = value(&measurement.scores, name);
+        assert!((score / mean - 1.0).abs() < 1e-6, "{name}");
     }
 }
 
@@ -318,6 +324,25 @@ fn every_metric_has_one_name_that_finds_it() {
         error.contains("\"flip_mooving\"") && error.contains("flip_moving"),
         "{error}"
     );
+}
+
+#[test]
+fn every_metric_has_a_meaning_of_its_own() {
+    let all: Vec<String> = Metric::all().into_iter().map(Metric::meaning).collect();
+    for (index, meaning) in all.iter().enumerate() {
+        assert!(!all[..index].contains(meaning), "two mean \"{meaning}\"");
+    }
+}
+
+#[test]
+fn every_group_that_a_page_shows_has_metrics() {
+    let all = Metric::all();
+    for group in Group::SHOWN {
+        assert!(
+            all.iter().any(|metric| metric.group() == group),
+            "{group:?}"
+        );
+    }
 }
 
 #[test]

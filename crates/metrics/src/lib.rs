@@ -24,6 +24,7 @@ mod ladder;
 mod maps;
 mod mass;
 mod metric;
+mod metric_rows;
 mod misplacement;
 mod mover;
 mod nearest;
@@ -36,6 +37,7 @@ mod pooled_scores;
 mod pooling;
 mod probes;
 mod reference;
+mod row;
 mod row_mass;
 mod rows;
 mod score;
@@ -55,16 +57,19 @@ pub use frame::{Region, Regions, regions};
 pub use gradient::{gradient_error, gradient_magnitude};
 pub use interval::{Interval, jackknife};
 pub use jitter::Jitter;
-pub use maps::Maps;
-pub use metric::{FrozenMetric, ImageMetric, Metric, ObjectMetric, ProbeMetric, SkillMetric};
+pub use maps::{ErrorMap, Maps};
+pub use metric::Metric;
+pub use metric_rows::{
+    EquivalentMetric, EquivalentScores, FrozenMetric, FrozenScores, ImageMetric, ImageScores,
+    LabelMetric, LabelScores, ObjectMetric, ObjectScores, ProbeMetric, ProbeScores, SkillMetric,
+    SkillScores,
+};
 pub use object_sides::object_sides;
 pub use probes::{ProbeMaps, ProbeMeasurement, Probes};
 pub use reference::{Measurement, Reference};
+pub use row::{Group, Row};
 pub use score::{Ideal, Measured, Score};
-pub use scores::{
-    EquivalentScores, FrozenScores, ImageScores, LabelScores, ObjectScores, ProbeScores, Scores,
-    SkillScores,
-};
+pub use scores::Scores;
 pub use ssim::{SSIM_BORDER, ssim};
 pub use viewing::Viewing;
 
