@@ -47,7 +47,7 @@ pub(crate) fn files(leaves: u32) -> Files {
     model("bush", &mesh, MATERIALS)
 }
 
-/// What the bush is without leaves to see through: one closed body.
+/// The bush without gaps between its leaves: one closed body.
 pub(crate) fn smooth() -> Files {
     let mut mesh = Mesh::default();
     ellipsoid(&mut mesh, "leaf", MIDDLE, RADII, [40, 20]);

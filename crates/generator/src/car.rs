@@ -14,7 +14,7 @@ const AXLE: f64 = 1.3;
 
 const CLEARANCE: f64 = 0.26;
 
-/// Where the windows begin, in metres above the ground.
+/// Lower edge of the windows, in metres above the ground.
 const SILL: f64 = 0.94;
 
 /// The outline above: (along, height) from rear to front, in metres.

@@ -11,7 +11,7 @@ use crate::{Files, model};
 
 const BLADES: u32 = 5;
 
-/// Where blades begin and end, in metres from the axis (Z).
+/// Radii at which blades begin and end, in metres from the axis (Z).
 const SPAN: [f64; 2] = [0.2, 1.25];
 
 const FAN_MATERIALS: &str = "\

@@ -138,7 +138,7 @@ fn line(text: &mut String, keyword: &str, numbers: &[f64], decimals: i32) {
     *text += "\n";
 }
 
-/// Of a surface, from its slopes; where it comes to a point, from those a little inside.
+/// Normal of a surface from its slopes; at a point, from the slopes a little inside.
 fn normal(position: impl Fn(f64, f64) -> DVec3, u: f64, v: f64) -> DVec3 {
     const STEP: f64 = 1e-4;
     // Less than any slope of a surface of millimetres, more than the rounding of a sine.

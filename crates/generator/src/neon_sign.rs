@@ -9,10 +9,10 @@ use crate::mesh::Mesh;
 use crate::tube::{curve, tube};
 use crate::{Files, model};
 
-/// Of the tubes, in metres.
+/// Radius of the tubes, in metres.
 const RADIUS: f64 = 0.022;
 
-/// Of a letter, in metres.
+/// Height of a letter, in metres.
 const HEIGHT: f64 = 0.7;
 
 const MATERIALS: &str = "\

@@ -11,7 +11,7 @@ use crate::revolution::turned;
 use crate::tube::rod;
 use crate::{Files, model};
 
-/// Where each hangs, in metres, from left to right.
+/// Position of each ornament, in metres, from left to right.
 const PLACES: [(f64, f64); 9] = [
     (-2.4, 0.3),
     (-1.85, -0.55),

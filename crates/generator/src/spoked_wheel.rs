@@ -10,7 +10,7 @@ use crate::revolution::{revolve, ring};
 use crate::tube::{rod, tube};
 use crate::{Files, model};
 
-/// Of the tyre's outside, in metres.
+/// Radius of the tyre's outside, in metres.
 const RADIUS: f64 = 0.32;
 
 const SPOKES: u32 = 14;

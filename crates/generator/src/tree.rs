@@ -7,7 +7,7 @@ use crate::hash::noise;
 use crate::mesh::Mesh;
 use crate::revolution::turned;
 
-/// What [`tree`] names; paste into a mesh's materials.
+/// Materials that [`tree`] names; paste into a mesh's materials.
 pub(crate) const MATERIALS: &str = "\
 newmtl bark
 Kd 0.2 0.14 0.09

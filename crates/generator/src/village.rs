@@ -9,7 +9,7 @@ use crate::prism::{face, prism};
 use crate::texture::png;
 use crate::{Files, model, tree};
 
-/// Of the ground, in metres.
+/// Half the length of the ground, in metres.
 const HALF_LENGTH: f64 = 1600.0;
 
 const MATERIALS: &str = "\

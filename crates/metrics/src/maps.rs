@@ -29,7 +29,7 @@ pub struct Maps {
     pub bleed: Plane,
     /// Sum over moving objects of the squared difference of their mattes' gradient magnitudes, per square pixel.
     pub gradient_error: Plane,
-    /// As `squared_error`, against the truth whose shading stands still at the instant.
+    /// `squared_error` against the truth whose shading is frozen at the instant.
     pub frozen_squared_error: Plane,
     /// `|F - I|` at the viewing exposure, mean over the channels, I being the instant; 0 where anything moves.
     pub static_change: Plane,

@@ -72,7 +72,7 @@ impl Metric {
             .collect()
     }
 
-    /// What there is to say about it. An error of colour has one row for all regions.
+    /// Row of the metric. An error of colour has one row for all regions.
     pub fn row(self) -> Row {
         match self {
             Metric::Image(metric, _) => metric.row(),
@@ -129,7 +129,7 @@ impl Metric {
         }
     }
 
-    /// Where a report shows it. Of an error of colour that is one region, of FLIP most.
+    /// Group in which a report shows it. A report shows most errors of colour over one region only.
     pub fn group(self) -> Group {
         match self {
             Metric::Image(metric, Region::Moving) => metric.row().group,
@@ -157,7 +157,7 @@ impl Metric {
         }
     }
 
-    /// Why no bound may name this metric; none for those that may be bounded.
+    /// Reason why no bound may name this metric; none for metrics that may be bounded.
     pub fn report_only(self) -> Option<&'static str> {
         self.row().report_only
     }

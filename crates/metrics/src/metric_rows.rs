@@ -21,7 +21,7 @@ metrics! {
         report_only: None,
     }
 
-    /// Of `mse` against a peak of 1, in dB.
+    /// Peak signal to noise ratio from `mse` and a peak of 1, in dB.
     Psnr => psnr {
         name: "psnr", unit: "dB", ideal: Ideal::Highest, group: Group::Seen, map: ErrorMap::SquaredError,
         meaning: "signal to noise ratio of colour",
@@ -107,7 +107,7 @@ metrics! {
         report_only: None,
     }
 
-    /// What 95 % of the pixels do not exceed.
+    /// 95th percentile over pixels.
     P95 => p95 {
         name: "label_tv_p95", unit: "", ideal: Ideal::Lowest, group: Group::Label, map: ErrorMap::LabelTotalVariation,
         meaning: "the same: what 19 of 20 moving pixels do not exceed",
@@ -265,9 +265,9 @@ metrics! {
 }
 
 metrics! {
-    /// What a filter makes of pictures of ones and of coordinates.
+    /// A score of probes, which are pictures of ones and of coordinates.
     enum ProbeMetric;
-    /// What a filter makes of pictures of ones and of coordinates, whose truth is exact.
+    /// Scores of probes: what a filter makes of pictures of ones and of coordinates, whose truth is exact.
     struct ProbeScores of Measured {}
 
     /// Largest difference of a pixel's sum of weights from 1.

@@ -1,4 +1,4 @@
-//! What there is to say about one metric, and the groups of metrics that are made of such rows.
+//! Description of one metric, and the macro that makes groups of metrics from such rows.
 
 use crate::{ErrorMap, Ideal};
 
@@ -13,11 +13,11 @@ pub struct Row {
     pub ideal: Ideal,
     /// One line for a reader who has not met the metric.
     pub meaning: &'static str,
-    /// Where a report shows it.
+    /// Group in which a report shows it.
     pub group: Group,
     /// The map that it was pooled from, or else the one that shows best what it measures.
     pub map: ErrorMap,
-    /// Why no bound may name it; none for metrics that may be bounded.
+    /// Reason why no bound may name it; none for metrics that may be bounded.
     pub report_only: Option<&'static str>,
 }
 
@@ -32,9 +32,9 @@ pub enum Group {
     Label,
     /// The worst moving object's silhouette and mass.
     Silhouette,
-    /// What a single frame can tell, and what it cannot.
+    /// Errors split by what a single frame can tell.
     Instant,
-    /// Where a filter gathers from.
+    /// Places that a filter gathers from.
     Gathered,
     /// In run.json, and on no page.
     RunJson,
@@ -66,7 +66,7 @@ impl Group {
 }
 
 /// Declares metrics that are measured together: an enum of them, a struct of their scores with a field for each, and their rows.
-/// What a row lacks is a compile error, and so is a score that is never measured.
+/// A field that a row lacks is a compile error, and so is a score that is never measured.
 macro_rules! metrics {
     (
         $(#[$of_metric:meta])*
@@ -92,7 +92,7 @@ macro_rules! metrics {
             /// All of them, in the order of a report.
             pub const ALL: [$Metric; [$($Metric::$Variant),*].len()] = [$($Metric::$Variant),*];
 
-            /// What there is to say about it.
+            /// Row of the metric.
             pub fn row(self) -> Row {
                 match self {
                     $($Metric::$Variant => Row { $($row)* },)*

@@ -9,21 +9,21 @@ use crate::{
     SkillScores,
 };
 
-/// What one picture scores against one truth.
+/// All scores of one picture against one truth.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Scores {
-    /// Where anything moved.
+    /// Errors of colour where anything moves.
     pub moving: ImageScores,
-    /// The same without the band that a bleed would reach.
+    /// The same without the margin that a bleed would reach.
     pub support: ImageScores,
-    /// Where nothing did.
+    /// Errors of colour where nothing moves.
     #[serde(rename = "static")]
     pub still: ImageScores,
-    /// The whole picture.
+    /// Errors of colour over the whole picture.
     pub full: ImageScores,
-    /// Where the frame of the instant shows all that the shutter sees.
+    /// Errors of colour where the frame of the instant shows all that the shutter sees.
     pub knowable: ImageScores,
-    /// Where it does not.
+    /// Errors of colour where the frame of the instant hides some of it.
     pub unknowable: ImageScores,
     /// Against the truth whose shading stands still.
     pub frozen: FrozenScores,
@@ -33,11 +33,11 @@ pub struct Scores {
     pub label_total_variation: LabelScores,
     /// Every object but the background.
     pub objects: Vec<ObjectScores>,
-    /// What the filter makes of pictures of ones and of coordinates.
+    /// Scores of probes.
     pub probes: ProbeScores,
     /// Share of the way from doing nothing to the one-frame oracle.
     pub skill: SkillScores,
-    /// As good as the mean of how many sub-frames.
+    /// Equivalent sub-frames.
     pub equivalent_subframes: EquivalentScores,
 }
 

@@ -2,16 +2,16 @@
 
 use frame::Plane;
 
-use crate::misplacement::{Misplacement, misplacement};
-use crate::mover::Mover;
-use crate::row_mass::{InstantRows, RowMass};
-use crate::rows::{Grid, Rows};
+use crate::object::misplacement::{Misplacement, misplacement};
+use crate::object::mover::Mover;
+use crate::object::row_mass::{InstantRows, RowMass};
+use crate::object::rows::{Grid, Rows};
 
 /// Rows along the motion may differ between instant and shutter by this many pixels of silhouette, gains and losses
 /// together. Above it, growth would measure what hides the object, not what a filter did.
 const LARGEST_ROW_CHANGE: f64 = 0.25;
 
-/// What only an object has that translates within the picture.
+/// Facts about an object that translates within the picture.
 pub struct AlongMotion {
     /// The rows that mattes are summed in.
     pub rows: Rows,
@@ -76,13 +76,13 @@ impl AlongMotion {
     }
 }
 
-/// Why an object at the border has no row scores.
+/// Reason why an object at the border has no row scores.
 pub const BORDER: &str = "touches the picture's border, where part of its smear is cut off";
 
-/// Why an object without an outline has no scores per pixel of outline.
+/// Reason why an object without an outline has no scores per pixel of outline.
 pub const NO_SILHOUETTE: &str = "shows no silhouette inside the picture";
 
-/// Whether any of a matte lies on the outermost pixels.
+/// True where any of a matte lies on the outermost pixels.
 pub fn touches_border(matte: &Plane) -> bool {
     let (right, bottom) = (matte.width - 1, matte.height - 1);
     let columns = (0..matte.width).flat_map(|x| [(x, 0), (x, bottom)]);

@@ -102,7 +102,7 @@ impl Grid {
         self.rows().map(|row| row.iter().sum()).collect()
     }
 
-    /// How much of each row's height the matte covers where it covers most, against the row that it covers most of: 0 where it
+    /// Part of each row's height that the matte covers where it covers most, against the row that it covers most of: 0 where it
     /// covers nothing, 1 all over a silhouette, in between at its rim.
     pub fn heights(&self) -> Vec<f64> {
         let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);

@@ -58,7 +58,7 @@ fn add(sums: &mut [f64], weight: f64, values: &[f64]) {
     }
 }
 
-/// Where a line of so many pixels has its value for a place that is counted from `beyond` pixels before it.
+/// Index into a line of pixels, mirrored at its ends, of a place counted from `beyond` pixels before its start.
 fn reflected(at: usize, beyond: usize, length: usize) -> usize {
     let period = 2 * length;
     let folded = (at + period * beyond.div_ceil(period) - beyond) % period;

@@ -1,8 +1,8 @@
-//! How sharply a matte changes, and where it should not.
+//! Gradient magnitude of a matte, and its error.
 
 use frame::{Plane, Raster};
 
-use crate::convolution::{gaussian, separable};
+use crate::color::convolution::{gaussian, separable};
 
 /// Magnitude of a matte's gradient by derivatives of a Gaussian of 1.4 pixels, per pixel.
 pub fn gradient_magnitude(matte: &Plane) -> Raster<f64> {

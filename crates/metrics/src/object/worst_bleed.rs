@@ -1,4 +1,4 @@
-//! One score alone, for who asks hundreds of times.
+//! Lateral bleed alone, for searches that need no other score.
 
 use frame::Plane;
 

@@ -2,24 +2,24 @@
 
 use frame::{Image, Raster, Region, Regions, Truth};
 
-use crate::cross_error::{cross, scatter, squared_error};
-use crate::error_maps::widen;
-use crate::flip::flip_ldr;
-use crate::pooling::mean;
+use crate::color::cross_error::{cross, scatter, squared_error};
+use crate::color::error_maps::widen;
+use crate::color::flip::flip_ldr;
+use crate::color::pooling::mean;
 use crate::{FrozenScores, Measured, Viewing};
 
 /// The frozen-shading truth, ready to score any number of pictures.
 pub struct FrozenReference {
     mean: Image,
     halves: [Image; 2],
-    /// What its own noise scores over the moving region.
+    /// Scores of its own noise over the moving region.
     noise: Option<[f64; 2]>,
     /// Difference of the two truths over the moving region.
     shading: Measured,
 }
 
 impl FrozenReference {
-    /// Of a truth.
+    /// Prepares the frozen-shading truth.
     pub fn new(truth: &Truth, regions: &Regions, viewing: &Viewing) -> Self {
         let mean = truth.at_instant_mean().frozen;
         let halves = truth.at_instant.each_ref().map(|half| half.frozen.clone());

@@ -1,9 +1,9 @@
-//! Where an object's bleed belongs.
+//! Side of an object's motion that each pixel lies on.
 
 use frame::{Frame, Raster, Support};
 
-use crate::bleed::{Side, sides};
-use crate::mover::Mover;
+use crate::object::bleed::{Side, sides};
+use crate::object::mover::Mover;
 
 /// On which side of where object `id` is seen each pixel lies, as its bleed is told apart; none for an object that is not
 /// seen at the instant, does not move, or never shows. `frame` has no guard band, `support` is the truth's.

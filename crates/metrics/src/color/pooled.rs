@@ -2,11 +2,11 @@
 
 use frame::{Raster, Region, Regions};
 
-use crate::cross_error::scatter;
-use crate::error_maps::ErrorMaps;
-use crate::pooling::{mean, percentile, sorted, weighted_median};
+use crate::color::cross_error::scatter;
+use crate::color::error_maps::ErrorMaps;
+use crate::color::pooling::{mean, percentile, sorted, weighted_median};
 
-/// What is left of error maps when the pixels of a region are brought together.
+/// Error maps pooled over one region.
 #[derive(Clone, Copy, Debug)]
 pub struct Pooled {
     /// Mean of `squared`.
@@ -21,9 +21,9 @@ pub struct Pooled {
     pub flip: f64,
     /// Half of the sum of LDR-FLIP lies at or below it.
     pub flip_weighted_median: f64,
-    /// What 95 % of the pixels do not exceed in LDR-FLIP.
+    /// 95th percentile of LDR-FLIP.
     pub flip_p95: f64,
-    /// What 99 % do not.
+    /// 99th percentile of LDR-FLIP.
     pub flip_p99: f64,
     /// Mean of HDR-FLIP.
     pub flip_hdr: f64,
@@ -31,7 +31,7 @@ pub struct Pooled {
     pub ssim: Option<f64>,
     /// Mean of the label total variation.
     pub label: f64,
-    /// What 95 % of the pixels do not exceed in it.
+    /// 95th percentile of it.
     pub label_p95: f64,
 }
 

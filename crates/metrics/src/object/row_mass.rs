@@ -1,8 +1,8 @@
-//! What rows along the motion gain and lose, sideways and within.
+//! Mass that rows along the motion gain and lose: growth, gain and loss.
 
-use crate::rows::Grid;
+use crate::object::rows::Grid;
 
-/// How the mass of rows along the motion differs from the truth's, in pixels of lateral silhouette.
+/// Differences of the mass of rows along the motion from the truth's, in pixels of lateral silhouette.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RowMass {
     /// Mass that a silhouette which grew sideways adds.
@@ -15,7 +15,7 @@ pub struct RowMass {
 
 /// An object's rows as the frame has them: free of the truth's noise.
 pub struct InstantRows {
-    /// How much of each row's height the silhouette covers, from 0 to 1.
+    /// Part of each row's height that the silhouette covers, from 0 to 1.
     heights: Vec<f64>,
     /// The rows that are about as heavy as the heaviest.
     heavy: Vec<bool>,
@@ -96,7 +96,7 @@ impl RowMass {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rows::Rows;
+    use crate::object::rows::Rows;
     use frame::Raster;
 
     /// A bar of 20 columns that covers rows 10 to 20 of a picture and a third of row 9; each row as much longer as `more`.

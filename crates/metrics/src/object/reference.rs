@@ -2,22 +2,22 @@
 
 use frame::{Frame, Picture, Plane, Raster, Region, Regions, Truth};
 
-use crate::along_motion::{AlongMotion, BORDER, NO_SILHOUETTE, touches_border};
-use crate::bleed::{Bleed, Side, bleed, sides};
-use crate::gradient::{gradient_error, gradient_magnitude};
+use crate::color::pooling::mean;
 use crate::label::on_object;
-use crate::mass::{Mass, mass};
-use crate::misplacement::{Misplacement, misplacement};
-use crate::mover::{Mover, Stillness};
-use crate::pooling::mean;
-use crate::row_mass::RowMass;
+use crate::object::along_motion::{AlongMotion, BORDER, NO_SILHOUETTE, touches_border};
+use crate::object::bleed::{Bleed, Side, bleed, sides};
+use crate::object::gradient::{gradient_error, gradient_magnitude};
+use crate::object::mass::{Mass, mass};
+use crate::object::misplacement::{Misplacement, misplacement};
+use crate::object::mover::{Mover, Stillness};
+use crate::object::row_mass::RowMass;
 use crate::{Measured, ObjectMetric, ObjectScores};
 
 /// One object, and what the truth's own noise scores on it.
 pub struct ObjectReference {
     name: String,
     truth: Plane,
-    /// Where the object is seen throughout the shutter.
+    /// Pixels where the object is seen throughout the shutter.
     core: Raster<bool>,
     mover: Result<Moving, Stillness>,
     /// Mass scores of the truth's first half.
@@ -26,7 +26,7 @@ pub struct ObjectReference {
     touches_border: bool,
 }
 
-/// What only an object that moves has.
+/// Facts about an object that moves.
 struct Moving {
     mover: Mover,
     sides: Option<Raster<Side>>,

@@ -2,11 +2,11 @@
 
 use frame::{Image, Picture, Plane, Raster};
 
-use crate::absolute_error::{absolute_error, symmetric_error};
-use crate::cross_error::{relative_squared_error, squared_error};
-use crate::flip::{flip_hdr, flip_ldr};
+use crate::color::absolute_error::{absolute_error, symmetric_error};
+use crate::color::cross_error::{relative_squared_error, squared_error};
+use crate::color::flip::{flip_hdr, flip_ldr};
+use crate::color::ssim::ssim;
 use crate::label::total_variation;
-use crate::ssim::ssim;
 use crate::{Maps, Viewing};
 
 /// One picture's errors. In f64 where halves are multiplied: sums of thousands of signed products follow.
@@ -82,7 +82,7 @@ impl ErrorMaps {
     }
 }
 
-/// What is not an error of the whole picture's colour or labels.
+/// Maps that are not errors of the whole picture's colour or labels.
 pub struct MoreMaps {
     /// Matte where the truth never shows it.
     pub bleed: Plane,

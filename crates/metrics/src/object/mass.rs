@@ -1,8 +1,8 @@
-//! Whether a blur keeps the object's mass, and its unblurred core.
+//! Mass of an object's matte, and holes in its core.
 
 use frame::{Plane, Raster};
 
-use crate::pooling::mean;
+use crate::color::pooling::mean;
 
 /// Sums over a whole matte.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use frame::{Plane, Raster};
 
-use crate::mover::Silhouette;
-use crate::nearest::{circle, distance_squared, nearest, on_circle};
+use crate::object::mover::Silhouette;
+use crate::object::nearest::{circle, distance_squared, nearest, on_circle};
 
 /// On which side of the swept support a pixel lies, as seen along the motion of the nearest part of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 use frame::{Image, Raster, display_srgb};
 
 use crate::Viewing;
-use crate::convolution::{gaussian, separable};
+use crate::color::convolution::{gaussian, separable};
 
 /// Pixels at the border that are not pooled: the window's radius, 3.5 standard deviations of 1.5 pixels.
 pub const SSIM_BORDER: u32 = 5;

@@ -1,8 +1,8 @@
-//! Where a blur lies along the motion, and how long it is.
+//! Position and length of a blur along the motion.
 
-use crate::rows::Grid;
+use crate::object::rows::Grid;
 
-/// How mass lies along the motion, compared with the truth row by row.
+/// Mass along the motion, compared with the truth row by row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Misplacement {
     /// Mean distance along the motion that mass would have to travel to lie as in the truth (Wasserstein-1), in pixels.
@@ -72,7 +72,7 @@ fn distance_between(a: &[f64], a_mass: f64, b: &[f64], b_mass: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rows::Rows;
+    use crate::object::rows::Rows;
     use frame::Raster;
 
     #[test]

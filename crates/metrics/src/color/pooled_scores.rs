@@ -1,7 +1,7 @@
 //! Scores from pooled errors and the noise in them.
 
-use crate::cross_error::psnr;
-use crate::pooled::Pooled;
+use crate::color::cross_error::psnr;
+use crate::color::pooled::Pooled;
 use crate::{ImageScores, LabelScores, Measured};
 
 /// A picture's errors over a region and those of the truth's noise, or why there are none.

@@ -2,7 +2,7 @@
 
 use frame::{Frame, Plane, Raster};
 
-use crate::nearest::nearest;
+use crate::object::nearest::nearest;
 
 /// Displacements below this many pixels over the shutter count as none: nothing of it can be measured.
 pub const LEAST_DISPLACEMENT: f64 = 0.1;
@@ -24,7 +24,7 @@ pub struct Mover {
     pub silhouette: Silhouette,
 }
 
-/// How much outline an object has, in pixels, each way of crossing it counted: the total variation of its matte across
+/// Length of an object's outline, in pixels, each way of crossing it counted: the total variation of its matte across
 /// and along the motion. For a convex object it is the width, twice for both sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Silhouette {
@@ -34,7 +34,7 @@ pub struct Silhouette {
     pub across: f64,
 }
 
-/// Why an object has no matte scores.
+/// Reason why an object has no matte scores.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stillness {
     /// No pixel centre sees it.
