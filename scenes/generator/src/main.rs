@@ -3,7 +3,7 @@
 use std::path::Path;
 
 fn main() -> std::io::Result<()> {
-    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     for file in generator::files() {
         let path = scenes.join(&file.path);
         std::fs::create_dir_all(path.parent().expect("it lies in a scene's folder"))?;
