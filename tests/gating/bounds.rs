@@ -4,33 +4,33 @@ use std::fs;
 use std::path::Path;
 
 use frame::{Alignment, Picture};
-use metrics::{Metric, Reference};
-use suite::{Level, Outcome, RenderSettings, SceneBounds, SceneChoice, Verdict};
+use metrics::{Measured, Metric, Reference};
+use suite::{Judged, Level, Outcome, RenderSettings, SceneBounds, SceneChoice};
+
+use crate::kept_truths;
 
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
 
 /// Nothing in them moves farther than the bounds allow: what they expose is told by changed pixels, in the test `catalogue`.
 const HARDLY_MOVING: [&str; 1] = ["creep"];
 
-/// Verdicts on the instant itself, and on the mean of 64 sub-frames.
-fn verdicts(choice: &SceneChoice) -> [Vec<Verdict>; 2] {
-    // Truths are kept, from one run of the tests to the next, and for the test `shipped_bounds`, which has them as small as here.
-    let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("truths");
+/// Judges the instant itself, and the mean of 64 sub-frames.
+fn judged(choice: &SceneChoice, out: &Path) -> [Vec<Judged>; 2] {
     let settings = RenderSettings {
         width: 160,
         height: 90,
         ..RenderSettings::default()
     };
     let scene = &choice.scene;
-    let frame = suite::frame_of(scene, &settings, &out, true).unwrap();
+    let frame = suite::frame_of(scene, &settings, out, true).unwrap();
     let (truth, ladder) =
-        suite::truth_and_ladder_of(scene, &settings, Alignment::Trailing, &out, true).unwrap();
+        suite::truth_and_ladder_of(scene, &settings, Alignment::Trailing, out, true).unwrap();
     let reference = Reference::new(&frame, &truth, None, &suite::viewing(scene)).unwrap();
     let bounds = suite::read_bounds(Path::new(SCENES), &choice.folder).unwrap();
     // What is asked of every filter, required or not.
     let bounds = bounds.of("identity", "default");
     let judged = |picture: &Picture| {
-        suite::judge(&reference.measure(picture).unwrap().scores, None, &bounds)
+        suite::judge_scores(&reference.measure(picture).unwrap().scores, None, &bounds)
     };
     let identity = Picture {
         color: frame.color.clone(),
@@ -44,25 +44,17 @@ fn verdicts(choice: &SceneChoice) -> [Vec<Verdict>; 2] {
     [judged(&identity), judged(&Picture::mean(&rung.halves))]
 }
 
-fn describe(verdicts: &[Verdict]) -> String {
-    let lines = verdicts.iter().map(|verdict| {
-        let limit = verdict.limit;
-        match &verdict.outcome {
-            Outcome::Kept { value } => format!("  {} = {value:.4} keeps {limit}", verdict.metric),
-            Outcome::Broken { value } => {
-                format!("  {} = {value:.4} BREAKS {limit}", verdict.metric)
-            }
-            Outcome::Inconclusive { value } => {
-                unreachable!("{} = {value} has no interval here", verdict.metric)
-            }
-            Outcome::TooNoisy { floor, strictest } => {
-                format!(
-                    "  {} <= {limit} is TOO STRICT for floor {floor:.4} ({strictest:.4})",
-                    verdict.metric
-                )
-            }
-            Outcome::NotApplicable { reason } => format!("  {}: {reason}", verdict.metric),
-        }
+fn describe(judged: &[Judged]) -> String {
+    let lines = judged.iter().map(|judged| {
+        let score = match &judged.measured {
+            Measured::Score(score) => format!("{:.4}, floor {:.4}", score.value, score.floor),
+            Measured::NotApplicable { reason } => reason.clone(),
+        };
+        let limit = judged.bound.limit;
+        format!(
+            "  {} {score}, limit {limit}: {:?}",
+            judged.metric, judged.outcome
+        )
     });
     lines.collect::<Vec<_>>().join("\n")
 }
@@ -72,18 +64,11 @@ fn the_identity_breaks_a_bound_in_every_moving_scene_and_64_subframes_break_none
     let scenes = suite::select_scenes(Path::new(SCENES), &[]).unwrap();
     assert!(scenes.len() >= 5, "the shipped scenes are missing");
     let mut failures = Vec::new();
+    let (out, _own) = kept_truths();
     for choice in &scenes {
-        let [identity, accumulation] = verdicts(choice);
-        let broken = |verdicts: &[Verdict]| {
-            verdicts
-                .iter()
-                .any(|verdict| matches!(verdict.outcome, Outcome::Broken { .. }))
-        };
-        let noisy = |verdicts: &[Verdict]| {
-            verdicts
-                .iter()
-                .any(|verdict| matches!(verdict.outcome, Outcome::TooNoisy { .. }))
-        };
+        let [identity, accumulation] = judged(choice, &out);
+        let broken = |judged: &[Judged]| judged.iter().any(|one| one.outcome == Outcome::Broken);
+        let noisy = |judged: &[Judged]| judged.iter().any(|one| one.outcome == Outcome::TooNoisy);
         let name = &choice.scene.name;
         println!("{name}, identity:\n{}", describe(&identity));
         println!("{name}, 64 sub-frames:\n{}", describe(&accumulation));

@@ -4,9 +4,11 @@ use std::path::Path;
 
 use filters::Gpu;
 use suite::{
-    Check, Decision, Finding, InputFormat, Kind, Level, Plan, RenderSettings, bounded_size, check,
-    read_bounds, run, select_filters, select_scenes,
+    Check, Decision, Finding, InputFormat, Level, Outcome, Plan, RenderSettings, RunBounds,
+    bounded_size, check, judge, read_bounds, run, select_filters, select_scenes,
 };
+
+use crate::kept_truths;
 
 /// What is bounded there.
 const GUARDED: [&str; 4] = [
@@ -21,17 +23,18 @@ fn guarded_filters_keep_what_is_required_of_them_on_every_scene() {
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes"));
     let gpu = Gpu::new(None).expect("this test runs filters");
     let filters = select_filters(&GUARDED.map(str::to_owned), None, &[]).unwrap();
-    let scenes: Vec<_> = (select_scenes(root, &[]).unwrap().into_iter())
+    let choices = select_scenes(root, &[]).unwrap();
+    assert!(choices.len() >= 23, "the shipped scenes are missing");
+    let bounds: RunBounds = (choices.iter())
         .map(|choice| {
             let bounds = read_bounds(root, &choice.folder).unwrap();
-            (choice.scene, bounds)
+            (choice.scene.name.clone(), bounds)
         })
         .collect();
-    assert!(scenes.len() >= 23, "the shipped scenes are missing");
-    let bounds = scenes.iter().map(|(_, bounds)| bounds);
-    let (width, height) = bounded_size(bounds, &filters, None).unwrap().unwrap();
+    let (width, height) = (bounded_size(bounds.values(), &filters, None).unwrap()).unwrap();
+    let (out, _own) = kept_truths();
     let plan = Plan {
-        scenes,
+        scenes: choices.into_iter().map(|choice| choice.scene).collect(),
         filters,
         inputs: vec![InputFormat::default()],
         jitter_frames: 0,
@@ -40,15 +43,13 @@ fn guarded_filters_keep_what_is_required_of_them_on_every_scene() {
             height,
             ..RenderSettings::default()
         },
-        // Truths are kept from one run of the tests to the next; those of the test `bounds` serve here too.
-        out: Path::new(env!("CARGO_TARGET_TMPDIR")).join("truths"),
+        out,
         intervals: true,
-        evidence: false,
         quiet: true,
     };
     let run = run(&plan, Some(&gpu), Vec::new()).unwrap();
-    let check = check(&run, Vec::new());
-    for (scene, _) in &plan.scenes {
+    let check = check(&run, judge(&run, &bounds), Vec::new());
+    for scene in &plan.scenes {
         for filter in GUARDED {
             for metric in ["flip_moving", "bleed_lateral"] {
                 assert_required(&check, &scene.name, filter, metric);
@@ -57,7 +58,7 @@ fn guarded_filters_keep_what_is_required_of_them_on_every_scene() {
     }
     let not_kept: Vec<String> = (check.findings.iter())
         .filter(|finding| finding.level == Level::Required)
-        .filter(|finding| !matches!(finding.kind, Kind::Kept | Kind::NotApplicable))
+        .filter(|finding| !matches!(finding.outcome, Outcome::Kept | Outcome::NotApplicable))
         .map(described)
         .collect();
     assert_eq!(check.decision, Decision::Pass, "{}", not_kept.join("\n"));
@@ -81,7 +82,7 @@ fn described(finding: &Finding) -> String {
         finding.scene,
         finding.filter,
         finding.metric,
-        finding.kind,
+        finding.outcome,
         finding.value,
         finding.interval,
         finding.limit

@@ -70,8 +70,6 @@ fn case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common): Ent
         intervals: BTreeMap::new(),
         common: moving,
         jitter: None,
-        verdicts: Vec::new(),
-        resembles: None,
         folder: name.replace(':', "_").into(),
     }
 }

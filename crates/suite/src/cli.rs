@@ -171,7 +171,7 @@ pub struct SceneArgs {
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
     /// Folder for all files. Truths and cases found there are used again if nothing about them has changed.
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
     /// No progress bars.
     #[arg(long)]

@@ -7,7 +7,6 @@ mod calibrate;
 mod case;
 mod catalogue;
 mod compare;
-mod decoys;
 mod dilated;
 mod error;
 mod failure;
@@ -18,6 +17,7 @@ mod import;
 mod input_format;
 mod inputs;
 mod intervals;
+mod judge;
 mod kept;
 mod layers;
 mod means_table;
@@ -40,10 +40,7 @@ mod selection;
 mod subject;
 mod table;
 mod tune;
-mod verdict;
-mod witness;
 mod workbench;
-mod worst;
 mod wrapped;
 
 pub use baseline::{
@@ -61,16 +58,17 @@ pub use compare::{
     Basis, COMPARE_FORMAT, Change, ChangeKind, Compared, MeanChange, MeanKind, SettingChange, Side,
     compare_page, compare_runs, compare_table,
 };
-pub use decoys::{Decoys, Resemblance};
 pub use error::Error;
 pub use failure::{Failure, failures_text, refuse_failures};
 pub use finished::{Finished, read_finished};
-pub use gate::{
-    CHECK_FORMAT, Check, Decision, Finding, Kind, annotations, check, check_text, junit, summary,
-};
+pub use gate::{CHECK_FORMAT, Check, Decision, annotations, check, check_text, junit, summary};
 pub use import::{ImportPlan, Imported, Motions, Up, import};
 pub use input_format::{Border, DepthFormat, InputFormat, VelocityFormat};
 pub use intervals::{FEWEST_REPLICATES, Intervals, intervals, truths_without_pairs};
+pub use judge::{
+    Decoys, Finding, JUDGEMENT_FILE, JUDGEMENT_FORMAT, Judged, Judgement, Outcome, Resemblance,
+    RunBounds, Worst, add_evidence, judge, judge_scores, outcome,
+};
 pub use layers::write_layers;
 pub use merge::{Merged, merge};
 pub use overall::{Overall, overall};
@@ -94,8 +92,6 @@ pub use tune::{
     interleaved, morris, paired_table, preset_text, probability_not_above, sensitivity,
     sensitivity_table, shots, sobol_indices, tune, tuning_table,
 };
-pub use verdict::{Outcome, Verdict, judge};
-pub use worst::Worst;
 pub use wrapped::push_wrapped;
 
 /// Program name and version, as files and runs record it.

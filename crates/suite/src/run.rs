@@ -8,7 +8,6 @@ use metrics::Viewing;
 use serde::{Deserialize, Serialize};
 use tracer::{Progress, Scene, Watch};
 
-use crate::bounds::SceneBounds;
 use crate::case::Case;
 use crate::failure::Failure;
 use crate::inputs::SceneInputs;
@@ -20,7 +19,7 @@ use crate::selection::FilterChoice;
 use crate::{Error, InputFormat, PROGRAM, RenderSettings};
 
 /// Version of the layout of `run.json`; it rises when a reader of the old one would misread the new one.
-pub const FORMAT: u32 = 4;
+pub const FORMAT: u32 = 5;
 
 /// A finished run: `run.json`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -102,8 +101,8 @@ fn lies_below(case: &Case) -> bool {
 
 /// What a run is to do.
 pub struct Plan {
-    /// Loaded scenes, each with its bounds.
-    pub scenes: Vec<(Scene, SceneBounds)>,
+    /// Loaded scenes.
+    pub scenes: Vec<Scene>,
     /// Loaded filters.
     pub filters: Vec<FilterChoice>,
     /// The forms in which every filter gets the frame.
@@ -117,8 +116,6 @@ pub struct Plan {
     /// Whether the scores of filters get intervals, by which bounds are judged. Takes a few more measurements of every
     /// picture.
     pub intervals: bool,
-    /// Whether bounds that are not kept get the place where the picture is worst, and what it is like.
-    pub evidence: bool,
     /// No progress bars.
     pub quiet: bool,
 }
@@ -178,7 +175,7 @@ fn all_cases(
         .map(|choice| choice.scaled_to(plan.render.width))
         .collect();
     let (mut cases, mut failures) = (Vec::new(), Vec::new());
-    for (done, (scene, bounds)) in plan.scenes.iter().enumerate() {
+    for (done, scene) in plan.scenes.iter().enumerate() {
         // A scene that is interrupted says so itself.
         let _ = watch(Progress {
             done: done as u64,
@@ -191,7 +188,6 @@ fn all_cases(
             filters: &filters,
             gpu,
             scene,
-            bounds,
             common,
             inputs,
         };

@@ -8,7 +8,6 @@ use frame::{Alignment, Frame, Ladder, Picture, Truth};
 use metrics::{MeasureError, Reference};
 use tracer::{Progress, Scene, Watch};
 
-use crate::bounds::SceneBounds;
 use crate::case::Case;
 use crate::failure::Failure;
 use crate::inputs::SceneInputs;
@@ -20,7 +19,6 @@ use crate::run::{Plan, viewing};
 use crate::scatter_oracle::oracle_of;
 use crate::selection::FilterChoice;
 use crate::subject::Subject;
-use crate::witness::Witness;
 use crate::workbench::Workbench;
 use crate::{Error, InputFormat, truths_without_pairs};
 
@@ -31,7 +29,6 @@ pub(crate) struct SceneRun<'a> {
     pub filters: &'a [FilterChoice],
     pub gpu: Option<&'a Gpu>,
     pub scene: &'a Scene,
-    pub bounds: &'a SceneBounds,
     /// The alignment that every case is compared with.
     pub common: Alignment,
     /// What is kept is known by these; none where nothing can be kept.
@@ -109,15 +106,6 @@ impl SceneRun<'_> {
                 Ok((*alignment, references?))
             })
             .collect::<Result<BTreeMap<_, Vec<Reference>>, Error>>()?;
-        let witnesses: BTreeMap<Alignment, Witness> = (truths.iter())
-            .filter(|_| self.plan.evidence)
-            .map(|(alignment, (truth, ladder))| {
-                (
-                    *alignment,
-                    Witness::new(self.scene, &cropped, truth, ladder),
-                )
-            })
-            .collect();
         let stored: Vec<(InputFormat, Frame)> = (self.plan.inputs.iter())
             .map(|format| (*format, format.of(frame)))
             .collect();
@@ -136,7 +124,6 @@ impl SceneRun<'_> {
                 plan: self.plan,
                 gpu: self.gpu,
                 scene: self.scene,
-                bounds: self.bounds,
                 frame,
                 stored: &stored,
                 truth,
@@ -145,7 +132,6 @@ impl SceneRun<'_> {
                 oracle: &oracles[&alignment],
                 common: (alignment != self.common).then(|| &references[&self.common]),
                 without: without.get(&alignment).map(Vec::as_slice),
-                witness: witnesses.get(&alignment),
             };
             cases.push(match workbench.case(subject) {
                 Ok((case, files)) => {
@@ -199,13 +185,19 @@ impl SceneRun<'_> {
             .collect()
     }
 
+    /// A case that was measured before: with intervals where the plan asks for some, without them otherwise.
     fn kept(&self, subject: &Subject) -> Option<Case> {
-        recall(&self.record(subject), &self.inputs_of(subject)?)
+        let mut case: Case = recall(&self.record(subject), &self.inputs_of(subject)?)?;
+        if !self.plan.intervals {
+            case.intervals.clear();
+        }
+        let is_whole = case.bar || !self.plan.intervals || !case.intervals.is_empty();
+        is_whole.then_some(case)
     }
 
     fn inputs_of(&self, subject: &Subject) -> Option<String> {
         let adapter = self.gpu.map(|gpu| &gpu.adapter);
-        let own = subject.inputs(self.plan, adapter, self.bounds)?;
+        let own = subject.inputs(self.plan, adapter)?;
         let inputs = self.inputs.as_ref()?;
         Some(inputs.case(&own, subject.alignment, self.common))
     }

@@ -10,8 +10,9 @@ use std::path::{Path, PathBuf};
 use filters::Gpu;
 use metrics::Metric;
 use suite::{
-    Case, Check, Decision, FilterChoice, InputFormat, Plan, RenderSettings, Run, SceneBounds,
-    calibrate, check, open_gpu, read_bounds_file, run, select_filters, select_scenes,
+    Case, Check, Decision, FilterChoice, InputFormat, Plan, RenderSettings, Run, RunBounds,
+    SceneBounds, calibrate, check, judge, open_gpu, read_bounds_file, run, select_filters,
+    select_scenes,
 };
 use tracer::Scene;
 
@@ -67,7 +68,7 @@ const SOUND: [&str; 2] = ["mcguire:paper", "jump_flood:corrected"];
 struct Bench {
     folder: tempfile::TempDir,
     gpu: Option<Gpu>,
-    bounds: Vec<SceneBounds>,
+    bounds: RunBounds,
 }
 
 impl Bench {
@@ -77,7 +78,7 @@ impl Bench {
         let shipped = choices(filters.iter().map(|name| (*name).to_owned()));
         let mut bench = Self {
             gpu: open_gpu(&shipped, None).unwrap(),
-            bounds: vec![SceneBounds::default(); NAMES.len()],
+            bounds: RunBounds::new(),
             folder,
         };
         let runs: Vec<Run> = (CALIBRATED_WITH.into_iter())
@@ -86,10 +87,11 @@ impl Bench {
         let metrics = METRICS.map(|name| name.parse::<Metric>().unwrap());
         let none = SceneBounds::default();
         let calibration = calibrate(&runs, |_| &none, &metrics);
-        for (name, bounds) in NAMES.iter().zip(&mut bench.bounds) {
+        for name in NAMES {
             let path = bench.folder.path().join(format!("{name}.toml"));
             fs::write(&path, calibration.toml(name)).unwrap();
-            bounds.files = vec![read_bounds_file(&path).unwrap()];
+            let files = vec![read_bounds_file(&path).unwrap()];
+            bench.bounds.insert(name.to_owned(), SceneBounds { files });
         }
         bench
     }
@@ -101,7 +103,7 @@ impl Bench {
             .map(|choice| choice.scene)
             .collect();
         let plan = Plan {
-            scenes: scenes.into_iter().zip(self.bounds.clone()).collect(),
+            scenes,
             filters,
             inputs: InputFormat::one_by_one(&[], &[], &[]),
             jitter_frames: 0,
@@ -115,7 +117,6 @@ impl Bench {
             // Truths are kept per seed.
             out: self.folder.path().join(format!("seed_{seed}")),
             intervals: true,
-            evidence: false,
             quiet: true,
         };
         run(&plan, self.gpu.as_ref(), Vec::new()).unwrap()
@@ -134,7 +135,7 @@ impl Bench {
                     cases: own.collect(),
                     ..run.clone()
                 };
-                check(&alone, Vec::new())
+                check(&alone, judge(&alone, &self.bounds), Vec::new())
             })
             .collect()
     }
@@ -181,7 +182,7 @@ fn choices(words: impl Iterator<Item = String>) -> Vec<FilterChoice> {
 /// Names of the metrics whose bounds are broken, with their scenes.
 fn broken(check: &Check) -> Vec<String> {
     (check.findings.iter())
-        .filter(|finding| finding.decision() == Decision::Broken)
+        .filter(|finding| Decision::of(finding) == Decision::Broken)
         .map(|finding| format!("{} on {}", finding.metric, finding.scene))
         .collect()
 }

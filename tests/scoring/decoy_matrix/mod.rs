@@ -7,7 +7,7 @@ use std::path::Path;
 
 use frame::Picture;
 use metrics::{Measured, Metric, Reference, Scores};
-use suite::{Bounds, Outcome, judge, read_bounds_file};
+use suite::{Bounds, Outcome, judge_scores, read_bounds_file};
 use tests::synthetic::{Blur, Sampling, Scene, VIEWING};
 
 use decoys::{APART, decoys};
@@ -63,12 +63,12 @@ const SEEN_BY: [(&str, &[&str]); 14] = [
 
 /// Names of the broken bounds.
 fn broken(scores: &Scores, bounds: &Bounds) -> Vec<String> {
-    let verdicts = judge(scores, None, bounds).into_iter();
-    verdicts
-        .filter_map(|verdict| match verdict.outcome {
-            Outcome::Broken { .. } => Some(verdict.metric),
-            Outcome::Kept { .. } | Outcome::NotApplicable { .. } => None,
-            other => panic!("{}: {other:?}", verdict.metric),
+    let judged = judge_scores(scores, None, bounds).into_iter();
+    judged
+        .filter_map(|judged| match judged.outcome {
+            Outcome::Broken => Some(judged.metric),
+            Outcome::Kept | Outcome::NotApplicable => None,
+            other => panic!("{}: {other:?}", judged.metric),
         })
         .collect()
 }

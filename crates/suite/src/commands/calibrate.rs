@@ -1,10 +1,6 @@
 //! `shuttertruth calibrate`
 
-use std::collections::BTreeMap;
-
-use suite::{
-    Error, Plan, Run, SceneBounds, calibrate, check_names, open_gpu, refuse_failures, run, with_bar,
-};
+use suite::{Error, Plan, Run, calibrate, check_names, open_gpu, refuse_failures, run, with_bar};
 use tracer::{Progress, Watch};
 
 use super::measure::{check_replicates, plan, write_run};
@@ -15,20 +11,20 @@ use crate::cli::CalibrateArgs;
 /// bounds.toml.
 pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     let out = &args.measure.scenes.out;
-    let mut plan = plan(&args.measure, out.clone())?;
+    let (mut plan, bounds) = plan(&args.measure, out.clone())?;
     check_replicates(plan.render.replicates)?;
     plan.intervals = true;
     // No limit is on a filter's noise apart from its error.
     plan.jitter_frames = 0;
-    let bounds = plan.scenes.iter().map(|(_, bounds)| bounds);
-    check_names(&args.measure.scenes.scenes_dir, bounds, &plan.filters)?;
+    check_names(
+        &args.measure.scenes.scenes_dir,
+        bounds.values(),
+        &plan.filters,
+    )?;
     let runs = with_bar("runs in all", plan.quiet, |watch| {
         all_runs(args, &mut plan, watch)
     })?;
-    let bounds: BTreeMap<&str, &SceneBounds> = (plan.scenes.iter())
-        .map(|(scene, bounds)| (scene.name.as_str(), bounds))
-        .collect();
-    let calibration = calibrate(&runs, |case| bounds[case.scene.as_str()], &args.metrics);
+    let calibration = calibrate(&runs, |case| &bounds[&case.scene], &args.metrics);
     for scene in calibration.scores.keys() {
         let path = out.join(scene).with_extension("bounds.toml");
         let text = calibration.toml(scene);

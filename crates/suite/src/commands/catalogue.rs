@@ -17,7 +17,7 @@ pub fn execute(args: &CatalogueArgs) -> Result<(), Error> {
     }
     // The page shows no noise.
     measure.jitter_frames = 0;
-    let plan = plan(&measure, measure.scenes.out.clone())?;
+    let (plan, _) = plan(&measure, measure.scenes.out.clone())?;
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref())?;
     let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
     let page = plan.out.join("catalogue.md");

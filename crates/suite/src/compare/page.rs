@@ -11,7 +11,7 @@ use super::provenance::provenance;
 use super::table::signed;
 use super::{Compared, Side};
 use crate::Error;
-use crate::gate::number;
+use crate::judge::number;
 use crate::report::shell::shell;
 
 /// So many cases are shown in pictures, those that changed most.

@@ -3,7 +3,7 @@
 use super::change::{Basis, Change, ChangeKind, ranked};
 use super::mean::{MeanChange, MeanKind};
 use super::{Compared, SettingChange};
-use crate::gate::number;
+use crate::judge::number;
 use crate::paint::{bad, doubtful, faint, good, heading};
 use crate::wrapped::push_wrapped;
 

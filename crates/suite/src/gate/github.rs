@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use super::finding::number;
 use super::text::{comparison_line, headline, way_out};
-use super::{Check, Decision, Finding, Kind};
+use super::{Check, Decision};
+use crate::judge::{Finding, Outcome, number};
 
 /// More than that, GitHub shows of no step.
 const MOST_ANNOTATIONS: usize = 10;
@@ -14,7 +14,7 @@ const MOST_ROWS: usize = 500;
 /// Workflow commands, one a line, for what keeps the check from passing; the last of ten says how many more there are.
 pub fn annotations(check: &Check) -> String {
     let findings = (check.findings.iter())
-        .filter(|finding| finding.decision() != Decision::Pass)
+        .filter(|finding| Decision::of(finding) != Decision::Pass)
         .map(|finding| {
             let title = format!("{} / {}", finding.scene, finding.filter);
             let way_out = way_out(finding).map(|way_out| format!("; {way_out}"));
@@ -45,17 +45,17 @@ pub fn annotations(check: &Check) -> String {
 pub fn summary(check: &Check) -> String {
     let mut text = format!("## Shuttertruth: {}\n\n", words(check.decision));
     let notable: Vec<&Finding> = (check.findings.iter())
-        .filter(|finding| !matches!(finding.kind, Kind::Kept | Kind::NotApplicable))
+        .filter(|finding| !matches!(finding.outcome, Outcome::Kept | Outcome::NotApplicable))
         .collect();
     let _ = writeln!(
         text,
         "{} bounds, {} kept, {} broken, {} inconclusive, {} too strict, {} not applicable\n",
         check.findings.len(),
-        check.count(Kind::Kept),
-        check.count(Kind::Broken),
-        check.count(Kind::Inconclusive),
-        check.count(Kind::TooNoisy),
-        check.count(Kind::NotApplicable),
+        check.count(Outcome::Kept),
+        check.count(Outcome::Broken),
+        check.count(Outcome::Inconclusive),
+        check.count(Outcome::TooNoisy),
+        check.count(Outcome::NotApplicable),
     );
     for failure in &check.failures {
         let (scene, filter) = (cell(&failure.scene), cell(&failure.filter));
@@ -99,7 +99,7 @@ fn row(finding: &Finding) -> String {
         or_none(finding.floor.map(number)),
         or_none((finding.worst.as_ref()).map(|worst| format!("({}, {})", worst.x, worst.y))),
         or_none((finding.resembles.as_ref()).map(|alike| alike.decoy.clone())),
-        match finding.decision() {
+        match Decision::of(finding) {
             Decision::Pass => "reported".to_owned(),
             decision => words(decision).to_owned(),
         },

@@ -3,12 +3,14 @@
 use maud::{Markup, html};
 use metrics::{Group, Measured, Metric};
 
+use super::case_page::Page;
 use super::cell::standing;
 use crate::Case;
-use crate::gate::number;
+use crate::judge::number;
 
 /// All groups as one table.
-pub fn score_rows(case: &Case) -> Markup {
+pub fn score_rows(page: &Page) -> Markup {
+    let case = page.case;
     let all = Metric::all();
     html! {
         table.scores {
@@ -28,7 +30,7 @@ pub fn score_rows(case: &Case) -> Markup {
             @for group in Group::SHOWN {
                 tbody {
                     tr.group { th scope="rowgroup" colspan="5" { (group.title()) } }
-                    @for metric in all.iter().filter(|metric| metric.group() == group) { (row(case, *metric)) }
+                    @for metric in all.iter().filter(|metric| metric.group() == group) { (row(page, *metric)) }
                 }
             }
             @if let Some(jitter) = &case.jitter {
@@ -49,10 +51,11 @@ pub fn score_rows(case: &Case) -> Markup {
     }
 }
 
-fn row(case: &Case, metric: Metric) -> Markup {
+fn row(page: &Page, metric: Metric) -> Markup {
+    let case = page.case;
     let name = metric.name();
-    let verdict = case.verdicts.iter().find(|verdict| verdict.metric == name);
-    let standing = verdict.and_then(|verdict| standing(&verdict.outcome));
+    let finding = (page.findings.iter()).find(|finding| finding.metric == name);
+    let standing = finding.and_then(|finding| standing(finding.outcome));
     html! {
         tr {
             th scope="row" { (name) }
@@ -71,9 +74,9 @@ fn row(case: &Case, metric: Metric) -> Markup {
                     td data-label="floor" { (number(score.floor)) }
                     td class=[standing.map(|standing| standing.word)]
                         data-label=[standing.map(|_| "limit")] {
-                        @if let (Some(verdict), Some(standing)) = (verdict, standing) {
+                        @if let (Some(finding), Some(standing)) = (finding, standing) {
                             span.sign aria-hidden="true" { (standing.sign) }
-                            (number(verdict.limit))
+                            (number(finding.limit))
                             span.unseen { ", " (standing.word) }
                         }
                     }
