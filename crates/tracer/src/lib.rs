@@ -26,6 +26,7 @@ mod joining;
 mod ladder;
 mod lanes;
 mod lights;
+pub mod limits;
 mod load;
 mod lobe;
 mod mesh_tree;
