@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use frame::MOST_STOPS;
 use glam::{DVec3, Vec3};
 use toml::Spanned;
 
@@ -105,15 +106,39 @@ pub(super) fn sun(document: &Document, table: &SunTable) -> Result<Sun, SceneErr
     })
 }
 
+/// Exposures of HDR-FLIP, at least and at most.
+const FLIP_COUNTS: std::ops::RangeInclusive<u32> = 2..=128;
+
 pub(super) fn display(document: &Document, table: &DisplayTable) -> Result<Display, SceneError> {
+    let stops = match &table.stops {
+        Some(stops) => {
+            check_stops(document, "stops", *stops.get_ref(), stops.span())?;
+            *stops.get_ref()
+        }
+        None => 0.0,
+    };
     let flip = match &table.flip {
         Some(flip) => flip_exposures(document, flip)?,
         None => FLIP,
     };
-    Ok(Display {
-        stops: table.stops,
-        flip,
-    })
+    Ok(Display { stops, flip })
+}
+
+/// Beyond that many stops nothing can be shown or compared.
+fn check_stops(
+    document: &Document,
+    what: &str,
+    stops: f32,
+    span: std::ops::Range<usize>,
+) -> Result<(), SceneError> {
+    match stops.abs() <= MOST_STOPS {
+        true => Ok(()),
+        false => {
+            let reason =
+                format!("{what} = {stops}; allowed: stops from -{MOST_STOPS} to {MOST_STOPS}");
+            Err(document.error(span, reason))
+        }
+    }
 }
 
 fn flip_exposures(
@@ -121,9 +146,16 @@ fn flip_exposures(
     table: &Spanned<FlipTable>,
 ) -> Result<FlipExposures, SceneError> {
     let FlipTable { start, stop, count } = *table.get_ref();
-    if count < 2 {
-        let reason = format!("flip has {count} exposures; count must be at least 2");
+    if !FLIP_COUNTS.contains(&count) {
+        let reason = format!(
+            "flip has {count} exposures; count must be at least {} and at most {}",
+            FLIP_COUNTS.start(),
+            FLIP_COUNTS.end()
+        );
         return Err(document.error(table.span(), reason));
+    }
+    for (what, stops) in [("flip start", start), ("flip stop", stop)] {
+        check_stops(document, what, stops, table.span())?;
     }
     if stop <= start {
         let reason = format!(

@@ -42,10 +42,11 @@ pub fn list_scenes(root: &Path) -> Result<Vec<SceneListing>, SceneError> {
         let reason = "holds no scene; a scene is a folder with a scene.toml";
         return Err(SceneError::file(root, reason));
     }
-    folders.iter().map(|folder| listing(folder)).collect()
+    folders.iter().map(|folder| list_scene(folder)).collect()
 }
 
-fn listing(folder: &Path) -> Result<SceneListing, SceneError> {
+/// What the scene in a folder says about itself.
+pub fn list_scene(folder: &Path) -> Result<SceneListing, SceneError> {
     let document = read_document(&mut Files::new(folder), folder)?;
     let table = document.scene(None)?;
     Ok(SceneListing {

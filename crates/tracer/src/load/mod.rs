@@ -27,7 +27,7 @@ use std::path::{Path, PathBuf};
 use document::Document;
 pub use error::SceneError;
 use files::Files;
-pub use listing::{SceneListing, list_scenes};
+pub use listing::{SceneListing, list_scene, list_scenes};
 use objects::Stage;
 use schema::SceneTable;
 
