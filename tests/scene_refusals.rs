@@ -216,7 +216,7 @@ const SCENE_SLIPS: &[Slip] = &[
     ("absurd size", "size = [64, 36]", "size = [64, 16385]", 
         "scene.toml:4: size is [64, 16385]; allowed: 1 to 16384 pixels each"),
     ("one flip exposure", "[camera]", "[display]\nflip = { start = -1, stop = 1, count = 1 }\n[camera]", 
-        "scene.toml:7: flip has 1 exposures; count must be at least 2"),
+        "scene.toml:7: flip has 1 exposures; count must be at least 2 and at most 128"),
     ("flip range reversed", "[camera]", "[display]\nflip = { start = 1, stop = -1, count = 5 }\n[camera]", 
         "scene.toml:7: flip stops at -1, not above its start at 1; stop must be above start"),
     ("camera looks at itself", "look_at = [0, 0, 0]", "look_at = [0, 0, 5]", 

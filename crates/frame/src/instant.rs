@@ -205,12 +205,6 @@ impl Frame {
             .map(|object| file.plane(&coverage_name("", object)))
             .collect::<Result<_, _>>()?;
         let [x, y] = [file.plane("velocity.X")?, file.plane("velocity.Y")?];
-        if let Some(id) = (ids.pixels.iter()).find(|id| **id as usize >= objects.len()) {
-            return Err(file.foreign(format!(
-                "channel \"object.id\" holds {id}; allowed: 0 to {}, the objects of the frame",
-                objects.len() - 1
-            )));
-        }
         Ok(Self {
             provenance: Provenance::from_exr(&file)?,
             exposure: read_exposure(&file)?,

@@ -276,20 +276,6 @@ fn a_truth_or_a_frame_that_holds_no_numbers_or_lacks_some_is_refused() {
         assert_refused(&score(&bench, OUTPUT), 2, &[path, found]);
         fs::write(bench.path(path), whole).unwrap();
     }
-    altered(&bench, FRAME, |file| {
-        let ids = file
-            .channels
-            .iter_mut()
-            .find(|channel| channel.name == "object.id");
-        if let Samples::U32(samples) = &mut ids.unwrap().samples {
-            samples[0] = 7;
-        }
-    });
-    assert_refused(
-        &score(&bench, OUTPUT),
-        2,
-        &["\"object.id\" holds 7; allowed: 0 to 1"],
-    );
 }
 
 /// The file with two more pixels on every side.
