@@ -73,12 +73,6 @@ pub const SMALLEST_SCALE: f64 = 1e-12;
 /// Least time between two keys, in frames.
 pub const CLOSEST_KEYS: f64 = 1e-6;
 
-/// Longest exposure, and longest delay of rows of a rolling shutter, in frames.
-pub const LONGEST_EXPOSURE: f64 = 1_000.0;
-
-/// Shortest exposure, in frames.
-pub const SHORTEST_EXPOSURE: f64 = 1e-6;
-
 /// Narrowest vertical field of view, in degrees.
 pub const NARROWEST_VIEW: f64 = 0.001;
 
@@ -88,8 +82,5 @@ pub const SMALLEST_SUN: f64 = 0.001;
 /// Brightest radiance.
 pub const BRIGHTEST: f32 = 1e12;
 
-/// Most stops, up or down, of an exposure on a display or in FLIP.
-pub const MOST_STOPS: f32 = 32.0;
-
 /// Most exposures of HDR-FLIP.
-pub const MOST_FLIP_EXPOSURES: u32 = 64;
+pub const MOST_FLIP_EXPOSURES: u32 = 128;

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use frame::MOST_STOPS;
 use glam::{DVec3, Vec3};
 use toml::Spanned;
 
@@ -10,7 +11,7 @@ use super::environment;
 use super::error::SceneError;
 use super::files::Files;
 use super::schema::{BackgroundTable, DisplayTable, FlipTable, SunTable};
-use crate::limits::{BRIGHTEST, MOST_FLIP_EXPOSURES, MOST_STOPS, SMALLEST_SUN};
+use crate::limits::{BRIGHTEST, MOST_FLIP_EXPOSURES, SMALLEST_SUN};
 use crate::{Background, Display, EnvironmentMap, FlipExposures, Sun};
 
 /// Exposures of HDR-FLIP where a scene names none: two stops about its own exposure, a step per stop.
@@ -133,16 +134,39 @@ fn check_strength(
     Err(document.error(strength.span(), reason))
 }
 
+/// Exposures of HDR-FLIP, at least and at most.
+const FLIP_COUNTS: std::ops::RangeInclusive<u32> = 2..=MOST_FLIP_EXPOSURES;
+
 pub(super) fn display(document: &Document, table: &DisplayTable) -> Result<Display, SceneError> {
+    let stops = match &table.stops {
+        Some(stops) => {
+            check_stops(document, "stops", *stops.get_ref(), stops.span())?;
+            *stops.get_ref()
+        }
+        None => 0.0,
+    };
     let flip = match &table.flip {
         Some(flip) => flip_exposures(document, flip)?,
         None => FLIP,
     };
-    let stops = table.stops.as_ref().map_or(0.0, |stops| *stops.get_ref());
-    if let Some(table) = &table.stops {
-        check_stops(document, "stops is", stops, table.span())?;
-    }
     Ok(Display { stops, flip })
+}
+
+/// Beyond that many stops nothing can be shown or compared.
+fn check_stops(
+    document: &Document,
+    what: &str,
+    stops: f32,
+    span: std::ops::Range<usize>,
+) -> Result<(), SceneError> {
+    match stops.abs() <= MOST_STOPS {
+        true => Ok(()),
+        false => {
+            let reason =
+                format!("{what} = {stops}; allowed: stops from -{MOST_STOPS} to {MOST_STOPS}");
+            Err(document.error(span, reason))
+        }
+    }
 }
 
 fn flip_exposures(
@@ -150,9 +174,16 @@ fn flip_exposures(
     table: &Spanned<FlipTable>,
 ) -> Result<FlipExposures, SceneError> {
     let FlipTable { start, stop, count } = *table.get_ref();
-    if count < 2 {
-        let reason = format!("flip has {count} exposures; count must be at least 2");
+    if !FLIP_COUNTS.contains(&count) {
+        let reason = format!(
+            "flip has {count} exposures; count must be at least {} and at most {}",
+            FLIP_COUNTS.start(),
+            FLIP_COUNTS.end()
+        );
         return Err(document.error(table.span(), reason));
+    }
+    for (what, stops) in [("flip start", start), ("flip stop", stop)] {
+        check_stops(document, what, stops, table.span())?;
     }
     if stop <= start {
         let reason = format!(
@@ -160,26 +191,7 @@ fn flip_exposures(
         );
         return Err(document.error(table.span(), reason));
     }
-    if count > MOST_FLIP_EXPOSURES {
-        let reason = format!("flip has {count} exposures; allowed: 2 to {MOST_FLIP_EXPOSURES}");
-        return Err(document.error(table.span(), reason));
-    }
-    check_stops(document, "flip starts at", start, table.span())?;
-    check_stops(document, "flip stops at", stop, table.span())?;
     Ok(FlipExposures { start, stop, count })
-}
-
-fn check_stops(
-    document: &Document,
-    what: &str,
-    stops: f32,
-    place: std::ops::Range<usize>,
-) -> Result<(), SceneError> {
-    if stops.abs() <= MOST_STOPS {
-        return Ok(());
-    }
-    let reason = format!("{what} {stops}; allowed: -{MOST_STOPS} to {MOST_STOPS} stops");
-    Err(document.error(place, reason))
 }
 
 /// Light: any amount, but not less than none.

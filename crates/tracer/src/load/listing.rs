@@ -44,7 +44,7 @@ pub fn list_scenes(root: &Path) -> Result<Vec<SceneListing>, SceneError> {
         let reason = "holds no scene; a scene is a folder with a scene.toml";
         return Err(SceneError::file(root, reason));
     }
-    folders.iter().map(|folder| listing(folder)).collect()
+    folders.iter().map(|folder| list_scene(folder)).collect()
 }
 
 /// Whether something named scene.toml lies in a folder. What cannot be told is an error: a scene that is passed over in
@@ -65,7 +65,8 @@ fn holds_scene(folder: &Path) -> Result<bool, SceneError> {
     }
 }
 
-fn listing(folder: &Path) -> Result<SceneListing, SceneError> {
+/// What the scene in a folder says about itself.
+pub fn list_scene(folder: &Path) -> Result<SceneListing, SceneError> {
     let document = read_document(&mut Files::new(folder), folder)?;
     let parsed = Parsed::of(&document)?;
     let table = parsed.scene(None)?;

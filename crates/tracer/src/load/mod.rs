@@ -33,15 +33,13 @@ use document::Document;
 pub use error::SceneError;
 use error::hidden;
 use files::Files;
-pub use listing::{SceneListing, list_scenes};
+pub use listing::{SceneListing, list_scene, list_scenes};
 use objects::Stage;
 use schema::SceneTable;
 use variants::Parsed;
 
 use crate::Scene;
-use crate::limits::{
-    LARGEST_SCENE_FILE, LARGEST_SIDE, LONGEST_EXPOSURE, MOST_PIXELS, SHORTEST_EXPOSURE,
-};
+use crate::limits::{LARGEST_SCENE_FILE, LARGEST_SIDE, MOST_PIXELS};
 
 /// Loads the scene in `folder`, with the changes of one of its variants or as it is.
 ///
@@ -140,13 +138,6 @@ fn check_frame(document: &Document, table: &SceneTable) -> Result<(), SceneError
     frame::Alignment::Trailing
         .shutter(*table.exposure.get_ref())
         .map_err(|error| document.error(table.exposure.span(), error.to_string()))?;
-    let exposure = *table.exposure.get_ref();
-    if !(SHORTEST_EXPOSURE..=LONGEST_EXPOSURE).contains(&exposure) {
-        let reason = format!(
-            "exposure is {exposure:?} frames; allowed: {SHORTEST_EXPOSURE:e} to {LONGEST_EXPOSURE} (0.5 frames = 180 degrees)"
-        );
-        return Err(document.error(table.exposure.span(), reason));
-    }
     let [width, height] = *table.size.get_ref();
     let allowed = 1..=LARGEST_SIDE;
     if !allowed.contains(&width) || !allowed.contains(&height) {

@@ -1,12 +1,11 @@
 //! The shutter of a scene.toml.
 
-use frame::{Efficiency, ShutterProfile};
+use frame::{Efficiency, LONGEST_EXPOSURE, ShutterProfile};
 use toml::Spanned;
 
 use super::document::Document;
 use super::error::SceneError;
 use super::schema::ShutterTable;
-use crate::limits::LONGEST_EXPOSURE;
 
 pub(super) fn shutter_profile(
     document: &Document,
