@@ -140,7 +140,7 @@ fn check_material(statement: &Statement, libraries: &Libraries) -> Result<(), St
     }
     Err(format!(
         "usemtl names material \"{}\", which no mtllib above it defines; materials: {}",
-        statement.rest,
+        shown(statement.rest),
         libraries.names()
     ))
 }
