@@ -1,6 +1,9 @@
 //! `shuttertruth calibrate`
 
-use suite::{Error, Plan, Run, calibrate, check_names, open_gpu, refuse_failures, run, with_bar};
+use suite::{
+    Error, Plan, Run, calibrate, check_names, open_gpu, printable_path, refuse_failures, run,
+    with_bar,
+};
 use tracer::{Progress, Watch};
 
 use super::measure::{check_replicates, plan, write_run};
@@ -29,7 +32,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
         let path = out.join(scene).with_extension("bounds.toml");
         let text = calibration.toml(scene);
         frame::write_atomically(&path, text.as_bytes())?;
-        say(&format!("# {}\n\n{text}", path.display()))?;
+        say(&format!("# {}\n\n{text}", printable_path(&path)))?;
     }
     Ok(())
 }
@@ -39,6 +42,13 @@ fn all_runs(args: &CalibrateArgs, plan: &mut Plan, watch: Watch) -> Result<Vec<R
     let adapters = adapters(args);
     let total = adapters.len() as u64 * u64::from(args.runs);
     let first = plan.render.seed;
+    if first.checked_add(u64::from(args.runs)).is_none() {
+        return Err(Error::Usage(format!(
+            "--seed {first}: each of the {} runs has the next one; allowed is up to {}",
+            args.runs,
+            u64::MAX - u64::from(args.runs)
+        )));
+    }
     let mut runs: Vec<Run> = Vec::new();
     for adapter in adapters {
         let gpu = open_gpu(&plan.filters, adapter)?;

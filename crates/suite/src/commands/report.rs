@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use suite::{
-    Error, Finding, Judgement, LARGEST_PAGE, Run, TuneFolder, report, tuning_page, with_bar,
-    write_layers,
+    Error, Finding, Judgement, LARGEST_PAGE, Run, TuneFolder, printable_path, report, tuning_page,
+    with_bar, write_layers,
 };
 
 use super::say;
@@ -27,7 +27,7 @@ pub fn execute(args: &ReportArgs) -> Result<(), Error> {
         let (count, size) = (layers.len(), bytes as f64 / 1e6);
         text += &format!(
             "written: {count} files below {} ({size:.1} MB)\n",
-            folder.display()
+            printable_path(folder)
         );
     }
     say(&text)
@@ -112,7 +112,7 @@ impl Written {
     pub fn line(&self) -> String {
         format!(
             "written: {} ({:.1} MB)\n",
-            self.path.display(),
+            printable_path(&self.path),
             self.bytes as f64 / 1e6
         )
     }

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use suite::{
-    Error, Finding, Outcome, Run, failures_text, judge, open_gpu, push_wrapped, refuse_failures,
-    run, table,
+    Error, Finding, Outcome, Run, failures_text, judge, open_gpu, printable_path, push_wrapped,
+    refuse_failures, run, table,
 };
 
 use super::measure::{adapter_line, plan, write_judged};
@@ -55,7 +55,7 @@ fn closing(run: &Run, findings: &[Finding], out: &Path) -> String {
     text += &format!(
         "adapter: {}\nwritten: {}\n",
         adapter_line(&run.adapter),
-        out.join("run.json").display()
+        printable_path(&out.join("run.json"))
     );
     text
 }

@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
-use frame::{FileError, write_atomically};
+use frame::{read_bounded, write_atomically};
 use metrics::Metric;
 use serde::{Deserialize, Serialize};
 
 use super::Finding;
+use crate::json_file::{MOST_JSON_BYTES, read_text};
 use crate::{Error, PROGRAM};
 
 /// Version of the layout of `judgement.json`.
@@ -84,6 +85,6 @@ impl Judgement {
 
 fn hash_of_run(folder: &Path) -> Result<String, Error> {
     let path = folder.join("run.json");
-    let bytes = std::fs::read(&path).map_err(|source| FileError::io(&path, "read", source))?;
+    let bytes = read_bounded(&path, MOST_JSON_BYTES)?;
     Ok(blake3::hash(&bytes).to_hex().to_string())
 }

@@ -66,7 +66,7 @@ pub fn report(
                 .filter(|(_, case)| case.scene == name)
         };
         let cases: Vec<&Case> = own().map(|(_, case)| case).collect();
-        let mut files = SceneFiles::read(&cases, folder)?;
+        let mut files = SceneFiles::read(run, &cases, folder)?;
         for (index, case) in own() {
             let about = |finding: &&Finding| !case.bar && finding.is_of(case);
             let which = Which {
