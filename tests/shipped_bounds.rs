@@ -4,8 +4,8 @@ use std::path::Path;
 
 use filters::Gpu;
 use suite::{
-    Check, Decision, Finding, InputFormat, Kind, Level, Plan, RenderSettings, bounded_size, check,
-    read_bounds, run, select_filters, select_scenes,
+    Check, Decision, Finding, InputFormat, Kind, Level, Plan, Programs, RenderSettings,
+    bounded_size, check, read_bounds, run, select_filters, select_scenes,
 };
 
 /// What is bounded there.
@@ -20,7 +20,8 @@ const GUARDED: [&str; 4] = [
 fn guarded_filters_keep_what_is_required_of_them_on_every_scene() {
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes"));
     let gpu = Gpu::new(None).expect("this test runs filters");
-    let filters = select_filters(&GUARDED.map(str::to_owned), None, &[]).unwrap();
+    let filters =
+        select_filters(&GUARDED.map(str::to_owned), None, &[], Programs::Refused).unwrap();
     let scenes: Vec<_> = (select_scenes(root, &[]).unwrap().into_iter())
         .map(|choice| {
             let bounds = read_bounds(root, &choice.folder).unwrap();
@@ -44,6 +45,7 @@ fn guarded_filters_keep_what_is_required_of_them_on_every_scene() {
         out: Path::new(env!("CARGO_TARGET_TMPDIR")).join("truths"),
         intervals: true,
         evidence: false,
+        no_cache: false,
         quiet: true,
     };
     let run = run(&plan, Some(&gpu), Vec::new()).unwrap();

@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 use filters::Gpu;
 use metrics::Metric;
 use suite::{
-    Case, Check, Decision, FilterChoice, InputFormat, Plan, RenderSettings, Run, SceneBounds,
-    calibrate, check, open_gpu, read_bounds_file, run, select_filters, select_scenes,
+    Case, Check, Decision, FilterChoice, InputFormat, Plan, Programs, RenderSettings, Run,
+    SceneBounds, calibrate, check, open_gpu, read_bounds_file, run, select_filters, select_scenes,
 };
 use tracer::Scene;
 
@@ -116,6 +116,7 @@ impl Bench {
             out: self.folder.path().join(format!("seed_{seed}")),
             intervals: true,
             evidence: false,
+            no_cache: false,
             quiet: true,
         };
         run(&plan, self.gpu.as_ref(), Vec::new()).unwrap()
@@ -165,7 +166,7 @@ impl Bench {
 /// Each filter by itself: copies have the name of what they are copies of.
 fn choices(words: impl Iterator<Item = String>) -> Vec<FilterChoice> {
     words
-        .flat_map(|word| select_filters(&[word], None, &[]).unwrap())
+        .flat_map(|word| select_filters(&[word], None, &[], Programs::Refused).unwrap())
         .map(|mut choice| {
             if choice.filter.name == "mcguire" {
                 let FilterChoice {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
-use std::io::{BufReader, BufWriter, Cursor, Write};
+use std::io::{BufReader, Cursor};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -12,6 +12,7 @@ use exr::prelude::{
     ReadChannels, ReadLayers, WritableImage,
 };
 
+use crate::atomic::write_atomically;
 use crate::checksum::CHECKSUM;
 use crate::{FileError, Image, Plane, Raster};
 
@@ -273,24 +274,6 @@ fn sort_attributes(bytes: &mut [u8]) {
     }
     attributes.sort();
     bytes[MAGIC_AND_VERSION..at].copy_from_slice(&attributes.concat());
-}
-
-/// Writes `bytes` under a temporary name in the same folder, then renames: the path holds all of them or what it held
-/// before. Missing folders are made.
-pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
-    let fail = |error| FileError::io(path, "write", error);
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    std::fs::create_dir_all(folder).map_err(fail)?;
-    let mut temporary = BufWriter::new(tempfile::NamedTempFile::new_in(folder).map_err(fail)?);
-    temporary.write_all(bytes).map_err(fail)?;
-    let temporary = temporary
-        .into_inner()
-        .map_err(|error| fail(error.into_error()))?;
-    temporary.persist(path).map_err(|error| fail(error.error))?;
-    Ok(())
 }
 
 /// Reads a single-part OpenEXR file; refuses one that is cut short or has several parts. Half floats are widened.

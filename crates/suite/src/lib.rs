@@ -6,12 +6,14 @@ mod bounds;
 mod calibrate;
 mod case;
 mod catalogue;
+mod claim;
 mod compare;
 mod decoys;
 mod dilated;
 mod error;
 mod failure;
 mod finished;
+mod forget;
 mod gate;
 mod headline;
 mod import;
@@ -39,6 +41,7 @@ mod score;
 mod selection;
 mod subject;
 mod table;
+mod tracked;
 mod tune;
 mod verdict;
 mod witness;
@@ -57,6 +60,7 @@ pub use bounds::{
 pub use calibrate::{Calibration, Proposal, Sample, calibrate};
 pub use case::Case;
 pub use catalogue::catalogue;
+pub use claim::{Claim, Sharing, claim};
 pub use compare::{
     Basis, COMPARE_FORMAT, Change, ChangeKind, Compared, MeanChange, MeanKind, SettingChange, Side,
     compare_page, compare_runs, compare_table,
@@ -74,7 +78,7 @@ pub use intervals::{FEWEST_REPLICATES, Intervals, intervals, truths_without_pair
 pub use layers::write_layers;
 pub use merge::{Merged, merge};
 pub use overall::{Overall, overall};
-pub use progress::{catch_interrupts, with_bar};
+pub use progress::{catch_interrupts, interrupted, with_bar};
 pub use rendered::{
     LADDER, RenderSettings, SIDES, deciding_floor, frame_of, part_of, scene_folder,
     truth_and_ladder_of, truth_of, truth_until,
@@ -84,8 +88,9 @@ pub use run::{FORMAT, Plan, Run, run, viewing};
 pub use runner::{Runner, open_adapter, open_gpu};
 pub use scatter_oracle::scatter_oracle;
 pub use score::{Scored, missing, score};
-pub use selection::{FilterChoice, SceneChoice, select_filters, select_scenes};
+pub use selection::{FilterChoice, Programs, SceneChoice, select_filters, select_scenes};
 pub use table::{score_table, table};
+pub use tracked::refuse_tracked;
 pub use tune::{
     Answer, Choice, Difference, Effort, ElementaryEffects, Estimate, Evaluator, Fold, Header,
     JOURNAL_FORMAT, Journal, LEAST_BLEED, Limits, Objective, Opening, Paired, ParameterSensitivity,

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use frame::{FileError, Replicate, Truth, write_atomically};
 
 use crate::Error;
+use crate::claim::{Sharing, claim};
 use crate::replicates::replicates_folder;
 
 /// A truth that was made whole.
@@ -26,6 +27,7 @@ type Files = BTreeMap<PathBuf, PathBuf>;
 pub fn merge(parts: &[PathBuf], out: &Path) -> Result<Vec<Merged>, Error> {
     let files = gather(parts)?;
     let truths = truths(&files)?;
+    let _claim = claim(out, [], Sharing::Together)?;
     for (below, file) in &files {
         write_atomically(&out.join(below), &read(file)?)?;
     }

@@ -119,6 +119,8 @@ pub struct Plan {
     pub intervals: bool,
     /// Whether bounds that are not kept get the place where the picture is worst, and what it is like.
     pub evidence: bool,
+    /// Whether frames, truths and cases that lie in `out` are removed and made anew.
+    pub no_cache: bool,
     /// No progress bars.
     pub quiet: bool,
 }

@@ -73,7 +73,10 @@ fn own_id() -> i32 {
 fn children_by_parent() -> BTreeMap<i32, BTreeSet<i32>> {
     let mut children: BTreeMap<i32, BTreeSet<i32>> = BTreeMap::new();
     for entry in std::fs::read_dir("/proc").into_iter().flatten().flatten() {
-        let id = entry.file_name().to_str().and_then(|name| name.parse().ok());
+        let id = entry
+            .file_name()
+            .to_str()
+            .and_then(|name| name.parse().ok());
         let Some(id) = id else {
             continue;
         };

@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 use frame::FileError;
 use suite::{
     BOUNDS_FILE, Baseline, Check, Error, Margin, Plan, annotations, bounded_size, check,
-    check_bounded, check_names, check_text, compare, junit, open_gpu, read_bounds_file, run,
-    summary,
+    check_bounded, check_names, check_text, compare, junit, open_gpu, read_bounds_file,
+    refuse_tracked, run, summary,
 };
 
-use super::measure::{adapter_line, check_replicates, plan, write_run};
+use super::measure::{adapter_line, check_replicates, claim_out, plan, write_run};
 use super::report::write_report;
 use super::say;
 use crate::cli::CheckArgs;
@@ -30,8 +30,12 @@ pub fn execute(args: &CheckArgs) -> Result<(), Error> {
     let baseline = args.baseline.as_deref().map(Baseline::read).transpose()?;
     check_configuration(args, &plan, baseline.is_some())?;
     let margins = margins(&args.measure.scenes.scenes_dir)?;
+    if !plan.no_cache {
+        refuse_tracked(&plan.out)?;
+    }
     let summary_file = args.github.then(summary_file).transpose()?;
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref())?;
+    let _claim = claim_out(&plan)?;
 
     let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
     write_run(&run, &plan.out)?;

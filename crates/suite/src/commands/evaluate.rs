@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use filters::{Settings, Value};
-use suite::{Answer, Error, FilterChoice, Objective, answer, evaluator, shots};
+use suite::{Answer, Error, FilterChoice, Objective, Sharing, answer, evaluator};
 
 use super::measure::scenes;
 use super::say;
-use super::tune::{open, render, select_candidate};
+use super::tune::{claimed_shots, open, select_candidate};
 use crate::cli::EvaluateArgs;
 
 /// Scores one set of parameters on every scene and prints JSON.
@@ -18,8 +18,7 @@ pub fn execute(args: &EvaluateArgs) -> Result<(), Error> {
     let settings = read_params(&args.params, &choice)?;
     let scenes = scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
     let gpu = open(&choice, candidate)?;
-    let args = &candidate.scenes;
-    let shots = shots(&scenes, &choice, &render(candidate)?, &args.out, args.quiet)?;
+    let (_, shots) = claimed_shots(&scenes, &choice, candidate, Sharing::Together)?;
     let bleed = candidate.objective.contains(&Objective::Bleed);
     let mut evaluator = evaluator(&shots, &choice, gpu.as_ref(), bleed)?;
     let cost = candidate.objective.contains(&Objective::Cost);

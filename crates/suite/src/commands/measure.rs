@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use filters::AdapterDescription;
 use suite::{
-    Error, FEWEST_REPLICATES, FilterChoice, InputFormat, Plan, RenderSettings, Run, SceneBounds,
-    read_bounds, select_filters, select_scenes,
+    Claim, Error, FEWEST_REPLICATES, FilterChoice, InputFormat, Plan, RenderSettings, Run,
+    SceneBounds, Sharing, claim, read_bounds, select_filters, select_scenes,
 };
 
 use tracer::Scene;
@@ -28,8 +28,15 @@ pub fn plan(args: &MeasureArgs, out: PathBuf) -> Result<Plan, Error> {
         out,
         intervals: false,
         evidence: false,
+        no_cache: args.no_cache,
         quiet: args.scenes.quiet,
     })
+}
+
+/// Claims the folder of a run for this process alone.
+pub fn claim_out(plan: &Plan) -> Result<Claim, Error> {
+    let scenes = plan.scenes.iter().map(|(scene, _)| scene);
+    claim(&plan.out, scenes, Sharing::Alone)
 }
 
 /// Scenes with their bounds, of the folder `root`; all of it where there are no words.
@@ -47,7 +54,12 @@ fn filters(args: &MeasureArgs) -> Result<Vec<FilterChoice>, Error> {
     let words: Vec<String> = (args.filters.iter().cloned())
         .chain(folders.map(|folder| folder.display().to_string()))
         .collect();
-    let filters = select_filters(&words, args.preset.as_deref(), &args.set)?;
+    let filters = select_filters(
+        &words,
+        args.preset.as_deref(),
+        &args.set,
+        args.programs.programs(),
+    )?;
     Ok((filters.into_iter())
         .map(|choice| choice.as_written(args.as_written))
         .collect())

@@ -6,7 +6,7 @@ use suite::{
     Error, Outcome, Run, failures_text, open_gpu, push_wrapped, refuse_failures, run, table,
 };
 
-use super::measure::{adapter_line, plan, write_run};
+use super::measure::{adapter_line, claim_out, plan, write_run};
 use super::report::write_report;
 use super::say;
 use crate::cli::RunArgs;
@@ -19,6 +19,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
         *bounds = std::mem::take(bounds).at(size);
     }
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref())?;
+    let _claim = claim_out(&plan)?;
     let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
     let json = write_run(&run, &plan.out)?;
     let page = (args.html.as_deref())
