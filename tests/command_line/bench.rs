@@ -108,7 +108,7 @@ impl Bench {
 
     /// The findings about the last run.
     pub fn findings(&self) -> Vec<suite::Finding> {
-        let judgement = suite::Judgement::read(&self.path("out")).unwrap();
+        let judgement = suite::Judgement::read(&self.measured(), &self.path("out")).unwrap();
         judgement.expect("the run was judged").findings
     }
 

@@ -263,7 +263,7 @@ fn a_program_is_run_again_every_time() {
     fs::write(&script, "#!/bin/sh\necho again >> runs\ncp $1 $2\n").unwrap();
     fs::set_permissions(&script, fs::Permissions::from_mode(0o755)).unwrap();
     let runs = || {
-        assert_done(&bench.run(&["--filter", "copy"]));
+        assert_done(&bench.run(&["--filter", "copy", "--allow-commands"]));
         let text = fs::read_to_string(bench.path("copy/runs")).unwrap();
         text.lines().count()
     };

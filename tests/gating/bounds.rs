@@ -5,7 +5,7 @@ use std::path::Path;
 
 use frame::{Alignment, Picture};
 use metrics::{Measured, Metric, Reference};
-use suite::{Judged, Level, Outcome, RenderSettings, SceneBounds, SceneChoice};
+use suite::{Judged, Level, Outcome, Programs, RenderSettings, SceneBounds, SceneChoice};
 
 use crate::kept_truths;
 
@@ -98,7 +98,8 @@ fn read(beside_scenes: &str, beside_scene: &str) -> Result<SceneBounds, String> 
     for (place, text) in [(folder.path(), beside_scenes), (&scene, beside_scene)] {
         fs::write(place.join("bounds.toml"), text).unwrap();
     }
-    let filters = suite::select_filters(&["identity".to_owned()], None, &[]).unwrap();
+    let filters =
+        suite::select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap();
     let check = || {
         let bounds = suite::read_bounds(folder.path(), &scene)?;
         suite::check_names(folder.path(), std::iter::once(&bounds), &filters)?;
@@ -146,7 +147,8 @@ fn limits_hold_for_the_size_that_they_were_measured_at() {
     let large = of("identity", "size = [320, 180],");
     let any = of("identity", "");
     let another = of("kino", "size = [320, 180],");
-    let filters = suite::select_filters(&["identity".to_owned()], None, &[]).unwrap();
+    let filters =
+        suite::select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap();
     let size = |bounds: &[&SceneBounds], asked| {
         let size = suite::bounded_size(bounds.iter().copied(), &filters, asked);
         size.map_err(|error| error.to_string())

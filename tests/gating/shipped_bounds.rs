@@ -4,8 +4,8 @@ use std::path::Path;
 
 use filters::Gpu;
 use suite::{
-    Check, Decision, Finding, InputFormat, Level, Outcome, Plan, RenderSettings, RunBounds,
-    bounded_size, check, judge, read_bounds, run, select_filters, select_scenes,
+    Check, Decision, Finding, InputFormat, Level, Outcome, Plan, Programs, RenderSettings,
+    RunBounds, bounded_size, check, judge, read_bounds, run, select_filters, select_scenes,
 };
 
 use crate::kept_truths;
@@ -22,7 +22,8 @@ const GUARDED: [&str; 4] = [
 fn guarded_filters_keep_what_is_required_of_them_on_every_scene() {
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes"));
     let gpu = Gpu::new(None).expect("this test runs filters");
-    let filters = select_filters(&GUARDED.map(str::to_owned), None, &[]).unwrap();
+    let filters =
+        select_filters(&GUARDED.map(str::to_owned), None, &[], Programs::Refused).unwrap();
     let choices = select_scenes(root, &[]).unwrap();
     assert!(choices.len() >= 23, "the shipped scenes are missing");
     let bounds: RunBounds = (choices.iter())
@@ -45,6 +46,7 @@ fn guarded_filters_keep_what_is_required_of_them_on_every_scene() {
         },
         out,
         intervals: true,
+        no_cache: false,
         quiet: true,
     };
     let run = run(&plan, Some(&gpu), Vec::new()).unwrap();

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use filters::Gpu;
 use suite::{
-    LEAST_BLEED, Preference, RenderSettings, SceneBounds, compare_paired, evaluator, paired_table,
-    read_bounds, select_filters, select_scenes, shots,
+    LEAST_BLEED, Preference, Programs, RenderSettings, SceneBounds, compare_paired, evaluator,
+    paired_table, read_bounds, select_filters, select_scenes, shots,
 };
 use tracer::Scene;
 
@@ -34,7 +34,7 @@ fn tuned_presets_beat_what_was_published_and_bleed_no_more_on_scenes_they_never_
     // Truths are kept from one run of the tests to the next.
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tuned");
     for name in TUNED {
-        let choice = select_filters(&[format!("{name}:tuned")], None, &[])
+        let choice = select_filters(&[format!("{name}:tuned")], None, &[], Programs::Refused)
             .unwrap()
             .remove(0);
         let mut presets = choice.filter.presets.iter();

@@ -17,7 +17,7 @@ mod source;
 mod tuned;
 mod wiring;
 
-pub use command::{Command, CommandBlur};
+pub use command::{BESIDE_PIXELS, BYTES_PER_PIXEL, Command, CommandBlur};
 pub use error::FilterError;
 pub use filter::{Filter, Format, Holds, Pass, Preset, Repeat, Texture};
 pub use gpu::{

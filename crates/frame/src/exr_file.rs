@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
 use std::fs::File;
-use std::io::{BufReader, BufWriter, Cursor, Write};
+use std::io::{BufReader, Cursor};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -13,6 +13,7 @@ use exr::prelude::{
     ReadChannels, ReadLayers, WritableImage,
 };
 
+use crate::atomic::write_atomically;
 use crate::checksum::CHECKSUM;
 use crate::exr_header::{check, padding};
 use crate::exr_text::{from_exr, to_exr};
@@ -327,24 +328,6 @@ fn sort_attributes(bytes: &mut [u8]) {
     }
     attributes.sort();
     bytes[MAGIC_AND_VERSION..at].copy_from_slice(&attributes.concat());
-}
-
-/// Writes `bytes` under a temporary name in the same folder, then renames: the path holds all of them or what it held
-/// before. Missing folders are made.
-pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
-    let fail = |error| FileError::io(path, "write", error);
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    std::fs::create_dir_all(folder).map_err(fail)?;
-    let mut temporary = BufWriter::new(tempfile::NamedTempFile::new_in(folder).map_err(fail)?);
-    temporary.write_all(bytes).map_err(fail)?;
-    let temporary = temporary
-        .into_inner()
-        .map_err(|error| fail(error.into_error()))?;
-    temporary.persist(path).map_err(|error| fail(error.error))?;
-    Ok(())
 }
 
 /// Reads a single-part OpenEXR file; refuses one that is cut short, has several parts, or claims more pixels, channels or

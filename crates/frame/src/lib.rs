@@ -22,6 +22,7 @@
 
 mod accumulation;
 mod at_instant;
+mod atomic;
 mod bounded;
 mod checksum;
 mod display;
@@ -43,13 +44,14 @@ mod truth;
 
 pub use accumulation::{Accumulation, Ladder};
 pub use at_instant::AtInstant;
+pub use atomic::{remove_leftovers, write_atomically};
 pub use bounded::read_bounded;
 pub use display::{
     Display, FlipExposures, MOST_PNG_PIXELS, MOST_STOPS, display_srgb, read_png, scene_linear,
     write_png,
 };
 pub use error::FileError;
-pub use exr_file::{Channel, ExrFile, Samples, read_exr, write_atomically, write_exr};
+pub use exr_file::{Channel, ExrFile, Samples, read_exr, write_exr};
 pub use exr_header::{LARGEST_EXR_RATIO, LARGEST_EXR_SIDE, MOST_EXR_BYTES, MOST_EXR_CHANNELS};
 pub use instant::{ColorSampling, FAR_DEPTH, Frame, VelocityKind};
 pub use picture::Picture;

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use frame::{ColorSampling, VelocityKind};
-use suite::{Border, DepthFormat, Up, VelocityFormat};
+use suite::{Border, DepthFormat, Programs, Up, VelocityFormat};
 
 pub use gate::{AcceptArgs, CalibrateArgs, CheckArgs};
 pub use look::{CompareArgs, ReportArgs};
@@ -124,6 +124,29 @@ pub struct MeasureArgs {
     /// Frames of its noise that a noisy filter is tried with, to tell its noise from its other errors; 0 for none.
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = jitter_frames)]
     pub jitter_frames: u32,
+    /// Use no truth and no case that --out holds: remove them, and make all anew.
+    #[arg(long)]
+    pub no_cache: bool,
+    #[command(flatten)]
+    pub programs: ProgramArgs,
+}
+
+/// What filters may do beside running on the adapter.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct ProgramArgs {
+    /// Run filters that are programs. They may do whatever you may do: read their filter.toml first.
+    #[arg(long)]
+    pub allow_commands: bool,
+}
+
+impl ProgramArgs {
+    /// Whether filters that are programs may be selected.
+    pub fn programs(self) -> Programs {
+        match self.allow_commands {
+            true => Programs::Allowed,
+            false => Programs::Refused,
+        }
+    }
 }
 
 /// On or off.
@@ -206,6 +229,8 @@ pub struct BlurArgs {
     /// OpenEXR file to write.
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
+    #[command(flatten)]
+    pub programs: ProgramArgs,
     #[command(flatten)]
     pub adapter: AdapterArgs,
 }

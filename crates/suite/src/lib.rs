@@ -6,11 +6,13 @@ mod bounds;
 mod calibrate;
 mod case;
 mod catalogue;
+mod claim;
 mod compare;
 mod dilated;
 mod error;
 mod failure;
 mod finished;
+mod forget;
 mod gate;
 mod headline;
 mod import;
@@ -43,6 +45,7 @@ mod score;
 mod selection;
 mod subject;
 mod table;
+mod tracked;
 mod tune;
 mod workbench;
 mod wrapped;
@@ -58,6 +61,7 @@ pub use bounds::{
 pub use calibrate::{Calibration, Proposal, Sample, calibrate};
 pub use case::Case;
 pub use catalogue::catalogue;
+pub use claim::{Claim, Sharing, claim};
 pub use compare::{
     Basis, COMPARE_FORMAT, Change, ChangeKind, Compared, MeanChange, MeanKind, SettingChange, Side,
     compare_page, compare_runs, compare_table,
@@ -78,7 +82,7 @@ pub use layers::write_layers;
 pub use merge::{MOST_PART_BYTES, Merged, merge};
 pub use overall::{Overall, overall};
 pub use printable::{printable, printable_lines, printable_path, printable_table};
-pub use progress::{catch_interrupts, tell, with_bar};
+pub use progress::{catch_interrupts, interrupted, tell, with_bar};
 pub use rendered::{
     LADDER, RenderSettings, SIDES, deciding_floor, frame_of, part_of, scene_folder,
     truth_and_ladder_of, truth_of, truth_until,
@@ -90,8 +94,9 @@ pub use run_file::MOST_CASES;
 pub use runner::{Runner, open_adapter, open_gpu};
 pub use scatter_oracle::scatter_oracle;
 pub use score::{Scored, missing, score};
-pub use selection::{FilterChoice, SceneChoice, select_filters, select_scenes};
+pub use selection::{FilterChoice, Programs, SceneChoice, select_filters, select_scenes};
 pub use table::{score_table, table};
+pub use tracked::refuse_tracked;
 pub use tune::{
     Answer, Choice, Difference, Effort, ElementaryEffects, Estimate, Evaluator, Fold, Header,
     JOURNAL_FORMAT, Journal, LEAST_BLEED, Limits, Objective, Opening, Paired, ParameterSensitivity,

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use frame::{Alignment, FileError, Replicate, Truth, read_bounded, write_atomically};
 
 use crate::Error;
+use crate::claim::{Sharing, claim};
 use crate::replicates::{MOST_REPLICATES, replicates_folder};
 
 /// Bytes of a frame or a replicate that is joined with others.
@@ -33,6 +34,7 @@ pub fn merge(parts: &[PathBuf], out: &Path) -> Result<Vec<Merged>, Error> {
     for (folder, files) in &folders {
         truth(folder, files)?;
     }
+    let _claim = claim(out, [], Sharing::Together)?;
     for (below, file) in &files {
         write_atomically(&out.join(below), &read(file)?)?;
     }

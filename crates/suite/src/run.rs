@@ -96,6 +96,8 @@ pub struct Plan {
     /// Whether the scores of filters get intervals, by which bounds are judged. Takes a few more measurements of every
     /// picture.
     pub intervals: bool,
+    /// Whether frames, truths and cases that lie in `out` are removed and made anew.
+    pub no_cache: bool,
     /// No progress bars.
     pub quiet: bool,
 }

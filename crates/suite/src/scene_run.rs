@@ -10,6 +10,7 @@ use tracer::{Progress, Scene, Watch};
 
 use crate::case::Case;
 use crate::failure::Failure;
+use crate::forget::forget;
 use crate::inputs::SceneInputs;
 use crate::kept::{discard_altered, keep, recall};
 use crate::pictures::{write_frame, write_truth};
@@ -36,7 +37,7 @@ pub(crate) struct SceneRun<'a> {
 }
 
 /// Beside a case's pictures.
-const CASE_RECORD: &str = "case.json";
+pub(crate) const CASE_RECORD: &str = "case.json";
 
 type Truths = BTreeMap<Alignment, (Truth, Ladder)>;
 
@@ -44,6 +45,9 @@ impl SceneRun<'_> {
     /// Per alignment the bars, then one case per filter preset and form of the input; a failure where one made no picture that
     /// can be measured.
     pub fn cases(&self) -> Result<Vec<Result<Case, Failure>>, Error> {
+        if self.plan.no_cache {
+            forget(&scene_folder(&self.plan.out, self.scene))?;
+        }
         let subjects = Subject::all(self.plan, self.filters);
         let kept: Vec<Option<Case>> = subjects.iter().map(|subject| self.kept(subject)).collect();
         if kept.iter().all(Option::is_some) && self.has_its_files() {

@@ -54,6 +54,15 @@ impl FilterChoice {
     }
 }
 
+/// Whether filters that are programs may be selected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Programs {
+    /// Whoever calls has allowed to run them, or does not run them.
+    Allowed,
+    /// A filter folder may come from anybody: none of them runs.
+    Refused,
+}
+
 /// A loaded scene and the folder that it came from.
 pub struct SceneChoice {
     /// Holds scene.toml, and bounds.toml if the scene has bounds of its own.
@@ -165,11 +174,13 @@ fn load(folder: &Path, variant: Option<&str>) -> Result<SceneChoice, Error> {
 /// Loads the named filters; every built-in one where none is named.
 ///
 /// A word is the name of a built-in filter or the path of a filter folder, then optionally `:preset`. Without a preset, in
-/// the word or for all, each preset of the filter is taken. `overrides` are `filter.parameter=value`.
+/// the word or for all, each preset of the filter is taken. `overrides` are `filter.parameter=value`. Filters that are
+/// programs are refused unless `programs` allows them.
 pub fn select_filters(
     words: &[String],
     preset: Option<&str>,
     overrides: &[String],
+    programs: Programs,
 ) -> Result<Vec<FilterChoice>, Error> {
     let words = if words.is_empty() {
         Filter::builtin_names()
@@ -205,11 +216,26 @@ pub fn select_filters(
             });
         }
     }
+    if programs == Programs::Refused {
+        refuse_programs(&choices)?;
+    }
     for text in overrides {
         apply_override(&mut choices, text)?;
     }
     refuse_twin_filters(&choices)?;
     Ok(choices)
+}
+
+fn refuse_programs(choices: &[FilterChoice]) -> Result<(), Error> {
+    match choices.iter().find_map(|it| it.filter.command.as_ref()) {
+        None => Ok(()),
+        Some(command) => Err(Error::Usage(format!(
+            "{}:{}: the filter is a program and would run `{}`; read what that does, and allow it with --allow-commands",
+            command.manifest.display(),
+            command.line,
+            command.words().join(" ")
+        ))),
+    }
 }
 
 /// Refuses a preset that is named twice, or two filters of one name: both would be written to one folder and counted as two.

@@ -10,9 +10,9 @@ use std::path::{Path, PathBuf};
 use filters::Gpu;
 use metrics::Metric;
 use suite::{
-    Case, Check, Decision, FilterChoice, InputFormat, Plan, RenderSettings, Run, RunBounds,
-    SceneBounds, calibrate, check, judge, open_gpu, read_bounds_file, run, select_filters,
-    select_scenes,
+    Case, Check, Decision, FilterChoice, InputFormat, Plan, Programs, RenderSettings, Run,
+    RunBounds, SceneBounds, calibrate, check, judge, open_gpu, read_bounds_file, run,
+    select_filters, select_scenes,
 };
 use tracer::Scene;
 
@@ -117,6 +117,7 @@ impl Bench {
             // Truths are kept per seed.
             out: self.folder.path().join(format!("seed_{seed}")),
             intervals: true,
+            no_cache: false,
             quiet: true,
         };
         run(&plan, self.gpu.as_ref(), Vec::new()).unwrap()
@@ -166,7 +167,7 @@ impl Bench {
 /// Each filter by itself: copies have the name of what they are copies of.
 fn choices(words: impl Iterator<Item = String>) -> Vec<FilterChoice> {
     words
-        .flat_map(|word| select_filters(&[word], None, &[]).unwrap())
+        .flat_map(|word| select_filters(&[word], None, &[], Programs::Refused).unwrap())
         .map(|mut choice| {
             if choice.filter.name == "mcguire" {
                 let FilterChoice {

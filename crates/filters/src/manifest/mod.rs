@@ -16,7 +16,7 @@ use toml::Spanned;
 
 use crate::gpu::Shader;
 use crate::{Filter, FilterError};
-use command::command;
+use command::{command, environment};
 use parameters::{ParameterEntry, PresetEntry, parameters, presets};
 use passes::{PassEntry, TextureEntry, passes, textures};
 use reach::{ReachEntry, reach_by};
@@ -51,6 +51,7 @@ struct Manifest {
     #[serde(default)]
     preset: Vec<Spanned<PresetEntry>>,
     command: Option<Spanned<Vec<String>>>,
+    environment: Option<Spanned<Vec<String>>>,
     time_limit: Option<Spanned<f64>>,
     #[serde(default)]
     texture: Vec<Spanned<TextureEntry>>,
@@ -81,6 +82,7 @@ pub(crate) fn read(path: &Path, text: &str) -> Result<(Filter, Lines), FilterErr
     let command = (manifest.command.as_ref())
         .map(|words| command(&file, words, &parameters))
         .transpose()?;
+    let command = environment(&file, manifest.environment.as_ref(), command)?;
     let textures = textures(&file, &manifest.texture, &parameters)?;
     let filter = Filter {
         name: name.clone(),

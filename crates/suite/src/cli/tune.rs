@@ -6,7 +6,7 @@ use std::str::FromStr;
 use clap::Args;
 use suite::Objective;
 
-use super::{AdapterArgs, SceneArgs};
+use super::{AdapterArgs, ProgramArgs, SceneArgs};
 use crate::words::{effort, ratio, size};
 
 /// `shuttertruth tune`
@@ -97,6 +97,8 @@ pub struct CandidateArgs {
     pub size: (u32, u32),
     #[command(flatten)]
     pub scenes: SceneArgs,
+    #[command(flatten)]
+    pub programs: ProgramArgs,
     #[command(flatten)]
     pub adapter: AdapterArgs,
 }

@@ -50,7 +50,12 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
 
 fn select_filter(args: &BlurArgs) -> Result<FilterChoice, Error> {
     let words = [args.filter.clone()];
-    let mut filters = select_filters(&words, args.preset.as_deref(), &args.set)?;
+    let mut filters = select_filters(
+        &words,
+        args.preset.as_deref(),
+        &args.set,
+        args.programs.programs(),
+    )?;
     Ok(filters.remove(0).as_written(args.as_written))
 }
 

@@ -6,7 +6,7 @@ use suite::{
 };
 use tracer::{Progress, Watch};
 
-use super::measure::{check_replicates, plan, write_run};
+use super::measure::{check_replicates, claim_out, plan, write_run};
 use super::say;
 use crate::cli::CalibrateArgs;
 
@@ -24,6 +24,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
         bounds.values(),
         &plan.filters,
     )?;
+    let _claim = claim_out(&plan)?;
     let runs = with_bar("runs in all", plan.quiet, |watch| {
         all_runs(args, &mut plan, watch)
     })?;
@@ -61,6 +62,7 @@ fn all_runs(args: &CalibrateArgs, plan: &mut Plan, watch: Watch) -> Result<Vec<R
             plan.render.seed = seed;
             // The truths serve every adapter.
             plan.out = args.measure.scenes.out.join(format!("seed_{seed}"));
+            let _claim = claim_out(plan)?;
             let run = run(plan, gpu.as_ref(), std::env::args().collect())?;
             write_run(&run, &plan.out)?;
             refuse_failures(&run.failures)?;

@@ -8,10 +8,10 @@ use frame::FileError;
 use suite::{
     BOUNDS_FILE, Baseline, Check, Error, Finding, Judgement, Margin, Run, RunBounds, add_evidence,
     annotations, bounded_size, check, check_bounded, check_names, check_text, compare, judge,
-    junit, open_gpu, read_bounds, read_bounds_file, run, summary,
+    junit, open_gpu, read_bounds, read_bounds_file, refuse_tracked, run, summary,
 };
 
-use super::measure::{adapter_line, check_replicates, plan, write_judged};
+use super::measure::{adapter_line, check_replicates, claim_out, plan, write_judged};
 use super::report::write_report;
 use super::say;
 use crate::cli::CheckArgs;
@@ -87,7 +87,11 @@ fn run_and_judge(args: &CheckArgs, compared: bool) -> Result<Judged, Error> {
         let scenes = bounds.iter().map(|(name, bounds)| (name.as_str(), bounds));
         check_bounded(root, scenes, &plan.filters)?;
     }
+    if !plan.no_cache {
+        refuse_tracked(&plan.out)?;
+    }
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref())?;
+    let _claim = claim_out(&plan)?;
     let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
     let mut findings = judge(&run, &bounds);
     add_evidence(&run, &mut findings, &plan.out)?;

@@ -5,11 +5,11 @@ use std::path::Path;
 
 use filters::{Settings, Value};
 use frame::{FileError, read_bounded};
-use suite::{Answer, Error, FilterChoice, MOST_JSON_BYTES, Objective, answer, evaluator, shots};
+use suite::{Answer, Error, FilterChoice, MOST_JSON_BYTES, Objective, Sharing, answer, evaluator};
 
 use super::measure::scenes;
 use super::say;
-use super::tune::{open, render, select_candidate};
+use super::tune::{claimed_shots, open, select_candidate};
 use crate::cli::EvaluateArgs;
 
 /// Scores one set of parameters on every scene and prints JSON.
@@ -19,8 +19,7 @@ pub fn execute(args: &EvaluateArgs) -> Result<(), Error> {
     let settings = read_params(&args.params, &choice)?;
     let scenes = scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
     let gpu = open(&choice, candidate)?;
-    let args = &candidate.scenes;
-    let shots = shots(&scenes, &choice, &render(candidate)?, &args.out, args.quiet)?;
+    let (_, shots) = claimed_shots(&scenes, &choice, candidate, Sharing::Together)?;
     let bleed = candidate.objective.contains(&Objective::Bleed);
     let mut evaluator = evaluator(&shots, &choice, gpu.as_ref(), bleed)?;
     let cost = candidate.objective.contains(&Objective::Cost);

@@ -97,6 +97,7 @@ fn filter_json(filter: &Filter) -> serde_json::Value {
         "source": filter.source,
         "alignment": filter.alignment.name(),
         "command": filter.command.as_ref().map(Command::words),
+        "environment": filter.command.as_ref().map(|command| &command.environment),
         "parameters": filter.parameters.iter().map(parameter).collect::<Vec<_>>(),
         "presets": filter.presets.iter().map(preset).collect::<Vec<_>>(),
     })
@@ -128,7 +129,7 @@ fn filter_text(filter: &Filter) -> String {
         )
     };
     let command = match &filter.command {
-        Some(command) => format!("    runs: {}\n", printable(&command.words().join(" "))),
+        Some(command) => command_text(command),
         None => String::new(),
     };
     format!(
@@ -140,6 +141,17 @@ fn filter_text(filter: &Filter) -> String {
         filter.presets.iter().map(preset_text).collect::<String>(),
         filter.parameters.iter().map(parameter).collect::<String>()
     )
+}
+
+/// What a program is, and which variables it wants to see.
+fn command_text(command: &Command) -> String {
+    let words = command.words().join(" ");
+    let mut text = format!("    runs: {}\n", printable(&words));
+    if !command.environment.is_empty() {
+        let names = command.environment.join(" ");
+        text += &format!("    environment: {}\n", printable(&names));
+    }
+    text
 }
 
 /// A preset, and below it whose work it follows and where it leaves that.

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use filters::AdapterDescription;
 use suite::{
-    Error, FEWEST_REPLICATES, FilterChoice, Finding, InputFormat, Judgement, Plan, RenderSettings,
-    Run, RunBounds, SceneBounds, read_bounds, select_filters, select_scenes,
+    Claim, Error, FEWEST_REPLICATES, FilterChoice, Finding, InputFormat, Judgement, Plan,
+    RenderSettings, Run, RunBounds, SceneBounds, Sharing, claim, read_bounds, select_filters,
+    select_scenes,
 };
 
 use tracer::Scene;
@@ -30,9 +31,15 @@ pub fn plan(args: &MeasureArgs, out: PathBuf) -> Result<(Plan, RunBounds), Error
         render: render_settings(&args.scenes, size, args.replicates)?,
         out,
         intervals: false,
+        no_cache: args.no_cache,
         quiet: args.scenes.quiet,
     };
     Ok((plan, bounds))
+}
+
+/// Claims the folder of a run for this process alone.
+pub fn claim_out(plan: &Plan) -> Result<Claim, Error> {
+    claim(&plan.out, &plan.scenes, Sharing::Alone)
 }
 
 /// Scenes with their bounds, of the folder `root`; all of it where there are no words.
@@ -50,7 +57,12 @@ fn filters(args: &MeasureArgs) -> Result<Vec<FilterChoice>, Error> {
     let words: Vec<String> = (args.filters.iter().cloned())
         .chain(folders.map(|folder| folder.display().to_string()))
         .collect();
-    let filters = select_filters(&words, args.preset.as_deref(), &args.set)?;
+    let filters = select_filters(
+        &words,
+        args.preset.as_deref(),
+        &args.set,
+        args.programs.programs(),
+    )?;
     Ok((filters.into_iter())
         .map(|choice| choice.as_written(args.as_written))
         .collect())

@@ -9,6 +9,7 @@ mod check;
 mod compare;
 mod evaluate;
 mod import;
+mod lines;
 mod list;
 mod measure;
 mod merge;

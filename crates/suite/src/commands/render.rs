@@ -2,8 +2,8 @@
 
 use frame::Truth;
 use suite::{
-    Error, MOST_REPLICATES, RenderSettings, SceneChoice, deciding_floor, frame_of, part_of,
-    printable_path, scene_folder, select_scenes, truth_of, truth_until,
+    Error, MOST_REPLICATES, RenderSettings, SceneChoice, Sharing, claim, deciding_floor, frame_of,
+    part_of, printable_path, scene_folder, select_scenes, truth_of, truth_until,
 };
 use tracer::Scene;
 
@@ -25,6 +25,7 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
             Replicates::Part(indices) if args.noise.is_none() => {
                 let settings = settings(args, &scene, RenderSettings::default().replicates)?;
                 let (out, quiet) = (&args.scenes.out, args.scenes.quiet);
+                let _claim = claim(out, [&scene], Sharing::Together)?;
                 if indices.start == 0 {
                     frame_of(&scene, &settings, out, quiet)?;
                 }
@@ -51,6 +52,7 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
 fn whole(args: &RenderArgs, scene: &Scene, count: u32) -> Result<Vec<String>, Error> {
     let settings = settings(args, scene, count)?;
     let (out, quiet) = (&args.scenes.out, args.scenes.quiet);
+    let _claim = claim(out, [scene], Sharing::Together)?;
     frame_of(scene, &settings, out, quiet)?;
     let mut noisy = Vec::new();
     let mut report = format!("{}\n", printable_path(&scene_folder(out, scene)));

@@ -61,7 +61,7 @@ fn of_run(args: &ReportArgs, path: &Path) -> Result<(Vec<Written>, Vec<Written>)
     let folder = path.parent().unwrap_or(Path::new(""));
     let pages = match &args.html {
         Some(html) => {
-            let judgement = Judgement::read(folder)?;
+            let judgement = Judgement::read(&run, folder)?;
             let findings = judgement.map_or_else(Vec::new, |judgement| judgement.findings);
             write_report_files(&run, &findings, folder, html)?
         }

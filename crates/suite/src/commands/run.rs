@@ -7,7 +7,7 @@ use suite::{
     refuse_failures, run, table,
 };
 
-use super::measure::{adapter_line, plan, write_judged};
+use super::measure::{adapter_line, claim_out, plan, write_judged};
 use super::report::write_report;
 use super::say;
 use crate::cli::RunArgs;
@@ -20,6 +20,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
         *bounds = std::mem::take(bounds).at(size);
     }
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref())?;
+    let _claim = claim_out(&plan)?;
     let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
     let findings = judge(&run, &bounds);
     let json = write_judged(&run, &findings, &plan.out)?;

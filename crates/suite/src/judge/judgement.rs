@@ -1,6 +1,7 @@
 //! Findings as a file beside the run that they are about.
 
 use std::path::Path;
+use std::str::FromStr;
 
 use frame::{read_bounded, write_atomically};
 use metrics::Metric;
@@ -8,7 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use super::Finding;
 use crate::json_file::{MOST_JSON_BYTES, read_text};
-use crate::{Error, PROGRAM};
+use crate::run_file::is_below;
+use crate::{Error, PROGRAM, Run};
 
 /// Version of the layout of `judgement.json`.
 pub const JUDGEMENT_FORMAT: u32 = 1;
@@ -48,14 +50,14 @@ impl Judgement {
         )?)
     }
 
-    /// Reads the judgement of the run in `folder`; none where the run was never judged. A judgement of another run is refused.
-    pub fn read(folder: &Path) -> Result<Option<Self>, Error> {
+    /// Reads the judgement of `run`, whose `run.json` lies in `folder`; none where the run was never judged. A judgement of another
+    /// run is refused, and one that names places or files elsewhere.
+    pub fn read(run: &Run, folder: &Path) -> Result<Option<Self>, Error> {
         let path = folder.join(JUDGEMENT_FILE);
         if !path.exists() {
             return Ok(None);
         }
-        let text = std::fs::read_to_string(&path)
-            .map_err(|source| FileError::io(&path, "read", source))?;
+        let text = read_text(&path)?;
         let refuse = |reason: String| {
             Err(Error::Usage(format!(
                 "{}: {reason}; judge the run again: shuttertruth check {}",
@@ -74,12 +76,26 @@ impl Judgement {
         if judgement.run != hash_of_run(folder)? {
             return refuse("is about another run.json".to_owned());
         }
-        let unknown =
-            (judgement.findings.iter()).find_map(|finding| finding.metric.parse::<Metric>().err());
-        match unknown {
+        let broken = (judgement.findings.iter()).find_map(|finding| check(finding, run).err());
+        match broken {
             Some(error) => refuse(error),
             None => Ok(Some(judgement)),
         }
+    }
+}
+
+fn check(finding: &Finding, run: &Run) -> Result<(), String> {
+    Metric::from_str(&finding.metric)?;
+    match &finding.worst {
+        Some(worst) if worst.x >= run.width || worst.y >= run.height => Err(format!(
+            "the worst place ({}, {}) lies outside of {}x{} pixels",
+            worst.x, worst.y, run.width, run.height
+        )),
+        Some(worst) if !is_below(&worst.picture) => Err(format!(
+            "picture \"{}\": it lies in a folder below run.json, and nowhere else",
+            worst.picture.display()
+        )),
+        _ => Ok(()),
     }
 }
 

@@ -59,7 +59,8 @@ fn read_everywhere(changed: &Path, whole: &Side) -> Result<(), Error> {
         forced: true,
     };
     let _: Result<Baseline, Error> = accept(&side.run, None, &how);
-    report(&side.run, folder, &folder.join("page.html"), LARGEST_PAGE).map(drop)
+    let page = folder.join("page.html");
+    report(&side.run, &[], folder, &page, LARGEST_PAGE).map(drop)
 }
 
 #[test]
