@@ -136,7 +136,7 @@ impl Inbox {
                 Ok(text) => self.take(text)?,
                 Err(RecvTimeoutError::Disconnected) => return Ok(None),
                 Err(RecvTimeoutError::Timeout) if interrupted() => {
-                    return Err(tracer::TraceError::Cancelled.into());
+                    return Err(filters::FilterError::Interrupted.into());
                 }
                 Err(RecvTimeoutError::Timeout) => {}
             }

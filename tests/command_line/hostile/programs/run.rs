@@ -167,9 +167,10 @@ fn a_session_of_its_own_ends_at_ctrl_c() {
         std::thread::sleep(Duration::from_millis(10));
     }
     let pressed = Instant::now();
-    let mut interrupt = Command::new("kill");
-    interrupt.args(["-INT", &child.id().to_string()]);
-    assert!(interrupt.status().unwrap().success());
+    let interrupt = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(interrupt.unwrap().success());
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert!(pressed.elapsed() < Duration::from_secs(2));
     assert!(has_ended(&bench));
