@@ -22,6 +22,7 @@
 
 mod accumulation;
 mod at_instant;
+mod bounded;
 mod checksum;
 mod display;
 mod error;
@@ -40,6 +41,7 @@ mod truth;
 
 pub use accumulation::{Accumulation, Ladder};
 pub use at_instant::AtInstant;
+pub use bounded::read_bounded;
 pub use display::{Display, FlipExposures, display_srgb, read_png, scene_linear, write_png};
 pub use error::FileError;
 pub use exr_file::{Channel, ExrFile, Samples, read_exr, write_atomically, write_exr};
