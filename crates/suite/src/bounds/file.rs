@@ -133,7 +133,13 @@ impl Source<'_> {
                     )));
                 }
                 let why = why.unwrap_or_default();
-                if why.trim().is_empty() || why.contains('\n') {
+                if why.contains(['\n', '\r']) {
+                    return Err(refuse(&format!(
+                        "{}: its why has several lines; allowed: one line on what was measured",
+                        name.get_ref()
+                    )));
+                }
+                if why.trim().is_empty() {
                     return Err(refuse(&format!(
                         "{}: has no why; needed: one line on what was measured, why = \"..\"",
                         name.get_ref()
