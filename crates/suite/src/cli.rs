@@ -328,9 +328,12 @@ pub struct ListArgs {
     /// Folder that holds the scenes.
     #[arg(long, value_name = "FOLDER", default_value = "scenes")]
     pub scenes_dir: PathBuf,
-    /// A filter folder of your own to list as well; may be repeated.
+    /// A filter folder of your own to list as well, and to try out with every preset and at both ends of every range; may be
+    /// repeated.
     #[arg(long, value_name = "FOLDER")]
     pub filter: Vec<String>,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
     /// Print JSON.
     #[arg(long)]
     pub json: bool,

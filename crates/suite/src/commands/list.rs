@@ -1,24 +1,31 @@
 //! `shuttertruth list` and `--list-adapters`
 
+use std::io::Write;
 use std::path::Path;
 
-use filters::{AdapterDescription, Command, Filter, Parameter, Preset, Unit, list_adapters};
-use suite::{Error, printable, push_wrapped};
+use filters::{
+    AdapterDescription, Command, Filter, FilterError, Limits, Parameter, Preset, Unit,
+    list_adapters, try_out,
+};
+use suite::{Error, open_adapter, printable, push_wrapped};
 use tracer::{SceneListing, list_scenes};
 
 use super::say;
 use crate::cli::ListArgs;
 
-/// Prints scenes, filters, parameters and presets.
+/// Prints scenes, filters, parameters and presets. Filters of one's own are tried out before: those that are built in were
+/// tried when they were built in.
 pub fn execute(args: &ListArgs) -> Result<(), Error> {
     let scenes = list_scenes(&args.scenes_dir)?;
     let mut filters = Filter::builtin_names()
         .iter()
         .map(|name| Filter::builtin(name))
         .collect::<Result<Vec<_>, _>>()?;
-    for folder in &args.filter {
-        filters.push(Filter::load(Path::new(folder))?);
-    }
+    let own = (args.filter.iter())
+        .map(|folder| Filter::load(Path::new(folder)))
+        .collect::<Result<Vec<_>, _>>()?;
+    try_all(&own, args.adapter.adapter.as_deref())?;
+    filters.extend(own);
     if args.json {
         let listing = serde_json::json!({
             "scenes": scenes.iter().map(scene_json).collect::<Vec<_>>(),
@@ -31,6 +38,46 @@ pub fn execute(args: &ListArgs) -> Result<(), Error> {
         let filters: String = filters.iter().map(filter_text).collect();
         say(&wrapped(&format!("scenes\n\n{scenes}filters\n\n{filters}")))
     }
+}
+
+/// Holds kernels to the adapter's limits and runs them with every preset and at both ends of every range. Without an adapter,
+/// holds them to the lowest common limits, and says so.
+fn try_all(filters: &[Filter], adapter: Option<&str>) -> Result<(), Error> {
+    let have_kernels = filters.iter().any(|filter| filter.command.is_none());
+    if !have_kernels && adapter.is_none() {
+        return Ok(());
+    }
+    match open_adapter(adapter) {
+        Ok(gpu) => {
+            let limits = Limits::of(&gpu);
+            for filter in filters {
+                limits.check(filter)?;
+                try_out(&gpu, filter)?;
+            }
+        }
+        Err(FilterError::NoAdapter) => {
+            let limits = Limits::lowest();
+            for filter in filters {
+                limits.check(filter)?;
+            }
+            note(
+                "no GPU adapter was found: kernels were held to the lowest common limits, and no preset or range was tried",
+            );
+        }
+        Err(error) => return Err(error.into()),
+    }
+    for filter in filters {
+        if let Err(error) = Limits::lowest().check(filter) {
+            note(&format!("other adapters may refuse this filter: {error}"));
+        }
+    }
+    Ok(())
+}
+
+/// Says on standard error what is no error.
+fn note(text: &str) {
+    // Nobody is left to tell that standard error is closed.
+    _ = writeln!(std::io::stderr(), "shuttertruth: note: {text}");
 }
 
 /// Every line as far to the right as it was, in as many as it takes.
