@@ -21,6 +21,7 @@ mod intervals;
 mod kept;
 mod layers;
 mod means_table;
+mod memory;
 mod merge;
 mod overall;
 mod paint;

@@ -19,9 +19,11 @@ mod score;
 mod serve;
 mod tune;
 
+use std::collections::BTreeSet;
 use std::io::{ErrorKind, Write};
 
 use suite::{Error, RenderSettings};
+use tracer::Scene;
 
 use crate::cli::{Cli, Command, SceneArgs, Switch};
 
@@ -79,12 +81,30 @@ fn say(text: &str) -> Result<(), Error> {
     }
 }
 
+/// Threads that one command may have.
+const MOST_THREADS: usize = 1024;
+/// Samples per pixel of a truth of the usual number of replicates: a frame has as many, and random numbers for no more.
+const MOST_SAMPLES: u32 = 65_536;
+
+/// Tells on standard error what scenes hold that is left out, each once.
+fn tell_notes<'a>(scenes: impl IntoIterator<Item = &'a Scene>) {
+    let notes: BTreeSet<&String> = scenes.into_iter().flat_map(|scene| &scene.notes).collect();
+    for note in notes {
+        // What cannot be told is not worth ending the work for.
+        let _ = writeln!(std::io::stderr(), "shuttertruth: note: {note}");
+    }
+}
+
 fn with_threads(
     threads: Option<usize>,
     work: impl FnOnce() -> Result<(), Error> + Send,
 ) -> Result<(), Error> {
-    if threads == Some(0) {
-        return Err(Error::Usage("--threads 0: allowed is 1 or more".to_owned()));
+    if let Some(threads) = threads
+        && !(1..=MOST_THREADS).contains(&threads)
+    {
+        return Err(Error::Usage(format!(
+            "--threads {threads}: allowed is 1 to {MOST_THREADS}"
+        )));
     }
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads.unwrap_or(0))
@@ -119,13 +139,14 @@ fn render_settings(
 
 fn check_samples(samples_per_pixel: u32) -> Result<(), Error> {
     let replicates = RenderSettings::default().replicates;
+    let most = MOST_SAMPLES / replicates;
     let each = samples_per_pixel / replicates;
-    if each.is_power_of_two() && each * replicates == samples_per_pixel {
+    if each.is_power_of_two() && each <= most && each * replicates == samples_per_pixel {
         return Ok(());
     }
-    let nearest = each.next_power_of_two() * replicates;
+    let nearest = each.clamp(1, most).next_power_of_two() * replicates;
     Err(Error::Usage(format!(
-        "--samples-per-pixel {samples_per_pixel}: allowed is {replicates} times a power of two, such as {nearest}"
+        "--samples-per-pixel {samples_per_pixel}: allowed is {replicates} times a power of two up to {most}, such as {nearest}"
     )))
 }
 

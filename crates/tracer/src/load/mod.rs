@@ -6,6 +6,7 @@ mod camera;
 mod document;
 mod environment;
 mod error;
+mod faces;
 mod files;
 mod finish;
 mod light;
@@ -26,6 +27,7 @@ use std::path::{Path, PathBuf};
 
 use document::Document;
 pub use error::SceneError;
+pub use faces::MOST_COINCIDENT;
 use files::Files;
 pub use listing::{SceneListing, list_scenes};
 use objects::Stage;
@@ -64,6 +66,7 @@ pub fn load_scene_and_files(
     let display = light::display(&document, &table.display)?;
     let mut stage = Stage::new(&document, folder, files);
     stage.add_objects(&table.object)?;
+    let notes = faces::tidy(&mut stage.meshes, &stage.objects)?;
 
     let [width, height] = *table.size.get_ref();
     let name = folder_name(folder);
@@ -84,6 +87,7 @@ pub fn load_scene_and_files(
         textures: stage.textures.decoded,
         materials: stage.materials,
         objects: stage.objects,
+        notes,
         hash: stage.files.hash(variant),
     };
     Ok((scene, paths))
