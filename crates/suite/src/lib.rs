@@ -25,6 +25,7 @@ mod judge;
 mod kept;
 mod layers;
 mod means_table;
+mod memory;
 mod merge;
 mod overall;
 mod paint;

@@ -9,6 +9,7 @@ use frame::{
 use tracer::{FrameSettings, Scene, TruthSettings, Watch};
 
 use crate::Error;
+use crate::memory::check_memory;
 use crate::progress::with_bar;
 use crate::replicates::Shelf;
 
@@ -68,7 +69,7 @@ impl RenderSettings {
     pub fn with_replicates(&self, replicates: u32) -> Self {
         let each = self.samples_per_pixel / self.replicates;
         Self {
-            samples_per_pixel: each * replicates,
+            samples_per_pixel: each.saturating_mul(replicates),
             replicates,
             ..self.clone()
         }
@@ -100,6 +101,7 @@ pub fn frame_of(
     quiet: bool,
 ) -> Result<Frame, Error> {
     refuse_scene(&scene_folder(out, scene))?;
+    let memory = || check_memory(scene, settings, settings.replicates);
     let settings = frame_settings(scene, settings);
     let artefact = Artefact {
         path: scene_folder(out, scene).join("frame.exr"),
@@ -108,7 +110,11 @@ pub fn frame_of(
     };
     artefact.obtain(
         quiet,
-        |watch| tracer::trace_frame(scene, &settings, watch),
+        |watch| {
+            settings.check(scene)?;
+            memory()?;
+            Ok(tracer::trace_frame(scene, &settings, watch)?)
+        },
         (Frame::read, Frame::write, |frame| {
             &frame.provenance.content_hash
         }),
@@ -124,6 +130,7 @@ pub fn truth_of(
     out: &Path,
     quiet: bool,
 ) -> Result<Truth, Error> {
+    let memory = || check_memory(scene, settings, settings.replicates);
     let settings = truth_settings(scene, settings, alignment);
     let shelf = Shelf::new(scene_folder(out, scene), scene, &settings);
     let expected = tracer::truth_hash(scene, &settings);
@@ -133,6 +140,7 @@ pub fn truth_of(
         return Ok(kept);
     }
     settings.check(scene)?;
+    memory()?;
     let replicates = shelf.obtain(scene, &settings, 0..settings.replicates, quiet)?;
     let truth = Truth::of(&replicates)?;
     truth.write(&shelf.truth_path())?;
@@ -201,9 +209,11 @@ pub fn part_of(
 ) -> Result<(), Error> {
     let folder = scene_folder(out, scene);
     refuse_scene(&folder)?;
+    let memory = || check_memory(scene, settings, indices.len() as u32);
     let settings = truth_settings(scene, settings, alignment);
     let shelf = Shelf::new(folder, scene, &settings);
     settings.check(scene)?;
+    memory()?;
     shelf.obtain(scene, &settings, indices, quiet).map(drop)
 }
 
@@ -224,7 +234,11 @@ pub fn truth_and_ladder_of(
     };
     let ladder = artefact.obtain(
         quiet,
-        |watch| tracer::trace_ladder(scene, &settings, &truth, &LADDER, watch),
+        |watch| {
+            Ok(tracer::trace_ladder(
+                scene, &settings, &truth, &LADDER, watch,
+            )?)
+        },
         (Ladder::read, Ladder::write, |ladder| {
             &ladder.provenance.content_hash
         }),
@@ -286,7 +300,7 @@ impl Artefact {
     fn obtain<T>(
         &self,
         quiet: bool,
-        render: impl FnOnce(Watch) -> Result<T, tracer::TraceError>,
+        render: impl FnOnce(Watch) -> Result<T, Error>,
         (read, write, hash): Format<T>,
     ) -> Result<T, Error> {
         if self.path.exists()

@@ -141,7 +141,6 @@ impl<'a> Film<'a> {
             let time = self.times.at(part, row, self.canvas.height);
             let ray = eye.look(time).ray(left + x, top + y);
             let sample = self.integrator.trace(&mut eye.poses, ray, &sampler);
-            debug_assert!(sample.radiance.is_finite(), "radiance is a finite number");
             sum += sample.radiance.as_dvec3();
             seen[sample.object_id()] += 1;
             if let Some(recall) = &self.recall {

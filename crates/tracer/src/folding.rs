@@ -43,7 +43,9 @@ impl<'a> Folding<'a> {
             rules,
             parts: vec![Part::default(); binary.nodes.len()],
         };
-        folding.weigh(0);
+        for node in parents_first(binary).into_iter().rev() {
+            folding.weigh(node as usize);
+        }
         folding
     }
 
@@ -66,22 +68,21 @@ impl<'a> Folding<'a> {
     /// All items below a node of the binary tree.
     pub fn items(&self, node: usize) -> Vec<u32> {
         let mut items = Vec::with_capacity(self.parts[node].items as usize);
-        self.add_items(node, &mut items);
+        let mut below = vec![node];
+        while let Some(node) = below.pop() {
+            let node = &self.binary.nodes[node];
+            let first = node.first_index as usize;
+            if node.is_leaf() {
+                let count = node.prim_count as usize;
+                items.extend_from_slice(&self.binary.primitive_indices[first..first + count]);
+            } else {
+                below.extend([first + 1, first]);
+            }
+        }
         items
     }
 
-    fn add_items(&self, node: usize, items: &mut Vec<u32>) {
-        let first = self.binary.nodes[node].first_index as usize;
-        if self.binary.nodes[node].is_leaf() {
-            let count = self.binary.nodes[node].prim_count as usize;
-            items.extend_from_slice(&self.binary.primitive_indices[first..first + count]);
-        } else {
-            self.add_items(first, items);
-            self.add_items(first + 1, items);
-        }
-    }
-
-    /// Works out a part after both of its own.
+    /// Works out a part whose own two are known.
     fn weigh(&mut self, node: usize) {
         let binary = &self.binary.nodes[node];
         let area = binary.aabb.half_area();
@@ -89,7 +90,6 @@ impl<'a> Folding<'a> {
         let mut items = binary.prim_count;
         if !is_leaf {
             let halves = [0, 1].map(|half| binary.first_index as usize + half);
-            halves.into_iter().for_each(|half| self.weigh(half));
             items = halves.iter().map(|&half| self.parts[half].items).sum();
         }
         let leaf = if is_leaf || items <= self.rules.most {
@@ -137,6 +137,21 @@ impl<'a> Folding<'a> {
             self.share(node, enough, children);
         }
     }
+}
+
+/// All nodes of a binary tree, every one before those below it. Trees may be deeper than a thread's stack.
+pub(crate) fn parents_first(binary: &Bvh2) -> Vec<u32> {
+    let mut order = Vec::with_capacity(binary.nodes.len());
+    order.extend((!binary.nodes.is_empty()).then_some(0));
+    let mut next = 0;
+    while let Some(&node) = order.get(next) {
+        next += 1;
+        let node = &binary.nodes[node as usize];
+        if !node.is_leaf() {
+            order.extend([node.first_index, node.first_index + 1]);
+        }
+    }
+    order
 }
 
 #[cfg(test)]

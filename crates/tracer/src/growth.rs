@@ -1,19 +1,16 @@
-//! How trees grow: with [`crate::folding`] all that knows obvhs.
+//! How trees grow: with [`crate::clustering`] and [`crate::folding`] all that knows obvhs.
 //!
-//! obvhs builds a binary tree, which is folded into nodes of sixteen children with full-precision boxes. Its own triangle
-//! tests leave holes along shared edges, its two-level traversal drops instances and its eight-wide nodes ignore what is
+//! A binary tree is built, which is folded into nodes of sixteen children with full-precision boxes. The triangle
+//! tests of obvhs leave holes along shared edges, its two-level traversal drops instances and its eight-wide nodes ignore what is
 //! nearer than 1e-4, so traversal, intersections and the second level are this crate's own.
-
-use std::time::Duration;
 
 use glam::DVec3;
 use obvhs::aabb::Aabb;
-use obvhs::bvh2::builder::build_bvh2;
 use obvhs::bvh2::node::Bvh2Node;
-use obvhs::{Boundable, BvhBuildParams};
 
 use crate::bounds::Bounds;
 use crate::bvh::{Child, Node, Tree};
+use crate::clustering::{clustered, improve};
 use crate::folding::{Folding, LeafRules};
 use crate::lanes::{Boxes, WIDTH};
 use crate::pages::Pages;
@@ -26,12 +23,13 @@ pub(crate) struct Growth {
     pub most_waiting: usize,
 }
 
-struct RoundedBox(Aabb);
-
-impl Boundable for RoundedBox {
-    fn aabb(&self) -> Aabb {
-        self.0
-    }
+/// A part of the binary tree that is to become a child.
+struct Due {
+    part: usize,
+    /// The number and the lane of the node that it is a child of.
+    parent: Option<(usize, usize)>,
+    /// Children that wait while a walk is in it.
+    waiting: usize,
 }
 
 impl Growth {
@@ -56,21 +54,12 @@ impl Growth {
     ) -> Child {
         let reach = boxes.iter().map(|bounds| bounds.reach());
         self.reach = reach.fold(self.reach, f64::max);
-        let rounded: Vec<RoundedBox> = boxes
+        let rounded: Vec<Aabb> = boxes
             .iter()
-            .map(|bounds| {
-                RoundedBox(Aabb::new(
-                    bounds.min.as_vec3().into(),
-                    bounds.max.as_vec3().into(),
-                ))
-            })
+            .map(|bounds| Aabb::new(bounds.min.as_vec3().into(), bounds.max.as_vec3().into()))
             .collect();
-        let params = BvhBuildParams {
-            pre_split: false,
-            max_prims_per_leaf: 1,
-            ..BvhBuildParams::very_slow_build()
-        };
-        let binary = build_bvh2(&rounded, params, &mut Duration::default());
+        let mut binary = clustered(&rounded);
+        improve(&mut binary);
         let folding = Folding::of(&binary, rules);
         self.fold(&binary.nodes, &folding, 0, waiting, &mut child)
     }
@@ -117,22 +106,41 @@ impl Growth {
         waiting: usize,
         child: &mut impl FnMut(&[u32]) -> Child,
     ) -> Child {
-        let parts = folding.children(top);
-        let waiting = waiting + parts.len() - 1;
-        self.most_waiting = self.most_waiting.max(waiting);
-        let number = self.nodes.len();
-        self.nodes.push(Node {
-            boxes: side_by_side(parts.iter().map(|&part| &binary[part].aabb)),
-            children: [Child::ROOT; WIDTH],
-        });
-        for (lane, part) in parts.into_iter().enumerate() {
-            self.nodes[number].children[lane] = if folding.is_leaf(part) {
+        let root = self.nodes.len();
+        let mut due = vec![Due {
+            part: top,
+            parent: None,
+            waiting,
+        }];
+        while let Some(Due {
+            part,
+            parent,
+            waiting,
+        }) = due.pop()
+        {
+            let made = if parent.is_some() && folding.is_leaf(part) {
                 child(&folding.items(part))
             } else {
-                self.fold(binary, folding, part, waiting, child)
+                let parts = folding.children(part);
+                let waiting = waiting + parts.len() - 1;
+                self.most_waiting = self.most_waiting.max(waiting);
+                let number = self.nodes.len();
+                self.nodes.push(Node {
+                    boxes: side_by_side(parts.iter().map(|&part| &binary[part].aabb)),
+                    children: [Child::ROOT; WIDTH],
+                });
+                due.extend(parts.into_iter().enumerate().rev().map(|(lane, part)| Due {
+                    part,
+                    parent: Some((number, lane)),
+                    waiting,
+                }));
+                Child(number as u32)
             };
+            if let Some((number, lane)) = parent {
+                self.nodes[number].children[lane] = made;
+            }
         }
-        Child(number as u32)
+        Child(root as u32)
     }
 }
 

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use crate::canvas::Canvas;
 use crate::film::{Film, PixelMean, Places, Times, picture};
+use crate::finite::{check, check_picture};
 use crate::path::Integrator;
 use crate::progress::{Meter, Watch};
 use crate::provenance::{frame_hash, object_names, provenance};
@@ -34,7 +35,7 @@ pub fn trace_frame(
         height: settings.height,
         guard_band: settings.guard_band,
     };
-    let stage = Stage::new(scene, 0.0, 0.0);
+    let stage = Stage::checked(scene, 0.0, 0.0)?;
     let film = Film {
         integrator: Integrator::new(&stage, 0.0),
         canvas,
@@ -58,6 +59,9 @@ pub fn trace_frame(
         height: canvas.rows(),
         pixels: point_samples(&stage, canvas, settings),
     };
+    let velocity = points.map(|point| point.velocity);
+    check_picture(scene, &seen)?;
+    check(scene, "velocity", &velocity)?;
     Ok(Frame {
         provenance: provenance(
             &stage,
@@ -76,7 +80,7 @@ pub fn trace_frame(
         objects: object_names(scene),
         color: seen.color,
         coverage: seen.coverage,
-        velocity: points.map(|point| point.velocity),
+        velocity,
         depth: points.map(|point| point.depth),
         object_id: points.map(|point| point.object_id),
     })

@@ -4,6 +4,7 @@ use frame::{Accumulation, Ladder, Picture, Plane, Raster, Truth};
 
 use crate::canvas::Canvas;
 use crate::film::{Estimate, Film, PixelMean, Places, Times};
+use crate::finite::check_picture;
 use crate::opening::Opening;
 use crate::path::Integrator;
 use crate::progress::{Meter, Watch};
@@ -40,7 +41,7 @@ pub fn trace_ladder(
         "the truth was made with the ladder's settings"
     );
     let whole = scene.shutter_profile.whole(shutter);
-    let stage = Stage::new(scene, whole.open, whole.close);
+    let stage = Stage::checked(scene, whole.open, whole.close)?;
     let opening = Opening::new(shutter, &scene.shutter_profile);
     let pixels = pixels_near_motion(&truth.support.moving, truth.motion_margin());
     let mean = truth.mean();
@@ -64,16 +65,17 @@ pub fn trace_ladder(
             stream: Stream::Accumulation(subframes),
         };
         let developed = film.develop(&pixels, &meter, halves)?;
-        rungs.push(Accumulation {
-            subframes,
-            halves: [0, 1].map(|half| {
-                let mut picture = mean.clone();
-                for (&pixel, halves) in pixels.iter().zip(&developed) {
-                    paint(&mut picture, pixel as usize, &halves[half]);
-                }
-                picture
-            }),
+        let halves = [0, 1].map(|half| {
+            let mut picture = mean.clone();
+            for (&pixel, halves) in pixels.iter().zip(&developed) {
+                paint(&mut picture, pixel as usize, &halves[half]);
+            }
+            picture
         });
+        for half in &halves {
+            check_picture(scene, half)?;
+        }
+        rungs.push(Accumulation { subframes, halves });
     }
     Ok(Ladder {
         provenance: provenance(

@@ -9,11 +9,13 @@ mod brdf;
 mod bvh;
 mod camera;
 mod canvas;
+mod clustering;
 mod curve;
 mod environment;
 mod extent;
 mod eye;
 mod film;
+mod finite;
 mod folding;
 mod fresnel;
 mod geometry;
@@ -62,7 +64,8 @@ pub use camera::View;
 pub use instant::trace_frame;
 pub use ladder::trace_ladder;
 pub use load::{
-    SceneError, SceneListing, list_scene, list_scenes, load_scene, load_scene_and_files,
+    MOST_COINCIDENT, SceneError, SceneListing, list_scene, list_scenes, load_scene,
+    load_scene_and_files,
 };
 pub use motion::{Interpolation, Key, Motion, Turn};
 pub use poses::Poses;
@@ -74,6 +77,6 @@ pub use scene::{
     Background, Camera, Display, EnvironmentMap, Family, Finish, FlipExposures, Material, Mesh,
     Object, Parent, Scene, Shape, Sun, Texture,
 };
-pub use settings::{FrameSettings, TraceError, TruthSettings};
+pub use settings::{FrameSettings, LARGEST_REACH, LARGEST_VALUE, TraceError, TruthSettings};
 pub use stage::{Hit, Stage};
 pub use truth::{TruthTracer, trace_truth};

@@ -41,6 +41,8 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// In order of their ids, the first having id 1 (0 is the background).
     pub objects: Vec<Object>,
+    /// What its files hold that is left out, a line each: for the user to know.
+    pub notes: Vec<String>,
     /// Hash of every file and choice that the scene was made from, in hexadecimal.
     pub hash: String,
 }

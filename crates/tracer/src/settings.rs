@@ -7,6 +7,12 @@ use crate::sampler::MOST_SAMPLES;
 use crate::scene::Scene;
 use crate::velocity::looks_back_to;
 
+/// Greatest distance from the origin of anything that is rendered, in metres: the areas of boxes must be 32-bit numbers, and
+/// positions exact to less than a metre.
+pub const LARGEST_REACH: f64 = 1e15;
+/// Greatest value of a pixel, in any layer but depth: sums and products of pixels must be 32-bit numbers.
+pub const LARGEST_VALUE: f32 = 1e36;
+
 /// How to render the frame of the instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameSettings {
@@ -88,6 +94,36 @@ pub enum TraceError {
     /// Sub-frames of a ladder that cannot be.
     #[error("sub-frames are {0:?}; allowed: rising whole numbers from 1, such as 1, 2, 4")]
     Subframes(Vec<u32>),
+    /// An object too far away, or too large, to be traced.
+    #[error(
+        "scene {scene}: object {object} reaches {reach:e} m from the origin at some time that is rendered; allowed: {LARGEST_REACH:e} \
+         m; check its vertices, scale and keys, and those of its parents"
+    )]
+    Reach {
+        /// The scene's name.
+        scene: String,
+        /// The object's name.
+        object: String,
+        /// Metres; infinite or NaN where no number tells.
+        reach: f64,
+    },
+    /// A pixel that is no finite number, or is too large.
+    #[error(
+        "scene {scene}: {layer} is {value:e} at ({x}, {y}); allowed: finite numbers up to {LARGEST_VALUE:e}; lower the emission, \
+         the background or the sun that is seen there, or widen the sun"
+    )]
+    NotFinite {
+        /// The scene's name.
+        scene: String,
+        /// What the rendered layer is called in its file.
+        layer: String,
+        /// The value found.
+        value: f32,
+        /// Column, from 0 on the left.
+        x: u32,
+        /// Row, from 0 at the top.
+        y: u32,
+    },
     /// A camera whose field of view leaves the possible while the shutter is open.
     #[error(
         "scene {scene}: the camera's vertical field of view is {degrees:.3} degrees at time {time} frames; allowed: \

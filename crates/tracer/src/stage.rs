@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::background::Sky;
+use crate::bounds::Bounds;
 use crate::geometry::Geometry;
 use crate::gloss::Gloss;
 use crate::joining::joining;
@@ -12,6 +13,7 @@ use crate::lanes::{Lanes, Portable};
 use crate::poses::Poses;
 use crate::ray::Ray;
 use crate::scene::Scene;
+use crate::settings::{LARGEST_REACH, TraceError};
 use crate::slices::slices;
 use crate::surface::{Opacity, Surface};
 use crate::world_tree::WorldTree;
@@ -59,9 +61,17 @@ pub struct Hit {
 }
 
 impl<'a> Stage<'a> {
-    /// Makes the scene ready for rays whose times lie in `[from, to]` (frames).
+    /// Makes the scene ready for rays whose times lie in `[from, to]` (frames); ends the program where [`Stage::checked`] refuses.
     pub fn new(scene: &'a Scene, from: f64, to: f64) -> Self {
+        Self::checked(scene, from, to).expect("no object reaches too far")
+    }
+
+    /// Makes the scene ready for rays whose times lie in `[from, to]` (frames). Refuses objects that reach farther than
+    /// [`LARGEST_REACH`].
+    pub fn checked(scene: &'a Scene, from: f64, to: f64) -> Result<Self, TraceError> {
         assert!(from <= to, "a stage's interval runs forwards in time");
+        let slices = slices(scene, from, to);
+        check_reach(scene, &slices)?;
         let shown: Vec<usize> = scene.objects.iter().map(|object| object.mesh).collect();
         let mut meshes: Vec<Option<Geometry>> = scene
             .meshes
@@ -70,7 +80,6 @@ impl<'a> Stage<'a> {
             .map(|(index, mesh)| shown.contains(&index).then(|| Geometry::of(mesh, from, to)))
             .collect();
         let mut poses = Poses::new(scene, from, to);
-        let slices = slices(scene, from, to);
         let swept = slices.iter().flatten().map(|bounds| bounds.reach());
         let joining = joining(scene, &meshes, &mut poses, swept.fold(0.0, f64::max));
         let world = WorldTree::over(&joining, &slices, [from, to]);
@@ -82,7 +91,7 @@ impl<'a> Stage<'a> {
             }
         }
         let in_meshes = meshes.iter().flatten().map(Geometry::most_waiting).max();
-        Self {
+        Ok(Self {
             scene,
             most_waiting: world.most_waiting() + in_meshes.unwrap_or(0),
             meshes,
@@ -92,7 +101,7 @@ impl<'a> Stage<'a> {
             glosses: scene.materials.iter().map(Gloss::of).collect(),
             poses,
             traversal: Traversal::best(),
-        }
+        })
     }
 
     /// Whether nothing in the world changes its place or shape.
@@ -193,6 +202,39 @@ impl<'a> Stage<'a> {
             .as_ref()
             .expect("every shown mesh has a tree")
     }
+}
+
+/// Refuses objects whose swept boxes, or whose meshes in their own space, reach too far.
+fn check_reach(scene: &Scene, slices: &[Vec<Bounds>]) -> Result<(), TraceError> {
+    let own: Vec<f64> = (scene.meshes.iter())
+        .map(|mesh| {
+            let shapes = mesh.shapes.iter().flat_map(|shape| &shape.positions);
+            let positions = mesh.positions.iter().chain(shapes);
+            positions.fold(0.0, |reach: f64, position| {
+                reach.max(f64::from(position.abs().max_element()))
+            })
+        })
+        .collect();
+    for (index, object) in scene.objects.iter().enumerate() {
+        let swept = slices.iter().map(|swept| swept[index]);
+        let corners = swept.flat_map(|swept| [swept.min, swept.max]);
+        let mut reaches = corners.map(|corner| match corner.is_finite() {
+            true => corner.abs().max_element(),
+            false => f64::INFINITY,
+        });
+        let too_far = |reach: &f64| *reach > LARGEST_REACH;
+        if let Some(reach) = reaches
+            .find(too_far)
+            .or(Some(own[object.mesh]).filter(too_far))
+        {
+            return Err(TraceError::Reach {
+                scene: scene.name.clone(),
+                object: object.name.clone(),
+                reach,
+            });
+        }
+    }
+    Ok(())
 }
 
 impl Traversal {

@@ -284,6 +284,7 @@ mod tests {
                 object(numbers, Parent::Object(0)),
                 object(numbers, Parent::Camera),
             ],
+            notes: Vec::new(),
             hash: String::new(),
         }
     }

@@ -6,6 +6,7 @@ use frame::{AtInstant, Raster, Replicate, Shutter, Support, Truth};
 
 use crate::canvas::Canvas;
 use crate::film::{Film, PixelMean, Places, Times, picture};
+use crate::finite::{check_at_instant, check_picture};
 use crate::moving::moving_objects;
 use crate::opening::Opening;
 use crate::path::Integrator;
@@ -55,7 +56,7 @@ impl<'a> TruthTracer<'a> {
         let shutter = settings.check(scene)?;
         let whole = scene.shutter_profile.whole(shutter);
         Ok(Self {
-            stage: Stage::new(scene, whole.open.min(0.0), whole.close.max(0.0)),
+            stage: Stage::checked(scene, whole.open.min(0.0), whole.close.max(0.0))?,
             settings: *settings,
             shutter,
             opening: Opening::new(shutter, &scene.shutter_profile),
@@ -98,6 +99,10 @@ impl<'a> TruthTracer<'a> {
         let (means, recollected): (Vec<PixelMean>, Vec<Recollected>) =
             developed.into_iter().unzip();
         let scene = self.stage.scene;
+        let picture = picture(canvas, &means);
+        let at_instant = at_instant(canvas, &recollected);
+        check_picture(scene, &picture)?;
+        check_at_instant(scene, &at_instant)?;
         Ok(Replicate {
             provenance: provenance(
                 &self.stage,
@@ -112,8 +117,8 @@ impl<'a> TruthTracer<'a> {
             alignment: self.settings.alignment,
             objects: object_names(scene),
             moving: self.moving.clone(),
-            picture: picture(canvas, &means),
-            at_instant: at_instant(canvas, &recollected),
+            picture,
+            at_instant,
             support,
         })
     }

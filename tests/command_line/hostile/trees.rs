@@ -1,1 +1,215 @@
-//! Geometry that a tree cannot split.
+//! Geometry that a tree cannot split, and renders that no memory holds.
+
+use std::process::Output;
+use std::time::{Duration, Instant};
+
+use crate::bench::{Bench, OBJ, SCENE, assert_done, assert_refused, files_below, stderr};
+
+/// What takes a second or two may take so long on a busy machine; without a mend these took longer, or ended the program.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Renders the plate with these faces after its own two.
+fn render(bench: &Bench, more_faces: &str) -> Output {
+    bench.write("plate.obj", &format!("{OBJ}{more_faces}"));
+    rendered(bench, &[])
+}
+
+/// Renders the scene as it is, which must not take long.
+fn rendered(bench: &Bench, more: &[&str]) -> Output {
+    let words = ["render", "--quiet", "--out", "out", "--size", "16x16"];
+    let samples = ["--scenes", "plate", "--samples-per-pixel", "16"];
+    let began = Instant::now();
+    let output = bench.shuttertruth(&[&words[..], &samples, more].concat());
+    assert!(began.elapsed() < PATIENCE, "{:?}", began.elapsed());
+    output
+}
+
+/// The channels of all pictures of a render.
+fn pictures(bench: &Bench) -> Vec<Vec<frame::Channel>> {
+    let files = files_below(&bench.path("out")).into_iter();
+    files
+        .filter(|file| file.extension().is_some_and(|kind| kind == "exr"))
+        .map(|path| frame::read_exr(&path).unwrap().channels)
+        .collect()
+}
+
+/// Triangles of these corners, as statements of an OBJ file.
+fn triangles(corners: impl Iterator<Item = [[f64; 3]; 3]>) -> String {
+    corners
+        .map(|corners| {
+            let vertices = corners.map(|[x, y, z]| format!("v {x:e} {y:e} {z:e}\n"));
+            vertices.concat() + "f -3 -2 -1\n"
+        })
+        .collect()
+}
+
+#[test]
+fn copies_of_a_face_are_left_out_with_a_note_and_change_no_pixel() {
+    let (plain, crowded) = (Bench::new(), Bench::new());
+    assert_done(&render(&plain, ""));
+    // The plate emits: so does every copy.
+    let output = render(&crowded, &"f 1 2 3\n".repeat(20_000));
+    assert_done(&output);
+    let note = "20000 of 20002 triangles of object plate are copies of others; they are left out";
+    assert!(stderr(&output).contains(note), "{}", stderr(&output));
+    let pictures = [&plain, &crowded].map(pictures);
+    assert!(pictures[0].len() > 8);
+    assert!(pictures[0] == pictures[1]);
+}
+
+#[test]
+fn faces_without_area_are_left_out_with_a_note_and_change_no_pixel() {
+    let (plain, crowded) = (Bench::new(), Bench::new());
+    assert_done(&render(&plain, ""));
+    let on_a_line =
+        (0..20_000).map(|x| [0, 1, 3].map(|step| [f64::from(x + step) * 1e-5, 0.0, 0.0]));
+    let output = render(&crowded, &triangles(on_a_line));
+    assert_done(&output);
+    let note = "20000 of 20002 triangles of object plate have no area; they are left out";
+    assert!(stderr(&output).contains(note), "{}", stderr(&output));
+    assert!(pictures(&plain) == pictures(&crowded));
+}
+
+#[test]
+fn many_different_faces_in_one_place_are_refused() {
+    let bench = Bench::new();
+    // Each has its own texture coordinates.
+    let faces: String = (0..300)
+        .map(|u| format!("vt {u} 0\nf 1/-1 2/-1 3/-1\n"))
+        .collect();
+    bench.write(
+        "plate.obj",
+        &(OBJ.replace("f 1 2 3\nf 1 3 4\n", "") + &faces),
+    );
+    let parts = [
+        "plate.obj",
+        "object plate",
+        "allowed: 256",
+        "delete all but one",
+    ];
+    assert_refused(&rendered(&bench, &[]), 2, &parts);
+}
+
+#[test]
+fn a_few_faces_in_one_place_make_the_same_picture_every_time() {
+    let bench = Bench::new();
+    assert_done(&render(&bench, "f 3 2 1\nf 2 3 1\nf 1 3 2\n"));
+    let first = pictures(&bench);
+    std::fs::remove_dir_all(bench.path("out")).unwrap();
+    assert_done(&rendered(&bench, &["--threads", "1"]));
+    assert!(first == pictures(&bench));
+}
+
+#[test]
+fn faces_within_faces_are_rendered() {
+    // Each larger than the one before, about one centre: as boxes, each contains all before it.
+    let nested = (1..=20_000).map(|size| {
+        let size = f64::from(size) * 1e-5;
+        [[-size, -size, 0.0], [size, -size, 0.0], [0.0, size, 0.0]]
+    });
+    assert_done(&render(&Bench::new(), &triangles(nested)));
+}
+
+#[test]
+fn long_thin_faces_all_across_each_other_are_rendered() {
+    // The fractional parts of multiples of irrational numbers are everywhere.
+    let part = |number: u32, step: f64| 20.0 * (f64::from(number) * step).fract() - 10.0;
+    let thin = (0..2000).map(|number| {
+        let [from, to] = [number, number + 5000]
+            .map(|number| [0.819_172_5, 0.671_043_6, 0.549_700_5].map(|step| part(number, step)));
+        [from, to, to.map(|coordinate| coordinate + 1e-3)]
+    });
+    assert_done(&render(&Bench::new(), &triangles(thin)));
+}
+
+#[test]
+fn many_objects_in_one_place_are_rendered() {
+    let bench = Bench::new();
+    let (head, object) = SCENE.split_once("[object.plate]").unwrap();
+    let objects: String = (0..1000)
+        .map(|index| format!("[object.plate_{index}]{object}"))
+        .collect();
+    bench.write("scene.toml", &format!("{head}{objects}"));
+    assert_done(&rendered(&bench, &[]));
+}
+
+#[test]
+fn what_reaches_too_far_is_refused_by_name() {
+    let bench = Bench::new();
+    let huge = |size: f64| {
+        triangles([[[-size, 0.0, -1.0], [size, 0.0, -1.0], [0.0, size, -1.0]]].into_iter())
+    };
+    let parts = [
+        "scene plate",
+        "object plate",
+        "allowed: 1e15 m",
+        "vertices, scale and keys",
+    ];
+    assert_refused(&render(&bench, &huge(1e30)), 2, &parts);
+    assert_done(&render(&bench, &huge(1e14)));
+}
+
+#[test]
+fn a_picture_that_is_not_finite_is_refused_before_it_is_written() {
+    let bench = Bench::new();
+    // A surface that sends more than two can be added.
+    bench.write(
+        "plate.mtl",
+        "newmtl paint\nKd 0.5 0.5 0.5\nKe 3e38 3e38 3e38\n",
+    );
+    let output = rendered(&bench, &[]);
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert_eq!(files_below(bench.path("out").as_path()).len(), 0);
+}
+
+#[test]
+fn samples_and_threads_beyond_the_limits_are_refused() {
+    let bench = Bench::new();
+    let refused = |words: &[&str], part: &str| {
+        let words = [
+            &["render", "--quiet", "--out", "out", "--scenes", "plate"],
+            words,
+        ]
+        .concat();
+        assert_refused(&bench.shuttertruth(&words), 2, &[part]);
+        assert!(!bench.path("out").exists());
+    };
+    refused(
+        &["--samples-per-pixel", "4294967295"],
+        "--samples-per-pixel 4294967295: allowed is 8 times a power of two up to 8192, such as 65536",
+    );
+    refused(&["--samples-per-pixel", "131072"], "such as 65536");
+    refused(
+        &["--threads", "100000"],
+        "--threads 100000: allowed is 1 to 1024",
+    );
+    refused(&["--threads", "0"], "--threads 0: allowed is 1 to 1024");
+    refused(&["--size", "1000000x1000000"], "16384");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_render_that_memory_does_not_hold_says_so_before_it_begins() {
+    let bench = Bench::new();
+    let limited = |size: &str| {
+        let program = env!("CARGO_BIN_EXE_shuttertruth");
+        let words = "render --quiet --out out --scenes plate --samples-per-pixel 16 --threads 1";
+        let script = format!("ulimit -v 1258291 && exec {program} {words} --size {size}");
+        let mut shell = std::process::Command::new("sh");
+        shell.current_dir(bench.path("")).args(["-c", &script]);
+        shell.output().unwrap()
+    };
+    let began = Instant::now();
+    let parts = [
+        "scene plate: needs about 20.",
+        "GiB for 4096x4096",
+        "are free",
+        "smaller --size",
+    ];
+    assert_refused(&limited("4096x4096"), 2, &parts);
+    assert!(
+        began.elapsed() < Duration::from_secs(20),
+        "before it begins"
+    );
+    assert_done(&limited("64x32"));
+}

@@ -1,13 +1,12 @@
 //! `shuttertruth list` and `--list-adapters`
 
-use std::io::Write;
 use std::path::Path;
 
 use filters::{
     AdapterDescription, Command, Filter, FilterError, Limits, Parameter, Preset, Unit,
     list_adapters, try_out,
 };
-use suite::{Error, open_adapter, printable, push_wrapped};
+use suite::{Error, open_adapter, printable, push_wrapped, tell};
 use tracer::{SceneListing, list_scenes};
 
 use super::say;
@@ -76,11 +75,10 @@ fn try_all(filters: &[Filter], adapter: Option<&str>) -> Result<(), Error> {
 
 /// Says on standard error what is no error.
 fn note(text: &str) {
-    // Nobody is left to tell that standard error is closed.
-    _ = writeln!(std::io::stderr(), "shuttertruth: note: {text}");
+    tell(&format!("shuttertruth: note: {}", printable(text)));
 }
 
-/// Every line as far to the right as it was, in as many as it takes.
+/// Wraps lines and keeps their indentation.
 fn wrapped(text: &str) -> String {
     let mut wrapped = String::new();
     for line in text.lines() {

@@ -11,7 +11,7 @@ use suite::{
 
 use tracer::Scene;
 
-use super::render_settings;
+use super::{render_settings, tell_notes};
 use crate::cli::MeasureArgs;
 
 /// Loads scenes with their bounds, and filters; renders nothing. Scores are to have no intervals.
@@ -44,7 +44,9 @@ pub fn claim_out(plan: &Plan) -> Result<Claim, Error> {
 
 /// Scenes with their bounds, of the folder `root`; all of it where there are no words.
 pub fn scenes(root: &Path, words: &[String]) -> Result<Vec<(Scene, SceneBounds)>, Error> {
-    (select_scenes(root, words)?.into_iter())
+    let choices = select_scenes(root, words)?;
+    tell_notes(choices.iter().map(|choice| &choice.scene));
+    (choices.into_iter())
         .map(|choice| {
             let bounds = read_bounds(root, &choice.folder)?;
             Ok((choice.scene, bounds))

@@ -20,11 +20,11 @@ mod score;
 mod serve;
 mod tune;
 
+use std::collections::BTreeSet;
 use std::io::{ErrorKind, Write};
 
-use suite::{Error, MOST_REPLICATES, RenderSettings, printable_table};
-
-use tracer::MOST_SAMPLES;
+use suite::{Error, MOST_REPLICATES, RenderSettings, printable, printable_table, tell};
+use tracer::{MOST_SAMPLES, Scene};
 
 use crate::cli::{Cli, Command, SceneArgs, Switch};
 
@@ -85,12 +85,27 @@ fn say(text: &str) -> Result<(), Error> {
     }
 }
 
+/// Threads that one command may have.
+const MOST_THREADS: usize = 1024;
+
+/// Tells on standard error what scenes hold that is left out, each once.
+fn tell_notes<'a>(scenes: impl IntoIterator<Item = &'a Scene>) {
+    let notes: BTreeSet<&String> = scenes.into_iter().flat_map(|scene| &scene.notes).collect();
+    for note in notes {
+        tell(&format!("shuttertruth: note: {}", printable(note)));
+    }
+}
+
 fn with_threads(
     threads: Option<usize>,
     work: impl FnOnce() -> Result<(), Error> + Send,
 ) -> Result<(), Error> {
-    if threads == Some(0) {
-        return Err(Error::Usage("--threads 0: allowed is 1 or more".to_owned()));
+    if let Some(threads) = threads
+        && !(1..=MOST_THREADS).contains(&threads)
+    {
+        return Err(Error::Usage(format!(
+            "--threads {threads}: allowed is 1 to {MOST_THREADS}"
+        )));
     }
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads.unwrap_or(0))
@@ -126,15 +141,15 @@ fn render_settings(
 
 fn check_samples(samples_per_pixel: u32) -> Result<(), Error> {
     let replicates = RenderSettings::default().replicates;
+    // A frame has as many samples as all replicates of a truth.
+    let most = MOST_SAMPLES / replicates;
     let each = samples_per_pixel / replicates;
-    let allowed = each.is_power_of_two() && each <= MOST_SAMPLES;
-    if allowed && each * replicates == samples_per_pixel {
+    if each.is_power_of_two() && each <= most && each * replicates == samples_per_pixel {
         return Ok(());
     }
-    let nearest = each.clamp(1, MOST_SAMPLES).next_power_of_two() * replicates;
+    let nearest = each.clamp(1, most).next_power_of_two() * replicates;
     Err(Error::Usage(format!(
-        "--samples-per-pixel {samples_per_pixel}: allowed is {replicates} times a power of two, up to {}, such as {nearest}",
-        MOST_SAMPLES * replicates
+        "--samples-per-pixel {samples_per_pixel}: allowed is {replicates} times a power of two, up to {MOST_SAMPLES}, such as {nearest}"
     )))
 }
 

@@ -7,7 +7,7 @@ use suite::{
 };
 use tracer::Scene;
 
-use super::{render_settings, say};
+use super::{render_settings, say, tell_notes};
 use crate::cli::{RenderArgs, Replicates};
 
 /// Renders each scene's frame and its truths, or a part of them, and says where they are and how noisy.
@@ -19,7 +19,9 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
         )));
     }
     let mut noisy = Vec::new();
-    for SceneChoice { scene, .. } in select_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)? {
+    let choices = select_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
+    tell_notes(choices.iter().map(|choice| &choice.scene));
+    for SceneChoice { scene, .. } in choices {
         match &args.replicates {
             Replicates::All(count) => noisy.extend(whole(args, &scene, *count)?),
             Replicates::Part(indices) if args.noise.is_none() => {

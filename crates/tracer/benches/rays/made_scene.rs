@@ -80,6 +80,7 @@ pub fn made_scene(moving: bool) -> Scene {
             opacity_texture: None,
         }],
         objects,
+        notes: Vec::new(),
         hash: String::new(),
     }
 }

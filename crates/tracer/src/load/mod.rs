@@ -6,6 +6,7 @@ mod camera;
 mod document;
 mod environment;
 mod error;
+mod faces;
 mod files;
 mod finish;
 mod light;
@@ -32,6 +33,7 @@ use std::path::{Path, PathBuf};
 use document::Document;
 pub use error::SceneError;
 use error::hidden;
+pub use faces::MOST_COINCIDENT;
 use files::Files;
 pub use listing::{SceneListing, list_scene, list_scenes};
 use objects::Stage;
@@ -68,6 +70,7 @@ pub fn load_scene_and_files(
     let interval = rendered_interval(&table, shutter_profile.rolling);
     let mut stage = Stage::new(&document, folder, files, interval);
     stage.add_objects(&table.camera, &camera, &table.object)?;
+    let notes = faces::tidy(&mut stage.meshes, &stage.objects)?;
 
     let [width, height] = *table.size.get_ref();
     let name = folder_name(folder)?;
@@ -88,6 +91,7 @@ pub fn load_scene_and_files(
         textures: stage.textures.decoded,
         materials: stage.materials,
         objects: stage.objects,
+        notes,
         hash: stage.files.hash(variant),
     };
     Ok((scene, paths))

@@ -1,0 +1,151 @@
+//! The memory that a render takes, told before it begins.
+
+use std::fs;
+
+use tracer::Scene;
+
+use crate::{Error, RenderSettings};
+
+/// What the program takes without any picture, bytes.
+const PROGRAM: u64 = 80 << 20;
+/// Bytes per pixel of a truth that is made and written, beside its replicates and its coverages. Measured, as those that follow, as
+/// the slope of the largest resident size of `render` from 512x512 to 1024x1024 pixels.
+const PER_PIXEL: u64 = 683;
+/// Per pixel and coverage.
+const PER_COVERAGE: u64 = 43;
+/// Per pixel and replicate: its color, what it recalls of the instant, and its support.
+const PER_REPLICATE: u64 = 54;
+/// Per pixel, replicate and coverage.
+const PER_REPLICATE_COVERAGE: u64 = 5;
+/// Per pixel of a frame's guard band, and per such pixel and coverage.
+const PER_BAND_PIXEL: u64 = 300;
+const PER_BAND_COVERAGE: u64 = 30;
+/// Per triangle of a scene while its trees are built.
+const PER_TRIANGLE: u64 = 600;
+/// Per object and thread: its pose now and at the instant.
+const PER_POSE: u64 = 500;
+
+/// Refuses a render for which memory does not suffice: of a frame, and of a truth with so many replicates. Where the system does not
+/// tell what is free, nothing is refused.
+pub(crate) fn check_memory(
+    scene: &Scene,
+    settings: &RenderSettings,
+    replicates: u32,
+) -> Result<(), Error> {
+    let needed = needed(scene, settings, replicates);
+    match free() {
+        Some(free) if free < needed => Err(Error::Usage(format!(
+            "scene {}: needs about {} for {}x{} pixels with {replicates} replicates and {} coverages, {} are free; choose a smaller \
+             --size, fewer --replicates or a scene of fewer objects, or free memory",
+            scene.name,
+            gibibytes(needed),
+            settings.width,
+            settings.height,
+            scene.objects.len() + 1,
+            gibibytes(free),
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// About the largest resident size of a render, bytes.
+fn needed(scene: &Scene, settings: &RenderSettings, replicates: u32) -> u64 {
+    let area = |band: u32| {
+        let side = |side: u32| u64::from(side) + 2 * u64::from(band);
+        side(settings.width).saturating_mul(side(settings.height))
+    };
+    let pixels = area(0);
+    let band = area(settings.guard_band) - pixels;
+    let coverages = scene.objects.len() as u64 + 1;
+    let replicate = PER_REPLICATE + PER_REPLICATE_COVERAGE * coverages;
+    let pixel =
+        PER_PIXEL + PER_COVERAGE * coverages + u64::from(replicates).saturating_mul(replicate);
+    let band_pixel = PER_BAND_PIXEL + PER_BAND_COVERAGE * coverages;
+    let triangles: usize = scene.meshes.iter().map(|mesh| mesh.triangles.len()).sum();
+    let threads = rayon::current_num_threads() as u64;
+    [
+        pixels.saturating_mul(pixel),
+        band.saturating_mul(band_pixel),
+        triangles as u64 * PER_TRIANGLE,
+        threads * coverages * PER_POSE,
+    ]
+    .into_iter()
+    .fold(PROGRAM, u64::saturating_add)
+}
+
+/// `1.2 GiB`
+fn gibibytes(bytes: u64) -> String {
+    format!("{:.1} GiB", bytes as f64 / f64::from(1 << 30))
+}
+
+/// Bytes that this process may still take: the least of what the system has, its control group and its own limit allow.
+fn free() -> Option<u64> {
+    if !cfg!(target_os = "linux") {
+        return None;
+    }
+    [of_system(), of_group(), of_process()]
+        .into_iter()
+        .flatten()
+        .min()
+}
+
+fn of_system() -> Option<u64> {
+    let text = fs::read_to_string("/proc/meminfo").ok()?;
+    Some(entry(&text, "MemAvailable:")? << 10)
+}
+
+/// Of the group that the process is in (cgroup v2), and where a container hides the path to it, of the topmost that is seen.
+fn of_group() -> Option<u64> {
+    let groups = fs::read_to_string("/proc/self/cgroup").unwrap_or_default();
+    let own = groups.lines().find_map(|line| line.strip_prefix("0::/"));
+    let folders = [
+        format!("/sys/fs/cgroup/{}", own.unwrap_or_default()),
+        "/sys/fs/cgroup".into(),
+    ];
+    let left = folders.iter().filter_map(|folder| {
+        let read = |name: &str| fs::read_to_string(format!("{folder}/{name}")).ok();
+        // "max" is no number: no limit.
+        let most: u64 = read("memory.max")?.trim().parse().ok()?;
+        let used: u64 = read("memory.current")?.trim().parse().ok()?;
+        let cached = entry(&read("memory.stat")?, "inactive_file").unwrap_or(0);
+        Some(most.saturating_sub(used.saturating_sub(cached)))
+    });
+    left.min()
+}
+
+/// What `ulimit -v` leaves.
+fn of_process() -> Option<u64> {
+    let limits = fs::read_to_string("/proc/self/limits").ok()?;
+    let most = entry(&limits, "Max address space")?;
+    let used = entry(&fs::read_to_string("/proc/self/status").ok()?, "VmSize:")? << 10;
+    Some(most.saturating_sub(used))
+}
+
+/// The first number after a name at the beginning of a line; none where there is another word.
+fn entry(text: &str, name: &str) -> Option<u64> {
+    let rest = text.lines().find_map(|line| line.strip_prefix(name))?;
+    rest.split_whitespace().next()?.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_found_behind_their_names_and_no_limit_is_none() {
+        let limits =
+            "Limit   Soft Limit  Hard Limit  Units\nMax address space    1200  unlimited   bytes\n";
+        assert_eq!(entry(limits, "Max address space"), Some(1200));
+        assert_eq!(
+            entry(
+                "Max address space  unlimited unlimited",
+                "Max address space"
+            ),
+            None
+        );
+        assert_eq!(
+            entry("MemTotal: 5 kB\nMemAvailable:    77 kB\n", "MemAvailable:"),
+            Some(77)
+        );
+    }
+}

@@ -1,0 +1,218 @@
+//! Faces that no ray tells from nothing, or from one before them: left out of meshes, with a note.
+//!
+//! A face whose corners lie on a line has no area: no ray meets it. Of two faces with the same corners, attributes and material
+//! every ray meets the first; the second would only be drawn as a light of its own, and that light counted twice. Faces with the
+//! same corners that differ otherwise stay: rays meet the first of them. As a ray is tested against each, their number has a
+//! limit.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use glam::Vec3;
+
+use super::error::SceneError;
+use crate::scene::{Mesh, Object};
+
+/// Faces of a mesh that may have the same three corners.
+pub const MOST_COINCIDENT: usize = 256;
+
+/// What was left out of a mesh.
+#[derive(Default)]
+struct LeftOut {
+    without_area: usize,
+    copies: usize,
+}
+
+/// Leaves faces out of meshes that no ray tells from nothing or from others; a note per mesh that had such. Refuses meshes with too
+/// many faces in one place.
+pub(super) fn tidy(meshes: &mut [Mesh], objects: &[Object]) -> Result<Vec<String>, SceneError> {
+    let mut notes = Vec::new();
+    for (index, mesh) in meshes.iter_mut().enumerate() {
+        let object = objects.iter().find(|object| object.mesh == index);
+        let name = object.map_or("", |object| object.name.as_str());
+        let faces = mesh.triangles.len();
+        let left_out = tidy_mesh(mesh, name)?;
+        let kinds = [
+            (left_out.without_area, "have no area"),
+            (left_out.copies, "are copies of others"),
+        ];
+        for (count, what) in kinds.into_iter().filter(|(count, _)| *count > 0) {
+            let path = mesh.path.display();
+            notes.push(format!(
+                "{path}: {count} of {faces} triangles of object {name} {what}; they are left out"
+            ));
+        }
+    }
+    Ok(notes)
+}
+
+fn tidy_mesh(mesh: &mut Mesh, object: &str) -> Result<LeftOut, SceneError> {
+    let mut left_out = LeftOut::default();
+    // Per set of corners, the faces that stay.
+    let mut places: HashMap<[[u32; 3]; 3], Vec<u32>> = HashMap::with_capacity(mesh.triangles.len());
+    let mut staying = Vec::with_capacity(mesh.triangles.len());
+    for face in 0..mesh.triangles.len() as u32 {
+        let corners = mesh.triangles[face as usize].map(|vertex| place(mesh, vertex));
+        if has_no_area(mesh, face, corners) {
+            left_out.without_area += 1;
+            continue;
+        }
+        let mut sorted = corners;
+        sorted.sort_unstable();
+        let others = places.entry(sorted).or_default();
+        if others.iter().any(|other| is_copy(mesh, face, *other)) {
+            left_out.copies += 1;
+            continue;
+        }
+        others.push(face);
+        if others.len() > MOST_COINCIDENT {
+            return Err(too_many(&mesh.path, object, corners_of(mesh, face)));
+        }
+        staying.push(face);
+    }
+    if staying.is_empty() {
+        let reason = format!(
+            "all its {} triangles have no area; a mesh needs at least one that has",
+            mesh.triangles.len()
+        );
+        return Err(SceneError::file(&mesh.path, reason));
+    }
+    if staying.len() < mesh.triangles.len() {
+        mesh.triangles = staying
+            .iter()
+            .map(|face| mesh.triangles[*face as usize])
+            .collect();
+        mesh.slots = staying
+            .iter()
+            .map(|face| mesh.slots[*face as usize])
+            .collect();
+    }
+    Ok(left_out)
+}
+
+fn too_many(path: &Path, object: &str, [a, b, c]: [Vec3; 3]) -> SceneError {
+    let reason = format!(
+        "more than {MOST_COINCIDENT} triangles of object {object} have the corners {a}, {b} and {c}; allowed: {MOST_COINCIDENT}, since a \
+         ray is tested against each; delete all but one"
+    );
+    SceneError::file(path, reason)
+}
+
+/// What tells a corner's place: its position, or its vertex where the mesh deforms.
+fn place(mesh: &Mesh, vertex: u32) -> [u32; 3] {
+    match mesh.deforms() {
+        true => [vertex; 3],
+        // -0 is 0.
+        false => (mesh.positions[vertex as usize] + Vec3::ZERO)
+            .to_array()
+            .map(f32::to_bits),
+    }
+}
+
+fn corners_of(mesh: &Mesh, face: u32) -> [Vec3; 3] {
+    mesh.triangles[face as usize].map(|vertex| mesh.positions[vertex as usize])
+}
+
+/// Whether the corners lie on a line, at all times. Decided exactly: beside a face that is merely thin a gap would open.
+fn has_no_area(mesh: &Mesh, face: u32, [a, b, c]: [[u32; 3]; 3]) -> bool {
+    if a == b || b == c || c == a {
+        return true;
+    }
+    let [a, b, c] = corners_of(mesh, face);
+    !mesh.deforms()
+        && [(0, 1), (1, 2), (2, 0)].into_iter().all(|(across, up)| {
+            let [a, b, c] = [a, b, c].map(|corner| robust::Coord {
+                x: f64::from(corner[across]),
+                y: f64::from(corner[up]),
+            });
+            robust::orient2d(a, b, c) == 0.0
+        })
+}
+
+/// Whether two faces in one place have the same corners in the same order, and the same normals, texture coordinates and material.
+fn is_copy(mesh: &Mesh, face: u32, other: u32) -> bool {
+    let [faces, others] = [face, other].map(|face| mesh.triangles[face as usize]);
+    let same_corners = faces.iter().zip(&others).all(|(vertex, other)| {
+        let [v, o] = [*vertex as usize, *other as usize];
+        v == o
+            || !mesh.deforms()
+                && mesh.positions[v] == mesh.positions[o]
+                && mesh.normals.get(v) == mesh.normals.get(o)
+                && mesh.texcoords.get(v) == mesh.texcoords.get(o)
+    });
+    same_corners && mesh.slots[face as usize] == mesh.slots[other as usize]
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use super::*;
+
+    fn mesh(positions: &[[f32; 3]], triangles: Vec<[u32; 3]>) -> Mesh {
+        Mesh {
+            path: PathBuf::from("mesh.obj"),
+            positions: positions.iter().copied().map(Vec3::from).collect(),
+            normals: Vec::new(),
+            texcoords: Vec::new(),
+            slots: vec![0; triangles.len()],
+            triangles,
+            shapes: Vec::new(),
+        }
+    }
+
+    const CORNERS: [[f32; 3]; 5] = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [-0.0, 0.0, 0.0],
+        [3.0, 0.0, 0.0],
+    ];
+
+    #[test]
+    fn faces_without_area_and_copies_go_and_all_others_stay_in_their_order() {
+        let triangles = vec![
+            [0, 1, 1], // a corner twice
+            [0, 1, 2],
+            [0, 1, 4], // on a line
+            [3, 1, 2], // the second again, by other vertices
+            [2, 1, 0], // the second from behind
+            [1, 2, 0], // its corners in another order
+        ];
+        let mut mesh = mesh(&CORNERS, triangles);
+        let left_out = tidy_mesh(&mut mesh, "thing").expect("few are in one place");
+        assert_eq!((left_out.without_area, left_out.copies), (2, 1));
+        assert_eq!(mesh.triangles, [[0, 1, 2], [2, 1, 0], [1, 2, 0]]);
+        assert_eq!(mesh.slots.len(), 3);
+    }
+
+    #[test]
+    fn another_material_or_texture_coordinate_makes_another_face() {
+        let mut textured = mesh(&CORNERS, vec![[0, 1, 2], [3, 1, 2]]);
+        textured.texcoords = (0..5).map(|u| glam::Vec2::splat(u as f32)).collect();
+        tidy_mesh(&mut textured, "thing").expect("few are in one place");
+        assert_eq!(textured.triangles.len(), 2);
+        let mut painted = mesh(&CORNERS, vec![[0, 1, 2]; 2]);
+        painted.slots[1] = 1;
+        tidy_mesh(&mut painted, "thing").expect("few are in one place");
+        assert_eq!(painted.triangles.len(), 2);
+    }
+
+    #[test]
+    fn a_thin_face_stays() {
+        let thin = [[0.0, 0.0, 0.0], [1.0, 1e-45, 0.0], [2.0, 0.0, 0.0]];
+        let mut thin = mesh(&thin, vec![[0, 1, 2]]);
+        tidy_mesh(&mut thin, "thing").expect("few are in one place");
+        assert_eq!(thin.triangles.len(), 1);
+    }
+
+    #[test]
+    fn too_many_different_faces_in_one_place_are_refused() {
+        let mut crowd = mesh(&CORNERS, vec![[0, 1, 2]; MOST_COINCIDENT + 1]);
+        crowd.slots = (0..crowd.slots.len() as u32).collect();
+        let Err(error) = tidy_mesh(&mut crowd, "thing") else {
+            panic!("{} faces in one place", MOST_COINCIDENT + 1);
+        };
+        assert!(error.reason.contains("256"), "{error}");
+    }
+}
