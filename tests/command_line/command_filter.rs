@@ -214,8 +214,8 @@ fn programs_that_fail_say_how_and_leave_no_picture() {
             "for i in 1 2 3 4 5 6 7 8 9 10 11 12; do echo line $i >&2; done; exit 7",
             &[
                 "`./blur.sh frame.exr out.exr` ended with exit status: 7",
-                "printed:\nline 3\nline 4\n",
-                "\nline 12\n",
+                "printed:\n  | line 3\n  | line 4\n",
+                "\n  | line 12\n",
             ],
         ),
         (
@@ -224,7 +224,7 @@ fn programs_that_fail_say_how_and_leave_no_picture() {
         ),
         (
             "echo done",
-            &["ended well, but wrote no {out}", "printed:\ndone"],
+            &["ended well, but wrote no {out}", "printed:\n  | done"],
         ),
         (
             "cp $0 $2",

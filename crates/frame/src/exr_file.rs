@@ -180,7 +180,7 @@ impl ExrFile {
     }
 
     /// Refuses a channel that holds infinity or NaN.
-    fn expect_finite(&self) -> Result<(), FileError> {
+    pub fn expect_finite(&self) -> Result<(), FileError> {
         for channel in &self.channels {
             let Samples::F32(samples) = &channel.samples else {
                 continue;

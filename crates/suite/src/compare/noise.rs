@@ -156,6 +156,7 @@ impl Parts {
 /// What a filter made, as its run kept it.
 fn picture(path: &Path, objects: &[String]) -> Result<Picture, Error> {
     let file = read_exr(path)?;
+    file.expect_finite()?;
     let mattes = objects
         .iter()
         .map(|object| file.plane(&format!("coverage.{object}")));

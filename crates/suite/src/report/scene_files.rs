@@ -142,6 +142,7 @@ impl SceneFiles {
     pub fn case(&mut self, case: &Case, folder: &Path) -> Result<CaseFiles, Error> {
         let own = folder.join(&case.folder);
         let file = read_exr(&own.join("output.exr"))?;
+        file.expect_finite()?;
         let errors = read_exr(&own.join("errors.exr"))?;
         let output = file.color("")?;
         let size = (output.width, output.height);

@@ -71,8 +71,9 @@ fn a_changed_value_of_run_json_never_ends_the_program() {
         "[default]\nflip_moving = { limit = 0.01, why = \"it serves a test\" }\n",
     )
     .unwrap();
+    // Broken or too strict, it has evidence.
     let check = bench.check(&["--filters", "jump_flood:paper"]);
-    assert_eq!(check.status.code(), Some(1));
+    assert!(matches!(check.status.code(), Some(1 | 2)));
     let path = bench.path("out/run.json");
     let text = fs::read_to_string(&path).unwrap();
     let mut whole: Value = serde_json::from_str(&text).unwrap();

@@ -78,15 +78,15 @@ fn exposures_of_display_and_flip_that_show_nothing_are_refused_by_every_command_
     for (display, parts) in [
         (
             "stops = 150",
-            &["scene.toml:6: stops = 150", "from -32 to 32"][..],
+            &["scene.toml:7: stops = 150", "from -32 to 32"][..],
         ),
         (
             "flip = { start = -2, stop = 3e38, count = 5 }",
-            &["scene.toml:6: flip stop = 3e", "from -32 to 32"],
+            &["scene.toml:7: flip stop = 3", "from -32 to 32"],
         ),
         (
             "flip = { start = -2, stop = 2, count = 400 }",
-            &["scene.toml:6: flip has 400 exposures", "at most 128"],
+            &["scene.toml:7: flip has 400 exposures", "at most 128"],
         ),
     ] {
         let table = format!("[display]\n{display}\n\n[camera]");

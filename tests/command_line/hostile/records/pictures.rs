@@ -164,7 +164,7 @@ fn headers_that_claim_too_much_are_refused_before_anything_is_allocated() {
                 ..whole()
             },
             Some(4096),
-            "channel \"B\" has one sample per 2x2 pixels",
+            "cannot be read: channel subsampling",
         ),
         (
             Claim {
@@ -238,6 +238,7 @@ fn a_truth_or_a_frame_that_holds_no_numbers_or_lacks_some_is_refused() {
             });
             let found = format!("{path}: channel \"{name}\" holds NaN at pixel (5, 1)");
             assert_refused(&score(&bench, OUTPUT), 2, &[&found]);
+            fs::write(bench.path(path), &whole).unwrap();
         }
         altered(&bench, path, |file| {
             file.channels
@@ -323,6 +324,29 @@ fn files_of_another_size_or_of_other_objects_are_refused() {
     other.objects[1] = "other".to_owned();
     other.write(&path).unwrap();
     refused(&bench, "other");
+}
+
+#[test]
+fn pictures_of_a_run_that_hold_no_numbers_are_refused_or_shown() {
+    let bench = finished();
+    for (name, is_refused) in [("errors.exr", false), ("output.exr", true)] {
+        altered(
+            &bench,
+            &format!("out/plate/identity_default/{name}"),
+            |file| {
+                for channel in &mut file.channels {
+                    if let Samples::F32(samples) = &mut channel.samples {
+                        samples[64 * 16 + 30..64 * 16 + 40].fill(f32::NAN);
+                    }
+                }
+            },
+        );
+        let report = bench.shuttertruth(&["report", "out", "--html", "page.html"]);
+        match is_refused {
+            true => assert_refused(&report, 2, &[name, "holds NaN at pixel (30, 16)"]),
+            false => assert_done(&report),
+        }
+    }
 }
 
 #[test]
