@@ -15,19 +15,19 @@ const ELSEWHERE: [&str; 4] = [
     "GIT_CEILING_DIRECTORIES",
 ];
 
-/// Refuses a folder that holds files which git tracks: what a change brings along is no evidence for it.
+/// Refuses a folder that holds files which git tracks: what a change brings along is no evidence for it. `way_out` says what to do
+/// instead.
 ///
 /// A folder that does not exist, or lies in no work tree, holds none, and no git is needed to know that. Where git cannot
 /// tell, the folder is refused too.
-pub fn refuse_tracked(out: &Path) -> Result<(), Error> {
+pub fn refuse_tracked(out: &Path, way_out: &str) -> Result<(), Error> {
     if !out.exists() || !is_in_work_tree(out)? {
         return Ok(());
     }
     let folder = out.display();
     let cannot_tell = |reason: String| {
         Error::Usage(format!(
-            "--out: whether files in {folder} came with the checkout cannot be told: {reason}; choose a folder outside of \
-             the repository, or have all made anew with --no-cache"
+            "whether files in {folder} came with the checkout cannot be told: {reason}; {way_out}"
         ))
     };
     let mut git = Command::new("git");
@@ -49,8 +49,7 @@ pub fn refuse_tracked(out: &Path) -> Result<(), Error> {
     match names.next().filter(|name| !name.is_empty()) {
         None => Ok(()),
         Some(name) => Err(Error::Usage(format!(
-            "--out: {} is tracked by git: it came with the checkout, and a check does not count what a change brings along; \
-             choose a folder outside of the repository, or have all made anew with --no-cache",
+            "{} is tracked by git: it came with the checkout, and a check does not count what a change brings along; {way_out}",
             out.join(&*String::from_utf8_lossy(name)).display()
         ))),
     }

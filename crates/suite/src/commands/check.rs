@@ -88,7 +88,8 @@ fn run_and_judge(args: &CheckArgs, compared: bool) -> Result<Judged, Error> {
         check_bounded(root, scenes, &plan.filters)?;
     }
     if !plan.no_cache {
-        refuse_tracked(&plan.out)?;
+        let way_out = "choose a folder outside of the repository for --out, or have all made anew with --no-cache";
+        refuse_tracked(&plan.out, way_out)?;
     }
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref())?;
     let _claim = claim_out(&plan)?;
@@ -110,7 +111,11 @@ fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judge
         false => path.to_owned(),
     };
     let run = Run::read(&path)?;
-    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent.to_owned(),
+        _ => PathBuf::from("."),
+    };
+    refuse_tracked(&folder, "measure it now: shuttertruth check, without a RUN")?;
     let root = &args.measure.scenes.scenes_dir;
     let bounds = bounds_of(&run, root)?;
     let mut findings = judge(&run, &bounds);

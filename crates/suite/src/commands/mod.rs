@@ -23,6 +23,7 @@ mod tune;
 use std::collections::BTreeSet;
 use std::io::{ErrorKind, Write};
 
+use clap::CommandFactory;
 use suite::{Error, MOST_REPLICATES, RenderSettings, printable, printable_table, tell};
 use tracer::{MOST_SAMPLES, Scene};
 
@@ -65,11 +66,20 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         }
         Some(Command::Import(args)) => import::execute(&args),
         Some(Command::List(args)) => list::execute(&args),
-        None => Err(Error::Usage(
-            "no command given; allowed: run, check, accept, calibrate, render, merge, blur, score, report, compare, bench, tune, evaluate, serve, catalogue, import, list (see --help)"
-                .to_owned(),
-        )),
+        None => Err(Error::Usage(format!(
+            "no command given; allowed: {} (see --help)",
+            command_names().join(", ")
+        ))),
     }
+}
+
+/// The words of all commands, in the order of the help.
+fn command_names() -> Vec<String> {
+    let program = Cli::command();
+    let names = program
+        .get_subcommands()
+        .map(|command| command.get_name().to_owned());
+    names.collect()
 }
 
 /// Prints to standard output, in colours where that is a terminal that shows them; other control characters become escapes. A

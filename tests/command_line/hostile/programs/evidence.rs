@@ -82,6 +82,9 @@ fn a_check_refuses_a_folder_that_came_with_the_checkout() {
     git(&bench, &["add", "-f", RECORD]);
     let parts = [RECORD, "is tracked by git", "--no-cache"];
     assert_refused(&bench.check(&IDENTITY), 2, &parts);
+    let finished = bench.shuttertruth(&["check", "out/run.json"]);
+    let parts = [RECORD, "is tracked by git", "measure it now"];
+    assert_refused(&finished, 2, &parts);
 
     let words = [&quick("check", "64")[..], &IDENTITY].concat();
     let mut without_git = bench.command(&words);
