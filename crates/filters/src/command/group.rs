@@ -87,7 +87,8 @@ mod windows {
     impl Drop for Group {
         /// Kills whatever is left.
         fn drop(&mut self) {
-            let _ = self.job.kill();
+            let _ = self.job.start_kill();
+            let _ = self.job.inner_mut().wait();
         }
     }
 }
