@@ -2,21 +2,19 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
-use std::fs::File;
-use std::io::{BufReader, Cursor};
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use exr::meta::attribute::AttributeValue;
 use exr::prelude::{
     AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Layer, LayerAttributes,
-    ReadChannels, ReadLayers, WritableImage,
+    WritableImage,
 };
 
 use crate::atomic::write_atomically;
 use crate::checksum::CHECKSUM;
-use crate::exr_header::{check, padding};
-use crate::exr_text::{from_exr, to_exr};
+use crate::exr_text::to_exr;
 use crate::{FileError, Image, Plane, Raster};
 
 /// The samples of one channel, row by row from the top left.
@@ -328,79 +326,4 @@ fn sort_attributes(bytes: &mut [u8]) {
     }
     attributes.sort();
     bytes[MAGIC_AND_VERSION..at].copy_from_slice(&attributes.concat());
-}
-
-/// Reads a single-part OpenEXR file; refuses one that is cut short, has several parts, or claims more pixels, channels or
-/// bytes than [`MOST_EXR_BYTES`](crate::MOST_EXR_BYTES) and its neighbours allow. Half floats are widened.
-pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
-    let (handle, bytes) = open_regular(path)?;
-    let broken = |error: exr::error::Error| match error {
-        exr::error::Error::NotSupported(reason) => {
-            foreign(path, format!("cannot be read: {reason}"))
-        }
-        error => FileError::Broken {
-            path: path.to_owned(),
-            reason: error.to_string(),
-        },
-    };
-    let chunks = exr::block::read(BufReader::new(handle), false).map_err(broken)?;
-    check(chunks.headers(), bytes).map_err(|reason| foreign(path, reason))?;
-    let padding = padding(&chunks.headers()[0]);
-    let image = exr::prelude::read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .all_channels()
-        .all_layers()
-        .all_attributes()
-        .from_chunks(chunks)
-        .map_err(broken)?;
-    let Some(layer) = image.layer_data.into_iter().next() else {
-        return Err(foreign(path, "has no part".to_owned()));
-    };
-    let mut file = ExrFile::new(layer.size.width() as u32, layer.size.height() as u32);
-    file.path = path.to_owned();
-    file.padding = padding;
-    for channel in layer.channel_data.list {
-        let name = from_exr(&channel.name);
-        let samples = match channel.sample_data {
-            FlatSamples::F32(samples) => Samples::F32(samples),
-            FlatSamples::U32(samples) => Samples::U32(samples),
-            FlatSamples::F16(samples) => {
-                Samples::F32(samples.iter().map(|half| half.to_f32()).collect())
-            }
-        };
-        file.channels.push(Channel { name, samples });
-    }
-    for (name, value) in image
-        .attributes
-        .other
-        .into_iter()
-        .chain(layer.attributes.other)
-    {
-        if let AttributeValue::Text(text) = value {
-            file.attributes.insert(from_exr(&name), from_exr(&text));
-        }
-    }
-    Ok(file)
-}
-
-/// The file and its size in bytes. A folder, a FIFO or a device is refused before it is opened, so that nothing blocks.
-fn open_regular(path: &Path) -> Result<(File, u64), FileError> {
-    let fail = |error| FileError::io(path, "read", error);
-    if !std::fs::metadata(path).map_err(fail)?.is_file() {
-        return Err(foreign(
-            path,
-            "is no regular file; name an OpenEXR file".to_owned(),
-        ));
-    }
-    let file = File::open(path).map_err(fail)?;
-    let bytes = file.metadata().map_err(fail)?.len();
-    Ok((file, bytes))
-}
-
-fn foreign(path: &Path, reason: String) -> FileError {
-    FileError::Foreign {
-        path: path.to_owned(),
-        reason,
-    }
 }

@@ -4,7 +4,8 @@ use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
-use crate::exr_file::{Channel, ExrFile, Samples, read_exr, write_exr};
+use crate::exr_file::{Channel, ExrFile, Samples, write_exr};
+use crate::exr_reading::read_exr;
 use crate::picture::coverage_name;
 use crate::{
     Alignment, Display, FileError, Image, Plane, Provenance, Raster, Reprojection, Vectors,

@@ -29,6 +29,7 @@ mod display;
 mod error;
 mod exr_file;
 mod exr_header;
+mod exr_reading;
 mod exr_text;
 mod instant;
 mod picture;
@@ -51,8 +52,9 @@ pub use display::{
     write_png,
 };
 pub use error::FileError;
-pub use exr_file::{Channel, ExrFile, Samples, read_exr, write_exr};
+pub use exr_file::{Channel, ExrFile, Samples, write_exr};
 pub use exr_header::{LARGEST_EXR_RATIO, LARGEST_EXR_SIDE, MOST_EXR_BYTES, MOST_EXR_CHANNELS};
+pub use exr_reading::read_exr;
 pub use instant::{ColorSampling, FAR_DEPTH, Frame, VelocityKind};
 pub use picture::Picture;
 pub use provenance::Provenance;

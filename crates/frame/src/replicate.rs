@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use crate::exr_file::{ExrFile, read_exr, write_exr};
+use crate::exr_file::{ExrFile, write_exr};
+use crate::exr_reading::read_exr;
 use crate::truth::{get_shutter, set_shutter};
 use crate::{
     Alignment, AtInstant, FileError, Picture, Provenance, Shutter, ShutterProfile, Support,

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use crate::exr_file::{ExrFile, read_exr, write_exr};
+use crate::exr_file::{ExrFile, write_exr};
+use crate::exr_reading::read_exr;
 use crate::region::noise_floor;
 use crate::{
     Alignment, AtInstant, FileError, Image, Picture, Plane, Provenance, Region, Regions, Replicate,

@@ -24,10 +24,25 @@ pub fn printable_path(path: &Path) -> String {
     printable(&path.to_string_lossy()).into_owned()
 }
 
-/// A message of several lines: each as [`printable`] has it, and all but the first behind a mark, whatever they begin with.
+/// A message of several lines: each as [`printable`] has it, and all but the first behind a mark, whatever they begin with. The
+/// lines of a compiler, which quote a source behind a mark of their own, need none.
 pub fn printable_lines(text: &str) -> String {
-    let lines: Vec<Cow<str>> = text.split('\n').map(printable).collect();
-    lines.join(&format!("\n{CONTINUED}"))
+    let mut lines = text.split('\n').map(printable);
+    let mut message = lines.next().unwrap_or_default().into_owned();
+    for line in lines {
+        message.push('\n');
+        if !line.is_empty() && !is_quoted(&line) {
+            message.push_str(CONTINUED);
+        }
+        message.push_str(&line);
+    }
+    message
+}
+
+/// Whether a line is a compiler's: `11 │     let trail = ..`.
+fn is_quoted(line: &str) -> bool {
+    line.trim_start_matches(|letter: char| letter == ' ' || letter.is_ascii_digit())
+        .starts_with(['┌', '│'])
 }
 
 /// A text with colours, as the tables have them: line breaks and colours stay, other control characters become escapes.
@@ -99,6 +114,8 @@ mod tests {
     fn no_line_of_a_message_begins_with_a_command() {
         let text = printable_lines("a\n::error::b\n \u{1b}]0;c");
         assert_eq!(text, "a\n  | ::error::b\n  |  \\u001b]0;c");
+        let compiler = "a\n   ┌─ b.wgsl:11:2\n   │\n11 │ ::error::c";
+        assert_eq!(printable_lines(compiler), compiler);
     }
 
     #[test]
