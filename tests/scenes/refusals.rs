@@ -232,7 +232,7 @@ const SCENE_SLIPS: &[Slip] = &[
     ("sun of no size", "irradiance = [1, 1, 1]", "irradiance = [1, 1, 1]\nangular_radius = 1e-20", 
         "scene.toml:17: the sun's angular_radius is 1e-20 degrees; allowed: 0 (a point) and 0.001 to below 90"),
     ("sun too bright for its size", "irradiance = [1, 1, 1]", "irradiance = [1e6, 1, 1]\nangular_radius = 0.001", 
-        "scene.toml:16: irradiance makes the sun's disc of 0.001 degrees as bright as 1.0449144e15; allowed: 1e12; lower it, or give a larger angular_radius"),
+        "scene.toml:16: irradiance makes the sun's disc of 0.001 degrees as bright as 1.04e15; allowed: 1e12; lower it, or give a larger angular_radius"),
     ("narrow view", "vertical_fov = 40", "vertical_fov = 1e-300", 
         "scene.toml:9: vertical_fov is 1e-300 degrees; allowed: 0.001 to below 180"),
     ("line break in the sentence", "exposes = \"A square that slides.\"", "exposes = \"A square.\\n::error::it slides\"", 

@@ -10,6 +10,9 @@ use toml::de::{DeTable, DeValue, ValueDeserializer};
 use super::error::{SceneError, hidden};
 use crate::limits::LARGEST_NUMBER;
 
+/// The parser's own limit.
+const TOO_DEEP: &str = "too many tables or arrays lie in one another; allowed: up to 80";
+
 /// A scene.toml as text.
 pub(super) struct Document {
     /// The file.
@@ -126,6 +129,8 @@ impl Document {
     pub(super) fn syntax_error(&self, error: &toml::de::Error) -> SceneError {
         let reason = error
             .message()
+            .replace("recursion limit", TOO_DEEP)
+            .replace("cannot recurse further; max recursion depth met", TOO_DEEP)
             .replace("unknown field", "unknown key")
             .replace("missing field", "missing key")
             .replace("duplicate field", "duplicate key")

@@ -106,7 +106,7 @@ pub(super) fn sun(document: &Document, table: &SunTable) -> Result<Sun, SceneErr
     let brightest = sun.radiance().max_element();
     if brightest > BRIGHTEST {
         let reason = format!(
-            "irradiance makes the sun's disc of {degrees} degrees as bright as {brightest:e}; allowed: {BRIGHTEST:e}; \
+            "irradiance makes the sun's disc of {degrees} degrees as bright as {brightest:.2e}; allowed: {BRIGHTEST:e}; \
              lower it, or give a larger angular_radius"
         );
         return Err(document.error(table.irradiance.span(), reason));
@@ -125,7 +125,7 @@ fn check_strength(
         format!("strength is {factor}; allowed: above 0")
     } else if factor * brightest > BRIGHTEST {
         format!(
-            "strength is {factor}, and the image's brightest texel is {brightest:e}; allowed: a product of at most \
+            "strength is {factor}, and the image's brightest texel is {brightest:.2e}; allowed: a product of at most \
              {BRIGHTEST:e}"
         )
     } else {

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
 use toml::Spanned;
 
@@ -33,7 +34,9 @@ pub(super) struct Stage<'a> {
     pub(super) meshes: Vec<Mesh>,
     pub(super) objects: Vec<Object>,
     pub(super) obj_files: BTreeMap<PathBuf, ObjFile>,
-    pub(super) surfaces: BTreeMap<MeshKey, Surface>,
+    pub(super) surfaces: BTreeMap<MeshKey, Rc<Surface>>,
+    /// By mesh, the materials of objects that change none.
+    pub(super) unchanged: BTreeMap<usize, Vec<usize>>,
     pub(super) materials_by_name: HashMap<String, Vec<usize>>,
     /// Per object, with all its parents.
     carried: Vec<Carried>,
@@ -67,6 +70,7 @@ impl<'a> Stage<'a> {
             objects: Vec::new(),
             obj_files: BTreeMap::new(),
             surfaces: BTreeMap::new(),
+            unchanged: BTreeMap::new(),
             materials_by_name: HashMap::new(),
             carried: Vec::new(),
             triangles: 0,

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
 use glam::DVec3;
 use toml::Spanned;
@@ -17,7 +18,6 @@ use crate::limits::{MOST_KEYS, MOST_TRIANGLES};
 use crate::{Material, Mesh};
 
 /// A mesh that is in the scene, as its files have it.
-#[derive(Clone)]
 pub(super) struct Surface {
     /// Index into the scene's meshes.
     pub(super) mesh: usize,
@@ -62,7 +62,7 @@ impl Stage<'_> {
         &mut self,
         name: &Spanned<String>,
         table: &ObjectTable,
-    ) -> Result<(Surface, Vec<usize>), SceneError> {
+    ) -> Result<(Rc<Surface>, Vec<usize>), SceneError> {
         let sources = self.sources(name, table)?;
         for source in &sources {
             self.read_obj(source)?;
@@ -75,10 +75,15 @@ impl Stage<'_> {
         let surface = match self.surfaces.get(&key) {
             Some(surface) => surface.clone(),
             None => {
-                let surface = self.add_mesh(&sources, table, group)?;
+                let surface = Rc::new(self.add_mesh(&sources, table, group)?);
                 self.surfaces.entry(key).or_insert(surface).clone()
             }
         };
+        if table.material.is_empty()
+            && let Some(materials) = self.unchanged.get(&surface.mesh)
+        {
+            return Ok((surface, materials.clone()));
+        }
         let mut slots = surface.slots.clone();
         for (name, changes) in &table.material {
             let slot = slots
@@ -113,10 +118,13 @@ impl Stage<'_> {
                 return Err(self.document.error(place, reason));
             }
         }
-        let materials = slots
+        let materials: Vec<usize> = slots
             .into_iter()
             .map(|slot| self.index_of(slot.material))
             .collect();
+        if table.material.is_empty() {
+            self.unchanged.insert(surface.mesh, materials.clone());
+        }
         Ok((surface, materials))
     }
 
