@@ -74,6 +74,14 @@ fn finer(texel: vec2<i32>, coarse: vec2<i32>, fine: vec2<i32>, tap: vec2<f32>) -
     return clamp(vec2<i32>(floor(middle + tap)), vec2<i32>(0), fine - 1);
 }
 
+// From texels of twice that side, in pixels, to those of the side; blocks that are no larger stay as they are.
+fn half_as_large(texel: vec2<i32>, place: vec2<i32>, side: i32) -> vec2<i32> {
+    if side >= parameters.block_size {
+        return texel;
+    }
+    return finer(texel, count_of(2 * side), count_of(side), vec2<f32>((place / side) % 2) - 0.5);
+}
+
 // The pixel that a block takes as one of its own, by column and row in the block.
 fn pixel_of(block: vec2<i32>, place: vec2<i32>) -> vec2<i32> {
     let side = parameters.block_size;
@@ -84,12 +92,15 @@ fn pixel_of(block: vec2<i32>, place: vec2<i32>) -> vec2<i32> {
         let tap = vec2<f32>(place) - 0.5 * f32(side - 1);
         return finer(block, block_count(), frame.size, tap);
     }
-    // The original halves the picture until a texel is a block, and every time reads two texels by two.
+    // The original halves the picture until a texel is a block, and every time reads two texels by two. No loop: Mesa's
+    // llvmpipe allows an invocation 65,535 iterations of all loops, and a block of 64x64 takes as many as that with one here.
     var texel = block;
-    for (var step = side / 2; step > 0; step /= 2) {
-        texel = finer(texel, count_of(2 * step), count_of(step), vec2<f32>((place / step) % 2) - 0.5);
-    }
-    return texel;
+    texel = half_as_large(texel, place, 32);
+    texel = half_as_large(texel, place, 16);
+    texel = half_as_large(texel, place, 8);
+    texel = half_as_large(texel, place, 4);
+    texel = half_as_large(texel, place, 2);
+    return half_as_large(texel, place, 1);
 }
 
 // The block that a tile takes as one of its own, by column and row in the tile.

@@ -106,6 +106,12 @@ impl Bench {
         serde_json::from_slice(&fs::read(self.path("out/run.json")).unwrap()).unwrap()
     }
 
+    /// The findings about the last run.
+    pub fn findings(&self) -> Vec<suite::Finding> {
+        let judgement = suite::Judgement::read(&self.measured(), &self.path("out")).unwrap();
+        judgement.expect("the run was judged").findings
+    }
+
     /// The last run's cases that are filters.
     pub fn measured_filters(&self) -> Vec<suite::Case> {
         let cases = self.measured().cases.into_iter();

@@ -35,10 +35,17 @@ fn render(bench: &Bench) {
     assert_done(&bench.shuttertruth(&[&words[..], &["16"]].concat()));
 }
 
-fn blur(filter: &str) -> [&str; 7] {
+fn blur(filter: &str) -> [&str; 8] {
     let frame = "r/plate/frame.exr";
     [
-        "blur", "--filter", filter, "--frame", frame, "--out", "b.exr",
+        "blur",
+        "--allow-commands",
+        "--filter",
+        filter,
+        "--frame",
+        frame,
+        "--out",
+        "b.exr",
     ]
 }
 
@@ -54,7 +61,7 @@ fn a_program_that_blurs_as_kernels_do_scores_as_they_do() {
     );
     folder(&bench, "outside", &command);
     let filters = "velocity_gather:coarse,./outside:coarse";
-    assert_done(&bench.run(&["--filters", filters]));
+    assert_done(&bench.run(&["--filters", filters, "--allow-commands"]));
     let cases = bench.measured_filters();
     let [kernels, program] = &cases[..] else {
         panic!("two filters on one scene");
@@ -70,7 +77,15 @@ fn a_program_that_blurs_as_kernels_do_scores_as_they_do() {
 fn a_program_needs_no_adapter() {
     let bench = Bench::new();
     script(&bench, "copy", "cp $1 $2", "");
-    let mut command = bench.command(&["run", "--quiet", "--out", "out", "--filter", "copy"]);
+    let mut command = bench.command(&[
+        "run",
+        "--quiet",
+        "--out",
+        "out",
+        "--filter",
+        "copy",
+        "--allow-commands",
+    ]);
     command.args(["--size", "64x32", "--samples-per-pixel", "16"]);
     command.env("VK_DRIVER_FILES", "/no/driver.json");
     command.env("VK_ICD_FILENAMES", "/no/driver.json");
@@ -168,9 +183,9 @@ fn a_program_knows_what_kernels_know_and_no_more() {
 fn an_edited_program_is_run_anew() {
     let bench = Bench::new();
     script(&bench, "copy", "cp $1 $2", "");
-    assert_done(&bench.run(&["--filter", "copy"]));
+    assert_done(&bench.run(&["--filter", "copy", "--allow-commands"]));
     executable(&bench, "copy/blur.sh", "exit 3");
-    let failed = bench.run(&["--filter", "copy"]);
+    let failed = bench.run(&["--filter", "copy", "--allow-commands"]);
     assert_eq!(failed.status.code(), Some(1));
     let failures = bench.measured().failures;
     let reason = &failures[0].reason;
@@ -199,8 +214,8 @@ fn programs_that_fail_say_how_and_leave_no_picture() {
             "for i in 1 2 3 4 5 6 7 8 9 10 11 12; do echo line $i >&2; done; exit 7",
             &[
                 "`./blur.sh frame.exr out.exr` ended with exit status: 7",
-                "printed:\nline 3\nline 4\n",
-                "\nline 12\n",
+                "printed:\n  | line 3\n  | line 4\n",
+                "\n  | line 12\n",
             ],
         ),
         (
@@ -209,7 +224,7 @@ fn programs_that_fail_say_how_and_leave_no_picture() {
         ),
         (
             "echo done",
-            &["ended well, but wrote no {out}", "printed:\ndone"],
+            &["ended well, but wrote no {out}", "printed:\n  | done"],
         ),
         (
             "cp $0 $2",

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::time::SystemTime;
 
-use crate::bench::{Bench, assert_done, files_below, stdout};
+use crate::bench::{Bench, assert_done, files_below, quick, stdout};
 
 /// Two presets of a filter of the tests' own, beside one that does nothing.
 const FILTERS: [&str; 4] = ["--filters", "identity", "--filter", "mine"];
@@ -84,27 +84,73 @@ fn a_second_run_touches_no_file_and_says_the_same() {
     assert!(before.len() > 60, "{} files", before.len());
 }
 
+const NONE_KEEPS_IT: &str =
+    "[default]\nflip_moving = { limit = 0.0001, why = \"none keeps it\" }\n";
+const WORST: &str = "identity_default/worst_flip_moving.png";
+
+/// The times of all files that are measured, which evidence is not.
+fn times_of_measured(bench: &Bench) -> BTreeMap<String, SystemTime> {
+    let mut times = times(bench);
+    times.retain(|name, _| !name.contains("worst_"));
+    times
+}
+
 #[test]
-fn a_check_is_kept_with_its_intervals_and_its_evidence() {
+fn a_check_is_kept_with_its_intervals() {
     let bench = bench();
-    bench.write(
-        "bounds.toml",
-        "[default]\nflip_moving = { limit = 0.0001, why = \"none keeps it\" }\n",
-    );
+    bench.write("bounds.toml", NONE_KEEPS_IT);
     let check = || bench.check(&FILTERS);
     let first = stdout(&check());
     assert!(first.contains("flip_moving"), "{first}");
-    let (run, before) = (bench.measured(), times(&bench));
-    assert!(before.contains_key("identity_default/worst_flip_moving.png"));
+    let (run, before) = (bench.measured(), times_of_measured(&bench));
     assert_eq!(stdout(&check()), first);
-    assert_eq!(times(&bench), before);
+    assert_eq!(times_of_measured(&bench), before);
     let text = |run: &suite::Run| serde_json::to_string(run).unwrap();
     assert_eq!(text(&bench.measured()), text(&run));
 
-    let evidence = bench.path("out/plate/identity_default/worst_flip_moving.png");
+    let evidence = bench.path("out/plate").join(WORST);
     fs::remove_file(&evidence).unwrap();
     check();
     assert!(evidence.is_file(), "the evidence was not made anew");
+}
+
+#[test]
+fn another_bound_measures_nothing_again() {
+    let bench = bench();
+    bench.write("bounds.toml", &NONE_KEEPS_IT.replace("0.0001", "0.1"));
+    let broken = bench.check(&FILTERS);
+    assert_eq!(broken.status.code(), Some(1), "{}", stdout(&broken));
+    let before = times_of_measured(&bench);
+    let all_keep_it = NONE_KEEPS_IT.replace("0.0001", "0.9");
+    bench.write(
+        "bounds.toml",
+        &format!("# A comment moves the line.\n{all_keep_it}"),
+    );
+    assert_done(&bench.check(&FILTERS));
+    assert_eq!(times_of_measured(&bench), before);
+}
+
+#[test]
+fn a_run_takes_what_a_check_left() {
+    let bench = bench();
+    bench.write("bounds.toml", NONE_KEEPS_IT);
+    bench.check(&FILTERS);
+    let before = times_of_measured(&bench);
+    let words = [&quick("run", "64")[..], &FILTERS].concat();
+    assert_done(&bench.shuttertruth(&words));
+    assert_eq!(times_of_measured(&bench), before);
+    // What it says does not depend on who measured.
+    let kept = fs::read_to_string(bench.path("out/run.json")).unwrap();
+    assert!(
+        bench
+            .measured()
+            .cases
+            .iter()
+            .all(|case| case.intervals.is_empty())
+    );
+    fs::remove_dir_all(bench.path("out")).unwrap();
+    assert_done(&bench.shuttertruth(&words));
+    assert!(fs::read_to_string(bench.path("out/run.json")).unwrap() == kept);
 }
 
 #[test]
@@ -124,13 +170,6 @@ fn what_changes_one_case_measures_that_one_again() {
     let set = ["--set", "velocity_gather.samples=9"];
     assert_eq!(measured_again(&bench, &set), mine, "a parameter");
     assert_eq!(measured_again(&bench, &set), BTreeSet::new());
-
-    bench.write(
-        "bounds.toml",
-        "[filter.\"velocity_gather:fine\"]\nflip_moving = { limit = 0.5, why = \"any\" }\n",
-    );
-    let one = names([&["velocity_gather_fine"][..]]);
-    assert_eq!(measured_again(&bench, &set), one, "a bound");
 
     let filters = names([&OF_FILTERS[..]]);
     let more = [&set[..], &["--jitter-frames", "3"]].concat();
@@ -224,7 +263,7 @@ fn a_program_is_run_again_every_time() {
     fs::write(&script, "#!/bin/sh\necho again >> runs\ncp $1 $2\n").unwrap();
     fs::set_permissions(&script, fs::Permissions::from_mode(0o755)).unwrap();
     let runs = || {
-        assert_done(&bench.run(&["--filter", "copy"]));
+        assert_done(&bench.run(&["--filter", "copy", "--allow-commands"]));
         let text = fs::read_to_string(bench.path("copy/runs")).unwrap();
         text.lines().count()
     };

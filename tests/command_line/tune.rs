@@ -352,6 +352,7 @@ fn a_candidate_that_fails_is_told_of_and_the_others_go_on() {
         let words = [
             "tune",
             "--quiet",
+            "--allow-commands",
             "--filter",
             filter,
             "--objective",

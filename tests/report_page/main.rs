@@ -21,7 +21,8 @@ fn reported(bench: &Bench) -> PathBuf {
 
 fn reported_within(bench: &Bench, largest: usize) -> PathBuf {
     let html = bench.path("page/a report.html");
-    let report = report(&bench.measured(), &bench.path("out"), &html, largest).unwrap();
+    let (run, findings) = (bench.measured(), bench.findings());
+    let report = report(&run, &findings, &bench.path("out"), &html, largest).unwrap();
     report.write().unwrap();
     html
 }
@@ -231,10 +232,7 @@ fn a_broken_bound_is_seen_with_its_place_and_its_pictures() {
         canvas(1),
         canvas(2)
     ));
-    let worst = bench.measured().cases[number].verdicts[0]
-        .worst
-        .clone()
-        .unwrap();
+    let worst = bench.findings()[0].worst.clone().unwrap();
     browser.value(&format!(
         "document.querySelector('#case-{number} button.place').click()"
     ));

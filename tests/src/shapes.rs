@@ -37,6 +37,7 @@ pub fn empty_scene(name: &str) -> Scene {
         textures: Vec::new(),
         materials: Vec::new(),
         objects: Vec::new(),
+        notes: Vec::new(),
         hash: String::new(),
     }
 }

@@ -108,6 +108,12 @@ pub enum FilterError {
     /// A command was stopped on request.
     #[error("interrupted")]
     Interrupted,
+    /// A filter fails with values that its filter.toml allows.
+    #[error("{}", .0.join("\n"))]
+    TriedOut(
+        /// What fails and where, a line each.
+        Vec<String>,
+    ),
     /// A pass was given up. The adapter may still be at work on it, so nothing else is run there.
     #[error(
         "filter {filter}, pass {pass}: took longer than {time_limit} s and was given up; make it faster, or raise \

@@ -3,10 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use frame::Alignment;
+use frame::{Alignment, FileError, read_bounded};
 use include_dir::{Dir, include_dir};
 
 use crate::gpu::{EntryPoint, Shader};
+use crate::manifest::Lines;
 use crate::{
     Command, FilterError, Length, Parameter, ReachBy, Settings, Source, Tuned, Value, manifest,
     wiring,
@@ -16,6 +17,12 @@ static BUILTIN: Dir = include_dir!("$CARGO_MANIFEST_DIR/../../shaders");
 
 /// Seconds that one run of a program, or one dispatch of a pass, may take where filter.toml does not say.
 pub(crate) const DEFAULT_TIME_LIMIT: f64 = 60.0;
+
+/// The largest filter.toml that is read, in bytes.
+pub const MAX_MANIFEST_BYTES: u64 = 1 << 20;
+
+/// The largest WGSL file that is read, in bytes. The largest one that is built in has a tenth of it.
+pub const MAX_KERNEL_BYTES: u64 = 256 << 10;
 
 /// A filter folder, read and checked: everything but the adapter is known to fit.
 #[derive(Clone, Debug)]
@@ -49,6 +56,8 @@ pub struct Filter {
     /// In the order in which they run.
     pub passes: Vec<Pass>,
     pub(crate) shader: Shader,
+    /// Where filter.toml declares it all.
+    pub(crate) lines: Lines,
 }
 
 /// Named values for a filter's parameters.
@@ -127,19 +136,11 @@ pub enum Repeat {
 }
 
 impl Filter {
-    /// Reads and checks a filter folder: `filter.toml` and, unless it is a command, the WGSL file that it names.
+    /// Reads and checks a filter folder: `filter.toml` and, unless it is a command, the WGSL file that it names. Both are
+    /// regular files of at most [`MAX_MANIFEST_BYTES`] and [`MAX_KERNEL_BYTES`].
     pub fn load(folder: &Path) -> Result<Self, FilterError> {
-        let read = |file: PathBuf| {
-            std::fs::read_to_string(&file).map_err(|error| FilterError::Folder {
-                path: file,
-                line: None,
-                reason: format!(
-                    "cannot be read: {error}; a filter folder holds filter.toml and <name>.wgsl"
-                ),
-            })
-        };
-        let manifest = read(folder.join("filter.toml"))?;
-        Self::parse(folder, &manifest, read)
+        let manifest = read_text(&folder.join("filter.toml"), MAX_MANIFEST_BYTES)?;
+        Self::parse(folder, &manifest, |path| read_text(&path, MAX_KERNEL_BYTES))
     }
 
     /// A filter that the program brings along.
@@ -209,15 +210,37 @@ impl Filter {
         manifest: &str,
         read: impl Fn(PathBuf) -> Result<String, FilterError>,
     ) -> Result<Self, FilterError> {
-        let (mut filter, lines) = manifest::read(&folder.join("filter.toml"), manifest)?;
+        let mut filter = manifest::read(&folder.join("filter.toml"), manifest)?;
         if filter.command.is_some() {
             return Ok(filter);
         }
         let kernels = folder.join(format!("{}.wgsl", filter.name));
         filter.shader = Shader::parse(&kernels, &read(kernels.clone())?, COMMON)?;
-        wiring::check(&filter, &lines)?;
+        wiring::check(&filter)?;
         Ok(filter)
     }
+}
+
+/// Reads a file of a filter folder, which is to be UTF-8.
+fn read_text(path: &Path, limit: u64) -> Result<String, FilterError> {
+    let refuse = |reason: String| FilterError::Folder {
+        path: path.to_owned(),
+        line: None,
+        reason,
+    };
+    let bytes = read_bounded(path, limit).map_err(|error| {
+        let holds = "a filter folder holds filter.toml and <name>.wgsl";
+        refuse(match error {
+            FileError::Io { source, .. } => format!("cannot be read: {source}; {holds}"),
+            FileError::Broken { reason, .. } | FileError::Foreign { reason, .. } => reason,
+        })
+    })?;
+    String::from_utf8(bytes).map_err(|error| {
+        let place = error.utf8_error().valid_up_to();
+        refuse(format!(
+            "is not UTF-8 from byte {place} on; save it as UTF-8"
+        ))
+    })
 }
 
 /// Appended to every filter's kernels.

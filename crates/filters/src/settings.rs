@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Serialize;
 
+use crate::text::without_controls;
 use crate::{Filter, FilterError, Parameter, Unit, Value};
 
 /// A value for every parameter of one filter.
@@ -122,7 +123,7 @@ fn find<'f>(filter: &'f Filter, name: &str) -> Result<&'f Parameter, FilterError
             };
             FilterError::Parameter {
                 filter: filter.name.clone(),
-                parameter: name.to_owned(),
+                parameter: without_controls(name),
                 reason: format!("the filter has no such parameter; {has}"),
             }
         })
@@ -132,6 +133,10 @@ fn refuse(filter: &Filter, parameter: &Parameter, found: &str) -> FilterError {
     FilterError::Parameter {
         filter: filter.name.clone(),
         parameter: parameter.name.clone(),
-        reason: format!("found {found}; allowed: {}", parameter.kind.allowed()),
+        reason: format!(
+            "found {}; allowed: {}",
+            without_controls(found),
+            parameter.kind.allowed()
+        ),
     }
 }

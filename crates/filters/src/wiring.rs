@@ -10,7 +10,8 @@ use crate::{FilterError, Format};
 
 /// Refuses a filter whose declarations and kernels differ: parameters, textures, entry points, and the order in which
 /// passes read and write.
-pub(crate) fn check(filter: &Filter, lines: &Lines) -> Result<(), FilterError> {
+pub(crate) fn check(filter: &Filter) -> Result<(), FilterError> {
+    let lines = &filter.lines;
     let check = Check { filter, lines };
     check.parameters()?;
     check.variables()?;

@@ -1,4 +1,4 @@
-//! What cannot be measured.
+//! Errors of measuring.
 
 /// Inputs that do not belong together, or that hold no numbers.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -28,7 +28,7 @@ pub enum MeasureError {
         width: u32,
         /// The truth's height.
         height: u32,
-        /// How many pixels are allowed.
+        /// Number of pixels that are allowed.
         limit: u64,
     },
     /// A picture without one matte per object.
@@ -38,9 +38,9 @@ pub enum MeasureError {
     Mattes {
         /// Which input.
         what: String,
-        /// How many mattes it has.
+        /// Number of its mattes.
         found: usize,
-        /// How many objects the truth has.
+        /// Number of the truth's objects.
         allowed: usize,
     },
     /// Infinity or NaN.
@@ -57,6 +57,23 @@ pub enum MeasureError {
         /// Row.
         y: u32,
     },
+    /// Radiance that no comparison can square.
+    #[error(
+        "the colour of {what} holds {found} at pixel ({x}, {y}); at the scene's exposures at most {limit:e} can be compared: \
+         lower the light, or [display] stops"
+    )]
+    TooBright {
+        /// Which input.
+        what: String,
+        /// The value.
+        found: f32,
+        /// Column.
+        x: u32,
+        /// Row.
+        y: u32,
+        /// The largest radiance allowed, either sign.
+        limit: f32,
+    },
     /// Another exposure, other objects or another interval than the truth's.
     #[error(
         "{what} has {found}, the truth has {allowed}; render both from the same scene with the same shutter"
@@ -64,24 +81,25 @@ pub enum MeasureError {
     Disagree {
         /// Which input, and which of its properties.
         what: &'static str,
-        /// What it holds.
+        /// Value found.
         found: String,
-        /// What the truth holds.
+        /// The truth's value.
         allowed: String,
     },
     /// HDR-FLIP exposures that make no range.
     #[error(
-        "viewing exposure {stops}, HDR-FLIP exposures from {start} to {stop} in {count} steps; allowed: finite stops, start not \
-         above stop, 2 to 128 steps"
+        "viewing exposure {stops}, HDR-FLIP exposures from {start} to {stop} in {count} steps; allowed: stops from -{most} to \
+         {most}, start not above stop, 2 to 128 steps",
+        most = frame::MOST_STOPS
     )]
     Exposures {
-        /// Of LDR comparisons, in stops.
+        /// Exposure of LDR comparisons, in stops.
         stops: f32,
         /// Darkest, in stops.
         start: f32,
         /// Brightest, in stops.
         stop: f32,
-        /// How many.
+        /// Number of exposures.
         count: u32,
     },
 }

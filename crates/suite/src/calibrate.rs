@@ -6,11 +6,10 @@ use std::fmt::Write;
 use metrics::{Ideal, Interval, Measured, Metric, Score};
 
 use crate::bounds::SceneBounds;
-use crate::gate::number;
-use crate::verdict::badness_within;
+use crate::judge::{badness_within, number};
 use crate::{Case, Run};
 
-/// Of so many standard deviations is the margin.
+/// Margin, in standard deviations.
 const DEVIATIONS: f64 = 3.0;
 /// The margin is at least this part of the worst score: what rounding and another compiler may change.
 const LEAST_PART: f64 = 0.05;

@@ -8,7 +8,7 @@ use metrics::{ImageScores, Jitter, Scores};
 use serde::{Deserialize, Serialize};
 use tracer::Family;
 
-use crate::{InputFormat, Intervals, Resemblance, Verdict};
+use crate::{InputFormat, Intervals};
 
 /// One filter preset, or one bar, on one scene.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -55,11 +55,6 @@ pub struct Case {
     pub common: ImageScores,
     /// What of the error is noise; none for filters without any, or where it was not asked for.
     pub jitter: Option<Jitter>,
-    /// How the scores stand to the scene's bounds.
-    pub verdicts: Vec<Verdict>,
-    /// The wrong blur that the picture is most like; none where it is like none, or where that was not asked for.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub resembles: Option<Resemblance>,
     /// Folder of the case's pictures, relative to `run.json`.
     pub folder: PathBuf,
 }

@@ -9,14 +9,14 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use frame::{ColorSampling, VelocityKind};
-use suite::{Border, DepthFormat, Up, VelocityFormat};
+use suite::{Border, DepthFormat, Programs, Up, VelocityFormat};
 
 pub use gate::{AcceptArgs, CalibrateArgs, CheckArgs};
 pub use look::{CompareArgs, ReportArgs};
 pub use render::{MergeArgs, RenderArgs, Replicates};
 pub use tune::{CandidateArgs, EvaluateArgs, ServeArgs, TuneArgs};
 
-use crate::words::{degrees_per_frame, pixels_per_frame, rounds, size};
+use crate::words::{degrees_per_frame, jitter_frames, pixels_per_frame, rounds, size};
 
 /// How good is a real-time motion blur? Renders the truth of moving scenes, runs filters on one frame of each, and
 /// measures how far they are from it.
@@ -122,8 +122,31 @@ pub struct MeasureArgs {
     #[arg(long, value_enum, value_delimiter = ',', value_name = "POLICIES")]
     pub border: Vec<Border>,
     /// Frames of its noise that a noisy filter is tried with, to tell its noise from its other errors; 0 for none.
-    #[arg(long, value_name = "N", default_value_t = 16)]
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = jitter_frames)]
     pub jitter_frames: u32,
+    /// Use no truth and no case that --out holds: remove them, and make all anew.
+    #[arg(long)]
+    pub no_cache: bool,
+    #[command(flatten)]
+    pub programs: ProgramArgs,
+}
+
+/// What filters may do beside running on the adapter.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct ProgramArgs {
+    /// Run filters that are programs. They may do whatever you may do: read their filter.toml first.
+    #[arg(long)]
+    pub allow_commands: bool,
+}
+
+impl ProgramArgs {
+    /// Whether filters that are programs may be selected.
+    pub fn programs(self) -> Programs {
+        match self.allow_commands {
+            true => Programs::Allowed,
+            false => Programs::Refused,
+        }
+    }
 }
 
 /// On or off.
@@ -171,7 +194,7 @@ pub struct SceneArgs {
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
     /// Folder for all files. Truths and cases found there are used again if nothing about them has changed.
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
     /// No progress bars.
     #[arg(long)]
@@ -206,6 +229,8 @@ pub struct BlurArgs {
     /// OpenEXR file to write.
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
+    #[command(flatten)]
+    pub programs: ProgramArgs,
     #[command(flatten)]
     pub adapter: AdapterArgs,
 }
@@ -303,9 +328,12 @@ pub struct ListArgs {
     /// Folder that holds the scenes.
     #[arg(long, value_name = "FOLDER", default_value = "scenes")]
     pub scenes_dir: PathBuf,
-    /// A filter folder of your own to list as well; may be repeated.
+    /// A filter folder of your own to list as well, and to try out with every preset and at both ends of every range; may be
+    /// repeated.
     #[arg(long, value_name = "FOLDER")]
     pub filter: Vec<String>,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
     /// Print JSON.
     #[arg(long)]
     pub json: bool,

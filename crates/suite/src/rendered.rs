@@ -82,7 +82,7 @@ pub fn scene_folder(out: &Path, scene: &Scene) -> PathBuf {
 }
 
 /// Refuses to write into the folder of a scene: its textures may be called as our pictures are.
-fn refuse_scene(folder: &Path) -> Result<(), Error> {
+pub(crate) fn refuse_scene(folder: &Path) -> Result<(), Error> {
     let file = folder.join("scene.toml");
     match file.exists() {
         false => Ok(()),

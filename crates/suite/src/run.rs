@@ -1,26 +1,27 @@
 //! The main job: render every scene, run every filter on it, measure how far each picture is from the truth.
 
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use filters::{AdapterDescription, Gpu};
-use frame::{Alignment, FileError};
+use frame::Alignment;
 use metrics::Viewing;
 use serde::{Deserialize, Serialize};
 use tracer::{Progress, Scene, Watch};
 
-use crate::bounds::SceneBounds;
 use crate::case::Case;
 use crate::failure::Failure;
 use crate::inputs::SceneInputs;
+use crate::json_file::read_text;
 use crate::kept::hash_of_program;
 use crate::overall::{Overall, overall};
 use crate::progress::with_bar;
+use crate::run_file::parse;
 use crate::scene_run::SceneRun;
 use crate::selection::FilterChoice;
 use crate::{Error, InputFormat, PROGRAM, RenderSettings};
 
 /// Version of the layout of `run.json`; it rises when a reader of the old one would misread the new one.
-pub const FORMAT: u32 = 4;
+pub const FORMAT: u32 = 5;
 
 /// A finished run: `run.json`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -67,43 +68,21 @@ pub struct Run {
 impl Run {
     /// Reads a `run.json` of this program.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let text =
-            std::fs::read_to_string(path).map_err(|source| FileError::io(path, "read", source))?;
         let refuse = |reason: String| {
             Error::Usage(format!(
                 "{}: {reason}; `shuttertruth run` or `check` writes one",
                 path.display()
             ))
         };
-        let run: Self = serde_json::from_str(&text)
-            .map_err(|error| refuse(format!("no run of this program: {error}")))?;
-        if let Some(case) = run.cases.iter().find(|case| !lies_below(case)) {
-            return Err(refuse(format!(
-                "scene \"{}\", folder \"{}\": a case lies in a folder below run.json, and nowhere else",
-                case.scene,
-                case.folder.display()
-            )));
-        }
-        match run.format {
-            FORMAT => Ok(run),
-            other => Err(refuse(format!("has format {other}; allowed: {FORMAT}"))),
-        }
+        let text = read_text(path)?;
+        parse(&text).map_err(refuse)
     }
-}
-
-/// Whether the files that a case names lie below run.json: what names files elsewhere is not read, and nothing is written there.
-fn lies_below(case: &Case) -> bool {
-    let is_below = |path: &Path| {
-        let mut parts = path.components().peekable();
-        parts.peek().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
-    };
-    is_below(Path::new(&case.scene)) && is_below(&case.folder)
 }
 
 /// What a run is to do.
 pub struct Plan {
-    /// Loaded scenes, each with its bounds.
-    pub scenes: Vec<(Scene, SceneBounds)>,
+    /// Loaded scenes.
+    pub scenes: Vec<Scene>,
     /// Loaded filters.
     pub filters: Vec<FilterChoice>,
     /// The forms in which every filter gets the frame.
@@ -117,8 +96,8 @@ pub struct Plan {
     /// Whether the scores of filters get intervals, by which bounds are judged. Takes a few more measurements of every
     /// picture.
     pub intervals: bool,
-    /// Whether bounds that are not kept get the place where the picture is worst, and what it is like.
-    pub evidence: bool,
+    /// Whether frames, truths and cases that lie in `out` are removed and made anew.
+    pub no_cache: bool,
     /// No progress bars.
     pub quiet: bool,
 }
@@ -178,7 +157,7 @@ fn all_cases(
         .map(|choice| choice.scaled_to(plan.render.width))
         .collect();
     let (mut cases, mut failures) = (Vec::new(), Vec::new());
-    for (done, (scene, bounds)) in plan.scenes.iter().enumerate() {
+    for (done, scene) in plan.scenes.iter().enumerate() {
         // A scene that is interrupted says so itself.
         let _ = watch(Progress {
             done: done as u64,
@@ -191,7 +170,6 @@ fn all_cases(
             filters: &filters,
             gpu,
             scene,
-            bounds,
             common,
             inputs,
         };

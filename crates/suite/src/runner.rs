@@ -1,6 +1,6 @@
 //! A filter ready to run, whether it is made of kernels or a program.
 
-use filters::{Blur, CommandBlur, Filter, FilterError, Gpu, Input, Settings};
+use filters::{Blur, CommandBlur, Filter, FilterError, Gpu, Input, Limits, Settings};
 use frame::Image;
 
 use crate::FilterChoice;
@@ -14,15 +14,22 @@ pub enum Runner<'g> {
     Command(CommandBlur),
 }
 
-/// The adapter that the filters are to run on; none where all of them are commands and none was asked for by name.
+/// The adapter that the filters are to run on; none where all of them are commands and none was asked for by name. Refuses a
+/// filter with kernels that the adapter cannot hold, before anything is rendered.
 pub fn open_gpu(
     choices: &[FilterChoice],
     adapter: Option<&str>,
 ) -> Result<Option<Gpu>, FilterError> {
     let needed = choices.iter().any(|choice| choice.filter.command.is_none());
-    (needed || adapter.is_some())
-        .then(|| open_adapter(adapter))
-        .transpose()
+    if !needed && adapter.is_none() {
+        return Ok(None);
+    }
+    let gpu = open_adapter(adapter)?;
+    let limits = Limits::of(&gpu);
+    for choice in choices {
+        limits.check(&choice.filter)?;
+    }
+    Ok(Some(gpu))
 }
 
 /// An adapter whose work ends at Ctrl-C.

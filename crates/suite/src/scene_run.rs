@@ -8,9 +8,9 @@ use frame::{Alignment, Frame, Ladder, Picture, Truth};
 use metrics::{MeasureError, Reference};
 use tracer::{Progress, Scene, Watch};
 
-use crate::bounds::SceneBounds;
 use crate::case::Case;
 use crate::failure::Failure;
+use crate::forget::forget;
 use crate::inputs::SceneInputs;
 use crate::kept::{discard_altered, keep, recall};
 use crate::pictures::{write_frame, write_truth};
@@ -20,7 +20,6 @@ use crate::run::{Plan, viewing};
 use crate::scatter_oracle::oracle_of;
 use crate::selection::FilterChoice;
 use crate::subject::Subject;
-use crate::witness::Witness;
 use crate::workbench::Workbench;
 use crate::{Error, InputFormat, truths_without_pairs};
 
@@ -31,7 +30,6 @@ pub(crate) struct SceneRun<'a> {
     pub filters: &'a [FilterChoice],
     pub gpu: Option<&'a Gpu>,
     pub scene: &'a Scene,
-    pub bounds: &'a SceneBounds,
     /// The alignment that every case is compared with.
     pub common: Alignment,
     /// What is kept is known by these; none where nothing can be kept.
@@ -39,7 +37,7 @@ pub(crate) struct SceneRun<'a> {
 }
 
 /// Beside a case's pictures.
-const CASE_RECORD: &str = "case.json";
+pub(crate) const CASE_RECORD: &str = "case.json";
 
 type Truths = BTreeMap<Alignment, (Truth, Ladder)>;
 
@@ -47,6 +45,9 @@ impl SceneRun<'_> {
     /// Per alignment the bars, then one case per filter preset and form of the input; a failure where one made no picture that
     /// can be measured.
     pub fn cases(&self) -> Result<Vec<Result<Case, Failure>>, Error> {
+        if self.plan.no_cache {
+            forget(&scene_folder(&self.plan.out, self.scene))?;
+        }
         let subjects = Subject::all(self.plan, self.filters);
         let kept: Vec<Option<Case>> = subjects.iter().map(|subject| self.kept(subject)).collect();
         if kept.iter().all(Option::is_some) && self.has_its_files() {
@@ -109,15 +110,6 @@ impl SceneRun<'_> {
                 Ok((*alignment, references?))
             })
             .collect::<Result<BTreeMap<_, Vec<Reference>>, Error>>()?;
-        let witnesses: BTreeMap<Alignment, Witness> = (truths.iter())
-            .filter(|_| self.plan.evidence)
-            .map(|(alignment, (truth, ladder))| {
-                (
-                    *alignment,
-                    Witness::new(self.scene, &cropped, truth, ladder),
-                )
-            })
-            .collect();
         let stored: Vec<(InputFormat, Frame)> = (self.plan.inputs.iter())
             .map(|format| (*format, format.of(frame)))
             .collect();
@@ -136,7 +128,6 @@ impl SceneRun<'_> {
                 plan: self.plan,
                 gpu: self.gpu,
                 scene: self.scene,
-                bounds: self.bounds,
                 frame,
                 stored: &stored,
                 truth,
@@ -145,7 +136,6 @@ impl SceneRun<'_> {
                 oracle: &oracles[&alignment],
                 common: (alignment != self.common).then(|| &references[&self.common]),
                 without: without.get(&alignment).map(Vec::as_slice),
-                witness: witnesses.get(&alignment),
             };
             cases.push(match workbench.case(subject) {
                 Ok((case, files)) => {
@@ -199,13 +189,19 @@ impl SceneRun<'_> {
             .collect()
     }
 
+    /// A case that was measured before: with intervals where the plan asks for some, without them otherwise.
     fn kept(&self, subject: &Subject) -> Option<Case> {
-        recall(&self.record(subject), &self.inputs_of(subject)?)
+        let mut case: Case = recall(&self.record(subject), &self.inputs_of(subject)?)?;
+        if !self.plan.intervals {
+            case.intervals.clear();
+        }
+        let is_whole = case.bar || !self.plan.intervals || !case.intervals.is_empty();
+        is_whole.then_some(case)
     }
 
     fn inputs_of(&self, subject: &Subject) -> Option<String> {
         let adapter = self.gpu.map(|gpu| &gpu.adapter);
-        let own = subject.inputs(self.plan, adapter, self.bounds)?;
+        let own = subject.inputs(self.plan, adapter)?;
         let inputs = self.inputs.as_ref()?;
         Some(inputs.case(&own, subject.alignment, self.common))
     }

@@ -6,7 +6,6 @@ use filters::AdapterDescription;
 use frame::Alignment;
 use tracer::Scene;
 
-use crate::bounds::{Bounds, SceneBounds};
 use crate::case::{ACCUMULATE, IDENTITY, SCATTER_ORACLE};
 use crate::run::Plan;
 use crate::selection::FilterChoice;
@@ -95,14 +94,6 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// What it is held to: bars to nothing.
-    pub fn bounds(&self, bounds: &SceneBounds) -> Bounds {
-        match self.maker {
-            Maker::Filter(choice, _) => bounds.of(&choice.filter.name, &choice.preset),
-            _ => Bounds::new(),
-        }
-    }
-
     /// Folder of its pictures, relative to `run.json`. A bar may be made for several alignments.
     pub fn folder(&self, scene: &Scene) -> PathBuf {
         let mut parts = vec![self.filter().to_owned(), self.preset()];
@@ -116,12 +107,7 @@ impl<'a> Subject<'a> {
 
     /// All that determines what is measured of it, beside the program, the scene, its frame and its truths; none where that
     /// cannot be known: what the program does that a filter runs.
-    pub fn inputs(
-        &self,
-        plan: &Plan,
-        adapter: Option<&AdapterDescription>,
-        bounds: &SceneBounds,
-    ) -> Option<String> {
+    pub fn inputs(&self, plan: &Plan, adapter: Option<&AdapterDescription>) -> Option<String> {
         let Maker::Filter(choice, input) = self.maker else {
             return Some(format!("{} {}", self.filter(), self.preset()));
         };
@@ -137,8 +123,7 @@ impl<'a> Subject<'a> {
                 "{:?}",
                 (
                     (filter, preset, settings, input, adapter),
-                    (plan.jitter_frames, plan.intervals, plan.evidence),
-                    self.bounds(bounds),
+                    plan.jitter_frames,
                 )
             )
         })

@@ -7,7 +7,6 @@ use frame::{Frame, Ladder, Picture, Truth, Vectors};
 use metrics::{Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference};
 use tracer::Scene;
 
-use crate::bounds::SceneBounds;
 use crate::case::Case;
 use crate::dilated::dilated;
 use crate::pictures::write_case;
@@ -15,8 +14,7 @@ use crate::probe::{Blurred, blurred, noise};
 use crate::run::Plan;
 use crate::selection::FilterChoice;
 use crate::subject::{Maker, Subject};
-use crate::witness::Witness;
-use crate::{Error, InputFormat, Intervals, Runner, Verdict, intervals, judge};
+use crate::{Error, InputFormat, Intervals, Runner, intervals};
 
 /// Blurs of a mixture may differ from mixtures of blurs by this part of what the blur changes, which is far above rounding.
 const MOST_NONLINEARITY: f64 = 1e-3;
@@ -26,7 +24,6 @@ pub(crate) struct Workbench<'a> {
     pub plan: &'a Plan,
     pub gpu: Option<&'a Gpu>,
     pub scene: &'a Scene,
-    pub bounds: &'a SceneBounds,
     pub frame: &'a Frame,
     /// The frame in the forms in which filters get it.
     pub stored: &'a [(InputFormat, Frame)],
@@ -39,8 +36,6 @@ pub(crate) struct Workbench<'a> {
     pub common: Option<&'a Reference<'a>>,
     /// The truths that all replicates but a pair each make, where scores are to have intervals.
     pub without: Option<&'a [Reference<'a>]>,
-    /// Where bounds that are not kept are to have evidence.
-    pub witness: Option<&'a Witness<'a>>,
 }
 
 /// A picture, and what was found out about it.
@@ -160,30 +155,13 @@ impl Workbench<'_> {
             None => measurement.scores.moving.clone(),
         };
         let folder = subject.folder(self.scene);
-        let mut files = write_case(
+        let files = write_case(
             &self.plan.out.join(&folder),
             self.scene,
             &self.frame.objects,
             (picture, found.dilated.as_ref()),
             measurement,
         )?;
-        let bounds = subject.bounds(self.bounds);
-        let mut verdicts = judge(&measurement.scores, found.intervals.as_ref(), &bounds);
-        let resembles = match self.witness {
-            Some(witness) if verdicts.iter().any(Verdict::is_notable) => {
-                for verdict in verdicts.iter_mut().filter(|verdict| verdict.is_notable()) {
-                    let regions = &self.reference.regions;
-                    let place = (self.plan.out.as_path(), folder.as_path());
-                    let worst =
-                        witness.worst(&verdict.metric, (picture, measurement), regions, place)?;
-                    let name = worst.picture.file_name();
-                    files.extend(name.map(|name| name.to_string_lossy().into_owned()));
-                    verdict.worst = Some(worst);
-                }
-                witness.resemblance(self.reference, &measurement.scores)?
-            }
-            _ => None,
-        };
         let choice = match subject.maker {
             Maker::Filter(choice, _) => Some(choice),
             _ => None,
@@ -206,9 +184,7 @@ impl Workbench<'_> {
             truth_hash: self.truth.provenance.content_hash.clone(),
             common,
             jitter: found.jitter,
-            verdicts,
             intervals: found.intervals.unwrap_or_default(),
-            resembles,
             scores: found.measurement.scores,
             folder,
         };

@@ -7,11 +7,20 @@ use std::time::Duration;
 
 use frame::{ExrFile, FileError, Image, read_exr, write_exr};
 
-use super::process::{self, End};
+use super::environment::environment;
+use super::process::{self, End, Limits};
 use super::{Command, fill};
 use crate::{Filter, FilterError, Input, Settings};
 
+/// Bytes per pixel that the file of a program may hold: 64 channels of 32 bits.
+pub const BYTES_PER_PIXEL: u64 = 256;
+
+/// Bytes that it may hold beside those of its pixels.
+pub const BESIDE_PIXELS: u64 = 1 << 20;
+
 /// A filter that is a program, ready to run on images of one size.
+///
+/// Programs run one at a time. On Linux, every process that this one starts while a program runs ends with the program.
 #[derive(Debug)]
 pub struct CommandBlur {
     filter: String,
@@ -54,16 +63,21 @@ impl CommandBlur {
     }
 
     fn blur(&self, color: &Image, input: &Input) -> Result<Image, FilterError> {
-        let folder = tempfile::tempdir().map_err(|error| self.no_room(error))?;
+        let folder = private_folder().map_err(|error| self.no_room(error))?;
         let place = std::path::absolute(folder.path()).map_err(|error| self.no_room(error))?;
         let [frame, out] = ["frame.exr", "out.exr"].map(|name| place.join(name));
         write_exr(&frame, &frame_file(color, input)).map_err(|error| self.no_room(error))?;
         let mut process = Process::new(self.program());
         process
             .args(self.arguments(input, &frame, &out))
-            .current_dir(&self.command.folder);
-        let limit = Duration::from_secs_f64(self.time_limit);
-        let (end, printed) = process::run(process, limit, self.interrupted)
+            .current_dir(&self.command.folder)
+            .env_clear()
+            .envs(environment(&self.command.environment));
+        let limits = Limits {
+            time: Duration::from_secs_f64(self.time_limit),
+            out: (&out, self.most_bytes()),
+        };
+        let (end, printed) = process::run(process, &limits, self.interrupted)
             .map_err(|error| self.refuse(self.cannot_start(&error)))?;
         let outcome = match end {
             End::Interrupted => return Err(FilterError::Interrupted),
@@ -72,6 +86,7 @@ impl CommandBlur {
                 self.time_limit,
                 self.command.folder.join("filter.toml").display()
             )),
+            End::TooLarge => Err(self.too_large()),
             End::Exited(status) if !status.success() => Err(format!("ended with {status}")),
             End::Exited(_) => self.read(&out),
         };
@@ -117,14 +132,43 @@ impl CommandBlur {
             .collect()
     }
 
-    /// The picture that the program wrote, or what is wrong with it.
-    fn read(&self, out: &Path) -> Result<Image, String> {
-        if !out.exists() {
+    fn most_bytes(&self) -> u64 {
+        let [width, height] = self.size.map(u64::from);
+        BESIDE_PIXELS + BYTES_PER_PIXEL * width * height
+    }
+
+    fn too_large(&self) -> String {
+        let [width, height] = self.size;
+        format!(
+            "wrote an {{out}} of more than {} bytes and was stopped; {width}x{height} pixels may take {BYTES_PER_PIXEL} \
+             bytes each, and {BESIDE_PIXELS} beside",
+            self.most_bytes()
+        )
+    }
+
+    /// Refuses what is no file of a bounded size. The program has ended, so that nothing else can take its place.
+    fn check_file(&self, out: &Path) -> Result<(), String> {
+        let Ok(found) = std::fs::symlink_metadata(out) else {
             return Err(
                 "ended well, but wrote no {out}; it must write an OpenEXR file of that very name"
                     .into(),
             );
+        };
+        if !found.is_file() {
+            return Err(format!(
+                "left {} in the place of {{out}}; it must write a regular file there",
+                kind(&found)
+            ));
         }
+        match found.len() <= self.most_bytes() {
+            true => Ok(()),
+            false => Err(self.too_large()),
+        }
+    }
+
+    /// The picture that the program wrote, or what is wrong with it.
+    fn read(&self, out: &Path) -> Result<Image, String> {
+        self.check_file(out)?;
         let color = read_exr(out)
             .and_then(|file| file.color(""))
             .map_err(|error| {
@@ -181,6 +225,29 @@ impl CommandBlur {
             reason,
         }
     }
+}
+
+/// A folder that nobody but this user, and programs that run as this user, can look into.
+fn private_folder() -> std::io::Result<tempfile::TempDir> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix("shuttertruth-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o700));
+    }
+    builder.tempdir()
+}
+
+/// What lies there that is no file.
+fn kind(found: &std::fs::Metadata) -> &'static str {
+    if found.is_dir() {
+        return "a folder";
+    }
+    if found.is_symlink() {
+        return "a link";
+    }
+    "a pipe or a device"
 }
 
 /// What the program may know: what kernels may.

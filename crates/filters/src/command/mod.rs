@@ -1,12 +1,17 @@
 //! Filters that are programs: a frame goes out as a file, and a picture comes back as one.
 
 mod blur;
+#[cfg(target_os = "linux")]
+mod descendants;
+mod environment;
+mod group;
+mod printed;
 mod process;
 mod words;
 
 use std::path::PathBuf;
 
-pub use blur::CommandBlur;
+pub use blur::{BESIDE_PIXELS, BYTES_PER_PIXEL, CommandBlur};
 pub(crate) use words::{PLACEHOLDERS, fill};
 
 /// What a filter runs that is a program.
@@ -18,6 +23,12 @@ pub struct Command {
     pub arguments: Vec<String>,
     /// Absolute folder of filter.toml, in which the program runs.
     pub folder: PathBuf,
+    /// Variables of the environment that it gets beside the usual ones.
+    pub environment: Vec<String>,
+    /// filter.toml, as it was named.
+    pub manifest: PathBuf,
+    /// Line of the command there, from 1.
+    pub line: usize,
 }
 
 impl Command {

@@ -1,11 +1,13 @@
 //! A program that runs to its end, or is ended.
 
-use std::fs::File;
-use std::io::{self, Read, Seek, SeekFrom};
+use std::io;
+use std::path::Path;
 use std::process::{Command, ExitStatus, Stdio};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use process_wrap::std::CommandWrap;
+use super::group::Group;
+use super::printed::Printed;
 
 /// How a program ended.
 pub enum End {
@@ -13,64 +15,64 @@ pub enum End {
     Exited(ExitStatus),
     /// It took too long, and was stopped.
     OutOfTime,
+    /// It wrote too large a file, and was stopped.
+    TooLarge,
     /// It was stopped on request.
     Interrupted,
 }
 
-/// Lines, and bytes, of what a program printed that a message shows.
-const LAST_LINES: usize = 10;
-const LAST_BYTES: u64 = 4096;
+/// What a program may take.
+pub struct Limits<'a> {
+    /// How long it may run.
+    pub time: Duration,
+    /// The file that it is to write, and how many bytes that may hold.
+    pub out: (&'a Path, u64),
+}
 
 /// Longest pause between two looks at a running program.
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// Runs a program with its errors and its output together kept aside; returns how it ended, and the last lines that it
-/// printed. Where it is stopped, whatever it has started is stopped with it.
+/// Whatever appears below this process while a program runs is that program's.
+static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+
+/// Runs a program and reads what it prints; returns how it ended, and the last lines that it printed. Whatever it has started
+/// ends with it, however it ends.
 pub fn run(
     mut command: Command,
-    time_limit: Duration,
+    limits: &Limits,
     interrupted: fn() -> bool,
 ) -> io::Result<(End, String)> {
-    // A file and no pipe: a pipe that nobody reads fills up and stops the program, and one that is read to its end waits
-    // for everything that the program left behind.
-    let printed = tempfile::tempfile()?;
+    let _turn = (ONE_AT_A_TIME.lock()).unwrap_or_else(PoisonError::into_inner);
+    let (printed, pipe) = Printed::new()?;
     command
         .stdin(Stdio::null())
-        .stdout(printed.try_clone()?)
-        .stderr(printed.try_clone()?);
-    let mut command = CommandWrap::from(command);
-    #[cfg(unix)]
-    command.wrap(process_wrap::std::ProcessGroup::leader());
-    #[cfg(windows)]
-    command.wrap(process_wrap::std::JobObject);
-    let start = Instant::now();
-    let mut child = command.spawn()?;
-    let mut pause = Duration::from_millis(1);
-    let end = loop {
-        if let Some(status) = child.try_wait()? {
-            break End::Exited(status);
-        }
-        let end = match (interrupted(), start.elapsed() >= time_limit) {
-            (true, _) => End::Interrupted,
-            (_, true) => End::OutOfTime,
-            _ => {
-                std::thread::sleep(pause);
-                pause = (2 * pause).min(PAUSE);
-                continue;
-            }
-        };
-        child.kill()?;
-        break end;
-    };
-    Ok((end, last_lines(printed)?))
+        .stdout(pipe.try_clone()?)
+        .stderr(pipe);
+    let mut group = Group::spawn(command)?;
+    let end = watch(&mut group, limits, interrupted);
+    // What is alive would keep the pipe open.
+    drop(group);
+    Ok((end?, printed.last_lines()))
 }
 
-fn last_lines(mut printed: File) -> io::Result<String> {
-    let length = printed.seek(SeekFrom::End(0))?;
-    printed.seek(SeekFrom::Start(length.saturating_sub(LAST_BYTES)))?;
-    let mut bytes = Vec::new();
-    printed.take(LAST_BYTES).read_to_end(&mut bytes)?;
-    let text = String::from_utf8_lossy(&bytes);
-    let lines: Vec<&str> = text.trim_end().lines().collect();
-    Ok(lines[lines.len().saturating_sub(LAST_LINES)..].join("\n"))
+fn watch(group: &mut Group, limits: &Limits, interrupted: fn() -> bool) -> io::Result<End> {
+    let start = Instant::now();
+    let mut pause = Duration::from_millis(1);
+    loop {
+        if let Some(status) = group.try_wait()? {
+            return Ok(End::Exited(status));
+        }
+        if interrupted() {
+            return Ok(End::Interrupted);
+        }
+        if start.elapsed() >= limits.time {
+            return Ok(End::OutOfTime);
+        }
+        let (out, most) = limits.out;
+        if std::fs::symlink_metadata(out).is_ok_and(|found| found.len() > most) {
+            return Ok(End::TooLarge);
+        }
+        std::thread::sleep(pause);
+        pause = (2 * pause).min(PAUSE);
+    }
 }

@@ -2,9 +2,12 @@
 
 use super::adapter::Gpu;
 use super::binding::{layout, pipeline};
+use super::limits::Limits;
 use super::loops::count;
 use super::resident::Resident;
+use super::stack::on_stack;
 use super::transfer::Place;
+use crate::text::without_controls;
 use crate::{Filter, FilterError, Input};
 
 /// The compiled kernels of one filter, from which [`Blur::of`](super::Blur::of) makes blurs without compiling again.
@@ -26,7 +29,8 @@ pub(super) struct Compiled {
 }
 
 impl<'g> Kernels<'g> {
-    /// Compiles every pass. Refuses a filter that is a command, and what the driver refuses.
+    /// Compiles every pass. Refuses a filter that is a command, one that asks for more than the adapter grants, and what the
+    /// driver refuses.
     pub fn compile(gpu: &'g Gpu, filter: &Filter) -> Result<Self, FilterError> {
         if filter.command.is_some() {
             return Err(FilterError::Command {
@@ -34,9 +38,22 @@ impl<'g> Kernels<'g> {
                 reason: "it is a command and has no kernels that an adapter could run".into(),
             });
         }
+        Limits::of(gpu).check(filter)?;
+        let compiled = on_stack(|| Self::compile_here(gpu, filter));
+        compiled.unwrap_or_else(|panic| {
+            let reason = format!("wgpu fails on it: {panic}");
+            Err(refused(gpu, filter, "kernels", reason))
+        })
+    }
+
+    fn compile_here(gpu: &'g Gpu, filter: &Filter) -> Result<Self, FilterError> {
         let place = |pass| Place {
             filter: &filter.name,
             pass,
+        };
+        let refused = |pass: &str, error| match error {
+            FilterError::Gpu { reason, .. } => refused(gpu, filter, pass, reason),
+            error => error,
         };
         let shader = &filter.shader;
         let counted_at = gpu.loop_limit.map(|_| shader.free_binding());
@@ -50,15 +67,17 @@ impl<'g> Kernels<'g> {
                     label: Some(&filter.name),
                     source,
                 })
-        })?;
+        });
+        let module = module.map_err(|error| refused("kernels", error))?;
         let passes = (filter.passes.iter())
             .map(|pass| {
                 let entry = filter.entry_point(pass);
-                gpu.guarded(place(&pass.entry), || {
+                let compiled = gpu.guarded(place(&pass.entry), || {
                     let layout = layout(gpu, shader, entry, counted_at);
                     let pipeline = pipeline(gpu, &layout, &module, entry);
                     Compiled { layout, pipeline }
-                })
+                });
+                compiled.map_err(|error| refused(&pass.entry, error))
             })
             .collect::<Result<_, _>>()?;
         Ok(Self {
@@ -72,5 +91,26 @@ impl<'g> Kernels<'g> {
     /// Uploads an input once, for any number of blurs of this filter.
     pub fn keep(&self, input: &Input) -> Result<Resident, FilterError> {
         Resident::new(self.gpu, &self.filter, input)
+    }
+}
+
+/// What wgpu or the driver has against a pass, or against all kernels, with the file and the adapter.
+fn refused(gpu: &Gpu, filter: &Filter, pass: &str, reason: String) -> FilterError {
+    let line = (filter.shader.entry_point(pass)).and_then(|entry| entry.line);
+    let line = line.map_or(String::new(), |line| format!(":{line}"));
+    let path = filter.shader.path.display();
+    let lines = reason
+        .lines()
+        .map(str::trim)
+        .filter(|line| !line.is_empty());
+    let lines: Vec<String> = lines.map(without_controls).collect();
+    FilterError::Gpu {
+        filter: filter.name.clone(),
+        pass: pass.to_owned(),
+        reason: format!(
+            "{path}{line} is refused by adapter \"{}\": {}",
+            gpu.adapter.name,
+            lines.join(" ")
+        ),
     }
 }

@@ -1,15 +1,19 @@
 //! Which kernels draw noise: those that read the index of the frame, by themselves or through functions that they call.
 
-use wgpu::naga::{
-    Block, Expression, Function, GlobalVariable, Handle, Module, Statement, TypeInner,
-};
+use wgpu::naga::{Expression, Function, GlobalVariable, Handle, Module, TypeInner};
+
+use super::demand::called_functions;
 
 /// Whether a function may read the member `frame_index` of the uniform `frame`. A read of the whole uniform counts.
 pub(super) fn reads_frame_index(module: &Module, function: &Function) -> bool {
     let Some((frame, index)) = frame_index(module) else {
         return false;
     };
-    reads(module, function, frame, index)
+    let called = called_functions(module, function);
+    let called = called.iter().map(|callee| &module.functions[*callee]);
+    called
+        .chain([function])
+        .any(|function| reads(function, frame, index))
 }
 
 /// The uniform, and the place of the member in it.
@@ -26,48 +30,13 @@ fn frame_index(module: &Module) -> Option<(Handle<GlobalVariable>, u32)> {
     Some((handle, index as u32))
 }
 
-fn reads(module: &Module, function: &Function, frame: Handle<GlobalVariable>, member: u32) -> bool {
+/// Whether a function by itself reads the member.
+fn reads(function: &Function, frame: Handle<GlobalVariable>, member: u32) -> bool {
     let is_frame = |base: &Handle<Expression>| matches!(&function.expressions[*base], Expression::GlobalVariable(found) if *found == frame);
-    let expressions = || {
-        function
-            .expressions
-            .iter()
-            .map(|(_, expression)| expression)
-    };
-    let by_itself = expressions().any(|expression| match expression {
+    let mut expressions = function.expressions.iter();
+    expressions.any(|(_, expression)| match expression {
         Expression::AccessIndex { base, index } => *index == member && is_frame(base),
         Expression::Load { pointer } => is_frame(pointer),
         _ => false,
-    });
-    let mut called = Vec::new();
-    calls(&function.body, &mut called);
-    by_itself
-        || (called.into_iter())
-            .any(|callee| reads(module, &module.functions[callee], frame, member))
-}
-
-/// The functions that a block calls.
-fn calls(block: &Block, called: &mut Vec<Handle<Function>>) {
-    for statement in block.iter() {
-        match statement {
-            Statement::Call { function, .. } => called.push(*function),
-            Statement::Block(inner) => calls(inner, called),
-            Statement::If { accept, reject, .. } => {
-                calls(accept, called);
-                calls(reject, called);
-            }
-            Statement::Switch { cases, .. } => {
-                for case in cases {
-                    calls(&case.body, called);
-                }
-            }
-            Statement::Loop {
-                body, continuing, ..
-            } => {
-                calls(body, called);
-                calls(continuing, called);
-            }
-            _ => {}
-        }
-    }
+    })
 }

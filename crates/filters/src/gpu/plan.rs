@@ -70,9 +70,7 @@ impl Plan {
             filter: &filter.name,
             pass,
         };
-        let mut targets = gpu.guarded(place("textures"), || {
-            Targets::new(gpu, filter, settings, size)
-        })?;
+        let mut targets = Targets::new(gpu, filter, settings, size)?;
         let times = |pass: &Pass| match &pass.repeat {
             Repeat::Times(times) => *times,
             Repeat::Parameter(name) => settings.count(name),

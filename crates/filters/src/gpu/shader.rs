@@ -1,7 +1,7 @@
 //! What a kernel file declares, found with naga's reflection; needs no adapter.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use wgpu::naga::proc::Layouter;
 use wgpu::naga::valid::{Capabilities, GlobalUse, ModuleInfo, ValidationFlags, Validator};
@@ -10,13 +10,20 @@ use wgpu::naga::{
     ShaderStage, SourceLocation, StorageAccess, StorageFormat, TypeInner, front,
 };
 
+use super::demand::Demand;
+use super::limits::refuse_immense;
+use super::nesting;
 use super::noise::reads_frame_index;
+use super::stack::on_stack;
 use crate::FilterError;
 use crate::filter::Format;
+use crate::text::without_controls;
 
 /// The kernels of a filter with the common part behind them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Shader {
+    /// The filter's file.
+    pub path: PathBuf,
     /// WGSL: the filter's file, then common.wgsl.
     pub source: String,
     /// Resource variables of group 0, in order of declaration.
@@ -94,6 +101,10 @@ pub(crate) struct EntryPoint {
     pub writes: BTreeSet<String>,
     /// Whether it reads the frame's index, from which noise is drawn.
     pub draws_noise: bool,
+    /// What it asks of a device.
+    pub demand: Demand,
+    /// In the WGSL file, from 1.
+    pub line: Option<usize>,
 }
 
 impl EntryPoint {
@@ -109,18 +120,40 @@ pub(crate) fn written(variable: &str) -> &str {
 }
 
 impl Shader {
-    /// Parses and validates the kernels at `path`, with `common` appended after them.
+    /// Parses and validates the kernels at `path`, with `common` appended after them. What recurses too deep is refused
+    /// before naga sees it.
     pub fn parse(path: &Path, kernels: &str, common: &str) -> Result<Self, FilterError> {
+        nesting::check(path, kernels)?;
+        let parsed = on_stack(|| Self::parse_here(path, kernels, common));
+        parsed.unwrap_or_else(|panic| {
+            Err(FilterError::Folder {
+                path: path.to_owned(),
+                line: None,
+                reason: format!(
+                    "naga, which reads WGSL, fails on it: {}; write it otherwise, or make it smaller",
+                    without_controls(&panic)
+                ),
+            })
+        })
+    }
+
+    fn parse_here(path: &Path, kernels: &str, common: &str) -> Result<Self, FilterError> {
         let source = Source {
             path,
             kernel_lines: kernels.trim_end().lines().count(),
             text: format!("{}\n{common}", kernels.trim_end()),
         };
-        let module = front::wgsl::parse_str(&source.text).map_err(|error| {
+        let options = front::wgsl::Options {
+            capabilities: CAPABILITIES,
+            ..front::wgsl::Options::new()
+        };
+        let mut parser = front::wgsl::Frontend::new_with_options(options);
+        let module = parser.parse(&source.text).map_err(|error| {
             let message = error.emit_to_string_with_path(&source.text, source.name());
             source.refuse(error.location(&source.text), &message)
         })?;
-        let info = Validator::new(ValidationFlags::all(), Capabilities::default())
+        source.refuse_overrides(&module)?;
+        let info = Validator::new(ValidationFlags::all(), CAPABILITIES)
             .validate(&module)
             .map_err(|error| {
                 let message = error.emit_to_string_with_path(&source.text, source.name());
@@ -136,11 +169,16 @@ impl Shader {
             .iter()
             .map(|handle| variable(&source, &module, *handle))
             .collect::<Result<Vec<_>, _>>()?;
+        let entry_points = entry_points(&source, &module, &info, &handles, &variables);
+        for entry in &entry_points {
+            refuse_immense(entry).map_err(|reason| source.at(entry.line, reason))?;
+        }
         Ok(Self {
+            path: path.to_owned(),
             uniforms: uniforms(&source, &module),
             reads_reprojection: kernels.contains("before_camera(")
                 || kernels.contains("frame.reprojection"),
-            entry_points: entry_points(&module, &info, &handles, &variables),
+            entry_points,
             variables,
             source: source.text,
         })
@@ -158,6 +196,10 @@ impl Shader {
         self.entry_points.iter().find(|entry| entry.name == name)
     }
 }
+
+/// What every device has; kernels can `enable` nothing more.
+const CAPABILITIES: Capabilities =
+    Capabilities::MULTISAMPLED_SHADING.union(Capabilities::CUBE_ARRAY_TEXTURES);
 
 struct Source<'a> {
     path: &'a Path,
@@ -204,6 +246,32 @@ impl Source<'_> {
         }
     }
 
+    /// Refuses what nothing can set, and what leaves sizes unknown.
+    fn refuse_overrides(&self, module: &Module) -> Result<(), FilterError> {
+        let Some((handle, found)) = module.overrides.iter().next() else {
+            return Ok(());
+        };
+        let line = module.overrides.get_span(handle).location(&self.text);
+        let name = found.name.as_deref().unwrap_or_default();
+        Err(self.at(
+            Some(line.line_number as usize),
+            format!("override \"{name}\" is set by nobody; allowed: const, or a [[parameter]]"),
+        ))
+    }
+
+    /// The line in which a function begins.
+    fn line_of_function(&self, name: &str) -> Option<usize> {
+        let begins = |line: &str| {
+            let mut after = line.split("fn ").skip(1).map(str::trim_start);
+            after.any(|after| {
+                let rest = after.strip_prefix(name);
+                rest.is_some_and(|rest| rest.trim_start().starts_with('('))
+            })
+        };
+        let line = self.text.lines().position(begins)?;
+        Some(line + 1)
+    }
+
     fn line(&self, module: &Module, handle: Handle<GlobalVariable>) -> usize {
         let span = module.global_variables.get_span(handle);
         span.location(&self.text).line_number as usize
@@ -213,7 +281,8 @@ impl Source<'_> {
 /// A message of naga without the word "error" before it, nor blanks at the ends of its lines.
 fn tidy(message: &str) -> String {
     let message = message.strip_prefix("error: ").unwrap_or(message);
-    let lines: Vec<&str> = message.trim_end().lines().map(str::trim_end).collect();
+    let lines = message.trim_end().lines().map(str::trim_end);
+    let lines: Vec<String> = lines.map(without_controls).collect();
     lines.join("\n")
 }
 
@@ -323,8 +392,9 @@ fn uniforms(source: &Source, module: &Module) -> BTreeMap<String, Vec<Member>> {
 }
 
 fn entry_points(
+    source: &Source,
     module: &Module,
-    info: &ModuleInfo,
+    info_of_module: &ModuleInfo,
     handles: &[Handle<GlobalVariable>],
     variables: &[Variable],
 ) -> Vec<EntryPoint> {
@@ -334,7 +404,7 @@ fn entry_points(
         .enumerate()
         .filter(|(_, entry)| entry.stage == ShaderStage::Compute)
         .map(|(index, entry)| {
-            let info = info.get_entry_point(index);
+            let info = info_of_module.get_entry_point(index);
             let used: Vec<usize> = (0..handles.len())
                 .filter(|variable| info[handles[*variable]] != GlobalUse::empty())
                 .collect();
@@ -354,6 +424,8 @@ fn entry_points(
                 reads,
                 writes,
                 draws_noise: reads_frame_index(module, &entry.function),
+                demand: Demand::of(module, info_of_module, index),
+                line: source.line_of_function(&entry.name),
             }
         })
         .collect()

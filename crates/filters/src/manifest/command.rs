@@ -58,7 +58,40 @@ pub(super) fn command(
         program: program.clone(),
         arguments: arguments.to_vec(),
         folder: folder(file)?,
+        environment: Vec::new(),
+        manifest: file.path.to_owned(),
+        line: file.line(words.span().start),
     })
+}
+
+/// The command with the variables that it is to get.
+pub(super) fn environment(
+    file: &File,
+    names: Option<&Spanned<Vec<String>>>,
+    command: Option<Command>,
+) -> Result<Option<Command>, FilterError> {
+    let Some(names) = names else {
+        return Ok(command);
+    };
+    let refuse = |reason: String| Err(file.at(names, format!("environment: {reason}")));
+    let Some(command) = command else {
+        return refuse("is for a program; kernels have none".into());
+    };
+    if let Some(name) = names.get_ref().iter().find(|name| !is_variable(name)) {
+        return refuse(format!(
+            "\"{name}\" names no variable; allowed: letters, digits and _, and no digit first; the value comes from \
+             whoever runs the program"
+        ));
+    }
+    Ok(Some(Command {
+        environment: names.get_ref().clone(),
+        ..command
+    }))
+}
+
+fn is_variable(name: &str) -> bool {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    name.chars().all(is_part) && name.starts_with(|first: char| !first.is_ascii_digit())
 }
 
 /// The folder of filter.toml, such that it holds wherever a program is started.

@@ -8,7 +8,11 @@ use toml::Spanned;
 use super::source::{SourceEntry, source};
 use super::{File, IDENTIFIER, is_identifier};
 use crate::filter::Preset;
+use crate::text::unfit;
 use crate::{FilterError, Kind, Parameter, Scale, Tuned, Unit, Value};
+
+/// How many choices a parameter may have.
+pub const MAX_CHOICES: usize = 64;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -75,13 +79,14 @@ pub(super) fn parameters(
             let reason = "a choice is counted in nothing; leave unit out";
             return Err(file.at(spanned, named(reason.into())));
         }
+        let doc = file.one_line(spanned, &named("doc".into()), &entry.doc)?;
         parameters.push(Parameter {
             name: entry.name.clone(),
             kind,
             default,
             unit: entry.unit,
             tunable: entry.tunable,
-            doc: entry.doc.clone(),
+            doc,
         });
     }
     Ok(parameters)
@@ -90,7 +95,16 @@ pub(super) fn parameters(
 fn kind(entry: &ParameterEntry) -> Result<Kind, String> {
     let scale = entry.scale.unwrap_or_default();
     let [min, max] = match (entry.kind, entry.range, &entry.choices) {
+        (KindWord::Choice, None, Some(choices)) if choices.len() > MAX_CHOICES => {
+            return Err(format!(
+                "{} choices; allowed: at most {MAX_CHOICES}",
+                choices.len()
+            ));
+        }
         (KindWord::Choice, None, Some(choices)) if entry.scale.is_none() => {
+            if let Some(reason) = choices.iter().find_map(|choice| unfit(choice)) {
+                return Err(format!("one of its choices {reason}"));
+            }
             let distinct = |(index, choice): (usize, &String)| !choices[..index].contains(choice);
             return if choices.len() >= 2 && choices.iter().enumerate().all(distinct) {
                 Ok(Kind::Choice {
@@ -109,6 +123,16 @@ fn kind(entry: &ParameterEntry) -> Result<Kind, String> {
     if !(min.is_finite() && max.is_finite() && min < max) {
         return Err(format!(
             "range [{min}, {max}] is empty; allowed: two finite numbers, the smaller first"
+        ));
+    }
+    // Kernels get the value as an f32.
+    let vanishes = |end: f64| end != 0.0 && (end as f32) == 0.0;
+    if [min, max]
+        .iter()
+        .any(|end| !(*end as f32).is_finite() || vanishes(*end))
+    {
+        return Err(format!(
+            "range [{min:e}, {max:e}] has an end that no f32 holds; allowed: 0, or from 1e-45 to 3.4e38 on either side of it"
         ));
     }
     if scale == Scale::Log && min <= 0.0 {
@@ -141,6 +165,13 @@ pub(super) fn presets(
             );
             return Err(file.at(spanned, reason));
         }
+        let doc = format!("preset \"{}\": doc", entry.name);
+        let doc = file.one_line(spanned, &doc, &entry.doc)?;
+        if let Some(tuned) = &entry.tuned {
+            for text in [&tuned.by, &tuned.from].into_iter().chain(&tuned.scenes) {
+                file.one_line(spanned, &format!("preset \"{}\": tuned", entry.name), text)?;
+            }
+        }
         let mut values = BTreeMap::new();
         for (name, given) in &entry.values {
             let named = |reason: String| {
@@ -167,7 +198,7 @@ pub(super) fn presets(
         }
         presets.push(Preset {
             name: entry.name.clone(),
-            doc: entry.doc.clone(),
+            doc,
             source: source(file, &entry.name, entry.source.as_ref())?,
             reference_width: reference_width(file, entry, parameters)?,
             values,

@@ -37,6 +37,10 @@ enum RepeatEntry {
     Parameter(String),
 }
 
+/// How often all passes of a filter may run in sum, each with the largest value that its `repeat` may have. A GPU stamps no
+/// more times in one go.
+pub const MAX_DISPATCHES: u32 = 4095;
+
 /// Names that kernels use for what the runner gives them, and for what it takes.
 const BUILTIN_VARIABLES: [&str; 6] = [
     "color",
@@ -105,6 +109,7 @@ pub(super) fn passes(
     parameters: &[Parameter],
 ) -> Result<Vec<Pass>, FilterError> {
     let mut passes = Vec::new();
+    let mut dispatches = 0u32;
     for spanned in entries {
         let PassEntry {
             entry,
@@ -138,6 +143,14 @@ pub(super) fn passes(
                 Repeat::Parameter(parameter.clone())
             }
         };
+        let times = most_often(&repeat, parameters);
+        dispatches = dispatches.saturating_add(times);
+        if dispatches > MAX_DISPATCHES {
+            return Err(named(format!(
+                "runs up to {times} times, and all passes to here {dispatches} times in sum; allowed: at most \
+                 {MAX_DISPATCHES}; lower repeat, or the range of its parameter"
+            )));
+        }
         passes.push(Pass {
             entry: entry.clone(),
             over: over.clone(),
@@ -146,6 +159,20 @@ pub(super) fn passes(
         });
     }
     Ok(passes)
+}
+
+/// How often a pass runs with the largest value that is allowed.
+fn most_often(repeat: &Repeat, parameters: &[Parameter]) -> u32 {
+    match repeat {
+        Repeat::Times(times) => *times,
+        Repeat::Parameter(name) => {
+            let mut known = parameters.iter().filter(|known| known.name == *name);
+            match known.next().map(|known| &known.kind) {
+                Some(Kind::Integer { max, .. }) => u32::try_from(*max).unwrap_or(0),
+                _ => unreachable!("the parameter was found to be an integer"),
+            }
+        }
+    }
 }
 
 /// Whether a parameter can say how often or how large.

@@ -31,6 +31,7 @@ pub(super) fn source(
     let entry = spanned.get_ref();
     let named = |reason: &str| format!("preset \"{preset}\": source: {reason}");
     for text in (entry.publication.iter()).chain(&entry.differs) {
+        file.one_line(text, &named("text"), text.get_ref())?;
         if text.get_ref().trim().is_empty() {
             let reason = "an empty text; allowed: a sentence, or leave it out";
             return Err(file.at(text, named(reason)));
@@ -82,6 +83,10 @@ fn code(
     named: impl Fn(&str) -> String,
 ) -> Result<Code, FilterError> {
     let address = repository.get_ref();
+    file.one_line(repository, &named("repository"), address)?;
+    for path in paths.get_ref() {
+        file.one_line(paths, &named("paths"), path)?;
+    }
     if address.strip_prefix("https://").is_none_or(str::is_empty) {
         let reason =
             format!("repository = \"{address}\"; allowed: an address that begins with https://");

@@ -10,7 +10,7 @@ use super::{
     BENCH_FORMAT, Bench, CaseCost, CopyCost, EXPOSURE, GROWTH_FROM, PassCost, REACHES, ReachCost,
     ReachPoint, SPEED, Spread,
 };
-use crate::selection::{FilterChoice, select_filters};
+use crate::selection::{FilterChoice, Programs, select_filters};
 use crate::{Error, PROGRAM};
 
 /// Filter and preset that times are divided by.
@@ -37,8 +37,10 @@ type Times = Vec<PassTime>;
 /// falls on all of them alike; a round before the first is not counted.
 pub fn bench(mut plan: BenchPlan, gpu: &Gpu, watch: Watch) -> Result<Bench, Error> {
     if !plan.filters.iter().any(|choice| choice.name() == BASELINE) {
-        plan.filters
-            .splice(0..0, select_filters(&[BASELINE.to_owned()], None, &[])?);
+        plan.filters.splice(
+            0..0,
+            select_filters(&[BASELINE.to_owned()], None, &[], Programs::Refused)?,
+        );
     }
     let (width, as_written) = (plan.width, plan.as_written);
     plan.filters = (plan.filters.into_iter())

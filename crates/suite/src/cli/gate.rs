@@ -9,9 +9,42 @@ use metrics::Metric;
 use super::{AdapterArgs, MeasureArgs};
 use crate::words::{glob, runs};
 
+/// Options of a check that measures, which a finished run has been made with.
+const MEASURING: [&str; 21] = [
+    "scenes",
+    "samples_per_pixel",
+    "exposure",
+    "velocity",
+    "color",
+    "sky_velocity",
+    "guard_band",
+    "seed",
+    "out",
+    "filters",
+    "filter",
+    "preset",
+    "set",
+    "as_written",
+    "size",
+    "replicates",
+    "velocity_format",
+    "depth_format",
+    "border",
+    "jitter_frames",
+    "adapter",
+];
+
 /// `shuttertruth check`
 #[derive(Debug, Args)]
 pub struct CheckArgs {
+    /// A finished run to judge: its run.json, or its folder. Nothing is rendered, and no adapter is opened [default: run the
+    /// cases and judge them].
+    #[arg(value_name = "RUN", conflicts_with_all = MEASURING)]
+    pub run: Option<PathBuf>,
+    /// Look for the worst place of every bound that RUN does not keep, and for the wrong blur that its picture is like; a
+    /// check that measures always does.
+    #[arg(long, requires = "run")]
+    pub evidence: bool,
     #[command(flatten)]
     pub measure: MeasureArgs,
     #[command(flatten)]

@@ -1,13 +1,16 @@
 //! `shuttertruth bench`
 
-use suite::{Bench, BenchPlan, Error, bench, bench_table, open_adapter, select_filters, with_bar};
+use suite::{
+    Bench, BenchPlan, Error, Programs, bench, bench_table, open_adapter, select_filters, with_bar,
+};
 
 use super::say;
 use crate::cli::BenchArgs;
 
 /// Times what is named, writes `bench.json`, prints the tables.
 pub fn execute(args: &BenchArgs) -> Result<(), Error> {
-    let filters = select_filters(&args.filters, None, &[])?;
+    // Programs are refused below, for another reason.
+    let filters = select_filters(&args.filters, None, &[], Programs::Allowed)?;
     if let Some(choice) = filters.iter().find(|it| it.filter.command.is_some()) {
         return Err(Error::Usage(format!(
             "filter {} is a program, which has no passes to time; leave it out of --filters",
@@ -32,7 +35,10 @@ pub fn execute(args: &BenchArgs) -> Result<(), Error> {
         return say(&format!("{json}\n"));
     }
     say(&bench_table(&done))?;
-    say(&format!("\nwritten: {}\n", path(args).display()))
+    say(&format!(
+        "\nwritten: {}\n",
+        suite::printable_path(&path(args))
+    ))
 }
 
 /// Returns what stands in the file.

@@ -1,13 +1,12 @@
 //! `shuttertruth calibrate`
 
-use std::collections::BTreeMap;
-
 use suite::{
-    Error, Plan, Run, SceneBounds, calibrate, check_names, open_gpu, refuse_failures, run, with_bar,
+    Error, Plan, Run, calibrate, check_names, open_gpu, printable_path, refuse_failures, run,
+    with_bar,
 };
 use tracer::{Progress, Watch};
 
-use super::measure::{check_replicates, plan, write_run};
+use super::measure::{check_replicates, claim_out, plan, write_run};
 use super::say;
 use crate::cli::CalibrateArgs;
 
@@ -15,25 +14,26 @@ use crate::cli::CalibrateArgs;
 /// bounds.toml.
 pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     let out = &args.measure.scenes.out;
-    let mut plan = plan(&args.measure, out.clone())?;
+    let (mut plan, bounds) = plan(&args.measure, out.clone())?;
     check_replicates(plan.render.replicates)?;
     plan.intervals = true;
     // No limit is on a filter's noise apart from its error.
     plan.jitter_frames = 0;
-    let bounds = plan.scenes.iter().map(|(_, bounds)| bounds);
-    check_names(&args.measure.scenes.scenes_dir, bounds, &plan.filters)?;
+    check_names(
+        &args.measure.scenes.scenes_dir,
+        bounds.values(),
+        &plan.filters,
+    )?;
+    let _claim = claim_out(&plan)?;
     let runs = with_bar("runs in all", plan.quiet, |watch| {
         all_runs(args, &mut plan, watch)
     })?;
-    let bounds: BTreeMap<&str, &SceneBounds> = (plan.scenes.iter())
-        .map(|(scene, bounds)| (scene.name.as_str(), bounds))
-        .collect();
-    let calibration = calibrate(&runs, |case| bounds[case.scene.as_str()], &args.metrics);
+    let calibration = calibrate(&runs, |case| &bounds[&case.scene], &args.metrics);
     for scene in calibration.scores.keys() {
         let path = out.join(scene).with_extension("bounds.toml");
         let text = calibration.toml(scene);
         frame::write_atomically(&path, text.as_bytes())?;
-        say(&format!("# {}\n\n{text}", path.display()))?;
+        say(&format!("# {}\n\n{text}", printable_path(&path)))?;
     }
     Ok(())
 }
@@ -43,6 +43,13 @@ fn all_runs(args: &CalibrateArgs, plan: &mut Plan, watch: Watch) -> Result<Vec<R
     let adapters = adapters(args);
     let total = adapters.len() as u64 * u64::from(args.runs);
     let first = plan.render.seed;
+    if first.checked_add(u64::from(args.runs)).is_none() {
+        return Err(Error::Usage(format!(
+            "--seed {first}: each of the {} runs has the next one; allowed is up to {}",
+            args.runs,
+            u64::MAX - u64::from(args.runs)
+        )));
+    }
     let mut runs: Vec<Run> = Vec::new();
     for adapter in adapters {
         let gpu = open_gpu(&plan.filters, adapter)?;
@@ -55,6 +62,7 @@ fn all_runs(args: &CalibrateArgs, plan: &mut Plan, watch: Watch) -> Result<Vec<R
             plan.render.seed = seed;
             // The truths serve every adapter.
             plan.out = args.measure.scenes.out.join(format!("seed_{seed}"));
+            let _claim = claim_out(plan)?;
             let run = run(plan, gpu.as_ref(), std::env::args().collect())?;
             write_run(&run, &plan.out)?;
             refuse_failures(&run.failures)?;

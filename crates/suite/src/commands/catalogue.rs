@@ -2,7 +2,7 @@
 
 use suite::{Error, catalogue, open_gpu, refuse_failures, run};
 
-use super::measure::plan;
+use super::measure::{claim_out, plan};
 use super::say;
 use crate::cli::CatalogueArgs;
 
@@ -17,11 +17,12 @@ pub fn execute(args: &CatalogueArgs) -> Result<(), Error> {
     }
     // The page shows no noise.
     measure.jitter_frames = 0;
-    let plan = plan(&measure, measure.scenes.out.clone())?;
+    let (plan, _) = plan(&measure, measure.scenes.out.clone())?;
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref())?;
+    let _claim = claim_out(&plan)?;
     let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
     let page = plan.out.join("catalogue.md");
     frame::write_atomically(&page, catalogue(&run).as_bytes())?;
-    say(&format!("written: {}\n", page.display()))?;
+    say(&format!("written: {}\n", suite::printable_path(&page)))?;
     refuse_failures(&run.failures)
 }

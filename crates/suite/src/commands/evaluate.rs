@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use filters::{Settings, Value};
-use suite::{Answer, Error, FilterChoice, Objective, answer, evaluator, shots};
+use frame::{FileError, read_bounded};
+use suite::{Answer, Error, FilterChoice, MOST_JSON_BYTES, Objective, Sharing, answer, evaluator};
 
 use super::measure::scenes;
 use super::say;
-use super::tune::{open, render, select_candidate};
+use super::tune::{claimed_shots, open, select_candidate};
 use crate::cli::EvaluateArgs;
 
 /// Scores one set of parameters on every scene and prints JSON.
@@ -18,8 +19,7 @@ pub fn execute(args: &EvaluateArgs) -> Result<(), Error> {
     let settings = read_params(&args.params, &choice)?;
     let scenes = scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
     let gpu = open(&choice, candidate)?;
-    let args = &candidate.scenes;
-    let shots = shots(&scenes, &choice, &render(candidate)?, &args.out, args.quiet)?;
+    let (_, shots) = claimed_shots(&scenes, &choice, candidate, Sharing::Together)?;
     let bleed = candidate.objective.contains(&Objective::Bleed);
     let mut evaluator = evaluator(&shots, &choice, gpu.as_ref(), bleed)?;
     let cost = candidate.objective.contains(&Objective::Cost);
@@ -31,8 +31,11 @@ pub fn execute(args: &EvaluateArgs) -> Result<(), Error> {
 
 fn read_params(path: &Path, choice: &FilterChoice) -> Result<Settings, Error> {
     let refuse = |reason: String| Error::Usage(format!("{}: {reason}", path.display()));
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| refuse(format!("cannot be read: {error}")))?;
+    let bytes = read_bounded(path, MOST_JSON_BYTES).map_err(|error| match error {
+        FileError::Io { source, .. } => refuse(format!("cannot be read: {source}")),
+        other => other.into(),
+    })?;
+    let text = String::from_utf8(bytes).map_err(|error| refuse(error.to_string()))?;
     let values: BTreeMap<String, Value> = serde_json::from_str(&text).map_err(|error| {
         refuse(format!(
             "{error}; allowed is one table of parameters, such as {{\"samples\": 12}}"

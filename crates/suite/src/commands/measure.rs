@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use filters::AdapterDescription;
 use suite::{
-    Error, FEWEST_REPLICATES, FilterChoice, InputFormat, Plan, RenderSettings, Run, SceneBounds,
-    read_bounds, select_filters, select_scenes,
+    Claim, Error, FEWEST_REPLICATES, FilterChoice, Finding, InputFormat, Judgement, Plan,
+    RenderSettings, Run, RunBounds, SceneBounds, Sharing, claim, read_bounds, select_filters,
+    select_scenes,
 };
 
 use tracer::Scene;
@@ -13,23 +14,32 @@ use tracer::Scene;
 use super::{render_settings, tell_notes};
 use crate::cli::MeasureArgs;
 
-/// Loads scenes with their bounds, and filters; renders nothing. Scores are to have neither intervals nor evidence.
-pub fn plan(args: &MeasureArgs, out: PathBuf) -> Result<Plan, Error> {
+/// Loads scenes with their bounds, and filters; renders nothing. Scores are to have no intervals.
+pub fn plan(args: &MeasureArgs, out: PathBuf) -> Result<(Plan, RunBounds), Error> {
     let scenes = scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
+    let bounds = (scenes.iter())
+        .map(|(scene, bounds)| (scene.name.clone(), bounds.clone()))
+        .collect();
     let filters = filters(args)?;
     let usual = RenderSettings::default();
     let size = args.size.unwrap_or((usual.width, usual.height));
-    Ok(Plan {
-        scenes,
+    let plan = Plan {
+        scenes: scenes.into_iter().map(|(scene, _)| scene).collect(),
         filters,
         inputs: InputFormat::one_by_one(&args.velocity_format, &args.depth_format, &args.border),
         jitter_frames: args.jitter_frames,
         render: render_settings(&args.scenes, size, args.replicates)?,
         out,
         intervals: false,
-        evidence: false,
+        no_cache: args.no_cache,
         quiet: args.scenes.quiet,
-    })
+    };
+    Ok((plan, bounds))
+}
+
+/// Claims the folder of a run for this process alone.
+pub fn claim_out(plan: &Plan) -> Result<Claim, Error> {
+    claim(&plan.out, &plan.scenes, Sharing::Alone)
 }
 
 /// Scenes with their bounds, of the folder `root`; all of it where there are no words.
@@ -49,7 +59,12 @@ fn filters(args: &MeasureArgs) -> Result<Vec<FilterChoice>, Error> {
     let words: Vec<String> = (args.filters.iter().cloned())
         .chain(folders.map(|folder| folder.display().to_string()))
         .collect();
-    let filters = select_filters(&words, args.preset.as_deref(), &args.set)?;
+    let filters = select_filters(
+        &words,
+        args.preset.as_deref(),
+        &args.set,
+        args.programs.programs(),
+    )?;
     Ok((filters.into_iter())
         .map(|choice| choice.as_written(args.as_written))
         .collect())
@@ -69,6 +84,13 @@ pub fn check_replicates(replicates: u32) -> Result<(), Error> {
 pub fn write_run(run: &Run, out: &Path) -> Result<String, Error> {
     let json = serde_json::to_string_pretty(run).expect("a run is plain data");
     frame::write_atomically(&out.join("run.json"), json.as_bytes())?;
+    Ok(json)
+}
+
+/// Writes `run.json` and the findings about it; returns what stands in `run.json`.
+pub fn write_judged(run: &Run, findings: &[Finding], out: &Path) -> Result<String, Error> {
+    let json = write_run(run, out)?;
+    Judgement::new(out, findings.to_vec())?.write(out)?;
     Ok(json)
 }
 

@@ -9,6 +9,7 @@ mod check;
 mod compare;
 mod evaluate;
 mod import;
+mod lines;
 mod list;
 mod measure;
 mod merge;
@@ -22,8 +23,9 @@ mod tune;
 use std::collections::BTreeSet;
 use std::io::{ErrorKind, Write};
 
-use suite::{Error, RenderSettings};
-use tracer::Scene;
+use clap::CommandFactory;
+use suite::{Error, MOST_REPLICATES, RenderSettings, printable, printable_table, tell};
+use tracer::{MOST_SAMPLES, Scene};
 
 use crate::cli::{Cli, Command, SceneArgs, Switch};
 
@@ -64,16 +66,28 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         }
         Some(Command::Import(args)) => import::execute(&args),
         Some(Command::List(args)) => list::execute(&args),
-        None => Err(Error::Usage(
-            "no command given; allowed: run, check, accept, calibrate, render, merge, blur, score, report, compare, bench, tune, evaluate, serve, catalogue, import, list (see --help)"
-                .to_owned(),
-        )),
+        None => Err(Error::Usage(format!(
+            "no command given; allowed: {} (see --help)",
+            command_names().join(", ")
+        ))),
     }
 }
 
-/// Prints to standard output, in colours where that is a terminal that shows them. A reader that has read enough, such as `head`, is no error.
+/// The words of all commands, in the order of the help.
+fn command_names() -> Vec<String> {
+    let program = Cli::command();
+    let names = program
+        .get_subcommands()
+        .map(|command| command.get_name().to_owned());
+    names.collect()
+}
+
+/// Prints to standard output, in colours where that is a terminal that shows them; other control characters become escapes. A
+/// reader that has read enough, such as `head`, is no error.
 fn say(text: &str) -> Result<(), Error> {
-    match anstream::stdout().write_all(text.as_bytes()) {
+    let mut out = anstream::stdout();
+    let text = printable_table(text);
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Error::Usage(format!(
             "standard output: cannot write: {error}"
         ))),
@@ -83,15 +97,12 @@ fn say(text: &str) -> Result<(), Error> {
 
 /// Threads that one command may have.
 const MOST_THREADS: usize = 1024;
-/// Samples per pixel of a truth of the usual number of replicates: a frame has as many, and random numbers for no more.
-const MOST_SAMPLES: u32 = 65_536;
 
 /// Tells on standard error what scenes hold that is left out, each once.
 fn tell_notes<'a>(scenes: impl IntoIterator<Item = &'a Scene>) {
     let notes: BTreeSet<&String> = scenes.into_iter().flat_map(|scene| &scene.notes).collect();
     for note in notes {
-        // What cannot be told is not worth ending the work for.
-        let _ = writeln!(std::io::stderr(), "shuttertruth: note: {note}");
+        tell(&format!("shuttertruth: note: {}", printable(note)));
     }
 }
 
@@ -122,6 +133,7 @@ fn render_settings(
         check_exposure(exposure)?;
     }
     check_samples(args.samples_per_pixel)?;
+    check_replicates(replicates)?;
     Ok(RenderSettings {
         width,
         height,
@@ -139,6 +151,7 @@ fn render_settings(
 
 fn check_samples(samples_per_pixel: u32) -> Result<(), Error> {
     let replicates = RenderSettings::default().replicates;
+    // A frame has as many samples as all replicates of a truth.
     let most = MOST_SAMPLES / replicates;
     let each = samples_per_pixel / replicates;
     if each.is_power_of_two() && each <= most && each * replicates == samples_per_pixel {
@@ -146,8 +159,18 @@ fn check_samples(samples_per_pixel: u32) -> Result<(), Error> {
     }
     let nearest = each.clamp(1, most).next_power_of_two() * replicates;
     Err(Error::Usage(format!(
-        "--samples-per-pixel {samples_per_pixel}: allowed is {replicates} times a power of two up to {most}, such as {nearest}"
+        "--samples-per-pixel {samples_per_pixel}: allowed is {replicates} times a power of two, up to {MOST_SAMPLES}, such as {nearest}"
     )))
+}
+
+/// Two halves of at least one each, and no more than a truth's files can be numbered by.
+fn check_replicates(replicates: u32) -> Result<(), Error> {
+    match (2..=MOST_REPLICATES).contains(&replicates) && replicates.is_multiple_of(2) {
+        true => Ok(()),
+        false => Err(Error::Usage(format!(
+            "--replicates {replicates}: allowed are even numbers from 2 to {MOST_REPLICATES}, such as 8"
+        ))),
+    }
 }
 
 fn check_exposure(exposure: f64) -> Result<(), Error> {

@@ -2,8 +2,8 @@
 
 use frame::Truth;
 use suite::{
-    Error, RenderSettings, SceneChoice, deciding_floor, frame_of, part_of, scene_folder,
-    select_scenes, truth_of, truth_until,
+    Error, MOST_REPLICATES, RenderSettings, SceneChoice, Sharing, claim, deciding_floor, frame_of,
+    part_of, printable_path, scene_folder, select_scenes, truth_of, truth_until,
 };
 use tracer::Scene;
 
@@ -12,6 +12,12 @@ use crate::cli::{RenderArgs, Replicates};
 
 /// Renders each scene's frame and its truths, or a part of them, and says where they are and how noisy.
 pub fn execute(args: &RenderArgs) -> Result<(), Error> {
+    if args.most_replicates > MOST_REPLICATES {
+        return Err(Error::Usage(format!(
+            "--most-replicates {}: allowed is up to {MOST_REPLICATES}",
+            args.most_replicates
+        )));
+    }
     let mut noisy = Vec::new();
     let choices = select_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
     tell_notes(choices.iter().map(|choice| &choice.scene));
@@ -21,13 +27,14 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
             Replicates::Part(indices) if args.noise.is_none() => {
                 let settings = settings(args, &scene, RenderSettings::default().replicates)?;
                 let (out, quiet) = (&args.scenes.out, args.scenes.quiet);
+                let _claim = claim(out, [&scene], Sharing::Together)?;
                 if indices.start == 0 {
                     frame_of(&scene, &settings, out, quiet)?;
                 }
                 for alignment in &args.alignments {
                     part_of(&scene, &settings, *alignment, indices.clone(), out, quiet)?;
                 }
-                say(&format!("{}\n", scene_folder(out, &scene).display()))?;
+                say(&format!("{}\n", printable_path(&scene_folder(out, &scene))))?;
             }
             Replicates::Part(_) => {
                 return Err(Error::Usage(
@@ -47,9 +54,10 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
 fn whole(args: &RenderArgs, scene: &Scene, count: u32) -> Result<Vec<String>, Error> {
     let settings = settings(args, scene, count)?;
     let (out, quiet) = (&args.scenes.out, args.scenes.quiet);
+    let _claim = claim(out, [scene], Sharing::Together)?;
     frame_of(scene, &settings, out, quiet)?;
     let mut noisy = Vec::new();
-    let mut report = format!("{}\n", scene_folder(out, scene).display());
+    let mut report = format!("{}\n", printable_path(&scene_folder(out, scene)));
     for &alignment in &args.alignments {
         let truth = match args.noise {
             None => truth_of(scene, &settings, alignment, out, quiet)?,

@@ -2,7 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use suite::{Error, LARGEST_PAGE, Run, TuneFolder, report, tuning_page, with_bar, write_layers};
+use suite::{
+    Error, Finding, Judgement, LARGEST_PAGE, Run, TuneFolder, printable_path, report, tuning_page,
+    with_bar, write_layers,
+};
 
 use super::say;
 use crate::cli::ReportArgs;
@@ -24,7 +27,7 @@ pub fn execute(args: &ReportArgs) -> Result<(), Error> {
         let (count, size) = (layers.len(), bytes as f64 / 1e6);
         text += &format!(
             "written: {count} files below {} ({size:.1} MB)\n",
-            folder.display()
+            printable_path(folder)
         );
     }
     say(&text)
@@ -57,7 +60,11 @@ fn of_run(args: &ReportArgs, path: &Path) -> Result<(Vec<Written>, Vec<Written>)
     let run = Run::read(path)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let pages = match &args.html {
-        Some(html) => write_report_files(&run, folder, html)?,
+        Some(html) => {
+            let judgement = Judgement::read(&run, folder)?;
+            let findings = judgement.map_or_else(Vec::new, |judgement| judgement.findings);
+            write_report_files(&run, &findings, folder, html)?
+        }
         None => Vec::new(),
     };
     let layers = match &args.exr {
@@ -105,21 +112,31 @@ impl Written {
     pub fn line(&self) -> String {
         format!(
             "written: {} ({:.1} MB)\n",
-            self.path.display(),
+            printable_path(&self.path),
             self.bytes as f64 / 1e6
         )
     }
 }
 
 /// Writes the page of a run whose pictures lie below `folder`; returns the lines that say so.
-pub fn write_report(run: &Run, folder: &Path, html: &Path) -> Result<String, Error> {
-    let written = write_report_files(run, folder, html)?;
+pub fn write_report(
+    run: &Run,
+    findings: &[Finding],
+    folder: &Path,
+    html: &Path,
+) -> Result<String, Error> {
+    let written = write_report_files(run, findings, folder, html)?;
     Ok(written.iter().map(Written::line).collect())
 }
 
 /// Writes the page of a run, and whatever has to lie beside it.
-fn write_report_files(run: &Run, folder: &Path, html: &Path) -> Result<Vec<Written>, Error> {
-    let report = report(run, folder, html, LARGEST_PAGE)?;
+fn write_report_files(
+    run: &Run,
+    findings: &[Finding],
+    folder: &Path,
+    html: &Path,
+) -> Result<Vec<Written>, Error> {
+    let report = report(run, findings, folder, html, LARGEST_PAGE)?;
     report.write()?;
     let beside = report.siblings.into_iter().map(|(path, _)| path);
     (std::iter::once(report.html).chain(beside))

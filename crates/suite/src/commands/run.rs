@@ -3,46 +3,48 @@
 use std::path::Path;
 
 use suite::{
-    Error, Outcome, Run, failures_text, open_gpu, push_wrapped, refuse_failures, run, table,
+    Error, Finding, Outcome, Run, failures_text, judge, open_gpu, printable_path, push_wrapped,
+    refuse_failures, run, table,
 };
 
-use super::measure::{adapter_line, plan, write_run};
+use super::measure::{adapter_line, claim_out, plan, write_judged};
 use super::report::write_report;
 use super::say;
 use crate::cli::RunArgs;
 
 /// Loads what is named, runs every case, writes `run.json` and the page, prints the table.
 pub fn execute(args: &RunArgs) -> Result<(), Error> {
-    let mut plan = plan(&args.measure, args.measure.scenes.out.clone())?;
+    let (plan, mut bounds) = plan(&args.measure, args.measure.scenes.out.clone())?;
     let size = (plan.render.width, plan.render.height);
-    for (_, bounds) in &mut plan.scenes {
+    for bounds in bounds.values_mut() {
         *bounds = std::mem::take(bounds).at(size);
     }
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref())?;
+    let _claim = claim_out(&plan)?;
     let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
-    let json = write_run(&run, &plan.out)?;
+    let findings = judge(&run, &bounds);
+    let json = write_judged(&run, &findings, &plan.out)?;
     let page = (args.html.as_deref())
-        .map(|html| write_report(&run, &plan.out, html))
+        .map(|html| write_report(&run, &findings, &plan.out, html))
         .transpose()?;
     if args.json {
         say(&format!("{json}\n"))?;
     } else {
         let scores = table(&run) + &failures_text(&run.failures);
-        say(&(scores + &closing(&run, &plan.out) + &page.unwrap_or_default()))?;
+        say(&(scores + &closing(&run, &findings, &plan.out) + &page.unwrap_or_default()))?;
     }
     refuse_failures(&run.failures)
 }
 
-/// What the table does not say: bounds, adapter, where the files are.
-fn closing(run: &Run, out: &Path) -> String {
-    let verdicts = || run.cases.iter().flat_map(|case| &case.verdicts);
-    let broken = verdicts()
-        .filter(|verdict| matches!(verdict.outcome, Outcome::Broken { .. }))
-        .count();
-    let noisy = verdicts()
-        .filter(|verdict| matches!(verdict.outcome, Outcome::TooNoisy { .. }))
-        .count();
-    let mut bounds = format!("{broken} of {} bounds broken", verdicts().count());
+/// Counts of bounds, the adapter, and the path of run.json.
+fn closing(run: &Run, findings: &[Finding], out: &Path) -> String {
+    let count = |outcome| {
+        (findings.iter())
+            .filter(|finding| finding.outcome == outcome)
+            .count()
+    };
+    let (broken, noisy) = (count(Outcome::Broken), count(Outcome::TooNoisy));
+    let mut bounds = format!("{broken} of {} bounds broken", findings.len());
     if noisy > 0 {
         bounds += &format!(
             "; {noisy} narrower than 3 noise floors: raise --samples-per-pixel or --replicates (now {} samples per pixel in all)",
@@ -54,7 +56,7 @@ fn closing(run: &Run, out: &Path) -> String {
     text += &format!(
         "adapter: {}\nwritten: {}\n",
         adapter_line(&run.adapter),
-        out.join("run.json").display()
+        printable_path(&out.join("run.json"))
     );
     text
 }

@@ -1,19 +1,32 @@
 //! `shuttertruth serve`
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
-use std::io::BufRead;
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
+use std::time::Duration;
 
 use filters::Value;
 use serde::Deserialize;
 use serde_json::json;
-use suite::{Error, Evaluator, Objective, SceneScore, answer, evaluator, shots};
+use suite::{Error, Evaluator, Objective, SceneScore, Sharing, answer, evaluator, interrupted};
 
 use super::evaluate::changed;
+use super::lines::{Line, lines};
 use super::measure::scenes;
 use super::say;
-use super::tune::{open, render, select_candidate};
+use super::tune::{claimed_shots, open, select_candidate};
 use crate::cli::ServeArgs;
+
+/// Requests that wait for their turn; what comes on top of them is read later.
+const MOST_WAITING: usize = 1024;
+
+/// Cancelled requests that have not come yet.
+const MOST_CANCELLED: usize = 65_536;
+
+/// Characters of a line that an error shows.
+const SHOWN: usize = 200;
+
+/// Between two looks for Ctrl-C while nothing comes.
+const PAUSE: Duration = Duration::from_millis(50);
 
 /// One line of standard input.
 #[derive(Deserialize)]
@@ -36,8 +49,8 @@ pub fn execute(args: &ServeArgs) -> Result<(), Error> {
     let choice = select_candidate(candidate)?;
     let scenes = scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
     let gpu = open(&choice, candidate)?;
-    let args = &candidate.scenes;
-    let shots = shots(&scenes, &choice, &render(candidate)?, &args.out, args.quiet)?;
+    // The folder is free again as soon as all is read.
+    let (_, shots) = claimed_shots(&scenes, &choice, candidate, Sharing::Together)?;
     let bleed = candidate.objective.contains(&Objective::Bleed);
     let mut service = Service {
         evaluator: evaluator(&shots, &choice, gpu.as_ref(), bleed)?,
@@ -64,7 +77,7 @@ struct Service<'a> {
 
 /// Requests that are not yet answered.
 struct Inbox {
-    lines: Receiver<String>,
+    lines: Receiver<Line>,
     waiting: VecDeque<Scoring>,
     cancelled: BTreeSet<u64>,
 }
@@ -119,9 +132,13 @@ impl Inbox {
     fn next(&mut self) -> Result<Option<Scoring>, Error> {
         self.read()?;
         while self.waiting.is_empty() {
-            match self.lines.recv() {
-                Ok(text) => self.take(&text)?,
-                Err(_) => return Ok(None),
+            match self.lines.recv_timeout(PAUSE) {
+                Ok(text) => self.take(text)?,
+                Err(RecvTimeoutError::Disconnected) => return Ok(None),
+                Err(RecvTimeoutError::Timeout) if interrupted() => {
+                    return Err(filters::FilterError::Interrupted.into());
+                }
+                Err(RecvTimeoutError::Timeout) => {}
             }
         }
         Ok(self.waiting.pop_front())
@@ -129,22 +146,31 @@ impl Inbox {
 
     /// Takes in whatever has arrived.
     fn read(&mut self) -> Result<(), Error> {
-        loop {
+        while self.waiting.len() < MOST_WAITING {
             match self.lines.try_recv() {
-                Ok(text) => self.take(&text)?,
+                Ok(text) => self.take(text)?,
                 Err(TryRecvError::Empty | TryRecvError::Disconnected) => return Ok(()),
             }
         }
+        Ok(())
     }
 
-    fn take(&mut self, text: &str) -> Result<(), Error> {
-        if text.trim().is_empty() {
-            return Ok(());
-        }
-        match serde_json::from_str(text) {
+    fn take(&mut self, text: Line) -> Result<(), Error> {
+        let text = match text {
+            Ok(text) if text.trim().is_empty() => return Ok(()),
+            Ok(text) => text,
+            Err(reason) => return line(json!({"error": reason})),
+        };
+        match serde_json::from_str(&text) {
             Ok(Request::Score { id, params, scenes }) => {
                 self.waiting.push_back(Scoring { id, params, scenes });
                 Ok(())
+            }
+            Ok(Request::Cancel { cancel }) if self.cancelled.len() >= MOST_CANCELLED => {
+                let reason = format!(
+                    "{MOST_CANCELLED} requests that have not come are cancelled already, which is the most"
+                );
+                line(json!({"id": cancel, "error": reason}))
             }
             Ok(Request::Cancel { cancel }) => {
                 self.cancelled.insert(cancel);
@@ -152,8 +178,9 @@ impl Inbox {
             }
             Err(_) => line(json!({
                 "error": format!(
-                    "{text}: allowed are {{\"id\": 7, \"params\": {{\"samples\": 12}}, \"scenes\": [\"fan\"]}} and \
-                     {{\"cancel\": 7}}, each on a line of its own"
+                    "{}: allowed are {{\"id\": 7, \"params\": {{\"samples\": 12}}, \"scenes\": [\"fan\"]}} and \
+                     {{\"cancel\": 7}}, each on a line of its own",
+                    beginning(&text)
                 )
             })),
         }
@@ -164,6 +191,12 @@ fn scene_indices(known: &[String], names: Option<Vec<String>>) -> Result<Vec<usi
     let Some(names) = names else {
         return Ok((0..known.len()).collect());
     };
+    let mut seen = BTreeSet::new();
+    if let Some(twin) = names.iter().find(|name| !seen.insert(*name)) {
+        return Err(Error::Usage(format!(
+            "scenes: \"{twin}\" is named twice; allowed: each once"
+        )));
+    }
     (names.iter())
         .map(|name| {
             let index = known.iter().position(|it| it == name);
@@ -177,17 +210,12 @@ fn scene_indices(known: &[String], names: Option<Vec<String>>) -> Result<Vec<usi
         .collect()
 }
 
-/// Standard input, read while scenes are scored.
-fn lines() -> Receiver<String> {
-    let (sender, receiver) = channel();
-    std::thread::spawn(move || {
-        for text in std::io::stdin().lock().lines().map_while(Result::ok) {
-            if sender.send(text).is_err() {
-                return;
-            }
-        }
-    });
-    receiver
+/// As much of a line as an error shows.
+fn beginning(text: &str) -> String {
+    match text.char_indices().nth(SHOWN) {
+        None => text.to_owned(),
+        Some((end, _)) => format!("{}..", &text[..end]),
+    }
 }
 
 fn line(value: serde_json::Value) -> Result<(), Error> {
@@ -196,6 +224,8 @@ fn line(value: serde_json::Value) -> Result<(), Error> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::mpsc::channel;
+
     use super::*;
 
     #[test]
@@ -211,9 +241,9 @@ mod tests {
             bleed: None,
         };
         assert!(heard(&mut inbox, 7, "fan", &score));
-        sender.send("{\"cancel\": 8}".to_owned()).unwrap();
+        sender.send(Ok("{\"cancel\": 8}".to_owned())).unwrap();
         assert!(heard(&mut inbox, 7, "fan", &score));
-        sender.send("{\"cancel\": 7}".to_owned()).unwrap();
+        sender.send(Ok("{\"cancel\": 7}".to_owned())).unwrap();
         assert!(!heard(&mut inbox, 7, "fan", &score));
     }
 }

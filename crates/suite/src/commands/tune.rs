@@ -5,15 +5,16 @@ use std::time::{Duration, Instant};
 
 use filters::Gpu;
 use suite::{
-    Effort, Error, FilterChoice, Objective, RenderSettings, Space, TunePlan, Tuning,
-    compare_paired, evaluator, interleaved, open_gpu, paired_table, preset_text, select_filters,
-    sensitivity, sensitivity_table, shots, tune, tuning_table, with_bar,
+    Claim, Effort, Error, FilterChoice, Objective, RenderSettings, SceneBounds, Sharing, Shot,
+    Space, TunePlan, Tuning, claim, compare_paired, evaluator, interleaved, open_gpu, paired_table,
+    preset_text, printable_path, select_filters, sensitivity, sensitivity_table, shots, tell, tune,
+    tuning_table, with_bar,
 };
-use tracer::Progress;
+use tracer::{Progress, Scene};
 
 use super::measure::scenes;
 use super::{render_settings, say};
-use crate::cli::{CandidateArgs, TuneArgs};
+use crate::cli::{CandidateArgs, SceneArgs, TuneArgs};
 
 /// Tunes, writes `journal.jsonl`, `tune.json` and the choice's values; or compares two presets.
 pub fn execute(args: &TuneArgs) -> Result<(), Error> {
@@ -40,6 +41,8 @@ fn run(args: &TuneArgs, choice: FilterChoice) -> Result<(), Error> {
     let plan = plan(args, choice)?;
     plan.check()?;
     let gpu = open(&plan.choice, &args.candidate)?;
+    let scenes = plan.scenes.iter().chain(&plan.sealed);
+    let _claim = claim(&plan.out, scenes.map(|(scene, _)| scene), Sharing::Alone)?;
     let began = Instant::now();
     let label = format!("tuning {}", plan.choice.filter.name);
     let tuning = with_bar(&label, plan.quiet, |watch| {
@@ -53,7 +56,7 @@ fn run(args: &TuneArgs, choice: FilterChoice) -> Result<(), Error> {
     })?;
     if !plan.quiet {
         let seconds = began.elapsed().as_secs_f64();
-        eprintln!("{} trials in {seconds:.1} s", tuning.trials);
+        tell(&format!("{} trials in {seconds:.1} s", tuning.trials));
     }
     print(args, &write(&tuning, &plan)?)
 }
@@ -107,7 +110,7 @@ fn print(args: &TuneArgs, found: &Found) -> Result<(), Error> {
     let Found { table, json, path } = found;
     match args.json {
         true => say(&format!("{json}\n")),
-        false => say(&format!("{table}\nwritten: {}\n", path.display())),
+        false => say(&format!("{table}\nwritten: {}\n", printable_path(path))),
     }
 }
 
@@ -137,13 +140,7 @@ fn compare(tune: &TuneArgs, choice: FilterChoice, presets: [&String; 2]) -> Resu
     let (first, second) = (first?, second?);
     let scenes = scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
     let gpu = open(&choice, args)?;
-    let shots = shots(
-        &scenes,
-        &choice,
-        &render(args)?,
-        &args.scenes.out,
-        args.scenes.quiet,
-    )?;
+    let (_claim, shots) = claimed_shots(&scenes, &choice, args, Sharing::Alone)?;
     let bleed = args.objective.contains(&Objective::Bleed);
     let mut evaluator = evaluator(&shots, &choice, gpu.as_ref(), bleed)?;
     let paired = compare_paired(&mut evaluator, &first, &second)?;
@@ -161,13 +158,7 @@ fn study(args: &TuneArgs, choice: FilterChoice, effort: Effort) -> Result<(), Er
     let scenes = scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
     let gpu = open(&choice, candidate)?;
     let out = &candidate.scenes.out;
-    let shots = shots(
-        &scenes,
-        &choice,
-        &render(candidate)?,
-        out,
-        candidate.scenes.quiet,
-    )?;
+    let (_claim, shots) = claimed_shots(&scenes, &choice, candidate, Sharing::Alone)?;
     let mut evaluator = evaluator(&shots, &choice, gpu.as_ref(), false)?;
     let label = format!("parameters of {}", choice.filter.name);
     let found = with_bar(&label, candidate.scenes.quiet, |watch| {
@@ -180,10 +171,25 @@ fn study(args: &TuneArgs, choice: FilterChoice, effort: Effort) -> Result<(), Er
     print(args, &Found { table, json, path })
 }
 
+/// The folder for files, and the frames and truths that it holds.
+pub fn claimed_shots(
+    scenes: &[(Scene, SceneBounds)],
+    choice: &FilterChoice,
+    args: &CandidateArgs,
+    sharing: Sharing,
+) -> Result<(Claim, Vec<Shot>), Error> {
+    let SceneArgs { out, quiet, .. } = &args.scenes;
+    let render = render(args)?;
+    let claim = claim(out, scenes.iter().map(|(scene, _)| scene), sharing)?;
+    let shots = shots(scenes, choice, &render, out, *quiet)?;
+    Ok((claim, shots))
+}
+
 /// The filter with the preset to start from, for pictures of the size that is asked for.
 pub fn select_candidate(args: &CandidateArgs) -> Result<FilterChoice, Error> {
     let words = [args.filter.clone()];
-    let choice = select_filters(&words, args.from.as_deref(), &[])?.remove(0);
+    let choice =
+        select_filters(&words, args.from.as_deref(), &[], args.programs.programs())?.remove(0);
     Ok(choice.as_written(args.as_written).scaled_to(args.size.0))
 }
 

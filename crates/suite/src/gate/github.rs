@@ -2,9 +2,10 @@
 
 use std::fmt::Write;
 
-use super::finding::number;
 use super::text::{comparison_line, headline, way_out};
-use super::{Check, Decision, Finding, Kind};
+use super::{Check, Decision};
+use crate::judge::{Finding, Outcome, number};
+use crate::printable::printable;
 
 /// More than that, GitHub shows of no step.
 const MOST_ANNOTATIONS: usize = 10;
@@ -14,7 +15,7 @@ const MOST_ROWS: usize = 500;
 /// Workflow commands, one a line, for what keeps the check from passing; the last of ten says how many more there are.
 pub fn annotations(check: &Check) -> String {
     let findings = (check.findings.iter())
-        .filter(|finding| finding.decision() != Decision::Pass)
+        .filter(|finding| Decision::of(finding) != Decision::Pass)
         .map(|finding| {
             let title = format!("{} / {}", finding.scene, finding.filter);
             let way_out = way_out(finding).map(|way_out| format!("; {way_out}"));
@@ -45,17 +46,17 @@ pub fn annotations(check: &Check) -> String {
 pub fn summary(check: &Check) -> String {
     let mut text = format!("## Shuttertruth: {}\n\n", words(check.decision));
     let notable: Vec<&Finding> = (check.findings.iter())
-        .filter(|finding| !matches!(finding.kind, Kind::Kept | Kind::NotApplicable))
+        .filter(|finding| !matches!(finding.outcome, Outcome::Kept | Outcome::NotApplicable))
         .collect();
     let _ = writeln!(
         text,
         "{} bounds, {} kept, {} broken, {} inconclusive, {} too strict, {} not applicable\n",
         check.findings.len(),
-        check.count(Kind::Kept),
-        check.count(Kind::Broken),
-        check.count(Kind::Inconclusive),
-        check.count(Kind::TooNoisy),
-        check.count(Kind::NotApplicable),
+        check.count(Outcome::Kept),
+        check.count(Outcome::Broken),
+        check.count(Outcome::Inconclusive),
+        check.count(Outcome::TooNoisy),
+        check.count(Outcome::NotApplicable),
     );
     for failure in &check.failures {
         let (scene, filter) = (cell(&failure.scene), cell(&failure.filter));
@@ -99,7 +100,7 @@ fn row(finding: &Finding) -> String {
         or_none(finding.floor.map(number)),
         or_none((finding.worst.as_ref()).map(|worst| format!("({}, {})", worst.x, worst.y))),
         or_none((finding.resembles.as_ref()).map(|alike| alike.decoy.clone())),
-        match finding.decision() {
+        match Decision::of(finding) {
             Decision::Pass => "reported".to_owned(),
             decision => words(decision).to_owned(),
         },
@@ -116,16 +117,26 @@ fn words(decision: Decision) -> &'static str {
     }
 }
 
-/// A vertical bar would end the cell.
+/// A vertical bar would end the cell, and other signs make links or pictures of names.
 fn cell(text: &str) -> String {
-    text.replace('|', "\\|").replace('\n', " ")
+    let one_line = text.replace('\n', " ");
+    let mut cell = String::new();
+    for letter in printable(&one_line).chars() {
+        if MARKDOWN.contains(letter) {
+            cell.push('\\');
+        }
+        cell.push(letter);
+    }
+    cell
 }
+
+/// Letters that Markdown reads as more than themselves: an image in a name would be fetched, HTML be shown.
+const MARKDOWN: &str = "\\`|*<[&";
 
 /// What a workflow command's message escapes.
 fn data(text: &str) -> String {
-    text.replace('%', "%25")
-        .replace('\r', "%0D")
-        .replace('\n', "%0A")
+    let lines: Vec<_> = text.split('\n').map(printable).collect();
+    lines.join("\n").replace('%', "%25").replace('\n', "%0A")
 }
 
 /// What a workflow command's property escapes.
@@ -141,5 +152,14 @@ mod tests {
     fn what_would_end_a_command_is_escaped() {
         assert_eq!(data("95 %\nof it: a, b"), "95 %25%0Aof it: a, b");
         assert_eq!(property("a:b, 5 %"), "a%3Ab%2C 5 %25");
+        assert_eq!(data("a\r\u{1b}[2J"), "a\\r\\u001b[2J");
+    }
+
+    #[test]
+    fn names_make_no_pictures_in_a_summary() {
+        assert_eq!(
+            cell("![a](b)<img src=c> `d`\ne|f"),
+            "!\\[a](b)\\<img src=c> \\`d\\` e\\|f"
+        );
     }
 }

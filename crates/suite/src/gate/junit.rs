@@ -3,8 +3,9 @@
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
 use super::text::{comparison_line, headline, way_out};
-use super::{Check, Decision, Finding, Kind};
+use super::{Check, Decision};
 use crate::bounds::Level;
+use crate::judge::{Finding, Outcome};
 
 /// The document. A case that failed and a broken required bound are failures; an inconclusive one and one that is too strict are
 /// errors; what does not apply, and what is broken but only reported, is skipped.
@@ -61,15 +62,17 @@ fn status(finding: &Finding) -> TestCaseStatus {
     if let Some(alike) = &finding.resembles {
         message += &format!("; most like {}", alike.decoy);
     }
-    match (finding.kind, finding.level) {
-        (Kind::Kept, _) => TestCaseStatus::success(),
-        (Kind::Broken, Level::Required) => with_message(NonSuccessKind::Failure, "broken", message),
-        (Kind::Inconclusive, Level::Required) => {
+    match (finding.outcome, finding.level) {
+        (Outcome::Kept, _) => TestCaseStatus::success(),
+        (Outcome::Broken, Level::Required) => {
+            with_message(NonSuccessKind::Failure, "broken", message)
+        }
+        (Outcome::Inconclusive, Level::Required) => {
             with_message(NonSuccessKind::Error, "inconclusive", message)
         }
-        (Kind::TooNoisy, _) => with_message(NonSuccessKind::Error, "too_strict", message),
-        (Kind::Broken | Kind::Inconclusive, Level::Report) => skipped(message),
-        (Kind::NotApplicable, _) => skipped(finding.reason.clone().unwrap_or_default()),
+        (Outcome::TooNoisy, _) => with_message(NonSuccessKind::Error, "too_strict", message),
+        (Outcome::Broken | Outcome::Inconclusive, Level::Report) => skipped(message),
+        (Outcome::NotApplicable, _) => skipped(finding.reason.clone().unwrap_or_default()),
     }
 }
 

@@ -1,6 +1,5 @@
 //! From a finished run to pass or fail: what is broken, by how much, where, and what it is like.
 
-mod finding;
 mod github;
 mod junit;
 mod text;
@@ -8,10 +7,11 @@ mod text;
 use serde::Serialize;
 
 use crate::baseline::Comparison;
+use crate::bounds::Level;
 use crate::failure::refuse_failures;
+use crate::judge::{Finding, Outcome};
 use crate::{Error, Failure, Run};
 
-pub use finding::{Finding, Kind, findings, number};
 pub use github::{annotations, summary};
 pub use junit::junit;
 pub use text::check_text;
@@ -51,15 +51,28 @@ pub enum Decision {
     Misconfigured,
 }
 
-/// Judges a finished run by its verdicts and, where there is a baseline, by the comparisons with it. Pure: reads nothing,
+impl Decision {
+    /// What one finding alone comes to.
+    pub fn of(finding: &Finding) -> Self {
+        match (finding.outcome, finding.level) {
+            (Outcome::TooNoisy, _) => Decision::Misconfigured,
+            (Outcome::Broken, Level::Required) => Decision::Broken,
+            (Outcome::Inconclusive, Level::Required) => Decision::Inconclusive,
+            _ => Decision::Pass,
+        }
+    }
+}
+
+/// Sums up the findings about a finished run and, where there is a baseline, the comparisons with it. Pure: reads nothing,
 /// prints nothing.
-pub fn check(run: &Run, comparisons: Vec<Comparison>) -> Check {
-    let findings = findings(run);
-    let bounds = findings.iter().map(Finding::decision);
+pub fn check(run: &Run, findings: Vec<Finding>, comparisons: Vec<Comparison>) -> Check {
+    let applies = |finding: &Finding| finding.outcome != Outcome::NotApplicable;
+    let bounds = findings.iter().map(Decision::of);
     let baseline = comparisons.iter().map(Comparison::decision);
     let unchecked = match comparisons.is_empty() {
-        true => (run.cases.iter())
-            .any(|case| !case.bar && !findings.iter().any(|found| found.applies_to(case))),
+        true => (run.cases.iter()).any(|case| {
+            !case.bar && !(findings.iter()).any(|finding| applies(finding) && finding.is_of(case))
+        }),
         false => false,
     };
     let unchecked = unchecked.then_some(Decision::Misconfigured);
@@ -77,45 +90,41 @@ pub fn check(run: &Run, comparisons: Vec<Comparison>) -> Check {
 }
 
 impl Check {
-    /// How many findings are of a kind.
-    pub fn count(&self, kind: Kind) -> usize {
+    /// Number of findings with this outcome.
+    pub fn count(&self, outcome: Outcome) -> usize {
         (self.findings.iter())
-            .filter(|finding| finding.kind == kind)
+            .filter(|finding| finding.outcome == outcome)
             .count()
     }
 
     /// The error that ends the command with the decision's exit code; none where it passes.
     pub fn verdict(&self) -> Result<(), Error> {
-        let count = |decision: Decision, one: &str, many: &str| {
-            let bounds = self.findings.iter().map(Finding::decision);
-            let all = bounds.chain(self.comparisons.iter().map(Comparison::decision));
-            match all.filter(|found| *found == decision).count() {
-                1 => one.to_owned(),
-                count => format!("{count} {many}"),
-            }
+        let bounds = self.findings.iter().map(Decision::of);
+        let all = bounds.chain(self.comparisons.iter().map(Comparison::decision));
+        let count = all.filter(|found| *found == self.decision).count();
+        let counted = |one: &str, many: &str| match count {
+            1 => one.to_owned(),
+            count => format!("{count} {many}"),
         };
         match self.decision {
             Decision::Pass => Ok(()),
             Decision::Inconclusive => Err(Error::Inconclusive(format!(
                 "{} cannot be told from the truth's noise; raise --samples-per-pixel as said above",
-                count(self.decision, "a required score", "required scores")
+                counted("a required score", "required scores")
             ))),
             Decision::Broken if !self.failures.is_empty() => refuse_failures(&self.failures),
             Decision::Broken => Err(Error::Broken(format!(
                 "{} broken",
-                count(self.decision, "a required bound is", "required bounds are")
+                counted("a required bound is", "required bounds are")
             ))),
-            Decision::Misconfigured => Err(Error::Usage(
-                match count(self.decision, "a bound is", "bounds are") {
-                    none if none.starts_with("0 ") => {
-                        "a case has no bound that applies, and no check is no success; see above"
-                            .to_owned()
-                    }
-                    some => format!(
-                        "{some} stricter than three noise floors; raise the limit, or --samples-per-pixel, as said above"
-                    ),
-                },
+            Decision::Misconfigured if count == 0 => Err(Error::Usage(
+                "a case has no bound that applies, and no check is no success; see above"
+                    .to_owned(),
             )),
+            Decision::Misconfigured => Err(Error::Usage(format!(
+                "{} stricter than three noise floors; raise the limit, or --samples-per-pixel, as said above",
+                counted("a bound is", "bounds are")
+            ))),
         }
     }
 }

@@ -2,12 +2,13 @@
 
 use std::fmt::Write;
 
-use super::finding::{MOST_SAMPLES, number};
-use super::{Check, Finding, Kind};
+use super::Check;
 use crate::baseline::Comparison;
 use crate::bounds::Level;
 use crate::failure::failures_text;
+use crate::judge::{Finding, MOST_SAMPLES, Outcome, number};
 use crate::paint::{bad, doubtful, good, heading};
+use crate::printable::printable_path;
 use crate::wrapped::push_wrapped;
 
 /// What is broken, inconclusive or too narrow, by scene and filter, then the comparisons, then the counts. `out` is the
@@ -16,7 +17,7 @@ pub fn check_text(check: &Check, out: &std::path::Path) -> String {
     let mut text = failures_text(&check.failures);
     let mut case = (String::new(), String::new());
     for finding in &check.findings {
-        if matches!(finding.kind, Kind::Kept | Kind::NotApplicable) {
+        if matches!(finding.outcome, Outcome::Kept | Outcome::NotApplicable) {
             continue;
         }
         let own = (finding.scene.clone(), finding.filter.clone());
@@ -38,9 +39,9 @@ pub fn check_text(check: &Check, out: &std::path::Path) -> String {
 }
 
 fn lines(finding: &Finding, out: &std::path::Path) -> Vec<(usize, String)> {
-    let status = match finding.kind {
-        Kind::Broken => bad(status(finding)),
-        Kind::Kept => good(status(finding)),
+    let status = match finding.outcome {
+        Outcome::Broken => bad(status(finding)),
+        Outcome::Kept => good(status(finding)),
         _ => doubtful(status(finding)),
     };
     let mut lines = vec![
@@ -51,7 +52,12 @@ fn lines(finding: &Finding, out: &std::path::Path) -> Vec<(usize, String)> {
         let picture = out.join(&worst.picture);
         lines.push((
             6,
-            format!("worst at ({}, {}): {}", worst.x, worst.y, picture.display()),
+            format!(
+                "worst at ({}, {}): {}",
+                worst.x,
+                worst.y,
+                printable_path(&picture)
+            ),
         ));
     }
     if let Some(alike) = &finding.resembles {
@@ -64,7 +70,7 @@ fn lines(finding: &Finding, out: &std::path::Path) -> Vec<(usize, String)> {
     if finding.worst.is_some() {
         lines.push((
             6,
-            format!("pictures: {}", out.join(&finding.pictures).display()),
+            format!("pictures: {}", printable_path(&out.join(&finding.pictures))),
         ));
     }
     lines
@@ -76,14 +82,14 @@ pub(crate) fn headline(finding: &Finding) -> String {
 }
 
 fn status(finding: &Finding) -> &'static str {
-    match (finding.kind, finding.level) {
-        (Kind::Broken, Level::Required) => "BROKEN",
-        (Kind::Broken, Level::Report) => "broken (report)",
-        (Kind::Inconclusive, Level::Required) => "INCONCLUSIVE",
-        (Kind::Inconclusive, Level::Report) => "inconclusive (report)",
-        (Kind::TooNoisy, _) => "TOO STRICT",
-        (Kind::Kept, _) => "kept",
-        (Kind::NotApplicable, _) => "not applicable",
+    match (finding.outcome, finding.level) {
+        (Outcome::Broken, Level::Required) => "BROKEN",
+        (Outcome::Broken, Level::Report) => "broken (report)",
+        (Outcome::Inconclusive, Level::Required) => "INCONCLUSIVE",
+        (Outcome::Inconclusive, Level::Report) => "inconclusive (report)",
+        (Outcome::TooNoisy, _) => "TOO STRICT",
+        (Outcome::Kept, _) => "kept",
+        (Outcome::NotApplicable, _) => "not applicable",
     }
 }
 
@@ -109,13 +115,13 @@ fn place(finding: &Finding) -> String {
 
 /// What to do about a score that was not judged.
 pub(crate) fn way_out(finding: &Finding) -> Option<String> {
-    match finding.kind {
-        Kind::TooNoisy => Some(format!(
+    match finding.outcome {
+        Outcome::TooNoisy => Some(format!(
             "the noise floor of {} allows {} at the strictest; raise the limit, or --samples-per-pixel",
             number(finding.floor?),
             number(finding.strictest?)
         )),
-        Kind::Inconclusive => Some(match finding.settled_by {
+        Outcome::Inconclusive => Some(match finding.settled_by {
             None => {
                 "parts of the truth cannot tell this score; raise --samples-per-pixel".to_owned()
             }
@@ -153,15 +159,15 @@ pub(super) fn comparison_line(comparison: &Comparison) -> String {
 }
 
 fn counts(check: &Check) -> String {
-    let count = |kind| check.count(kind);
+    let count = |outcome| check.count(outcome);
     let mut text = format!(
         "{} bounds: {} kept, {} broken, {} inconclusive, {} too strict, {} not applicable\n",
         check.findings.len(),
-        count(Kind::Kept),
-        count(Kind::Broken),
-        count(Kind::Inconclusive),
-        count(Kind::TooNoisy),
-        count(Kind::NotApplicable)
+        count(Outcome::Kept),
+        count(Outcome::Broken),
+        count(Outcome::Inconclusive),
+        count(Outcome::TooNoisy),
+        count(Outcome::NotApplicable)
     );
     if !check.findings.is_empty() {
         let required = (check.findings.iter()).filter(|finding| finding.level == Level::Required);

@@ -13,8 +13,7 @@ use super::scene_files::SceneFiles;
 use super::score_rows::score_rows;
 use super::subject::{Subject, case_of, scenes};
 use super::verdicts::verdicts;
-use crate::gate::Finding;
-use crate::worst::{BLOCK, worst_block};
+use crate::judge::{BLOCK, Finding, worst_block};
 use crate::{Case, Error, Run};
 
 /// A case with what a page shows of its files.
@@ -25,7 +24,7 @@ pub struct Page<'a> {
     pub index: usize,
     /// What was measured.
     pub case: &'a Case,
-    /// One per bound, in the order of the case's verdicts.
+    /// One per bound; none where the run was not judged.
     pub findings: Vec<Finding>,
     /// Per finding where to look; none where it needs no explanation.
     pub evidence: Vec<Option<Evidence>>,
@@ -113,7 +112,7 @@ pub fn case_page(page: &Page) -> Markup {
                 (verdicts(page))
                 (facts(case))
             }
-            (score_rows(case))
+            (score_rows(page))
             p.note { (provenance_line(page.run)) }
         }
     }

@@ -3,11 +3,10 @@
 use maud::{Markup, html};
 use metrics::{Measured, Metric};
 
+use super::case_page::Page;
 use super::shown::Shown;
 use crate::bounds::Level;
-use crate::gate::number;
-use crate::verdict::limit_as_badness;
-use crate::{Case, Outcome, Verdict};
+use crate::judge::{Finding, Outcome, limit_as_badness, number};
 
 /// How a score stands to its bound, as colour, sign and word say it: never the colour alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,13 +18,13 @@ pub struct Standing {
 }
 
 /// None where the metric does not apply.
-pub fn standing(outcome: &Outcome) -> Option<Standing> {
+pub fn standing(outcome: Outcome) -> Option<Standing> {
     let (word, sign) = match outcome {
-        Outcome::Kept { .. } => ("kept", "✓"),
-        Outcome::Broken { .. } => ("broken", "✗"),
-        Outcome::Inconclusive { .. } => ("inconclusive", "?"),
-        Outcome::TooNoisy { .. } => ("undecided", "~"),
-        Outcome::NotApplicable { .. } => return None,
+        Outcome::Kept => ("kept", "✓"),
+        Outcome::Broken => ("broken", "✗"),
+        Outcome::Inconclusive => ("inconclusive", "?"),
+        Outcome::TooNoisy => ("undecided", "~"),
+        Outcome::NotApplicable => return None,
     };
     Some(Standing { word, sign })
 }
@@ -41,22 +40,22 @@ pub fn distance(metric: Metric, value: f64, limit: f64) -> f64 {
     }
 }
 
-/// The cell of the overview that leads to a case by its number.
-pub fn cell(shown: &Shown, case: &Case, number_of_case: usize) -> Markup {
-    let measured = shown.headline.measured(case);
-    let judged = judged(shown, case);
+/// The cell of the overview that leads to a case.
+pub fn cell(shown: &Shown, page: &Page) -> Markup {
+    let measured = shown.headline.measured(page.case);
+    let judged = judged(shown, page);
     html! {
-        td class=[judged.map(|(_, verdict, standing)| class(verdict, standing))]
-            style=[judged.and_then(|(metric, verdict, _)| strength(metric, &measured, verdict))]
+        td class=[judged.map(|(_, finding, standing)| class(finding, standing))]
+            style=[judged.and_then(|(metric, finding, _)| strength(metric, &measured, finding))]
             data-value=[measured.value()]
             title=[reason(&measured)] {
-            a href=(format!("#case-{number_of_case}")) {
+            a href=(format!("#case-{}", page.index)) {
                 @if let Some((_, _, standing)) = judged {
                     span.sign aria-hidden="true" { (standing.sign) }
                 }
-                (shown.headline.text(case))
-                @if let Some((_, verdict, standing)) = judged {
-                    span.unseen { ", " (standing.word) ", " (level(verdict)) " limit " (number(verdict.limit)) }
+                (shown.headline.text(page.case))
+                @if let Some((_, finding, standing)) = judged {
+                    span.unseen { ", " (standing.word) ", " (level(finding)) " limit " (number(finding.limit)) }
                 }
             }
         }
@@ -64,36 +63,32 @@ pub fn cell(shown: &Shown, case: &Case, number_of_case: usize) -> Markup {
 }
 
 /// The bound on a case's score, and how the score stands to it; none where it has no bound, or does not apply.
-fn judged<'a>(shown: &Shown, case: &'a Case) -> Option<(Metric, &'a Verdict, Standing)> {
-    let metric = shown.headline.metric(&case.scores)?;
+fn judged<'a>(shown: &Shown, page: &'a Page) -> Option<(Metric, &'a Finding, Standing)> {
+    let metric = shown.headline.metric(&page.case.scores)?;
     let name = metric.name();
-    let verdict = case
-        .verdicts
-        .iter()
-        .find(|verdict| verdict.metric == name)?;
-    Some((metric, verdict, standing(&verdict.outcome)?))
+    let finding = (page.findings.iter()).find(|finding| finding.metric == name)?;
+    Some((metric, finding, standing(finding.outcome)?))
 }
 
 /// What fails a check stands out.
-fn class(verdict: &Verdict, standing: Standing) -> String {
-    let fails =
-        verdict.level == Level::Required && matches!(verdict.outcome, Outcome::Broken { .. });
+fn class(finding: &Finding, standing: Standing) -> String {
+    let fails = finding.level == Level::Required && finding.outcome == Outcome::Broken;
     match fails {
         true => format!("{} required", standing.word),
         false => standing.word.to_owned(),
     }
 }
 
-fn level(verdict: &Verdict) -> &'static str {
-    match verdict.level {
+fn level(finding: &Finding) -> &'static str {
+    match finding.level {
         Level::Required => "required",
         Level::Report => "reported",
     }
 }
 
 /// How strong the colour is, in percent.
-fn strength(metric: Metric, measured: &Measured, verdict: &Verdict) -> Option<String> {
-    let far = distance(metric, measured.value()?, verdict.limit).abs();
+fn strength(metric: Metric, measured: &Measured, finding: &Finding) -> Option<String> {
+    let far = distance(metric, measured.value()?, finding.limit).abs();
     Some(format!("--strength:{:.0}%", 100.0 * far))
 }
 

@@ -6,8 +6,7 @@ use metrics::Metric;
 
 use super::precision::Nature;
 use super::scene_files::{CaseFiles, SceneFiles};
-use crate::gate::{Finding, Kind};
-use crate::worst::{map_name, worst_block};
+use crate::judge::{Finding, worst_block};
 use crate::{Case, Error};
 
 /// The worst place of one score.
@@ -28,14 +27,13 @@ pub fn evidence(
     files: &CaseFiles,
     scene: &mut SceneFiles,
 ) -> Result<Option<Evidence>, Error> {
-    if !is_notable(finding) {
+    if !finding.outcome.is_notable() {
         return Ok(None);
     }
     let metric = Metric::from_str(&finding.metric).expect("a run's verdicts are about metrics");
-    let probed = (files.errors.channels.iter()).any(|channel| channel.name == "unity");
     let map = match &finding.worst {
         Some(worst) => worst.map.clone(),
-        None => map_name(metric, probed).to_owned(),
+        None => metric.row().map.name().to_owned(),
     };
     let plane = files.errors.plane(&map)?;
     let (x, y) = match &finding.worst {
@@ -47,12 +45,4 @@ pub fn evidence(
         plane: scene.shelf.plane(&map, Nature::Number, &plane),
         map,
     }))
-}
-
-/// Whether a reader will want to see why.
-pub fn is_notable(finding: &Finding) -> bool {
-    matches!(
-        finding.kind,
-        Kind::Broken | Kind::Inconclusive | Kind::TooNoisy
-    )
 }

@@ -8,7 +8,6 @@ mod files;
 mod interval_chart;
 mod layer;
 mod legend;
-pub(crate) mod meaning;
 mod overview;
 mod packing;
 mod page;
@@ -30,11 +29,8 @@ mod verdicts;
 mod viewer;
 
 use std::path::Path;
-use std::str::FromStr;
 
-use metrics::Metric;
-
-use crate::gate::{Finding, findings};
+use crate::judge::Finding;
 use crate::{Case, Error, Run};
 
 use case_page::{Page, Which, case_page};
@@ -49,14 +45,19 @@ pub use files::{LARGEST_PAGE, Report};
 pub use tuning::{TuneFolder, tuning_page};
 
 /// The page of a run whose files lie below `folder`, that of its run.json, to be written to `html`. A bench.json that lies
-/// there too says what the filters cost. A page of more than `largest` bytes, [`LARGEST_PAGE`] for instance, keeps halves for
+/// there too says what the filters cost. `findings` are those about the run; without any the page shows no bounds. A page of more than `largest` bytes, [`LARGEST_PAGE`] for instance, keeps halves for
 /// floats, and what is too large still lies beside it. Reads files and writes nothing; the same run makes the same bytes.
-pub fn report(run: &Run, folder: &Path, html: &Path, largest: usize) -> Result<Report, Error> {
+pub fn report(
+    run: &Run,
+    findings: &[Finding],
+    folder: &Path,
+    html: &Path,
+    largest: usize,
+) -> Result<Report, Error> {
     check(run)?;
     let bench = read_bench(folder)?;
     let mut packed = Packed::new(largest);
     let mut pages = Vec::new();
-    let mut findings = findings_by_case(run);
     for (scene, name) in scenes(run).into_iter().enumerate() {
         let own = || {
             run.cases
@@ -65,12 +66,13 @@ pub fn report(run: &Run, folder: &Path, html: &Path, largest: usize) -> Result<R
                 .filter(|(_, case)| case.scene == name)
         };
         let cases: Vec<&Case> = own().map(|(_, case)| case).collect();
-        let mut files = SceneFiles::read(&cases, folder)?;
-        for (index, _) in own() {
+        let mut files = SceneFiles::read(run, &cases, folder)?;
+        for (index, case) in own() {
+            let about = |finding: &&Finding| !case.bar && finding.is_of(case);
             let which = Which {
                 run,
                 index,
-                findings: std::mem::take(&mut findings[index]),
+                findings: findings.iter().filter(about).cloned().collect(),
                 scene,
             };
             pages.push(Page::read(which, folder, &mut files)?);
@@ -98,23 +100,5 @@ fn check(run: &Run) -> Result<(), Error> {
                 .to_owned(),
         ));
     }
-    for case in &run.cases {
-        for verdict in &case.verdicts {
-            Metric::from_str(&verdict.metric).map_err(|error| {
-                Error::Usage(format!(
-                    "{} / {}: a verdict's {error}; run it anew with this version",
-                    case.scene,
-                    case.name()
-                ))
-            })?;
-        }
-    }
     Ok(())
-}
-
-/// In the order of the run's cases.
-fn findings_by_case(run: &Run) -> Vec<Vec<Finding>> {
-    let mut findings = findings(run).into_iter();
-    let own = |case: &Case| findings.by_ref().take(case.verdicts.len()).collect();
-    run.cases.iter().map(own).collect()
 }

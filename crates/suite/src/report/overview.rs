@@ -12,7 +12,7 @@ use super::shown::{SHOWN, Shown};
 use super::subject::{alignments, case_of, scenes, subjects};
 use super::verdicts::broken_bounds;
 use crate::bench::CaseCost;
-use crate::gate::Kind;
+use crate::judge::Outcome;
 use crate::{Bench, Run};
 
 /// The first thing that a reader sees.
@@ -30,7 +30,7 @@ pub fn overview(run: &Run, pages: &[Page], bench: Option<&Bench>) -> Markup {
                     }
                 }
             }
-            @for shown in &SHOWN { (panel(run, shown, bench)) }
+            @for shown in &SHOWN { (panel(run, pages, shown, bench)) }
             (key())
             (costs(run, bench))
             (provenance(run))
@@ -49,18 +49,18 @@ fn summary(run: &Run, pages: &[Page]) -> String {
         counted(all.len() - filters, "bar"),
     );
     let findings = || pages.iter().flat_map(|page| &page.findings);
-    let count = |kind| findings().filter(|finding| finding.kind == kind).count();
+    let count = |outcome| (findings().filter(|finding| finding.outcome == outcome)).count();
     match findings().count() {
         0 => text += " No score is bounded.",
         bounds => {
             text += &format!(
                 " {}: {} kept, {} broken, {} inconclusive, {} stricter than the noise allows, {} not applicable.",
                 counted(bounds, "bound"),
-                count(Kind::Kept),
-                count(Kind::Broken),
-                count(Kind::Inconclusive),
-                count(Kind::TooNoisy),
-                count(Kind::NotApplicable),
+                count(Outcome::Kept),
+                count(Outcome::Broken),
+                count(Outcome::Inconclusive),
+                count(Outcome::TooNoisy),
+                count(Outcome::NotApplicable),
             );
         }
     }
@@ -75,19 +75,19 @@ fn counted(count: usize, what: &str) -> String {
     }
 }
 
-fn panel(run: &Run, shown: &Shown, bench: Option<&Bench>) -> Markup {
+fn panel(run: &Run, pages: &[Page], shown: &Shown, bench: Option<&Bench>) -> Markup {
     html! {
         div.panel data-metric=(shown.headline.name()) {
             h2 { (shown.title) }
             p { (shown.meaning()) "; " (shown.better()) "." }
             (ranking(run, shown, bench))
-            (table(run, shown, bench))
+            (table(run, pages, shown, bench))
         }
     }
 }
 
 /// One row per filter preset or bar, those of one shutter together; one column per scene.
-fn table(run: &Run, shown: &Shown, bench: Option<&Bench>) -> Markup {
+fn table(run: &Run, pages: &[Page], shown: &Shown, bench: Option<&Bench>) -> Markup {
     let scenes = scenes(run);
     let subjects = subjects(run);
     // What a reader looks for comes first.
@@ -116,7 +116,7 @@ fn table(run: &Run, shown: &Shown, bench: Option<&Bench>) -> Markup {
                             th scope="row" { (subject.name) }
                             @for scene in &scenes {
                                 @match case_of(run, subject, scene) {
-                                    Some(index) => (cell(shown, &run.cases[index], index)),
+                                    Some(index) => (cell(shown, &pages[index])),
                                     None => td { "-" },
                                 }
                             }

@@ -5,17 +5,16 @@ use metrics::Metric;
 
 use super::case_page::Page;
 use super::cell::standing;
-use super::evidence::{Evidence, is_notable};
-use super::meaning::meaning;
+use super::evidence::Evidence;
 use crate::bounds::Level;
-use crate::gate::{Finding, Kind, headline, number, way_out};
-use crate::worst::CROP;
+use crate::gate::{headline, way_out};
+use crate::judge::{CROP, Finding, Outcome, number};
 
 /// The required bounds of a run that are not kept, each with the way to its case.
 pub fn broken_bounds(pages: &[Page]) -> Markup {
     let broken: Vec<(&Page, &Finding)> = (pages.iter())
         .flat_map(|page| page.findings.iter().map(move |finding| (page, finding)))
-        .filter(|(_, finding)| finding.level == Level::Required && is_notable(finding))
+        .filter(|(_, finding)| finding.level == Level::Required && finding.outcome.is_notable())
         .collect();
     html! {
         @if !broken.is_empty() {
@@ -38,11 +37,11 @@ pub fn broken_bounds(pages: &[Page]) -> Markup {
 
 /// Every bound of a case: what is not kept with its evidence, the others as a count.
 pub fn verdicts(page: &Page) -> Markup {
-    let kept = (page.findings.iter()).filter(|finding| finding.kind == Kind::Kept);
+    let kept = (page.findings.iter()).filter(|finding| finding.outcome == Outcome::Kept);
     let kept = kept.count();
     let notable = || page.findings.iter().zip(&page.evidence);
     let explained = page.evidence.iter().any(Option::is_some);
-    let broken = (page.findings.iter()).any(|finding| finding.kind == Kind::Broken);
+    let broken = (page.findings.iter()).any(|finding| finding.outcome == Outcome::Broken);
     html! {
         section.verdicts {
             h3 { @if broken { "Why it failed" } @else { "Bounds" } }
@@ -62,7 +61,7 @@ pub fn verdicts(page: &Page) -> Markup {
 fn alike(page: &Page) -> Markup {
     html! {
         p.alike {
-            @match &page.case.resembles {
+            @match page.findings.iter().find_map(|finding| finding.resembles.as_ref()) {
                 Some(alike) => {
                     "The scores are most like those of the wrong blur " strong { (alike.decoy) } ", "
                     (format!("{:.0}", 100.0 * alike.distance))
@@ -70,8 +69,7 @@ fn alike(page: &Page) -> Markup {
                      are from perfect."
                 }
                 None => {
-                    "The scores are near those of no wrong blur, or nobody looked: "
-                    code { "check" } " compares them, " code { "run" } " does not."
+                    "No known failure pattern matched (only " code { "check" } " looks for them)."
                 }
             }
         }
@@ -79,10 +77,7 @@ fn alike(page: &Page) -> Markup {
 }
 
 fn verdict(page: &Page, finding: &Finding, evidence: &Evidence) -> Markup {
-    let class = (page.case.verdicts.iter())
-        .find(|verdict| verdict.metric == finding.metric)
-        .and_then(|verdict| standing(&verdict.outcome))
-        .map(|standing| standing.word);
+    let class = standing(finding.outcome).map(|standing| standing.word);
     let [x, y] = evidence.place;
     html! {
         div class=(format!("verdict {}", class.unwrap_or_default())) {
@@ -111,7 +106,7 @@ fn facts(finding: &Finding) -> Markup {
     let metric: Option<Metric> = finding.metric.parse().ok();
     html! {
         dl {
-            div { dt { "metric" } dd { (finding.metric) @if let Some(metric) = metric { ": " (meaning(metric)) } } }
+            div { dt { "metric" } dd { (finding.metric) @if let Some(metric) = metric { ": " (metric.meaning()) } } }
             @if let Some(value) = finding.value {
                 div { dt { "value" } dd { (finding.shown(value)) } }
             }

@@ -6,7 +6,7 @@ use super::layer::Layer;
 use super::legend::legends;
 use super::precision::Precision;
 use crate::Run;
-use crate::worst::BLOCK;
+use crate::judge::BLOCK;
 
 /// How pictures are set against each other: the script's word, what a reader calls it, and its key.
 const WAYS: [(&str, &str, &str); 4] = [

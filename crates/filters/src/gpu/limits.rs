@@ -1,0 +1,141 @@
+//! What devices allow kernels, and whether those of a filter keep to it.
+
+use super::adapter::Gpu;
+use super::demand::{MAX_INLINED, MAX_INVOCATION_BYTES};
+use super::shader::{EntryPoint, Role};
+use crate::{Filter, FilterError};
+
+/// The limits of a device.
+#[derive(Clone, Debug)]
+pub struct Limits {
+    /// Whose they are, as a message says it.
+    owner: String,
+    limits: wgpu::Limits,
+}
+
+impl Limits {
+    /// What every adapter grants that supports WebGPU.
+    pub fn lowest() -> Self {
+        Self {
+            owner: "the lowest common limits, those that WebGPU promises everywhere".into(),
+            limits: wgpu::Limits::default(),
+        }
+    }
+
+    /// What an opened adapter grants.
+    pub fn of(gpu: &Gpu) -> Self {
+        Self {
+            owner: format!("adapter \"{}\"", gpu.adapter.name),
+            limits: gpu.device.limits(),
+        }
+    }
+
+    /// Refuses a filter with a pass that asks for more. A filter that is a command asks for nothing.
+    pub fn check(&self, filter: &Filter) -> Result<(), FilterError> {
+        for pass in &filter.passes {
+            let entry = filter.entry_point(pass);
+            if let Some(reason) = self.broken(filter, entry) {
+                return Err(FilterError::Folder {
+                    path: filter.shader.path.clone(),
+                    line: entry.line,
+                    reason: format!("pass \"{}\": {reason}", pass.entry),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn broken(&self, filter: &Filter, entry: &EntryPoint) -> Option<String> {
+        let Self { owner, limits } = self;
+        let [x, y, z] = entry.workgroup_size;
+        let invocations = u64::from(x) * u64::from(y) * u64::from(z);
+        let largest = [
+            limits.max_compute_workgroup_size_x,
+            limits.max_compute_workgroup_size_y,
+            limits.max_compute_workgroup_size_z,
+        ];
+        let variables = || {
+            let indices = entry.variables.iter();
+            indices.map(|index| &filter.shader.variables[*index])
+        };
+        let count = |is: fn(Role) -> bool| variables().filter(|it| is(it.role)).count() as u64;
+        let highest = variables()
+            .map(|variable| u64::from(variable.binding))
+            .max();
+        let found = [
+            (
+                invocations,
+                u64::from(limits.max_compute_invocations_per_workgroup),
+                "invocations in a workgroup",
+                "make @workgroup_size smaller",
+            ),
+            (
+                entry.demand.workgroup_bytes,
+                u64::from(limits.max_compute_workgroup_storage_size),
+                "bytes of var<workgroup>",
+                "keep less in it, or divide the pass",
+            ),
+            (
+                count(|role| matches!(role, Role::Write(_))),
+                u64::from(limits.max_storage_textures_per_shader_stage),
+                "textures that it writes",
+                "divide the pass",
+            ),
+            (
+                count(|role| matches!(role, Role::Read(_))),
+                u64::from(limits.max_sampled_textures_per_shader_stage),
+                "textures that it reads",
+                "divide the pass",
+            ),
+            (
+                highest.unwrap_or(0),
+                u64::from(limits.max_bindings_per_bind_group) - 1,
+                "as a number of @binding",
+                "number the bindings from 1",
+            ),
+        ];
+        let broken = found.iter().find(|(found, allowed, ..)| found > allowed);
+        if let Some((found, allowed, what, way_out)) = broken {
+            let workgroup = match *what {
+                "invocations in a workgroup" => format!("@workgroup_size({x}, {y}, {z}): "),
+                _ => String::new(),
+            };
+            return Some(format!(
+                "{workgroup}{found} {what}; allowed: at most {allowed} by {owner}; {way_out}"
+            ));
+        }
+        let mut sides = [("x", x), ("y", y), ("z", z)].into_iter().zip(largest);
+        let ((axis, found), allowed) = sides.find(|((_, side), allowed)| side > allowed)?;
+        Some(format!(
+            "@workgroup_size({x}, {y}, {z}): {found} invocations along {axis}; allowed: at most {allowed} by {owner}; make \
+             @workgroup_size smaller"
+        ))
+    }
+}
+
+/// Refuses kernels that no device could be expected to run.
+pub(super) fn refuse_immense(entry: &EntryPoint) -> Result<(), String> {
+    let demand = &entry.demand;
+    for (found, allowed, what, way_out) in [
+        (
+            demand.invocation_bytes,
+            MAX_INVOCATION_BYTES,
+            "bytes of variables or of one value in an invocation",
+            "keep large tables in a texture",
+        ),
+        (
+            demand.inlined,
+            MAX_INLINED,
+            "expressions and statements with every call inlined",
+            "put a loop in the place of calls, or divide the pass",
+        ),
+    ] {
+        if found > allowed {
+            return Err(format!(
+                "kernel \"{}\": {found} {what}; allowed: at most {allowed}; {way_out}",
+                entry.name
+            ));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,88 @@
+//! Files that are whole or not there.
+
+use std::fs::OpenOptions;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+use tempfile::NamedTempFile;
+
+use crate::FileError;
+
+/// A file that is being written is called `.shuttertruth-<any>.tmp`.
+const PREFIX: &str = ".shuttertruth-";
+const SUFFIX: &str = ".tmp";
+
+/// Writes `bytes` under a temporary name in the same folder, then renames: the path holds all of them or what it held
+/// before. Missing folders are made. The umask decides who may read the file, as with every other program.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    let fail = |error| FileError::io(path, "write", error);
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    std::fs::create_dir_all(folder).map_err(fail)?;
+    let mut temporary = BufWriter::new(temporary_in(folder).map_err(fail)?);
+    temporary.write_all(bytes).map_err(fail)?;
+    let temporary = temporary
+        .into_inner()
+        .map_err(|error| fail(error.into_error()))?;
+    temporary.persist(path).map_err(|error| fail(error.error))?;
+    Ok(())
+}
+
+fn temporary_in(folder: &Path) -> std::io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(PREFIX).suffix(SUFFIX);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    let temporary = builder.tempfile_in(folder)?;
+    // Locked as long as its writer lives, so that nobody takes it for a leftover. Some systems cannot lock.
+    let _ = temporary.as_file().try_lock();
+    Ok(temporary)
+}
+
+/// Removes files of a folder, not of those below, that a process was writing when it was killed. A file that a living process
+/// writes stays, and so does every other file.
+pub fn remove_leftovers(folder: &Path) {
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        let is_ours = name.starts_with(PREFIX) && name.ends_with(SUFFIX);
+        if !is_ours || !entry.file_type().is_ok_and(|kind| kind.is_file()) {
+            continue;
+        }
+        let file = OpenOptions::new().read(true).write(true).open(entry.path());
+        if file.is_ok_and(|file| file.try_lock().is_ok()) {
+            // One that cannot be removed harms nobody.
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_a_dead_process_was_writing_is_removed() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let others = [".shuttertruth-notes", "frame.tmp", ".tmpAbCdEf"];
+        for name in others {
+            std::fs::write(path(name), "").unwrap();
+        }
+        std::fs::write(path(".shuttertruth-dead.tmp"), "").unwrap();
+        std::fs::create_dir(path(".shuttertruth-folder.tmp")).unwrap();
+        let living = temporary_in(folder.path()).unwrap();
+        remove_leftovers(folder.path());
+        assert!(!path(".shuttertruth-dead.tmp").exists());
+        assert!(living.path().exists(), "it is being written");
+        assert!(path(".shuttertruth-folder.tmp").exists());
+        for name in others {
+            assert!(path(name).exists(), "{name}");
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! Evidence of bounds that are not kept: the place where a picture is worst, and the wrong blur that it is most like.
+
+use std::path::Path;
+
+use frame::{Frame, Image, Ladder, Truth, read_exr};
+use metrics::{Metric, Reference, Regions};
+
+use super::decoys::Decoys;
+use super::finding::Finding;
+use super::worst::{Worst, worst_block, write_crop};
+use crate::{Case, Error, Run};
+
+/// Adds evidence to every notable finding of a run, from the files that the run left below `folder`, and writes a picture of
+/// each worst place into its case's folder.
+pub fn add_evidence(run: &Run, findings: &mut [Finding], folder: &Path) -> Result<(), Error> {
+    let mut notable: Vec<(&Case, Vec<&mut Finding>)> = Vec::new();
+    for finding in findings
+        .iter_mut()
+        .filter(|finding| finding.outcome.is_notable())
+    {
+        match notable.last_mut() {
+            Some((case, own)) if finding.is_of(case) => own.push(finding),
+            _ => {
+                let mut cases = run.cases.iter();
+                let case = cases.find(|case| !case.bar && finding.is_of(case));
+                notable.push((case.expect("a finding is about a case"), vec![finding]));
+            }
+        }
+    }
+    let truth_of = |case: &Case| (case.scene.clone(), case.alignment.clone());
+    for group in notable.chunk_by_mut(|(one, _), (next, _)| truth_of(one) == truth_of(next)) {
+        add_evidence_of_truth(group, folder)?;
+    }
+    Ok(())
+}
+
+/// Adds evidence to the findings of cases that have one scene and alignment in common.
+fn add_evidence_of_truth(
+    cases: &mut [(&Case, Vec<&mut Finding>)],
+    folder: &Path,
+) -> Result<(), Error> {
+    let (first, _) = &cases[0];
+    let own = folder.join(&first.scene);
+    let file = |kind: &str| own.join(format!("{kind}_{}.exr", first.alignment));
+    let frame = Frame::read(&own.join("frame.exr"))?.cropped();
+    let (truth, ladder) = (Truth::read(&file("truth"))?, Ladder::read(&file("ladder"))?);
+    let reference = Reference::new(&frame, &truth, Some(&ladder), &frame.display.into())?;
+    let decoys = Decoys::new(&frame, &truth, &ladder, &reference)?;
+    let shown = Shown {
+        regions: &reference.regions,
+        truth: &truth.mean().color,
+        stops: frame.display.stops,
+    };
+    for (case, findings) in cases {
+        let resembles = decoys.nearest(&case.scores);
+        for finding in findings {
+            finding.worst = Some(shown.worst(case, finding, folder)?);
+            finding.resembles = resembles.clone();
+        }
+    }
+    Ok(())
+}
+
+/// What worst places are searched and shown with.
+struct Shown<'a> {
+    regions: &'a Regions,
+    truth: &'a Image,
+    /// The display exposure of pictures, in stops.
+    stops: f32,
+}
+
+impl Shown<'_> {
+    /// Finds where the error of a finding's metric is largest, and writes a picture of it into the case's folder.
+    fn worst(&self, case: &Case, finding: &Finding, folder: &Path) -> Result<Worst, Error> {
+        let metric: Metric = (finding.metric.parse()).expect("a finding is about a metric");
+        let files = folder.join(&case.folder);
+        let map_name = metric.row().map.name();
+        let map = read_exr(&files.join("errors.exr"))?.plane(map_name)?;
+        let output = read_exr(&files.join("output.exr"))?.color("")?;
+        let (x, y) = worst_block(metric, &map, self.regions);
+        let picture = case.folder.join(format!("worst_{metric}.png"));
+        let panels = [self.truth, &output];
+        write_crop(&folder.join(&picture), (x, y), panels, &map, self.stops)?;
+        Ok(Worst {
+            x,
+            y,
+            map: map_name.to_owned(),
+            picture,
+        })
+    }
+}

@@ -1,0 +1,102 @@
+//! Outcome of one bound: whether a score keeps its limit.
+
+use metrics::{Ideal, Interval, Measured, Metric};
+use serde::{Deserialize, Serialize};
+
+/// How a score stands to its bound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// All of its interval lies on the right side of the limit; without an interval, its value.
+    Kept,
+    /// All of it lies on the wrong side.
+    Broken,
+    /// The interval lies on both sides of the limit, or parts of the truth cannot tell the score.
+    Inconclusive,
+    /// The limit is stricter than the truth's noise can carry, three floors: neither kept nor broken.
+    TooNoisy,
+    /// The metric does not apply to this scene.
+    NotApplicable,
+}
+
+impl Outcome {
+    /// True for an outcome that a person will want to see the cause of.
+    pub fn is_notable(self) -> bool {
+        match self {
+            Outcome::Broken | Outcome::Inconclusive | Outcome::TooNoisy => true,
+            Outcome::Kept | Outcome::NotApplicable => false,
+        }
+    }
+}
+
+/// Compares a score with a limit: by its interval where `interval` is given, by its value otherwise. `Some(None)` is a score
+/// whose interval the truth cannot tell.
+pub fn outcome(
+    metric: Metric,
+    measured: &Measured,
+    interval: Option<Option<&Interval>>,
+    limit: f64,
+) -> Outcome {
+    let Measured::Score(score) = measured else {
+        return Outcome::NotApplicable;
+    };
+    let ideal = metric.ideal();
+    let limit = limit_as_badness(ideal, limit);
+    if limit < limit_as_badness(ideal, metric.strictest_bound(score.floor)) {
+        return Outcome::TooNoisy;
+    }
+    let (best, worst) = match interval {
+        None => [ideal.badness(score.value); 2].into(),
+        Some(Some(interval)) => badness_within(ideal, interval),
+        Some(None) => return Outcome::Inconclusive,
+    };
+    if worst <= limit {
+        Outcome::Kept
+    } else if best > limit {
+        Outcome::Broken
+    } else {
+        Outcome::Inconclusive
+    }
+}
+
+/// Converts a limit to badness. A limit on a distance from an ideal is one already.
+pub(crate) fn limit_as_badness(ideal: Ideal, limit: f64) -> f64 {
+    match ideal {
+        Ideal::Highest => -limit,
+        Ideal::Lowest | Ideal::Target(_) => limit,
+    }
+}
+
+/// Least and largest badness within an interval.
+pub(crate) fn badness_within(ideal: Ideal, interval: &Interval) -> (f64, f64) {
+    let [low, high] = [interval.low, interval.high].map(|end| ideal.badness(end));
+    match ideal {
+        Ideal::Target(target) if (interval.low..=interval.high).contains(&target) => {
+            (0.0, low.max(high))
+        }
+        _ => (low.min(high), low.max(high)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_interval_is_as_bad_as_its_ends() {
+        let interval = Interval {
+            low: 0.75,
+            high: 1.5,
+            standard_error: 0.1,
+        };
+        for (ideal, expected) in [
+            (Ideal::Lowest, (0.75, 1.5)),
+            (Ideal::Highest, (-1.5, -0.75)),
+            (Ideal::Target(1.0), (0.0, 0.5)),
+            (Ideal::Target(2.0), (0.5, 1.25)),
+            (Ideal::Target(0.5), (0.25, 1.0)),
+        ] {
+            assert_eq!(badness_within(ideal, &interval), expected, "{ideal:?}");
+        }
+    }
+}

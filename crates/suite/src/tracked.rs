@@ -1,0 +1,62 @@
+//! Files below `--out` that came with a checkout.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use frame::FileError;
+
+use crate::Error;
+
+/// Variables that would send git to another repository than the folder's.
+const ELSEWHERE: [&str; 4] = [
+    "GIT_DIR",
+    "GIT_WORK_TREE",
+    "GIT_INDEX_FILE",
+    "GIT_CEILING_DIRECTORIES",
+];
+
+/// Refuses a folder that holds files which git tracks: what a change brings along is no evidence for it. `way_out` says what to do
+/// instead.
+///
+/// A folder that does not exist, or lies in no work tree, holds none, and no git is needed to know that. Where git cannot
+/// tell, the folder is refused too.
+pub fn refuse_tracked(out: &Path, way_out: &str) -> Result<(), Error> {
+    if !out.exists() || !is_in_work_tree(out)? {
+        return Ok(());
+    }
+    let folder = out.display();
+    let cannot_tell = |reason: String| {
+        Error::Usage(format!(
+            "whether files in {folder} came with the checkout cannot be told: {reason}; {way_out}"
+        ))
+    };
+    let mut git = Command::new("git");
+    // A checkout may hold what looks like a repository, whose settings name programs.
+    git.args(["-c", "safe.bareRepository=explicit"])
+        .args(["-c", "core.fsmonitor=false"])
+        .args(["ls-files", "-z", "--cached"])
+        .current_dir(out)
+        .stdin(Stdio::null());
+    for name in ELSEWHERE {
+        git.env_remove(name);
+    }
+    let output = (git.output()).map_err(|error| cannot_tell(format!("git: {error}")))?;
+    if !output.status.success() {
+        let said = String::from_utf8_lossy(&output.stderr);
+        return Err(cannot_tell(said.trim_end().to_owned()));
+    }
+    let mut names = output.stdout.split(|byte| *byte == 0);
+    match names.next().filter(|name| !name.is_empty()) {
+        None => Ok(()),
+        Some(name) => Err(Error::Usage(format!(
+            "{} is tracked by git: it came with the checkout, and a check does not count what a change brings along; {way_out}",
+            out.join(&*String::from_utf8_lossy(name)).display()
+        ))),
+    }
+}
+
+fn is_in_work_tree(out: &Path) -> Result<bool, FileError> {
+    let folder = (out.canonicalize()).map_err(|source| FileError::io(out, "read", source))?;
+    let mut above = folder.ancestors();
+    Ok(above.any(|folder| folder.join(".git").exists()))
+}

@@ -1,0 +1,117 @@
+//! Whether a check takes what it finds in `--out` for granted.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::process::Command;
+
+use metrics::Measured;
+use serde::{Deserialize, Serialize};
+use suite::Case;
+
+use crate::bench::{Bench, assert_refused, quick, stdout};
+
+const IDENTITY: [&str; 2] = ["--filters", "identity"];
+const RECORD: &str = "out/plate/identity_default/case.json";
+
+/// A record as it lies in a case's folder.
+#[derive(Serialize, Deserialize)]
+struct Record {
+    inputs: String,
+    files: BTreeMap<String, String>,
+    made: Case,
+    seal: String,
+}
+
+/// A bench whose scene holds the identity to a limit that it breaks.
+fn bench() -> Bench {
+    let bench = Bench::new();
+    bench.write(
+        "bounds.toml",
+        "[default]\nflip_moving = { limit = 0.2, why = \"it serves a test\" }\n",
+    );
+    bench
+}
+
+/// Writes a good score into the record, with a new seal: anybody can compute one.
+fn forge(bench: &Bench) {
+    let text = fs::read(bench.path(RECORD)).unwrap();
+    let mut record: Record = serde_json::from_slice(&text).unwrap();
+    record.made.scores.moving.flip = Measured::score(0.001, 0.001);
+    let interval = (record.made.intervals.get_mut("flip_moving")).expect("it is bounded");
+    (interval.low, interval.high) = (0.0, 0.002);
+    let sealed = serde_json::to_vec(&(&record.inputs, &record.files, &record.made)).unwrap();
+    record.seal = blake3::hash(&sealed).to_hex().to_string();
+    fs::write(bench.path(RECORD), serde_json::to_vec(&record).unwrap()).unwrap();
+}
+
+fn git(bench: &Bench, words: &[&str]) {
+    let mut git = Command::new("git");
+    git.current_dir(bench.path("")).args(words);
+    let output = git.output().unwrap();
+    assert!(output.status.success(), "git {words:?}: {output:?}");
+}
+
+#[test]
+fn a_forged_record_does_not_pass_a_check_that_uses_no_cache() {
+    let bench = bench();
+    let first = bench.check(&IDENTITY);
+    assert_eq!(first.status.code(), Some(1));
+    forge(&bench);
+    let trusting = bench.check(&IDENTITY);
+    assert_eq!(
+        trusting.status.code(),
+        Some(0),
+        "a folder of one's own is trusted"
+    );
+    let no_cache = [&IDENTITY[..], &["--no-cache"]].concat();
+    let anew = bench.check(&no_cache);
+    assert_eq!(anew.status.code(), Some(1));
+    assert_eq!(stdout(&anew), stdout(&first));
+    // What was made anew is kept again.
+    assert_eq!(stdout(&bench.check(&IDENTITY)), stdout(&first));
+}
+
+#[test]
+fn a_check_refuses_a_folder_that_came_with_the_checkout() {
+    let bench = bench();
+    let first = bench.check(&IDENTITY);
+    git(&bench, &["init", "-q"]);
+    // Below a work tree, but no part of it.
+    assert_eq!(stdout(&bench.check(&IDENTITY)), stdout(&first));
+    forge(&bench);
+    git(&bench, &["add", "-f", RECORD]);
+    let parts = [RECORD, "is tracked by git", "--no-cache"];
+    assert_refused(&bench.check(&IDENTITY), 2, &parts);
+    let finished = bench.shuttertruth(&["check", "out/run.json"]);
+    let parts = [RECORD, "is tracked by git", "measure it now"];
+    assert_refused(&finished, 2, &parts);
+
+    let words = [&quick("check", "64")[..], &IDENTITY].concat();
+    let mut without_git = bench.command(&words);
+    without_git.env("PATH", "/nowhere").env_remove("CI");
+    let output = without_git.output().unwrap();
+    assert_refused(&output, 2, &["cannot be told: git: ", "--no-cache"]);
+    // Where no file lies, none is tracked.
+    fs::remove_dir_all(bench.path("out")).unwrap();
+    let output = without_git.output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+}
+
+/// Programs that git would run for a repository's settings, such as `core.fsmonitor`.
+#[cfg(unix)]
+#[test]
+fn a_repository_within_the_checkout_runs_nothing() {
+    let bench = bench();
+    git(&bench, &["init", "-q"]);
+    git(&bench, &["init", "-q", "--bare", "out"]);
+    let hook = format!("touch {}", bench.path("ran").display());
+    for (name, value) in [
+        ("core.bare", "false"),
+        ("core.worktree", "."),
+        ("core.fsmonitor", &hook),
+    ] {
+        git(&bench, &["config", "--file", "out/config", name, value]);
+    }
+    assert_refused(&bench.check(&IDENTITY), 2, &["cannot be told: "]);
+    assert!(!bench.path("ran").exists(), "a program ran");
+}

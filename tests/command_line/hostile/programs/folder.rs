@@ -1,0 +1,102 @@
+//! One folder, several processes.
+
+use std::fs::{self, File, OpenOptions};
+use std::os::unix::fs::PermissionsExt;
+use std::process::Command;
+
+use crate::bench::{Bench, assert_done, assert_refused, files_below, split};
+
+const RUN: &str = "run --quiet --size 64x32 --samples-per-pixel 16 --filters identity --out out";
+const RENDER: &str = "render --quiet --samples-per-pixel 16 --out out";
+
+/// What another process would hold.
+fn lock_file(bench: &Bench) -> File {
+    fs::create_dir_all(bench.path("out")).unwrap();
+    let path = bench.path("out/.shuttertruth.lock");
+    let mut options = OpenOptions::new();
+    (options.write(true).create(true).truncate(false))
+        .open(path)
+        .unwrap()
+}
+
+#[test]
+fn two_runs_do_not_write_to_one_folder_at_a_time() {
+    let bench = Bench::new();
+    let parts = [
+        "--out: another shuttertruth is writing to out",
+        "another folder",
+    ];
+    bench.write(
+        "bounds.toml",
+        "[default]\nflip_moving = { limit = 1, why = \"any\" }\n",
+    );
+    let other = lock_file(&bench);
+    other.try_lock().unwrap();
+    for words in [
+        RUN,
+        RENDER,
+        "check --quiet --filters identity --out out",
+        "calibrate --quiet --filters identity --out out",
+        "catalogue --quiet --filters identity --out out",
+        "tune --quiet --filter jump_flood --objective flip --out out",
+        "serve --quiet --filter jump_flood --out out",
+    ] {
+        let words = split(words);
+        assert_refused(&bench.shuttertruth(&words), 2, &parts);
+        assert_eq!(files_below(&bench.path("out")).len(), 1, "{words:?}");
+    }
+    // Renders share a folder with one another, and with nobody else.
+    other.unlock().unwrap();
+    other.try_lock_shared().unwrap();
+    assert_done(&bench.shuttertruth(&split(RENDER)));
+    assert_refused(&bench.shuttertruth(&split(RUN)), 2, &parts);
+    // The lock of a process that has ended is gone.
+    drop(other);
+    assert_done(&bench.shuttertruth(&split(RUN)));
+    assert_done(&bench.shuttertruth(&split(RUN)));
+}
+
+#[test]
+fn what_a_killed_process_was_writing_is_removed_by_the_next_run() {
+    let bench = Bench::new();
+    let gone = [
+        "out/.shuttertruth-a.tmp",
+        "out/plate/.shuttertruth-b.tmp",
+        "out/plate/identity_default/.shuttertruth-c.tmp",
+        "out/plate/truth_trailing/.shuttertruth-d.tmp",
+    ];
+    let kept = ["out/mine.tmp", "out/mine/.shuttertruth-e.tmp"];
+    for name in gone.iter().chain(&kept) {
+        let path = bench.path(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, "half").unwrap();
+    }
+    assert_done(&bench.shuttertruth(&split(RUN)));
+    for name in gone {
+        assert!(!bench.path(name).exists(), "{name}");
+    }
+    for name in kept {
+        assert!(bench.path(name).exists(), "{name}");
+    }
+    let left = files_below(&bench.path("out/plate"));
+    assert!(
+        left.iter()
+            .all(|path| path.extension().is_none_or(|it| it != "tmp"))
+    );
+}
+
+#[test]
+fn the_umask_decides_who_may_read_the_files() {
+    for (umask, expected) in [("022", 0o644), ("027", 0o640), ("077", 0o600)] {
+        let bench = Bench::new();
+        let program = env!("CARGO_BIN_EXE_shuttertruth");
+        let line = format!("umask {umask}; exec {program} {RENDER}");
+        let mut shell = Command::new("sh");
+        shell.current_dir(bench.path("")).args(["-c", &line]);
+        assert_done(&shell.output().unwrap());
+        for path in files_below(&bench.path("out")) {
+            let mode = fs::metadata(&path).unwrap().permissions().mode() & 0o777;
+            assert_eq!(mode, expected, "{mode:o}: {}", path.display());
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! What runs at all, what it gets to see, and how it ends.
+
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::path::Path;
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use frame::{ExrFile, Raster, write_exr};
+
+use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
+
+/// A filter `mine` that is a shell script with the files as $1 and $2.
+fn script(bench: &Bench, lines: &str, more: &str) {
+    fs::create_dir_all(bench.path("mine")).unwrap();
+    let manifest = format!(
+        "name = \"mine\"\nsummary = \"A program.\"\nalignment = \"trailing\"\n\
+         command = [\"./blur.sh\", \"{{frame}}\", \"{{out}}\"]\n{more}\n"
+    );
+    fs::write(bench.path("mine/filter.toml"), manifest).unwrap();
+    let script = bench.path("mine/blur.sh");
+    fs::write(&script, format!("#!/bin/sh\n{lines}\n")).unwrap();
+    fs::set_permissions(&script, fs::Permissions::from_mode(0o755)).unwrap();
+}
+
+/// A bench with a frame of 16 x 16 pixels, which takes no time.
+fn bench() -> Bench {
+    let bench = Bench::new();
+    let mut file = ExrFile::new(16, 16);
+    file.push_color("", &Raster::filled(16, 16, [0.5; 3]));
+    for name in ["velocity.X", "velocity.Y", "Z"] {
+        file.push_plane(name, &Raster::filled(16, 16, 1.0));
+    }
+    file.set("exposure", 0.5);
+    write_exr(&bench.path("frame.exr"), &file).unwrap();
+    bench
+}
+
+const BLUR: &str = "blur --allow-commands --filter ./mine --frame frame.exr --out b.exr";
+
+/// `blur`, which fails where it takes a minute.
+fn blur(bench: &Bench) -> Command {
+    let mut command = Command::new("timeout");
+    command.arg("60").arg(env!("CARGO_BIN_EXE_shuttertruth"));
+    command.current_dir(bench.path("")).args(split(BLUR));
+    command
+}
+
+#[test]
+fn no_command_runs_a_program_that_was_not_allowed() {
+    let bench = bench();
+    script(&bench, "touch ran; cp $1 $2", "");
+    for words in [
+        "run --out out --filter mine",
+        "check --out out --filter mine",
+        "calibrate --out out --filter mine",
+        "catalogue --out out --filter mine",
+        "blur --filter ./mine --frame frame.exr --out b.exr",
+        "tune --out out --filter ./mine",
+        "evaluate --out out --filter ./mine --params p.json",
+        "serve --out out --filter ./mine",
+    ] {
+        let parts = [
+            "./mine/filter.toml:4: ",
+            "`./blur.sh {frame} {out}`",
+            "--allow-commands",
+        ];
+        assert_refused(&bench.shuttertruth(&split(words)), 2, &parts);
+        assert!(!bench.path("out").exists(), "{words}");
+    }
+    let output = bench.shuttertruth(&split("list --filter mine"));
+    assert_done(&output);
+    assert!(stdout(&output).contains("runs: ./blur.sh {frame} {out}"));
+    assert!(!bench.path("mine/ran").exists(), "it ran");
+    assert_done(&bench.shuttertruth(&split(BLUR)));
+    assert!(bench.path("mine/ran").exists());
+}
+
+#[test]
+fn a_program_sees_no_secret() {
+    let bench = bench();
+    let named = "environment = [\"CUDA_VISIBLE_DEVICES\", \"NOT_SET\"]";
+    script(&bench, "env > seen; cp $1 $2", named);
+    let mut command = blur(&bench);
+    for name in ["GITHUB_TOKEN", "ACTIONS_RUNTIME_TOKEN", "MY_SECRET"] {
+        command.env(name, "hidden");
+    }
+    command
+        .env("CUDA_VISIBLE_DEVICES", "1")
+        .env("LC_ALL", "C")
+        .env("HOME", "/somewhere");
+    assert_done(&command.output().unwrap());
+    let seen = fs::read_to_string(bench.path("mine/seen")).unwrap();
+    assert!(
+        !seen.contains("hidden") && !seen.contains("TOKEN"),
+        "{seen}"
+    );
+    for line in [
+        "CUDA_VISIBLE_DEVICES=1",
+        "LC_ALL=C",
+        "HOME=/somewhere",
+        "PATH=",
+    ] {
+        assert!(seen.contains(line), "{line} is missing from: {seen}");
+    }
+    assert!(!seen.contains("NOT_SET"), "{seen}");
+    let output = bench.shuttertruth(&split("list --filter mine"));
+    assert!(stdout(&output).contains("environment: CUDA_VISIBLE_DEVICES NOT_SET"));
+    for (more, part) in [
+        ("environment = [\"A=B\"]", "\"A=B\" names no variable"),
+        ("environment = [\"\"]", "\"\" names no variable"),
+        ("environment = [\"1A\"]", "\"1A\" names no variable"),
+    ] {
+        script(&bench, "", more);
+        let refused = bench.shuttertruth(&split(BLUR));
+        assert_refused(&refused, 2, &["mine/filter.toml:5: environment: ", part]);
+    }
+    let kernels = "name = \"mine\"\nsummary = \"\"\nalignment = \"trailing\"\n\
+                   environment = [\"A\"]\n[[pass]]\nentry = \"blur\"\n";
+    fs::write(bench.path("mine/filter.toml"), kernels).unwrap();
+    assert_refused(
+        &bench.shuttertruth(&split(BLUR)),
+        2,
+        &["mine/filter.toml:4: environment: is for a program"],
+    );
+}
+
+/// Leaves a session of its own behind, which names itself in `pid`.
+#[cfg(target_os = "linux")]
+const LEAVES_ONE: &str = "(setsid sh -c 'echo $$ > pid.new; mv pid.new pid; exec sleep 300' &)\n\
+                          while [ ! -e pid ]; do sleep 0.01; done";
+
+/// Whether the process in `pid` has ended; a zombie has.
+#[cfg(target_os = "linux")]
+fn has_ended(bench: &Bench) -> bool {
+    let pid = fs::read_to_string(bench.path("mine/pid")).unwrap();
+    let stat = Path::new("/proc").join(pid.trim_end()).join("stat");
+    fs::read_to_string(stat).map_or(true, |stat| stat.contains(") Z "))
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_session_of_its_own_ends_with_the_program() {
+    for (rest, more, code, part) in [
+        ("cp $1 $2", "", 0, ""),
+        ("exit 7", "", 2, "ended with exit status: 7"),
+        ("sleep 300", "time_limit = 2", 2, "took longer than 2 s"),
+    ] {
+        let bench = bench();
+        script(&bench, &format!("{LEAVES_ONE}\n{rest}"), more);
+        let output = blur(&bench).output().unwrap();
+        assert_eq!(output.status.code(), Some(code), "{rest}");
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(said.contains(part), "{said}");
+        assert!(has_ended(&bench), "it lives on after: {rest}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_session_of_its_own_ends_at_ctrl_c() {
+    let bench = bench();
+    script(&bench, &format!("{LEAVES_ONE}\nsleep 300"), "");
+    let mut child = bench.command(&split(BLUR)).spawn().unwrap();
+    while !bench.path("mine/pid").exists() {
+        assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    let pressed = Instant::now();
+    let interrupt = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(interrupt.unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(pressed.elapsed() < Duration::from_secs(2));
+    assert!(has_ended(&bench));
+}
+
+#[test]
+fn what_is_no_file_in_the_place_of_out_is_refused_at_once() {
+    let bench = bench();
+    for (lines, part) in [
+        ("mkfifo $2", "left a pipe or a device in the place of {out}"),
+        ("ln -s /dev/zero $2", "left a link in the place of {out}"),
+        ("ln -s $1 $2", "left a link in the place of {out}"),
+        ("mkdir $2", "left a folder in the place of {out}"),
+    ] {
+        script(&bench, lines, "");
+        let output = blur(&bench).output().unwrap();
+        assert_refused(&output, 2, &[part, "a regular file"]);
+    }
+    // Nobody else may look into the folder of the files.
+    script(&bench, "ls -ld $(dirname $2) > mode; cp $1 $2", "");
+    assert_done(&blur(&bench).output().unwrap());
+    let mode = fs::read_to_string(bench.path("mine/mode")).unwrap();
+    assert!(mode.starts_with("drwx------"), "{mode}");
+}
+
+#[test]
+fn what_a_program_writes_is_bounded() {
+    let bench = bench();
+    // 16 x 16 pixels of 256 bytes, and 1 MiB.
+    let parts = ["wrote an {out} of more than 1114112 bytes", "16x16 pixels"];
+    for lines in [
+        "head -c 20000000 /dev/zero > $2; sleep 300",
+        "truncate -s 1T $2",
+    ] {
+        script(&bench, lines, "");
+        assert_refused(&blur(&bench).output().unwrap(), 2, &parts);
+    }
+    // 300 MB on standard output, where no file may have more than 50: only the end is kept, and not in a file.
+    script(
+        &bench,
+        "yes | head -c 300000000; echo the end >&2; exit 7",
+        "",
+    );
+    let program = env!("CARGO_BIN_EXE_shuttertruth");
+    let limited = format!("ulimit -f 100000; exec timeout 60 {program} {BLUR}");
+    let mut shell = Command::new("sh");
+    shell.current_dir(bench.path("")).args(["-c", &limited]);
+    let output = shell.output().unwrap();
+    assert_refused(
+        &output,
+        2,
+        &["ended with exit status: 7", "\ny\ny\nthe end"],
+    );
+    assert!(output.stderr.len() < 1000, "ten lines are shown");
+}
+
+#[test]
+fn a_program_that_closes_its_pipes_and_lives_on_is_stopped() {
+    let bench = bench();
+    script(&bench, "exec >&- 2>&-; sleep 300", "time_limit = 1");
+    let output = blur(&bench).output().unwrap();
+    assert_refused(&output, 2, &["took longer than 1 s", "printed nothing"]);
+}

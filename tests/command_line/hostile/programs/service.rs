@@ -1,0 +1,97 @@
+//! Lines that a service cannot answer.
+
+use std::io::{Read, Write};
+use std::process::Stdio;
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+
+use crate::bench::{Bench, split};
+
+const SERVE: &str = "serve --quiet --filter jump_flood --objective flip --size 64x32 --samples-per-pixel 16 --out out";
+
+/// Says bytes and hears all answers until the service ends, which has to be well.
+fn conversation(bench: &Bench, said: &[u8]) -> Vec<Value> {
+    let mut command = bench.command(&split(SERVE));
+    command.stdin(Stdio::piped()).stdout(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    let mut input = child.stdin.take().unwrap();
+    let said = said.to_vec();
+    let speaker = std::thread::spawn(move || input.write_all(&said));
+    let mut heard = String::new();
+    let mut output = child.stdout.take().unwrap();
+    output.read_to_string(&mut heard).unwrap();
+    speaker.join().unwrap().unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(0), "{heard}");
+    heard
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect()
+}
+
+#[test]
+fn each_line_that_cannot_be_answered_gets_an_error_and_the_next_one_an_answer() {
+    let bench = Bench::new();
+    let request = b"{\"id\": 1, \"params\": {}, \"scenes\": [\"plate\", \"plate\"]}\n";
+    let long = vec![b'['; 3 << 20];
+    let wrong = vec![b'x'; 5000];
+    let last = b"\n{\"id\": 2, \"params\": {}}\n";
+    let said = [
+        request.as_slice(),
+        b"{\"id\": \xff}\n",
+        &long,
+        b"\n",
+        &wrong,
+        last,
+    ];
+    let heard = conversation(&bench, &said.concat());
+    let errors: Vec<&str> = heard
+        .iter()
+        .filter_map(|line| line["error"].as_str())
+        .collect();
+    let parts = [
+        "not UTF-8 from its byte 8",
+        "more than 1048576 bytes",
+        "xxx..: allowed are",
+        "\"plate\" is named twice",
+    ];
+    for part in parts {
+        assert!(
+            errors.iter().any(|error| error.contains(part)),
+            "{part}: {errors:?}"
+        );
+    }
+    assert_eq!(errors.len(), parts.len(), "{errors:?}");
+    assert!(errors.iter().all(|error| error.len() < 1000));
+    let done = heard.last().unwrap();
+    assert_eq!(done["id"], json!(2));
+    assert!(done["done"].is_object(), "{done}");
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_a_service_that_nobody_talks_to() {
+    let bench = Bench::new();
+    let mut command = bench.command(&split(SERVE));
+    command.stdin(Stdio::piped()).stdout(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    let _silence = child.stdin.take().unwrap();
+    let mut ready = [0; 1];
+    child
+        .stdout
+        .as_mut()
+        .unwrap()
+        .read_exact(&mut ready)
+        .unwrap();
+    let pressed = Instant::now();
+    let mut interrupt = std::process::Command::new("kill");
+    let interrupt = interrupt.args(["-INT", &child.id().to_string()]).status();
+    assert!(interrupt.unwrap().success());
+    let status = child.wait().unwrap();
+    assert!(
+        pressed.elapsed() < Duration::from_secs(2),
+        "{:?}",
+        pressed.elapsed()
+    );
+    assert_eq!(status.code(), Some(130));
+}

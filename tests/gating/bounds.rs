@@ -1,0 +1,338 @@
+//! The shipped bounds tell a blur from none: on every shipped scene where something moves.
+
+use std::fs;
+use std::path::Path;
+
+use frame::{Alignment, Picture};
+use metrics::{Measured, Metric, Reference};
+use suite::{Judged, Level, Outcome, Programs, RenderSettings, SceneBounds, SceneChoice};
+
+use crate::kept_truths;
+
+const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
+
+/// Nothing in them moves farther than the bounds allow: what they expose is told by changed pixels, in the test `catalogue`.
+const HARDLY_MOVING: [&str; 1] = ["creep"];
+
+/// Judges the instant itself, and the mean of 64 sub-frames.
+fn judged(choice: &SceneChoice, out: &Path) -> [Vec<Judged>; 2] {
+    let settings = RenderSettings {
+        width: 160,
+        height: 90,
+        ..RenderSettings::default()
+    };
+    let scene = &choice.scene;
+    let frame = suite::frame_of(scene, &settings, out, true).unwrap();
+    let (truth, ladder) =
+        suite::truth_and_ladder_of(scene, &settings, Alignment::Trailing, out, true).unwrap();
+    let reference = Reference::new(&frame, &truth, None, &suite::viewing(scene)).unwrap();
+    let bounds = suite::read_bounds(Path::new(SCENES), &choice.folder).unwrap();
+    // What is asked of every filter, required or not.
+    let bounds = bounds.of("identity", "default");
+    let judged = |picture: &Picture| {
+        suite::judge_scores(&reference.measure(picture).unwrap().scores, None, &bounds)
+    };
+    let identity = Picture {
+        color: frame.color.clone(),
+        coverage: frame.coverage.clone(),
+    };
+    let rung = ladder
+        .rungs
+        .iter()
+        .find(|rung| rung.subframes == 64)
+        .unwrap();
+    [judged(&identity), judged(&Picture::mean(&rung.halves))]
+}
+
+fn describe(judged: &[Judged]) -> String {
+    let lines = judged.iter().map(|judged| {
+        let score = match &judged.measured {
+            Measured::Score(score) => format!("{:.4}, floor {:.4}", score.value, score.floor),
+            Measured::NotApplicable { reason } => reason.clone(),
+        };
+        let limit = judged.bound.limit;
+        format!(
+            "  {} {score}, limit {limit}: {:?}",
+            judged.metric, judged.outcome
+        )
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn the_identity_breaks_a_bound_in_every_moving_scene_and_64_subframes_break_none() {
+    let scenes = suite::select_scenes(Path::new(SCENES), &[]).unwrap();
+    assert!(scenes.len() >= 5, "the shipped scenes are missing");
+    let mut failures = Vec::new();
+    let (out, _own) = kept_truths();
+    for choice in &scenes {
+        let [identity, accumulation] = judged(choice, &out);
+        let broken = |judged: &[Judged]| judged.iter().any(|one| one.outcome == Outcome::Broken);
+        let noisy = |judged: &[Judged]| judged.iter().any(|one| one.outcome == Outcome::TooNoisy);
+        let name = &choice.scene.name;
+        println!("{name}, identity:\n{}", describe(&identity));
+        println!("{name}, 64 sub-frames:\n{}", describe(&accumulation));
+        if HARDLY_MOVING.contains(&name.as_str()) {
+            assert!(!broken(&identity), "{name} is no exception");
+        } else if !broken(&identity) {
+            failures.push(format!("{name}: the identity keeps every bound"));
+        }
+        if broken(&accumulation) {
+            failures.push(format!("{name}: 64 sub-frames break a bound"));
+        }
+        if noisy(&identity) {
+            failures.push(format!(
+                "{name}: a bound is stricter than the truth's noise can carry"
+            ));
+        }
+    }
+    assert!(failures.is_empty(), "{failures:#?}");
+}
+
+/// A folder of scenes with one scene, `fan`; texts of bounds.toml beside the scenes and beside the scene.
+fn read(beside_scenes: &str, beside_scene: &str) -> Result<SceneBounds, String> {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("fan");
+    fs::create_dir(&scene).unwrap();
+    fs::write(scene.join("scene.toml"), "").unwrap();
+    for (place, text) in [(folder.path(), beside_scenes), (&scene, beside_scene)] {
+        fs::write(place.join("bounds.toml"), text).unwrap();
+    }
+    let filters =
+        suite::select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap();
+    let check = || {
+        let bounds = suite::read_bounds(folder.path(), &scene)?;
+        suite::check_names(folder.path(), std::iter::once(&bounds), &filters)?;
+        suite::check_bounded(folder.path(), std::iter::once(("fan", &bounds)), &filters)?;
+        Ok(bounds)
+    };
+    check().map_err(|error: suite::Error| {
+        let folder = folder.path().display().to_string();
+        error.to_string().replace(&folder, "scenes")
+    })
+}
+
+fn limit(limit: f64) -> String {
+    format!("{{ limit = {limit}, why = \"it serves a test\" }}\n")
+}
+
+#[test]
+fn every_metric_can_be_bounded_but_those_for_reports() {
+    for metric in Metric::all() {
+        let bounds = read(&format!("[default]\n{metric} = {}", limit(0.25)), "");
+        if metric.report_only().is_some() {
+            let message = bounds.unwrap_err();
+            assert!(message.contains("bounds.toml:2: "), "{message}");
+            assert!(message.contains("is for reports and no bound"), "{message}");
+            continue;
+        }
+        let bounds = bounds.unwrap();
+        let bounds = bounds.of("identity", "default");
+        let names: Vec<_> = bounds.iter().map(|(name, b)| (name, b.limit)).collect();
+        assert_eq!(names, [(&metric.name(), 0.25)]);
+        assert_eq!(bounds[&metric.name()].level, Level::Required);
+    }
+}
+
+#[test]
+fn limits_hold_for_the_size_that_they_were_measured_at() {
+    let everywhere = format!("[default]\nflip_moving = {}", limit(0.1));
+    let of = |filter: &str, size: &str| {
+        let text = format!(
+            "[filter.{filter}]\nflip_moving = {{ limit = 0.2, {size} why = \"it serves a test\" }}\n"
+        );
+        read(&everywhere, &text).unwrap()
+    };
+    let small = of("identity", "size = [160, 90],");
+    let large = of("identity", "size = [320, 180],");
+    let any = of("identity", "");
+    let another = of("kino", "size = [320, 180],");
+    let filters =
+        suite::select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap();
+    let size = |bounds: &[&SceneBounds], asked| {
+        let size = suite::bounded_size(bounds.iter().copied(), &filters, asked);
+        size.map_err(|error| error.to_string())
+    };
+    assert_eq!(size(&[&any, &small], None), Ok(Some((160, 90))));
+    assert_eq!(
+        size(&[&small, &another], Some((160, 90))),
+        Ok(Some((160, 90)))
+    );
+    assert_eq!(size(&[&any, &another], Some((64, 32))), Ok(Some((64, 32))));
+    assert_eq!(size(&[&any], None), Ok(None));
+    let refused = size(&[&small], Some((320, 180))).unwrap_err();
+    for part in [
+        "fan/bounds.toml:2: the limit on flip_moving holds for 160x90, and --size is 320x180",
+        "calibrate --size 320x180",
+    ] {
+        assert!(refused.contains(part), "{refused}");
+    }
+    let two = size(&[&small, &large], None).unwrap_err();
+    for part in [
+        "fan/bounds.toml:2: ",
+        "for 320x180, that of",
+        "for 160x90; check them apart",
+    ] {
+        assert!(two.contains(part), "{two}");
+    }
+    // At another size the limit that holds for any is left.
+    let left = |size| small.clone().at(size).of("identity", "default")["flip_moving"].limit;
+    assert_eq!([left((160, 90)), left((320, 180))], [0.2, 0.1]);
+}
+
+#[test]
+fn bounds_that_mean_nothing_are_refused_with_file_and_line() {
+    let good = format!("[default]\nflip_moving = {}", limit(0.1));
+    let rows: &[(&str, &str, &[&str])] = &[
+        (
+            "\n[default]\nflip = { limit = 0.1, why = \"w\" }",
+            "",
+            &["scenes/bounds.toml:3: metric \"flip\" is unknown; allowed: mse_moving"],
+        ),
+        (
+            "[default]\nflip_moving = { limit = nan, why = \"w\" }",
+            "",
+            &["scenes/bounds.toml:2: flip_moving: limit = NaN; allowed: a finite number"],
+        ),
+        (
+            "[default]\nflip_moving = 0.1",
+            "",
+            &["scenes/bounds.toml:2: ", "a bound is a table", "why"],
+        ),
+        (
+            "[default]\nflip_moving = { limit = 0.1 }",
+            "",
+            &["scenes/bounds.toml:2: flip_moving: has no why", "one line"],
+        ),
+        (
+            "[default]\nflip_moving = { limit = 0.1, why = \"a\\nb\" }",
+            "",
+            &["bounds.toml:2: flip_moving: why = \"a\\nb\"", "one line"],
+        ),
+        (
+            "[default]\nflip_moving = { limit = 0.1, why = \"w\", level = \"maybe\" }",
+            "",
+            &["scenes/bounds.toml:2: ", "maybe", "required", "report"],
+        ),
+        (
+            "[default]\nflip_moving = { limit = 0.1, size = [160, 0], why = \"w\" }",
+            "",
+            &[
+                "scenes/bounds.toml:2: flip_moving: size = [160, 0]; allowed: columns and rows from 16 to 16384",
+            ],
+        ),
+        (
+            "[default]\nflip_moving = { limit = 0.1, size = \"160x90\", why = \"w\" }",
+            "",
+            &["scenes/bounds.toml:2: ", "160x90"],
+        ),
+        (
+            "flip_moving = 0.05",
+            "",
+            &["scenes/bounds.toml:1: ", "flip_moving", "default"],
+        ),
+        (
+            &good,
+            "[filter.jumpflood]\nextent = { limit = 0.1, why = \"w\" }",
+            &[
+                "scenes/fan/bounds.toml:1: no filter is called \"jumpflood\"; allowed: ",
+                "jump_flood",
+            ],
+        ),
+        (
+            &good,
+            "\n[filter.\"jump_flood:fastest\"]\nextent = { limit = 0.1, why = \"w\" }",
+            &[
+                "scenes/fan/bounds.toml:2: the filter jump_flood has no preset \"fastest\"",
+                "paper",
+            ],
+        ),
+        (
+            "[margin]\nflip_moving = -0.1",
+            "",
+            &["scenes/bounds.toml:2: margin of flip_moving is -0.1; allowed: 0 or more"],
+        ),
+        (
+            &good,
+            "[margin]\nflip_moving = 0.1",
+            &[
+                "scenes/fan/bounds.toml:2: a margin is for all scenes",
+                "scenes/bounds.toml",
+            ],
+        ),
+        (
+            "",
+            "",
+            &["fan / identity:default: has no bound", "[default]"],
+        ),
+        (
+            "[filter.jump_flood]\nextent = { limit = 0.1, why = \"w\" }",
+            "",
+            &["fan / identity:default: has no bound"],
+        ),
+        (
+            "[default]\nflip_moving = { limit = 0.1, why = \"w\", level = \"report\" }",
+            "",
+            &[
+                "no bound of identity:default is required",
+                "level = \"required\"",
+            ],
+        ),
+    ];
+    for (beside_scenes, beside_scene, parts) in rows {
+        let message = read(beside_scenes, beside_scene).unwrap_err();
+        for part in *parts {
+            assert!(
+                message.contains(part),
+                "\"{part}\" is missing from: {message}"
+            );
+        }
+    }
+}
+
+#[test]
+fn bounds_of_a_scene_that_does_not_exist_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("fna")).unwrap();
+    fs::write(folder.path().join("fna/bounds.toml"), "").unwrap();
+    let message = suite::check_names(folder.path(), std::iter::empty(), &[]).unwrap_err();
+    assert!(
+        message.to_string().contains("fna has no scene.toml"),
+        "{message}"
+    );
+}
+
+#[test]
+fn the_narrower_bound_overrides_the_wider_and_the_scenes_own_that_of_all_scenes() {
+    let level = |table: &str, limits: &[(&str, f64)]| {
+        let lines = limits
+            .iter()
+            .map(|(name, value)| format!("{name} = {}", limit(*value)));
+        format!("[{table}]\n{}", lines.collect::<String>())
+    };
+    let names = [
+        "flip_moving",
+        "mse_moving",
+        "extent",
+        "energy",
+        "hole",
+        "deficit",
+    ];
+    let limits = |count: usize, value: f64| -> Vec<(&str, f64)> {
+        names[..count].iter().map(|name| (*name, value)).collect()
+    };
+    let all = level("default", &limits(6, 1.0))
+        + &level("filter.identity", &limits(5, 2.0))
+        + &level("filter.\"identity:default\"", &limits(4, 3.0))
+        + &level("filter.jump_flood", &limits(6, 7.0));
+    let own = level("default", &limits(3, 4.0))
+        + &level("filter.identity", &limits(2, 5.0))
+        + &level("filter.\"identity:default\"", &limits(1, 6.0));
+    let bounds = read(&all, &own).unwrap();
+    let found = bounds.of("identity", "default");
+    let found: Vec<f64> = names.iter().map(|name| found[*name].limit).collect();
+    assert_eq!(found, [6.0, 5.0, 4.0, 3.0, 2.0, 1.0]);
+    let other = bounds.of("velocity_gather", "fine");
+    let found: Vec<f64> = names.iter().map(|name| other[*name].limit).collect();
+    assert_eq!(found, [4.0, 4.0, 4.0, 1.0, 1.0, 1.0]);
+}

@@ -1,0 +1,21 @@
+//! Bounds, and presets that are tuned and held to them.
+
+mod bounds;
+mod planted_defects;
+mod shipped_bounds;
+mod tune;
+mod tuned_presets;
+
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// The folder of truths that are kept from one run of the tests to the next, and the right to use it: two tests that need the same
+/// truths render them once.
+fn kept_truths() -> (PathBuf, MutexGuard<'static, ()>) {
+    static IN_USE: Mutex<()> = Mutex::new(());
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("truths");
+    (
+        folder,
+        IN_USE.lock().unwrap_or_else(PoisonError::into_inner),
+    )
+}

@@ -1,0 +1,92 @@
+//! Image error and edge bleed of the filters that people will compare with stay where they were measured, on every scene.
+
+use std::path::Path;
+
+use filters::Gpu;
+use suite::{
+    Check, Decision, Finding, InputFormat, Level, Outcome, Plan, Programs, RenderSettings,
+    RunBounds, bounded_size, check, judge, read_bounds, run, select_filters, select_scenes,
+};
+
+use crate::kept_truths;
+
+/// What is bounded there.
+const GUARDED: [&str; 4] = [
+    "jump_flood:paper",
+    "jump_flood:corrected",
+    "mcguire:paper",
+    "guertin:paper",
+];
+
+#[test]
+fn guarded_filters_keep_what_is_required_of_them_on_every_scene() {
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes"));
+    let gpu = Gpu::new(None).expect("this test runs filters");
+    let filters =
+        select_filters(&GUARDED.map(str::to_owned), None, &[], Programs::Refused).unwrap();
+    let choices = select_scenes(root, &[]).unwrap();
+    assert!(choices.len() >= 23, "the shipped scenes are missing");
+    let bounds: RunBounds = (choices.iter())
+        .map(|choice| {
+            let bounds = read_bounds(root, &choice.folder).unwrap();
+            (choice.scene.name.clone(), bounds)
+        })
+        .collect();
+    let (width, height) = (bounded_size(bounds.values(), &filters, None).unwrap()).unwrap();
+    let (out, _own) = kept_truths();
+    let plan = Plan {
+        scenes: choices.into_iter().map(|choice| choice.scene).collect(),
+        filters,
+        inputs: vec![InputFormat::default()],
+        jitter_frames: 0,
+        render: RenderSettings {
+            width,
+            height,
+            ..RenderSettings::default()
+        },
+        out,
+        intervals: true,
+        no_cache: false,
+        quiet: true,
+    };
+    let run = run(&plan, Some(&gpu), Vec::new()).unwrap();
+    let check = check(&run, judge(&run, &bounds), Vec::new());
+    for scene in &plan.scenes {
+        for filter in GUARDED {
+            for metric in ["flip_moving", "bleed_lateral"] {
+                assert_required(&check, &scene.name, filter, metric);
+            }
+        }
+    }
+    let not_kept: Vec<String> = (check.findings.iter())
+        .filter(|finding| finding.level == Level::Required)
+        .filter(|finding| !matches!(finding.outcome, Outcome::Kept | Outcome::NotApplicable))
+        .map(described)
+        .collect();
+    assert_eq!(check.decision, Decision::Pass, "{}", not_kept.join("\n"));
+}
+
+fn assert_required(check: &Check, scene: &str, filter: &str, metric: &str) {
+    let required = (check.findings.iter()).any(|finding| {
+        (&finding.scene[..], &finding.filter[..]) == (scene, filter)
+            && finding.metric == metric
+            && finding.level == Level::Required
+    });
+    assert!(
+        required,
+        "{scene}: nothing is required of {filter}'s {metric}"
+    );
+}
+
+fn described(finding: &Finding) -> String {
+    format!(
+        "{} {} {} is {:?}: {:?} within {:?}, limit {}",
+        finding.scene,
+        finding.filter,
+        finding.metric,
+        finding.outcome,
+        finding.value,
+        finding.interval,
+        finding.limit
+    )
+}

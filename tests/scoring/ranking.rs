@@ -1,0 +1,279 @@
+//! Who is best: within a shutter by FLIP, across shutters by skill.
+
+use std::collections::BTreeMap;
+
+use metrics::{ImageMetric, Measured, Reference, Region, Scores};
+use suite::{Case, FORMAT, InputFormat, Overall, Run, overall, table};
+use tests::synthetic::{Object, Sampling, Scene, Shape, VIEWING};
+use tracer::Family;
+
+/// How hard the scenes of a run are, beside one another.
+const SCENES: [f64; 5] = [0.6, 0.8, 1.0, 1.2, 1.4];
+
+/// A filter or bar: its alignment, and its mean FLIP and FLIP*.
+type Entry = (&'static str, bool, &'static str, f64, f64);
+
+/// As on the five scenes of `make run`.
+const ENTRIES: [Entry; 7] = [
+    ("identity", true, "trailing", 0.270, 0.154),
+    ("scatter_oracle", true, "trailing", 0.050, 0.120),
+    ("identity", true, "centred", 0.154, 0.154),
+    ("scatter_oracle", true, "centred", 0.024, 0.024),
+    ("jump_flood:paper", false, "trailing", 0.126, 0.140),
+    ("kino:default", false, "centred", 0.087, 0.087),
+    ("jimenez:wicked", false, "centred", 0.253, 0.253),
+];
+
+/// Any scores, to be overwritten.
+fn scores() -> Scores {
+    let scene = Scene {
+        width: 48,
+        height: 32,
+        objects: vec![Object::sliding(Shape::Disc(6.0), [24.0, 16.0], [12.0, 0.0])],
+    };
+    let (frame, truth) = (scene.frame(), scene.truth([Sampling::CLEAN; 2]));
+    let reference = Reference::new(&frame, &truth, None, &VIEWING).unwrap();
+    reference.measure(&truth.mean()).unwrap().scores
+}
+
+fn case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common): Entry) -> Case {
+    let of = |name: &str| {
+        let own = ENTRIES
+            .iter()
+            .find(|entry| (entry.0, entry.2) == (name, alignment));
+        own.unwrap().3 * SCENES[scene]
+    };
+    let flip = flip * SCENES[scene];
+    let [nothing, best] = ["identity", "scatter_oracle"].map(of);
+    let mut scores = scores.clone();
+    scores.moving.flip = Measured::score(flip, 0.0);
+    scores.skill.flip = Measured::score((nothing - flip) / (nothing - best), 1.0);
+    let mut moving = scores.moving.clone();
+    moving.flip = Measured::score(common * SCENES[scene], 0.0);
+    let (filter, preset) = name.split_once(':').unwrap_or((name, ""));
+    Case {
+        scene: format!("scene_{scene}"),
+        family: Family::Translation,
+        exposes: "nothing".to_owned(),
+        exposure: 0.5,
+        filter: filter.to_owned(),
+        preset: preset.to_owned(),
+        bar,
+        input: InputFormat::default(),
+        parameters: BTreeMap::new(),
+        reference_width: None,
+        command: None,
+        nonlinearity: None,
+        alignment: alignment.to_owned(),
+        truth_hash: alignment.to_owned(),
+        scores,
+        intervals: BTreeMap::new(),
+        common: moving,
+        jitter: None,
+        folder: name.replace(':', "_").into(),
+    }
+}
+
+fn run() -> Run {
+    let scores = scores();
+    let cases: Vec<Case> = (0..SCENES.len())
+        .flat_map(|scene| ENTRIES.map(|entry| case(scene, &scores, entry)))
+        .collect();
+    Run {
+        format: FORMAT,
+        program: suite::PROGRAM.to_owned(),
+        command: Vec::new(),
+        adapter: None,
+        width: 48,
+        height: 32,
+        samples_per_pixel: 16,
+        replicates: 2,
+        seed: 1,
+        velocity: "instantaneous".to_owned(),
+        color: "antialiased".to_owned(),
+        sky_velocity: true,
+        guard_band: 0,
+        common_alignment: "centred".to_owned(),
+        overall: overall(&cases),
+        failures: Vec::new(),
+        cases,
+    }
+}
+
+fn mean<'a>(run: &'a Run, filter: &str, metric: &str) -> &'a Overall {
+    let mut found = run.overall.iter();
+    let found = found.find(|mean| mean.filter == filter && mean.metric == metric);
+    found.unwrap_or_else(|| panic!("{metric} of {filter} has no mean"))
+}
+
+/// The names of the rows between two texts of the printed table, in order.
+fn rows(text: &str, from: &str, to: &str) -> Vec<String> {
+    let (_, text) = text.split_once(from).expect(from);
+    let text = text.split_once(to).map_or(text, |(text, _)| text);
+    let rows = text.lines().skip(1).filter(|line| line.starts_with("  "));
+    rows.map(|line| line.split_whitespace().next().unwrap().to_owned())
+        .collect()
+}
+
+/// Without the codes of colours.
+fn printed(run: &Run) -> String {
+    let mut text = String::new();
+    for (index, part) in table(run).split('\u{1b}').enumerate() {
+        text += match index {
+            0 => part,
+            _ => part.split_once('m').expect("a code of a colour").1,
+        };
+    }
+    text
+}
+
+#[test]
+fn a_trailing_filter_of_more_skill_ranks_above_a_centred_one_of_less_flip() {
+    let run = run();
+    let [flip, skill] = ["flip_moving", "skill_flip"].map(|metric| {
+        ["jump_flood:paper", "kino:default"].map(|filter| mean(&run, filter, metric).mean)
+    });
+    assert!(flip[0] > flip[1], "{flip:?}");
+    // (0.270 - 0.126) / (0.270 - 0.050) and (0.154 - 0.087) / (0.154 - 0.024).
+    assert!(
+        (skill[0] - 0.6545).abs() < 1e-3 && (skill[1] - 0.5154).abs() < 1e-3,
+        "{skill:?}"
+    );
+    let text = printed(&run);
+    let (_, ranking) = text.rsplit_once("mean over 5 scenes").unwrap();
+    let place = |name: &str| ranking.find(name).expect(name);
+    assert!(
+        place("jump_flood:paper") < place("kino:default"),
+        "{ranking}"
+    );
+}
+
+#[test]
+fn what_is_worse_than_doing_nothing_ranks_below_it() {
+    let run = run();
+    let skill = mean(&run, "jimenez:wicked", "skill_flip");
+    assert!(
+        (skill.mean - (0.154 - 0.253) / 0.130).abs() < 1e-9,
+        "{skill:?}"
+    );
+    assert!(skill.interval[1] < 0.0);
+    // Its FLIP is smaller than that of doing nothing against the trailing truth all the same.
+    assert!(mean(&run, "jimenez:wicked", "flip_moving").mean < 0.270);
+    let text = printed(&run);
+    let (_, ranking) = text.rsplit_once("mean over 5 scenes").unwrap();
+    let (ranking, _) = ranking.split_once("Skill is by").unwrap();
+    let last = ranking.rfind("[identity]").unwrap();
+    assert!(last < ranking.find("jimenez:wicked").unwrap(), "{ranking}");
+}
+
+#[test]
+fn a_ranking_by_flip_stays_within_a_shutter_and_shows_its_references() {
+    let text = printed(&run());
+    let (_, means) = text.split_once("mean over 5 scenes").unwrap();
+    let (means, _) = means.split_once("mean over 5 scenes").unwrap();
+    assert_eq!(
+        rows(means, "trailing shutter", "centred shutter"),
+        ["[scatter_oracle]", "jump_flood:paper", "[identity]"]
+    );
+    assert_eq!(
+        rows(means, "centred shutter", "\n\n"),
+        [
+            "[scatter_oracle]",
+            "kino:default",
+            "[identity]",
+            "jimenez:wicked"
+        ]
+    );
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 80),
+        "{text}"
+    );
+}
+
+#[test]
+fn skill_over_scenes_is_a_ratio_of_means() {
+    let scores = scores();
+    let mut cases: Vec<Case> = (0..2)
+        .flat_map(|scene| ENTRIES.map(|entry| case(scene, &scores, entry)))
+        .collect();
+    // On the second scene nothing is to be gained, and what is gained of it is noise: ten times of nearly nothing.
+    for case in cases.iter_mut().filter(|case| case.scene == "scene_1") {
+        let flip = match case.filter.as_str() {
+            "identity" => 0.101,
+            "scatter_oracle" => 0.100,
+            _ => 0.091,
+        };
+        case.scores.moving.flip = Measured::score(flip, 0.0);
+        case.scores.skill.flip = Measured::score((0.101 - flip) / 0.001, 1.0);
+    }
+    let means = overall(&cases);
+    let found = means
+        .iter()
+        .find(|mean| mean.filter == "kino:default" && mean.metric == "skill_flip")
+        .unwrap();
+    let [way, gained] = [0.6 * (0.154 - 0.024), 0.6 * (0.154 - 0.087)];
+    let due = (gained + 0.010) / (way + 0.001);
+    assert!((found.mean - due).abs() < 1e-9, "{found:?} {due}");
+}
+
+#[test]
+fn scenes_that_skill_does_not_apply_to_are_counted() {
+    let mut run = run();
+    assert!(!printed(&run).contains("Scenes that skill applies to"));
+    let centred = run.cases.iter_mut();
+    for case in centred.filter(|case| case.scene == "scene_2" && case.alignment == "centred") {
+        case.scores.skill.flip = Measured::not_applicable("it serves a test");
+    }
+    run.overall = overall(&run.cases);
+    let text = printed(&run);
+    assert!(
+        text.contains("Scenes that skill applies to: 4 of 5 centred."),
+        "{text}"
+    );
+}
+
+#[test]
+fn flip_against_the_common_shutter_has_a_mean_of_its_own() {
+    let run = run();
+    assert!((mean(&run, "jump_flood:paper", "flip_common").mean - 0.140).abs() < 1e-12);
+    let own = run.cases[0]
+        .scores
+        .get(metrics::Metric::Image(ImageMetric::Flip, Region::Moving));
+    assert_ne!(run.cases[0].common.flip, own);
+}
+
+#[test]
+fn bleed_is_the_largest_of_three_and_says_which() {
+    let mut run = run();
+    run.cases.truncate(ENTRIES.len());
+    run.overall.clear();
+    let mover = &mut run.cases[6].scores.objects[0];
+    let sides = [
+        &mut mover.bleed_lateral,
+        &mut mover.bleed_leading,
+        &mut mover.bleed_trailing,
+    ];
+    for (side, pixels) in sides.into_iter().zip([0.0, 4.8, 4.7]) {
+        *side = Measured::score(pixels, 0.0);
+    }
+    let ahead = printed(&run);
+    let line = |text: &str| {
+        let mut lines = text.lines();
+        lines
+            .find(|line| line.contains("wicked"))
+            .unwrap()
+            .to_owned()
+    };
+    assert!(line(&ahead).contains(" 4.80> "), "{ahead}");
+    let mover = &mut run.cases[6].scores.objects[0];
+    mover.bleed_trailing = Measured::score(14.72, 0.0);
+    assert!(
+        line(&printed(&run)).contains(" 14.7< "),
+        "{}",
+        printed(&run)
+    );
+    let mover = &mut run.cases[6].scores.objects[0];
+    mover.bleed_lateral = Measured::score(15.0, 0.0);
+    assert!(line(&printed(&run)).contains(" 15.0 "), "{}", printed(&run));
+    assert!(ahead.contains("ahead (>)"), "{ahead}");
+}
