@@ -178,17 +178,45 @@ impl<'a> Poses<'a> {
 
     #[inline]
     pub(crate) fn pose(&mut self, object: usize) -> &Pose {
-        let stamp = self.poses[object].0;
-        if stamp != FOR_EVER && stamp != self.current {
-            let own = self.ways.objects[object].at(self.time);
-            let pose = match self.scene.objects[object].parent {
-                Parent::World => own,
-                Parent::Camera => self.ways.camera.at(self.time).carrying(&own),
-                Parent::Object(parent) => self.pose(parent).carrying(&own),
-            };
-            self.poses[object] = (self.current, pose);
+        if !self.is_current(object) {
+            self.pose_anew(object);
         }
         &self.poses[object].1
+    }
+
+    /// Whether an object's pose is that of the current time.
+    #[inline]
+    fn is_current(&self, object: usize) -> bool {
+        let stamp = self.poses[object].0;
+        stamp == FOR_EVER || stamp == self.current
+    }
+
+    /// Poses an object, and before it those of its parents that are not yet posed. Chains of parents may be longer than a
+    /// thread's stack.
+    fn pose_anew(&mut self, object: usize) {
+        let mut due = Vec::new();
+        let mut outermost = object;
+        while let Parent::Object(parent) = self.scene.objects[outermost].parent
+            && !self.is_current(parent)
+        {
+            due.push(outermost);
+            outermost = parent;
+        }
+        self.pose_one(outermost);
+        for object in due.into_iter().rev() {
+            self.pose_one(object);
+        }
+    }
+
+    /// Poses an object whose parent is posed.
+    fn pose_one(&mut self, object: usize) {
+        let own = self.ways.objects[object].at(self.time);
+        let pose = match self.scene.objects[object].parent {
+            Parent::World => own,
+            Parent::Camera => self.ways.camera.at(self.time).carrying(&own),
+            Parent::Object(parent) => self.poses[parent].1.carrying(&own),
+        };
+        self.poses[object] = (self.current, pose);
     }
 }
 

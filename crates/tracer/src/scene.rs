@@ -261,11 +261,20 @@ pub struct Object {
 impl Scene {
     /// From the object's space to the world at `time` (frames).
     pub fn object_to_world(&self, object: usize, time: f64) -> DAffine3 {
-        let own = self.objects[object].motion.at(time);
-        match self.objects[object].parent {
-            Parent::World => own,
-            Parent::Camera => self.camera.motion.at(time) * own,
-            Parent::Object(parent) => self.object_to_world(parent, time) * own,
+        // Chains of parents may be longer than a thread's stack: outwards first, and back.
+        let mut chain = vec![object];
+        let mut outermost = &self.objects[object];
+        while let Parent::Object(parent) = outermost.parent {
+            chain.push(parent);
+            outermost = &self.objects[parent];
         }
+        let own = |object: &usize| self.objects[*object].motion.at(time);
+        let mut chain = chain.iter().rev().map(own);
+        let first = chain.next().expect("an object is in its own chain");
+        let first = match outermost.parent {
+            Parent::Camera => self.camera.motion.at(time) * first,
+            _ => first,
+        };
+        chain.fold(first, |outer, own| outer * own)
     }
 }

@@ -181,4 +181,47 @@ mod tests {
             assert_eq!(fastest.picture.color.pixels, portable.picture.color.pixels);
         }
     }
+
+    /// What two replicates of a scene of four by four pixels come to.
+    fn traced(change: impl FnOnce(&mut Scene)) -> Result<Truth, TraceError> {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/two_spheres");
+        let mut scene = load_scene(&folder, None).expect("the built-in scenes load");
+        change(&mut scene);
+        let settings = TruthSettings {
+            width: 4,
+            height: 4,
+            samples_per_pixel: 4,
+            replicates: 2,
+            ..TruthSettings::default()
+        };
+        trace_truth(&scene, &settings, &|_| ControlFlow::Continue(()))
+    }
+
+    #[test]
+    fn a_pixel_that_is_not_finite_is_refused_by_layer_and_place() {
+        for radiance in [f32::INFINITY, f32::NAN, f32::MAX] {
+            let found = traced(|scene| {
+                scene.background = crate::Background::Constant(glam::Vec3::splat(radiance));
+            });
+            let Err(TraceError::NotFinite { layer, x, y, .. }) = found else {
+                panic!("{radiance} went into a truth");
+            };
+            assert_eq!((layer.as_str(), x, y), ("color", 0, 0));
+        }
+    }
+
+    #[test]
+    fn what_reaches_too_far_is_refused_by_name() {
+        for far in [1e16, f64::INFINITY, f64::NAN] {
+            let found = traced(|scene| {
+                for key in &mut scene.objects[1].motion.keys {
+                    key.translation.x = far;
+                }
+            });
+            let Err(TraceError::Reach { object, .. }) = found else {
+                panic!("{far} m is within reach");
+            };
+            assert!(!object.is_empty());
+        }
+    }
 }

@@ -96,7 +96,7 @@ fn say(text: &str) -> Result<(), Error> {
 }
 
 /// Threads that one command may have.
-const MOST_THREADS: usize = 1024;
+pub const MOST_THREADS: usize = 1024;
 
 /// Tells on standard error what scenes hold that is left out, each once.
 fn tell_notes<'a>(scenes: impl IntoIterator<Item = &'a Scene>) {
