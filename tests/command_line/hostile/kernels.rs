@@ -193,7 +193,7 @@ fn variables_and_calls_that_no_device_holds_are_refused_when_loaded() {
     let parts = [
         "mine.wgsl:10",
         "bytes of variables",
-        "allowed: at most 65536",
+        "allowed: at most 16384",
     ];
     assert_says(&load(&bench).unwrap_err(), &parts);
     // Each function calls the one before it twice: 2^60 calls.
