@@ -4,8 +4,8 @@ use wgpu::naga::valid::{GlobalUse, ModuleInfo};
 use wgpu::naga::{AddressSpace, Block, EntryPoint, Function, Handle, Module, Statement, TypeInner};
 
 /// Bytes that the variables of one invocation may take: those of a kernel and of all functions that it calls, and
-/// `var<private>`. No value may be larger either, such as a table in a `const`.
-pub const MAX_INVOCATION_BYTES: u64 = 65_536;
+/// `var<private>`; WGSL promises 8,192 for each of the two kinds. No value may be larger either, such as a table in a `const`.
+pub const MAX_INVOCATION_BYTES: u64 = 16_384;
 
 /// Expressions and statements of a kernel and of every function that it calls, when each call is replaced by the function's
 /// body, as compilers for GPUs do.

@@ -117,6 +117,7 @@ pub(super) fn passes(
             workgroup_per_texel,
             repeat,
         } = spanned.get_ref();
+        file.one_line(spanned, "entry", entry)?;
         let named = |reason: String| file.at(spanned, format!("pass \"{entry}\": {reason}"));
         if let Some(over) = over
             && !textures.iter().any(|texture| texture.name == *over)
