@@ -145,5 +145,6 @@ fn said(status: &ExitStatus, stderr: &Path) -> String {
         (Some(signal), _) => format!("signal {signal}"),
         (None, code) => format!("exit code {}", code.unwrap_or(-1)),
     };
-    format!("{how}: {}", last.join(" "))
+    let last: String = last.join(" ").chars().take(400).collect();
+    format!("{how}: {last}")
 }

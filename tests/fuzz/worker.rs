@@ -1,5 +1,6 @@
 //! The process that cases run in. Whatever ends it ends nothing else.
 
+use std::any::Any;
 use std::io::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
@@ -15,6 +16,9 @@ use crate::target::Target;
 /// Begins every line that is for the parent.
 pub const MARK: &str = "@fuzz ";
 
+/// Characters of a panic's message that are told.
+const LONGEST: usize = 400;
+
 /// The last panic, in one line.
 static PANIC: Mutex<String> = Mutex::new(String::new());
 
@@ -22,9 +26,10 @@ static PANIC: Mutex<String> = Mutex::new(String::new());
 pub fn work(work: &Work) -> ExitCode {
     std::panic::set_hook(Box::new(|panic| {
         let place = panic.location().map(ToString::to_string);
-        let message = panic.payload_as_str().unwrap_or("no message");
+        let message = message(panic.payload());
         let line = format!("{}: {message}", place.unwrap_or_default());
-        *PANIC.lock().unwrap() = line.replace('\n', " ");
+        let line: String = line.replace('\n', " ").chars().take(LONGEST).collect();
+        *PANIC.lock().unwrap() = line;
     }));
     let mut place = Place::new(&work.fixture);
     match &work.inputs {
@@ -46,6 +51,12 @@ pub fn work(work: &Work) -> ExitCode {
             ExitCode::SUCCESS
         }
     }
+}
+
+fn message(payload: &dyn Any) -> &str {
+    let text = payload.downcast_ref::<String>().map(String::as_str);
+    text.or(payload.downcast_ref::<&str>().copied())
+        .unwrap_or("no message")
 }
 
 /// The input of a case: the seeds first, each as it is, then changed ones.

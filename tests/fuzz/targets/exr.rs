@@ -9,7 +9,6 @@ use suite::{merge, read_finished, score};
 use super::none;
 use crate::fixture::files;
 use crate::huge;
-use crate::place::Place;
 use crate::seeds::Seed;
 use crate::target::{Shape, Target};
 

@@ -120,7 +120,7 @@ fn accept_run(run: &Run, old: Option<Baseline>) {
 }
 
 fn margins() -> BTreeMap<String, Margin> {
-    let metrics = ["flip_moving", "skill", "extent"];
+    let metrics = ["flip_moving", "skill_flip", "extent"];
     let margins = metrics.map(|metric| {
         let margin = Margin {
             width: 0.01,

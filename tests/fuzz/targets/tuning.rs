@@ -6,7 +6,6 @@ use suite::{Journal, TuneFolder, sensitivity_table, tuning_page, tuning_table};
 
 use super::run_json::of;
 use crate::huge;
-use crate::place::Place;
 use crate::seeds::Seed;
 use crate::target::{Shape, Target};
 use crate::tokens;
