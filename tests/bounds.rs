@@ -220,7 +220,7 @@ fn bounds_that_mean_nothing_are_refused_with_file_and_line() {
         (
             "[default]\nflip_moving = { limit = 0.1, why = \"a\\nb\" }",
             "",
-            &["bounds.toml:2: flip_moving: has no why", "one line"],
+            &["bounds.toml:2: flip_moving: why = \"a\\nb\"", "one line"],
         ),
         (
             "[default]\nflip_moving = { limit = 0.1, why = \"w\", level = \"maybe\" }",

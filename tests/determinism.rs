@@ -279,7 +279,7 @@ fn settings_that_cannot_be_rendered_are_refused_with_what_is_allowed() {
                 height: 0,
                 ..settings
             }),
-            "size is 33x0; allowed: 1 to 16384 pixels on either side",
+            "size is 33x0; allowed: 1 to 16384 pixels on either side, 67108864 in all",
         ),
         (
             message(TruthSettings {

@@ -66,21 +66,31 @@ impl Ladder {
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let file = read_exr(path)?;
         file.expect_kind("ladder")?;
-        let objects = file.words("objects")?;
+        let objects = file.objects()?;
         let (shutter, alignment) = get_shutter(&file)?;
-        let mut rungs = Vec::new();
+        let mut rungs: Vec<Accumulation> = Vec::new();
         for word in file.words("subframes")? {
             let subframes = word.parse().map_err(|_| {
                 file.foreign(format!(
                     "attribute \"subframes\" holds \"{word}\", not a count"
                 ))
             })?;
+            if rungs.last().map_or(0, |rung| rung.subframes) >= subframes {
+                return Err(file.foreign(format!(
+                    "attribute \"subframes\" holds \"{word}\" out of order; allowed: rising whole numbers from 1"
+                )));
+            }
             let half =
                 |layer: &str| Picture::from_exr(&file, &format!("n{subframes}.{layer}"), &objects);
             rungs.push(Accumulation {
                 subframes,
                 halves: [half("A")?, half("B")?],
             });
+        }
+        if rungs.is_empty() {
+            return Err(
+                file.foreign("attribute \"subframes\" is empty; a ladder has rungs".to_owned())
+            );
         }
         Ok(Self {
             provenance: Provenance::from_exr(&file)?,

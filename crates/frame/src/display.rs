@@ -4,7 +4,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use crate::exr_file::ExrFile;
-use crate::{FileError, Image, Raster, write_atomically};
+use crate::{FileError, Image, Raster, read_bounded, write_atomically};
 
 /// Photographic exposures for pictures and for FLIP.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +26,26 @@ pub struct FlipExposures {
     pub count: u32,
 }
 
+/// Stops by which an exposure of display or of FLIP may differ from none. Radiance times `2^stops` stays a number.
+pub const MOST_STOPS: f32 = 32.0;
+
 impl Display {
+    /// Refuses exposures that show nothing: too many stops, a range that is none, a count that FLIP does not take.
+    fn check(&self) -> Result<(), String> {
+        let Self { stops, flip } = self;
+        let FlipExposures { start, stop, count } = flip;
+        let bounded = [stops, start, stop]
+            .iter()
+            .all(|value| value.abs() <= MOST_STOPS);
+        if bounded && start <= stop && (2..=128).contains(count) {
+            return Ok(());
+        }
+        Err(format!(
+            "attributes display_stops, flip_start, flip_stop and flip_count hold {stops}, {start}, {stop} and {count}; \
+             allowed: stops from -{MOST_STOPS} to {MOST_STOPS}, a start not above the stop, 2 to 128 exposures"
+        ))
+    }
+
     pub(crate) fn set(&self, file: &mut ExrFile) {
         file.set("display_stops", self.stops);
         file.set("flip_start", self.flip.start);
@@ -35,14 +54,16 @@ impl Display {
     }
 
     pub(crate) fn from_exr(file: &ExrFile) -> Result<Self, FileError> {
-        Ok(Self {
+        let display = Self {
             stops: file.get("display_stops")?,
             flip: FlipExposures {
                 start: file.get("flip_start")?,
                 stop: file.get("flip_stop")?,
                 count: file.get("flip_count")?,
             },
-        })
+        };
+        display.check().map_err(|reason| file.foreign(reason))?;
+        Ok(display)
     }
 }
 
@@ -77,14 +98,33 @@ pub fn scene_linear(display: &Image, stops: f32) -> Image {
     display.map(|pixel| pixel.map(|component| linear(component, stops)))
 }
 
+/// Pixels of a PNG that is read as a finished picture.
+pub const MOST_PNG_PIXELS: u64 = 1 << 25;
+/// Bytes of such a file: what its pixels take at most.
+const MOST_PNG_BYTES: u64 = 16 * MOST_PNG_PIXELS;
+
+/// Refuses a PNG of more than [`MOST_PNG_PIXELS`] by its header: few bytes may stand for very many pixels.
+fn check_png_size(bytes: &[u8]) -> Result<(), String> {
+    let reader = image::ImageReader::with_format(Cursor::new(bytes), image::ImageFormat::Png);
+    let (width, height) = (reader.into_dimensions())
+        .map_err(|error| format!("not a PNG that can be read: {error}"))?;
+    match u64::from(width) * u64::from(height) <= MOST_PNG_PIXELS {
+        true => Ok(()),
+        false => Err(format!(
+            "claims {width}x{height} pixels; allowed: up to {MOST_PNG_PIXELS} pixels"
+        )),
+    }
+}
+
 /// Reads an 8-bit or 16-bit PNG as display values in [0, 1]; grey is widened to colour. What is not opaque is refused: over
 /// which background it was meant is not known.
 pub fn read_png(path: &Path) -> Result<Raster<[f32; 3]>, FileError> {
-    let bytes = std::fs::read(path).map_err(|error| FileError::io(path, "read", error))?;
+    let bytes = read_bounded(path, MOST_PNG_BYTES)?;
     let foreign = |reason: String| FileError::Foreign {
         path: path.to_owned(),
         reason,
     };
+    check_png_size(&bytes).map_err(foreign)?;
     let picture = image::load_from_memory_with_format(&bytes, image::ImageFormat::Png)
         .map_err(|error| foreign(format!("not a PNG that can be read: {error}")))?;
     if picture.color().has_alpha() {

@@ -23,7 +23,7 @@ pub enum FileError {
         /// What the decoder said.
         reason: String,
     },
-    /// A readable OpenEXR file that lacks what is asked of it.
+    /// A file that is not what is asked for: no regular file, too large, or an OpenEXR file without what it must hold.
     #[error("{path}: {reason}", path = path.display())]
     Foreign {
         /// The file.

@@ -1,18 +1,21 @@
 //! OpenEXR files as named 32-bit channels and text attributes.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
+use std::fs::File;
 use std::io::{BufReader, BufWriter, Cursor, Write};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use exr::meta::attribute::{AttributeValue, Text};
+use exr::meta::attribute::AttributeValue;
 use exr::prelude::{
     AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Layer, LayerAttributes,
     ReadChannels, ReadLayers, WritableImage,
 };
 
 use crate::checksum::CHECKSUM;
+use crate::exr_header::{check, padding};
+use crate::exr_text::{from_exr, to_exr};
 use crate::{FileError, Image, Plane, Raster};
 
 /// The samples of one channel, row by row from the top left.
@@ -46,6 +49,9 @@ pub struct ExrFile {
     pub channels: Vec<Channel>,
     /// Text attributes of the header.
     pub attributes: BTreeMap<String, String>,
+    /// In words, how the pixels lie in a display window of another place or size; none where both are one, as in every
+    /// file of this program.
+    pub padding: Option<String>,
 }
 
 impl ExrFile {
@@ -57,6 +63,7 @@ impl ExrFile {
             height,
             channels: Vec::new(),
             attributes: BTreeMap::new(),
+            padding: None,
         }
     }
 
@@ -148,11 +155,58 @@ impl ExrFile {
     /// Refuses a file whose `kind` attribute is another, or whose content is not what was written.
     pub fn expect_kind(&self, kind: &str) -> Result<(), FileError> {
         match self.attributes.get("kind").map(String::as_str) {
-            Some(found) if found == kind => self.expect_checksum(),
+            Some(found) if found == kind => {
+                self.expect_checksum()?;
+                self.expect_no_padding()?;
+                self.expect_finite()
+            }
             Some(found) => Err(self.foreign(format!("is a {found}; a {kind} is needed"))),
             None => Err(self.foreign(format!(
                 "was not written by shuttertruth (no attribute \"kind\"); a {kind} is needed: make one with \
                  `shuttertruth render`"
+            ))),
+        }
+    }
+
+    /// Refuses a file whose pixels are a part of its display window, or reach beyond it.
+    pub fn expect_no_padding(&self) -> Result<(), FileError> {
+        match &self.padding {
+            None => Ok(()),
+            Some(padding) => Err(self.foreign(format!(
+                "{padding}; both must be one: write the picture without cropping or padding"
+            ))),
+        }
+    }
+
+    /// Refuses a channel that holds infinity or NaN.
+    fn expect_finite(&self) -> Result<(), FileError> {
+        for channel in &self.channels {
+            let Samples::F32(samples) = &channel.samples else {
+                continue;
+            };
+            if let Some(at) = samples.iter().position(|value| !value.is_finite()) {
+                let (x, y) = (at % self.width as usize, at / self.width as usize);
+                return Err(self.foreign(format!(
+                    "channel \"{}\" holds {} at pixel ({x}, {y}); every value must be finite: render it again",
+                    channel.name, samples[at]
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// Object names, the background's first: the attribute "objects".
+    pub(crate) fn objects(&self) -> Result<Vec<String>, FileError> {
+        let names = self.words("objects")?;
+        let mut known = BTreeSet::new();
+        match names.iter().find(|name| !known.insert(*name)) {
+            None if names.is_empty() => Err(self.foreign(
+                "attribute \"objects\" is empty; it names the background and every object"
+                    .to_owned(),
+            )),
+            None => Ok(names),
+            Some(twin) => Err(self.foreign(format!(
+                "attribute \"objects\" names \"{twin}\" twice; allowed: each name once"
             ))),
         }
     }
@@ -223,7 +277,7 @@ fn write_encoded(path: &Path, file: &ExrFile, encoding: Encoding) -> Result<(), 
             "channel {} must have one sample per pixel",
             channel.name
         );
-        AnyChannel::new(channel.name.as_str(), samples)
+        AnyChannel::new(to_exr(&channel.name), samples)
     });
     let mut layer = Layer::new(
         (file.width as usize, file.height as usize),
@@ -237,10 +291,10 @@ fn write_encoded(path: &Path, file: &ExrFile, encoding: Encoding) -> Result<(), 
         attributes.insert(CHECKSUM.to_owned(), file.checksum());
     }
     for (name, value) in attributes {
-        layer.attributes.other.insert(
-            Text::from(name.as_str()),
-            AttributeValue::Text(Text::from(value.as_str())),
-        );
+        layer
+            .attributes
+            .other
+            .insert(to_exr(&name), AttributeValue::Text(to_exr(&value)));
     }
     let mut bytes = Cursor::new(Vec::new());
     exr::prelude::Image::from_layer(layer)
@@ -293,32 +347,38 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     Ok(())
 }
 
-/// Reads a single-part OpenEXR file; refuses one that is cut short or has several parts. Half floats are widened.
+/// Reads a single-part OpenEXR file; refuses one that is cut short, has several parts, or claims more pixels, channels or
+/// bytes than [`MOST_EXR_BYTES`](crate::MOST_EXR_BYTES) and its neighbours allow. Half floats are widened.
 pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
-    let handle = std::fs::File::open(path).map_err(|error| FileError::io(path, "read", error))?;
-    let broken = |reason: String| FileError::Broken {
-        path: path.to_owned(),
-        reason,
+    let (handle, bytes) = open_regular(path)?;
+    let broken = |error: exr::error::Error| match error {
+        exr::error::Error::NotSupported(reason) => {
+            foreign(path, format!("cannot be read: {reason}"))
+        }
+        error => FileError::Broken {
+            path: path.to_owned(),
+            reason: error.to_string(),
+        },
     };
+    let chunks = exr::block::read(BufReader::new(handle), false).map_err(broken)?;
+    check(chunks.headers(), bytes).map_err(|reason| foreign(path, reason))?;
+    let padding = padding(&chunks.headers()[0]);
     let image = exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
         .all_channels()
         .all_layers()
         .all_attributes()
-        .from_buffered(BufReader::new(handle))
-        .map_err(|error| broken(error.to_string()))?;
-    let parts = image.layer_data.len();
-    let Some(layer) = image.layer_data.into_iter().next().filter(|_| parts == 1) else {
-        return Err(FileError::Foreign {
-            path: path.to_owned(),
-            reason: format!("has {parts} parts; a single-part OpenEXR file is needed"),
-        });
+        .from_chunks(chunks)
+        .map_err(broken)?;
+    let Some(layer) = image.layer_data.into_iter().next() else {
+        return Err(foreign(path, "has no part".to_owned()));
     };
     let mut file = ExrFile::new(layer.size.width() as u32, layer.size.height() as u32);
     file.path = path.to_owned();
+    file.padding = padding;
     for channel in layer.channel_data.list {
-        let name = channel.name.to_string();
+        let name = from_exr(&channel.name);
         let samples = match channel.sample_data {
             FlatSamples::F32(samples) => Samples::F32(samples),
             FlatSamples::U32(samples) => Samples::U32(samples),
@@ -335,8 +395,29 @@ pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
         .chain(layer.attributes.other)
     {
         if let AttributeValue::Text(text) = value {
-            file.attributes.insert(name.to_string(), text.to_string());
+            file.attributes.insert(from_exr(&name), from_exr(&text));
         }
     }
     Ok(file)
+}
+
+/// The file and its size in bytes. A folder, a FIFO or a device is refused before it is opened, so that nothing blocks.
+fn open_regular(path: &Path) -> Result<(File, u64), FileError> {
+    let fail = |error| FileError::io(path, "read", error);
+    if !std::fs::metadata(path).map_err(fail)?.is_file() {
+        return Err(foreign(
+            path,
+            "is no regular file; name an OpenEXR file".to_owned(),
+        ));
+    }
+    let file = File::open(path).map_err(fail)?;
+    let bytes = file.metadata().map_err(fail)?.len();
+    Ok((file, bytes))
+}
+
+fn foreign(path: &Path, reason: String) -> FileError {
+    FileError::Foreign {
+        path: path.to_owned(),
+        reason,
+    }
 }

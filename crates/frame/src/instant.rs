@@ -6,7 +6,9 @@ use std::str::FromStr;
 
 use crate::exr_file::{Channel, ExrFile, Samples, read_exr, write_exr};
 use crate::picture::coverage_name;
-use crate::{Display, FileError, Image, Plane, Provenance, Raster, Reprojection, Vectors};
+use crate::{
+    Alignment, Display, FileError, Image, Plane, Provenance, Raster, Reprojection, Vectors,
+};
 
 /// Depth of a pixel that sees no surface, in metres: finite, so that filters may subtract it.
 pub const FAR_DEPTH: f32 = 1.0e10;
@@ -196,7 +198,7 @@ impl Frame {
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let file = read_exr(path)?;
         file.expect_kind("frame")?;
-        let objects = file.words("objects")?;
+        let objects = file.objects()?;
         let ids = file.u32s("object.id")?;
         let coverage = objects
             .iter()
@@ -205,11 +207,11 @@ impl Frame {
         let [x, y] = [file.plane("velocity.X")?, file.plane("velocity.Y")?];
         Ok(Self {
             provenance: Provenance::from_exr(&file)?,
-            exposure: file.get("exposure")?,
+            exposure: read_exposure(&file)?,
             velocity_kind: file.get("velocity")?,
             color_sampling: file.get("color")?,
             sky_velocity: file.get("sky_velocity")?,
-            guard_band: file.get("guard_band")?,
+            guard_band: read_guard_band(&file)?,
             reprojection: Reprojection::from_exr(&file)?,
             display: Display::from_exr(&file)?,
             objects,
@@ -219,5 +221,27 @@ impl Frame {
             object_id: ids,
             coverage,
         })
+    }
+}
+
+/// Above 0 and finite, as every exposure.
+fn read_exposure(file: &ExrFile) -> Result<f64, FileError> {
+    let exposure = file.get("exposure")?;
+    match Alignment::Trailing.shutter(exposure) {
+        Ok(_) => Ok(exposure),
+        Err(error) => Err(file.foreign(error.to_string())),
+    }
+}
+
+/// A guard band that leaves a picture inside of it.
+fn read_guard_band(file: &ExrFile) -> Result<u32, FileError> {
+    let band: u32 = file.get("guard_band")?;
+    let least = file.width.min(file.height);
+    match band.checked_mul(2).is_some_and(|both| both < least) {
+        true => Ok(band),
+        false => Err(file.foreign(format!(
+            "attribute \"guard_band\" holds {band}; allowed: less than half of {}x{} pixels",
+            file.width, file.height
+        ))),
     }
 }

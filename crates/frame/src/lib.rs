@@ -22,10 +22,13 @@
 
 mod accumulation;
 mod at_instant;
+mod bounded;
 mod checksum;
 mod display;
 mod error;
 mod exr_file;
+mod exr_header;
+mod exr_text;
 mod instant;
 mod picture;
 mod provenance;
@@ -40,9 +43,14 @@ mod truth;
 
 pub use accumulation::{Accumulation, Ladder};
 pub use at_instant::AtInstant;
-pub use display::{Display, FlipExposures, display_srgb, read_png, scene_linear, write_png};
+pub use bounded::read_bounded;
+pub use display::{
+    Display, FlipExposures, MOST_PNG_PIXELS, MOST_STOPS, display_srgb, read_png, scene_linear,
+    write_png,
+};
 pub use error::FileError;
 pub use exr_file::{Channel, ExrFile, Samples, read_exr, write_atomically, write_exr};
+pub use exr_header::{LARGEST_EXR_RATIO, LARGEST_EXR_SIDE, MOST_EXR_BYTES, MOST_EXR_CHANNELS};
 pub use instant::{ColorSampling, FAR_DEPTH, Frame, VelocityKind};
 pub use picture::Picture;
 pub use provenance::Provenance;
@@ -50,7 +58,7 @@ pub use raster::{Image, Plane, Raster, Vectors};
 pub use region::{Region, Regions, regions};
 pub use replicate::Replicate;
 pub use reprojection::Reprojection;
-pub use shutter::{Alignment, Shutter, ShutterError};
+pub use shutter::{Alignment, LONGEST_EXPOSURE, SHORTEST_EXPOSURE, Shutter, ShutterError};
 pub use shutter_profile::{Efficiency, ShutterProfile};
 pub use support::Support;
 pub use truth::{Truth, TruthError, truth_hash};

@@ -56,11 +56,29 @@ impl Replicate {
         write_exr(path, &file)
     }
 
+    /// What the other has otherwise, though replicates of one truth share it; none where they are alike. Both are whole: what
+    /// one of them holds has one size.
+    pub(crate) fn difference(&self, other: &Replicate) -> Option<&'static str> {
+        if !self.picture.color.same_size(&other.picture.color) {
+            Some("size")
+        } else if (&self.objects, &self.moving) != (&other.objects, &other.moving) {
+            Some("list of objects")
+        } else if (self.shutter, self.alignment) != (other.shutter, other.alignment)
+            || self.shutter_profile != other.shutter_profile
+        {
+            Some("shutter")
+        } else if self.provenance.samples_per_pixel != other.provenance.samples_per_pixel {
+            Some("number of samples")
+        } else {
+            None
+        }
+    }
+
     /// Reads a replicate that [`Replicate::write`] wrote, bit for bit.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let file = read_exr(path)?;
         file.expect_kind("replicate")?;
-        let objects = file.words("objects")?;
+        let objects = file.objects()?;
         let moving = file.words("moving")?;
         let (shutter, alignment) = get_shutter(&file)?;
         Ok(Self {

@@ -3,6 +3,11 @@
 use std::fmt;
 use std::str::FromStr;
 
+/// The shortest exposure, in frames.
+pub const SHORTEST_EXPOSURE: f64 = 1e-9;
+/// The longest exposure, in frames.
+pub const LONGEST_EXPOSURE: f64 = 1e4;
+
 /// The interval during which the shutter is open, in frames relative to the frame's instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shutter {
@@ -28,6 +33,11 @@ pub enum ShutterError {
     /// The exposure is not a positive, finite number of frames.
     #[error("exposure is {0} frames; allowed: above 0 and finite (0.5 frames = 180 degrees)")]
     Exposure(f64),
+    /// The exposure is shorter or longer than anything can be rendered.
+    #[error(
+        "exposure is {0:e} frames; allowed: {SHORTEST_EXPOSURE:e} to {LONGEST_EXPOSURE} (0.5 frames = 180 degrees)"
+    )]
+    ExposureRange(f64),
     /// Opening and closing take longer than the exposure, or less than nothing.
     #[error(
         "shutter rises during {rise} and falls during {fall} of the exposure; allowed: 0 and above, together at \
@@ -104,6 +114,9 @@ impl Alignment {
     pub fn shutter(self, exposure: f64) -> Result<Shutter, ShutterError> {
         if !exposure.is_finite() || exposure <= 0.0 {
             return Err(ShutterError::Exposure(exposure));
+        }
+        if !(SHORTEST_EXPOSURE..=LONGEST_EXPOSURE).contains(&exposure) {
+            return Err(ShutterError::ExposureRange(exposure));
         }
         match self {
             Alignment::Trailing => Shutter::new(-exposure, 0.0),

@@ -63,6 +63,17 @@ pub enum TruthError {
         /// That of the first.
         expected: String,
     },
+    /// Replicates that name one origin and cannot share it.
+    #[error(
+        "replicate {index} has another {what} than replicate 0, though both name one content hash; remove both files and \
+         render them anew"
+    )]
+    Unlike {
+        /// Which replicate.
+        index: u32,
+        /// What differs: `size`, `list of objects`, `shutter`, `number of samples`.
+        what: &'static str,
+    },
     /// Replicates that name one origin and were altered since.
     #[error(
         "replicate {index} has another support than replicate 0, though both name one content hash; replicates of one \
@@ -96,6 +107,9 @@ impl Truth {
                     expected,
                 });
             }
+            if let Some(what) = first.difference(replicate) {
+                return Err(TruthError::Unlike { index, what });
+            }
             if replicate.support != first.support {
                 return Err(TruthError::Support { index });
             }
@@ -110,7 +124,7 @@ impl Truth {
         let count = replicates.len() as u32;
         Ok(Self {
             provenance: Provenance {
-                samples_per_pixel: count * first.provenance.samples_per_pixel,
+                samples_per_pixel: count.saturating_mul(first.provenance.samples_per_pixel),
                 replicates: count,
                 content_hash: truth_hash(expected, count),
                 ..first.provenance.clone()
@@ -193,7 +207,7 @@ impl Truth {
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let file = read_exr(path)?;
         file.expect_kind("truth")?;
-        let objects = file.words("objects")?;
+        let objects = file.objects()?;
         let (shutter, alignment) = get_shutter(&file)?;
         Ok(Self {
             provenance: Provenance::from_exr(&file)?,
@@ -256,7 +270,9 @@ pub(crate) fn set_shutter(file: &mut ExrFile, shutter: Shutter, alignment: Align
 }
 
 pub(crate) fn get_shutter(file: &ExrFile) -> Result<(Shutter, Alignment), FileError> {
+    let alignment: Alignment = file.get("alignment")?;
     let shutter = Shutter::new(file.get("shutter_open")?, file.get("shutter_close")?)
+        .and_then(|shutter| alignment.shutter(shutter.exposure()).map(|_| shutter))
         .map_err(|error| file.foreign(error.to_string()))?;
-    Ok((shutter, file.get("alignment")?))
+    Ok((shutter, alignment))
 }

@@ -1,11 +1,38 @@
 //! Inputs that cannot be compared are refused before anything is computed.
 
-use frame::{Frame, Ladder, Picture, Raster, Truth};
+use frame::{Frame, Ladder, MOST_STOPS, Picture, Raster, Truth};
 
 use crate::{MeasureError, Viewing};
 
 /// flip-rs refuses work beyond 2^34 additions, which its kernels at 67.02 pixels per degree reach at 28.5 million pixels.
 const LARGEST_PICTURE: u64 = 28_000_000;
+
+/// How bright a picture may be at the brightest exposure that it is compared at: HDR-FLIP's tone curve squares it, and the
+/// square is to stay a number.
+pub const BRIGHTEST: f32 = 1e18;
+
+/// Refuses a picture whose radiance exceeds [`BRIGHTEST`] at an exposure of the comparison.
+pub fn check_brightness(
+    picture: &Picture,
+    viewing: &Viewing,
+    what: &str,
+) -> Result<(), MeasureError> {
+    let stops = viewing.stops.max(viewing.flip_stop).max(0.0);
+    let limit = BRIGHTEST / stops.exp2();
+    let image = &picture.color;
+    for (index, pixel) in (0u32..).zip(&image.pixels) {
+        if let Some(found) = pixel.iter().find(|value| value.abs() > limit) {
+            return Err(MeasureError::TooBright {
+                what: what.to_owned(),
+                found: *found,
+                x: index % image.width,
+                y: index / image.width,
+                limit,
+            });
+        }
+    }
+    Ok(())
+}
 
 /// Refuses HDR-FLIP exposures that make no range.
 pub fn check_viewing(viewing: &Viewing) -> Result<(), MeasureError> {
@@ -15,8 +42,10 @@ pub fn check_viewing(viewing: &Viewing) -> Result<(), MeasureError> {
         flip_stop: stop,
         flip_count: count,
     } = *viewing;
-    let finite = [stops, start, stop].iter().all(|stops| stops.is_finite());
-    if finite && start <= stop && (2..=flip_rs::MAX_EXPOSURES as u32).contains(&count) {
+    let bounded = [stops, start, stop]
+        .iter()
+        .all(|stops| stops.abs() <= MOST_STOPS);
+    if bounded && start <= stop && (2..=flip_rs::MAX_EXPOSURES as u32).contains(&count) {
         Ok(())
     } else {
         Err(MeasureError::Exposures {

@@ -57,6 +57,23 @@ pub enum MeasureError {
         /// Row.
         y: u32,
     },
+    /// Radiance that no comparison can square.
+    #[error(
+        "the colour of {what} holds {found} at pixel ({x}, {y}); at the scene's exposures at most {limit:e} can be compared: \
+         lower the light, or [display] stops"
+    )]
+    TooBright {
+        /// Which input.
+        what: String,
+        /// The value.
+        found: f32,
+        /// Column.
+        x: u32,
+        /// Row.
+        y: u32,
+        /// The largest radiance allowed, either sign.
+        limit: f32,
+    },
     /// Another exposure, other objects or another interval than the truth's.
     #[error(
         "{what} has {found}, the truth has {allowed}; render both from the same scene with the same shutter"
@@ -71,8 +88,9 @@ pub enum MeasureError {
     },
     /// HDR-FLIP exposures that make no range.
     #[error(
-        "viewing exposure {stops}, HDR-FLIP exposures from {start} to {stop} in {count} steps; allowed: finite stops, start not \
-         above stop, 2 to 128 steps"
+        "viewing exposure {stops}, HDR-FLIP exposures from {start} to {stop} in {count} steps; allowed: stops from -{most} to \
+         {most}, start not above stop, 2 to 128 steps",
+        most = frame::MOST_STOPS
     )]
     Exposures {
         /// Of LDR comparisons, in stops.

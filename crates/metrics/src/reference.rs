@@ -4,7 +4,7 @@ use frame::{Frame, Image, Ladder, Picture, Plane, Raster, Truth, regions};
 use rayon::prelude::*;
 
 use crate::absolute_error::absolute_error;
-use crate::check::{check_agreement, check_picture, check_viewing};
+use crate::check::{check_agreement, check_brightness, check_picture, check_viewing};
 use crate::equivalent::{Curve, Equivalent};
 use crate::error_maps::{ErrorMaps, MoreMaps};
 use crate::frozen::FrozenReference;
@@ -70,8 +70,11 @@ impl<'a> Reference<'a> {
             coverage: frame.coverage.clone(),
         };
         check_picture(&instant, truth, "the frame")?;
+        check_brightness(&instant, viewing, "the frame")?;
         for (half, name) in truth.halves.iter().zip(["A", "B"]) {
-            check_picture(half, truth, &format!("half {name} of the truth"))?;
+            let what = format!("half {name} of the truth");
+            check_picture(half, truth, &what)?;
+            check_brightness(half, viewing, &what)?;
         }
         let mean = truth.mean();
         let regions = regions(truth);
@@ -113,6 +116,7 @@ impl<'a> Reference<'a> {
     /// Measures one picture.
     pub fn measure(&self, output: &Picture) -> Result<Measurement, MeasureError> {
         check_picture(output, self.truth, "the output")?;
+        check_brightness(output, &self.viewing, "the output")?;
         let errors = ErrorMaps::new(output, self.half_colors(), &self.mean, &self.viewing);
         let pairs = || self.objects.iter().zip(&output.coverage[1..]);
         let nothing: Plane = errors.label.map(|_| 0.0);
@@ -174,6 +178,7 @@ impl<'a> Reference<'a> {
     /// The errors of colour over what moves, and nothing else of [`Reference::measure`].
     pub fn measure_moving(&self, output: &Picture) -> Result<ImageScores, MeasureError> {
         check_picture(output, self.truth, "the output")?;
+        check_brightness(output, &self.viewing, "the output")?;
         let errors = ErrorMaps::new(output, self.half_colors(), &self.mean, &self.viewing);
         Ok(image_scores(&self.pooled(&errors, Region::Moving)))
     }

@@ -16,7 +16,7 @@ pub use look::{CompareArgs, ReportArgs};
 pub use render::{MergeArgs, RenderArgs, Replicates};
 pub use tune::{CandidateArgs, EvaluateArgs, ServeArgs, TuneArgs};
 
-use crate::words::{degrees_per_frame, pixels_per_frame, rounds, size};
+use crate::words::{degrees_per_frame, jitter_frames, pixels_per_frame, rounds, size};
 
 /// How good is a real-time motion blur? Renders the truth of moving scenes, runs filters on one frame of each, and
 /// measures how far they are from it.
@@ -122,7 +122,7 @@ pub struct MeasureArgs {
     #[arg(long, value_enum, value_delimiter = ',', value_name = "POLICIES")]
     pub border: Vec<Border>,
     /// Frames of its noise that a noisy filter is tried with, to tell its noise from its other errors; 0 for none.
-    #[arg(long, value_name = "N", default_value_t = 16)]
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = jitter_frames)]
     pub jitter_frames: u32,
 }
 

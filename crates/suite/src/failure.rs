@@ -6,6 +6,7 @@ use tracer::Scene;
 
 use crate::Error;
 use crate::paint::{bad, heading};
+use crate::printable::{printable, printable_lines};
 use crate::subject::Subject;
 use crate::wrapped::push_wrapped;
 
@@ -42,13 +43,11 @@ impl Failure {
 pub fn failures_text(failures: &[Failure]) -> String {
     let mut text = String::new();
     for failure in failures {
-        text += &heading(&format!("{} / {}", failure.scene, failure.filter));
+        let title = format!("{} / {}", failure.scene, failure.filter);
+        text += &heading(&printable(&title));
         text.push('\n');
-        push_wrapped(
-            &mut text,
-            2,
-            &format!("{} {}", bad("FAILED"), failure.reason),
-        );
+        let reason = printable_lines(&failure.reason);
+        push_wrapped(&mut text, 2, &format!("{} {reason}", bad("FAILED")));
     }
     text
 }

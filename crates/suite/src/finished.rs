@@ -61,6 +61,7 @@ pub fn read_finished(path: &Path, frame: &Frame, truth: &Truth) -> Result<Finish
 
 fn read_radiance(path: &Path, truth: &Truth) -> Result<Finished, Error> {
     let file = read_exr(path)?;
+    file.expect_no_padding()?;
     check_shutter(&file, truth)?;
     Ok(Finished {
         color: file.color("")?,

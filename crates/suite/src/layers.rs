@@ -72,8 +72,21 @@ fn layers(run: &Run, case: &Case, inputs: &Inputs, folder: &Path) -> Result<ExrF
         read_exr(&own.join("errors.exr"))?,
     );
     let Inputs { frame, truth, .. } = inputs;
-    let mean = truth.mean();
     let (width, height) = truth.size();
+    let sizes = [
+        ("frame.exr", frame.size()),
+        ("output.exr", (output.width, output.height)),
+        ("errors.exr", (errors.width, errors.height)),
+    ];
+    if let Some((name, found)) = sizes.iter().find(|(_, found)| *found != (width, height)) {
+        return Err(Error::Usage(format!(
+            "{}: {name} has {}x{} pixels, the truth {width}x{height}; run the case again",
+            own.display(),
+            found.0,
+            found.1
+        )));
+    }
+    let mean = truth.mean();
     let mut file = ExrFile::new(width, height);
     file.push_color("truth", &mean.color);
     file.push_color("output", &output.color("")?);

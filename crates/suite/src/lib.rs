@@ -18,6 +18,8 @@ mod import;
 mod input_format;
 mod inputs;
 mod intervals;
+mod json_file;
+mod json_strings;
 mod kept;
 mod layers;
 mod means_table;
@@ -25,12 +27,14 @@ mod merge;
 mod overall;
 mod paint;
 mod pictures;
+mod printable;
 mod probe;
 mod progress;
 mod rendered;
 mod replicates;
 mod report;
 mod run;
+mod run_file;
 mod runner;
 mod scatter_oracle;
 mod scene_mean;
@@ -71,16 +75,20 @@ pub use gate::{
 pub use import::{ImportPlan, Imported, Motions, Up, import};
 pub use input_format::{Border, DepthFormat, InputFormat, VelocityFormat};
 pub use intervals::{FEWEST_REPLICATES, Intervals, intervals, truths_without_pairs};
+pub use json_file::MOST_JSON_BYTES;
 pub use layers::write_layers;
-pub use merge::{Merged, merge};
+pub use merge::{MOST_PART_BYTES, Merged, merge};
 pub use overall::{Overall, overall};
-pub use progress::{catch_interrupts, with_bar};
+pub use printable::{printable, printable_lines, printable_path, printable_table};
+pub use progress::{catch_interrupts, tell, with_bar};
 pub use rendered::{
     LADDER, RenderSettings, SIDES, deciding_floor, frame_of, part_of, scene_folder,
     truth_and_ladder_of, truth_of, truth_until,
 };
+pub use replicates::MOST_REPLICATES;
 pub use report::{LARGEST_PAGE, Report, TuneFolder, report, tuning_page};
 pub use run::{FORMAT, Plan, Run, run, viewing};
+pub use run_file::MOST_CASES;
 pub use runner::{Runner, open_adapter, open_gpu};
 pub use scatter_oracle::scatter_oracle;
 pub use score::{Scored, missing, score};

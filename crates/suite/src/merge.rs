@@ -4,10 +4,13 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use frame::{FileError, Replicate, Truth, write_atomically};
+use frame::{Alignment, FileError, Replicate, Truth, read_bounded, write_atomically};
 
 use crate::Error;
-use crate::replicates::replicates_folder;
+use crate::replicates::{MOST_REPLICATES, replicates_folder};
+
+/// Bytes of a frame or a replicate that is joined with others.
+pub const MOST_PART_BYTES: u64 = 1 << 32;
 
 /// A truth that was made whole.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,17 +28,21 @@ type Files = BTreeMap<PathBuf, PathBuf>;
 /// parts if its bytes are equal. Nothing is written unless every truth is whole.
 pub fn merge(parts: &[PathBuf], out: &Path) -> Result<Vec<Merged>, Error> {
     let files = gather(parts)?;
-    let truths = truths(&files)?;
+    let folders = replicates_by_folder(&files);
+    // One truth at a time is in memory, at first to see that all are whole.
+    for (folder, files) in &folders {
+        truth(folder, files)?;
+    }
     for (below, file) in &files {
         write_atomically(&out.join(below), &read(file)?)?;
     }
-    (truths.into_iter())
-        .map(|(folder, (truth, replicates))| {
+    (folders.iter())
+        .map(|(folder, files)| {
             let path = out.join(folder).with_extension("exr");
-            truth.write(&path)?;
+            truth(folder, files)?.write(&path)?;
             Ok(Merged {
                 truth: path,
-                replicates,
+                replicates: files.len(),
             })
         })
         .collect()
@@ -44,16 +51,22 @@ pub fn merge(parts: &[PathBuf], out: &Path) -> Result<Vec<Merged>, Error> {
 /// Every frame and replicate of all parts.
 fn gather(parts: &[PathBuf]) -> Result<Files, Error> {
     let mut files = Files::new();
-    for part in parts {
-        let before = files.len();
-        for file in files_below(part)? {
-            let below = file
-                .strip_prefix(part)
-                .expect("the file lies below the part")
-                .to_owned();
-            if !is_rendered(&below) {
-                continue;
-            }
+    for (index, part) in parts.iter().enumerate() {
+        if parts[..index].contains(part) {
+            return Err(Error::Usage(format!(
+                "{}: is named twice; allowed: each part once",
+                part.display()
+            )));
+        }
+        let own = rendered_below(part)?;
+        if own.is_empty() {
+            return Err(Error::Usage(format!(
+                "{}: holds no replicates; allowed: folders that `shuttertruth render --replicates A..B --out` wrote",
+                part.display()
+            )));
+        }
+        for below in own {
+            let file = part.join(&below);
             if let Some(other) = files.get(&below)
                 && read(other)? != read(&file)?
             {
@@ -66,49 +79,58 @@ fn gather(parts: &[PathBuf]) -> Result<Files, Error> {
             }
             files.entry(below).or_insert(file);
         }
-        if files.len() == before && !files_below(part)?.iter().any(|file| is_rendered(file)) {
-            return Err(Error::Usage(format!(
-                "{}: holds no replicates; allowed: folders that `shuttertruth render --replicates A..B --out` wrote",
-                part.display()
-            )));
-        }
     }
     Ok(files)
 }
 
-/// The truth of each folder of replicates.
-fn truths(files: &Files) -> Result<BTreeMap<PathBuf, (Truth, usize)>, Error> {
-    let mut folders: BTreeMap<PathBuf, Vec<Replicate>> = BTreeMap::new();
+/// Per folder of replicates, its files.
+fn replicates_by_folder(files: &Files) -> BTreeMap<PathBuf, Vec<&Path>> {
+    let mut folders: BTreeMap<PathBuf, Vec<&Path>> = BTreeMap::new();
     for (below, file) in files {
-        if is_replicate(below) {
-            let folder = below
-                .parent()
-                .expect("a replicate lies in a folder")
-                .to_owned();
-            folders
-                .entry(folder)
-                .or_default()
-                .push(Replicate::read(file)?);
+        if let Some(folder) = below.parent().filter(|_| is_replicate(below)) {
+            folders.entry(folder.to_owned()).or_default().push(file);
         }
     }
-    (folders.into_iter())
-        .map(|(folder, replicates)| {
-            check(&folder, &replicates)?;
-            Ok((folder, (Truth::of(&replicates)?, replicates.len())))
-        })
-        .collect()
+    folders
+}
+
+/// The truth of a folder's replicates.
+fn truth(folder: &Path, files: &[&Path]) -> Result<Truth, Error> {
+    let mut replicates = Vec::new();
+    for file in files {
+        let replicate = Replicate::read(file)?;
+        if replicate.index >= MOST_REPLICATES {
+            return Err(Error::Usage(format!(
+                "{}: is replicate {}; allowed: 0 to {}",
+                file.display(),
+                replicate.index,
+                MOST_REPLICATES - 1
+            )));
+        }
+        replicates.push(replicate);
+    }
+    // By name, replicate_1000 stands before replicate_999.
+    replicates.sort_by_key(|replicate| replicate.index);
+    check(folder, &replicates)?;
+    Truth::of(&replicates).map_err(|error| Error::Usage(format!("{}: {error}", folder.display())))
 }
 
 /// Refuses replicates that leave a gap, are odd in number or have strayed into another folder.
 fn check(folder: &Path, replicates: &[Replicate]) -> Result<(), Error> {
-    let last = replicates
-        .iter()
-        .map(|replicate| replicate.index)
-        .max()
-        .unwrap_or(0);
+    if let Some(pair) = (replicates.windows(2)).find(|pair| pair[0].index == pair[1].index) {
+        return Err(Error::Usage(format!(
+            "{}: two files hold replicate {}; leave names as `render` made them",
+            folder.display(),
+            pair[0].index
+        )));
+    }
+    let last = replicates.last().map_or(0, |replicate| replicate.index);
     let count = (last + 1).next_multiple_of(2);
     let missing: Vec<u32> = (0..count)
-        .filter(|index| replicates.iter().all(|replicate| replicate.index != *index))
+        .filter(|index| {
+            let found = replicates.binary_search_by_key(index, |replicate| replicate.index);
+            found.is_err()
+        })
         .collect();
     if let [first, ..] = missing.as_slice() {
         let words: Vec<String> = missing.iter().map(u32::to_string).collect();
@@ -132,9 +154,33 @@ fn check(folder: &Path, replicates: &[Replicate]) -> Result<(), Error> {
     Ok(())
 }
 
-/// `<scene>/frame.exr` or `<scene>/truth_<alignment>/replicate_<index>.exr`.
-fn is_rendered(path: &Path) -> bool {
-    path.ends_with("frame.exr") || is_replicate(path)
+/// The frames and replicates of a part, by their paths below it: `<scene>/frame.exr` and
+/// `<scene>/truth_<alignment>/replicate_<index>.exr`. Looks nowhere else, so that no loop of links can be followed.
+fn rendered_below(part: &Path) -> Result<Vec<PathBuf>, Error> {
+    let mut found = Vec::new();
+    for scene in entries(part)?.into_iter().map(PathBuf::from) {
+        if !part.join(&scene).is_dir() {
+            continue;
+        }
+        let frame = scene.join("frame.exr");
+        if part.join(&frame).exists() {
+            found.push(frame);
+        }
+        for alignment in Alignment::ALL {
+            let folder = replicates_folder(&scene, alignment);
+            if !part.join(&folder).is_dir() {
+                continue;
+            }
+            let files = entries(&part.join(&folder))?.into_iter();
+            found.extend(
+                files
+                    .map(|name| folder.join(name))
+                    .filter(|file| is_replicate(file)),
+            );
+        }
+    }
+    found.sort();
+    Ok(found)
 }
 
 fn is_replicate(path: &Path) -> bool {
@@ -142,21 +188,14 @@ fn is_replicate(path: &Path) -> bool {
     name.starts_with("replicate_") && name.ends_with(".exr")
 }
 
-fn files_below(folder: &Path) -> Result<Vec<PathBuf>, Error> {
+/// The names in a folder.
+fn entries(folder: &Path) -> Result<Vec<std::ffi::OsString>, Error> {
     let fail = |source| FileError::io(folder, "read", source);
-    let mut files = Vec::new();
-    for entry in fs::read_dir(folder).map_err(fail)? {
-        let path = entry.map_err(fail)?.path();
-        if path.is_dir() {
-            files.extend(files_below(&path)?);
-        } else {
-            files.push(path);
-        }
-    }
-    files.sort();
-    Ok(files)
+    (fs::read_dir(folder).map_err(fail)?)
+        .map(|entry| Ok(entry.map_err(fail)?.file_name()))
+        .collect()
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Error> {
-    Ok(fs::read(path).map_err(|source| FileError::io(path, "read", source))?)
+    Ok(read_bounded(path, MOST_PART_BYTES)?)
 }

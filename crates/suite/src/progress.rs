@@ -10,6 +10,8 @@ use std::time::{Duration, Instant};
 use indicatif::{MultiProgress, ProgressBar, ProgressState, ProgressStyle};
 use tracer::Progress;
 
+use crate::printable::printable;
+
 /// Between two lines where no terminal shows a bar: what a log of some hours can hold.
 const BETWEEN_LINES: Duration = Duration::from_secs(30);
 
@@ -31,9 +33,14 @@ pub fn catch_interrupts() {
     let _ = ctrlc::set_handler(|| {
         INTERRUPTED.store(true, Ordering::Relaxed);
         std::thread::sleep(GRACE);
-        eprintln!("shuttertruth: interrupted");
+        tell("shuttertruth: interrupted");
         std::process::exit(INTERRUPTED_CODE.into());
     });
+}
+
+/// Writes a line to standard error. What nobody can read is no reason to end otherwise.
+pub fn tell(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
 }
 
 /// Whether Ctrl-C was pressed.
@@ -45,6 +52,7 @@ pub fn interrupted() -> bool {
 /// line at long intervals elsewhere, not at all when `quiet`. Bars may be shown while others are.
 pub fn with_bar<T>(label: &str, quiet: bool, work: impl FnOnce(tracer::Watch) -> T) -> T {
     let on_terminal = std::io::stderr().is_terminal();
+    let label = &*printable(label);
     let bar = match quiet || !on_terminal {
         true => ProgressBar::hidden(),
         false => BARS.add(ProgressBar::no_length()),
@@ -70,8 +78,7 @@ pub fn with_bar<T>(label: &str, quiet: bool, work: impl FnOnce(tracer::Watch) ->
             && let Ok(mut lines) = lines.lock()
             && let Some(line) = lines.line(progress, Instant::now())
         {
-            // What cannot be told is not worth ending the work for.
-            let _ = writeln!(std::io::stderr(), "{line}");
+            tell(&line);
         }
         if interrupted() {
             ControlFlow::Break(())

@@ -9,6 +9,9 @@ use tracer::{Scene, TruthSettings, TruthTracer};
 use crate::Error;
 use crate::progress::with_bar;
 
+/// Independent renders behind a truth.
+pub const MOST_REPLICATES: u32 = 4096;
+
 /// Where the replicates of one truth lie, and what they must have been made from.
 pub struct Shelf {
     /// Folder of the scene's files.

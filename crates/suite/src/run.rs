@@ -1,9 +1,9 @@
 //! The main job: render every scene, run every filter on it, measure how far each picture is from the truth.
 
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use filters::{AdapterDescription, Gpu};
-use frame::{Alignment, FileError};
+use frame::Alignment;
 use metrics::Viewing;
 use serde::{Deserialize, Serialize};
 use tracer::{Progress, Scene, Watch};
@@ -12,9 +12,11 @@ use crate::bounds::SceneBounds;
 use crate::case::Case;
 use crate::failure::Failure;
 use crate::inputs::SceneInputs;
+use crate::json_file::read_text;
 use crate::kept::hash_of_program;
 use crate::overall::{Overall, overall};
 use crate::progress::with_bar;
+use crate::run_file::parse;
 use crate::scene_run::SceneRun;
 use crate::selection::FilterChoice;
 use crate::{Error, InputFormat, PROGRAM, RenderSettings};
@@ -67,37 +69,15 @@ pub struct Run {
 impl Run {
     /// Reads a `run.json` of this program.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let text =
-            std::fs::read_to_string(path).map_err(|source| FileError::io(path, "read", source))?;
         let refuse = |reason: String| {
             Error::Usage(format!(
                 "{}: {reason}; `shuttertruth run` or `check` writes one",
                 path.display()
             ))
         };
-        let run: Self = serde_json::from_str(&text)
-            .map_err(|error| refuse(format!("no run of this program: {error}")))?;
-        if let Some(case) = run.cases.iter().find(|case| !lies_below(case)) {
-            return Err(refuse(format!(
-                "scene \"{}\", folder \"{}\": a case lies in a folder below run.json, and nowhere else",
-                case.scene,
-                case.folder.display()
-            )));
-        }
-        match run.format {
-            FORMAT => Ok(run),
-            other => Err(refuse(format!("has format {other}; allowed: {FORMAT}"))),
-        }
+        let text = read_text(path)?;
+        parse(&text).map_err(refuse)
     }
-}
-
-/// Whether the files that a case names lie below run.json: what names files elsewhere is not read, and nothing is written there.
-fn lies_below(case: &Case) -> bool {
-    let is_below = |path: &Path| {
-        let mut parts = path.components().peekable();
-        parts.peek().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
-    };
-    is_below(Path::new(&case.scene)) && is_below(&case.folder)
 }
 
 /// What a run is to do.

@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use filters::{Filter, FilterError, Settings};
-use tracer::{Scene, list_scenes, load_scene};
+use tracer::{Scene, list_scene, list_scenes, load_scene};
 
 use crate::Error;
+use crate::printable::printable;
 
 /// A filter with one set of parameters.
 #[derive(Clone)]
@@ -79,10 +80,7 @@ pub fn select_scenes(root: &Path, words: &[String]) -> Result<Vec<SceneChoice>, 
     }
     let mut scenes: Vec<SceneChoice> = Vec::new();
     for word in words {
-        let (name, variant) = match word.split_once('@') {
-            Some((name, variant)) => (name, Some(variant)),
-            None => (word.as_str(), None),
-        };
+        let (name, variant) = parted(word);
         let known = listings.iter().find(|listing| listing.name == name);
         let folder = match known {
             Some(listing) => listing.folder.clone(),
@@ -99,17 +97,37 @@ pub fn select_scenes(root: &Path, words: &[String]) -> Result<Vec<SceneChoice>, 
                 )));
             }
         };
-        match (variant, known) {
-            (Some("all"), Some(listing)) => {
-                for variant in &listing.variants {
-                    scenes.push(load(&folder, Some(variant))?);
-                }
-            }
+        match variant {
+            Some("all") => scenes.extend(all_variants(&folder)?),
             _ => scenes.push(load(&folder, variant)?),
         }
     }
     refuse_twins(&scenes)?;
     Ok(scenes)
+}
+
+/// A word without its variant, and the variant. Folders above the scene's own may have an @ in their names.
+fn parted(word: &str) -> (&str, Option<&str>) {
+    let name = word.trim_end_matches(['/', '\\']);
+    let own = name.rfind(['/', '\\']).map_or(0, |separator| separator + 1);
+    match name[own..].split_once('@') {
+        Some((folder, variant)) => (&name[..own + folder.len()], Some(variant)),
+        None => (word, None),
+    }
+}
+
+/// Every variant of the scene in a folder.
+fn all_variants(folder: &Path) -> Result<Vec<SceneChoice>, Error> {
+    let variants = list_scene(folder)?.variants;
+    if variants.is_empty() {
+        return Err(Error::Usage(format!(
+            "--scenes: {} has no variants for @all; name the scene without it",
+            folder.display()
+        )));
+    }
+    (variants.iter())
+        .map(|variant| load(folder, Some(variant)))
+        .collect()
 }
 
 /// Refuses two scenes of one name: both would be written to one folder and counted as two.
@@ -130,6 +148,14 @@ fn refuse_twins(scenes: &[SceneChoice]) -> Result<(), Error> {
 }
 
 fn load(folder: &Path, variant: Option<&str>) -> Result<SceneChoice, Error> {
+    let own = folder.file_name().unwrap_or_default().to_string_lossy();
+    if own.contains('@') || printable(&own) != own {
+        return Err(Error::Usage(format!(
+            "--scenes: the folder {} cannot name a scene; allowed: names without @, which stands before a variant, and \
+             without control characters; rename it",
+            folder.display()
+        )));
+    }
     Ok(SceneChoice {
         folder: folder.to_owned(),
         scene: load_scene(folder, variant)?,
@@ -236,4 +262,22 @@ fn apply_override(choices: &mut [FilterChoice], text: &str) -> Result<(), Error>
 /// A path has a separator; a word without one is a name, whatever lies in the current folder.
 fn is_path(word: &str) -> bool {
     word.contains(['/', '\\'])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_at_stands_before_a_variant_only_in_the_last_name() {
+        for (word, name, variant) in [
+            ("fan", "fan", None),
+            ("fan@fast", "fan", Some("fast")),
+            ("./me@home/fan", "./me@home/fan", None),
+            ("./me@home/fan@fast", "./me@home/fan", Some("fast")),
+            ("me@home/fan@fast/", "me@home/fan", Some("fast")),
+        ] {
+            assert_eq!(parted(word), (name, variant), "{word}");
+        }
+    }
 }

@@ -6,6 +6,7 @@ use metrics::Scores;
 
 use crate::headline::{FLIP, GROWTH, Headline, LABEL, LOSS, SKILL, SUBFRAMES};
 use crate::means_table::means_table;
+use crate::printable::printable;
 use crate::run::Run;
 use crate::wrapped::push_wrapped;
 use crate::{Case, paint};
@@ -57,8 +58,8 @@ const KEY: &str = "Skill by FLIP: 0 is [identity], 1 is [scatter_oracle]. Bleed:
 /// The scores of one picture of a scene, in the manner of [`table`].
 pub fn score_table(scene: &str, picture: &str, scores: &Scores) -> String {
     heading("scene / picture", &[])
-        + &format!("{scene}\n")
-        + &line(picture, scores, &[])
+        + &format!("{}\n", printable(scene))
+        + &line(&printable(picture), scores, &[])
         + &legend(KEY)
 }
 

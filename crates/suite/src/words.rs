@@ -1,6 +1,6 @@
 //! What single words of the command line mean.
 
-use suite::SIDES;
+use suite::{MOST_REPLICATES, SIDES};
 
 use crate::cli::Replicates;
 
@@ -30,9 +30,14 @@ pub fn replicates(text: &str) -> Result<Replicates, String> {
             .filter(|(first, end)| first < end)
             .map(|(first, end)| Replicates::Part(first..end)),
     };
-    parsed.ok_or_else(|| {
-        "allowed is a number, such as 8, or A..B with A below B: 3..6 is replicates 3, 4 and 5"
-            .to_owned()
+    let end = |replicates: &Replicates| match replicates {
+        Replicates::All(count) => *count,
+        Replicates::Part(indices) => indices.end,
+    };
+    parsed.filter(|replicates| end(replicates) <= MOST_REPLICATES).ok_or_else(|| {
+        format!(
+            "allowed is a number up to {MOST_REPLICATES}, such as 8, or A..B with A below B: 3..6 is replicates 3, 4 and 5"
+        )
     })
 }
 
@@ -49,6 +54,22 @@ pub fn runs(text: &str) -> Result<u32, String> {
     match text.parse() {
         Ok(runs @ 2..=100) => Ok(runs),
         _ => Err("allowed is 2 to 100: one run says nothing about the spread".to_owned()),
+    }
+}
+
+/// Frames of noise that are kept in memory together.
+pub fn jitter_frames(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(frames @ 0..=1024) => Ok(frames),
+        _ => Err("allowed is 0 to 1024".to_owned()),
+    }
+}
+
+/// How many candidates, walks or rows a search may have.
+pub fn effort(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(count @ 0..=1_000_000) => Ok(count),
+        _ => Err("allowed is 0 to 1000000".to_owned()),
     }
 }
 
@@ -83,14 +104,17 @@ pub fn pixels_per_frame(text: &str) -> Result<f64, String> {
     speed(text, "px/frame", "40px/frame")
 }
 
+/// Speed of an imported model, in its unit.
+const FASTEST: f64 = 1e5;
+
 fn speed(text: &str, unit: &str, example: &str) -> Result<f64, String> {
     let number = text
         .strip_suffix(unit)
         .and_then(|number| number.parse::<f64>().ok());
     match number {
-        Some(speed) if speed.is_finite() && speed != 0.0 => Ok(speed),
+        Some(speed) if speed.abs() <= FASTEST && speed != 0.0 => Ok(speed),
         _ => Err(format!(
-            "allowed is a speed other than 0 with its unit, such as {example}"
+            "allowed is a speed other than 0, from -{FASTEST} to {FASTEST}, with its unit, such as {example}"
         )),
     }
 }

@@ -26,6 +26,7 @@ mod joining;
 mod ladder;
 mod lanes;
 mod lights;
+pub mod limits;
 mod load;
 mod lobe;
 mod mesh_tree;
@@ -60,12 +61,15 @@ mod world_tree;
 pub use camera::View;
 pub use instant::trace_frame;
 pub use ladder::trace_ladder;
-pub use load::{SceneError, SceneListing, list_scenes, load_scene, load_scene_and_files};
+pub use load::{
+    SceneError, SceneListing, list_scene, list_scenes, load_scene, load_scene_and_files,
+};
 pub use motion::{Interpolation, Key, Motion, Turn};
 pub use poses::Poses;
 pub use progress::{Progress, Watch};
 pub use provenance::{frame_hash, ladder_hash, replicate_hash, truth_hash};
 pub use ray::Ray;
+pub use sampler::MOST_SAMPLES;
 pub use scene::{
     Background, Camera, Display, EnvironmentMap, Family, Finish, FlipExposures, Material, Mesh,
     Object, Parent, Scene, Shape, Sun, Texture,

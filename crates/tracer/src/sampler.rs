@@ -3,7 +3,7 @@
 use sobol_burley::sample_4d;
 
 /// Points that one call may draw; a limit of the Sobol tables.
-pub(crate) const MOST_SAMPLES: u32 = 1 << 16;
+pub const MOST_SAMPLES: u32 = 1 << 16;
 /// Four-dimensional sets per bounce: the way on, the near lights, the sky.
 const SETS_PER_BOUNCE: u32 = 3;
 /// Bounces whose sets belong to the camera's sequence.

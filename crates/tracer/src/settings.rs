@@ -2,12 +2,10 @@
 
 use frame::{Alignment, ColorSampling, Shutter, ShutterError, VelocityKind};
 
+use crate::limits::{LARGEST_SIDE, MOST_PIXELS};
 use crate::sampler::MOST_SAMPLES;
 use crate::scene::Scene;
 use crate::velocity::looks_back_to;
-
-/// Widest and highest picture, in pixels.
-const LARGEST_SIDE: u32 = 16_384;
 
 /// How to render the frame of the instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,7 +57,9 @@ pub enum TraceError {
     #[error("rendering was cancelled")]
     Cancelled,
     /// No pixels, or too many.
-    #[error("size is {width}x{height}; allowed: 1 to {LARGEST_SIDE} pixels on either side")]
+    #[error(
+        "size is {width}x{height}; allowed: 1 to {LARGEST_SIDE} pixels on either side, {MOST_PIXELS} in all"
+    )]
     Size {
         /// Pixels per row.
         width: u32,
@@ -171,7 +171,8 @@ impl TruthSettings {
 
 fn check_size(width: u32, height: u32) -> Result<(), TraceError> {
     let allowed = 1..=LARGEST_SIDE;
-    if allowed.contains(&width) && allowed.contains(&height) {
+    let pixels = u64::from(width) * u64::from(height);
+    if allowed.contains(&width) && allowed.contains(&height) && pixels <= MOST_PIXELS {
         Ok(())
     } else {
         Err(TraceError::Size { width, height })

@@ -1,1 +1,204 @@
-//! What reaches the terminal, the log and the exit code.
+//! What reaches a terminal, a log and a summary, whatever names and messages hold, and however it is closed.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Output, Stdio};
+
+use frame::{Frame, Truth};
+use suite::{
+    CHECK_FORMAT, Check, Decision, Failure, annotations, check_text, printable_table, summary,
+};
+
+use crate::bench::{Bench, assert_done, assert_refused, stderr, stdout};
+
+/// A folder's name that begins a line as a command of GitHub Actions does, and clears a terminal.
+#[cfg(unix)]
+const HOSTILE: &str = "a\n::error::b\u{1b}[2J";
+
+/// Nothing that a terminal obeys, and no line that a log takes for a command.
+#[track_caller]
+fn assert_tame(output: &Output) {
+    for text in [stdout(output), stderr(output)] {
+        assert!(
+            !text
+                .chars()
+                .any(|letter| letter.is_control() && letter != '\n'),
+            "{text:?}"
+        );
+        for line in text.lines() {
+            assert!(!line.trim_start().starts_with("::error::"), "{text}");
+        }
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn names_of_files_are_printed_without_what_a_terminal_or_a_log_obeys() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&["--filters", "identity"]));
+    fs::create_dir(bench.path(HOSTILE)).unwrap();
+    let below = |name: &str| format!("{HOSTILE}/{name}");
+    fs::write(bench.path(&below("run.json")), "no run").unwrap();
+    fs::create_dir(bench.path(&below("scene"))).unwrap();
+    fs::write(
+        bench.path(&below("scene/scene.toml")),
+        "family = \"a\n::error::c\"\n",
+    )
+    .unwrap();
+    for (words, code) in [
+        (vec!["run", "--out", "o", "--scenes-dir", HOSTILE], 2),
+        (vec!["run", "--out", "o", "--scenes", HOSTILE], 2),
+        (vec!["list", "--scenes-dir", HOSTILE], 2),
+        (vec!["report", HOSTILE, "--html", "p.html"], 2),
+        (vec!["run", "--out", "o", "--size", HOSTILE], 2),
+        (
+            vec![
+                "blur", "--filter", "identity", "--frame", HOSTILE, "--out", "b.exr",
+            ],
+            2,
+        ),
+    ] {
+        let output = bench.shuttertruth(&words);
+        assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
+        assert_tame(&output);
+        assert!(
+            stderr(&output).contains("::error::b"),
+            "{}",
+            stderr(&output)
+        );
+    }
+    for html in [below("p.html"), below("q.html")] {
+        let written = bench.shuttertruth(&["report", "out", "--html", &html]);
+        assert_done(&written);
+        assert_tame(&written);
+        assert!(stdout(&written).contains("a\\n::error::b\\u001b[2J"));
+    }
+    fs::rename(
+        bench.path("scenes/plate"),
+        bench.path("scenes").join(HOSTILE),
+    )
+    .unwrap();
+    let named = bench.run(&["--filters", "identity"]);
+    assert_refused(
+        &named,
+        2,
+        &["cannot name a scene", "without control characters"],
+    );
+    assert_tame(&named);
+}
+
+#[test]
+fn names_in_files_are_printed_without_what_a_terminal_or_a_log_obeys() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&["--filters", "identity"]));
+    let name = "a\n::error::b\u{1b}]0;c\u{7}";
+    let (truth, frame) = (
+        bench.path("out/plate/truth_trailing.exr"),
+        bench.path("out/plate/frame.exr"),
+    );
+    let mut altered = Truth::read(&truth).unwrap();
+    altered.provenance.scene = name.to_owned();
+    altered.write(&truth).unwrap();
+    let words = [
+        "score",
+        "--truth",
+        "out/plate/truth_trailing.exr",
+        "--frame",
+        "out/plate/frame.exr",
+        "--image",
+        "out/plate/identity_default/output.exr",
+    ];
+    let other = bench.shuttertruth(&words);
+    assert_refused(&other, 2, &["was rendered from the scene plate"]);
+    assert_tame(&other);
+    let mut altered = Frame::read(&frame).unwrap();
+    altered.provenance.scene = name.to_owned();
+    altered.write(&frame).unwrap();
+    let scored = bench.shuttertruth(&words);
+    assert_done(&scored);
+    assert_tame(&scored);
+    let json = bench.shuttertruth(&[&words[..], &["--json"]].concat());
+    let json: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
+    assert_eq!(json["scene"], name);
+}
+
+#[test]
+fn annotations_and_summaries_quote_what_fails_on_one_line() {
+    let hostile = "a\n::error::b\u{1b}[2J\r![x](http://example.org/x)<img src=x>";
+    let check = Check {
+        format: CHECK_FORMAT,
+        program: suite::PROGRAM.to_owned(),
+        decision: Decision::Broken,
+        failures: vec![Failure {
+            scene: hostile.to_owned(),
+            filter: hostile.to_owned(),
+            alignment: "trailing".to_owned(),
+            reason: hostile.to_owned(),
+        }],
+        findings: Vec::new(),
+        comparisons: Vec::new(),
+    };
+    let lines = annotations(&check);
+    assert_eq!(lines.lines().count(), 1, "{lines}");
+    assert!(
+        lines.starts_with("::error title=a%0A%3A%3Aerror%3A%3Ab"),
+        "{lines}"
+    );
+    let failures = printable_table(&check_text(&check, Path::new("out")));
+    for text in [&lines, &failures] {
+        assert!(
+            !text.contains("\u{1b}[2J") && !text.contains('\r'),
+            "{text:?}"
+        );
+        let commands = text
+            .lines()
+            .filter(|line| line.trim_start().starts_with("::error::"));
+        assert_eq!(commands.count(), 0, "{text}");
+    }
+    let summary = summary(&check);
+    assert!(
+        !summary.contains('\u{1b}') && !summary.contains('\r'),
+        "{summary:?}"
+    );
+    assert!(
+        !summary.contains("![x]") && !summary.contains(" <img"),
+        "{summary}"
+    );
+    assert!(
+        !summary.lines().any(|line| line.starts_with("::error::")),
+        "{summary}"
+    );
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_closed_or_full_standard_error_changes_no_exit_code() {
+    let bench = Bench::new();
+    let program = env!("CARGO_BIN_EXE_shuttertruth");
+    let shell = |line: &str| {
+        let mut command = std::process::Command::new("bash");
+        command
+            .args(["-c", line, program])
+            .current_dir(bench.path("."));
+        command.stdout(Stdio::null()).stderr(Stdio::null());
+        command.status().unwrap().code()
+    };
+    let wrong = "\"$0\" report nowhere --html p.html";
+    let tune = "\"$0\" tune --filter jump_flood --vary samples --objective flip --size 64x32 --samples-per-pixel 16 \
+                --budget 1 --out tuned";
+    let list = "\"$0\" list";
+    for (line, code) in [
+        (format!("{wrong} 2>&-"), 2),
+        (format!("{wrong} 2>/dev/full"), 2),
+        (format!("{wrong} 2> >(exec true); exit $?"), 2),
+        (format!("{tune} 2>/dev/full"), 0),
+        (format!("{tune} 2>&-"), 0),
+        (format!("{list} >&-"), 0),
+        (format!("{list} >&- 2>&-"), 0),
+        (format!("{list} | head -1; exit ${{PIPESTATUS[0]}}"), 0),
+        (format!("{list} >/dev/full"), 2),
+        (format!("{list} >/dev/full 2>/dev/full"), 2),
+    ] {
+        assert_eq!(shell(&line), Some(code), "{line}");
+    }
+}

@@ -7,10 +7,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use filters::AdapterDescription;
-use frame::{FileError, write_atomically};
+use frame::write_atomically;
 use serde::{Deserialize, Serialize};
 
 use crate::Error;
+use crate::json_file::read_text;
+use crate::json_strings::check_strings;
 
 pub use accept::{Acceptance, accept};
 pub use compare::{Comparison, ComparisonKind, compare};
@@ -39,9 +41,9 @@ pub struct Baseline {
 impl Baseline {
     /// Reads a file that [`Baseline::write`] wrote.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let text =
-            std::fs::read_to_string(path).map_err(|source| FileError::io(path, "read", source))?;
-        let baseline: Self = serde_json::from_str(&text).map_err(|error| {
+        let text = read_text(path)?;
+        let parsed = check_strings(&text).and_then(|()| serde_json::from_str(&text));
+        let baseline: Self = parsed.map_err(|error| {
             Error::Usage(format!(
                 "{}: no baseline: {error}; `shuttertruth accept` writes one",
                 path.display()

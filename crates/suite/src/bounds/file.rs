@@ -9,6 +9,8 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::{Bound, Bounds, Level};
+use crate::json_file::read_text;
+use crate::printable::{printable, printable_path};
 use crate::{Error, SIDES};
 
 /// What a bounds.toml holds.
@@ -70,8 +72,7 @@ struct Entry {
 
 /// Reads a bounds.toml. Whether its filters exist is checked by [`check_names`](super::check_names).
 pub fn read_bounds_file(path: &Path) -> Result<BoundsFile, Error> {
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| Error::Usage(format!("{}: cannot read: {error}", path.display())))?;
+    let text = read_text(path)?;
     let source = Source { path, text: &text };
     let contents: Contents = toml::from_str(&text)
         .map_err(|error| source.refuse(error.span().map(|span| span.start), error.message()))?;
@@ -133,7 +134,14 @@ impl Source<'_> {
                     )));
                 }
                 let why = why.unwrap_or_default();
-                if why.trim().is_empty() || why.contains('\n') {
+                if printable(&why) != why {
+                    return Err(refuse(&format!(
+                        "{}: why = \"{}\"; allowed: one line of text without control characters",
+                        name.get_ref(),
+                        printable(&why)
+                    )));
+                }
+                if why.trim().is_empty() {
                     return Err(refuse(&format!(
                         "{}: has no why; needed: one line on what was measured, why = \"..\"",
                         name.get_ref()
@@ -176,13 +184,13 @@ impl Source<'_> {
 
     /// `scenes/bounds.toml:12`
     fn place(&self, offset: Option<usize>) -> String {
-        let path = self.path.display();
+        let path = printable_path(self.path);
         match offset {
             Some(offset) => {
                 let line = self.text[..offset].matches('\n').count() + 1;
                 format!("{path}:{line}")
             }
-            None => path.to_string(),
+            None => path,
         }
     }
 }

@@ -7,7 +7,7 @@ use clap::Args;
 use suite::Objective;
 
 use super::{AdapterArgs, SceneArgs};
-use crate::words::{ratio, size};
+use crate::words::{effort, ratio, size};
 
 /// `shuttertruth tune`
 #[derive(Debug, Args)]
@@ -19,7 +19,7 @@ pub struct TuneArgs {
     #[arg(long, value_delimiter = ',', value_name = "PARAMETERS")]
     pub vary: Vec<String>,
     /// How many candidates to try, those of an interrupted run included.
-    #[arg(long, value_name = "N", default_value_t = 400)]
+    #[arg(long, value_name = "N", default_value_t = 400, value_parser = effort)]
     pub budget: usize,
     /// Begin no more candidates after so many minutes.
     #[arg(long, value_name = "M", value_parser = minutes)]
@@ -46,10 +46,10 @@ pub struct TuneArgs {
     #[arg(long, value_name = "N", default_value_t = 256)]
     pub sealed_samples_per_pixel: u32,
     /// Tune nothing: tell which parameters matter, by so many walks through their ranges (Morris); 10 to 20 will do.
-    #[arg(long, value_name = "WALKS", default_value_t = 0, conflicts_with_all = ["sealed", "minutes", "compare"])]
+    #[arg(long, value_name = "WALKS", default_value_t = 0, value_parser = effort, conflicts_with_all = ["sealed", "minutes", "compare"])]
     pub morris: usize,
     /// Tune nothing: tell which parameters matter, by Sobol indices from so many rows; 64 to 256 will do.
-    #[arg(long, value_name = "ROWS", default_value_t = 0, conflicts_with_all = ["sealed", "minutes", "compare"])]
+    #[arg(long, value_name = "ROWS", default_value_t = 0, value_parser = effort, conflicts_with_all = ["sealed", "minutes", "compare"])]
     pub sobol: usize,
     /// Tune nothing: compare two presets over the scenes.
     #[arg(long, value_delimiter = ',', num_args = 1, value_name = "PRESET,PRESET", conflicts_with_all = ["vary", "sealed", "minutes"])]

@@ -30,5 +30,8 @@ pub fn execute(args: &AcceptArgs) -> Result<(), Error> {
         },
     )?;
     baseline.write(&args.baseline)?;
-    say(&format!("written: {}\n", args.baseline.display()))
+    say(&format!(
+        "written: {}\n",
+        suite::printable_path(&args.baseline)
+    ))
 }

@@ -32,7 +32,10 @@ pub fn execute(args: &BenchArgs) -> Result<(), Error> {
         return say(&format!("{json}\n"));
     }
     say(&bench_table(&done))?;
-    say(&format!("\nwritten: {}\n", path(args).display()))
+    say(&format!(
+        "\nwritten: {}\n",
+        suite::printable_path(&path(args))
+    ))
 }
 
 /// Returns what stands in the file.

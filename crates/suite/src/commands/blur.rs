@@ -4,7 +4,7 @@ use std::path::Path;
 
 use filters::{FilterError, Input};
 use frame::{ExrFile, Image, Plane, Reprojection, Vectors, read_exr, write_exr};
-use suite::{Error, FilterChoice, Runner, open_gpu, select_filters};
+use suite::{Error, FilterChoice, Runner, open_gpu, printable_path, select_filters};
 
 use super::{check_exposure, say};
 use crate::cli::BlurArgs;
@@ -45,7 +45,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     file.set("exposure", buffers.exposure);
     file.set("alignment", choice.filter.alignment);
     write_exr(&args.out, &file)?;
-    say(&format!("{}\n", args.out.display()))
+    say(&format!("{}\n", printable_path(&args.out)))
 }
 
 fn select_filter(args: &BlurArgs) -> Result<FilterChoice, Error> {
@@ -67,7 +67,10 @@ struct Buffers {
 impl Buffers {
     /// Pixels per row without the guard band.
     fn picture_width(&self) -> u32 {
-        self.color.width.saturating_sub(2 * self.guard_band).max(1)
+        self.color
+            .width
+            .saturating_sub(self.guard_band.saturating_mul(2))
+            .max(1)
     }
 }
 

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use suite::{
-    Error, Plan, Run, SceneBounds, calibrate, check_names, open_gpu, refuse_failures, run, with_bar,
+    Error, Plan, Run, SceneBounds, calibrate, check_names, open_gpu, printable_path,
+    refuse_failures, run, with_bar,
 };
 use tracer::{Progress, Watch};
 
@@ -33,7 +34,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
         let path = out.join(scene).with_extension("bounds.toml");
         let text = calibration.toml(scene);
         frame::write_atomically(&path, text.as_bytes())?;
-        say(&format!("# {}\n\n{text}", path.display()))?;
+        say(&format!("# {}\n\n{text}", printable_path(&path)))?;
     }
     Ok(())
 }
@@ -43,6 +44,13 @@ fn all_runs(args: &CalibrateArgs, plan: &mut Plan, watch: Watch) -> Result<Vec<R
     let adapters = adapters(args);
     let total = adapters.len() as u64 * u64::from(args.runs);
     let first = plan.render.seed;
+    if first.checked_add(u64::from(args.runs)).is_none() {
+        return Err(Error::Usage(format!(
+            "--seed {first}: each of the {} runs has the next one; allowed is up to {}",
+            args.runs,
+            u64::MAX - u64::from(args.runs)
+        )));
+    }
     let mut runs: Vec<Run> = Vec::new();
     for adapter in adapters {
         let gpu = open_gpu(&plan.filters, adapter)?;

@@ -22,6 +22,6 @@ pub fn execute(args: &CatalogueArgs) -> Result<(), Error> {
     let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
     let page = plan.out.join("catalogue.md");
     frame::write_atomically(&page, catalogue(&run).as_bytes())?;
-    say(&format!("written: {}\n", page.display()))?;
+    say(&format!("written: {}\n", suite::printable_path(&page)))?;
     refuse_failures(&run.failures)
 }

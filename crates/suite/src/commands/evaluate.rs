@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use filters::{Settings, Value};
-use suite::{Answer, Error, FilterChoice, Objective, answer, evaluator, shots};
+use frame::{FileError, read_bounded};
+use suite::{Answer, Error, FilterChoice, MOST_JSON_BYTES, Objective, answer, evaluator, shots};
 
 use super::measure::scenes;
 use super::say;
@@ -31,8 +32,11 @@ pub fn execute(args: &EvaluateArgs) -> Result<(), Error> {
 
 fn read_params(path: &Path, choice: &FilterChoice) -> Result<Settings, Error> {
     let refuse = |reason: String| Error::Usage(format!("{}: {reason}", path.display()));
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| refuse(format!("cannot be read: {error}")))?;
+    let bytes = read_bounded(path, MOST_JSON_BYTES).map_err(|error| match error {
+        FileError::Io { source, .. } => refuse(format!("cannot be read: {source}")),
+        other => other.into(),
+    })?;
+    let text = String::from_utf8(bytes).map_err(|error| refuse(error.to_string()))?;
     let values: BTreeMap<String, Value> = serde_json::from_str(&text).map_err(|error| {
         refuse(format!(
             "{error}; allowed is one table of parameters, such as {{\"samples\": 12}}"

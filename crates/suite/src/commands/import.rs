@@ -1,6 +1,6 @@
 //! `shuttertruth import`
 
-use suite::{Error, ImportPlan, Imported, Motions, import};
+use suite::{Error, ImportPlan, Imported, Motions, import, printable_path};
 
 use super::{check_exposure, say};
 use crate::cli::ImportArgs;
@@ -21,7 +21,7 @@ pub fn execute(args: &ImportArgs) -> Result<(), Error> {
         exposure: args.exposure,
     };
     let Imported { exposes, triangles } = import(&plan)?;
-    let folder = args.out.display();
+    let folder = printable_path(&args.out);
     say(&format!(
         "{exposes}\n{triangles} triangles, the set's among them\nwritten: {folder}\nnext: shuttertruth run --scenes {}{folder} --out out\n",
         if args.out.is_relative() { "./" } else { "" },

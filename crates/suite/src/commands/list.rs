@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use filters::{AdapterDescription, Command, Filter, Parameter, Preset, Unit, list_adapters};
-use suite::{Error, push_wrapped};
+use suite::{Error, printable, push_wrapped};
 use tracer::{SceneListing, list_scenes};
 
 use super::say;
@@ -106,9 +106,9 @@ fn scene_text(scene: &SceneListing) -> String {
     let family = serde_json::to_value(scene.family).expect("a family is a word");
     let mut text = format!(
         "  {}  ({})\n    {}\n",
-        scene.name,
+        printable(&scene.name),
         family.as_str().unwrap_or_default(),
-        scene.exposes
+        printable(&scene.exposes)
     );
     if !scene.variants.is_empty() {
         text += &format!("    variants: {}\n", scene.variants.join(" "));
@@ -124,19 +124,19 @@ fn filter_text(filter: &Filter) -> String {
             parameter.default,
             parameter.unit.map_or("", |Unit::Pixels| " pixels"),
             parameter.kind.allowed(),
-            parameter.doc
+            printable(&parameter.doc)
         )
     };
     let command = match &filter.command {
-        Some(command) => format!("    runs: {}\n", command.words().join(" ")),
+        Some(command) => format!("    runs: {}\n", printable(&command.words().join(" "))),
         None => String::new(),
     };
     format!(
         "  {}  (shutter: {})\n    {}\n    cannot: {}\n{command}{}{}\n",
         filter.name,
         filter.alignment,
-        filter.summary,
-        filter.cannot,
+        printable(&filter.summary),
+        printable(&filter.cannot),
         filter.presets.iter().map(preset_text).collect::<String>(),
         filter.parameters.iter().map(parameter).collect::<String>()
     )
@@ -144,8 +144,8 @@ fn filter_text(filter: &Filter) -> String {
 
 /// A preset, and below it whose work it follows and where it leaves that.
 fn preset_text(preset: &Preset) -> String {
-    let mut text = format!("    :{}  {}\n", preset.name, preset.doc);
-    let mut line = |words: String| text += &format!("        {words}\n");
+    let mut text = format!("    :{}  {}\n", preset.name, printable(&preset.doc));
+    let mut line = |words: String| text += &format!("        {}\n", printable(&words));
     if let Some(source) = &preset.source {
         if let Some(code) = &source.code {
             line(format!("source: {code}"));

@@ -10,7 +10,7 @@ pub fn execute(args: &MergeArgs) -> Result<(), Error> {
     for merged in merge(&args.parts, &args.out)? {
         say(&format!(
             "{} ({} replicates)\n",
-            merged.truth.display(),
+            suite::printable_path(&merged.truth),
             merged.replicates
         ))?;
     }

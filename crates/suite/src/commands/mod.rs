@@ -21,7 +21,9 @@ mod tune;
 
 use std::io::{ErrorKind, Write};
 
-use suite::{Error, RenderSettings};
+use suite::{Error, MOST_REPLICATES, RenderSettings, printable_table};
+
+use tracer::MOST_SAMPLES;
 
 use crate::cli::{Cli, Command, SceneArgs, Switch};
 
@@ -69,9 +71,12 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
     }
 }
 
-/// Prints to standard output, in colours where that is a terminal that shows them. A reader that has read enough, such as `head`, is no error.
+/// Prints to standard output, in colours where that is a terminal that shows them; other control characters become escapes. A
+/// reader that has read enough, such as `head`, is no error.
 fn say(text: &str) -> Result<(), Error> {
-    match anstream::stdout().write_all(text.as_bytes()) {
+    let mut out = anstream::stdout();
+    let text = printable_table(text);
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Error::Usage(format!(
             "standard output: cannot write: {error}"
         ))),
@@ -102,6 +107,7 @@ fn render_settings(
         check_exposure(exposure)?;
     }
     check_samples(args.samples_per_pixel)?;
+    check_replicates(replicates)?;
     Ok(RenderSettings {
         width,
         height,
@@ -120,13 +126,25 @@ fn render_settings(
 fn check_samples(samples_per_pixel: u32) -> Result<(), Error> {
     let replicates = RenderSettings::default().replicates;
     let each = samples_per_pixel / replicates;
-    if each.is_power_of_two() && each * replicates == samples_per_pixel {
+    let allowed = each.is_power_of_two() && each <= MOST_SAMPLES;
+    if allowed && each * replicates == samples_per_pixel {
         return Ok(());
     }
-    let nearest = each.next_power_of_two() * replicates;
+    let nearest = each.clamp(1, MOST_SAMPLES).next_power_of_two() * replicates;
     Err(Error::Usage(format!(
-        "--samples-per-pixel {samples_per_pixel}: allowed is {replicates} times a power of two, such as {nearest}"
+        "--samples-per-pixel {samples_per_pixel}: allowed is {replicates} times a power of two, up to {}, such as {nearest}",
+        MOST_SAMPLES * replicates
     )))
+}
+
+/// Two halves of at least one each, and no more than a truth's files can be numbered by.
+fn check_replicates(replicates: u32) -> Result<(), Error> {
+    match (2..=MOST_REPLICATES).contains(&replicates) && replicates.is_multiple_of(2) {
+        true => Ok(()),
+        false => Err(Error::Usage(format!(
+            "--replicates {replicates}: allowed are even numbers from 2 to {MOST_REPLICATES}, such as 8"
+        ))),
+    }
 }
 
 fn check_exposure(exposure: f64) -> Result<(), Error> {

@@ -2,8 +2,8 @@
 
 use frame::Truth;
 use suite::{
-    Error, RenderSettings, SceneChoice, deciding_floor, frame_of, part_of, scene_folder,
-    select_scenes, truth_of, truth_until,
+    Error, MOST_REPLICATES, RenderSettings, SceneChoice, deciding_floor, frame_of, part_of,
+    printable_path, scene_folder, select_scenes, truth_of, truth_until,
 };
 use tracer::Scene;
 
@@ -12,6 +12,12 @@ use crate::cli::{RenderArgs, Replicates};
 
 /// Renders each scene's frame and its truths, or a part of them, and says where they are and how noisy.
 pub fn execute(args: &RenderArgs) -> Result<(), Error> {
+    if args.most_replicates > MOST_REPLICATES {
+        return Err(Error::Usage(format!(
+            "--most-replicates {}: allowed is up to {MOST_REPLICATES}",
+            args.most_replicates
+        )));
+    }
     let mut noisy = Vec::new();
     for SceneChoice { scene, .. } in select_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)? {
         match &args.replicates {
@@ -25,7 +31,7 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
                 for alignment in &args.alignments {
                     part_of(&scene, &settings, *alignment, indices.clone(), out, quiet)?;
                 }
-                say(&format!("{}\n", scene_folder(out, &scene).display()))?;
+                say(&format!("{}\n", printable_path(&scene_folder(out, &scene))))?;
             }
             Replicates::Part(_) => {
                 return Err(Error::Usage(
@@ -47,7 +53,7 @@ fn whole(args: &RenderArgs, scene: &Scene, count: u32) -> Result<Vec<String>, Er
     let (out, quiet) = (&args.scenes.out, args.scenes.quiet);
     frame_of(scene, &settings, out, quiet)?;
     let mut noisy = Vec::new();
-    let mut report = format!("{}\n", scene_folder(out, scene).display());
+    let mut report = format!("{}\n", printable_path(&scene_folder(out, scene)));
     for &alignment in &args.alignments {
         let truth = match args.noise {
             None => truth_of(scene, &settings, alignment, out, quiet)?,

@@ -2,7 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use suite::{Error, LARGEST_PAGE, Run, TuneFolder, report, tuning_page, with_bar, write_layers};
+use suite::{
+    Error, LARGEST_PAGE, Run, TuneFolder, printable_path, report, tuning_page, with_bar,
+    write_layers,
+};
 
 use super::say;
 use crate::cli::ReportArgs;
@@ -24,7 +27,7 @@ pub fn execute(args: &ReportArgs) -> Result<(), Error> {
         let (count, size) = (layers.len(), bytes as f64 / 1e6);
         text += &format!(
             "written: {count} files below {} ({size:.1} MB)\n",
-            folder.display()
+            printable_path(folder)
         );
     }
     say(&text)
@@ -105,7 +108,7 @@ impl Written {
     pub fn line(&self) -> String {
         format!(
             "written: {} ({:.1} MB)\n",
-            self.path.display(),
+            printable_path(&self.path),
             self.bytes as f64 / 1e6
         )
     }

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use suite::{
-    Error, Outcome, Run, failures_text, open_gpu, push_wrapped, refuse_failures, run, table,
+    Error, Outcome, Run, failures_text, open_gpu, printable_path, push_wrapped, refuse_failures,
+    run, table,
 };
 
 use super::measure::{adapter_line, plan, write_run};
@@ -54,7 +55,7 @@ fn closing(run: &Run, out: &Path) -> String {
     text += &format!(
         "adapter: {}\nwritten: {}\n",
         adapter_line(&run.adapter),
-        out.join("run.json").display()
+        printable_path(&out.join("run.json"))
     );
     text
 }

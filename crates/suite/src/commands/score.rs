@@ -2,7 +2,7 @@
 
 use frame::{Frame, Ladder, Truth};
 use metrics::Metric;
-use suite::{Error, Scored, missing, read_finished, score, score_table};
+use suite::{Error, Scored, missing, printable, read_finished, score, score_table};
 
 use super::say;
 use crate::cli::ScoreArgs;
@@ -47,6 +47,7 @@ fn check_scenes(
 fn text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Scored) -> String {
     let name = args.image.file_name().unwrap_or(args.image.as_os_str());
     let name = name.to_string_lossy();
+    let name = printable(&name);
     let mut text = score_table(&truth.provenance.scene, &name, scores);
     text += &format!(
         "\ntruth: {} shutter, open for {} frames\n",

@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use filters::Gpu;
 use suite::{
     Effort, Error, FilterChoice, Objective, RenderSettings, Space, TunePlan, Tuning,
-    compare_paired, evaluator, interleaved, open_gpu, paired_table, preset_text, select_filters,
-    sensitivity, sensitivity_table, shots, tune, tuning_table, with_bar,
+    compare_paired, evaluator, interleaved, open_gpu, paired_table, preset_text, printable_path,
+    select_filters, sensitivity, sensitivity_table, shots, tell, tune, tuning_table, with_bar,
 };
 use tracer::Progress;
 
@@ -53,7 +53,7 @@ fn run(args: &TuneArgs, choice: FilterChoice) -> Result<(), Error> {
     })?;
     if !plan.quiet {
         let seconds = began.elapsed().as_secs_f64();
-        eprintln!("{} trials in {seconds:.1} s", tuning.trials);
+        tell(&format!("{} trials in {seconds:.1} s", tuning.trials));
     }
     print(args, &write(&tuning, &plan)?)
 }
@@ -107,7 +107,7 @@ fn print(args: &TuneArgs, found: &Found) -> Result<(), Error> {
     let Found { table, json, path } = found;
     match args.json {
         true => say(&format!("{json}\n")),
-        false => say(&format!("{table}\nwritten: {}\n", path.display())),
+        false => say(&format!("{table}\nwritten: {}\n", printable_path(path))),
     }
 }
 

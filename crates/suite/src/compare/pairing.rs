@@ -1,5 +1,7 @@
 //! Which case of one run belongs to which of the other.
 
+use std::collections::{HashMap, HashSet};
+
 use super::side::Side;
 use crate::{Case, Error, Run};
 
@@ -14,8 +16,12 @@ pub struct Pair<'a> {
 
 /// The cases that both runs have, in the order of the first.
 pub fn pairs<'a>(first: &'a Run, second: &'a Run) -> Vec<Pair<'a>> {
+    let mut known: HashMap<Key, &Case> = HashMap::new();
+    for case in &second.cases {
+        known.entry(key(case)).or_insert(case);
+    }
     let pair = |first: &'a Case| {
-        let second = second.cases.iter().find(|case| key(case) == key(first))?;
+        let second = known.get(&key(first))?;
         Some(Pair { first, second })
     };
     first.cases.iter().filter_map(pair).collect()
@@ -23,7 +29,8 @@ pub fn pairs<'a>(first: &'a Run, second: &'a Run) -> Vec<Pair<'a>> {
 
 /// The cases of `run` that `other` lacks.
 pub fn only_in(run: &Run, other: &Run) -> Vec<String> {
-    let lacks = |case: &&Case| !other.cases.iter().any(|own| key(own) == key(case));
+    let known: HashSet<Key> = other.cases.iter().map(key).collect();
+    let lacks = |case: &&Case| !known.contains(&key(case));
     run.cases.iter().filter(lacks).map(title).collect()
 }
 
@@ -86,7 +93,10 @@ pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(
     }
 }
 
-fn key(case: &Case) -> (&str, String, &str, bool) {
+/// What tells cases of one run apart.
+type Key<'a> = (&'a str, String, &'a str, bool);
+
+fn key(case: &Case) -> Key<'_> {
     (&case.scene, case.name(), &case.alignment, case.bar)
 }
 

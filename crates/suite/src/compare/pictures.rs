@@ -1,11 +1,10 @@
 //! The pictures of a case in two runs.
 
-use std::fs;
 use std::path::Path;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use frame::{FileError, Plane, read_exr, write_png};
+use frame::{FileError, Plane, read_bounded, read_exr, write_png};
 
 use super::pairing::Pair;
 use super::side::Side;
@@ -45,12 +44,15 @@ impl Pictures {
     }
 }
 
+/// Bytes of a picture that a page shows.
+const MOST_PICTURE_BYTES: u64 = 1 << 28;
+
 /// None where there is no such file.
 fn address(path: &Path) -> Result<Option<String>, Error> {
     if !path.is_file() {
         return Ok(None);
     }
-    let bytes = fs::read(path).map_err(|source| FileError::io(path, "read", source))?;
+    let bytes = read_bounded(path, MOST_PICTURE_BYTES)?;
     Ok(Some(format!(
         "data:image/png;base64,{}",
         STANDARD.encode(bytes)

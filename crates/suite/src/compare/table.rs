@@ -5,6 +5,7 @@ use super::mean::{MeanChange, MeanKind};
 use super::{Compared, SettingChange};
 use crate::gate::number;
 use crate::paint::{bad, doubtful, faint, good, heading};
+use crate::printable::printable;
 use crate::wrapped::push_wrapped;
 
 /// Changed cases that are printed; `--json` and the page have all.
@@ -22,7 +23,7 @@ pub fn compare_table(compared: &Compared) -> String {
     ];
     for (cases, run) in sides {
         if !cases.is_empty() {
-            push_wrapped(&mut text, 0, &format!("only in {run}:"));
+            push_wrapped(&mut text, 0, &format!("only in {}:", printable(run)));
             for case in cases {
                 push_wrapped(&mut text, 2, case);
             }

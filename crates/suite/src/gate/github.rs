@@ -5,6 +5,7 @@ use std::fmt::Write;
 use super::finding::number;
 use super::text::{comparison_line, headline, way_out};
 use super::{Check, Decision, Finding, Kind};
+use crate::printable::printable;
 
 /// More than that, GitHub shows of no step.
 const MOST_ANNOTATIONS: usize = 10;
@@ -116,16 +117,26 @@ fn words(decision: Decision) -> &'static str {
     }
 }
 
-/// A vertical bar would end the cell.
+/// A vertical bar would end the cell, and other signs make links or pictures of names.
 fn cell(text: &str) -> String {
-    text.replace('|', "\\|").replace('\n', " ")
+    let one_line = text.replace('\n', " ");
+    let mut cell = String::new();
+    for letter in printable(&one_line).chars() {
+        if MARKDOWN.contains(letter) {
+            cell.push('\\');
+        }
+        cell.push(letter);
+    }
+    cell
 }
+
+/// Letters that Markdown reads as more than themselves: an image in a name would be fetched, HTML be shown.
+const MARKDOWN: &str = "\\`|*<[&";
 
 /// What a workflow command's message escapes.
 fn data(text: &str) -> String {
-    text.replace('%', "%25")
-        .replace('\r', "%0D")
-        .replace('\n', "%0A")
+    let lines: Vec<_> = text.split('\n').map(printable).collect();
+    lines.join("\n").replace('%', "%25").replace('\n', "%0A")
 }
 
 /// What a workflow command's property escapes.
@@ -141,5 +152,14 @@ mod tests {
     fn what_would_end_a_command_is_escaped() {
         assert_eq!(data("95 %\nof it: a, b"), "95 %25%0Aof it: a, b");
         assert_eq!(property("a:b, 5 %"), "a%3Ab%2C 5 %25");
+        assert_eq!(data("a\r\u{1b}[2J"), "a\\r\\u001b[2J");
+    }
+
+    #[test]
+    fn names_make_no_pictures_in_a_summary() {
+        assert_eq!(
+            cell("![a](b)<img src=c> `d`\ne|f"),
+            "!\\[a](b)\\<img src=c> \\`d\\` e\\|f"
+        );
     }
 }

@@ -8,6 +8,7 @@ use crate::baseline::Comparison;
 use crate::bounds::Level;
 use crate::failure::failures_text;
 use crate::paint::{bad, doubtful, good, heading};
+use crate::printable::printable_path;
 use crate::wrapped::push_wrapped;
 
 /// What is broken, inconclusive or too narrow, by scene and filter, then the comparisons, then the counts. `out` is the
@@ -51,7 +52,12 @@ fn lines(finding: &Finding, out: &std::path::Path) -> Vec<(usize, String)> {
         let picture = out.join(&worst.picture);
         lines.push((
             6,
-            format!("worst at ({}, {}): {}", worst.x, worst.y, picture.display()),
+            format!(
+                "worst at ({}, {}): {}",
+                worst.x,
+                worst.y,
+                printable_path(&picture)
+            ),
         ));
     }
     if let Some(alike) = &finding.resembles {
@@ -64,7 +70,7 @@ fn lines(finding: &Finding, out: &std::path::Path) -> Vec<(usize, String)> {
     if finding.worst.is_some() {
         lines.push((
             6,
-            format!("pictures: {}", out.join(&finding.pictures).display()),
+            format!("pictures: {}", printable_path(&out.join(&finding.pictures))),
         ));
     }
     lines

@@ -1,10 +1,12 @@
 //! The model that is imported: its files in the scene's folder, and where its middle lies.
 
 use std::fs;
+use std::ops::RangeInclusive;
 use std::path::{Component, Path, PathBuf};
 
 use clap::ValueEnum;
-use frame::FileError;
+use frame::{FileError, read_bounded};
+use tracer::limits::LARGEST_MESH_FILE;
 use tracer::{SceneError, load_scene_and_files};
 
 use super::create;
@@ -12,6 +14,9 @@ use crate::Error;
 
 /// Folder of the model's files below the scene's.
 pub const FOLDER: &str = "model";
+
+/// Radii of models that can be imported, in metres.
+const RADII: RangeInclusive<f64> = 1e-6..=1e9;
 
 /// An axis that points up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -72,11 +77,27 @@ impl Model {
                 bounds[1][axis] = bounds[1][axis].max(position[axis]);
             }
         }
-        Ok(Self {
+        let model = Self {
             mesh: format!("{FOLDER}/{name}"),
             bounds,
             up,
-        })
+        };
+        model.check_size(&path)?;
+        Ok(model)
+    }
+
+    /// Refuses a model for which no stand, floor and camera can be made.
+    fn check_size(&self, path: &Path) -> Result<(), Error> {
+        let radius = self.radius();
+        if RADII.contains(&radius) {
+            return Ok(());
+        }
+        Err(Error::Usage(format!(
+            "{}: the model's radius is {radius:e} m; allowed: {:e} to {:e}; scale it",
+            path.display(),
+            RADII.start(),
+            RADII.end()
+        )))
     }
 
     /// Half of the size along each axis, in metres.
@@ -152,7 +173,7 @@ fn plainly(error: SceneError, path: &Path, scene: &Path) -> SceneError {
 
 /// The same OBJ file, line by line, without its materials.
 fn write_plain(path: &Path, copy: &Path) -> Result<(), FileError> {
-    let bytes = fs::read(path).map_err(|source| FileError::io(path, "read", source))?;
+    let bytes = read_bounded(path, LARGEST_MESH_FILE)?;
     let text = String::from_utf8_lossy(&bytes);
     let mut plain = String::with_capacity(text.len());
     for line in text.lines() {

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use filters::{Clock, Value};
-use frame::FileError;
 use maud::{Markup, html};
 
 use super::pareto_chart::{Point, pareto_chart};
@@ -11,7 +10,8 @@ use super::reach_chart::{reach_chart, span};
 use super::subject::{Subject, subjects};
 use crate::bench::{BASELINE, BENCH_FORMAT, CaseCost, GROWTH_FROM, REACHES, Spread};
 use crate::headline::Headline;
-use crate::{Bench, Error, Run};
+use crate::json_file::read_text;
+use crate::{Bench, Error, Run, SIDES};
 
 /// What `shuttertruth bench` calls its file.
 const BENCH_FILE: &str = "bench.json";
@@ -19,11 +19,10 @@ const BENCH_FILE: &str = "bench.json";
 /// The bench that was written into the folder of a run; none where there is no such file.
 pub fn read_bench(folder: &Path) -> Result<Option<Bench>, Error> {
     let path = folder.join(BENCH_FILE);
-    let text = match std::fs::read_to_string(&path) {
-        Ok(text) => text,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-        Err(error) => return Err(FileError::io(&path, "read", error).into()),
-    };
+    if !path.exists() {
+        return Ok(None);
+    }
+    let text = read_text(&path)?;
     let refuse = |reason: String| {
         Error::Usage(format!(
             "{}: {reason}; `shuttertruth bench` writes one; delete it to have a report without costs",
@@ -32,13 +31,57 @@ pub fn read_bench(folder: &Path) -> Result<Option<Bench>, Error> {
     };
     let bench: Bench = serde_json::from_str(&text)
         .map_err(|error| refuse(format!("no bench of this program: {error}")))?;
-    match bench.format {
-        BENCH_FORMAT => Ok(Some(bench)),
-        other => Err(refuse(format!(
-            "has format {other}; allowed: {BENCH_FORMAT}"
-        ))),
+    if bench.format != BENCH_FORMAT {
+        return Err(refuse(format!(
+            "has format {}; allowed: {BENCH_FORMAT}",
+            bench.format
+        )));
     }
+    check_times(&bench).map_err(refuse)?;
+    Ok(Some(bench))
 }
+
+/// Refuses times that no clock takes, sizes that no picture has, and reaches that were not timed: charts take logarithms.
+fn check_times(bench: &Bench) -> Result<(), String> {
+    let sides = [bench.width, bench.height];
+    if !sides.iter().all(|side| SIDES.contains(side)) {
+        return Err(format!(
+            "has pictures of {}x{} pixels; allowed: {} to {} columns and rows",
+            bench.width,
+            bench.height,
+            SIDES.start(),
+            SIDES.end()
+        ));
+    }
+    let of_cases = (bench.cases.iter()).flat_map(|case| {
+        let passes = case.passes.iter().map(|pass| &pass.seconds);
+        std::iter::once(&case.seconds).chain(passes)
+    });
+    let points = (bench.reaches.iter()).flat_map(|reach| &reach.points);
+    let of_reaches = points.filter_map(|point| point.seconds.as_ref());
+    let times = of_cases.chain(of_reaches);
+    let wrong = times
+        .flat_map(|own| [own.median, own.lower_quartile, own.upper_quartile])
+        .find(|seconds| !(0.0..=LONGEST).contains(seconds));
+    if let Some(seconds) = wrong {
+        return Err(format!(
+            "holds a time of {seconds} s; allowed: 0 to {LONGEST}"
+        ));
+    }
+    for reach in &bench.reaches {
+        let pixels: Vec<u32> = reach.points.iter().map(|point| point.pixels).collect();
+        if pixels != REACHES {
+            return Err(format!(
+                "{}:{} was timed at the reaches {pixels:?}; allowed: {REACHES:?}",
+                reach.filter, reach.preset
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Seconds of anything that a bench times: a day.
+const LONGEST: f64 = 86_400.0;
 
 /// What a subject cost; none for bars, and for filters that were not timed with these very parameters. A bench of another width has its own
 /// values in pixels.

@@ -65,7 +65,7 @@ pub fn report(run: &Run, folder: &Path, html: &Path, largest: usize) -> Result<R
                 .filter(|(_, case)| case.scene == name)
         };
         let cases: Vec<&Case> = own().map(|(_, case)| case).collect();
-        let mut files = SceneFiles::read(&cases, folder)?;
+        let mut files = SceneFiles::read(run, &cases, folder)?;
         for (index, _) in own() {
             let which = Which {
                 run,

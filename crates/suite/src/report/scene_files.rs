@@ -12,7 +12,7 @@ use super::layer::Layer;
 use super::precision::Nature;
 use super::shelf::Shelf;
 use crate::case::ACCUMULATE;
-use crate::{Case, Error};
+use crate::{Case, Error, Run};
 
 /// The frame of a scene and its truths, whose planes stand on the scene's shelf.
 pub struct SceneFiles {
@@ -59,12 +59,16 @@ pub struct CaseFiles {
 
 impl SceneFiles {
     /// Reads the frame of a scene and the accumulations of its profiles; `cases` are all of the scene, `folder` is the run's.
-    pub fn read(cases: &[&Case], folder: &Path) -> Result<Self, Error> {
+    pub fn read(run: &Run, cases: &[&Case], folder: &Path) -> Result<Self, Error> {
         let own = folder.join(&cases[0].scene);
-        let frame = Frame::read(&own.join("frame.exr"))?.cropped();
+        let path = own.join("frame.exr");
+        let frame = Frame::read(&path)?.cropped();
+        check_size(&path, frame.size(), (run.width, run.height))?;
         let mut accumulations = BTreeMap::new();
         for case in cases.iter().filter(|case| is_bar_of_profiles(case)) {
-            let file = read_exr(&folder.join(&case.folder).join("output.exr"))?;
+            let path = folder.join(&case.folder).join("output.exr");
+            let file = read_exr(&path)?;
+            check_size(&path, (file.width, file.height), frame.size())?;
             let bar = (format!("{} sub-frames", case.preset), file.color("")?);
             accumulations.insert(case.alignment.clone(), bar);
         }
@@ -99,7 +103,17 @@ impl SceneFiles {
 
     fn read_truth(&mut self, alignment: &str) -> Result<TruthFile, Error> {
         let alignment: Alignment = alignment.parse().map_err(Error::Usage)?;
-        let truth = Truth::read(&self.folder.join(format!("truth_{alignment}.exr")))?;
+        let path = self.folder.join(format!("truth_{alignment}.exr"));
+        let truth = Truth::read(&path)?;
+        check_size(&path, truth.size(), self.frame.size())?;
+        if truth.objects != self.frame.objects {
+            return Err(Error::Usage(format!(
+                "{}: its objects are {}, those of the scene's frame {}; run the scene again",
+                path.display(),
+                truth.objects.join(", "),
+                self.frame.objects.join(", ")
+            )));
+        }
         let mean = truth.mean();
         let at_instant = truth.at_instant_mean();
         let placed = &at_instant.placed;
@@ -179,6 +193,21 @@ impl SceneFiles {
             layers,
             objects: self.objects,
         })
+    }
+}
+
+/// Refuses a file of other pictures than the run's.
+fn check_size(path: &Path, found: (u32, u32), due: (u32, u32)) -> Result<(), Error> {
+    match found == due {
+        true => Ok(()),
+        false => Err(Error::Usage(format!(
+            "{}: has {}x{} pixels, the run's pictures have {}x{}; run the scene again",
+            path.display(),
+            found.0,
+            found.1,
+            due.0,
+            due.1
+        ))),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use filters::Value;
@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Trial;
 use crate::Error;
+use crate::json_file::read_text;
 
 /// Version of the layout of a journal.
 pub const JOURNAL_FORMAT: u32 = 1;
@@ -62,13 +63,15 @@ impl Journal {
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder).map_err(|error| fail("write", error))?;
         }
+        // Read before it is opened for writing: a FIFO would block, and not all of /dev/zero is a journal.
+        let text = match path.exists() {
+            true => read_text(path)?,
+            false => String::new(),
+        };
         let mut options = OpenOptions::new();
-        let mut file = (options.read(true).write(true).create(true).truncate(false))
+        let mut file = (options.write(true).create(true).truncate(false))
             .open(path)
             .map_err(|error| fail("write", error))?;
-        let mut text = String::new();
-        file.read_to_string(&mut text)
-            .map_err(|error| fail("read", error))?;
         let whole = text.rfind('\n').map_or(0, |end| end + 1);
         // Nothing is cut off before the file is known to be this command's.
         match text[..whole].lines().next() {
@@ -91,10 +94,8 @@ impl Journal {
         for (index, line) in lines {
             let trial: Trial = serde_json::from_str(line)
                 .map_err(|error| refuse(path, index, &format!("no trial: {error}")))?;
-            if trial.trial != journal.trials.len() {
-                let found = format!("trial {}, expected {}", trial.trial, journal.trials.len());
-                return Err(refuse(path, index, &found));
-            }
+            (trial.check(header, journal.trials.len()))
+                .map_err(|reason| refuse(path, index, &reason))?;
             journal.trials.push(trial);
         }
         Ok(journal)

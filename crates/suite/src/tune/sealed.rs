@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use filters::Value;
-use frame::{FileError, write_atomically};
+use frame::write_atomically;
 use serde::{Deserialize, Serialize};
 
 use super::Paired;
 use crate::Error;
+use crate::json_file::read_text;
 
 /// One look at the sealed scenes: a line of `openings.jsonl`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,13 +26,10 @@ pub struct Opening {
 
 /// All looks so far.
 pub fn openings(path: &Path) -> Result<Vec<Opening>, Error> {
-    let text = match std::fs::read_to_string(path) {
-        Ok(text) => text,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
-        Err(source) => {
-            return Err(FileError::io(path, "read", source).into());
-        }
-    };
+    if !path.exists() {
+        return Ok(Vec::new());
+    }
+    let text = read_text(path)?;
     let line = |(index, line): (usize, &str)| {
         serde_json::from_str(line).map_err(|error| {
             Error::Usage(format!(

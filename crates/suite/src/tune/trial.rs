@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use filters::Value;
 use serde::{Deserialize, Serialize};
 
-use super::SceneScore;
+use super::{Header, SceneScore};
 
 /// One line of the journal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -47,6 +47,58 @@ pub enum TrialOutcome {
 }
 
 impl Trial {
+    /// Refuses what no tuning that began with `header` writes as its line `number`, from 0: the search counts on it.
+    pub(crate) fn check(&self, header: &Header, number: usize) -> Result<(), String> {
+        if self.trial != number {
+            return Err(format!("trial {}, expected {number}", self.trial));
+        }
+        if !self.values.keys().eq(header.vary.keys()) {
+            let names = |names: Vec<&String>| match names.as_slice() {
+                [] => "nothing".to_owned(),
+                names => (names.iter())
+                    .map(|name| name.as_str())
+                    .collect::<Vec<_>>()
+                    .join(", "),
+            };
+            return Err(format!(
+                "it changes {}, and this tuning {}",
+                names(self.values.keys().collect()),
+                names(header.vary.keys().collect())
+            ));
+        }
+        let known = |scene: &&String| header.scenes.iter().any(|(name, _)| name == *scene);
+        if let Some(scene) = self.scenes.keys().find(|scene| !known(scene)) {
+            return Err(format!(
+                "it ran on {scene}, which is no scene of this tuning"
+            ));
+        }
+        let scores = self.scenes.values();
+        if let Some(wrong) = scores
+            .map(|score| score.flip)
+            .find(|flip| !(0.0..=1.0).contains(flip))
+        {
+            return Err(format!("flip is {wrong}; allowed: 0 to 1"));
+        }
+        let is_whole = match self.outcome {
+            TrialOutcome::Done => self.scenes.len() == header.scenes.len() && self.error.is_some(),
+            TrialOutcome::Dropped => number > 0 && !self.scenes.is_empty() && self.error.is_some(),
+            TrialOutcome::Failed { .. } => number > 0,
+        };
+        match is_whole {
+            true => Ok(()),
+            false => Err(format!(
+                "it has {} of {} scenes, and {} error; a trial that is done has all, one that was dropped some, and the \
+                 first is done",
+                self.scenes.len(),
+                header.scenes.len(),
+                match self.error {
+                    Some(_) => "an",
+                    None => "no",
+                }
+            )),
+        }
+    }
+
     /// Whether it ran on every scene.
     pub fn is_done(&self) -> bool {
         self.outcome == TrialOutcome::Done

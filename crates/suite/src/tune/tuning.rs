@@ -70,6 +70,7 @@ pub fn tune(
     let search = search(plan)?;
     let header = header(plan, &evaluator, &search);
     let mut journal = Journal::open(&plan.out.join("journal.jsonl"), &header)?;
+    check_values(plan, &journal.trials)?;
     recall(&mut evaluator, plan, &journal.trials);
     while journal.trials.len() < plan.budget {
         if interrupted() {
@@ -88,6 +89,24 @@ pub fn tune(
         tuning.openings = open(plan, gpu, &tuning.values)?;
     }
     Ok(tuning)
+}
+
+/// Refuses trials of a journal with values that the filter does not take.
+fn check_values(plan: &TunePlan, trials: &[Trial]) -> Result<(), Error> {
+    for trial in trials {
+        let mut settings = plan.choice.settings.clone();
+        for (name, value) in &trial.values {
+            (settings.set_value(&plan.choice.filter, name, value.clone())).map_err(|error| {
+                // The header is the first line.
+                Error::Usage(format!(
+                    "{}:{}: {error}; choose another --out, or delete the file to begin anew",
+                    plan.out.join("journal.jsonl").display(),
+                    trial.trial + 2
+                ))
+            })?;
+        }
+    }
+    Ok(())
 }
 
 /// Frames and truths of scenes, for the filter's alignment.

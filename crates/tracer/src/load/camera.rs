@@ -7,6 +7,7 @@ use super::document::Document;
 use super::error::SceneError;
 use super::pose::{Pose, Rotation, interpolation, through};
 use super::schema::{CameraTable, RotationTable};
+use crate::limits::NARROWEST_VIEW;
 use crate::{Camera, Key, Motion};
 
 /// Where a camera looks, as written: towards a point, or by its rotation.
@@ -94,10 +95,11 @@ pub(super) fn camera(
 
 fn field_of_view(document: &Document, degrees: &Spanned<f64>) -> Result<f64, SceneError> {
     let found = *degrees.get_ref();
-    if found > 0.0 && found < 180.0 {
+    if (NARROWEST_VIEW..180.0).contains(&found) {
         return Ok(found.to_radians());
     }
-    let reason = format!("vertical_fov is {found} degrees; allowed: above 0 and below 180");
+    let reason =
+        format!("vertical_fov is {found:?} degrees; allowed: {NARROWEST_VIEW} to below 180");
     Err(document.error(degrees.span(), reason))
 }
 

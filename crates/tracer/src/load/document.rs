@@ -1,28 +1,14 @@
-//! The text of a scene.toml: its syntax, its variants, and the lines that its values stand in.
+//! The text of a scene.toml: its syntax, and the lines that its values stand in.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use toml::Spanned;
-use toml::de::{DeTable, DeValue, Deserializer};
+use toml::de::{DeTable, DeValue, ValueDeserializer};
 
-use super::error::{SceneError, is_name, list};
-use super::schema::SceneTable;
-
-/// What a variant may change.
-const VARIANT_KEYS: [&str; 6] = [
-    "background",
-    "camera",
-    "exposure",
-    "object",
-    "shutter",
-    "sun",
-];
-
-/// Keys of an object that say where it is: still, or moving. Giving one way in a variant takes back the other.
-const STILL_POSE: [&str; 3] = ["translation", "rotation", "scale"];
-const MOVING_POSE: [&str; 2] = ["keys", "interpolation"];
+use super::error::{SceneError, hidden};
+use crate::limits::LARGEST_NUMBER;
 
 /// A scene.toml as text.
 pub(super) struct Document {
@@ -46,170 +32,98 @@ impl Document {
         SceneError::line(&self.path, line, reason)
     }
 
-    /// Names of the variants, in the order of the file.
-    pub(super) fn variants(&self) -> Result<Vec<String>, SceneError> {
-        let mut table = self.table()?;
-        let Some(variants) = table.get_mut("variant") else {
-            return Ok(Vec::new());
-        };
-        let mut names: Vec<_> = self.as_table("variant", variants)?.keys().collect();
-        names.sort_by_key(|name| name.span().start);
-        for name in &names {
-            if !is_name(name.get_ref()) {
-                let reason = format!(
-                    "variant name \"{}\": allowed are letters, digits, _ and -",
-                    name.get_ref()
-                );
-                return Err(self.error(name.span(), reason));
-            }
-        }
-        Ok(names
-            .iter()
-            .map(|name| name.get_ref().to_string())
-            .collect())
-    }
-
-    /// The scene with one variant's changes, or as it is.
-    pub(super) fn scene(&self, variant: Option<&str>) -> Result<SceneTable, SceneError> {
-        let mut scene = self.table()?;
-        let variants = scene.remove("variant");
-        if let Some(name) = variant {
-            let known = self.variants()?;
-            if !known.iter().any(|other| other == name) {
-                let known = list(known.iter().map(String::as_str));
-                let reason = format!("variant \"{name}\" is unknown; variants: {known}");
-                return Err(SceneError::file(&self.path, reason));
-            }
-            let mut variants = variants.expect("a known variant stands in a table of variants");
-            let changes = self
-                .as_table("variant", &mut variants)?
-                .remove(name)
-                .expect("a known variant has a table");
-            self.apply(&mut scene, name, changes)?;
-        }
-        let end = self.text.len();
-        SceneTable::deserialize(Deserializer::from(Spanned::new(0..end, scene)))
-            .map_err(|error| self.syntax_error(&error))
-    }
-
-    fn table(&self) -> Result<DeTable<'_>, SceneError> {
+    /// The whole text as a table of checked numbers and words.
+    pub(super) fn table(&self) -> Result<DeTable<'_>, SceneError> {
         let table = DeTable::parse(&self.text).map_err(|error| self.syntax_error(&error))?;
-        let span = table.span();
-        let root = Spanned::new(span, DeValue::Table(table.into_inner()));
-        self.check_numbers(&root)?;
-        match root.into_inner() {
+        let table = table.into_inner();
+        self.check_table(&table)?;
+        Ok(table)
+    }
+
+    /// The whole text's place.
+    pub(super) fn whole(&self) -> Range<usize> {
+        0..self.text.len()
+    }
+
+    /// A part of the text as what the schema says it is.
+    pub(super) fn read<T: DeserializeOwned>(
+        &self,
+        value: Spanned<DeValue<'_>>,
+    ) -> Result<T, SceneError> {
+        T::deserialize(ValueDeserializer::from(value)).map_err(|error| self.syntax_error(&error))
+    }
+
+    /// A part of the text that must be a table.
+    pub(super) fn as_table<'a, 'i>(
+        &self,
+        what: &str,
+        value: &'a Spanned<DeValue<'i>>,
+    ) -> Result<&'a DeTable<'i>, SceneError> {
+        match value.get_ref() {
             DeValue::Table(table) => Ok(table),
-            _ => unreachable!("a document is a table"),
+            other => {
+                let reason = format!("{what} is a {}; a table is needed", other.type_str());
+                Err(self.error(value.span(), reason))
+            }
         }
     }
 
-    /// TOML can write `nan` and `inf`; a scene cannot use them anywhere.
-    fn check_numbers(&self, value: &Spanned<DeValue<'_>>) -> Result<(), SceneError> {
+    fn check_table(&self, table: &DeTable<'_>) -> Result<(), SceneError> {
+        for (key, value) in table {
+            self.check_word(key.get_ref(), key.span())?;
+            self.check_value(value)?;
+        }
+        Ok(())
+    }
+
+    /// The parser bounds how deep values lie in one another.
+    fn check_value(&self, value: &Spanned<DeValue<'_>>) -> Result<(), SceneError> {
         match value.get_ref() {
-            DeValue::Float(number) => match number.as_str().parse::<f64>() {
-                Ok(parsed) if parsed.is_finite() => Ok(()),
-                _ => {
-                    let reason = format!("found {number}; allowed: finite numbers");
-                    Err(self.error(value.span(), reason))
-                }
-            },
-            DeValue::Array(values) => values
-                .iter()
-                .try_for_each(|value| self.check_numbers(value)),
-            DeValue::Table(table) => table
-                .values()
-                .try_for_each(|value| self.check_numbers(value)),
+            DeValue::Float(number) => {
+                self.check_number(number.as_str().parse().ok(), number, value.span())
+            }
+            DeValue::Integer(number) => {
+                let parsed = i128::from_str_radix(number.as_str(), number.radix());
+                self.check_number(
+                    Some(parsed.map_or(f64::MAX, |parsed| parsed as f64)),
+                    number,
+                    value.span(),
+                )
+            }
+            DeValue::String(word) => self.check_word(word, value.span()),
+            DeValue::Array(values) => values.iter().try_for_each(|value| self.check_value(value)),
+            DeValue::Table(table) => self.check_table(table),
             _ => Ok(()),
         }
     }
 
-    /// Objects are changed key by key; everything else that a variant names is replaced whole.
-    fn apply<'i>(
+    /// TOML can write `nan` and `inf`; a scene cannot use them anywhere, nor what a 32-bit number cannot hold the square of.
+    fn check_number(
         &self,
-        scene: &mut DeTable<'i>,
-        variant: &str,
-        mut changes: Spanned<DeValue<'i>>,
+        parsed: Option<f64>,
+        written: &dyn std::fmt::Display,
+        place: Range<usize>,
     ) -> Result<(), SceneError> {
-        let what = format!("variant \"{variant}\"");
-        for (key, mut change) in std::mem::take(self.as_table(&what, &mut changes)?) {
-            match key.get_ref().as_ref() {
-                "object" => {
-                    let objects = scene
-                        .entry(key)
-                        .or_insert(Spanned::new(0..0, DeValue::Table(DeTable::new())));
-                    let objects = self.as_table("object", objects)?;
-                    for (name, change) in std::mem::take(self.as_table(&what, &mut change)?) {
-                        self.apply_to_object(objects, variant, name, change)?;
-                    }
-                }
-                other if VARIANT_KEYS.contains(&other) => {
-                    scene.remove(other);
-                    scene.insert(key, change);
-                }
-                other => {
-                    let allowed = list(VARIANT_KEYS);
-                    let reason = format!(
-                        "variant \"{variant}\" changes \"{other}\"; a variant may change: {allowed}"
-                    );
-                    return Err(self.error(key.span(), reason));
-                }
+        let allowed = match parsed {
+            Some(number) if number.abs() <= LARGEST_NUMBER => return Ok(()),
+            Some(number) if number.is_finite() => {
+                format!("numbers from -{LARGEST_NUMBER:e} to {LARGEST_NUMBER:e}")
             }
-        }
-        Ok(())
-    }
-
-    fn apply_to_object<'i>(
-        &self,
-        objects: &mut DeTable<'i>,
-        variant: &str,
-        name: Spanned<toml::de::DeString<'i>>,
-        mut change: Spanned<DeValue<'i>>,
-    ) -> Result<(), SceneError> {
-        let Some(object) = objects.get_mut(name.get_ref().as_ref()) else {
-            let known: Vec<_> = objects.keys().map(|name| name.get_ref().as_ref()).collect();
-            let reason = format!(
-                "variant \"{variant}\" changes object \"{}\", which the scene lacks; objects: {}",
-                name.get_ref(),
-                list(known)
-            );
-            return Err(self.error(name.span(), reason));
+            _ => "finite numbers".to_owned(),
         };
-        let what = format!("object \"{}\"", name.get_ref());
-        let object = self.as_table(&what, object)?;
-        let change = std::mem::take(self.as_table(&what, &mut change)?);
-        for (given, taken_back) in [
-            (&STILL_POSE[..], &MOVING_POSE[..]),
-            (&MOVING_POSE[..], &STILL_POSE[..]),
-            (&["mesh"], &["shapes"]),
-            (&["shapes"], &["mesh"]),
-        ] {
-            if given.iter().any(|key| change.contains_key(*key)) {
-                for key in taken_back {
-                    object.remove(*key);
-                }
-            }
-        }
-        merge(object, change);
-        Ok(())
+        Err(self.error(place, format!("found {written}; allowed: {allowed}")))
     }
 
-    fn as_table<'a, 'i>(
-        &self,
-        what: &str,
-        value: &'a mut Spanned<DeValue<'i>>,
-    ) -> Result<&'a mut DeTable<'i>, SceneError> {
-        let place = value.span();
-        match value.get_mut() {
-            DeValue::Table(table) => Ok(table),
-            other => {
-                let found = other.type_str();
-                Err(self.error(place, format!("{what} is a {found}; a table is needed")))
-            }
+    /// Names and sentences reach terminals, logs and reports.
+    fn check_word(&self, word: &str, place: Range<usize>) -> Result<(), SceneError> {
+        match hidden(word) {
+            Some(reason) => Err(self.error(place, format!("the text {reason}"))),
+            None => Ok(()),
         }
     }
 
     /// serde speaks of fields, variants and types of Rust; a scene has keys, families and numbers.
-    fn syntax_error(&self, error: &toml::de::Error) -> SceneError {
+    pub(super) fn syntax_error(&self, error: &toml::de::Error) -> SceneError {
         let reason = error
             .message()
             .replace("unknown field", "unknown key")
@@ -224,26 +138,6 @@ impl Document {
         match error.span() {
             Some(place) => self.error(place, reason),
             None => SceneError::file(&self.path, reason),
-        }
-    }
-}
-
-/// Tables are merged, everything else is replaced.
-fn merge<'i>(base: &mut DeTable<'i>, changes: DeTable<'i>) {
-    for (key, change) in changes {
-        match (
-            base.get_mut(key.get_ref().as_ref()).map(Spanned::get_mut),
-            change,
-        ) {
-            (Some(DeValue::Table(base)), change) if change.get_ref().is_table() => {
-                if let DeValue::Table(change) = change.into_inner() {
-                    merge(base, change);
-                }
-            }
-            (_, change) => {
-                base.remove(key.get_ref().as_ref());
-                base.insert(key, change);
-            }
         }
     }
 }

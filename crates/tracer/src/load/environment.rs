@@ -1,11 +1,16 @@
 //! EXR and HDR files as environment maps.
 
+use std::io::Cursor;
 use std::path::Path;
 
 use image::ImageFormat;
 
 use super::files::Files;
+use super::picture::Header;
 use crate::EnvironmentMap;
+use crate::limits::{
+    BRIGHTEST, LARGEST_IMAGE_FILE, MOST_ENVIRONMENT_TEXELS, MOST_ENVIRONMENT_VALUES,
+};
 
 /// Reads a map, neither strengthened nor turned; the error is the reason alone, for the caller knows the place that
 /// names the file.
@@ -21,23 +26,33 @@ pub(super) fn load(files: &mut Files, path: &Path) -> Result<EnvironmentMap, Str
         }
     };
     let bytes = files
-        .bytes(path)
+        .bytes(path, LARGEST_IMAGE_FILE)
         .map_err(|error| format!("the background's image {name} cannot be read: {error}"))?;
-    let image = image::load_from_memory_with_format(&bytes, format)
-        .map_err(|error| format!("the background's image {name} cannot be decoded: {error}"))?
-        .into_rgb32f();
-    let (width, height) = image.dimensions();
-    if width != 2 * height {
+    decode(&bytes, path, format).map_err(|reason| format!("the background's image {name} {reason}"))
+}
+
+/// The error is a reason that follows the file's name.
+fn decode(bytes: &[u8], path: &Path, format: ImageFormat) -> Result<EnvironmentMap, String> {
+    let undecodable = |error: String| format!("cannot be decoded: {error}");
+    let header = Header::read(bytes, format).map_err(undecodable)?;
+    header.check(MOST_ENVIRONMENT_TEXELS)?;
+    if u64::from(header.width) != 2 * u64::from(header.height) {
         return Err(format!(
-            "the background's image {name} is {width} x {height}; allowed: a map in longitude and latitude, twice as wide as high"
+            "is {} x {}; allowed: a map in longitude and latitude, twice as wide as high",
+            header.width, header.height
         ));
     }
+    if format == ImageFormat::OpenExr {
+        check_values(bytes)?;
+    }
+    let image = header.decode().map_err(undecodable)?.into_rgb32f();
+    let (width, height) = image.dimensions();
     let texels: Vec<[f32; 3]> = image.pixels().map(|pixel| pixel.0).collect();
-    let amiss = |texel: &[f32; 3]| !texel.iter().all(|part| part.is_finite() && *part >= 0.0);
+    let amiss = |texel: &[f32; 3]| !texel.iter().all(|part| (0.0..=BRIGHTEST).contains(part));
     if let Some(index) = texels.iter().position(amiss) {
         let [x, y] = [index % width as usize, index / width as usize];
         return Err(format!(
-            "the background's image {name} holds {:?} at ({x}, {y}); allowed: 0 and above, finite",
+            "holds {:?} at ({x}, {y}); allowed: 0 to {BRIGHTEST:e}",
             texels[index]
         ));
     }
@@ -49,4 +64,23 @@ pub(super) fn load(files: &mut Files, path: &Path) -> Result<EnvironmentMap, Str
         strength: 1.0,
         rotation: 0.0,
     })
+}
+
+/// An EXR file may hold more than the picture that it shows: other channels, other layers, pixels around it. All of that is
+/// decoded.
+fn check_values(bytes: &[u8]) -> Result<(), String> {
+    let file = exr::block::read(Cursor::new(bytes), false)
+        .map_err(|error| format!("cannot be decoded: {error}"))?;
+    let of_layer = |layer: &exr::meta::header::Header| {
+        let texels = layer.layer_size.width() as u64 * layer.layer_size.height() as u64;
+        texels.saturating_mul(layer.channels.list.len() as u64)
+    };
+    let values = (file.headers().iter().map(of_layer)).fold(0, u64::saturating_add);
+    if values > MOST_ENVIRONMENT_VALUES {
+        return Err(format!(
+            "holds {values} values in all its channels and layers; allowed: {MOST_ENVIRONMENT_VALUES}; scale it down, \
+             or save R, G and B alone"
+        ));
+    }
+    Ok(())
 }

@@ -45,13 +45,24 @@ impl fmt::Display for SceneError {
 
 impl std::error::Error for SceneError {}
 
+/// Most names that a message lists.
+const MOST_LISTED: usize = 40;
+
 /// `a, b, c` for messages; `none` where there is nothing.
 pub(super) fn list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
-    let names: Vec<&str> = names.into_iter().collect();
-    if names.is_empty() {
+    let mut names = names.into_iter();
+    let mut listed: Vec<&str> = names.by_ref().take(MOST_LISTED).collect();
+    let more = match names.count() {
+        0 => String::new(),
+        more => format!("{more} more"),
+    };
+    if !more.is_empty() {
+        listed.push(&more);
+    }
+    if listed.is_empty() {
         "none".into()
     } else {
-        names.join(", ")
+        listed.join(", ")
     }
 }
 
@@ -59,4 +70,15 @@ pub(super) fn list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
 pub(super) fn is_name(word: &str) -> bool {
     let allowed = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     !word.is_empty() && word.chars().all(allowed)
+}
+
+/// What is wrong with a text that people are to read, if anything: characters that move the cursor, end a line, or turn
+/// the direction of writing, which terminals, logs and reports obey.
+pub(super) fn hidden(text: &str) -> Option<String> {
+    let turns = |c: char| matches!(c, '\u{2028}' | '\u{2029}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let found = text.chars().find(|c| c.is_control() || turns(*c))?;
+    Some(format!(
+        "holds the control character U+{:04X}; allowed: what can be seen, in one line",
+        u32::from(found)
+    ))
 }

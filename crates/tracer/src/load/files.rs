@@ -1,8 +1,9 @@
 //! The files that a scene is made from, read once each and hashed.
 
 use std::collections::BTreeMap;
-use std::io;
 use std::path::{Path, PathBuf};
+
+use frame::{FileError, read_bounded};
 
 /// Reads files and remembers what was in them.
 pub(super) struct Files {
@@ -19,9 +20,10 @@ impl Files {
         }
     }
 
-    /// The bytes of a file.
-    pub(super) fn bytes(&mut self, path: &Path) -> io::Result<Vec<u8>> {
-        let bytes = std::fs::read(path)?;
+    /// The bytes of a regular file of at most `limit` bytes; the error is the reason alone, for the caller knows the
+    /// place that names the file.
+    pub(super) fn bytes(&mut self, path: &Path, limit: u64) -> Result<Vec<u8>, String> {
+        let bytes = read_bounded(path, limit).map_err(reason)?;
         // Relative to the scene, so that a copy of the folder elsewhere has the same hash.
         let name = path.strip_prefix(&self.folder).unwrap_or(path);
         let name = name.to_string_lossy().replace('\\', "/");
@@ -29,10 +31,9 @@ impl Files {
         Ok(bytes)
     }
 
-    /// The text of a file.
-    pub(super) fn text(&mut self, path: &Path) -> io::Result<String> {
-        String::from_utf8(self.bytes(path)?)
-            .map_err(|_| io::Error::new(io::ErrorKind::InvalidData, "it is not UTF-8 text"))
+    /// The text of such a file.
+    pub(super) fn text(&mut self, path: &Path, limit: u64) -> Result<String, String> {
+        String::from_utf8(self.bytes(path, limit)?).map_err(|_| "it is not UTF-8 text".to_owned())
     }
 
     /// Where the files lie that were read, in the order of their names.
@@ -54,5 +55,14 @@ impl Files {
         }
         hasher.update(variant.unwrap_or("").as_bytes());
         hasher.finalize().to_hex().to_string()
+    }
+}
+
+/// Why a file cannot be read, without its name.
+pub(super) fn reason(error: FileError) -> String {
+    match error {
+        FileError::Io { source, .. } => source.to_string(),
+        FileError::Foreign { reason, .. } => format!("it {reason}"),
+        other => other.to_string(),
     }
 }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use frame::MOST_STOPS;
 use glam::{DVec3, Vec3};
 use toml::Spanned;
 
@@ -10,6 +11,7 @@ use super::environment;
 use super::error::SceneError;
 use super::files::Files;
 use super::schema::{BackgroundTable, DisplayTable, FlipTable, SunTable};
+use crate::limits::{BRIGHTEST, MOST_FLIP_EXPOSURES, SMALLEST_SUN};
 use crate::{Background, Display, EnvironmentMap, FlipExposures, Sun};
 
 /// Exposures of HDR-FLIP where a scene names none: two stops about its own exposure, a step per stop.
@@ -54,11 +56,8 @@ pub(super) fn background(
         (None, None, Some(image)) => {
             let map = environment::load(files, &folder.join(image.get_ref()))
                 .map_err(|reason| document.error(image.span(), reason))?;
-            if let Some(strength) = strength
-                && *strength.get_ref() <= 0.0
-            {
-                let reason = format!("strength is {}; allowed: above 0", strength.get_ref());
-                return Err(document.error(strength.span(), reason));
+            if let Some(strength) = strength {
+                check_strength(document, strength, &map)?;
             }
             Ok(Background::Map(EnvironmentMap {
                 strength: strength
@@ -91,29 +90,83 @@ pub(super) fn sun(document: &Document, table: &SunTable) -> Result<Sun, SceneErr
     )?;
     let degrees = table.angular_radius.as_ref().map_or(0.0, |r| *r.get_ref());
     if let Some(radius) = &table.angular_radius
-        && !(0.0..90.0).contains(&degrees)
+        && degrees != 0.0
+        && !(SMALLEST_SUN..90.0).contains(&degrees)
     {
         let reason = format!(
-            "the sun's angular_radius is {degrees} degrees; allowed: 0 (a point) to below 90"
+            "the sun's angular_radius is {degrees:?} degrees; allowed: 0 (a point) and {SMALLEST_SUN} to below 90"
         );
         return Err(document.error(radius.span(), reason));
     }
-    Ok(Sun {
+    let sun = Sun {
         direction,
         irradiance,
         angular_radius: degrees.to_radians(),
-    })
+    };
+    let brightest = sun.radiance().max_element();
+    if brightest > BRIGHTEST {
+        let reason = format!(
+            "irradiance makes the sun's disc of {degrees} degrees as bright as {brightest:e}; allowed: {BRIGHTEST:e}; \
+             lower it, or give a larger angular_radius"
+        );
+        return Err(document.error(table.irradiance.span(), reason));
+    }
+    Ok(sun)
 }
 
+fn check_strength(
+    document: &Document,
+    strength: &Spanned<f32>,
+    map: &EnvironmentMap,
+) -> Result<(), SceneError> {
+    let factor = *strength.get_ref();
+    let brightest = map.texels.iter().flatten().copied().fold(0.0, f32::max);
+    let reason = if factor <= 0.0 {
+        format!("strength is {factor}; allowed: above 0")
+    } else if factor * brightest > BRIGHTEST {
+        format!(
+            "strength is {factor}, and the image's brightest texel is {brightest:e}; allowed: a product of at most \
+             {BRIGHTEST:e}"
+        )
+    } else {
+        return Ok(());
+    };
+    Err(document.error(strength.span(), reason))
+}
+
+/// Exposures of HDR-FLIP, at least and at most.
+const FLIP_COUNTS: std::ops::RangeInclusive<u32> = 2..=MOST_FLIP_EXPOSURES;
+
 pub(super) fn display(document: &Document, table: &DisplayTable) -> Result<Display, SceneError> {
+    let stops = match &table.stops {
+        Some(stops) => {
+            check_stops(document, "stops", *stops.get_ref(), stops.span())?;
+            *stops.get_ref()
+        }
+        None => 0.0,
+    };
     let flip = match &table.flip {
         Some(flip) => flip_exposures(document, flip)?,
         None => FLIP,
     };
-    Ok(Display {
-        stops: table.stops,
-        flip,
-    })
+    Ok(Display { stops, flip })
+}
+
+/// Beyond that many stops nothing can be shown or compared.
+fn check_stops(
+    document: &Document,
+    what: &str,
+    stops: f32,
+    span: std::ops::Range<usize>,
+) -> Result<(), SceneError> {
+    match stops.abs() <= MOST_STOPS {
+        true => Ok(()),
+        false => {
+            let reason =
+                format!("{what} = {stops}; allowed: stops from -{MOST_STOPS} to {MOST_STOPS}");
+            Err(document.error(span, reason))
+        }
+    }
 }
 
 fn flip_exposures(
@@ -121,9 +174,16 @@ fn flip_exposures(
     table: &Spanned<FlipTable>,
 ) -> Result<FlipExposures, SceneError> {
     let FlipTable { start, stop, count } = *table.get_ref();
-    if count < 2 {
-        let reason = format!("flip has {count} exposures; count must be at least 2");
+    if !FLIP_COUNTS.contains(&count) {
+        let reason = format!(
+            "flip has {count} exposures; count must be at least {} and at most {}",
+            FLIP_COUNTS.start(),
+            FLIP_COUNTS.end()
+        );
         return Err(document.error(table.span(), reason));
+    }
+    for (what, stops) in [("flip start", start), ("flip stop", stop)] {
+        check_stops(document, what, stops, table.span())?;
     }
     if stop <= start {
         let reason = format!(
@@ -149,8 +209,8 @@ pub(super) fn radiance(
 
 /// What is wrong with an amount of light, if anything.
 pub(super) fn amiss_in_radiance(value: [f32; 3]) -> Option<String> {
-    let allowed = value.iter().all(|part| part.is_finite() && *part >= 0.0);
-    (!allowed).then(|| format!("is {value:?}; allowed: 0 and above, finite"))
+    let allowed = value.iter().all(|part| (0.0..=BRIGHTEST).contains(part));
+    (!allowed).then(|| format!("is {value:?}; allowed: 0 to {BRIGHTEST:e}"))
 }
 
 /// What is wrong with an albedo, if anything: a surface cannot give back more light than falls on it.

@@ -1,9 +1,11 @@
 //! The scenes in a folder.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
 use super::error::SceneError;
 use super::files::Files;
+use super::variants::Parsed;
 use super::{folder_name, read_document};
 use crate::Family;
 
@@ -33,7 +35,7 @@ pub fn list_scenes(root: &Path) -> Result<Vec<SceneListing>, SceneError> {
     let mut folders = Vec::new();
     for entry in std::fs::read_dir(root).map_err(unreadable)? {
         let folder = entry.map_err(unreadable)?.path();
-        if folder.join("scene.toml").is_file() {
+        if holds_scene(&folder)? {
             folders.push(folder);
         }
     }
@@ -42,17 +44,37 @@ pub fn list_scenes(root: &Path) -> Result<Vec<SceneListing>, SceneError> {
         let reason = "holds no scene; a scene is a folder with a scene.toml";
         return Err(SceneError::file(root, reason));
     }
-    folders.iter().map(|folder| listing(folder)).collect()
+    folders.iter().map(|folder| list_scene(folder)).collect()
 }
 
-fn listing(folder: &Path) -> Result<SceneListing, SceneError> {
+/// Whether something named scene.toml lies in a folder. What cannot be told is an error: a scene that is passed over in
+/// silence is missing from every mean.
+fn holds_scene(folder: &Path) -> Result<bool, SceneError> {
+    let unreadable = |error: io::Error| {
+        let reason =
+            format!("cannot be read: {error}; mend it, or move it out of the folder of scenes");
+        SceneError::file(folder, reason)
+    };
+    if !std::fs::metadata(folder).map_err(unreadable)?.is_dir() {
+        return Ok(false);
+    }
+    match folder.join("scene.toml").symlink_metadata() {
+        Ok(_) => Ok(true),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(unreadable(error)),
+    }
+}
+
+/// What the scene in a folder says about itself.
+pub fn list_scene(folder: &Path) -> Result<SceneListing, SceneError> {
     let document = read_document(&mut Files::new(folder), folder)?;
-    let table = document.scene(None)?;
+    let parsed = Parsed::of(&document)?;
+    let table = parsed.scene(None)?;
     Ok(SceneListing {
         folder: folder.to_owned(),
-        name: folder_name(folder),
+        name: folder_name(folder)?,
         family: table.family,
         exposes: table.exposes.into_inner(),
-        variants: document.variants()?,
+        variants: parsed.names().to_vec(),
     })
 }

@@ -15,26 +15,31 @@ mod mtl;
 mod obj;
 mod obj_check;
 mod objects;
+mod parents;
+mod picture;
 mod pose;
+mod reach;
 mod schema;
 mod shapes;
 mod shutter;
 mod statements;
+mod surfaces;
 mod texture;
+mod variants;
 
 use std::path::{Path, PathBuf};
 
 use document::Document;
 pub use error::SceneError;
+use error::hidden;
 use files::Files;
-pub use listing::{SceneListing, list_scenes};
+pub use listing::{SceneListing, list_scene, list_scenes};
 use objects::Stage;
 use schema::SceneTable;
+use variants::Parsed;
 
 use crate::Scene;
-
-/// Largest width and height of a picture, in pixels.
-const LARGEST_SIZE: u32 = 16384;
+use crate::limits::{LARGEST_SCENE_FILE, LARGEST_SIDE, MOST_PIXELS};
 
 /// Loads the scene in `folder`, with the changes of one of its variants or as it is.
 ///
@@ -50,11 +55,9 @@ pub fn load_scene_and_files(
 ) -> Result<(Scene, Vec<PathBuf>), SceneError> {
     let mut files = Files::new(folder);
     let document = read_document(&mut files, folder)?;
-    let table = document.scene(variant)?;
-    // A slip in a variant shows at once, not only when somebody chooses it.
-    for name in document.variants()? {
-        document.scene(Some(&name))?;
-    }
+    let parsed = Parsed::of(&document)?;
+    let table = parsed.scene(variant)?;
+    parsed.check()?;
     check_frame(&document, &table)?;
 
     let shutter_profile = shutter::shutter_profile(&document, &table.shutter)?;
@@ -62,11 +65,12 @@ pub fn load_scene_and_files(
     let background = light::background(&document, &mut files, folder, &table.background)?;
     let sun = table.sun.as_ref().map(|sun| light::sun(&document, sun));
     let display = light::display(&document, &table.display)?;
-    let mut stage = Stage::new(&document, folder, files);
-    stage.add_objects(&table.object)?;
+    let interval = rendered_interval(&table, shutter_profile.rolling);
+    let mut stage = Stage::new(&document, folder, files, interval);
+    stage.add_objects(&table.camera, &camera, &table.object)?;
 
     let [width, height] = *table.size.get_ref();
-    let name = folder_name(folder);
+    let name = folder_name(folder)?;
     let paths = stage.files.paths();
     let scene = Scene {
         name: variant.map_or(name.clone(), |variant| format!("{name}@{variant}")),
@@ -91,7 +95,7 @@ pub fn load_scene_and_files(
 
 fn read_document(files: &mut Files, folder: &Path) -> Result<Document, SceneError> {
     let path = folder.join("scene.toml");
-    let text = files.text(&path).map_err(|error| {
+    let text = files.text(&path, LARGEST_SCENE_FILE).map_err(|error| {
         let reason = format!("cannot be read: {error}; a scene is a folder with a scene.toml");
         SceneError::file(&path, reason)
     })?;
@@ -99,13 +103,30 @@ fn read_document(files: &mut Files, folder: &Path) -> Result<Document, SceneErro
 }
 
 /// The last part of the path; that of the full path where it is written as `.`.
-fn folder_name(folder: &Path) -> String {
+fn folder_name(folder: &Path) -> Result<String, SceneError> {
     let full = match folder.file_name() {
         Some(_) => folder.to_owned(),
         None => folder.canonicalize().unwrap_or_default(),
     };
     let name = full.file_name().unwrap_or_default();
-    name.to_string_lossy().into_owned()
+    let refused = |reason: String| {
+        let reason =
+            format!("the folder's name is the scene's, and it {reason}; rename the folder");
+        Err(SceneError::file(folder, reason))
+    };
+    match name.to_str() {
+        Some(name) => match hidden(name) {
+            None => Ok(name.to_owned()),
+            Some(reason) => refused(reason),
+        },
+        None => refused("is not Unicode".to_owned()),
+    }
+}
+
+/// Times, in frames, of which a render may ask where things are: while the shutter is open, and a frame to either side.
+fn rendered_interval(table: &SceneTable, rolling: f64) -> [f64; 2] {
+    let longest = 1.0 + table.exposure.get_ref() + rolling.abs();
+    [-longest, longest]
 }
 
 /// What concerns the picture as a whole.
@@ -118,10 +139,17 @@ fn check_frame(document: &Document, table: &SceneTable) -> Result<(), SceneError
         .shutter(*table.exposure.get_ref())
         .map_err(|error| document.error(table.exposure.span(), error.to_string()))?;
     let [width, height] = *table.size.get_ref();
-    let allowed = 1..=LARGEST_SIZE;
+    let allowed = 1..=LARGEST_SIDE;
     if !allowed.contains(&width) || !allowed.contains(&height) {
         let reason =
-            format!("size is [{width}, {height}]; allowed: 1 to {LARGEST_SIZE} pixels each");
+            format!("size is [{width}, {height}]; allowed: 1 to {LARGEST_SIDE} pixels each");
+        return Err(document.error(table.size.span(), reason));
+    }
+    let pixels = u64::from(width) * u64::from(height);
+    if pixels > MOST_PIXELS {
+        let reason = format!(
+            "size is [{width}, {height}], {pixels} pixels; allowed: {MOST_PIXELS}; give a smaller size"
+        );
         return Err(document.error(table.size.span(), reason));
     }
     if table.object.is_empty() {

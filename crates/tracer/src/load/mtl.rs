@@ -9,8 +9,9 @@ use super::error::{SceneError, list};
 use super::files::Files;
 use super::finish::{Number, Numbers};
 use super::light::{amiss_in_albedo, amiss_in_radiance};
-use super::statements::{Statement, statements};
+use super::statements::{Statement, shown, statements};
 use super::texture::{Textures, Use};
+use crate::limits::{LARGEST_MATERIAL_FILE, MOST_MATERIALS};
 use crate::{Finish, Material};
 
 /// Albedo of faces without a material, and of materials that name neither Kd nor map_Kd.
@@ -34,6 +35,9 @@ pub(super) struct Libraries {
 const KEYWORDS: [&str; 10] = [
     "newmtl", "Kd", "Ke", "d", "map_Kd", "map_Ke", "map_d", "Pr", "Pm", "Ni",
 ];
+
+/// Statements that hold a name.
+const NAMES: [&str; 4] = ["newmtl", "map_Kd", "map_Ke", "map_d"];
 
 /// Statements about the finish: roughness, metallic, index of refraction.
 const FINISH: [&str; 3] = ["Pr", "Pm", "Ni"];
@@ -60,8 +64,8 @@ impl Libraries {
         files: &mut Files,
         path: &Path,
         name: &str,
-    ) -> Result<Result<(), SceneError>, std::io::Error> {
-        let text = files.text(path)?;
+    ) -> Result<Result<(), SceneError>, String> {
+        let text = files.text(path, LARGEST_MATERIAL_FILE)?;
         Ok(self.check(path, &text).map(|checked| {
             self.texts.insert(name.into(), checked);
         }))
@@ -85,10 +89,17 @@ impl Libraries {
     fn check(&mut self, path: &Path, text: &str) -> Result<String, SceneError> {
         let mut checked = String::new();
         let mut current: Option<&str> = None;
+        let mut materials = 0;
         for statement in statements(text) {
             let fail = |reason| SceneError::line(path, statement.line, reason);
             if statement.keyword == "newmtl" {
                 current = Some(statement.rest);
+                materials += 1;
+                if materials > MOST_MATERIALS {
+                    return Err(fail(format!(
+                        "the file has more than {MOST_MATERIALS} materials; leave out those that no mesh uses"
+                    )));
+                }
             }
             let amiss = amiss_in_statement(&statement);
             amiss.map_or(Ok(()), |reason| Err(fail(reason)))?;
@@ -101,6 +112,9 @@ impl Libraries {
                 ))
             })?;
             let place = (path.to_owned(), statement.line);
+            if NAMES.contains(&keyword) {
+                statement.check_name().map_err(fail)?;
+            }
             if let Some((path, line)) = self.places.insert((material.to_owned(), keyword), place) {
                 return Err(fail(format!(
                     "{keyword} of material \"{material}\" is given again; it stands in {}:{line} already",
@@ -209,7 +223,8 @@ fn amiss_in_statement(statement: &Statement) -> Option<String> {
         }
         "map_Kd" | "map_Ke" | "map_d" if statement.rest.starts_with('-') => Some(format!(
             "{} has options (\"{}\"); allowed: the name of a file alone",
-            statement.keyword, statement.rest
+            statement.keyword,
+            shown(statement.rest)
         )),
         _ => None,
     }

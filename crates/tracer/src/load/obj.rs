@@ -1,5 +1,6 @@
 //! OBJ files as meshes.
 
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use glam::{Vec2, Vec3};
@@ -9,6 +10,7 @@ use super::files::Files;
 use super::mtl::{Libraries, default_material};
 use super::obj_check::check;
 use super::texture::Textures;
+use crate::limits::LARGEST_MESH_FILE;
 use crate::{Material, Mesh};
 
 /// An OBJ file and its materials.
@@ -22,11 +24,35 @@ pub(super) struct ObjFile {
 }
 
 /// One material of a mesh.
+#[derive(Clone)]
 pub(super) struct Slot {
     /// As the MTL file has it.
     pub(super) material: Material,
     /// Whether all its faces have texture coordinates.
     pub(super) textured: bool,
+}
+
+/// The slots of a mesh, found by name: two materials of one name are rare, and a mesh may have thousands.
+#[derive(Default)]
+struct Slots {
+    slots: Vec<Slot>,
+    by_name: HashMap<String, Vec<usize>>,
+}
+
+impl Slots {
+    /// Index of the slot for a part's material, made if it is new.
+    fn index(&mut self, material: Material, textured: bool) -> u32 {
+        let named = self.by_name.entry(material.name.clone()).or_default();
+        let known = named.iter().copied();
+        let index = (known.into_iter()).find(|index| self.slots[*index].material == material);
+        let index = index.unwrap_or_else(|| {
+            named.push(self.slots.len());
+            self.slots.push(Slot { material, textured });
+            self.slots.len() - 1
+        });
+        self.slots[index].textured &= textured;
+        u32::try_from(index).expect("a mesh has fewer than 2^32 materials")
+    }
 }
 
 impl ObjFile {
@@ -36,19 +62,19 @@ impl ObjFile {
         files: &mut Files,
         textures: &mut Textures,
         path: &Path,
-    ) -> Result<Result<Self, SceneError>, std::io::Error> {
-        let text = files.text(path)?;
-        Ok(Self::parse(files, textures, path, &text))
+    ) -> Result<Result<Self, SceneError>, String> {
+        let text = files.text(path, LARGEST_MESH_FILE)?;
+        Ok(Self::parse(files, textures, path, text))
     }
 
     fn parse(
         files: &mut Files,
         textures: &mut Textures,
         path: &Path,
-        text: &str,
+        text: String,
     ) -> Result<Self, SceneError> {
         let mut libraries = Libraries::default();
-        let checked = check(files, path, text, &mut libraries)?;
+        let checked = check(files, path, &text, &mut libraries)?;
         let options = tobj::LoadOptions {
             single_index: true,
             triangulate: true,
@@ -65,7 +91,7 @@ impl ObjFile {
             .collect::<Result<_, _>>()?;
         Ok(Self {
             path: path.to_owned(),
-            text: text.to_owned(),
+            text,
             parts: parts
                 .into_iter()
                 .filter(|part| !part.mesh.indices.is_empty())
@@ -76,13 +102,9 @@ impl ObjFile {
 
     /// Names of the groups and objects that have faces, each once, in the order of the file.
     pub(super) fn groups(&self) -> Vec<&str> {
-        let mut groups = Vec::new();
-        for part in &self.parts {
-            if !groups.contains(&part.name.as_str()) {
-                groups.push(part.name.as_str());
-            }
-        }
-        groups
+        let mut seen = HashSet::new();
+        let names = self.parts.iter().map(|part| part.name.as_str());
+        names.filter(|name| seen.insert(*name)).collect()
     }
 
     /// The whole file or one group as a mesh, with the materials of its slots.
@@ -129,25 +151,12 @@ impl ObjFile {
             slots: Vec::new(),
             shapes: Vec::new(),
         };
-        let mut slots = Vec::new();
+        let mut slots = Slots::default();
         for part in parts {
-            let slot = self.slot(&mut slots, part);
+            let slot = slots.index(self.material(part), !part.texcoords.is_empty());
             push_part(&mut mesh, part, slot, with_normals, with_texcoords);
         }
-        (mesh, slots)
-    }
-
-    /// Index of the slot for a part's material, made if it is new.
-    fn slot(&self, slots: &mut Vec<Slot>, part: &tobj::Mesh) -> u32 {
-        let material = self.material(part);
-        let textured = !part.texcoords.is_empty();
-        let index = slots.iter().position(|slot| slot.material == material);
-        let index = index.unwrap_or_else(|| {
-            slots.push(Slot { material, textured });
-            slots.len() - 1
-        });
-        slots[index].textured &= textured;
-        u32::try_from(index).expect("a mesh has fewer than 2^32 materials")
+        (mesh, slots.slots)
     }
 
     fn check_area(&self, mesh: &Mesh) -> Result<(), SceneError> {

@@ -6,7 +6,8 @@ use std::path::Path;
 use super::error::SceneError;
 use super::files::Files;
 use super::mtl::Libraries;
-use super::statements::{Statement, statements};
+use super::statements::{Statement, shown, statements};
+use crate::limits::{LARGEST_NUMBER, MOST_CORNERS, MOST_TRIANGLES, MOST_VERTICES};
 
 /// How many of each precede a face, in the order of a corner's indices.
 #[derive(Default)]
@@ -14,6 +15,7 @@ struct Counts {
     vertices: usize,
     texcoords: usize,
     normals: usize,
+    triangles: usize,
 }
 
 /// Which indices the corners of a face have: texture coordinates, normals.
@@ -26,7 +28,7 @@ pub(super) fn check(
     text: &str,
     libraries: &mut Libraries,
 ) -> Result<String, SceneError> {
-    let mut checked = String::new();
+    let mut checked = String::with_capacity(text.len());
     let mut counts = Counts::default();
     // Of the faces that tobj will take as one mesh: it would mix up their arrays if their forms differed.
     let mut form: Option<Form> = None;
@@ -36,29 +38,36 @@ pub(super) fn check(
         match statement.keyword {
             "v" => {
                 check_vertex(&statement).map_err(fail)?;
-                counts.vertices += 1;
+                count(&mut counts.vertices, 1, MOST_VERTICES, "vertices").map_err(fail)?;
             }
             "vt" => {
                 statement.numbers(&[2, 3]).map_err(fail)?;
-                counts.texcoords += 1;
+                let texcoords = &mut counts.texcoords;
+                count(texcoords, 1, MOST_VERTICES, "texture coordinates").map_err(fail)?;
             }
             "vn" => {
                 let normal = statement.numbers(&[3]).map_err(fail)?;
                 if normal.iter().map(|part| part * part).sum::<f32>() == 0.0 {
                     return Err(fail("vn has no length; a normal is a direction".into()));
                 }
-                counts.normals += 1;
+                count(&mut counts.normals, 1, MOST_VERTICES, "normals").map_err(fail)?;
             }
             "f" => {
-                let found = check_face(&statement, &counts).map_err(fail)?;
+                let (found, corners) = check_face(&statement, &counts).map_err(fail)?;
+                let triangles = &mut counts.triangles;
+                count(triangles, corners - 2, MOST_TRIANGLES, "triangles").map_err(fail)?;
                 if *form.get_or_insert(found) != found {
                     let reason = "the face has other kinds of indices than those before it; give texture \
                                   coordinates and normals to all faces of a group and material, or to none";
                     return Err(fail(reason.into()));
                 }
             }
-            "o" | "g" => form = None,
+            "o" | "g" => {
+                statement.check_name().map_err(fail)?;
+                form = None;
+            }
             "usemtl" => {
+                statement.check_name().map_err(fail)?;
                 check_material(&statement, libraries).map_err(fail)?;
                 if statement.rest != material {
                     form = None;
@@ -66,6 +75,7 @@ pub(super) fn check(
                 }
             }
             "mtllib" => {
+                statement.check_name().map_err(fail)?;
                 let library = path.with_file_name("").join(statement.rest);
                 libraries
                     .add(files, &library, statement.rest)
@@ -77,21 +87,49 @@ pub(super) fn check(
             // Lines and points too: tobj would make triangles of lines with three points.
             _ => continue,
         }
+        checked += statement.keyword;
         // Six numbers are a position and a colour, which nothing here uses.
-        let words = statement.rest.split_whitespace();
-        let rest = match (statement.keyword, words.clone().count()) {
-            ("v", 6) => words.take(3).collect::<Vec<_>>().join(" "),
-            _ => statement.rest.to_owned(),
-        };
-        checked += &format!("{} {rest}\n", statement.keyword);
+        let words = || statement.rest.split_whitespace();
+        if statement.keyword == "v" && words().count() == 6 {
+            for word in words().take(3) {
+                checked += " ";
+                checked += word;
+            }
+        } else {
+            checked += " ";
+            checked += statement.rest;
+        }
+        checked += "\n";
     }
     Ok(checked)
+}
+
+/// Adds to a count that has a limit.
+fn count(counted: &mut usize, more: usize, most: usize, what: &str) -> Result<(), String> {
+    *counted += more;
+    if *counted <= most {
+        return Ok(());
+    }
+    Err(format!(
+        "the file has more {what} up to here than the {most} that are allowed; simplify the mesh, or split it into \
+         several files"
+    ))
 }
 
 fn check_vertex(statement: &Statement) -> Result<(), String> {
     let numbers = statement.numbers(&[3, 4, 6])?;
     if numbers.len() == 4 && numbers[3] == 0.0 {
         return Err("v has the weight 0, which puts it at infinity; leave the weight out".into());
+    }
+    let (coordinates, weight) = numbers.split_at(3);
+    if let [weight] = weight
+        && coordinates
+            .iter()
+            .any(|part| f64::from(part / weight).abs() > LARGEST_NUMBER)
+    {
+        return Err(format!(
+            "v has the weight {weight:e}, which puts it beyond {LARGEST_NUMBER:e}; leave the weight out"
+        ));
     }
     Ok(())
 }
@@ -102,12 +140,13 @@ fn check_material(statement: &Statement, libraries: &Libraries) -> Result<(), St
     }
     Err(format!(
         "usemtl names material \"{}\", which no mtllib above it defines; materials: {}",
-        statement.rest,
+        shown(statement.rest),
         libraries.names()
     ))
 }
 
-fn check_face(statement: &Statement, counts: &Counts) -> Result<Form, String> {
+/// The form of a face, and how many corners it has.
+fn check_face(statement: &Statement, counts: &Counts) -> Result<(Form, usize), String> {
     let mut form = None;
     let mut corners = 0;
     for corner in statement.rest.split_whitespace() {
@@ -115,13 +154,16 @@ fn check_face(statement: &Statement, counts: &Counts) -> Result<Form, String> {
         if *form.get_or_insert(found) != found {
             return Err(format!(
                 "f has corners with different kinds of indices: \"{}\"; write all as v, v/vt, v//vn or v/vt/vn",
-                statement.rest
+                shown(statement.rest)
             ));
         }
         corners += 1;
     }
     match form {
-        Some(form) if corners >= 3 => Ok(form),
+        Some(_) if corners > MOST_CORNERS => Err(format!(
+            "f has {corners} corners; allowed: 3 to {MOST_CORNERS}; cut the face into triangles"
+        )),
+        Some(form) if corners >= 3 => Ok((form, corners)),
         _ => Err(format!("f has {corners} corners; a face needs at least 3")),
     }
 }
@@ -137,7 +179,8 @@ fn check_corner(corner: &str, counts: &Counts) -> Result<Form, String> {
     let normal = index("normal", counts.normals)?;
     if !vertex || parts.next().is_some() {
         return Err(format!(
-            "f has the corner \"{corner}\"; allowed: v, v/vt, v//vn or v/vt/vn"
+            "f has the corner \"{}\"; allowed: v, v/vt, v//vn or v/vt/vn",
+            shown(corner)
         ));
     }
     Ok((texcoord, normal))
@@ -145,9 +188,10 @@ fn check_corner(corner: &str, counts: &Counts) -> Result<Form, String> {
 
 /// 1 is the first, -1 the latest so far.
 fn check_index(word: &str, what: &str, count: usize) -> Result<(), String> {
-    let index: i64 = word
-        .parse()
-        .map_err(|_| format!("f has the {what} index \"{word}\"; allowed: whole numbers"))?;
+    let index: i64 = word.parse().map_err(|_| {
+        let word = shown(word);
+        format!("f has the {what} index \"{word}\"; allowed: whole numbers")
+    })?;
     if index != 0 && index.unsigned_abs() <= count as u64 {
         return Ok(());
     }

@@ -8,6 +8,7 @@ use toml::Spanned;
 use super::document::Document;
 use super::error::{SceneError, list};
 use super::schema::{ObjectTable, RotationTable, ScaleTable};
+use crate::limits::{CLOSEST_KEYS, MOST_KEYS};
 use crate::swept::key_times;
 use crate::{Interpolation, Key, Motion, Turn};
 
@@ -200,6 +201,13 @@ pub(super) fn through(
         let reason = format!("{what} has empty keys; at least one key is needed");
         return Err(document.error(place, reason));
     }
+    if poses.len() > MOST_KEYS {
+        let reason = format!(
+            "{what} has {} keys; allowed: 1 to {MOST_KEYS}; leave out those that lie between others",
+            poses.len()
+        );
+        return Err(document.error(place, reason));
+    }
     let mut keys = Vec::new();
     for (index, pose) in poses.iter().enumerate() {
         let turn = match poses.get(index + 1) {
@@ -222,6 +230,23 @@ pub(super) fn through(
     Ok(motion)
 }
 
+/// Refuses two times so close that the speed between them has no meaning.
+pub(super) fn check_gap(
+    document: &Document,
+    what: &str,
+    which: &str,
+    [from, to]: [f64; 2],
+    place: Range<usize>,
+) -> Result<(), SceneError> {
+    if to - from >= CLOSEST_KEYS {
+        return Ok(());
+    }
+    let reason = format!(
+        "{what} has {which} at times {from:?} and {to:?}; allowed: at least {CLOSEST_KEYS:e} frames from one to the next"
+    );
+    Err(document.error(place, reason))
+}
+
 fn turn_between(
     document: &Document,
     what: &str,
@@ -236,6 +261,7 @@ fn turn_between(
         );
         return Err(document.error(place(), reason));
     }
+    check_gap(document, what, "keys", [pose.time, next.time], place())?;
     pose.rotation.turn_to(next.rotation).ok_or_else(|| {
         let reason = format!(
             "{what} turns by half a turn or more between keys, which leaves the way open; allowed: below \

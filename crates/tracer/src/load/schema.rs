@@ -42,8 +42,7 @@ pub(super) struct ShutterTable {
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct DisplayTable {
-    #[serde(default)]
-    pub(super) stops: f32,
+    pub(super) stops: Option<Spanned<f32>>,
     pub(super) flip: Option<Spanned<FlipTable>>,
 }
 

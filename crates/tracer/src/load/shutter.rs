@@ -1,6 +1,6 @@
 //! The shutter of a scene.toml.
 
-use frame::{Efficiency, ShutterProfile};
+use frame::{Efficiency, LONGEST_EXPOSURE, ShutterProfile};
 use toml::Spanned;
 
 use super::document::Document;
@@ -32,6 +32,13 @@ pub(super) fn shutter_profile(
         efficiency,
         rolling: table.rolling.unwrap_or(0.0),
     };
+    if profile.rolling.abs() > LONGEST_EXPOSURE {
+        let reason = format!(
+            "rolling is {} frames; allowed: -{LONGEST_EXPOSURE} to {LONGEST_EXPOSURE}",
+            profile.rolling
+        );
+        return Err(document.error(place, reason));
+    }
     match profile.check() {
         Ok(()) => Ok(profile),
         Err(error) => Err(document.error(place, error.to_string())),

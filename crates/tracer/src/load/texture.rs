@@ -1,15 +1,18 @@
 //! PNG and JPEG files as linear texels.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use image::{DynamicImage, ImageFormat};
+use image::ImageFormat;
 
 use crate::Texture;
+use crate::limits::{LARGEST_IMAGE_FILE, MOST_TEXELS, MOST_TEXELS_TOGETHER};
 
 use super::files::Files;
+use super::picture::Header;
 
 /// What a texture is read for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Use {
     /// Colour decoded from sRGB to linear; alpha as it is.
     Color,
@@ -21,7 +24,9 @@ pub(super) enum Use {
 #[derive(Default)]
 pub(super) struct Textures {
     pub(super) decoded: Vec<Texture>,
-    keys: Vec<(PathBuf, Use)>,
+    indices: BTreeMap<(PathBuf, Use), usize>,
+    /// Of all textures.
+    texels: u64,
 }
 
 impl Textures {
@@ -33,41 +38,54 @@ impl Textures {
         usage: Use,
     ) -> Result<usize, String> {
         let key = (path.to_owned(), usage);
-        if let Some(index) = self.keys.iter().position(|known| *known == key) {
-            return Ok(index);
+        if let Some(index) = self.indices.get(&key) {
+            return Ok(*index);
         }
+        let name = path.display();
         let bytes = files
-            .bytes(path)
-            .map_err(|error| format!("texture {} cannot be read: {error}", path.display()))?;
-        let image =
-            decode(&bytes).map_err(|reason| format!("texture {} {reason}", path.display()))?;
+            .bytes(path, LARGEST_IMAGE_FILE)
+            .map_err(|error| format!("texture {name} cannot be read: {error}"))?;
+        let texture = self
+            .decode(&bytes, path, usage)
+            .map_err(|reason| format!("texture {name} {reason}"))?;
+        let index = self.decoded.len();
+        self.indices.insert(key, index);
+        self.decoded.push(texture);
+        Ok(index)
+    }
+
+    /// Whatever the name ends in; the error is a reason that follows the file's name.
+    fn decode(&mut self, bytes: &[u8], path: &Path, usage: Use) -> Result<Texture, String> {
+        let format = match image::guess_format(bytes) {
+            Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => format,
+            _ => return Err("is neither a PNG nor a JPEG file".to_owned()),
+        };
+        let broken = |error| format!("is broken: {error}");
+        let header = Header::read(bytes, format).map_err(broken)?;
+        header.check(MOST_TEXELS)?;
+        let together = self.texels + header.texels();
+        if together > MOST_TEXELS_TOGETHER {
+            return Err(format!(
+                "is {} x {}, which makes {together} texels of all textures together; allowed: {MOST_TEXELS_TOGETHER}; \
+                 scale some of them down",
+                header.width, header.height
+            ));
+        }
+        let image = header.decode().map_err(broken)?;
         let has_alpha = image.color().has_alpha();
         // 16 bits hold 8-bit and 16-bit files alike: 8-bit values are spread by 257, exactly.
         let image = image.into_rgba16();
         let (width, height) = image.dimensions();
-        let texels = image
-            .pixels()
-            .map(|pixel| texel(pixel.0, usage, has_alpha))
-            .collect();
-        self.keys.push(key);
-        self.decoded.push(Texture {
+        self.texels = together;
+        Ok(Texture {
             path: path.to_owned(),
             width,
             height,
-            texels,
-        });
-        Ok(self.decoded.len() - 1)
-    }
-}
-
-/// Whatever the name ends in; the error is a reason that follows the file's name.
-fn decode(bytes: &[u8]) -> Result<DynamicImage, String> {
-    match image::guess_format(bytes) {
-        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => {
-            image::load_from_memory_with_format(bytes, format)
-                .map_err(|error| format!("is broken: {error}"))
-        }
-        _ => Err("is neither a PNG nor a JPEG file".to_owned()),
+            texels: image
+                .pixels()
+                .map(|pixel| texel(pixel.0, usage, has_alpha))
+                .collect(),
+        })
     }
 }
 
@@ -86,5 +104,34 @@ fn linear(encoded: f32) -> f32 {
         encoded / 12.92
     } else {
         ((encoded + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn textures_are_counted_together() {
+        let mut two = std::io::Cursor::new(Vec::new());
+        image::GrayImage::new(2, 1)
+            .write_to(&mut two, ImageFormat::Png)
+            .unwrap();
+        let load = |texels| {
+            let mut textures = Textures {
+                texels,
+                ..Textures::default()
+            };
+            let texture = textures.decode(two.get_ref(), Path::new("two.png"), Use::Color);
+            texture.map(|texture| texture.texels.len())
+        };
+        assert_eq!(load(MOST_TEXELS_TOGETHER - 2), Ok(2));
+        let refusal = load(MOST_TEXELS_TOGETHER - 1).unwrap_err();
+        assert!(
+            refusal.ends_with(
+                "texels of all textures together; allowed: 134217728; scale some of them down"
+            ),
+            "{refusal}"
+        );
     }
 }

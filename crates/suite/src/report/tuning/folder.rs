@@ -1,11 +1,10 @@
 //! What `tune` leaves in its folder.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use frame::FileError;
 use serde::de::DeserializeOwned;
 
+use crate::json_file::read_text;
 use crate::{Error, Header, JOURNAL_FORMAT, Sensitivity, TUNE_FORMAT, Trial, Tuning};
 
 /// What is there of tune.json, journal.jsonl and sensitivity.json; at least one is.
@@ -51,11 +50,10 @@ impl TuneFolder {
 
 /// None where there is no such file.
 fn text(path: &Path) -> Result<Option<String>, Error> {
-    if !path.is_file() {
+    if !path.exists() {
         return Ok(None);
     }
-    let text = fs::read_to_string(path).map_err(|source| FileError::io(path, "read", source))?;
-    Ok(Some(text))
+    Ok(Some(read_text(path)?))
 }
 
 fn json<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, Error> {
@@ -83,9 +81,19 @@ fn journal(path: &Path) -> Result<(Option<Header>, Vec<Trial>), Error> {
     };
     let header: Header = parse(first, &format!("{}:1", path.display()))?;
     check_format(path, header.format, JOURNAL_FORMAT)?;
-    let trial =
-        |(line, number): (&str, usize)| parse(line, &format!("{}:{number}", path.display()));
-    Ok((Some(header), lines.map(trial).collect::<Result<_, _>>()?))
+    let trial = |(line, number): (&str, usize)| {
+        let place = format!("{}:{number}", path.display());
+        let trial: Trial = parse(line, &place)?;
+        // The header is the first line.
+        match trial.check(&header, number - 2) {
+            Ok(()) => Ok(trial),
+            Err(reason) => Err(Error::Usage(format!(
+                "{place}: {reason}; `shuttertruth tune` writes it anew in another --out"
+            ))),
+        }
+    };
+    let trials = lines.map(trial).collect::<Result<_, Error>>()?;
+    Ok((Some(header), trials))
 }
 
 fn check_format(path: &Path, found: u32, allowed: u32) -> Result<(), Error> {

@@ -1,0 +1,112 @@
+//! Text that others wrote, made fit for a terminal, a log and a summary.
+
+use std::borrow::Cow;
+use std::fmt::Write;
+use std::path::Path;
+
+/// Stands before every line of a message but the first, so that none begins with what a log takes for a command.
+const CONTINUED: &str = "  | ";
+
+/// The text on one line: control characters, line breaks among them, and characters that change the direction of writing
+/// become escapes such as `\n` and `\u001b`, which JSON has too. Other text stays as it is.
+pub fn printable(text: &str) -> Cow<'_, str> {
+    match text.chars().any(is_unfit) {
+        false => Cow::Borrowed(text),
+        true => Cow::Owned(text.chars().fold(String::new(), |mut line, letter| {
+            push(&mut line, letter);
+            line
+        })),
+    }
+}
+
+/// A path as [`printable`] text.
+pub fn printable_path(path: &Path) -> String {
+    printable(&path.to_string_lossy()).into_owned()
+}
+
+/// A message of several lines: each as [`printable`] has it, and all but the first behind a mark, whatever they begin with.
+pub fn printable_lines(text: &str) -> String {
+    let lines: Vec<Cow<str>> = text.split('\n').map(printable).collect();
+    lines.join(&format!("\n{CONTINUED}"))
+}
+
+/// A text with colours, as the tables have them: line breaks and colours stay, other control characters become escapes.
+pub fn printable_table(text: &str) -> String {
+    let mut table = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(letter) = rest.chars().next() {
+        let length = match color(rest) {
+            Some(length) => {
+                table.push_str(&rest[..length]);
+                length
+            }
+            None => {
+                match letter {
+                    '\n' => table.push('\n'),
+                    letter => push(&mut table, letter),
+                }
+                letter.len_utf8()
+            }
+        };
+        rest = &rest[length..];
+    }
+    table
+}
+
+/// Bytes of the colour that the text begins with: `ESC [ numbers m`.
+fn color(text: &str) -> Option<usize> {
+    let numbers = text.strip_prefix("\u{1b}[")?;
+    let end = numbers.find(|letter: char| !letter.is_ascii_digit() && letter != ';')?;
+    numbers[end..].starts_with('m').then_some(end + 3)
+}
+
+fn push(line: &mut String, letter: char) {
+    match letter {
+        '\n' => line.push_str("\\n"),
+        '\r' => line.push_str("\\r"),
+        '\t' => line.push_str("\\t"),
+        letter if is_unfit(letter) => {
+            let _ = write!(line, "\\u{:04x}", u32::from(letter));
+        }
+        letter => line.push(letter),
+    }
+}
+
+/// Control characters, line and paragraph separators, and what turns the direction of writing.
+fn is_unfit(letter: char) -> bool {
+    letter.is_control()
+        || matches!(letter, '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{200e}' | '\u{200f}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn control_characters_become_escapes_and_other_text_stays() {
+        for (text, expected) in [
+            ("fan, \u{e9}t\u{e9} \u{6247}", "fan, \u{e9}t\u{e9} \u{6247}"),
+            ("a\n::error::b", "a\\n::error::b"),
+            ("\u{1b}[2J\u{7}", "\\u001b[2J\\u0007"),
+            ("a\r\tb\u{9b}", "a\\r\\tb\\u009b"),
+            ("\u{202e}nitna", "\\u202enitna"),
+        ] {
+            assert_eq!(printable(text), expected);
+        }
+    }
+
+    #[test]
+    fn no_line_of_a_message_begins_with_a_command() {
+        let text = printable_lines("a\n::error::b\n \u{1b}]0;c");
+        assert_eq!(text, "a\n  | ::error::b\n  |  \\u001b]0;c");
+    }
+
+    #[test]
+    fn tables_keep_their_lines_and_colours_alone() {
+        let table = "\u{1b}[1m\u{1b}[31mBROKEN\u{1b}[0m a\n\u{1b}[2J b\u{1b}]8;;c\u{1b}[";
+        assert_eq!(
+            printable_table(table),
+            "\u{1b}[1m\u{1b}[31mBROKEN\u{1b}[0m a\n\\u001b[2J b\\u001b]8;;c\\u001b["
+        );
+    }
+}

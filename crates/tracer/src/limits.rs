@@ -1,0 +1,86 @@
+//! What a scene may hold at most. `docs/limits.md` lists these numbers and says why; a test compares the two.
+//!
+//! Each is far above what scenes need, and low enough that memory and time stay bounded. What exceeds one is refused before
+//! room is made for it.
+
+/// Widest and highest picture, in pixels.
+pub const LARGEST_SIDE: u32 = 16_384;
+
+/// Most pixels of a picture: 8192 x 8192.
+pub const MOST_PIXELS: u64 = 67_108_864;
+
+/// Largest scene.toml, in bytes.
+pub const LARGEST_SCENE_FILE: u64 = 16_777_216;
+
+/// Largest OBJ file, in bytes.
+pub const LARGEST_MESH_FILE: u64 = 2_147_483_648;
+
+/// Largest MTL file, in bytes.
+pub const LARGEST_MATERIAL_FILE: u64 = 16_777_216;
+
+/// Largest file of a texture or an environment, in bytes.
+pub const LARGEST_IMAGE_FILE: u64 = 536_870_912;
+
+/// Most texels of a texture: 8192 x 8192. One takes 16 bytes.
+pub const MOST_TEXELS: u64 = 67_108_864;
+
+/// Most texels of all textures of a scene together: two of 8192 x 8192.
+pub const MOST_TEXELS_TOGETHER: u64 = 134_217_728;
+
+/// Most texels of an environment: 8192 x 4096. One takes 44 bytes, for it is sampled as a light too.
+pub const MOST_ENVIRONMENT_TEXELS: u64 = 33_554_432;
+
+/// Most values of all channels and layers of an EXR file that holds an environment.
+pub const MOST_ENVIRONMENT_VALUES: u64 = 134_217_728;
+
+/// Most vertices, texture coordinates or normals of an OBJ file.
+pub const MOST_VERTICES: usize = 32_000_000;
+
+/// Most triangles of a scene's meshes together; a mesh that several objects show counts once.
+pub const MOST_TRIANGLES: usize = 32_000_000;
+
+/// Most corners of a face.
+pub const MOST_CORNERS: usize = 4_096;
+
+/// Most triangles that emit, counted once for each object that shows them.
+pub const MOST_EMISSIVE_TRIANGLES: usize = 8_000_000;
+
+/// Most materials of an MTL file.
+pub const MOST_MATERIALS: usize = 65_536;
+
+/// Most objects of a scene.
+pub const MOST_OBJECTS: usize = 16_384;
+
+/// Most parents above an object, the parents' parents counted too.
+pub const MOST_PARENTS: usize = 256;
+
+/// Most variants of a scene.
+pub const MOST_VARIANTS: usize = 4_096;
+
+/// Most keys of a motion, and most key shapes of a mesh.
+pub const MOST_KEYS: usize = 16_384;
+
+/// Largest number in a scene's files, and smallest with a minus: metres, watts, degrees, frames alike.
+pub const LARGEST_NUMBER: f64 = 1e12;
+
+/// Greatest distance from the world's origin that anything may reach while it is rendered, in metres, as summed up over
+/// sizes and motions.
+pub const FARTHEST: f64 = 1e12;
+
+/// Smallest factor by which scales, those of parents included, may shrink an object.
+pub const SMALLEST_SCALE: f64 = 1e-12;
+
+/// Least time between two keys, in frames.
+pub const CLOSEST_KEYS: f64 = 1e-6;
+
+/// Narrowest vertical field of view, in degrees.
+pub const NARROWEST_VIEW: f64 = 0.001;
+
+/// Smallest angular radius of a sun that is no point, in degrees.
+pub const SMALLEST_SUN: f64 = 0.001;
+
+/// Brightest radiance.
+pub const BRIGHTEST: f32 = 1e12;
+
+/// Most exposures of HDR-FLIP.
+pub const MOST_FLIP_EXPOSURES: u32 = 128;

@@ -1,0 +1,51 @@
+//! Pictures that others made, decoded only if their headers state a size that is allowed.
+
+use std::io::Cursor;
+
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
+
+/// A picture whose header has been read, and nothing else.
+pub(super) struct Header<'a> {
+    decoder: Box<dyn ImageDecoder + 'a>,
+    /// Pixels per row.
+    pub(super) width: u32,
+    /// Rows.
+    pub(super) height: u32,
+}
+
+impl<'a> Header<'a> {
+    /// Reads the header; the error is the decoder's.
+    pub(super) fn read(bytes: &'a [u8], format: ImageFormat) -> Result<Self, String> {
+        let reader = ImageReader::with_format(Cursor::new(bytes), format);
+        let decoder = reader.into_decoder().map_err(|error| error.to_string())?;
+        let (width, height) = decoder.dimensions();
+        Ok(Self {
+            decoder: Box::new(decoder),
+            width,
+            height,
+        })
+    }
+
+    /// Texels of the whole picture.
+    pub(super) fn texels(&self) -> u64 {
+        u64::from(self.width) * u64::from(self.height)
+    }
+
+    /// Says what is wrong with the size, if it is nothing or above `most`.
+    pub(super) fn check(&self, most: u64) -> Result<(), String> {
+        if (1..=most).contains(&self.texels()) {
+            return Ok(());
+        }
+        Err(format!(
+            "is {} x {}, {} texels; allowed: 1 to {most}; scale it down",
+            self.width,
+            self.height,
+            self.texels()
+        ))
+    }
+
+    /// Decodes the picture.
+    pub(super) fn decode(self) -> Result<DynamicImage, String> {
+        DynamicImage::from_decoder(self.decoder).map_err(|error| error.to_string())
+    }
+}

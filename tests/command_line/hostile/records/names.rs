@@ -1,0 +1,76 @@
+//! Names of scenes: of every script, with an @, without any sense.
+
+use std::fs;
+
+use frame::Frame;
+
+use crate::bench::{Bench, assert_done, assert_refused};
+
+const RENDER: [&str; 6] = [
+    "render",
+    "--quiet",
+    "--out",
+    "r",
+    "--samples-per-pixel",
+    "16",
+];
+
+/// The plate in a folder of another name.
+fn renamed(bench: &Bench, folder: &str) {
+    let target = bench.path(folder);
+    fs::create_dir_all(target.parent().unwrap()).unwrap();
+    fs::rename(bench.path("scenes/plate"), target).unwrap();
+}
+
+#[test]
+fn names_of_every_script_stand_in_files_as_utf_8() {
+    for name in ["\u{e9}ventail", "\u{6247}\u{98a8}\u{6a5f}_\u{1f300}"] {
+        let bench = Bench::new();
+        renamed(&bench, &format!("scenes/{name}"));
+        assert_done(&bench.shuttertruth(&RENDER));
+        let path = bench.path("r").join(name).join("frame.exr");
+        assert_eq!(Frame::read(&path).unwrap().provenance.scene, name);
+        let bytes = fs::read(&path).unwrap();
+        let utf_8 = |window: &[u8]| window == name.as_bytes();
+        assert!(bytes.windows(name.len()).any(utf_8), "{name}");
+    }
+}
+
+#[test]
+fn a_folder_above_a_scene_may_have_an_at_in_its_name_and_the_scene_may_not() {
+    let bench = Bench::new();
+    renamed(&bench, "me@home/plate");
+    let scene = |path: &str| bench.shuttertruth(&[&RENDER[..], &["--scenes", path]].concat());
+    assert_done(&scene("./me@home/plate"));
+    assert_refused(
+        &scene("./me@home/plate@all"),
+        2,
+        &["./me@home/plate has no variants for @all"],
+    );
+    fs::rename(
+        bench.path("me@home/plate"),
+        bench.path("me@home/plate@fast"),
+    )
+    .unwrap();
+    let words = [&RENDER[..], &["--scenes-dir", "me@home"]].concat();
+    assert_refused(
+        &bench.shuttertruth(&words),
+        2,
+        &["plate@fast cannot name a scene", "names without @"],
+    );
+}
+
+#[test]
+fn all_variants_of_a_scene_are_taken_by_its_path_too() {
+    let bench = Bench::new();
+    let text = fs::read_to_string(bench.path("scenes/plate/scene.toml")).unwrap();
+    bench.write(
+        "scene.toml",
+        &format!("{text}\n[variant.short]\nexposure = 0.25\n[variant.long]\nexposure = 1.0\n"),
+    );
+    let words = [&RENDER[..], &["--scenes", "./scenes/plate@all"]].concat();
+    assert_done(&bench.shuttertruth(&words));
+    for variant in ["plate@short", "plate@long"] {
+        assert!(bench.path("r").join(variant).join("frame.exr").is_file());
+    }
+}

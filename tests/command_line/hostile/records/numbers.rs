@@ -1,0 +1,119 @@
+//! Numbers beyond what can be rendered, compared or kept.
+
+use std::fs;
+
+use crate::bench::{Bench, SCENE, assert_refused, split};
+
+#[test]
+fn numbers_beyond_what_can_be_done_are_refused_with_what_is_allowed() {
+    let bench = Bench::new();
+    for (words, parts) in [
+        (
+            "run --replicates 0",
+            &["--replicates 0", "even numbers from 2 to 4096"][..],
+        ),
+        ("run --replicates 7", &["--replicates 7", "even numbers"]),
+        (
+            "run --replicates 4000000000",
+            &["--replicates 4000000000", "4096"],
+        ),
+        (
+            "render --replicates 0..4000000000",
+            &["0..4000000000", "up to 4096"],
+        ),
+        (
+            "render --noise 1e-9 --most-replicates 4000000000",
+            &["--most-replicates 4000000000"],
+        ),
+        (
+            "run --samples-per-pixel 4000000000",
+            &[
+                "--samples-per-pixel 4000000000",
+                "up to 524288",
+                "such as 524288",
+            ],
+        ),
+        ("run --samples-per-pixel 4294967288", &["up to 524288"]),
+        (
+            "run --exposure 1e50",
+            &["exposure is 1e50 frames", "allowed: 1e-9 to 10000"],
+        ),
+        ("run --exposure 1e-300", &["exposure is 1e-300 frames"]),
+        (
+            "run --jitter-frames 4000000000",
+            &["--jitter-frames", "0 to 1024"],
+        ),
+        (
+            "calibrate --seed 18446744073709551615",
+            &["--seed 18446744073709551615", "allowed is up to"],
+        ),
+        ("run --seed 18446744073709551616", &["--seed"]),
+        (
+            "tune --filter jump_flood --budget 10000000000000",
+            &["--budget", "0 to 1000000"],
+        ),
+        (
+            "tune --filter jump_flood --morris 10000000000000",
+            &["--morris", "0 to 1000000"],
+        ),
+    ] {
+        let (command, more) = words.split_once(' ').unwrap();
+        let mut line = vec![command, "--quiet", "--out", "out"];
+        line.extend(split(more));
+        assert_refused(&bench.shuttertruth(&line), 2, parts);
+        assert!(!bench.path("out").exists(), "{words} left something behind");
+    }
+    let import = split("import scenes/plate/plate.obj --out mine --spin 1e300deg/frame");
+    assert_refused(
+        &bench.shuttertruth(&import),
+        2,
+        &["from -100000 to 100000", "20deg/frame"],
+    );
+}
+
+#[test]
+fn exposures_of_display_and_flip_that_show_nothing_are_refused_by_every_command_that_loads_the_scene()
+ {
+    let bench = Bench::new();
+    for (display, parts) in [
+        (
+            "stops = 150",
+            &["scene.toml:6: stops = 150", "from -32 to 32"][..],
+        ),
+        (
+            "flip = { start = -2, stop = 3e38, count = 5 }",
+            &["scene.toml:6: flip stop = 3e", "from -32 to 32"],
+        ),
+        (
+            "flip = { start = -2, stop = 2, count = 400 }",
+            &["scene.toml:6: flip has 400 exposures", "at most 128"],
+        ),
+    ] {
+        let table = format!("[display]\n{display}\n\n[camera]");
+        bench.write("scene.toml", &SCENE.replace("[camera]", &table));
+        for command in ["run", "render"] {
+            let words = [command, "--quiet", "--out", "out"];
+            assert_refused(&bench.shuttertruth(&words), 2, parts);
+        }
+    }
+}
+
+#[test]
+fn a_reason_of_two_lines_is_called_that() {
+    let bench = Bench::new();
+    fs::write(
+        bench.path("scenes/bounds.toml"),
+        "[default]\nflip_moving = { limit = 0.2, why = \"one\\n::error::two\" }\n",
+    )
+    .unwrap();
+    let output = bench.check(&["--filters", "identity"]);
+    assert_refused(
+        &output,
+        2,
+        &[
+            "bounds.toml:2",
+            "flip_moving: why = \"one\\n::error::two\"",
+            "one line",
+        ],
+    );
+}

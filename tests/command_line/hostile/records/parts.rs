@@ -1,0 +1,163 @@
+//! Parts of a truth for `merge` that are none.
+
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+
+use frame::{AtInstant, Raster, Replicate, Support};
+
+use crate::bench::{Bench, assert_done, assert_refused, split};
+
+const SECOND: &str = "b/plate/truth_trailing/replicate_001.exr";
+
+/// Two parts, `a` with the frame and replicate 0, `b` with replicate 1.
+fn parts() -> Bench {
+    let bench = Bench::new();
+    for (out, part) in [("a", "0..1"), ("b", "1..2")] {
+        let words =
+            format!("render --quiet --samples-per-pixel 16 --replicates {part} --out {out}");
+        assert_done(&bench.shuttertruth(&split(&words)));
+    }
+    bench
+}
+
+fn merge(bench: &Bench, parts: &[&str]) -> Output {
+    let output = bench.shuttertruth(&[&["merge"], parts, &["--out", "whole"]].concat());
+    if !output.status.success() {
+        assert!(
+            !bench.path("whole").exists(),
+            "{parts:?} left something behind"
+        );
+    }
+    output
+}
+
+/// The same replicate without its border.
+fn smaller(replicate: &Replicate) -> Replicate {
+    let AtInstant {
+        frozen,
+        unknowable,
+        placed,
+        offset,
+        spread,
+    } = &replicate.at_instant;
+    let Support {
+        seen,
+        moving,
+        unknowable: hidden,
+    } = &replicate.support;
+    Replicate {
+        picture: replicate.picture.cropped(2),
+        at_instant: AtInstant {
+            frozen: frozen.cropped(2),
+            unknowable: unknowable.cropped(2),
+            placed: placed.cropped(2),
+            offset: offset.cropped(2),
+            spread: spread.cropped(2),
+        },
+        support: Support {
+            seen: seen.iter().map(|mask| mask.cropped(2)).collect(),
+            moving: moving.cropped(2),
+            unknowable: hidden.cropped(2),
+        },
+        ..replicate.clone()
+    }
+}
+
+#[test]
+fn replicates_that_do_not_belong_together_are_refused() {
+    let bench = parts();
+    let path = bench.path(SECOND);
+    let whole = Replicate::read(&path).unwrap();
+    let refused = |replicate: &Replicate, found: &[&str]| {
+        replicate.write(&path).unwrap();
+        assert_refused(&merge(&bench, &["a", "b"]), 2, found);
+    };
+    refused(
+        &smaller(&whole),
+        &["plate/truth_trailing", "another size than replicate 0"],
+    );
+
+    let mut fewer = whole.clone();
+    fewer.objects.truncate(1);
+    fewer.moving.truncate(1);
+    fewer.picture.coverage.truncate(1);
+    fewer.support.seen.truncate(1);
+    refused(&fewer, &["another list of objects than replicate 0"]);
+
+    let mut more = whole.clone();
+    more.provenance.samples_per_pixel = u32::MAX;
+    refused(&more, &["another number of samples"]);
+
+    let mut far = whole.clone();
+    far.index = u32::MAX - 1;
+    refused(&far, &["is replicate 4294967294", "0 to 4095"]);
+    far.index = 4000;
+    refused(&far, &["1, 2, 3, 4", "are missing for a truth of 4002"]);
+    far.index = 0;
+    refused(&far, &["two files hold replicate 0"]);
+
+    let mut foreign = whole.clone();
+    foreign.provenance.content_hash = "00".repeat(32);
+    refused(&foreign, &["made from other inputs"]);
+
+    let mut stray = whole.clone();
+    stray.provenance.scene = "../../etc".to_owned();
+    stray.index = 0;
+    fs::rename(bench.path("a"), bench.path("c")).unwrap();
+    stray.write(&path).unwrap();
+    assert_refused(&merge(&bench, &["b"]), 2, &["missing"]);
+    fs::rename(bench.path("c"), bench.path("a")).unwrap();
+
+    let mut nan = whole.clone();
+    nan.at_instant.spread = Raster::filled(64, 32, [f32::NAN; 3]);
+    refused(
+        &nan,
+        &["replicate_001.exr: channel \"reference.xx\" holds NaN at pixel (0, 0)"],
+    );
+
+    whole.write(&path).unwrap();
+    assert_refused(&merge(&bench, &["a", "b", "a"]), 2, &["a: is named twice"]);
+    assert_done(&merge(&bench, &["a", "b"]));
+}
+
+#[cfg(unix)]
+#[test]
+fn links_that_lead_in_circles_and_pipes_are_no_parts() {
+    use std::os::unix::fs::symlink;
+
+    let bench = parts();
+    for place in ["a/loop", "a/plate/loop", "a/plate/truth_trailing/loop"] {
+        symlink(bench.path("a"), bench.path(place)).unwrap();
+    }
+    symlink(bench.path("a/itself"), bench.path("a/itself")).unwrap();
+    assert_done(&merge(&bench, &["a", "b"]));
+    fs::remove_dir_all(bench.path("whole")).unwrap();
+
+    let path = bench.path(SECOND);
+    fs::remove_file(&path).unwrap();
+    let refused = |found: &str| {
+        assert_refused(
+            &merge(&bench, &["a", "b"]),
+            2,
+            &["replicate_001.exr", found],
+        )
+    };
+    let made = std::process::Command::new("mkfifo").arg(&path).status();
+    assert!(made.unwrap().success());
+    refused("no regular file");
+    fs::remove_file(&path).unwrap();
+    symlink("/dev/zero", &path).unwrap();
+    refused("no regular file");
+    fs::remove_file(&path).unwrap();
+    fs::create_dir(&path).unwrap();
+    refused("no regular file");
+    assert_refused(
+        &merge(&bench, &["a", "b/plate/none"]),
+        2,
+        &["b/plate/none: cannot read"],
+    );
+    fs::write(bench.path("file"), "").unwrap();
+    assert_refused(&merge(&bench, &["a", "file"]), 2, &["file: cannot read"]);
+    assert!(!Path::new("whole").exists());
+}
