@@ -26,33 +26,48 @@ pub struct Terms<'a> {
     pub limit: Duration,
 }
 
+/// A case that failed.
+pub struct Failed {
+    /// Its number.
+    pub case: u64,
+    /// How it failed.
+    pub how: How,
+    /// What was tried.
+    pub input: Vec<u8>,
+}
+
 /// How a worker ended.
 pub struct Ended {
-    /// The case that failed, and how; none where all were tried.
-    pub failed: Option<(u64, How)>,
+    /// The case that failed; none where all were tried.
+    pub failed: Option<Failed>,
     /// The slowest case: its time and its number.
     pub slowest: (Duration, u64),
 }
 
 /// Tries some cases in a process of their own, up to the first that fails.
 pub fn try_cases(target: &Target, cases: Range<u64>, terms: &Terms) -> Ended {
-    let words = [terms.seed, cases.start, cases.end].map(|it| it.to_string());
-    observe(target, &words, terms)
+    let kept = tempfile::NamedTempFile::new().expect("a file for an input");
+    let mut words = [terms.seed, cases.start, cases.end]
+        .map(|it| it.to_string())
+        .to_vec();
+    words.push(kept.path().display().to_string());
+    observe(target, &words, kept.path(), terms)
 }
 
 /// Tries the input of a file in a process of its own.
 pub fn try_file(target: &Target, path: &Path, terms: &Terms) -> Ended {
-    observe(
-        target,
-        &["file".to_owned(), path.display().to_string()],
-        terms,
-    )
+    let words = ["file".to_owned(), path.display().to_string()];
+    observe(target, &words, path, terms)
 }
 
-fn observe(target: &Target, words: &[String], terms: &Terms) -> Ended {
+fn observe(target: &Target, words: &[String], input: &Path, terms: &Terms) -> Ended {
     let stderr = tempfile::NamedTempFile::new().expect("a file for temporary text");
     let mut child = start(target, words, terms, stderr.reopen().unwrap());
     let lines = lines(&mut child);
+    let failed = |how: How, case: u64| {
+        let input = std::fs::read(input).unwrap_or_default();
+        Some(Failed { case, how, input })
+    };
     let mut case = 0;
     let mut slowest = (Duration::ZERO, 0);
     let mut panic = None;
@@ -70,17 +85,19 @@ fn observe(target: &Target, words: &[String], terms: &Terms) -> Ended {
             },
             Err(RecvTimeoutError::Timeout) => {
                 end(&mut child);
-                let failed = Some((case, How::Hang(terms.limit)));
-                return Ended { failed, slowest };
+                return Ended {
+                    failed: failed(How::Hang(terms.limit), case),
+                    slowest,
+                };
             }
             Err(RecvTimeoutError::Disconnected) => break,
         }
     }
     let status = child.wait().expect("a worker that was started");
     let failed = match (panic, status.success()) {
-        (Some(text), _) => Some((case, How::Panic(text))),
+        (Some(text), _) => failed(How::Panic(text), case),
         (None, true) => None,
-        (None, false) => Some((case, How::Ended(said(&status, stderr.path())))),
+        (None, false) => failed(How::Ended(said(&status, stderr.path())), case),
     };
     Ended { failed, slowest }
 }

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use crate::batch::{Ended, Terms, try_cases, try_file};
+use crate::batch::{Ended, Failed, Terms, try_cases, try_file};
 use crate::failure::{Failure, How, save};
 use crate::fixture::Fixture;
 use crate::options::{CASES, Input, Plan};
@@ -15,7 +15,6 @@ use crate::place::Place;
 use crate::seeds::seeds;
 use crate::self_test;
 use crate::target::Target;
-use crate::worker::input;
 
 /// The longest that a case may take.
 const LIMIT: Duration = Duration::from_secs(60);
@@ -99,7 +98,7 @@ pub fn try_one(asked: &Input) -> ExitCode {
             println!("fuzz: {}: it came back", asked.target.name);
             ExitCode::SUCCESS
         }
-        Some((_, how)) => {
+        Some(Failed { how, .. }) => {
             println!("fuzz: {}: {how}", asked.target.name);
             ExitCode::FAILURE
         }
@@ -140,37 +139,37 @@ fn try_batch(terms: &Terms, target: &'static Target, mut cases: Range<u64>, foun
         }
         let began = Instant::now();
         let Ended { failed, slowest } = try_cases(target, cases.clone(), terms);
-        let next = failed.as_ref().map_or(cases.end, |(case, _)| case + 1);
-        let kept = failed.map(|(case, how)| (keep(terms, target, case), case, how));
+        let next = failed.as_ref().map_or(cases.end, |failed| failed.case + 1);
         let mut found = found.lock().unwrap();
         let tally = found.tallies.entry(target.name).or_default();
         tally.cases += next - cases.start;
         tally.time += began.elapsed();
         tally.slowest = tally.slowest.max(slowest);
-        if let Some((path, case, how)) = kept {
+        if let Some(failed) = failed {
             tally.failed += 1;
-            found.add(Failure {
-                target,
-                how,
-                path,
-                case,
-                count: 1,
-            });
+            found.add(target, failed);
         }
         cases.start = next;
     }
 }
 
 impl Found {
-    fn add(&mut self, failure: Failure) {
-        let key = (failure.target.name, failure.how.kind());
-        match self.failures.get_mut(&key) {
-            Some(known) => known.count += 1,
-            None => {
-                eprintln!("fuzz: {}: {}", failure.target.name, failure.how);
-                self.failures.insert(key, failure);
-            }
+    /// Counts a failure; keeps the input of the first of its kind.
+    fn add(&mut self, target: &'static Target, Failed { case, how, input }: Failed) {
+        let key = (target.name, how.kind());
+        if let Some(known) = self.failures.get_mut(&key) {
+            known.count += 1;
+            return;
         }
+        eprintln!("fuzz: {}: {how}", target.name);
+        let failure = Failure {
+            path: save(target, &input),
+            target,
+            how,
+            case,
+            count: 1,
+        };
+        self.failures.insert(key, failure);
     }
 
     /// How each failure happened, by target.
@@ -180,13 +179,6 @@ impl Found {
             .map(|failure| &failure.how)
             .collect()
     }
-}
-
-/// Makes the input of a case again, and keeps it.
-fn keep(terms: &Terms, target: &Target, case: u64) -> std::path::PathBuf {
-    let place = Place::new(terms.fixture);
-    let seeds = seeds(target, &place);
-    save(target, &input(target, &place, &seeds, terms.seed, case))
 }
 
 /// Every seed, and as many changed ones as a target's share is: those that take long first.

@@ -59,6 +59,8 @@ pub enum Inputs {
         seed: u64,
         /// Their numbers.
         cases: Range<u64>,
+        /// The file that each is kept in while it is tried.
+        kept: PathBuf,
     },
     /// That of a file.
     File(PathBuf),
@@ -127,6 +129,7 @@ fn work(value: &mut impl FnMut() -> Result<String, String>) -> Result<Work, Stri
         seed => Inputs::Made {
             seed: number("--work", seed)?,
             cases: number("--work", &value()?)?..number("--work", &value()?)?,
+            kept: value()?.into(),
         },
     };
     Ok(Work {

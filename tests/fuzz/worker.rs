@@ -37,12 +37,11 @@ pub fn work(work: &Work) -> ExitCode {
             let input = std::fs::read(path).expect("the input can be read");
             try_input(work.target, &mut place, 0, &input)
         }
-        Inputs::Made { seed, cases } => {
+        Inputs::Made { seed, cases, kept } => {
             let seeds = seeds(work.target, &place);
             for case in cases.clone() {
-                // Said before the input is made: making one may fail as well.
-                say(&format!("begin {case}"));
                 let input = input(work.target, &place, &seeds, *seed, case);
+                std::fs::write(kept, &input).expect("an input can be kept");
                 let tried = try_input(work.target, &mut place, case, &input);
                 if tried != ExitCode::SUCCESS {
                     return tried;
@@ -60,7 +59,7 @@ fn message(payload: &dyn Any) -> &str {
 }
 
 /// The input of a case: the seeds first, each as it is, then changed ones.
-pub fn input(target: &Target, place: &Place, seeds: &[Seed], seed: u64, case: u64) -> Vec<u8> {
+fn input(target: &Target, place: &Place, seeds: &[Seed], seed: u64, case: u64) -> Vec<u8> {
     match seeds.get(case as usize) {
         Some(Seed::Bytes(bytes)) => bytes.clone(),
         Some(Seed::Made(make)) => make(),

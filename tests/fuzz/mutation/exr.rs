@@ -42,8 +42,7 @@ pub fn change(input: &mut Vec<u8>, place: &Place, random: &mut Random) {
 
 fn name(file: &ExrFile, random: &mut Random) -> String {
     match random.once_in(3) {
-        // A channel without a name cannot be written.
-        true => format!("coverage.{}", random.pick(&TEXTS).replace('\0', "")),
+        true => format!("coverage.{}", text(random)),
         false => {
             file.channels[random.below(file.channels.len())]
                 .name
@@ -51,6 +50,14 @@ fn name(file: &ExrFile, random: &mut Random) -> String {
                 + "x"
         }
     }
+}
+
+/// A text that the format holds.
+fn text(random: &mut Random) -> String {
+    let text = random.pick(&TEXTS);
+    text.chars()
+        .filter(|c| c.is_ascii() && *c != '\0')
+        .collect()
 }
 
 /// Another size, with as many samples as that takes.
@@ -104,7 +111,7 @@ fn attribute(file: &mut ExrFile, random: &mut Random) {
             file.attributes.remove(&name);
             return;
         }
-        1 => (*random.pick(&TEXTS)).to_owned(),
+        1 => text(random),
         2 => format!("{old} {old}"),
         3 => file.attributes[random.pick(&names)].clone(),
         _ => (*random.pick(&NUMBERS)).to_owned(),

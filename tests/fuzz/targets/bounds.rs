@@ -16,7 +16,7 @@ use crate::tokens;
 /// bounds.toml beside the scenes, and beside a scene.
 pub static TARGET: Target = Target {
     name: "bounds",
-    share: 1_500,
+    share: 1_300,
     batch: 500,
     shape: Shape::Text,
     tokens: tokens::BOUNDS,

@@ -21,7 +21,7 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// Command lines in a folder with scenes, a run and a tuning.
 pub static TARGET: Target = Target {
     name: "command_line",
-    share: 400,
+    share: 350,
     batch: 50,
     shape: Shape::Words,
     tokens: tokens::WORDS,

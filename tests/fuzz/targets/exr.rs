@@ -15,7 +15,7 @@ use crate::target::{Shape, Target};
 /// Frames, truths and ladders, as `score` reads them.
 pub static EXR: Target = Target {
     name: "exr",
-    share: 1_000,
+    share: 800,
     batch: 100,
     shape: Shape::Exr,
     tokens: none(),
@@ -61,7 +61,7 @@ pub static EXR: Target = Target {
 /// Pictures of other programs.
 pub static PICTURE: Target = Target {
     name: "picture",
-    share: 600,
+    share: 500,
     batch: 100,
     shape: Shape::Exr,
     tokens: none(),
@@ -92,7 +92,7 @@ pub static PICTURE: Target = Target {
 /// Replicates that `merge` joins.
 pub static MERGE: Target = Target {
     name: "merge",
-    share: 400,
+    share: 300,
     batch: 100,
     shape: Shape::Exr,
     tokens: none(),

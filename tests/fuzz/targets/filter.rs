@@ -47,7 +47,7 @@ pub static MANIFEST: Target = Target {
 /// WGSL.
 pub static WGSL: Target = Target {
     name: "wgsl",
-    share: 1_500,
+    share: 1_200,
     batch: 250,
     shape: Shape::Text,
     tokens: tokens::WGSL,

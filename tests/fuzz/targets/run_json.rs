@@ -20,7 +20,7 @@ use crate::tokens;
 /// run.json.
 pub static RUN: Target = Target {
     name: "run_json",
-    share: 700,
+    share: 600,
     batch: 70,
     shape: Shape::Text,
     tokens: tokens::JSON,
@@ -43,7 +43,7 @@ pub static RUN: Target = Target {
 /// A baseline.
 pub static BASELINE: Target = Target {
     name: "baseline",
-    share: 500,
+    share: 450,
     batch: 250,
     shape: Shape::Text,
     tokens: tokens::JSON,

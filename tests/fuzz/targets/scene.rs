@@ -20,12 +20,15 @@ use crate::tokens;
 /// scene.toml.
 pub static SCENE: Target = Target {
     name: "scene",
-    share: 4_000,
+    share: 3_500,
     batch: 500,
     shape: Shape::Text,
     tokens: tokens::SCENE,
     seeds: |_| {
-        let mut seeds: Vec<Seed> = shipped("scenes", "scene.toml").iter().map(at_home).collect();
+        let mut seeds: Vec<Seed> = shipped("scenes", "scene.toml")
+            .iter()
+            .map(at_home)
+            .collect();
         seeds.extend([
             Seed::Made(huge::objects_at_one_pose),
             Seed::Made(huge::chain_of_parents),
@@ -45,7 +48,7 @@ pub static SCENE: Target = Target {
 /// OBJ.
 pub static OBJ: Target = Target {
     name: "obj",
-    share: 2_500,
+    share: 1_500,
     batch: 500,
     shape: Shape::Text,
     tokens: tokens::MODEL,
@@ -71,7 +74,7 @@ pub static OBJ: Target = Target {
 /// MTL.
 pub static MTL: Target = Target {
     name: "mtl",
-    share: 2_000,
+    share: 1_500,
     batch: 500,
     shape: Shape::Text,
     tokens: tokens::MODEL,
@@ -85,7 +88,7 @@ pub static MTL: Target = Target {
 /// OBJ files that `import` makes scenes of.
 pub static IMPORT: Target = Target {
     name: "import",
-    share: 500,
+    share: 400,
     batch: 250,
     shape: Shape::Text,
     tokens: tokens::MODEL,
@@ -120,7 +123,7 @@ pub static IMPORT: Target = Target {
 /// Scenes that are rendered where they can be loaded.
 pub static RENDER: Target = Target {
     name: "render",
-    share: 1_000,
+    share: 800,
     batch: 100,
     shape: Shape::Text,
     tokens: tokens::SCENE,
@@ -136,7 +139,7 @@ pub static RENDER: Target = Target {
 /// PNG and JPEG.
 pub static TEXTURE: Target = Target {
     name: "texture",
-    share: 2_000,
+    share: 1_500,
     batch: 500,
     shape: Shape::Png,
     tokens: none(),

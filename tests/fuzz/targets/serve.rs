@@ -13,7 +13,7 @@ use crate::tokens;
 /// Lines of standard input, to a program that goes on.
 pub static TARGET: Target = Target {
     name: "serve",
-    share: 700,
+    share: 600,
     batch: 350,
     shape: Shape::Text,
     tokens: tokens::SERVE,

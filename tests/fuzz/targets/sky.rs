@@ -12,7 +12,7 @@ use crate::target::{Shape, Target};
 /// Radiance HDR.
 pub static HDR: Target = Target {
     name: "sky_hdr",
-    share: 700,
+    share: 600,
     batch: 350,
     shape: Shape::Bytes,
     tokens: none(),
@@ -28,7 +28,7 @@ pub static HDR: Target = Target {
 /// OpenEXR of other programs.
 pub static EXR: Target = Target {
     name: "sky_exr",
-    share: 700,
+    share: 600,
     batch: 350,
     shape: Shape::Exr,
     tokens: none(),

@@ -13,7 +13,7 @@ use crate::tokens;
 /// journal.jsonl.
 pub static JOURNAL: Target = Target {
     name: "journal",
-    share: 800,
+    share: 700,
     batch: 400,
     shape: Shape::Text,
     tokens: tokens::JSON,
@@ -40,7 +40,7 @@ pub static JOURNAL: Target = Target {
 /// tune.json and sensitivity.json.
 pub static TUNE: Target = Target {
     name: "tune_json",
-    share: 500,
+    share: 450,
     batch: 250,
     shape: Shape::Text,
     tokens: tokens::JSON,
