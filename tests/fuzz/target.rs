@@ -29,10 +29,8 @@ pub enum Shape {
     Text,
     /// Bytes.
     Bytes,
-    /// PNG: chunks, whose checksums are made right again.
-    Png,
-    /// OpenEXR: channels and attributes, whose checksum is made right again.
-    Exr,
+    /// PNG: chunks. OpenEXR: channels and attributes. Their checksums are made right again. Other pictures: bytes.
+    Picture,
     /// A command line with one word on each line.
     Words,
 }

@@ -31,6 +31,7 @@ mod exr_header;
 mod exr_text;
 mod instant;
 mod picture;
+mod png_palette;
 mod provenance;
 mod raster;
 mod region;
@@ -53,6 +54,7 @@ pub use exr_file::{Channel, ExrFile, Samples, read_exr, write_atomically, write_
 pub use exr_header::{LARGEST_EXR_RATIO, LARGEST_EXR_SIDE, MOST_EXR_BYTES, MOST_EXR_CHANNELS};
 pub use instant::{ColorSampling, FAR_DEPTH, Frame, VelocityKind};
 pub use picture::Picture;
+pub use png_palette::check_png_palette;
 pub use provenance::Provenance;
 pub use raster::{Image, Plane, Raster, Vectors};
 pub use region::{Region, Regions, regions};

@@ -15,6 +15,10 @@ use crate::target::{Shape, Target};
 /// Longest input that is made.
 const LONGEST: usize = 400_000;
 
+/// How files begin.
+const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
+const EXR: &[u8] = b"\x76\x2F\x31\x01";
+
 /// What changes are made with.
 pub struct Source<'a> {
     /// Of the target.
@@ -37,9 +41,11 @@ pub fn mutate(target: &Target, place: &Place, seeds: &[&[u8]], random: &mut Rand
             Shape::Text if random.once_in(8) => bytes::change(&mut input, &source, random),
             Shape::Text => text::change(&mut input, &source, random),
             Shape::Words => words::change(&mut input, &source, random),
-            Shape::Png if whole => png::change(&mut input, random),
-            Shape::Exr if whole => exr::change(&mut input, place, random),
-            Shape::Bytes | Shape::Png | Shape::Exr => bytes::change(&mut input, &source, random),
+            Shape::Picture if whole && input.starts_with(PNG) => png::change(&mut input, random),
+            Shape::Picture if whole && input.starts_with(EXR) => {
+                exr::change(&mut input, place, random);
+            }
+            Shape::Bytes | Shape::Picture => bytes::change(&mut input, &source, random),
         }
         input.truncate(LONGEST);
     }

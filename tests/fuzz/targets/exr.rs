@@ -9,7 +9,7 @@ use suite::{merge, read_finished, score};
 use super::none;
 use crate::fixture::files;
 use crate::huge;
-use crate::seeds::Seed;
+use crate::seeds::{Seed, shipped};
 use crate::target::{Shape, Target};
 
 /// Frames, truths and ladders, as `score` reads them.
@@ -17,7 +17,7 @@ pub static EXR: Target = Target {
     name: "exr",
     share: 800,
     batch: 100,
-    shape: Shape::Exr,
+    shape: Shape::Picture,
     tokens: none(),
     seeds: |place| {
         let out = place.fixture.join("out");
@@ -63,14 +63,15 @@ pub static PICTURE: Target = Target {
     name: "picture",
     share: 500,
     batch: 100,
-    shape: Shape::Exr,
+    shape: Shape::Picture,
     tokens: none(),
     seeds: |place| {
         let pictures = files(&place.fixture.join("out"), "output.exr");
-        let seeds = pictures
-            .iter()
-            .map(|path| Seed::Bytes(fs::read(path).unwrap()));
-        seeds.collect()
+        let mut seeds: Vec<Seed> = (pictures.iter())
+            .map(|path| Seed::Bytes(fs::read(path).unwrap()))
+            .collect();
+        seeds.extend(shipped("tests/fuzz/corpus/texture", ""));
+        seeds
     },
     run: |place, input| {
         let scene = place.copied("out").join("plate");
@@ -94,7 +95,7 @@ pub static MERGE: Target = Target {
     name: "merge",
     share: 300,
     batch: 100,
-    shape: Shape::Exr,
+    shape: Shape::Picture,
     tokens: none(),
     seeds: |place| {
         let replicates = files(&place.fixture.join("out"), ".exr");

@@ -13,7 +13,7 @@ use tracer::{
 use super::none;
 use crate::huge;
 use crate::place::Place;
-use crate::seeds::{Seed, in_repository, shipped};
+use crate::seeds::{Seed, shipped};
 use crate::target::{Shape, Target};
 use crate::tokens;
 
@@ -92,15 +92,7 @@ pub static IMPORT: Target = Target {
     batch: 250,
     shape: Shape::Text,
     tokens: tokens::MODEL,
-    seeds: |_| {
-        let corpus = fs::read_dir(in_repository("tests/fuzz/corpus/obj")).into_iter();
-        let mut paths: Vec<PathBuf> = corpus.flatten().map(|file| file.unwrap().path()).collect();
-        paths.sort();
-        let seeds = paths
-            .iter()
-            .map(|path| Seed::Bytes(fs::read(path).unwrap()));
-        seeds.collect()
-    },
+    seeds: |_| shipped("tests/fuzz/corpus/obj", ""),
     run: |place, input| {
         let folder = write(place, "mesh.obj", input);
         let out = place.folder.join("imported");
@@ -141,7 +133,7 @@ pub static TEXTURE: Target = Target {
     name: "texture",
     share: 1_500,
     batch: 500,
-    shape: Shape::Png,
+    shape: Shape::Picture,
     tokens: none(),
     seeds: |_| {
         vec![

@@ -30,7 +30,7 @@ pub static EXR: Target = Target {
     name: "sky_exr",
     share: 600,
     batch: 350,
-    shape: Shape::Exr,
+    shape: Shape::Picture,
     tokens: none(),
     seeds: |place| {
         let mut seeds = vec![Seed::Made(huge::exr_that_boasts)];

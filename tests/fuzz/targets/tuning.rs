@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use suite::{Journal, TuneFolder, sensitivity_table, tuning_page, tuning_table};
+use suite::{Journal, TuneFolder, tuning_page};
 
 use super::run_json::of;
 use crate::huge;
@@ -66,10 +66,7 @@ pub static TUNE: Target = Target {
 };
 
 fn show(folder: &std::path::Path) {
-    let Ok(folder) = TuneFolder::read(folder) else {
-        return;
-    };
-    drop(tuning_page(&folder));
-    drop(folder.tuning.as_ref().map(tuning_table));
-    drop(folder.sensitivity.as_ref().map(sensitivity_table));
+    if let Ok(folder) = TuneFolder::read(folder) {
+        drop(tuning_page(&folder));
+    }
 }
