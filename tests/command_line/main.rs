@@ -16,6 +16,7 @@ mod import;
 mod interrupts;
 mod kept;
 mod kept_cases;
+mod links;
 mod own_filter;
 mod reference_width;
 mod refusals;

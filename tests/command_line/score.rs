@@ -3,7 +3,7 @@
 use std::fs;
 
 use frame::{ExrFile, Frame, Raster, Truth, display_srgb, read_exr, write_exr, write_png};
-use metrics::{Metric, ProbeScores, Scores, SkillMetric};
+use metrics::{EquivalentMetric, Metric, ProbeScores, Scores, SkillMetric};
 
 use crate::bench::{Bench, SCENE, assert_done, assert_refused, stdout};
 
@@ -51,8 +51,7 @@ fn of_colour(metric: &Metric) -> bool {
             | Metric::StaticContamination
             | Metric::Frozen(_)
             | Metric::Skill(SkillMetric::Mse | SkillMetric::Flip)
-            | Metric::EquivalentSubframes
-            | Metric::EquivalentSubframesFlip
+            | Metric::Equivalent(EquivalentMetric::Mse | EquivalentMetric::Flip)
     )
 }
 

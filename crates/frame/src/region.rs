@@ -68,15 +68,22 @@ impl fmt::Display for Region {
 }
 
 impl Regions {
+    /// The pixels of a region; none where these are all.
+    pub fn mask(&self, region: Region) -> Option<&Raster<bool>> {
+        match region {
+            Region::Moving => Some(&self.moving),
+            Region::Support => Some(&self.support),
+            Region::Still => Some(&self.still),
+            Region::Full => None,
+            Region::Knowable => Some(&self.knowable),
+            Region::Unknowable => Some(&self.unknowable),
+        }
+    }
+
     /// The values of `map` inside a region, in row order.
     pub fn select<T: Copy>(&self, region: Region, map: &Raster<T>) -> Vec<T> {
-        let mask = match region {
-            Region::Moving => &self.moving,
-            Region::Support => &self.support,
-            Region::Still => &self.still,
-            Region::Full => return map.pixels.clone(),
-            Region::Knowable => &self.knowable,
-            Region::Unknowable => &self.unknowable,
+        let Some(mask) = self.mask(region) else {
+            return map.pixels.clone();
         };
         assert!(
             mask.same_size(map),

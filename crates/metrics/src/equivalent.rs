@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::Measured;
 
-/// How many accumulated sub-frames have a picture's error, or why that cannot be told.
+/// Number of accumulated sub-frames that have the picture's error, or the reason why none can be told.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Equivalent {
-    /// As good as the mean of that many sub-frames.
+    /// The picture is as good as the mean of that many sub-frames.
     Subframes(Subframes),
     /// No count.
     NotApplicable {
@@ -31,7 +31,7 @@ pub struct Subframes {
     pub reach: Reach,
 }
 
-/// Where an error lies relative to a ladder.
+/// Position of an error relative to a ladder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Reach {
@@ -58,7 +58,7 @@ impl Equivalent {
         }
     }
 
-    /// As a score among others.
+    /// Converts the count to a score.
     pub fn measured(&self) -> Measured {
         match self {
             Equivalent::Subframes(subframes) => Measured::score(subframes.value, subframes.floor),

@@ -1,4 +1,4 @@
-//! What cannot be measured.
+//! Errors of measuring.
 
 /// Inputs that do not belong together, or that hold no numbers.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -28,7 +28,7 @@ pub enum MeasureError {
         width: u32,
         /// The truth's height.
         height: u32,
-        /// How many pixels are allowed.
+        /// Number of pixels that are allowed.
         limit: u64,
     },
     /// A picture without one matte per object.
@@ -38,9 +38,9 @@ pub enum MeasureError {
     Mattes {
         /// Which input.
         what: String,
-        /// How many mattes it has.
+        /// Number of its mattes.
         found: usize,
-        /// How many objects the truth has.
+        /// Number of the truth's objects.
         allowed: usize,
     },
     /// Infinity or NaN.
@@ -81,9 +81,9 @@ pub enum MeasureError {
     Disagree {
         /// Which input, and which of its properties.
         what: &'static str,
-        /// What it holds.
+        /// Value found.
         found: String,
-        /// What the truth holds.
+        /// The truth's value.
         allowed: String,
     },
     /// HDR-FLIP exposures that make no range.
@@ -93,13 +93,13 @@ pub enum MeasureError {
         most = frame::MOST_STOPS
     )]
     Exposures {
-        /// Of LDR comparisons, in stops.
+        /// Exposure of LDR comparisons, in stops.
         stops: f32,
         /// Darkest, in stops.
         start: f32,
         /// Brightest, in stops.
         stop: f32,
-        /// How many.
+        /// Number of exposures.
         count: u32,
     },
 }

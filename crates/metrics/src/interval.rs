@@ -1,12 +1,12 @@
-//! How far a score may be off because the truth is noisy.
+//! Jackknife intervals of scores against a noisy truth.
 
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// Of how many intervals the converged score lies inside.
+/// Fraction of intervals that contain the converged score.
 const CONFIDENCE: f64 = 0.95;
 
-/// Where the score against a truth without noise lies, with a confidence of 95 %.
+/// 95 % CI of the score against a truth without noise.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Interval {
     /// Lower end, in the metric's unit.
@@ -47,7 +47,7 @@ pub fn jackknife(whole: f64, without: &[f64]) -> Option<Interval> {
     })
 }
 
-/// What Student's t stays below on either side with the wanted confidence.
+/// Two-sided critical value of Student's t at the wanted confidence.
 fn quantile(degrees_of_freedom: f64) -> f64 {
     StudentsT::new(0.0, 1.0, degrees_of_freedom)
         .expect("two groups have a degree of freedom")

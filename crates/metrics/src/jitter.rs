@@ -4,13 +4,13 @@ use frame::{Image, Raster, Region};
 use serde::{Deserialize, Serialize};
 
 use crate::Reference;
-use crate::cross_error::squared_error;
-use crate::pooling::mean;
+use crate::color::cross_error::squared_error;
+use crate::color::pooling::mean;
 
 /// The squared error of one frame, over what moves, in two parts that add up to it on average.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Jitter {
-    /// How many frames of the filter's noise were made; only the noise differs between them.
+    /// Frames of the filter's noise; only the noise differs between them.
     pub frames: u32,
     /// Squared error of the noise's expectation, in display-scaled radiance: what averaging over frames leaves. Unbiased, and
     /// so possibly below 0 where it is lost in the truth's own noise.

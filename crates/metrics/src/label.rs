@@ -1,4 +1,4 @@
-//! Which object the shutter's time is given to, and how much of it wrongly.
+//! Label total variation: the fraction of the shutter that is given to the wrong object.
 
 use frame::{Plane, Raster};
 

@@ -1,14 +1,14 @@
-//! What accumulations of sub-frames score, as curves that pictures are placed on.
+//! Error of the accumulation ladder by number of sub-frames.
 
 use frame::{Ladder, Picture, Raster, Truth};
 use rayon::prelude::*;
 
-use crate::cross_error::cross;
+use crate::color::cross_error::cross;
+use crate::color::error_maps::widen;
+use crate::color::flip::flip_ldr;
+use crate::color::pooling::mean;
 use crate::equivalent::Curve;
-use crate::error_maps::widen;
-use crate::flip::flip_ldr;
 use crate::label::total_variation;
-use crate::pooling::mean;
 use crate::{Region, Regions, Viewing};
 
 /// Errors over the moving region against the count of sub-frames.

@@ -1,71 +1,56 @@
-//! How far a picture is from the truth, and in which way.
+//! Scores of a picture against the truth.
 //!
 //! [`measure`] compares a filter's output with the truth and returns [`Scores`] with the [`Maps`] that they were pooled
 //! from. Every score comes with its floor: what the truth's own noise makes of it. A score that would mean nothing in a
 //! scene is not a number but a reason. `README.md` beside this crate defines each score and says what fools it;
 //! [`Metric`] names them all.
 
-mod absolute_error;
-mod along_motion;
-mod bleed;
 mod check;
-mod convolution;
-mod cross_error;
+mod color;
 mod equivalent;
 mod error;
-mod error_maps;
-mod flip;
-mod frozen;
-mod gradient;
 mod interval;
 mod jitter;
 mod label;
 mod ladder;
 mod maps;
-mod mass;
 mod metric;
-mod misplacement;
-mod mover;
-mod nearest;
+mod metric_rows;
 mod object;
-mod object_sides;
 #[cfg(test)]
 mod parity;
-mod pooled;
-mod pooled_scores;
-mod pooling;
 mod probes;
 mod reference;
-mod row_mass;
-mod rows;
+mod row;
 mod score;
 mod scores;
 mod skill;
-mod ssim;
 mod viewing;
-mod worst_bleed;
 
-pub use absolute_error::SMAPE_EPSILON;
-pub use bleed::Side;
-pub use cross_error::{PSNR_LIMIT, RELATIVE_EPSILON};
+pub use color::absolute_error::SMAPE_EPSILON;
+pub use color::cross_error::{PSNR_LIMIT, RELATIVE_EPSILON};
+pub use color::flip::{flip_hdr, flip_ldr};
+pub use color::ssim::{SSIM_BORDER, ssim};
 pub use equivalent::{Equivalent, Reach, Subframes};
 pub use error::MeasureError;
-pub use flip::{flip_hdr, flip_ldr};
 pub use frame::{Region, Regions, regions};
-pub use gradient::{gradient_error, gradient_magnitude};
 pub use interval::{Interval, jackknife};
 pub use jitter::Jitter;
-pub use maps::Maps;
-pub use metric::{FrozenMetric, ImageMetric, Metric, ObjectMetric, ProbeMetric, SkillMetric};
-pub use object_sides::object_sides;
-pub use probes::{ProbeMaps, ProbeMeasurement, Probes};
-pub use reference::{Measurement, Reference};
-pub use score::{Ideal, Measured, Score};
-pub use scores::{
-    EquivalentScores, FrozenScores, ImageScores, LabelScores, ObjectScores, ProbeScores, Scores,
+pub use maps::{ErrorMap, Maps};
+pub use metric::Metric;
+pub use metric_rows::{
+    EquivalentMetric, EquivalentScores, FrozenMetric, FrozenScores, ImageMetric, ImageScores,
+    LabelMetric, LabelScores, ObjectMetric, ObjectScores, ProbeMetric, ProbeScores, SkillMetric,
     SkillScores,
 };
-pub use ssim::{SSIM_BORDER, ssim};
+pub use object::bleed::Side;
+pub use object::gradient::{gradient_error, gradient_magnitude};
+pub use object::object_sides::object_sides;
+pub use probes::{ProbeMaps, ProbeMeasurement, Probes};
+pub use reference::{Measurement, Reference};
+pub use row::{Group, Row};
+pub use score::{Ideal, Measured, Score};
+pub use scores::Scores;
 pub use viewing::Viewing;
 
 use frame::{Frame, Ladder, Picture, Truth};

@@ -1,6 +1,8 @@
-//! The pictures that the scores were pooled from.
+//! The pictures that the scores were pooled from, and their names.
 
 use frame::{Image, Plane};
+
+use crate::Measurement;
 
 /// One error map per kind of score, each of the output's size.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,8 +29,109 @@ pub struct Maps {
     pub bleed: Plane,
     /// Sum over moving objects of the squared difference of their mattes' gradient magnitudes, per square pixel.
     pub gradient_error: Plane,
-    /// As `squared_error`, against the truth whose shading stands still at the instant.
+    /// `squared_error` against the truth whose shading is frozen at the instant.
     pub frozen_squared_error: Plane,
     /// `|F - I|` at the viewing exposure, mean over the channels, I being the instant; 0 where anything moves.
     pub static_change: Plane,
+}
+
+/// One error map, of the output or of probes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ErrorMap {
+    /// [`Maps::squared_error`].
+    SquaredError,
+    /// [`Maps::relative_squared_error`].
+    RelativeSquaredError,
+    /// [`Maps::absolute_error`].
+    AbsoluteError,
+    /// [`Maps::symmetric_error`].
+    SymmetricError,
+    /// [`Maps::ssim`].
+    Ssim,
+    /// [`Maps::flip`].
+    Flip,
+    /// [`Maps::flip_hdr`].
+    FlipHdr,
+    /// [`Maps::label_total_variation`].
+    LabelTotalVariation,
+    /// [`Maps::bleed`].
+    Bleed,
+    /// [`Maps::gradient_error`].
+    GradientError,
+    /// [`Maps::frozen_squared_error`].
+    FrozenSquaredError,
+    /// [`Maps::static_change`].
+    StaticChange,
+    /// [`ProbeMaps::unity`](crate::ProbeMaps::unity).
+    Unity,
+    /// [`ProbeMaps::offset`](crate::ProbeMaps::offset).
+    GatherOffset,
+    /// [`ProbeMaps::spread`](crate::ProbeMaps::spread).
+    GatherSpread,
+}
+
+impl ErrorMap {
+    /// Every map, in the order of a file.
+    pub const ALL: [ErrorMap; 15] = [
+        ErrorMap::SquaredError,
+        ErrorMap::RelativeSquaredError,
+        ErrorMap::AbsoluteError,
+        ErrorMap::SymmetricError,
+        ErrorMap::Ssim,
+        ErrorMap::Flip,
+        ErrorMap::FlipHdr,
+        ErrorMap::LabelTotalVariation,
+        ErrorMap::Bleed,
+        ErrorMap::GradientError,
+        ErrorMap::FrozenSquaredError,
+        ErrorMap::StaticChange,
+        ErrorMap::Unity,
+        ErrorMap::GatherOffset,
+        ErrorMap::GatherSpread,
+    ];
+
+    /// The name of its channel in errors.exr.
+    pub fn name(self) -> &'static str {
+        match self {
+            ErrorMap::SquaredError => "squared_error",
+            ErrorMap::RelativeSquaredError => "relative_squared_error",
+            ErrorMap::AbsoluteError => "absolute_error",
+            ErrorMap::SymmetricError => "symmetric_error",
+            ErrorMap::Ssim => "ssim",
+            ErrorMap::Flip => "flip",
+            ErrorMap::FlipHdr => "flip_hdr",
+            ErrorMap::LabelTotalVariation => "label_tv",
+            ErrorMap::Bleed => "bleed",
+            ErrorMap::GradientError => "gradient_error",
+            ErrorMap::FrozenSquaredError => "frozen_squared_error",
+            ErrorMap::StaticChange => "static_change",
+            ErrorMap::Unity => "unity",
+            ErrorMap::GatherOffset => "gather_offset",
+            ErrorMap::GatherSpread => "gather_spread",
+        }
+    }
+}
+
+impl Measurement {
+    /// A map; none for one of probes where none were run.
+    pub fn map(&self, map: ErrorMap) -> Option<&Plane> {
+        let (maps, probes) = (&self.maps, self.probes.as_ref());
+        match map {
+            ErrorMap::SquaredError => Some(&maps.squared_error),
+            ErrorMap::RelativeSquaredError => Some(&maps.relative_squared_error),
+            ErrorMap::AbsoluteError => Some(&maps.absolute_error),
+            ErrorMap::SymmetricError => Some(&maps.symmetric_error),
+            ErrorMap::Ssim => Some(&maps.ssim),
+            ErrorMap::Flip => Some(&maps.flip),
+            ErrorMap::FlipHdr => Some(&maps.flip_hdr),
+            ErrorMap::LabelTotalVariation => Some(&maps.label_total_variation),
+            ErrorMap::Bleed => Some(&maps.bleed),
+            ErrorMap::GradientError => Some(&maps.gradient_error),
+            ErrorMap::FrozenSquaredError => Some(&maps.frozen_squared_error),
+            ErrorMap::StaticChange => Some(&maps.static_change),
+            ErrorMap::Unity => probes.map(|probes| &probes.unity),
+            ErrorMap::GatherOffset => probes.map(|probes| &probes.offset),
+            ErrorMap::GatherSpread => probes.map(|probes| &probes.spread),
+        }
+    }
 }

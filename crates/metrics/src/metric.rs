@@ -1,21 +1,23 @@
-//! The name, unit and direction of every score.
+//! Every metric by name, as bounds and tables address it.
 
 use std::fmt;
 use std::str::FromStr;
 
-use crate::{Ideal, Region};
+use crate::row::{Group, Row};
+use crate::{
+    EquivalentMetric, ErrorMap, FrozenMetric, Ideal, ImageMetric, LabelMetric, ObjectMetric,
+    ProbeMetric, Region, SkillMetric,
+};
 
-/// A score by name, as bounds and tables address it.
+/// A score by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Metric {
     /// An error of colour over a region: `flip_moving`, `psnr_full`.
     Image(ImageMetric, Region),
     /// A score of the worst moving object: `lateral_growth`.
     Object(ObjectMetric),
-    /// `label_tv`: mean over the moving region.
-    LabelTotalVariation,
-    /// `label_tv_p95`.
-    LabelTotalVariationP95,
+    /// Label total variation over the moving region: `label_tv`.
+    Label(LabelMetric),
     /// `occluder_contamination`: label total variation on the worst of the objects that stand still.
     OccluderContamination,
     /// `static_contamination`: what a picture changes where nothing moves.
@@ -26,220 +28,17 @@ pub enum Metric {
     Probe(ProbeMetric),
     /// Share of the way from doing nothing to the one-frame oracle: `skill_flip`.
     Skill(SkillMetric),
-    /// `n_eq`: by squared error, the headline.
-    EquivalentSubframes,
-    /// `n_eq_flip`.
-    EquivalentSubframesFlip,
-    /// `n_eq_label_tv`.
-    EquivalentSubframesLabel,
-}
-
-/// An error of colour.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ImageMetric {
-    /// Unbiased mean squared error.
-    Mse,
-    /// Peak signal to noise ratio.
-    Psnr,
-    /// Unbiased relative squared error.
-    Relmse,
-    /// Mean absolute error.
-    Mae,
-    /// Symmetric mean absolute percentage error.
-    Smape,
-    /// Mean LDR-FLIP.
-    Flip,
-    /// LDR-FLIP's median, each pixel weighted by its FLIP.
-    FlipWeightedMedian,
-    /// 95th percentile of LDR-FLIP.
-    FlipP95,
-    /// 99th percentile of LDR-FLIP.
-    FlipP99,
-    /// Mean HDR-FLIP.
-    FlipHdr,
-    /// Structural similarity; reported, never bounded.
-    Ssim,
-}
-
-/// A score of one object's matte.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ObjectMetric {
-    /// Hard bleed beside the support.
-    BleedLateral,
-    /// Hard bleed ahead of it.
-    BleedLeading,
-    /// Hard bleed behind it.
-    BleedTrailing,
-    /// Growth across the motion.
-    LateralGrowth,
-    /// Mass that rows along the motion gain.
-    RowGain,
-    /// Mass that they lose.
-    RowLoss,
-    /// Wasserstein distance along the motion.
-    Misplacement,
-    /// Signed shift along the motion.
-    Centroid,
-    /// Length ratio along the motion.
-    Extent,
-    /// Steps, ripples and noise along the motion.
-    TvExcess,
-    /// Holes where nothing else is seen.
-    Hole,
-    /// Missing mass.
-    Deficit,
-    /// Mass ratio.
-    Energy,
-    /// Label total variation on the object.
-    LabelTotalVariation,
-    /// Squared difference of the gradients' magnitudes.
-    GradientError,
-}
-
-/// An error against the frozen-shading truth, over the moving region.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum FrozenMetric {
-    /// Unbiased mean squared error.
-    Mse,
-    /// Mean LDR-FLIP.
-    Flip,
-    /// Squared difference of the two truths: no picture takes part in it.
-    Shading,
-}
-
-/// What a filter makes of pictures of ones and of coordinates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ProbeMetric {
-    /// Sum of the weights, against 1.
-    Unity,
-    /// Mean place that is gathered from.
-    GatherOffset,
-    /// Spread of the places that are gathered from.
-    GatherSpread,
-}
-
-/// Share of the way from doing nothing to the one-frame oracle, over the moving region.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum SkillMetric {
-    /// By unbiased squared error.
-    Mse,
-    /// By mean LDR-FLIP.
-    Flip,
-    /// By mean label total variation.
-    LabelTotalVariation,
-}
-
-impl ImageMetric {
-    /// Every error of colour.
-    pub const ALL: [ImageMetric; 11] = [
-        ImageMetric::Mse,
-        ImageMetric::Psnr,
-        ImageMetric::Relmse,
-        ImageMetric::Mae,
-        ImageMetric::Smape,
-        ImageMetric::Flip,
-        ImageMetric::FlipWeightedMedian,
-        ImageMetric::FlipP95,
-        ImageMetric::FlipP99,
-        ImageMetric::FlipHdr,
-        ImageMetric::Ssim,
-    ];
-
-    /// Name, unit and ideal.
-    fn describe(self) -> (&'static str, &'static str, Ideal) {
-        match self {
-            ImageMetric::Mse => ("mse", "white^2", Ideal::Lowest),
-            ImageMetric::Psnr => ("psnr", "dB", Ideal::Highest),
-            ImageMetric::Relmse => ("relmse", "", Ideal::Lowest),
-            ImageMetric::Mae => ("mae", "white", Ideal::Lowest),
-            ImageMetric::Smape => ("smape", "", Ideal::Lowest),
-            ImageMetric::Flip => ("flip", "", Ideal::Lowest),
-            ImageMetric::FlipWeightedMedian => ("flip_weighted_median", "", Ideal::Lowest),
-            ImageMetric::FlipP95 => ("flip_p95", "", Ideal::Lowest),
-            ImageMetric::FlipP99 => ("flip_p99", "", Ideal::Lowest),
-            ImageMetric::FlipHdr => ("flip_hdr", "", Ideal::Lowest),
-            ImageMetric::Ssim => ("ssim", "", Ideal::Highest),
-        }
-    }
-
-    /// Which way it is better.
-    pub fn ideal(self) -> Ideal {
-        self.describe().2
-    }
+    /// Equivalent sub-frames: `n_eq`.
+    Equivalent(EquivalentMetric),
 }
 
 impl ObjectMetric {
-    /// Every score of a matte.
-    pub const ALL: [ObjectMetric; 15] = [
-        ObjectMetric::BleedLateral,
-        ObjectMetric::BleedLeading,
-        ObjectMetric::BleedTrailing,
-        ObjectMetric::LateralGrowth,
-        ObjectMetric::RowGain,
-        ObjectMetric::RowLoss,
-        ObjectMetric::Misplacement,
-        ObjectMetric::Centroid,
-        ObjectMetric::Extent,
-        ObjectMetric::TvExcess,
-        ObjectMetric::Hole,
-        ObjectMetric::Deficit,
-        ObjectMetric::Energy,
-        ObjectMetric::LabelTotalVariation,
-        ObjectMetric::GradientError,
-    ];
-
     /// Hard bleed on all sides: beside, ahead and behind.
     pub const BLEEDS: [ObjectMetric; 3] = [
         ObjectMetric::BleedLateral,
         ObjectMetric::BleedLeading,
         ObjectMetric::BleedTrailing,
     ];
-
-    /// Name, unit and ideal.
-    fn describe(self) -> (&'static str, &'static str, Ideal) {
-        match self {
-            ObjectMetric::BleedLateral => ("bleed_lateral", "px", Ideal::Lowest),
-            ObjectMetric::BleedLeading => ("bleed_leading", "px", Ideal::Lowest),
-            ObjectMetric::BleedTrailing => ("bleed_trailing", "px", Ideal::Lowest),
-            ObjectMetric::LateralGrowth => ("lateral_growth", "px", Ideal::Lowest),
-            ObjectMetric::RowGain => ("row_gain", "px", Ideal::Lowest),
-            ObjectMetric::RowLoss => ("row_loss", "px", Ideal::Lowest),
-            ObjectMetric::Misplacement => ("misplacement", "px", Ideal::Lowest),
-            ObjectMetric::Centroid => ("centroid", "px", Ideal::Target(0.0)),
-            ObjectMetric::Extent => ("extent", "", Ideal::Target(1.0)),
-            ObjectMetric::TvExcess => ("tv_excess", "", Ideal::Target(0.0)),
-            ObjectMetric::Hole => ("hole", "", Ideal::Target(0.0)),
-            ObjectMetric::Deficit => ("deficit", "", Ideal::Lowest),
-            ObjectMetric::Energy => ("energy", "", Ideal::Target(1.0)),
-            ObjectMetric::LabelTotalVariation => ("object_label_tv", "", Ideal::Lowest),
-            ObjectMetric::GradientError => ("gradient_error", "1/px^2", Ideal::Lowest),
-        }
-    }
-
-    /// Which way it is better.
-    pub fn ideal(self) -> Ideal {
-        self.describe().2
-    }
-}
-
-impl FrozenMetric {
-    fn describe(self) -> (&'static str, &'static str, Ideal) {
-        match self {
-            FrozenMetric::Mse => ("mse_frozen", "white^2", Ideal::Lowest),
-            FrozenMetric::Flip => ("flip_frozen", "", Ideal::Lowest),
-            FrozenMetric::Shading => ("mse_shading", "white^2", Ideal::Lowest),
-        }
-    }
-}
-
-impl ProbeMetric {
-    fn describe(self) -> (&'static str, &'static str, Ideal) {
-        match self {
-            ProbeMetric::Unity => ("unity", "", Ideal::Lowest),
-            ProbeMetric::GatherOffset => ("gather_offset", "px", Ideal::Lowest),
-            ProbeMetric::GatherSpread => ("gather_spread", "px", Ideal::Lowest),
-        }
-    }
 }
 
 impl SkillMetric {
@@ -248,81 +47,119 @@ impl SkillMetric {
         match self {
             SkillMetric::Mse => Metric::Image(ImageMetric::Mse, Region::Moving),
             SkillMetric::Flip => Metric::Image(ImageMetric::Flip, Region::Moving),
-            SkillMetric::LabelTotalVariation => Metric::LabelTotalVariation,
-        }
-    }
-
-    fn describe(self) -> (&'static str, &'static str, Ideal) {
-        match self {
-            SkillMetric::Mse => ("skill_mse", "", Ideal::Highest),
-            SkillMetric::Flip => ("skill_flip", "", Ideal::Highest),
-            SkillMetric::LabelTotalVariation => ("skill_label_tv", "", Ideal::Highest),
+            SkillMetric::LabelTotalVariation => Metric::Label(LabelMetric::Mean),
         }
     }
 }
 
 impl Metric {
+    /// Equivalent sub-frames by squared error: the headline.
+    pub const SUBFRAMES: Metric = Metric::Equivalent(EquivalentMetric::Mse);
+
     /// Every metric, in the order of a report.
     pub fn all() -> Vec<Metric> {
         let images = Region::ALL
             .into_iter()
             .flat_map(|region| ImageMetric::ALL.map(|metric| Metric::Image(metric, region)));
-        let wholes = [
-            Metric::LabelTotalVariation,
-            Metric::LabelTotalVariationP95,
-            Metric::OccluderContamination,
-            Metric::StaticContamination,
-            Metric::Frozen(FrozenMetric::Mse),
-            Metric::Frozen(FrozenMetric::Flip),
-            Metric::Frozen(FrozenMetric::Shading),
-            Metric::Probe(ProbeMetric::Unity),
-            Metric::Probe(ProbeMetric::GatherOffset),
-            Metric::Probe(ProbeMetric::GatherSpread),
-            Metric::Skill(SkillMetric::Mse),
-            Metric::Skill(SkillMetric::Flip),
-            Metric::Skill(SkillMetric::LabelTotalVariation),
-            Metric::EquivalentSubframes,
-            Metric::EquivalentSubframesFlip,
-            Metric::EquivalentSubframesLabel,
-        ];
         images
             .chain(ObjectMetric::ALL.map(Metric::Object))
-            .chain(wholes)
+            .chain(LabelMetric::ALL.map(Metric::Label))
+            .chain([Metric::OccluderContamination, Metric::StaticContamination])
+            .chain(FrozenMetric::ALL.map(Metric::Frozen))
+            .chain(ProbeMetric::ALL.map(Metric::Probe))
+            .chain(SkillMetric::ALL.map(Metric::Skill))
+            .chain(EquivalentMetric::ALL.map(Metric::Equivalent))
             .collect()
+    }
+
+    /// Row of the metric. An error of colour has one row for all regions.
+    pub fn row(self) -> Row {
+        match self {
+            Metric::Image(metric, _) => metric.row(),
+            Metric::Object(metric) => metric.row(),
+            Metric::Label(metric) => metric.row(),
+            Metric::OccluderContamination => Row {
+                name: "occluder_contamination",
+                unit: "",
+                ideal: Ideal::Lowest,
+                group: Group::Label,
+                map: ErrorMap::LabelTotalVariation,
+                meaning: "the same on the worst object that stands still",
+                report_only: None,
+            },
+            Metric::StaticContamination => Row {
+                name: "static_contamination",
+                unit: "white",
+                ideal: Ideal::Lowest,
+                group: Group::Seen,
+                map: ErrorMap::StaticChange,
+                meaning: "what the filter changes where nothing moves",
+                report_only: None,
+            },
+            Metric::Frozen(metric) => metric.row(),
+            Metric::Probe(metric) => metric.row(),
+            Metric::Skill(metric) => metric.row(),
+            Metric::Equivalent(metric) => metric.row(),
+        }
     }
 
     /// The word used in bounds, tables and files.
     pub fn name(self) -> String {
         match self {
-            Metric::Image(metric, region) => format!("{}_{region}", metric.describe().0),
-            other => other.describe().0.to_owned(),
+            Metric::Image(metric, region) => format!("{}_{region}", metric.row().name),
+            other => other.row().name.to_owned(),
         }
     }
 
     /// The unit, empty for a pure number.
     pub fn unit(self) -> &'static str {
-        self.describe().1
+        self.row().unit
     }
 
     /// Which way it is better.
     pub fn ideal(self) -> Ideal {
-        self.describe().2
+        self.row().ideal
     }
 
-    /// Why no bound may name this metric; none for those that may be bounded.
-    pub fn report_only(self) -> Option<&'static str> {
+    /// One line for a reader who has not met the metric; `README.md` beside this crate has the formulas.
+    pub fn meaning(self) -> String {
         match self {
-            Metric::Image(ImageMetric::Ssim, _) => Some(
-                "punishes unbiased noise more than a picture that lies three pixels off; bound flip instead",
-            ),
-            Metric::Skill(_) => {
-                Some("a grey ghost over everything has skill; bound the error itself, or n_eq")
-            }
-            Metric::Frozen(FrozenMetric::Shading) => {
-                Some("is a property of the scene, whatever the filter does")
-            }
-            _ => None,
+            Metric::Image(metric, region) => format!("{}, {}", metric.row().meaning, place(region)),
+            other => other.row().meaning.to_owned(),
         }
+    }
+
+    /// Group in which a report shows it. A report shows most errors of colour over one region only.
+    pub fn group(self) -> Group {
+        match self {
+            Metric::Image(metric, Region::Moving) => metric.row().group,
+            Metric::Image(ImageMetric::Flip, Region::Support | Region::Still) => Group::Seen,
+            Metric::Image(ImageMetric::Flip, Region::Knowable | Region::Unknowable) => {
+                Group::Instant
+            }
+            Metric::Image(..) => Group::RunJson,
+            other => other.row().group,
+        }
+    }
+
+    /// The pixels that its map is searched in for the worst place.
+    pub fn region(self) -> Region {
+        match self {
+            Metric::Image(_, region) => region,
+            Metric::StaticContamination => Region::Still,
+            Metric::Probe(_) => Region::Knowable,
+            Metric::Object(_)
+            | Metric::Label(_)
+            | Metric::OccluderContamination
+            | Metric::Frozen(_)
+            | Metric::Skill(_)
+            | Metric::Equivalent(_) => Region::Moving,
+        }
+    }
+
+    /// Reason why no bound may name this metric; none for metrics that may be bounded.
+    pub fn report_only(self) -> Option<&'static str> {
+        self.row().report_only
     }
 
     /// The strictest bound that a truth with this noise floor can carry: three floors away from perfect. For unbiased squared
@@ -338,22 +175,16 @@ impl Metric {
             (_, Ideal::Target(_)) => 3.0 * floor,
         }
     }
+}
 
-    fn describe(self) -> (&'static str, &'static str, Ideal) {
-        match self {
-            Metric::Image(metric, _) => metric.describe(),
-            Metric::Object(metric) => metric.describe(),
-            Metric::LabelTotalVariation => ("label_tv", "", Ideal::Lowest),
-            Metric::LabelTotalVariationP95 => ("label_tv_p95", "", Ideal::Lowest),
-            Metric::OccluderContamination => ("occluder_contamination", "", Ideal::Lowest),
-            Metric::StaticContamination => ("static_contamination", "white", Ideal::Lowest),
-            Metric::Frozen(metric) => metric.describe(),
-            Metric::Probe(metric) => metric.describe(),
-            Metric::Skill(metric) => metric.describe(),
-            Metric::EquivalentSubframes => ("n_eq", "sub-frames", Ideal::Highest),
-            Metric::EquivalentSubframesFlip => ("n_eq_flip", "sub-frames", Ideal::Highest),
-            Metric::EquivalentSubframesLabel => ("n_eq_label_tv", "sub-frames", Ideal::Highest),
-        }
+fn place(region: Region) -> &'static str {
+    match region {
+        Region::Moving => "where anything moves",
+        Region::Support => "where anything moves, without the margin",
+        Region::Still => "where nothing moves",
+        Region::Full => "over the whole picture",
+        Region::Knowable => "where the instant shows all that the shutter saw",
+        Region::Unknowable => "where the instant hides what the shutter saw",
     }
 }
 

@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 
 use frame::{Image, Plane, Raster};
 
-use crate::absolute_error::{absolute_error, symmetric_error};
-use crate::cross_error::{psnr, relative_squared_error, squared_error};
-use crate::gradient::{gradient_error, gradient_magnitude};
-use crate::misplacement::misplacement;
-use crate::rows::Rows;
-use crate::ssim::{SSIM_BORDER, ssim_of};
+use crate::color::absolute_error::{absolute_error, symmetric_error};
+use crate::color::cross_error::{psnr, relative_squared_error, squared_error};
+use crate::color::ssim::{SSIM_BORDER, ssim_of};
+use crate::object::gradient::{gradient_error, gradient_magnitude};
+use crate::object::misplacement::misplacement;
+use crate::object::rows::Rows;
 
 type Formula = fn(u32, u32) -> u32;
 

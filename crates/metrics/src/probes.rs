@@ -1,19 +1,19 @@
-//! What a filter gathers, told by pictures whose truth is exact: ones, coordinates and their products.
+//! Probes: pictures of ones, coordinates and their products, whose blur tells where a filter gathers.
 
 use frame::{AtInstant, Image, Plane, Raster, Region, Regions, Truth, Vectors};
 
-use crate::pooling::mean;
+use crate::color::pooling::mean;
 use crate::{Measured, ProbeScores};
 
 /// Sums of a filter's weights per pixel, times 1, coordinates and their products. Coordinates are in pixels from the picture's
 /// middle, +x right, +y down.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Probes {
-    /// Of 1.
+    /// Sum of the weights.
     pub weight: Plane,
-    /// Of x and y.
+    /// Sums of weight times x and y.
     pub first: Vectors,
-    /// Of xx, xy and yy.
+    /// Sums of weight times xx, xy and yy.
     pub second: Raster<[f32; 3]>,
 }
 
@@ -58,7 +58,7 @@ impl Probes {
         ]
     }
 
-    /// What came out for [`Probes::images`], in their order.
+    /// Probes from the filter's outputs for [`Probes::images`], in their order.
     pub fn of(outputs: [&Image; 2]) -> Self {
         Self {
             weight: outputs[0].map(|sums| sums[2]),
@@ -68,7 +68,7 @@ impl Probes {
     }
 }
 
-/// Where a pixel's light comes from: offset from the pixel's centre, and standard deviation about it, in pixels.
+/// Origin of a pixel's light: offset from the pixel's centre, and standard deviation about it, in pixels.
 #[derive(Clone, Copy)]
 struct Origin {
     offset: [f64; 2],
@@ -137,7 +137,7 @@ fn differences(
     })
 }
 
-/// Of the truth; none where a part of what is seen has no place at the instant.
+/// Origins by the truth; none where a part of what is seen has no place at the instant.
 fn origins(recalled: &AtInstant) -> Raster<Option<Origin>> {
     let whole = recalled.offset.zip(&recalled.spread, |offset, spread| {
         let offset = offset.map(f64::from);
@@ -153,7 +153,7 @@ fn origins(recalled: &AtInstant) -> Raster<Option<Origin>> {
     })
 }
 
-/// Of the filter; none where it gathers nothing.
+/// Origins by the filter; none where it gathers nothing.
 fn gathered(probes: &Probes) -> Raster<Option<Origin>> {
     let (width, height) = (probes.weight.width, probes.weight.height);
     Raster::from_fn(width, height, |x, y| {

@@ -3,19 +3,19 @@
 use frame::{Frame, Image, Ladder, Picture, Plane, Raster, Truth, regions};
 use rayon::prelude::*;
 
-use crate::absolute_error::absolute_error;
 use crate::check::{check_agreement, check_brightness, check_picture, check_viewing};
+use crate::color::absolute_error::absolute_error;
+use crate::color::error_maps::{ErrorMaps, MoreMaps};
+use crate::color::frozen::FrozenReference;
+use crate::color::pooled::Pooled;
+use crate::color::pooled_scores::{Found, image_scores, label_scores};
+use crate::color::pooling::mean;
+use crate::color::ssim::SSIM_BORDER;
 use crate::equivalent::{Curve, Equivalent};
-use crate::error_maps::{ErrorMaps, MoreMaps};
-use crate::frozen::FrozenReference;
 use crate::ladder::Curves;
-use crate::object::ObjectReference;
-use crate::pooled::Pooled;
-use crate::pooled_scores::{Found, image_scores, label_scores};
-use crate::pooling::mean;
+use crate::object::reference::ObjectReference;
 use crate::probes::{ProbeMaps, ProbeMeasurement, Probes, measure_probes};
 use crate::skill::{Ends, skill_scores};
-use crate::ssim::SSIM_BORDER;
 use crate::{
     EquivalentScores, ImageScores, Maps, MeasureError, Measured, ProbeScores, Region, Regions,
     Scores, Viewing,
@@ -46,7 +46,7 @@ pub struct Reference<'a> {
     label_noise: Raster<f64>,
     /// The picture that does nothing.
     instant: Image,
-    /// What skill is measured by.
+    /// The two pictures that skill lies between.
     ends: Ends,
     /// Pixels whose SSIM window lies in the picture.
     windows: Raster<bool>,
@@ -206,7 +206,7 @@ impl<'a> Reference<'a> {
         pooled.zip(noise).ok_or(empty(region))
     }
 
-    /// How much a picture changes what stands still.
+    /// Change of the instant's colour where nothing moves; 0 elsewhere.
     fn static_change(&self, output: &Image) -> Raster<f64> {
         absolute_error(output, &self.instant, self.viewing.scale()).zip(
             &self.regions.still,

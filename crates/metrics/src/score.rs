@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 pub struct Score {
     /// The score, in its metric's unit.
     pub value: f64,
-    /// What the truth's own noise makes of this score: a picture without any error scores about this. Where a high value
+    /// Noise floor: the score that the truth's own noise makes. A picture without any error scores about this. Where a high value
     /// is good it is the highest value that the truth can vouch for; where 1 or another target is good it is the
     /// distance from the target.
     pub floor: f64,
@@ -21,7 +21,7 @@ pub enum Measured {
     Score(Score),
     /// No number.
     NotApplicable {
-        /// What about the scene makes the score meaningless.
+        /// Property of the scene that makes the score meaningless.
         #[serde(rename = "not_applicable")]
         reason: String,
     },
@@ -65,7 +65,7 @@ impl Measured {
 }
 
 impl Ideal {
-    /// How bad a value is: higher is worse, whatever the metric.
+    /// Converts a value to badness: higher is worse, whatever the metric.
     pub fn badness(self, value: f64) -> f64 {
         match self {
             Ideal::Lowest => value,

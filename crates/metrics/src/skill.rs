@@ -1,15 +1,15 @@
 //! Skill: the share of the way from doing nothing to the best that one frame can give.
 
-use crate::pooled::Pooled;
-use crate::pooled_scores::Found;
+use crate::color::pooled::Pooled;
+use crate::color::pooled_scores::Found;
 use crate::{Measured, SkillScores};
 
 /// Errors over the moving region of the two pictures that skill lies between.
 #[derive(Clone, Copy, Debug)]
 pub struct Ends {
-    /// Of the instant, which is what doing nothing shows: skill 0.
+    /// Errors of the instant, which is the picture of no blur: skill 0.
     pub nothing: Option<Pooled>,
-    /// Of the one-frame oracle: skill 1; none where no such picture was given.
+    /// Errors of the one-frame oracle: skill 1; none where no such picture was given.
     pub best: Option<Pooled>,
 }
 

@@ -11,12 +11,12 @@ pub struct Viewing {
     pub flip_start: f32,
     /// Brightest exposure of HDR-FLIP, in stops.
     pub flip_stop: f32,
-    /// How many exposures HDR-FLIP takes its maximum over, both ends included; 2 to 128.
+    /// Number of exposures that HDR-FLIP takes its maximum over, both ends included; 2 to 128.
     pub flip_count: u32,
 }
 
 impl Viewing {
-    /// What a radiance is multiplied by to be shown.
+    /// Factor from radiance to display.
     pub fn scale(&self) -> f64 {
         f64::from(self.stops).exp2()
     }

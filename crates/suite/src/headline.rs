@@ -1,6 +1,8 @@
 //! The scores that tables, means over scenes and pages show.
 
-use metrics::{Ideal, ImageMetric, Measured, Metric, ObjectMetric, Region, Scores, SkillMetric};
+use metrics::{
+    Ideal, ImageMetric, LabelMetric, Measured, Metric, ObjectMetric, Region, Scores, SkillMetric,
+};
 
 use crate::Case;
 use crate::case::{IDENTITY, SCATTER_ORACLE};
@@ -26,8 +28,8 @@ pub(crate) const PSNR: Headline =
     Headline::Metric(Metric::Image(ImageMetric::Psnr, Region::Moving));
 pub(crate) const GROWTH: Headline = Headline::Metric(Metric::Object(ObjectMetric::LateralGrowth));
 pub(crate) const LOSS: Headline = Headline::Metric(Metric::Object(ObjectMetric::RowLoss));
-pub(crate) const LABEL: Headline = Headline::Metric(Metric::LabelTotalVariation);
-pub(crate) const SUBFRAMES: Headline = Headline::Metric(Metric::EquivalentSubframes);
+pub(crate) const LABEL: Headline = Headline::Metric(Metric::Label(LabelMetric::Mean));
+pub(crate) const SUBFRAMES: Headline = Headline::Metric(Metric::SUBFRAMES);
 
 /// What has a mean over scenes.
 pub(crate) const OF_MEANS: [Headline; 10] = [

@@ -3,12 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use frame::{ExrFile, Frame, Truth, read_exr, write_exr};
+use metrics::ErrorMap;
 use tracer::{Progress, TraceError, Watch};
 
 use crate::{Case, Error, Run};
 
 /// Single channels of errors.exr that become layers.
-const MAPS: [&str; 3] = ["flip", "label_tv", "bleed"];
+const MAPS: [ErrorMap; 3] = [
+    ErrorMap::Flip,
+    ErrorMap::LabelTotalVariation,
+    ErrorMap::Bleed,
+];
 
 /// Writes one file a case below `out`, named as the case's folder below `folder`, that of run.json; returns them. `watch`
 /// hears of every case.
@@ -93,7 +98,7 @@ fn layers(run: &Run, case: &Case, inputs: &Inputs, folder: &Path) -> Result<ExrF
     file.push_color("instant", &frame.color);
     file.push_color("signed", &errors.color("signed")?);
     for map in MAPS {
-        file.push_plane(map, &errors.plane(map)?);
+        file.push_plane(map.name(), &errors.plane(map.name())?);
     }
     file.push_plane("velocity.X", &frame.velocity.map(|velocity| velocity[0]));
     file.push_plane("velocity.Y", &frame.velocity.map(|velocity| velocity[1]));

@@ -6,7 +6,7 @@ use frame::{
     ExrFile, FileError, Frame, Image, Picture, Plane, Truth, Vectors, display_srgb, write_exr,
     write_png,
 };
-use metrics::Measurement;
+use metrics::{ErrorMap, Measurement};
 use tracer::Scene;
 
 /// Writes a frame's PNGs beside its EXR file; returns the names of all.
@@ -82,22 +82,10 @@ fn errors_file(measurement: &Measurement) -> ExrFile {
     let maps = &measurement.maps;
     let mut file = ExrFile::new(maps.flip.width, maps.flip.height);
     file.push_color("signed", &maps.signed_error);
-    file.push_plane("squared_error", &maps.squared_error);
-    file.push_plane("relative_squared_error", &maps.relative_squared_error);
-    file.push_plane("absolute_error", &maps.absolute_error);
-    file.push_plane("symmetric_error", &maps.symmetric_error);
-    file.push_plane("ssim", &maps.ssim);
-    file.push_plane("flip", &maps.flip);
-    file.push_plane("flip_hdr", &maps.flip_hdr);
-    file.push_plane("label_tv", &maps.label_total_variation);
-    file.push_plane("bleed", &maps.bleed);
-    file.push_plane("gradient_error", &maps.gradient_error);
-    file.push_plane("frozen_squared_error", &maps.frozen_squared_error);
-    file.push_plane("static_change", &maps.static_change);
-    if let Some(probes) = &measurement.probes {
-        file.push_plane("unity", &probes.unity);
-        file.push_plane("gather_offset", &probes.offset);
-        file.push_plane("gather_spread", &probes.spread);
+    for map in ErrorMap::ALL {
+        if let Some(plane) = measurement.map(map) {
+            file.push_plane(map.name(), plane);
+        }
     }
     file.set("kind", "errors");
     file

@@ -9,7 +9,7 @@ use metrics::{MeasureError, Measurement, Metric, Reference, Regions, Scores};
 use tracer::Scene;
 
 use crate::decoys::{Decoys, Resemblance};
-use crate::worst::{Worst, map_of, worst_block, write_crop};
+use crate::worst::{Worst, worst_block, write_crop};
 
 /// One scene and the truth of one alignment, ready to show what is wrong with pictures.
 pub(crate) struct Witness<'a> {
@@ -44,7 +44,8 @@ impl<'a> Witness<'a> {
         (out, folder): (&Path, &Path),
     ) -> Result<Worst, FileError> {
         let metric = Metric::from_str(metric).expect("a verdict is about a metric");
-        let (name, map) = map_of(metric, measurement);
+        let searched = metric.row().map;
+        let map = (measurement.map(searched)).expect("a metric that applies was measured");
         let (x, y) = worst_block(metric, map, regions);
         let picture = folder.join(format!("worst_{metric}.png"));
         let panels = [&self.truth.mean().color, &output.color];
@@ -52,7 +53,7 @@ impl<'a> Witness<'a> {
         Ok(Worst {
             x,
             y,
-            map: name.to_owned(),
+            map: searched.name().to_owned(),
             picture,
         })
     }

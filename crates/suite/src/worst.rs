@@ -3,10 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use frame::{FileError, Image, Plane, Raster, display_srgb, write_png};
-use metrics::{
-    FrozenMetric, ImageMetric, Measurement, Metric, ObjectMetric, ProbeMaps, ProbeMetric, Region,
-    Regions,
-};
+use metrics::{Metric, Regions};
 use serde::{Deserialize, Serialize};
 
 use crate::pictures::magma;
@@ -33,68 +30,10 @@ const ENLARGED: u32 = 4;
 /// Between the panels, in shown pixels.
 const GAP: u32 = 8;
 
-/// The name in errors.exr of the map that a metric was pooled from, or where that is no map, of the one that shows what it
-/// measures. `probed` says whether there are maps of probes.
-pub fn map_name(metric: Metric, probed: bool) -> &'static str {
-    match metric {
-        Metric::Image(ImageMetric::Mse | ImageMetric::Psnr, _) | Metric::EquivalentSubframes => {
-            "squared_error"
-        }
-        Metric::Image(ImageMetric::Relmse, _) => "relative_squared_error",
-        Metric::Image(ImageMetric::Mae, _) => "absolute_error",
-        Metric::Image(ImageMetric::Smape, _) => "symmetric_error",
-        Metric::Image(ImageMetric::FlipHdr, _) => "flip_hdr",
-        Metric::Frozen(FrozenMetric::Mse) => "frozen_squared_error",
-        Metric::StaticContamination => "static_change",
-        Metric::Image(..) | Metric::Frozen(_) | Metric::EquivalentSubframesFlip => "flip",
-        Metric::Object(
-            ObjectMetric::BleedLateral | ObjectMetric::BleedLeading | ObjectMetric::BleedTrailing,
-        ) => "bleed",
-        Metric::Object(ObjectMetric::GradientError) => "gradient_error",
-        Metric::Probe(ProbeMetric::Unity) if probed => "unity",
-        Metric::Probe(ProbeMetric::GatherOffset) if probed => "gather_offset",
-        Metric::Probe(ProbeMetric::GatherSpread) if probed => "gather_spread",
-        _ => "label_tv",
-    }
-}
-
-/// That map, with its name.
-pub fn map_of(metric: Metric, measurement: &Measurement) -> (&'static str, &Plane) {
-    let maps = &measurement.maps;
-    let name = map_name(metric, measurement.probes.is_some());
-    let probe = |map: fn(&ProbeMaps) -> &Plane| {
-        let probes = measurement.probes.as_ref();
-        map(probes.expect("maps of probes are named where there are any"))
-    };
-    let map = match name {
-        "squared_error" => &maps.squared_error,
-        "relative_squared_error" => &maps.relative_squared_error,
-        "absolute_error" => &maps.absolute_error,
-        "symmetric_error" => &maps.symmetric_error,
-        "flip_hdr" => &maps.flip_hdr,
-        "frozen_squared_error" => &maps.frozen_squared_error,
-        "static_change" => &maps.static_change,
-        "flip" => &maps.flip,
-        "bleed" => &maps.bleed,
-        "gradient_error" => &maps.gradient_error,
-        "unity" => probe(|probes| &probes.unity),
-        "gather_offset" => probe(|probes| &probes.offset),
-        "gather_spread" => probe(|probes| &probes.spread),
-        _ => &maps.label_total_variation,
-    };
-    (name, map)
-}
-
 /// The middle of the block whose sum over the metric's region is largest; the first of equal ones.
 pub fn worst_block(metric: Metric, map: &Plane, regions: &Regions) -> (u32, u32) {
-    let inside = |x: u32, y: u32| match metric {
-        Metric::Image(_, Region::Full) => true,
-        Metric::Image(_, Region::Support) => *regions.support.at(x, y),
-        Metric::Image(_, Region::Still) | Metric::StaticContamination => *regions.still.at(x, y),
-        Metric::Image(_, Region::Knowable) | Metric::Probe(_) => *regions.knowable.at(x, y),
-        Metric::Image(_, Region::Unknowable) => *regions.unknowable.at(x, y),
-        _ => *regions.moving.at(x, y),
-    };
+    let mask = regions.mask(metric.region());
+    let inside = |x: u32, y: u32| mask.is_none_or(|mask| *mask.at(x, y));
     let columns = map.width.div_ceil(BLOCK);
     let rows = map.height.div_ceil(BLOCK);
     let mut sums = Raster::filled(columns, rows, 0.0);

@@ -60,7 +60,7 @@ fn text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Scored) -> S
     for (reason, metrics) in missing(scores) {
         let names: Vec<String> = metrics.iter().map(|metric| metric.name()).collect();
         let way_out = match args.ladder {
-            None if metrics.contains(&Metric::EquivalentSubframes) => {
+            None if metrics.contains(&Metric::SUBFRAMES) => {
                 "; give one with --ladder: `run` writes it beside the truth"
             }
             _ => "",

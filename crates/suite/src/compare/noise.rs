@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use frame::{Alignment, Frame, Picture, Replicate, Truth, read_exr};
 use metrics::{
-    ImageMetric, Metric, ObjectMetric, Reference, Region, Scores, SkillMetric, jackknife,
+    ImageMetric, LabelMetric, Metric, ObjectMetric, Reference, Region, Scores, SkillMetric,
+    jackknife,
 };
 use tracer::{Progress, TraceError, Watch};
 
@@ -26,7 +27,7 @@ const METRICS: [Metric; 9] = [
     Metric::Object(ObjectMetric::BleedLateral),
     Metric::Object(ObjectMetric::BleedLeading),
     Metric::Object(ObjectMetric::BleedTrailing),
-    Metric::LabelTotalVariation,
+    Metric::Label(LabelMetric::Mean),
 ];
 
 /// Every score of every pair.

@@ -12,7 +12,6 @@ use super::table::signed;
 use super::{Compared, Side};
 use crate::Error;
 use crate::gate::number;
-use crate::report::meaning::meaning;
 use crate::report::shell::shell;
 
 /// So many cases are shown in pictures, those that changed most.
@@ -139,7 +138,7 @@ fn metric_means(metric: &str, means: &[&MeanChange]) -> Markup {
         .count();
     html! {
         h3 { (metric) }
-        p.note { (metric.parse().map_or_else(|_| String::new(), meaning)) }
+        p.note { (metric.parse().map_or_else(|_| String::new(), metrics::Metric::meaning)) }
         div.scroll tabindex="0" role="region" aria-label=(format!("Means of {metric}")) {
             table {
                 caption { "95 % CI: over scenes, by Student's t; " (same) " filters did not change" }

@@ -7,7 +7,7 @@ use metrics::Metric;
 use super::precision::Nature;
 use super::scene_files::{CaseFiles, SceneFiles};
 use crate::gate::{Finding, Kind};
-use crate::worst::{map_name, worst_block};
+use crate::worst::worst_block;
 use crate::{Case, Error};
 
 /// The worst place of one score.
@@ -32,10 +32,9 @@ pub fn evidence(
         return Ok(None);
     }
     let metric = Metric::from_str(&finding.metric).expect("a run's verdicts are about metrics");
-    let probed = (files.errors.channels.iter()).any(|channel| channel.name == "unity");
     let map = match &finding.worst {
         Some(worst) => worst.map.clone(),
-        None => map_name(metric, probed).to_owned(),
+        None => metric.row().map.name().to_owned(),
     };
     let plane = files.errors.plane(&map)?;
     let (x, y) = match &finding.worst {

@@ -8,7 +8,6 @@ mod files;
 mod interval_chart;
 mod layer;
 mod legend;
-pub(crate) mod meaning;
 mod overview;
 mod packing;
 mod page;

@@ -1,94 +1,15 @@
 //! The scores of a case, each with its floor and what it means.
 
 use maud::{Markup, html};
-use metrics::{
-    FrozenMetric, ImageMetric, Measured, Metric, ObjectMetric, ProbeMetric, Region, SkillMetric,
-};
+use metrics::{Group, Measured, Metric};
 
 use super::cell::standing;
-use super::meaning::meaning;
 use crate::Case;
 use crate::gate::number;
 
-/// Scores that a reader looks at together.
-struct Group {
-    title: &'static str,
-    metrics: &'static [Metric],
-}
-
-/// What a page shows of the scores in run.json.
-const GROUPS: [Group; 6] = [
-    Group {
-        title: "What is seen",
-        metrics: &[
-            Metric::Image(ImageMetric::Flip, Region::Moving),
-            Metric::Image(ImageMetric::Flip, Region::Support),
-            Metric::Image(ImageMetric::FlipP95, Region::Moving),
-            Metric::Image(ImageMetric::FlipHdr, Region::Moving),
-            Metric::Image(ImageMetric::Psnr, Region::Moving),
-            Metric::Image(ImageMetric::Ssim, Region::Moving),
-            Metric::Image(ImageMetric::Flip, Region::Still),
-            Metric::StaticContamination,
-        ],
-    },
-    Group {
-        title: "What it is worth",
-        metrics: &[
-            Metric::EquivalentSubframes,
-            Metric::EquivalentSubframesFlip,
-            Metric::EquivalentSubframesLabel,
-            Metric::Skill(SkillMetric::Flip),
-            Metric::Skill(SkillMetric::Mse),
-            Metric::Skill(SkillMetric::LabelTotalVariation),
-        ],
-    },
-    Group {
-        title: "Whose time it is",
-        metrics: &[
-            Metric::LabelTotalVariation,
-            Metric::LabelTotalVariationP95,
-            Metric::OccluderContamination,
-        ],
-    },
-    Group {
-        title: "The worst mover's silhouette and mass",
-        metrics: &[
-            Metric::Object(ObjectMetric::LateralGrowth),
-            Metric::Object(ObjectMetric::RowGain),
-            Metric::Object(ObjectMetric::RowLoss),
-            Metric::Object(ObjectMetric::BleedLateral),
-            Metric::Object(ObjectMetric::BleedLeading),
-            Metric::Object(ObjectMetric::BleedTrailing),
-            Metric::Object(ObjectMetric::Misplacement),
-            Metric::Object(ObjectMetric::Centroid),
-            Metric::Object(ObjectMetric::Extent),
-            Metric::Object(ObjectMetric::TvExcess),
-            Metric::Object(ObjectMetric::Hole),
-            Metric::Object(ObjectMetric::Deficit),
-            Metric::Object(ObjectMetric::Energy),
-        ],
-    },
-    Group {
-        title: "What one instant can tell",
-        metrics: &[
-            Metric::Image(ImageMetric::Flip, Region::Knowable),
-            Metric::Image(ImageMetric::Flip, Region::Unknowable),
-            Metric::Frozen(FrozenMetric::Flip),
-            Metric::Frozen(FrozenMetric::Shading),
-        ],
-    },
-    Group {
-        title: "What is gathered",
-        metrics: &[
-            Metric::Probe(ProbeMetric::Unity),
-            Metric::Probe(ProbeMetric::GatherOffset),
-            Metric::Probe(ProbeMetric::GatherSpread),
-        ],
-    },
-];
-
 /// All groups as one table.
 pub fn score_rows(case: &Case) -> Markup {
+    let all = Metric::all();
     html! {
         table.scores {
             caption {
@@ -104,10 +25,10 @@ pub fn score_rows(case: &Case) -> Markup {
                     th scope="col" { "what it says" }
                 }
             }
-            @for group in &GROUPS {
+            @for group in Group::SHOWN {
                 tbody {
-                    tr.group { th scope="rowgroup" colspan="5" { (group.title) } }
-                    @for metric in group.metrics { (row(case, *metric)) }
+                    tr.group { th scope="rowgroup" colspan="5" { (group.title()) } }
+                    @for metric in all.iter().filter(|metric| metric.group() == group) { (row(case, *metric)) }
                 }
             }
             @if let Some(jitter) = &case.jitter {
@@ -158,18 +79,15 @@ fn row(case: &Case, metric: Metric) -> Markup {
                     }
                 }
             }
-            td.meaning { (meaning(metric)) }
+            td.meaning { (metric.meaning()) }
         }
     }
 }
 
 /// With its unit; counts of sub-frames with the end of the ladder that they lie beyond.
 fn value(case: &Case, metric: Metric, value: f64) -> String {
-    let equivalent = &case.scores.equivalent_subframes;
     match metric {
-        Metric::EquivalentSubframes => equivalent.mse.to_string(),
-        Metric::EquivalentSubframesFlip => equivalent.flip.to_string(),
-        Metric::EquivalentSubframesLabel => equivalent.label_total_variation.to_string(),
+        Metric::Equivalent(metric) => case.scores.equivalent_subframes.get(metric).to_string(),
         _ => match metric.unit() {
             "" => number(value),
             unit => format!("{} {unit}", number(value)),

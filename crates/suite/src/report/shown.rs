@@ -2,7 +2,6 @@
 
 use metrics::Ideal;
 
-use super::meaning::meaning;
 use crate::headline::{FLIP, GROWTH, Headline, LABEL, LOSS, PSNR, SKILL, SUBFRAMES};
 
 /// A score that has a table of its own.
@@ -57,7 +56,7 @@ impl Shown {
     /// What it says, in one line.
     pub fn meaning(&self) -> String {
         match self.headline {
-            Headline::Metric(metric) => meaning(metric),
+            Headline::Metric(metric) => metric.meaning(),
             Headline::Bleed => {
                 "mover spilled where it never was: the largest of beside, ahead (>) and behind (<)"
                     .to_owned()

@@ -6,7 +6,6 @@ use metrics::Metric;
 use super::case_page::Page;
 use super::cell::standing;
 use super::evidence::{Evidence, is_notable};
-use super::meaning::meaning;
 use crate::bounds::Level;
 use crate::gate::{Finding, Kind, headline, number, way_out};
 use crate::worst::CROP;
@@ -111,7 +110,7 @@ fn facts(finding: &Finding) -> Markup {
     let metric: Option<Metric> = finding.metric.parse().ok();
     html! {
         dl {
-            div { dt { "metric" } dd { (finding.metric) @if let Some(metric) = metric { ": " (meaning(metric)) } } }
+            div { dt { "metric" } dd { (finding.metric) @if let Some(metric) = metric { ": " (metric.meaning()) } } }
             @if let Some(value) = finding.value {
                 div { dt { "value" } dd { (finding.shown(value)) } }
             }

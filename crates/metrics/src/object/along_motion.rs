@@ -1,0 +1,91 @@
+//! The truth's rows along a translation, and when there are none.
+
+use frame::Plane;
+
+use crate::object::misplacement::{Misplacement, misplacement};
+use crate::object::mover::Mover;
+use crate::object::row_mass::{InstantRows, RowMass};
+use crate::object::rows::{Grid, Rows};
+
+/// Rows along the motion may differ between instant and shutter by this many pixels of silhouette, gains and losses
+/// together. Above it, growth would measure what hides the object, not what a filter did.
+const LARGEST_ROW_CHANGE: f64 = 0.25;
+
+/// Facts about an object that translates within the picture.
+pub struct AlongMotion {
+    /// The rows that mattes are summed in.
+    pub rows: Rows,
+    /// The truth's matte in them.
+    pub truth: Grid,
+    /// The instant's matte in them.
+    pub instant: InstantRows,
+    /// Misplacement of the truth's first half.
+    pub misplacement_noise: Option<Misplacement>,
+    /// Excess of total variation of the truth's first half.
+    pub variation_noise: f64,
+    /// Noise plus the difference between the instant's rows and the shutter's; a reason where that is too large.
+    pub mass_floor: Result<RowMass, String>,
+}
+
+impl AlongMotion {
+    /// The object's rows, or why it has none.
+    pub fn new(
+        mover: &Mover,
+        touches_border: bool,
+        instant: &Plane,
+        truth: &Plane,
+        half: &Plane,
+    ) -> Result<Self, String> {
+        let along = mover.translation()?;
+        if touches_border {
+            return Err(BORDER.to_owned());
+        }
+        let length = mover.silhouette.lateral;
+        if length <= 0.0 {
+            return Err(NO_SILHOUETTE.to_owned());
+        }
+        let rows = Rows::new(along, truth.width, truth.height);
+        let [instant, truth, half] = [instant, truth, half].map(|matte| rows.spread(matte));
+        if truth.total_variation() <= 0.0 {
+            return Err("is not seen while the shutter is open".to_owned());
+        }
+        let instant_rows = InstantRows::new(&instant);
+        let change = RowMass::new(&instant, &truth, &instant_rows, length);
+        let noise = RowMass::new(&half, &truth, &instant_rows, length);
+        let changed = change.growth + change.gain + change.loss;
+        let mass_floor = if changed <= LARGEST_ROW_CHANGE {
+            Ok(RowMass {
+                growth: noise.growth + change.growth,
+                gain: noise.gain + change.gain,
+                loss: noise.loss + change.loss,
+            })
+        } else {
+            Err(format!(
+                "rows do not keep their mass: occlusion or a change of shape alters the silhouette by {changed:.2} px \
+                 between instant and shutter, {LARGEST_ROW_CHANGE} px at most allow to tell growth"
+            ))
+        };
+        Ok(Self {
+            misplacement_noise: misplacement(&half, &truth),
+            variation_noise: half.total_variation() / truth.total_variation() - 1.0,
+            mass_floor,
+            rows,
+            truth,
+            instant: instant_rows,
+        })
+    }
+}
+
+/// Reason why an object at the border has no row scores.
+pub const BORDER: &str = "touches the picture's border, where part of its smear is cut off";
+
+/// Reason why an object without an outline has no scores per pixel of outline.
+pub const NO_SILHOUETTE: &str = "shows no silhouette inside the picture";
+
+/// True where any of a matte lies on the outermost pixels.
+pub fn touches_border(matte: &Plane) -> bool {
+    let (right, bottom) = (matte.width - 1, matte.height - 1);
+    let columns = (0..matte.width).flat_map(|x| [(x, 0), (x, bottom)]);
+    let rows = (0..matte.height).flat_map(|y| [(0, y), (right, y)]);
+    columns.chain(rows).any(|(x, y)| *matte.at(x, y) > 0.0)
+}

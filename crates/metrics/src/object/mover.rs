@@ -1,0 +1,135 @@
+//! One object of the frame: how it moves on screen, and its silhouette.
+
+use frame::{Frame, Plane, Raster};
+
+use crate::object::nearest::nearest;
+
+/// Displacements below this many pixels over the shutter count as none: nothing of it can be measured.
+pub const LEAST_DISPLACEMENT: f64 = 0.1;
+
+/// An object translates when its pixels' displacements deviate from their mean by at most this part of it (root mean
+/// square). A sphere that passes at five radii deviates by a twentieth; a spinning disc by far more than the whole.
+pub const LARGEST_DEVIATION: f64 = 0.1;
+
+/// An object that is visible at the instant and moves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mover {
+    /// Mean displacement over the shutter, in pixels; +x right, +y down.
+    pub displacement: [f64; 2],
+    /// Root mean square of the displacements' deviation from their mean, in pixels.
+    pub deviation: f64,
+    /// Per pixel the unit vector along which the nearest visible pixel of the object moves; zero where that one stands.
+    pub directions: Raster<[f64; 2]>,
+    /// Lengths of its outline at the instant.
+    pub silhouette: Silhouette,
+}
+
+/// Length of an object's outline, in pixels, each way of crossing it counted: the total variation of its matte across
+/// and along the motion. For a convex object it is the width, twice for both sides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Silhouette {
+    /// Length of both lateral sides together, measured along the motion.
+    pub lateral: f64,
+    /// Width across the motion: half the length of front and back.
+    pub across: f64,
+}
+
+/// Reason why an object has no matte scores.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stillness {
+    /// No pixel centre sees it.
+    Invisible,
+    /// Every pixel moves by less than [`LEAST_DISPLACEMENT`].
+    Still,
+}
+
+impl Mover {
+    /// Object `id` of the frame, blurred over the frame's exposure.
+    pub fn new(frame: &Frame, id: u32) -> Result<Self, Stillness> {
+        let seen = frame.object_id.map(|object| *object == id);
+        let nearest = nearest(&seen).ok_or(Stillness::Invisible)?;
+        let displacements = frame
+            .velocity
+            .map(|v| v.map(|component| f64::from(component) * frame.exposure));
+        let own: Vec<[f64; 2]> = seen
+            .pixels
+            .iter()
+            .zip(&displacements.pixels)
+            .filter_map(|(seen, displacement)| seen.then_some(*displacement))
+            .collect();
+        if own.iter().all(|d| length(*d) < LEAST_DISPLACEMENT) {
+            return Err(Stillness::Still);
+        }
+        let displacement = mean(&own);
+        let squares = own
+            .iter()
+            .map(|d| length([d[0] - displacement[0], d[1] - displacement[1]]).powi(2));
+        let deviation = (squares.sum::<f64>() / own.len() as f64).sqrt();
+        let directions = nearest.map(|[x, y]| unit(*displacements.at(*x, *y)));
+        let silhouette = Silhouette::new(&frame.coverage[id as usize], &directions);
+        Ok(Self {
+            displacement,
+            deviation,
+            directions,
+            silhouette,
+        })
+    }
+
+    /// The unit vector of its translation; what keeps it from being one otherwise.
+    pub fn translation(&self) -> Result<[f64; 2], String> {
+        let distance = length(self.displacement);
+        if distance < LEAST_DISPLACEMENT {
+            return Err(format!(
+                "does not translate: its pixels move, but their mean displacement is {distance:.2} px"
+            ));
+        }
+        if self.deviation > LARGEST_DEVIATION * distance {
+            return Err(format!(
+                "does not translate: over the object the displacement deviates by {:.2} px from its mean of {distance:.2} px",
+                self.deviation
+            ));
+        }
+        Ok(unit(self.displacement))
+    }
+}
+
+impl Silhouette {
+    /// Total variation of a matte across and along local directions. Gradients are taken between pixels, over squares of
+    /// two by two.
+    fn new(matte: &Plane, directions: &Raster<[f64; 2]>) -> Self {
+        let (mut lateral, mut lengthwise) = (0.0, 0.0);
+        for y in 1..matte.height {
+            for x in 1..matte.width {
+                let at = |x: u32, y: u32| f64::from(*matte.at(x, y));
+                let [a, b, c, d] = [at(x - 1, y - 1), at(x, y - 1), at(x - 1, y), at(x, y)];
+                let [right, down] = [(b - a + d - c) / 2.0, (c - a + d - b) / 2.0];
+                let along = *directions.at(x, y);
+                lateral += (down * along[0] - right * along[1]).abs();
+                lengthwise += (right * along[0] + down * along[1]).abs();
+            }
+        }
+        Self {
+            lateral,
+            across: lengthwise / 2.0,
+        }
+    }
+}
+
+/// Length of a vector.
+fn length(vector: [f64; 2]) -> f64 {
+    vector[0].hypot(vector[1])
+}
+
+fn mean(vectors: &[[f64; 2]]) -> [f64; 2] {
+    [0, 1].map(|axis| vectors.iter().map(|v| v[axis]).sum::<f64>() / vectors.len() as f64)
+}
+
+/// The vector's direction; zero for displacements that count as none.
+fn unit(vector: [f64; 2]) -> [f64; 2] {
+    let length = length(vector);
+    if length < LEAST_DISPLACEMENT {
+        [0.0, 0.0]
+    } else {
+        vector.map(|component| component / length)
+    }
+}

@@ -1,0 +1,268 @@
+//! The truth about one object's matte, ready to score any number of outputs against.
+
+use frame::{Frame, Picture, Plane, Raster, Region, Regions, Truth};
+
+use crate::color::pooling::mean;
+use crate::label::on_object;
+use crate::object::along_motion::{AlongMotion, BORDER, NO_SILHOUETTE, touches_border};
+use crate::object::bleed::{Bleed, Side, bleed, sides};
+use crate::object::gradient::{gradient_error, gradient_magnitude};
+use crate::object::mass::{Mass, mass};
+use crate::object::misplacement::{Misplacement, misplacement};
+use crate::object::mover::{Mover, Stillness};
+use crate::object::row_mass::RowMass;
+use crate::{Measured, ObjectMetric, ObjectScores};
+
+/// One object, and what the truth's own noise scores on it.
+pub struct ObjectReference {
+    name: String,
+    truth: Plane,
+    /// Pixels where the object is seen throughout the shutter.
+    core: Raster<bool>,
+    mover: Result<Moving, Stillness>,
+    /// Mass scores of the truth's first half.
+    mass_noise: Option<Mass>,
+    /// Whether the object is seen at the picture's border, at the instant or while the shutter is open.
+    touches_border: bool,
+}
+
+/// Facts about an object that moves.
+struct Moving {
+    mover: Mover,
+    sides: Option<Raster<Side>>,
+    /// Bleed of the truth's first half.
+    bleed_noise: Option<Bleed>,
+    rows: Result<AlongMotion, String>,
+    /// Gradient magnitude of the true matte, and the error of the first half's.
+    gradient: Raster<f64>,
+    gradient_noise: Raster<f64>,
+}
+
+impl ObjectReference {
+    /// Object `id` of a truth and its frame.
+    pub fn new(frame: &Frame, truth: &Truth, mean: &Picture, id: usize) -> Self {
+        let matte = mean.coverage[id].clone();
+        let half = &truth.halves[0].coverage[id];
+        let instant = &frame.coverage[id];
+        let support = &truth.support.seen[id];
+        let core = truth.support.throughout(id);
+        let seen = support.map(|seen| f32::from(*seen));
+        let touches_border = touches_border(&seen) || touches_border(instant);
+        let moving = |mover: Mover| {
+            let gradient = gradient_magnitude(&matte);
+            let sides = sides(support, &mover.directions);
+            Moving {
+                bleed_noise: (sides.as_ref())
+                    .and_then(|sides| bleed(half, sides, &mover.silhouette)),
+                sides,
+                rows: AlongMotion::new(&mover, touches_border, instant, &matte, half),
+                gradient_noise: gradient_error(&gradient_magnitude(half), &gradient),
+                gradient,
+                mover,
+            }
+        };
+        Self {
+            name: truth.objects[id].clone(),
+            mover: Mover::new(frame, id as u32).map(moving),
+            mass_noise: mass(half, &matte, &core),
+            core,
+            touches_border,
+            truth: matte,
+        }
+    }
+
+    /// Scores an output's matte. `variations` are the label total variations of the output and of the truth's first half,
+    /// `gradient` is what [`ObjectReference::gradient_errors`] says of the matte.
+    pub fn measure(
+        &self,
+        matte: &Plane,
+        variations: [&Raster<f64>; 2],
+        gradient: Option<&Raster<f64>>,
+        regions: &Regions,
+    ) -> ObjectScores {
+        let [variation, noise] = variations.map(|map| on_object(map, &self.truth, &regions.moving));
+        let [bleed_lateral, bleed_leading, bleed_trailing] = self.bleed_scores(matte);
+        let [
+            lateral_growth,
+            row_gain,
+            row_loss,
+            misplacement,
+            centroid,
+            extent,
+            tv_excess,
+        ] = self.row_scores(matte);
+        let [hole, deficit, energy] = self.mass_scores(matte);
+        let moving = self.mover.as_ref();
+        ObjectScores {
+            object: self.name.clone(),
+            moves: moving.is_ok(),
+            displacement: moving.map_or([0.0; 2], |moving| moving.mover.displacement),
+            bleed_lateral,
+            bleed_leading,
+            bleed_trailing,
+            lateral_growth,
+            row_gain,
+            row_loss,
+            misplacement,
+            centroid,
+            extent,
+            tv_excess,
+            hole,
+            deficit,
+            energy,
+            label_total_variation: score(
+                ObjectMetric::LabelTotalVariation,
+                variation,
+                noise,
+                "is not seen in the moving region",
+            ),
+            gradient_error: self.gradient_score(gradient, regions),
+        }
+    }
+
+    /// Squared difference of the gradient magnitudes of matte and truth; none for what does not move.
+    pub fn gradient_errors(&self, matte: &Plane) -> Option<Raster<f64>> {
+        let moving = self.mover.as_ref().ok()?;
+        Some(gradient_error(&gradient_magnitude(matte), &moving.gradient))
+    }
+
+    fn gradient_score(&self, errors: Option<&Raster<f64>>, regions: &Regions) -> Measured {
+        let moving = match self.moving() {
+            Ok(moving) => moving,
+            Err(reason) => return Measured::not_applicable(reason),
+        };
+        let pool = |map| mean(&regions.select(Region::Moving, map));
+        score(
+            ObjectMetric::GradientError,
+            errors.and_then(pool),
+            pool(&moving.gradient_noise),
+            "is not seen in the moving region",
+        )
+    }
+
+    /// The object's matte outside its support, zero elsewhere and for what does not move.
+    pub fn bleed_map(&self, matte: &Plane) -> Plane {
+        match &self.mover {
+            Ok(Moving {
+                sides: Some(sides), ..
+            }) => matte.zip(sides, |matte, side| match side {
+                Side::Inside => 0.0,
+                Side::Lateral | Side::Leading | Side::Trailing => *matte,
+            }),
+            _ => matte.map(|_| 0.0),
+        }
+    }
+
+    pub(crate) fn bleed_scores(&self, matte: &Plane) -> [Measured; 3] {
+        let moving = match self.moving() {
+            Ok(moving) => moving,
+            Err(reason) => return [(); 3].map(|()| Measured::not_applicable(&reason)),
+        };
+        let found = moving
+            .sides
+            .as_ref()
+            .and_then(|sides| bleed(matte, sides, &moving.mover.silhouette));
+        let noise = moving.bleed_noise;
+        let pick = |metric, part: fn(Bleed) -> f64| {
+            score(metric, found.map(part), noise.map(part), NO_SILHOUETTE)
+        };
+        [
+            pick(ObjectMetric::BleedLateral, |bleed| bleed.lateral),
+            pick(ObjectMetric::BleedLeading, |bleed| bleed.leading),
+            pick(ObjectMetric::BleedTrailing, |bleed| bleed.trailing),
+        ]
+    }
+
+    /// Growth, gain, loss, misplacement, centroid, extent and excess of total variation.
+    fn row_scores(&self, matte: &Plane) -> [Measured; 7] {
+        let (rows, mover) = match self.along_motion() {
+            Ok(found) => found,
+            Err(reason) => return [(); 7].map(|()| Measured::not_applicable(&reason)),
+        };
+        let grid = rows.rows.spread(matte);
+        let [growth, gain, loss] = match &rows.mass_floor {
+            Ok(floor) => {
+                let length = mover.silhouette.lateral;
+                let found = RowMass::new(&grid, &rows.truth, &rows.instant, length);
+                [
+                    Measured::score(found.growth, floor.growth),
+                    Measured::score(found.gain, floor.gain),
+                    Measured::score(found.loss, floor.loss),
+                ]
+            }
+            Err(reason) => [(); 3].map(|()| Measured::not_applicable(reason)),
+        };
+        let found = misplacement(&grid, &rows.truth);
+        let noise = rows.misplacement_noise;
+        let pick = |metric, part: fn(Misplacement) -> f64| {
+            let reason = "has no mass where the truth has some";
+            score(metric, found.map(part), noise.map(part), reason)
+        };
+        [
+            growth,
+            gain,
+            loss,
+            pick(ObjectMetric::Misplacement, |found| found.distance),
+            pick(ObjectMetric::Centroid, |found| found.centroid),
+            pick(ObjectMetric::Extent, |found| found.extent),
+            Measured::score(
+                grid.total_variation() / rows.truth.total_variation() - 1.0,
+                ObjectMetric::TvExcess.ideal().floor(rows.variation_noise),
+            ),
+        ]
+    }
+
+    fn mass_scores(&self, matte: &Plane) -> [Measured; 3] {
+        if let Err(reason) = self.moving() {
+            return [(); 3].map(|()| Measured::not_applicable(&reason));
+        }
+        let (found, noise) = (mass(matte, &self.truth, &self.core), self.mass_noise);
+        let unseen = "is not seen while the shutter is open";
+        let energy = if self.touches_border {
+            Measured::not_applicable(BORDER)
+        } else {
+            score(
+                ObjectMetric::Energy,
+                found.map(|mass| mass.energy),
+                noise.map(|mass| mass.energy),
+                unseen,
+            )
+        };
+        [
+            score(
+                ObjectMetric::Hole,
+                found.and_then(|mass| mass.hole),
+                noise.and_then(|mass| mass.hole),
+                "covers no pixel throughout the shutter",
+            ),
+            score(
+                ObjectMetric::Deficit,
+                found.map(|mass| mass.deficit),
+                noise.map(|mass| mass.deficit),
+                unseen,
+            ),
+            energy,
+        ]
+    }
+
+    fn moving(&self) -> Result<&Moving, String> {
+        self.mover.as_ref().map_err(|stillness| match stillness {
+            Stillness::Invisible => "is not visible at the instant".to_owned(),
+            Stillness::Still => "does not move".to_owned(),
+        })
+    }
+
+    fn along_motion(&self) -> Result<(&AlongMotion, &Mover), String> {
+        let moving = self.moving()?;
+        let rows = moving.rows.as_ref().map_err(String::clone)?;
+        Ok((rows, &moving.mover))
+    }
+}
+
+/// A value and its noise as a score with the metric's floor, or the reason for their absence.
+fn score(metric: ObjectMetric, value: Option<f64>, noise: Option<f64>, reason: &str) -> Measured {
+    match (value, noise) {
+        (Some(value), Some(noise)) => Measured::score(value, metric.ideal().floor(noise)),
+        _ => Measured::not_applicable(reason),
+    }
+}

@@ -1,0 +1,14 @@
+//! Writes the meshes and textures of the built-in scenes again: `cargo run -p generator`.
+
+use std::path::Path;
+
+fn main() -> std::io::Result<()> {
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    for file in generator::files() {
+        let path = scenes.join(&file.path);
+        std::fs::create_dir_all(path.parent().expect("it lies in a scene's folder"))?;
+        std::fs::write(&path, &file.bytes)?;
+        println!("{} ({} bytes)", file.path, file.bytes.len());
+    }
+    Ok(())
+}

@@ -1,0 +1,117 @@
+//! Links between the project's own pages: each leads to a file, and to a heading where it names one.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Folders that hold no page of the project's own.
+const FOREIGN: [&str; 4] = ["target", "out", "node_modules", ".git"];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Every page below a folder.
+fn pages(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+    {
+        let name = entry.file_name().unwrap().to_string_lossy().into_owned();
+        if entry.is_dir() && !FOREIGN.contains(&name.as_str()) {
+            found.extend(pages(&entry));
+        } else if name.ends_with(".md") {
+            found.push(entry);
+        }
+    }
+    found.sort();
+    found
+}
+
+/// What stands outside of blocks of code.
+fn prose(text: &str) -> String {
+    let parts = text.split("```").step_by(2);
+    let lines = parts
+        .flat_map(str::lines)
+        .filter(|line| !line.starts_with("    "));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// The targets of `[words](target)`.
+fn links(text: &str) -> Vec<String> {
+    let rests = text.split("](").skip(1);
+    let targets = rests.filter_map(|rest| rest.split_once(')'));
+    targets.map(|(target, _)| target.to_owned()).collect()
+}
+
+/// Headings as GitHub names them: lower case, no signs, hyphens for spaces.
+fn anchors(text: &str) -> Vec<String> {
+    let headings = text.lines().filter(|line| line.starts_with('#'));
+    let anchor = |heading: &str| -> String {
+        let words = heading.trim_start_matches('#').trim().to_lowercase();
+        let kept = words
+            .chars()
+            .filter(|sign| sign.is_alphanumeric() || " -_".contains(*sign));
+        kept.map(|sign| if sign == ' ' { '-' } else { sign })
+            .collect()
+    };
+    headings.map(anchor).collect()
+}
+
+/// None where the link leads somewhere.
+fn broken(page: &Path, target: &str) -> Option<String> {
+    if target.contains("://") {
+        return None;
+    }
+    let (file, anchor) = target.split_once('#').unwrap_or((target, ""));
+    let path = match file {
+        "" => page.to_owned(),
+        file => page.parent().unwrap().join(file),
+    };
+    let place = format!("{}: {target}", page.display());
+    if !path.exists() {
+        return Some(place);
+    }
+    if anchor.is_empty() {
+        return None;
+    }
+    let found = anchors(&fs::read_to_string(&path).unwrap());
+    (!found.contains(&anchor.to_owned()))
+        .then(|| format!("{place} (headings: {})", found.join(", ")))
+}
+
+#[test]
+fn every_link_between_the_pages_leads_somewhere() {
+    let pages = pages(&root());
+    let mut count = 0;
+    let mut all = Vec::new();
+    for page in &pages {
+        let links = links(&prose(&fs::read_to_string(page).unwrap()));
+        count += links.len();
+        all.extend(links.iter().filter_map(|target| broken(page, target)));
+    }
+    assert!(
+        pages.len() > 10 && count > 40,
+        "only {count} links on {} pages were found",
+        pages.len()
+    );
+    assert!(
+        all.is_empty(),
+        "links that lead nowhere:\n{}",
+        all.join("\n")
+    );
+}
+
+#[test]
+fn the_readme_leads_to_every_guide() {
+    let links = links(&prose(
+        &fs::read_to_string(root().join("README.md")).unwrap(),
+    ));
+    for guide in pages(&root().join("docs")) {
+        let name = format!("docs/{}", guide.file_name().unwrap().to_string_lossy());
+        let named = links
+            .iter()
+            .any(|link| link.split('#').next() == Some(&name));
+        assert!(named, "README.md does not lead to {name}");
+    }
+}

@@ -1,0 +1,75 @@
+//! What every filter makes of every shot.
+
+use std::sync::LazyLock;
+
+use filters::{Blur, Gpu, Input};
+use frame::Plane;
+use tests::presets::every_preset;
+
+use super::panel::{EXPOSURE, HEIGHT, Shot, WIDTH};
+
+pub const SPEEDS: [f64; 5] = [3.0, 8.0, 16.0, 24.0, 48.0];
+pub const ANGLES: [f64; 4] = [0.0, 30.0, 90.0, 135.0];
+
+pub struct Outcome {
+    pub filter: String,
+    pub preset: String,
+    /// Index into [`SHOTS`].
+    pub shot: usize,
+    /// What became of [`Shot::painted`].
+    pub painted: Plane,
+    /// What became of [`Shot::matte`].
+    pub matte: Plane,
+}
+
+/// Every angle at every speed.
+pub static SHOTS: LazyLock<Vec<Shot>> = LazyLock::new(|| {
+    let speeds = SPEEDS.into_iter();
+    speeds
+        .flat_map(|speed| ANGLES.map(|degrees| Shot::new(speed, degrees)))
+        .collect()
+});
+
+/// Of every preset, in the order of the shots.
+pub static OUTCOMES: LazyLock<Vec<Outcome>> = LazyLock::new(|| {
+    let gpu = Gpu::new(None).expect("these tests run filters");
+    let mut outcomes = Vec::new();
+    for (filter, settings) in every_preset() {
+        let mut blur = Blur::new(&gpu, &filter, &settings, WIDTH, HEIGHT).unwrap();
+        for (index, shot) in SHOTS.iter().enumerate() {
+            // Colours pass through the same weights, so one run blurs both.
+            let color = shot.painted().zip(shot.matte(), |a, b| [*a, *b, 0.0]);
+            let input = Input {
+                color: &[&color],
+                velocity: &shot.frame.velocity,
+                depth: &shot.frame.depth,
+                reprojection: Some(shot.frame.reprojection),
+                exposure: EXPOSURE,
+                frame_index: 0,
+            };
+            let blurred = blur.run(&input).unwrap().remove(0);
+            outcomes.push(Outcome {
+                filter: filter.name.clone(),
+                preset: settings.preset.clone(),
+                shot: index,
+                painted: blurred.map(|[painted, ..]| *painted),
+                matte: blurred.map(|[_, matte, _]| *matte),
+            });
+        }
+    }
+    outcomes
+});
+
+impl Outcome {
+    pub fn shot(&self) -> &'static Shot {
+        &SHOTS[self.shot]
+    }
+
+    pub fn said(&self) -> String {
+        let shot = self.shot();
+        format!(
+            "{} {} at {} px and {} degrees",
+            self.filter, self.preset, shot.speed, shot.degrees
+        )
+    }
+}

@@ -1,0 +1,69 @@
+//! How long every filter says that its smear is.
+
+use std::ops::RangeInclusive;
+
+use tests::kernels::{Steady, along_motion, jump_flood_trail};
+
+use super::panel::HEIGHT;
+
+/// Length of the smear in pixels: the exposure's where nothing else is said, times a preset's factor, cut at its reach.
+pub fn promised(filter: &str, preset: &str, steady: &Steady) -> f64 {
+    let [x, y] = steady.trail();
+    let trail = x.hypot(y);
+    match (filter, preset) {
+        // The camera of this scene stands still.
+        ("identity" | "camera_gather", _) => 0.0,
+        ("jump_flood" | "jump_flood_packed", preset) => {
+            along_motion(steady, jump_flood_trail(preset, steady))
+        }
+        // Half-velocities are cut at the side of a tile, or at half of it.
+        ("mcguire", "paper" | "tuned") => trail.min(2.0 * 20.0),
+        ("mcguire", "motion_blur_demo") => trail.min(20.0),
+        ("mcguire", "g3d") => trail.min(2.0 * 64.0),
+        ("guertin", _) => trail.min(2.0 * 40.0),
+        // Whole pixels of 5 % of the rows, on either side; under 2 nothing.
+        ("kino", _) => match (0.05 * f64::from(HEIGHT)).floor() {
+            _ if trail < 4.0 => 0.0,
+            radius => trail.min(2.0 * radius),
+        },
+        // Twice the trail, in parts of the picture times its diagonal, is cut at 200 pixels.
+        ("jimenez", "hdrp" | "hdrp_mirrored") => {
+            let [width, height] = steady.size.map(f64::from);
+            let diagonal = width.hypot(height);
+            trail * (200.0 / (2.0 * (x / width).hypot(y / height) * diagonal)).min(1.0)
+        }
+        ("jimenez", "o3de") => 10.0 * trail,
+        // Seven steps of a sixteenth.
+        ("jimenez", "kajiya") => 7.0 / 16.0 * trail,
+        // 1500 pixels per width and height of motion, by noise from 0 to 1.
+        ("jimenez", "wicked") => {
+            let [width, height] = steady.size.map(f64::from);
+            along_motion(steady, [1500.0 * x / width, 1500.0 * y / height])
+        }
+        _ => trail,
+    }
+}
+
+/// What every filter's text says that an edge on the panel spreads by, from 8 pixels on: parts of the promised length, in
+/// whole hundredths.
+pub fn stated(filter: &str, preset: &str) -> RangeInclusive<f64> {
+    match (filter, preset) {
+        ("jump_flood" | "jump_flood_packed", "paper") => 1.26..=1.31,
+        ("jump_flood" | "jump_flood_packed", "july_2024") => 1.09..=1.12,
+        ("mcguire", "paper") => 0.84..=0.91,
+        ("mcguire", "motion_blur_demo") => 0.94..=0.97,
+        ("mcguire", "g3d") => 1.02..=1.09,
+        ("mcguire", "tuned") => 0.86..=1.04,
+        ("guertin", _) => 0.65..=0.87,
+        ("bevy", "msaa") => 0.955..=1.025,
+        ("kino", _) => 0.72..=0.78,
+        ("jimenez", "hdrp" | "hdrp_mirrored") => 1.00..=1.03,
+        ("jimenez", "kajiya") => 1.00..=1.08,
+        ("jimenez", "kajiya_scaled") => 0.99..=1.02,
+        ("jimenez", "o3de") => 0.94..=0.95,
+        ("jimenez", "o3de_scaled") => 0.72..=0.94,
+        ("jimenez", "wicked") => 0.60..=0.63,
+        ("jimenez", "wicked_scaled") => 0.61..=0.64,
+        _ => 0.985..=1.025,
+    }
+}

@@ -1,0 +1,134 @@
+//! The demo's blur over a given map of sources.
+
+use super::paper::{Jitter, POSITION, ROUNDING, Reference, Vec2, dot, minus};
+
+/// What 32-bit floats make of the gradient noise: 53 times the rounding of a number up to 32, twice.
+const NOISE: f64 = 2e-4;
+
+struct Share {
+    value: f64,
+    error: f64,
+}
+
+impl Reference<'_> {
+    /// The blur of one pixel over a given map of sources (in pixels), and how far off 32-bit noise may put it; nothing
+    /// where a tap lies too near an edge to know which texel it falls on.
+    pub fn blurred(
+        &self,
+        pixel: [i64; 2],
+        sources: &dyn Fn([i64; 2]) -> Vec2,
+    ) -> Option<([f64; 3], f64)> {
+        let p = self.uv(pixel);
+        let source_uv = |pixel: [i64; 2]| {
+            let position = sources(pixel);
+            [0, 1].map(|axis| position[axis] / self.size[axis] as f64)
+        };
+        let own = source_uv(pixel);
+        let v = self.velocity(own).map(|component| -component);
+        if v == [0.0, 0.0] {
+            return Some((self.color(p), 0.0));
+        }
+        let length = self.paper.m.min(self.cut(v, self.paper.reach_factor));
+        let n = f64::from(self.paper.samples);
+        let start_offset = self.paper.jitter == Jitter::StartOffset;
+        let (noise, noise_error) = match self.paper.jitter {
+            Jitter::None => (0.5, 0.0),
+            _ => (self.noise(pixel)?, NOISE),
+        };
+        let [trail_x, trail_y] = self.pixels(v);
+        let misplaced = POSITION + noise_error * length * trail_x.hypot(trail_y);
+        // A share moves what is read of the colours, and no tap.
+        let mut misread = misplaced;
+        let (mut sum, mut weights) = match start_offset {
+            true => ([0.0; 3], 0.0),
+            false => (self.color(p), 1.0),
+        };
+        for i in u32::from(!start_offset)..self.paper.samples {
+            let even = f64::from(i) / (n - 1.0).max(1.0);
+            let along = match self.paper.jitter {
+                Jitter::StepScale => even * (1.0 + (noise - 0.5)),
+                Jitter::StartOffset => (f64::from(i) + noise) / n,
+                Jitter::StepOffset => even + (noise - 1.0) / (n - 1.0).max(1.0),
+                Jitter::None => even,
+            };
+            let x = [0, 1].map(|axis| p[axis] + along * length * v[axis]);
+            let position = self.pixels(x);
+            if position.iter().any(|c| (c - c.round()).abs() < misplaced) {
+                return None;
+            }
+            if x.iter().any(|c| !(0.0..=1.0).contains(c)) {
+                break;
+            }
+            let other = source_uv(position.map(|c| c.floor() as i64));
+            let weight = self.weight(own, other)?;
+            let tap = match self.paper.behind_extent {
+                None => self.color(x),
+                Some(extent) => {
+                    let share = self.share(p, own, x, extent);
+                    misread += share.error * length * trail_x.hypot(trail_y);
+                    let place = [0, 1].map(|axis| p[axis] + share.value * (x[axis] - p[axis]));
+                    self.color(place)
+                }
+            };
+            sum = [0, 1, 2].map(|c| sum[c] + tap[c] * weight);
+            weights += weight;
+        }
+        (weights > 0.0).then(|| (sum.map(|component| component / weights), misread))
+    }
+
+    fn color(&self, uv: Vec2) -> [f64; 3] {
+        [0, 1, 2].map(|c| {
+            self.sample(uv, false, |x, y| {
+                f64::from(self.clamped(&self.field.color, x, y)[c])
+            })
+        })
+    }
+
+    /// How far from p towards x the colour is taken: max(nb, nf), and how far off 32-bit floats may put it.
+    fn share(&self, p: Vec2, own: Vec2, x: Vec2, extent: f64) -> Share {
+        let [source, here, tap] = [own, p, x].map(|uv| self.depth(uv));
+        let [source_reverse, here_reverse] = [source, here].map(|depth| 0.05 / depth);
+        let nb = 1.0 - (source_reverse - here_reverse) / extent;
+        let nf = 1.0 - ((tap - 0.1) - source) / 0.1;
+        let [nb, nf] = [nb, nf].map(|part| part.clamp(0.0, 1.0));
+        let between = |part: f64| part > 0.0 && part < 1.0;
+        let error = if between(nb) && between(nf) {
+            ROUNDING * (source_reverse / extent + (tap + source) / 0.1)
+        } else if between(nb) {
+            ROUNDING * source_reverse / extent
+        } else if between(nf) && nb == 0.0 {
+            ROUNDING * (tap + source) / 0.1
+        } else {
+            0.0
+        };
+        Share {
+            value: nb.max(nf),
+            error,
+        }
+    }
+
+    /// w = 1 - fg * D^0.1, or nothing where D is rounding noise that the root would blow up and that counts.
+    fn weight(&self, own: Vec2, other: Vec2) -> Option<f64> {
+        let v = self.measured(self.velocity(own));
+        let w = self.measured(self.velocity(other));
+        let d = dot(minus(v, w), v) / dot(v, v);
+        let ahead = (self.depth(other) - self.depth(own)) / self.paper.foreground_extent;
+        let fg = (1.0 - ahead).clamp(0.0, 1.0);
+        // Motion is known to 1e-4 of itself.
+        if fg > 0.0 && d != 0.0 && d > -1e-4 && d < 1e-3 {
+            return None;
+        }
+        Some(1.0 - fg * d.clamp(0.0, 1.0).powf(self.paper.mismatch_exponent))
+    }
+
+    /// Interleaved gradient noise on a cycle of 8 frames; nothing where it may wrap around.
+    fn noise(&self, pixel: [i64; 2]) -> Option<f64> {
+        let frame = f64::from(self.paper.frame_index % 8);
+        let x = pixel[0] as f64 + frame * 47.0 * 0.695;
+        let y = pixel[1] as f64 + frame * 17.0 * 0.695;
+        let inner = (0.067_110_56 * x + 0.005_837_15 * y).fract();
+        let noise = (52.982_918_9 * inner).fract();
+        let clear = |value: f64, margin: f64| value > margin && value < 1.0 - margin;
+        (clear(inner, NOISE / 50.0) && clear(noise, NOISE)).then_some(noise)
+    }
+}

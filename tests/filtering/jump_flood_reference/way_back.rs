@@ -1,0 +1,175 @@
+//! Rejection and back-tracking.
+
+use super::flood::Chosen;
+use super::paper::{Answer, POSITION, ROUNDING, Reference, Vec2, at_most, both, cross, dot, minus};
+
+/// Where a pixel's velocity comes from after the way back, in pixels, and the paper's flag.
+#[derive(Clone, Copy, Debug)]
+pub struct Source {
+    pub position: Vec2,
+    pub flag: f64,
+}
+
+/// In pixels: what 32-bit floats make of positions up to 100 after a product and a sum.
+const STORED: f64 = 3e-5;
+
+/// A row of matching probes that a correct run may be in.
+#[derive(Clone, Copy, PartialEq)]
+struct Row {
+    hits: usize,
+    /// UV of the last of them.
+    last: Vec2,
+}
+
+impl Reference<'_> {
+    /// Rejection and the way back for a pixel whose dilated source is certain: every outcome that a correct run may
+    /// store.
+    pub fn backtracked(&self, pixel: [i64; 2], chosen: Chosen) -> Vec<Source> {
+        let p = self.uv(pixel);
+        let own = |flag| Source {
+            position: self.pixels(self.stored(p)),
+            flag,
+        };
+        if !chosen.valid {
+            return vec![own(0.0)];
+        }
+        let s = self.place(chosen.pixel, self.paper.passes - 1);
+        let mut outcomes = Vec::new();
+        let (z, z_best) = (self.depth(p), self.depth(s));
+        if z != z_best {
+            match at_most(z, z_best, ROUNDING * z) {
+                Answer::Yes => return vec![own(0.0)],
+                Answer::Either => outcomes.push(own(0.0)),
+                Answer::No => {}
+            }
+        }
+        let v = self.velocity(s);
+        let tau = self.fitness(p, s).0;
+        // The doubled reach is the gather's alone.
+        let factor = match self.paper.reach_factor.is_infinite() {
+            true => f64::INFINITY,
+            false => 1.0,
+        };
+        let g = tau.min(self.cut(v, factor));
+        let enough = match self.paper.third_match {
+            Some(_) => 3,
+            None => 1,
+        };
+        let mut rows = vec![Row { hits: 0, last: p }];
+        for j in -self.paper.probes..=self.paper.probes {
+            let k = g * (1.0 + j as f64 / self.paper.probes as f64);
+            let q = [p[0] - v[0] * k, p[1] - v[1] * k];
+            let looks = self.looks(k, q);
+            let matches = self.matches(v, z_best, q);
+            let mut next: Vec<Row> = Vec::new();
+            for row in rows {
+                let mut goes_on = |row: Row| {
+                    if !next.contains(&row) {
+                        next.push(row);
+                    }
+                };
+                if looks != Answer::Yes {
+                    goes_on(row);
+                }
+                if looks == Answer::No {
+                    continue;
+                }
+                if matches != Answer::No && row.hits + 1 == enough {
+                    outcomes.extend(self.ends(q));
+                } else if matches != Answer::No {
+                    goes_on(Row {
+                        hits: row.hits + 1,
+                        last: q,
+                    });
+                }
+                if matches != Answer::Yes && row.hits > 0 {
+                    outcomes.extend(self.ends(row.last));
+                } else if matches != Answer::Yes {
+                    goes_on(row);
+                }
+            }
+            rows = next;
+        }
+        // Rows that the last probe cuts short count nothing.
+        if !rows.is_empty() {
+            outcomes.push(own(1.0));
+        }
+        outcomes
+    }
+
+    /// What the map may hold of a UV that 32-bit floats round to either side.
+    fn ends(&self, uv: Vec2) -> Vec<Source> {
+        let mut sources: Vec<Source> = Vec::new();
+        for (right, down) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
+            let [width, height] = self.size.map(|side| side as f64);
+            let near = match self.paper.half_map {
+                true => [
+                    uv[0] + right * STORED / width,
+                    uv[1] + down * STORED / height,
+                ],
+                false => uv,
+            };
+            let position = self.pixels(self.stored(near));
+            if sources.iter().all(|source| source.position != position) {
+                sources.push(Source {
+                    position,
+                    flag: 0.0,
+                });
+            }
+        }
+        sources
+    }
+
+    /// Whether probe q at k frames is looked at.
+    fn looks(&self, k: f64, q: Vec2) -> Answer {
+        if k < f64::from(f32::MIN_POSITIVE) {
+            return Answer::No;
+        }
+        let mut answer = at_most(k, self.paper.m + 0.2, ROUNDING);
+        for (position, side) in q.into_iter().zip(self.size) {
+            let margin = POSITION / side as f64;
+            answer = both(answer, at_most(position, 1.0, margin));
+            answer = both(answer, at_most(-position, 0.0, margin));
+        }
+        answer
+    }
+
+    /// Whether probe q matches a source of velocity v and distance z.
+    fn matches(&self, v: Vec2, z: f64, q: Vec2) -> Answer {
+        // The probe may round to either side of a texel's edge.
+        let at = |dx: f64, dy: f64| {
+            let [width, height] = self.size.map(|side| side as f64);
+            let q = [q[0] + dx * POSITION / width, q[1] + dy * POSITION / height];
+            let difference = self.difference(v, self.velocity(q));
+            // The difference is a sum of ratios that may each be far above 1 before the clamp.
+            let alike = at_most(
+                difference,
+                self.paper.match_threshold,
+                ROUNDING * (1.0 + difference),
+            );
+            match self.paper.third_match {
+                Some(threshold) => {
+                    let reverse = [self.depth(q), z].map(|depth| 0.05 / depth);
+                    let apart = (reverse[0] - reverse[1]).abs();
+                    let level = at_most(apart, threshold, ROUNDING * (reverse[0] + reverse[1]));
+                    both(alike, level)
+                }
+                None => alike,
+            }
+        };
+        let corners = [at(-1.0, -1.0), at(1.0, -1.0), at(-1.0, 1.0), at(1.0, 1.0)];
+        match corners.iter().all(|corner| *corner == corners[0]) {
+            true => corners[0],
+            false => Answer::Either,
+        }
+    }
+
+    fn difference(&self, v: Vec2, w: Vec2) -> f64 {
+        let (v, w) = (self.measured(v), self.measured(w));
+        let parallel = dot(minus(v, w), v).abs() / dot(v, v);
+        let perpendicular = cross(minus(v, w), v).abs() / dot(v, v);
+        let weighted = self.paper.parallel_sensitivity * parallel
+            + self.paper.perpendicular_sensitivity * perpendicular;
+        weighted.clamp(0.0, 1.0)
+    }
+}

@@ -1,0 +1,15 @@
+//! Filters: folders, kernels, and shipped presets against their originals.
+
+mod calibration;
+mod camera_gather;
+mod engine_filters;
+mod fields;
+mod folders;
+mod invariants;
+mod jump_flood_findings;
+mod jump_flood_packed;
+mod jump_flood_reference;
+mod pass_times;
+mod preset_sources;
+mod tile_reference;
+mod wrong_kernels;

@@ -1,0 +1,83 @@
+//! McGuire et al. 2012, the reconstruction, as the paper writes it: Z is negative into the screen.
+
+use super::noise::{NOISE, noise};
+use super::tiles::{Vec2, length, scaled};
+use super::{Expected, FRAME_INDEX, Run};
+
+/// The paper's epsilon, in pixels.
+const EPSILON: f64 = 1e-4;
+
+/// What a pixel becomes, given the neighbourhoods of the GPU; nothing where rounding decides which texel a tap reads.
+pub fn reconstructed(run: &Run, pixel: [i64; 2]) -> Option<Expected> {
+    // Distances are between pixels, so noise cannot change a weight.
+    color(run, pixel).map(|color| Expected {
+        color,
+        tolerance: 0.0,
+    })
+}
+
+fn color(run: &Run, pixel: [i64; 2]) -> Option<[f64; 3]> {
+    let largest = super::vector(&run.neighborhoods, run.tiles().of(pixel));
+    let limit = EPSILON + 0.5;
+    if (length(largest) - limit).abs() < 1e-5 {
+        return None;
+    }
+    if length(largest) <= limit {
+        return Some(run.color(pixel));
+    }
+    let samples = run.integer("samples");
+    let (jitter, uncertainty) = match run.choice("jitter").as_str() {
+        "none" => (0.0, 0.0),
+        _ => (noise(pixel, FRAME_INDEX, 0.0)? - 0.5, NOISE),
+    };
+    let radius = |pixel: [i64; 2]| length(run.motion(pixel)).max(0.5);
+    let z = |pixel: [i64; 2]| -run.depth(pixel);
+    let mut weight = 1.0 / radius(pixel);
+    let mut sum = run.color(pixel).map(|component| component * weight);
+    for i in 0..samples {
+        if 2 * i == samples - 1 {
+            continue;
+        }
+        let step = 2.0 / (samples as f64 + 1.0);
+        let t = -1.0 + step * (i as f64 + jitter + 1.0);
+        let misplaced = 1e-4 + uncertainty * step * length(largest);
+        let offset = rounded(scaled(largest, t), misplaced)?;
+        let distance = length(offset.map(|component| component as f64));
+        let tap = on_image(run, pixel, offset);
+        let f = soft_depth_compare(z(pixel), z(tap), run.real("soft_extent"));
+        let b = soft_depth_compare(z(tap), z(pixel), run.real("soft_extent"));
+        let a = f * cone(distance, radius(tap))
+            + b * cone(distance, radius(pixel))
+            + 2.0 * cylinder(distance, radius(tap)) * cylinder(distance, radius(pixel));
+        weight += a;
+        let color = run.color(tap);
+        sum = [0, 1, 2].map(|channel| sum[channel] + a * color[channel]);
+    }
+    Some(sum.map(|component| component / weight))
+}
+
+/// The nearest whole pixels; nothing where `margin` decides.
+fn rounded(offset: Vec2, margin: f64) -> Option<[i64; 2]> {
+    let clear = offset
+        .iter()
+        .all(|component| (component - component.floor() - 0.5).abs() > margin);
+    clear.then(|| offset.map(|component| (component + 0.5).floor() as i64))
+}
+
+/// The pixel at an offset, or the nearest one of the image.
+pub fn on_image(run: &Run, pixel: [i64; 2], offset: [i64; 2]) -> [i64; 2] {
+    [0, 1].map(|axis| (pixel[axis] + offset[axis]).clamp(0, run.size()[axis] - 1))
+}
+
+fn soft_depth_compare(za: f64, zb: f64, extent: f64) -> f64 {
+    (1.0 - (za - zb) / extent).clamp(0.0, 1.0)
+}
+
+pub fn cone(distance: f64, radius: f64) -> f64 {
+    (1.0 - distance / radius).clamp(0.0, 1.0)
+}
+
+pub fn cylinder(distance: f64, radius: f64) -> f64 {
+    let part = ((distance - 0.95 * radius) / (0.1 * radius)).clamp(0.0, 1.0);
+    1.0 - part * part * (3.0 - 2.0 * part)
+}

@@ -1,0 +1,63 @@
+//! The unit of the headline score: N accumulated sub-frames are worth N.
+
+use frame::{Alignment, Picture};
+use metrics::Reference;
+use tests::unwatched;
+use tracer::{FrameSettings, TruthSettings, load_scene, trace_frame, trace_ladder, trace_truth};
+
+use std::path::Path;
+
+#[test]
+fn n_subframes_are_worth_n() {
+    let folder = Path::new(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../scenes/sliding_panel"
+    ));
+    // 128 px per frame at 640x360 are 16 px over this shutter and size: 16 sub-frames lie a pixel apart, so that the
+    // error of each count lies well above the noise.
+    let scene = load_scene(folder, Some("128px_30deg")).unwrap();
+    let watch = &unwatched;
+    let (width, height) = (160, 90);
+    let settings = TruthSettings {
+        width,
+        height,
+        exposure: 1.0,
+        alignment: Alignment::Trailing,
+        samples_per_pixel: 1024,
+        replicates: 8,
+        seed: 1,
+    };
+    let frame = trace_frame(
+        &scene,
+        &FrameSettings {
+            width,
+            height,
+            exposure: 1.0,
+            samples_per_pixel: 64,
+            ..Default::default()
+        },
+        watch,
+    )
+    .unwrap();
+    let truth = trace_truth(&scene, &settings, watch).unwrap();
+    let ladder = trace_ladder(&scene, &settings, &truth, &suite::LADDER, watch).unwrap();
+    let viewing = suite::viewing(&scene);
+    let reference = Reference::new(&frame, &truth, Some(&ladder), &viewing).unwrap();
+    // Other random numbers: what is measured is not what it is measured against.
+    let again = TruthSettings {
+        seed: 2,
+        ..settings
+    };
+    let measured = trace_ladder(&scene, &again, &truth, &[2, 4, 8, 16], watch).unwrap();
+    for rung in measured.rungs {
+        let picture = Picture::mean(&rung.halves);
+        let scores = reference.measure(&picture).unwrap().scores;
+        let n = f64::from(rung.subframes);
+        let found = scores.get(metrics::Metric::SUBFRAMES).value().unwrap();
+        println!("{n} sub-frames are worth {found:.3}");
+        assert!(
+            (found / n - 1.0).abs() < 0.05,
+            "{n} sub-frames are worth {found}"
+        );
+    }
+}

@@ -1,0 +1,18 @@
+//! Rendering: frames and truths against known answers, and the files that hold them.
+
+mod accumulation;
+mod at_instant;
+mod coverage;
+mod deforming;
+mod determinism;
+mod files;
+mod frame_variants;
+mod furnace;
+mod instances;
+mod intersection;
+mod materials;
+mod motion;
+mod regions;
+mod shutter;
+mod truth;
+mod velocity;

@@ -1,0 +1,139 @@
+//! No wrong blur passes: on every scene each breaks a bound that is asked of all filters, and the right ones break none.
+
+mod decoys;
+mod scenes;
+
+use std::path::Path;
+
+use frame::Picture;
+use metrics::{Measured, Metric, Reference, Scores};
+use suite::{Bounds, Outcome, judge, read_bounds_file};
+use tests::synthetic::{Blur, Sampling, Scene, VIEWING};
+
+use decoys::{APART, decoys};
+use scenes::scenes;
+
+/// What is asked of every filter on every scene, required or not.
+fn bounds() -> Bounds {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/bounds.toml");
+    read_bounds_file(Path::new(path)).unwrap().default
+}
+
+fn noisy(seed: u64) -> Sampling {
+    Sampling {
+        samples: 1024,
+        seed: Some(seed),
+    }
+}
+
+/// Scores of every decoy, and of what is right, on one scene.
+fn scored(scene: &Scene) -> Vec<(&'static str, Scores)> {
+    let frame = scene.frame();
+    let truth = scene.truth([noisy(1), noisy(2)]);
+    let reference = Reference::new(&frame, &truth, None, &VIEWING).unwrap();
+    let score = |picture: &Picture| reference.measure(picture).unwrap().scores;
+    let mut rows: Vec<_> = (decoys(scene, &frame).iter())
+        .map(|(name, picture)| (*name, score(picture)))
+        .collect();
+    rows.push(("oracle", score(&scene.render(&Blur::TRUE, APART))));
+    rows.push((
+        "accumulate:64",
+        score(&scene.render(&Blur::accumulation(64), APART)),
+    ));
+    rows
+}
+
+/// Per decoy the scores that should see it: the first that applies to a scene has to.
+const SEEN_BY: [(&str, &[&str]); 14] = [
+    ("identity", &["misplacement", "label_tv"]),
+    ("constant", &["bleed_lateral"]),
+    ("half length", &["extent", "label_tv"]),
+    ("1.5 length", &["extent", "label_tv"]),
+    ("wrong side", &["bleed_leading"]),
+    ("shift along", &["misplacement", "flip_moving"]),
+    ("shift across", &["lateral_growth", "label_tv"]),
+    ("dilation 2 px", &["lateral_growth", "flip_moving"]),
+    ("dilation 6 px", &["bleed_lateral"]),
+    ("isotropic", &["bleed_leading"]),
+    ("fat, rescaled", &["lateral_growth", "label_tv"]),
+    ("own velocity", &["misplacement", "label_tv"]),
+    ("sharp core", &["row_gain", "label_tv"]),
+    ("banding", &["flip_p95_moving"]),
+];
+
+/// Names of the broken bounds.
+fn broken(scores: &Scores, bounds: &Bounds) -> Vec<String> {
+    let verdicts = judge(scores, None, bounds).into_iter();
+    verdicts
+        .filter_map(|verdict| match verdict.outcome {
+            Outcome::Broken { .. } => Some(verdict.metric),
+            Outcome::Kept { .. } | Outcome::NotApplicable { .. } => None,
+            other => panic!("{}: {other:?}", verdict.metric),
+        })
+        .collect()
+}
+
+/// A scene, and per decoy the bounds that it breaks there.
+type Column<'a> = (&'a str, Vec<(&'a str, Vec<String>)>);
+
+/// The page's table: a row per decoy, a column per scene.
+fn table(columns: &[Column]) -> String {
+    let mut text = "| |".to_owned();
+    for (scene, _) in columns {
+        text += &format!(" {scene} |");
+    }
+    text += &format!("\n|---|{}\n", "---|".repeat(columns.len()));
+    for row in 0..columns[0].1.len() {
+        text += &format!("| {} |", columns[0].1[row].0);
+        for (_, rows) in columns {
+            let broken = &rows[row].1;
+            let cell = match broken.is_empty() {
+                true => "passes".to_owned(),
+                false => broken.join(", ").replace("_moving", ""),
+            };
+            text += &format!(" {cell} |");
+        }
+        text += "\n";
+    }
+    text
+}
+
+#[test]
+fn every_wrong_blur_breaks_a_bound_and_the_right_ones_break_none() {
+    let bounds = bounds();
+    let mut columns = Vec::new();
+    let mut failures = Vec::new();
+    for (scene, made) in scenes() {
+        let mut rows = Vec::new();
+        for (decoy, scores) in scored(&made) {
+            let broken = broken(&scores, &bounds);
+            let seen_by = SEEN_BY.iter().find(|(name, _)| *name == decoy);
+            match seen_by {
+                None if broken.is_empty() => {}
+                None => failures.push(format!("{scene}: {decoy} breaks {broken:?}")),
+                Some((_, seen_by)) => {
+                    let applies = |name: &&&str| {
+                        let metric: Metric = name.parse().unwrap();
+                        matches!(scores.get(metric), Measured::Score(_))
+                    };
+                    let seer = seen_by.iter().find(applies).unwrap();
+                    if !broken.iter().any(|name| name == seer) {
+                        failures.push(format!(
+                            "{scene}: {seer} does not see {decoy}; broken: {broken:?}"
+                        ));
+                    }
+                }
+            }
+            rows.push((decoy, broken));
+        }
+        columns.push((scene, rows));
+    }
+    let table = table(&columns);
+    println!("{table}");
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+    let page = include_str!("../../../crates/metrics/DECOYS.md");
+    assert!(
+        page.contains(&table),
+        "crates/metrics/DECOYS.md holds another table than this one:\n{table}"
+    );
+}
