@@ -12,7 +12,7 @@ use crate::seeds::Seed;
 use crate::target::{Shape, Target};
 use crate::tokens;
 
-/// Exit codes that `crates/suite/README.md` names.
+/// Exit codes that the README names.
 const CODES: [i32; 5] = [0, 1, 2, 3, 4];
 
 /// A program that was asked for much may work so long, and is then ended.
