@@ -1,8 +1,9 @@
 # `make run` does the main job; `make test` passes the tests. Both check for a Vulkan driver first and, on Debian and
 # Ubuntu, install the software one where none is found; the tests want a Python with Optuna, which drives the tuning service, and
-# with numpy and OpenEXR, which presets are compared with their originals in; and Chromium, which reports are looked at with. On macOS and Windows plain cargo commands work.
+# with numpy and OpenEXR, which presets are compared with their originals in; and Chromium, which reports are looked at with. `make fuzz` tries hostile input for ten minutes. On macOS and Windows plain cargo
+# commands work.
 
-.PHONY: run test vulkan python chromium
+.PHONY: run test fuzz vulkan python chromium
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -15,6 +16,13 @@ run: vulkan
 
 test: vulkan python chromium
 	cargo test --workspace --locked
+
+# How long to fuzz, what, and from which numbers on; `make fuzz MINUTES=1 TARGETS=scene,obj SEED=7`. See docs/fuzzing.md.
+MINUTES ?= 10
+SEED ?= $(shell date +%s)
+
+fuzz: vulkan
+	cargo test --package suite --test fuzz --locked -- --minutes $(MINUTES) --seed $(SEED) $(if $(TARGETS),--targets $(TARGETS))
 
 # The Python that has these packages; one of your own is used as it is. Its pip is called through it: in a copied folder the script
 # `pip` still belongs to the original.

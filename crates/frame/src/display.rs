@@ -4,7 +4,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use crate::exr_file::ExrFile;
-use crate::{FileError, Image, Raster, read_bounded, write_atomically};
+use crate::{FileError, Image, Raster, check_png_palette, read_bounded, write_atomically};
 
 /// Photographic exposures for pictures and for FLIP.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -125,6 +125,7 @@ pub fn read_png(path: &Path) -> Result<Raster<[f32; 3]>, FileError> {
         reason,
     };
     check_png_size(&bytes).map_err(foreign)?;
+    check_png_palette(&bytes).map_err(foreign)?;
     let picture = image::load_from_memory_with_format(&bytes, image::ImageFormat::Png)
         .map_err(|error| foreign(format!("not a PNG that can be read: {error}")))?;
     if picture.color().has_alpha() {

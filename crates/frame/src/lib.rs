@@ -33,6 +33,7 @@ mod exr_reading;
 mod exr_text;
 mod instant;
 mod picture;
+mod png_palette;
 mod provenance;
 mod raster;
 mod region;
@@ -57,6 +58,7 @@ pub use exr_header::{LARGEST_EXR_RATIO, LARGEST_EXR_SIDE, MOST_EXR_BYTES, MOST_E
 pub use exr_reading::read_exr;
 pub use instant::{ColorSampling, FAR_DEPTH, Frame, VelocityKind};
 pub use picture::Picture;
+pub use png_palette::check_png_palette;
 pub use provenance::Provenance;
 pub use raster::{Image, Plane, Raster, Vectors};
 pub use region::{Region, Regions, regions};

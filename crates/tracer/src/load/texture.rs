@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use frame::check_png_palette;
 use image::ImageFormat;
 
 use crate::Texture;
@@ -63,6 +64,9 @@ impl Textures {
         let broken = |error| format!("is broken: {error}");
         let header = Header::read(bytes, format).map_err(broken)?;
         header.check(MOST_TEXELS)?;
+        if format == ImageFormat::Png {
+            check_png_palette(bytes)?;
+        }
         let together = self.texels + header.texels();
         if together > MOST_TEXELS_TOGETHER {
             return Err(format!(

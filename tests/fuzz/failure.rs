@@ -1,0 +1,84 @@
+//! What was found.
+
+use std::fmt::{self, Display};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use crate::target::Target;
+
+/// How a case failed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum How {
+    /// A panic: its place and message.
+    Panic(String),
+    /// A worker that was ended by a signal, or ended itself: how, and its last words.
+    Ended(String),
+    /// A case that took longer than that.
+    Hang(Duration),
+}
+
+impl Display for How {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            How::Panic(text) => write!(f, "panic at {text}"),
+            How::Ended(text) => write!(f, "ended by {text}"),
+            How::Hang(limit) => write!(f, "no end after {} s", limit.as_secs()),
+        }
+    }
+}
+
+impl How {
+    /// The same for inputs that fail alike: the place of a panic, or the words without their numbers.
+    pub fn kind(&self) -> String {
+        let text = match self {
+            How::Panic(text) => {
+                let place = text.split(": ").next().unwrap_or_default();
+                return format!("panic at {place}");
+            }
+            other => other.to_string(),
+        };
+        text.chars().filter(|c| !c.is_ascii_digit()).collect()
+    }
+}
+
+/// The first input that failed in some way.
+pub struct Failure {
+    /// Whose input.
+    pub target: &'static Target,
+    /// How it failed.
+    pub how: How,
+    /// Where it is kept.
+    pub path: PathBuf,
+    /// Its number.
+    pub case: u64,
+    /// How many inputs failed alike.
+    pub count: u64,
+}
+
+impl Failure {
+    /// What was found, and how to see it again.
+    pub fn text(&self, seed: u64) -> String {
+        format!(
+            "fuzz: {target}: {how} ({count} inputs; the first is case {case} of seed {seed})\n  input: {path}\n  \
+             again: cargo test --locked -p suite --test fuzz -- --input {path}\n",
+            target = self.target.name,
+            how = self.how,
+            count = self.count,
+            case = self.case,
+            path = self.path.display(),
+        )
+    }
+}
+
+/// Keeps an input below the build's folder, under the hash of its bytes.
+pub fn save(target: &Target, input: &[u8]) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
+        .join("fuzz")
+        .join(target.name);
+    let name = blake3::hash(input).to_hex();
+    let path = folder.join(&name[..16]);
+    std::fs::create_dir_all(&folder)
+        .and_then(|()| std::fs::write(&path, input))
+        .unwrap_or_else(|error| panic!("{} cannot be written: {error}", path.display()));
+    path
+}

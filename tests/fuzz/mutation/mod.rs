@@ -1,0 +1,53 @@
+//! From inputs to other inputs.
+
+mod bytes;
+mod exr;
+mod png;
+mod text;
+mod words;
+
+pub use png::push as push_chunk;
+
+use crate::place::Place;
+use crate::random::Random;
+use crate::target::{Shape, Target};
+
+/// Longest input that is made.
+const LONGEST: usize = 400_000;
+
+/// How files begin.
+const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
+const EXR: &[u8] = b"\x76\x2F\x31\x01";
+
+/// What changes are made with.
+pub struct Source<'a> {
+    /// Of the target.
+    pub tokens: &'static [&'static str],
+    /// Another input.
+    pub other: &'a [u8],
+}
+
+/// One of the inputs, changed once or a few times.
+pub fn mutate(target: &Target, place: &Place, seeds: &[&[u8]], random: &mut Random) -> Vec<u8> {
+    let mut input = random.pick(seeds).to_vec();
+    let source = Source {
+        tokens: target.tokens,
+        other: *random.pick(seeds),
+    };
+    // Half of the files are spoilt as bytes, too.
+    let whole = !random.once_in(2);
+    for _ in 0..random.magnitude(4) {
+        match target.shape {
+            Shape::Text if random.once_in(8) => bytes::change(&mut input, &source, random),
+            Shape::Text => text::change(&mut input, &source, random),
+            Shape::Words => words::change(&mut input, &source, random),
+            Shape::Picture if whole && input.starts_with(PNG) => png::change(&mut input, random),
+            Shape::Picture if whole && input.starts_with(EXR) => {
+                exr::change(&mut input, place, random);
+            }
+            Shape::Bytes | Shape::Picture => bytes::change(&mut input, &source, random),
+        }
+        input.truncate(LONGEST);
+    }
+    input
+}

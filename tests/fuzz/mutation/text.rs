@@ -1,0 +1,211 @@
+//! Changes of text: lines, words, numbers, brackets.
+
+use std::ops::Range;
+
+use super::Source;
+use crate::random::Random;
+use crate::tokens::{NUMBERS, TEXTS};
+
+type Change = fn(&mut Vec<u8>, &Source, &mut Random);
+
+/// Numbers, texts and words of the format go wrong most often.
+const CHANGES: [Change; 16] = [
+    number,
+    number,
+    number,
+    quoted,
+    quoted,
+    token,
+    token,
+    line_token,
+    word,
+    word,
+    repeat_line,
+    remove_line,
+    swap_lines,
+    borrow_line,
+    nest,
+    bracket,
+];
+
+/// Brackets that may stand in one another.
+const BRACKETS: [(&str, &str); 7] = [
+    ("[", "]"),
+    ("{", "}"),
+    ("(", ")"),
+    ("{ a = ", " }"),
+    ("{\"a\":", "}"),
+    ("[[", "]]"),
+    ("{ ", " }"),
+];
+
+/// Changes something.
+pub fn change(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
+    random.pick(&CHANGES)(input, source, random);
+}
+
+/// Another number in the place of one.
+fn number(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
+    let is_number = |word: &[u8]| matches!(word.first(), Some(b'0'..=b'9' | b'-' | b'.'));
+    let numbers: Vec<Range<usize>> = (words(input).into_iter())
+        .filter(|range| is_number(&input[range.clone()]))
+        .collect();
+    if numbers.is_empty() {
+        return token(input, source, random);
+    }
+    let range = random.pick(&numbers).clone();
+    let new = match random.below(4) {
+        0 => format!("{}", random.next() as i64 as f64 / (1_u64 << 60) as f64),
+        1 => format!("{}", random.magnitude(1 << 31)),
+        _ => (*random.pick(&NUMBERS)).to_owned(),
+    };
+    input.splice(range, new.into_bytes());
+}
+
+/// Another text between quotes.
+fn quoted(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
+    let quotes: Vec<usize> = (0..input.len()).filter(|at| input[*at] == b'"').collect();
+    if quotes.len() < 2 {
+        return word(input, source, random);
+    }
+    let first = random.below(quotes.len() - 1);
+    let range = quotes[first] + 1..quotes[first + 1];
+    let new = match random.below(8) {
+        0 => "x".repeat(random.magnitude(20_000)),
+        1 => {
+            let other = random.below(quotes.len() - 1);
+            let other = quotes[other] + 1..quotes[other + 1];
+            String::from_utf8_lossy(&input[other]).into_owned()
+        }
+        _ => (*random.pick(&TEXTS)).to_owned(),
+    };
+    input.splice(range, new.into_bytes());
+}
+
+/// A word of the format anywhere.
+fn token(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
+    let at = match random.once_in(2) {
+        true => random.below(input.len() + 1),
+        false => random.pick(&words(input)).start,
+    };
+    let token = some_token(source, random);
+    input.splice(at..at, token.bytes());
+}
+
+/// A word of the format before some line.
+fn line_token(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
+    let at = random.pick(&lines(input)).start;
+    let token = some_token(source, random);
+    input.splice(at..at, token.bytes());
+}
+
+/// Another word in the place of one.
+fn word(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
+    let words = words(input);
+    let range = random.pick(&words).clone();
+    let new = match random.once_in(2) {
+        true => some_token(source, random).trim_end().as_bytes().to_vec(),
+        false => input[random.pick(&words).clone()].to_vec(),
+    };
+    input.splice(range, new);
+}
+
+fn repeat_line(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
+    let range = random.pick(&lines(input)).clone();
+    let line = input[range.clone()].to_vec();
+    let count = random.magnitude(2_000).min(1 + 100_000 / line.len().max(1));
+    input.splice(range.end..range.end, line.repeat(count));
+}
+
+fn remove_line(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
+    let range = random.pick(&lines(input)).clone();
+    input.drain(range);
+}
+
+fn swap_lines(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
+    let lines = lines(input);
+    let (from, to) = (random.pick(&lines).clone(), random.pick(&lines).start);
+    let line = input[from.clone()].to_vec();
+    input.splice(to..to, line);
+}
+
+fn borrow_line(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
+    let line = random.pick(&lines(source.other)).clone();
+    let at = random.pick(&lines(input)).start;
+    input.splice(at..at, source.other[line].to_vec());
+}
+
+/// Brackets in brackets in brackets, around a word.
+fn nest(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
+    let range = random.pick(&words(input)).clone();
+    let (open, close) = *random.pick(&BRACKETS);
+    let depth = random.magnitude(20_000);
+    let inner = input[range.clone()].to_vec();
+    let mut nested = open.repeat(depth).into_bytes();
+    nested.extend(inner);
+    if !random.once_in(4) {
+        nested.extend(close.repeat(depth).bytes());
+    }
+    input.splice(range, nested);
+}
+
+/// A bracket or comma goes, or comes twice.
+fn bracket(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
+    let marks = b"[]{}(),:=\"'\n";
+    let places: Vec<usize> = (0..input.len())
+        .filter(|at| marks.contains(&input[*at]))
+        .collect();
+    if places.is_empty() {
+        return;
+    }
+    let at = *random.pick(&places);
+    match random.once_in(2) {
+        true => drop(input.remove(at)),
+        false => input.insert(at, input[at]),
+    }
+}
+
+fn some_token<'a>(source: &Source<'a>, random: &mut Random) -> &'a str {
+    match source.tokens.is_empty() || random.once_in(6) {
+        true => *random.pick(&TEXTS),
+        false => *random.pick(source.tokens),
+    }
+}
+
+/// Words and numbers; an empty one at the end where there are none.
+fn words(input: &[u8]) -> Vec<Range<usize>> {
+    let is_part = |byte: u8| byte.is_ascii_alphanumeric() || b"_-.+".contains(&byte);
+    let mut words = Vec::new();
+    let mut start = None;
+    for (at, byte) in input.iter().enumerate() {
+        match (start, is_part(*byte)) {
+            (None, true) => start = Some(at),
+            (Some(from), false) => {
+                words.push(from..at);
+                start = None;
+            }
+            _ => {}
+        }
+    }
+    words.extend(start.map(|from| from..input.len()));
+    if words.is_empty() {
+        words.push(input.len()..input.len());
+    }
+    words
+}
+
+/// Lines with their ends; an empty one where there are none.
+fn lines(input: &[u8]) -> Vec<Range<usize>> {
+    let mut start = 0;
+    let mut lines: Vec<Range<usize>> = (input.split_inclusive(|byte| *byte == b'\n'))
+        .map(|line| {
+            let range = start..start + line.len();
+            start = range.end;
+            range
+        })
+        .collect();
+    if lines.is_empty() {
+        lines.push(0..0);
+    }
+    lines
+}

@@ -1,0 +1,85 @@
+//! Where a worker's cases run.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use filters::Gpu;
+use suite::FilterChoice;
+
+use crate::fixture;
+use crate::targets::Service;
+
+/// What lies beside the folder of a case, and no case may change.
+const CANARY: &str = "this file belongs to nobody's run";
+
+/// A folder that vanishes with the value, and what is kept from case to case.
+pub struct Place {
+    _keep: tempfile::TempDir,
+    /// The cases' own folder.
+    pub folder: PathBuf,
+    /// What the program wrote before the first case.
+    pub fixture: PathBuf,
+    /// Opened once.
+    pub gpu: Option<Gpu>,
+    /// A running `serve`.
+    pub service: Option<Service>,
+    /// All built-in filters, loaded once.
+    pub filters: Vec<FilterChoice>,
+    canary: PathBuf,
+}
+
+impl Place {
+    /// An empty folder.
+    pub fn new(fixture: &Path) -> Self {
+        let keep = tempfile::Builder::new()
+            .prefix("shuttertruth-fuzz-")
+            .tempdir()
+            .expect("a folder for temporary files");
+        // Deep enough for inputs that say `../../`.
+        let folder = keep.path().join("a/b/c/case");
+        fs::create_dir_all(&folder).unwrap();
+        let canary = keep.path().join("a/b/c/canary.txt");
+        fs::write(&canary, CANARY).unwrap();
+        Self {
+            _keep: keep,
+            folder,
+            fixture: fixture.to_owned(),
+            gpu: None,
+            service: None,
+            filters: Vec::new(),
+            canary,
+        }
+    }
+
+    /// Writes a file below the folder and returns its path.
+    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.folder.join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(&path, content).unwrap();
+        path
+    }
+
+    /// A folder of the fixture as `name` below the own folder, copied once.
+    pub fn copied(&self, name: &str) -> PathBuf {
+        let own = self.folder.join(name);
+        if !own.exists() {
+            fixture::copy(&self.fixture.join(name), &own);
+        }
+        own
+    }
+
+    /// The same, as it was at first.
+    pub fn copied_anew(&self, name: &str) -> PathBuf {
+        let _ = fs::remove_dir_all(self.folder.join(name));
+        self.copied(name)
+    }
+
+    /// Panics if a case changed what lies beside its folder.
+    pub fn check(&self) {
+        let found = fs::read_to_string(&self.canary).unwrap_or_default();
+        assert_eq!(
+            found, CANARY,
+            "a file outside the case's folder was changed"
+        );
+    }
+}

@@ -1,0 +1,66 @@
+//! Inputs to begin with.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::place::Place;
+use crate::target::Target;
+
+/// Longest input that is changed; a longer one is tried as it is.
+const LONGEST: usize = 200_000;
+
+/// An input to begin with.
+pub enum Seed {
+    /// As it is, and changed.
+    Bytes(Vec<u8>),
+    /// Made when it is needed, and tried as it is.
+    Made(fn() -> Vec<u8>),
+}
+
+/// All inputs that a target begins with, always in the same order: first those of its corpus.
+pub fn seeds(target: &Target, place: &Place) -> Vec<Seed> {
+    let mut seeds: Vec<Seed> = files(&corpus().join(target.name))
+        .map(|path| Seed::Bytes(fs::read(path).unwrap()))
+        .collect();
+    seeds.extend((target.seeds)(place));
+    seeds
+}
+
+/// The inputs among them that may be changed.
+pub fn changeable(seeds: &[Seed]) -> Vec<&[u8]> {
+    let own = seeds.iter().filter_map(|seed| match seed {
+        Seed::Bytes(bytes) if bytes.len() <= LONGEST => Some(bytes.as_slice()),
+        _ => None,
+    });
+    own.collect()
+}
+
+/// A file of the repository.
+pub fn in_repository(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../..")
+        .join(path)
+}
+
+/// Seeds of the files below some folder of the repository that have that name's end.
+pub fn shipped(folder: &str, end: &str) -> Vec<Seed> {
+    let folders = files(&in_repository(folder)).flat_map(|path| match path.is_dir() {
+        true => files(&path).collect(),
+        false => vec![path],
+    });
+    (folders.filter(|path| path.to_string_lossy().ends_with(end)))
+        .map(|path| Seed::Bytes(fs::read(path).unwrap()))
+        .collect()
+}
+
+fn corpus() -> PathBuf {
+    in_repository("tests/fuzz/corpus")
+}
+
+/// What lies in a folder, by name; nothing where there is none.
+fn files(folder: &Path) -> impl Iterator<Item = PathBuf> + use<> {
+    let entries = fs::read_dir(folder).into_iter().flatten();
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    paths.into_iter()
+}

@@ -1,0 +1,56 @@
+//! What is fuzzed.
+
+use crate::place::Place;
+use crate::seeds::Seed;
+use crate::targets;
+
+/// One kind of input, and what reads it.
+pub struct Target {
+    /// Also the folder of its corpus, and its word on the command line.
+    pub name: &'static str,
+    /// Of 20,000 cases, how many are its own.
+    pub share: u64,
+    /// Cases of one worker process: many where a case takes little time.
+    pub batch: u64,
+    /// How inputs are changed.
+    pub shape: Shape,
+    /// Words that are worth trying somewhere in an input.
+    pub tokens: &'static [&'static str],
+    /// Inputs to begin with, beside those of its corpus.
+    pub seeds: fn(&Place) -> Vec<Seed>,
+    /// Reads an input as the program does. It may refuse it; it must come back.
+    pub run: fn(&mut Place, &[u8]),
+}
+
+/// How inputs are changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// Lines of words and numbers.
+    Text,
+    /// Bytes.
+    Bytes,
+    /// PNG: chunks. OpenEXR: channels and attributes. Their checksums are made right again. Other pictures: bytes.
+    Picture,
+    /// A command line with one word on each line.
+    Words,
+}
+
+impl Target {
+    /// All but those that fail on purpose.
+    pub fn all() -> Vec<&'static Target> {
+        let all = targets::ALL.iter().copied();
+        all.filter(|target| target.share > 0).collect()
+    }
+}
+
+/// The target of that name.
+pub fn find(name: &str) -> Result<&'static Target, String> {
+    let found = targets::ALL.iter().find(|target| target.name == name);
+    found.copied().ok_or_else(|| {
+        let names: Vec<&str> = Target::all().iter().map(|target| target.name).collect();
+        format!(
+            "no target \"{name}\"; there are {}; an input lies in a folder named after its target, or --targets names it",
+            names.join(", ")
+        )
+    })
+}

@@ -1,0 +1,64 @@
+//! bounds.toml, and what is judged by it.
+
+use filters::Filter;
+use suite::{
+    Run, bounded_size, check_bounded, check_names, judge, read_bounds, read_bounds_file,
+    select_filters,
+};
+
+use super::run_json::of;
+use crate::huge;
+use crate::place::Place;
+use crate::seeds::{Seed, shipped};
+use crate::target::{Shape, Target};
+use crate::tokens;
+
+/// bounds.toml beside the scenes, and beside a scene.
+pub static TARGET: Target = Target {
+    name: "bounds",
+    share: 1_300,
+    batch: 500,
+    shape: Shape::Text,
+    tokens: tokens::BOUNDS,
+    seeds: |place| {
+        let mut seeds = vec![of(place, "scenes/bounds.toml")];
+        seeds.extend(shipped("scenes", "bounds.toml").into_iter().take(8));
+        seeds.extend([Seed::Made(huge::deep_toml), Seed::Made(huge::long_key)]);
+        seeds
+    },
+    run,
+};
+
+fn run(place: &mut Place, input: &[u8]) {
+    if place.filters.is_empty() {
+        place.filters = select_filters(&Filter::builtin_names(), None, &[]).unwrap();
+    }
+    let root = place.copied("scenes");
+    let path = place.write("scenes/bounds.toml", input);
+    drop(read_bounds_file(&path));
+    let scene = root.join("plate");
+    let beside = place.write("scenes/plate/bounds.toml", input);
+    drop(read_bounds(&root, &scene));
+    std::fs::remove_file(beside).unwrap();
+    let Ok(bounds) = read_bounds(&root, &scene) else {
+        return;
+    };
+    let filters = &place.filters;
+    drop(check_names(&root, std::iter::once(&bounds), filters));
+    drop(check_bounded(
+        &root,
+        std::iter::once(("plate", &bounds)),
+        filters,
+    ));
+    drop(bounded_size(std::iter::once(&bounds), filters, None));
+    drop(bounded_size(
+        std::iter::once(&bounds),
+        filters,
+        Some((16, 16)),
+    ));
+    let measured = Run::read(&place.fixture.join("out/run.json")).unwrap();
+    for case in &measured.cases {
+        let bounds = bounds.clone().at((16, 16)).of(&case.filter, &case.preset);
+        drop(judge(&case.scores, None, &bounds));
+    }
+}

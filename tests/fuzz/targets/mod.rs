@@ -1,0 +1,52 @@
+//! Everything that the program reads.
+
+mod bounds;
+mod command_line;
+mod exr;
+mod filter;
+mod kernels;
+mod planted;
+mod records;
+mod run_json;
+mod scene;
+mod serve;
+mod sky;
+mod tuning;
+
+pub use planted::PLANTED;
+pub use serve::Service;
+
+use crate::target::Target;
+
+/// All of them.
+pub static ALL: [&Target; 24] = [
+    &scene::SCENE,
+    &scene::OBJ,
+    &scene::MTL,
+    &scene::IMPORT,
+    &scene::RENDER,
+    &scene::TEXTURE,
+    &sky::HDR,
+    &sky::EXR,
+    &exr::EXR,
+    &exr::MERGE,
+    &exr::PICTURE,
+    &filter::MANIFEST,
+    &filter::WGSL,
+    &kernels::TARGET,
+    &run_json::RUN,
+    &run_json::BASELINE,
+    &run_json::BENCH,
+    &tuning::JOURNAL,
+    &tuning::TUNE,
+    &bounds::TARGET,
+    &records::TARGET,
+    &serve::TARGET,
+    &command_line::TARGET,
+    &planted::TARGET,
+];
+
+/// No tokens.
+const fn none() -> &'static [&'static str] {
+    &[]
+}

@@ -1,0 +1,140 @@
+//! What `run`, `accept` and `bench` wrote, and other commands read again.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use suite::{
+    Acceptance, Baseline, LARGEST_PAGE, Margin, Run, Side, accept, annotations, check, check_text,
+    compare, compare_page, compare_runs, compare_table, junit, report, summary, table,
+    write_layers,
+};
+
+use crate::huge;
+use crate::place::Place;
+use crate::seeds::Seed;
+use crate::target::{Shape, Target};
+use crate::tokens;
+
+/// run.json.
+pub static RUN: Target = Target {
+    name: "run_json",
+    share: 600,
+    batch: 70,
+    shape: Shape::Text,
+    tokens: tokens::JSON,
+    seeds: |place| vec![of(place, "out/run.json"), Seed::Made(huge::deep_json)],
+    run: |place, input| {
+        let folder = place.copied("out");
+        let path = place.write("out/run.json", input);
+        let Ok(run) = Run::read(&path) else {
+            return;
+        };
+        read_by_all(&run, &folder, place);
+        let first = place.fixture.join("out");
+        if let (Ok(first), Ok(second)) = (Side::read(&first), Side::read(&path)) {
+            compare_both(&first, &second);
+            compare_both(&second, &first);
+        }
+    },
+};
+
+/// A baseline.
+pub static BASELINE: Target = Target {
+    name: "baseline",
+    share: 450,
+    batch: 250,
+    shape: Shape::Text,
+    tokens: tokens::JSON,
+    seeds: |place| vec![of(place, "base.json"), Seed::Made(huge::deep_json)],
+    run: |place, input| {
+        let path = place.write("base.json", input);
+        let Ok(baseline) = Baseline::read(&path) else {
+            return;
+        };
+        let run = Run::read(&place.fixture.join("out/run.json")).unwrap();
+        if let Ok(comparisons) = compare(&run, &baseline, &margins(), &path) {
+            show(&run, comparisons, &place.folder);
+        }
+        accept_run(&run, Some(baseline));
+    },
+};
+
+/// bench.json, which a report reads.
+pub static BENCH: Target = Target {
+    name: "bench_json",
+    share: 150,
+    batch: 75,
+    shape: Shape::Text,
+    tokens: tokens::JSON,
+    seeds: |place| vec![of(place, "out/bench.json"), Seed::Made(huge::deep_json)],
+    run: |place, input| {
+        let folder = place.copied("out");
+        place.write("out/bench.json", input);
+        let run = Run::read(&folder.join("run.json")).unwrap();
+        drop(report(
+            &run,
+            &folder,
+            &folder.join("page.html"),
+            LARGEST_PAGE,
+        ));
+    },
+};
+
+/// A file of the fixture.
+pub fn of(place: &Place, name: &str) -> Seed {
+    // The self-test has no fixture, and makes none of these.
+    Seed::Bytes(fs::read(place.fixture.join(name)).unwrap_or_default())
+}
+
+fn read_by_all(run: &Run, folder: &Path, place: &Place) {
+    drop(table(run));
+    show(run, Vec::new(), folder);
+    accept_run(run, None);
+    drop(report(run, folder, &folder.join("page.html"), LARGEST_PAGE));
+    let watch = &|_| ControlFlow::Continue(());
+    let layers = place.folder.join("layers");
+    drop(write_layers(run, folder, &layers, watch));
+    let _ = fs::remove_dir_all(layers);
+}
+
+fn show(run: &Run, comparisons: Vec<suite::Comparison>, out: &Path) {
+    let check = check(run, comparisons);
+    drop(check_text(&check, out));
+    drop(junit(&check));
+    drop(summary(&check));
+    drop(annotations(&check));
+    drop(check.verdict());
+}
+
+fn accept_run(run: &Run, old: Option<Baseline>) {
+    let how = Acceptance {
+        only: None,
+        reason: "a reason",
+        forced: true,
+    };
+    if let Ok(baseline) = accept(run, old, &how) {
+        drop(compare(run, &baseline, &margins(), Path::new("base.json")));
+    }
+}
+
+fn margins() -> BTreeMap<String, Margin> {
+    let metrics = ["flip_moving", "skill_flip", "extent"];
+    let margins = metrics.map(|metric| {
+        let margin = Margin {
+            width: 0.01,
+            place: "bounds.toml:1".to_owned(),
+        };
+        (metric.to_owned(), margin)
+    });
+    margins.into()
+}
+
+fn compare_both(first: &Side, second: &Side) {
+    let watch = &|_| ControlFlow::Continue(());
+    if let Ok(compared) = compare_runs(first, second, watch) {
+        drop(compare_table(&compared));
+        drop(compare_page(&compared, first, second));
+    }
+}
