@@ -9,7 +9,7 @@ use crate::{Error, RenderSettings};
 /// What the program takes without any picture, bytes.
 const PROGRAM: u64 = 80 << 20;
 /// Bytes per pixel of a truth that is made and written, beside its replicates and its coverages. Measured, as those that follow, as
-/// the slope of the largest resident size of `render` from 512x512 to 1024x1024 pixels.
+/// slopes of the largest resident size of `render` and `run`, between 512x512 and 1024x1024 pixels and between 2 and 9 coverages.
 const PER_PIXEL: u64 = 683;
 /// Per pixel and coverage.
 const PER_COVERAGE: u64 = 43;
@@ -25,6 +25,13 @@ const PER_TRIANGLE: u64 = 600;
 /// Per object and thread: its pose now and at the instant.
 const PER_POSE: u64 = 500;
 
+/// What `run` takes without any picture, bytes.
+const MEASURING: u64 = 112 << 20;
+/// Per pixel of a frame, a truth and its ladder that filters are measured by, beside their coverages; however many replicates.
+const PER_MEASURED_PIXEL: u64 = 970;
+/// Per such pixel and coverage.
+const PER_MEASURED_COVERAGE: u64 = 200;
+
 /// Refuses a render for which memory does not suffice: of a frame, and of a truth with so many replicates. Where the system does not
 /// tell what is free, nothing is refused.
 pub(crate) fn check_memory(
@@ -32,20 +39,40 @@ pub(crate) fn check_memory(
     settings: &RenderSettings,
     replicates: u32,
 ) -> Result<(), Error> {
-    let needed = needed(scene, settings, replicates);
+    refuse_beyond_free(scene, settings, needed(scene, settings, replicates))
+}
+
+/// Refuses to measure filters on a scene where memory does not suffice to render it, or to measure them.
+pub(crate) fn check_measuring_memory(
+    scene: &Scene,
+    settings: &RenderSettings,
+) -> Result<(), Error> {
+    let pixels = u64::from(settings.width) * u64::from(settings.height);
+    let pixel = PER_MEASURED_PIXEL + PER_MEASURED_COVERAGE * coverages(scene);
+    let measuring = MEASURING.saturating_add(pixels.saturating_mul(pixel));
+    let rendering = needed(scene, settings, settings.replicates);
+    refuse_beyond_free(scene, settings, measuring.max(rendering))
+}
+
+fn refuse_beyond_free(scene: &Scene, settings: &RenderSettings, needed: u64) -> Result<(), Error> {
     match free() {
         Some(free) if free < needed => Err(Error::Usage(format!(
-            "scene {}: needs about {} for {}x{} pixels with {replicates} replicates and {} coverages, {} are free; choose a smaller \
-             --size, fewer --replicates or a scene of fewer objects, or free memory",
+            "scene {}: needs about {} for {}x{} pixels of color and {} coverages, {} are free; choose a smaller --size, \
+             fewer --replicates or a scene of fewer objects, or free memory",
             scene.name,
             gibibytes(needed),
             settings.width,
             settings.height,
-            scene.objects.len() + 1,
+            coverages(scene),
             gibibytes(free),
         ))),
         _ => Ok(()),
     }
+}
+
+/// Channels of coverage: of the background and of every object.
+fn coverages(scene: &Scene) -> u64 {
+    scene.objects.len() as u64 + 1
 }
 
 /// About the largest resident size of a render, bytes.
@@ -56,7 +83,7 @@ fn needed(scene: &Scene, settings: &RenderSettings, replicates: u32) -> u64 {
     };
     let pixels = area(0);
     let band = area(settings.guard_band) - pixels;
-    let coverages = scene.objects.len() as u64 + 1;
+    let coverages = coverages(scene);
     let replicate = PER_REPLICATE + PER_REPLICATE_COVERAGE * coverages;
     let pixel =
         PER_PIXEL + PER_COVERAGE * coverages + u64::from(replicates).saturating_mul(replicate);

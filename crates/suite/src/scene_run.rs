@@ -13,6 +13,7 @@ use crate::failure::Failure;
 use crate::forget::forget;
 use crate::inputs::SceneInputs;
 use crate::kept::{discard_altered, keep, recall};
+use crate::memory::check_measuring_memory;
 use crate::pictures::{write_frame, write_truth};
 use crate::progress::with_bar;
 use crate::rendered::{frame_of, replicates_of, scene_folder, truth_and_ladder_of};
@@ -53,6 +54,7 @@ impl SceneRun<'_> {
         if kept.iter().all(Option::is_some) && self.has_its_files() {
             return Ok(kept.into_iter().flatten().map(Ok).collect());
         }
+        check_measuring_memory(self.scene, &self.plan.render)?;
         let (frame, truths) = self.render()?;
         let due = (subjects.iter().zip(&kept)).filter(|(_, kept)| kept.is_none());
         let due: Vec<&Subject> = due.map(|(subject, _)| subject).collect();
