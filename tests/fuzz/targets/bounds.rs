@@ -2,7 +2,7 @@
 
 use filters::Filter;
 use suite::{
-    Run, bounded_size, check_bounded, check_names, judge, read_bounds, read_bounds_file,
+    Programs, Run, bounded_size, check_bounded, check_names, judge, read_bounds, read_bounds_file,
     select_filters,
 };
 
@@ -31,7 +31,8 @@ pub static TARGET: Target = Target {
 
 fn run(place: &mut Place, input: &[u8]) {
     if place.filters.is_empty() {
-        place.filters = select_filters(&Filter::builtin_names(), None, &[]).unwrap();
+        place.filters =
+            select_filters(&Filter::builtin_names(), None, &[], Programs::Refused).unwrap();
     }
     let root = place.copied("scenes");
     let path = place.write("scenes/bounds.toml", input);
@@ -57,8 +58,8 @@ fn run(place: &mut Place, input: &[u8]) {
         Some((16, 16)),
     ));
     let measured = Run::read(&place.fixture.join("out/run.json")).unwrap();
-    for case in &measured.cases {
-        let bounds = bounds.clone().at((16, 16)).of(&case.filter, &case.preset);
-        drop(judge(&case.scores, None, &bounds));
-    }
+    let bounds = (measured.cases.iter())
+        .map(|case| (case.scene.clone(), bounds.clone().at((16, 16))))
+        .collect();
+    drop(judge(&measured, &bounds));
 }

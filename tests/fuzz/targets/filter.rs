@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use filters::Filter;
-use suite::select_filters;
+use suite::{Programs, select_filters};
 
 use crate::huge;
 use crate::place::Place;
@@ -39,7 +39,7 @@ pub static MANIFEST: Target = Target {
                 }
             }
             let word = folder.display().to_string();
-            drop(select_filters(&[word], None, &[]));
+            drop(select_filters(&[word], None, &[], Programs::Refused));
         }
     },
 };

@@ -19,7 +19,7 @@ pub use serve::Service;
 use crate::target::Target;
 
 /// All of them.
-pub static ALL: [&Target; 24] = [
+pub static ALL: [&Target; 25] = [
     &scene::SCENE,
     &scene::OBJ,
     &scene::MTL,
@@ -37,6 +37,7 @@ pub static ALL: [&Target; 24] = [
     &run_json::RUN,
     &run_json::BASELINE,
     &run_json::BENCH,
+    &run_json::JUDGEMENT,
     &tuning::JOURNAL,
     &tuning::TUNE,
     &bounds::TARGET,

@@ -6,9 +6,9 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use suite::{
-    Acceptance, Baseline, LARGEST_PAGE, Margin, Run, Side, accept, annotations, check, check_text,
-    compare, compare_page, compare_runs, compare_table, junit, report, summary, table,
-    write_layers,
+    Acceptance, Baseline, Finding, Judgement, LARGEST_PAGE, Margin, Run, RunBounds, Side, accept,
+    add_evidence, annotations, check, check_text, compare, compare_page, compare_runs,
+    compare_table, judge, junit, read_bounds, report, summary, table, write_layers,
 };
 
 use crate::huge;
@@ -55,7 +55,7 @@ pub static BASELINE: Target = Target {
         };
         let run = Run::read(&place.fixture.join("out/run.json")).unwrap();
         if let Ok(comparisons) = compare(&run, &baseline, &margins(), &path) {
-            show(&run, comparisons, &place.folder);
+            show(&run, Vec::new(), comparisons, &place.folder);
         }
         accept_run(&run, Some(baseline));
     },
@@ -73,12 +73,25 @@ pub static BENCH: Target = Target {
         let folder = place.copied("out");
         place.write("out/bench.json", input);
         let run = Run::read(&folder.join("run.json")).unwrap();
-        drop(report(
-            &run,
-            &folder,
-            &folder.join("page.html"),
-            LARGEST_PAGE,
-        ));
+        write_page(&run, &[], &folder);
+    },
+};
+
+/// judgement.json, which a report reads.
+pub static JUDGEMENT: Target = Target {
+    name: "judgement",
+    share: 250,
+    batch: 75,
+    shape: Shape::Text,
+    tokens: tokens::JSON,
+    seeds: |place| vec![of(place, "out/judgement.json"), Seed::Made(huge::deep_json)],
+    run: |place, input| {
+        let folder = place.copied("out");
+        place.write("out/judgement.json", input);
+        let run = Run::read(&folder.join("run.json")).unwrap();
+        if let Ok(Some(judgement)) = Judgement::read(&run, &folder) {
+            write_page(&run, &judgement.findings, &folder);
+        }
     },
 };
 
@@ -90,17 +103,32 @@ pub fn of(place: &Place, name: &str) -> Seed {
 
 fn read_by_all(run: &Run, folder: &Path, place: &Place) {
     drop(table(run));
-    show(run, Vec::new(), folder);
+    let mut findings = judge(run, &bounds(run, place));
+    drop(add_evidence(run, &mut findings, folder));
+    write_page(run, &findings, folder);
+    show(run, findings, Vec::new(), folder);
     accept_run(run, None);
-    drop(report(run, folder, &folder.join("page.html"), LARGEST_PAGE));
     let watch = &|_| ControlFlow::Continue(());
     let layers = place.folder.join("layers");
     drop(write_layers(run, folder, &layers, watch));
     let _ = fs::remove_dir_all(layers);
 }
 
-fn show(run: &Run, comparisons: Vec<suite::Comparison>, out: &Path) {
-    let check = check(run, comparisons);
+/// The fixture's bounds, for every scene that the run names.
+fn bounds(run: &Run, place: &Place) -> RunBounds {
+    let root = place.fixture.join("scenes");
+    let own = read_bounds(&root, &root.join("plate")).unwrap();
+    let scenes = run.cases.iter().map(|case| case.scene.clone());
+    scenes.map(|scene| (scene, own.clone())).collect()
+}
+
+fn write_page(run: &Run, findings: &[Finding], folder: &Path) {
+    let page = folder.join("page.html");
+    drop(report(run, findings, folder, &page, LARGEST_PAGE));
+}
+
+fn show(run: &Run, findings: Vec<Finding>, comparisons: Vec<suite::Comparison>, out: &Path) {
+    let check = check(run, findings, comparisons);
     drop(check_text(&check, out));
     drop(junit(&check));
     drop(summary(&check));
