@@ -68,8 +68,8 @@ fn settled_by(run: &Run, metric: Metric, interval: &Interval, limit: f64) -> u64
     samples
 }
 
-/// Nobody renders more: a score so close to its limit stays undecided.
-pub const MOST_SAMPLES: u64 = 1 << 24;
+/// Samples per pixel that a truth may have at most: a score that needs as many or more stays undecided.
+pub const MOST_SAMPLES: u64 = tracer::MOST_SAMPLES as u64;
 
 impl Finding {
     /// What `judged` says of a case of a run, without evidence.
