@@ -16,7 +16,7 @@ use crate::kept::{discard_altered, keep, recall};
 use crate::memory::check_measuring_memory;
 use crate::pictures::{write_frame, write_truth};
 use crate::progress::with_bar;
-use crate::rendered::{frame_of, replicates_of, scene_folder, truth_and_ladder_of};
+use crate::rendered::{frame_of, frame_settings, replicates_of, scene_folder, truth_and_ladder_of};
 use crate::run::{Plan, viewing};
 use crate::scatter_oracle::oracle_of;
 use crate::selection::FilterChoice;
@@ -54,6 +54,7 @@ impl SceneRun<'_> {
         if kept.iter().all(Option::is_some) && self.has_its_files() {
             return Ok(kept.into_iter().flatten().map(Ok).collect());
         }
+        frame_settings(self.scene, &self.plan.render).check(self.scene)?;
         check_measuring_memory(self.scene, &self.plan.render)?;
         let (frame, truths) = self.render()?;
         let due = (subjects.iter().zip(&kept)).filter(|(_, kept)| kept.is_none());

@@ -418,17 +418,3 @@ fn values_out_of_range_are_refused_before_anything_runs() {
         assert!(!bench.path("out").exists());
     }
 }
-
-#[test]
-fn a_why_of_two_lines_is_called_that() {
-    let bench = Bench::new();
-    let bounds = "[default]\nflip_moving = { limit = 0.9, why = \"one\\ntwo\" }\n";
-    fs::write(bench.path("scenes/bounds.toml"), bounds).unwrap();
-    let output =
-        bench.shuttertruth(&[&quick("check", "16")[..], &["--filters", "identity"]].concat());
-    assert_refused(
-        &output,
-        2,
-        &["bounds.toml:2", "its why has several lines", "one line"],
-    );
-}

@@ -268,7 +268,12 @@ fn loading_takes_a_time_that_grows_with_the_scenes_size() {
     let mut obj = OBJ.replace("usemtl paint\n", "");
     let mut mtl = String::new();
     for group in 0..30_000 {
-        write!(obj, "g g{group}\nusemtl m{group}\nf 1 2 3\n").unwrap();
+        let corner = 5 + group;
+        write!(
+            obj,
+            "v 0 0 {group}\ng g{group}\nusemtl m{group}\nf 1 2 {corner}\n"
+        )
+        .unwrap();
         write!(mtl, "newmtl m{group}\nKd 0 0 0\n").unwrap();
     }
     bench.write("plate.obj", &obj);

@@ -82,7 +82,7 @@ fn names_of_files_are_printed_without_what_a_terminal_or_a_log_obeys() {
     assert_refused(
         &named,
         2,
-        &["cannot name a scene", "without control characters"],
+        &["the folder's name is the scene's", "rename the folder"],
     );
     assert_tame(&named);
 }

@@ -222,7 +222,7 @@ fn what_a_program_writes_is_bounded() {
     assert_refused(
         &output,
         2,
-        &["ended with exit status: 7", "\ny\ny\nthe end"],
+        &["ended with exit status: 7", "\n  | y\n  | y\n  | the end"],
     );
     assert!(output.stderr.len() < 1000, "ten lines are shown");
 }

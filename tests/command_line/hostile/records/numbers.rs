@@ -29,11 +29,11 @@ fn numbers_beyond_what_can_be_done_are_refused_with_what_is_allowed() {
             "run --samples-per-pixel 4000000000",
             &[
                 "--samples-per-pixel 4000000000",
-                "up to 524288",
-                "such as 524288",
+                "up to 65536",
+                "such as 65536",
             ],
         ),
-        ("run --samples-per-pixel 4294967288", &["up to 524288"]),
+        ("run --samples-per-pixel 4294967288", &["up to 65536"]),
         (
             "run --exposure 1e50",
             &["exposure is 1e50 frames", "allowed: 1e-9 to 10000"],
@@ -81,8 +81,8 @@ fn exposures_of_display_and_flip_that_show_nothing_are_refused_by_every_command_
             &["scene.toml:7: stops = 150", "from -32 to 32"][..],
         ),
         (
-            "flip = { start = -2, stop = 3e38, count = 5 }",
-            &["scene.toml:7: flip stop = 3", "from -32 to 32"],
+            "flip = { start = -2, stop = 300, count = 5 }",
+            &["scene.toml:7: flip stop = 300", "from -32 to 32"],
         ),
         (
             "flip = { start = -2, stop = 2, count = 400 }",
