@@ -13,7 +13,7 @@ pub fn check_png_palette(bytes: &[u8]) -> Result<(), String> {
     while let [a, b, c, d, name @ ..] = rest {
         let length = u32::from_be_bytes([*a, *b, *c, *d]) as usize;
         if name.starts_with(b"PLTE")
-            && (length % 3 != 0 || !(3..=3 * MOST_COLORS).contains(&length))
+            && (!length.is_multiple_of(3) || !(3..=3 * MOST_COLORS).contains(&length))
         {
             return Err(format!(
                 "has a palette of {length} bytes; allowed: three for each of 1 to {MOST_COLORS} colours"

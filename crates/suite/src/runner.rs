@@ -11,7 +11,7 @@ pub enum Runner<'g> {
     /// Kernels on an adapter.
     Kernels(Box<Blur<'g>>),
     /// A program.
-    Command(CommandBlur),
+    Command(Box<CommandBlur>),
 }
 
 /// The adapter that the filters are to run on; none where all of them are commands and none was asked for by name. Refuses a
@@ -65,7 +65,7 @@ impl<'g> Runner<'g> {
         (width, height): (u32, u32),
     ) -> Result<Self, FilterError> {
         let blur = CommandBlur::new(filter, settings, width, height, interrupted)?;
-        Ok(Self::Command(blur))
+        Ok(Self::Command(Box::new(blur)))
     }
 
     /// Blurs the first colour image of the input once per index of a frame; none where the index changes nothing, which a

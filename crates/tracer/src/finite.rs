@@ -8,10 +8,8 @@ use crate::settings::{LARGEST_VALUE, TraceError};
 /// Refuses a picture with a pixel that is no finite number.
 pub(crate) fn check_picture(scene: &Scene, picture: &Picture) -> Result<(), TraceError> {
     check(scene, "color", &picture.color)?;
-    let coverages = picture.coverage.iter().enumerate();
-    coverages
-        .map(|(id, plane)| check_coverage(scene, id, plane))
-        .collect()
+    let mut coverages = picture.coverage.iter().enumerate();
+    coverages.try_for_each(|(id, plane)| check_coverage(scene, id, plane))
 }
 
 /// Refuses what was recalled of the instant where a pixel is no finite number.

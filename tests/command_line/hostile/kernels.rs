@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use filters::{Filter, Gpu, Limits, try_out};
 
-use crate::bench::{Bench, assert_done, assert_refused, quick, stderr};
+use crate::bench::{Bench, assert_done, assert_refused, stderr};
 
 const MANIFEST: &str = r#"name = "mine"
 summary = "Averages a few samples."

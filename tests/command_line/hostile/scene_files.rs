@@ -158,7 +158,8 @@ fn what_is_no_regular_file_is_refused_before_it_is_opened() {
     let zero = |path: &Path| std::os::unix::fs::symlink("/dev/zero", path).unwrap();
     let socket = |path: &Path| drop(std::os::unix::net::UnixListener::bind(path).unwrap());
     let folder = |path: &Path| fs::create_dir(path).unwrap();
-    let kinds: [(&dyn Fn(&Path), &str); 4] = [
+    type Make<'a> = &'a dyn Fn(&Path);
+    let kinds: [(Make, &str); 4] = [
         (&fifo, "it is a FIFO"),
         (&zero, "it is a device"),
         (&socket, "it is a socket"),

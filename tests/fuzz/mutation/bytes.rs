@@ -1,5 +1,7 @@
 //! Changes of bytes, whatever they mean.
 
+#![expect(clippy::ptr_arg, reason = "changes of all kinds stand in one table")]
+
 use super::Source;
 use crate::random::Random;
 

@@ -61,8 +61,7 @@ impl Reach {
     /// Says what is wrong where something of so many metres around its origin is carried so, if anything.
     pub(super) fn amiss(&self, what: &str, radius: f64) -> Option<String> {
         let farthest = self.scale * radius + self.offset;
-        // Not finite is too far as well.
-        if !(farthest <= FARTHEST) {
+        if farthest.is_nan() || farthest > FARTHEST {
             return Some(format!(
                 "{what} reaches up to {farthest:.1e} m from the origin while it is rendered; allowed: {FARTHEST:e} m; \
                  bring its translations, scales and keys nearer, and those of its parents"
