@@ -32,7 +32,7 @@ pub fn mutate(target: &Target, place: &Place, seeds: &[&[u8]], random: &mut Rand
     let mut input = random.pick(seeds).to_vec();
     let source = Source {
         tokens: target.tokens,
-        other: *random.pick(seeds),
+        other: random.pick(seeds),
     };
     // Half of the files are spoilt as bytes, too.
     let whole = !random.once_in(2);
