@@ -1,5 +1,10 @@
 //! From inputs to other inputs.
 
+#![expect(
+    clippy::explicit_auto_deref,
+    reason = "types of picks are inferred from it"
+)]
+
 mod bytes;
 mod exr;
 mod png;
@@ -32,7 +37,7 @@ pub fn mutate(target: &Target, place: &Place, seeds: &[&[u8]], random: &mut Rand
     let mut input = random.pick(seeds).to_vec();
     let source = Source {
         tokens: target.tokens,
-        other: random.pick(seeds),
+        other: *random.pick(seeds),
     };
     // Half of the files are spoilt as bytes, too.
     let whole = !random.once_in(2);

@@ -167,8 +167,8 @@ fn bracket(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
 
 fn some_token<'a>(source: &Source<'a>, random: &mut Random) -> &'a str {
     match source.tokens.is_empty() || random.once_in(6) {
-        true => random.pick(&TEXTS),
-        false => random.pick(source.tokens),
+        true => *random.pick(&TEXTS),
+        false => *random.pick(source.tokens),
     }
 }
 
