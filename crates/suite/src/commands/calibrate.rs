@@ -24,6 +24,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
         bounds.values(),
         &plan.filters,
     )?;
+    check_seeds(plan.render.seed, args.runs)?;
     let _claim = claim_out(&plan)?;
     let runs = with_bar("runs in all", plan.quiet, |watch| {
         all_runs(args, &mut plan, watch)
@@ -38,18 +39,22 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     Ok(())
 }
 
+/// Refuses a first seed that leaves none for the last run.
+fn check_seeds(first: u64, runs: u32) -> Result<(), Error> {
+    let last = u64::MAX - u64::from(runs);
+    match first <= last {
+        true => Ok(()),
+        false => Err(Error::Usage(format!(
+            "--seed {first}: each of the {runs} runs has the next one; allowed is up to {last}"
+        ))),
+    }
+}
+
 /// One run per adapter and seed.
 fn all_runs(args: &CalibrateArgs, plan: &mut Plan, watch: Watch) -> Result<Vec<Run>, Error> {
     let adapters = adapters(args);
     let total = adapters.len() as u64 * u64::from(args.runs);
     let first = plan.render.seed;
-    if first.checked_add(u64::from(args.runs)).is_none() {
-        return Err(Error::Usage(format!(
-            "--seed {first}: each of the {} runs has the next one; allowed is up to {}",
-            args.runs,
-            u64::MAX - u64::from(args.runs)
-        )));
-    }
     let mut runs: Vec<Run> = Vec::new();
     for adapter in adapters {
         let gpu = open_gpu(&plan.filters, adapter)?;
