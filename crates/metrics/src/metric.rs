@@ -85,6 +85,7 @@ impl Metric {
                 group: Group::Label,
                 map: ErrorMap::LabelTotalVariation,
                 meaning: "the same on the worst object that stands still",
+                is_percentile: false,
                 report_only: None,
             },
             Metric::StaticContamination => Row {
@@ -94,6 +95,7 @@ impl Metric {
                 group: Group::Seen,
                 map: ErrorMap::StaticChange,
                 meaning: "what the filter changes where nothing moves",
+                is_percentile: false,
                 report_only: None,
             },
             Metric::Frozen(metric) => metric.row(),

@@ -18,6 +18,7 @@ metrics! {
     Mse => mse {
         name: "mse", unit: "white^2", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::SquaredError,
         meaning: "squared error of colour",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -25,6 +26,7 @@ metrics! {
     Psnr => psnr {
         name: "psnr", unit: "dB", ideal: Ideal::Highest, group: Group::Seen, map: ErrorMap::SquaredError,
         meaning: "signal to noise ratio of colour",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -32,6 +34,7 @@ metrics! {
     Relmse => relmse {
         name: "relmse", unit: "", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::RelativeSquaredError,
         meaning: "squared error of colour relative to the truth",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -39,6 +42,7 @@ metrics! {
     Mae => mae {
         name: "mae", unit: "white", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::AbsoluteError,
         meaning: "absolute error of colour",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -46,6 +50,7 @@ metrics! {
     Smape => smape {
         name: "smape", unit: "", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::SymmetricError,
         meaning: "absolute error of colour relative to both pictures",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -53,6 +58,7 @@ metrics! {
     Flip => flip {
         name: "flip", unit: "", ideal: Ideal::Lowest, group: Group::Seen, map: ErrorMap::Flip,
         meaning: "visible difference",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -60,6 +66,7 @@ metrics! {
     FlipWeightedMedian => flip_weighted_median {
         name: "flip_weighted_median", unit: "", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::Flip,
         meaning: "visible difference up to which half of all visible difference lies",
+        is_percentile: true,
         report_only: None,
     }
 
@@ -67,6 +74,7 @@ metrics! {
     FlipP95 => flip_p95 {
         name: "flip_p95", unit: "", ideal: Ideal::Lowest, group: Group::Seen, map: ErrorMap::Flip,
         meaning: "visible difference that 19 of 20 pixels do not exceed",
+        is_percentile: true,
         report_only: None,
     }
 
@@ -74,6 +82,7 @@ metrics! {
     FlipP99 => flip_p99 {
         name: "flip_p99", unit: "", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::Flip,
         meaning: "visible difference that 99 of 100 pixels do not exceed",
+        is_percentile: true,
         report_only: None,
     }
 
@@ -81,6 +90,7 @@ metrics! {
     FlipHdr => flip_hdr {
         name: "flip_hdr", unit: "", ideal: Ideal::Lowest, group: Group::Seen, map: ErrorMap::FlipHdr,
         meaning: "visible difference at the exposure that shows most of it",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -88,6 +98,7 @@ metrics! {
     Ssim => ssim {
         name: "ssim", unit: "", ideal: Ideal::Highest, group: Group::Seen, map: ErrorMap::Flip,
         meaning: "likeness of structure",
+        is_percentile: false,
         report_only: Some(
             "punishes unbiased noise more than a picture that lies three pixels off; bound flip instead",
         ),
@@ -104,6 +115,7 @@ metrics! {
     Mean => mean {
         name: "label_tv", unit: "", ideal: Ideal::Lowest, group: Group::Label, map: ErrorMap::LabelTotalVariation,
         meaning: "share of the shutter given to the wrong object",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -111,6 +123,7 @@ metrics! {
     P95 => p95 {
         name: "label_tv_p95", unit: "", ideal: Ideal::Lowest, group: Group::Label, map: ErrorMap::LabelTotalVariation,
         meaning: "the same: what 19 of 20 moving pixels do not exceed",
+        is_percentile: true,
         report_only: None,
     }
 }
@@ -132,6 +145,7 @@ metrics! {
     BleedLateral => bleed_lateral {
         name: "bleed_lateral", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::Bleed,
         meaning: "mover spilled beside where it ever was",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -139,6 +153,7 @@ metrics! {
     BleedLeading => bleed_leading {
         name: "bleed_leading", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::Bleed,
         meaning: "mover spilled ahead of where it ever was",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -146,6 +161,7 @@ metrics! {
     BleedTrailing => bleed_trailing {
         name: "bleed_trailing", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::Bleed,
         meaning: "mover spilled behind where it ever was",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -153,6 +169,7 @@ metrics! {
     LateralGrowth => lateral_growth {
         name: "lateral_growth", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "how far the silhouette grew sideways",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -160,6 +177,7 @@ metrics! {
     RowGain => row_gain {
         name: "row_gain", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "how much more of the mover its own rows hold, as pixels of silhouette",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -167,6 +185,7 @@ metrics! {
     RowLoss => row_loss {
         name: "row_loss", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "how much less of the mover rows along the motion hold, as pixels of silhouette",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -174,6 +193,7 @@ metrics! {
     Misplacement => misplacement {
         name: "misplacement", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "how far the smear's mass lies off along the motion",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -181,6 +201,7 @@ metrics! {
     Centroid => centroid {
         name: "centroid", unit: "px", ideal: Ideal::Target(0.0), group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "how far the smear's centre of mass lies ahead; 0 is right",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -188,6 +209,7 @@ metrics! {
     Extent => extent {
         name: "extent", unit: "", ideal: Ideal::Target(1.0), group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "length of the smear to the true length; 1 is right",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -195,6 +217,7 @@ metrics! {
     TvExcess => tv_excess {
         name: "tv_excess", unit: "", ideal: Ideal::Target(0.0), group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "steps, ripples and grain along the smear; 0 is right",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -202,6 +225,7 @@ metrics! {
     Hole => hole {
         name: "hole", unit: "", ideal: Ideal::Target(0.0), group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "how much shows through where the mover hides all; 0 is right",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -209,6 +233,7 @@ metrics! {
     Deficit => deficit {
         name: "deficit", unit: "", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "part of the mover's mass that is missing where it should be",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -216,6 +241,7 @@ metrics! {
     Energy => energy {
         name: "energy", unit: "", ideal: Ideal::Target(1.0), group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "the mover's mass to its true mass; 1 is right",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -223,6 +249,7 @@ metrics! {
     LabelTotalVariation => label_total_variation {
         name: "object_label_tv", unit: "", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::LabelTotalVariation,
         meaning: "share of the mover's time given to something else",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -230,6 +257,7 @@ metrics! {
     GradientError => gradient_error {
         name: "gradient_error", unit: "1/px^2", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::GradientError,
         meaning: "edges of the mover's matte that are too sharp or too soft",
+        is_percentile: false,
         report_only: None,
     }
 }
@@ -244,6 +272,7 @@ metrics! {
     Mse => mse {
         name: "mse_frozen", unit: "white^2", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::FrozenSquaredError,
         meaning: "squared error but for shadows, lights and reflections that move",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -251,6 +280,7 @@ metrics! {
     Flip => flip {
         name: "flip_frozen", unit: "", ideal: Ideal::Lowest, group: Group::Instant, map: ErrorMap::Flip,
         meaning: "visible difference but for shadows, lights and reflections that move",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -258,6 +288,7 @@ metrics! {
     Shading => shading {
         name: "mse_shading", unit: "white^2", ideal: Ideal::Lowest, group: Group::Instant, map: ErrorMap::Flip,
         meaning: "what shadows, lights and reflections that move cost any filter of one frame",
+        is_percentile: false,
         report_only: Some(
             "is a property of the scene, whatever the filter does",
         ),
@@ -274,6 +305,7 @@ metrics! {
     Unity => unity {
         name: "unity", unit: "", ideal: Ideal::Lowest, group: Group::Gathered, map: ErrorMap::Unity,
         meaning: "how far the weights of any pixel are from adding up to 1",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -282,6 +314,7 @@ metrics! {
     GatherOffset => gather_offset {
         name: "gather_offset", unit: "px", ideal: Ideal::Lowest, group: Group::Gathered, map: ErrorMap::GatherOffset,
         meaning: "how far from the right place the filter gathers",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -289,6 +322,7 @@ metrics! {
     GatherSpread => gather_spread {
         name: "gather_spread", unit: "px", ideal: Ideal::Lowest, group: Group::Gathered, map: ErrorMap::GatherSpread,
         meaning: "how much too widely or too narrowly it gathers",
+        is_percentile: false,
         report_only: None,
     }
 }
@@ -304,6 +338,7 @@ metrics! {
     Mse => mse {
         name: "skill_mse", unit: "", ideal: Ideal::Highest, group: Group::Worth, map: ErrorMap::SquaredError,
         meaning: "share of the way from no blur, 0, to the one-frame oracle, 1, by squared error",
+        is_percentile: false,
         report_only: Some(
             "a grey ghost over everything has skill; bound the error itself, or n_eq",
         ),
@@ -313,6 +348,7 @@ metrics! {
     Flip => flip {
         name: "skill_flip", unit: "", ideal: Ideal::Highest, group: Group::Worth, map: ErrorMap::Flip,
         meaning: "share of the way from no blur, 0, to the one-frame oracle, 1, by visible difference",
+        is_percentile: false,
         report_only: Some(
             "a grey ghost over everything has skill; bound the error itself, or n_eq",
         ),
@@ -322,6 +358,7 @@ metrics! {
     LabelTotalVariation => label_total_variation {
         name: "skill_label_tv", unit: "", ideal: Ideal::Highest, group: Group::Worth, map: ErrorMap::LabelTotalVariation,
         meaning: "share of the way from no blur, 0, to the one-frame oracle, 1, by share given to the wrong object",
+        is_percentile: false,
         report_only: Some(
             "a grey ghost over everything has skill; bound the error itself, or n_eq",
         ),
@@ -338,6 +375,7 @@ metrics! {
     Mse => mse {
         name: "n_eq", unit: "sub-frames", ideal: Ideal::Highest, group: Group::Worth, map: ErrorMap::SquaredError,
         meaning: "as good as averaging that many sub-frames, by squared error",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -345,6 +383,7 @@ metrics! {
     Flip => flip {
         name: "n_eq_flip", unit: "sub-frames", ideal: Ideal::Highest, group: Group::Worth, map: ErrorMap::Flip,
         meaning: "as good as averaging that many sub-frames, by visible difference",
+        is_percentile: false,
         report_only: None,
     }
 
@@ -352,6 +391,7 @@ metrics! {
     LabelTotalVariation => label_total_variation {
         name: "n_eq_label_tv", unit: "sub-frames", ideal: Ideal::Highest, group: Group::Worth, map: ErrorMap::LabelTotalVariation,
         meaning: "as good as averaging that many sub-frames, by whose time it is",
+        is_percentile: false,
         report_only: None,
     }
 }

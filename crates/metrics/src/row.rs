@@ -17,6 +17,8 @@ pub struct Row {
     pub group: Group,
     /// The map that it was pooled from, or else the one that shows best what it measures.
     pub map: ErrorMap,
+    /// True for a percentile, which is no smooth function of the truth: its intervals are wider.
+    pub is_percentile: bool,
     /// Reason why no bound may name it; none for metrics that may be bounded.
     pub report_only: Option<&'static str>,
 }

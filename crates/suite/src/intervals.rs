@@ -52,18 +52,11 @@ pub fn intervals(
             };
             let without: Option<Vec<f64>> = without.iter().map(value).collect();
             let mut interval = jackknife(score.value, &without?)?;
-            if is_percentile(metric) {
+            if metric.row().is_percentile {
                 interval.low -= score.floor;
                 interval.high += score.floor;
             }
             Some((metric.name(), interval))
         })
         .collect()
-}
-
-fn is_percentile(metric: Metric) -> bool {
-    let name = metric.name();
-    ["_p95", "_p99", "median"]
-        .iter()
-        .any(|word| name.contains(word))
 }
