@@ -1,4 +1,4 @@
-//! What can go wrong between a filter folder and a blurred image.
+//! Errors between a filter folder and a blurred image.
 
 use std::path::PathBuf;
 

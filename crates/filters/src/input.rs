@@ -1,4 +1,4 @@
-//! What a filter is given.
+//! Input of a filter.
 
 use frame::{Image, Plane, Raster, Reprojection, Vectors};
 

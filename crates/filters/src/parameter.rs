@@ -1,4 +1,4 @@
-//! What a person or a tuner may change about a filter.
+//! Parameters that a person or a tuner may change about a filter.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! How far a smear reaches, and which parameter says so.
+//! Reach of a smear, and the parameter that sets it.
 
 use crate::{Filter, FilterError, Settings, Value};
 

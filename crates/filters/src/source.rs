@@ -1,4 +1,4 @@
-//! Where a preset comes from.
+//! Source of a preset.
 
 use serde::Serialize;
 

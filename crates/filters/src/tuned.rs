@@ -1,4 +1,4 @@
-//! How a preset was found.
+//! Record of how a preset was found.
 
 use serde::{Deserialize, Serialize};
 

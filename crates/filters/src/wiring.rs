@@ -1,4 +1,4 @@
-//! Whether `filter.toml` and the kernels say the same.
+//! Agreement of `filter.toml` with its kernels.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! What was measured of one picture of a scene.
+//! Scores of one picture of a scene.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! What a filter spread the frame's velocities to, for looking at.
+//! Dilated velocity map of a filter, for looking at.
 
 use filters::{Filter, FilterError, Holds};
 use frame::{Frame, Raster, Vectors};

@@ -1,4 +1,4 @@
-//! What stops a command, and the exit code that says so.
+//! Errors that stop a command, and their exit codes.
 
 /// Why a command ended early. The text names the place, what was found, what is allowed and the way out.
 #[derive(Debug, thiserror::Error)]

@@ -1,4 +1,4 @@
-//! What a scene's folder holds from before, removed.
+//! Removal of a scene's kept files.
 
 use std::fs::{DirEntry, FileType};
 use std::path::Path;

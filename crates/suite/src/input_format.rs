@@ -1,4 +1,4 @@
-//! How precisely an engine stores what its motion blur reads, and what it does at the border.
+//! Formats in which an engine stores the input of its motion blur, and its policy at the border.
 
 use clap::ValueEnum;
 use frame::{FAR_DEPTH, Frame, Plane, Raster, Vectors};

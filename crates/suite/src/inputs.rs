@@ -1,4 +1,4 @@
-//! What everything of a scene is made from, as hashes: equal hashes mean equal pictures and equal scores.
+//! Hashes of a scene's inputs: equal hashes mean equal pictures and equal scores.
 
 use std::collections::BTreeMap;
 

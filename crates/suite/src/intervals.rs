@@ -1,4 +1,4 @@
-//! How far scores may be off because their truth is noisy: the truth's replicates, left out two by two.
+//! Jackknife intervals of scores, from the truth's replicates, left out two by two.
 
 use std::collections::BTreeMap;
 

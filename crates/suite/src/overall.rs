@@ -1,4 +1,4 @@
-//! What filters score over all scenes of a run.
+//! Means of filters over all scenes of a run.
 
 use metrics::Measured;
 use serde::{Deserialize, Serialize};

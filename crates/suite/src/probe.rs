@@ -1,4 +1,4 @@
-//! What a filter makes of a frame: of its colour, and, with the same weights, of pictures whose truth is exact.
+//! Blurs of a frame: its colour and, with the same weights, pictures whose truth is exact.
 
 use filters::{FilterError, Input};
 use frame::{Frame, Image, Picture, Plane, Raster};

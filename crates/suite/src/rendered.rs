@@ -1,4 +1,4 @@
-//! What the tracer makes of a scene, kept on disk so that a second run need not render it again.
+//! Frames, truths and ladders, kept on disk so that a second run need not render them again.
 
 use std::ops::{Range, RangeInclusive};
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! What a run.json may hold, whoever wrote it: checked before anything of it is used.
+//! Checks of a run.json, whoever wrote it, before anything of it is used.
 
 use std::collections::HashSet;
 use std::path::{Component, Path};

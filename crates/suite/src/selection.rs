@@ -1,4 +1,4 @@
-//! Which scenes and filters the words of a command name.
+//! Scenes and filters that the words of a command name.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! What a case is about, which is known before anything is measured.
+//! Subject of a case, known before anything is measured.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! What single words of the command line mean.
+//! Parsers of single words of the command line.
 
 use suite::{MOST_REPLICATES, SIDES};
 

@@ -1,4 +1,4 @@
-//! What a program prints: all of it is read, its end is kept.
+//! Output of a program: all of it is read, its end is kept.
 
 use std::io::{self, ErrorKind, PipeReader, PipeWriter, Read};
 use std::sync::mpsc::{Receiver, channel};

@@ -1,4 +1,4 @@
-//! Which GPU runs the filters.
+//! Choice of the GPU that runs the filters.
 
 use serde::{Deserialize, Serialize};
 

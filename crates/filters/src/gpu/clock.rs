@@ -1,4 +1,4 @@
-//! How long work takes on the GPU.
+//! Clocks for work on the GPU.
 
 use std::time::Instant;
 

@@ -1,4 +1,4 @@
-//! How fast the adapter's memory is: what the traffic of filters is compared with.
+//! Bandwidth of the adapter's memory, which the traffic of filters is compared with.
 
 use super::adapter::Gpu;
 use super::transfer::Place;

@@ -1,4 +1,4 @@
-//! What a kernel asks of a device, found in naga's module.
+//! Resources that a kernel asks of a device, found in naga's module.
 
 use wgpu::naga::valid::{GlobalUse, ModuleInfo};
 use wgpu::naga::{AddressSpace, Block, EntryPoint, Function, Handle, Module, Statement, TypeInner};

@@ -1,4 +1,4 @@
-//! What devices allow kernels, and whether those of a filter keep to it.
+//! Limits that devices set to kernels, and the check of a filter against them.
 
 use super::adapter::Gpu;
 use super::demand::{MAX_INLINED, MAX_INVOCATION_BYTES};

@@ -1,4 +1,4 @@
-//! How deep the text of kernels is nested: what reads and compiles it recurses as deep.
+//! Limit on the nesting of kernels' text: parsers and compilers recurse as deep.
 
 use std::path::Path;
 

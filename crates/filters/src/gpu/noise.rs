@@ -1,4 +1,4 @@
-//! Which kernels draw noise: those that read the index of the frame, by themselves or through functions that they call.
+//! Kernels that draw noise: those that read the index of the frame, by themselves or through functions that they call.
 
 use wgpu::naga::{Expression, Function, GlobalVariable, Handle, Module, TypeInner};
 

@@ -1,4 +1,4 @@
-//! What a kernel file declares, found with naga's reflection; needs no adapter.
+//! Declarations of a kernel file, found with naga's reflection; needs no adapter.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

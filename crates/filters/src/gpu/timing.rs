@@ -1,4 +1,4 @@
-//! How long the passes of a filter take, and how much they move.
+//! Times and memory traffic of a filter's passes.
 
 use super::blur::Blur;
 use crate::{FilterError, Input};

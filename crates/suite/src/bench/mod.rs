@@ -1,4 +1,4 @@
-//! What filters cost: the time of every pass, how much it moves, and how that grows with the reach.
+//! Cost of filters: the time of every pass, its memory traffic, and the growth of both with the reach.
 
 mod measure;
 mod panels;

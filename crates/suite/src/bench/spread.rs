@@ -1,4 +1,4 @@
-//! What repeated measurements say.
+//! Spread of repeated measurements.
 
 use serde::{Deserialize, Serialize};
 use statrs::statistics::{Data, OrderStatistics};

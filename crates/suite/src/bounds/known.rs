@@ -1,4 +1,4 @@
-//! Whether what bounds name exists, and whether every case is held to some.
+//! Checks that bounds name scenes and filters that exist, and that every case has a bound.
 
 use std::path::Path;
 

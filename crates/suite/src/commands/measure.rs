@@ -1,4 +1,4 @@
-//! From the words of the command line to a plan, and from a run to its file: what `run`, `check` and `calibrate` share.
+//! Plans from the command line, and run.json from runs: shared by `run`, `check` and `calibrate`.
 
 use std::path::{Path, PathBuf};
 

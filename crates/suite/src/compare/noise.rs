@@ -1,4 +1,4 @@
-//! What of a change the truth's noise could have made: both pictures against the truth without each pair of its replicates.
+//! Noise of a change between runs: both pictures against the truth without each pair of its replicates.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! Which case of one run belongs to which of the other.
+//! Pairs of cases of two runs.
 
 use std::collections::{HashMap, HashSet};
 

@@ -1,4 +1,4 @@
-//! Where the numbers of a comparison come from.
+//! Provenance of a comparison.
 
 use maud::{Markup, html};
 

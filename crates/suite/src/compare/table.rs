@@ -1,4 +1,4 @@
-//! What a comparison prints: 80 columns.
+//! Text of a comparison, 80 columns wide.
 
 use super::change::{Basis, Change, ChangeKind, ranked};
 use super::mean::{MeanChange, MeanKind};

@@ -1,4 +1,4 @@
-//! From a finished run to pass or fail: what is broken, by how much, where, and what it is like.
+//! Decision on a finished run, and its output as text, JUnit and GitHub annotations.
 
 mod github;
 mod junit;

@@ -1,4 +1,4 @@
-//! What moves in an imported scene.
+//! Motion of an imported scene.
 
 use tracer::Family;
 

@@ -1,4 +1,4 @@
-//! What stands around an imported model: a stand below it, a floor and a wall, all patterned, so that a blur over them shows.
+//! Stand, floor and wall of an imported scene, all patterned, so that a blur over them shows.
 
 use std::fmt::Write;
 use std::fs;

@@ -1,4 +1,4 @@
-//! From a finished run to findings: how each bounded score stands to its limit.
+//! Judgement of a finished run: how each bounded score stands to its limit.
 
 mod decoys;
 mod evidence;

@@ -1,4 +1,4 @@
-//! Where a picture is worst, and what it looks like there.
+//! Worst place of a picture, and a crop around it.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! What filters cost, beside what they are worth: from the bench that lies beside the run, where there is one.
+//! Section on the cost of filters, from the bench.json beside the run, where there is one.
 
 use std::path::Path;
 

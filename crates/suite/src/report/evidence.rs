@@ -1,4 +1,4 @@
-//! Why a bound is not kept: the place to look at, and what was searched for it.
+//! Evidence of a bound that is not kept: the place to look at, and the map that was searched.
 
 use std::str::FromStr;
 

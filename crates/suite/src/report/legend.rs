@@ -1,4 +1,4 @@
-//! What the colours of the pictures mean.
+//! Legend of the pictures' colours.
 
 use colorous::Gradient;
 use maud::{Markup, html};

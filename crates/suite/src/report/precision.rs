@@ -1,4 +1,4 @@
-//! How many bits of a number a page keeps.
+//! Precision of the numbers on a page.
 
 use half::f16;
 

@@ -1,4 +1,4 @@
-//! Where the numbers come from.
+//! Provenance of a run.
 
 use maud::{Markup, html};
 

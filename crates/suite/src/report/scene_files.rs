@@ -1,4 +1,4 @@
-//! What a run left of one scene, read back.
+//! Files that a run left of one scene.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! What pages have in common that show no single run: head, styles, theme.
+//! Head, styles and theme of pages that show no single run.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 

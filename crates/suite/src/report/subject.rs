@@ -1,4 +1,4 @@
-//! What is compared: the rows of the overview.
+//! Rows of the overview: filter presets and bars.
 
 use metrics::Measured;
 

@@ -1,4 +1,4 @@
-//! What a candidate scores, for whoever drives the search from outside.
+//! Scores of a candidate, for a search that is driven from outside.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! What a candidate costs beside the values that tuning starts from.
+//! Cost of a candidate relative to the values that tuning starts from.
 
 use filters::{Blur, FilterError, Gpu, Input, Settings};
 use frame::Frame;

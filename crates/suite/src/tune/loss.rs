@@ -1,4 +1,4 @@
-//! What the search is told about a candidate.
+//! Loss of a candidate, which the search minimises.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Which trials no other one beats in everything.
+//! Pareto front: trials that no other one beats in everything.
 
 /// Indices of the rows that no other row beats: none is as low in every column and lower in one. Of equal rows the first one
 /// is kept.

@@ -1,4 +1,4 @@
-//! What a tuning is asked to do.
+//! Plan of a tuning.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

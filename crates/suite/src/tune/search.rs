@@ -1,4 +1,4 @@
-//! Which point of the unit cube to try next.
+//! Search: the point of the unit cube to try next.
 
 use std::cell::{Cell, RefCell};
 

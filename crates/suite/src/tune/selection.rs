@@ -1,4 +1,4 @@
-//! Which trial becomes the choice.
+//! Selection of the trial that becomes the choice.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,4 +1,4 @@
-//! Which parameters could as well be constants.
+//! Sensitivity analysis: parameters that could as well be constants.
 
 use std::collections::BTreeMap;
 

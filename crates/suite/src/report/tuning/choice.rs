@@ -1,4 +1,4 @@
-//! What a tuning chose.
+//! Choice of a tuning.
 
 use maud::{Markup, html};
 

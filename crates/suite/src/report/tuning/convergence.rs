@@ -1,4 +1,4 @@
-//! How the search got there.
+//! Convergence of the search.
 
 use maud::{Markup, html};
 

@@ -1,4 +1,4 @@
-//! What `tune` leaves in its folder.
+//! Files that `tune` leaves in its folder.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! What no trial beats in everything.
+//! Pareto front of a tuning: trials that no other one beats in everything.
 
 use maud::{Markup, html};
 

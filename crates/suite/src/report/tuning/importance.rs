@@ -1,4 +1,4 @@
-//! Which parameters matter, and which could as well be constants.
+//! Importance of parameters.
 
 use maud::{Markup, html};
 

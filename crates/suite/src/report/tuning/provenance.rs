@@ -1,4 +1,4 @@
-//! Where the numbers of a tuning come from.
+//! Provenance of a tuning.
 
 use maud::{Markup, html};
 
