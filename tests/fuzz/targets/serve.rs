@@ -2,6 +2,7 @@
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::thread;
 
 use crate::fixture::{PROGRAM, RENDER};
 use crate::huge;
@@ -62,7 +63,7 @@ impl Service {
             child,
             asked: 0,
         };
-        let ready = service.line();
+        let ready = line(&mut service.answers).unwrap_or_else(|| service.gone());
         assert!(ready.contains("ready"), "{ready}");
         service
     }
@@ -73,21 +74,23 @@ impl Service {
         // No input has so large a number but by chance.
         let id = 1_000_000_000_000_000 + self.asked;
         let last = format!("\n{{\"id\": {id}, \"params\": {{}}, \"scenes\": [\"none\"]}}\n");
-        let sent = (self.requests.write_all(input))
-            .and_then(|()| self.requests.write_all(last.as_bytes()))
-            .and_then(|()| self.requests.flush());
-        if sent.is_err() {
+        let (requests, answers) = (&mut self.requests, &mut self.answers);
+        // Answers are read meanwhile: a pipe that nobody empties stops the program, and then its reading.
+        let answered = thread::scope(|scope| {
+            let sending = scope.spawn(|| {
+                requests.write_all(input)?;
+                requests.write_all(last.as_bytes())?;
+                requests.flush()
+            });
+            let awaited = format!("\"id\":{id}");
+            let is_answered = std::iter::repeat_with(|| line(answers))
+                .take_while(Option::is_some)
+                .flatten()
+                .any(|line| line.contains(&awaited));
+            is_answered && sending.join().is_ok_and(|sent| sent.is_ok())
+        });
+        if !answered {
             self.gone();
-        }
-        let awaited = format!("\"id\":{id}");
-        while !self.line().contains(&awaited) {}
-    }
-
-    fn line(&mut self) -> String {
-        let mut line = String::new();
-        match self.answers.read_line(&mut line) {
-            Ok(0) | Err(_) => self.gone(),
-            Ok(_) => line,
         }
     }
 
@@ -95,6 +98,13 @@ impl Service {
         let status = self.child.wait().expect("a child that was started");
         panic!("serve ended, or reads no more: {status}");
     }
+}
+
+/// The next line; none where the program has ended.
+fn line(answers: &mut BufReader<ChildStdout>) -> Option<String> {
+    let mut line = String::new();
+    let count = answers.read_line(&mut line).unwrap_or(0);
+    (count > 0).then_some(line)
 }
 
 impl Drop for Service {
