@@ -77,7 +77,7 @@ pub use intervals::{FEWEST_REPLICATES, Intervals, intervals, truths_without_pair
 pub use json_file::MOST_JSON_BYTES;
 pub use judge::{
     Decoys, Finding, JUDGEMENT_FILE, JUDGEMENT_FORMAT, Judged, Judgement, Outcome, Resemblance,
-    RunBounds, Worst, add_evidence, judge, judge_scores, outcome,
+    RunBounds, Worst, add_evidence, judge, judge_scores,
 };
 pub use layers::write_layers;
 pub use merge::{MOST_PART_BYTES, Merged, merge};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use frame::{Frame, Image, Ladder, Truth, read_exr};
+use frame::{ExrFile, Frame, Image, Ladder, Truth, read_exr};
 use metrics::{Metric, Reference, Regions};
 
 use super::decoys::Decoys;
@@ -53,12 +53,29 @@ fn add_evidence_of_truth(
     };
     for (case, findings) in cases {
         let resembles = decoys.nearest(&case.scores);
+        let files = CaseFiles::read(case, folder)?;
         for finding in findings {
-            finding.worst = Some(shown.worst(case, finding, folder)?);
+            finding.worst = Some(shown.worst(case, &files, finding, folder)?);
             finding.resembles = resembles.clone();
         }
     }
     Ok(())
+}
+
+/// A case's picture and its error maps.
+struct CaseFiles {
+    output: Image,
+    errors: ExrFile,
+}
+
+impl CaseFiles {
+    fn read(case: &Case, folder: &Path) -> Result<Self, Error> {
+        let own = folder.join(&case.folder);
+        Ok(Self {
+            output: read_exr(&own.join("output.exr"))?.color("")?,
+            errors: read_exr(&own.join("errors.exr"))?,
+        })
+    }
 }
 
 /// What worst places are searched and shown with.
@@ -71,15 +88,19 @@ struct Shown<'a> {
 
 impl Shown<'_> {
     /// Finds where the error of a finding's metric is largest, and writes a picture of it into the case's folder.
-    fn worst(&self, case: &Case, finding: &Finding, folder: &Path) -> Result<Worst, Error> {
+    fn worst(
+        &self,
+        case: &Case,
+        files: &CaseFiles,
+        finding: &Finding,
+        folder: &Path,
+    ) -> Result<Worst, Error> {
         let metric: Metric = (finding.metric.parse()).expect("a finding is about a metric");
-        let files = folder.join(&case.folder);
         let map_name = metric.row().map.name();
-        let map = read_exr(&files.join("errors.exr"))?.plane(map_name)?;
-        let output = read_exr(&files.join("output.exr"))?.color("")?;
+        let map = files.errors.plane(map_name)?;
         let (x, y) = worst_block(metric, &map, self.regions);
         let picture = case.folder.join(format!("worst_{metric}.png"));
-        let panels = [self.truth, &output];
+        let panels = [self.truth, &files.output];
         write_crop(&folder.join(&picture), (x, y), panels, &map, self.stops)?;
         Ok(Worst {
             x,
