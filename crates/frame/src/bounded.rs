@@ -18,15 +18,8 @@ use crate::FileError;
 /// The file cannot be read, is no regular file, or is larger than `limit`.
 pub fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
     let io = |source| FileError::io(path, "read", source);
-    let metadata = std::fs::metadata(path).map_err(io)?;
-    refuse_unfit(path, &metadata, limit)?;
-
-    let file = File::open(path).map_err(io)?;
-    // Another file may lie at the path by now.
-    let metadata = file.metadata().map_err(io)?;
-    refuse_unfit(path, &metadata, limit)?;
-
-    let mut bytes = Vec::with_capacity(usize::try_from(metadata.len()).unwrap_or(0));
+    let (file, size) = open_regular(path, limit)?;
+    let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));
     file.take(limit.saturating_add(1))
         .read_to_end(&mut bytes)
         .map_err(io)?;
@@ -35,6 +28,19 @@ pub fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
         return Err(too_large(path, read, limit));
     }
     Ok(bytes)
+}
+
+/// Opens a regular file of at most `limit` bytes; returns its size as well. Anything else is refused before it is opened, so that
+/// nothing blocks.
+pub(crate) fn open_regular(path: &Path, limit: u64) -> Result<(File, u64), FileError> {
+    let io = |source| FileError::io(path, "read", source);
+    let metadata = std::fs::metadata(path).map_err(io)?;
+    refuse_unfit(path, &metadata, limit)?;
+    let file = File::open(path).map_err(io)?;
+    // Another file may lie at the path by now.
+    let metadata = file.metadata().map_err(io)?;
+    refuse_unfit(path, &metadata, limit)?;
+    Ok((file, metadata.len()))
 }
 
 fn refuse_unfit(path: &Path, metadata: &Metadata, limit: u64) -> Result<(), FileError> {

@@ -1,6 +1,5 @@
 //! Reading of OpenEXR files, whoever wrote them.
 
-use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
@@ -8,6 +7,7 @@ use exr::meta::attribute::AttributeValue;
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers};
 
 use crate::FileError;
+use crate::bounded::open_regular;
 use crate::exr_file::{Channel, ExrFile, Samples};
 use crate::exr_header::{check, padding};
 use crate::exr_text::from_exr;
@@ -15,7 +15,7 @@ use crate::exr_text::from_exr;
 /// Reads a single-part OpenEXR file; refuses one that is cut short, has several parts, or claims more pixels, channels or
 /// bytes than [`MOST_EXR_BYTES`](crate::MOST_EXR_BYTES) and its neighbours allow. Half floats are widened.
 pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
-    let (handle, bytes) = open_regular(path)?;
+    let (handle, bytes) = open_regular(path, u64::MAX)?;
     let broken = |error: exr::error::Error| match error {
         exr::error::Error::NotSupported(reason) => {
             foreign(path, format!("cannot be read: {reason}"))
@@ -64,20 +64,6 @@ pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
         }
     }
     Ok(file)
-}
-
-/// The file and its size in bytes. A folder, a FIFO or a device is refused before it is opened, so that nothing blocks.
-fn open_regular(path: &Path) -> Result<(File, u64), FileError> {
-    let fail = |error| FileError::io(path, "read", error);
-    if !std::fs::metadata(path).map_err(fail)?.is_file() {
-        return Err(foreign(
-            path,
-            "is no regular file; name an OpenEXR file".to_owned(),
-        ));
-    }
-    let file = File::open(path).map_err(fail)?;
-    let bytes = file.metadata().map_err(fail)?.len();
-    Ok((file, bytes))
 }
 
 fn foreign(path: &Path, reason: String) -> FileError {

@@ -145,13 +145,13 @@ fn links_that_lead_in_circles_and_pipes_are_no_parts() {
     };
     let made = std::process::Command::new("mkfifo").arg(&path).status();
     assert!(made.unwrap().success());
-    refused("no regular file");
+    refused("a regular file is expected");
     fs::remove_file(&path).unwrap();
     symlink("/dev/zero", &path).unwrap();
-    refused("no regular file");
+    refused("a regular file is expected");
     fs::remove_file(&path).unwrap();
     fs::create_dir(&path).unwrap();
-    refused("no regular file");
+    refused("a regular file is expected");
     assert_refused(
         &merge(&bench, &["a", "b/plate/none"]),
         2,
