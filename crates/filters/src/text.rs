@@ -1,11 +1,13 @@
 //! Texts of others that reach terminals, logs and pages.
 
+use frame::is_hidden;
+
 /// What is wrong with a one-line text that is shown to people: `None` where nothing is.
 ///
 /// Refused are control characters, which move cursors and begin lines; marks that reverse the direction of writing; and words
 /// that a CI service takes for a command, as GitHub takes `::error::`.
 pub(crate) fn unfit(text: &str) -> Option<String> {
-    if let Some(found) = text.chars().find(|c| is_hidden(*c)) {
+    if let Some(found) = text.chars().find(|c| has_no_ink(*c)) {
         return Some(format!(
             "holds the control character U+{:04X}; allowed: one line of visible characters",
             u32::from(found)
@@ -25,17 +27,16 @@ pub(crate) fn without_controls(text: &str) -> String {
     for c in text.chars() {
         match c {
             '\t' => shown.push(' '),
-            c if is_hidden(c) => shown += &format!("\\u{{{:x}}}", u32::from(c)),
+            c if has_no_ink(c) => shown += &format!("\\u{{{:x}}}", u32::from(c)),
             c => shown.push(c),
         }
     }
     shown
 }
 
-/// Control characters, line separators, marks of direction, and characters of no width.
-fn is_hidden(c: char) -> bool {
-    c.is_control()
-        || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
+/// Hidden characters, and those of no width.
+fn has_no_ink(c: char) -> bool {
+    is_hidden(c) || matches!(c, '\u{200b}'..='\u{200d}' | '\u{2060}'..='\u{2065}' | '\u{feff}')
 }
 
 #[cfg(test)]

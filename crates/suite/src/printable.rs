@@ -4,13 +4,15 @@ use std::borrow::Cow;
 use std::fmt::Write;
 use std::path::Path;
 
+use frame::is_hidden;
+
 /// Stands before every line of a message but the first, so that none begins with what a log takes for a command.
 const CONTINUED: &str = "  | ";
 
 /// The text on one line: control characters, line breaks among them, and characters that change the direction of writing
 /// become escapes such as `\n` and `\u001b`, which JSON has too. Other text stays as it is.
 pub fn printable(text: &str) -> Cow<'_, str> {
-    match text.chars().any(is_unfit) {
+    match text.chars().any(is_hidden) {
         false => Cow::Borrowed(text),
         true => Cow::Owned(text.chars().fold(String::new(), |mut line, letter| {
             push(&mut line, letter);
@@ -80,17 +82,11 @@ fn push(line: &mut String, letter: char) {
         '\n' => line.push_str("\\n"),
         '\r' => line.push_str("\\r"),
         '\t' => line.push_str("\\t"),
-        letter if is_unfit(letter) => {
+        letter if is_hidden(letter) => {
             let _ = write!(line, "\\u{:04x}", u32::from(letter));
         }
         letter => line.push(letter),
     }
-}
-
-/// Control characters, line and paragraph separators, and what turns the direction of writing.
-fn is_unfit(letter: char) -> bool {
-    letter.is_control()
-        || matches!(letter, '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{200e}' | '\u{200f}')
 }
 
 #[cfg(test)]

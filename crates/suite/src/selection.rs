@@ -6,7 +6,6 @@ use filters::{Filter, FilterError, Settings};
 use tracer::{Scene, list_scene, list_scenes, load_scene};
 
 use crate::Error;
-use crate::printable::printable;
 
 /// A filter with one set of parameters.
 #[derive(Clone)]
@@ -158,10 +157,9 @@ fn refuse_twins(scenes: &[SceneChoice]) -> Result<(), Error> {
 
 fn load(folder: &Path, variant: Option<&str>) -> Result<SceneChoice, Error> {
     let own = folder.file_name().unwrap_or_default().to_string_lossy();
-    if own.contains('@') || printable(&own) != own {
+    if own.contains('@') {
         return Err(Error::Usage(format!(
-            "--scenes: the folder {} cannot name a scene; allowed: names without @, which stands before a variant, and \
-             without control characters; rename it",
+            "--scenes: the folder {} cannot name a scene; allowed: names without @, which stands before a variant; rename it",
             folder.display()
         )));
     }

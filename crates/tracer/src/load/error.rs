@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use frame::is_hidden;
+
 /// A scene that cannot be used. Reads `path:line: reason`; the reason says what was found and what is allowed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneError {
@@ -75,8 +77,7 @@ pub(super) fn is_name(word: &str) -> bool {
 /// What is wrong with a text that people are to read, if anything: characters that move the cursor, end a line, or turn
 /// the direction of writing, which terminals, logs and reports obey.
 pub(super) fn hidden(text: &str) -> Option<String> {
-    let turns = |c: char| matches!(c, '\u{2028}' | '\u{2029}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    let found = text.chars().find(|c| c.is_control() || turns(*c))?;
+    let found = text.chars().find(|letter| is_hidden(*letter))?;
     Some(format!(
         "holds the control character U+{:04X}; allowed: what can be seen, in one line",
         u32::from(found)
