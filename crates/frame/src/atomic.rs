@@ -7,6 +7,7 @@ use std::path::Path;
 use tempfile::NamedTempFile;
 
 use crate::FileError;
+use crate::bounded::kind;
 
 /// A file that is being written is called `.shuttertruth-<any>.tmp`.
 const PREFIX: &str = ".shuttertruth-";
@@ -14,8 +15,13 @@ const SUFFIX: &str = ".tmp";
 
 /// Writes `bytes` under a temporary name in the same folder, then renames: the path holds all of them or what it held
 /// before. Missing folders are made. The umask decides who may read the file, as with every other program.
+///
+/// # Errors
+/// The file cannot be written, or a folder, a FIFO, a socket or a device lies there, or a link to one: renaming would replace
+/// it, `/dev/null` among them.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let fail = |error| FileError::io(path, "write", error);
+    refuse_to_replace(path)?;
     let folder = match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
@@ -28,6 +34,19 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
         .map_err(|error| fail(error.into_error()))?;
     temporary.persist(path).map_err(|error| fail(error.error))?;
     Ok(())
+}
+
+fn refuse_to_replace(path: &Path) -> Result<(), FileError> {
+    match std::fs::metadata(path) {
+        Ok(found) if !found.is_file() => Err(FileError::Foreign {
+            path: path.to_owned(),
+            reason: format!(
+                "is {}, where a file is to be written; name another file",
+                kind(&found)
+            ),
+        }),
+        _ => Ok(()),
+    }
 }
 
 fn temporary_in(folder: &Path) -> std::io::Result<NamedTempFile> {
@@ -65,6 +84,23 @@ pub fn remove_leftovers(folder: &Path) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn a_device_or_a_socket_is_not_replaced() {
+        use std::os::unix::fs::FileTypeExt;
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let _socket = std::os::unix::net::UnixListener::bind(path("socket")).unwrap();
+        std::os::unix::fs::symlink("/dev/null", path("null")).unwrap();
+        for (name, kind) in [("socket", "is a socket"), ("null", "is a device")] {
+            let refusal = write_atomically(&path(name), b"text").unwrap_err();
+            assert!(refusal.to_string().contains(kind), "{refusal}");
+        }
+        let socket = std::fs::symlink_metadata(path("socket")).unwrap();
+        assert!(socket.file_type().is_socket());
+        assert!(path("null").is_symlink());
+    }
 
     #[test]
     fn only_what_a_dead_process_was_writing_is_removed() {

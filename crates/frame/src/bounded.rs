@@ -67,7 +67,7 @@ fn too_large(path: &Path, found: u64, limit: u64) -> FileError {
 }
 
 /// What lies at a path that is no regular file, with its article.
-fn kind(metadata: &Metadata) -> &'static str {
+pub(crate) fn kind(metadata: &Metadata) -> &'static str {
     if metadata.is_dir() {
         return "a folder";
     }
