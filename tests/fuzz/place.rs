@@ -1,6 +1,7 @@
 //! Where a worker's cases run.
 
 use std::fs;
+use std::os::unix::fs::FileTypeExt;
 use std::path::{Path, PathBuf};
 
 use filters::Gpu;
@@ -80,6 +81,12 @@ impl Place {
         assert_eq!(
             found, CANARY,
             "a file outside the case's folder was changed"
+        );
+        // Inputs name devices where files are written, and tests of CI run as root.
+        let device = fs::metadata("/dev/null").map(|found| found.file_type());
+        assert!(
+            device.is_ok_and(|kind| kind.is_char_device()),
+            "/dev/null was replaced"
         );
     }
 }

@@ -17,8 +17,8 @@ const SUFFIX: &str = ".tmp";
 /// before. Missing folders are made. The umask decides who may read the file, as with every other program.
 ///
 /// # Errors
-/// The file cannot be written, or a folder, a FIFO, a socket or a device lies there, or a link to one: renaming would replace
-/// it, `/dev/null` among them.
+/// The file cannot be written, a folder lies there, or a FIFO, a socket or a device does, or a link to one: renaming would
+/// replace it, and be it `/dev/null`.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let fail = |error| FileError::io(path, "write", error);
     refuse_to_replace(path)?;
@@ -38,7 +38,8 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
 
 fn refuse_to_replace(path: &Path) -> Result<(), FileError> {
     match std::fs::metadata(path) {
-        Ok(found) if !found.is_file() => Err(FileError::Foreign {
+        // Renaming fails at a folder by itself.
+        Ok(found) if !found.is_file() && !found.is_dir() => Err(FileError::Foreign {
             path: path.to_owned(),
             reason: format!(
                 "is {}, where a file is to be written; name another file",
