@@ -1,34 +1,36 @@
-//! The tables of means over scenes that a run prints, in 80 columns.
+//! Tables of means over scenes.
 
 use std::fmt::Write;
 
-use super::cases::{Column, NAMES, behind, legend, name_cell, once, titled};
-use crate::output::paint;
-use suite::Headline;
-use suite::Overall;
-use suite::rank_filters;
+use suite::{Headline, Overall, rank_filters};
 
-/// Behind the score that filters of one alignment are rank_filters by.
-const OF_MEANS: [Column; 5] = [
+use super::columns::{
+    Column, NAMES, bracket_name, dim_reference, legend_text, list_once, name_cell,
+};
+use crate::output::colors;
+
+/// Columns behind FLIP, which ranks filters of one alignment.
+const MEAN_COLUMNS: [Column; 5] = [
     ("PSNR", 6, Headline::PSNR),
     ("grow", 5, Headline::GROWTH),
     ("loss", 5, Headline::LOSS),
     ("bleed", 6, Headline::Bleed),
     ("TV", 6, Headline::LABEL),
 ];
-/// Behind the skill that filters of all alignments are rank_filters by.
-const OF_SKILLS: [Column; 3] = [
+/// Columns behind skill, which ranks filters of all alignments.
+const SKILL_COLUMNS: [Column; 3] = [
     ("MSE", 6, Headline::SKILL_MSE),
     ("TV", 6, Headline::SKILL_LABEL),
     ("FLIP*", 6, Headline::CommonFlip),
 ];
-/// Of the score that is rank_filters by.
+/// Width of the score that ranks.
 const RANKED: usize = 6;
-/// Of its interval.
+/// Width of its interval.
 const INTERVAL: usize = 16;
+/// Width of the shutter.
 const SHUTTER: usize = 10;
 
-/// Means over scenes, and who is best: among filters of one shutter alignment by Headline::FLIP, among all by skill. Nothing of a single
+/// Makes the tables of means, best first: by FLIP among filters of one shutter alignment, by skill among all. Empty for a single
 /// scene.
 pub(crate) fn means_table(overall: &[Overall]) -> String {
     let mut text = String::new();
@@ -36,41 +38,47 @@ pub(crate) fn means_table(overall: &[Overall]) -> String {
         let first = group[0];
         if text.is_empty() {
             text += "\n";
-            text += &means_heading(overall, "FLIP", &OF_MEANS, "");
+            text += &means_heading(overall, "FLIP", &MEAN_COLUMNS, "");
         }
         let _ = writeln!(
             text,
             "{}",
-            paint::heading(&format!("{} shutter", first.alignment))
+            colors::heading(&format!("{} shutter", first.alignment))
         );
         for row in group {
-            text += &mean_line(overall, row, Headline::FLIP, &OF_MEANS, "");
+            text += &mean_line(overall, row, Headline::FLIP, &MEAN_COLUMNS, "");
         }
     }
     for group in rank_filters(overall, Headline::SKILL) {
         text += "\n";
-        text += &means_heading(overall, "skill", &OF_SKILLS, "shutter");
+        text += &means_heading(overall, "skill", &SKILL_COLUMNS, "shutter");
         for row in group {
-            text += &mean_line(overall, row, Headline::SKILL, &OF_SKILLS, &row.alignment);
+            text += &mean_line(
+                overall,
+                row,
+                Headline::SKILL,
+                &SKILL_COLUMNS,
+                &row.alignment,
+            );
         }
-        text += &legend(
-            "Skill is by Headline::FLIP, by MSE and by label TV: the share of the way from [identity], 0, to [scatter_oracle], 1; below 0 \
+        text += &legend_text(
+            "Skill is by FLIP, by MSE and by label TV: the share of the way from [identity], 0, to [scatter_oracle], 1; below 0 \
              is worse than doing nothing.",
         );
-        text += &fewer_scenes(overall);
+        text += &fewer_scenes_note(overall);
     }
     text
 }
 
-/// On which shutters skill by Headline::FLIP has fewer scenes than Headline::FLIP.
-fn fewer_scenes(overall: &[Overall]) -> String {
+/// Notes the shutters for which skill applies to fewer scenes than FLIP.
+fn fewer_scenes_note(overall: &[Overall]) -> String {
     let count = |headline: Headline, alignment: &str| {
         let name = headline.name();
         let mut own = overall.iter();
         let own = own.find(|mean| mean.metric == name && mean.alignment == alignment);
         own.map_or(0, |mean| mean.scenes)
     };
-    let alignments = once(overall.iter().map(|mean| mean.alignment.as_str()));
+    let alignments = list_once(overall.iter().map(|mean| mean.alignment.as_str()));
     let counted = alignments.into_iter().filter_map(|alignment| {
         let [skill, flip] =
             [Headline::SKILL, Headline::FLIP].map(|headline| count(headline, alignment));
@@ -79,7 +87,7 @@ fn fewer_scenes(overall: &[Overall]) -> String {
     let counted: Vec<String> = counted.collect();
     match counted.is_empty() {
         true => String::new(),
-        false => legend(&format!(
+        false => legend_text(&format!(
             "Scenes that skill applies to: {}. On the others the oracle gains no more than noise makes.",
             counted.join(", ")
         )),
@@ -96,7 +104,7 @@ fn means_heading(overall: &[Overall], by: &str, others: &[Column], shutter: &str
     if !shutter.is_empty() {
         let _ = write!(text, "{shutter:>SHUTTER$}");
     }
-    paint::heading(&text) + "\n"
+    colors::heading(&text) + "\n"
 }
 
 fn mean_line(
@@ -107,7 +115,7 @@ fn mean_line(
     shutter: &str,
 ) -> String {
     let [low, high] = row.interval.map(|end| by.number(end));
-    let mut line = name_cell(&titled(&row.filter, row.bar));
+    let mut line = name_cell(&bracket_name(&row.filter, row.bar));
     let _ = write!(line, "{:>RANKED$}", by.number(row.mean));
     let _ = write!(line, "{:>INTERVAL$}", format!("{low} to {high}"));
     for (_, width, headline) in others {
@@ -119,5 +127,5 @@ fn mean_line(
     if !shutter.is_empty() {
         let _ = write!(line, "{shutter:>SHUTTER$}");
     }
-    behind(row.bar, &(line + "\n"))
+    dim_reference(row.bar, &(line + "\n"))
 }

@@ -1,41 +1,41 @@
-//! Colours of what is printed. They stand in the text as escape codes, which the command line leaves out where no terminal
-//! reads them; a word says the same each time.
+//! Colours of printed text, as escape codes. Printing leaves them out where no terminal shows them; a word says the same each
+//! time.
 
 use anstyle::{AnsiColor, Style};
 
-/// A title.
+/// Marks a title.
 pub fn heading(text: &str) -> String {
-    painted(Style::new().bold(), text)
+    paint(Style::new().bold(), text)
 }
 
-/// What stands behind the rest.
+/// Marks text of less weight.
 pub fn faint(text: &str) -> String {
-    painted(Style::new().dimmed(), text)
+    paint(Style::new().dimmed(), text)
 }
 
-/// A success.
+/// Marks a success.
 pub fn good(text: &str) -> String {
-    painted(AnsiColor::Green.on_default(), text)
+    paint(AnsiColor::Green.on_default(), text)
 }
 
-/// A failure.
+/// Marks a failure.
 pub fn bad(text: &str) -> String {
-    painted(AnsiColor::Red.on_default().bold(), text)
+    paint(AnsiColor::Red.on_default().bold(), text)
 }
 
-/// Neither the one nor the other.
+/// Marks what is undecided.
 pub fn doubtful(text: &str) -> String {
-    painted(AnsiColor::Yellow.on_default(), text)
+    paint(AnsiColor::Yellow.on_default(), text)
 }
 
-/// Columns that a text takes on the screen.
+/// Counts the columns that a text takes on the screen.
 pub fn width(text: &str) -> usize {
     anstream::adapter::strip_str(text)
         .map(|part| part.chars().count())
         .sum()
 }
 
-fn painted(style: Style, text: &str) -> String {
+fn paint(style: Style, text: &str) -> String {
     match text.is_empty() {
         true => String::new(),
         false => format!("{style}{text}{style:#}"),

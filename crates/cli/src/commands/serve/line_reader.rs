@@ -3,21 +3,21 @@
 use std::io::{self, BufRead, Read};
 use std::sync::mpsc::{Receiver, sync_channel};
 
-/// Bytes that a line may have.
-pub const LONGEST_LINE: usize = 1 << 20;
+/// Upper limit on the bytes of a line.
+const LONGEST_LINE: usize = 1 << 20;
 
-/// Lines that are read ahead.
+/// Lines that are read before they are asked for.
 const AHEAD: usize = 64;
 
-/// A line without its end, or why it is none.
+/// A line without its end, or an error in its place.
 pub type Line = Result<String, String>;
 
-/// Standard input, read while other work goes on.
-pub fn lines() -> Receiver<Line> {
+/// Reads standard input while other work goes on.
+pub fn read_lines() -> Receiver<Line> {
     let (sender, receiver) = sync_channel(AHEAD);
     std::thread::spawn(move || {
         let mut input = io::stdin().lock();
-        while let Some(line) = next(&mut input) {
+        while let Some(line) = read_next(&mut input) {
             if sender.send(line).is_err() {
                 return;
             }
@@ -26,9 +26,9 @@ pub fn lines() -> Receiver<Line> {
     receiver
 }
 
-/// None where the input has ended.
-fn next(input: &mut impl BufRead) -> Option<Line> {
-    match read(input) {
+/// Reads the next line; none where the input has ended.
+fn read_next(input: &mut impl BufRead) -> Option<Line> {
+    match read_line(input) {
         Ok(line) => line,
         // Whatever comes next is no line from its beginning.
         Err(error) => {
@@ -38,7 +38,7 @@ fn next(input: &mut impl BufRead) -> Option<Line> {
     }
 }
 
-fn read(input: &mut impl BufRead) -> io::Result<Option<Line>> {
+fn read_line(input: &mut impl BufRead) -> io::Result<Option<Line>> {
     let mut bytes = Vec::new();
     let most = LONGEST_LINE as u64 + 1;
     if input.take(most).read_until(b'\n', &mut bytes)? == 0 {
@@ -89,7 +89,7 @@ mod tests {
         ];
         let input = input.concat();
         let mut input = input.as_slice();
-        let read: Vec<Line> = std::iter::from_fn(|| next(&mut input)).collect();
+        let read: Vec<Line> = std::iter::from_fn(|| read_next(&mut input)).collect();
         let said = |index: usize| read[index].as_ref().unwrap_err().as_str();
         assert_eq!(read.len(), 7);
         assert_eq!(read[0].as_deref(), Ok("one"));

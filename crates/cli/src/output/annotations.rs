@@ -1,27 +1,25 @@
-//! A check for GitHub Actions: annotations, and the summary of a step.
+//! Text for GitHub Actions: annotations, and the summary of a step.
 
 use std::fmt::Write;
 
 use report::{finding_line, way_out};
+use suite::{Check, Decision, Finding, Outcome, number, printable};
 
 use crate::tables::check::comparison_line;
-use suite::printable;
-use suite::{Check, Decision};
-use suite::{Finding, Outcome, number};
 
-/// More than that, GitHub shows of no step.
+/// Upper limit that GitHub sets on the annotations of a step.
 const MOST_ANNOTATIONS: usize = 10;
-/// A summary is to be read, and a step may have one mebibyte.
+/// Upper limit on rows of a summary: it is to be read, and GitHub takes one mebibyte per step.
 const MOST_ROWS: usize = 500;
 
-/// Workflow commands, one a line, for what keeps the check from passing; the last of ten says how many more there are.
+/// Makes one workflow command per line for each thing that keeps the check from passing. The last of ten counts the rest.
 pub fn annotations(check: &Check) -> String {
     let findings = (check.findings.iter())
         .filter(|finding| Decision::of(finding) != Decision::Pass)
         .map(|finding| {
             let title = format!("{} / {}", finding.scene, finding.filter);
-            let way_out = way_out(finding).map(|way_out| format!("; {way_out}"));
-            (title, finding_line(finding) + &way_out.unwrap_or_default())
+            let suffix = way_out(finding).map(|way_out| format!("; {way_out}"));
+            (title, finding_line(finding) + &suffix.unwrap_or_default())
         });
     let comparisons = (check.comparisons.iter())
         .filter(|comparison| comparison.decision() != Decision::Pass)
@@ -40,13 +38,19 @@ pub fn annotations(check: &Check) -> String {
         ));
     }
     all.iter()
-        .map(|(title, message)| format!("::error title={}::{}\n", property(title), data(message)))
+        .map(|(title, message)| {
+            format!(
+                "::error title={}::{}\n",
+                escape_property(title),
+                escape_message(message)
+            )
+        })
         .collect()
 }
 
-/// The step's summary, as Markdown.
+/// Makes the summary of the step, as Markdown.
 pub fn summary(check: &Check) -> String {
-    let mut text = format!("## Shuttertruth: {}\n\n", words(check.decision));
+    let mut text = format!("## Shuttertruth: {}\n\n", decision_word(check.decision));
     let notable: Vec<&Finding> = (check.findings.iter())
         .filter(|finding| !matches!(finding.outcome, Outcome::Kept | Outcome::NotApplicable))
         .collect();
@@ -61,11 +65,11 @@ pub fn summary(check: &Check) -> String {
         check.count(Outcome::NotApplicable),
     );
     for failure in &check.failures {
-        let (scene, filter) = (cell(&failure.scene), cell(&failure.filter));
+        let (scene, filter) = (escape_cell(&failure.scene), escape_cell(&failure.filter));
         let _ = writeln!(
             text,
             "- **{scene} / {filter} failed**: {}\n",
-            cell(&failure.reason)
+            escape_cell(&failure.reason)
         );
     }
     if !notable.is_empty() {
@@ -74,7 +78,7 @@ pub fn summary(check: &Check) -> String {
         text += "|---|---|---|---|---|---|---|---|---|---|\n";
     }
     for finding in notable.iter().take(MOST_ROWS) {
-        text += &row(finding);
+        text += &summary_row(finding);
     }
     if notable.len() > MOST_ROWS {
         let _ = writeln!(text, "\nand {} more", notable.len() - MOST_ROWS);
@@ -82,13 +86,13 @@ pub fn summary(check: &Check) -> String {
     if !check.comparisons.is_empty() {
         text += "\n### Compared with the baseline\n\n";
         for comparison in &check.comparisons {
-            let _ = writeln!(text, "- {}", cell(&comparison_line(comparison)));
+            let _ = writeln!(text, "- {}", escape_cell(&comparison_line(comparison)));
         }
     }
     text
 }
 
-fn row(finding: &Finding) -> String {
+fn summary_row(finding: &Finding) -> String {
     let or_none = |text: Option<String>| text.unwrap_or_default();
     let interval = (finding.interval.as_ref())
         .map(|interval| format!("{} to {}", number(interval.low), number(interval.high)));
@@ -104,13 +108,13 @@ fn row(finding: &Finding) -> String {
         or_none((finding.resembles.as_ref()).map(|alike| alike.decoy.clone())),
         match Decision::of(finding) {
             Decision::Pass => "reported".to_owned(),
-            decision => words(decision).to_owned(),
+            decision => decision_word(decision).to_owned(),
         },
     ];
-    format!("| {} |\n", cells.map(|text| cell(&text)).join(" | "))
+    format!("| {} |\n", cells.map(|text| escape_cell(&text)).join(" | "))
 }
 
-fn words(decision: Decision) -> &'static str {
+fn decision_word(decision: Decision) -> &'static str {
     match decision {
         Decision::Pass => "pass",
         Decision::Inconclusive => "inconclusive",
@@ -119,8 +123,8 @@ fn words(decision: Decision) -> &'static str {
     }
 }
 
-/// A vertical bar would end the cell, and other signs make links or pictures of names.
-fn cell(text: &str) -> String {
+/// Escapes the text of a cell: a vertical bar would end it, and other signs make links or pictures of names.
+fn escape_cell(text: &str) -> String {
     let one_line = text.replace('\n', " ");
     let mut cell = String::new();
     for letter in printable(&one_line).chars() {
@@ -132,18 +136,18 @@ fn cell(text: &str) -> String {
     cell
 }
 
-/// Letters that Markdown reads as more than themselves: an image in a name would be fetched, HTML be shown.
+/// Characters with a meaning in Markdown: it would fetch an image in a name, and show HTML.
 const MARKDOWN: &str = "\\`|*<[&";
 
-/// What a workflow command's message escapes.
-fn data(text: &str) -> String {
+/// Escapes the message of a workflow command.
+fn escape_message(text: &str) -> String {
     let lines: Vec<_> = text.split('\n').map(printable).collect();
     lines.join("\n").replace('%', "%25").replace('\n', "%0A")
 }
 
-/// What a workflow command's property escapes.
-fn property(text: &str) -> String {
-    data(text).replace(':', "%3A").replace(',', "%2C")
+/// Escapes a property of a workflow command.
+fn escape_property(text: &str) -> String {
+    escape_message(text).replace(':', "%3A").replace(',', "%2C")
 }
 
 #[cfg(test)]
@@ -152,15 +156,15 @@ mod tests {
 
     #[test]
     fn what_would_end_a_command_is_escaped() {
-        assert_eq!(data("95 %\nof it: a, b"), "95 %25%0Aof it: a, b");
-        assert_eq!(property("a:b, 5 %"), "a%3Ab%2C 5 %25");
-        assert_eq!(data("a\r\u{1b}[2J"), "a\\r\\u001b[2J");
+        assert_eq!(escape_message("95 %\nof it: a, b"), "95 %25%0Aof it: a, b");
+        assert_eq!(escape_property("a:b, 5 %"), "a%3Ab%2C 5 %25");
+        assert_eq!(escape_message("a\r\u{1b}[2J"), "a\\r\\u001b[2J");
     }
 
     #[test]
     fn names_make_no_pictures_in_a_summary() {
         assert_eq!(
-            cell("![a](b)<img src=c> `d`\ne|f"),
+            escape_cell("![a](b)<img src=c> `d`\ne|f"),
             "!\\[a](b)\\<img src=c> \\`d\\` e\\|f"
         );
     }

@@ -1,11 +1,11 @@
 //! Lines that fit a terminal.
 
-use crate::output::paint::width;
+use crate::output::colors::width;
 
-/// Columns that everything printed keeps to.
+/// Columns of all printed text.
 pub const WIDTH: usize = 80;
 
-/// Adds a line, broken between words where it is too long; what follows is indented further.
+/// Adds a line and breaks it between words where it is too long; later lines are indented further.
 pub fn push_wrapped(text: &mut String, indent: usize, line: &str) {
     let mut column = indent;
     *text += &" ".repeat(indent);
