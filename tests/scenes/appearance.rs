@@ -125,12 +125,12 @@ fn slips_in_finishes_are_refused() {
         ),
         (
             "Pm 1",
-            "mesh.mtl:3: Pm makes a metal, of no roughness; give it one (0 is a mirror)",
+            "mesh.mtl:3: Pm makes a metal without a roughness; give it one (0 is a mirror)",
         ),
         ("Pr 0.5\nNi 0.9", "mesh.mtl:4: Ni is 0.9; allowed: 1 to 4"),
         (
             "Pr 0.5\nPr 0.5",
-            "mesh.mtl:4: Pr of material \"paint\" is given again; it stands in mesh.mtl:3 already",
+            "mesh.mtl:4: Pr of material \"paint\" is given twice, first in mesh.mtl:3; delete one",
         ),
     ] {
         let folder = Folder::new();
@@ -148,7 +148,7 @@ fn slips_in_finishes_are_refused() {
         ),
         (
             "metallic = true",
-            "scene.toml:33: metallic makes a metal, of no roughness; give it one (0 is a mirror)",
+            "scene.toml:33: metallic makes a metal without a roughness; give it one (0 is a mirror)",
         ),
         (
             "roughness = 1\nindex_of_refraction = 5",
@@ -246,7 +246,7 @@ fn slips_in_environments_are_refused() {
         (
             "constant = [1, 1, 1]\nstrength = 2",
             None,
-            "scene.toml:11: strength and rotation belong to an image; name one: image = \"sky.exr\"".into(),
+            "scene.toml:11: strength and rotation need an image; add one: image = \"sky.exr\"".into(),
         ),
         ("constant = [1, 1, 1]\nimage = \"sky.exr\"", None, needs.to_owned()),
     ] {

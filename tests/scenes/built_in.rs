@@ -97,7 +97,7 @@ fn every_scene_loads_with_every_variant() {
 
 #[test]
 fn the_generator_makes_the_files_that_are_there() {
-    for file in generator::files() {
+    for file in generator::generate_files() {
         let found = std::fs::read(scenes().join(&file.path));
         let found = found.unwrap_or_else(|error| panic!("{}: {error}", file.path));
         assert!(

@@ -92,7 +92,7 @@ pub(super) fn check_visible(text: &str) -> Result<(), String> {
     match text.chars().find(|letter| is_hidden(*letter)) {
         None => Ok(()),
         Some(found) => Err(format!(
-            "holds the control character U+{:04X}; allowed: visible characters on one line",
+            "holds the control character U+{:04X}; allowed: one line of visible characters",
             u32::from(found)
         )),
     }
