@@ -1,4 +1,4 @@
-//! Scenes whose radiance is known in closed form.
+//! Scenes with radiance in closed form.
 
 use std::f64::consts::{PI, TAU};
 
@@ -14,8 +14,8 @@ fn expect_everywhere(what: &str, truth: &Truth, expected: f64) {
     expect_pooled_agreement(what, &estimates(truth, |_, _| expected));
 }
 
-/// A camera at `eye` that looks at `target`, `degrees` high.
-fn look(scene: &mut Scene, eye: DVec3, target: DVec3, degrees: f64) {
+/// Points the camera from `eye` at `target`, with a vertical field of view in degrees.
+fn look_at(scene: &mut Scene, eye: DVec3, target: DVec3, degrees: f64) {
     scene.camera.motion = Motion::still(Key {
         translation: eye,
         orientation: DQuat::from_rotation_arc(DVec3::NEG_Z, (target - eye).normalize()),
@@ -24,7 +24,7 @@ fn look(scene: &mut Scene, eye: DVec3, target: DVec3, degrees: f64) {
     scene.camera.vertical_fov = vec![(0.0, degrees.to_radians())];
 }
 
-/// A pose of a rectangle or disc that faces upwards.
+/// Pose of a rectangle or disc that faces upwards.
 fn facing_up(at: DVec3) -> Key {
     Key {
         translation: at,
@@ -33,13 +33,13 @@ fn facing_up(at: DVec3) -> Key {
     }
 }
 
-/// A floor at y = 0 of albedo 0.6, looked at in one small spot around the origin: 2 mm, so that the light of a lamp 1 m
-/// above varies by less than 2e-6 of itself within it.
+/// Floor at y = 0 of albedo 0.6, seen in a spot of 2 mm around the origin. There the light of a lamp 1 m above varies by less
+/// than 2e-6 of itself.
 fn floor_scene(name: &str) -> Scene {
     let mut scene = empty_scene(name);
     let floor = Motion::still(facing_up(DVec3::ZERO));
     add(&mut scene, rectangle(100.0, 100.0), diffuse(0.6), floor);
-    look(&mut scene, DVec3::new(4.0, 2.0, 0.0), DVec3::ZERO, 0.005);
+    look_at(&mut scene, DVec3::new(4.0, 2.0, 0.0), DVec3::ZERO, 0.005);
     scene
 }
 
@@ -189,7 +189,7 @@ fn a_floor_under_a_glowing_disc_has_the_radiance_of_its_form_factor() {
         add(&mut scene, disc(radius, 256), glowing(1.0), lamp);
         if radius > 1.0 {
             // The eye must stay below the lamp.
-            look(&mut scene, DVec3::new(4.0, 0.5, 0.0), DVec3::ZERO, 0.005);
+            look_at(&mut scene, DVec3::new(4.0, 0.5, 0.0), DVec3::ZERO, 0.005);
         }
         let expected = under_disc(0.6, f64::from(radius));
         expect_everywhere(
@@ -269,7 +269,7 @@ fn a_sun_with_a_disc_is_seen_and_a_point_is_not() {
         angular_radius,
     };
     let mut scene = empty_scene("sun");
-    look(&mut scene, DVec3::ZERO, DVec3::NEG_Z, 1.0);
+    look_at(&mut scene, DVec3::ZERO, DVec3::NEG_Z, 1.0);
     scene.sun = Some(sun(0.0));
     expect_everywhere("point", &render_truth(&scene, 16), 0.0);
     scene.sun = Some(sun(0.2));
@@ -277,7 +277,7 @@ fn a_sun_with_a_disc_is_seen_and_a_point_is_not() {
     expect_everywhere("disc", &render_truth(&scene, 16), radiance);
 }
 
-/// What an image of `sky` in 128 x 64 texels shows.
+/// Environment map of `sky` in 128 x 64 texels.
 fn image_of(sky: &Background) -> Background {
     let (width, height) = (128, 64);
     let texel = |at: u32| {

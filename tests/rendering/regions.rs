@@ -1,4 +1,4 @@
-//! Regions are a property of scene, shutter and size: no noise of a truth moves them.
+//! Regions, which depend on scene, shutter and size but on no noise of a truth.
 
 use std::path::Path;
 
