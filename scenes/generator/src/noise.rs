@@ -1,6 +1,6 @@
-//! Noise from numbers, the same on every machine.
+//! Noise from numbers, equal on every machine.
 
-/// A value in [0, 1) for a pair of whole numbers.
+/// White noise in [0, 1) for a pair of whole numbers.
 pub(crate) fn noise(x: u32, y: u32) -> f64 {
     let mut h = x.wrapping_mul(0x9e37_79b1) ^ y.wrapping_mul(0x85eb_ca77).rotate_left(13);
     h = (h ^ (h >> 16)).wrapping_mul(0x7feb_352d);
@@ -9,7 +9,7 @@ pub(crate) fn noise(x: u32, y: u32) -> f64 {
     f64::from(h) / 2f64.powi(32)
 }
 
-/// Noise in [0, 1) with soft blobs of `size` texels, which repeats every `period` texels (a multiple of `size`).
+/// Smooth noise in [0, 1) with blobs of `size` texels. It repeats every `period` texels, a multiple of `size`.
 pub(crate) fn soft_noise(x: u32, y: u32, size: u32, period: u32) -> f64 {
     let corner = |dx: u32, dy: u32| {
         let cells = period / size;

@@ -1,4 +1,4 @@
-//! A scene of the catalogue, small: what filters make of it, and what that scores.
+//! Small renders of a scene of the catalogue, with the outputs and scores of filters.
 
 use std::cell::OnceCell;
 use std::path::Path;
@@ -9,19 +9,19 @@ use metrics::{Metric, Reference, Scores};
 use tests::unwatched;
 use tracer::{FrameSettings, Scene, TruthSettings, load_scene, trace_frame, trace_truth};
 
-/// How a shot is taken.
+/// Settings of a frame and its truths.
 #[derive(Clone, Copy)]
-pub struct Take {
+pub struct RenderSettings {
     pub width: u32,
     pub height: u32,
-    /// Of the frame, and of the truth over its two replicates.
+    /// Samples of the frame, and of the two replicates of a truth together.
     pub samples_per_pixel: u32,
     pub sky_velocity: bool,
-    /// Pixels by which the frame reaches beyond the picture on every side.
+    /// Width of the border that the frame has beyond the picture, in pixels.
     pub guard_band: u32,
 }
 
-impl Default for Take {
+impl Default for RenderSettings {
     fn default() -> Self {
         Self {
             width: 160,
@@ -33,22 +33,22 @@ impl Default for Take {
     }
 }
 
-/// A frame, and the truths that were asked for.
-pub struct Shot {
+/// Frame of a scene, and truths that are rendered when needed.
+pub struct RenderedScene {
     pub frame: Frame,
     scene: Scene,
-    take: Take,
+    settings: RenderSettings,
     gpu: Gpu,
     truths: [OnceCell<Truth>; 2],
 }
 
-impl Shot {
-    /// Of `scene` or `scene@variant`.
-    pub fn of(name: &str) -> Self {
-        Self::taken(name, Take::default())
+impl RenderedScene {
+    /// Renders `scene` or `scene@variant`.
+    pub fn new(name: &str) -> Self {
+        Self::with_settings(name, RenderSettings::default())
     }
 
-    pub fn taken(name: &str, take: Take) -> Self {
+    pub fn with_settings(name: &str, settings: RenderSettings) -> Self {
         let (name, variant) = match name.split_once('@') {
             Some((name, variant)) => (name, Some(variant)),
             None => (name, None),
@@ -57,38 +57,38 @@ impl Shot {
             .join("../scenes")
             .join(name);
         let scene = load_scene(&folder, variant).unwrap_or_else(|error| panic!("{error}"));
-        let settings = FrameSettings {
-            width: take.width,
-            height: take.height,
+        let frame_settings = FrameSettings {
+            width: settings.width,
+            height: settings.height,
             exposure: scene.exposure,
-            sky_velocity: take.sky_velocity,
-            guard_band: take.guard_band,
-            samples_per_pixel: take.samples_per_pixel,
+            sky_velocity: settings.sky_velocity,
+            guard_band: settings.guard_band,
+            samples_per_pixel: settings.samples_per_pixel,
             ..FrameSettings::default()
         };
         Self {
-            frame: trace_frame(&scene, &settings, &unwatched).unwrap(),
+            frame: trace_frame(&scene, &frame_settings, &unwatched).unwrap(),
             scene,
-            take,
+            settings,
             gpu: Gpu::new(None).expect("these tests run filters"),
             truths: Default::default(),
         }
     }
 
-    /// Over the shutter of an alignment, trailing or centred.
+    /// Returns the truth of an alignment, trailing or centred; renders it the first time.
     pub fn truth(&self, alignment: Alignment) -> &Truth {
-        let place = match alignment {
+        let index = match alignment {
             Alignment::Trailing => 0,
             Alignment::Centred => 1,
             Alignment::Leading => panic!("no filter's shutter leads"),
         };
-        self.truths[place].get_or_init(|| {
+        self.truths[index].get_or_init(|| {
             let settings = TruthSettings {
-                width: self.take.width,
-                height: self.take.height,
+                width: self.settings.width,
+                height: self.settings.height,
                 exposure: self.scene.exposure,
                 alignment,
-                samples_per_pixel: self.take.samples_per_pixel,
+                samples_per_pixel: self.settings.samples_per_pixel,
                 replicates: 2,
                 seed: 1,
             };
@@ -96,22 +96,22 @@ impl Shot {
         })
     }
 
-    /// What a filter, `name:preset`, makes of colour and mattes.
-    pub fn blurred(&self, filter: &str) -> Picture {
+    /// Blurs colour and mattes with a filter, `name:preset`.
+    pub fn blur(&self, filter: &str) -> Picture {
         let mattes: Vec<Image> = (self.frame.coverage.iter())
             .map(|matte| matte.map(|part| [*part; 3]))
             .collect();
         let colors: Vec<&Image> = [&self.frame.color].into_iter().chain(&mattes).collect();
-        let (filter, preset) = chosen(filter);
-        let mut outputs = self.run(&filter, &preset, &colors).into_iter();
+        let (filter, preset) = find_preset(filter);
+        let mut outputs = self.run_filter(&filter, &preset, &colors).into_iter();
         Picture {
             color: outputs.next().expect("an output per colour"),
             coverage: outputs.map(|matte| matte.map(|pixel| pixel[0])).collect(),
         }
     }
 
-    /// What a filter makes of these colours in the place of the frame's own, without the guard band.
-    pub fn run(&self, filter: &Filter, preset: &str, colors: &[&Image]) -> Vec<Image> {
+    /// Runs a filter on colours in place of the frame's own, and crops the guard band.
+    pub fn run_filter(&self, filter: &Filter, preset: &str, colors: &[&Image]) -> Vec<Image> {
         let settings = filter.settings(Some(preset)).unwrap();
         let (width, height) = self.frame.size();
         let mut blur = Blur::new(&self.gpu, filter, &settings, width, height).unwrap();
@@ -122,7 +122,7 @@ impl Shot {
             reprojection: Some(
                 self.frame
                     .reprojection
-                    .moved(f64::from(self.take.guard_band)),
+                    .moved(f64::from(self.settings.guard_band)),
             ),
             exposure: self.frame.exposure,
             frame_index: 0,
@@ -130,59 +130,63 @@ impl Shot {
         let outputs = blur.run(&input).unwrap();
         outputs
             .iter()
-            .map(|output| output.cropped(self.take.guard_band))
+            .map(|output| output.cropped(self.settings.guard_band))
             .collect()
     }
 
-    pub fn measured(&self, picture: &Picture, alignment: Alignment) -> Scores {
-        let truth = self.truth(alignment);
-        let viewing = suite::viewing(&self.scene);
+    /// Scores a picture against the truth of an alignment.
+    pub fn measure(&self, picture: &Picture, alignment: Alignment) -> Scores {
         let frame = self.frame.cropped();
-        let reference = Reference::new(&frame, truth, None, &viewing).unwrap();
+        let reference = Reference::new(
+            &frame,
+            self.truth(alignment),
+            None,
+            &suite::viewing(&self.scene),
+        )
+        .unwrap();
         reference.measure(picture).unwrap().scores
     }
 
-    /// A filter's scores against the shutter that it declares.
-    pub fn scores(&self, filter: &str) -> Scores {
-        let alignment = chosen(filter).0.alignment;
-        self.measured(&self.blurred(filter), alignment)
+    /// Scores a filter against the truth of its declared shutter.
+    pub fn score_filter(&self, filter: &str) -> Scores {
+        let alignment = find_preset(filter).0.alignment;
+        self.measure(&self.blur(filter), alignment)
     }
 
-    /// One of them.
+    /// Returns one score of a filter.
     pub fn score(&self, filter: &str, metric: &str) -> f64 {
-        value(&self.scores(filter), metric)
+        value(&self.score_filter(filter), metric)
     }
 
-    /// The part of the error of doing nothing that a filter leaves, against the shutter that it declares.
-    pub fn left_by(&self, filter: &str, metric: &str) -> f64 {
+    /// Error of a filter, relative to that of doing nothing.
+    pub fn error_left_by(&self, filter: &str, metric: &str) -> f64 {
         let frame = self.frame.cropped();
         let nothing = Picture {
             color: frame.color,
             coverage: frame.coverage,
         };
-        let nothing = self.measured(&nothing, chosen(filter).0.alignment);
+        let nothing = self.measure(&nothing, find_preset(filter).0.alignment);
         self.score(filter, metric) / value(&nothing, metric)
     }
 
-    /// How much of an object a filter gives to others, against the shutter that it declares.
+    /// Share of an object that a filter gives to others.
     pub fn object_label_tv(&self, filter: &str, object: &str) -> f64 {
-        let scores = self.scores(filter);
+        let scores = self.score_filter(filter);
         let found = scores.objects.iter().find(|scores| scores.object == object);
         let found = found.unwrap_or_else(|| panic!("there is no object {object}"));
         found.label_total_variation.value().expect("it is seen")
     }
 
-    /// Mean over the pixels that `weight` counts of the unbiased squared error of a filter's colour, in radiance: the
-    /// truth's halves are independent.
-    pub fn error_over(&self, filter: &str, weight: impl Fn(u32, u32) -> f64) -> f64 {
-        let output = self.blurred(filter).color;
-        let [a, b] = &self.truth(chosen(filter).0.alignment).halves;
+    /// Weighted mean of the squared error of a filter's radiance; unbiased, as the truth's halves are independent.
+    pub fn squared_error(&self, filter: &str, weight_at: impl Fn(u32, u32) -> f64) -> f64 {
+        let output = self.blur(filter).color;
+        let [a, b] = &self.truth(find_preset(filter).0.alignment).halves;
         let (mut sum, mut total) = (0.0, 0.0);
         for y in 0..output.height {
             for x in 0..output.width {
                 let [output, a, b] = [&output, &a.color, &b.color].map(|image| image.at(x, y));
                 let product = |c: usize| f64::from((output[c] - a[c]) * (output[c] - b[c]));
-                let weight = weight(x, y);
+                let weight = weight_at(x, y);
                 sum += weight * (product(0) + product(1) + product(2)) / 3.0;
                 total += weight;
             }
@@ -192,7 +196,7 @@ impl Shot {
     }
 }
 
-/// A metric's value; the test fails where it does not apply.
+/// Returns a metric's value; fails the test if it does not apply.
 pub fn value(scores: &Scores, metric: &str) -> f64 {
     let parsed: Metric = metric.parse().unwrap();
     let found = scores.get(parsed);
@@ -201,8 +205,8 @@ pub fn value(scores: &Scores, metric: &str) -> f64 {
         .unwrap_or_else(|| panic!("{metric} does not apply: {found:?}"))
 }
 
-/// A built-in filter and the preset's name.
-pub fn chosen(filter: &str) -> (Filter, String) {
+/// Finds a built-in filter, and returns it with the preset's name.
+pub fn find_preset(filter: &str) -> (Filter, String) {
     let (name, preset) = filter.split_once(':').expect("name:preset");
     (Filter::builtin(name).unwrap(), preset.to_owned())
 }

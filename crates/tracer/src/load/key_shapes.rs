@@ -1,4 +1,4 @@
-//! Several OBJ files of the same faces as one mesh that changes its shape.
+//! Deforming meshes from OBJ files with the same faces.
 
 use std::collections::HashMap;
 
@@ -6,20 +6,20 @@ use glam::Vec3;
 
 use super::error::SceneError;
 use super::obj::{ObjFile, Slot};
-use super::statements::statements;
+use super::statements::split_statements;
 use crate::{Mesh, Shape};
 
-/// A face of an OBJ file.
+/// Face of an OBJ file.
 struct Face {
-    /// Counted from 1.
+    /// Line number, counted from 1.
     line: usize,
-    /// Indices of its vertices, counted from 1.
+    /// Vertices, counted from 1.
     vertices: Vec<i64>,
 }
 
-/// The mesh that has these shapes at these times, and the materials of its slots: the first shape's, as are the texture
-/// coordinates.
-pub(super) fn deforming_mesh(
+/// Builds the mesh that has these shapes at these times, with the materials of its slots. Materials and texture coordinates
+/// are those of the first shape.
+pub(super) fn build_deforming_mesh(
     shapes: &[(f64, &ObjFile)],
     group: Option<&str>,
 ) -> Result<(Mesh, Vec<Slot>), SceneError> {
@@ -28,11 +28,11 @@ pub(super) fn deforming_mesh(
         check_faces(files[0], file)?;
         check_parts(files[0], file)?;
     }
-    let joined = joined(&files);
-    let (mut mesh, slots) = joined[0].mesh(group)?;
-    let flat = flat_vertices(&joined[0], group, &mesh);
-    for ((time, _), file) in shapes.iter().zip(&joined) {
-        let shape = file.shape(group);
+    let files = unify_vertices(&files);
+    let (mut mesh, slots) = files[0].build_mesh(group)?;
+    let flat = find_flat_vertices(&files[0], group, &mesh);
+    for ((time, _), file) in shapes.iter().zip(&files) {
+        let shape = file.build_shape(group);
         let normals = shape.normals.iter().zip(&flat);
         mesh.shapes.push(Shape {
             time: *time,
@@ -45,9 +45,9 @@ pub(super) fn deforming_mesh(
     Ok((mesh, slots))
 }
 
-/// Refuses faces that join other vertices than those of the first shape.
+/// Refuses faces with other vertices than those of the first shape.
 fn check_faces(first: &ObjFile, file: &ObjFile) -> Result<(), SceneError> {
-    let [expected, found] = [first, file].map(|file| faces(&file.text));
+    let [expected, found] = [first, file].map(|file| read_faces(&file.text));
     let name = first.path.display();
     if found.len() != expected.len() {
         let reason = format!(
@@ -55,16 +55,16 @@ fn check_faces(first: &ObjFile, file: &ObjFile) -> Result<(), SceneError> {
             found.len(),
             expected.len()
         );
-        return Err(SceneError::file(&file.path, reason));
+        return Err(SceneError::in_file(&file.path, reason));
     }
     for (expected, found) in expected.iter().zip(&found) {
         if expected.vertices != found.vertices {
             let reason = format!(
-                "the face joins the vertices {:?}, in {name}:{} it joins {:?}; key shapes must have the same faces in \
+                "the face has the vertices {:?}, in {name}:{} it has {:?}; key shapes must have the same faces in \
                  the same order",
                 found.vertices, expected.line, expected.vertices
             );
-            return Err(SceneError::line(&file.path, found.line, reason));
+            return Err(SceneError::at_line(&file.path, found.line, reason));
         }
     }
     Ok(())
@@ -72,7 +72,7 @@ fn check_faces(first: &ObjFile, file: &ObjFile) -> Result<(), SceneError> {
 
 /// Refuses groups, materials and kinds of faces that are not those of the first shape.
 fn check_parts(first: &ObjFile, file: &ObjFile) -> Result<(), SceneError> {
-    let described = |file: &ObjFile| -> Vec<String> {
+    let describe_parts = |file: &ObjFile| -> Vec<String> {
         let describe = |part: &tobj::Model| {
             let material = file.material(&part.mesh);
             let normals = if part.mesh.normals.is_empty() {
@@ -89,7 +89,7 @@ fn check_parts(first: &ObjFile, file: &ObjFile) -> Result<(), SceneError> {
         };
         file.parts.iter().map(describe).collect()
     };
-    let [expected, found] = [first, file].map(described);
+    let [expected, found] = [first, file].map(describe_parts);
     let name = first.path.display();
     if expected != found {
         let differing = expected.iter().zip(&found).position(|(e, f)| e != f);
@@ -100,7 +100,7 @@ fn check_parts(first: &ObjFile, file: &ObjFile) -> Result<(), SceneError> {
             found.get(part).unwrap_or(&nothing),
             expected.get(part).unwrap_or(&nothing)
         );
-        return Err(SceneError::file(&file.path, reason));
+        return Err(SceneError::in_file(&file.path, reason));
     }
     for (expected, found) in first.parts.iter().zip(&file.parts) {
         let [expected, found] = [first.material(&expected.mesh), file.material(&found.mesh)];
@@ -109,21 +109,21 @@ fn check_parts(first: &ObjFile, file: &ObjFile) -> Result<(), SceneError> {
                 "material \"{}\" is not the same as in {name}; key shapes must have the same materials",
                 found.name
             );
-            return Err(SceneError::file(&file.path, reason));
+            return Err(SceneError::in_file(&file.path, reason));
         }
     }
     Ok(())
 }
 
-/// The faces of an OBJ text that has been checked.
-fn faces(text: &str) -> Vec<Face> {
+/// Reads the faces of a checked OBJ text.
+fn read_faces(text: &str) -> Vec<Face> {
     let mut faces = Vec::new();
     let mut vertices = 0;
-    for statement in statements(text) {
+    for statement in split_statements(text) {
         match statement.keyword {
             "v" => vertices += 1,
             "f" => {
-                let index = |corner: &str| {
+                let read_index = |corner: &str| {
                     let word = corner.split('/').next().unwrap_or_default();
                     let index: i64 = word.parse().expect("indices have been checked");
                     if index < 0 {
@@ -134,7 +134,7 @@ fn faces(text: &str) -> Vec<Face> {
                 };
                 faces.push(Face {
                     line: statement.line,
-                    vertices: statement.rest.split_whitespace().map(index).collect(),
+                    vertices: statement.rest.split_whitespace().map(read_index).collect(),
                 });
             }
             _ => (),
@@ -143,10 +143,10 @@ fn faces(text: &str) -> Vec<Face> {
     faces
 }
 
-/// The same files with one numbering of vertices: corners that are one vertex in every file stay one. Programs that
-/// write OBJ number equal normals alike, so that files of the same faces may number their vertices differently.
-fn joined(files: &[&ObjFile]) -> Vec<ObjFile> {
-    let mut joined: Vec<ObjFile> = files.iter().map(|file| (*file).clone()).collect();
+/// Gives all files the same vertices: corners that are one vertex in every file stay one. tobj makes a vertex of each
+/// different triple of indices, and equal normals share an index, so that files of the same faces may differ in theirs.
+fn unify_vertices(files: &[&ObjFile]) -> Vec<ObjFile> {
+    let mut unified: Vec<ObjFile> = files.iter().map(|file| (*file).clone()).collect();
     for part in 0..files[0].parts.len() {
         let mut numbers: HashMap<Vec<u32>, u32> = HashMap::new();
         let mut corners_of_numbers = Vec::new();
@@ -163,9 +163,9 @@ fn joined(files: &[&ObjFile]) -> Vec<ObjFile> {
             });
             indices.push(number);
         }
-        for (file, joined) in files.iter().zip(&mut joined) {
+        for (file, unified) in files.iter().zip(&mut unified) {
             let from = &file.parts[part].mesh;
-            let taken = |values: &[f32], width: usize| -> Vec<f32> {
+            let pick = |values: &[f32], width: usize| -> Vec<f32> {
                 let vertices = corners_of_numbers
                     .iter()
                     .map(|corner| from.indices[*corner]);
@@ -177,21 +177,21 @@ fn joined(files: &[&ObjFile]) -> Vec<ObjFile> {
                     .copied()
                     .collect()
             };
-            joined.parts[part].mesh = tobj::Mesh {
-                positions: taken(&from.positions, 3),
-                normals: taken(&from.normals, 3),
-                texcoords: taken(&from.texcoords, 2),
+            unified.parts[part].mesh = tobj::Mesh {
+                positions: pick(&from.positions, 3),
+                normals: pick(&from.normals, 3),
+                texcoords: pick(&from.texcoords, 2),
                 indices: indices.clone(),
                 material_id: from.material_id,
                 ..tobj::Mesh::default()
             };
         }
     }
-    joined
+    unified
 }
 
-/// Per vertex of a mesh, whether its face is flat beside others that have normals.
-fn flat_vertices(file: &ObjFile, group: Option<&str>, mesh: &Mesh) -> Vec<bool> {
+/// Finds the vertices of flat faces beside faces with normals.
+fn find_flat_vertices(file: &ObjFile, group: Option<&str>, mesh: &Mesh) -> Vec<bool> {
     let mut flat = vec![false; mesh.positions.len()];
     let parts = file.parts_of(group);
     let of_triangles = parts.flat_map(|part| {
