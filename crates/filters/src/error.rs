@@ -1,8 +1,8 @@
-//! Errors between a filter folder and a blurred image.
+//! Errors of loading and running filters.
 
 use std::path::PathBuf;
 
-/// Every message names the place, what was found, what is allowed, and the way out.
+/// Error of a filter. Every message names the place, what was found, what is allowed, and the way out.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FilterError {
     /// The machine offers no adapter at all.
@@ -20,7 +20,7 @@ pub enum FilterError {
         found: Vec<String>,
     },
     /// The adapter gives no device.
-    #[error("adapter \"{adapter}\" cannot be used: {reason}; choose another one with --adapter")]
+    #[error("adapter \"{adapter}\" cannot be used: {reason}; choose another adapter")]
     Device {
         /// Name of the adapter.
         adapter: String,
