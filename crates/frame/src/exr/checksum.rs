@@ -1,16 +1,16 @@
-//! Checksum of a file's content: a bit that flipped on a disk is no measurement.
+//! Checksum of a file's content, which tells a bit that flipped on a disk.
 
 use std::collections::BTreeMap;
 
-use crate::exr_file::{ExrFile, Samples};
-use crate::{Channel, FileError};
+use super::file::{Channel, ExrFile, Samples};
+use crate::FileError;
 
 /// Name of the attribute that holds the checksum.
 pub(crate) const CHECKSUM: &str = "checksum";
 
 impl ExrFile {
-    /// BLAKE3 of size, attributes and channels, whatever their order; the attribute that holds it is left out.
-    pub(crate) fn checksum(&self) -> String {
+    /// Computes the BLAKE3 hash of size, attributes and channels in any order, without the attribute that holds it.
+    pub(crate) fn compute_checksum(&self) -> String {
         let mut hasher = blake3::Hasher::new();
         hasher.update(&self.width.to_le_bytes());
         hasher.update(&self.height.to_le_bytes());
@@ -32,7 +32,7 @@ impl ExrFile {
     /// Refuses content that is not what was written.
     pub(crate) fn expect_checksum(&self) -> Result<(), FileError> {
         let found: String = self.get(CHECKSUM)?;
-        if found == self.checksum() {
+        if found == self.compute_checksum() {
             return Ok(());
         }
         Err(self.foreign(

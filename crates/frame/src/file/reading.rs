@@ -1,4 +1,4 @@
-//! Reading of files that others wrote: regular files only, up to a stated size.
+//! Reading of files that others wrote: regular files only, up to a given size.
 
 use std::{
     fs::{File, Metadata},
@@ -6,7 +6,7 @@ use std::{
     path::Path,
 };
 
-use crate::FileError;
+use super::error::FileError;
 
 /// Reads a regular file of at most `limit` bytes.
 ///
@@ -15,7 +15,7 @@ use crate::FileError;
 /// is refused too: no more than `limit + 1` bytes are ever held.
 ///
 /// # Errors
-/// The file cannot be read, is no regular file, or is larger than `limit`.
+/// Fails if the file cannot be read, is no regular file, or is larger than `limit`.
 pub fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
     let io = |source| FileError::io(path, "read", source);
     let (file, size) = open_regular(path, limit)?;
@@ -30,7 +30,7 @@ pub fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
     Ok(bytes)
 }
 
-/// Opens a regular file of at most `limit` bytes; returns its size as well. Anything else is refused before it is opened, so that
+/// Opens a regular file of at most `limit` bytes; returns its size too. Anything else is refused before it is opened, so that
 /// nothing blocks.
 pub(crate) fn open_regular(path: &Path, limit: u64) -> Result<(File, u64), FileError> {
     let io = |source| FileError::io(path, "read", source);
@@ -49,7 +49,7 @@ fn refuse_unfit(path: &Path, metadata: &Metadata, limit: u64) -> Result<(), File
             path: path.to_owned(),
             reason: format!(
                 "is {}, where a regular file is expected; name a file",
-                kind(metadata)
+                kind_of(metadata)
             ),
         });
     }
@@ -66,8 +66,8 @@ fn too_large(path: &Path, found: u64, limit: u64) -> FileError {
     }
 }
 
-/// What lies at a path that is no regular file, with its article.
-pub(crate) fn kind(metadata: &Metadata) -> &'static str {
+/// Names what is no regular file, with its article.
+pub(crate) fn kind_of(metadata: &Metadata) -> &'static str {
     if metadata.is_dir() {
         return "a folder";
     }

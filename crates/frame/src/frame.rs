@@ -1,11 +1,10 @@
-//! What an engine would hand to its motion blur: one instant's colour, velocity and depth.
+//! The frame that an engine would hand to its motion blur: colour, velocity and depth of one instant.
 
 use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
-use crate::exr_file::{Channel, ExrFile, Samples, write_exr};
-use crate::exr_reading::read_exr;
+use crate::exr::{Channel, ExrFile, Samples, read_exr, write_exr};
 use crate::picture::coverage_name;
 use crate::{
     Alignment, Display, FileError, Image, Plane, Provenance, Raster, Reprojection, Vectors,
@@ -14,26 +13,26 @@ use crate::{
 /// Depth of a pixel that sees no surface, in metres: finite, so that filters may subtract it.
 pub const FAR_DEPTH: f32 = 1.0e10;
 
-/// Which screen motion the velocity buffer holds.
+/// Kind of screen motion in the velocity buffer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum VelocityKind {
     /// The derivative at `t = 0`, in pixels per frame.
     #[default]
     Instantaneous,
-    /// `x(0) - x(-1)`, the way since the frame before: what engines hand over.
+    /// `x(0) - x(-1)`, the motion since the frame before, which engines hand over.
     PreviousFrame,
-    /// The way since the frame before of whatever stood still in the world, from depth and both frames' cameras alone:
-    /// what is left without a velocity buffer.
+    /// The motion since the frame before as if everything stood still in the world, from depth and both frames' cameras alone:
+    /// all that is known without a velocity buffer.
     CameraOnly,
 }
 
-/// How the colour of a frame was sampled.
+/// Sampling of a frame's colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum ColorSampling {
     /// Filtered over the pixel's area.
     #[default]
     Antialiased,
-    /// Seen at the pixel's centre, as a rasteriser without multisampling does. Coverage is then 0 or 1.
+    /// Sampled at the pixel's centre, as by a rasteriser without multisampling. Coverage is then 0 or 1.
     Point,
 }
 
@@ -45,7 +44,7 @@ impl VelocityKind {
         VelocityKind::CameraOnly,
     ];
 
-    /// The word used in files and on the command line.
+    /// Returns the word used in files and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             VelocityKind::Instantaneous => "instantaneous",
@@ -78,7 +77,7 @@ impl ColorSampling {
     /// Every kind.
     pub const ALL: [ColorSampling; 2] = [ColorSampling::Antialiased, ColorSampling::Point];
 
-    /// The word used in files and on the command line.
+    /// Returns the word used in files and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             ColorSampling::Antialiased => "antialiased",
@@ -107,25 +106,25 @@ impl FromStr for ColorSampling {
 /// One instant (`t = 0`) of a scene. All rasters have the same size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
-    /// Where the frame comes from.
+    /// Origin of the frame.
     pub provenance: Provenance,
     /// Exposure that a filter is to blur by, in frames.
     pub exposure: f64,
-    /// What `velocity` holds.
+    /// Kind of motion in `velocity`.
     pub velocity_kind: VelocityKind,
-    /// How `color` and `coverage` were sampled.
+    /// Sampling of `color` and `coverage`.
     pub color_sampling: ColorSampling,
-    /// Whether the background has its velocity, or zero.
+    /// True if the background has its velocity, false if it has zero.
     pub sky_velocity: bool,
-    /// Pixels by which all rasters reach beyond the picture on every side.
+    /// Pixels by which all rasters extend beyond the picture on every side.
     pub guard_band: u32,
-    /// The camera's motion since the frame before, between places of the picture: of the rasters without their guard band.
+    /// The camera's motion since the frame before, between places of the picture without its guard band.
     pub reprojection: Reprojection,
-    /// How the scene is shown and compared.
+    /// Exposures at which the scene is shown and compared.
     pub display: Display,
     /// Object names; the index is the object id, and 0 is `background`.
     pub objects: Vec<String>,
-    /// Radiance, box-filtered over the pixel or as seen at its centre.
+    /// Radiance, box-filtered over the pixel or sampled at its centre.
     pub color: Image,
     /// Screen motion over one frame interval at the pixel centre, in pixels; +x right, +y down.
     pub velocity: Vectors,
@@ -133,17 +132,18 @@ pub struct Frame {
     pub depth: Plane,
     /// The object seen at the pixel centre.
     pub object_id: Raster<u32>,
-    /// Per object: the fraction of the pixel's area in which it is visible at the instant; 0 or 1 where colour is seen at the centre.
+    /// Fraction of the pixel's area in which an object is visible at the instant, per object; 0 or 1 if colour is sampled at the
+    /// centre.
     pub coverage: Vec<Plane>,
 }
 
 impl Frame {
-    /// Pixels per row and rows of its rasters, the guard band included.
+    /// Returns pixels per row and rows of its rasters, guard band included.
     pub fn size(&self) -> (u32, u32) {
         (self.color.width, self.color.height)
     }
 
-    /// The frame without its guard band: what belongs to the truth's pixels.
+    /// Removes the guard band, so that pixels match the truth's.
     pub fn cropped(&self) -> Frame {
         let band = self.guard_band;
         Frame {
@@ -225,7 +225,7 @@ impl Frame {
     }
 }
 
-/// Above 0 and finite, as every exposure.
+/// Reads an exposure; refuses one that no shutter has.
 fn read_exposure(file: &ExrFile) -> Result<f64, FileError> {
     let exposure = file.get("exposure")?;
     match Alignment::Trailing.shutter(exposure) {
@@ -234,7 +234,7 @@ fn read_exposure(file: &ExrFile) -> Result<f64, FileError> {
     }
 }
 
-/// A guard band that leaves a picture inside of it.
+/// Reads a guard band; refuses one that leaves no picture inside of it.
 fn read_guard_band(file: &ExrFile) -> Result<u32, FileError> {
     let band: u32 = file.get("guard_band")?;
     let least = file.width.min(file.height);

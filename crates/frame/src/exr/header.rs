@@ -1,23 +1,23 @@
-//! What the header of an OpenEXR file may claim: checked before anything is allocated for its pixels.
+//! Limits on the header of an OpenEXR file, checked before memory is allocated for its pixels.
 
 use exr::meta::header::Header;
 
-/// Columns and rows of an OpenEXR file, each.
+/// Upper limit on the columns and on the rows of an OpenEXR file.
 pub const LARGEST_EXR_SIDE: usize = 16_384;
-/// Channels of an OpenEXR file.
+/// Upper limit on the channels of an OpenEXR file.
 pub const MOST_EXR_CHANNELS: usize = 32_768;
-/// Bytes that the samples of an OpenEXR file may take in memory; a file that holds more than a part in
-/// [`LARGEST_EXR_RATIO`] of them may take more.
+/// Upper limit on the bytes that the samples of an OpenEXR file take in memory. A file that is larger than this divided by
+/// [`LARGEST_EXR_RATIO`] may take more.
 pub const MOST_EXR_BYTES: u64 = 1 << 30;
-/// How many times larger than its file the samples of a large OpenEXR file may be: what run lengths reach at most.
+/// Upper limit on the size of the samples of a large OpenEXR file, over the size of the file: the most that run lengths reach.
 pub const LARGEST_EXR_RATIO: u64 = 64;
 
 /// In memory all samples are 32-bit.
 const BYTES_PER_SAMPLE: u64 = 4;
 
-/// Refuses headers of several parts, of deep or subsampled data, and of more pixels, channels or bytes than are allowed,
-/// `file_bytes` being the size of the file. The error is what was found and what is allowed.
-pub(crate) fn check(headers: &[Header], file_bytes: u64) -> Result<(), String> {
+/// Refuses headers of several parts, of deep or subsampled data, and of more pixels, channels or bytes than are allowed.
+/// `file_bytes` is the size of the file.
+pub(crate) fn check_header(headers: &[Header], file_bytes: u64) -> Result<(), String> {
     let [header] = headers else {
         return Err(format!(
             "has {} parts; a single-part OpenEXR file is needed",
@@ -48,7 +48,7 @@ pub(crate) fn check(headers: &[Header], file_bytes: u64) -> Result<(), String> {
     {
         return Err(format!(
             "channel \"{}\" has one sample per {}x{} pixels; one per pixel is needed",
-            super::exr_text::from_exr(&sparse.name),
+            super::text::from_exr(&sparse.name),
             sparse.sampling.0,
             sparse.sampling.1
         ));
@@ -65,8 +65,8 @@ pub(crate) fn check(headers: &[Header], file_bytes: u64) -> Result<(), String> {
     Ok(())
 }
 
-/// In words, how the pixels lie in a display window that is another than theirs; none where both are one.
-pub(crate) fn padding(header: &Header) -> Option<String> {
+/// Describes a display window that is not the data window; `None` if both are one.
+pub(crate) fn describe_padding(header: &Header) -> Option<String> {
     let display = header.shared_attributes.display_window;
     let (place, size) = (header.own_attributes.layer_position, header.layer_size);
     if display.position == place && display.size == size {

@@ -6,11 +6,11 @@ use std::path::Path;
 use exr::meta::attribute::AttributeValue;
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers};
 
+use super::file::{Channel, ExrFile, Samples};
+use super::header::{check_header, describe_padding};
+use super::text::from_exr;
 use crate::FileError;
-use crate::bounded::open_regular;
-use crate::exr_file::{Channel, ExrFile, Samples};
-use crate::exr_header::{check, padding};
-use crate::exr_text::from_exr;
+use crate::file::open_regular;
 
 /// Reads a single-part OpenEXR file; refuses one that is cut short, has several parts, or claims more pixels, channels or
 /// bytes than [`MOST_EXR_BYTES`](crate::MOST_EXR_BYTES) and its neighbours allow. Half floats are widened.
@@ -26,8 +26,8 @@ pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
         },
     };
     let chunks = exr::block::read(BufReader::new(handle), false).map_err(broken)?;
-    check(chunks.headers(), bytes).map_err(|reason| foreign(path, reason))?;
-    let padding = padding(&chunks.headers()[0]);
+    check_header(chunks.headers(), bytes).map_err(|reason| foreign(path, reason))?;
+    let padding = describe_padding(&chunks.headers()[0]);
     let image = exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()

@@ -2,12 +2,12 @@
 
 use exr::meta::attribute::Text;
 
-/// The text as its UTF-8 bytes. The encoder itself knows Latin-1 alone, and panics beyond it.
+/// Encodes a text as UTF-8. The encoder itself knows only Latin-1, and panics beyond it.
 pub(crate) fn to_exr(text: &str) -> Text {
     Text::from_slice_unchecked(text.as_bytes())
 }
 
-/// The text of UTF-8 bytes; of bytes that are none, the Latin-1 that older versions and other programs wrote.
+/// Decodes UTF-8, or else the Latin-1 that older versions and other programs wrote.
 pub(crate) fn from_exr(text: &Text) -> String {
     match std::str::from_utf8(text.as_slice()) {
         Ok(text) => text.to_owned(),

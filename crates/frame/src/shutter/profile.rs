@@ -1,26 +1,27 @@
-//! How a shutter opens and closes, and when each row of the picture is exposed.
+//! Opening and closing of a shutter, and exposure of the picture's rows.
 
 use std::fmt;
 use std::str::FromStr;
 
-use crate::exr_file::ExrFile;
-use crate::{FileError, Shutter, ShutterError};
+use super::error::ShutterError;
+use super::interval::Shutter;
+use crate::FileError;
+use crate::exr::ExrFile;
 
-/// What the interval of a [`Shutter`] leaves open.
+/// Opening and closing within the interval of a [`Shutter`], and delay between rows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShutterProfile {
-    /// How much light passes during the interval.
+    /// Fraction of the light that passes, over the interval.
     pub efficiency: Efficiency,
-    /// Frames by which the picture's lower border is exposed later than its upper one (earlier if negative). The row
-    /// `j` of `height` is shifted by `((j + 0.5) / height - 0.5)` of it, so that the middle is not.
+    /// Delay from the picture's upper to its lower border, in frames. Row `j` of `height` is shifted by
+    /// `((j + 0.5) / height - 0.5)` of it, so that the middle is not shifted.
     pub rolling: f64,
 }
 
-/// The fraction of the light that passes, over the interval from opening to closing. Only its shape counts: times are
-/// drawn in proportion to it.
+/// Fraction of the light that passes, from opening to closing. Only its shape counts: times are drawn in proportion to it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Efficiency {
-    /// All of it throughout.
+    /// All of the light throughout.
     #[default]
     Box,
     /// Rises linearly from 0, stays at 1, falls linearly to 0.
@@ -35,7 +36,7 @@ pub enum Efficiency {
 }
 
 impl ShutterProfile {
-    /// Refuses what no shutter does.
+    /// Refuses values that no shutter has.
     pub fn check(&self) -> Result<(), ShutterError> {
         self.efficiency.check()?;
         if self.rolling.is_finite() {
@@ -45,12 +46,12 @@ impl ShutterProfile {
         }
     }
 
-    /// How much later than the middle of the picture a row of `height` rows is exposed, in frames.
+    /// Returns the delay of a row of `height` rows behind the middle of the picture, in frames.
     pub fn row_offset(&self, row: u32, height: u32) -> f64 {
         self.rolling * ((f64::from(row) + 0.5) / f64::from(height) - 0.5)
     }
 
-    /// The interval in which any row is exposed.
+    /// Returns the interval in which any row is exposed.
     pub fn whole(&self, shutter: Shutter) -> Shutter {
         let half = 0.5 * self.rolling.abs();
         Shutter {
@@ -77,7 +78,7 @@ impl ShutterProfile {
 }
 
 impl Efficiency {
-    /// Refuses what no shutter does.
+    /// Refuses values that no shutter has.
     pub fn check(&self) -> Result<(), ShutterError> {
         match self {
             Efficiency::Box => Ok(()),
@@ -102,8 +103,7 @@ impl Efficiency {
         }
     }
 
-    /// Points `[part of the interval, efficiency]` in rising order, between which it is linear; a jump is two points at
-    /// one place.
+    /// Lists points `[part of the interval, efficiency]` in rising order, linear in between; a jump is two points at one place.
     pub fn knots(&self) -> Vec<[f64; 2]> {
         match self {
             Efficiency::Box => vec![[0.0, 1.0], [1.0, 1.0]],
@@ -122,7 +122,7 @@ impl Efficiency {
     }
 }
 
-/// As in files: `box`, `trapezoid 0.25 0.5`, `table 0 1 0.5`; numbers read back equal.
+/// Writes the form used in files: `box`, `trapezoid 0.25 0.5`, `table 0 1 0.5`; numbers read back equal.
 impl fmt::Display for Efficiency {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -1,4 +1,4 @@
-//! Files that are whole or not there.
+//! Writing of files, whole or not at all.
 
 use std::fs::OpenOptions;
 use std::io::{BufWriter, Write};
@@ -6,19 +6,20 @@ use std::path::Path;
 
 use tempfile::NamedTempFile;
 
-use crate::FileError;
-use crate::bounded::kind;
+use super::error::FileError;
+use super::reading::kind_of;
 
-/// A file that is being written is called `.shuttertruth-<any>.tmp`.
+/// Beginning of the name of a file that is being written: `.shuttertruth-<any>.tmp`.
 const PREFIX: &str = ".shuttertruth-";
+/// End of that name.
 const SUFFIX: &str = ".tmp";
 
-/// Writes `bytes` under a temporary name in the same folder, then renames: the path holds all of them or what it held
+/// Writes `bytes` under a temporary name in the same folder, then renames the file: the path holds all of them or what it held
 /// before. Missing folders are made. The umask decides who may read the file, as with every other program.
 ///
 /// # Errors
-/// The file cannot be written, a folder lies there, or a FIFO, a socket or a device does, or a link to one: renaming would
-/// replace it, and be it `/dev/null`.
+/// Fails if the file cannot be written, or if a folder, a FIFO, a socket, a device or a link to one lies there: renaming would
+/// replace it, even `/dev/null`.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let fail = |error| FileError::io(path, "write", error);
     refuse_to_replace(path)?;
@@ -27,7 +28,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
         _ => Path::new("."),
     };
     std::fs::create_dir_all(folder).map_err(fail)?;
-    let mut temporary = BufWriter::new(temporary_in(folder).map_err(fail)?);
+    let mut temporary = BufWriter::new(create_temporary(folder).map_err(fail)?);
     temporary.write_all(bytes).map_err(fail)?;
     let temporary = temporary
         .into_inner()
@@ -43,14 +44,14 @@ fn refuse_to_replace(path: &Path) -> Result<(), FileError> {
             path: path.to_owned(),
             reason: format!(
                 "is {}, where a file is to be written; name another file",
-                kind(&found)
+                kind_of(&found)
             ),
         }),
         _ => Ok(()),
     }
 }
 
-fn temporary_in(folder: &Path) -> std::io::Result<NamedTempFile> {
+fn create_temporary(folder: &Path) -> std::io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(PREFIX).suffix(SUFFIX);
     #[cfg(unix)]
@@ -59,13 +60,13 @@ fn temporary_in(folder: &Path) -> std::io::Result<NamedTempFile> {
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
     let temporary = builder.tempfile_in(folder)?;
-    // Locked as long as its writer lives, so that nobody takes it for a leftover. Some systems cannot lock.
+    // Locked while its writer lives, so that nobody takes it for a leftover. Some systems cannot lock.
     let _ = temporary.as_file().try_lock();
     Ok(temporary)
 }
 
-/// Removes files of a folder, not of those below, that a process was writing when it was killed. A file that a living process
-/// writes stays, and so does every other file.
+/// Removes files that a process was writing into this folder when it was killed. Files that a living process writes stay, and so
+/// do all other files and folders.
 pub fn remove_leftovers(folder: &Path) {
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name();
@@ -76,7 +77,7 @@ pub fn remove_leftovers(folder: &Path) {
         }
         let file = OpenOptions::new().read(true).write(true).open(entry.path());
         if file.is_ok_and(|file| file.try_lock().is_ok()) {
-            // One that cannot be removed harms nobody.
+            // A leftover that cannot be removed does no harm.
             let _ = std::fs::remove_file(entry.path());
         }
     }
@@ -113,7 +114,7 @@ mod tests {
         }
         std::fs::write(path(".shuttertruth-dead.tmp"), "").unwrap();
         std::fs::create_dir(path(".shuttertruth-folder.tmp")).unwrap();
-        let living = temporary_in(folder.path()).unwrap();
+        let living = create_temporary(folder.path()).unwrap();
         remove_leftovers(folder.path());
         assert!(!path(".shuttertruth-dead.tmp").exists());
         assert!(living.path().exists(), "it is being written");

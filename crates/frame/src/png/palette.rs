@@ -1,13 +1,13 @@
 //! Palettes of PNG files.
 
-/// Colours that a palette may have.
+/// Upper limit on the colours of a palette.
 const MOST_COLORS: usize = 256;
 
-/// Refuses a PNG whose palette is no list of whole colours: the decoder would panic. The error follows the file's name. Whatever
-/// else is wrong with the file is for the decoder to say.
+/// Refuses a PNG whose palette is no list of whole colours, at which the decoder would panic. The error is to follow the file's
+/// name. The decoder reports all other faults.
 pub fn check_png_palette(bytes: &[u8]) -> Result<(), String> {
     const SIGNATURE: usize = 8;
-    /// Of a chunk, beside its content: length, name and checksum.
+    /// Bytes of a chunk beside its content: length, name and checksum.
     const FRAME: usize = 12;
     let mut rest = bytes.get(SIGNATURE..).unwrap_or_default();
     while let [a, b, c, d, name @ ..] = rest {

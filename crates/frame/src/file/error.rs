@@ -1,8 +1,8 @@
-//! What can go wrong with a file.
+//! Errors of reading and writing files.
 
 use std::path::{Path, PathBuf};
 
-/// A file that could not be read or written: the path comes first, then what was found and what is allowed.
+/// Error of a file. The message names the path, then what was found and what is allowed.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     /// The operating system refused.
@@ -10,9 +10,9 @@ pub enum FileError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What was tried: `read`, `write`.
+        /// Attempted action: `read`, `write`.
         action: &'static str,
-        /// Why it failed.
+        /// Message of the operating system.
         source: std::io::Error,
     },
     /// Not an OpenEXR file, or one cut short.
@@ -20,21 +20,21 @@ pub enum FileError {
     Broken {
         /// The file.
         path: PathBuf,
-        /// What the decoder said.
+        /// Message of the decoder.
         reason: String,
     },
-    /// A file that is not what is asked for: no regular file, too large, or an OpenEXR file without what it must hold.
+    /// Another file than was asked for: no regular file, too large, or an OpenEXR file that lacks what it must hold.
     #[error("{path}: {reason}", path = path.display())]
     Foreign {
         /// The file.
         path: PathBuf,
-        /// What is missing or wrong, and what is allowed.
+        /// Fault, and what is allowed.
         reason: String,
     },
 }
 
 impl FileError {
-    /// The operating system refused `action` (`read`, `write`).
+    /// Makes an error of an `action` (`read`, `write`) that the operating system refused.
     pub fn io(path: &Path, action: &'static str, source: std::io::Error) -> Self {
         Self::Io {
             path: path.to_owned(),
