@@ -1,11 +1,11 @@
-//! Every metric that has a row, group by group, with the scores that it names.
+//! Rows of all metrics, group by group, and the structs of their scores.
 //!
 //! To add one, write its row here and measure it where the struct of its group is made; `README.md` beside this crate defines it.
 
 use serde::{Deserialize, Serialize};
 
-use crate::equivalent::Equivalent;
-use crate::row::{Group, Row, metrics};
+use super::row::{Group, Row, metrics};
+use crate::worth::equivalent::Equivalent;
 use crate::{ErrorMap, Ideal, Measured};
 
 metrics! {
@@ -62,7 +62,7 @@ metrics! {
         report_only: None,
     }
 
-    /// LDR-FLIP up to which half of its sum lies.
+    /// Value of LDR-FLIP up to which half of its sum lies.
     FlipWeightedMedian => flip_weighted_median {
         name: "flip_weighted_median", unit: "", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::Flip,
         meaning: "visible difference up to which half of all visible difference lies",
@@ -70,7 +70,7 @@ metrics! {
         report_only: None,
     }
 
-    /// LDR-FLIP that 95 % of the pixels do not exceed.
+    /// Value of LDR-FLIP that 95 % of the pixels do not exceed.
     FlipP95 => flip_p95 {
         name: "flip_p95", unit: "", ideal: Ideal::Lowest, group: Group::Seen, map: ErrorMap::Flip,
         meaning: "visible difference that 19 of 20 pixels do not exceed",
@@ -78,7 +78,7 @@ metrics! {
         report_only: None,
     }
 
-    /// LDR-FLIP that 99 % of the pixels do not exceed.
+    /// Value of LDR-FLIP that 99 % of the pixels do not exceed.
     FlipP99 => flip_p99 {
         name: "flip_p99", unit: "", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::Flip,
         meaning: "visible difference that 99 of 100 pixels do not exceed",
@@ -135,7 +135,7 @@ metrics! {
     struct ObjectScores of Measured {
         /// Its name.
         object: String,
-        /// Whether any of it moves on screen.
+        /// True if any of it moves on screen.
         moves: bool,
         /// Mean displacement over the shutter, in pixels; +x right, +y down. Zero for what is not seen.
         displacement: [f64; 2],
@@ -265,7 +265,7 @@ metrics! {
 metrics! {
     /// An error against the frozen-shading truth, over the moving region.
     enum FrozenMetric;
-    /// Errors over the moving region against the truth whose shading stands still at the instant: what is left is visibility.
+    /// Errors over the moving region against the truth whose shading stands still at the instant: errors of visibility alone.
     struct FrozenScores of Measured {}
 
     /// Unbiased mean squared error; display white is 1.
@@ -298,7 +298,7 @@ metrics! {
 metrics! {
     /// A score of probes, which are pictures of ones and of coordinates.
     enum ProbeMetric;
-    /// Scores of probes: what a filter makes of pictures of ones and of coordinates, whose truth is exact.
+    /// Scores of what a filter makes of probes, whose truth is exact.
     struct ProbeScores of Measured {}
 
     /// Largest difference of a pixel's sum of weights from 1.
@@ -368,7 +368,7 @@ metrics! {
 metrics! {
     /// Sub-frames that an accumulation needs for the same error over the moving region.
     enum EquivalentMetric;
-    /// The headline: how many accumulated sub-frames have the same error over the moving region.
+    /// Number of accumulated sub-frames with the same error over the moving region: the headline.
     struct EquivalentScores of Equivalent {}
 
     /// By unbiased squared error of colour.

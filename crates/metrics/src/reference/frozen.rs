@@ -1,11 +1,11 @@
-//! The truth whose shading stands still at the instant: what is left of an error is visibility.
+//! The truth whose shading stands still at the instant, against which only errors of visibility are left.
 
 use frame::{Image, Raster, Region, Regions, Truth};
 
 use crate::color::cross_error::{cross, scatter, squared_error};
-use crate::color::error_maps::widen;
 use crate::color::flip::flip_ldr;
-use crate::color::pooling::mean;
+use crate::math::conversion::widen;
+use crate::math::pooling::mean;
 use crate::{FrozenScores, Measured, Viewing};
 
 /// The frozen-shading truth, ready to score any number of pictures.
@@ -25,15 +25,15 @@ impl FrozenReference {
         let halves = truth.at_instant.each_ref().map(|half| half.frozen.clone());
         let mut reference = Self {
             noise: None,
-            shading: shading(truth, &halves, regions, viewing),
+            shading: measure_shading(truth, &halves, regions, viewing),
             mean,
             halves,
         };
         let against_itself = [&reference.mean; 2];
         let squared = squared_error(&reference.halves[0], against_itself, viewing.scale());
-        let flip = reference.flip(&reference.halves[0], viewing);
-        reference.noise = scattered(&squared, regions)
-            .zip(pooled(&flip, regions))
+        let flip = reference.map_flip(&reference.halves[0], viewing);
+        reference.noise = pool_scatter(&squared, regions)
+            .zip(pool(&flip, regions))
             .map(<[f64; 2]>::from);
         reference
     }
@@ -47,8 +47,8 @@ impl FrozenReference {
     ) -> (FrozenScores, Raster<f64>) {
         let halves = self.halves.each_ref();
         let squared = squared_error(output, halves, viewing.scale());
-        let flip = self.flip(output, viewing);
-        let score = |map: &Raster<f64>, which: usize| match (pooled(map, regions), self.noise) {
+        let flip = self.map_flip(output, viewing);
+        let score = |map: &Raster<f64>, which: usize| match (pool(map, regions), self.noise) {
             (Some(value), Some(noise)) => Measured::score(value, noise[which]),
             _ => Measured::not_applicable(NOTHING_MOVES),
         };
@@ -60,15 +60,20 @@ impl FrozenReference {
         (scores, squared)
     }
 
-    fn flip(&self, output: &Image, viewing: &Viewing) -> Raster<f64> {
+    fn map_flip(&self, output: &Image, viewing: &Viewing) -> Raster<f64> {
         widen(&flip_ldr(&self.mean, output, viewing))
     }
 }
 
 const NOTHING_MOVES: &str = "nothing moves on screen";
 
-/// `(A - A')(B - B')` where A' and B' are the frozen halves. Where shading stands still it scatters about 0, by its floor.
-fn shading(truth: &Truth, frozen: &[Image; 2], regions: &Regions, viewing: &Viewing) -> Measured {
+/// Measures `(A - A')(B - B')`, A' and B' being the frozen halves. It scatters about 0 by its floor if shading stands still.
+fn measure_shading(
+    truth: &Truth,
+    frozen: &[Image; 2],
+    regions: &Regions,
+    viewing: &Viewing,
+) -> Measured {
     let scale = viewing.scale();
     let colors = truth.halves.each_ref().map(|half| &half.color);
     let product = cross(colors, frozen.each_ref(), scale);
@@ -78,16 +83,16 @@ fn shading(truth: &Truth, frozen: &[Image; 2], regions: &Regions, viewing: &View
         })
     });
     let noise = squared_error(&differences[0], [&differences[1]; 2], 0.5 * scale);
-    match (pooled(&product, regions), scattered(&noise, regions)) {
+    match (pool(&product, regions), pool_scatter(&noise, regions)) {
         (Some(value), Some(noise)) => Measured::score(value, noise),
         _ => Measured::not_applicable(NOTHING_MOVES),
     }
 }
 
-fn scattered(noise: &Raster<f64>, regions: &Regions) -> Option<f64> {
+fn pool_scatter(noise: &Raster<f64>, regions: &Regions) -> Option<f64> {
     scatter(&regions.select(Region::Moving, noise))
 }
 
-fn pooled(map: &Raster<f64>, regions: &Regions) -> Option<f64> {
+fn pool(map: &Raster<f64>, regions: &Regions) -> Option<f64> {
     mean(&regions.select(Region::Moving, map))
 }

@@ -1,14 +1,14 @@
-//! Error of the accumulation ladder by number of sub-frames.
+//! Errors of the accumulation ladder by number of sub-frames.
 
 use frame::{Ladder, Picture, Raster, Truth};
 use rayon::prelude::*;
 
 use crate::color::cross_error::cross;
-use crate::color::error_maps::widen;
 use crate::color::flip::flip_ldr;
-use crate::color::pooling::mean;
-use crate::equivalent::Curve;
-use crate::label::total_variation;
+use crate::label::total_variation::label_variation;
+use crate::math::conversion::widen;
+use crate::math::pooling::mean;
+use crate::worth::equivalent::Curve;
 use crate::{Region, Regions, Viewing};
 
 /// Errors over the moving region against the count of sub-frames.
@@ -42,7 +42,7 @@ impl Curves {
                 [
                     pool(&cross(halves, truths, viewing.scale())),
                     pool(&flip),
-                    pool(&total_variation(&picture.coverage, &average.coverage)),
+                    pool(&label_variation(&picture.coverage, &average.coverage)),
                 ]
             })
             .collect();

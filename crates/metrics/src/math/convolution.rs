@@ -1,9 +1,9 @@
-//! Separable filters over pictures, with borders reflected about the outermost pixels' outer edges (d c b a | a b c d).
+//! Separable filters of pictures, with borders mirrored at the outer edges of the outermost pixels (d c b a | a b c d).
 
 use frame::Raster;
 use rayon::prelude::*;
 
-/// A Gaussian, or its derivative, sampled at whole pixels up to `truncate` standard deviations and divided by the sum of the
+/// Samples a Gaussian or its derivative at whole pixels up to `truncate` standard deviations, and divides by the sum of the
 /// Gaussian's samples, as `scipy.ndimage.gaussian_filter1d` does.
 pub fn gaussian(sigma: f64, truncate: f64, derivative: bool) -> Vec<f64> {
     let radius = (truncate * sigma + 0.5).floor() as i32;
@@ -21,11 +21,11 @@ pub fn gaussian(sigma: f64, truncate: f64, derivative: bool) -> Vec<f64> {
 }
 
 /// Correlates rows with one kernel and columns with another; kernels have odd lengths.
-pub fn separable(map: &Raster<f64>, rows: &[f64], columns: &[f64]) -> Raster<f64> {
+pub fn filter_separably(map: &Raster<f64>, rows: &[f64], columns: &[f64]) -> Raster<f64> {
     let (width, height) = (map.width as usize, map.height as usize);
     let beyond = rows.len() / 2;
     let places: Vec<usize> = (0..width + 2 * beyond)
-        .map(|at| reflected(at, beyond, width))
+        .map(|at| mirror_index(at, beyond, width))
         .collect();
     let mut along = vec![0.0; map.pixels.len()];
     let lines = along.par_chunks_mut(width);
@@ -33,7 +33,7 @@ pub fn separable(map: &Raster<f64>, rows: &[f64], columns: &[f64]) -> Raster<f64
         let line = &map.pixels[y * width..][..width];
         let padded: Vec<f64> = places.iter().map(|place| line[*place]).collect();
         for (offset, weight) in rows.iter().enumerate() {
-            add(sums, *weight, &padded[offset..]);
+            add_weighted(sums, *weight, &padded[offset..]);
         }
     });
     let beyond = columns.len() / 2;
@@ -44,25 +44,25 @@ pub fn separable(map: &Raster<f64>, rows: &[f64], columns: &[f64]) -> Raster<f64
     let lines = both.pixels.par_chunks_mut(width);
     lines.enumerate().for_each(|(y, sums)| {
         for (offset, weight) in columns.iter().enumerate() {
-            let line = reflected(y + offset, beyond, height);
-            add(sums, *weight, &along[line * width..]);
+            let line = mirror_index(y + offset, beyond, height);
+            add_weighted(sums, *weight, &along[line * width..]);
         }
     });
     both
 }
 
-/// Whole lines at a time, which compilers turn into wide instructions.
-fn add(sums: &mut [f64], weight: f64, values: &[f64]) {
+/// Adds weighted values to sums, a whole line at a time, which compilers turn into wide instructions.
+fn add_weighted(sums: &mut [f64], weight: f64, values: &[f64]) {
     for (sum, value) in sums.iter_mut().zip(values) {
         *sum += weight * value;
     }
 }
 
-/// Index into a line of pixels, mirrored at its ends, of a place counted from `beyond` pixels before its start.
-fn reflected(at: usize, beyond: usize, length: usize) -> usize {
+/// Returns the index into a line of pixels, mirrored at its ends, of a place counted from `beyond` pixels before its start.
+fn mirror_index(at: usize, beyond: usize, length: usize) -> usize {
     let period = 2 * length;
-    let folded = (at + period * beyond.div_ceil(period) - beyond) % period;
-    folded.min(period - 1 - folded)
+    let mirrored = (at + period * beyond.div_ceil(period) - beyond) % period;
+    mirrored.min(period - 1 - mirrored)
 }
 
 #[cfg(test)]
@@ -70,8 +70,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn borders_are_reflected_as_often_as_it_takes() {
-        let places: Vec<usize> = (0..11).map(|at| reflected(at, 4, 3)).collect();
+    fn borders_are_mirrored_as_often_as_it_takes() {
+        let places: Vec<usize> = (0..11).map(|at| mirror_index(at, 4, 3)).collect();
         assert_eq!(places, [2, 2, 1, 0, 0, 1, 2, 2, 1, 0, 0]);
     }
 
@@ -79,10 +79,10 @@ mod tests {
     fn a_gaussian_keeps_what_is_even_and_its_derivative_tells_the_slope() {
         let slope = Raster::from_fn(40, 30, |x, y| 3.0 * f64::from(x) - 2.0 * f64::from(y));
         let (bell, derivative) = (gaussian(1.4, 4.0, false), gaussian(1.4, 4.0, true));
-        let smooth = separable(&slope, &bell, &bell);
+        let smooth = filter_separably(&slope, &bell, &bell);
         assert!((smooth.at(20, 15) - slope.at(20, 15)).abs() < 1e-12);
-        let across = separable(&slope, &derivative, &bell);
-        let down = separable(&slope, &bell, &derivative);
+        let across = filter_separably(&slope, &derivative, &bell);
+        let down = filter_separably(&slope, &bell, &derivative);
         // The sampled derivative is that of the Gaussian to a thousandth.
         assert!(
             (across.at(20, 15) / 3.0 - 1.0).abs() < 1e-3,

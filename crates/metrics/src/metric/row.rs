@@ -2,20 +2,20 @@
 
 use crate::{ErrorMap, Ideal};
 
-/// One metric.
+/// Description of one metric.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
     /// The word used in bounds, tables and files; errors of colour add their region to it.
     pub name: &'static str,
     /// Its unit; empty for a pure number.
     pub unit: &'static str,
-    /// Which way it is better.
+    /// Ideal value.
     pub ideal: Ideal,
     /// One line for a reader who has not met the metric.
     pub meaning: &'static str,
     /// Group in which a report shows it.
     pub group: Group,
-    /// The map that it was pooled from, or else the one that shows best what it measures.
+    /// The map that it was pooled from, or else the one that best shows what it measures.
     pub map: ErrorMap,
     /// True for a percentile, which is no smooth function of the truth: its intervals are wider.
     pub is_percentile: bool,
@@ -23,14 +23,14 @@ pub struct Row {
     pub report_only: Option<&'static str>,
 }
 
-/// Metrics that a reader looks at together.
+/// Group of metrics that a reader looks at together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
     /// Errors of colour that people see.
     Seen,
     /// Error put into proportion: skill and equivalent sub-frames.
     Worth,
-    /// Labels: which object the shutter's time was given to.
+    /// Labels: the objects that the shutter's time was given to.
     Label,
     /// The worst moving object's silhouette and mass.
     Silhouette,
@@ -38,12 +38,12 @@ pub enum Group {
     Instant,
     /// Places that a filter gathers from.
     Gathered,
-    /// In run.json, and on no page.
+    /// Scores in run.json that no page shows.
     RunJson,
 }
 
 impl Group {
-    /// Every group that a page shows, in its order.
+    /// Groups that a page shows, in its order.
     pub const SHOWN: [Group; 6] = [
         Group::Seen,
         Group::Worth,
@@ -53,7 +53,7 @@ impl Group {
         Group::Gathered,
     ];
 
-    /// The heading of the group.
+    /// Returns the heading of the group.
     pub fn title(self) -> &'static str {
         match self {
             Group::Seen => "What is seen",
@@ -67,8 +67,8 @@ impl Group {
     }
 }
 
-/// Declares metrics that are measured together: an enum of them, a struct of their scores with a field for each, and their rows.
-/// A field that a row lacks is a compile error, and so is a score that is never measured.
+/// Declares metrics that are measured together: an enum, a struct with a score for each, and their rows. A row that lacks a field is
+/// a compile error, and so is a score that is never measured.
 macro_rules! metrics {
     (
         $(#[$of_metric:meta])*
@@ -94,28 +94,28 @@ macro_rules! metrics {
             /// All of them, in the order of a report.
             pub const ALL: [$Metric; [$($Metric::$Variant),*].len()] = [$($Metric::$Variant),*];
 
-            /// Row of the metric.
+            /// Returns the row of the metric.
             pub fn row(self) -> Row {
                 match self {
                     $($Metric::$Variant => Row { $($row)* },)*
                 }
             }
 
-            /// Which way it is better.
+            /// Returns its ideal value.
             pub fn ideal(self) -> Ideal {
                 self.row().ideal
             }
         }
 
         impl $Scores {
-            /// The score that a metric names.
+            /// Returns the score of a metric.
             pub fn get(&self, metric: $Metric) -> &$Score {
                 match metric {
                     $($Metric::$Variant => &self.$field,)*
                 }
             }
 
-            /// The score that a metric names, to be replaced.
+            /// Returns the score of a metric, to be replaced.
             pub fn get_mut(&mut self, metric: $Metric) -> &mut $Score {
                 match metric {
                     $($Metric::$Variant => &mut self.$field,)*

@@ -1,18 +1,18 @@
-//! One number from many.
+//! Means and percentiles.
 
-/// The mean of values; `None` of none.
+/// Averages values; `None` if there are none.
 pub(crate) fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
-/// The value that at least this part of the sorted values does not exceed (nearest rank); `None` of none.
+/// Finds the value that at least this part of the sorted values does not exceed (nearest rank); `None` if there are none.
 pub(crate) fn percentile(sorted: &[f64], part: f64) -> Option<f64> {
     let rank = (sorted.len() as f64 * part).ceil() as usize;
     sorted.get(rank.checked_sub(1)?).copied()
 }
 
-/// The smallest of the sorted values up to which they add up to half of their sum, as the FLIP tool reports it: pixels
-/// without error do not count. Values are not negative; 0 where all are, `None` of none.
+/// Finds the smallest of the sorted values up to which they add up to half of their sum, as the FLIP tool reports it: pixels
+/// without error do not count. Values are not negative; `None` if there are none.
 pub(crate) fn weighted_median(sorted: &[f64]) -> Option<f64> {
     let half = 0.5 * sorted.iter().sum::<f64>();
     let mut sum = 0.0;
@@ -22,8 +22,8 @@ pub(crate) fn weighted_median(sorted: &[f64]) -> Option<f64> {
     })
 }
 
-/// In rising order.
-pub(crate) fn sorted(mut values: Vec<f64>) -> Vec<f64> {
+/// Sorts values in rising order.
+pub(crate) fn sort(mut values: Vec<f64>) -> Vec<f64> {
     values.sort_unstable_by(f64::total_cmp);
     values
 }
@@ -34,7 +34,7 @@ mod tests {
 
     #[test]
     fn the_percentile_is_the_value_that_95_percent_do_not_exceed() {
-        let values = sorted((1..=100).rev().map(f64::from).collect());
+        let values = sort((1..=100).rev().map(f64::from).collect());
         assert_eq!(percentile(&values, 0.95), Some(95.0));
         assert_eq!(percentile(&values[90..], 0.95), Some(100.0));
         assert_eq!(percentile(&[3.0], 0.95), Some(3.0));
@@ -47,7 +47,7 @@ mod tests {
     fn half_of_the_error_lies_below_the_weighted_median() {
         // 1 + 2 + 3 + 4 = 10: the 3 passes 5.
         assert_eq!(
-            weighted_median(&sorted(vec![4.0, 0.0, 2.0, 0.0, 3.0, 0.0, 1.0])),
+            weighted_median(&sort(vec![4.0, 0.0, 2.0, 0.0, 3.0, 0.0, 1.0])),
             Some(3.0)
         );
         assert_eq!(weighted_median(&[0.0, 0.0]), Some(0.0));

@@ -1,10 +1,10 @@
-//! One picture's errors over one region, each as a single number.
+//! Errors of one picture over one region.
 
 use frame::{Raster, Region, Regions};
 
 use crate::color::cross_error::scatter;
-use crate::color::error_maps::ErrorMaps;
-use crate::color::pooling::{mean, percentile, sorted, weighted_median};
+use crate::math::pooling::{mean, percentile, sort, weighted_median};
+use crate::picture::error_maps::ErrorMaps;
 
 /// Error maps pooled over one region.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +19,7 @@ pub struct Pooled {
     pub smape: f64,
     /// Mean of LDR-FLIP.
     pub flip: f64,
-    /// Half of the sum of LDR-FLIP lies at or below it.
+    /// Value of LDR-FLIP at or below which half of its sum lies.
     pub flip_weighted_median: f64,
     /// 95th percentile of LDR-FLIP.
     pub flip_p95: f64,
@@ -27,16 +27,16 @@ pub struct Pooled {
     pub flip_p99: f64,
     /// Mean of HDR-FLIP.
     pub flip_hdr: f64,
-    /// Mean over the pixels whose window lies in the picture; none where the region has no such pixel.
+    /// Mean of SSIM over the pixels whose window lies in the picture; `None` if the region has no such pixel.
     pub ssim: Option<f64>,
     /// Mean of the label total variation.
     pub label: f64,
-    /// 95th percentile of it.
+    /// 95th percentile of the label total variation.
     pub label_p95: f64,
 }
 
 impl Pooled {
-    /// None of an empty region. `windows` tells the pixels whose SSIM window lies in the picture.
+    /// Pools maps over a region; `None` if it is empty. `windows` marks the pixels whose SSIM window lies in the picture.
     pub fn new(
         errors: &ErrorMaps,
         regions: &Regions,
@@ -44,7 +44,7 @@ impl Pooled {
         windows: &Raster<bool>,
     ) -> Option<Self> {
         let inside = |map| regions.select(region, map);
-        let flip = sorted(inside(&errors.flip));
+        let flip = sort(inside(&errors.flip));
         let label = inside(&errors.label);
         let windows = regions.select(region, windows);
         let ssim = inside(&errors.ssim).into_iter().zip(windows);
@@ -63,12 +63,12 @@ impl Pooled {
             flip_hdr: mean(&inside(&errors.flip_hdr))?,
             ssim: mean(&ssim),
             label: mean(&label)?,
-            label_p95: percentile(&sorted(label), 0.95)?,
+            label_p95: percentile(&sort(label), 0.95)?,
         })
     }
 
-    /// The floors, from the errors of the truth's first half against the mean. Unbiased errors of a picture without error
-    /// are not as large as the noise: they scatter about 0, see [`scatter`].
+    /// Pools noise floors, from the errors of the truth's first half against the mean. Unbiased errors of a perfect picture scatter
+    /// about 0 and are smaller than the noise, see [`scatter`].
     pub fn of_noise(
         noise: &ErrorMaps,
         regions: &Regions,

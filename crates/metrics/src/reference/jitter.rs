@@ -1,34 +1,33 @@
-//! A filter's noise apart from what it gets wrong every time.
+//! Noise of a filter, told apart from its constant error.
 
 use frame::{Image, Raster, Region};
 use serde::{Deserialize, Serialize};
 
 use crate::Reference;
 use crate::color::cross_error::squared_error;
-use crate::color::pooling::mean;
+use crate::math::pooling::mean;
 
-/// The squared error of one frame, over what moves, in two parts that add up to it on average.
+/// Squared error of one frame over what moves, in two parts that add up to it on average.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Jitter {
-    /// Frames of the filter's noise; only the noise differs between them.
+    /// Number of frames; only the filter's noise differs between them.
     pub frames: u32,
-    /// Squared error of the noise's expectation, in display-scaled radiance: what averaging over frames leaves. Unbiased, and
-    /// so possibly below 0 where it is lost in the truth's own noise.
+    /// Squared error of the mean over all noise, in display-scaled radiance: averaging over frames does not remove it. It is
+    /// unbiased, so the truth's own noise may take it below 0.
     pub bias: f64,
-    /// Variance between frames, in display-scaled radiance: what averaging over frames takes away.
+    /// Variance between frames, in display-scaled radiance: averaging over frames removes it.
     pub variance: f64,
 }
 
 impl Jitter {
-    /// The part of one frame's squared error that is noise, in [0, 1].
+    /// Returns the part of one frame's squared error that is noise, in [0, 1].
     pub fn noise_share(&self) -> f64 {
         self.variance / (self.bias.max(0.0) + self.variance).max(f64::MIN_POSITIVE)
     }
 }
 
 impl Reference<'_> {
-    /// Takes the outputs of one filter for several frames of its noise apart; none where nothing moves. Panics on fewer than
-    /// two outputs.
+    /// Measures the noise in the outputs of one filter for several frames; `None` if nothing moves. Panics on fewer than two outputs.
     pub fn jitter(&self, outputs: &[Image]) -> Option<Jitter> {
         assert!(
             outputs.len() >= 2,
@@ -59,12 +58,12 @@ impl Reference<'_> {
                 .collect(),
         };
         let errors = squared_error(&mean_image, self.half_colors(), scale);
-        let pooled = |map| mean(&self.regions.select(Region::Moving, map));
-        let variance = pooled(&variances)?;
+        let pool = |map| mean(&self.regions.select(Region::Moving, map));
+        let variance = pool(&variances)?;
         Some(Jitter {
             frames: outputs.len() as u32,
-            // The mean of so many frames still holds that part of their noise.
-            bias: pooled(&errors)? - variance / count,
+            // The mean of `count` frames still holds that part of their noise.
+            bias: pool(&errors)? - variance / count,
             variance,
         })
     }

@@ -1,4 +1,4 @@
-//! Errors per pixel, before any pooling.
+//! Error maps of a picture, before any pooling.
 
 use frame::{Image, Picture, Plane, Raster};
 
@@ -6,18 +6,19 @@ use crate::color::absolute_error::{absolute_error, symmetric_error};
 use crate::color::cross_error::{relative_squared_error, squared_error};
 use crate::color::flip::{flip_hdr, flip_ldr};
 use crate::color::ssim::ssim;
-use crate::label::total_variation;
+use crate::label::total_variation::label_variation;
+use crate::math::conversion::{narrow, widen};
 use crate::{Maps, Viewing};
 
-/// One picture's errors. In f64 where halves are multiplied: sums of thousands of signed products follow.
+/// Error maps of one picture, in `f64`: thousands of signed products are summed.
 pub struct ErrorMaps {
     /// `(F - A)(F - B)`.
     pub squared: Raster<f64>,
-    /// The same over the squared truth.
+    /// `squared` over the squared truth.
     pub relative: Raster<f64>,
     /// `|F - T|`.
     pub absolute: Raster<f64>,
-    /// The same over the mean of both.
+    /// `absolute` over the mean of both.
     pub symmetric: Raster<f64>,
     /// Structural similarity.
     pub ssim: Raster<f64>,
@@ -30,7 +31,7 @@ pub struct ErrorMaps {
 }
 
 impl ErrorMaps {
-    /// Errors of `output` against the truth's mean; squared errors by `halves`.
+    /// Maps the errors of `output` against the truth's mean; squared errors by `halves`.
     pub fn new(output: &Picture, halves: [&Image; 2], mean: &Picture, viewing: &Viewing) -> Self {
         let scale = viewing.scale();
         let ((flip, flip_hdr), (squared, relative, ssim)) = rayon::join(
@@ -56,12 +57,12 @@ impl ErrorMaps {
             ssim,
             flip,
             flip_hdr,
-            label: total_variation(&output.coverage, &mean.coverage),
+            label: label_variation(&output.coverage, &mean.coverage),
         }
     }
 
-    /// The same as pictures, with what else is worth looking at.
-    pub fn maps(&self, output: &Picture, mean: &Picture, more: MoreMaps) -> Maps {
+    /// Converts the maps to planes, and adds more.
+    pub fn to_maps(&self, output: &Picture, mean: &Picture, more: MoreMaps) -> Maps {
         Maps {
             signed_error: output.color.zip(&mean.color, |output, truth| {
                 std::array::from_fn(|c| output[c] - truth[c])
@@ -84,21 +85,12 @@ impl ErrorMaps {
 
 /// Maps that are not errors of the whole picture's colour or labels.
 pub struct MoreMaps {
-    /// Matte where the truth never shows it.
+    /// Sum over moving objects of their matte where the truth never shows them.
     pub bleed: Plane,
-    /// Sum over moving objects.
+    /// Sum over moving objects of the errors of their gradient.
     pub gradient_error: Plane,
-    /// `(F - A)(F - B)` of the truth whose shading stands still.
+    /// `(F - A)(F - B)` for the truth whose shading stands still.
     pub frozen_squared: Raster<f64>,
     /// Change of the instant's colour where nothing moves.
     pub static_change: Raster<f64>,
-}
-
-/// A plane in f64, to be summed.
-pub fn widen(plane: &Plane) -> Raster<f64> {
-    plane.map(|value| f64::from(*value))
-}
-
-fn narrow(map: &Raster<f64>) -> Plane {
-    map.map(|value| *value as f32)
 }

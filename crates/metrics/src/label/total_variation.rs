@@ -2,9 +2,9 @@
 
 use frame::{Plane, Raster};
 
-/// Per pixel half the sum over objects of `|a - a*|`, in [0, 1] for mattes that sum to 1: the fraction of the shutter
-/// during which the pixel shows another object than it should. No texture takes part in it.
-pub fn total_variation(output: &[Plane], truth: &[Plane]) -> Raster<f64> {
+/// Maps half the sum over objects of `|a - a*|`, in [0, 1] for mattes that sum to 1: the fraction of the shutter during which a
+/// pixel shows another object than it should. Texture does not matter.
+pub fn label_variation(output: &[Plane], truth: &[Plane]) -> Raster<f64> {
     let first = truth.first().expect("a truth has a background");
     let mut sum = first.map(|_| 0.0);
     for (output, truth) in output.iter().zip(truth) {
@@ -14,9 +14,13 @@ pub fn total_variation(output: &[Plane], truth: &[Plane]) -> Raster<f64> {
     sum
 }
 
-/// The mean of a label total variation over the pixels of `inside`, weighted by the object's true matte: what happens on
-/// the object itself. `None` where the object is not seen inside.
-pub fn on_object(variation: &Raster<f64>, truth: &Plane, inside: &Raster<bool>) -> Option<f64> {
+/// Averages a label total variation over the pixels of `inside`, weighted by the object's true matte: the error on the object
+/// itself. `None` if the object is not seen inside.
+pub fn average_on_object(
+    variation: &Raster<f64>,
+    truth: &Plane,
+    inside: &Raster<bool>,
+) -> Option<f64> {
     let weights = truth.zip(
         inside,
         |matte, inside| {

@@ -1,14 +1,14 @@
-//! Inputs that cannot be compared are refused before anything is computed.
+//! Checks that inputs can be compared, before anything is computed.
 
 use frame::{Frame, Ladder, MOST_STOPS, Picture, Raster, Truth};
 
 use crate::{MeasureError, Viewing};
 
-/// flip-rs refuses work beyond 2^34 additions, which its kernels at 67.02 pixels per degree reach at 28.5 million pixels.
+/// Upper limit on pixels. flip-rs refuses more than 2^34 additions, which 28.5 million pixels take at 67.02 pixels per degree.
 const LARGEST_PICTURE: u64 = 28_000_000;
 
-/// How bright a picture may be at the brightest exposure that it is compared at: HDR-FLIP's tone curve squares it, and the
-/// square is to stay a number.
+/// Upper limit on radiance at the brightest exposure of a comparison: HDR-FLIP's tone curve squares it, and the square must stay
+/// finite.
 pub const BRIGHTEST: f32 = 1e18;
 
 /// Refuses a picture whose radiance exceeds [`BRIGHTEST`] at an exposure of the comparison.
@@ -34,7 +34,7 @@ pub fn check_brightness(
     Ok(())
 }
 
-/// Refuses HDR-FLIP exposures that make no range.
+/// Refuses exposures of HDR-FLIP that form no range.
 pub fn check_viewing(viewing: &Viewing) -> Result<(), MeasureError> {
     let Viewing {
         stops,
@@ -118,7 +118,7 @@ fn check_support(truth: &Truth) -> Result<(), MeasureError> {
     Ok(())
 }
 
-/// Refuses a picture of another size, with missing mattes, or with values that are no numbers.
+/// Refuses a picture of another size, with missing mattes, or with values that are not finite.
 pub fn check_picture(picture: &Picture, truth: &Truth, what: &str) -> Result<(), MeasureError> {
     check_size(&picture.color, truth, what)?;
     if picture.coverage.len() != truth.objects.len() {

@@ -1,15 +1,16 @@
-//! Every metric by name, as bounds and tables address it.
+//! Names of all metrics, as bounds and tables use them.
 
 use std::fmt;
 use std::str::FromStr;
 
-use crate::row::{Group, Row};
-use crate::{
-    EquivalentMetric, ErrorMap, FrozenMetric, Ideal, ImageMetric, LabelMetric, ObjectMetric,
-    ProbeMetric, Region, SkillMetric,
+use super::row::{Group, Row};
+use super::rows::{
+    EquivalentMetric, FrozenMetric, ImageMetric, LabelMetric, ObjectMetric, ProbeMetric,
+    SkillMetric,
 };
+use crate::{ErrorMap, Ideal, Region};
 
-/// A score by name.
+/// Name of a score.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Metric {
     /// An error of colour over a region: `flip_moving`, `psnr_full`.
@@ -20,11 +21,11 @@ pub enum Metric {
     Label(LabelMetric),
     /// `occluder_contamination`: label total variation on the worst of the objects that stand still.
     OccluderContamination,
-    /// `static_contamination`: what a picture changes where nothing moves.
+    /// `static_contamination`: change of the picture where nothing moves.
     StaticContamination,
-    /// Against the truth whose shading stands still: `mse_frozen`.
+    /// An error against the truth whose shading stands still: `mse_frozen`.
     Frozen(FrozenMetric),
-    /// Of pictures of ones and coordinates: `unity`.
+    /// A score of pictures of ones and coordinates: `unity`.
     Probe(ProbeMetric),
     /// Share of the way from doing nothing to the one-frame oracle: `skill_flip`.
     Skill(SkillMetric),
@@ -42,7 +43,7 @@ impl ObjectMetric {
 }
 
 impl SkillMetric {
-    /// The error that it is the skill of.
+    /// Returns the error that it is the skill of.
     pub fn error(self) -> Metric {
         match self {
             SkillMetric::Mse => Metric::Image(ImageMetric::Mse, Region::Moving),
@@ -56,7 +57,7 @@ impl Metric {
     /// Equivalent sub-frames by squared error: the headline.
     pub const SUBFRAMES: Metric = Metric::Equivalent(EquivalentMetric::Mse);
 
-    /// Every metric, in the order of a report.
+    /// Lists every metric, in the order of a report.
     pub fn all() -> Vec<Metric> {
         let images = Region::ALL
             .into_iter()
@@ -72,7 +73,7 @@ impl Metric {
             .collect()
     }
 
-    /// Row of the metric. An error of colour has one row for all regions.
+    /// Returns the row of the metric. An error of colour has one row for all regions.
     pub fn row(self) -> Row {
         match self {
             Metric::Image(metric, _) => metric.row(),
@@ -105,7 +106,7 @@ impl Metric {
         }
     }
 
-    /// The word used in bounds, tables and files.
+    /// Returns the word used in bounds, tables and files.
     pub fn name(self) -> String {
         match self {
             Metric::Image(metric, region) => format!("{}_{region}", metric.row().name),
@@ -113,25 +114,27 @@ impl Metric {
         }
     }
 
-    /// The unit, empty for a pure number.
+    /// Returns the unit, empty for a pure number.
     pub fn unit(self) -> &'static str {
         self.row().unit
     }
 
-    /// Which way it is better.
+    /// Returns its ideal value.
     pub fn ideal(self) -> Ideal {
         self.row().ideal
     }
 
-    /// One line for a reader who has not met the metric; `README.md` beside this crate has the formulas.
+    /// Explains the metric in one line; `README.md` beside this crate has the formulas.
     pub fn meaning(self) -> String {
         match self {
-            Metric::Image(metric, region) => format!("{}, {}", metric.row().meaning, place(region)),
+            Metric::Image(metric, region) => {
+                format!("{}, {}", metric.row().meaning, describe_region(region))
+            }
             other => other.row().meaning.to_owned(),
         }
     }
 
-    /// Group in which a report shows it. A report shows most errors of colour over one region only.
+    /// Returns the group in which a report shows it. A report shows most errors of colour over one region only.
     pub fn group(self) -> Group {
         match self {
             Metric::Image(metric, Region::Moving) => metric.row().group,
@@ -144,7 +147,7 @@ impl Metric {
         }
     }
 
-    /// The pixels that its map is searched in for the worst place.
+    /// Returns the region in which its map is searched for the worst place.
     pub fn region(self) -> Region {
         match self {
             Metric::Image(_, region) => region,
@@ -159,15 +162,15 @@ impl Metric {
         }
     }
 
-    /// Reason why no bound may name this metric; none for metrics that may be bounded.
+    /// Returns the reason why no bound may name this metric; `None` for metrics that may be bounded.
     pub fn report_only(self) -> Option<&'static str> {
         self.row().report_only
     }
 
-    /// The strictest bound that a truth with this noise floor can carry: three floors away from perfect. For unbiased squared
-    /// errors these are three standard deviations of what a perfect picture scores, for PSNR three times the floor's squared
-    /// error; for equivalent sub-frames a third of the highest count that the truth can
-    /// tell, because error falls at least as fast as the count rises.
+    /// Computes the strictest bound that a truth with this noise floor can carry: three floors from perfect. For unbiased squared
+    /// errors these are three standard deviations of a perfect picture's score, and for PSNR three times the floor's squared error.
+    /// For equivalent sub-frames it is a third of the highest count that the truth can tell, because error falls at least as fast
+    /// as the count rises.
     pub fn strictest_bound(self, floor: f64) -> f64 {
         match (self, self.ideal()) {
             (Metric::Image(ImageMetric::Psnr, _), _) => floor - 10.0 * 3f64.log10(),
@@ -179,7 +182,7 @@ impl Metric {
     }
 }
 
-fn place(region: Region) -> &'static str {
+fn describe_region(region: Region) -> &'static str {
     match region {
         Region::Moving => "where anything moves",
         Region::Support => "where anything moves, without the margin",
