@@ -58,7 +58,7 @@ fn quantile(degrees_of_freedom: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The mean of all numbers, and without each in turn.
+    /// Averages all numbers, and all but each in turn.
     fn means(numbers: &[f64]) -> (f64, Vec<f64>) {
         let mean = |left_out: usize| {
             let others = (0..numbers.len()).filter(|index| *index != left_out);

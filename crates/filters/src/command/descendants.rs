@@ -24,7 +24,7 @@ impl Descendants {
     /// A process that calls `setsid` and whose parent ends goes to the nearest such parent instead of the init process. So it
     /// stays below this process, and is found.
     pub fn new() -> Self {
-        // A system that refuses leaves such orphans to the init process, out of reach.
+        // A system that refuses leaves such orphans to the init process, where they are not found.
         let _ = set_child_subreaper(Some(getpid()));
         let own = own_id();
         let mut children = list_children();

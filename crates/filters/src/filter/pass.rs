@@ -20,7 +20,7 @@ pub struct Texture {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Holds {
-    /// As x and y, in pixels from the image's top left corner, the place that gives the pixel its velocity.
+    /// Place that gives the pixel its velocity: x and y in pixels from the image's top left corner.
     Places,
 }
 

@@ -11,7 +11,7 @@ use super::parameter::Value;
 pub struct Preset {
     /// Name on the command line.
     pub name: String,
-    /// What it stands for.
+    /// Explanation in one line.
     pub doc: String,
     /// The work that it follows, where it follows one.
     pub source: Option<Source>,

@@ -26,7 +26,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Name of the filter's file.
+    /// Returns the name of the filter's file.
     pub fn name(&self) -> &str {
         let name = self.path.file_name().and_then(|name| name.to_str());
         name.expect("the WGSL file is named after the filter")

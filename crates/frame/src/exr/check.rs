@@ -20,7 +20,7 @@ impl ExrFile {
         }
     }
 
-    /// Refuses a file whose pixels are a part of its display window, or reach beyond it.
+    /// Refuses a file whose pixels are a part of its display window, or extend beyond it.
     pub fn expect_no_padding(&self) -> Result<(), FileError> {
         match &self.padding {
             None => Ok(()),

@@ -9,7 +9,7 @@ pub const MOST_EXR_CHANNELS: usize = 32_768;
 /// Upper limit on the bytes that the samples of an OpenEXR file take in memory. A file that is larger than this divided by
 /// [`LARGEST_EXR_RATIO`] may take more.
 pub const MOST_EXR_BYTES: u64 = 1 << 30;
-/// Upper limit on the size of the samples of a large OpenEXR file, over the size of the file: the most that run lengths reach.
+/// Upper limit on the size of the samples of a large OpenEXR file, over the size of the file. Run lengths shrink samples no further.
 pub const LARGEST_EXR_RATIO: u64 = 64;
 
 /// In memory all samples are 32-bit.

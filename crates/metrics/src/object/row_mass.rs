@@ -99,7 +99,7 @@ mod tests {
     use crate::object::rows::Rows;
     use frame::Raster;
 
-    /// A bar of 20 columns that covers rows 10 to 20 of a picture and a third of row 9; each row as much longer as `more`.
+    /// Makes a bar of 20 columns that covers rows 10 to 20 of a picture and a third of row 9. Each row is `more` longer.
     fn bar(more: f64, top: f64) -> Grid {
         let matte = Raster::from_fn(60, 32, |x, y| {
             let height = (f64::from(y) + 1.0 - top).clamp(0.0, 1.0);
