@@ -31,7 +31,7 @@ pub use filter::{
 };
 pub use gpu::{
     AdapterDescription, Blur, BufferCopy, Clock, Gpu, Kernels, Limits, Loaded, LoopLimit,
-    MAX_TEXTURE_BYTES, PassTime, Resident, list_adapters, try_out,
+    MAX_TEXTURE_BYTES, PassTime, UploadedInput, list_adapters, try_out,
 };
 pub use input::Input;
 pub use load::{MAX_KERNEL_BYTES, MAX_MANIFEST_BYTES};

@@ -8,7 +8,7 @@ use super::kernels::Kernels;
 use super::place::Place;
 use super::transfer::{row_bytes, to_texels};
 use super::uniforms::FrameUniform;
-use super::uploaded_input::Resident;
+use super::uploaded_input::UploadedInput;
 use crate::{Filter, FilterError, Format, Input, Settings};
 
 /// A filter ready to run on images of one size.
@@ -75,7 +75,7 @@ impl<'g> Blur<'g> {
     }
 
     /// Blurs an input that is on the GPU already, as [`Blur::run`] does.
-    pub fn run_resident(&mut self, input: &Resident) -> Result<Vec<Image>, FilterError> {
+    pub fn run_uploaded(&mut self, input: &UploadedInput) -> Result<Vec<Image>, FilterError> {
         assert_eq!(
             (&self.filter, self.size),
             (&input.filter, input.size),

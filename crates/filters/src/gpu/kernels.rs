@@ -4,7 +4,7 @@ use super::binding::{create_layout, create_pipeline};
 use super::device::Gpu;
 use super::limits::Limits;
 use super::place::Place;
-use super::uploaded_input::Resident;
+use super::uploaded_input::UploadedInput;
 use crate::printable::escape_controls;
 use crate::shader::{count_loop_iterations, run_on_large_stack};
 use crate::{Filter, FilterError, Input};
@@ -90,8 +90,8 @@ impl<'g> Kernels<'g> {
     }
 
     /// Uploads an input once, for any number of blurs of this filter.
-    pub fn keep(&self, input: &Input) -> Result<Resident, FilterError> {
-        Resident::new(self.gpu, &self.filter, input)
+    pub fn upload(&self, input: &Input) -> Result<UploadedInput, FilterError> {
+        UploadedInput::new(self.gpu, &self.filter, input)
     }
 }
 

@@ -34,4 +34,4 @@ pub use loop_limit::LoopLimit;
 pub use targets::MAX_TEXTURE_BYTES;
 pub use timing::{Loaded, PassTime};
 pub use trial::try_out;
-pub use uploaded_input::Resident;
+pub use uploaded_input::UploadedInput;

@@ -8,7 +8,7 @@ use crate::{Filter, FilterError, Format, Input};
 
 /// A checked and uploaded input of one filter.
 #[derive(Debug)]
-pub struct Resident {
+pub struct UploadedInput {
     pub(super) filter: String,
     pub(super) size: [u32; 2],
     pub(super) frame: FrameUniform,
@@ -17,7 +17,7 @@ pub struct Resident {
     pub(super) depth: Target,
 }
 
-impl Resident {
+impl UploadedInput {
     pub(super) fn new(gpu: &Gpu, filter: &Filter, input: &Input) -> Result<Self, FilterError> {
         let size = [input.velocity.width, input.velocity.height];
         input.check(&filter.name, size, filter.shader.reads_reprojection)?;
