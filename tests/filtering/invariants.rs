@@ -181,7 +181,7 @@ fn inputs_and_kernels_that_stay_on_the_gpu_give_the_bytes_of_fresh_ones() {
         let colors = [&field.color, &matte];
         let [input, between] = [field.input(&colors), other.input(&[&other.color])]
             .map(|input| kernels.upload(&input).unwrap());
-        let mut blur = Blur::of(kernels, &settings, WIDTH, HEIGHT).unwrap();
+        let mut blur = Blur::with_kernels(kernels, &settings, WIDTH, HEIGHT).unwrap();
         blur.run_uploaded(&between).unwrap();
         let kept = blur.run_uploaded(&input).unwrap();
         let fresh = field.blurred_colors(&gpu, &filter, &settings, &colors);

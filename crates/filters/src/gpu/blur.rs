@@ -32,11 +32,11 @@ impl<'g> Blur<'g> {
     ) -> Result<Self, FilterError> {
         // An impossible size is refused before anything is compiled.
         check_size(gpu, filter, width, height)?;
-        Self::of(&Kernels::compile(gpu, filter)?, settings, width, height)
+        Self::with_kernels(&Kernels::compile(gpu, filter)?, settings, width, height)
     }
 
     /// Makes the textures for compiled kernels, with other settings or another size than before.
-    pub fn of(
+    pub fn with_kernels(
         kernels: &Kernels<'g>,
         settings: &Settings,
         width: u32,

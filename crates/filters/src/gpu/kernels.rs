@@ -9,7 +9,7 @@ use crate::printable::escape_controls;
 use crate::shader::{count_loop_iterations, run_on_large_stack};
 use crate::{Filter, FilterError, Input};
 
-/// The compiled kernels of one filter, from which [`Blur::of`](super::Blur::of) makes blurs without compiling again.
+/// The compiled kernels of one filter, from which [`Blur::with_kernels`](super::Blur::with_kernels) makes blurs without compiling again.
 #[derive(Debug)]
 pub struct Kernels<'g> {
     pub(super) gpu: &'g Gpu,

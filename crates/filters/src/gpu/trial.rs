@@ -43,7 +43,7 @@ pub fn try_out(gpu: &Gpu, filter: &Filter) -> Result<(), FilterError> {
         if index == presets.len() && !failures.is_empty() {
             break;
         }
-        let blurred = Blur::of(&kernels, &trial.settings, SIDE, SIDE)
+        let blurred = Blur::with_kernels(&kernels, &trial.settings, SIDE, SIDE)
             .and_then(|mut blur| blur.run(&frame.input(&[&frame.color])));
         let error = match blurred {
             Ok(_) => continue,

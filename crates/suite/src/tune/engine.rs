@@ -64,7 +64,7 @@ impl<'a> Engine<'a> {
     fn runner(&self, settings: &Settings, size: (u32, u32)) -> Result<Runner<'a>, FilterError> {
         match self {
             Self::Kernels { kernels, .. } => {
-                let blur = Blur::of(kernels, settings, size.0, size.1)?;
+                let blur = Blur::with_kernels(kernels, settings, size.0, size.1)?;
                 Ok(Runner::Kernels(Box::new(blur)))
             }
             Self::Program(filter) => Runner::command(filter, settings, size),
