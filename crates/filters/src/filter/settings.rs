@@ -144,7 +144,7 @@ impl Settings {
 
     /// Sets the smallest reach that covers trails of `pixels`. Changes nothing if the reach of the filter has no bound. Fails if
     /// the range of the parameter ends before.
-    pub fn reaching(&self, filter: &Filter, pixels: u32) -> Result<Settings, FilterError> {
+    pub fn with_reach(&self, filter: &Filter, pixels: u32) -> Result<Settings, FilterError> {
         let mut settings = self.clone();
         if let Some(reach_by) = &filter.reach_by {
             let units = pixels.div_ceil(self.pixels(&reach_by.unit)).max(1);

@@ -207,7 +207,7 @@ fn reach(
     turns: &Turns,
 ) -> Result<ReachCost, Error> {
     // A range that ends before a reach leaves a gap in the table.
-    let settings = REACHES.map(|pixels| choice.settings.reaching(&choice.filter, pixels).ok());
+    let settings = REACHES.map(|pixels| choice.settings.with_reach(&choice.filter, pixels).ok());
     let (mut blurs, mut speeds) = (Vec::new(), Vec::new());
     for (settings, pixels) in settings.iter().zip(REACHES) {
         if let Some(settings) = settings {
