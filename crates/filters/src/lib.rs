@@ -30,7 +30,7 @@ pub use filter::{
     Scale, Settings, Source, Texture, Tuned, Unit, Value,
 };
 pub use gpu::{
-    AdapterDescription, Blur, BufferCopy, Clock, Gpu, Kernels, Limits, Loaded, LoopLimit,
+    AdapterDescription, Blur, BufferCopy, Clock, Gpu, Kernels, Limits, LoadedBlur, LoopLimit,
     MAX_TEXTURE_BYTES, PassTime, UploadedInput, list_adapters, try_out,
 };
 pub use input::Input;

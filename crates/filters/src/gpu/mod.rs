@@ -32,6 +32,6 @@ pub use kernels::Kernels;
 pub use limits::Limits;
 pub use loop_limit::LoopLimit;
 pub use targets::MAX_TEXTURE_BYTES;
-pub use timing::{Loaded, PassTime};
+pub use timing::{LoadedBlur, PassTime};
 pub use trial::try_out;
 pub use uploaded_input::UploadedInput;

@@ -5,7 +5,7 @@ use crate::{FilterError, Input};
 
 /// A blur with its input on the GPU, ready to be timed.
 #[derive(Debug)]
-pub struct Loaded<'b, 'g> {
+pub struct LoadedBlur<'b, 'g> {
     blur: &'b Blur<'g>,
 }
 
@@ -23,16 +23,16 @@ pub struct PassTime {
 
 impl<'g> Blur<'g> {
     /// Uploads an input and its first colour image.
-    pub fn load(&mut self, input: &Input) -> Result<Loaded<'_, 'g>, FilterError> {
+    pub fn load(&mut self, input: &Input) -> Result<LoadedBlur<'_, 'g>, FilterError> {
         self.check(input)?;
         self.upload(input)?;
         let color = input.color.first().expect("there is a colour to blur");
         self.upload_color(color)?;
-        Ok(Loaded { blur: self })
+        Ok(LoadedBlur { blur: self })
     }
 }
 
-impl Loaded<'_, '_> {
+impl LoadedBlur<'_, '_> {
     /// Runs every pass once, and times its kernels alone: nothing is uploaded or read back.
     pub fn time(&self) -> Result<Vec<PassTime>, FilterError> {
         let Blur { gpu, passes, .. } = self.blur;
