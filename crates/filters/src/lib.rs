@@ -27,7 +27,7 @@ pub use command::{BESIDE_PIXELS, BYTES_PER_PIXEL, CommandBlur};
 pub use error::FilterError;
 pub use filter::{
     Code, Command, Filter, Growth, Holds, Kind, Length, Parameter, Pass, Preset, ReachBy, Repeat,
-    Scale, Settings, Source, Texture, Tuned, Unit, Value,
+    Scale, Settings, Source, Texture, TuningRecord, Unit, Value,
 };
 pub use gpu::{
     AdapterDescription, Blur, BufferCopy, Clock, Gpu, Kernels, Limits, LoadedBlur, LoopLimit,

@@ -17,6 +17,6 @@ pub(crate) use lines::Lines;
 pub use parameter::{Kind, Parameter, Scale, Unit, Value};
 pub use pass::{Holds, Pass, Repeat, Texture};
 pub(crate) use placeholders::{PLACEHOLDERS, fill_placeholders};
-pub use preset::{Code, Preset, Source, Tuned};
+pub use preset::{Code, Preset, Source, TuningRecord};
 pub use reach::{Growth, Length, ReachBy};
 pub use settings::Settings;

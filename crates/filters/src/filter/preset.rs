@@ -21,7 +21,7 @@ pub struct Preset {
     /// The values that differ from the parameters' defaults.
     pub values: BTreeMap<String, Value>,
     /// Record of the tuning that found the values, where one did.
-    pub tuned: Option<Tuned>,
+    pub tuned: Option<TuningRecord>,
 }
 
 /// Work that a preset follows, and where the preset departs from it: `[preset.source]` of filter.toml.
@@ -61,7 +61,7 @@ impl std::fmt::Display for Code {
 /// Record of the tuning that found a preset's values: `[preset.tuned]` of filter.toml.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Tuned {
+pub struct TuningRecord {
     /// Program name and version.
     pub by: String,
     /// The preset that it started from.

@@ -8,7 +8,7 @@ use toml::Spanned;
 use super::file::{File, IDENTIFIER, is_identifier};
 use super::parameters::read_value;
 use super::source::{SourceEntry, read_source};
-use crate::{FilterError, Parameter, Preset, Tuned};
+use crate::{FilterError, Parameter, Preset, TuningRecord};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -19,7 +19,7 @@ pub(super) struct PresetEntry {
     values: BTreeMap<String, Spanned<toml::Value>>,
     source: Option<Spanned<SourceEntry>>,
     reference_width: Option<Spanned<u32>>,
-    tuned: Option<Tuned>,
+    tuned: Option<TuningRecord>,
 }
 
 /// Reads every preset; a filter without any gets one with every parameter at its default.
