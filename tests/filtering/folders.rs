@@ -230,7 +230,7 @@ fn whole_numbers_keep_every_bit_in_a_texture_of_a_fixed_fraction() {
     let expected = Raster::from_fn(10, 5, |x, y| [255.0, number(x, y) as f32, 0.0]);
     assert_eq!(outputs[0], expected);
     // Rounded up, so that the last block is there though it is not whole.
-    let blocks = blur.texture("blocks").unwrap();
+    let blocks = blur.read_texture("blocks").unwrap();
     assert_eq!((blocks.width, blocks.height), (3, 2));
     assert_eq!(blocks.at(2, 1)[0].to_bits(), 0xff00_0001 + 2 + 16);
 }
