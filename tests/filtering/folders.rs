@@ -289,7 +289,10 @@ fn the_smallest_reach_that_covers_a_trail_is_set() {
         );
     }
     let settings = flood.settings(None).unwrap();
-    let message = settings.with_reach(&flood, 1 << 20).unwrap_err().to_string();
+    let message = settings
+        .with_reach(&flood, 1 << 20)
+        .unwrap_err()
+        .to_string();
     assert_eq!(
         message,
         "jump_flood.passes: found 18; allowed: a whole number from 1 to 12"

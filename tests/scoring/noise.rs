@@ -4,7 +4,9 @@
 use std::sync::LazyLock;
 
 use frame::{Frame, Image, Picture, Truth};
-use metrics::{Equivalent, LadderRange, Measured, Metric, Reference, Region, Scores, measure, regions};
+use metrics::{
+    Equivalent, LadderRange, Measured, Metric, Reference, Region, Scores, measure, regions,
+};
 use tests::random::Random;
 use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
 

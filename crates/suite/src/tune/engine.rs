@@ -1,6 +1,6 @@
 //! A filter with all scenes on the GPU, so that a candidate costs its blurs and nothing else.
 
-use filters::{Blur, Filter, FilterError, Gpu, Input, Kernels, UploadedInput, Settings};
+use filters::{Blur, Filter, FilterError, Gpu, Input, Kernels, Settings, UploadedInput};
 use frame::{Image, Plane};
 
 use super::shot::Target;
