@@ -22,7 +22,7 @@ MINUTES ?= 10
 SEED ?= $(shell date +%s)
 
 fuzz: vulkan
-	cargo test --package suite --test fuzz --locked -- --minutes $(MINUTES) --seed $(SEED) $(if $(TARGETS),--targets $(TARGETS))
+	cargo test --package cli --test fuzz --locked -- --minutes $(MINUTES) --seed $(SEED) $(if $(TARGETS),--targets $(TARGETS))
 
 # The Python that has these packages; one of your own is used as it is. Its pip is called through it: in a copied folder the script
 # `pip` still belongs to the original.

@@ -60,7 +60,7 @@ impl Failure {
     pub fn text(&self, seed: u64) -> String {
         format!(
             "fuzz: {target}: {how} ({count} inputs; the first is case {case} of seed {seed})\n  input: {path}\n  \
-             again: cargo test --locked -p suite --test fuzz -- --input {path}\n",
+             again: cargo test --locked -p cli --test fuzz -- --input {path}\n",
             target = self.target.name,
             how = self.how,
             count = self.count,

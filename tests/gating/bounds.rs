@@ -3,9 +3,10 @@
 use std::fs;
 use std::path::Path;
 
+use cli::{Programs, SceneChoice};
 use frame::{Alignment, Picture};
 use metrics::{Measured, Metric, Reference};
-use suite::{Judged, Level, Outcome, Programs, RenderSettings, SceneBounds, SceneChoice};
+use suite::{Judged, Level, Monitor, Outcome, RenderSettings, SceneBounds};
 
 use crate::kept_truths;
 
@@ -22,9 +23,10 @@ fn judged(choice: &SceneChoice, out: &Path) -> [Vec<Judged>; 2] {
         ..RenderSettings::default()
     };
     let scene = &choice.scene;
-    let frame = suite::frame_of(scene, &settings, out, true).unwrap();
+    let frame = suite::frame_of(scene, &settings, out, Monitor::SILENT).unwrap();
     let (truth, ladder) =
-        suite::truth_and_ladder_of(scene, &settings, Alignment::Trailing, out, true).unwrap();
+        suite::truth_and_ladder_of(scene, &settings, Alignment::Trailing, out, Monitor::SILENT)
+            .unwrap();
     let reference = Reference::new(&frame, &truth, None, &suite::viewing(scene)).unwrap();
     let bounds = suite::read_bounds(Path::new(SCENES), &choice.folder).unwrap();
     // What is asked of every filter, required or not.
@@ -61,7 +63,7 @@ fn describe(judged: &[Judged]) -> String {
 
 #[test]
 fn the_identity_breaks_a_bound_in_every_moving_scene_and_64_subframes_break_none() {
-    let scenes = suite::select_scenes(Path::new(SCENES), &[]).unwrap();
+    let scenes = cli::select_scenes(Path::new(SCENES), &[]).unwrap();
     assert!(scenes.len() >= 5, "the shipped scenes are missing");
     let mut failures = Vec::new();
     let (out, _own) = kept_truths();
@@ -99,7 +101,7 @@ fn read(beside_scenes: &str, beside_scene: &str) -> Result<SceneBounds, String> 
         fs::write(place.join("bounds.toml"), text).unwrap();
     }
     let filters =
-        suite::select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap();
+        cli::select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap();
     let check = || {
         let bounds = suite::read_bounds(folder.path(), &scene)?;
         suite::check_names(folder.path(), std::iter::once(&bounds), &filters)?;
@@ -148,7 +150,7 @@ fn limits_hold_for_the_size_that_they_were_measured_at() {
     let any = of("identity", "");
     let another = of("kino", "size = [320, 180],");
     let filters =
-        suite::select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap();
+        cli::select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap();
     let size = |bounds: &[&SceneBounds], asked| {
         let size = suite::bounded_size(bounds.iter().copied(), &filters, asked);
         size.map_err(|error| error.to_string())

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use cli::{Programs, select_filters, select_scenes};
 use filters::Gpu;
 use suite::{
-    Check, Decision, Finding, InputFormat, Level, Outcome, Plan, Programs, RenderSettings,
-    RunBounds, bounded_size, check, judge, read_bounds, run, select_filters, select_scenes,
+    Check, Decision, Finding, InputFormat, Level, Monitor, Outcome, Plan, RenderSettings,
+    RunBounds, bounded_size, check, judge, read_bounds, run,
 };
 
 use crate::kept_truths;
@@ -47,7 +48,7 @@ fn guarded_filters_keep_what_is_required_of_them_on_every_scene() {
         out,
         intervals: true,
         no_cache: false,
-        quiet: true,
+        monitor: Monitor::SILENT,
     };
     let run = run(&plan, Some(&gpu), Vec::new()).unwrap();
     let check = check(&run, judge(&run, &bounds), Vec::new());

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use cli::{Programs, paired_table, select_filters, select_scenes};
 use filters::Gpu;
 use suite::{
-    LEAST_BLEED, Preference, Programs, RenderSettings, SceneBounds, compare_paired, evaluator,
-    paired_table, read_bounds, select_filters, select_scenes, shots,
+    LEAST_BLEED, Monitor, Preference, RenderSettings, SceneBounds, compare_paired, evaluator,
+    read_bounds, shots,
 };
 use tracer::Scene;
 
@@ -44,8 +45,8 @@ fn tuned_presets_beat_what_was_published_and_bleed_no_more_on_scenes_they_never_
             scenes.len() >= 9,
             "{name}: too few scenes are left to prove anything on"
         );
-        let shots = shots(&scenes, &choice, &render, &out, true).unwrap();
-        let mut evaluator = evaluator(&shots, &choice, Some(&gpu), true).unwrap();
+        let shots = shots(&scenes, &choice, &render, &out, Monitor::SILENT).unwrap();
+        let mut evaluator = evaluator(&shots, &choice, Some(&gpu), true, Monitor::SILENT).unwrap();
         let published = choice.filter.settings(Some(&tuned.from)).unwrap();
         let paired = compare_paired(&mut evaluator, &published, &choice.settings).unwrap();
         let table = paired_table(&paired, [&tuned.from, "tuned"]);

@@ -8,7 +8,7 @@ mod numbers;
 
 use std::path::PathBuf;
 
-use suite::{LARGEST_PAGE, report};
+use report::{LARGEST_PAGE, report};
 
 use bench::{Bench, assert_done};
 use browser::{Browser, address_of};

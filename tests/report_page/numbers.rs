@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use frame::{ExrFile, read_exr};
-use suite::{Case, LARGEST_PAGE};
+use report::LARGEST_PAGE;
+use suite::Case;
 
 use crate::bench::{Bench, assert_done};
 use crate::browser::{Browser, address_of};

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use cli::table;
 use metrics::{ImageMetric, Measured, Reference, Region, Scores};
-use suite::{Case, FORMAT, InputFormat, Overall, Run, overall, table};
+use suite::{Case, FORMAT, InputFormat, Overall, Run, overall};
 use tests::synthetic::{Object, Sampling, Scene, Shape, VIEWING};
 use tracer::Family;
 

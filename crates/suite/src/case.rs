@@ -74,8 +74,8 @@ impl Case {
 }
 
 /// The bar that doing nothing sets.
-pub(crate) const IDENTITY: &str = "identity";
+pub const IDENTITY: &str = "identity";
 /// The bar that [`crate::scatter_oracle`] sets.
-pub(crate) const SCATTER_ORACLE: &str = "scatter_oracle";
+pub const SCATTER_ORACLE: &str = "scatter_oracle";
 /// The bars that averages of sub-frames set.
-pub(crate) const ACCUMULATE: &str = "accumulate";
+pub const ACCUMULATE: &str = "accumulate";

@@ -36,16 +36,12 @@ pub enum Error {
 }
 
 impl Error {
-    /// 1 where a check fails, 2 for usage and bad input, 3 where there is no adapter, 4 where a truth stayed noisier than
-    /// asked for or than a check needs, 130 after Ctrl-C.
-    pub fn exit_code(&self) -> u8 {
-        match self {
-            Error::Trace(tracer::TraceError::Cancelled)
-            | Error::Filter(filters::FilterError::Interrupted) => crate::progress::INTERRUPTED_CODE,
-            Error::Filter(filters::FilterError::NoAdapter) => 3,
-            Error::Broken(_) => 1,
-            Error::TooNoisy(_) | Error::Inconclusive(_) => 4,
-            _ => 2,
-        }
+    /// Tells whether the caller interrupted the work.
+    pub fn is_interruption(&self) -> bool {
+        matches!(
+            self,
+            Self::Trace(tracer::TraceError::Cancelled)
+                | Self::Filter(filters::FilterError::Interrupted)
+        )
     }
 }

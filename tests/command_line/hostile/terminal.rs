@@ -4,10 +4,9 @@ use std::fs;
 use std::path::Path;
 use std::process::{Output, Stdio};
 
+use cli::{annotations, check_text, summary};
 use frame::{Frame, Truth};
-use suite::{
-    CHECK_FORMAT, Check, Decision, Failure, annotations, check_text, printable_table, summary,
-};
+use suite::{CHECK_FORMAT, Check, Decision, Failure, printable_table};
 
 use crate::bench::{Bench, assert_done, assert_refused, stderr, stdout};
 

@@ -1,10 +1,8 @@
 //! bounds.toml, and what is judged by it.
 
+use cli::{Programs, select_filters};
 use filters::Filter;
-use suite::{
-    Programs, Run, bounded_size, check_bounded, check_names, judge, read_bounds, read_bounds_file,
-    select_filters,
-};
+use suite::{Run, bounded_size, check_bounded, check_names, judge, read_bounds, read_bounds_file};
 
 use super::run_json::of;
 use crate::huge;

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
+use cli::{Programs, select_filters};
 use filters::Filter;
-use suite::{Programs, select_filters};
 
 use crate::huge;
 use crate::place::Place;

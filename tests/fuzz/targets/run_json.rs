@@ -5,10 +5,11 @@ use std::fs;
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use cli::{annotations, check_text, compare_table, junit, summary, table};
+use report::{LARGEST_PAGE, compare_page, report};
 use suite::{
-    Acceptance, Baseline, Finding, Judgement, LARGEST_PAGE, Margin, Run, RunBounds, Side, accept,
-    add_evidence, annotations, check, check_text, compare, compare_page, compare_runs,
-    compare_table, judge, junit, read_bounds, report, summary, table, write_layers,
+    Acceptance, Baseline, Finding, Judgement, Margin, Run, RunBounds, Side, accept, add_evidence,
+    check, compare, compare_runs, judge, read_bounds, write_layers,
 };
 
 use crate::huge;

@@ -2,7 +2,8 @@
 
 use std::fs;
 
-use suite::{Journal, TuneFolder, tuning_page};
+use report::{TuneFolder, tuning_page};
+use suite::Journal;
 
 use super::run_json::of;
 use crate::huge;

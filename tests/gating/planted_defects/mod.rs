@@ -7,12 +7,12 @@ mod defects;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use cli::{Programs, select_filters, select_scenes};
 use filters::Gpu;
 use metrics::Metric;
 use suite::{
-    Case, Check, Decision, FilterChoice, InputFormat, Plan, Programs, RenderSettings, Run,
+    Case, Check, Decision, FilterChoice, InputFormat, Monitor, Plan, RenderSettings, Run,
     RunBounds, SceneBounds, calibrate, check, judge, open_gpu, read_bounds_file, run,
-    select_filters, select_scenes,
 };
 use tracer::Scene;
 
@@ -77,7 +77,7 @@ impl Bench {
         let folder = tempfile::tempdir().unwrap();
         let shipped = choices(filters.iter().map(|name| (*name).to_owned()));
         let mut bench = Self {
-            gpu: open_gpu(&shipped, None).unwrap(),
+            gpu: open_gpu(&shipped, None, Monitor::SILENT).unwrap(),
             bounds: RunBounds::new(),
             folder,
         };
@@ -118,7 +118,7 @@ impl Bench {
             out: self.folder.path().join(format!("seed_{seed}")),
             intervals: true,
             no_cache: false,
-            quiet: true,
+            monitor: Monitor::SILENT,
         };
         run(&plan, self.gpu.as_ref(), Vec::new()).unwrap()
     }

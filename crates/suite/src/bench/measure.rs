@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use filters::{Blur, BufferCopy, FilterError, Gpu, Input, LoadedBlur, PassTime, Settings};
+use filters::{Blur, BufferCopy, Filter, FilterError, Gpu, Input, LoadedBlur, PassTime, Settings};
 use tracer::{Progress, TraceError, Watch};
 
 use super::panels::Panels;
@@ -10,7 +10,7 @@ use super::{
     BENCH_FORMAT, Bench, CaseCost, CopyCost, EXPOSURE, GROWTH_FROM, PassCost, REACHES, ReachCost,
     ReachPoint, SPEED, Spread,
 };
-use crate::selection::{FilterChoice, Programs, select_filters};
+use crate::run::filter_choice::FilterChoice;
 use crate::{Error, PROGRAM};
 
 /// Filter and preset that times are divided by.
@@ -37,10 +37,9 @@ type Times = Vec<PassTime>;
 /// falls on all of them alike; a round before the first is not counted.
 pub fn bench(mut plan: BenchPlan, gpu: &Gpu, watch: Watch) -> Result<Bench, Error> {
     if !plan.filters.iter().any(|choice| choice.name() == BASELINE) {
-        plan.filters.splice(
-            0..0,
-            select_filters(&[BASELINE.to_owned()], None, &[], Programs::Refused)?,
-        );
+        let (filter, preset) = (BASELINE.split_once(':')).expect("the baseline has a preset");
+        let choice = FilterChoice::new(Filter::builtin(filter)?, preset)?;
+        plan.filters.insert(0, choice);
     }
     let (width, as_written) = (plan.width, plan.as_written);
     plan.filters = (plan.filters.into_iter())
@@ -269,10 +268,7 @@ fn blur<'g>(
     Blur::new(gpu, &choice.filter, settings, plan.width, plan.height)
 }
 
-fn load<'b, 'g>(
-    blur: &'b mut Blur<'g>,
-    panels: &Panels,
-) -> Result<LoadedBlur<'b, 'g>, FilterError> {
+fn load<'b, 'g>(blur: &'b mut Blur<'g>, panels: &Panels) -> Result<LoadedBlur<'b, 'g>, FilterError> {
     blur.load(&Input {
         color: &[&panels.color],
         velocity: &panels.velocity,

@@ -3,7 +3,6 @@
 mod measure;
 mod panels;
 mod spread;
-mod table;
 
 use std::collections::BTreeMap;
 
@@ -12,7 +11,6 @@ use serde::{Deserialize, Serialize};
 
 pub use measure::{BASELINE, BenchPlan, bench};
 pub use spread::Spread;
-pub use table::bench_table;
 
 /// Version of the layout of `bench.json`.
 pub const BENCH_FORMAT: u32 = 1;

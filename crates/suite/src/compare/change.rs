@@ -142,7 +142,7 @@ impl Change {
 }
 
 /// Scene and filter of cases that changed by more than noise, by the largest part of a score that changed.
-pub fn ranked(changes: &[Change]) -> Vec<(&str, &str)> {
+pub fn rank_changes(changes: &[Change]) -> Vec<(&str, &str)> {
     let mut ranked: Vec<(f64, (&str, &str))> = Vec::new();
     for change in changes.iter().filter(|change| change.is_beyond_noise()) {
         let key = (change.scene.as_str(), change.filter.as_str());

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::change::{Change, ChangeKind};
-use crate::scene_mean::{Weighted, scene_mean};
+use crate::stats::scene_mean::{Weighted, scene_mean};
 use crate::tune::FEWEST_SCENES;
 
 /// The mean over all such scenes lies beyond either end of its interval with this probability.

@@ -1,32 +1,26 @@
 //! Two finished runs of the same cases: what changed, and whether it is more than noise.
 
 mod change;
-mod chart;
 mod mean;
 mod noise;
-mod page;
 mod pairing;
-mod pictures;
-mod provenance;
 mod settings;
 mod side;
-mod table;
 
 use serde::Serialize;
 use tracer::Watch;
 
 use crate::{Error, PROGRAM};
 
-pub use change::{Basis, Change, ChangeKind};
+pub use change::{Basis, Change, ChangeKind, rank_changes};
 pub use mean::{MeanChange, MeanKind};
-pub use page::compare_page;
+pub use pairing::{Pair, pairs, subject};
 pub use settings::SettingChange;
 pub use side::Side;
-pub use table::compare_table;
 
 use mean::means;
 use noise::changes;
-use pairing::{check_comparable, only_in, pairs};
+use pairing::{check_comparable, only_in};
 use settings::settings;
 
 /// Version of the layout of what `compare --json` prints.

@@ -12,9 +12,9 @@ use tracer::{Progress, TraceError, Watch};
 use super::change::{Change, Uncertainty};
 use super::pairing::Pair;
 use super::side::Side;
-use crate::headline::Headline;
-use crate::replicates::replicates_folder;
-use crate::scatter_oracle::oracle_of;
+use crate::render::replicates::replicates_folder;
+use crate::render::scatter_oracle::oracle_of;
+use crate::stats::headline::Headline;
 use crate::{Error, FEWEST_REPLICATES, truths_without_pairs};
 
 /// What is compared.

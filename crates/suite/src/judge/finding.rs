@@ -9,7 +9,7 @@ use super::Judged;
 use super::decoys::Resemblance;
 use super::outcome::{Outcome, limit_as_badness};
 use super::worst::Worst;
-use crate::bounds::Level;
+use crate::judge::bounds::Level;
 use crate::{Case, Run};
 
 /// A score and its bound.

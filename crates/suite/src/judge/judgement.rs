@@ -8,8 +8,8 @@ use metrics::Metric;
 use serde::{Deserialize, Serialize};
 
 use super::Finding;
-use crate::json_file::{MOST_JSON_BYTES, read_text};
-use crate::run_file::is_below;
+use crate::json::file::{MOST_JSON_BYTES, read_text};
+use crate::run::file::is_below;
 use crate::{Error, PROGRAM, Run};
 
 /// Version of the layout of `judgement.json`.

@@ -1,5 +1,9 @@
 //! Judgement of a finished run: how each bounded score stands to its limit.
 
+pub mod baseline;
+pub mod bounds;
+pub mod calibrate;
+pub mod check;
 mod decoys;
 mod evidence;
 mod finding;
@@ -11,7 +15,7 @@ use std::collections::BTreeMap;
 
 use metrics::{Measured, Scores};
 
-use crate::bounds::{Bound, Bounds, SceneBounds};
+use self::bounds::{Bound, Bounds, SceneBounds};
 use crate::{Intervals, Run};
 
 pub use decoys::{Decoys, Resemblance};
@@ -19,9 +23,9 @@ pub use evidence::add_evidence;
 pub use finding::{Finding, MOST_SAMPLES, number};
 pub use judgement::{JUDGEMENT_FILE, JUDGEMENT_FORMAT, Judgement};
 pub use outcome::{Outcome, outcome};
-pub(crate) use outcome::{badness_within, limit_as_badness};
+pub use outcome::{badness_within, limit_as_badness};
 pub use worst::Worst;
-pub(crate) use worst::{BLOCK, CROP, worst_block};
+pub use worst::{BLOCK, CROP, worst_block};
 
 /// The bounds of a run's scenes, by the names that its cases give them.
 pub type RunBounds = BTreeMap<String, SceneBounds>;

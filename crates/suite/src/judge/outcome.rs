@@ -60,7 +60,7 @@ pub fn outcome(
 }
 
 /// Converts a limit to badness. A limit on a distance from an ideal is one already.
-pub(crate) fn limit_as_badness(ideal: Ideal, limit: f64) -> f64 {
+pub fn limit_as_badness(ideal: Ideal, limit: f64) -> f64 {
     match ideal {
         Ideal::Highest => -limit,
         Ideal::Lowest | Ideal::Target(_) => limit,
@@ -68,7 +68,7 @@ pub(crate) fn limit_as_badness(ideal: Ideal, limit: f64) -> f64 {
 }
 
 /// Least and largest badness within an interval.
-pub(crate) fn badness_within(ideal: Ideal, interval: &Interval) -> (f64, f64) {
+pub fn badness_within(ideal: Ideal, interval: &Interval) -> (f64, f64) {
     let [low, high] = [interval.low, interval.high].map(|end| ideal.badness(end));
     match ideal {
         Ideal::Target(target) if (interval.low..=interval.high).contains(&target) => {

@@ -6,7 +6,7 @@ use frame::{FileError, Image, Plane, Raster, display_srgb, write_png};
 use metrics::{Metric, Regions};
 use serde::{Deserialize, Serialize};
 
-use crate::pictures::magma;
+use crate::run::pictures::magma;
 
 /// The place of the largest error.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -22,9 +22,9 @@ pub struct Worst {
 }
 
 /// Side of the blocks whose sums are compared, in pixels: larger than the noise of pixels, smaller than most movers.
-pub(crate) const BLOCK: u32 = 16;
+pub const BLOCK: u32 = 16;
 /// Side of what is shown around the worst block, in pixels.
-pub(crate) const CROP: u32 = 64;
+pub const CROP: u32 = 64;
 /// Every pixel is shown as so many by so many.
 const ENLARGED: u32 = 4;
 /// Between the panels, in shown pixels.

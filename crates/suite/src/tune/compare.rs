@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::loss::log_ratio;
 use super::{Evaluator, SceneScore};
 use crate::Error;
-use crate::scene_mean::plain_mean;
+use crate::stats::scene_mean::plain_mean;
 
 /// Scores of two candidates, scene by scene, and what they come to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

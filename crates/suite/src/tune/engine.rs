@@ -4,8 +4,8 @@ use filters::{Blur, Filter, FilterError, Gpu, Input, Kernels, Settings, Uploaded
 use frame::{Image, Plane};
 
 use super::shot::Target;
-use crate::Runner;
-use crate::probe::{pack, unpack};
+use crate::run::probe::{pack, unpack};
+use crate::{Monitor, Runner};
 
 /// What candidates of one filter run on.
 pub enum Engine<'a> {
@@ -17,7 +17,7 @@ pub enum Engine<'a> {
         inputs: Vec<UploadedInput>,
     },
     /// A program, which reads files.
-    Program(Box<Filter>),
+    Program(Box<Filter>, Monitor),
 }
 
 /// A candidate, ready for scenes of one size after another.
@@ -37,9 +37,10 @@ impl<'a> Engine<'a> {
         filter: &Filter,
         targets: &[Target],
         bleed: bool,
+        monitor: Monitor,
     ) -> Result<Self, FilterError> {
         if filter.command.is_some() {
-            return Ok(Self::Program(Box::new(filter.clone())));
+            return Ok(Self::Program(Box::new(filter.clone()), monitor));
         }
         let gpu = gpu.expect("an adapter was opened for the kernels");
         let kernels = Kernels::compile(gpu, filter)?;
@@ -67,7 +68,7 @@ impl<'a> Engine<'a> {
                 let blur = Blur::with_kernels(kernels, settings, size.0, size.1)?;
                 Ok(Runner::Kernels(Box::new(blur)))
             }
-            Self::Program(filter) => Runner::command(filter, settings, size),
+            Self::Program(filter, monitor) => Runner::command(filter, settings, size, *monitor),
         }
     }
 }

@@ -8,7 +8,7 @@ use frame::{Image, Plane};
 
 use super::engine::Engine;
 use super::shot::{SceneScore, Target};
-use crate::{Error, FilterChoice};
+use crate::{Error, FilterChoice, Monitor};
 
 /// A filter on scenes that are loaded once; what was measured once is answered from memory.
 pub struct Evaluator<'a> {
@@ -20,6 +20,8 @@ pub struct Evaluator<'a> {
     pub targets: Vec<Target<'a>>,
     /// Whether mattes are blurred as well, which takes about twice the time.
     pub bleed: bool,
+    /// What ends the work.
+    pub monitor: Monitor,
     engine: Engine<'a>,
     /// By candidate and scene.
     memory: HashMap<(String, usize), SceneScore>,
@@ -32,13 +34,15 @@ impl<'a> Evaluator<'a> {
         choice: FilterChoice,
         targets: Vec<Target<'a>>,
         bleed: bool,
+        monitor: Monitor,
     ) -> Result<Self, Error> {
         Ok(Self {
-            engine: Engine::new(gpu, &choice.filter, &targets, bleed)?,
+            engine: Engine::new(gpu, &choice.filter, &targets, bleed, monitor)?,
             gpu,
             choice,
             targets,
             bleed,
+            monitor,
             memory: HashMap::new(),
         })
     }

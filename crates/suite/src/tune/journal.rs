@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Trial;
 use crate::Error;
-use crate::json_file::read_text;
+use crate::json::file::read_text;
 
 /// Version of the layout of a journal.
 pub const JOURNAL_FORMAT: u32 = 1;

@@ -8,8 +8,8 @@ use std::time::Duration;
 use tracer::{Family, Scene};
 
 use super::Space;
-use crate::bounds::SceneBounds;
-use crate::{Error, FilterChoice, RenderSettings};
+use crate::judge::bounds::SceneBounds;
+use crate::{Error, FilterChoice, Monitor, RenderSettings};
 
 /// What a trial is judged by, each kept apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,8 +74,8 @@ pub struct TunePlan {
     pub seed: u64,
     /// Where files go.
     pub out: PathBuf,
-    /// No progress bars.
-    pub quiet: bool,
+    /// What is told of the progress, and what ends the work.
+    pub monitor: Monitor,
 }
 
 impl TunePlan {

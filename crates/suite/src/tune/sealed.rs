@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Paired;
 use crate::Error;
-use crate::json_file::read_text;
+use crate::json::file::read_text;
 
 /// One look at the sealed scenes: a line of `openings.jsonl`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -11,7 +11,6 @@ use super::morris::{ElementaryEffects, morris};
 use super::sobol::{SobolIndices, sobol_indices};
 use super::{Evaluator, Space};
 use crate::Error;
-use crate::progress::interrupted;
 
 /// An axis whose total index is below this, its interval included, may become a constant: it causes less than a fiftieth of
 /// the variance.
@@ -96,6 +95,7 @@ pub fn sensitivity(
     let start = evaluator.scores(&space.start, &all, |_, _| true)?;
     let start: BTreeMap<_, _> = names.iter().cloned().zip(start).collect();
     let (mut candidates, mut failed) = (0, 0);
+    let interrupted = evaluator.monitor.interrupted;
     let mut error = |point: &[f64]| -> Result<f64, Error> {
         let progress = Progress {
             done: candidates as u64,
@@ -111,7 +111,7 @@ pub fn sensitivity(
                 Ok(mean_log_ratio(&scores, &start, |_| true).expect("there are scenes"))
             }
             Ok(_) => Err(TraceError::Cancelled.into()),
-            Err(error) if error.exit_code() == 130 => Err(error),
+            Err(error) if error.is_interruption() => Err(error),
             Err(_) => {
                 failed += 1;
                 Ok(FAILED)
@@ -159,32 +159,4 @@ pub fn sensitivity(
         trajectories: effort.trajectories,
         parameters,
     })
-}
-
-/// The parameters, those that matter most first.
-pub fn sensitivity_table(found: &Sensitivity) -> String {
-    let mut rows: Vec<(&String, &ParameterSensitivity)> = found.parameters.iter().collect();
-    rows.sort_by(|(_, a), (_, b)| b.importance().total_cmp(&a.importance()));
-    let width = found.parameters.keys().map(String::len).max().unwrap_or(0);
-    let width = width.max("parameter".len());
-    let mut text = format!(
-        "{:width$}  effect  spread  first  total (95 %)           constant?\n",
-        "parameter"
-    );
-    for (name, it) in rows {
-        let effects = match it.effects {
-            Some(effects) => format!("{:7.3} {:7.3}", effects.mean_size, effects.deviation),
-            None => format!("{:>7} {:>7}", "-", "-"),
-        };
-        let indices = match it.indices {
-            Some(SobolIndices { first, total }) => format!(
-                "{:6.3} {:6.3} ({:6.3} to {:5.3})",
-                first.value, total.value, total.low, total.high
-            ),
-            None => format!("{:>6} {:>6} {:18}", "-", "-", ""),
-        };
-        let constant = if it.constant { "yes" } else { "no" };
-        text += &format!("{name:width$} {effects} {indices}  {constant}\n");
-    }
-    text + &format!("{} candidates, {} failed\n", found.candidates, found.failed)
 }

@@ -7,10 +7,10 @@ use metrics::{ImageMetric, Metric, ObjectMetric, Reference, Viewing, flip_ldr};
 use serde::{Deserialize, Serialize};
 use tracer::{Family, Scene};
 
-use crate::bounds::{Bounds, SceneBounds};
-use crate::rendered::{frame_of, truth_of};
+use crate::judge::bounds::{Bounds, SceneBounds};
+use crate::render::rendered::{frame_of, truth_of};
 use crate::run::viewing;
-use crate::{Error, RenderSettings};
+use crate::{Error, Monitor, RenderSettings};
 
 /// Frame and truth of one scene.
 pub struct Shot {
@@ -44,13 +44,13 @@ impl Shot {
         alignment: Alignment,
         render: &RenderSettings,
         out: &Path,
-        quiet: bool,
+        monitor: Monitor,
     ) -> Result<Self, Error> {
         Ok(Self {
             name: scene.name.clone(),
             family: scene.family,
-            frame: frame_of(scene, render, out, quiet)?,
-            truth: truth_of(scene, render, alignment, out, quiet)?,
+            frame: frame_of(scene, render, out, monitor)?,
+            truth: truth_of(scene, render, alignment, out, monitor)?,
             viewing: viewing(scene),
             bounds,
         })

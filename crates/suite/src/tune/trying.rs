@@ -14,7 +14,6 @@ use super::selection::Limits;
 use super::wilcoxon::probability_not_above;
 use super::{Evaluator, SceneScore, Search, Trial, TrialOutcome};
 use crate::Error;
-use crate::progress::interrupted;
 
 /// Scenes that a candidate runs on before it can be dropped.
 const RACE_FROM: usize = 6;
@@ -82,7 +81,9 @@ fn measure(
             (Some(_), 0) => RACE_FROM.min(all.len()),
             (Some(_), _) => (met + RACE_STEP).min(all.len()),
         };
-        let scores = evaluator.scores(settings, &all[met..until], |_, _| !interrupted())?;
+        let scores = evaluator.scores(settings, &all[met..until], |_, _| {
+            !(plan.monitor.interrupted)()
+        })?;
         if scores.len() < until - met {
             return Err(TraceError::Cancelled.into());
         }

@@ -15,9 +15,8 @@ use super::sealed::{Opening, record};
 use super::selection::{Choice, Fold, choose, folds, settings};
 use super::trying::{limits, next};
 use super::{Evaluator, Search, Shot, Target, Trial, TrialOutcome, front};
-use crate::bounds::SceneBounds;
-use crate::progress::interrupted;
-use crate::{Error, FilterChoice, PROGRAM, RenderSettings};
+use crate::judge::bounds::SceneBounds;
+use crate::{Error, FilterChoice, Monitor, PROGRAM, RenderSettings};
 
 /// Version of the layout of `tune.json`.
 pub const TUNE_FORMAT: u32 = 1;
@@ -64,16 +63,17 @@ pub fn tune(
         &plan.choice,
         &plan.render,
         &plan.out,
-        plan.quiet,
+        plan.monitor,
     )?;
-    let mut evaluator = evaluator(&shots, &plan.choice, gpu, plan.measures(Objective::Bleed))?;
+    let bleed = plan.measures(Objective::Bleed);
+    let mut evaluator = evaluator(&shots, &plan.choice, gpu, bleed, plan.monitor)?;
     let search = search(plan)?;
     let header = header(plan, &evaluator, &search);
     let mut journal = Journal::open(&plan.out.join("journal.jsonl"), &header)?;
     check_values(plan, &journal.trials)?;
     recall(&mut evaluator, plan, &journal.trials);
     while journal.trials.len() < plan.budget {
-        if interrupted() {
+        if (plan.monitor.interrupted)() {
             return Err(TraceError::Cancelled.into());
         }
         let over = plan.time.is_some_and(|time| began.elapsed() >= time);
@@ -115,11 +115,11 @@ pub fn shots(
     choice: &FilterChoice,
     render: &RenderSettings,
     out: &Path,
-    quiet: bool,
+    monitor: Monitor,
 ) -> Result<Vec<Shot>, Error> {
     let alignment = choice.filter.alignment;
     (scenes.iter())
-        .map(|(scene, bounds)| Shot::new((scene, bounds.clone()), alignment, render, out, quiet))
+        .map(|(scene, bounds)| Shot::new((scene, bounds.clone()), alignment, render, out, monitor))
         .collect()
 }
 
@@ -129,11 +129,12 @@ pub fn evaluator<'a>(
     choice: &FilterChoice,
     gpu: Option<&'a Gpu>,
     bleed: bool,
+    monitor: Monitor,
 ) -> Result<Evaluator<'a>, Error> {
     let targets = (shots.iter())
         .map(|shot| Target::new(shot, &choice.filter.name, &choice.preset))
         .collect::<Result<_, _>>()?;
-    Evaluator::new(gpu, choice.clone(), targets, bleed)
+    Evaluator::new(gpu, choice.clone(), targets, bleed, monitor)
 }
 
 /// The start, the other presets, and what follows. What tuning itself has found is left out: a search that is done again finds
@@ -236,8 +237,8 @@ fn open(
 ) -> Result<Vec<Opening>, Error> {
     let render = &plan.sealed_render;
     let out = plan.out.join("sealed");
-    let shots = shots(&plan.sealed, &plan.choice, render, &out, plan.quiet)?;
-    let mut evaluator = evaluator(&shots, &plan.choice, gpu, true)?;
+    let shots = shots(&plan.sealed, &plan.choice, render, &out, plan.monitor)?;
+    let mut evaluator = evaluator(&shots, &plan.choice, gpu, true, plan.monitor)?;
     let start = plan.choice.preset_at(&plan.choice.preset, render.width)?;
     // What was found on pictures of one width is scaled to those of another as the start is.
     let start_width = plan.space.start.reference_width;

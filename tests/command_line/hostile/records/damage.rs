@@ -4,11 +4,10 @@ use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
+use cli::{compare_table, table};
+use report::{LARGEST_PAGE, compare_page, report};
 use serde_json::{Value, json};
-use suite::{
-    Acceptance, Baseline, Error, LARGEST_PAGE, Run, Side, accept, compare_page, compare_runs,
-    compare_table, report, table,
-};
+use suite::{Acceptance, Baseline, Error, Run, Side, accept, compare_runs};
 
 use crate::bench::{Bench, assert_done, assert_refused};
 

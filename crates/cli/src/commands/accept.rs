@@ -1,0 +1,37 @@
+//! `shuttertruth accept`
+
+use suite::{Acceptance, Baseline, Error, Run, accept, refuse_failures};
+
+use super::say;
+use crate::arguments::AcceptArgs;
+
+/// Writes the scores of a finished run into the baseline.
+pub fn execute(args: &AcceptArgs) -> Result<(), Error> {
+    let in_ci = std::env::var("CI").is_ok_and(|value| value == "true" || value == "1");
+    if in_ci && !args.force {
+        return Err(Error::Usage(
+            "CI is set: a check would accept itself; accept on a machine of your own and commit the baseline, or add --force"
+                .to_owned(),
+        ));
+    }
+    let run = Run::read(&args.out.join("run.json"))?;
+    refuse_failures(&run.failures)?;
+    let old = match args.baseline.exists() {
+        true => Some(Baseline::read(&args.baseline)?),
+        false => None,
+    };
+    let baseline = accept(
+        &run,
+        old,
+        &Acceptance {
+            only: args.only.as_ref(),
+            reason: &args.reason,
+            forced: args.force,
+        },
+    )?;
+    baseline.write(&args.baseline)?;
+    say(&format!(
+        "written: {}\n",
+        suite::printable_path(&args.baseline)
+    ))
+}

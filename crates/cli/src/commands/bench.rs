@@ -1,0 +1,54 @@
+//! `shuttertruth bench`
+
+use crate::output::progress::monitor;
+use crate::selection::{Programs, select_filters};
+use crate::tables::bench::bench_table;
+use suite::{Bench, BenchPlan, Error, bench, open_adapter};
+
+use super::say;
+use crate::arguments::BenchArgs;
+
+/// Times what is named, writes `bench.json`, prints the tables.
+pub fn execute(args: &BenchArgs) -> Result<(), Error> {
+    // Programs are refused below, for another reason.
+    let filters = select_filters(&args.filters, None, &[], Programs::Allowed)?;
+    if let Some(choice) = filters.iter().find(|it| it.filter.command.is_some()) {
+        return Err(Error::Usage(format!(
+            "filter {} is a program, which has no passes to time; leave it out of --filters",
+            choice.filter.name
+        )));
+    }
+    let gpu = open_adapter(args.adapter.adapter.as_deref(), monitor(args.quiet))?;
+    let (width, height) = args.size.unwrap_or(match gpu.adapter.kind.as_str() {
+        "software" => (320, 180),
+        _ => (1920, 1080),
+    });
+    let plan = BenchPlan {
+        filters,
+        width,
+        height,
+        rounds: args.rounds,
+        as_written: args.as_written,
+    };
+    let done = monitor(args.quiet).watch("bench", |watch| bench(plan, &gpu, watch))?;
+    let json = write_bench(&done, args)?;
+    if args.json {
+        return say(&format!("{json}\n"));
+    }
+    say(&bench_table(&done))?;
+    say(&format!(
+        "\nwritten: {}\n",
+        suite::printable_path(&path(args))
+    ))
+}
+
+/// Returns what stands in the file.
+fn write_bench(done: &Bench, args: &BenchArgs) -> Result<String, Error> {
+    let json = serde_json::to_string_pretty(done).expect("a bench is plain data");
+    frame::write_atomically(&path(args), json.as_bytes())?;
+    Ok(json)
+}
+
+fn path(args: &BenchArgs) -> std::path::PathBuf {
+    args.out.join("bench.json")
+}

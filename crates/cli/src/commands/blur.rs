@@ -1,0 +1,119 @@
+//! `shuttertruth blur`
+
+use std::path::Path;
+
+use crate::selection::select_filters;
+use filters::{FilterError, Input};
+use frame::{ExrFile, Image, Plane, Reprojection, Vectors, read_exr, write_exr};
+use suite::{Error, FilterChoice, Runner, open_gpu, printable_path};
+
+use super::{check_exposure, say};
+use crate::arguments::BlurArgs;
+use crate::output::progress::monitor;
+
+/// Runs one filter on one frame file and writes its colour.
+pub fn execute(args: &BlurArgs) -> Result<(), Error> {
+    let choice = select_filter(args)?;
+    let buffers = read_buffers(&args.frame, args.exposure)?;
+    let choice = choice.scaled_to(buffers.picture_width());
+    let gpu = open_gpu(
+        std::slice::from_ref(&choice),
+        args.adapter.adapter.as_deref(),
+        monitor(true),
+    )?;
+    let (width, height) = (buffers.color.width, buffers.color.height);
+    let mut runner = Runner::new(gpu.as_ref(), &choice, (width, height), monitor(true))?;
+    let input = Input {
+        color: &[&buffers.color],
+        velocity: &buffers.velocity,
+        depth: &buffers.depth,
+        reprojection: buffers.reprojection,
+        exposure: buffers.exposure,
+        frame_index: args.frame_index,
+    };
+    let outputs = runner.run(&input).map_err(|error| match error {
+        FilterError::Input { reason, .. } => {
+            Error::Usage(format!("{}: {reason}", args.frame.display()))
+        }
+        other => other.into(),
+    })?;
+    let mut file = ExrFile::new(width, height);
+    file.push_color("", &outputs[0]);
+    file.set("kind", "output");
+    file.set("filter", choice.name());
+    file.set("program", suite::PROGRAM);
+    if let Some(gpu) = &gpu {
+        file.set("adapter", &gpu.adapter.name);
+    }
+    file.set("exposure", buffers.exposure);
+    file.set("alignment", choice.filter.alignment);
+    write_exr(&args.out, &file)?;
+    say(&format!("{}\n", printable_path(&args.out)))
+}
+
+fn select_filter(args: &BlurArgs) -> Result<FilterChoice, Error> {
+    let words = [args.filter.clone()];
+    let mut filters = select_filters(
+        &words,
+        args.preset.as_deref(),
+        &args.set,
+        args.programs.programs(),
+    )?;
+    Ok(filters.remove(0).as_written(args.as_written))
+}
+
+/// What a filter needs of a frame file: any OpenEXR file that has the channels will do.
+struct Buffers {
+    color: Image,
+    velocity: Vectors,
+    depth: Plane,
+    reprojection: Option<Reprojection>,
+    exposure: f64,
+    guard_band: u32,
+}
+
+impl Buffers {
+    /// Pixels per row without the guard band.
+    fn picture_width(&self) -> u32 {
+        self.color
+            .width
+            .saturating_sub(self.guard_band.saturating_mul(2))
+            .max(1)
+    }
+}
+
+/// The camera's motion between places of the file's rasters, if the file tells it.
+fn reprojection(file: &ExrFile, band: u32) -> Result<Option<Reprojection>, Error> {
+    if !file.attributes.contains_key("reprojection") {
+        return Ok(None);
+    }
+    Ok(Some(Reprojection::from_exr(file)?.moved(f64::from(band))))
+}
+
+fn read_buffers(path: &Path, exposure: Option<f64>) -> Result<Buffers, Error> {
+    let file = read_exr(path)?;
+    let guard_band: u32 = match file.attributes.contains_key("guard_band") {
+        true => file.get("guard_band")?,
+        false => 0,
+    };
+    let [x, y] = [file.plane("velocity.X")?, file.plane("velocity.Y")?];
+    let buffers = Buffers {
+        color: file.color("")?,
+        velocity: x.zip(&y, |x, y| [*x, *y]),
+        depth: file.plane("Z")?,
+        reprojection: reprojection(&file, guard_band)?,
+        guard_band,
+        exposure: match exposure {
+            Some(exposure) => exposure,
+            None if file.attributes.contains_key("exposure") => file.get("exposure")?,
+            None => {
+                return Err(Error::Usage(format!(
+                    "{}: has no attribute \"exposure\"; give one with --exposure (0.5 = 180 degrees)",
+                    path.display()
+                )));
+            }
+        },
+    };
+    check_exposure(buffers.exposure)?;
+    Ok(buffers)
+}

@@ -1,0 +1,84 @@
+//! `shuttertruth calibrate`
+
+use suite::{
+    Error, Plan, Run, calibrate, check_names, open_gpu, printable_path, refuse_failures, run,
+};
+use tracer::{Progress, Watch};
+
+use super::measure::{check_replicates, claim_out, plan, write_run};
+use super::say;
+use crate::arguments::CalibrateArgs;
+
+/// Runs with one seed after the other on one adapter after the other, and prints the limits that follow, scene by scene, as
+/// bounds.toml.
+pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
+    let out = &args.measure.scenes.out;
+    let (mut plan, bounds) = plan(&args.measure, out.clone())?;
+    check_replicates(plan.render.replicates)?;
+    plan.intervals = true;
+    // No limit is on a filter's noise apart from its error.
+    plan.jitter_frames = 0;
+    check_names(
+        &args.measure.scenes.scenes_dir,
+        bounds.values(),
+        &plan.filters,
+    )?;
+    check_seeds(plan.render.seed, args.runs)?;
+    let _claim = claim_out(&plan)?;
+    let monitor = plan.monitor;
+    let runs = monitor.watch("runs in all", |watch| all_runs(args, &mut plan, watch))?;
+    let calibration = calibrate(&runs, |case| &bounds[&case.scene], &args.metrics);
+    for scene in calibration.scores.keys() {
+        let path = out.join(scene).with_extension("bounds.toml");
+        let text = calibration.toml(scene);
+        frame::write_atomically(&path, text.as_bytes())?;
+        say(&format!("# {}\n\n{text}", printable_path(&path)))?;
+    }
+    Ok(())
+}
+
+/// Refuses a first seed that leaves none for the last run.
+fn check_seeds(first: u64, runs: u32) -> Result<(), Error> {
+    let last = u64::MAX - u64::from(runs);
+    match first <= last {
+        true => Ok(()),
+        false => Err(Error::Usage(format!(
+            "--seed {first}: each of the {runs} runs has the next one; allowed is up to {last}"
+        ))),
+    }
+}
+
+/// One run per adapter and seed.
+fn all_runs(args: &CalibrateArgs, plan: &mut Plan, watch: Watch) -> Result<Vec<Run>, Error> {
+    let adapters = adapters(args);
+    let total = adapters.len() as u64 * u64::from(args.runs);
+    let first = plan.render.seed;
+    let mut runs: Vec<Run> = Vec::new();
+    for adapter in adapters {
+        let gpu = open_gpu(&plan.filters, adapter, plan.monitor)?;
+        for seed in (0..args.runs).map(|run| first + u64::from(run)) {
+            // A run that is interrupted says so itself.
+            let _ = watch(Progress {
+                done: runs.len() as u64,
+                total,
+            });
+            plan.render.seed = seed;
+            // The truths serve every adapter.
+            plan.out = args.measure.scenes.out.join(format!("seed_{seed}"));
+            let _claim = claim_out(plan)?;
+            let run = run(plan, gpu.as_ref(), std::env::args().collect())?;
+            write_run(&run, &plan.out)?;
+            refuse_failures(&run.failures)?;
+            runs.push(run);
+        }
+    }
+    Ok(runs)
+}
+
+/// Those that are named; the fastest where none is.
+fn adapters(args: &CalibrateArgs) -> Vec<Option<&str>> {
+    match args.adapters.as_slice() {
+        [] => vec![None],
+        named => named.iter().map(|name| Some(name.as_str())).collect(),
+    }
+}

@@ -1,0 +1,72 @@
+//! `shuttertruth evaluate`
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use filters::{Settings, Value};
+use frame::{FileError, read_bounded};
+use suite::{Answer, Error, FilterChoice, MOST_JSON_BYTES, Objective, Sharing, answer, evaluator};
+
+use super::measure::scenes;
+use super::say;
+use super::tune::{claimed_shots, open, select_candidate};
+use crate::arguments::EvaluateArgs;
+use crate::output::progress::monitor;
+
+/// Scores one set of parameters on every scene and prints JSON.
+pub fn execute(args: &EvaluateArgs) -> Result<(), Error> {
+    let candidate = &args.candidate;
+    let choice = select_candidate(candidate)?;
+    let settings = read_params(&args.params, &choice)?;
+    let scenes = scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
+    let gpu = open(&choice, candidate)?;
+    let (_, shots) = claimed_shots(&scenes, &choice, candidate, Sharing::Together)?;
+    let bleed = candidate.objective.contains(&Objective::Bleed);
+    let mut evaluator = evaluator(
+        &shots,
+        &choice,
+        gpu.as_ref(),
+        bleed,
+        monitor(candidate.scenes.quiet),
+    )?;
+    let cost = candidate.objective.contains(&Objective::Cost);
+    let all: Vec<usize> = (0..shots.len()).collect();
+    let answer: Answer = answer(&mut evaluator, &settings, &all, cost, |_, _| true)?;
+    let json = serde_json::to_string_pretty(&answer).expect("an answer is plain data");
+    say(&format!("{json}\n"))
+}
+
+fn read_params(path: &Path, choice: &FilterChoice) -> Result<Settings, Error> {
+    let refuse = |reason: String| Error::Usage(format!("{}: {reason}", path.display()));
+    let bytes = read_bounded(path, MOST_JSON_BYTES).map_err(|error| match error {
+        FileError::Io { source, .. } => refuse(format!("cannot be read: {source}")),
+        other => other.into(),
+    })?;
+    let text = String::from_utf8(bytes).map_err(|error| refuse(error.to_string()))?;
+    let values: BTreeMap<String, Value> = serde_json::from_str(&text).map_err(|error| {
+        refuse(format!(
+            "{error}; allowed is one table of parameters, such as {{\"samples\": 12}}"
+        ))
+    })?;
+    changed(choice, values).map_err(|error| refuse(error.to_string()))
+}
+
+/// The preset's values, some of them replaced.
+pub fn changed(
+    choice: &FilterChoice,
+    values: BTreeMap<String, Value>,
+) -> Result<Settings, filters::FilterError> {
+    let mut settings = choice.settings.clone();
+    for (name, value) in values {
+        // JSON writes 2.0 as 2 as well.
+        let kind = choice.filter.parameters.iter().find(|it| it.name == name);
+        let value = match (kind.map(|it| &it.kind), value) {
+            (Some(filters::Kind::Real { .. }), Value::Integer(whole)) => {
+                Value::Real(f64::from(whole))
+            }
+            (_, value) => value,
+        };
+        settings.set_value(&choice.filter, &name, value)?;
+    }
+    Ok(settings)
+}

@@ -1,0 +1,88 @@
+//! `shuttertruth score`
+
+use crate::tables::cases::score_table;
+use frame::{Frame, Ladder, Truth};
+use metrics::Metric;
+use suite::{Error, Scored, missing, printable, read_finished, score};
+
+use super::say;
+use crate::arguments::ScoreArgs;
+
+/// Scores one finished picture, and says which scores its file does not allow.
+pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
+    let truth = Truth::read(&args.truth)?;
+    let frame = Frame::read(&args.frame)?;
+    let ladder = args.ladder.as_deref().map(Ladder::read).transpose()?;
+    check_scenes(args, &truth, &frame, ladder.as_ref())?;
+    let picture = read_finished(&args.image, &frame, &truth)?;
+    let scored = score(&picture, &frame, &truth, ladder.as_ref())
+        .map_err(|error| Error::Usage(format!("{}: {error}", args.image.display())))?;
+    if args.json {
+        say(&json(args, &truth, &scored))
+    } else {
+        say(&text(args, &truth, &scored))
+    }
+}
+
+/// Refuses files of different scenes.
+fn check_scenes(
+    args: &ScoreArgs,
+    truth: &Truth,
+    frame: &Frame,
+    ladder: Option<&Ladder>,
+) -> Result<(), Error> {
+    let frame = (&args.frame, &frame.provenance.scene);
+    let ladder = (args.ladder.iter()).zip(ladder.map(|ladder| &ladder.provenance.scene));
+    for (path, scene) in std::iter::once(frame).chain(ladder) {
+        let truth_scene = &truth.provenance.scene;
+        if scene != truth_scene {
+            return Err(Error::Usage(format!(
+                "{}: was rendered from the scene {scene}, the truth from {truth_scene}; render both from one",
+                path.display()
+            )));
+        }
+    }
+    Ok(())
+}
+
+fn text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Scored) -> String {
+    let name = args.image.file_name().unwrap_or(args.image.as_os_str());
+    let name = name.to_string_lossy();
+    let name = printable(&name);
+    let mut text = score_table(&truth.provenance.scene, &name, scores);
+    text += &format!(
+        "\ntruth: {} shutter, open for {} frames\n",
+        truth.alignment,
+        truth.shutter.exposure()
+    );
+    for note in notes {
+        text += &format!("{name}: {note}\n");
+    }
+    for (reason, metrics) in missing(scores) {
+        let names: Vec<String> = metrics.iter().map(|metric| metric.name()).collect();
+        let way_out = match args.ladder {
+            None if metrics.contains(&Metric::SUBFRAMES) => {
+                "; give one with --ladder: `run` writes it beside the truth"
+            }
+            _ => "",
+        };
+        text += &format!("not available: {}: {reason}{way_out}\n", names.join(", "));
+    }
+    text
+}
+
+fn json(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Scored) -> String {
+    let scored = serde_json::json!({
+        "format": suite::FORMAT,
+        "program": suite::PROGRAM,
+        "image": args.image,
+        "scene": truth.provenance.scene,
+        "exposure": truth.shutter.exposure(),
+        "alignment": truth.alignment.name(),
+        "truth_hash": truth.provenance.content_hash,
+        "notes": notes,
+        "scores": scores,
+    });
+    let json = serde_json::to_string_pretty(&scored).expect("scores are plain data");
+    json + "\n"
+}

@@ -1,0 +1,168 @@
+//! Progress with the remaining time on standard error, and Ctrl-C.
+
+use std::fmt;
+use std::io::{IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{LazyLock, Mutex};
+use std::time::{Duration, Instant};
+
+use indicatif::{MultiProgress, ProgressBar, ProgressState, ProgressStyle};
+use tracer::Progress;
+
+use suite::{Monitor, Step, printable};
+
+/// Between two lines where no terminal shows a bar: what a log of some hours can hold.
+const BETWEEN_LINES: Duration = Duration::from_secs(30);
+
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// All bars on the screen: a long step has one, and so has the part of it that is under way.
+static BARS: LazyLock<MultiProgress> = LazyLock::new(MultiProgress::new);
+
+/// How long work has to end by itself after Ctrl-C.
+const GRACE: Duration = Duration::from_millis(1500);
+
+/// What a process ends with that Ctrl-C ended.
+pub const INTERRUPTED_CODE: u8 = 130;
+
+/// Makes Ctrl-C end the work that is under way, so that it can say how far it came. Work that does not look ends with the
+/// process a moment later. No file is left half written: files are renamed into place when they are whole.
+pub fn catch_interrupts() {
+    // A handler that cannot be set leaves Ctrl-C as it is.
+    let _ = ctrlc::set_handler(|| {
+        INTERRUPTED.store(true, Ordering::Relaxed);
+        std::thread::sleep(GRACE);
+        tell("shuttertruth: interrupted");
+        std::process::exit(INTERRUPTED_CODE.into());
+    });
+}
+
+/// Writes a line to standard error. What nobody can read is no reason to end otherwise.
+pub fn tell(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+/// Whether Ctrl-C was pressed.
+pub fn interrupted() -> bool {
+    INTERRUPTED.load(Ordering::Relaxed)
+}
+
+/// The monitor of a command: what it shows, and Ctrl-C.
+pub fn monitor(quiet: bool) -> Monitor {
+    Monitor {
+        begin: match (quiet, std::io::stderr().is_terminal()) {
+            (true, _) => Monitor::SILENT.begin,
+            (false, true) => |label| Box::new(Bar::new(label)),
+            (false, false) => |label| Box::new(Lines::new(label, Instant::now())),
+        },
+        interrupted,
+    }
+}
+
+/// Progress as a bar on a terminal, beside others.
+struct Bar(ProgressBar);
+
+impl Bar {
+    fn new(label: &str) -> Self {
+        let bar = BARS.add(ProgressBar::no_length());
+        let style = ProgressStyle::with_template("{msg:36} {bar:20} {percent:>3} % {left}")
+            .expect("the template is a constant")
+            .with_key(
+                "left",
+                |state: &ProgressState, text: &mut dyn fmt::Write| {
+                    // Nothing done says nothing about the rest.
+                    if state.pos() > 0 {
+                        let _ = write!(text, "{} left", clock(state.eta()));
+                    }
+                },
+            );
+        bar.set_style(style);
+        bar.set_message(printable(label).into_owned());
+        Self(bar)
+    }
+}
+
+impl Step for Bar {
+    fn advance(&self, progress: Progress) {
+        self.0.set_length(progress.total);
+        self.0.set_position(progress.done);
+    }
+}
+
+impl Drop for Bar {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+        BARS.remove(&self.0);
+    }
+}
+
+/// `1:30`: minutes and seconds.
+fn clock(time: Duration) -> String {
+    let seconds = time.as_secs_f64().round() as u64;
+    format!("{}:{:02}", seconds / 60, seconds % 60)
+}
+
+/// Progress as lines of a log.
+struct Lines {
+    label: String,
+    began: Instant,
+    last: Mutex<Instant>,
+}
+
+impl Step for Lines {
+    fn advance(&self, progress: Progress) {
+        if let Some(line) = self.line(progress, Instant::now()) {
+            tell(&line);
+        }
+    }
+}
+
+impl Lines {
+    fn new(label: &str, now: Instant) -> Self {
+        Self {
+            label: printable(label).into_owned(),
+            began: now,
+            last: Mutex::new(now),
+        }
+    }
+
+    /// `fan trailing, replicate 3: 40 %, 1:30 left`; none where the last line is not long ago.
+    fn line(&self, progress: Progress, now: Instant) -> Option<String> {
+        let mut last = self.last.lock().ok()?;
+        if now.duration_since(*last) < BETWEEN_LINES || progress.total == 0 {
+            return None;
+        }
+        *last = now;
+        let part = progress.done as f64 / progress.total as f64;
+        let left = match part > 0.0 {
+            true => {
+                let elapsed = now.duration_since(self.began).as_secs_f64();
+                let left = Duration::from_secs_f64(elapsed * (1.0 - part) / part);
+                format!(", {} left", clock(left))
+            }
+            false => String::new(),
+        };
+        Some(format!("{}: {:.0} %{left}", self.label, 100.0 * part))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_come_at_long_intervals_and_tell_the_remaining_time() {
+        let began = Instant::now();
+        let lines = Lines::new("fan", began);
+        let at = |seconds: u64, done| {
+            let progress = Progress { done, total: 200 };
+            lines.line(progress, began + Duration::from_secs(seconds))
+        };
+        assert_eq!(at(29, 10), None);
+        assert_eq!(at(30, 0).unwrap(), "fan: 0 %");
+        assert_eq!(at(59, 40), None);
+        // A quarter in 100 s: three more are left.
+        assert_eq!(at(100, 50).unwrap(), "fan: 25 %, 5:00 left");
+        assert_eq!(at(101, 60), None);
+    }
+}

@@ -1,0 +1,204 @@
+//! Text of a comparison, 80 columns wide.
+
+use crate::output::paint::{bad, doubtful, faint, good, heading};
+use crate::output::wrapped::push_wrapped;
+use report::signed;
+use suite::number;
+use suite::printable;
+use suite::{Basis, Change, ChangeKind, rank_changes};
+use suite::{Compared, SettingChange};
+use suite::{MeanChange, MeanKind};
+
+/// Changed cases that are printed; `--json` and the page have all.
+const CASES: usize = 12;
+
+/// Settings, cases of one run alone, means over scenes, cases that changed, counts.
+pub fn compare_table(compared: &Compared) -> String {
+    let mut text = String::new();
+    for setting in &compared.settings {
+        push_wrapped(&mut text, 0, &setting_line(setting));
+    }
+    let sides = [
+        (&compared.only_in_first, &compared.runs[0]),
+        (&compared.only_in_second, &compared.runs[1]),
+    ];
+    for (cases, run) in sides {
+        if !cases.is_empty() {
+            push_wrapped(&mut text, 0, &format!("only in {}:", printable(run)));
+            for case in cases {
+                push_wrapped(&mut text, 2, case);
+            }
+        }
+    }
+    text += &means_table(&compared.means);
+    text += &changes_table(&compared.changes);
+    text + &counts(&compared.changes)
+}
+
+fn setting_line(setting: &SettingChange) -> String {
+    let value = |value: &str| match value.is_empty() {
+        true => "none".to_owned(),
+        false => value.to_owned(),
+    };
+    format!(
+        "{}: {} -> {}",
+        setting.name,
+        value(&setting.first),
+        value(&setting.second)
+    )
+}
+
+/// Filters of which no scene changed are named in one line.
+fn means_table(means: &[MeanChange]) -> String {
+    let mut text = String::new();
+    let mut filter = "";
+    for mean in means.iter().filter(|mean| mean.kind != MeanKind::Same) {
+        if text.is_empty() {
+            text += &heading(&format!("{:<19}", "mean over scenes"));
+            text += &columns("95 % CI");
+        }
+        if filter != mean.filter {
+            filter = &mean.filter;
+            text += &format!("{filter}, {} scenes\n", mean.scenes);
+        }
+        let interval = format!(
+            "{} to {}",
+            signed(mean.interval[0]),
+            signed(mean.interval[1])
+        );
+        let verdict = match mean.kind {
+            MeanKind::Better => good(mean.kind.words()),
+            MeanKind::Worse => bad(mean.kind.words()),
+            _ => doubtful(mean.kind.words()),
+        };
+        text += &row(
+            &mean.metric,
+            [mean.first, mean.second, mean.worse],
+            &interval,
+            &verdict,
+        );
+    }
+    let mut same: Vec<&str> = Vec::new();
+    for mean in means {
+        let all = means.iter().filter(|own| own.filter == mean.filter);
+        if !same.contains(&mean.filter.as_str())
+            && all.clone().all(|own| own.kind == MeanKind::Same)
+        {
+            same.push(&mean.filter);
+        }
+    }
+    if !same.is_empty() {
+        push_wrapped(
+            &mut text,
+            0,
+            &format!("nothing changed of: {}", same.join(", ")),
+        );
+    }
+    text
+}
+
+/// Case by case, those with the largest changes first.
+fn changes_table(changes: &[Change]) -> String {
+    let rank_changes = rank_changes(changes);
+    if rank_changes.is_empty() {
+        return String::new();
+    }
+    let mut text = format!(
+        "\n{}{}",
+        heading(&format!("{:<19}", "scene / filter")),
+        columns("95 % CI")
+    );
+    for (scene, filter) in rank_changes.iter().take(CASES) {
+        text += &format!("{scene} / {filter}\n");
+        let own = changes
+            .iter()
+            .filter(|change| change.scene == *scene && change.filter == *filter);
+        for change in own.filter(|change| change.is_beyond_noise()) {
+            text += &change_row(change);
+        }
+    }
+    if rank_changes.len() > CASES {
+        let more = rank_changes.len() - CASES;
+        text += &faint(&format!(
+            "and {more} cases more: --json or --html show them\n"
+        ));
+    }
+    text
+}
+
+fn change_row(change: &Change) -> String {
+    let interval = match (change.interval, change.basis) {
+        (Some([low, high]), Basis::Replicates) => format!("{} to {}", signed(low), signed(high)),
+        _ => "beyond the floor".to_owned(),
+    };
+    let verdict = match change.kind {
+        ChangeKind::Better => good(change.kind.words()),
+        _ => bad(change.kind.words()),
+    };
+    row(
+        &change.metric,
+        [change.first, change.second, change.worse],
+        &interval,
+        &verdict,
+    )
+}
+
+fn columns(interval: &str) -> String {
+    heading(&format!(
+        "{:>8} {:>8} {:>9}  {interval:^20}  verdict",
+        "first", "second", "worse by"
+    )) + "\n"
+}
+
+fn row(metric: &str, [first, second, worse]: [f64; 3], interval: &str, verdict: &str) -> String {
+    format!(
+        "  {metric:<17}{:>8} {:>8} {:>9}  {interval:>20}  {verdict}\n",
+        number(first),
+        number(second),
+        signed(worse)
+    )
+}
+
+fn counts(changes: &[Change]) -> String {
+    let words: Vec<String> = (ChangeKind::ALL.iter())
+        .map(|kind| {
+            let count = changes.iter().filter(|change| change.kind == *kind).count();
+            format!("{count} {}", kind.words())
+        })
+        .collect();
+    let mut text = format!(
+        "\n{} scores compared: {}\n",
+        changes.len(),
+        words.join(", ")
+    );
+    let by_floor = (changes.iter())
+        .filter(|change| change.basis == Basis::Floor && change.kind != ChangeKind::Same)
+        .count();
+    if by_floor > 0 {
+        let note = format!(
+            "{by_floor} of them told from noise by their floors alone, which is coarse: the truths' replicates or the \
+             pictures (output.exr) are not beside run.json"
+        );
+        push_wrapped(&mut text, 0, &note);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn changes_have_a_sign_and_three_digits() {
+        for (value, expected) in [
+            (0.0, "0"),
+            (0.01234, "+0.0123"),
+            (-0.000_12, "-0.0001"),
+            (0.000_012, "+1e-5"),
+            (-3.456, "-3.46"),
+            (123.4, "+123"),
+        ] {
+            assert_eq!(signed(value), expected);
+        }
+    }
+}

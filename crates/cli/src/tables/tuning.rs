@@ -1,0 +1,189 @@
+//! A finished tuning as text.
+
+use crate::output::paint::heading;
+use crate::output::wrapped::push_wrapped;
+use suite::LEAST_BLEED;
+use suite::{Difference, Paired, Preference};
+use suite::{Trial, Tuning};
+
+/// Rows of the front that are printed; `tune.json` has all.
+const ROWS: usize = 12;
+/// Where their values begin.
+const VALUES: usize = 34;
+
+/// Start, front, choice, folds and sealed scenes.
+pub fn tuning_table(tuning: &Tuning) -> String {
+    let journal = &tuning.journal;
+    let mut text = heading(&format!(
+        "{}:{}, {} trials on {} scenes: {} dropped early, {} failed",
+        journal.filter,
+        journal.start,
+        tuning.trials,
+        journal.scenes.len(),
+        tuning.dropped,
+        tuning.failed.len(),
+    ));
+    text += "\n\n";
+    text += &heading("trial    error    bleed     cost  values that differ from the start\n");
+    let mut rows = vec![&tuning.start];
+    rows.extend(tuning.front.iter().take(ROWS));
+    if !rows.iter().any(|row| row.trial == tuning.chosen.trial) {
+        rows.push(&tuning.chosen);
+    }
+    for (index, trial) in rows.iter().enumerate() {
+        if index == 0 || trial.trial != 0 {
+            text += &row(trial, &tuning.start, tuning.chosen.trial);
+        }
+    }
+    text += "bleed: bleed_lateral of the worst scene, in pixels\n";
+    if tuning.front.len() > ROWS {
+        text += &format!("and {} more in tune.json\n", tuning.front.len() - ROWS);
+    }
+    let chosen = format!(
+        "chosen: trial {}, {}; the best is trial {}, and {} lies within its standard error of {:.3}",
+        tuning.choice.trial,
+        percent(tuning.chosen.error.expect("the choice is done")),
+        tuning.choice.best,
+        match tuning.choice.trial == tuning.choice.best {
+            true => "nothing nearer to the start",
+            false => "the chosen one, nearer to the start,",
+        },
+        tuning.choice.standard_error,
+    );
+    text += "\n";
+    push_wrapped(&mut text, 0, &chosen);
+    if tuning.choice.trial == 0 {
+        text += "no trial beats the start by more than the scenes can tell\n";
+    }
+    if !tuning.folds.is_empty() {
+        text += "\n";
+        text += &heading("family left out  scenes  trial  on the others  on the family    gap\n");
+        for fold in &tuning.folds {
+            text += &format!(
+                "{:15} {:7} {:6} {:14.3} {:14.3} {:6.3}\n",
+                fold.family, fold.scenes, fold.trial, fold.others, fold.held_out, fold.gap
+            );
+        }
+    }
+    if let Some(last) = tuning.openings.last() {
+        text += &format!(
+            "\nsealed scenes, opened {} at {}x{}, {} samples per pixel:\n",
+            match tuning.openings.len() {
+                1 => "once".to_owned(),
+                times => format!("{times} times"),
+            },
+            last.render[0],
+            last.render[1],
+            last.render[2]
+        );
+        text += &paired_table(&last.paired, ["start", "chosen"]);
+    }
+    for (trial, reason) in &tuning.failed {
+        push_wrapped(&mut text, 0, &format!("failed: trial {trial}: {reason}"));
+    }
+    text
+}
+
+fn row(trial: &Trial, start: &Trial, chosen: usize) -> String {
+    let changed: Vec<String> = (trial.values.iter())
+        .filter(|(name, value)| start.values[*name] != **value)
+        .map(|(name, value)| format!("{name}={value}"))
+        .collect();
+    let number = |value: Option<f64>| match value {
+        Some(value) => format!("{value:8.3}"),
+        None => format!("{:>8}", "-"),
+    };
+    let changed = match trial.trial {
+        0 => "the start".to_owned(),
+        _ => changed.join(" "),
+    };
+    let numbers = format!(
+        "{:4}{} {} {} {}",
+        trial.trial,
+        if trial.trial == chosen { "*" } else { " " },
+        number(trial.error),
+        number(trial.bleed),
+        number(trial.cost),
+    );
+    let mut values = String::new();
+    // As far to the right as the numbers are wide.
+    push_wrapped(&mut values, VALUES, &changed);
+    numbers + values.get(VALUES - 2..).unwrap_or_default()
+}
+
+/// Two candidates scene by scene, and the verdicts.
+pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
+    let width = paired
+        .scenes
+        .keys()
+        .map(String::len)
+        .max()
+        .unwrap_or(0)
+        .max(5);
+    let mut text = format!(
+        "{:width$} {:>13} {:>13} {:>13} {:>13}\n",
+        "scene",
+        format!("FLIP {}", names[0]),
+        format!("{}", names[1]),
+        format!("bleed {}", names[0]),
+        format!("{}", names[1])
+    );
+    let bleed = |bleed: Option<f64>| bleed.map_or("n/a".to_owned(), |bleed| format!("{bleed:.3}"));
+    for (scene, [first, second]) in &paired.scenes {
+        text += &format!(
+            "{scene:width$} {:13.4} {:13.4} {:>13} {:>13}\n",
+            first.flip,
+            second.flip,
+            bleed(first.bleed),
+            bleed(second.bleed)
+        );
+    }
+    let Difference {
+        mean,
+        bounds,
+        scenes,
+        ..
+    } = &paired.flip;
+    let flip = format!(
+        "FLIP of {} against {}: {} ({} to {}) over {scenes} scenes: {}",
+        names[1],
+        names[0],
+        percent(*mean),
+        percent(bounds[0]),
+        percent(bounds[1]),
+        verdict(&paired.flip, names)
+    );
+    push_wrapped(&mut text, 0, &flip);
+    if let Some(bleed) = &paired.bleed {
+        let bleed = format!(
+            "lateral bleed of {} against {}: {:+.3} px ({:+.3} to {:+.3}) over {} scenes: {}",
+            names[1],
+            names[0],
+            bleed.mean,
+            bleed.bounds[0],
+            bleed.bounds[1],
+            bleed.scenes,
+            match bleed.verdict {
+                Preference::Undecided if bleed.is_no_worse(LEAST_BLEED) => {
+                    "undecided, and no worse".to_owned()
+                }
+                _ => verdict(bleed, names),
+            }
+        );
+        push_wrapped(&mut text, 0, &bleed);
+    }
+    text
+}
+
+fn verdict(difference: &Difference, names: [&str; 2]) -> String {
+    match difference.verdict {
+        Preference::First => format!("{} is better", names[0]),
+        Preference::Second => format!("{} is better", names[1]),
+        Preference::Undecided => "undecided".to_owned(),
+    }
+}
+
+/// A mean of logs as a change of the error.
+fn percent(log: f64) -> String {
+    format!("{:+.1} %", 100.0 * log.exp_m1())
+}

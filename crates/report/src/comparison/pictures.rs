@@ -1,0 +1,104 @@
+//! The pictures of a case in two runs.
+
+use std::path::Path;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use frame::{FileError, Plane, read_bounded, read_exr, write_png};
+
+use suite::Error;
+use suite::Pair;
+use suite::Side;
+
+/// Of one case, each as an address that holds the picture itself.
+pub struct Pictures {
+    /// What the filter made in the first run.
+    pub first: String,
+    /// And in the second.
+    pub second: String,
+    /// What an open shutter sees.
+    pub truth: Option<String>,
+    /// Where the visible difference from the truth became larger, and where smaller.
+    pub change: Option<String>,
+}
+
+impl Pictures {
+    /// None where one of the runs has no picture of the case.
+    pub fn read(sides: [&Side; 2], pair: &Pair) -> Result<Option<Self>, Error> {
+        let [first, second] = sides;
+        let outputs = [
+            first.file(pair.first, "output.png"),
+            second.file(pair.second, "output.png"),
+        ];
+        let (Some(of_first), Some(of_second)) = (address(&outputs[0])?, address(&outputs[1])?)
+        else {
+            return Ok(None);
+        };
+        let truth = format!("truth_{}.png", pair.first.alignment);
+        Ok(Some(Self {
+            first: of_first,
+            second: of_second,
+            truth: address(&first.folder().join(&pair.first.scene).join(truth))?,
+            change: change(sides, pair)?,
+        }))
+    }
+}
+
+/// Bytes of a picture that a page shows.
+const MOST_PICTURE_BYTES: u64 = 1 << 28;
+
+/// None where there is no such file.
+fn address(path: &Path) -> Result<Option<String>, Error> {
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let bytes = read_bounded(path, MOST_PICTURE_BYTES)?;
+    Ok(Some(format!(
+        "data:image/png;base64,{}",
+        STANDARD.encode(bytes)
+    )))
+}
+
+fn change(sides: [&Side; 2], pair: &Pair) -> Result<Option<String>, Error> {
+    let files = [
+        sides[0].file(pair.first, "errors.exr"),
+        sides[1].file(pair.second, "errors.exr"),
+    ];
+    if !files.iter().all(|file| file.is_file()) {
+        return Ok(None);
+    }
+    let [first, second] = files.map(|file| read_exr(&file)?.plane("flip"));
+    let (first, second) = (first?, second?);
+    if !first.same_size(&second) {
+        return Ok(None);
+    }
+    let folder = tempfile::tempdir()
+        .map_err(|source| FileError::io(Path::new("a temporary folder"), "write", source))?;
+    let path = folder.path().join("change.png");
+    let worse: Plane = first.zip(&second, |first, second| second - first);
+    write_png(&path, &worse.map(|worse| color(*worse)))?;
+    address(&path)
+}
+
+/// Orange is worse and blue better, as elsewhere on the page; black is no change, full colour one of a half or more.
+fn color(worse: f32) -> [f32; 3] {
+    let full = match worse > 0.0 {
+        true => [0.98, 0.55, 0.15],
+        false => [0.30, 0.62, 1.0],
+    };
+    let strength = (2.0 * worse.abs()).min(1.0).sqrt();
+    full.map(|value| value * strength)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_change_is_black_and_the_two_ways_differ() {
+        assert_eq!(color(0.0), [0.0; 3]);
+        let ([worse, _, _], [_, _, better]) = (color(0.5), color(-0.5));
+        assert!(worse > 0.9 && better > 0.9);
+        assert!(color(0.5)[2] < 0.3 && color(-0.5)[0] < 0.4);
+    }
+}

@@ -1,0 +1,132 @@
+//! Pareto front of a tuning: trials that no other one beats in everything.
+
+use maud::{Markup, html};
+
+use super::folder::TuneFolder;
+use super::percent;
+use super::plot::{Axis, Plot};
+use suite::Trial;
+
+/// A measure that stands against the error.
+struct Against {
+    title: &'static str,
+    value: fn(&Trial) -> Option<f64>,
+}
+
+const AGAINST: [Against; 2] = [
+    Against {
+        title: "GPU time, start = 1",
+        value: |trial| trial.cost,
+    },
+    Against {
+        title: "lateral bleed on the worst scene, px",
+        value: |trial| trial.bleed,
+    },
+];
+
+/// Charts of all trials, and the table of those that matter.
+pub fn front(folder: &TuneFolder) -> Markup {
+    let done: Vec<&Trial> = folder
+        .trials
+        .iter()
+        .filter(|trial| trial.is_done())
+        .collect();
+    let on_front: Vec<usize> = match &folder.tuning {
+        Some(tuning) => tuning.front.iter().map(|trial| trial.trial).collect(),
+        None => Vec::new(),
+    };
+    let chosen = folder.tuning.as_ref().map(|tuning| tuning.choice.trial);
+    html! {
+        section {
+            h2 { "Trials that ran on every scene" }
+            p.key { "Filled: not beaten in everything (the Pareto set); grey: beaten; ring: the start; the largest: the choice. Down and left is good." }
+            div.drawings {
+                @for against in &AGAINST { (chart(&done, &on_front, chosen, against)) }
+            }
+            @if let Some(tuning) = &folder.tuning { (table(&tuning.front, &tuning.start, tuning.choice.trial)) }
+        }
+    }
+}
+
+fn chart(done: &[&Trial], front: &[usize], chosen: Option<usize>, against: &Against) -> Markup {
+    let points: Vec<(&Trial, f64, f64)> = (done.iter())
+        .filter_map(|trial| Some((*trial, change(trial)?, (against.value)(trial)?)))
+        .collect();
+    if points.is_empty() {
+        return html! {};
+    }
+    let plot = Plot {
+        x: Axis::linear(
+            "change of the error, %",
+            points.iter().map(|(_, error, _)| *error),
+        ),
+        y: Axis::linear(against.title, points.iter().map(|(_, _, other)| *other)),
+    };
+    let marks = html! {
+        @for (trial, error, other) in &points {
+            @let words = format!("trial {}: {error:+.1} %, {other:.3}", trial.trial);
+            @let (class, radius) = match trial.trial {
+                own if Some(own) == chosen => ("", 6.0),
+                own if front.contains(&own) => ("", 3.5),
+                _ => ("faint", 2.5),
+            };
+            (plot.mark((*error, *other), class, radius, &words))
+            @if trial.trial == 0 { (plot.mark((*error, *other), "open", 5.0, "the start")) }
+        }
+    };
+    let label = format!(
+        "{} trials by change of the error and {}",
+        points.len(),
+        against.title
+    );
+    html! { figure { (plot.draw(&label, &marks)) } }
+}
+
+/// In percent.
+fn change(trial: &Trial) -> Option<f64> {
+    Some(100.0 * trial.error?.exp_m1())
+}
+
+fn table(front: &[Trial], start: &Trial, chosen: usize) -> Markup {
+    let number =
+        |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"));
+    html! {
+        div.scroll tabindex="0" role="region" aria-label="Pareto set" {
+            table {
+                caption { "The Pareto set, by error" }
+                thead {
+                    tr {
+                        th scope="col" { "trial" }
+                        th scope="col" { "error" }
+                        th scope="col" { "lateral bleed, px" }
+                        th scope="col" { "GPU time" }
+                        th.text scope="col" { "values that differ from the start" }
+                    }
+                }
+                tbody {
+                    @for trial in front {
+                        tr {
+                            th scope="row" { (trial.trial) @if trial.trial == chosen { " (chosen)" } }
+                            td { (trial.error.map_or_else(|| "-".to_owned(), percent)) }
+                            td { (number(trial.bleed)) }
+                            td { (number(trial.cost)) }
+                            td.text { (differing(trial, start)) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// `samples 16, jitter start_offset`
+fn differing(trial: &Trial, start: &Trial) -> String {
+    let differ = trial
+        .values
+        .iter()
+        .filter(|(name, value)| start.values.get(*name) != Some(value));
+    let words: Vec<String> = differ
+        .map(|(name, value)| format!("{name} {value}"))
+        .collect();
+    words.join(", ")
+}

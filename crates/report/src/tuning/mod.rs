@@ -1,0 +1,74 @@
+//! A tuning as one page: what was tried, what came of it, and how far to trust it.
+
+mod choice;
+mod convergence;
+mod folder;
+mod folds;
+mod front;
+mod importance;
+mod plot;
+mod provenance;
+mod scenes;
+mod slices;
+
+use maud::{Markup, html};
+
+use super::shell::shell;
+use suite::Error;
+
+pub use folder::TuneFolder;
+
+/// The page of what `tune` wrote; the same folder makes the same bytes.
+pub fn tuning_page(folder: &TuneFolder) -> Result<String, Error> {
+    let body = html! {
+        @if let Some(tuning) = &folder.tuning { (choice::summary(tuning)) }
+        @if let Some(tuning) = &folder.tuning { (choice::values(tuning)) }
+        @if !folder.trials.is_empty() {
+            (front::front(folder))
+            (convergence::convergence(&folder.trials))
+        }
+        @if let Some(tuning) = &folder.tuning {
+            (folds::folds(&tuning.folds))
+            (scenes::tuned_on(tuning))
+            (scenes::sealed(&tuning.openings))
+        }
+        @if let Some(found) = &folder.sensitivity { (importance::importance(found)) }
+        (slices::slices(folder))
+        @if let Some(tuning) = &folder.tuning { (failures(tuning)) }
+        @if let Some(header) = &folder.header { (provenance::provenance(header)) }
+    };
+    let (title, subtitle) = match &folder.header {
+        Some(header) => (
+            format!("Shuttertruth: tuning of {}", header.filter),
+            format!(
+                "from {}, {} trials on {} scenes",
+                header.start,
+                folder.trials.len(),
+                header.scenes.len()
+            ),
+        ),
+        None => (
+            "Shuttertruth: which parameters matter".to_owned(),
+            folder.path.display().to_string(),
+        ),
+    };
+    Ok(shell(&title, &subtitle, &body, &[]).into_string())
+}
+
+/// A mean of logs of errors as a change of the error: `-18.6 %`.
+fn percent(log: f64) -> String {
+    format!("{:+.1} %", 100.0 * log.exp_m1())
+}
+
+fn failures(tuning: &suite::Tuning) -> Markup {
+    html! {
+        @if !tuning.failed.is_empty() {
+            section {
+                h2 { "Trials that did not run" }
+                ul {
+                    @for (trial, reason) in &tuning.failed { li { "trial " (trial) ": " (reason) } }
+                }
+            }
+        }
+    }
+}

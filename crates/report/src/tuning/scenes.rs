@@ -1,0 +1,88 @@
+//! Start and choice, scene by scene.
+
+use std::collections::BTreeMap;
+
+use maud::{Markup, html};
+
+use super::folds::bar;
+use super::percent;
+use suite::log_ratio;
+use suite::{Opening, SceneScore, Tuning};
+
+/// The scenes that were tuned on, those with the largest error of the start first.
+pub fn tuned_on(tuning: &Tuning) -> Markup {
+    let pairs: BTreeMap<String, [SceneScore; 2]> = (tuning.start.scenes.iter())
+        .filter_map(|(scene, start)| {
+            Some((scene.clone(), [*start, *tuning.chosen.scenes.get(scene)?]))
+        })
+        .collect();
+    html! {
+        section {
+            h2 { "Choice against start on the scenes tuned on" }
+            (table("Scenes tuned on, the worst of the start first", &pairs))
+        }
+    }
+}
+
+/// The last look at the sealed scenes.
+pub fn sealed(openings: &[Opening]) -> Markup {
+    let Some(last) = openings.last() else {
+        return html! {};
+    };
+    let [width, height, samples] = last.render;
+    html! {
+        section {
+            h2 { "Choice against start on sealed scenes" }
+            p {
+                "No trial ran on these. They were opened " (openings.len())
+                @if openings.len() == 1 { " time" } @else { " times" }
+                "; a set that is opened often is one that is tuned on. " (width) "x" (height) ", " (samples) " samples per pixel."
+            }
+            (table("Sealed scenes, the worst of the start first", &last.paired.scenes))
+        }
+    }
+}
+
+fn table(caption: &str, pairs: &BTreeMap<String, [SceneScore; 2]>) -> Markup {
+    let mut rows: Vec<(&String, [SceneScore; 2], f64)> = (pairs.iter())
+        .map(|(scene, [start, chosen])| (scene, [*start, *chosen], log_ratio(chosen, start)))
+        .collect();
+    rows.sort_by(|(_, [a, _], _), (_, [b, _], _)| b.flip.total_cmp(&a.flip));
+    let most = rows.iter().map(|(_, _, log)| log.abs()).fold(0.0, f64::max);
+    let bleed = |score: &SceneScore| {
+        score
+            .bleed
+            .map_or_else(|| "n/a".to_owned(), |bleed| format!("{bleed:.3}"))
+    };
+    html! {
+        div.scroll tabindex="0" role="region" aria-label=(caption) {
+            table {
+                caption { (caption) }
+                thead {
+                    tr {
+                        th scope="col" { "scene" }
+                        th scope="col" { "FLIP, start" }
+                        th scope="col" { "FLIP, chosen" }
+                        th scope="col" { "change" }
+                        th.chart scope="col" { "← better, worse →" }
+                        th scope="col" { "lateral bleed px, start" }
+                        th scope="col" { "lateral bleed px, chosen" }
+                    }
+                }
+                tbody {
+                    @for (scene, [start, chosen], log) in &rows {
+                        tr {
+                            th scope="row" { (scene) }
+                            td { (format!("{:.4}", start.flip)) }
+                            td { (format!("{:.4}", chosen.flip)) }
+                            td { (percent(*log)) }
+                            td.chart { (bar(*log, most)) }
+                            td { (bleed(start)) }
+                            td { (bleed(chosen)) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

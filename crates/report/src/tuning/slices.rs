@@ -1,0 +1,127 @@
+//! The error against each parameter.
+
+use std::collections::BTreeSet;
+
+use filters::Value;
+use maud::{Markup, html};
+
+use super::folder::TuneFolder;
+use super::plot::{Axis, Plot};
+use suite::Trial;
+
+/// Ranges of more than this factor have an axis of equal factors.
+const LOG_FROM: f64 = 30.0;
+/// What is worse than this is drawn here.
+const MOST_ERROR: f64 = 1.0;
+
+/// One chart per parameter: every trial, and the line along which all others stay at the start, where there is one.
+pub fn slices(folder: &TuneFolder) -> Markup {
+    let trials: Vec<&Trial> = folder
+        .trials
+        .iter()
+        .filter(|trial| trial.error.is_some())
+        .collect();
+    let mut names: BTreeSet<&String> = trials
+        .iter()
+        .flat_map(|trial| trial.values.keys())
+        .collect();
+    if let Some(found) = &folder.sensitivity {
+        names.extend(found.parameters.keys());
+    }
+    if names.is_empty() {
+        return html! {};
+    }
+    html! {
+        section {
+            h2 { "Error along each parameter" }
+            p.key {
+                "Marks: trials, in which the other parameters vary as well; blue ran on every scene, grey only on the first ones. The \
+                 line, where there is one: all others at the start, from a study of sensitivity. Errors are mean logs against the \
+                 start; those above 1 are drawn at 1."
+            }
+            div.drawings {
+                @for name in names { (slice(folder, &trials, name)) }
+            }
+        }
+    }
+}
+
+fn slice(folder: &TuneFolder, trials: &[&Trial], name: &str) -> Markup {
+    let points: Vec<(&Value, f64, bool)> = (trials.iter())
+        .filter_map(|trial| {
+            Some((
+                trial.values.get(name)?,
+                trial.error?.min(MOST_ERROR),
+                trial.is_done(),
+            ))
+        })
+        .collect();
+    let study = folder
+        .sensitivity
+        .as_ref()
+        .and_then(|found| found.parameters.get(name));
+    let line: Vec<(&Value, f64)> = (study.iter())
+        .flat_map(|own| &own.slice)
+        .map(|(value, error)| (value, error.min(MOST_ERROR)))
+        .collect();
+    // A line has the order of the filter's own choices.
+    let values: Vec<&Value> = (line.iter().map(|(value, _)| *value))
+        .chain(points.iter().map(|(value, _, _)| *value))
+        .collect();
+    let errors = points
+        .iter()
+        .map(|(_, error, _)| *error)
+        .chain(line.iter().map(|(_, error)| *error));
+    let words = words(&values);
+    let plot = Plot {
+        x: axis(name, &values, &words),
+        y: Axis::linear("error", errors),
+    };
+    let at = |value: &Value| place(value, &words);
+    let marks = html! {
+        @for (value, error, done) in &points {
+            @let class = if *done { "" } else { "faint" };
+            (plot.mark((at(value), *error), class, 2.5, &format!("{value}: {error:.4}")))
+        }
+        @if line.len() > 1 {
+            (plot.line(&line.iter().map(|(value, error)| (at(value), *error)).collect::<Vec<_>>()))
+        }
+    };
+    html! { figure { (plot.draw(&format!("Error against {name}"), &marks)) } }
+}
+
+/// The words of a choice, each once, in the order in which they are met; none of numbers.
+fn words(values: &[&Value]) -> Vec<String> {
+    let mut words: Vec<String> = Vec::new();
+    for value in values {
+        if let Value::Choice(word) = value
+            && !words.contains(word)
+        {
+            words.push(word.clone());
+        }
+    }
+    words
+}
+
+fn place(value: &Value, words: &[String]) -> f64 {
+    match value {
+        Value::Integer(whole) => f64::from(*whole),
+        Value::Real(real) => *real,
+        Value::Choice(word) => words.iter().position(|own| own == word).unwrap_or(0) as f64,
+    }
+}
+
+fn axis(name: &str, values: &[&Value], words: &[String]) -> Axis {
+    if !words.is_empty() {
+        return Axis::words(name, words);
+    }
+    let numbers = || values.iter().map(|value| place(value, words));
+    let (low, high) = (
+        numbers().fold(f64::INFINITY, f64::min),
+        numbers().fold(0.0, f64::max),
+    );
+    match low > 0.0 && high / low > LOG_FROM {
+        true => Axis::log(name, numbers()),
+        false => Axis::linear(name, numbers()),
+    }
+}

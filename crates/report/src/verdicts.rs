@@ -1,0 +1,122 @@
+//! Bounds that are not kept, and why.
+
+use maud::{Markup, html};
+use metrics::Metric;
+
+use super::case_page::Page;
+use super::cell::standing;
+use super::evidence::Evidence;
+use crate::finding_text::{finding_line, way_out};
+use suite::Level;
+use suite::{CROP, Finding, Outcome, number};
+
+/// The required bounds of a run that are not kept, each with the way to its case.
+pub fn broken_bounds(pages: &[Page]) -> Markup {
+    let broken: Vec<(&Page, &Finding)> = (pages.iter())
+        .flat_map(|page| page.findings.iter().map(move |finding| (page, finding)))
+        .filter(|(_, finding)| finding.level == Level::Required && finding.outcome.is_notable())
+        .collect();
+    html! {
+        @if !broken.is_empty() {
+            details.failures open[broken.len() <= 12] {
+                summary { "Required bounds that are not kept: " (broken.len()) }
+                ul {
+                    @for (page, finding) in broken {
+                        li {
+                            a href=(format!("#case-{}", page.index)) {
+                                (finding.scene) " / " (finding.filter)
+                            }
+                            ": " (finding_line(finding))
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Every bound of a case: what is not kept with its evidence, the others as a count.
+pub fn verdicts(page: &Page) -> Markup {
+    let kept = (page.findings.iter()).filter(|finding| finding.outcome == Outcome::Kept);
+    let kept = kept.count();
+    let notable = || page.findings.iter().zip(&page.evidence);
+    let explained = page.evidence.iter().any(Option::is_some);
+    let broken = (page.findings.iter()).any(|finding| finding.outcome == Outcome::Broken);
+    html! {
+        section.verdicts {
+            h3 { @if broken { "Why it failed" } @else { "Bounds" } }
+            @match page.findings.len() {
+                0 => p { "This picture is held to no bound." },
+                all => p { (kept) " of " (all) " kept." },
+            }
+            @if explained { (alike(page)) }
+            @for (finding, evidence) in notable() {
+                @if let Some(evidence) = evidence { (verdict(page, finding, evidence)) }
+            }
+        }
+    }
+}
+
+/// The wrong blur that all scores together are most like.
+fn alike(page: &Page) -> Markup {
+    html! {
+        p.alike {
+            @match page.findings.iter().find_map(|finding| finding.resembles.as_ref()) {
+                Some(alike) => {
+                    "The scores are most like those of the wrong blur " strong { (alike.decoy) } ", "
+                    (format!("{:.0}", 100.0 * alike.distance))
+                    " % off: the distance over the scores that tell wrong blurs apart, as a part of how far that blur's own \
+                     are from perfect."
+                }
+                None => {
+                    "No known failure pattern matched (only " code { "check" } " looks for them)."
+                }
+            }
+        }
+    }
+}
+
+fn verdict(page: &Page, finding: &Finding, evidence: &Evidence) -> Markup {
+    let class = standing(finding.outcome).map(|standing| standing.word);
+    let [x, y] = evidence.place;
+    html! {
+        div class=(format!("verdict {}", class.unwrap_or_default())) {
+            p { strong { (finding_line(finding)) } }
+            (facts(finding))
+            @if let Some(way_out) = way_out(finding) { p.note { (way_out) } }
+            p {
+                "Worst at (" (x) ", " (y) ") of " (evidence.map) ". "
+                button.place type="button" data-x=(x) data-y=(y) { "Show it above" }
+            }
+            figure.crop data-x=(x) data-y=(y) data-map=(evidence.plane) {
+                div.panels {
+                    @for what in ["truth", "output", "error"] {
+                        canvas width=(CROP.min(page.run.width)) height=(CROP.min(page.run.height)) role="img"
+                            aria-label=(format!("{what} around ({x}, {y})")) {}
+                    }
+                }
+                figcaption { "truth, output, " (evidence.map) " (as bright as it is here)" }
+            }
+        }
+    }
+}
+
+/// Metric, limit, value and interval, each by its name.
+fn facts(finding: &Finding) -> Markup {
+    let metric: Option<Metric> = finding.metric.parse().ok();
+    html! {
+        dl {
+            div { dt { "metric" } dd { (finding.metric) @if let Some(metric) = metric { ": " (metric.meaning()) } } }
+            @if let Some(value) = finding.value {
+                div { dt { "value" } dd { (finding.shown(value)) } }
+            }
+            @if let Some(own) = &finding.interval {
+                div { dt { "95 % CI" } dd { (number(own.low)) " to " (number(own.high)) } }
+            }
+            div { dt { "limit" } dd { (number(finding.limit)) ", " (finding.place) ": " (finding.why) } }
+            @if let Some(floor) = finding.floor {
+                div { dt { "noise floor" } dd { (number(floor)) } }
+            }
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! The folder of `--out`, claimed by the process that writes there.
+
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::ErrorKind;
+use std::path::Path;
+
+use frame::{FileError, remove_leftovers};
+use tracer::Scene;
+
+use crate::Error;
+use crate::render::rendered::{refuse_scene, scene_folder};
+
+/// Lies in a folder that was claimed once, and stays there empty.
+const LOCK_FILE: &str = ".shuttertruth.lock";
+
+/// Who else may write to a folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sharing {
+    /// Nobody: run.json, a journal or cases are written.
+    Alone,
+    /// Others that render frames and truths, each of which is whole and known by its content.
+    Together,
+}
+
+/// A claim on a folder. The system takes it back when the process ends, however it ends.
+#[derive(Debug)]
+#[must_use]
+pub struct Claim {
+    _lock: Option<File>,
+}
+
+/// Claims `out`, which is made if it does not exist. Refuses a folder that holds one of the scenes, and one that another
+/// process has claimed. Whoever is alone removes what killed processes left half written.
+pub fn claim<'a>(
+    out: &Path,
+    scenes: impl IntoIterator<Item = &'a Scene>,
+    sharing: Sharing,
+) -> Result<Claim, Error> {
+    let folders: Vec<_> = (scenes.into_iter())
+        .map(|scene| scene_folder(out, scene))
+        .collect();
+    for folder in &folders {
+        refuse_scene(folder)?;
+    }
+    std::fs::create_dir_all(out).map_err(|source| FileError::io(out, "write", source))?;
+    let claim = Claim {
+        _lock: lock(out, sharing)?,
+    };
+    if sharing == Sharing::Alone {
+        remove_leftovers(out);
+        for folder in &folders {
+            remove_all_leftovers(folder);
+        }
+    }
+    Ok(claim)
+}
+
+/// None where the file system knows no locks.
+fn lock(out: &Path, sharing: Sharing) -> Result<Option<File>, Error> {
+    let path = out.join(LOCK_FILE);
+    let fail = |source| FileError::io(&path, "lock", source);
+    let mut options = OpenOptions::new();
+    let file = (options.read(true).write(true).create(true).truncate(false))
+        .open(&path)
+        .map_err(fail)?;
+    let locked = match sharing {
+        Sharing::Alone => file.try_lock(),
+        Sharing::Together => file.try_lock_shared(),
+    };
+    match locked {
+        Ok(()) => Ok(Some(file)),
+        Err(TryLockError::WouldBlock) => Err(Error::Usage(format!(
+            "--out: another shuttertruth is writing to {}; wait until it has ended, or take another folder",
+            out.display()
+        ))),
+        Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => Ok(None),
+        Err(TryLockError::Error(error)) => Err(fail(error).into()),
+    }
+}
+
+/// Those in a scene's folder and in the folders of its cases and replicates.
+fn remove_all_leftovers(folder: &Path) {
+    remove_leftovers(folder);
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        // Nothing behind a link is ours.
+        if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+            remove_leftovers(&entry.path());
+        }
+    }
+}

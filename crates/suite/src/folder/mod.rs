@@ -1,0 +1,5 @@
+//! The folder that a command writes to.
+
+pub mod claim;
+pub mod forget;
+pub mod tracked;

@@ -1,0 +1,4 @@
+//! JSON that others wrote.
+
+pub mod file;
+pub mod strings;

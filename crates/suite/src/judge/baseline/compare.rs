@@ -1,0 +1,177 @@
+//! A run against accepted scores: no worse than they were?
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::str::FromStr;
+
+use metrics::{Measured, Metric};
+use serde::Serialize;
+
+use super::Baseline;
+use crate::judge::bounds::Margin;
+use crate::judge::check::Decision;
+use crate::stats::scene_mean::plain_mean;
+use crate::{Case, Error, Run};
+
+/// The mean over all such scenes lies beyond either bound with this probability.
+const TAIL: f64 = 0.05;
+
+/// One metric of one filter, over all scenes that it applies to.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Comparison {
+    /// The verdict.
+    pub kind: ComparisonKind,
+    /// `jump_flood:paper`.
+    pub filter: String,
+    /// Name of the metric.
+    pub metric: String,
+    /// How many scenes were compared.
+    pub scenes: usize,
+    /// By how much the score is worse than the baseline's, mean over scenes, in the metric's unit; negative is better.
+    pub worse: f64,
+    /// One-sided 95 % bounds of that mean, the lower and the upper one.
+    pub bounds: [f64; 2],
+    /// By how much it may be worse.
+    pub margin: f64,
+}
+
+/// Whether a filter got worse.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ComparisonKind {
+    /// The upper bound is not above the margin.
+    NoWorse,
+    /// The lower bound is above the margin.
+    Worse,
+    /// The margin lies between the bounds.
+    Inconclusive,
+}
+
+impl ComparisonKind {
+    /// As a report says it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::NoWorse => "no worse",
+            Self::Worse => "WORSE",
+            Self::Inconclusive => "INCONCLUSIVE",
+        }
+    }
+}
+
+impl Comparison {
+    /// What it alone comes to.
+    pub fn decision(&self) -> Decision {
+        match self.kind {
+            ComparisonKind::NoWorse => Decision::Pass,
+            ComparisonKind::Worse => Decision::Broken,
+            ComparisonKind::Inconclusive => Decision::Inconclusive,
+        }
+    }
+}
+
+/// Compares every case of a run with the baseline, scene by scene against the same truth: per filter and per metric that has
+/// a margin. `path` is where the baseline was read, for messages.
+pub fn compare(
+    run: &Run,
+    baseline: &Baseline,
+    margins: &BTreeMap<String, Margin>,
+    path: &Path,
+) -> Result<Vec<Comparison>, Error> {
+    let refuse = |reason: String| Error::Usage(format!("{}: {reason}", path.display()));
+    if margins.is_empty() {
+        return Err(refuse(
+            "nothing says by how much a score may be worse; give bounds.toml beside the scenes a table [margin], with lines \
+             such as flip_moving = 0.005"
+                .to_owned(),
+        ));
+    }
+    let cases: Vec<&Case> = run.cases.iter().filter(|case| !case.bar).collect();
+    for case in &cases {
+        check_truth(case, baseline).map_err(refuse)?;
+    }
+    let names: BTreeSet<String> = cases.iter().map(|case| case.name()).collect();
+    let mut comparisons = Vec::new();
+    for filter in &names {
+        for (name, margin) in margins {
+            let metric = Metric::from_str(name).expect("margins were checked when they were read");
+            let own = cases.iter().filter(|case| case.name() == *filter);
+            let differences: Result<Vec<Option<f64>>, String> =
+                own.map(|case| worse(case, metric, baseline)).collect();
+            let differences: Vec<f64> = (differences.map_err(refuse)?)
+                .into_iter()
+                .flatten()
+                .collect();
+            if !differences.is_empty() {
+                comparisons.push(comparison(filter, name, &differences, margin.width));
+            }
+        }
+    }
+    match comparisons.is_empty() {
+        true => Err(refuse(
+            "no score with a margin applies to any scene, and no check is no success".to_owned(),
+        )),
+        false => Ok(comparisons),
+    }
+}
+
+fn comparison(filter: &str, metric: &str, differences: &[f64], margin: f64) -> Comparison {
+    let found = plain_mean(differences, TAIL);
+    let [low, high] = found.bounds;
+    let kind = if high <= margin {
+        ComparisonKind::NoWorse
+    } else if low > margin {
+        ComparisonKind::Worse
+    } else {
+        ComparisonKind::Inconclusive
+    };
+    Comparison {
+        kind,
+        filter: filter.to_owned(),
+        metric: metric.to_owned(),
+        scenes: differences.len(),
+        worse: found.mean,
+        bounds: found.bounds,
+        margin,
+    }
+}
+
+/// Refuses a case that was measured against another truth.
+fn check_truth(case: &Case, baseline: &Baseline) -> Result<(), String> {
+    let truths = baseline.truths.get(&case.scene);
+    match truths.and_then(|truths| truths.get(&case.alignment)) {
+        Some(hash) if *hash == case.truth_hash => Ok(()),
+        Some(_) => Err(format!(
+            "its truth of {} ({}) is another: scene, size, samples, seed or tracer have changed; measure with the settings of \
+             the baseline, or accept a run with the new truth: shuttertruth accept",
+            case.scene, case.alignment
+        )),
+        None => Err(format!(
+            "knows no truth of {} ({}); accept a run with it: shuttertruth accept",
+            case.scene, case.alignment
+        )),
+    }
+}
+
+/// By how much a case is worse than it was; none where the metric did not apply.
+fn worse(case: &Case, metric: Metric, baseline: &Baseline) -> Result<Option<f64>, String> {
+    let filters = baseline.scores.get(&case.scene);
+    let Some(scores) = filters.and_then(|filters| filters.get(&case.name())) else {
+        return Err(format!(
+            "has no scores of {} on {}; accept them: shuttertruth accept --only '{}/{}'",
+            case.name(),
+            case.scene,
+            case.scene,
+            case.name()
+        ));
+    };
+    let badness = |value: f64| metric.ideal().badness(value);
+    match (scores.get(&metric.name()), case.scores.get(metric)) {
+        (Some(old), Measured::Score(new)) => Ok(Some(badness(new.value) - badness(*old))),
+        (Some(old), Measured::NotApplicable { reason }) => Err(format!(
+            "{metric} of {} on {} was {old} and does not apply any more: {reason}",
+            case.name(),
+            case.scene
+        )),
+        (None, _) => Ok(None),
+    }
+}

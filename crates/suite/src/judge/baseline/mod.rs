@@ -1,0 +1,73 @@
+//! Scores that were accepted, to be compared with: numbers in a file that a person reviews.
+
+mod accept;
+mod compare;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use filters::AdapterDescription;
+use frame::write_atomically;
+use serde::{Deserialize, Serialize};
+
+use crate::Error;
+use crate::json::file::read_text;
+use crate::json::strings::check_strings;
+
+pub use accept::{Acceptance, accept};
+pub use compare::{Comparison, ComparisonKind, compare};
+
+/// Version of the layout of a baseline.
+pub const BASELINE_FORMAT: u32 = 1;
+
+/// Accepted scores, and where they come from. Its file has one number a line under sorted keys.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Baseline {
+    /// [`BASELINE_FORMAT`].
+    pub format: u32,
+    /// Program name and version that made the last run.
+    pub program: String,
+    /// What its kernels ran on; none where every filter was a command.
+    pub adapter: Option<AdapterDescription>,
+    /// Why the scores were accepted: the last time all were, and every time some were since.
+    pub reasons: Vec<String>,
+    /// Per scene and alignment the hash of the truth's inputs.
+    pub truths: BTreeMap<String, BTreeMap<String, String>>,
+    /// Per scene, filter (`jump_flood:paper`) and metric the score, to six digits.
+    pub scores: BTreeMap<String, BTreeMap<String, BTreeMap<String, f64>>>,
+}
+
+impl Baseline {
+    /// Reads a file that [`Baseline::write`] wrote.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let text = read_text(path)?;
+        let parsed = check_strings(&text).and_then(|()| serde_json::from_str(&text));
+        let baseline: Self = parsed.map_err(|error| {
+            Error::Usage(format!(
+                "{}: no baseline: {error}; `shuttertruth accept` writes one",
+                path.display()
+            ))
+        })?;
+        match baseline.format {
+            BASELINE_FORMAT => Ok(baseline),
+            other => Err(Error::Usage(format!(
+                "{}: has format {other}; allowed: {BASELINE_FORMAT}; accept it anew",
+                path.display()
+            ))),
+        }
+    }
+
+    /// Whether an adapter is of the class (software, integrated, discrete ..) of that which made the baseline.
+    pub fn is_of_class(&self, adapter: &Option<AdapterDescription>) -> bool {
+        let class =
+            |adapter: &Option<AdapterDescription>| adapter.as_ref().map(|own| own.kind.clone());
+        class(adapter) == class(&self.adapter)
+    }
+
+    /// Writes the baseline as JSON.
+    pub fn write(&self, path: &Path) -> Result<(), Error> {
+        let json = serde_json::to_string_pretty(self).expect("a baseline is plain data");
+        Ok(write_atomically(path, (json + "\n").as_bytes())?)
+    }
+}

@@ -1,0 +1,196 @@
+//! One bounds.toml.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use metrics::Metric;
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::{Bound, Bounds, Level};
+use crate::json::file::read_text;
+use crate::printable::{printable, printable_path};
+use crate::{Error, SIDES};
+
+/// What a bounds.toml holds.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BoundsFile {
+    /// The file.
+    pub path: PathBuf,
+    /// For every filter.
+    pub default: Bounds,
+    /// For one filter, by its name, or one preset of it, by `filter:preset`.
+    pub filters: BTreeMap<String, FilterBounds>,
+    /// By how much a score may be worse than the baseline's, per metric name.
+    pub margins: BTreeMap<String, Margin>,
+}
+
+/// The bounds of a filter, or of one preset of it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FilterBounds {
+    /// File and line.
+    pub place: String,
+    /// Its bounds.
+    pub bounds: Bounds,
+}
+
+/// By how much a score may be worse than the baseline's, in its unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Margin {
+    /// 0 or more.
+    pub width: f64,
+    /// File and line.
+    pub place: String,
+}
+
+type Tables<T> = BTreeMap<Spanned<String>, T>;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Contents {
+    #[serde(default)]
+    default: Tables<Entry>,
+    #[serde(default)]
+    filter: Tables<Tables<Entry>>,
+    #[serde(default)]
+    margin: Tables<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "a bound is a table: { limit = 0.1, why = \"what was measured\", level = \"required\" or \"report\" }"
+)]
+struct Entry {
+    limit: f64,
+    size: Option<(u32, u32)>,
+    why: Option<String>,
+    #[serde(default)]
+    level: Level,
+}
+
+/// Reads a bounds.toml. Whether its filters exist is checked by [`check_names`](super::check_names).
+pub fn read_bounds_file(path: &Path) -> Result<BoundsFile, Error> {
+    let text = read_text(path)?;
+    let source = Source { path, text: &text };
+    let contents: Contents = toml::from_str(&text)
+        .map_err(|error| source.refuse(error.span().map(|span| span.start), error.message()))?;
+    let filters = (contents.filter.into_iter())
+        .map(|(name, entries)| {
+            let table = FilterBounds {
+                place: source.place(Some(name.span().start)),
+                bounds: source.bounds(entries)?,
+            };
+            Ok((name.into_inner(), table))
+        })
+        .collect::<Result<_, Error>>()?;
+    Ok(BoundsFile {
+        path: path.to_owned(),
+        default: source.bounds(contents.default)?,
+        filters,
+        margins: source.margins(contents.margin)?,
+    })
+}
+
+/// A file's text, to find the lines of what is wrong with it.
+struct Source<'a> {
+    path: &'a Path,
+    text: &'a str,
+}
+
+impl Source<'_> {
+    fn bounds(&self, entries: Tables<Entry>) -> Result<Bounds, Error> {
+        (entries.into_iter())
+            .map(|(name, entry)| {
+                let start = name.span().start;
+                let refuse = |reason: &str| self.refuse(Some(start), reason);
+                let metric = Metric::from_str(name.get_ref()).map_err(|reason| refuse(&reason))?;
+                if let Some(reason) = metric.report_only() {
+                    return Err(refuse(&format!(
+                        "{metric} is for reports and no bound: it {reason}"
+                    )));
+                }
+                let Entry {
+                    limit,
+                    size,
+                    why,
+                    level,
+                } = entry;
+                if !limit.is_finite() {
+                    return Err(refuse(&format!(
+                        "{}: limit = {limit}; allowed: a finite number",
+                        name.get_ref()
+                    )));
+                }
+                if let Some((width, height)) = size
+                    && ![width, height].iter().all(|side| SIDES.contains(side))
+                {
+                    return Err(refuse(&format!(
+                        "{}: size = [{width}, {height}]; allowed: columns and rows from {} to {}",
+                        name.get_ref(),
+                        SIDES.start(),
+                        SIDES.end()
+                    )));
+                }
+                let why = why.unwrap_or_default();
+                if printable(&why) != why {
+                    return Err(refuse(&format!(
+                        "{}: why = \"{}\"; allowed: one line of text without control characters",
+                        name.get_ref(),
+                        printable(&why)
+                    )));
+                }
+                if why.trim().is_empty() {
+                    return Err(refuse(&format!(
+                        "{}: has no why; needed: one line on what was measured, why = \"..\"",
+                        name.get_ref()
+                    )));
+                }
+                let bound = Bound {
+                    limit,
+                    size,
+                    why,
+                    level,
+                    place: self.place(Some(start)),
+                };
+                Ok((name.into_inner(), bound))
+            })
+            .collect()
+    }
+
+    fn margins(&self, entries: Tables<f64>) -> Result<BTreeMap<String, Margin>, Error> {
+        (entries.into_iter())
+            .map(|(name, width)| {
+                let start = name.span().start;
+                Metric::from_str(name.get_ref())
+                    .map_err(|reason| self.refuse(Some(start), &reason))?;
+                if !(width.is_finite() && width >= 0.0) {
+                    let reason = format!(
+                        "margin of {} is {width}; allowed: 0 or more",
+                        name.get_ref()
+                    );
+                    return Err(self.refuse(Some(start), &reason));
+                }
+                let place = self.place(Some(start));
+                Ok((name.into_inner(), Margin { width, place }))
+            })
+            .collect()
+    }
+
+    fn refuse(&self, offset: Option<usize>, reason: &str) -> Error {
+        Error::Usage(format!("{}: {reason}", self.place(offset)))
+    }
+
+    /// `scenes/bounds.toml:12`
+    fn place(&self, offset: Option<usize>) -> String {
+        let path = printable_path(self.path);
+        match offset {
+            Some(offset) => {
+                let line = self.text[..offset].matches('\n').count() + 1;
+                format!("{path}:{line}")
+            }
+            None => path,
+        }
+    }
+}

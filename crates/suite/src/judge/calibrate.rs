@@ -1,0 +1,235 @@
+//! Limits from measurements: how far scores scatter from run to run and from adapter to adapter.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use metrics::{Ideal, Interval, Measured, Metric, Score};
+
+use crate::judge::bounds::SceneBounds;
+use crate::judge::{badness_within, number};
+use crate::{Case, Run};
+
+/// Margin, in standard deviations.
+const DEVIATIONS: f64 = 3.0;
+/// The margin is at least this part of the worst score: what rounding and another compiler may change.
+const LEAST_PART: f64 = 0.05;
+/// Above the strictest limit that the truth's noise carries, since that scatters too.
+const ABOVE_STRICTEST: f64 = 1.2;
+
+/// The least limit on an error, by its unit: a tenth of a pixel, half a hundredth of anything else. Where a score is 0 in
+/// every run, its spread says nothing, and another adapter need not agree to the last bit.
+const LEAST_LIMITS: [(&str, f64); 2] = [("px", 0.1), ("", 0.005)];
+
+/// What every run measured, per scene and filter.
+#[derive(Clone, Debug, Default)]
+pub struct Calibration {
+    /// Per scene, `filter:preset` and metric, its score in every run where it applies.
+    pub scores: BTreeMap<String, BTreeMap<String, BTreeMap<String, Vec<Sample>>>>,
+    /// Columns and rows of the pictures.
+    pub size: (u32, u32),
+}
+
+/// A score of one run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// The score.
+    pub score: Score,
+    /// Its interval, where the truth can tell.
+    pub interval: Option<Interval>,
+}
+
+/// A limit that a filter keeps on a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Proposal {
+    /// Name of the metric.
+    pub metric: String,
+    /// The proposed limit.
+    pub limit: f64,
+    /// What it follows from, in a line.
+    pub why: String,
+}
+
+/// Gathers the scores of several runs of the same scenes, size and filters that have a bound; of all `metrics` if any are given.
+pub fn calibrate<'a>(
+    runs: &[Run],
+    bounds: impl Fn(&Case) -> &'a SceneBounds,
+    metrics: &[Metric],
+) -> Calibration {
+    let mut calibration = Calibration {
+        size: runs.first().map_or((0, 0), |run| (run.width, run.height)),
+        ..Calibration::default()
+    };
+    for case in runs.iter().flat_map(|run| &run.cases) {
+        if case.bar || case.input.change().is_some() {
+            continue;
+        }
+        let bounded = bounds(case).of(&case.filter, &case.preset);
+        let wanted = |metric: &Metric| match metrics.is_empty() {
+            true => bounded.contains_key(&metric.name()),
+            false => metrics.contains(metric),
+        };
+        let filters = calibration.scores.entry(case.scene.clone()).or_default();
+        let scores = filters.entry(case.name()).or_default();
+        for metric in Metric::all().into_iter().filter(wanted) {
+            if let Measured::Score(score) = case.scores.get(metric) {
+                let interval = case.intervals.get(&metric.name()).copied();
+                let sample = Sample { score, interval };
+                scores.entry(metric.name()).or_default().push(sample);
+            }
+        }
+    }
+    calibration
+}
+
+/// The limit that follows from the scores of one metric. Of their distances from perfect (for scores that are better the
+/// higher, of the scores) it is the worst that any interval reaches, since a check asks that of a score, plus a margin: three
+/// standard deviations between runs, or a twentieth of the worst score if that is more. It is at least 1.2 times as far
+/// from perfect as the strictest limit that the truth's noise carries, and at least a tenth of a pixel or half a hundredth;
+/// rounded to two digits away from perfect.
+pub fn propose(metric: Metric, samples: &[Sample]) -> Proposal {
+    let ideal = metric.ideal();
+    let worst_of = |values: &[f64]| values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let badness: Vec<f64> = (samples.iter())
+        .map(|sample| ideal.badness(sample.score.value))
+        .collect();
+    let reached: Vec<f64> = (samples.iter().zip(&badness))
+        .map(|(sample, badness)| match &sample.interval {
+            Some(interval) => badness_within(ideal, interval).1.max(*badness),
+            None => *badness,
+        })
+        .collect();
+    let worst = worst_of(&badness);
+    let deviation = deviation(&badness);
+    let margin = (DEVIATIONS * deviation).max(LEAST_PART * worst.abs());
+    let far = worst_of(&reached) + margin;
+    let bearable = (samples.iter()).map(|sample| metric.strictest_bound(sample.score.floor));
+    let limit = match ideal {
+        Ideal::Highest => {
+            let bearable = bearable.fold(f64::INFINITY, f64::min) / ABOVE_STRICTEST;
+            round_away((-far).min(bearable), f64::floor)
+        }
+        Ideal::Lowest | Ideal::Target(_) => {
+            let bearable = bearable.fold(0.0, f64::max) * ABOVE_STRICTEST;
+            let least = (LEAST_LIMITS.iter()).find(|(unit, _)| *unit == metric.unit());
+            let least = least.map_or(0.0, |(_, limit)| *limit);
+            round_away(far.max(bearable).max(least), f64::ceil)
+        }
+    };
+    let (value, away) = match ideal {
+        Ideal::Highest => (-worst, String::new()),
+        Ideal::Lowest => (worst, String::new()),
+        Ideal::Target(target) => (worst, format!(" from {target}")),
+    };
+    let why = format!(
+        "measured {}{away} at worst, with {} between {} runs; calibrate's margin",
+        number(value),
+        number(deviation),
+        samples.len()
+    );
+    Proposal {
+        metric: metric.name(),
+        limit,
+        why,
+    }
+}
+
+/// Standard deviation of at least one value; 0 of one.
+fn deviation(values: &[f64]) -> f64 {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+    (squares / (count - 1.0).max(1.0)).sqrt()
+}
+
+/// To two significant digits, by a rounding of the last one.
+fn round_away(value: f64, rounding: fn(f64) -> f64) -> f64 {
+    if value == 0.0 {
+        return 0.0;
+    }
+    let digits = 1 - value.abs().log10().floor() as i32;
+    let rounded = rounding(value * 10f64.powi(digits));
+    // Through text, so that 0.12 is not 0.12000000000000001.
+    (format!("{rounded}e{}", -digits).parse()).expect("a number as text is a number")
+}
+
+impl Calibration {
+    /// The proposed bounds of one scene as its bounds.toml.
+    pub fn toml(&self, scene: &str) -> String {
+        let (width, height) = self.size;
+        let mut text = String::new();
+        for (filter, metrics) in self.scores.get(scene).into_iter().flatten() {
+            let _ = writeln!(text, "[filter.\"{filter}\"]");
+            for (name, samples) in metrics {
+                let metric: Metric = name.parse().expect("calibrated scores are of metrics");
+                let Proposal { metric, limit, why } = propose(metric, samples);
+                let _ = writeln!(
+                    text,
+                    "{metric} = {{ limit = {limit:?}, size = [{width}, {height}], why = \"{why}\" }}"
+                );
+            }
+            text += "\n";
+        }
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn limit(metric: &str, values: &[f64], floor: f64) -> f64 {
+        let sample = |value: &f64| Sample {
+            score: Score {
+                value: *value,
+                floor,
+            },
+            interval: None,
+        };
+        let samples: Vec<Sample> = values.iter().map(sample).collect();
+        propose(metric.parse().unwrap(), &samples).limit
+    }
+
+    #[test]
+    fn a_limit_is_the_worst_score_and_a_margin() {
+        // Standard deviation 0.01: 0.12 + 0.03.
+        assert_eq!(limit("flip_moving", &[0.1, 0.11, 0.12], 0.0), 0.15);
+        // A twentieth is more: 0.12 * 1.05 = 0.126, rounded up.
+        assert_eq!(limit("flip_moving", &[0.12, 0.12], 0.0), 0.13);
+        // The ideal is 1: 0.2 * 1.05.
+        assert_eq!(limit("extent", &[0.8, 0.8], 0.0), 0.21);
+        // The higher the better: 30 dB less a twentieth, rounded down.
+        assert_eq!(limit("psnr_moving", &[30.0, 30.0], 80.0), 28.0);
+        assert_eq!(limit("n_eq", &[4.0, 5.0], 64.0), 1.8);
+    }
+
+    #[test]
+    fn a_limit_is_never_stricter_than_the_noise_allows() {
+        // 1.2 times three floors.
+        assert_eq!(limit("flip_moving", &[0.0, 0.0], 0.01), 0.036);
+        assert_eq!(limit("n_eq", &[60.0, 60.0], 36.0), 10.0);
+    }
+
+    #[test]
+    fn a_limit_leaves_room_for_the_interval() {
+        let sample = Sample {
+            score: Score {
+                value: 0.8,
+                floor: 0.0,
+            },
+            interval: Some(Interval {
+                low: 0.75,
+                high: 0.85,
+                standard_error: 0.02,
+            }),
+        };
+        // 0.25 from 1, and a twentieth of 0.2.
+        let proposal = propose("extent".parse().unwrap(), &[sample, sample]);
+        assert_eq!(proposal.limit, 0.26);
+    }
+
+    #[test]
+    fn a_perfect_score_leaves_some_room() {
+        assert_eq!(limit("bleed_leading", &[0.0, 0.0], 0.0), 0.1);
+        assert_eq!(limit("label_tv", &[0.0, 0.0], 0.0), 0.005);
+    }
+}

@@ -1,0 +1,203 @@
+//! Joins what several machines rendered to what one would have written.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use frame::{Alignment, FileError, Replicate, Truth, read_bounded, write_atomically};
+
+use crate::Error;
+use crate::folder::claim::{Sharing, claim};
+use crate::render::replicates::{MOST_REPLICATES, replicates_folder};
+
+/// Bytes of a frame or a replicate that is joined with others.
+pub const MOST_PART_BYTES: u64 = 1 << 32;
+
+/// A truth that was made whole.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Merged {
+    /// Its file.
+    pub truth: PathBuf,
+    /// How many replicates it is the mean of.
+    pub replicates: usize,
+}
+
+/// Where each file of the parts comes from, by its path below them.
+type Files = BTreeMap<PathBuf, PathBuf>;
+
+/// Copies frames and replicates of all `parts` into `out` and makes their truths. The same file may stand in several
+/// parts if its bytes are equal. Nothing is written unless every truth is whole.
+pub fn merge(parts: &[PathBuf], out: &Path) -> Result<Vec<Merged>, Error> {
+    let files = gather(parts)?;
+    let folders = replicates_by_folder(&files);
+    // One truth at a time is in memory, at first to see that all are whole.
+    for (folder, files) in &folders {
+        truth(folder, files)?;
+    }
+    let _claim = claim(out, [], Sharing::Together)?;
+    for (below, file) in &files {
+        write_atomically(&out.join(below), &read(file)?)?;
+    }
+    (folders.iter())
+        .map(|(folder, files)| {
+            let path = out.join(folder).with_extension("exr");
+            truth(folder, files)?.write(&path)?;
+            Ok(Merged {
+                truth: path,
+                replicates: files.len(),
+            })
+        })
+        .collect()
+}
+
+/// Every frame and replicate of all parts.
+fn gather(parts: &[PathBuf]) -> Result<Files, Error> {
+    let mut files = Files::new();
+    for (index, part) in parts.iter().enumerate() {
+        if parts[..index].contains(part) {
+            return Err(Error::Usage(format!(
+                "{}: is named twice; allowed: each part once",
+                part.display()
+            )));
+        }
+        let own = rendered_below(part)?;
+        if own.is_empty() {
+            return Err(Error::Usage(format!(
+                "{}: holds no replicates; allowed: folders that `shuttertruth render --replicates A..B --out` wrote",
+                part.display()
+            )));
+        }
+        for below in own {
+            let file = part.join(&below);
+            if let Some(other) = files.get(&below)
+                && read(other)? != read(&file)?
+            {
+                return Err(Error::Usage(format!(
+                    "{} and {} differ; parts of one truth come from one version of the program, scene and settings, on \
+                     one kind of processor",
+                    other.display(),
+                    file.display()
+                )));
+            }
+            files.entry(below).or_insert(file);
+        }
+    }
+    Ok(files)
+}
+
+/// Per folder of replicates, its files.
+fn replicates_by_folder(files: &Files) -> BTreeMap<PathBuf, Vec<&Path>> {
+    let mut folders: BTreeMap<PathBuf, Vec<&Path>> = BTreeMap::new();
+    for (below, file) in files {
+        if let Some(folder) = below.parent().filter(|_| is_replicate(below)) {
+            folders.entry(folder.to_owned()).or_default().push(file);
+        }
+    }
+    folders
+}
+
+/// The truth of a folder's replicates.
+fn truth(folder: &Path, files: &[&Path]) -> Result<Truth, Error> {
+    let mut replicates = Vec::new();
+    for file in files {
+        let replicate = Replicate::read(file)?;
+        if replicate.index >= MOST_REPLICATES {
+            return Err(Error::Usage(format!(
+                "{}: is replicate {}; allowed: 0 to {}",
+                file.display(),
+                replicate.index,
+                MOST_REPLICATES - 1
+            )));
+        }
+        replicates.push(replicate);
+    }
+    // By name, replicate_1000 stands before replicate_999.
+    replicates.sort_by_key(|replicate| replicate.index);
+    check(folder, &replicates)?;
+    Truth::of(&replicates).map_err(|error| Error::Usage(format!("{}: {error}", folder.display())))
+}
+
+/// Refuses replicates that leave a gap, are odd in number or have strayed into another folder.
+fn check(folder: &Path, replicates: &[Replicate]) -> Result<(), Error> {
+    if let Some(pair) = (replicates.windows(2)).find(|pair| pair[0].index == pair[1].index) {
+        return Err(Error::Usage(format!(
+            "{}: two files hold replicate {}; leave names as `render` made them",
+            folder.display(),
+            pair[0].index
+        )));
+    }
+    let last = replicates.last().map_or(0, |replicate| replicate.index);
+    let count = (last + 1).next_multiple_of(2);
+    let missing: Vec<u32> = (0..count)
+        .filter(|index| {
+            let found = replicates.binary_search_by_key(index, |replicate| replicate.index);
+            found.is_err()
+        })
+        .collect();
+    if let [first, ..] = missing.as_slice() {
+        let words: Vec<String> = missing.iter().map(u32::to_string).collect();
+        return Err(Error::Usage(format!(
+            "{}: replicates {} are missing for a truth of {count}; render them with the options of the other parts and \
+             --replicates {first}..{}",
+            folder.display(),
+            words.join(", "),
+            first + 1
+        )));
+    }
+    let one = &replicates[0];
+    let home = replicates_folder(Path::new(&one.provenance.scene), one.alignment);
+    if folder != home {
+        return Err(Error::Usage(format!(
+            "{} holds replicates that belong into {}; leave folders as `render` made them",
+            folder.display(),
+            home.display()
+        )));
+    }
+    Ok(())
+}
+
+/// The frames and replicates of a part, by their paths below it: `<scene>/frame.exr` and
+/// `<scene>/truth_<alignment>/replicate_<index>.exr`. Looks nowhere else, so that no loop of links can be followed.
+fn rendered_below(part: &Path) -> Result<Vec<PathBuf>, Error> {
+    let mut found = Vec::new();
+    for scene in entries(part)?.into_iter().map(PathBuf::from) {
+        if !part.join(&scene).is_dir() {
+            continue;
+        }
+        let frame = scene.join("frame.exr");
+        if part.join(&frame).exists() {
+            found.push(frame);
+        }
+        for alignment in Alignment::ALL {
+            let folder = replicates_folder(&scene, alignment);
+            if !part.join(&folder).is_dir() {
+                continue;
+            }
+            let files = entries(&part.join(&folder))?.into_iter();
+            found.extend(
+                files
+                    .map(|name| folder.join(name))
+                    .filter(|file| is_replicate(file)),
+            );
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+fn is_replicate(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    name.starts_with("replicate_") && name.ends_with(".exr")
+}
+
+/// The names in a folder.
+fn entries(folder: &Path) -> Result<Vec<std::ffi::OsString>, Error> {
+    let fail = |source| FileError::io(folder, "read", source);
+    (fs::read_dir(folder).map_err(fail)?)
+        .map(|entry| Ok(entry.map_err(fail)?.file_name()))
+        .collect()
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, Error> {
+    Ok(read_bounded(path, MOST_PART_BYTES)?)
+}

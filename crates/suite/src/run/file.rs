@@ -1,0 +1,89 @@
+//! Checks of a run.json, whoever wrote it, before anything of it is used.
+
+use std::collections::HashSet;
+use std::path::{Component, Path};
+use std::str::FromStr;
+
+use frame::{Alignment, VelocityKind};
+
+use crate::json::strings::check_strings;
+use crate::render::replicates::MOST_REPLICATES;
+use crate::run::FORMAT;
+use crate::{Case, Run, SIDES};
+
+/// Cases of a run.json.
+pub const MOST_CASES: usize = 50_000;
+
+/// The run of a run.json; the error is what is wrong with it, and what is allowed.
+pub(crate) fn parse(text: &str) -> Result<Run, String> {
+    let broken = |error: serde_json::Error| format!("no run of this program: {error}");
+    check_strings(text).map_err(broken)?;
+    let run: Run = serde_json::from_str(text).map_err(broken)?;
+    if run.format != FORMAT {
+        return Err(format!("has format {}; allowed: {FORMAT}", run.format));
+    }
+    check_settings(&run)?;
+    if run.cases.len() > MOST_CASES {
+        return Err(format!(
+            "holds {} cases; allowed: up to {MOST_CASES}",
+            run.cases.len()
+        ));
+    }
+    let mut folders = HashSet::new();
+    for case in &run.cases {
+        check_case(case).map_err(|reason| format!("{} / {}: {reason}", case.scene, case.name()))?;
+        if !folders.insert(&case.folder) {
+            return Err(format!(
+                "{} / {}: folder \"{}\" belongs to two cases; allowed: one case each",
+                case.scene,
+                case.name(),
+                case.folder.display()
+            ));
+        }
+    }
+    Ok(run)
+}
+
+/// Sizes and counts of the whole run.
+fn check_settings(run: &Run) -> Result<(), String> {
+    let sides = [run.width, run.height];
+    if !sides.iter().all(|side| SIDES.contains(side)) {
+        return Err(format!(
+            "has pictures of {}x{} pixels; allowed: {} to {} columns and rows",
+            run.width,
+            run.height,
+            SIDES.start(),
+            SIDES.end()
+        ));
+    }
+    if !(1..=MOST_REPLICATES).contains(&run.replicates) {
+        return Err(format!(
+            "has {} replicates; allowed: 1 to {MOST_REPLICATES}",
+            run.replicates
+        ));
+    }
+    if run.samples_per_pixel == 0 {
+        return Err("has 0 samples per pixel; allowed: 1 or more".to_owned());
+    }
+    VelocityKind::from_str(&run.velocity)?;
+    Alignment::from_str(&run.common_alignment).map(drop)
+}
+
+fn check_case(case: &Case) -> Result<(), String> {
+    if !(is_below(Path::new(&case.scene)) && is_below(&case.folder)) {
+        return Err(format!(
+            "scene \"{}\", folder \"{}\": a case lies in a folder below run.json, and nowhere else",
+            case.scene,
+            case.folder.display()
+        ));
+    }
+    let alignment = Alignment::from_str(&case.alignment)?;
+    (alignment.shutter(case.exposure).map(drop)).map_err(|error| error.to_string())
+}
+
+/// Whether a path leads below the folder that it starts from: what names files elsewhere is not read, and nothing is written
+/// there.
+pub(crate) fn is_below(path: &Path) -> bool {
+    let mut parts = path.components().peekable();
+    parts.peek().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
+}

@@ -1,0 +1,107 @@
+//! A filter ready to run, whether it is made of kernels or a program.
+
+use filters::{Blur, CommandBlur, Filter, FilterError, Gpu, Input, Limits, Settings};
+use frame::Image;
+
+use super::filter_choice::FilterChoice;
+use crate::Monitor;
+
+/// A filter with its parameters, for images of one size.
+pub enum Runner<'g> {
+    /// Kernels on an adapter.
+    Kernels(Box<Blur<'g>>),
+    /// A program.
+    Command(Box<CommandBlur>),
+}
+
+/// The adapter that the filters are to run on; none where all of them are commands and none was asked for by name. Refuses a
+/// filter with kernels that the adapter cannot hold, before anything is rendered.
+pub fn open_gpu(
+    choices: &[FilterChoice],
+    adapter: Option<&str>,
+    monitor: Monitor,
+) -> Result<Option<Gpu>, FilterError> {
+    let needed = choices.iter().any(|choice| choice.filter.command.is_none());
+    if !needed && adapter.is_none() {
+        return Ok(None);
+    }
+    let gpu = open_adapter(adapter, monitor)?;
+    let limits = Limits::of(&gpu);
+    for choice in choices {
+        limits.check(&choice.filter)?;
+    }
+    Ok(Some(gpu))
+}
+
+/// An adapter whose work ends where the monitor interrupts it.
+pub fn open_adapter(adapter: Option<&str>, monitor: Monitor) -> Result<Gpu, FilterError> {
+    let mut gpu = Gpu::new(adapter)?;
+    gpu.interrupted = monitor.interrupted;
+    Ok(gpu)
+}
+
+impl<'g> Runner<'g> {
+    /// Makes a filter ready; `gpu` is what [`open_gpu`] opened for it.
+    pub fn new(
+        gpu: Option<&'g Gpu>,
+        choice: &FilterChoice,
+        (width, height): (u32, u32),
+        monitor: Monitor,
+    ) -> Result<Self, FilterError> {
+        let FilterChoice {
+            filter, settings, ..
+        } = choice;
+        Ok(match filter.command {
+            Some(_) => Self::command(filter, settings, (width, height), monitor)?,
+            None => {
+                let gpu = gpu.expect("an adapter was opened for the kernels");
+                Self::Kernels(Box::new(Blur::new(gpu, filter, settings, width, height)?))
+            }
+        })
+    }
+
+    /// Makes a program ready.
+    pub fn command(
+        filter: &Filter,
+        settings: &Settings,
+        (width, height): (u32, u32),
+        monitor: Monitor,
+    ) -> Result<Self, FilterError> {
+        let blur = CommandBlur::new(filter, settings, width, height, monitor.interrupted)?;
+        Ok(Self::Command(Box::new(blur)))
+    }
+
+    /// Blurs the first colour image of the input once per index of a frame; none where the index changes nothing, which a
+    /// program tells by its second picture.
+    pub fn run_noise(
+        &mut self,
+        input: &Input,
+        frame_indices: impl Iterator<Item = u32>,
+    ) -> Result<Option<Vec<Image>>, FilterError> {
+        match self {
+            Self::Kernels(blur) => blur.run_noise(input, frame_indices),
+            Self::Command(blur) => {
+                let mut outputs: Vec<Image> = Vec::new();
+                for frame_index in frame_indices {
+                    outputs.extend(blur.run(&Input {
+                        color: &input.color[..1],
+                        frame_index,
+                        ..*input
+                    })?);
+                    if outputs.len() == 2 && outputs[0] == outputs[1] {
+                        return Ok(None);
+                    }
+                }
+                Ok(Some(outputs))
+            }
+        }
+    }
+
+    /// Blurs every colour image of the input with the same weights, in order.
+    pub fn run(&mut self, input: &Input) -> Result<Vec<Image>, FilterError> {
+        match self {
+            Self::Kernels(blur) => blur.run(input),
+            Self::Command(blur) => blur.run(input),
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! The scores of a finished picture: all that its file allows.
+
+use frame::{Frame, Image, Ladder, Picture, Truth, display_srgb, scene_linear};
+use metrics::{ImageScores, MeasureError, Measured, Metric, Reference, Scores};
+
+use crate::render::scatter_oracle::oracle_of;
+use crate::run::finished::Finished;
+
+const NO_MATTES: &str = "the picture has no mattes, channels coverage.<object> that say which share of a pixel it gives \
+                         to each object";
+const SHOWN: &str = "a PNG holds nothing above display white";
+
+/// A finished picture's scores, and what there is to know about them.
+pub struct Scored {
+    /// What its file does not allow is not applicable, with the reason.
+    pub scores: Scores,
+    /// In words.
+    pub notes: Vec<String>,
+}
+
+/// Scores a finished picture against the truth, at the exposures that the frame names.
+pub fn score(
+    finished: &Finished,
+    frame: &Frame,
+    truth: &Truth,
+    ladder: Option<&Ladder>,
+) -> Result<Scored, MeasureError> {
+    let oracle = oracle_of(frame, truth);
+    let frame = frame.cropped();
+    let reference =
+        Reference::new(&frame, truth, ladder, &frame.display.into())?.with_best(&oracle)?;
+    // No colour's score looks at mattes, and those of mattes are taken out below.
+    let mattes = finished.mattes.as_ref().unwrap_or(&frame.coverage);
+    let measured = |color: Image| {
+        let coverage = mattes.clone();
+        let measurement = reference.measure(&Picture { color, coverage })?;
+        Ok(measurement.scores)
+    };
+    let mut scores = measured(finished.color.clone())?;
+    let mut notes = finished.notes.clone();
+    if finished.mattes.is_none() {
+        scores.take_out_mattes(NO_MATTES);
+    }
+    if finished.shown {
+        for region in [
+            &mut scores.moving,
+            &mut scores.support,
+            &mut scores.still,
+            &mut scores.full,
+            &mut scores.knowable,
+            &mut scores.unknowable,
+        ] {
+            take_out_brightness(region);
+        }
+        let rounded = measured(rounded(&truth.mean().color, frame.display.stops))?;
+        if let Some(flip) = rounded.moving.flip.value() {
+            notes.push(format!(
+                "the truth itself, as a PNG of 8 bits, would have a flip_moving of {flip:.3}"
+            ));
+        }
+    }
+    Ok(Scored { scores, notes })
+}
+
+/// The image as a PNG of 8 bits keeps it.
+fn rounded(image: &Image, stops: f32) -> Image {
+    let shown = display_srgb(image, stops);
+    let steps = shown.map(|pixel| pixel.map(|value| (value * 255.0).round() / 255.0));
+    scene_linear(&steps, stops)
+}
+
+/// Which scores do not apply, by their reasons, each in the order of a report.
+pub fn missing(scores: &Scores) -> Vec<(String, Vec<Metric>)> {
+    let mut missing: Vec<(String, Vec<Metric>)> = Vec::new();
+    for metric in Metric::all() {
+        let Measured::NotApplicable { reason } = scores.get(metric) else {
+            continue;
+        };
+        // Objects give their reasons one by one.
+        let reason = match reason.contains(NO_MATTES) {
+            true => NO_MATTES.to_owned(),
+            false => reason,
+        };
+        match missing.iter_mut().find(|(known, _)| *known == reason) {
+            Some((_, metrics)) => metrics.push(metric),
+            None => missing.push((reason, vec![metric])),
+        }
+    }
+    missing
+}
+
+/// HDR-FLIP looks at exposures at which display white is dark.
+fn take_out_brightness(scores: &mut ImageScores) {
+    scores.flip_hdr = Measured::not_applicable(SHOWN);
+}

@@ -1,0 +1,5 @@
+//! Statistics over the scenes of a run.
+
+pub mod headline;
+pub mod overall;
+pub mod scene_mean;
