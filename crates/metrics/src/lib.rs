@@ -29,6 +29,7 @@ mod probe;
 mod reference;
 mod score;
 mod scores;
+mod subframes;
 mod viewing;
 mod worth;
 
@@ -51,8 +52,8 @@ pub use probe::{ProbeMaps, ProbeMeasurement, Probes};
 pub use reference::{Jitter, Measurement, Reference};
 pub use score::{Ideal, Measured, Score};
 pub use scores::Scores;
+pub use subframes::{Equivalent, LadderRange, Subframes};
 pub use viewing::Viewing;
-pub use worth::{Equivalent, LadderRange, Subframes};
 
 use frame::{Frame, Ladder, Picture, Truth};
 

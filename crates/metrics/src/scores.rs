@@ -2,11 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::worth::equivalent::Equivalent;
 use crate::{
-    EquivalentMetric, EquivalentScores, FrozenScores, ImageScores, LabelMetric, LabelScores,
-    Measured, Metric, ObjectMetric, ObjectScores, ProbeScores, Region, Score, SkillMetric,
-    SkillScores,
+    Equivalent, EquivalentMetric, EquivalentScores, FrozenScores, ImageScores, LabelMetric,
+    LabelScores, Measured, Metric, ObjectMetric, ObjectScores, ProbeScores, Region, Score,
+    SkillMetric, SkillScores,
 };
 
 /// All scores of one picture against one truth.

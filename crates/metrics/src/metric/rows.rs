@@ -5,7 +5,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::row::{Group, Row, metrics};
-use crate::worth::equivalent::Equivalent;
+use crate::subframes::Equivalent;
 use crate::{ErrorMap, Ideal, Measured};
 
 metrics! {

@@ -17,7 +17,8 @@ use crate::picture::error_maps::{ErrorMaps, MoreMaps};
 use crate::picture::pooled::Pooled;
 use crate::picture::scores::{Found, score_image, score_labels};
 use crate::probe::{ProbeMeasurement, Probes, measure_probes};
-use crate::worth::equivalent::{Curve, Equivalent};
+use crate::subframes::Equivalent;
+use crate::worth::curve::Curve;
 use crate::worth::ladder::Curves;
 use crate::worth::skill::{Ends, score_skill};
 use crate::{

@@ -8,7 +8,7 @@ use crate::color::flip::flip_ldr;
 use crate::label::total_variation::label_variation;
 use crate::math::conversion::widen;
 use crate::math::pooling::mean;
-use crate::worth::equivalent::Curve;
+use crate::worth::curve::Curve;
 use crate::{Region, Regions, Viewing};
 
 /// Errors over the moving region against the count of sub-frames.
