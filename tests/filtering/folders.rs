@@ -230,7 +230,7 @@ fn whole_numbers_keep_every_bit_in_a_texture_of_a_fixed_fraction() {
     let expected = Raster::from_fn(10, 5, |x, y| [255.0, number(x, y) as f32, 0.0]);
     assert_eq!(outputs[0], expected);
     // Rounded up, so that the last block is there though it is not whole.
-    let blocks = blur.texture("blocks").unwrap();
+    let blocks = blur.read_texture("blocks").unwrap();
     assert_eq!((blocks.width, blocks.height), (3, 2));
     assert_eq!(blocks.at(2, 1)[0].to_bits(), 0xff00_0001 + 2 + 16);
 }
@@ -269,7 +269,7 @@ fn the_smallest_reach_that_covers_a_trail_is_set() {
     let flood = Filter::builtin("jump_flood").unwrap();
     let passes = |preset: &str, pixels: u32| {
         let settings = flood.settings(Some(preset)).unwrap();
-        let reaching = settings.reaching(&flood, pixels).unwrap();
+        let reaching = settings.with_reach(&flood, pixels).unwrap();
         reaching.values["passes"].clone()
     };
     // Largest steps of 8, 16 and 128 pixels; then of 1, 16 and 128.
@@ -289,14 +289,17 @@ fn the_smallest_reach_that_covers_a_trail_is_set() {
         );
     }
     let settings = flood.settings(None).unwrap();
-    let message = settings.reaching(&flood, 1 << 20).unwrap_err().to_string();
+    let message = settings
+        .with_reach(&flood, 1 << 20)
+        .unwrap_err()
+        .to_string();
     assert_eq!(
         message,
         "jump_flood.passes: found 18; allowed: a whole number from 1 to 12"
     );
     let gather = Filter::builtin("velocity_gather").unwrap();
     let settings = gather.settings(None).unwrap();
-    assert_eq!(settings.reaching(&gather, 256).unwrap(), settings);
+    assert_eq!(settings.with_reach(&gather, 256).unwrap(), settings);
 }
 
 #[test]

@@ -180,10 +180,10 @@ fn inputs_and_kernels_that_stay_on_the_gpu_give_the_bytes_of_fresh_ones() {
         let (_, kernels) = filter_before.as_ref().expect("it was compiled above");
         let colors = [&field.color, &matte];
         let [input, between] = [field.input(&colors), other.input(&[&other.color])]
-            .map(|input| kernels.keep(&input).unwrap());
-        let mut blur = Blur::of(kernels, &settings, WIDTH, HEIGHT).unwrap();
-        blur.run_resident(&between).unwrap();
-        let kept = blur.run_resident(&input).unwrap();
+            .map(|input| kernels.upload(&input).unwrap());
+        let mut blur = Blur::with_kernels(kernels, &settings, WIDTH, HEIGHT).unwrap();
+        blur.run_uploaded(&between).unwrap();
+        let kept = blur.run_uploaded(&input).unwrap();
         let fresh = field.blurred_colors(&gpu, &filter, &settings, &colors);
         for (kept, fresh) in kept.iter().zip(&fresh) {
             assert_eq!(

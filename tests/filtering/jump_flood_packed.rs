@@ -127,7 +127,7 @@ fn painted(
         frame_index: 5,
     };
     let output = blur.run(&input).unwrap().remove(0);
-    let seeds = blur.texture("seeds").unwrap().pixels;
+    let seeds = blur.read_texture("seeds").unwrap().pixels;
     let packed = filter.name == "jump_flood_packed";
     // A map of 16 bits says it of the place that it holds instead.
     let exact = settings.values["map"].to_string() == "float32";
@@ -151,7 +151,7 @@ fn painted(
                 .collect(),
         },
         reached: packed.then(|| {
-            let tiles = blur.texture("reached").unwrap().pixels;
+            let tiles = blur.read_texture("reached").unwrap().pixels;
             let reached = tiles.iter().filter(|texel| texel[0].to_bits() == 1);
             (reached.count(), tiles.len())
         }),

@@ -38,7 +38,7 @@ fn every_dispatch_is_timed_once_by_either_clock() {
             );
         }
         // What was timed is what would have been run.
-        let seeds = blur.texture("seeds").unwrap();
+        let seeds = blur.read_texture("seeds").unwrap();
         assert!(seeds.pixels.iter().any(|texel| texel[3] == 1.0));
     }
 }

@@ -4,7 +4,9 @@
 use std::sync::LazyLock;
 
 use frame::{Frame, Image, Picture, Truth};
-use metrics::{Equivalent, Measured, Metric, Reach, Reference, Region, Scores, measure, regions};
+use metrics::{
+    Equivalent, LadderRange, Measured, Metric, Reference, Region, Scores, measure, regions,
+};
 use tests::random::Random;
 use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
 
@@ -250,22 +252,22 @@ fn noise_in_the_ladder_does_not_lower_the_bar() {
 fn counts_beyond_the_ladder_say_so() {
     let ladder = scene().ladder(256, [3000, 4000]);
     let reference = Reference::new(&FRAME, &TRUTH, Some(&ladder), &VIEWING).expect("they agree");
-    let reach = |blur: Blur| {
+    let range = |blur: Blur| {
         let output = scene().render(&blur, noisy(4096, 10));
         let scores = reference.measure(&output).expect("a finite picture").scores;
         match scores.equivalent_subframes.label_total_variation {
-            Equivalent::Subframes(subframes) => subframes.reach,
+            Equivalent::Subframes(subframes) => subframes.range,
             Equivalent::NotApplicable { reason } => panic!("{reason}"),
         }
     };
-    assert_eq!(reach(Blur::TRUE), Reach::Above);
-    assert_eq!(reach(Blur::accumulation(3)), Reach::Within);
+    assert_eq!(range(Blur::TRUE), LadderRange::Above);
+    assert_eq!(range(Blur::accumulation(3)), LadderRange::Within);
     let late = Blur {
         from: 0.0,
         to: 1.0,
         ..Blur::TRUE
     };
-    assert_eq!(reach(late), Reach::Below);
+    assert_eq!(range(late), LadderRange::Below);
 }
 
 #[test]

@@ -92,7 +92,7 @@ impl Picture {
         let gpu = Gpu::new(None).expect("these tests run filters");
         let mut blur = Blur::new(&gpu, &filter, &settings, width, height).unwrap();
         blur.run(&self.input(&[&self.color])).unwrap();
-        blur.texture(texture).unwrap()
+        blur.read_texture(texture).unwrap()
     }
 }
 

@@ -1,8 +1,8 @@
-//! Errors between a filter folder and a blurred image.
+//! Errors of loading and running filters.
 
 use std::path::PathBuf;
 
-/// Every message names the place, what was found, what is allowed, and the way out.
+/// Error of a filter. Every message names the place, what was found, what is allowed, and the way out.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FilterError {
     /// The machine offers no adapter at all.
@@ -11,7 +11,7 @@ pub enum FilterError {
          Vulkan driver serves: on Debian and Ubuntu `apt-get install mesa-vulkan-drivers libvulkan1`"
     )]
     NoAdapter,
-    /// The adapter asked for is not there.
+    /// No adapter has that index or name.
     #[error("no adapter is called \"{wanted}\"; found: {}", found.join("; "))]
     UnknownAdapter {
         /// Index or part of the name that was asked for.
@@ -19,22 +19,22 @@ pub enum FilterError {
         /// `index: name` of every adapter there is.
         found: Vec<String>,
     },
-    /// The adapter gives no device.
-    #[error("adapter \"{adapter}\" cannot be used: {reason}; choose another one with --adapter")]
+    /// The adapter cannot be opened.
+    #[error("adapter \"{adapter}\" cannot be used: {reason}; choose another adapter")]
     Device {
         /// Name of the adapter.
         adapter: String,
-        /// What the driver said.
+        /// Message of the driver.
         reason: String,
     },
-    /// A filter folder that says something wrong.
+    /// A fault in a filter folder.
     #[error("{}{}: {reason}", path.display(), line.map(|line| format!(":{line}")).unwrap_or_default())]
     Folder {
         /// The file at fault, or the folder.
         path: PathBuf,
         /// Line in that file, from 1.
         line: Option<usize>,
-        /// What was found and what is allowed.
+        /// Fault, and what is allowed.
         reason: String,
     },
     /// Kernels that do not compile.
@@ -46,7 +46,7 @@ pub enum FilterError {
         line: usize,
         /// Column, from 1.
         column: usize,
-        /// What naga said, with the line itself and a mark below.
+        /// Message of naga, with the line itself and a mark below.
         reason: String,
     },
     /// No built-in filter has that name.
@@ -74,7 +74,7 @@ pub enum FilterError {
         filter: String,
         /// The name as it was given.
         parameter: String,
-        /// What was found and what is allowed.
+        /// Fault, and what is allowed.
         reason: String,
     },
     /// The image is too large, or empty.
@@ -86,7 +86,7 @@ pub enum FilterError {
         width: u32,
         /// Rows.
         height: u32,
-        /// What is allowed.
+        /// Allowed sizes.
         reason: String,
     },
     /// A frame that cannot be blurred.
@@ -94,15 +94,15 @@ pub enum FilterError {
     Input {
         /// The filter.
         filter: String,
-        /// What was found and what is allowed.
+        /// Fault, and what is allowed.
         reason: String,
     },
-    /// A filter that is a command did not do what it was asked to.
+    /// A program failed.
     #[error("filter {filter}: {reason}")]
     Command {
         /// The filter.
         filter: String,
-        /// What happened, what is needed, and the last lines that the program printed.
+        /// Fault, what is needed, and the last lines that the program printed.
         reason: String,
     },
     /// A command was stopped on request.
@@ -111,10 +111,10 @@ pub enum FilterError {
     /// A filter fails with values that its filter.toml allows.
     #[error("{}", .0.join("\n"))]
     TriedOut(
-        /// What fails and where, a line each.
+        /// Failures with their places, a line each.
         Vec<String>,
     ),
-    /// A pass was given up. The adapter may still be at work on it, so nothing else is run there.
+    /// A pass took too long and was given up. The adapter may still be at work on it, so nothing else is run there.
     #[error(
         "filter {filter}, pass {pass}: took longer than {time_limit} s and was given up; make it faster, or raise \
          time_limit in filter.toml"
@@ -124,7 +124,7 @@ pub enum FilterError {
         filter: String,
         /// Entry point of the pass.
         pass: String,
-        /// Seconds that it was given.
+        /// Time limit in seconds.
         time_limit: f64,
     },
     /// wgpu or the driver refused a pass.
@@ -132,9 +132,9 @@ pub enum FilterError {
     Gpu {
         /// The filter.
         filter: String,
-        /// Entry point of the pass, or what was done around the passes: `upload`, `read back`.
+        /// Entry point of the pass, or a step around the passes: `upload`, `read back`.
         pass: String,
-        /// What wgpu said.
+        /// Message of wgpu.
         reason: String,
     },
 }

@@ -4,7 +4,7 @@ use frame::{Image, Plane, Raster, Reprojection, Vectors};
 
 use crate::FilterError;
 
-/// What a filter blurs: one instant, as [`frame::Frame`] holds it.
+/// Input of a filter: one instant, as [`frame::Frame`] holds it.
 #[derive(Clone, Copy, Debug)]
 pub struct Input<'a> {
     /// One or more images that are blurred with the same weights; an object's coverage may travel as a colour.
@@ -13,17 +13,17 @@ pub struct Input<'a> {
     pub velocity: &'a Vectors,
     /// Distance along the view axis, in metres; above 0.
     pub depth: &'a Plane,
-    /// The camera's motion since the frame before, between places of these rasters; filters that read it refuse to run
-    /// without.
+    /// The camera's motion since the frame before, between places of these rasters. Filters that read it refuse to run
+    /// without it.
     pub reprojection: Option<Reprojection>,
-    /// How long the shutter is open, in frames; above 0.
+    /// Time that the shutter is open, in frames; above 0.
     pub exposure: f64,
     /// Changes the noise of filters that have any, and nothing else.
     pub frame_index: u32,
 }
 
 impl Input<'_> {
-    /// Refuses rasters of another size than `width` x `height`, values that are no numbers, and what no frame holds.
+    /// Refuses rasters of another size than `width` x `height`, and values that no frame holds.
     pub(crate) fn check(
         &self,
         filter: &str,

@@ -1,39 +1,39 @@
-//! Motion blur filters on the GPU: a filter is a folder with `filter.toml` and one WGSL file, or with the command of a
-//! program that blurs files.
+//! Motion blur filters: a filter is a folder with `filter.toml` and one WGSL file, or with the command of a program that blurs
+//! files.
 //!
 //! `shaders/README.md` says how to write one. The conventions of images, velocity, depth and time are those of the
 //! [`frame`] crate.
+//!
+//! | room | holds |
+//! |---|---|
+//! | `filter` | a filter as data: parameters, presets, passes, and the settings that it runs with |
+//! | `shader` | declarations and costs of WGSL kernels, found without an adapter |
+//! | `manifest` | the parser of `filter.toml` |
+//! | `load` | loading: manifest and kernels of a folder, checked against each other |
+//! | `gpu` | running kernels on an adapter |
+//! | `command` | running programs |
 
 mod command;
 mod error;
 mod filter;
 mod gpu;
 mod input;
+mod load;
 mod manifest;
-mod parameter;
-mod reach;
-mod settings;
-mod source;
-mod text;
-mod trial;
-mod tuned;
-mod wiring;
+mod printable;
+mod shader;
 
-pub use command::{BESIDE_PIXELS, BYTES_PER_PIXEL, Command, CommandBlur};
+pub use command::{BESIDE_PIXELS, BYTES_PER_PIXEL, CommandBlur};
 pub use error::FilterError;
 pub use filter::{
-    Filter, Format, Holds, MAX_KERNEL_BYTES, MAX_MANIFEST_BYTES, Pass, Preset, Repeat, Texture,
+    Code, Command, Filter, Growth, Holds, Kind, Length, Parameter, Pass, Preset, ReachBy, Repeat,
+    Scale, Settings, Source, Texture, TuningRecord, Unit, Value,
 };
 pub use gpu::{
-    AdapterDescription, Blur, BufferCopy, Clock, Gpu, Kernels, Limits, Loaded, LoopLimit,
-    MAX_INLINED, MAX_INVOCATION_BYTES, MAX_NESTING, MAX_TEXTURE_BYTES, PassTime, Resident,
-    list_adapters,
+    AdapterDescription, Blur, BufferCopy, Clock, Gpu, Kernels, Limits, LoadedBlur, LoopLimit,
+    MAX_TEXTURE_BYTES, PassTime, UploadedInput, list_adapters, try_out,
 };
 pub use input::Input;
+pub use load::{MAX_KERNEL_BYTES, MAX_MANIFEST_BYTES};
 pub use manifest::{MAX_CHOICES, MAX_DISPATCHES, MAX_ENTRIES};
-pub use parameter::{Kind, Parameter, Scale, Unit, Value};
-pub use reach::{Growth, Length, ReachBy};
-pub use settings::Settings;
-pub use source::{Code, Source};
-pub use trial::try_out;
-pub use tuned::Tuned;
+pub use shader::{Format, MAX_INLINED, MAX_INVOCATION_BYTES, MAX_NESTING};

@@ -1,17 +1,16 @@
-//! Averages of a few sub-frames: the physical way of motion blur, and the ladder that errors are measured against.
+//! Accumulations: averages of a few sub-frames, and the ladder of them that errors are measured against.
 
 use std::path::Path;
 
-use crate::exr_file::{ExrFile, write_small_exr};
-use crate::exr_reading::read_exr;
-use crate::truth::{get_shutter, set_shutter};
+use crate::exr::{ExrFile, read_exr, write_small_exr};
+use crate::shutter::{get_shutter, set_shutter};
 use crate::{Alignment, FileError, Picture, Provenance, Shutter, ShutterProfile};
 
-/// The mean of `subframes` instants at the middles of equal parts of the shutter's light: instant k of N is the one by
-/// which `(k + 0.5) / N` of it has passed; for a shutter that opens at once `open + (k + 0.5) / N * (close - open)`.
+/// Mean of `subframes` instants in the middles of equal parts of the shutter's light. By instant k of N, `(k + 0.5) / N` of the
+/// light has passed; for a shutter that opens at once it is `open + (k + 0.5) / N * (close - open)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Accumulation {
-    /// How many instants were averaged.
+    /// Number of instants that were averaged.
     pub subframes: u32,
     /// Means of the even and of the odd replicates.
     pub halves: [Picture; 2],
@@ -20,17 +19,17 @@ pub struct Accumulation {
 /// Accumulations of 1, 2, 4 .. sub-frames over the same shutter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ladder {
-    /// Where the accumulations come from.
+    /// Origin of the accumulations.
     pub provenance: Provenance,
     /// The interval that the sub-frames divide.
     pub shutter: Shutter,
-    /// How the shutter opens and closes, and how rows follow one another.
+    /// Opening and closing of the shutter, and delay between rows.
     pub shutter_profile: ShutterProfile,
-    /// Where that interval lies relative to the instant.
+    /// Position of that interval relative to the instant.
     pub alignment: Alignment,
     /// Object names; the index is the object id, and 0 is `background`.
     pub objects: Vec<String>,
-    /// In rising order of sub-frames.
+    /// Accumulations in rising order of sub-frames.
     pub rungs: Vec<Accumulation>,
 }
 

@@ -1,34 +1,34 @@
-//! What is seen while the shutter is open, as it was at the frame's instant: what no filter can know, and what it could.
+//! Surfaces that the open shutter sees, as they were at the frame's instant.
 
-use crate::exr_file::{ExrFile, in_layer};
+use crate::exr::{ExrFile, in_layer};
 use crate::raster::{mean_plane, mean_vectors};
 use crate::{FileError, Image, Plane, Raster, Vectors};
 
-/// Means over all samples of the shutter and the pixel's area, so that means of several renders are exact. All rasters have
-/// the same size.
+/// Surfaces that the open shutter sees, as they were at the instant: which of them a filter could know. Values are means over all
+/// samples of the shutter and the pixel's area, so that means of several renders are exact. All rasters have the same size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtInstant {
-    /// Radiance if each visible point sent what it sent at `t = 0`: visibility moves, shading stands still. What the truth
-    /// has beyond it are shadows, reflections and lights that move, which no frame of the instant tells. It is the truth
-    /// plus an unbiased estimate of a difference, and where that is noisy it may fall below 0.
+    /// Radiance if each visible point sent what it sent at `t = 0`: visibility moves, shading stands still. It lacks shadows,
+    /// reflections and lights that move, which no frame of the instant shows. It is the truth plus an unbiased estimate of a
+    /// difference, so noise may take it below 0.
     pub frozen: Image,
-    /// The fraction whose visible point cannot be seen in the frame of the instant: it lay outside the picture, behind
-    /// something, or showed its other side.
+    /// Fraction whose visible point the frame of the instant does not show: it lay outside the picture, behind something, or
+    /// showed its other side.
     pub unknowable: Plane,
-    /// The fraction whose visible point has a place at the instant: all that was not behind the camera. What follows is
-    /// to be divided by it to get the mean over those.
+    /// Fraction whose visible point has a place at the instant: all that was not behind the camera. Divide the next fields by it
+    /// to get means over that fraction.
     pub placed: Plane,
-    /// From the pixel's centre to the visible point's place at the instant, in pixels, +x right, +y down; zero where it has
-    /// none.
+    /// Offset from the pixel's centre to the visible point's place at the instant, in pixels, +x right, +y down; zero for a point
+    /// without a place.
     pub offset: Vectors,
-    /// The products xx, xy and yy of that offset, in square pixels.
+    /// Products xx, xy and yy of that offset, in square pixels.
     pub spread: Raster<[f32; 3]>,
 }
 
 const SPREAD: [&str; 3] = ["xx", "xy", "yy"];
 
 impl AtInstant {
-    /// The mean of several of one size, at least one; summed in `f64`, in their order.
+    /// Averages at least one, all of one size; sums in `f64`, in their order.
     pub fn mean<'a>(all: impl IntoIterator<Item = &'a AtInstant>) -> AtInstant {
         let all: Vec<&AtInstant> = all.into_iter().collect();
         AtInstant {
@@ -40,7 +40,7 @@ impl AtInstant {
         }
     }
 
-    /// As `frozen.R/G/B`, `unknowable`, `reference.placed`, `reference.x/y` and `reference.xx/xy/yy`.
+    /// Adds `frozen.R/G/B`, `unknowable`, `reference.placed`, `reference.x/y` and `reference.xx/xy/yy`.
     pub(crate) fn push(&self, file: &mut ExrFile, layer: &str) {
         let name = |name: &str| in_layer(layer, name);
         file.push_color(&name("frozen"), &self.frozen);

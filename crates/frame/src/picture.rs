@@ -1,15 +1,15 @@
-//! Colour and visibility together: what a half of the truth, an accumulation or a filter yields.
+//! Pictures: colour and coverage, as a half of the truth, an accumulation or a filter yields them.
 
-use crate::exr_file::{ExrFile, in_layer};
+use crate::exr::{ExrFile, in_layer};
 use crate::raster::{mean_plane, mean_vectors};
 use crate::{FileError, Image, Plane};
 
-/// A picture and what is seen in it. All rasters have the same size.
+/// Colour, and the coverage of every object. All rasters have the same size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     /// Scene-linear radiance.
     pub color: Image,
-    /// Per object, the background first: the fraction of the pixel that shows it.
+    /// Fraction of the pixel that shows the object, per object, the background first.
     pub coverage: Vec<Plane>,
 }
 
@@ -36,7 +36,7 @@ impl Picture {
         })
     }
 
-    /// The picture without `border` pixels on every side. Panics when nothing would be left.
+    /// Removes `border` pixels on every side. Panics if nothing would be left.
     pub fn cropped(&self, border: u32) -> Picture {
         Picture {
             color: self.color.cropped(border),
@@ -46,7 +46,7 @@ impl Picture {
         }
     }
 
-    /// The mean of pictures of one size, at least one; summed in `f64`, in their order.
+    /// Averages at least one picture, all of one size; sums in `f64`, in their order.
     pub fn mean<'a>(pictures: impl IntoIterator<Item = &'a Picture>) -> Picture {
         let pictures: Vec<&Picture> = pictures.into_iter().collect();
         let first = pictures.first().expect("a mean is of at least one picture");
@@ -59,7 +59,7 @@ impl Picture {
     }
 }
 
-/// Channel that holds an object's coverage, in a named layer or at the top.
+/// Names the channel of an object's coverage, in a named layer or at the top.
 pub(crate) fn coverage_name(layer: &str, object: &str) -> String {
     in_layer(layer, &format!("coverage.{object}"))
 }

@@ -1,9 +1,9 @@
-//! Where a rendered file comes from.
+//! Origin of a rendered file.
 
 use crate::FileError;
-use crate::exr_file::ExrFile;
+use crate::exr::ExrFile;
 
-/// What was rendered, by which program, from which inputs: written into every file.
+/// Scene, program and inputs of a rendered file, which is written into it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Provenance {
     /// Scene name, with its variant: `sliding_panel` or `sliding_panel@64px_45deg`.
@@ -14,9 +14,9 @@ pub struct Provenance {
     pub seed: u64,
     /// Samples per pixel over all replicates.
     pub samples_per_pixel: u32,
-    /// Independent, complete renders that were averaged.
+    /// Number of independent, complete renders that were averaged.
     pub replicates: u32,
-    /// Which instructions traced the rays, `avx2` or `portable`. All find the same hits, so that pixels do not depend on it.
+    /// Instructions that traced the rays, `avx2` or `portable`. Both find the same hits, so pixels do not depend on it.
     pub traversal: String,
     /// Hash of scene, meshes, textures, settings and the tracer, in hexadecimal: equal hashes mean equal pixels.
     pub content_hash: String,

@@ -1,4 +1,4 @@
-//! A two-dimensional array of pixels.
+//! Rasters: two-dimensional arrays of pixels.
 
 /// Row-major pixels from the top left: pixel (x, y) is `pixels[y * width + x]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +19,7 @@ pub type Plane = Raster<f32>;
 pub type Vectors = Raster<[f32; 2]>;
 
 impl<T: Clone> Raster<T> {
-    /// A raster that holds `value` everywhere.
+    /// Makes a raster that holds `value` everywhere.
     pub fn filled(width: u32, height: u32, value: T) -> Self {
         let pixels = vec![value; width as usize * height as usize];
         Self {
@@ -28,10 +28,8 @@ impl<T: Clone> Raster<T> {
             pixels,
         }
     }
-}
 
-impl<T: Clone> Raster<T> {
-    /// The raster without `border` pixels on every side. Panics when nothing would be left.
+    /// Removes `border` pixels on every side. Panics if nothing would be left.
     pub fn cropped(&self, border: u32) -> Raster<T> {
         assert!(
             2 * border < self.width && 2 * border < self.height,
@@ -44,7 +42,7 @@ impl<T: Clone> Raster<T> {
 }
 
 impl<T> Raster<T> {
-    /// A raster made pixel by pixel from `value(x, y)`, row by row.
+    /// Makes a raster from `value(x, y)`, pixel by pixel and row by row.
     pub fn from_fn(width: u32, height: u32, mut value: impl FnMut(u32, u32) -> T) -> Self {
         let pixels = (0..height)
             .flat_map(|y| (0..width).map(move |x| (x, y)))
@@ -57,7 +55,7 @@ impl<T> Raster<T> {
         }
     }
 
-    /// The pixel in column `x`, row `y`. Panics outside the raster.
+    /// Returns the pixel in column `x`, row `y`. Panics outside the raster.
     pub fn at(&self, x: u32, y: u32) -> &T {
         assert!(
             x < self.width && y < self.height,
@@ -66,7 +64,7 @@ impl<T> Raster<T> {
         &self.pixels[y as usize * self.width as usize + x as usize]
     }
 
-    /// A raster of the same size, each pixel made from this one's.
+    /// Makes a raster of the same size, each pixel from this one's.
     pub fn map<U>(&self, value: impl FnMut(&T) -> U) -> Raster<U> {
         Raster {
             width: self.width,
@@ -75,7 +73,7 @@ impl<T> Raster<T> {
         }
     }
 
-    /// A raster of the same size from each pair of pixels. Panics when the sizes differ.
+    /// Makes a raster of the same size from each pair of pixels. Panics if the sizes differ.
     pub fn zip<U, V>(&self, other: &Raster<U>, mut value: impl FnMut(&T, &U) -> V) -> Raster<V> {
         assert!(
             self.same_size(other),
@@ -94,13 +92,13 @@ impl<T> Raster<T> {
         }
     }
 
-    /// Whether both have the same width and height.
+    /// Returns true if both have the same width and height.
     pub fn same_size<U>(&self, other: &Raster<U>) -> bool {
         self.width == other.width && self.height == other.height
     }
 }
 
-/// The mean of planes of one size, at least one; summed in `f64`, in their order.
+/// Averages at least one plane, all of one size; sums in `f64`, in their order.
 pub(crate) fn mean_plane<'a>(planes: impl IntoIterator<Item = &'a Plane>) -> Plane {
     let planes: Vec<&Plane> = planes.into_iter().collect();
     mean(&planes, |pixel| {
@@ -108,7 +106,7 @@ pub(crate) fn mean_plane<'a>(planes: impl IntoIterator<Item = &'a Plane>) -> Pla
     })
 }
 
-/// The same of rasters of several numbers per pixel.
+/// Averages rasters of several numbers per pixel in the same way.
 pub(crate) fn mean_vectors<'a, const N: usize>(
     rasters: impl IntoIterator<Item = &'a Raster<[f32; N]>>,
 ) -> Raster<[f32; N]> {
@@ -120,7 +118,7 @@ pub(crate) fn mean_vectors<'a, const N: usize>(
     })
 }
 
-/// A raster of the size of all `rasters`, made from the pixels' indices.
+/// Makes a raster of the size of all `rasters` from the pixels' indices.
 fn mean<T>(rasters: &[&Raster<T>], value: impl FnMut(usize) -> T) -> Raster<T> {
     let first = rasters.first().expect("a mean is of at least one raster");
     assert!(

@@ -1,24 +1,23 @@
-//! Which pixels a score is pooled over; the truth decides, never the picture.
+//! Regions of pixels that scores are pooled over, defined by the truth and never by the picture.
 
 use std::fmt;
 
-use crate::{Image, Raster, Truth};
+use crate::{Image, Raster, Support};
 
 /// A set of pixels that the truth defines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Region {
-    /// Where anything moved on screen while the shutter was open, and the band that a bleed would reach.
+    /// Pixels where anything moved on screen while the shutter was open, and a margin for bleed around them.
     Moving,
-    /// Where anything moved on screen while the shutter was open, without that band: a thin smear is not diluted.
+    /// The same without the margin, which would dilute the errors of a thin smear.
     Support,
-    /// Where nothing did: the picture there is that of the instant. `static` in names and files.
+    /// Pixels where nothing moved: the picture there is that of the instant. `static` in names and files.
     Still,
-    /// The whole picture: reported because readers expect it; a filter that does nothing looks good here.
+    /// The whole picture. It is reported because readers expect it; a filter that does nothing looks good here.
     Full,
-    /// Of the moving pixels, those where everything that the shutter sees can be seen in the frame of the instant.
+    /// Moving pixels where the frame of the instant shows everything that the shutter sees.
     Knowable,
-    /// The other moving pixels: part of what the shutter sees is hidden from the frame, or lies beyond its border, so that
-    /// every filter has to guess.
+    /// The other moving pixels. The frame does not show all that the shutter sees there, so every filter has to guess.
     Unknowable,
 }
 
@@ -48,7 +47,7 @@ impl Region {
         Region::Unknowable,
     ];
 
-    /// The word used in metric names and files.
+    /// Returns the word used in metric names and files.
     pub fn name(self) -> &'static str {
         match self {
             Region::Moving => "moving",
@@ -68,7 +67,21 @@ impl fmt::Display for Region {
 }
 
 impl Regions {
-    /// The pixels of a region; none where these are all.
+    /// Makes the regions of a support, which the noise of a truth does not change. The moving region is dilated by `margin` pixels,
+    /// because bleed leaves the support.
+    pub(crate) fn new(support: &Support, margin: u32) -> Self {
+        let hidden = &support.unknowable;
+        let moving = dilate(&support.moving, margin);
+        Self {
+            still: moving.map(|moves| !moves),
+            knowable: moving.zip(hidden, |moves, hidden| *moves && !hidden),
+            unknowable: moving.zip(hidden, |moves, hidden| *moves && *hidden),
+            support: support.moving.clone(),
+            moving,
+        }
+    }
+
+    /// Returns the pixels of a region; `None` for the whole picture.
     pub fn mask(&self, region: Region) -> Option<&Raster<bool>> {
         match region {
             Region::Moving => Some(&self.moving),
@@ -80,7 +93,7 @@ impl Regions {
         }
     }
 
-    /// The values of `map` inside a region, in row order.
+    /// Takes the values of `map` inside a region, in row order.
     pub fn select<T: Copy>(&self, region: Region, map: &Raster<T>) -> Vec<T> {
         let Some(mask) = self.mask(region) else {
             return map.pixels.clone();
@@ -97,43 +110,26 @@ impl Regions {
     }
 }
 
-/// Derives the regions from the truth's [`Support`](crate::Support), which its noise does not change.
-///
-/// Support: where anything moves. Moving: that dilated by a disc of a fifteenth of the height (a bleed leaves the support).
-/// Static: the rest. Moving pixels are knowable where the support saw nothing that the frame does not show.
-pub fn regions(truth: &Truth) -> Regions {
-    let support = &truth.support.moving;
-    let hidden = &truth.support.unknowable;
-    let moving = dilated(support, truth.motion_margin());
-    Regions {
-        still: moving.map(|moves| !moves),
-        knowable: moving.zip(hidden, |moves, hidden| *moves && !hidden),
-        unknowable: moving.zip(hidden, |moves, hidden| *moves && *hidden),
-        support: support.clone(),
-        moving,
-    }
-}
-
-/// Every pixel whose centre lies within `radius` pixels of that of a pixel of `set`.
-fn dilated(set: &Raster<bool>, radius: u32) -> Raster<bool> {
+/// Marks every pixel whose centre lies within `radius` pixels of that of a pixel of `set`.
+fn dilate(set: &Raster<bool>, radius: u32) -> Raster<bool> {
     let mut disc = Raster::filled(set.width, set.height, false);
     for y in 0..set.height {
         for row in y.saturating_sub(radius)..=(y + radius).min(set.height - 1) {
-            let reach = (radius * radius - y.abs_diff(row).pow(2)).isqrt();
-            widen(row_of(set, row), reach, &mut disc, y);
+            let half_width = (radius * radius - y.abs_diff(row).pow(2)).isqrt();
+            widen(row_of(set, row), half_width, &mut disc, y);
         }
     }
     disc
 }
 
-/// Adds to row `y` of `disc` whatever lies within `reach` columns of a pixel of `source`.
-fn widen(source: &[bool], reach: u32, disc: &mut Raster<bool>, y: u32) {
+/// Marks in row `y` of `disc` the pixels within `half_width` columns of a pixel of `source`.
+fn widen(source: &[bool], half_width: u32, disc: &mut Raster<bool>, y: u32) {
     let start = y as usize * disc.width as usize;
     let target = &mut disc.pixels[start..start + source.len()];
     let mut free = 0;
     for column in (0..source.len()).filter(|column| source[*column]) {
-        let from = column.saturating_sub(reach as usize).max(free);
-        free = (column + reach as usize + 1).min(source.len());
+        let from = column.saturating_sub(half_width as usize).max(free);
+        free = (column + half_width as usize + 1).min(source.len());
         target[from..free.max(from)].fill(true);
     }
 }
@@ -143,9 +139,13 @@ fn row_of(set: &Raster<bool>, row: u32) -> &[bool] {
     &set.pixels[row as usize * width..][..width]
 }
 
-/// The root mean square error of a region's mean of halves, from their difference alone: with independent halves the
-/// expectation of `(A - B)^2 / 4` is the squared error of `(A + B) / 2`. None where the region is empty.
-pub(crate) fn noise_floor(halves: [&Image; 2], regions: &Regions, region: Region) -> Option<f64> {
+/// Estimates the root mean square error of the mean of two halves over a region; `None` if the region is empty. With independent
+/// halves the expectation of `(A - B)^2 / 4` is the squared error of `(A + B) / 2`.
+pub(crate) fn estimate_noise(
+    halves: [&Image; 2],
+    regions: &Regions,
+    region: Region,
+) -> Option<f64> {
     let [a, b] = halves;
     let squares = a.zip(b, |a, b| {
         let square = |c: usize| (f64::from(a[c]) - f64::from(b[c])).powi(2);
@@ -179,7 +179,7 @@ mod tests {
             moving,
             still,
         };
-        let floor = |region| noise_floor([&a, &b], &regions, region).unwrap();
+        let floor = |region| estimate_noise([&a, &b], &regions, region).unwrap();
         let one_of_three = 0.03 / 3.0_f64.sqrt();
         let all = ((0.1_f64.powi(2) + 3.0 * one_of_three.powi(2)) / 4.0).sqrt();
         for (region, expected) in [
@@ -196,7 +196,7 @@ mod tests {
                 floor(region)
             );
         }
-        assert_eq!(noise_floor([&a, &b], &regions, Region::Unknowable), None);
+        assert_eq!(estimate_noise([&a, &b], &regions, Region::Unknowable), None);
     }
 
     #[test]
@@ -213,7 +213,7 @@ mod tests {
                     })
                 })
             });
-            assert_eq!(dilated(&set, radius), expected, "radius {radius}");
+            assert_eq!(dilate(&set, radius), expected, "radius {radius}");
         }
     }
 }

@@ -1,10 +1,9 @@
-//! One complete, independent render of a shutter interval: the unit in which truths are rendered, kept and shared.
+//! Replicates: complete, independent renders of a shutter interval, in which truths are rendered, kept and shared.
 
 use std::path::Path;
 
-use crate::exr_file::{ExrFile, write_exr};
-use crate::exr_reading::read_exr;
-use crate::truth::{get_shutter, set_shutter};
+use crate::exr::{ExrFile, read_exr, write_exr};
+use crate::shutter::{get_shutter, set_shutter};
 use crate::{
     Alignment, AtInstant, FileError, Picture, Provenance, Shutter, ShutterProfile, Support,
 };
@@ -12,31 +11,30 @@ use crate::{
 /// One of the renders that a [`Truth`](crate::Truth) is the mean of. All rasters have the same size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replicate {
-    /// Where it comes from; its content hash is that of all replicates of the same truth, whatever their number.
+    /// Origin of the replicate; all replicates of one truth have the same content hash, whatever their number.
     pub provenance: Provenance,
-    /// Which one it is, from 0: it chooses the random numbers.
+    /// Index from 0, which chooses the random numbers.
     pub index: u32,
     /// The interval integrated over.
     pub shutter: Shutter,
-    /// How the shutter opens and closes, and how rows follow one another.
+    /// Opening and closing of the shutter, and delay between rows.
     pub shutter_profile: ShutterProfile,
-    /// Where that interval lies relative to the instant.
+    /// Position of that interval relative to the instant.
     pub alignment: Alignment,
     /// Object names; the index is the object id, and 0 is `background`.
     pub objects: Vec<String>,
-    /// Per object, whether it moves on screen while the shutter is open.
+    /// Per object, true if it moves on screen while the shutter is open.
     pub moving: Vec<bool>,
     /// Radiance and visibility integrated over the shutter.
     pub picture: Picture,
-    /// The same as it was at the instant.
+    /// What was seen, as it was at the instant.
     pub at_instant: AtInstant,
-    /// What scores are pooled over: the same for all replicates of a scene, shutter and size.
+    /// Pixels that scores are pooled over: the same for all replicates of a scene, shutter and size.
     pub support: Support,
 }
 
 impl Replicate {
-    /// Writes the replicate as OpenEXR: `R G B`, `coverage.<object>`, and what [`AtInstant`] and [`Support`]
-    /// hold.
+    /// Writes the replicate as OpenEXR: `R G B`, `coverage.<object>`, and the channels of [`AtInstant`] and [`Support`].
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
         let color = &self.picture.color;
         let mut file = ExrFile::new(color.width, color.height);
@@ -57,9 +55,8 @@ impl Replicate {
         write_exr(path, &file)
     }
 
-    /// What the other has otherwise, though replicates of one truth share it; none where they are alike. Both are whole: what
-    /// one of them holds has one size.
-    pub(crate) fn difference(&self, other: &Replicate) -> Option<&'static str> {
+    /// Names a property that replicates of one truth share and these two do not; `None` if there is none.
+    pub(crate) fn find_difference(&self, other: &Replicate) -> Option<&'static str> {
         if !self.picture.color.same_size(&other.picture.color) {
             Some("size")
         } else if (&self.objects, &self.moving) != (&other.objects, &other.moving) {

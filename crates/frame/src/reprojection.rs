@@ -1,19 +1,19 @@
-//! Where the frame before showed what stands still.
+//! Reprojection of surfaces that stand still into the frame before.
 
 use crate::FileError;
-use crate::exr_file::ExrFile;
+use crate::exr::ExrFile;
 
 /// The camera's motion since the frame before, as it moves the pixels of a picture: all that an engine knows without a
 /// velocity buffer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reprojection {
-    /// Three rows that act on (x, y, 1, 1 / depth), pixels from the picture's top left and metres, and give (x', y', 1) times a
-    /// number that is positive where the point lay before the last frame's camera.
+    /// Three rows that act on (x, y, 1, 1 / depth), in pixels from the picture's top left and metres. They give (x', y', 1) times a
+    /// number, which is positive if the point lay before the last frame's camera.
     pub rows: [[f64; 4]; 3],
 }
 
 impl Reprojection {
-    /// Of a camera that stands still.
+    /// Reprojection of a camera that stands still.
     pub const STILL: Reprojection = Reprojection {
         rows: [
             [1.0, 0.0, 0.0, 0.0],
@@ -22,7 +22,7 @@ impl Reprojection {
         ],
     };
 
-    /// Where the frame before showed a point that stands still; none behind the camera.
+    /// Finds the place at which the frame before showed a point that stands still; `None` behind the camera.
     pub fn place(&self, [x, y]: [f64; 2], depth: f64) -> Option<[f64; 2]> {
         let [x, y, common] = self
             .rows
@@ -30,7 +30,7 @@ impl Reprojection {
         (common > 0.0).then(|| [x / common, y / common])
     }
 
-    /// The same between pictures that begin so many pixels further up and to the left.
+    /// Converts the matrix to pictures that begin `band` pixels further up and to the left.
     pub fn moved(&self, band: f64) -> Self {
         let [x, y, common] = self.rows.map(|row| {
             let [along, down, one, near] = row;

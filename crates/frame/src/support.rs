@@ -1,24 +1,24 @@
-//! What an open shutter sees at all: where scores are pooled, whatever noise a truth has.
+//! Support: pixels where an open shutter sees things, whatever noise a truth has.
 
-use crate::exr_file::ExrFile;
+use crate::exr::ExrFile;
 use crate::{FileError, Plane, Raster};
 
-/// What a probe of visibility saw in each pixel while the shutter was open.
+/// Visibility in each pixel while the shutter was open, as probe rays found it.
 ///
 /// The probe is a pure function of scene, shutter and picture size: no seed and no number of samples of a truth changes it.
-/// What it holds stays the same while a truth converges. All rasters have the same size.
+/// It stays the same while a truth converges. All rasters have the same size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Support {
-    /// Per object, the background first: where it was seen.
+    /// Pixels where an object was seen, per object, the background first.
     pub seen: Vec<Raster<bool>>,
-    /// Where anything was seen that moves on screen while the shutter is open.
+    /// Pixels where anything was seen that moves on screen while the shutter is open.
     pub moving: Raster<bool>,
-    /// Where anything was seen that the frame of the instant does not show.
+    /// Pixels where anything was seen that the frame of the instant does not show.
     pub unknowable: Raster<bool>,
 }
 
 impl Support {
-    /// Marks where object `id` was seen and nothing else.
+    /// Marks the pixels where object `id` was seen and nothing else.
     pub fn throughout(&self, id: usize) -> Raster<bool> {
         let others = self.seen.iter().enumerate().filter(|(at, _)| *at != id);
         others.fold(self.seen[id].clone(), |own, (_, other)| {

@@ -1,37 +1,37 @@
-//! What a camera with an open shutter would have seen.
+//! The truth: the picture of a camera with an open shutter.
 
 use std::path::Path;
 
-use crate::exr_file::{ExrFile, write_exr};
-use crate::exr_reading::read_exr;
-use crate::region::noise_floor;
+use crate::exr::{ExrFile, read_exr, write_exr};
+use crate::region::estimate_noise;
+use crate::shutter::{get_shutter, set_shutter};
 use crate::{
     Alignment, AtInstant, FileError, Image, Picture, Plane, Provenance, Region, Regions, Replicate,
-    Shutter, ShutterProfile, Support, regions,
+    Shutter, ShutterProfile, Support,
 };
 
 /// Radiance and visibility integrated over the shutter, with its own noise. All rasters have the same size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truth {
-    /// Where the truth comes from.
+    /// Origin of the truth.
     pub provenance: Provenance,
     /// The interval integrated over.
     pub shutter: Shutter,
-    /// How the shutter opens and closes, and how rows follow one another.
+    /// Opening and closing of the shutter, and delay between rows.
     pub shutter_profile: ShutterProfile,
-    /// Where that interval lies relative to the instant.
+    /// Position of that interval relative to the instant.
     pub alignment: Alignment,
     /// Object names; the index is the object id, and 0 is `background`.
     pub objects: Vec<String>,
     /// Means of the even and of the odd replicates.
     pub halves: [Picture; 2],
-    /// The same as it was at the instant, likewise halved.
+    /// What was seen, as it was at the instant; halved in the same way.
     pub at_instant: [AtInstant; 2],
     /// Standard error of [`Truth::mean`], from the spread of the replicates.
     pub standard_error: Image,
     /// Fraction of (shutter x pixel area) whose visible surface moves on screen while the shutter is open.
     pub motion: Plane,
-    /// What scores are pooled over; unlike the other rasters it has no noise.
+    /// Pixels that scores are pooled over; unlike the other rasters it has no noise.
     pub support: Support,
 }
 
@@ -57,11 +57,11 @@ pub enum TruthError {
          replicates of one scene, size, seed and tracer are needed"
     )]
     Foreign {
-        /// Which replicate.
+        /// Index of the replicate.
         index: u32,
         /// Its content hash.
         found: String,
-        /// That of the first.
+        /// Content hash of the first.
         expected: String,
     },
     /// Replicates that name one origin and cannot share it.
@@ -70,9 +70,9 @@ pub enum TruthError {
          render them anew"
     )]
     Unlike {
-        /// Which replicate.
+        /// Index of the replicate.
         index: u32,
-        /// What differs: `size`, `list of objects`, `shutter`, `number of samples`.
+        /// Difference: `size`, `list of objects`, `shutter`, `number of samples`.
         what: &'static str,
     },
     /// Replicates that name one origin and were altered since.
@@ -81,13 +81,13 @@ pub enum TruthError {
          scene, size and shutter have one support: remove both files and render them anew"
     )]
     Support {
-        /// Which replicate.
+        /// Index of the replicate.
         index: u32,
     },
 }
 
 impl Truth {
-    /// The mean of all `replicates`, in the order of their indices from 0. Their even number makes two halves.
+    /// Averages `replicates`, an even number in the order of their indices from 0, and halves of them.
     pub fn of(replicates: &[Replicate]) -> Result<Self, TruthError> {
         if replicates.is_empty() || !replicates.len().is_multiple_of(2) {
             return Err(TruthError::Count(replicates.len()));
@@ -108,7 +108,7 @@ impl Truth {
                     expected,
                 });
             }
-            if let Some(what) = first.difference(replicate) {
+            if let Some(what) = first.find_difference(replicate) {
                 return Err(TruthError::Unlike { index, what });
             }
             if replicate.support != first.support {
@@ -134,49 +134,49 @@ impl Truth {
             shutter_profile: first.shutter_profile.clone(),
             alignment: first.alignment,
             objects: first.objects.clone(),
-            motion: motion(&Picture::mean(&halves), &first.moving),
-            standard_error: standard_error(replicates),
+            motion: sum_motion(&Picture::mean(&halves), &first.moving),
+            standard_error: estimate_error(replicates),
             support: first.support.clone(),
             halves,
             at_instant,
         })
     }
 
-    /// Pixels per row and rows.
+    /// Returns pixels per row and rows.
     pub fn size(&self) -> (u32, u32) {
         (self.motion.width, self.motion.height)
     }
 
-    /// How far from any motion blur is looked for, in pixels: bleed leaves the support, but not without end. Scores of
-    /// the moving region pool so far, and accumulations are rendered so far.
+    /// Returns the margin around motion in which blur is looked for, in pixels: a fifteenth of the height, because bleed leaves the
+    /// support. The moving region and accumulations include it.
     pub fn motion_margin(&self) -> u32 {
         (f64::from(self.motion.height) / 15.0).round() as u32
     }
 
-    /// Mean over all replicates of what was seen, as it was at the instant.
+    /// Averages over all replicates what was seen, as it was at the instant.
     pub fn at_instant_mean(&self) -> AtInstant {
         AtInstant::mean(&self.at_instant)
     }
 
-    /// Mean of all replicates.
+    /// Averages all replicates.
     pub fn mean(&self) -> Picture {
         Picture::mean(&self.halves)
     }
 
-    /// The report of floors: per region that is not empty, the root mean square error of the mean's radiance, from the
-    /// halves' difference.
+    /// Lists the noise floor of every region that is not empty: the root mean square error of the mean's radiance, estimated from
+    /// the difference of the halves.
     pub fn noise_floors(&self) -> Vec<(Region, f64)> {
-        let regions: Regions = regions(self);
+        let masks = regions(self);
         let halves = [&self.halves[0].color, &self.halves[1].color];
         Region::ALL
             .into_iter()
-            .filter_map(|region| Some((region, noise_floor(halves, &regions, region)?)))
+            .filter_map(|region| Some((region, estimate_noise(halves, &masks, region)?)))
             .collect()
     }
 
-    /// Writes the truth as OpenEXR: the mean as `R G B` and `coverage.<object>`, what [`AtInstant`] holds, the
-    /// halves of both as layers `A` and `B`,
-    /// `stderr.R/G/B`, `motion`, and what [`Support`] holds. The attributes `noise_floor_<region>` report [`Truth::noise_floors`].
+    /// Writes the truth as OpenEXR: the mean as `R G B` and `coverage.<object>`, the channels of [`AtInstant`], the halves of both
+    /// as layers `A` and `B`, `stderr.R/G/B`, `motion`, and the channels of [`Support`]. The attributes `noise_floor_<region>` hold
+    /// [`Truth::noise_floors`].
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
         let (width, height) = self.size();
         let mut file = ExrFile::new(width, height);
@@ -231,13 +231,21 @@ impl Truth {
     }
 }
 
-/// The content hash of the truth made of the first `count` replicates of a content hash.
+/// Derives the regions from the truth's [`Support`], which its noise does not change.
+///
+/// Support: where anything moves. Moving: that dilated by [`Truth::motion_margin`]. Static: the rest. Moving pixels are knowable
+/// where the support saw nothing that the frame does not show.
+pub fn regions(truth: &Truth) -> Regions {
+    Regions::new(&truth.support, truth.motion_margin())
+}
+
+/// Derives the content hash of a truth from that of its first `count` replicates.
 pub fn truth_hash(replicate_hash: &str, count: u32) -> String {
     format!("{replicate_hash}x{count}")
 }
 
-/// Standard error of the replicates' mean.
-fn standard_error(replicates: &[Replicate]) -> Image {
+/// Estimates the standard error of the replicates' mean.
+fn estimate_error(replicates: &[Replicate]) -> Image {
     let count = replicates.len() as f64;
     let first = &replicates[0].picture.color;
     Image::from_fn(first.width, first.height, |x, y| {
@@ -252,8 +260,8 @@ fn standard_error(replicates: &[Replicate]) -> Image {
     })
 }
 
-/// The summed coverage of what moves.
-fn motion(mean: &Picture, moving: &[bool]) -> Plane {
+/// Sums the coverage of what moves.
+fn sum_motion(mean: &Picture, moving: &[bool]) -> Plane {
     let still = Plane::filled(mean.color.width, mean.color.height, 0.0);
     mean.coverage
         .iter()
@@ -262,18 +270,4 @@ fn motion(mean: &Picture, moving: &[bool]) -> Plane {
         .fold(still, |sum, (coverage, _)| {
             sum.zip(coverage, |sum, coverage| sum + coverage)
         })
-}
-
-pub(crate) fn set_shutter(file: &mut ExrFile, shutter: Shutter, alignment: Alignment) {
-    file.set("shutter_open", shutter.open);
-    file.set("shutter_close", shutter.close);
-    file.set("alignment", alignment);
-}
-
-pub(crate) fn get_shutter(file: &ExrFile) -> Result<(Shutter, Alignment), FileError> {
-    let alignment: Alignment = file.get("alignment")?;
-    let shutter = Shutter::new(file.get("shutter_open")?, file.get("shutter_close")?)
-        .and_then(|shutter| alignment.shutter(shutter.exposure()).map(|_| shutter))
-        .map_err(|error| file.foreign(error.to_string()))?;
-    Ok((shutter, alignment))
 }

@@ -86,7 +86,7 @@ pub enum MeasureError {
         /// The truth's value.
         allowed: String,
     },
-    /// HDR-FLIP exposures that make no range.
+    /// HDR-FLIP exposures that form no range.
     #[error(
         "viewing exposure {stops}, HDR-FLIP exposures from {start} to {stop} in {count} steps; allowed: stops from -{most} to \
          {most}, start not above stop, 2 to 128 steps",

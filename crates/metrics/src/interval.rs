@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// Fraction of intervals that contain the converged score.
+/// Confidence: the fraction of intervals that contain the converged score.
 const CONFIDENCE: f64 = 0.95;
 
-/// 95 % CI of the score against a truth without noise.
+/// 95 % confidence interval of the score against a truth without noise.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Interval {
     /// Lower end, in the metric's unit.
@@ -17,23 +17,23 @@ pub struct Interval {
     pub standard_error: f64,
 }
 
-/// The interval of a score from `whole`, its value by all of the truth's replicates, and from `without`, its values by all
-/// but one group of replicates each, groups being equally large. None for fewer than two groups.
+/// Estimates the interval of a score. `whole` is its value by all of the truth's replicates; `without` are its values by all but one
+/// group of replicates each, with groups of equal size. `None` for fewer than two groups.
 ///
-/// The grouped jackknife (Quenouille 1956, Tukey 1958; Efron and Tibshirani, "An Introduction to the Bootstrap", 1993,
-/// chapter 11), which takes the score for a smooth function of the truth, but not for a linear one. Of G groups, m being
-/// the mean of `without`:
+/// This is the grouped jackknife (Quenouille 1956, Tukey 1958; Efron and Tibshirani, "An Introduction to the Bootstrap", 1993,
+/// chapter 11). It takes the score for a smooth function of the truth, not for a linear one. For G groups, m being the mean of
+/// `without`:
 ///
 /// - the squared standard error is (G - 1) / G times the sum of (without - m)^2,
-/// - the centre is `whole` + (G - 1)(`whole` - m): noise that raises a score falls as the number of replicates rises, and
-///   what it still adds is what leaving a group out added, G - 1 times.
+/// - the centre is `whole` + (G - 1)(`whole` - m): noise raises a score less with more replicates, and what it still adds is
+///   G - 1 times what leaving a group out added,
 /// - the half width is the standard error times the quantile of Student's t of G - 1 degrees of freedom.
 pub fn jackknife(whole: f64, without: &[f64]) -> Option<Interval> {
     if without.len() < 2 {
         return None;
     }
     let count = without.len() as f64;
-    // By how much leaving a group out raises the score: exactly 0 for a score that no group changes.
+    // Rise of the score without each group: exactly 0 for a score that no group changes.
     let raised: Vec<f64> = without.iter().map(|value| value - whole).collect();
     let mean = raised.iter().sum::<f64>() / count;
     let squares: f64 = raised.iter().map(|value| (value - mean).powi(2)).sum();
@@ -47,7 +47,7 @@ pub fn jackknife(whole: f64, without: &[f64]) -> Option<Interval> {
     })
 }
 
-/// Two-sided critical value of Student's t at the wanted confidence.
+/// Returns the two-sided critical value of Student's t at the wanted confidence.
 fn quantile(degrees_of_freedom: f64) -> f64 {
     StudentsT::new(0.0, 1.0, degrees_of_freedom)
         .expect("two groups have a degree of freedom")
@@ -58,11 +58,11 @@ fn quantile(degrees_of_freedom: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The mean of all numbers, and without each in turn.
+    /// Averages all numbers, and all but each in turn.
     fn means(numbers: &[f64]) -> (f64, Vec<f64>) {
         let mean = |left_out: usize| {
-            let kept = (0..numbers.len()).filter(|index| *index != left_out);
-            kept.clone().map(|index| numbers[index]).sum::<f64>() / kept.count() as f64
+            let others = (0..numbers.len()).filter(|index| *index != left_out);
+            others.clone().map(|index| numbers[index]).sum::<f64>() / others.count() as f64
         };
         (mean(usize::MAX), (0..numbers.len()).map(mean).collect())
     }

@@ -1,21 +1,19 @@
-//! The pictures that the scores were pooled from, and their names.
+//! Error maps that scores are pooled from, and their names.
 
 use frame::{Image, Plane};
-
-use crate::Measurement;
 
 /// One error map per kind of score, each of the output's size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Maps {
-    /// Output minus the truth's mean: radiance, signed. For looking at; the squared error comes from the halves.
+    /// Output minus the truth's mean: radiance, signed. It is for looking at; the squared error comes from the halves.
     pub signed_error: Image,
     /// `(F - A)(F - B)` at the viewing exposure, mean over the channels; MSE and PSNR are pooled from it.
     pub squared_error: Plane,
-    /// The same over the squared truth; relMSE is pooled from it.
+    /// `squared_error` over the squared truth; relMSE is pooled from it.
     pub relative_squared_error: Plane,
     /// `|F - T|` at the viewing exposure, mean over the channels; MAE is pooled from it.
     pub absolute_error: Plane,
-    /// The same over the mean of both values, in [0, 2]; SMAPE is pooled from it.
+    /// `absolute_error` over the mean of both values, in [0, 2]; SMAPE is pooled from it.
     pub symmetric_error: Plane,
     /// Structural similarity of what a display shows, mean over the channels, in [-1, 1].
     pub ssim: Plane,
@@ -35,7 +33,7 @@ pub struct Maps {
     pub static_change: Plane,
 }
 
-/// One error map, of the output or of probes.
+/// Name of an error map, of the output or of probes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorMap {
     /// [`Maps::squared_error`].
@@ -90,7 +88,7 @@ impl ErrorMap {
         ErrorMap::GatherSpread,
     ];
 
-    /// The name of its channel in errors.exr.
+    /// Returns the name of its channel in errors.exr.
     pub fn name(self) -> &'static str {
         match self {
             ErrorMap::SquaredError => "squared_error",
@@ -108,30 +106,6 @@ impl ErrorMap {
             ErrorMap::Unity => "unity",
             ErrorMap::GatherOffset => "gather_offset",
             ErrorMap::GatherSpread => "gather_spread",
-        }
-    }
-}
-
-impl Measurement {
-    /// A map; none for one of probes where none were run.
-    pub fn map(&self, map: ErrorMap) -> Option<&Plane> {
-        let (maps, probes) = (&self.maps, self.probes.as_ref());
-        match map {
-            ErrorMap::SquaredError => Some(&maps.squared_error),
-            ErrorMap::RelativeSquaredError => Some(&maps.relative_squared_error),
-            ErrorMap::AbsoluteError => Some(&maps.absolute_error),
-            ErrorMap::SymmetricError => Some(&maps.symmetric_error),
-            ErrorMap::Ssim => Some(&maps.ssim),
-            ErrorMap::Flip => Some(&maps.flip),
-            ErrorMap::FlipHdr => Some(&maps.flip_hdr),
-            ErrorMap::LabelTotalVariation => Some(&maps.label_total_variation),
-            ErrorMap::Bleed => Some(&maps.bleed),
-            ErrorMap::GradientError => Some(&maps.gradient_error),
-            ErrorMap::FrozenSquaredError => Some(&maps.frozen_squared_error),
-            ErrorMap::StaticChange => Some(&maps.static_change),
-            ErrorMap::Unity => probes.map(|probes| &probes.unity),
-            ErrorMap::GatherOffset => probes.map(|probes| &probes.offset),
-            ErrorMap::GatherSpread => probes.map(|probes| &probes.spread),
         }
     }
 }

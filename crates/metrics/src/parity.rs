@@ -1,5 +1,5 @@
-//! Scores equal what scikit-image, SciPy and NumPy say: `tests/fixtures/metrics/make.py` makes the same planes and stores
-//! the numbers.
+//! Comparison of scores with scikit-image, SciPy and NumPy: `tests/fixtures/metrics/make.py` makes the same planes and stores the
+//! numbers.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use crate::color::absolute_error::{absolute_error, symmetric_error};
 use crate::color::cross_error::{psnr, relative_squared_error, squared_error};
 use crate::color::ssim::{SSIM_BORDER, ssim_of};
 use crate::object::gradient::{gradient_error, gradient_magnitude};
-use crate::object::misplacement::misplacement;
+use crate::object::misplacement::measure_misplacement;
 use crate::object::rows::Rows;
 
 type Formula = fn(u32, u32) -> u32;
@@ -71,7 +71,7 @@ fn scores(output: &Plane, truth: &Plane) -> BTreeMap<&'static str, f64> {
     let mse = average(&squared_error(&color, halves, 1.0));
     let relative = relative_squared_error(&color, halves, &true_color, 1.0);
     let rows = Rows::new([1.0, 0.0], output.width, output.height);
-    let apart = misplacement(&rows.spread(output), &rows.spread(truth));
+    let apart = measure_misplacement(&rows.spread(output), &rows.spread(truth));
     let gradients = [output, truth].map(gradient_magnitude);
     BTreeMap::from([
         ("ssim", average(&similarity)),

@@ -1,4 +1,4 @@
-//! A number with the noise it carries, or the reason why there is none.
+//! Scores: numbers with their noise, or reasons why there are none.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,19 +7,18 @@ use serde::{Deserialize, Serialize};
 pub struct Score {
     /// The score, in its metric's unit.
     pub value: f64,
-    /// Noise floor: the score that the truth's own noise makes. A picture without any error scores about this. Where a high value
-    /// is good it is the highest value that the truth can vouch for; where 1 or another target is good it is the
-    /// distance from the target.
+    /// Noise floor: the score that the truth's own noise makes, which a picture without error scores about. If high values are good,
+    /// it is the highest value that the truth can vouch for; if a target is good, it is the distance from the target.
     pub floor: f64,
 }
 
-/// A score, or why it would mean nothing here. As JSON: `{"value": .., "floor": ..}` or `{"not_applicable": ".."}`.
+/// A score, or the reason why it would mean nothing here. As JSON: `{"value": .., "floor": ..}` or `{"not_applicable": ".."}`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Measured {
     /// A number that means what its metric says.
     Score(Score),
-    /// No number.
+    /// There is no number.
     NotApplicable {
         /// Property of the scene that makes the score meaningless.
         #[serde(rename = "not_applicable")]
@@ -27,10 +26,10 @@ pub enum Measured {
     },
 }
 
-/// Which way a score is better.
+/// Ideal value of a score.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ideal {
-    /// 0 is perfect: errors, lengths of bleed.
+    /// 0 is perfect, lower is better: errors, lengths of bleed.
     Lowest,
     /// The higher the better: PSNR, equivalent sub-frames.
     Highest,
@@ -39,7 +38,7 @@ pub enum Ideal {
 }
 
 impl Measured {
-    /// A measured value and its floor, both finite.
+    /// Makes a score of a value and its floor, both finite.
     pub fn score(value: f64, floor: f64) -> Self {
         assert!(
             value.is_finite() && floor.is_finite(),
@@ -48,14 +47,14 @@ impl Measured {
         Self::Score(Score { value, floor })
     }
 
-    /// No number, because of `reason`.
+    /// Makes a score that does not apply, because of `reason`.
     pub fn not_applicable(reason: impl Into<String>) -> Self {
         Self::NotApplicable {
             reason: reason.into(),
         }
     }
 
-    /// The number, where there is one.
+    /// Returns the number, if there is one.
     pub fn value(&self) -> Option<f64> {
         match self {
             Self::Score(score) => Some(score.value),
@@ -74,7 +73,7 @@ impl Ideal {
         }
     }
 
-    /// The floor of a score, from the value that the truth's noise alone yields.
+    /// Converts the value that the truth's noise alone yields to the floor of a score.
     pub(crate) fn floor(self, noise: f64) -> f64 {
         match self {
             Ideal::Lowest | Ideal::Highest => noise,

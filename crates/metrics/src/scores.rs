@@ -2,11 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::equivalent::Equivalent;
 use crate::{
-    EquivalentMetric, EquivalentScores, FrozenScores, ImageScores, LabelMetric, LabelScores,
-    Measured, Metric, ObjectMetric, ObjectScores, ProbeScores, Region, Score, SkillMetric,
-    SkillScores,
+    Equivalent, EquivalentMetric, EquivalentScores, FrozenScores, ImageScores, LabelMetric,
+    LabelScores, Measured, Metric, ObjectMetric, ObjectScores, ProbeScores, Region, Score,
+    SkillMetric, SkillScores,
 };
 
 /// All scores of one picture against one truth.
@@ -14,7 +13,7 @@ use crate::{
 pub struct Scores {
     /// Errors of colour where anything moves.
     pub moving: ImageScores,
-    /// The same without the margin that a bleed would reach.
+    /// Errors of colour where anything moves, without the margin for bleed.
     pub support: ImageScores,
     /// Errors of colour where nothing moves.
     #[serde(rename = "static")]
@@ -23,15 +22,15 @@ pub struct Scores {
     pub full: ImageScores,
     /// Errors of colour where the frame of the instant shows all that the shutter sees.
     pub knowable: ImageScores,
-    /// Errors of colour where the frame of the instant hides some of it.
+    /// Errors of colour where the frame of the instant hides a part of that.
     pub unknowable: ImageScores,
-    /// Against the truth whose shading stands still.
+    /// Errors against the truth whose shading stands still.
     pub frozen: FrozenScores,
     /// Mean absolute change of the instant's colour where nothing moves, in display-scaled radiance.
     pub static_contamination: Measured,
-    /// Which object the shutter's time was given to.
+    /// Errors of labels: the objects that the shutter's time was given to.
     pub label_total_variation: LabelScores,
-    /// Every object but the background.
+    /// Scores of every object but the background.
     pub objects: Vec<ObjectScores>,
     /// Scores of probes.
     pub probes: ProbeScores,
@@ -42,11 +41,11 @@ pub struct Scores {
 }
 
 impl Scores {
-    /// The score that a metric names. For a score per object, that of the worst among those that move (or, for occluder
+    /// Returns the score of a metric. A score per object is that of the worst object among those that move (or, for occluder
     /// contamination, that stand still).
     pub fn get(&self, metric: Metric) -> Measured {
         match metric {
-            Metric::Image(metric, region) => self.region(region).get(metric).clone(),
+            Metric::Image(metric, region) => self.of_region(region).get(metric).clone(),
             Metric::Label(metric) => self.label_total_variation.get(metric).clone(),
             Metric::StaticContamination => self.static_contamination.clone(),
             Metric::Frozen(metric) => self.frozen.get(metric).clone(),
@@ -60,8 +59,8 @@ impl Scores {
         }
     }
 
-    /// The largest of the three bleeds of the worst moving objects, and which one it is; none where none applies. Where two are
-    /// equal, lateral comes before leading and trailing.
+    /// Finds the largest of the three bleeds of the worst moving objects, and its metric; `None` if no bleed applies. Of equal ones,
+    /// lateral comes before leading and trailing.
     pub fn largest_bleed(&self) -> Option<(ObjectMetric, Score)> {
         let bleeds = ObjectMetric::BLEEDS.into_iter();
         let found = bleeds.filter_map(|bleed| {
@@ -74,7 +73,7 @@ impl Scores {
         })
     }
 
-    /// The object whose score is worst, and that score: by name, for messages. None for metrics that are not per object.
+    /// Finds the name of the object whose score is worst, and that score; `None` for metrics that are not per object.
     pub fn worst_object(&self, metric: Metric) -> Option<(&str, Score)> {
         let (object, moves) = match metric {
             Metric::Object(object) => (object, true),
@@ -94,7 +93,7 @@ impl Scores {
             })
     }
 
-    /// Replaces every score that mattes take part in by a reason why it means nothing.
+    /// Replaces every score that depends on mattes by the reason why it means nothing.
     pub fn take_out_mattes(&mut self, reason: &str) {
         let none = || Measured::not_applicable(reason);
         for metric in LabelMetric::ALL {
@@ -102,7 +101,7 @@ impl Scores {
         }
         *self.skill.get_mut(SkillMetric::LabelTotalVariation) = none();
         let equivalent = EquivalentMetric::LabelTotalVariation;
-        *self.equivalent_subframes.get_mut(equivalent) = Equivalent::refused(reason);
+        *self.equivalent_subframes.get_mut(equivalent) = Equivalent::not_applicable(reason);
         for scores in &mut self.objects {
             for metric in ObjectMetric::ALL {
                 *scores.get_mut(metric) = none();
@@ -110,7 +109,7 @@ impl Scores {
         }
     }
 
-    fn region(&self, region: Region) -> &ImageScores {
+    fn of_region(&self, region: Region) -> &ImageScores {
         match region {
             Region::Moving => &self.moving,
             Region::Support => &self.support,
@@ -142,18 +141,6 @@ impl Scores {
             })
         } else {
             Measured::not_applicable(reasons.join("; "))
-        }
-    }
-}
-
-impl ProbeScores {
-    /// No probe score, because of `reason`.
-    pub fn not_applicable(reason: &str) -> Self {
-        let none = || Measured::not_applicable(reason);
-        Self {
-            unity: none(),
-            gather_offset: none(),
-            gather_spread: none(),
         }
     }
 }

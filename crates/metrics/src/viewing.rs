@@ -1,4 +1,4 @@
-//! At which exposures pictures are compared.
+//! Exposures at which pictures are compared.
 
 use frame::Display;
 
@@ -16,7 +16,7 @@ pub struct Viewing {
 }
 
 impl Viewing {
-    /// Factor from radiance to display.
+    /// Returns the factor from radiance to display.
     pub fn scale(&self) -> f64 {
         f64::from(self.stops).exp2()
     }

@@ -145,7 +145,7 @@ fn the_kernel_keeps_what_the_published_comparison_keeps() {
         frame_index: 0,
     };
     blur.run(&input).unwrap();
-    let seeds = blur.texture("seeds").unwrap();
+    let seeds = blur.read_texture("seeds").unwrap();
 
     let mut carried = 0;
     for y in STEP..SIDE - STEP {

@@ -188,7 +188,7 @@ fn the_dilation_chooses_the_sources_of_a_64_bit_reference() {
     let (mut found, mut all) = (0, 0);
     for case in cases(&filter) {
         let (blur, _) = case.blur(&gpu, &filter);
-        let seeds = blur.texture("seeds").unwrap();
+        let seeds = blur.read_texture("seeds").unwrap();
         let mut ties = 0;
         for ((pixel, texel), outcomes) in pixels(&case.field)
             .zip(&seeds.pixels)
@@ -222,7 +222,7 @@ fn rejection_and_the_way_back_end_where_the_reference_ends() {
     let (mut moved, mut flagged, mut all) = (0, 0, 0);
     for case in cases(&filter) {
         let (blur, _) = case.blur(&gpu, &filter);
-        let sources = blur.texture("sources").unwrap();
+        let sources = blur.read_texture("sources").unwrap();
         let reference = case.reference();
         let mut ties = 0;
         for ((pixel, texel), dilated) in pixels(&case.field)
@@ -263,7 +263,7 @@ fn the_gather_weighs_taps_as_the_reference_does() {
     let (gpu, filter) = (gpu(), Filter::builtin("jump_flood").unwrap());
     for case in cases(&filter) {
         let (blur, output) = case.blur(&gpu, &filter);
-        let sources = blur.texture("sources").unwrap();
+        let sources = blur.read_texture("sources").unwrap();
         let source = |[x, y]: [i64; 2]| {
             let [x, y, ..] = *sources.at(x as u32, y as u32);
             [x.into(), y.into()]

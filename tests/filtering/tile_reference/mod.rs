@@ -101,9 +101,9 @@ fn runs(filter: &str) -> Vec<Run> {
             let output = blur.run(&input).unwrap().remove(0);
             runs.push(Run {
                 name: format!("{name} {changes:?} at {exposure} on {field_name}"),
-                motion: blur.texture("motion").unwrap(),
-                tiles: blur.texture("tiles").unwrap(),
-                neighborhoods: blur.texture("neighborhoods").unwrap(),
+                motion: blur.read_texture("motion").unwrap(),
+                tiles: blur.read_texture("tiles").unwrap(),
+                neighborhoods: blur.read_texture("neighborhoods").unwrap(),
                 output,
                 settings,
                 exposure: *exposure,

@@ -1,4 +1,4 @@
-//! Runs a filter that is a program, once per image.
+//! Run of a filter that is a program, once per image.
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -7,15 +7,15 @@ use std::time::Duration;
 
 use frame::{ExrFile, FileError, Image, read_exr, write_exr};
 
-use super::environment::environment;
-use super::process::{self, End, Limits};
-use super::{Command, fill};
-use crate::{Filter, FilterError, Input, Settings};
+use super::environment::collect_environment;
+use super::process::{End, Limits, run_process};
+use crate::filter::fill_placeholders;
+use crate::{Command, Filter, FilterError, Input, Settings};
 
-/// Bytes per pixel that the file of a program may hold: 64 channels of 32 bits.
+/// Upper limit on the bytes per pixel that a program may write: 64 channels of 32 bits.
 pub const BYTES_PER_PIXEL: u64 = 256;
 
-/// Bytes that it may hold beside those of its pixels.
+/// Upper limit on the bytes that it may write beside those of the pixels.
 pub const BESIDE_PIXELS: u64 = 1 << 20;
 
 /// A filter that is a program, ready to run on images of one size.
@@ -27,7 +27,7 @@ pub struct CommandBlur {
     command: Command,
     settings: Settings,
     size: [u32; 2],
-    /// How long one run may take, in seconds.
+    /// Longest time of one run, in seconds.
     time_limit: f64,
     interrupted: fn() -> bool,
 }
@@ -63,22 +63,24 @@ impl CommandBlur {
     }
 
     fn blur(&self, color: &Image, input: &Input) -> Result<Image, FilterError> {
-        let folder = private_folder().map_err(|error| self.no_room(error))?;
-        let place = std::path::absolute(folder.path()).map_err(|error| self.no_room(error))?;
+        let folder = create_private_folder().map_err(|error| self.refuse_frame_file(error))?;
+        let place =
+            std::path::absolute(folder.path()).map_err(|error| self.refuse_frame_file(error))?;
         let [frame, out] = ["frame.exr", "out.exr"].map(|name| place.join(name));
-        write_exr(&frame, &frame_file(color, input)).map_err(|error| self.no_room(error))?;
+        write_exr(&frame, &make_frame_file(color, input))
+            .map_err(|error| self.refuse_frame_file(error))?;
         let mut process = Process::new(self.program());
         process
             .args(self.arguments(input, &frame, &out))
             .current_dir(&self.command.folder)
             .env_clear()
-            .envs(environment(&self.command.environment));
+            .envs(collect_environment(&self.command.environment));
         let limits = Limits {
             time: Duration::from_secs_f64(self.time_limit),
-            out: (&out, self.most_bytes()),
+            out: (&out, self.max_bytes()),
         };
-        let (end, printed) = process::run(process, &limits, self.interrupted)
-            .map_err(|error| self.refuse(self.cannot_start(&error)))?;
+        let (end, output) = run_process(process, &limits, self.interrupted)
+            .map_err(|error| self.refuse(self.describe_start_failure(&error)))?;
         let outcome = match end {
             End::Interrupted => return Err(FilterError::Interrupted),
             End::OutOfTime => Err(format!(
@@ -86,16 +88,16 @@ impl CommandBlur {
                 self.time_limit,
                 self.command.folder.join("filter.toml").display()
             )),
-            End::TooLarge => Err(self.too_large()),
+            End::TooLarge => Err(self.describe_too_large()),
             End::Exited(status) if !status.success() => Err(format!("ended with {status}")),
             End::Exited(_) => self.read(&out),
         };
         outcome.map_err(|reason| {
-            // As in a shell, the files by their names alone: whoever looks into it tries it on files of his own.
+            // Files by their names alone, as in a shell: whoever looks into it tries files of their own.
             let words = self.arguments(input, Path::new("frame.exr"), Path::new("out.exr"));
-            let said = match printed.as_str() {
+            let said = match output.as_str() {
                 "" => "; it printed nothing".to_owned(),
-                printed => format!("; the last that it printed:\n{printed}"),
+                output => format!("; the last that it printed:\n{output}"),
             };
             self.refuse(format!(
                 "`{} {}` {reason}{said}",
@@ -106,14 +108,14 @@ impl CommandBlur {
     }
 
     fn program(&self) -> PathBuf {
-        if self.in_folder() {
+        if self.is_in_folder() {
             self.command.folder.join(&self.command.program)
         } else {
             PathBuf::from(&self.command.program)
         }
     }
 
-    fn in_folder(&self) -> bool {
+    fn is_in_folder(&self) -> bool {
         self.command.program.contains(['/', '\\'])
     }
 
@@ -128,25 +130,27 @@ impl CommandBlur {
             })
         };
         (self.command.arguments.iter())
-            .map(|word| fill(word, value).expect("placeholders were checked with filter.toml"))
+            .map(|word| {
+                fill_placeholders(word, value).expect("placeholders were checked with filter.toml")
+            })
             .collect()
     }
 
-    fn most_bytes(&self) -> u64 {
+    fn max_bytes(&self) -> u64 {
         let [width, height] = self.size.map(u64::from);
         BESIDE_PIXELS + BYTES_PER_PIXEL * width * height
     }
 
-    fn too_large(&self) -> String {
+    fn describe_too_large(&self) -> String {
         let [width, height] = self.size;
         format!(
             "wrote an {{out}} of more than {} bytes and was stopped; {width}x{height} pixels may take {BYTES_PER_PIXEL} \
              bytes each, and {BESIDE_PIXELS} beside",
-            self.most_bytes()
+            self.max_bytes()
         )
     }
 
-    /// Refuses what is no file of a bounded size. The program has ended, so that nothing else can take its place.
+    /// Refuses anything but a regular file of bounded size. The program has ended, so nothing can replace the file.
     fn check_file(&self, out: &Path) -> Result<(), String> {
         let Ok(found) = std::fs::symlink_metadata(out) else {
             return Err(
@@ -157,16 +161,16 @@ impl CommandBlur {
         if !found.is_file() {
             return Err(format!(
                 "left {} in the place of {{out}}; it must write a regular file there",
-                kind(&found)
+                kind_of(&found)
             ));
         }
-        match found.len() <= self.most_bytes() {
+        match found.len() <= self.max_bytes() {
             true => Ok(()),
-            false => Err(self.too_large()),
+            false => Err(self.describe_too_large()),
         }
     }
 
-    /// The picture that the program wrote, or what is wrong with it.
+    /// Reads the picture that the program wrote, or says what is wrong with it.
     fn read(&self, out: &Path) -> Result<Image, String> {
         self.check_file(out)?;
         let color = read_exr(out)
@@ -201,10 +205,10 @@ impl CommandBlur {
         }
     }
 
-    fn cannot_start(&self, error: &std::io::Error) -> String {
+    fn describe_start_failure(&self, error: &std::io::Error) -> String {
         let program = &self.command.program;
         let folder = self.command.folder.display();
-        match (self.in_folder(), error.kind()) {
+        match (self.is_in_folder(), error.kind()) {
             (false, ErrorKind::NotFound) => format!(
                 "`{program}` is not on the PATH; a program in {folder} is called ./{program}"
             ),
@@ -215,7 +219,7 @@ impl CommandBlur {
         }
     }
 
-    fn no_room(&self, error: impl std::fmt::Display) -> FilterError {
+    fn refuse_frame_file(&self, error: impl std::fmt::Display) -> FilterError {
         self.refuse(format!("its frame cannot be written for it: {error}"))
     }
 
@@ -227,8 +231,8 @@ impl CommandBlur {
     }
 }
 
-/// A folder that nobody but this user, and programs that run as this user, can look into.
-fn private_folder() -> std::io::Result<tempfile::TempDir> {
+/// Creates a folder that only this user, and programs that run as this user, can read.
+fn create_private_folder() -> std::io::Result<tempfile::TempDir> {
     let mut builder = tempfile::Builder::new();
     builder.prefix("shuttertruth-");
     #[cfg(unix)]
@@ -239,8 +243,8 @@ fn private_folder() -> std::io::Result<tempfile::TempDir> {
     builder.tempdir()
 }
 
-/// What lies there that is no file.
-fn kind(found: &std::fs::Metadata) -> &'static str {
+/// Names what is no regular file.
+fn kind_of(found: &std::fs::Metadata) -> &'static str {
     if found.is_dir() {
         return "a folder";
     }
@@ -250,8 +254,8 @@ fn kind(found: &std::fs::Metadata) -> &'static str {
     "a pipe or a device"
 }
 
-/// What the program may know: what kernels may.
-fn frame_file(color: &Image, input: &Input) -> ExrFile {
+/// Makes the file of a frame, with all that kernels may read.
+fn make_frame_file(color: &Image, input: &Input) -> ExrFile {
     let mut file = ExrFile::new(color.width, color.height);
     file.push_color("", color);
     file.push_plane("Z", input.depth);

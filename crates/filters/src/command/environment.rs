@@ -1,4 +1,4 @@
-//! The environment of a program: a short list, and what its filter.toml names.
+//! Environment of a program: a short list of variables, and those that its filter.toml names.
 
 use std::ffi::OsString;
 
@@ -10,7 +10,7 @@ const PASSED: [&str; 7] = [
     "TMPDIR",
     "LANG",
     "TZ",
-    // Where Vulkan's drivers are.
+    // Places of Vulkan drivers.
     "VK_DRIVER_FILES",
     "VK_ICD_FILENAMES",
 ];
@@ -28,7 +28,7 @@ const PASSED: [&str; 14] = [
     "SystemDrive",
     "SystemRoot",
     "windir",
-    // Where Vulkan's drivers are.
+    // Places of Vulkan drivers.
     "VK_DRIVER_FILES",
     "VK_ICD_FILENAMES",
 ];
@@ -36,8 +36,8 @@ const PASSED: [&str; 14] = [
 /// Languages and formats: `LC_ALL` and its like.
 const LOCALE: &str = "LC_";
 
-/// The variables of this process that a program gets: those above, and those that are `named`.
-pub(super) fn environment(named: &[String]) -> Vec<(OsString, OsString)> {
+/// Collects the variables of this process that a program gets: those above, and those that are `named`.
+pub(super) fn collect_environment(named: &[String]) -> Vec<(OsString, OsString)> {
     std::env::vars_os()
         .filter(|(name, _)| name.to_str().is_some_and(|name| is_passed(name, named)))
         .collect()
@@ -49,7 +49,7 @@ fn is_passed(name: &str, named: &[String]) -> bool {
     is_locale || known.any(|known| is_same(known, name))
 }
 
-/// Windows takes large and small letters for the same.
+/// Compares two names; Windows ignores case.
 fn is_same(one: &str, other: &str) -> bool {
     match cfg!(windows) {
         true => one.eq_ignore_ascii_case(other),

@@ -1,4 +1,4 @@
-//! A program that runs to its end, or is ended.
+//! Run of a program to its end, or until it is stopped.
 
 use std::io;
 use std::path::Path;
@@ -6,12 +6,12 @@ use std::process::{Command, ExitStatus, Stdio};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use super::group::Group;
-use super::printed::Printed;
+use super::output_tail::OutputTail;
+use super::process_group::ProcessGroup;
 
-/// How a program ended.
+/// End of a program.
 pub enum End {
-    /// By itself.
+    /// It ended by itself.
     Exited(ExitStatus),
     /// It took too long, and was stopped.
     OutOfTime,
@@ -21,41 +21,42 @@ pub enum End {
     Interrupted,
 }
 
-/// What a program may take.
+/// Limits of a program.
 pub struct Limits<'a> {
-    /// How long it may run.
+    /// Longest time that it may run.
     pub time: Duration,
-    /// The file that it is to write, and how many bytes that may hold.
+    /// The file that it is to write, and the most bytes that this may hold.
     pub out: (&'a Path, u64),
 }
 
 /// Longest pause between two looks at a running program.
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// Whatever appears below this process while a program runs is that program's.
+/// Lock that lets one program run at a time: every process that appears below this one meanwhile belongs to it.
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
 /// Runs a program and reads what it prints; returns how it ended, and the last lines that it printed. Whatever it has started
 /// ends with it, however it ends.
-pub fn run(
+pub fn run_process(
     mut command: Command,
     limits: &Limits,
     interrupted: fn() -> bool,
 ) -> io::Result<(End, String)> {
     let _turn = (ONE_AT_A_TIME.lock()).unwrap_or_else(PoisonError::into_inner);
-    let (printed, pipe) = Printed::new()?;
+    let (output, pipe) = OutputTail::new()?;
     command
         .stdin(Stdio::null())
         .stdout(pipe.try_clone()?)
         .stderr(pipe);
-    let mut group = Group::spawn(command)?;
+    let mut group = ProcessGroup::spawn(command)?;
     let end = watch(&mut group, limits, interrupted);
-    // What is alive would keep the pipe open.
+    // A living process would keep the pipe open.
     drop(group);
-    Ok((end?, printed.last_lines()))
+    Ok((end?, output.into_lines()))
 }
 
-fn watch(group: &mut Group, limits: &Limits, interrupted: fn() -> bool) -> io::Result<End> {
+/// Waits until the program ends, breaks a limit or is interrupted.
+fn watch(group: &mut ProcessGroup, limits: &Limits, interrupted: fn() -> bool) -> io::Result<End> {
     let start = Instant::now();
     let mut pause = Duration::from_millis(1);
     loop {
@@ -68,8 +69,8 @@ fn watch(group: &mut Group, limits: &Limits, interrupted: fn() -> bool) -> io::R
         if start.elapsed() >= limits.time {
             return Ok(End::OutOfTime);
         }
-        let (out, most) = limits.out;
-        if std::fs::symlink_metadata(out).is_ok_and(|found| found.len() > most) {
+        let (out, max_bytes) = limits.out;
+        if std::fs::symlink_metadata(out).is_ok_and(|found| found.len() > max_bytes) {
             return Ok(End::TooLarge);
         }
         std::thread::sleep(pause);

@@ -1,53 +1,25 @@
-//! Choice of the GPU that runs the filters.
-
-use serde::{Deserialize, Serialize};
+//! Choice and opening of the adapter that runs the filters.
 
 use super::clock::Clock;
-use super::loops::{LoopLimit, probe};
+use super::device::{AdapterDescription, Gpu};
+use super::loop_limit::LoopLimit;
+use super::loop_probe::find_loop_limit;
 use crate::FilterError;
 
-/// What a run records about the GPU that it used.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct AdapterDescription {
-    /// The device's name.
-    pub name: String,
-    /// The driver and its version.
-    pub driver: String,
-    /// The interface it is driven by: `vulkan`, `metal`, `dx12`.
-    pub backend: String,
-    /// `discrete`, `integrated`, `virtual`, `software` or `other`.
-    pub kind: String,
-}
-
-/// An opened GPU.
-#[derive(Debug)]
-pub struct Gpu {
-    /// What it is.
-    pub adapter: AdapterDescription,
-    /// How durations are taken: by timestamps where the adapter has them.
-    pub clock: Clock,
-    /// The loop iterations that it grants an invocation, where it ends loops early.
-    pub loop_limit: Option<LoopLimit>,
-    /// Asked while the GPU works; work stops where it says true. Never, where nothing else is set.
-    pub interrupted: fn() -> bool,
-    pub(super) device: wgpu::Device,
-    pub(super) queue: wgpu::Queue,
-}
-
-/// What it takes to read the GPU's own clock between passes.
+/// Features that read the GPU's own clock between passes.
 const TIMESTAMPS: wgpu::Features =
     wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
 
-/// Every adapter of this machine; its index and its name choose it in [`Gpu::new`].
+/// Lists every adapter of this machine; index or name choose one in [`Gpu::new`].
 pub fn list_adapters() -> Vec<AdapterDescription> {
-    adapters().iter().map(describe).collect()
+    find_adapters().iter().map(describe).collect()
 }
 
 impl Gpu {
     /// Opens the adapter with that index in [`list_adapters`], or the first whose name contains the text (in any
     /// case). `None` takes the first of the fastest kind: discrete, integrated, virtual, then software.
     pub fn new(adapter: Option<&str>) -> Result<Self, FilterError> {
-        let adapters = adapters();
+        let adapters = find_adapters();
         if adapters.is_empty() {
             return Err(FilterError::NoAdapter);
         }
@@ -89,12 +61,12 @@ impl Gpu {
             device,
             queue,
         };
-        gpu.loop_limit = probe(&gpu)?.map(|iterations| LoopLimit { iterations, lanes });
+        gpu.loop_limit = find_loop_limit(&gpu)?.map(|iterations| LoopLimit { iterations, lanes });
         Ok(gpu)
     }
 }
 
-fn adapters() -> Vec<wgpu::Adapter> {
+fn find_adapters() -> Vec<wgpu::Adapter> {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
         // The driver's validation layers would print to the terminal what wgpu already reports.
         flags: wgpu::InstanceFlags::empty(),

@@ -1,10 +1,10 @@
-//! Kernels and what is bound to them, by the names of their variables.
+//! Pipelines of kernels, and bindings of their variables.
 
-use super::adapter::Gpu;
-use super::shader::{EntryPoint, Role, Shader, Variable};
+use super::device::Gpu;
+use crate::shader::{EntryPoint, Role, Shader, Variable};
 
-/// The layout of group 0 as the kernel uses it, with the buffer of loop iterations where there is one.
-pub(super) fn layout(
+/// Creates the layout of group 0 as the kernel uses it, with the buffer of loop iterations if there is one.
+pub(super) fn create_layout(
     gpu: &Gpu,
     shader: &Shader,
     entry: &EntryPoint,
@@ -55,8 +55,8 @@ pub(super) fn layout(
         })
 }
 
-/// The kernel, compiled.
-pub(super) fn pipeline(
+/// Compiles the kernel.
+pub(super) fn create_pipeline(
     gpu: &Gpu,
     layout: &wgpu::BindGroupLayout,
     module: &wgpu::ShaderModule,
@@ -80,8 +80,8 @@ pub(super) fn pipeline(
         })
 }
 
-/// Group 0, each variable with its resource, and the buffer of loop iterations where there is one.
-pub(super) fn bind_group<'r>(
+/// Binds each variable of group 0 to its resource, and the buffer of loop iterations if there is one.
+pub(super) fn create_bind_group<'r>(
     gpu: &Gpu,
     shader: &Shader,
     entry: &EntryPoint,

@@ -1,13 +1,14 @@
-//! Runs a filter: uploads the frame, dispatches the passes, reads the image back.
+//! Run of a filter on the GPU: uploads the frame, dispatches the passes, reads the image back.
 
 use frame::{Image, Raster};
 
-use super::adapter::Gpu;
+use super::bound_passes::{BoundPasses, Dispatch, MARK};
+use super::device::Gpu;
 use super::kernels::Kernels;
-use super::plan::{MARK, Plan, Step};
-use super::resident::Resident;
-use super::transfer::{Place, padded_row, texels};
+use super::place::Place;
+use super::transfer::{row_bytes, to_texels};
 use super::uniforms::FrameUniform;
+use super::uploaded_input::UploadedInput;
 use crate::{Filter, FilterError, Format, Input, Settings};
 
 /// A filter ready to run on images of one size.
@@ -17,7 +18,7 @@ pub struct Blur<'g> {
     filter: String,
     size: [u32; 2],
     reads_reprojection: bool,
-    pub(super) plan: Plan,
+    pub(super) passes: BoundPasses,
 }
 
 impl<'g> Blur<'g> {
@@ -29,13 +30,13 @@ impl<'g> Blur<'g> {
         width: u32,
         height: u32,
     ) -> Result<Self, FilterError> {
-        // A size that cannot be is refused before anything is compiled.
+        // An impossible size is refused before anything is compiled.
         check_size(gpu, filter, width, height)?;
-        Self::of(&Kernels::compile(gpu, filter)?, settings, width, height)
+        Self::with_kernels(&Kernels::compile(gpu, filter)?, settings, width, height)
     }
 
-    /// Makes the textures for kernels that are compiled already, for other settings or another size than before.
-    pub fn of(
+    /// Makes the textures for compiled kernels, with other settings or another size than before.
+    pub fn with_kernels(
         kernels: &Kernels<'g>,
         settings: &Settings,
         width: u32,
@@ -49,7 +50,7 @@ impl<'g> Blur<'g> {
             filter: filter.name.clone(),
             size: [width, height],
             reads_reprojection: filter.shader.reads_reprojection,
-            plan: Plan::new(kernels, settings, [width, height])?,
+            passes: BoundPasses::new(kernels, settings, [width, height])?,
         })
     }
 
@@ -65,46 +66,52 @@ impl<'g> Blur<'g> {
         let mut outputs = Vec::new();
         for color in input.color {
             self.upload_color(color)?;
-            // What does not depend on colour is still there from the first image.
+            // Results that do not depend on colour stay from the first image.
             let first = outputs.is_empty();
-            outputs.push(self.blur(|step| first || step.depends_on_color)?);
+            outputs.push(self.blur(|dispatch| first || dispatch.depends_on_color)?);
         }
         self.check_loops()?;
         Ok(outputs)
     }
 
-    /// As [`Blur::run`], on an input that is on the GPU already.
-    pub fn run_resident(&mut self, input: &Resident) -> Result<Vec<Image>, FilterError> {
+    /// Blurs an input that is on the GPU already, as [`Blur::run`] does.
+    pub fn run_uploaded(&mut self, input: &UploadedInput) -> Result<Vec<Image>, FilterError> {
         assert_eq!(
             (&self.filter, self.size),
             (&input.filter, input.size),
             "an input stays on the GPU for one filter and size"
         );
         let place = self.place("upload");
-        self.gpu.guarded(place, || {
-            self.plan.upload_frame(self.gpu, input.frame);
-            self.gpu.copy(&input.velocity, self.plan.target("velocity"));
-            self.gpu.copy(&input.depth, self.plan.target("depth"));
+        self.gpu.catch_errors(place, || {
+            self.passes.upload_frame(self.gpu, input.frame);
+            self.gpu
+                .copy(&input.velocity, self.passes.target("velocity"));
+            self.gpu.copy(&input.depth, self.passes.target("depth"));
         })?;
         let mut outputs = Vec::new();
         for color in &input.color {
             self.gpu
-                .guarded(place, || self.gpu.copy(color, self.plan.target("color")))?;
+                .catch_errors(place, || self.gpu.copy(color, self.passes.target("color")))?;
             let first = outputs.is_empty();
-            outputs.push(self.blur(|step| first || step.depends_on_color)?);
+            outputs.push(self.blur(|dispatch| first || dispatch.depends_on_color)?);
         }
         self.check_loops()?;
         Ok(outputs)
     }
 
-    /// Blurs the first colour image of the input once per index of a frame, as [`Blur::run`] would with each of them. None where
+    /// Blurs the first colour image of the input once per frame index, as [`Blur::run`] would with each of them. Returns `None` if
     /// the index changes nothing.
     pub fn run_noise(
         &mut self,
         input: &Input,
         frame_indices: impl IntoIterator<Item = u32>,
     ) -> Result<Option<Vec<Image>>, FilterError> {
-        if !self.plan.steps.iter().any(|step| step.depends_on_noise) {
+        if !self
+            .passes
+            .dispatches
+            .iter()
+            .any(|dispatch| dispatch.depends_on_noise)
+        {
             return Ok(None);
         }
         self.check(input)?;
@@ -117,30 +124,35 @@ impl<'g> Blur<'g> {
                 ..*input
             })?;
             let first = outputs.is_empty();
-            outputs.push(self.blur(|step| first || step.depends_on_noise)?);
+            outputs.push(self.blur(|dispatch| first || dispatch.depends_on_noise)?);
         }
         self.check_loops()?;
         Ok(Some(outputs))
     }
 
     /// Runs the passes that are due on what has been uploaded, and reads the output.
-    fn blur(&self, due: impl Fn(&Step) -> bool) -> Result<Image, FilterError> {
+    fn blur(&self, due: impl Fn(&Dispatch) -> bool) -> Result<Image, FilterError> {
         let place = self.place("upload");
         self.gpu
-            .guarded(place, || self.plan.mark_output(self.gpu, &due))?;
-        for step in self.plan.steps.iter().filter(|step| due(step)) {
-            self.dispatch(step)?;
+            .catch_errors(place, || self.passes.mark_output(self.gpu, &due))?;
+        for dispatch in self
+            .passes
+            .dispatches
+            .iter()
+            .filter(|dispatch| due(dispatch))
+        {
+            self.run_dispatch(dispatch)?;
         }
-        self.output().or_else(|error| {
-            // A loop that was ended early is the cause, and a broken pixel its effect.
+        self.read_output().or_else(|error| {
+            // If a loop was ended early, the broken pixel is its effect.
             self.check_loops()?;
             Err(error)
         })
     }
 
-    /// The output, where every pixel was written and is finite.
-    fn output(&self) -> Result<Image, FilterError> {
-        let target = self.plan.target("output");
+    /// Reads the output; fails if a pixel was not written or is not finite.
+    fn read_output(&self) -> Result<Image, FilterError> {
+        let target = self.passes.target("output");
         let output = self.gpu.download(target, self.place("read back"))?;
         let broken = |texel: &[f32; 4]| texel[..3].iter().any(|value| !value.is_finite());
         match output.pixels.iter().position(broken) {
@@ -152,9 +164,13 @@ impl<'g> Blur<'g> {
     fn refuse_pixel(&self, index: u32, texel: [f32; 4]) -> FilterError {
         let [width, height] = self.size;
         let (x, y) = (index % width, index / width);
-        let mut writers = self.plan.steps.iter().filter(|step| step.writes_output);
+        let mut writers = self
+            .passes
+            .dispatches
+            .iter()
+            .filter(|dispatch| dispatch.writes_output);
         let writer = writers.next_back();
-        let place = self.place(writer.map_or("output", |step| &step.entry));
+        let place = self.place(writer.map_or("output", |dispatch| &dispatch.entry));
         if texel[..3].iter().any(|value| value.to_bits() == MARK) {
             return place.refuse(format!(
                 "leaves pixel ({x}, {y}) of the output unwritten; every pixel of {width}x{height} must be written"
@@ -168,20 +184,21 @@ impl<'g> Blur<'g> {
 
     /// Refuses loops that the adapter may have ended early.
     fn check_loops(&self) -> Result<(), FilterError> {
-        let entry = |dispatch: usize| self.place(&self.plan.steps[dispatch].entry);
-        match &self.plan.iterations {
-            Some(iterations) => iterations.check(self.gpu, entry),
+        let entry = |dispatch: usize| self.place(&self.passes.dispatches[dispatch].entry);
+        match &self.passes.loop_counts {
+            Some(counts) => counts.check(self.gpu, entry),
             None => Ok(()),
         }
     }
 
-    /// What the last run left in a texture between the passes; components that its format lacks are 0, and a whole
-    /// number is the float of the same bits. For tests and for looking inside. Panics where the filter has no such texture.
-    pub fn texture(&self, name: &str) -> Result<Raster<[f32; 4]>, FilterError> {
-        let target = self.plan.target(name);
+    /// Reads what the last run left in a texture between the passes. Components that its format lacks are 0, and a whole number
+    /// is the float of the same bits. Panics if the filter has no such texture.
+    pub fn read_texture(&self, name: &str) -> Result<Raster<[f32; 4]>, FilterError> {
+        let target = self.passes.target(name);
         self.gpu.download(target, self.place("read back"))
     }
 
+    /// Names a pass of this filter, for errors.
     pub(super) fn place<'a>(&'a self, pass: &'a str) -> Place<'a> {
         Place {
             filter: &self.filter,
@@ -190,37 +207,38 @@ impl<'g> Blur<'g> {
     }
 
     pub(super) fn upload(&self, input: &Input) -> Result<(), FilterError> {
-        self.gpu.guarded(self.place("upload"), || {
+        self.gpu.catch_errors(self.place("upload"), || {
             let velocity = bytemuck::cast_slice(&input.velocity.pixels);
-            self.gpu.upload(self.plan.target("velocity"), velocity);
+            self.gpu.upload(self.passes.target("velocity"), velocity);
             self.gpu
-                .upload(self.plan.target("depth"), &input.depth.pixels);
-            self.plan.upload_frame(self.gpu, FrameUniform::of(input));
+                .upload(self.passes.target("depth"), &input.depth.pixels);
+            self.passes.upload_frame(self.gpu, FrameUniform::of(input));
         })
     }
 
     pub(super) fn upload_color(&self, color: &Image) -> Result<(), FilterError> {
-        self.gpu.guarded(self.place("upload"), || {
-            self.gpu.upload(self.plan.target("color"), &texels(color));
+        self.gpu.catch_errors(self.place("upload"), || {
+            self.gpu
+                .upload(self.passes.target("color"), &to_texels(color));
         })
     }
 
-    /// Runs one pass and waits for it: what takes too long is found by its name.
-    fn dispatch(&self, step: &Step) -> Result<(), FilterError> {
-        let place = self.place(&step.entry);
-        self.gpu.guarded(place, || {
+    /// Runs one dispatch and waits for it, so that an error names the pass that takes too long.
+    fn run_dispatch(&self, dispatch: &Dispatch) -> Result<(), FilterError> {
+        let place = self.place(&dispatch.entry);
+        self.gpu.catch_errors(place, || {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-            step.encode(&mut encoder);
+            dispatch.encode(&mut encoder);
             self.gpu.queue.submit([encoder.finish()]);
         })?;
-        self.gpu.wait(place, self.plan.time_limit)
+        self.gpu.wait(place, self.passes.time_limit)
     }
 }
 
 fn check_size(gpu: &Gpu, filter: &Filter, width: u32, height: u32) -> Result<(), FilterError> {
     let limits = gpu.device.limits();
     let side = limits.max_texture_dimension_2d;
-    let image = padded_row(width, Format::Rgba32Float) * u64::from(height);
+    let image = row_bytes(width, Format::Rgba32Float) * u64::from(height);
     let reason = if width == 0 || height == 0 {
         "allowed: at least 1x1".to_owned()
     } else if width > side || height > side {

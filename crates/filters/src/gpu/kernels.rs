@@ -1,23 +1,22 @@
-//! The kernels of a filter, compiled: what blurs of every size and of all settings share.
+//! Compiled kernels of a filter, for blurs of every size and with any settings.
 
-use super::adapter::Gpu;
-use super::binding::{layout, pipeline};
+use super::binding::{create_layout, create_pipeline};
+use super::device::Gpu;
 use super::limits::Limits;
-use super::loops::count;
-use super::resident::Resident;
-use super::stack::on_stack;
-use super::transfer::Place;
-use crate::text::without_controls;
+use super::place::Place;
+use super::uploaded_input::UploadedInput;
+use crate::printable::escape_controls;
+use crate::shader::{count_loop_iterations, run_on_large_stack};
 use crate::{Filter, FilterError, Input};
 
-/// The compiled kernels of one filter, from which [`Blur::of`](super::Blur::of) makes blurs without compiling again.
+/// The compiled kernels of one filter, from which [`Blur::with_kernels`](super::Blur::with_kernels) makes blurs without compiling again.
 #[derive(Debug)]
 pub struct Kernels<'g> {
     pub(super) gpu: &'g Gpu,
     pub(super) filter: Filter,
-    /// In the order of the filter's passes.
+    /// Kernels in the order of the filter's passes.
     pub(super) passes: Vec<Compiled>,
-    /// Binding of the buffer of loop iterations, where they are counted.
+    /// Binding of the buffer of loop iterations, if they are counted.
     pub(super) counted_at: Option<u32>,
 }
 
@@ -29,7 +28,7 @@ pub(super) struct Compiled {
 }
 
 impl<'g> Kernels<'g> {
-    /// Compiles every pass. Refuses a filter that is a command, one that asks for more than the adapter grants, and what the
+    /// Compiles every pass. Fails for a filter that is a command, for one that asks for more than the adapter grants, and if the
     /// driver refuses.
     pub fn compile(gpu: &'g Gpu, filter: &Filter) -> Result<Self, FilterError> {
         if filter.command.is_some() {
@@ -39,10 +38,10 @@ impl<'g> Kernels<'g> {
             });
         }
         Limits::of(gpu).check(filter)?;
-        let compiled = on_stack(|| Self::compile_here(gpu, filter));
+        let compiled = run_on_large_stack(|| Self::compile_here(gpu, filter));
         compiled.unwrap_or_else(|panic| {
             let reason = format!("wgpu fails on it: {panic}");
-            Err(refused(gpu, filter, "kernels", reason))
+            Err(refuse(gpu, filter, "kernels", reason))
         })
     }
 
@@ -51,33 +50,35 @@ impl<'g> Kernels<'g> {
             filter: &filter.name,
             pass,
         };
-        let refused = |pass: &str, error| match error {
-            FilterError::Gpu { reason, .. } => refused(gpu, filter, pass, reason),
+        let explain = |pass: &str, error| match error {
+            FilterError::Gpu { reason, .. } => refuse(gpu, filter, pass, reason),
             error => error,
         };
         let shader = &filter.shader;
-        let counted_at = gpu.loop_limit.map(|_| shader.free_binding());
+        let counted_at = gpu.loop_limit.map(|_| shader.find_free_binding());
         let source = match (gpu.loop_limit, counted_at) {
-            (Some(limit), Some(binding)) => count(&shader.source, binding, limit.safe()),
+            (Some(limit), Some(binding)) => {
+                count_loop_iterations(&shader.source, binding, limit.safe())
+            }
             _ => wgpu::ShaderSource::Wgsl(shader.source.as_str().into()),
         };
-        let module = gpu.guarded(place("kernels"), || {
+        let module = gpu.catch_errors(place("kernels"), || {
             gpu.device
                 .create_shader_module(wgpu::ShaderModuleDescriptor {
                     label: Some(&filter.name),
                     source,
                 })
         });
-        let module = module.map_err(|error| refused("kernels", error))?;
+        let module = module.map_err(|error| explain("kernels", error))?;
         let passes = (filter.passes.iter())
             .map(|pass| {
                 let entry = filter.entry_point(pass);
-                let compiled = gpu.guarded(place(&pass.entry), || {
-                    let layout = layout(gpu, shader, entry, counted_at);
-                    let pipeline = pipeline(gpu, &layout, &module, entry);
+                let compiled = gpu.catch_errors(place(&pass.entry), || {
+                    let layout = create_layout(gpu, shader, entry, counted_at);
+                    let pipeline = create_pipeline(gpu, &layout, &module, entry);
                     Compiled { layout, pipeline }
                 });
-                compiled.map_err(|error| refused(&pass.entry, error))
+                compiled.map_err(|error| explain(&pass.entry, error))
             })
             .collect::<Result<_, _>>()?;
         Ok(Self {
@@ -89,13 +90,13 @@ impl<'g> Kernels<'g> {
     }
 
     /// Uploads an input once, for any number of blurs of this filter.
-    pub fn keep(&self, input: &Input) -> Result<Resident, FilterError> {
-        Resident::new(self.gpu, &self.filter, input)
+    pub fn upload(&self, input: &Input) -> Result<UploadedInput, FilterError> {
+        UploadedInput::new(self.gpu, &self.filter, input)
     }
 }
 
-/// What wgpu or the driver has against a pass, or against all kernels, with the file and the adapter.
-fn refused(gpu: &Gpu, filter: &Filter, pass: &str, reason: String) -> FilterError {
+/// Makes an error of what wgpu or the driver says of a pass or of all kernels; it names the file and the adapter.
+fn refuse(gpu: &Gpu, filter: &Filter, pass: &str, reason: String) -> FilterError {
     let line = (filter.shader.entry_point(pass)).and_then(|entry| entry.line);
     let line = line.map_or(String::new(), |line| format!(":{line}"));
     let path = filter.shader.path.display();
@@ -103,7 +104,7 @@ fn refused(gpu: &Gpu, filter: &Filter, pass: &str, reason: String) -> FilterErro
         .lines()
         .map(str::trim)
         .filter(|line| !line.is_empty());
-    let lines: Vec<String> = lines.map(without_controls).collect();
+    let lines: Vec<String> = lines.map(escape_controls).collect();
     FilterError::Gpu {
         filter: filter.name.clone(),
         pass: pass.to_owned(),

@@ -1,20 +1,19 @@
-//! Limits that devices set to kernels, and the check of a filter against them.
+//! Limits of a device, and the check of a filter against them.
 
-use super::adapter::Gpu;
-use super::demand::{MAX_INLINED, MAX_INVOCATION_BYTES};
-use super::shader::{EntryPoint, Role};
+use super::device::Gpu;
+use crate::shader::{EntryPoint, Role};
 use crate::{Filter, FilterError};
 
 /// The limits of a device.
 #[derive(Clone, Debug)]
 pub struct Limits {
-    /// Whose they are, as a message says it.
+    /// Owner of the limits, as a message names it.
     owner: String,
     limits: wgpu::Limits,
 }
 
 impl Limits {
-    /// What every adapter grants that supports WebGPU.
+    /// Returns the limits of every adapter that supports WebGPU.
     pub fn lowest() -> Self {
         Self {
             owner: "the lowest common limits, those that WebGPU promises everywhere".into(),
@@ -22,7 +21,7 @@ impl Limits {
         }
     }
 
-    /// What an opened adapter grants.
+    /// Returns the limits of an opened adapter.
     pub fn of(gpu: &Gpu) -> Self {
         Self {
             owner: format!("adapter \"{}\"", gpu.adapter.name),
@@ -30,11 +29,11 @@ impl Limits {
         }
     }
 
-    /// Refuses a filter with a pass that asks for more. A filter that is a command asks for nothing.
+    /// Refuses a filter with a pass that asks for more. Accepts every filter that is a command.
     pub fn check(&self, filter: &Filter) -> Result<(), FilterError> {
         for pass in &filter.passes {
             let entry = filter.entry_point(pass);
-            if let Some(reason) = self.broken(filter, entry) {
+            if let Some(reason) = self.find_broken(filter, entry) {
                 return Err(FilterError::Folder {
                     path: filter.shader.path.clone(),
                     line: entry.line,
@@ -45,7 +44,8 @@ impl Limits {
         Ok(())
     }
 
-    fn broken(&self, filter: &Filter, entry: &EntryPoint) -> Option<String> {
+    /// Describes the first limit that a kernel breaks.
+    fn find_broken(&self, filter: &Filter, entry: &EntryPoint) -> Option<String> {
         let Self { owner, limits } = self;
         let [x, y, z] = entry.workgroup_size;
         let invocations = u64::from(x) * u64::from(y) * u64::from(z);
@@ -70,7 +70,7 @@ impl Limits {
                 "make @workgroup_size smaller",
             ),
             (
-                entry.demand.workgroup_bytes,
+                entry.usage.workgroup_bytes,
                 u64::from(limits.max_compute_workgroup_storage_size),
                 "bytes of var<workgroup>",
                 "keep less in it, or divide the pass",
@@ -111,31 +111,4 @@ impl Limits {
              @workgroup_size smaller"
         ))
     }
-}
-
-/// Refuses kernels that no device could be expected to run.
-pub(super) fn refuse_immense(entry: &EntryPoint) -> Result<(), String> {
-    let demand = &entry.demand;
-    for (found, allowed, what, way_out) in [
-        (
-            demand.invocation_bytes,
-            MAX_INVOCATION_BYTES,
-            "bytes of variables or of one value in an invocation",
-            "keep large tables in a texture",
-        ),
-        (
-            demand.inlined,
-            MAX_INLINED,
-            "expressions and statements with every call inlined",
-            "put a loop in the place of calls, or divide the pass",
-        ),
-    ] {
-        if found > allowed {
-            return Err(format!(
-                "kernel \"{}\": {found} {what}; allowed: at most {allowed}; {way_out}",
-                entry.name
-            ));
-        }
-    }
-    Ok(())
 }

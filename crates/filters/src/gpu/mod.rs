@@ -1,37 +1,37 @@
-//! Everything that names wgpu: adapters, the reflection of kernels, and the runner.
+//! Kernels on an adapter: everything that runs on wgpu.
 
 mod adapter;
 mod binding;
 mod blur;
+mod bound_passes;
+mod buffer_copy;
 mod clock;
-mod copy;
-mod demand;
-mod iterations;
+mod dependence;
+mod device;
 mod kernels;
 mod limits;
-mod loops;
-mod nesting;
-mod noise;
-mod patience;
-mod plan;
-mod resident;
-mod shader;
-mod stack;
+mod loop_counts;
+mod loop_limit;
+mod loop_probe;
+mod place;
 mod targets;
+mod timer;
 mod timing;
 mod transfer;
+mod trial;
 mod uniforms;
+mod uploaded_input;
+mod waiting;
 
-pub use adapter::{AdapterDescription, Gpu, list_adapters};
+pub use adapter::list_adapters;
 pub use blur::Blur;
+pub use buffer_copy::BufferCopy;
 pub use clock::Clock;
-pub use copy::BufferCopy;
-pub use demand::{MAX_INLINED, MAX_INVOCATION_BYTES};
+pub use device::{AdapterDescription, Gpu};
 pub use kernels::Kernels;
 pub use limits::Limits;
-pub use loops::LoopLimit;
-pub use nesting::MAX_NESTING;
-pub use resident::Resident;
-pub(crate) use shader::{EntryPoint, Role, Shader, Texel, written};
+pub use loop_limit::LoopLimit;
 pub use targets::MAX_TEXTURE_BYTES;
-pub use timing::{Loaded, PassTime};
+pub use timing::{LoadedBlur, PassTime};
+pub use trial::try_out;
+pub use uploaded_input::UploadedInput;

@@ -1,22 +1,15 @@
-//! Images to and from the GPU, and wgpu's errors as ours.
+//! Textures on the GPU, and transfers to and from them.
 
 use frame::{Image, Raster};
 
-use super::adapter::Gpu;
-use super::shader::Texel;
+use super::device::Gpu;
+use super::place::Place;
 use crate::filter::DEFAULT_TIME_LIMIT;
+use crate::shader::Texel;
 use crate::{FilterError, Format};
 
 impl Format {
-    /// Numbers per texel.
-    pub(super) fn components(self) -> usize {
-        match self {
-            Format::R32Uint | Format::R32Float => 1,
-            Format::Rg32Float => 2,
-            Format::Rgba32Float => 4,
-        }
-    }
-
+    /// Converts the format to that of wgpu.
     pub(super) fn wgpu(self) -> wgpu::TextureFormat {
         match self {
             Format::R32Uint => wgpu::TextureFormat::R32Uint,
@@ -28,6 +21,7 @@ impl Format {
 }
 
 impl Texel {
+    /// Converts the type to that of wgpu.
     pub(super) fn wgpu(self) -> wgpu::TextureSampleType {
         match self {
             Texel::Float => wgpu::TextureSampleType::Float { filterable: false },
@@ -36,7 +30,7 @@ impl Texel {
     }
 }
 
-/// A texture of the runner, whole.
+/// A texture on the GPU.
 #[derive(Debug)]
 pub(super) struct Target {
     pub texture: wgpu::Texture,
@@ -45,63 +39,34 @@ pub(super) struct Target {
 }
 
 impl Target {
+    /// Returns its size in bytes.
     pub fn bytes(&self) -> u64 {
         let texels = u64::from(self.texture.width()) * u64::from(self.texture.height());
         texels * 4 * self.format.components() as u64
     }
 }
 
-/// Where an error belongs.
-#[derive(Clone, Copy)]
-pub(super) struct Place<'a> {
-    pub filter: &'a str,
-    pub pass: &'a str,
-}
-
-impl Place<'_> {
-    pub(super) fn refuse(self, reason: impl ToString) -> FilterError {
-        FilterError::Gpu {
-            filter: self.filter.to_owned(),
-            pass: self.pass.to_owned(),
-            reason: reason.to_string(),
-        }
-    }
-}
-
-/// A colour as the kernels read it, with a fourth component of 1.
-pub(super) fn texels(color: &Image) -> Vec<f32> {
+/// Converts a colour image to texels with a fourth component of 1.
+pub(super) fn to_texels(color: &Image) -> Vec<f32> {
     let pixels = color.pixels.iter();
     pixels.flat_map(|[r, g, b]| [*r, *g, *b, 1.0]).collect()
 }
 
-/// Bytes per row of a buffer that a texture is copied to.
-pub(super) fn padded_row(width: u32, format: Format) -> u64 {
+/// Returns the bytes per row of a buffer that a texture is copied to.
+pub(super) fn row_bytes(width: u32, format: Format) -> u64 {
     let bytes = u64::from(width) * 4 * format.components() as u64;
     bytes.next_multiple_of(u64::from(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT))
 }
 
 impl Gpu {
-    /// Does `work` and turns whatever wgpu has against it into an error that names the place.
-    pub(super) fn guarded<T>(
+    /// Creates a texture.
+    pub(super) fn create_target(
         &self,
-        place: Place,
-        work: impl FnOnce() -> T,
-    ) -> Result<T, FilterError> {
-        let [memory, internal, validation] = [
-            wgpu::ErrorFilter::OutOfMemory,
-            wgpu::ErrorFilter::Internal,
-            wgpu::ErrorFilter::Validation,
-        ]
-        .map(|kind| self.device.push_error_scope(kind));
-        let value = work();
-        let errors = [validation, internal, memory].map(|scope| pollster::block_on(scope.pop()));
-        match errors.into_iter().flatten().next() {
-            None => Ok(value),
-            Some(error) => Err(place.refuse(error)),
-        }
-    }
-
-    pub(super) fn target(&self, label: &str, width: u32, height: u32, format: Format) -> Target {
+        label: &str,
+        width: u32,
+        height: u32,
+        format: Format,
+    ) -> Target {
         let texture = self.device.create_texture(&wgpu::TextureDescriptor {
             label: Some(label),
             size: wgpu::Extent3d {
@@ -159,8 +124,8 @@ impl Gpu {
         place: Place,
     ) -> Result<Raster<[f32; 4]>, FilterError> {
         let (width, height) = (target.texture.width(), target.texture.height());
-        let padded = padded_row(width, target.format);
-        let buffer = self.guarded(place, || {
+        let padded = row_bytes(width, target.format);
+        let buffer = self.catch_errors(place, || {
             let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("read back"),
                 size: padded * u64::from(height),

@@ -1,8 +1,8 @@
-//! The uniforms that every kernel may read.
+//! Uniforms that every kernel may read.
 
 use frame::Reprojection;
 
-use super::adapter::Gpu;
+use super::device::Gpu;
 use crate::Input;
 
 /// The uniform `frame`: the WGSL struct `Frame` of common.wgsl.
@@ -20,21 +20,21 @@ pub(super) struct FrameUniform {
 }
 
 impl FrameUniform {
-    /// Of every dispatch of an input.
+    /// Takes what all dispatches of an input share.
     pub fn of(input: &Input) -> Self {
         let velocity = input.velocity;
         Self {
             size: [velocity.width as i32, velocity.height as i32],
             exposure: input.exposure as f32,
             frame_index: input.frame_index,
-            reprojection: columns(input.reprojection.unwrap_or(Reprojection::STILL)),
+            reprojection: to_columns(input.reprojection.unwrap_or(Reprojection::STILL)),
             ..Self::default()
         }
     }
 }
 
-/// As WGSL lays out a mat4x3: columns, each filled up to four numbers.
-fn columns(reprojection: Reprojection) -> [[f32; 4]; 4] {
+/// Lays a matrix out as a WGSL mat4x3: columns, each filled up to four numbers.
+fn to_columns(reprojection: Reprojection) -> [[f32; 4]; 4] {
     let [x, y, common] = reprojection.rows;
     [0, 1, 2, 3].map(|column| {
         [
@@ -56,6 +56,7 @@ pub(super) struct Uniforms {
 }
 
 impl Uniforms {
+    /// Uploads the parameters, and makes room for one `frame` per dispatch.
     pub fn new(gpu: &Gpu, parameters: &[u8], dispatches: u32) -> Self {
         let buffer = |label, size| {
             gpu.device.create_buffer(&wgpu::BufferDescriptor {
@@ -86,7 +87,8 @@ impl Uniforms {
         gpu.queue.write_buffer(&self.frames, offset, bytes);
     }
 
-    pub fn frame(&self, dispatch: usize) -> wgpu::BindingResource<'_> {
+    /// Binds the uniform `frame` of one dispatch.
+    pub fn bind_frame(&self, dispatch: usize) -> wgpu::BindingResource<'_> {
         wgpu::BindingResource::Buffer(wgpu::BufferBinding {
             buffer: &self.frames,
             offset: dispatch as u64 * self.stride,
@@ -101,12 +103,11 @@ mod tests {
     use std::path::Path;
 
     use super::FrameUniform;
-    use crate::filter::COMMON;
-    use crate::gpu::Shader;
+    use crate::shader::Shader;
 
     #[test]
     fn the_uniform_frame_lies_as_common_wgsl_declares_it() {
-        let shader = Shader::parse(Path::new("none.wgsl"), "", COMMON).unwrap();
+        let shader = Shader::parse(Path::new("none.wgsl"), "").unwrap();
         let found: Vec<(&str, usize)> = shader.uniforms["frame"]
             .iter()
             .map(|member| (&member.name[..], member.offset as usize))

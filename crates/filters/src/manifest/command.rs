@@ -1,12 +1,13 @@
-//! `command`.
+//! `command` and `environment` of filter.toml.
 
 use toml::Spanned;
 
-use super::File;
-use crate::command::{PLACEHOLDERS, fill};
+use super::file::File;
+use crate::filter::{PLACEHOLDERS, fill_placeholders};
 use crate::{Command, FilterError, Parameter};
 
-pub(super) fn command(
+/// Reads the words of a command; refuses unknown placeholders, and a command without those that it needs.
+pub(super) fn read_command(
     file: &File,
     words: &Spanned<Vec<String>>,
     parameters: &[Parameter],
@@ -26,7 +27,7 @@ pub(super) fn command(
     }
     let mut found = Vec::new();
     for word in arguments {
-        fill(word, |name| {
+        fill_placeholders(word, |name| {
             found.push(name.to_owned());
             let known = PLACEHOLDERS.contains(&name) || names.contains(&name);
             known.then(String::new)
@@ -57,15 +58,15 @@ pub(super) fn command(
     Ok(Command {
         program: program.clone(),
         arguments: arguments.to_vec(),
-        folder: folder(file)?,
+        folder: find_folder(file)?,
         environment: Vec::new(),
         manifest: file.path.to_owned(),
         line: file.line(words.span().start),
     })
 }
 
-/// The command with the variables that it is to get.
-pub(super) fn environment(
+/// Adds the variables that the command is to get.
+pub(super) fn add_environment(
     file: &File,
     names: Option<&Spanned<Vec<String>>>,
     command: Option<Command>,
@@ -94,8 +95,8 @@ fn is_variable(name: &str) -> bool {
     name.chars().all(is_part) && name.starts_with(|first: char| !first.is_ascii_digit())
 }
 
-/// The folder of filter.toml, such that it holds wherever a program is started.
-fn folder(file: &File) -> Result<std::path::PathBuf, FilterError> {
+/// Finds the absolute folder of filter.toml, which holds wherever a program is started.
+fn find_folder(file: &File) -> Result<std::path::PathBuf, FilterError> {
     let manifest = std::path::absolute(file.path)
         .map_err(|error| file.refuse(None, format!("its folder cannot be found: {error}")))?;
     let folder = manifest.parent().expect("a file lies in a folder");

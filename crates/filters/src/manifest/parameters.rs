@@ -1,17 +1,13 @@
-//! `[[parameter]]` and `[[preset]]`.
-
-use std::collections::BTreeMap;
+//! `[[parameter]]` of filter.toml.
 
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::source::{SourceEntry, source};
-use super::{File, IDENTIFIER, is_identifier};
-use crate::filter::Preset;
-use crate::text::unfit;
-use crate::{FilterError, Kind, Parameter, Scale, Tuned, Unit, Value};
+use super::file::{File, IDENTIFIER, is_identifier};
+use crate::printable::check_line;
+use crate::{FilterError, Kind, Parameter, Scale, Unit, Value};
 
-/// How many choices a parameter may have.
+/// Upper limit on the choices of a parameter.
 pub const MAX_CHOICES: usize = 64;
 
 #[derive(Deserialize)]
@@ -37,23 +33,12 @@ enum KindWord {
     Choice,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct PresetEntry {
-    name: String,
-    doc: String,
-    #[serde(default)]
-    values: BTreeMap<String, Spanned<toml::Value>>,
-    source: Option<Spanned<SourceEntry>>,
-    reference_width: Option<Spanned<u32>>,
-    tuned: Option<Tuned>,
-}
-
 fn yes() -> bool {
     true
 }
 
-pub(super) fn parameters(
+/// Reads every parameter.
+pub(super) fn read_parameters(
     file: &File,
     entries: &[Spanned<ParameterEntry>],
 ) -> Result<Vec<Parameter>, FilterError> {
@@ -67,8 +52,8 @@ pub(super) fn parameters(
         if parameters.iter().any(|known| known.name == entry.name) {
             return Err(file.at(spanned, named("is declared twice".into())));
         }
-        let kind = kind(entry).map_err(|reason| file.at(spanned, named(reason)))?;
-        let default = value(&kind, &entry.default).ok_or_else(|| {
+        let kind = read_kind(entry).map_err(|reason| file.at(spanned, named(reason)))?;
+        let default = read_value(&kind, &entry.default).ok_or_else(|| {
             let allowed = kind.allowed();
             file.at(
                 spanned,
@@ -79,7 +64,7 @@ pub(super) fn parameters(
             let reason = "a choice is counted in nothing; leave unit out";
             return Err(file.at(spanned, named(reason.into())));
         }
-        let doc = file.one_line(spanned, &named("doc".into()), &entry.doc)?;
+        let doc = file.check_line(spanned, &named("doc".into()), &entry.doc)?;
         parameters.push(Parameter {
             name: entry.name.clone(),
             kind,
@@ -92,7 +77,7 @@ pub(super) fn parameters(
     Ok(parameters)
 }
 
-fn kind(entry: &ParameterEntry) -> Result<Kind, String> {
+fn read_kind(entry: &ParameterEntry) -> Result<Kind, String> {
     let scale = entry.scale.unwrap_or_default();
     let [min, max] = match (entry.kind, entry.range, &entry.choices) {
         (KindWord::Choice, None, Some(choices)) if choices.len() > MAX_CHOICES => {
@@ -102,7 +87,7 @@ fn kind(entry: &ParameterEntry) -> Result<Kind, String> {
             ));
         }
         (KindWord::Choice, None, Some(choices)) if entry.scale.is_none() => {
-            if let Some(reason) = choices.iter().find_map(|choice| unfit(choice)) {
+            if let Some(reason) = choices.iter().find_map(|choice| check_line(choice).err()) {
                 return Err(format!("one of its choices {reason}"));
             }
             let distinct = |(index, choice): (usize, &String)| !choices[..index].contains(choice);
@@ -150,102 +135,8 @@ fn kind(entry: &ParameterEntry) -> Result<Kind, String> {
     }
 }
 
-pub(super) fn presets(
-    file: &File,
-    entries: &[Spanned<PresetEntry>],
-    parameters: &[Parameter],
-) -> Result<Vec<Preset>, FilterError> {
-    let mut presets = Vec::<Preset>::new();
-    for spanned in entries {
-        let entry = spanned.get_ref();
-        if !is_identifier(&entry.name) || presets.iter().any(|known| known.name == entry.name) {
-            let reason = format!(
-                "preset \"{}\": {IDENTIFIER}, and no two presets share one",
-                entry.name
-            );
-            return Err(file.at(spanned, reason));
-        }
-        let doc = format!("preset \"{}\": doc", entry.name);
-        let doc = file.one_line(spanned, &doc, &entry.doc)?;
-        if let Some(tuned) = &entry.tuned {
-            for text in [&tuned.by, &tuned.from].into_iter().chain(&tuned.scenes) {
-                file.one_line(spanned, &format!("preset \"{}\": tuned", entry.name), text)?;
-            }
-        }
-        let mut values = BTreeMap::new();
-        for (name, given) in &entry.values {
-            let named = |reason: String| {
-                file.at(given, format!("preset \"{}\": {name} {reason}", entry.name))
-            };
-            let parameter = parameters
-                .iter()
-                .find(|parameter| parameter.name == *name)
-                .ok_or_else(|| named("is no parameter of this filter".into()))?;
-            let value = value(&parameter.kind, given.get_ref()).ok_or_else(|| {
-                let allowed = parameter.kind.allowed();
-                named(format!("= {} is not {allowed}", given.get_ref()))
-            })?;
-            values.insert(name.clone(), value);
-        }
-        if let Some(tuned) = &entry.tuned
-            && presets.iter().all(|known| known.name != tuned.from)
-        {
-            let reason = format!(
-                "preset \"{}\": tuned from \"{}\", which is no preset before it",
-                entry.name, tuned.from
-            );
-            return Err(file.at(spanned, reason));
-        }
-        presets.push(Preset {
-            name: entry.name.clone(),
-            doc,
-            source: source(file, &entry.name, entry.source.as_ref())?,
-            reference_width: reference_width(file, entry, parameters)?,
-            values,
-            tuned: entry.tuned.clone(),
-        });
-    }
-    if presets.is_empty() {
-        presets.push(Preset {
-            name: "default".into(),
-            doc: "Every parameter at its default.".into(),
-            source: None,
-            reference_width: None,
-            values: BTreeMap::new(),
-            tuned: None,
-        });
-    }
-    Ok(presets)
-}
-
-/// The width that a preset was made for; refused where that changes no parameter.
-fn reference_width(
-    file: &File,
-    entry: &PresetEntry,
-    parameters: &[Parameter],
-) -> Result<Option<u32>, FilterError> {
-    let Some(spanned) = &entry.reference_width else {
-        return Ok(None);
-    };
-    let width = *spanned.get_ref();
-    let refuse = |reason: &str| {
-        let name = &entry.name;
-        let reason = format!("preset \"{name}\": reference_width = {width}{reason}");
-        file.at(spanned, reason)
-    };
-    if width == 0 {
-        return Err(refuse("; allowed: 1 pixel or more"));
-    }
-    if parameters.iter().all(|parameter| parameter.unit.is_none()) {
-        return Err(refuse(
-            ", but no parameter has unit = \"pixels\", so that there is nothing to scale; leave it out",
-        ));
-    }
-    Ok(Some(width))
-}
-
-/// A TOML value as one of `kind`; whole numbers stand for real ones too.
-fn value(kind: &Kind, given: &toml::Value) -> Option<Value> {
+/// Reads a TOML value as one of `kind`; whole numbers stand for real ones too.
+pub(super) fn read_value(kind: &Kind, given: &toml::Value) -> Option<Value> {
     let value = match (kind, given) {
         (Kind::Integer { .. }, toml::Value::Integer(value)) => {
             Value::Integer(i32::try_from(*value).ok()?)
@@ -256,4 +147,16 @@ fn value(kind: &Kind, given: &toml::Value) -> Option<Value> {
         _ => return None,
     };
     kind.allows(&value).then_some(value)
+}
+
+/// Refuses a name that is no integer parameter from 1, which a count or a length needs.
+pub(super) fn check_count(parameters: &[Parameter], name: &str) -> Result<(), String> {
+    let parameter = parameters.iter().find(|parameter| parameter.name == name);
+    match parameter.map(|parameter| &parameter.kind) {
+        None => Err(format!("\"{name}\" is no parameter of this filter")),
+        Some(Kind::Integer { min, .. }) if *min >= 1 => Ok(()),
+        Some(_) => Err(format!(
+            "\"{name}\" is not an integer parameter whose range begins at 1 or more"
+        )),
+    }
 }

@@ -1,12 +1,12 @@
-//! `[[texture]]` and `[[pass]]`.
+//! `[[texture]]` and `[[pass]]` of filter.toml.
 
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::reach::{LengthEntry, length};
-use super::{File, IDENTIFIER, is_identifier};
-use crate::filter::{Format, Holds, Pass, Repeat, Texture};
-use crate::{FilterError, Kind, Parameter};
+use super::file::{File, IDENTIFIER, is_identifier};
+use super::parameters::check_count;
+use super::reach_by::{LengthEntry, read_length};
+use crate::{FilterError, Format, Holds, Kind, Parameter, Pass, Repeat, Texture};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -37,11 +37,11 @@ enum RepeatEntry {
     Parameter(String),
 }
 
-/// How often all passes of a filter may run in sum, each with the largest value that its `repeat` may have. A GPU stamps no
-/// more times in one go.
+/// Upper limit on the dispatches of a filter, with the largest value that each `repeat` may have. A GPU takes no more timestamps in
+/// one go.
 pub const MAX_DISPATCHES: u32 = 4095;
 
-/// Names that kernels use for what the runner gives them, and for what it takes.
+/// Variables of kernels that every filter has.
 const BUILTIN_VARIABLES: [&str; 6] = [
     "color",
     "velocity",
@@ -51,7 +51,8 @@ const BUILTIN_VARIABLES: [&str; 6] = [
     "frame",
 ];
 
-pub(super) fn textures(
+/// Reads every texture.
+pub(super) fn read_textures(
     file: &File,
     entries: &[Spanned<TextureEntry>],
     parameters: &[Parameter],
@@ -76,7 +77,7 @@ pub(super) fn textures(
         }
         let divided_by = divided_by
             .as_ref()
-            .map(|entry| length(parameters, entry))
+            .map(|entry| read_length(parameters, entry))
             .transpose()
             .map_err(|reason| {
                 file.at(
@@ -102,7 +103,8 @@ pub(super) fn textures(
     Ok(textures)
 }
 
-pub(super) fn passes(
+/// Reads every pass.
+pub(super) fn read_passes(
     file: &File,
     entries: &[Spanned<PassEntry>],
     textures: &[Texture],
@@ -117,7 +119,7 @@ pub(super) fn passes(
             workgroup_per_texel,
             repeat,
         } = spanned.get_ref();
-        file.one_line(spanned, "entry", entry)?;
+        file.check_line(spanned, "entry", entry)?;
         let named = |reason: String| file.at(spanned, format!("pass \"{entry}\": {reason}"));
         if let Some(over) = over
             && !textures.iter().any(|texture| texture.name == *over)
@@ -139,12 +141,12 @@ pub(super) fn passes(
             }
             Some(RepeatEntry::Times(times)) => Repeat::Times(*times),
             Some(RepeatEntry::Parameter(parameter)) => {
-                count(parameters, parameter)
+                check_count(parameters, parameter)
                     .map_err(|reason| named(format!("repeat = {reason}")))?;
                 Repeat::Parameter(parameter.clone())
             }
         };
-        let times = most_often(&repeat, parameters);
+        let times = most_runs(&repeat, parameters);
         dispatches = dispatches.saturating_add(times);
         if dispatches > MAX_DISPATCHES {
             return Err(named(format!(
@@ -162,8 +164,8 @@ pub(super) fn passes(
     Ok(passes)
 }
 
-/// How often a pass runs with the largest value that is allowed.
-fn most_often(repeat: &Repeat, parameters: &[Parameter]) -> u32 {
+/// Returns how often a pass runs with the largest value that is allowed.
+fn most_runs(repeat: &Repeat, parameters: &[Parameter]) -> u32 {
     match repeat {
         Repeat::Times(times) => *times,
         Repeat::Parameter(name) => {
@@ -173,17 +175,5 @@ fn most_often(repeat: &Repeat, parameters: &[Parameter]) -> u32 {
                 _ => unreachable!("the parameter was found to be an integer"),
             }
         }
-    }
-}
-
-/// Whether a parameter can say how often or how large.
-pub(super) fn count(parameters: &[Parameter], name: &str) -> Result<(), String> {
-    let parameter = parameters.iter().find(|parameter| parameter.name == name);
-    match parameter.map(|parameter| &parameter.kind) {
-        None => Err(format!("\"{name}\" is no parameter of this filter")),
-        Some(Kind::Integer { min, .. }) if *min >= 1 => Ok(()),
-        Some(_) => Err(format!(
-            "\"{name}\" is not an integer parameter whose range begins at 1 or more"
-        )),
     }
 }

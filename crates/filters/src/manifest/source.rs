@@ -1,9 +1,9 @@
-//! `[preset.source]`.
+//! `[preset.source]` of filter.toml.
 
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::File;
+use super::file::File;
 use crate::{Code, FilterError, Source};
 
 #[derive(Deserialize)]
@@ -17,10 +17,11 @@ pub(super) struct SourceEntry {
     differs: Vec<Spanned<String>>,
 }
 
-/// Digits of a commit's name.
+/// Number of digits of a commit.
 const COMMIT_DIGITS: usize = 40;
 
-pub(super) fn source(
+/// Reads the work that a preset follows.
+pub(super) fn read_source(
     file: &File,
     preset: &str,
     entry: Option<&Spanned<SourceEntry>>,
@@ -31,7 +32,7 @@ pub(super) fn source(
     let entry = spanned.get_ref();
     let named = |reason: &str| format!("preset \"{preset}\": source: {reason}");
     for text in (entry.publication.iter()).chain(&entry.differs) {
-        file.one_line(text, &named("text"), text.get_ref())?;
+        file.check_line(text, &named("text"), text.get_ref())?;
         if text.get_ref().trim().is_empty() {
             let reason = "an empty text; allowed: a sentence, or leave it out";
             return Err(file.at(text, named(reason)));
@@ -45,7 +46,7 @@ pub(super) fn source(
         }
         (None, None, None) => None,
         (Some(repository), Some(commit), Some(paths)) => {
-            Some(code(file, (repository, commit, paths), named)?)
+            Some(read_code(file, (repository, commit, paths), named)?)
         }
         (repository, commit, paths) => {
             let given = [
@@ -77,15 +78,15 @@ type CodeEntry<'a> = (
     &'a Spanned<Vec<String>>,
 );
 
-fn code(
+fn read_code(
     file: &File,
     (repository, commit, paths): CodeEntry,
     named: impl Fn(&str) -> String,
 ) -> Result<Code, FilterError> {
     let address = repository.get_ref();
-    file.one_line(repository, &named("repository"), address)?;
+    file.check_line(repository, &named("repository"), address)?;
     for path in paths.get_ref() {
-        file.one_line(paths, &named("paths"), path)?;
+        file.check_line(paths, &named("paths"), path)?;
     }
     if address.strip_prefix("https://").is_none_or(str::is_empty) {
         let reason =

@@ -1,4 +1,4 @@
-//! Absolute errors. The truth's noise biases them, and their floor says by how much.
+//! Absolute errors, which the truth's noise biases by as much as their floor says.
 
 use frame::{Image, Raster};
 
@@ -6,19 +6,19 @@ use frame::{Image, Raster};
 /// score.
 pub const SMAPE_EPSILON: f64 = 1e-2;
 
-/// Per pixel `|F - T|`, mean over the channels, of radiance times `scale`.
+/// Maps `|F - T|`, mean over the channels, of radiance times `scale`.
 pub fn absolute_error(output: &Image, truth: &Image, scale: f64) -> Raster<f64> {
-    over_channels(output, truth, scale, |f, t| (f - t).abs())
+    average_channels(output, truth, scale, |f, t| (f - t).abs())
 }
 
-/// Per pixel `2 |F - T| / (|F| + |T| + epsilon)`, mean over the channels, in [0, 2].
+/// Maps `2 |F - T| / (|F| + |T| + epsilon)`, mean over the channels, in [0, 2].
 pub fn symmetric_error(output: &Image, truth: &Image, scale: f64) -> Raster<f64> {
-    over_channels(output, truth, scale, |f, t| {
+    average_channels(output, truth, scale, |f, t| {
         2.0 * (f - t).abs() / (f.abs() + t.abs() + SMAPE_EPSILON)
     })
 }
 
-fn over_channels(
+fn average_channels(
     output: &Image,
     truth: &Image,
     scale: f64,

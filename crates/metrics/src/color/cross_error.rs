@@ -1,14 +1,14 @@
-//! Squared errors that the truth's noise does not bias.
+//! Squared errors, which the truth's noise does not bias.
 
 use frame::{Image, Raster};
 
 /// Added to the squared truth in relMSE: a convention that keeps dark pixels from deciding the score.
 pub const RELATIVE_EPSILON: f64 = 1e-2;
 
-/// PSNR never exceeds this, in dB: squared differences below 1e-12 lie within the rounding of 32-bit radiance.
+/// Upper limit of PSNR, in dB: squared differences below 1e-12 lie within the rounding of 32-bit radiance.
 pub const PSNR_LIMIT: f64 = 120.0;
 
-/// Per pixel `(F - A)(F - B)`, mean over the channels, of radiance times `scale`.
+/// Maps `(F - A)(F - B)`, mean over the channels, of radiance times `scale`.
 ///
 /// A and B hold the truth plus independent noise, so the expectation is the squared error against the converged truth;
 /// single pixels may be negative, and so may a mean over pixels when F is as close as the noise. The sign is kept:
@@ -18,17 +18,17 @@ pub fn squared_error(output: &Image, halves: [&Image; 2], scale: f64) -> Raster<
     cross([output, output], [a, b], scale)
 }
 
-/// Per pixel `(F - A)(G - B)` with independent F and G, mean over the channels: as [`squared_error`], for an output that
-/// is noisy itself and known by two halves.
+/// Maps `(F - A)(G - B)` with independent F and G, mean over the channels: [`squared_error`] of an output that is noisy itself and
+/// known by two halves.
 pub fn cross(outputs: [&Image; 2], halves: [&Image; 2], scale: f64) -> Raster<f64> {
-    let first = difference(outputs[0], halves[0]);
-    let second = difference(outputs[1], halves[1]);
+    let first = subtract(outputs[0], halves[0]);
+    let second = subtract(outputs[1], halves[1]);
     first.zip(&second, |f, g| {
         (f[0] * g[0] + f[1] * g[1] + f[2] * g[2]) * scale * scale / 3.0
     })
 }
 
-/// Per pixel `(F - A)(F - B) / (T^2 + epsilon)`, mean over the channels. T is the mean of the halves: its noise moves the
+/// Maps `(F - A)(F - B) / (T^2 + epsilon)`, mean over the channels. T is the mean of the halves: its noise moves the
 /// denominator only.
 pub fn relative_squared_error(
     output: &Image,
@@ -37,7 +37,7 @@ pub fn relative_squared_error(
     scale: f64,
 ) -> Raster<f64> {
     let weighted = |half: &Image| {
-        difference(output, half).zip(mean, |difference, truth| -> [f64; 3] {
+        subtract(output, half).zip(mean, |difference, truth| -> [f64; 3] {
             std::array::from_fn(|c| {
                 let truth = f64::from(truth[c]) * scale;
                 difference[c] * scale / (truth * truth + RELATIVE_EPSILON).sqrt()
@@ -49,8 +49,8 @@ pub fn relative_squared_error(
     })
 }
 
-/// Standard deviation that a mean of [`squared_error`] has for a picture without error, from `noise`: per pixel the
-/// squared error of half A against the mean of both halves. None of no pixels.
+/// Estimates the standard deviation of the mean of [`squared_error`] for a picture without error. `noise` is, per pixel, the
+/// squared error of half A against the mean of both halves. `None` if there are no pixels.
 ///
 /// Such a picture scores the mean of products of the halves' independent noises, which scatters about 0. The variance of a
 /// product is s^4, where s^2 is the variance of a half (Goodman 1960, "On the Exact Variance of Products"). `noise` is
@@ -64,14 +64,14 @@ pub fn scatter(noise: &[f64]) -> Option<f64> {
     (!noise.is_empty()).then(|| (fourths / 3.0).sqrt() / noise.len() as f64)
 }
 
-/// Peak signal to noise ratio in dB with peak 1, of a mean squared error. An error below `floor`, which the truth cannot
+/// Converts a mean squared error to the peak signal to noise ratio in dB, with peak 1. An error below `floor`, which the truth cannot
 /// tell from none, counts as `floor`; see [`PSNR_LIMIT`] for none at all.
 pub fn psnr(squared_error: f64, floor: f64) -> f64 {
     let limit = 10f64.powf(-PSNR_LIMIT / 10.0);
     -10.0 * squared_error.max(floor).max(limit).log10()
 }
 
-fn difference(a: &Image, b: &Image) -> Raster<[f64; 3]> {
+fn subtract(a: &Image, b: &Image) -> Raster<[f64; 3]> {
     a.zip(b, |a, b| {
         std::array::from_fn(|c| f64::from(a[c]) - f64::from(b[c]))
     })

@@ -1,4 +1,4 @@
-//! FLIP: the difference that a person sees who flips between two pictures.
+//! FLIP: the difference that a person sees when flipping between two pictures.
 //!
 //! Andersson et al., "FLIP: A Difference Evaluator for Alternating Images" (HPG 2020), and "Visualizing Errors in
 //! Rendered High Dynamic Range Images" (Eurographics short papers 2021). Both are computed by `flip-rs`.
@@ -8,16 +8,16 @@ use frame::{Image, Plane, Raster, display_srgb};
 
 use crate::Viewing;
 
-/// LDR-FLIP per pixel, in [0, 1], of scene-linear images at `viewing.stops`, seen at 67.02 pixels per degree: a monitor
+/// Maps LDR-FLIP, in [0, 1], of scene-linear images at `viewing.stops`, seen at 67.02 pixels per degree: a monitor
 /// 0.7 m wide with 3840 pixels, from 0.7 m away. The images are finite and of one size.
 pub fn flip_ldr(truth: &Image, output: &Image, viewing: &Viewing) -> Plane {
     let [reference, test] =
-        [truth, output].map(|image| interleaved(&display_srgb(image, viewing.stops)));
+        [truth, output].map(|image| interleave(&display_srgb(image, viewing.stops)));
     let map = ldr_flip(&reference, &test, DEFAULT_PPD).expect(CHECKED);
-    plane(truth, map.into_pixels())
+    to_plane(truth, map.into_pixels())
 }
 
-/// HDR-FLIP per pixel: the largest LDR-FLIP over the viewing's exposures, ACES tone curve, seen as in [`flip_ldr`].
+/// Maps HDR-FLIP: the largest LDR-FLIP over the viewing's exposures, ACES tone curve, seen as in [`flip_ldr`].
 ///
 /// The exposures are always explicit: derived from the truth, they would amplify its noise by 2^24 over a black
 /// background, and change with every render.
@@ -27,19 +27,19 @@ pub fn flip_hdr(truth: &Image, output: &Image, viewing: &Viewing) -> Plane {
     options.stop_exposure = Some(viewing.flip_stop);
     options.num_exposures = Some(viewing.flip_count as usize);
     options.return_exposure_map = false;
-    let result = hdr_flip(&interleaved(truth), &interleaved(output), options).expect(CHECKED);
-    plane(truth, result.error_map.into_pixels())
+    let result = hdr_flip(&interleave(truth), &interleave(output), options).expect(CHECKED);
+    to_plane(truth, result.error_map.into_pixels())
 }
 
-/// What leaves FLIP nothing to refuse.
+/// Reason why FLIP refuses nothing.
 const CHECKED: &str = "sizes, exposures and values were checked before they are measured";
 
-fn interleaved(image: &Image) -> RgbImage<f32> {
+fn interleave(image: &Image) -> RgbImage<f32> {
     let pixels = image.pixels.as_flattened().to_vec();
     RgbImage::new(image.width as usize, image.height as usize, pixels).expect(CHECKED)
 }
 
-fn plane(like: &Image, pixels: Vec<f32>) -> Plane {
+fn to_plane(like: &Image, pixels: Vec<f32>) -> Plane {
     Raster {
         width: like.width,
         height: like.height,

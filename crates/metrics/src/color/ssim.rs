@@ -3,15 +3,15 @@
 use frame::{Image, Raster, display_srgb};
 
 use crate::Viewing;
-use crate::color::convolution::{gaussian, separable};
+use crate::math::convolution::{filter_separably, gaussian};
 
-/// Pixels at the border that are not pooled: the window's radius, 3.5 standard deviations of 1.5 pixels.
+/// Width of the border that is not pooled, in pixels: the window's radius, 3.5 standard deviations of 1.5 pixels.
 pub const SSIM_BORDER: u32 = 5;
 
 const C1: f64 = 0.01 * 0.01;
 const C2: f64 = 0.03 * 0.03;
 
-/// SSIM per pixel, mean over the channels of what a display shows, in [-1, 1]; 1 is equal. Wang et al., "Image Quality
+/// Maps SSIM, mean over the channels of what a display shows, in [-1, 1]; 1 is equal. Wang et al., "Image Quality
 /// Assessment: From Error Visibility to Structural Similarity" (2004), with a Gaussian window, biased covariance and data
 /// range 1, as scikit-image computes it with `gaussian_weights`.
 pub fn ssim(output: &Image, truth: &Image, viewing: &Viewing) -> Raster<f64> {
@@ -25,10 +25,10 @@ pub fn ssim(output: &Image, truth: &Image, viewing: &Viewing) -> Raster<f64> {
         .zip(&blue, |sum, b| (sum + b) / 3.0)
 }
 
-/// SSIM per pixel of two planes with values in [0, 1].
+/// Maps SSIM of two planes with values in [0, 1].
 pub fn ssim_of(a: &Raster<f64>, b: &Raster<f64>) -> Raster<f64> {
     let window = gaussian(1.5, 3.5, false);
-    let local = |map: &Raster<f64>| separable(map, &window, &window);
+    let local = |map: &Raster<f64>| filter_separably(map, &window, &window);
     let (mean_a, mean_b) = (local(a), local(b));
     let squares_a = local(&a.map(|x| x * x));
     let squares_b = local(&b.map(|x| x * x));

@@ -1,14 +1,14 @@
-//! The truth's rows along a translation, and when there are none.
+//! Rows of the truth along a translation.
 
 use frame::Plane;
 
-use crate::object::misplacement::{Misplacement, misplacement};
+use crate::object::misplacement::{Misplacement, measure_misplacement};
 use crate::object::mover::Mover;
 use crate::object::row_mass::{InstantRows, RowMass};
 use crate::object::rows::{Grid, Rows};
 
-/// Rows along the motion may differ between instant and shutter by this many pixels of silhouette, gains and losses
-/// together. Above it, growth would measure what hides the object, not what a filter did.
+/// Largest difference between the rows of instant and shutter, in pixels of silhouette, gains and losses together. Above it, growth
+/// would measure what hides the object, not what a filter did.
 const LARGEST_ROW_CHANGE: f64 = 0.25;
 
 /// Facts about an object that translates within the picture.
@@ -23,21 +23,21 @@ pub struct AlongMotion {
     pub misplacement_noise: Option<Misplacement>,
     /// Excess of total variation of the truth's first half.
     pub variation_noise: f64,
-    /// Noise plus the difference between the instant's rows and the shutter's; a reason where that is too large.
+    /// Noise plus the difference between the instant's rows and the shutter's; a reason if that is too large.
     pub mass_floor: Result<RowMass, String>,
 }
 
 impl AlongMotion {
-    /// The object's rows, or why it has none.
+    /// Makes the object's rows, or says why it has none.
     pub fn new(
         mover: &Mover,
-        touches_border: bool,
+        is_at_border: bool,
         instant: &Plane,
         truth: &Plane,
         half: &Plane,
     ) -> Result<Self, String> {
         let along = mover.translation()?;
-        if touches_border {
+        if is_at_border {
             return Err(BORDER.to_owned());
         }
         let length = mover.silhouette.lateral;
@@ -66,7 +66,7 @@ impl AlongMotion {
             ))
         };
         Ok(Self {
-            misplacement_noise: misplacement(&half, &truth),
+            misplacement_noise: measure_misplacement(&half, &truth),
             variation_noise: half.total_variation() / truth.total_variation() - 1.0,
             mass_floor,
             rows,
@@ -82,7 +82,7 @@ pub const BORDER: &str = "touches the picture's border, where part of its smear 
 /// Reason why an object without an outline has no scores per pixel of outline.
 pub const NO_SILHOUETTE: &str = "shows no silhouette inside the picture";
 
-/// True where any of a matte lies on the outermost pixels.
+/// Returns true if any of a matte lies on the outermost pixels.
 pub fn touches_border(matte: &Plane) -> bool {
     let (right, bottom) = (matte.width - 1, matte.height - 1);
     let columns = (0..matte.width).flat_map(|x| [(x, 0), (x, bottom)]);

@@ -2,12 +2,12 @@
 
 use frame::{Plane, Raster};
 
-use crate::color::pooling::mean;
+use crate::math::pooling::mean;
 
-/// Sums over a whole matte.
+/// Mass of a whole matte.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mass {
-    /// Mean of `1 - a` over the core; `None` where that is empty.
+    /// Mean of `1 - a` over the core; `None` if that is empty.
     pub hole: Option<f64>,
     /// Missing mass over the truth's mass.
     pub deficit: f64,
@@ -15,9 +15,9 @@ pub struct Mass {
     pub energy: f64,
 }
 
-/// Compares sums of mattes; `core` is where the object is seen throughout the shutter. `None` when the truth never shows the
+/// Compares sums of mattes; `core` is where the object is seen throughout the shutter. `None` if the truth never shows the
 /// object.
-pub fn mass(output: &Plane, truth: &Plane, core: &Raster<bool>) -> Option<Mass> {
+pub fn measure_mass(output: &Plane, truth: &Plane, core: &Raster<bool>) -> Option<Mass> {
     let pairs = || {
         output
             .pixels

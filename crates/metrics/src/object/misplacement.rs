@@ -13,15 +13,16 @@ pub struct Misplacement {
     pub extent: f64,
 }
 
-/// Compares rows. For `distance` and `extent` each is normalised to the mass of one, so that lateral errors do not count; rows
-/// weigh as the truth's mass in them, and rows that either leaves empty are left out. `centroid` is of the whole mattes. `None`
-/// when either has no mass, when no row is left, or when the truth has no length along the motion.
-pub fn misplacement(output: &Grid, truth: &Grid) -> Option<Misplacement> {
+/// Compares rows. For `distance` and `extent` each row is normalised to a mass of 1, so that lateral errors do not count. Rows weigh
+/// as the truth's mass in them; rows that are empty in either matte are left out. `centroid` compares the whole mattes. `None` if
+/// either matte has no mass, no row is left, or the truth has no length along the motion.
+pub fn measure_misplacement(output: &Grid, truth: &Grid) -> Option<Misplacement> {
     let centroid = output.center()? - truth.center()?;
     let (mut weight, mut distance) = (0.0, 0.0);
     let (mut variance, mut true_variance) = (0.0, 0.0);
     for (output, truth) in output.rows().zip(truth.rows()) {
-        let (Some(found), Some(expected)) = (moments(output), moments(truth)) else {
+        let (Some(found), Some(expected)) = (measure_moments(output), measure_moments(truth))
+        else {
             continue;
         };
         weight += expected.mass;
@@ -41,7 +42,7 @@ struct Moments {
     variance: f64,
 }
 
-fn moments(row: &[f64]) -> Option<Moments> {
+fn measure_moments(row: &[f64]) -> Option<Moments> {
     // Less than a thousandth of a pixel in the whole row is rounding or noise: normalised, it would count as a full row.
     const LEAST_MASS: f64 = 1e-3;
     let mass: f64 = row.iter().sum();
@@ -85,8 +86,8 @@ mod tests {
             1 if (4..8).contains(&x) => 0.5,
             _ => 0.0,
         });
-        let found =
-            misplacement(&rows.spread(&output), &rows.spread(&truth)).expect("both have mass");
+        let found = measure_misplacement(&rows.spread(&output), &rows.spread(&truth))
+            .expect("both have mass");
         // 6 of 8 px of mass lie 4 px ahead; the mean over rows would be 2. Exact in binary.
         assert_eq!(found.centroid, 3.0);
         assert_eq!(found.distance, 2.0);

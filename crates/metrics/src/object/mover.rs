@@ -1,14 +1,14 @@
-//! One object of the frame: how it moves on screen, and its silhouette.
+//! Motion and silhouette of one object of the frame.
 
 use frame::{Frame, Plane, Raster};
 
-use crate::object::nearest::nearest;
+use crate::object::nearest::find_nearest;
 
-/// Displacements below this many pixels over the shutter count as none: nothing of it can be measured.
+/// Least displacement over the shutter, in pixels; less counts as none, because nothing of it can be measured.
 pub const LEAST_DISPLACEMENT: f64 = 0.1;
 
-/// An object translates when its pixels' displacements deviate from their mean by at most this part of it (root mean
-/// square). A sphere that passes at five radii deviates by a twentieth; a spinning disc by far more than the whole.
+/// Largest deviation of a translation: the root mean square by which its pixels' displacements deviate from their mean, over that
+/// mean. A sphere that passes at five radii deviates by a twentieth; a spinning disc by far more than the whole.
 pub const LARGEST_DEVIATION: f64 = 0.1;
 
 /// An object that is visible at the instant and moves.
@@ -18,9 +18,9 @@ pub struct Mover {
     pub displacement: [f64; 2],
     /// Root mean square of the displacements' deviation from their mean, in pixels.
     pub deviation: f64,
-    /// Per pixel the unit vector along which the nearest visible pixel of the object moves; zero where that one stands.
+    /// Unit vector along which the nearest visible pixel of the object moves, per pixel; zero if that one stands.
     pub directions: Raster<[f64; 2]>,
-    /// Lengths of its outline at the instant.
+    /// Outline of the object at the instant.
     pub silhouette: Silhouette,
 }
 
@@ -37,17 +37,17 @@ pub struct Silhouette {
 /// Reason why an object has no matte scores.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stillness {
-    /// No pixel centre sees it.
+    /// It is seen at no pixel centre.
     Invisible,
     /// Every pixel moves by less than [`LEAST_DISPLACEMENT`].
     Still,
 }
 
 impl Mover {
-    /// Object `id` of the frame, blurred over the frame's exposure.
+    /// Measures object `id` of the frame, moving for the frame's exposure.
     pub fn new(frame: &Frame, id: u32) -> Result<Self, Stillness> {
         let seen = frame.object_id.map(|object| *object == id);
-        let nearest = nearest(&seen).ok_or(Stillness::Invisible)?;
+        let sources = find_nearest(&seen).ok_or(Stillness::Invisible)?;
         let displacements = frame
             .velocity
             .map(|v| v.map(|component| f64::from(component) * frame.exposure));
@@ -65,7 +65,7 @@ impl Mover {
             .iter()
             .map(|d| length([d[0] - displacement[0], d[1] - displacement[1]]).powi(2));
         let deviation = (squares.sum::<f64>() / own.len() as f64).sqrt();
-        let directions = nearest.map(|[x, y]| unit(*displacements.at(*x, *y)));
+        let directions = sources.map(|[x, y]| unit(*displacements.at(*x, *y)));
         let silhouette = Silhouette::new(&frame.coverage[id as usize], &directions);
         Ok(Self {
             displacement,
@@ -75,7 +75,7 @@ impl Mover {
         })
     }
 
-    /// The unit vector of its translation; what keeps it from being one otherwise.
+    /// Returns the unit vector of its translation, or the reason why it does not translate.
     pub fn translation(&self) -> Result<[f64; 2], String> {
         let distance = length(self.displacement);
         if distance < LEAST_DISPLACEMENT {
@@ -94,7 +94,7 @@ impl Mover {
 }
 
 impl Silhouette {
-    /// Total variation of a matte across and along local directions. Gradients are taken between pixels, over squares of
+    /// Measures the total variation of a matte across and along local directions. Gradients are taken between pixels, over squares of
     /// two by two.
     fn new(matte: &Plane, directions: &Raster<[f64; 2]>) -> Self {
         let (mut lateral, mut lengthwise) = (0.0, 0.0);
@@ -115,7 +115,7 @@ impl Silhouette {
     }
 }
 
-/// Length of a vector.
+/// Returns the length of a vector.
 fn length(vector: [f64; 2]) -> f64 {
     vector[0].hypot(vector[1])
 }
@@ -124,12 +124,12 @@ fn mean(vectors: &[[f64; 2]]) -> [f64; 2] {
     [0, 1].map(|axis| vectors.iter().map(|v| v[axis]).sum::<f64>() / vectors.len() as f64)
 }
 
-/// The vector's direction; zero for displacements that count as none.
+/// Returns the vector's direction; zero for displacements that count as none.
 fn unit(vector: [f64; 2]) -> [f64; 2] {
-    let length = length(vector);
-    if length < LEAST_DISPLACEMENT {
+    let distance = length(vector);
+    if distance < LEAST_DISPLACEMENT {
         [0.0, 0.0]
     } else {
-        vector.map(|component| component / length)
+        vector.map(|component| component / distance)
     }
 }

@@ -1,16 +1,17 @@
-//! For every pixel, the nearest pixel of a set.
+//! Nearest pixels of a set.
 
 use frame::Raster;
 
-/// The column and row of the nearest pixel of `set` by Euclidean distance between centres; none when `set` is empty.
+/// Finds for every pixel the column and row of the nearest pixel of `set`, by Euclidean distance between centres; `None` if `set`
+/// is empty.
 ///
 /// Exact, in linear time: Felzenszwalb and Huttenlocher, "Distance Transforms of Sampled Functions" (Theory of Computing
 /// 8, 2012), section 2. All arithmetic is on integers, so that ties do not depend on rounding.
-pub fn nearest(set: &Raster<bool>) -> Option<Raster<[u32; 2]>> {
+pub fn find_nearest(set: &Raster<bool>) -> Option<Raster<[u32; 2]>> {
     if !set.pixels.contains(&true) {
         return None;
     }
-    let columns = nearest_in_columns(set);
+    let columns = find_in_columns(set);
     let mut found = Raster::filled(set.width, set.height, [0, 0]);
     for y in 0..set.height {
         let row = y as usize * set.width as usize..(y as usize + 1) * set.width as usize;
@@ -21,7 +22,7 @@ pub fn nearest(set: &Raster<bool>) -> Option<Raster<[u32; 2]>> {
                     .map(|row| (i64::from(row.abs_diff(y)).pow(2), x))
             })
             .collect();
-        let sources = lowest(&parabolas, set.width);
+        let sources = find_lowest(&parabolas, set.width);
         for (pixel, x) in found.pixels[row].iter_mut().zip(sources) {
             let source_row = columns
                 .at(x, y)
@@ -32,15 +33,15 @@ pub fn nearest(set: &Raster<bool>) -> Option<Raster<[u32; 2]>> {
     Some(found)
 }
 
-/// Squared distance in pixels between two pixels' centres.
+/// Returns the squared distance between the centres of two pixels, in pixels.
 pub fn distance_squared(a: [u32; 2], b: [u32; 2]) -> u64 {
     let [x, y] = [a[0].abs_diff(b[0]), a[1].abs_diff(b[1])].map(u64::from);
     x * x + y * y
 }
 
-/// Every pixel of `set` on this circle about `at`: all nearest ones where several are equally near, so that a mirrored
-/// picture finds the mirrored pixels.
-pub fn on_circle<'a>(
+/// Finds every pixel of `set` on this circle about `at`: all that are equally near, so that a mirrored picture finds the mirrored
+/// pixels.
+pub fn find_on_circle<'a>(
     set: &'a Raster<bool>,
     at: [u32; 2],
     circle: &'a [[i64; 2]],
@@ -52,8 +53,8 @@ pub fn on_circle<'a>(
     })
 }
 
-/// Every whole offset, right and down, of exactly this squared length above 0.
-pub fn circle(squared: u64) -> Vec<[i64; 2]> {
+/// Lists every whole offset, right and down, of exactly this squared length above 0.
+pub fn list_circle(squared: u64) -> Vec<[i64; 2]> {
     let mut found = Vec::new();
     // Along the circle's first quadrant, both ends of an axis counted once.
     let squared = squared as i64;
@@ -78,8 +79,8 @@ pub fn circle(squared: u64) -> Vec<[i64; 2]> {
     found
 }
 
-/// For every pixel the row of the nearest set pixel in its own column.
-fn nearest_in_columns(set: &Raster<bool>) -> Raster<Option<u32>> {
+/// Finds for every pixel the row of the nearest set pixel in its own column.
+fn find_in_columns(set: &Raster<bool>) -> Raster<Option<u32>> {
     let mut rows: Raster<Option<u32>> = Raster::filled(set.width, set.height, None);
     for x in 0..set.width {
         let index = |y: u32| y as usize * set.width as usize + x as usize;
@@ -106,9 +107,9 @@ fn nearest_in_columns(set: &Raster<bool>) -> Raster<Option<u32>> {
     rows
 }
 
-/// For every column, which parabola `height + (column - x)^2` is lowest there; the leftmost wins a tie.
-fn lowest(parabolas: &[(i64, u32)], width: u32) -> Vec<u32> {
-    // Each kept parabola with the first column where it lies below all before it.
+/// Finds for every column the parabola `height + (column - x)^2` that is lowest there; the leftmost wins a tie.
+fn find_lowest(parabolas: &[(i64, u32)], width: u32) -> Vec<u32> {
+    // Each parabola of the envelope with the first column where it lies below all before it.
     let mut envelope: Vec<(i64, i64, i64)> = Vec::new();
     for &(height, x) in parabolas {
         let x = i64::from(x);
@@ -147,7 +148,7 @@ mod tests {
             let set = Raster::from_fn(width, height, |x, y| {
                 (x * x * 7 + y * 13 + x * y) % step == 0
             });
-            let found = nearest(&set).expect("each scatter has a pixel");
+            let found = find_nearest(&set).expect("each scatter has a pixel");
             for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
                 let source = *found.at(x, y);
                 assert!(
@@ -173,7 +174,7 @@ mod tests {
         let set = Raster::filled(40, 40, true);
         // 25 = 5^2 + 0^2 = 3^2 + 4^2: four and eight offsets.
         let at = |at: [u32; 2], squared: u64| -> Vec<[u32; 2]> {
-            on_circle(&set, at, &circle(squared)).collect()
+            find_on_circle(&set, at, &list_circle(squared)).collect()
         };
         let mut found = at([20, 20], 25);
         assert!(
@@ -190,6 +191,6 @@ mod tests {
 
     #[test]
     fn an_empty_set_is_near_to_nothing() {
-        assert_eq!(nearest(&Raster::filled(4, 3, false)), None);
+        assert_eq!(find_nearest(&Raster::filled(4, 3, false)), None);
     }
 }

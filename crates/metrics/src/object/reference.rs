@@ -2,18 +2,19 @@
 
 use frame::{Frame, Picture, Plane, Raster, Region, Regions, Truth};
 
-use crate::color::pooling::mean;
-use crate::label::on_object;
+use crate::label::total_variation::average_on_object;
+use crate::math::pooling::mean;
 use crate::object::along_motion::{AlongMotion, BORDER, NO_SILHOUETTE, touches_border};
-use crate::object::bleed::{Bleed, Side, bleed, sides};
+use crate::object::bleed::{Bleed, measure_bleed};
 use crate::object::gradient::{gradient_error, gradient_magnitude};
-use crate::object::mass::{Mass, mass};
-use crate::object::misplacement::{Misplacement, misplacement};
+use crate::object::mass::{Mass, measure_mass};
+use crate::object::misplacement::{Misplacement, measure_misplacement};
 use crate::object::mover::{Mover, Stillness};
 use crate::object::row_mass::RowMass;
+use crate::object::sides::{Side, find_sides};
 use crate::{Measured, ObjectMetric, ObjectScores};
 
-/// One object, and what the truth's own noise scores on it.
+/// One object of the truth, with the scores of the truth's own noise on it.
 pub struct ObjectReference {
     name: String,
     truth: Plane,
@@ -22,8 +23,8 @@ pub struct ObjectReference {
     mover: Result<Moving, Stillness>,
     /// Mass scores of the truth's first half.
     mass_noise: Option<Mass>,
-    /// Whether the object is seen at the picture's border, at the instant or while the shutter is open.
-    touches_border: bool,
+    /// True if the object is seen at the picture's border, at the instant or while the shutter is open.
+    is_at_border: bool,
 }
 
 /// Facts about an object that moves.
@@ -39,7 +40,7 @@ struct Moving {
 }
 
 impl ObjectReference {
-    /// Object `id` of a truth and its frame.
+    /// Prepares object `id` of a truth and its frame.
     pub fn new(frame: &Frame, truth: &Truth, mean: &Picture, id: usize) -> Self {
         let matte = mean.coverage[id].clone();
         let half = &truth.halves[0].coverage[id];
@@ -47,15 +48,15 @@ impl ObjectReference {
         let support = &truth.support.seen[id];
         let core = truth.support.throughout(id);
         let seen = support.map(|seen| f32::from(*seen));
-        let touches_border = touches_border(&seen) || touches_border(instant);
+        let is_at_border = touches_border(&seen) || touches_border(instant);
         let moving = |mover: Mover| {
             let gradient = gradient_magnitude(&matte);
-            let sides = sides(support, &mover.directions);
+            let sides = find_sides(support, &mover.directions);
             Moving {
                 bleed_noise: (sides.as_ref())
-                    .and_then(|sides| bleed(half, sides, &mover.silhouette)),
+                    .and_then(|sides| measure_bleed(half, sides, &mover.silhouette)),
                 sides,
-                rows: AlongMotion::new(&mover, touches_border, instant, &matte, half),
+                rows: AlongMotion::new(&mover, is_at_border, instant, &matte, half),
                 gradient_noise: gradient_error(&gradient_magnitude(half), &gradient),
                 gradient,
                 mover,
@@ -64,15 +65,15 @@ impl ObjectReference {
         Self {
             name: truth.objects[id].clone(),
             mover: Mover::new(frame, id as u32).map(moving),
-            mass_noise: mass(half, &matte, &core),
+            mass_noise: measure_mass(half, &matte, &core),
             core,
-            touches_border,
+            is_at_border,
             truth: matte,
         }
     }
 
     /// Scores an output's matte. `variations` are the label total variations of the output and of the truth's first half,
-    /// `gradient` is what [`ObjectReference::gradient_errors`] says of the matte.
+    /// `gradient` is [`ObjectReference::map_gradient_errors`] of the matte.
     pub fn measure(
         &self,
         matte: &Plane,
@@ -80,8 +81,9 @@ impl ObjectReference {
         gradient: Option<&Raster<f64>>,
         regions: &Regions,
     ) -> ObjectScores {
-        let [variation, noise] = variations.map(|map| on_object(map, &self.truth, &regions.moving));
-        let [bleed_lateral, bleed_leading, bleed_trailing] = self.bleed_scores(matte);
+        let [variation, noise] =
+            variations.map(|map| average_on_object(map, &self.truth, &regions.moving));
+        let [bleed_lateral, bleed_leading, bleed_trailing] = self.score_bleed(matte);
         let [
             lateral_growth,
             row_gain,
@@ -90,8 +92,8 @@ impl ObjectReference {
             centroid,
             extent,
             tv_excess,
-        ] = self.row_scores(matte);
-        let [hole, deficit, energy] = self.mass_scores(matte);
+        ] = self.score_rows(matte);
+        let [hole, deficit, energy] = self.score_mass(matte);
         let moving = self.mover.as_ref();
         ObjectScores {
             object: self.name.clone(),
@@ -116,17 +118,17 @@ impl ObjectReference {
                 noise,
                 "is not seen in the moving region",
             ),
-            gradient_error: self.gradient_score(gradient, regions),
+            gradient_error: self.score_gradient(gradient, regions),
         }
     }
 
-    /// Squared difference of the gradient magnitudes of matte and truth; none for what does not move.
-    pub fn gradient_errors(&self, matte: &Plane) -> Option<Raster<f64>> {
+    /// Maps the squared difference of the gradient magnitudes of matte and truth; `None` for an object that does not move.
+    pub fn map_gradient_errors(&self, matte: &Plane) -> Option<Raster<f64>> {
         let moving = self.mover.as_ref().ok()?;
         Some(gradient_error(&gradient_magnitude(matte), &moving.gradient))
     }
 
-    fn gradient_score(&self, errors: Option<&Raster<f64>>, regions: &Regions) -> Measured {
+    fn score_gradient(&self, errors: Option<&Raster<f64>>, regions: &Regions) -> Measured {
         let moving = match self.moving() {
             Ok(moving) => moving,
             Err(reason) => return Measured::not_applicable(reason),
@@ -140,8 +142,8 @@ impl ObjectReference {
         )
     }
 
-    /// The object's matte outside its support, zero elsewhere and for what does not move.
-    pub fn bleed_map(&self, matte: &Plane) -> Plane {
+    /// Maps the object's matte outside its support; zero elsewhere, and for an object that does not move.
+    pub fn map_bleed(&self, matte: &Plane) -> Plane {
         match &self.mover {
             Ok(Moving {
                 sides: Some(sides), ..
@@ -153,7 +155,7 @@ impl ObjectReference {
         }
     }
 
-    pub(crate) fn bleed_scores(&self, matte: &Plane) -> [Measured; 3] {
+    pub(crate) fn score_bleed(&self, matte: &Plane) -> [Measured; 3] {
         let moving = match self.moving() {
             Ok(moving) => moving,
             Err(reason) => return [(); 3].map(|()| Measured::not_applicable(&reason)),
@@ -161,7 +163,7 @@ impl ObjectReference {
         let found = moving
             .sides
             .as_ref()
-            .and_then(|sides| bleed(matte, sides, &moving.mover.silhouette));
+            .and_then(|sides| measure_bleed(matte, sides, &moving.mover.silhouette));
         let noise = moving.bleed_noise;
         let pick = |metric, part: fn(Bleed) -> f64| {
             score(metric, found.map(part), noise.map(part), NO_SILHOUETTE)
@@ -173,8 +175,8 @@ impl ObjectReference {
         ]
     }
 
-    /// Growth, gain, loss, misplacement, centroid, extent and excess of total variation.
-    fn row_scores(&self, matte: &Plane) -> [Measured; 7] {
+    /// Scores growth, gain, loss, misplacement, centroid, extent and excess of total variation.
+    fn score_rows(&self, matte: &Plane) -> [Measured; 7] {
         let (rows, mover) = match self.along_motion() {
             Ok(found) => found,
             Err(reason) => return [(); 7].map(|()| Measured::not_applicable(&reason)),
@@ -192,7 +194,7 @@ impl ObjectReference {
             }
             Err(reason) => [(); 3].map(|()| Measured::not_applicable(reason)),
         };
-        let found = misplacement(&grid, &rows.truth);
+        let found = measure_misplacement(&grid, &rows.truth);
         let noise = rows.misplacement_noise;
         let pick = |metric, part: fn(Misplacement) -> f64| {
             let reason = "has no mass where the truth has some";
@@ -212,13 +214,16 @@ impl ObjectReference {
         ]
     }
 
-    fn mass_scores(&self, matte: &Plane) -> [Measured; 3] {
+    fn score_mass(&self, matte: &Plane) -> [Measured; 3] {
         if let Err(reason) = self.moving() {
             return [(); 3].map(|()| Measured::not_applicable(&reason));
         }
-        let (found, noise) = (mass(matte, &self.truth, &self.core), self.mass_noise);
+        let (found, noise) = (
+            measure_mass(matte, &self.truth, &self.core),
+            self.mass_noise,
+        );
         let unseen = "is not seen while the shutter is open";
-        let energy = if self.touches_border {
+        let energy = if self.is_at_border {
             Measured::not_applicable(BORDER)
         } else {
             score(
@@ -259,7 +264,7 @@ impl ObjectReference {
     }
 }
 
-/// A value and its noise as a score with the metric's floor, or the reason for their absence.
+/// Makes a score of a value and its noise, with the metric's floor, or gives the reason for their absence.
 fn score(metric: ObjectMetric, value: Option<f64>, noise: Option<f64>, reason: &str) -> Measured {
     match (value, noise) {
         (Some(value), Some(noise)) => Measured::score(value, metric.ideal().floor(noise)),

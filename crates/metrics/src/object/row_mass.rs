@@ -13,26 +13,26 @@ pub struct RowMass {
     pub loss: f64,
 }
 
-/// An object's rows as the frame has them: free of the truth's noise.
+/// Rows of an object at the instant, free of the truth's noise.
 pub struct InstantRows {
     /// Part of each row's height that the silhouette covers, from 0 to 1.
     heights: Vec<f64>,
-    /// The rows that are about as heavy as the heaviest.
+    /// True for rows that are about as heavy as the heaviest.
     heavy: Vec<bool>,
     /// Mass of the heaviest, in pixels.
     heaviest: f64,
 }
 
-/// Rows of this part of the heaviest one's mass say what all rows gain: so near to the widest place of a round object that it
-/// gains nothing there from growing sideways.
+/// Least mass of rows that tell the gain of all rows, over the mass of the heaviest. They lie so near to the widest place of a round
+/// object that it gains nothing there by growing sideways.
 const HEAVY: f64 = 0.99;
 
-/// A gain by this part of the heaviest row's mass is granted to one half, larger ones almost whole, smaller ones hardly: they may
-/// be noise.
+/// Gain of which half is granted, over the mass of the heaviest row. Larger gains are granted almost whole, smaller ones hardly:
+/// they may be noise.
 const HALF_GRANTED: f64 = 0.01;
 
 impl InstantRows {
-    /// Rows of the instant's matte.
+    /// Measures the rows of the instant's matte.
     pub fn new(instant: &Grid) -> Self {
         let masses = instant.row_masses();
         let heaviest = masses.iter().copied().fold(0.0, f64::max);
@@ -46,8 +46,8 @@ impl InstantRows {
         }
     }
 
-    /// The gain that is granted to a row which the silhouette covers in its whole height, from what each row gained.
-    fn granted(&self, gained: &[f64]) -> f64 {
+    /// Computes the gain that is granted to a row which the silhouette covers in its whole height, from the gain of each row.
+    fn grant(&self, gained: &[f64]) -> f64 {
         let heavy = gained.iter().zip(&self.heavy);
         let heavy: Vec<f64> = heavy
             .filter_map(|(gained, heavy)| heavy.then_some(*gained))
@@ -66,9 +66,9 @@ impl RowMass {
     /// Compares rows. A translation only shifts mass along its rows, so that rows keep their mass whatever the blur's length
     /// or side; a silhouette of `length` pixels (both sides together) that is dilated by d pixels adds `d * length` of mass.
     ///
-    /// As much as the heaviest rows gained, a row that is covered in its whole height may gain as well, and others in
-    /// proportion: that is gain within. What exceeds it is growth: all mass in rows that the silhouette does not touch, and what
-    /// fills rows at its rim.
+    /// A row that is covered in its whole height may gain as much as the heaviest rows did, and others in proportion: that is
+    /// gain. Everything above it is growth: all mass in rows that the silhouette does not touch, and mass that fills rows at its
+    /// rim.
     pub fn new(output: &Grid, truth: &Grid, instant: &InstantRows, length: f64) -> Self {
         let (output, truth) = (output.row_masses(), truth.row_masses());
         let gained: Vec<f64> = output
@@ -76,7 +76,7 @@ impl RowMass {
             .zip(&truth)
             .map(|(output, truth)| output - truth)
             .collect();
-        let granted = instant.granted(&gained);
+        let granted = instant.grant(&gained);
         let (mut growth, mut gain, mut loss) = (0.0, 0.0, 0.0);
         for (gained, height) in gained.iter().zip(&instant.heights) {
             let more = gained.max(0.0);
@@ -99,7 +99,7 @@ mod tests {
     use crate::object::rows::Rows;
     use frame::Raster;
 
-    /// A bar of 20 columns that covers rows 10 to 20 of a picture and a third of row 9; each row as much longer as `more`.
+    /// Makes a bar of 20 columns that covers rows 10 to 20 of a picture and a third of row 9. Each row is `more` longer.
     fn bar(more: f64, top: f64) -> Grid {
         let matte = Raster::from_fn(60, 32, |x, y| {
             let height = (f64::from(y) + 1.0 - top).clamp(0.0, 1.0);
@@ -112,7 +112,7 @@ mod tests {
 
     const TRUE_TOP: f64 = 9.0 + 2.0 / 3.0;
 
-    fn compared(more: f64, top: f64) -> RowMass {
+    fn compare(more: f64, top: f64) -> RowMass {
         let truth = bar(0.0, TRUE_TOP);
         // Both lateral silhouettes of the bar are 20 px long.
         RowMass::new(&bar(more, top), &truth, &InstantRows::new(&truth), 40.0)
@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn rows_that_all_become_heavier_gain_and_do_not_grow() {
-        let found = compared(2.0, TRUE_TOP);
+        let found = compare(2.0, TRUE_TOP);
         assert_near(found.growth, 0.0);
         assert_near(found.gain, 2.0 * (10.0 + 1.0 / 3.0) / 40.0);
         assert_near(found.loss, 0.0);
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn widening_by_a_third_of_a_pixel_shows_although_it_only_fills_a_row_of_the_truth() {
-        let found = compared(0.0, TRUE_TOP - 1.0 / 3.0);
+        let found = compare(0.0, TRUE_TOP - 1.0 / 3.0);
         // One of the two sides.
         assert_near(found.growth, 1.0 / 6.0);
         assert_near(found.gain, 0.0);
@@ -142,7 +142,7 @@ mod tests {
 
     #[test]
     fn widening_and_gain_are_told_apart_but_for_the_row_at_the_rim() {
-        let found = compared(2.0, TRUE_TOP - 2.0);
+        let found = compare(2.0, TRUE_TOP - 2.0);
         // Two rows of 22 px more on one side; the row at the rim is granted a third of the 2 px that the others gain.
         let rim = 22.0 - 20.0 / 3.0 - 2.0 / 3.0;
         assert_near(found.growth, (rim + 22.0 + 22.0 / 3.0) / 40.0);
@@ -151,7 +151,7 @@ mod tests {
 
     #[test]
     fn a_row_that_is_left_empty_is_loss() {
-        let found = compared(0.0, TRUE_TOP + 1.0);
+        let found = compare(0.0, TRUE_TOP + 1.0);
         assert_near(found.loss, 0.5);
         assert_near(found.growth + found.gain, 0.0);
     }

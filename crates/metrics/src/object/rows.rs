@@ -1,4 +1,4 @@
-//! A matte seen along a direction of motion: rows one pixel wide, side by side across it.
+//! Rows of a matte along a direction of motion, one pixel wide and side by side.
 
 use frame::Plane;
 
@@ -6,7 +6,7 @@ use frame::Plane;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rows {
     along: [f64; 2],
-    /// Row and cell that coordinate (0, 0) of the grid stands for.
+    /// Place of the first cell of the first row, along and across the motion, in pixels.
     origin: [f64; 2],
     rows: usize,
     cells: usize,
@@ -16,22 +16,22 @@ pub struct Rows {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     cells: usize,
-    /// Row by row: mass in square pixels.
+    /// Mass in square pixels, row by row.
     masses: Vec<f64>,
 }
 
 impl Rows {
-    /// Rows along `along` (a unit vector) that hold every pixel of a `width` x `height` picture.
+    /// Makes rows along `along` (a unit vector) that hold every pixel of a `width` x `height` picture.
     pub fn new(along: [f64; 2], width: u32, height: u32) -> Self {
         let corners = [[0, 0], [width, 0], [0, height], [width, height]]
             .map(|corner| Self::coordinates(along, corner.map(f64::from)));
-        let reach = |axis: usize| {
+        let span = |axis: usize| {
             let values = corners.map(|corner| corner[axis]);
             let low = values.into_iter().fold(f64::INFINITY, f64::min).floor() - 1.0;
             let high = values.into_iter().fold(f64::NEG_INFINITY, f64::max).ceil() + 1.0;
             (low, (high - low) as usize)
         };
-        let ((s_low, cells), (t_low, rows)) = (reach(0), reach(1));
+        let ((s_low, cells), (t_low, rows)) = (span(0), span(1));
         Self {
             along,
             origin: [s_low, t_low],
@@ -40,7 +40,7 @@ impl Rows {
         }
     }
 
-    /// A point's place along and across the motion, in pixels.
+    /// Converts a point to its place along and across the motion, in pixels.
     fn coordinates(along: [f64; 2], point: [f64; 2]) -> [f64; 2] {
         [
             along[0] * point[0] + along[1] * point[1],
@@ -87,7 +87,7 @@ impl Rows {
 }
 
 impl Grid {
-    /// Sum over rows of the total variation along the motion, in pixels of mass.
+    /// Sums the total variation along the motion over the rows, in pixels of mass.
     pub fn total_variation(&self) -> f64 {
         let steps = |row: &[f64]| {
             row.windows(2)
@@ -97,13 +97,13 @@ impl Grid {
         self.rows().map(steps).sum()
     }
 
-    /// Mass per row.
+    /// Sums the mass of each row.
     pub fn row_masses(&self) -> Vec<f64> {
         self.rows().map(|row| row.iter().sum()).collect()
     }
 
-    /// Part of each row's height that the matte covers where it covers most, against the row that it covers most of: 0 where it
-    /// covers nothing, 1 all over a silhouette, in between at its rim.
+    /// Measures the part of each row's height that the matte covers: the largest value in the row over that of all rows. It is 0
+    /// outside a silhouette, 1 within, and in between at its rim.
     pub fn heights(&self) -> Vec<f64> {
         let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let heights: Vec<f64> = self.rows().map(largest).collect();
@@ -114,7 +114,7 @@ impl Grid {
         }
     }
 
-    /// The centre of mass along the motion, in cells; none of a matte without mass.
+    /// Finds the centre of mass along the motion, in cells; `None` for a matte without mass.
     pub fn center(&self) -> Option<f64> {
         let (mut mass, mut moment) = (0.0, 0.0);
         for row in self.rows() {
@@ -126,13 +126,13 @@ impl Grid {
         (mass > 0.0).then(|| moment / mass)
     }
 
-    /// The rows from one side of the motion to the other; each holds mass per pixel of length along the motion.
+    /// Iterates over the rows from one side of the motion to the other; each holds mass per pixel of length along the motion.
     pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
         self.masses.chunks_exact(self.cells)
     }
 }
 
-/// The part of a unit square's shadow that lies below `t` from its centre, in [0, 1].
+/// Returns the part of a unit square's shadow that lies below `t` from its centre, in [0, 1].
 fn shadow_below(t: f64, widths: [f64; 2]) -> f64 {
     let (narrow, wide) = (widths[0].min(widths[1]), widths[0].max(widths[1]));
     let (plateau, half) = ((wide - narrow) / 2.0, (wide + narrow) / 2.0);

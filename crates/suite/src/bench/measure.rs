@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use filters::{Blur, BufferCopy, Filter, FilterError, Gpu, Input, Loaded, PassTime, Settings};
+use filters::{Blur, BufferCopy, Filter, FilterError, Gpu, Input, LoadedBlur, PassTime, Settings};
 use tracer::{Progress, TraceError, Watch};
 
 use super::panels::Panels;
@@ -85,7 +85,7 @@ impl Turns<'_> {
     /// One run of each blur, then `beside`, in every round: per blur, its runs.
     fn take<T>(
         &self,
-        blurs: &[Loaded],
+        blurs: &[LoadedBlur],
         beside: impl Fn() -> Result<T, FilterError>,
     ) -> Result<(Vec<Vec<Times>>, Vec<T>), Error> {
         let mut runs = vec![Vec::new(); blurs.len()];
@@ -206,7 +206,7 @@ fn reach(
     turns: &Turns,
 ) -> Result<ReachCost, Error> {
     // A range that ends before a reach leaves a gap in the table.
-    let settings = REACHES.map(|pixels| choice.settings.reaching(&choice.filter, pixels).ok());
+    let settings = REACHES.map(|pixels| choice.settings.with_reach(&choice.filter, pixels).ok());
     let (mut blurs, mut speeds) = (Vec::new(), Vec::new());
     for (settings, pixels) in settings.iter().zip(REACHES) {
         if let Some(settings) = settings {
@@ -268,7 +268,7 @@ fn blur<'g>(
     Blur::new(gpu, &choice.filter, settings, plan.width, plan.height)
 }
 
-fn load<'b, 'g>(blur: &'b mut Blur<'g>, panels: &Panels) -> Result<Loaded<'b, 'g>, FilterError> {
+fn load<'b, 'g>(blur: &'b mut Blur<'g>, panels: &Panels) -> Result<LoadedBlur<'b, 'g>, FilterError> {
     blur.load(&Input {
         color: &[&panels.color],
         velocity: &panels.velocity,

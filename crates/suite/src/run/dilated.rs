@@ -17,7 +17,7 @@ pub(crate) fn dilated(
     let (Some(places), Runner::Kernels(blur)) = (places, runner) else {
         return Ok(None);
     };
-    let places = blur.texture(&places.name)?;
+    let places = blur.read_texture(&places.name)?;
     Ok(Some(
         velocities_at(&places, frame).cropped(frame.guard_band),
     ))

@@ -1,6 +1,6 @@
 //! A filter with all scenes on the GPU, so that a candidate costs its blurs and nothing else.
 
-use filters::{Blur, Filter, FilterError, Gpu, Input, Kernels, Resident, Settings};
+use filters::{Blur, Filter, FilterError, Gpu, Input, Kernels, Settings, UploadedInput};
 use frame::{Image, Plane};
 
 use super::shot::Target;
@@ -14,7 +14,7 @@ pub enum Engine<'a> {
         /// For every size and all settings.
         kernels: Box<Kernels<'a>>,
         /// In the order of the scenes.
-        inputs: Vec<Resident>,
+        inputs: Vec<UploadedInput>,
     },
     /// A program, which reads files.
     Program(Box<Filter>, Monitor),
@@ -45,7 +45,7 @@ impl<'a> Engine<'a> {
         let gpu = gpu.expect("an adapter was opened for the kernels");
         let kernels = Kernels::compile(gpu, filter)?;
         let inputs = (targets.iter())
-            .map(|target| with_input(target, bleed, |input| kernels.keep(input)))
+            .map(|target| with_input(target, bleed, |input| kernels.upload(input)))
             .collect::<Result<_, _>>()?;
         Ok(Self::Kernels {
             kernels: Box::new(kernels),
@@ -65,7 +65,7 @@ impl<'a> Engine<'a> {
     fn runner(&self, settings: &Settings, size: (u32, u32)) -> Result<Runner<'a>, FilterError> {
         match self {
             Self::Kernels { kernels, .. } => {
-                let blur = Blur::of(kernels, settings, size.0, size.1)?;
+                let blur = Blur::with_kernels(kernels, settings, size.0, size.1)?;
                 Ok(Runner::Kernels(Box::new(blur)))
             }
             Self::Program(filter, monitor) => Runner::command(filter, settings, size, *monitor),
@@ -92,7 +92,7 @@ impl Candidate<'_, '_> {
         };
         let outputs = match (runner, self.engine) {
             (Runner::Kernels(blur), Engine::Kernels { inputs, .. }) => {
-                blur.run_resident(&inputs[scene])?
+                blur.run_uploaded(&inputs[scene])?
             }
             (runner, _) => with_input(target, bleed, |input| runner.run(input))?,
         };

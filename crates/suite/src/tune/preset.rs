@@ -1,6 +1,6 @@
 //! The choice as a preset of filter.toml.
 
-use filters::{Tuned, Value};
+use filters::{TuningRecord, Value};
 
 use super::{TunePlan, Tuning};
 
@@ -9,7 +9,7 @@ use super::{TunePlan, Tuning};
 pub fn preset_text(tuning: &Tuning, plan: &TunePlan) -> String {
     let render = &plan.render;
     let journal = &tuning.journal;
-    let tuned = Tuned {
+    let tuned = TuningRecord {
         by: journal.program.clone(),
         from: journal.start.clone(),
         seed: journal.seed,

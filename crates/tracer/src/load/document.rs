@@ -7,7 +7,7 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
-use super::error::{SceneError, check_visible};
+use super::error::{SceneError, allowed_numbers, check_visible};
 use crate::limits::LARGEST_NUMBER;
 
 /// Message for the TOML parser's own limit.
@@ -104,13 +104,10 @@ impl Document {
         written: &dyn std::fmt::Display,
         place: Range<usize>,
     ) -> Result<(), SceneError> {
-        let allowed = match parsed {
-            Some(number) if number.abs() <= LARGEST_NUMBER => return Ok(()),
-            Some(number) if number.is_finite() => {
-                format!("numbers from -{LARGEST_NUMBER:e} to {LARGEST_NUMBER:e}")
-            }
-            _ => "finite numbers".to_owned(),
-        };
+        if parsed.is_some_and(|number| number.abs() <= LARGEST_NUMBER) {
+            return Ok(());
+        }
+        let allowed = allowed_numbers(parsed.is_some_and(f64::is_finite));
         Err(self.error(place, format!("found {written}; allowed: {allowed}")))
     }
 

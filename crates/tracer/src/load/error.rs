@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 
 use frame::is_hidden;
 
+use crate::limits::LARGEST_NUMBER;
+
 /// Error in a scene's files. It reads `path:line: reason`; the reason says what was found and what is allowed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneError {
@@ -72,6 +74,14 @@ pub(super) fn join_names<'a>(names: impl IntoIterator<Item = &'a str>) -> String
         "none".into()
     } else {
         listed.join(", ")
+    }
+}
+
+/// Says which numbers a file may hold, to somebody who wrote a finite one or none.
+pub(super) fn allowed_numbers(is_finite: bool) -> String {
+    match is_finite {
+        true => format!("numbers from -{LARGEST_NUMBER:e} to {LARGEST_NUMBER:e}"),
+        false => "finite numbers".to_owned(),
     }
 }
 

@@ -1,6 +1,6 @@
 //! The meshes and materials of objects, shared where they are equal.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
@@ -12,7 +12,8 @@ use super::error::{SceneError, join_names};
 use super::files::Files;
 use super::key_shapes::build_deforming_mesh;
 use super::material::change_material;
-use super::mesh_sources::{MeshSource, read_mesh_sources};
+use super::material_list::MaterialList;
+use super::mesh_sources::{MeshKey, MeshSource, read_mesh_sources};
 use super::obj::{ObjFile, Slot};
 use super::schema::ObjectTable;
 use super::texture::Textures;
@@ -27,13 +28,12 @@ pub(super) struct MeshLoader<'a> {
     interval: [f64; 2],
     pub(super) files: Files,
     pub(super) textures: Textures,
-    pub(super) materials: Vec<Material>,
+    pub(super) materials: MaterialList,
     pub(super) meshes: Vec<Mesh>,
     obj_files: BTreeMap<PathBuf, ObjFile>,
     loaded: BTreeMap<MeshKey, Rc<LoadedMesh>>,
     /// Materials of objects that change none, by mesh.
     unchanged_materials: BTreeMap<usize, Vec<usize>>,
-    materials_by_name: HashMap<String, Vec<usize>>,
     triangles: usize,
 }
 
@@ -46,25 +46,6 @@ pub(super) struct LoadedMesh {
     pub(super) triangles: Vec<usize>,
     /// Distance of the farthest vertex from the origin, in metres.
     pub(super) radius: f64,
-}
-
-/// Sources of a mesh: equal keys, equal meshes.
-#[derive(PartialEq, Eq, PartialOrd, Ord)]
-struct MeshKey {
-    /// Paths, and bits of the times.
-    files: Vec<(PathBuf, u64)>,
-    group: Option<String>,
-}
-
-impl MeshKey {
-    fn new(sources: &[MeshSource], group: Option<&str>) -> Self {
-        // Adding 0 turns -0 into 0.
-        let file = |source: &MeshSource| (source.path.clone(), (source.time + 0.0).to_bits());
-        Self {
-            files: sources.iter().map(file).collect(),
-            group: group.map(str::to_owned),
-        }
-    }
 }
 
 impl<'a> MeshLoader<'a> {
@@ -80,12 +61,11 @@ impl<'a> MeshLoader<'a> {
             interval,
             files,
             textures: Textures::default(),
-            materials: Vec::new(),
+            materials: MaterialList::default(),
             meshes: Vec::new(),
             obj_files: BTreeMap::new(),
             loaded: BTreeMap::new(),
             unchanged_materials: BTreeMap::new(),
-            materials_by_name: HashMap::new(),
             triangles: 0,
         }
     }
@@ -160,7 +140,7 @@ impl<'a> MeshLoader<'a> {
         }
         let materials: Vec<usize> = slots
             .into_iter()
-            .map(|slot| self.add_material(slot.material))
+            .map(|slot| self.materials.add(slot.material))
             .collect();
         if table.material.is_empty() {
             self.unchanged_materials
@@ -208,22 +188,6 @@ impl<'a> MeshLoader<'a> {
         };
         self.meshes.push(mesh);
         Ok(loaded)
-    }
-
-    /// Adds a material to the scene, unless an equal one is there, and returns its index.
-    fn add_material(&mut self, material: Material) -> usize {
-        let named = self
-            .materials_by_name
-            .entry(material.name.clone())
-            .or_default();
-        let known = named
-            .iter()
-            .find(|index| self.materials[**index] == material);
-        known.copied().unwrap_or_else(|| {
-            named.push(self.materials.len());
-            self.materials.push(material);
-            self.materials.len() - 1
-        })
     }
 
     fn read_obj(&mut self, source: &MeshSource) -> Result<(), SceneError> {

@@ -14,6 +14,7 @@ mod keyed_motion;
 mod light;
 mod listing;
 mod material;
+mod material_list;
 mod mesh_sources;
 mod meshes;
 mod mtl;
@@ -104,7 +105,7 @@ pub fn load_scene_and_files(
         sun: sun.transpose()?,
         meshes: meshes.meshes,
         textures: meshes.textures.decoded,
-        materials: meshes.materials,
+        materials: meshes.materials.list,
         objects,
         notes,
         hash: meshes.files.hash(variant),

@@ -1,12 +1,13 @@
 //! Meshes from OBJ files.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use glam::{Vec2, Vec3};
 
 use super::error::SceneError;
 use super::files::Files;
+use super::material_list::MaterialList;
 use super::mtl::{Libraries, default_material};
 use super::obj_check::check_obj;
 use super::texture::Textures;
@@ -32,26 +33,30 @@ pub(super) struct Slot {
     pub(super) textured: bool,
 }
 
-/// Slots of a mesh, found by name: a mesh may have thousands, and two of one name are rare.
+/// Slots of a mesh under construction.
 #[derive(Default)]
 struct Slots {
-    slots: Vec<Slot>,
-    by_name: HashMap<String, Vec<usize>>,
+    materials: MaterialList,
+    /// Flags by material, true if all its faces have texture coordinates.
+    textured: Vec<bool>,
 }
 
 impl Slots {
     /// Adds a slot for a part's material, unless an equal one is there, and returns its index.
     fn add(&mut self, material: Material, textured: bool) -> u32 {
-        let named = self.by_name.entry(material.name.clone()).or_default();
-        let mut known = named.iter().copied();
-        let index = known.find(|index| self.slots[*index].material == material);
-        let index = index.unwrap_or_else(|| {
-            named.push(self.slots.len());
-            self.slots.push(Slot { material, textured });
-            self.slots.len() - 1
-        });
-        self.slots[index].textured &= textured;
+        let index = self.materials.add(material);
+        if index == self.textured.len() {
+            self.textured.push(true);
+        }
+        self.textured[index] &= textured;
         u32::try_from(index).expect("a mesh has fewer than 2^32 materials")
+    }
+
+    fn into_list(self) -> Vec<Slot> {
+        (self.materials.list.into_iter())
+            .zip(self.textured)
+            .map(|(material, textured)| Slot { material, textured })
+            .collect()
     }
 }
 
@@ -157,7 +162,7 @@ impl ObjFile {
             let slot = slots.add(self.material(part), !part.texcoords.is_empty());
             push_part(&mut mesh, part, slot, with_normals, with_texcoords);
         }
-        (mesh, slots.slots)
+        (mesh, slots.into_list())
     }
 
     fn check_area(&self, mesh: &Mesh) -> Result<(), SceneError> {

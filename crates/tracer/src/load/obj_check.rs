@@ -89,11 +89,11 @@ pub(super) fn check_obj(
         }
         checked += statement.keyword;
         // Six numbers are a position and a colour, which is not used.
-        let words = || statement.rest.split_whitespace();
-        if statement.keyword == "v" && words().count() == 6 {
-            for word in words().take(3) {
+        let numbers = || statement.rest.split_whitespace();
+        if statement.keyword == "v" && numbers().count() == 6 {
+            for coordinate in numbers().take(3) {
                 checked += " ";
-                checked += word;
+                checked += coordinate;
             }
         } else {
             checked += " ";
@@ -171,7 +171,7 @@ fn check_corner(corner: &str, counts: &Counts) -> Result<Form, String> {
     let mut parts = corner.split('/');
     let mut read_index = |what: &str, count: usize| match parts.next() {
         None | Some("") => Ok(false),
-        Some(word) => check_index(word, what, count).map(|()| true),
+        Some(text) => check_index(text, what, count).map(|()| true),
     };
     let vertex = read_index("vertex", counts.vertices)?;
     let texcoord = read_index("texture coordinate", counts.texcoords)?;
@@ -186,10 +186,10 @@ fn check_corner(corner: &str, counts: &Counts) -> Result<Form, String> {
 }
 
 /// Checks an index: 1 is the first element, -1 the latest above the line.
-fn check_index(word: &str, what: &str, count: usize) -> Result<(), String> {
-    let index: i64 = word.parse().map_err(|_| {
-        let word = shorten(word);
-        format!("f has the {what} index \"{word}\"; allowed: whole numbers")
+fn check_index(text: &str, what: &str, count: usize) -> Result<(), String> {
+    let index: i64 = text.parse().map_err(|_| {
+        let text = shorten(text);
+        format!("f has the {what} index \"{text}\"; allowed: whole numbers")
     })?;
     if index != 0 && index.unsigned_abs() <= count as u64 {
         return Ok(());

@@ -125,7 +125,7 @@ impl<'a> ObjectLoader<'a> {
             .check(&what, mesh.radius)
             .map_err(|reason| self.document.error(name.span(), reason))?;
         for (material, triangles) in materials.iter().zip(&mesh.triangles) {
-            if self.meshes.materials[*material].emission.max_element() > 0.0 {
+            if self.meshes.materials.list[*material].emission.max_element() > 0.0 {
                 self.emissive_triangles += triangles;
             }
         }

@@ -1,6 +1,6 @@
 //! Statements of OBJ and MTL text, with their lines.
 
-use super::error::check_visible;
+use super::error::{allowed_numbers, check_visible};
 use crate::limits::LARGEST_NUMBER;
 
 /// Line of an OBJ or MTL file.
@@ -69,10 +69,7 @@ impl Statement<'_> {
             return Ok(number);
         }
         // A number that is too large, or no number at all.
-        let allowed = match word.parse::<f64>().is_ok_and(f64::is_finite) {
-            true => format!("numbers from -{LARGEST_NUMBER:e} to {LARGEST_NUMBER:e}"),
-            false => "finite numbers".to_owned(),
-        };
+        let allowed = allowed_numbers(word.parse::<f64>().is_ok_and(f64::is_finite));
         Err(format!(
             "{} holds \"{}\"; allowed: {allowed}",
             self.keyword,

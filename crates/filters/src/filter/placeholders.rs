@@ -1,0 +1,69 @@
+//! Placeholders: names in braces that stand for files and values in the arguments of a command.
+
+/// Placeholders for the frame. Every parameter of the filter is a placeholder beside these.
+pub(crate) const PLACEHOLDERS: [&str; 4] = ["frame", "out", "exposure", "frame_index"];
+
+/// Replaces each `{name}` in a word by `value(name)`, and `{{` and `}}` by braces. The error says which name has no value, or that
+/// a brace has no other.
+pub(crate) fn fill_placeholders(
+    word: &str,
+    mut value: impl FnMut(&str) -> Option<String>,
+) -> Result<String, String> {
+    let mut filled = String::new();
+    let mut rest = word;
+    while let Some(at) = rest.find(['{', '}']) {
+        let (before, brace) = rest.split_at(at);
+        filled += before;
+        rest = if let Some(after) = brace.strip_prefix("{{") {
+            filled.push('{');
+            after
+        } else if let Some(after) = brace.strip_prefix("}}") {
+            filled.push('}');
+            after
+        } else {
+            let (name, after) = (brace.strip_prefix('{'))
+                .and_then(|inside| inside.split_once('}'))
+                .ok_or("has a brace without the other")?;
+            filled += &value(name).ok_or_else(|| format!("holds the unknown {{{name}}}"))?;
+            after
+        };
+    }
+    Ok(filled + rest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fill_placeholders;
+
+    fn fill(word: &str) -> Result<String, String> {
+        fill_placeholders(word, |name| (name == "exposure").then(|| "0.5".to_owned()))
+    }
+
+    #[test]
+    fn names_in_braces_are_replaced_and_nothing_else() {
+        for (word, expected) in [
+            ("", ""),
+            ("--shutter", "--shutter"),
+            ("{exposure}", "0.5"),
+            ("-e{exposure}/{exposure}s", "-e0.5/0.5s"),
+            ("{{exposure}}", "{exposure}"),
+            ("{{{exposure}}}", "{0.5}"),
+            ("größe={exposure}", "größe=0.5"),
+        ] {
+            assert_eq!(fill(word).as_deref(), Ok(expected), "{word}");
+        }
+    }
+
+    #[test]
+    fn unknown_names_and_lone_braces_are_refused() {
+        for (word, says) in [
+            ("{shutter}", "holds the unknown {shutter}"),
+            ("{}", "holds the unknown {}"),
+            ("{ exposure }", "holds the unknown { exposure }"),
+            ("{exposure", "has a brace without the other"),
+            ("exposure}", "has a brace without the other"),
+        ] {
+            assert_eq!(fill(word), Err(says.to_owned()), "{word}");
+        }
+    }
+}

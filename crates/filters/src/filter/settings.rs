@@ -1,0 +1,198 @@
+//! The parameter values that a filter runs with.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::Serialize;
+
+use super::definition::Filter;
+use super::parameter::{Parameter, Unit, Value};
+use super::reach::{Growth, Length};
+use crate::FilterError;
+use crate::printable::escape_controls;
+
+/// A value for every parameter of one filter.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Settings {
+    /// The preset that the values started from.
+    pub preset: String,
+    /// Values by parameter name.
+    pub values: BTreeMap<String, Value>,
+    /// Width of the pictures that the values in pixels are meant for; `None` where they are meant for every width.
+    pub reference_width: Option<u32>,
+    /// Parameters that stay as they are at every width: set by hand, or scaled already.
+    pub fixed: BTreeSet<String>,
+}
+
+impl Filter {
+    /// Takes the values of a preset, or of the first one.
+    pub fn settings(&self, preset: Option<&str>) -> Result<Settings, FilterError> {
+        let preset = match preset {
+            None => &self.presets[0],
+            Some(name) => self
+                .presets
+                .iter()
+                .find(|preset| preset.name == name)
+                .ok_or_else(|| FilterError::UnknownPreset {
+                    filter: self.name.clone(),
+                    preset: name.to_owned(),
+                    known: self.presets.iter().map(|p| p.name.clone()).collect(),
+                })?,
+        };
+        let mut values: BTreeMap<String, Value> = self
+            .parameters
+            .iter()
+            .map(|parameter| (parameter.name.clone(), parameter.default.clone()))
+            .collect();
+        values.extend(preset.values.clone());
+        Ok(Settings {
+            preset: preset.name.clone(),
+            values,
+            reference_width: preset.reference_width,
+            fixed: BTreeSet::new(),
+        })
+    }
+}
+
+impl Settings {
+    /// Sets a parameter from text.
+    pub fn set(&mut self, filter: &Filter, parameter: &str, text: &str) -> Result<(), FilterError> {
+        let known = find_parameter(filter, parameter)?;
+        let value = known
+            .kind
+            .parse(text)
+            .ok_or_else(|| refuse(filter, known, text))?;
+        self.fix(parameter, value);
+        Ok(())
+    }
+
+    /// Sets a parameter to a value.
+    pub fn set_value(
+        &mut self,
+        filter: &Filter,
+        parameter: &str,
+        value: Value,
+    ) -> Result<(), FilterError> {
+        let known = find_parameter(filter, parameter)?;
+        if !known.kind.allows(&value) {
+            return Err(refuse(filter, known, &value.to_string()));
+        }
+        self.fix(parameter, value);
+        Ok(())
+    }
+
+    /// Keeps every value as the preset has it at every width.
+    pub fn as_written(mut self) -> Self {
+        self.reference_width = None;
+        self
+    }
+
+    /// Multiplies the values in pixels by `width` / reference width, for pictures `width` pixels wide. Values that were set by
+    /// hand stay. Whole numbers are rounded, and all values stay in range.
+    pub fn scaled_to(&self, filter: &Filter, width: u32) -> Self {
+        let mut scaled = self.clone();
+        let Some(reference_width) = self.reference_width else {
+            return scaled;
+        };
+        let factor = f64::from(width) / f64::from(reference_width);
+        let in_pixels =
+            (filter.parameters.iter()).filter(|parameter| parameter.unit == Some(Unit::Pixels));
+        for parameter in in_pixels.filter(|parameter| !self.fixed.contains(&parameter.name)) {
+            let value = &self.values[&parameter.name];
+            scaled.fix(&parameter.name, parameter.kind.scale(value, factor));
+        }
+        scaled
+    }
+
+    fn fix(&mut self, parameter: &str, value: Value) {
+        self.values.insert(parameter.to_owned(), value);
+        self.fixed.insert(parameter.to_owned());
+    }
+
+    /// Refuses settings that were made for another filter, or changed past what it allows.
+    pub(crate) fn check(&self, filter: &Filter) -> Result<(), FilterError> {
+        for name in self.values.keys() {
+            find_parameter(filter, name)?;
+        }
+        for parameter in &filter.parameters {
+            let value = self
+                .values
+                .get(&parameter.name)
+                .ok_or_else(|| refuse(filter, parameter, "nothing"))?;
+            if !parameter.kind.allows(value) {
+                return Err(refuse(filter, parameter, &value.to_string()));
+            }
+        }
+        Ok(())
+    }
+
+    /// Encodes the WGSL struct `Parameters`: four bytes per parameter, in order.
+    pub(crate) fn encode(&self, filter: &Filter) -> Vec<u8> {
+        filter
+            .parameters
+            .iter()
+            .flat_map(|parameter| parameter.kind.encode(&self.values[&parameter.name]))
+            .collect()
+    }
+
+    /// Returns the value of an integer parameter, which the check of the folder found to be positive.
+    pub(crate) fn count(&self, parameter: &str) -> u32 {
+        match self.values[parameter] {
+            Value::Integer(value) if value > 0 => value as u32,
+            _ => unreachable!("counts come from integer parameters that start at 1"),
+        }
+    }
+
+    /// Sets the smallest reach that covers trails of `pixels`. Changes nothing if the reach of the filter has no bound. Fails if
+    /// the range of the parameter ends before.
+    pub fn with_reach(&self, filter: &Filter, pixels: u32) -> Result<Settings, FilterError> {
+        let mut settings = self.clone();
+        if let Some(reach_by) = &filter.reach_by {
+            let units = pixels.div_ceil(self.pixels(&reach_by.unit)).max(1);
+            let value = match reach_by.growth {
+                Growth::Linear => units,
+                Growth::Doubling => units.next_power_of_two().ilog2() + 1,
+            };
+            settings.set_value(filter, &reach_by.parameter, Value::Integer(value as i32))?;
+        }
+        Ok(settings)
+    }
+
+    /// Converts a length to a number of pixels.
+    pub(crate) fn pixels(&self, length: &Length) -> u32 {
+        match length {
+            Length::Pixels(pixels) => *pixels,
+            Length::Parameter(parameter) => self.count(parameter),
+        }
+    }
+}
+
+fn find_parameter<'f>(filter: &'f Filter, name: &str) -> Result<&'f Parameter, FilterError> {
+    let mut parameters = filter.parameters.iter();
+    parameters
+        .find(|parameter| parameter.name == name)
+        .ok_or_else(|| {
+            let names: Vec<&str> = filter.parameters.iter().map(|p| p.name.as_str()).collect();
+            let has = if names.is_empty() {
+                "it has none".to_owned()
+            } else {
+                format!("allowed: {}", names.join(", "))
+            };
+            FilterError::Parameter {
+                filter: filter.name.clone(),
+                parameter: escape_controls(name),
+                reason: format!("the filter has no such parameter; {has}"),
+            }
+        })
+}
+
+fn refuse(filter: &Filter, parameter: &Parameter, found: &str) -> FilterError {
+    FilterError::Parameter {
+        filter: filter.name.clone(),
+        parameter: parameter.name.clone(),
+        reason: format!(
+            "found {}; allowed: {}",
+            escape_controls(found),
+            parameter.kind.allowed()
+        ),
+    }
+}

@@ -1,0 +1,34 @@
+//! An opened GPU.
+
+use serde::{Deserialize, Serialize};
+
+use super::clock::Clock;
+use super::loop_limit::LoopLimit;
+
+/// Description of an adapter, as a run records it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct AdapterDescription {
+    /// The device's name.
+    pub name: String,
+    /// The driver and its version.
+    pub driver: String,
+    /// Graphics interface: `vulkan`, `metal`, `dx12`.
+    pub backend: String,
+    /// Kind of device: `discrete`, `integrated`, `virtual`, `software` or `other`.
+    pub kind: String,
+}
+
+/// An opened GPU.
+#[derive(Debug)]
+pub struct Gpu {
+    /// Description of the adapter.
+    pub adapter: AdapterDescription,
+    /// Clock for durations: timestamps if the adapter has them.
+    pub clock: Clock,
+    /// Loop iterations that it grants an invocation; `None` if it ends no loop early.
+    pub loop_limit: Option<LoopLimit>,
+    /// Function that is asked while the GPU works; work stops when it returns true. It never does unless another one is set.
+    pub interrupted: fn() -> bool,
+    pub(super) device: wgpu::Device,
+    pub(super) queue: wgpu::Queue,
+}

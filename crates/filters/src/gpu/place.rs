@@ -1,0 +1,44 @@
+//! Place of an error on the GPU: the filter and the pass.
+
+use super::device::Gpu;
+use crate::FilterError;
+
+/// Filter and pass that an error belongs to.
+#[derive(Clone, Copy)]
+pub(super) struct Place<'a> {
+    pub filter: &'a str,
+    pub pass: &'a str,
+}
+
+impl Place<'_> {
+    /// Makes an error that names the place.
+    pub(super) fn refuse(self, reason: impl ToString) -> FilterError {
+        FilterError::Gpu {
+            filter: self.filter.to_owned(),
+            pass: self.pass.to_owned(),
+            reason: reason.to_string(),
+        }
+    }
+}
+
+impl Gpu {
+    /// Does `work`, and returns an error that names the place if wgpu refuses any of it.
+    pub(super) fn catch_errors<T>(
+        &self,
+        place: Place,
+        work: impl FnOnce() -> T,
+    ) -> Result<T, FilterError> {
+        let [memory, internal, validation] = [
+            wgpu::ErrorFilter::OutOfMemory,
+            wgpu::ErrorFilter::Internal,
+            wgpu::ErrorFilter::Validation,
+        ]
+        .map(|kind| self.device.push_error_scope(kind));
+        let value = work();
+        let errors = [validation, internal, memory].map(|scope| pollster::block_on(scope.pop()));
+        match errors.into_iter().flatten().next() {
+            None => Ok(value),
+            Some(error) => Err(place.refuse(error)),
+        }
+    }
+}

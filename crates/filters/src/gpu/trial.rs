@@ -1,0 +1,173 @@
+//! Trial of a filter before it is measured: every preset, and both ends of every range, on a tiny frame.
+
+use frame::{FAR_DEPTH, Image, Plane, Raster, Reprojection, Vectors};
+
+use super::blur::Blur;
+use super::device::Gpu;
+use super::kernels::Kernels;
+use crate::{Filter, FilterError, Input, Kind, Parameter, Settings, Value};
+
+/// Sides of the frame, in pixels.
+const SIDE: u32 = 16;
+
+/// Upper limit on failures that are listed.
+const MOST_LISTED: usize = 20;
+
+/// One run of a filter.
+struct Trial {
+    /// Description of the settings.
+    what: String,
+    /// Line of filter.toml that declares it.
+    line: Option<usize>,
+    /// Settings that the filter runs with.
+    settings: Settings,
+}
+
+/// Runs kernels with every preset, and with the first preset and one parameter at either end of its range, or at each of its
+/// choices. The frame has 16x16 pixels: still ones, moving ones, and some that move farther than the frame is wide.
+///
+/// # Errors
+/// Lists the failures with their places in filter.toml: a pixel that is not finite or not written, loops that are too long, a pass
+/// that is too slow. A filter that is a command is not run.
+pub fn try_out(gpu: &Gpu, filter: &Filter) -> Result<(), FilterError> {
+    if filter.command.is_some() {
+        return Ok(());
+    }
+    let kernels = Kernels::compile(gpu, filter)?;
+    let frame = TinyFrame::new();
+    let mut failures = Vec::new();
+    let presets = list_presets(filter)?;
+    let ends = list_ends(filter, &presets[0].settings)?;
+    for (index, trial) in presets.iter().chain(&ends).enumerate() {
+        // Where the default fails, each of its neighbours fails too.
+        if index == presets.len() && !failures.is_empty() {
+            break;
+        }
+        let blurred = Blur::with_kernels(&kernels, &trial.settings, SIDE, SIDE)
+            .and_then(|mut blur| blur.run(&frame.input(&[&frame.color])));
+        let error = match blurred {
+            Ok(_) => continue,
+            Err(FilterError::Interrupted) => return Err(FilterError::Interrupted),
+            Err(error) => error,
+        };
+        // The adapter may still be at work on a pass that was given up.
+        let is_last = matches!(error, FilterError::TooSlow { .. });
+        failures.push(describe(filter, trial, &error));
+        if is_last {
+            break;
+        }
+    }
+    match failures.is_empty() {
+        true => Ok(()),
+        false => Err(FilterError::TriedOut(shorten(failures))),
+    }
+}
+
+/// Makes a trial of every preset.
+fn list_presets(filter: &Filter) -> Result<Vec<Trial>, FilterError> {
+    (filter.presets.iter().enumerate())
+        .map(|(index, preset)| {
+            Ok(Trial {
+                what: format!("preset \"{}\"", preset.name),
+                line: filter.lines.presets.get(index).copied(),
+                settings: filter.settings(Some(&preset.name))?,
+            })
+        })
+        .collect()
+}
+
+/// Makes a trial of either end of every range.
+fn list_ends(filter: &Filter, default: &Settings) -> Result<Vec<Trial>, FilterError> {
+    let mut trials = Vec::new();
+    for (parameter, line) in filter.parameters.iter().zip(&filter.lines.parameters) {
+        for (value, which) in extreme_values(parameter) {
+            let mut settings = default.clone();
+            settings.set_value(filter, &parameter.name, value.clone())?;
+            trials.push(Trial {
+                what: format!(
+                    "parameter \"{}\" = {value}, {which}, with preset \"{}\"",
+                    parameter.name, default.preset
+                ),
+                line: Some(*line),
+                settings,
+            });
+        }
+    }
+    Ok(trials)
+}
+
+/// Lists the ends of a range or the choices, each with a description.
+fn extreme_values(parameter: &Parameter) -> Vec<(Value, &'static str)> {
+    let (low, high) = ("the lower end of its range", "the upper end of its range");
+    match &parameter.kind {
+        Kind::Integer { min, max, .. } => {
+            vec![(Value::Integer(*min), low), (Value::Integer(*max), high)]
+        }
+        Kind::Real { min, max, .. } => vec![(Value::Real(*min), low), (Value::Real(*max), high)],
+        Kind::Choice { choices } => (choices.iter())
+            .map(|choice| (Value::Choice(choice.clone()), "one of its choices"))
+            .collect(),
+    }
+}
+
+fn describe(filter: &Filter, trial: &Trial, error: &FilterError) -> String {
+    let path = filter.lines.path.display();
+    let line = trial.line.map_or(String::new(), |line| format!(":{line}"));
+    format!(
+        "{path}{line}: {} fails on a frame of {SIDE}x{SIDE} pixels: {error}",
+        trial.what
+    )
+}
+
+fn shorten(mut failures: Vec<String>) -> Vec<String> {
+    let more = failures.len().saturating_sub(MOST_LISTED);
+    failures.truncate(MOST_LISTED);
+    if more > 0 {
+        failures.push(format!("and {more} more like these"));
+    }
+    failures.push("allowed: presets and ranges with which every pixel is written and finite; narrow the range, or make the kernel hold at its ends".into());
+    failures
+}
+
+/// A bright square that moves before a wall, and a sky.
+struct TinyFrame {
+    color: Image,
+    velocity: Vectors,
+    depth: Plane,
+}
+
+impl TinyFrame {
+    fn new() -> Self {
+        let is_square = |x: u32, y: u32| (4..10).contains(&x) && (5..11).contains(&y);
+        let is_sky = |y: u32| y < 3;
+        Self {
+            color: Raster::from_fn(SIDE, SIDE, |x, y| match is_square(x, y) {
+                true => [8.0, 4.0, 0.5],
+                false => [x as f32 / 16.0, y as f32 / 16.0, 0.0],
+            }),
+            velocity: Raster::from_fn(SIDE, SIDE, |x, y| match (is_square(x, y), y) {
+                // One column moves farther than the frame is wide.
+                (true, _) if x == 9 => [40.0, 25.0],
+                (true, _) => [6.5, -3.0],
+                (false, 0..3) => [-1.0, 0.25],
+                (false, _) => [0.0, 0.0],
+            }),
+            depth: Raster::from_fn(SIDE, SIDE, |x, y| match is_square(x, y) {
+                true => 2.0,
+                false if is_sky(y) => FAR_DEPTH,
+                false => 5.0,
+            }),
+        }
+    }
+
+    fn input<'a>(&'a self, color: &'a [&'a Image]) -> Input<'a> {
+        Input {
+            color,
+            velocity: &self.velocity,
+            depth: &self.depth,
+            reprojection: Some(Reprojection::STILL),
+            exposure: 0.5,
+            frame_index: 0,
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Text of `filter.toml`, and errors that name its lines.
+
+use std::path::Path;
+
+use toml::Spanned;
+
+use crate::FilterError;
+use crate::printable::{check_line, escape_controls};
+
+/// Upper limit on parameters, presets, textures and passes of a filter, each.
+pub const MAX_ENTRIES: usize = 256;
+
+/// Rule for names, as messages say it.
+pub(super) const IDENTIFIER: &str = "a name is made of a-z, 0-9 and _, and begins with a letter";
+
+/// Returns true for a name that keeps [`IDENTIFIER`].
+pub(super) fn is_identifier(name: &str) -> bool {
+    name.starts_with(|first: char| first.is_ascii_lowercase())
+        && name
+            .chars()
+            .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
+}
+
+/// `filter.toml`, for messages that name its lines.
+pub(super) struct File<'a> {
+    pub path: &'a Path,
+    pub text: &'a str,
+}
+
+impl File<'_> {
+    /// Makes an error that names the line of an offset.
+    pub fn refuse(&self, offset: Option<usize>, reason: String) -> FilterError {
+        FilterError::Folder {
+            path: self.path.to_owned(),
+            line: offset.map(|offset| self.line(offset)),
+            reason: escape_controls(&reason.replace('\n', "; ")),
+        }
+    }
+
+    /// Refuses a text that would disturb the terminal, log or page that shows it.
+    pub fn check_line<T>(
+        &self,
+        place: &Spanned<T>,
+        name: &str,
+        text: &str,
+    ) -> Result<String, FilterError> {
+        match check_line(text) {
+            Ok(()) => Ok(text.to_owned()),
+            Err(reason) => Err(self.at(place, format!("{name} {reason}"))),
+        }
+    }
+
+    /// Refuses more than [`MAX_ENTRIES`] tables of one kind.
+    pub fn check_number<T>(&self, kind: &str, entries: &[Spanned<T>]) -> Result<(), FilterError> {
+        match entries.get(MAX_ENTRIES) {
+            None => Ok(()),
+            Some(first_too_many) => Err(self.at(
+                first_too_many,
+                format!(
+                    "{} [[{kind}]]; allowed: at most {MAX_ENTRIES}; divide the filter in two",
+                    entries.len()
+                ),
+            )),
+        }
+    }
+
+    /// Makes an error that names the line of a value.
+    pub fn at<T>(&self, place: &Spanned<T>, reason: String) -> FilterError {
+        self.refuse(Some(place.span().start), reason)
+    }
+
+    /// Finds the line of an offset, from 1.
+    pub fn line(&self, offset: usize) -> usize {
+        let before = self.text.as_bytes().iter().take(offset);
+        before.filter(|byte| **byte == b'\n').count() + 1
+    }
+
+    /// Finds the lines of tables.
+    pub fn lines<T>(&self, entries: &[Spanned<T>]) -> Vec<usize> {
+        entries
+            .iter()
+            .map(|entry| self.line(entry.span().start))
+            .collect()
+    }
+}

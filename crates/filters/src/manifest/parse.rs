@@ -1,0 +1,127 @@
+//! Parser of `filter.toml`, up to a filter without kernels.
+
+use std::path::Path;
+use std::str::FromStr;
+
+use frame::Alignment;
+use serde::{Deserialize, Deserializer, de::Error};
+use toml::Spanned;
+
+use super::command::{add_environment, read_command};
+use super::file::{File, IDENTIFIER, is_identifier};
+use super::parameters::{ParameterEntry, read_parameters};
+use super::passes::{PassEntry, TextureEntry, read_passes, read_textures};
+use super::presets::{PresetEntry, read_presets};
+use super::reach_by::{ReachEntry, read_reach_by};
+use super::time_limit::read_time_limit;
+use crate::filter::Lines;
+use crate::shader::Shader;
+use crate::{Filter, FilterError};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Manifest {
+    name: Spanned<String>,
+    summary: Spanned<String>,
+    source: Option<Spanned<String>>,
+    reach: Option<Spanned<String>>,
+    reach_by: Option<Spanned<ReachEntry>>,
+    cannot: Option<Spanned<String>>,
+    #[serde(deserialize_with = "read_alignment")]
+    alignment: Alignment,
+    #[serde(default)]
+    mirror_symmetric: bool,
+    #[serde(default)]
+    parameter: Vec<Spanned<ParameterEntry>>,
+    #[serde(default)]
+    preset: Vec<Spanned<PresetEntry>>,
+    command: Option<Spanned<Vec<String>>>,
+    environment: Option<Spanned<Vec<String>>>,
+    time_limit: Option<Spanned<f64>>,
+    #[serde(default)]
+    texture: Vec<Spanned<TextureEntry>>,
+    #[serde(default)]
+    pass: Vec<Spanned<PassEntry>>,
+}
+
+fn read_alignment<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Alignment, D::Error> {
+    Alignment::from_str(&String::deserialize(deserializer)?).map_err(D::Error::custom)
+}
+
+/// Parses `filter.toml` into a filter that still lacks its kernels.
+pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
+    let file = File { path, text };
+    let manifest: Manifest = toml::from_str(text).map_err(|error| {
+        let start = error.span().map(|span| span.start);
+        file.refuse(start, error.message().to_owned())
+    })?;
+    let name = manifest.name.get_ref();
+    if !is_identifier(name) {
+        return Err(file.at(
+            &manifest.name,
+            format!("name \"{name}\": {IDENTIFIER}; it also names the WGSL file"),
+        ));
+    }
+    check_method(&file, &manifest)?;
+    file.check_number("parameter", &manifest.parameter)?;
+    file.check_number("preset", &manifest.preset)?;
+    file.check_number("texture", &manifest.texture)?;
+    file.check_number("pass", &manifest.pass)?;
+    let check_sentence = |name: &str, text: Option<&Spanned<String>>| match text {
+        Some(text) => file.check_line(text, name, text.get_ref()),
+        None => Ok(String::new()),
+    };
+    let parameters = read_parameters(&file, &manifest.parameter)?;
+    let command = (manifest.command.as_ref())
+        .map(|words| read_command(&file, words, &parameters))
+        .transpose()?;
+    let command = add_environment(&file, manifest.environment.as_ref(), command)?;
+    let textures = read_textures(&file, &manifest.texture, &parameters)?;
+    Ok(Filter {
+        name: name.clone(),
+        presets: read_presets(&file, &manifest.preset, &parameters)?,
+        passes: read_passes(&file, &manifest.pass, &textures, &parameters)?,
+        command,
+        time_limit: read_time_limit(&file, manifest.time_limit.as_ref())?,
+        reach_by: read_reach_by(&file, manifest.reach_by.as_ref(), &parameters)?,
+        textures,
+        parameters,
+        summary: check_sentence("summary", Some(&manifest.summary))?,
+        source: check_sentence("source", manifest.source.as_ref())?,
+        reach: check_sentence("reach", manifest.reach.as_ref())?,
+        cannot: check_sentence("cannot", manifest.cannot.as_ref())?,
+        alignment: manifest.alignment,
+        mirror_symmetric: manifest.mirror_symmetric,
+        shader: Shader::default(),
+        lines: Lines {
+            path: path.to_owned(),
+            parameters: file.lines(&manifest.parameter),
+            presets: file.lines(&manifest.preset),
+            textures: file.lines(&manifest.texture),
+            passes: file.lines(&manifest.pass),
+        },
+    })
+}
+
+/// Refuses a filter that is neither a command nor passes over kernels, or both.
+fn check_method(file: &File, manifest: &Manifest) -> Result<(), FilterError> {
+    let Manifest {
+        command,
+        pass,
+        texture,
+        ..
+    } = manifest;
+    let kernels = pass.first().map(Spanned::span);
+    let kernels = kernels.or(texture.first().map(Spanned::span));
+    match (command, kernels) {
+        (Some(_), Some(place)) => Err(file.refuse(
+            Some(place.start),
+            "a filter that is a command has neither [[pass]] nor [[texture]]".into(),
+        )),
+        (None, _) if pass.is_empty() => Err(file.refuse(
+            None,
+            "has neither a [[pass]] nor a command; one of them is needed".into(),
+        )),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,118 @@
+//! `[[preset]]` of filter.toml.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::file::{File, IDENTIFIER, is_identifier};
+use super::parameters::read_value;
+use super::source::{SourceEntry, read_source};
+use crate::{FilterError, Parameter, Preset, TuningRecord};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PresetEntry {
+    name: String,
+    doc: String,
+    #[serde(default)]
+    values: BTreeMap<String, Spanned<toml::Value>>,
+    source: Option<Spanned<SourceEntry>>,
+    reference_width: Option<Spanned<u32>>,
+    tuned: Option<TuningRecord>,
+}
+
+/// Reads every preset; a filter without any gets one with every parameter at its default.
+pub(super) fn read_presets(
+    file: &File,
+    entries: &[Spanned<PresetEntry>],
+    parameters: &[Parameter],
+) -> Result<Vec<Preset>, FilterError> {
+    let mut presets = Vec::<Preset>::new();
+    for spanned in entries {
+        let entry = spanned.get_ref();
+        if !is_identifier(&entry.name) || presets.iter().any(|known| known.name == entry.name) {
+            let reason = format!(
+                "preset \"{}\": {IDENTIFIER}, and no two presets share one",
+                entry.name
+            );
+            return Err(file.at(spanned, reason));
+        }
+        let doc = format!("preset \"{}\": doc", entry.name);
+        let doc = file.check_line(spanned, &doc, &entry.doc)?;
+        if let Some(tuned) = &entry.tuned {
+            for text in [&tuned.by, &tuned.from].into_iter().chain(&tuned.scenes) {
+                file.check_line(spanned, &format!("preset \"{}\": tuned", entry.name), text)?;
+            }
+        }
+        let mut values = BTreeMap::new();
+        for (name, given) in &entry.values {
+            let named = |reason: String| {
+                file.at(given, format!("preset \"{}\": {name} {reason}", entry.name))
+            };
+            let parameter = parameters
+                .iter()
+                .find(|parameter| parameter.name == *name)
+                .ok_or_else(|| named("is no parameter of this filter".into()))?;
+            let value = read_value(&parameter.kind, given.get_ref()).ok_or_else(|| {
+                let allowed = parameter.kind.allowed();
+                named(format!("= {} is not {allowed}", given.get_ref()))
+            })?;
+            values.insert(name.clone(), value);
+        }
+        if let Some(tuned) = &entry.tuned
+            && presets.iter().all(|known| known.name != tuned.from)
+        {
+            let reason = format!(
+                "preset \"{}\": tuned from \"{}\", which is no preset before it",
+                entry.name, tuned.from
+            );
+            return Err(file.at(spanned, reason));
+        }
+        presets.push(Preset {
+            name: entry.name.clone(),
+            doc,
+            source: read_source(file, &entry.name, entry.source.as_ref())?,
+            reference_width: read_reference_width(file, entry, parameters)?,
+            values,
+            tuned: entry.tuned.clone(),
+        });
+    }
+    if presets.is_empty() {
+        presets.push(Preset {
+            name: "default".into(),
+            doc: "Every parameter at its default.".into(),
+            source: None,
+            reference_width: None,
+            values: BTreeMap::new(),
+            tuned: None,
+        });
+    }
+    Ok(presets)
+}
+
+/// Reads the width that a preset was made for; refuses one that changes no parameter.
+fn read_reference_width(
+    file: &File,
+    entry: &PresetEntry,
+    parameters: &[Parameter],
+) -> Result<Option<u32>, FilterError> {
+    let Some(spanned) = &entry.reference_width else {
+        return Ok(None);
+    };
+    let width = *spanned.get_ref();
+    let refuse = |reason: &str| {
+        let name = &entry.name;
+        let reason = format!("preset \"{name}\": reference_width = {width}{reason}");
+        file.at(spanned, reason)
+    };
+    if width == 0 {
+        return Err(refuse("; allowed: 1 pixel or more"));
+    }
+    if parameters.iter().all(|parameter| parameter.unit.is_none()) {
+        return Err(refuse(
+            ", but no parameter has unit = \"pixels\", so that there is nothing to scale; leave it out",
+        ));
+    }
+    Ok(Some(width))
+}

@@ -1,0 +1,77 @@
+//! Text of others, made fit for terminals, logs and pages.
+
+use frame::is_hidden;
+
+/// Refuses a one-line text that should not be shown to people.
+///
+/// Refused are control characters, which move cursors and begin lines; marks that reverse the direction of writing; and words
+/// that a CI service takes for a command, as GitHub takes `::error::`.
+pub(crate) fn check_line(text: &str) -> Result<(), String> {
+    if let Some(found) = text.chars().find(|c| is_invisible(*c)) {
+        return Err(format!(
+            "holds the control character U+{:04X}; allowed: one line of visible characters",
+            u32::from(found)
+        ));
+    }
+    let commands = ["::", "##["];
+    let mut words = text.split_whitespace();
+    match words.find(|word| commands.iter().any(|begin| word.starts_with(begin))) {
+        None => Ok(()),
+        Some(word) => Err(format!(
+            "has the word \"{word}\", which CI services take for a command; put another character before it"
+        )),
+    }
+}
+
+/// Writes every control character of a text as its number.
+pub(crate) fn escape_controls(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '\t' => shown.push(' '),
+            c if is_invisible(c) => shown += &format!("\\u{{{:x}}}", u32::from(c)),
+            c => shown.push(c),
+        }
+    }
+    shown
+}
+
+/// Returns true for hidden characters and for those of no width.
+fn is_invisible(c: char) -> bool {
+    is_hidden(c) || matches!(c, '\u{200b}'..='\u{200d}' | '\u{2060}'..='\u{2065}' | '\u{feff}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn control_characters_and_commands_are_refused() {
+        for text in [
+            "two\nlines",
+            "red \u{1b}[31m",
+            "\u{9b}31m",
+            "back\rward",
+            "\u{202e}desrever",
+            "a\u{2028}b",
+            "::error::no",
+            "see ::error file=a::no",
+            "##[error]no",
+        ] {
+            assert!(check_line(text).is_err(), "{text:?}");
+        }
+        for text in [
+            "",
+            "Größe × 2 – 光",
+            "std::max(a, b) ## 3: yes",
+            "µ, σ² ≤ 1",
+        ] {
+            assert_eq!(check_line(text), Ok(()));
+        }
+    }
+
+    #[test]
+    fn a_control_character_is_shown_as_its_number() {
+        assert_eq!(escape_controls("a\u{1b}[0m\nb\tc"), "a\\u{1b}[0m\\u{a}b c");
+    }
+}

@@ -1,0 +1,115 @@
+//! Declarations of a kernel file, found with naga's reflection; needs no adapter.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
+use wgpu::naga::{GlobalVariable, Handle, front};
+
+use super::entry_point::{EntryPoint, find_entry_points};
+use super::nesting::check_nesting;
+use super::source::Source;
+use super::stack::run_on_large_stack;
+use super::uniform::{Member, find_uniforms};
+use super::variable::{Variable, find_variable};
+use crate::FilterError;
+use crate::printable::escape_controls;
+
+/// WGSL that is appended to every filter's kernels.
+const COMMON: &str = include_str!("../../../../shaders/common.wgsl");
+
+/// Kernels of a filter with common.wgsl appended, and what they declare.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Shader {
+    /// The filter's file.
+    pub path: PathBuf,
+    /// WGSL: the filter's file, then common.wgsl.
+    pub source: String,
+    /// Resource variables of group 0, in order of declaration.
+    pub variables: Vec<Variable>,
+    /// Members of the structs that uniforms hold, by the uniform's name.
+    pub uniforms: BTreeMap<String, Vec<Member>>,
+    /// True if the kernels read how the camera moved.
+    pub reads_reprojection: bool,
+    /// Compute entry points.
+    pub entry_points: Vec<EntryPoint>,
+}
+
+/// Capabilities of every device; kernels can `enable` nothing more.
+const CAPABILITIES: Capabilities =
+    Capabilities::MULTISAMPLED_SHADING.union(Capabilities::CUBE_ARRAY_TEXTURES);
+
+impl Shader {
+    /// Parses and validates the kernels at `path`, with common.wgsl appended. Refuses text that is nested too deep before naga
+    /// sees it.
+    pub fn parse(path: &Path, kernels: &str) -> Result<Self, FilterError> {
+        check_nesting(path, kernels)?;
+        let parsed = run_on_large_stack(|| Self::parse_here(path, kernels));
+        parsed.unwrap_or_else(|panic| {
+            Err(FilterError::Folder {
+                path: path.to_owned(),
+                line: None,
+                reason: format!(
+                    "naga, which reads WGSL, fails on it: {}; write it otherwise, or make it smaller",
+                    escape_controls(&panic)
+                ),
+            })
+        })
+    }
+
+    fn parse_here(path: &Path, kernels: &str) -> Result<Self, FilterError> {
+        let source = Source::new(path, kernels, COMMON);
+        let options = front::wgsl::Options {
+            capabilities: CAPABILITIES,
+            ..front::wgsl::Options::new()
+        };
+        let mut parser = front::wgsl::Frontend::new_with_options(options);
+        let module = parser.parse(&source.text).map_err(|error| {
+            let message = error.emit_to_string_with_path(&source.text, source.name());
+            source.refuse(error.location(&source.text), &message)
+        })?;
+        source.refuse_overrides(&module)?;
+        let info = Validator::new(ValidationFlags::all(), CAPABILITIES)
+            .validate(&module)
+            .map_err(|error| {
+                let message = error.emit_to_string_with_path(&source.text, source.name());
+                source.refuse(error.location(&source.text), &message)
+            })?;
+        let handles: Vec<Handle<GlobalVariable>> = module
+            .global_variables
+            .iter()
+            .filter(|(_, variable)| variable.binding.is_some())
+            .map(|(handle, _)| handle)
+            .collect();
+        let variables = handles
+            .iter()
+            .map(|handle| find_variable(&source, &module, *handle))
+            .collect::<Result<Vec<_>, _>>()?;
+        let entry_points = find_entry_points(&source, &module, &info, &handles, &variables);
+        for entry in &entry_points {
+            let checked = entry.usage.check(&entry.name);
+            checked.map_err(|reason| source.at(entry.line, reason))?;
+        }
+        Ok(Self {
+            path: path.to_owned(),
+            uniforms: find_uniforms(&source, &module),
+            reads_reprojection: kernels.contains("before_camera(")
+                || kernels.contains("frame.reprojection"),
+            entry_points,
+            variables,
+            source: source.text,
+        })
+    }
+
+    /// Finds a binding of group 0 that no variable has.
+    pub fn find_free_binding(&self) -> u32 {
+        let used = |binding| (self.variables.iter()).any(|variable| variable.binding == binding);
+        let free = (0..).find(|binding| !used(*binding));
+        free.expect("a kernel has fewer variables than there are numbers")
+    }
+
+    /// Finds an entry point by name.
+    pub fn entry_point(&self, name: &str) -> Option<&EntryPoint> {
+        self.entry_points.iter().find(|entry| entry.name == name)
+    }
+}

@@ -1,0 +1,26 @@
+//! Thread with a large stack, for code of others that recurses.
+
+use std::{any::Any, thread};
+
+/// Bytes of stack for reading and compiling kernels. Naga takes less than 2 KB per level of
+/// [`MAX_NESTING`](super::MAX_NESTING), and less than 1 KB per declaration that refers to another one.
+const STACK_BYTES: usize = 64 << 20;
+
+/// Does the work on a thread with a large stack. Fails if no thread can be started or the work panics, and says why.
+pub(crate) fn run_on_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, String> {
+    thread::scope(|scope| {
+        let thread = thread::Builder::new()
+            .name("kernels".into())
+            .stack_size(STACK_BYTES)
+            .spawn_scoped(scope, work)
+            .map_err(|error| format!("no thread could be started: {error}"))?;
+        thread.join().map_err(|panic| message_of(&*panic))
+    })
+}
+
+/// Returns the message of a panic.
+fn message_of(panic: &(dyn Any + Send)) -> String {
+    let text = (panic.downcast_ref::<String>().map(String::as_str))
+        .or(panic.downcast_ref::<&str>().copied());
+    text.unwrap_or("it gave no reason").to_owned()
+}

@@ -1,0 +1,191 @@
+//! Content of an OpenEXR file: named 32-bit channels and text attributes.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Display;
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use crate::{FileError, Image, Plane, Raster};
+
+/// The samples of one channel, row by row from the top left.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Samples {
+    /// 32-bit floats.
+    F32(Vec<f32>),
+    /// 32-bit unsigned integers: object ids.
+    U32(Vec<u32>),
+}
+
+/// A named channel: `R`, `velocity.X`, `coverage.panel`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// Name, its layer first.
+    pub name: String,
+    /// One sample per pixel.
+    pub samples: Samples,
+}
+
+/// The content of a single-part OpenEXR file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExrFile {
+    /// Path that it was read from; empty for a file not yet written.
+    pub path: PathBuf,
+    /// Pixels per row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Channels in any order; names are unique.
+    pub channels: Vec<Channel>,
+    /// Text attributes of the header.
+    pub attributes: BTreeMap<String, String>,
+    /// Description of a display window of another place or size than the pixels'; `None` if both are one, as in every file of
+    /// this program.
+    pub padding: Option<String>,
+}
+
+impl ExrFile {
+    /// Makes a file without channels.
+    pub fn new(width: u32, height: u32) -> Self {
+        Self {
+            path: PathBuf::new(),
+            width,
+            height,
+            channels: Vec::new(),
+            attributes: BTreeMap::new(),
+            padding: None,
+        }
+    }
+
+    /// Sets a text attribute.
+    pub fn set(&mut self, name: &str, value: impl Display) {
+        self.attributes.insert(name.to_owned(), value.to_string());
+    }
+
+    /// Adds one channel of floats.
+    pub fn push_plane(&mut self, name: &str, plane: &Plane) {
+        self.channels.push(Channel {
+            name: name.to_owned(),
+            samples: Samples::F32(plane.pixels.clone()),
+        });
+    }
+
+    /// Adds `R G B`, in a named layer or at the top.
+    pub fn push_color(&mut self, layer: &str, image: &Image) {
+        for (component, name) in ["R", "G", "B"].into_iter().enumerate() {
+            self.push_plane(&in_layer(layer, name), &image.map(|pixel| pixel[component]));
+        }
+    }
+
+    /// Reads a text attribute as a value.
+    pub fn get<T: FromStr>(&self, name: &str) -> Result<T, FileError> {
+        let text = self.text(name)?;
+        text.parse().map_err(|_| {
+            self.foreign(format!(
+                "attribute \"{name}\" holds \"{text}\", which cannot be read"
+            ))
+        })
+    }
+
+    /// Reads a text attribute as words.
+    pub fn words(&self, name: &str) -> Result<Vec<String>, FileError> {
+        Ok(self
+            .text(name)?
+            .split_whitespace()
+            .map(str::to_owned)
+            .collect())
+    }
+
+    /// Reads a channel of floats.
+    pub fn plane(&self, name: &str) -> Result<Plane, FileError> {
+        match self.samples(name)? {
+            Samples::F32(pixels) => Ok(Raster {
+                width: self.width,
+                height: self.height,
+                pixels: pixels.clone(),
+            }),
+            Samples::U32(_) => Err(self.foreign(format!(
+                "channel \"{name}\" holds integers; 32-bit floats are needed"
+            ))),
+        }
+    }
+
+    /// Reads a channel of unsigned integers.
+    pub fn u32s(&self, name: &str) -> Result<Raster<u32>, FileError> {
+        match self.samples(name)? {
+            Samples::U32(pixels) => Ok(Raster {
+                width: self.width,
+                height: self.height,
+                pixels: pixels.clone(),
+            }),
+            Samples::F32(_) => Err(self.foreign(format!(
+                "channel \"{name}\" holds floats; 32-bit integers are needed"
+            ))),
+        }
+    }
+
+    /// Reads `R G B`, of a named layer or at the top.
+    pub fn color(&self, layer: &str) -> Result<Image, FileError> {
+        let [r, g, b] = ["R", "G", "B"].map(|name| self.plane(&in_layer(layer, name)));
+        let (r, g, b) = (r?, g?, b?);
+        let pixels = r
+            .pixels
+            .iter()
+            .zip(&g.pixels)
+            .zip(&b.pixels)
+            .map(|((r, g), b)| [*r, *g, *b])
+            .collect();
+        Ok(Raster {
+            width: self.width,
+            height: self.height,
+            pixels,
+        })
+    }
+
+    /// Reads the object names, the background's first: the attribute "objects".
+    pub(crate) fn objects(&self) -> Result<Vec<String>, FileError> {
+        let names = self.words("objects")?;
+        let mut known = BTreeSet::new();
+        match names.iter().find(|name| !known.insert(*name)) {
+            None if names.is_empty() => Err(self.foreign(
+                "attribute \"objects\" is empty; it names the background and every object"
+                    .to_owned(),
+            )),
+            None => Ok(names),
+            Some(twin) => Err(self.foreign(format!(
+                "attribute \"objects\" names \"{twin}\" twice; allowed: each name once"
+            ))),
+        }
+    }
+
+    /// Makes an error that names this file.
+    pub(crate) fn foreign(&self, reason: String) -> FileError {
+        FileError::Foreign {
+            path: self.path.clone(),
+            reason,
+        }
+    }
+
+    fn text(&self, name: &str) -> Result<&str, FileError> {
+        let text = self
+            .attributes
+            .get(name)
+            .ok_or_else(|| self.foreign(format!("lacks the attribute \"{name}\"")))?;
+        Ok(text)
+    }
+
+    fn samples(&self, name: &str) -> Result<&Samples, FileError> {
+        let channel = self.channels.iter().find(|channel| channel.name == name);
+        Ok(&channel
+            .ok_or_else(|| self.foreign(format!("lacks the channel \"{name}\"")))?
+            .samples)
+    }
+}
+
+/// Puts the name of a layer before that of a channel.
+pub(crate) fn in_layer(layer: &str, name: &str) -> String {
+    if layer.is_empty() {
+        name.to_owned()
+    } else {
+        format!("{layer}.{name}")
+    }
+}

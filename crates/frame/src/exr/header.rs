@@ -1,0 +1,86 @@
+//! Limits on the header of an OpenEXR file, checked before memory is allocated for its pixels.
+
+use exr::meta::header::Header;
+
+/// Upper limit on the columns and on the rows of an OpenEXR file.
+pub const LARGEST_EXR_SIDE: usize = 16_384;
+/// Upper limit on the channels of an OpenEXR file.
+pub const MOST_EXR_CHANNELS: usize = 32_768;
+/// Upper limit on the bytes that the samples of an OpenEXR file take in memory. A file that is larger than this divided by
+/// [`LARGEST_EXR_RATIO`] may take more.
+pub const MOST_EXR_BYTES: u64 = 1 << 30;
+/// Upper limit on the size of the samples of a large OpenEXR file, over the size of the file. Run lengths shrink samples no further.
+pub const LARGEST_EXR_RATIO: u64 = 64;
+
+/// In memory all samples are 32-bit.
+const BYTES_PER_SAMPLE: u64 = 4;
+
+/// Refuses headers of several parts, of deep or subsampled data, and of more pixels, channels or bytes than are allowed.
+/// `file_bytes` is the size of the file.
+pub(crate) fn check_header(headers: &[Header], file_bytes: u64) -> Result<(), String> {
+    let [header] = headers else {
+        return Err(format!(
+            "has {} parts; a single-part OpenEXR file is needed",
+            headers.len()
+        ));
+    };
+    if header.deep {
+        return Err("holds deep data; one sample per pixel is needed".to_owned());
+    }
+    let (width, height) = (header.layer_size.width(), header.layer_size.height());
+    if ![width, height]
+        .iter()
+        .all(|side| (1..=LARGEST_EXR_SIDE).contains(side))
+    {
+        return Err(format!(
+            "claims {width}x{height} pixels; allowed: 1 to {LARGEST_EXR_SIDE} columns and rows"
+        ));
+    }
+    let channels = &header.channels.list;
+    if channels.len() > MOST_EXR_CHANNELS {
+        return Err(format!(
+            "claims {} channels; allowed: up to {MOST_EXR_CHANNELS}",
+            channels.len()
+        ));
+    }
+    if let Some(sparse) =
+        (channels.iter()).find(|channel| (channel.sampling.0, channel.sampling.1) != (1, 1))
+    {
+        return Err(format!(
+            "channel \"{}\" has one sample per {}x{} pixels; one per pixel is needed",
+            super::text::from_exr(&sparse.name),
+            sparse.sampling.0,
+            sparse.sampling.1
+        ));
+    }
+    let bytes = (width * height) as u64 * channels.len() as u64 * BYTES_PER_SAMPLE;
+    let allowed = MOST_EXR_BYTES.max(file_bytes.saturating_mul(LARGEST_EXR_RATIO));
+    if bytes > allowed {
+        return Err(format!(
+            "claims {width}x{height} pixels with {} channels, {bytes} bytes in memory, in a file of {file_bytes}; allowed: \
+             up to {allowed} bytes",
+            channels.len()
+        ));
+    }
+    Ok(())
+}
+
+/// Describes a display window that is not the data window; `None` if both are one.
+pub(crate) fn describe_padding(header: &Header) -> Option<String> {
+    let display = header.shared_attributes.display_window;
+    let (place, size) = (header.own_attributes.layer_position, header.layer_size);
+    if display.position == place && display.size == size {
+        return None;
+    }
+    Some(format!(
+        "its data window of {}x{} pixels from ({}, {}) is not its display window of {}x{} from ({}, {})",
+        size.0,
+        size.1,
+        place.0,
+        place.1,
+        display.size.0,
+        display.size.1,
+        display.position.0,
+        display.position.1
+    ))
+}

@@ -1,0 +1,74 @@
+//! Reading of OpenEXR files, whoever wrote them.
+
+use std::io::BufReader;
+use std::path::Path;
+
+use exr::meta::attribute::AttributeValue;
+use exr::prelude::{FlatSamples, ReadChannels, ReadLayers};
+
+use super::file::{Channel, ExrFile, Samples};
+use super::header::{check_header, describe_padding};
+use super::text::from_exr;
+use crate::FileError;
+use crate::file::open_regular;
+
+/// Reads a single-part OpenEXR file; refuses one that is cut short, has several parts, or claims more pixels, channels or
+/// bytes than [`MOST_EXR_BYTES`](crate::MOST_EXR_BYTES) and its neighbours allow. Half floats are widened.
+pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
+    let (handle, bytes) = open_regular(path, u64::MAX)?;
+    let broken = |error: exr::error::Error| match error {
+        exr::error::Error::NotSupported(reason) => {
+            foreign(path, format!("cannot be read: {reason}"))
+        }
+        error => FileError::Broken {
+            path: path.to_owned(),
+            reason: error.to_string(),
+        },
+    };
+    let chunks = exr::block::read(BufReader::new(handle), false).map_err(broken)?;
+    check_header(chunks.headers(), bytes).map_err(|reason| foreign(path, reason))?;
+    let padding = describe_padding(&chunks.headers()[0]);
+    let image = exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .all_layers()
+        .all_attributes()
+        .from_chunks(chunks)
+        .map_err(broken)?;
+    let Some(layer) = image.layer_data.into_iter().next() else {
+        return Err(foreign(path, "has no part".to_owned()));
+    };
+    let mut file = ExrFile::new(layer.size.width() as u32, layer.size.height() as u32);
+    file.path = path.to_owned();
+    file.padding = padding;
+    for channel in layer.channel_data.list {
+        let name = from_exr(&channel.name);
+        let samples = match channel.sample_data {
+            FlatSamples::F32(samples) => Samples::F32(samples),
+            FlatSamples::U32(samples) => Samples::U32(samples),
+            FlatSamples::F16(samples) => {
+                Samples::F32(samples.iter().map(|half| half.to_f32()).collect())
+            }
+        };
+        file.channels.push(Channel { name, samples });
+    }
+    for (name, value) in image
+        .attributes
+        .other
+        .into_iter()
+        .chain(layer.attributes.other)
+    {
+        if let AttributeValue::Text(text) = value {
+            file.attributes.insert(from_exr(&name), from_exr(&text));
+        }
+    }
+    Ok(file)
+}
+
+fn foreign(path: &Path, reason: String) -> FileError {
+    FileError::Foreign {
+        path: path.to_owned(),
+        reason,
+    }
+}

@@ -1,0 +1,102 @@
+//! Writing of OpenEXR files.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use exr::meta::attribute::AttributeValue;
+use exr::prelude::{
+    AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Layer, LayerAttributes,
+    WritableImage,
+};
+
+use super::checksum::CHECKSUM;
+use super::file::{ExrFile, Samples};
+use super::text::to_exr;
+use crate::FileError;
+use crate::file::write_atomically;
+
+/// Writes single-part, lossless OpenEXR under a temporary name and renames it: the path holds the whole file or what it held
+/// before. A file that says its kind gets the checksum of its content.
+///
+/// Run lengths leave noise a sixth to a third larger than deflate would, and take a sixth to a fourteenth of its time, which
+/// was a fifth of what measuring a picture takes.
+pub fn write_exr(path: &Path, file: &ExrFile) -> Result<(), FileError> {
+    write_encoded(
+        path,
+        file,
+        Encoding {
+            compression: Compression::RLE,
+            ..Encoding::SMALL_LOSSLESS
+        },
+    )
+}
+
+/// Writes as [`write_exr`] does, smaller (ZIP16) and much slower: for files that repeat themselves.
+pub(crate) fn write_small_exr(path: &Path, file: &ExrFile) -> Result<(), FileError> {
+    write_encoded(path, file, Encoding::SMALL_LOSSLESS)
+}
+
+fn write_encoded(path: &Path, file: &ExrFile, encoding: Encoding) -> Result<(), FileError> {
+    let pixels = file.width as usize * file.height as usize;
+    let channels = file.channels.iter().map(|channel| {
+        let samples = match &channel.samples {
+            Samples::F32(samples) => FlatSamples::F32(samples.clone()),
+            Samples::U32(samples) => FlatSamples::U32(samples.clone()),
+        };
+        assert_eq!(
+            samples.len(),
+            pixels,
+            "channel {} must have one sample per pixel",
+            channel.name
+        );
+        AnyChannel::new(to_exr(&channel.name), samples)
+    });
+    let mut layer = Layer::new(
+        (file.width as usize, file.height as usize),
+        LayerAttributes::default(),
+        encoding,
+        AnyChannels::sort(channels.collect()),
+    );
+    let mut attributes = file.attributes.clone();
+    // Other programs may change what they are handed.
+    if attributes.contains_key("kind") {
+        attributes.insert(CHECKSUM.to_owned(), file.compute_checksum());
+    }
+    for (name, value) in attributes {
+        layer
+            .attributes
+            .other
+            .insert(to_exr(&name), AttributeValue::Text(to_exr(&value)));
+    }
+    let mut bytes = Cursor::new(Vec::new());
+    exr::prelude::Image::from_layer(layer)
+        .write()
+        .to_buffered(&mut bytes)
+        .map_err(|error| FileError::io(path, "encode", std::io::Error::other(error.to_string())))?;
+    let mut bytes = bytes.into_inner();
+    sort_attributes(&mut bytes);
+    write_atomically(path, &bytes)
+}
+
+/// Puts the header's attributes in the order of their names: the encoder leaves them in a random one, and equal content
+/// is to make equal bytes. The header keeps its length, so that every offset in the file stays right.
+///
+/// An attribute is `name 0 type 0 size value`; an empty name ends the header (OpenEXR file layout, "Header").
+fn sort_attributes(bytes: &mut [u8]) {
+    const MAGIC_AND_VERSION: usize = 8;
+    let mut attributes = Vec::new();
+    let mut at = MAGIC_AND_VERSION;
+    while bytes[at] != 0 {
+        let past_text = |from: usize| {
+            let length = bytes[from..].iter().position(|byte| *byte == 0);
+            from + length.expect("texts in a header end with 0") + 1
+        };
+        let size_at = past_text(past_text(at));
+        let size = bytes[size_at..size_at + 4].try_into().expect("four bytes");
+        let end = size_at + 4 + u32::from_le_bytes(size) as usize;
+        attributes.push(bytes[at..end].to_vec());
+        at = end;
+    }
+    attributes.sort();
+    bytes[MAGIC_AND_VERSION..at].copy_from_slice(&attributes.concat());
+}

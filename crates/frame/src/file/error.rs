@@ -1,0 +1,45 @@
+//! Errors of reading and writing files.
+
+use std::path::{Path, PathBuf};
+
+/// Error of a file. The message names the path, then what was found and what is allowed.
+#[derive(Debug, thiserror::Error)]
+pub enum FileError {
+    /// The operating system refused.
+    #[error("{path}: cannot {action}: {source}", path = path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// Attempted action: `read`, `write`.
+        action: &'static str,
+        /// Message of the operating system.
+        source: std::io::Error,
+    },
+    /// Not an OpenEXR file, or one cut short.
+    #[error("{path}: not a complete OpenEXR file: {reason}; render it again", path = path.display())]
+    Broken {
+        /// The file.
+        path: PathBuf,
+        /// Message of the decoder.
+        reason: String,
+    },
+    /// Another file than was asked for: no regular file, too large, or an OpenEXR file that lacks what it must hold.
+    #[error("{path}: {reason}", path = path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+        /// Fault, and what is allowed.
+        reason: String,
+    },
+}
+
+impl FileError {
+    /// Makes an error of an `action` (`read`, `write`) that the operating system refused.
+    pub fn io(path: &Path, action: &'static str, source: std::io::Error) -> Self {
+        Self::Io {
+            path: path.to_owned(),
+            action,
+            source,
+        }
+    }
+}

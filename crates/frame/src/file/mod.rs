@@ -1,0 +1,10 @@
+//! Files of any kind: whole and safe reading and writing.
+
+mod error;
+mod reading;
+mod writing;
+
+pub use error::FileError;
+pub(crate) use reading::open_regular;
+pub use reading::read_bounded;
+pub use writing::{remove_leftovers, write_atomically};

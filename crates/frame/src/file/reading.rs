@@ -1,0 +1,138 @@
+//! Reading of files that others wrote: regular files only, up to a given size.
+
+use std::{
+    fs::{File, Metadata},
+    io::Read,
+    path::Path,
+};
+
+use super::error::FileError;
+
+/// Reads a regular file of at most `limit` bytes.
+///
+/// Symbolic links are followed. A directory, a FIFO, a socket or a device is refused before it is opened, so that
+/// nothing blocks. A file that is larger than `limit` is refused before it is read. A file that grows while it is read
+/// is refused too: no more than `limit + 1` bytes are ever held.
+///
+/// # Errors
+/// Fails if the file cannot be read, is no regular file, or is larger than `limit`.
+pub fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
+    let io = |source| FileError::io(path, "read", source);
+    let (file, size) = open_regular(path, limit)?;
+    let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));
+    file.take(limit.saturating_add(1))
+        .read_to_end(&mut bytes)
+        .map_err(io)?;
+    let read = bytes.len() as u64;
+    if read > limit {
+        return Err(too_large(path, read, limit));
+    }
+    Ok(bytes)
+}
+
+/// Opens a regular file of at most `limit` bytes; returns its size too. Anything else is refused before it is opened, so that
+/// nothing blocks.
+pub(crate) fn open_regular(path: &Path, limit: u64) -> Result<(File, u64), FileError> {
+    let io = |source| FileError::io(path, "read", source);
+    let metadata = std::fs::metadata(path).map_err(io)?;
+    refuse_unfit(path, &metadata, limit)?;
+    let file = File::open(path).map_err(io)?;
+    // Another file may lie at the path by now.
+    let metadata = file.metadata().map_err(io)?;
+    refuse_unfit(path, &metadata, limit)?;
+    Ok((file, metadata.len()))
+}
+
+fn refuse_unfit(path: &Path, metadata: &Metadata, limit: u64) -> Result<(), FileError> {
+    if !metadata.is_file() {
+        return Err(FileError::Foreign {
+            path: path.to_owned(),
+            reason: format!(
+                "is {}, where a regular file is expected; name a file",
+                kind_of(metadata)
+            ),
+        });
+    }
+    if metadata.len() > limit {
+        return Err(too_large(path, metadata.len(), limit));
+    }
+    Ok(())
+}
+
+fn too_large(path: &Path, found: u64, limit: u64) -> FileError {
+    FileError::Foreign {
+        path: path.to_owned(),
+        reason: format!("holds {found} bytes, and at most {limit} are read; use a smaller file"),
+    }
+}
+
+/// Names what is no regular file, with its article.
+pub(crate) fn kind_of(metadata: &Metadata) -> &'static str {
+    if metadata.is_dir() {
+        return "a folder";
+    }
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        let kind = metadata.file_type();
+        if kind.is_fifo() {
+            return "a FIFO (named pipe)";
+        }
+        if kind.is_socket() {
+            return "a socket";
+        }
+        if kind.is_char_device() || kind.is_block_device() {
+            return "a device";
+        }
+    }
+    "a special file"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_at_the_limit_is_read_and_one_byte_more_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("four");
+        std::fs::write(&path, b"four").unwrap();
+        assert_eq!(read_bounded(&path, 4).unwrap(), b"four");
+        let refusal = read_bounded(&path, 3).unwrap_err().to_string();
+        assert!(
+            refusal.contains("holds 4 bytes, and at most 3 are read"),
+            "{refusal}"
+        );
+    }
+
+    #[test]
+    fn a_folder_and_a_missing_file_are_refused_by_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let refusal = read_bounded(folder.path(), 10).unwrap_err().to_string();
+        assert!(refusal.contains("is a folder"), "{refusal}");
+        let refusal = read_bounded(&folder.path().join("none"), 10)
+            .unwrap_err()
+            .to_string();
+        assert!(refusal.contains("none: cannot read"), "{refusal}");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_device_and_a_fifo_are_refused_without_a_wait() {
+        let refusal = read_bounded(Path::new("/dev/zero"), 10)
+            .unwrap_err()
+            .to_string();
+        assert!(refusal.contains("is a device"), "{refusal}");
+
+        let folder = tempfile::tempdir().unwrap();
+        let fifo = folder.path().join("fifo");
+        let made = std::process::Command::new("mkfifo").arg(&fifo).status();
+        assert!(made.unwrap().success());
+        let refusal = read_bounded(&fifo, 10).unwrap_err().to_string();
+        assert!(refusal.contains("is a FIFO"), "{refusal}");
+
+        let link = folder.path().join("link");
+        std::os::unix::fs::symlink("/dev/zero", &link).unwrap();
+        assert!(read_bounded(&link, 10).is_err());
+    }
+}

@@ -1,0 +1,248 @@
+//! The frame that an engine would hand to its motion blur: colour, velocity and depth of one instant.
+
+use std::fmt;
+use std::path::Path;
+use std::str::FromStr;
+
+use crate::exr::{Channel, ExrFile, Samples, read_exr, write_exr};
+use crate::picture::coverage_name;
+use crate::{
+    Alignment, Display, FileError, Image, Plane, Provenance, Raster, Reprojection, Vectors,
+};
+
+/// Depth of a pixel that sees no surface, in metres: finite, so that filters may subtract it.
+pub const FAR_DEPTH: f32 = 1.0e10;
+
+/// Kind of screen motion in the velocity buffer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum VelocityKind {
+    /// The derivative at `t = 0`, in pixels per frame.
+    #[default]
+    Instantaneous,
+    /// `x(0) - x(-1)`, the motion since the frame before, which engines hand over.
+    PreviousFrame,
+    /// The motion since the frame before as if everything stood still in the world, from depth and both frames' cameras alone:
+    /// all that is known without a velocity buffer.
+    CameraOnly,
+}
+
+/// Sampling of a frame's colour.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum ColorSampling {
+    /// Filtered over the pixel's area.
+    #[default]
+    Antialiased,
+    /// Sampled at the pixel's centre, as by a rasteriser without multisampling. Coverage is then 0 or 1.
+    Point,
+}
+
+impl VelocityKind {
+    /// Every kind.
+    pub const ALL: [VelocityKind; 3] = [
+        VelocityKind::Instantaneous,
+        VelocityKind::PreviousFrame,
+        VelocityKind::CameraOnly,
+    ];
+
+    /// Returns the word used in files and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            VelocityKind::Instantaneous => "instantaneous",
+            VelocityKind::PreviousFrame => "previous_frame",
+            VelocityKind::CameraOnly => "camera_only",
+        }
+    }
+}
+
+impl fmt::Display for VelocityKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for VelocityKind {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Self::ALL
+            .into_iter()
+            .find(|kind| kind.name() == text)
+            .ok_or_else(|| {
+                format!("velocity \"{text}\" is unknown; allowed: instantaneous, previous_frame, camera_only")
+            })
+    }
+}
+
+impl ColorSampling {
+    /// Every kind.
+    pub const ALL: [ColorSampling; 2] = [ColorSampling::Antialiased, ColorSampling::Point];
+
+    /// Returns the word used in files and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            ColorSampling::Antialiased => "antialiased",
+            ColorSampling::Point => "point",
+        }
+    }
+}
+
+impl fmt::Display for ColorSampling {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for ColorSampling {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Self::ALL
+            .into_iter()
+            .find(|kind| kind.name() == text)
+            .ok_or_else(|| format!("color \"{text}\" is unknown; allowed: antialiased, point"))
+    }
+}
+
+/// One instant (`t = 0`) of a scene. All rasters have the same size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Origin of the frame.
+    pub provenance: Provenance,
+    /// Exposure that a filter is to blur by, in frames.
+    pub exposure: f64,
+    /// Kind of motion in `velocity`.
+    pub velocity_kind: VelocityKind,
+    /// Sampling of `color` and `coverage`.
+    pub color_sampling: ColorSampling,
+    /// True if the background has its velocity, false if it has zero.
+    pub sky_velocity: bool,
+    /// Pixels by which all rasters extend beyond the picture on every side.
+    pub guard_band: u32,
+    /// The camera's motion since the frame before, between places of the picture without its guard band.
+    pub reprojection: Reprojection,
+    /// Exposures at which the scene is shown and compared.
+    pub display: Display,
+    /// Object names; the index is the object id, and 0 is `background`.
+    pub objects: Vec<String>,
+    /// Radiance, box-filtered over the pixel or sampled at its centre.
+    pub color: Image,
+    /// Screen motion over one frame interval at the pixel centre, in pixels; +x right, +y down.
+    pub velocity: Vectors,
+    /// Distance along the view axis at the pixel centre, in metres; [`FAR_DEPTH`] where nothing is seen.
+    pub depth: Plane,
+    /// The object seen at the pixel centre.
+    pub object_id: Raster<u32>,
+    /// Fraction of the pixel's area in which an object is visible at the instant, per object; 0 or 1 if colour is sampled at the
+    /// centre.
+    pub coverage: Vec<Plane>,
+}
+
+impl Frame {
+    /// Returns pixels per row and rows of its rasters, guard band included.
+    pub fn size(&self) -> (u32, u32) {
+        (self.color.width, self.color.height)
+    }
+
+    /// Removes the guard band, so that pixels match the truth's.
+    pub fn cropped(&self) -> Frame {
+        let band = self.guard_band;
+        Frame {
+            provenance: self.provenance.clone(),
+            objects: self.objects.clone(),
+            guard_band: 0,
+            color: self.color.cropped(band),
+            velocity: self.velocity.cropped(band),
+            depth: self.depth.cropped(band),
+            object_id: self.object_id.cropped(band),
+            coverage: self
+                .coverage
+                .iter()
+                .map(|plane| plane.cropped(band))
+                .collect(),
+            ..*self
+        }
+    }
+
+    /// Writes the frame as OpenEXR: `R G B`, `Z`, `velocity.X/Y`, `object.id`, `coverage.<object>`.
+    pub fn write(&self, path: &Path) -> Result<(), FileError> {
+        let (width, height) = self.size();
+        let mut file = ExrFile::new(width, height);
+        file.push_color("", &self.color);
+        file.push_plane("Z", &self.depth);
+        file.push_plane("velocity.X", &self.velocity.map(|v| v[0]));
+        file.push_plane("velocity.Y", &self.velocity.map(|v| v[1]));
+        file.channels.push(Channel {
+            name: "object.id".into(),
+            samples: Samples::U32(self.object_id.pixels.clone()),
+        });
+        for (object, plane) in self.objects.iter().zip(&self.coverage) {
+            file.push_plane(&coverage_name("", object), plane);
+        }
+        file.set("kind", "frame");
+        file.set("exposure", self.exposure);
+        file.set("velocity", self.velocity_kind);
+        file.set("color", self.color_sampling);
+        file.set("sky_velocity", self.sky_velocity);
+        file.set("guard_band", self.guard_band);
+        self.reprojection.set(&mut file);
+        self.display.set(&mut file);
+        file.set("objects", self.objects.join(" "));
+        file.set(
+            "convention",
+            "pixels per frame interval, +x right, +y down; Z planar metres; scene-linear Rec.709",
+        );
+        self.provenance.set(&mut file);
+        write_exr(path, &file)
+    }
+
+    /// Reads a frame that [`Frame::write`] wrote, bit for bit.
+    pub fn read(path: &Path) -> Result<Self, FileError> {
+        let file = read_exr(path)?;
+        file.expect_kind("frame")?;
+        let objects = file.objects()?;
+        let ids = file.u32s("object.id")?;
+        let coverage = objects
+            .iter()
+            .map(|object| file.plane(&coverage_name("", object)))
+            .collect::<Result<_, _>>()?;
+        let [x, y] = [file.plane("velocity.X")?, file.plane("velocity.Y")?];
+        Ok(Self {
+            provenance: Provenance::from_exr(&file)?,
+            exposure: read_exposure(&file)?,
+            velocity_kind: file.get("velocity")?,
+            color_sampling: file.get("color")?,
+            sky_velocity: file.get("sky_velocity")?,
+            guard_band: read_guard_band(&file)?,
+            reprojection: Reprojection::from_exr(&file)?,
+            display: Display::from_exr(&file)?,
+            objects,
+            color: file.color("")?,
+            velocity: x.zip(&y, |x, y| [*x, *y]),
+            depth: file.plane("Z")?,
+            object_id: ids,
+            coverage,
+        })
+    }
+}
+
+/// Reads an exposure; refuses one that no shutter has.
+fn read_exposure(file: &ExrFile) -> Result<f64, FileError> {
+    let exposure = file.get("exposure")?;
+    match Alignment::Trailing.shutter(exposure) {
+        Ok(_) => Ok(exposure),
+        Err(error) => Err(file.foreign(error.to_string())),
+    }
+}
+
+/// Reads a guard band; refuses one that leaves no picture inside of it.
+fn read_guard_band(file: &ExrFile) -> Result<u32, FileError> {
+    let band: u32 = file.get("guard_band")?;
+    let least = file.width.min(file.height);
+    match band.checked_mul(2).is_some_and(|both| both < least) {
+        true => Ok(band),
+        false => Err(file.foreign(format!(
+            "attribute \"guard_band\" holds {band}; allowed: less than half of {}x{} pixels",
+            file.width, file.height
+        ))),
+    }
+}

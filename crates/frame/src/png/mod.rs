@@ -1,0 +1,7 @@
+//! PNG files.
+
+mod palette;
+mod picture;
+
+pub use palette::check_png_palette;
+pub use picture::{MOST_PNG_PIXELS, read_png, write_png};

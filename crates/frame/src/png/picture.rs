@@ -1,0 +1,121 @@
+//! PNG files as pictures of display values.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use super::palette::check_png_palette;
+use crate::{FileError, Raster, read_bounded, write_atomically};
+
+/// Upper limit on the pixels of a PNG that is read as a finished picture.
+pub const MOST_PNG_PIXELS: u64 = 1 << 25;
+/// Upper limit on the bytes of such a file: the most that its pixels take.
+const MOST_PNG_BYTES: u64 = 16 * MOST_PNG_PIXELS;
+
+/// Refuses a PNG of more than [`MOST_PNG_PIXELS`] by its header: few bytes may stand for very many pixels.
+fn check_size(bytes: &[u8]) -> Result<(), String> {
+    let reader = image::ImageReader::with_format(Cursor::new(bytes), image::ImageFormat::Png);
+    let (width, height) = (reader.into_dimensions())
+        .map_err(|error| format!("not a PNG that can be read: {error}"))?;
+    match u64::from(width) * u64::from(height) <= MOST_PNG_PIXELS {
+        true => Ok(()),
+        false => Err(format!(
+            "claims {width}x{height} pixels; allowed: up to {MOST_PNG_PIXELS} pixels"
+        )),
+    }
+}
+
+/// Reads an 8-bit or 16-bit PNG as display values in [0, 1]; grey becomes colour. Refuses a picture that is not opaque, because
+/// its background is not known.
+pub fn read_png(path: &Path) -> Result<Raster<[f32; 3]>, FileError> {
+    let bytes = read_bounded(path, MOST_PNG_BYTES)?;
+    let foreign = |reason: String| FileError::Foreign {
+        path: path.to_owned(),
+        reason,
+    };
+    check_size(&bytes).map_err(foreign)?;
+    check_png_palette(&bytes).map_err(foreign)?;
+    let picture = image::load_from_memory_with_format(&bytes, image::ImageFormat::Png)
+        .map_err(|error| foreign(format!("not a PNG that can be read: {error}")))?;
+    if picture.color().has_alpha() {
+        let pixels = picture.to_rgba16();
+        if let Some((x, y, _)) = pixels
+            .enumerate_pixels()
+            .find(|(_, _, pixel)| pixel[3] != u16::MAX)
+        {
+            return Err(foreign(format!(
+                "pixel ({x}, {y}) is transparent; an opaque PNG is needed"
+            )));
+        }
+    }
+    let pixels = picture.to_rgb16();
+    Ok(Raster {
+        width: pixels.width(),
+        height: pixels.height(),
+        pixels: (pixels.pixels())
+            .map(|pixel| pixel.0.map(|value| f32::from(value) / f32::from(u16::MAX)))
+            .collect(),
+    })
+}
+
+/// Writes display values in [0, 1] (see [`display_srgb`](crate::display_srgb)) as an 8-bit PNG.
+pub fn write_png(path: &Path, display: &Raster<[f32; 3]>) -> Result<(), FileError> {
+    let bytes = display
+        .pixels
+        .iter()
+        .flatten()
+        .map(|value| (value * 255.0 + 0.5) as u8)
+        .collect();
+    let picture = image::RgbImage::from_raw(display.width, display.height, bytes)
+        .expect("a raster has one pixel per pixel of its size");
+    let mut png = Cursor::new(Vec::new());
+    picture
+        .write_to(&mut png, image::ImageFormat::Png)
+        .map_err(|error| FileError::io(path, "encode", std::io::Error::other(error)))?;
+    write_atomically(path, png.get_ref())
+}
+
+#[cfg(test)]
+mod tests {
+    use image::{GrayImage, ImageBuffer, Luma, Rgb, Rgba, RgbaImage};
+
+    use super::*;
+
+    #[test]
+    fn a_png_reads_back_to_half_a_step() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("ramp.png");
+        let ramp = Raster::from_fn(300, 2, |x, y| {
+            [x as f32 / 299.0, y as f32, 0.5 * x as f32 / 299.0]
+        });
+        write_png(&path, &ramp).unwrap();
+        let back = read_png(&path).unwrap();
+        assert_eq!((back.width, back.height), (300, 2));
+        for (shown, back) in ramp.pixels.iter().zip(&back.pixels) {
+            for (shown, back) in shown.iter().zip(back) {
+                assert!((shown - back).abs() <= 0.5 / 255.0 + 1e-6, "{shown} {back}");
+            }
+        }
+    }
+
+    #[test]
+    fn pngs_of_other_kinds_are_read_if_they_are_opaque() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("picture.png");
+        let deep: ImageBuffer<Rgb<u16>, Vec<u16>> = ImageBuffer::from_pixel(2, 1, Rgb([1, 2, 3]));
+        deep.save(&path).unwrap();
+        let unit = f32::from(u16::MAX);
+        assert_eq!(
+            read_png(&path).unwrap().pixels,
+            [[1.0 / unit, 2.0 / unit, 3.0 / unit]; 2]
+        );
+        GrayImage::from_pixel(2, 1, Luma([51])).save(&path).unwrap();
+        assert_eq!(read_png(&path).unwrap().pixels, [[0.2; 3]; 2]);
+        let mut glass = RgbaImage::from_pixel(2, 1, Rgba([255, 0, 0, 255]));
+        glass.save(&path).unwrap();
+        assert_eq!(read_png(&path).unwrap().pixels, [[1.0, 0.0, 0.0]; 2]);
+        glass.put_pixel(1, 0, Rgba([255, 0, 0, 254]));
+        glass.save(&path).unwrap();
+        let message = read_png(&path).unwrap_err().to_string();
+        assert!(message.contains("pixel (1, 0) is transparent"), "{message}");
+    }
+}

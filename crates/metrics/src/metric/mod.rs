@@ -1,0 +1,13 @@
+//! Names of all metrics, and a row for each.
+
+mod name;
+mod row;
+mod rows;
+
+pub use name::Metric;
+pub use row::{Group, Row};
+pub use rows::{
+    EquivalentMetric, EquivalentScores, FrozenMetric, FrozenScores, ImageMetric, ImageScores,
+    LabelMetric, LabelScores, ObjectMetric, ObjectScores, ProbeMetric, ProbeScores, SkillMetric,
+    SkillScores,
+};

@@ -1,0 +1,128 @@
+//! Description of one metric, and the macro that makes groups of metrics from such rows.
+
+use crate::{ErrorMap, Ideal};
+
+/// Description of one metric.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    /// The word used in bounds, tables and files; errors of colour add their region to it.
+    pub name: &'static str,
+    /// Its unit; empty for a pure number.
+    pub unit: &'static str,
+    /// Ideal value.
+    pub ideal: Ideal,
+    /// One line for a reader who has not met the metric.
+    pub meaning: &'static str,
+    /// Group in which a report shows it.
+    pub group: Group,
+    /// The map that it was pooled from, or else the one that best shows what it measures.
+    pub map: ErrorMap,
+    /// True for a percentile, which is no smooth function of the truth: its intervals are wider.
+    pub is_percentile: bool,
+    /// Reason why no bound may name it; none for metrics that may be bounded.
+    pub report_only: Option<&'static str>,
+}
+
+/// Group of metrics that a reader looks at together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    /// Errors of colour that people see.
+    Seen,
+    /// Error put into proportion: skill and equivalent sub-frames.
+    Worth,
+    /// Labels: the objects that the shutter's time was given to.
+    Label,
+    /// The worst moving object's silhouette and mass.
+    Silhouette,
+    /// Errors split by what a single frame can tell.
+    Instant,
+    /// Places that a filter gathers from.
+    Gathered,
+    /// Scores in run.json that no page shows.
+    RunJson,
+}
+
+impl Group {
+    /// Groups that a page shows, in its order.
+    pub const SHOWN: [Group; 6] = [
+        Group::Seen,
+        Group::Worth,
+        Group::Label,
+        Group::Silhouette,
+        Group::Instant,
+        Group::Gathered,
+    ];
+
+    /// Returns the heading of the group.
+    pub fn title(self) -> &'static str {
+        match self {
+            Group::Seen => "What is seen",
+            Group::Worth => "What it is worth",
+            Group::Label => "Whose time it is",
+            Group::Silhouette => "The worst mover's silhouette and mass",
+            Group::Instant => "What one instant can tell",
+            Group::Gathered => "What is gathered",
+            Group::RunJson => "Only in run.json",
+        }
+    }
+}
+
+/// Declares metrics that are measured together: an enum, a struct with a score for each, and their rows. A row that lacks a field is
+/// a compile error, and so is a score that is never measured.
+macro_rules! metrics {
+    (
+        $(#[$of_metric:meta])*
+        enum $Metric:ident;
+        $(#[$of_scores:meta])*
+        struct $Scores:ident of $Score:ident { $($(#[$of_fact:meta])* $fact:ident: $Fact:ty,)* }
+        $($(#[$doc:meta])* $Variant:ident => $field:ident { $($row:tt)* })*
+    ) => {
+        $(#[$of_metric])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum $Metric {
+            $($(#[$doc])* $Variant,)*
+        }
+
+        $(#[$of_scores])*
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+        pub struct $Scores {
+            $($(#[$of_fact])* pub $fact: $Fact,)*
+            $($(#[$doc])* pub $field: $Score,)*
+        }
+
+        impl $Metric {
+            /// All of them, in the order of a report.
+            pub const ALL: [$Metric; [$($Metric::$Variant),*].len()] = [$($Metric::$Variant),*];
+
+            /// Returns the row of the metric.
+            pub fn row(self) -> Row {
+                match self {
+                    $($Metric::$Variant => Row { $($row)* },)*
+                }
+            }
+
+            /// Returns its ideal value.
+            pub fn ideal(self) -> Ideal {
+                self.row().ideal
+            }
+        }
+
+        impl $Scores {
+            /// Returns the score of a metric.
+            pub fn get(&self, metric: $Metric) -> &$Score {
+                match metric {
+                    $($Metric::$Variant => &self.$field,)*
+                }
+            }
+
+            /// Returns the score of a metric, to be replaced.
+            pub fn get_mut(&mut self, metric: $Metric) -> &mut $Score {
+                match metric {
+                    $($Metric::$Variant => &mut self.$field,)*
+                }
+            }
+        }
+    };
+}
+
+pub(crate) use metrics;

@@ -1,0 +1,64 @@
+//! Side of an object's motion that each pixel lies on.
+
+use std::collections::HashMap;
+
+use frame::{Frame, Raster, Support};
+
+use crate::object::mover::Mover;
+use crate::object::nearest::{distance_squared, find_nearest, find_on_circle, list_circle};
+
+/// Side of the swept support that a pixel lies on, as seen along the motion of the nearest part of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// In the support or next to it, where nothing counts as bleed.
+    Inside,
+    /// Beside it: within 45 degrees of the motion's normal.
+    Lateral,
+    /// Ahead of it.
+    Leading,
+    /// Behind it.
+    Trailing,
+}
+
+/// Finds the side of the support that every pixel lies on; `None` if the object is never seen. The support is where the object was
+/// seen while the shutter was open, and one pixel more for partial pixels of a rounded edge. `directions` holds the unit vector of
+/// motion for each pixel of the support.
+///
+/// Everything lies beside a pixel without direction (the centre of a rotation). Equally near parts of the support decide together,
+/// by the sum of their offsets and the sum of their directions.
+pub fn find_sides(support: &Raster<bool>, directions: &Raster<[f64; 2]>) -> Option<Raster<Side>> {
+    let sources = find_nearest(support)?;
+    // Straight outlines have whole rows of pixels at one distance.
+    let mut circles: HashMap<u64, Vec<[i64; 2]>> = HashMap::new();
+    Some(Raster::from_fn(support.width, support.height, |x, y| {
+        let distance = distance_squared([x, y], *sources.at(x, y));
+        // The eight neighbours of the support are still inside.
+        if distance <= 2 {
+            return Side::Inside;
+        }
+        let (mut away, mut along) = ([0.0; 2], [0.0; 2]);
+        let offsets = (circles.entry(distance)).or_insert_with(|| list_circle(distance));
+        for [u, v] in find_on_circle(support, [x, y], offsets) {
+            let offset = [f64::from(x) - f64::from(u), f64::from(y) - f64::from(v)];
+            let direction = *directions.at(u, v);
+            away = [0, 1].map(|axis| away[axis] + offset[axis]);
+            along = [0, 1].map(|axis| along[axis] + direction[axis]);
+        }
+        let ahead = away[0] * along[0] + away[1] * along[1];
+        let beside = (away[1] * along[0] - away[0] * along[1]).abs();
+        if ahead > beside {
+            Side::Leading
+        } else if -ahead > beside {
+            Side::Trailing
+        } else {
+            Side::Lateral
+        }
+    }))
+}
+
+/// Finds the side of object `id` that each pixel lies on, as for its bleed; `None` if the object is not seen at the instant, does
+/// not move, or never shows. `frame` has no guard band, `support` is the truth's.
+pub fn object_sides(frame: &Frame, support: &Support, id: u32) -> Option<Raster<Side>> {
+    let mover = Mover::new(frame, id).ok()?;
+    find_sides(&support.seen[id as usize], &mover.directions)
+}

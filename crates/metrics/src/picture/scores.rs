@@ -1,0 +1,58 @@
+//! Scores of pooled errors and the noise in them.
+
+use crate::color::cross_error::psnr;
+use crate::picture::pooled::Pooled;
+use crate::{ImageScores, LabelScores, Measured};
+
+/// Errors of a picture over a region and those of the truth's noise, or the reason why there are none.
+pub type Found = Result<(Pooled, Pooled), &'static str>;
+
+fn score(found: &Found, error: impl Fn(&Pooled) -> f64) -> Measured {
+    match found {
+        Ok((own, noise)) => Measured::score(error(own), error(noise)),
+        Err(reason) => Measured::not_applicable(*reason),
+    }
+}
+
+/// Scores the errors of colour.
+pub fn score_image(found: &Found) -> ImageScores {
+    ImageScores {
+        mse: score(found, |pooled| pooled.mse),
+        psnr: score_psnr(found),
+        relmse: score(found, |pooled| pooled.relmse),
+        mae: score(found, |pooled| pooled.mae),
+        smape: score(found, |pooled| pooled.smape),
+        flip: score(found, |pooled| pooled.flip),
+        flip_weighted_median: score(found, |pooled| pooled.flip_weighted_median),
+        flip_p95: score(found, |pooled| pooled.flip_p95),
+        flip_p99: score(found, |pooled| pooled.flip_p99),
+        flip_hdr: score(found, |pooled| pooled.flip_hdr),
+        ssim: score_ssim(found),
+    }
+}
+
+/// Scores PSNR; an error below its noise counts as the noise.
+fn score_psnr(found: &Found) -> Measured {
+    match found {
+        Ok((own, noise)) => Measured::score(psnr(own.mse, noise.mse), psnr(noise.mse, noise.mse)),
+        Err(reason) => Measured::not_applicable(*reason),
+    }
+}
+
+/// Scores SSIM, without windows that extend beyond the picture.
+fn score_ssim(found: &Found) -> Measured {
+    let windows = |(own, noise): &(Pooled, Pooled)| Some((own.ssim?, noise.ssim?));
+    match found.as_ref().map(windows) {
+        Ok(Some((own, noise))) => Measured::score(own, noise),
+        Ok(None) => Measured::not_applicable("no window of the region lies within the picture"),
+        Err(reason) => Measured::not_applicable(*reason),
+    }
+}
+
+/// Scores the errors of labels.
+pub fn score_labels(found: &Found) -> LabelScores {
+    LabelScores {
+        mean: score(found, |pooled| pooled.label),
+        p95: score(found, |pooled| pooled.label_p95),
+    }
+}

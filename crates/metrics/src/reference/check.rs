@@ -1,0 +1,192 @@
+//! Checks that inputs can be compared, before anything is computed.
+
+use frame::{Frame, Ladder, MOST_STOPS, Picture, Raster, Truth};
+
+use crate::{MeasureError, Viewing};
+
+/// Upper limit on pixels. flip-rs refuses more than 2^34 additions, which 28.5 million pixels take at 67.02 pixels per degree.
+const LARGEST_PICTURE: u64 = 28_000_000;
+
+/// Upper limit on radiance at the brightest exposure of a comparison: HDR-FLIP's tone curve squares it, and the square must stay
+/// finite.
+pub const BRIGHTEST: f32 = 1e18;
+
+/// Refuses a picture whose radiance exceeds [`BRIGHTEST`] at an exposure of the comparison.
+pub fn check_brightness(
+    picture: &Picture,
+    viewing: &Viewing,
+    what: &str,
+) -> Result<(), MeasureError> {
+    let stops = viewing.stops.max(viewing.flip_stop).max(0.0);
+    let limit = BRIGHTEST / stops.exp2();
+    let image = &picture.color;
+    for (index, pixel) in (0u32..).zip(&image.pixels) {
+        if let Some(found) = pixel.iter().find(|value| value.abs() > limit) {
+            return Err(MeasureError::TooBright {
+                what: what.to_owned(),
+                found: *found,
+                x: index % image.width,
+                y: index / image.width,
+                limit,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Refuses exposures of HDR-FLIP that form no range.
+pub fn check_viewing(viewing: &Viewing) -> Result<(), MeasureError> {
+    let Viewing {
+        stops,
+        flip_start: start,
+        flip_stop: stop,
+        flip_count: count,
+    } = *viewing;
+    let bounded = [stops, start, stop]
+        .iter()
+        .all(|stops| stops.abs() <= MOST_STOPS);
+    if bounded && start <= stop && (2..=flip_rs::MAX_EXPOSURES as u32).contains(&count) {
+        Ok(())
+    } else {
+        Err(MeasureError::Exposures {
+            stops,
+            start,
+            stop,
+            count,
+        })
+    }
+}
+
+/// Refuses a truth that is too large, and a frame or a ladder of another scene or shutter than the truth's.
+pub fn check_agreement(
+    frame: &Frame,
+    truth: &Truth,
+    ladder: Option<&Ladder>,
+) -> Result<(), MeasureError> {
+    let (width, height) = truth.size();
+    if u64::from(width) * u64::from(height) > LARGEST_PICTURE {
+        return Err(MeasureError::TooLarge {
+            width,
+            height,
+            limit: LARGEST_PICTURE,
+        });
+    }
+    agree("the frame's object list", &frame.objects, &truth.objects)?;
+    // Files keep the interval's ends, whose difference may round.
+    let exposure = truth.shutter.exposure();
+    if (frame.exposure - exposure).abs() > 1e-9 * exposure {
+        agree("the frame's exposure", &frame.exposure, &exposure)?;
+    }
+    if let Some(ladder) = ladder {
+        agree("the ladder's object list", &ladder.objects, &truth.objects)?;
+        agree("the ladder's shutter", &ladder.shutter, &truth.shutter)?;
+        for rung in &ladder.rungs {
+            for half in &rung.halves {
+                check_picture(
+                    half,
+                    truth,
+                    &format!("rung {} of the ladder", rung.subframes),
+                )?;
+            }
+        }
+    }
+    for (plane, what) in [
+        (&frame.depth, "the frame's depth"),
+        (&truth.motion, "the truth's motion"),
+    ] {
+        check_size(plane, truth, what)?;
+        check_finite(plane, what, |value| [*value])?;
+    }
+    check_support(truth)?;
+    check_size(&frame.object_id, truth, "the frame's object id")?;
+    check_size(&frame.velocity, truth, "the frame's velocity")?;
+    check_finite(&frame.velocity, "the frame's velocity", |value| *value)
+}
+
+/// Refuses a support of another size or of other objects.
+fn check_support(truth: &Truth) -> Result<(), MeasureError> {
+    let support = &truth.support;
+    agree(
+        "the truth's support: number of objects",
+        &support.seen.len(),
+        &truth.objects.len(),
+    )?;
+    let masks = support.seen.iter();
+    for mask in masks.chain([&support.moving, &support.unknowable]) {
+        check_size(mask, truth, "the truth's support")?;
+    }
+    Ok(())
+}
+
+/// Refuses a picture of another size, with missing mattes, or with values that are not finite.
+pub fn check_picture(picture: &Picture, truth: &Truth, what: &str) -> Result<(), MeasureError> {
+    check_size(&picture.color, truth, what)?;
+    if picture.coverage.len() != truth.objects.len() {
+        return Err(MeasureError::Mattes {
+            what: what.to_owned(),
+            found: picture.coverage.len(),
+            allowed: truth.objects.len(),
+        });
+    }
+    check_finite(&picture.color, &format!("the colour of {what}"), |pixel| {
+        *pixel
+    })?;
+    for (matte, object) in picture.coverage.iter().zip(&truth.objects) {
+        let what = format!("the matte of {object} in {what}");
+        check_size(matte, truth, &what)?;
+        check_finite(matte, &what, |value| [*value])?;
+    }
+    Ok(())
+}
+
+fn agree<T: std::fmt::Debug + PartialEq>(
+    what: &'static str,
+    found: &T,
+    allowed: &T,
+) -> Result<(), MeasureError> {
+    if found == allowed {
+        Ok(())
+    } else {
+        Err(MeasureError::Disagree {
+            what,
+            found: format!("{found:?}"),
+            allowed: format!("{allowed:?}"),
+        })
+    }
+}
+
+fn check_size<T>(raster: &Raster<T>, truth: &Truth, what: &str) -> Result<(), MeasureError> {
+    let (width, height) = truth.size();
+    if (raster.width, raster.height) == (width, height) {
+        Ok(())
+    } else {
+        Err(MeasureError::Size {
+            what: what.to_owned(),
+            found_width: raster.width,
+            found_height: raster.height,
+            width,
+            height,
+        })
+    }
+}
+
+fn check_finite<T, const N: usize>(
+    raster: &Raster<T>,
+    what: &str,
+    components: impl Fn(&T) -> [f32; N],
+) -> Result<(), MeasureError> {
+    for (index, pixel) in (0u32..).zip(&raster.pixels) {
+        if let Some(found) = components(pixel)
+            .into_iter()
+            .find(|value| !value.is_finite())
+        {
+            return Err(MeasureError::NotFinite {
+                what: what.to_owned(),
+                found,
+                x: index % raster.width,
+                y: index / raster.width,
+            });
+        }
+    }
+    Ok(())
+}

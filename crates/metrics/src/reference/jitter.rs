@@ -1,0 +1,70 @@
+//! Noise of a filter, told apart from its constant error.
+
+use frame::{Image, Raster, Region};
+use serde::{Deserialize, Serialize};
+
+use crate::Reference;
+use crate::color::cross_error::squared_error;
+use crate::math::pooling::mean;
+
+/// Squared error of one frame over what moves, in two parts that add up to it on average.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Jitter {
+    /// Number of frames; only the filter's noise differs between them.
+    pub frames: u32,
+    /// Squared error of the mean over all noise, in display-scaled radiance: averaging over frames does not remove it. It is
+    /// unbiased, so the truth's own noise may take it below 0.
+    pub bias: f64,
+    /// Variance between frames, in display-scaled radiance: averaging over frames removes it.
+    pub variance: f64,
+}
+
+impl Jitter {
+    /// Returns the part of one frame's squared error that is noise, in [0, 1].
+    pub fn noise_share(&self) -> f64 {
+        self.variance / (self.bias.max(0.0) + self.variance).max(f64::MIN_POSITIVE)
+    }
+}
+
+impl Reference<'_> {
+    /// Measures the noise in the outputs of one filter for several frames; `None` if nothing moves. Panics on fewer than two outputs.
+    pub fn jitter(&self, outputs: &[Image]) -> Option<Jitter> {
+        assert!(
+            outputs.len() >= 2,
+            "a variance is between at least two frames"
+        );
+        let count = outputs.len() as f64;
+        let scale = self.viewing().scale();
+        let first = &outputs[0];
+        let channels =
+            |at: usize, c: usize| outputs.iter().map(move |o| f64::from(o.pixels[at][c]));
+        let expectation = |at: usize, c: usize| channels(at, c).sum::<f64>() / count;
+        let variance = |at: usize, c: usize| {
+            let mean = expectation(at, c);
+            channels(at, c).map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0)
+        };
+        let raster = |pixel: &dyn Fn(usize) -> f64| Raster {
+            width: first.width,
+            height: first.height,
+            pixels: (0..first.pixels.len()).map(pixel).collect(),
+        };
+        let variances =
+            raster(&|at| (0..3).map(|c| variance(at, c)).sum::<f64>() / 3.0 * scale * scale);
+        let mean_image = Image {
+            width: first.width,
+            height: first.height,
+            pixels: (0..first.pixels.len())
+                .map(|at| [0, 1, 2].map(|c| expectation(at, c) as f32))
+                .collect(),
+        };
+        let errors = squared_error(&mean_image, self.half_colors(), scale);
+        let pool = |map| mean(&self.regions.select(Region::Moving, map));
+        let variance = pool(&variances)?;
+        Some(Jitter {
+            frames: outputs.len() as u32,
+            // The mean of `count` frames still holds that part of their noise.
+            bias: pool(&errors)? - variance / count,
+            variance,
+        })
+    }
+}
