@@ -3,17 +3,17 @@
 use frame::{ColorSampling, FAR_DEPTH, Frame, Raster, VelocityKind};
 use rayon::prelude::*;
 
-use crate::canvas::Canvas;
-use crate::film::{Film, PixelMean, Places, Times, picture};
-use crate::finite::{check, check_picture};
-use crate::path::Integrator;
+use crate::content_hash::{frame_hash, object_names, provenance};
+use crate::film::canvas::Canvas;
+use crate::film::finite::{check, check_picture};
+use crate::film::render::{Film, PixelMean, Places, Times, picture};
+use crate::film::sampler::Stream;
+use crate::light::path::Integrator;
+use crate::motion::velocity::{Tracked, camera_velocity, reprojection};
 use crate::progress::{Meter, Watch};
-use crate::provenance::{frame_hash, object_names, provenance};
-use crate::sampler::Stream;
 use crate::scene::Scene;
 use crate::settings::{FrameSettings, TraceError};
 use crate::stage::Stage;
-use crate::velocity::{Tracked, camera_velocity, reprojection};
 
 /// What a rasteriser would have written at one pixel's centre.
 struct PointSample {

@@ -2,14 +2,14 @@
 
 use frame::{Accumulation, Ladder, Picture, Plane, Raster, Truth};
 
-use crate::canvas::Canvas;
-use crate::film::{Estimate, Film, PixelMean, Places, Times};
-use crate::finite::check_picture;
-use crate::opening::Opening;
-use crate::path::Integrator;
+use crate::content_hash::{ladder_hash, object_names, provenance};
+use crate::film::canvas::Canvas;
+use crate::film::finite::check_picture;
+use crate::film::render::{Estimate, Film, PixelMean, Places, Times};
+use crate::film::sampler::{MOST_SAMPLES, Stream};
+use crate::film::shutter_sampler::Opening;
+use crate::light::path::Integrator;
 use crate::progress::{Meter, Watch};
-use crate::provenance::{ladder_hash, object_names, provenance};
-use crate::sampler::{MOST_SAMPLES, Stream};
 use crate::scene::Scene;
 use crate::settings::{TraceError, TruthSettings};
 use crate::stage::Stage;

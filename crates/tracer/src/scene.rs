@@ -6,7 +6,7 @@ use frame::ShutterProfile;
 pub use frame::{Display, FlipExposures};
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
-use crate::motion::Motion;
+use crate::motion::keys::Motion;
 
 /// Everything a render needs. Indices are valid, numbers finite, meshes not empty.
 #[derive(Clone, Debug)]

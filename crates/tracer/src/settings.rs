@@ -2,10 +2,10 @@
 
 use frame::{Alignment, ColorSampling, Shutter, ShutterError, VelocityKind};
 
+use crate::film::sampler::MOST_SAMPLES;
 use crate::limits::{LARGEST_SIDE, MOST_PIXELS};
-use crate::sampler::MOST_SAMPLES;
+use crate::motion::velocity::looks_back_to;
 use crate::scene::Scene;
-use crate::velocity::looks_back_to;
 
 /// Greatest distance from the origin of anything that is rendered, in metres: the areas of boxes must be 32-bit numbers, and
 /// positions exact to less than a metre.

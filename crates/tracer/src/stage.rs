@@ -2,21 +2,21 @@
 
 use glam::DVec3;
 
-use crate::background::Sky;
-use crate::bounds::Bounds;
-use crate::geometry::Geometry;
-use crate::gloss::Gloss;
-use crate::joining::joining;
 #[cfg(target_arch = "x86_64")]
-use crate::lanes::Avx2;
-use crate::lanes::{Lanes, Portable};
-use crate::poses::Poses;
-use crate::ray::Ray;
+use crate::accel::lanes::Avx2;
+use crate::accel::lanes::{Lanes, Portable};
+use crate::accel::mesh_tree::Geometry;
+use crate::accel::world_leaves::joining;
+use crate::accel::world_tree::WorldTree;
+use crate::geometry::aabb::Bounds;
+use crate::geometry::ray::Ray;
+use crate::light::sky::Sky;
+use crate::material::glossy_material::Gloss;
+use crate::material::surface::{Opacity, Surface};
+use crate::motion::poses::Poses;
+use crate::motion::slices::slices;
 use crate::scene::Scene;
 use crate::settings::{LARGEST_REACH, TraceError};
-use crate::slices::slices;
-use crate::surface::{Opacity, Surface};
-use crate::world_tree::WorldTree;
 
 /// A scene between two times, ready for rays.
 ///

@@ -4,20 +4,20 @@ use std::sync::OnceLock;
 
 use frame::{AtInstant, Raster, Replicate, Shutter, Support, Truth};
 
-use crate::canvas::Canvas;
-use crate::film::{Film, PixelMean, Places, Times, picture};
-use crate::finite::{check_at_instant, check_picture};
-use crate::moving::moving_objects;
-use crate::opening::Opening;
-use crate::path::Integrator;
+use crate::content_hash::{object_names, provenance, replicate_hash};
+use crate::film::at_instant::{Recall, Recollected};
+use crate::film::canvas::Canvas;
+use crate::film::finite::{check_at_instant, check_picture};
+use crate::film::render::{Film, PixelMean, Places, Times, picture};
+use crate::film::sampler::Stream;
+use crate::film::shutter_sampler::Opening;
+use crate::film::support::trace_support;
+use crate::light::path::Integrator;
+use crate::motion::moving::moving_objects;
 use crate::progress::{Meter, Progress, Watch};
-use crate::provenance::{object_names, provenance, replicate_hash};
-use crate::recall::{Recall, Recollected};
-use crate::sampler::Stream;
 use crate::scene::Scene;
 use crate::settings::{TraceError, TruthSettings};
 use crate::stage::Stage;
-use crate::support::trace_support;
 
 /// A scene made ready to render the replicates of one truth.
 pub struct TruthTracer<'a> {

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::Motion;
 use crate::limits::{FARTHEST, SMALLEST_SCALE};
-use crate::swept::key_times;
+use crate::motion::sweep::key_times;
 
 /// What a motion, or a chain of them, does to a point at the distance `d` from the origin: it ends up at most
 /// `scale * d + offset` from the world's.

@@ -1,0 +1,371 @@
+//! Boxes that contain a moving mesh over an interval of time.
+
+use glam::DVec3;
+
+use crate::geometry::aabb::Bounds;
+use crate::motion::extent::Extent;
+use crate::motion::keys::{Motion, Segment};
+use crate::scene::{Mesh, Parent, Scene};
+
+/// The greatest distance from an origin, speed and acceleration of any point of a mesh within an interval.
+#[derive(Clone, Copy)]
+struct Reach {
+    /// Metres.
+    distance: f64,
+    /// Metres per frame.
+    speed: f64,
+    /// Metres per frame squared.
+    acceleration: f64,
+}
+
+/// The motions from the object outwards to the world.
+pub(crate) fn chain(scene: &Scene, object: usize) -> Vec<&Motion> {
+    let mut motions = vec![&scene.objects[object].motion];
+    let mut parent = scene.objects[object].parent;
+    loop {
+        match parent {
+            Parent::World => return motions,
+            Parent::Camera => {
+                motions.push(&scene.camera.motion);
+                return motions;
+            }
+            Parent::Object(index) => {
+                motions.push(&scene.objects[index].motion);
+                parent = scene.objects[index].parent;
+            }
+        }
+    }
+}
+
+/// Times of `motions`' keys strictly between `from` and `to`, with both ends, rising.
+pub(crate) fn key_times<'a>(
+    motions: impl IntoIterator<Item = &'a Motion>,
+    from: f64,
+    to: f64,
+) -> Vec<f64> {
+    let mut times: Vec<f64> = motions
+        .into_iter()
+        .flat_map(|motion| motion.keys.iter().map(|key| key.time))
+        .filter(|time| from < *time && *time < to)
+        .chain([from, to])
+        .collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    times
+}
+
+/// A box around the object's mesh at every time of `[from, to]`, in the world; `extents` are those of the scene's meshes.
+///
+/// Between keys a point moves along a curve of bounded acceleration `A`, and a curve strays from its chord by at
+/// most `A h^2 / 8`: the union of the boxes at both ends, grown by that, contains it. Translation needs no growth.
+pub(crate) fn swept_bounds(
+    scene: &Scene,
+    extents: &[Extent],
+    object: usize,
+    from: f64,
+    to: f64,
+) -> Bounds {
+    let mesh = &scene.meshes[scene.objects[object].mesh];
+    let extent = &extents[scene.objects[object].mesh];
+    let posed = |time: f64| extent.posed(mesh, &scene.object_to_world(object, time), time);
+    let motions = chain(scene, object);
+    let times = span_times(mesh, &motions, from, to);
+    let first = posed(from);
+    let (union, _) = times
+        .windows(2)
+        .fold((first, first), |(union, start), span| {
+            let end = posed(span[1]);
+            let length = span[1] - span[0];
+            let sagitta =
+                reach(&motions, mesh, extent, span[0], span[1]).acceleration * length * length
+                    / 8.0;
+            (union.union(start.union(end).grown(sagitta)), end)
+        });
+    union
+}
+
+/// The greatest speed of any point of the object's mesh within `[from, to]`, metres per frame; never too small.
+pub(crate) fn greatest_speed(
+    scene: &Scene,
+    extents: &[Extent],
+    object: usize,
+    from: f64,
+    to: f64,
+) -> f64 {
+    let mesh = &scene.meshes[scene.objects[object].mesh];
+    let extent = &extents[scene.objects[object].mesh];
+    let motions = chain(scene, object);
+    span_times(mesh, &motions, from, to)
+        .windows(2)
+        .map(|span| reach(&motions, mesh, extent, span[0], span[1]).speed)
+        .fold(0.0, f64::max)
+}
+
+/// The times of `key_times`, and of the mesh's key shapes.
+fn span_times(mesh: &Mesh, motions: &[&Motion], from: f64, to: f64) -> Vec<f64> {
+    let mut times = key_times(motions.iter().copied(), from, to);
+    times.extend(mesh.shape_times().filter(|time| from < *time && *time < to));
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    times
+}
+
+/// Through the chain of motions, in an interval without keys inside.
+fn reach(motions: &[&Motion], mesh: &Mesh, extent: &Extent, from: f64, to: f64) -> Reach {
+    let [distance, speed] = if mesh.deforms() {
+        mesh.vertex_reach(from, to)
+    } else {
+        [extent.distance, 0.0]
+    };
+    let at_rest = Reach {
+        distance,
+        speed,
+        acceleration: 0.0,
+    };
+    motions.iter().fold(at_rest, |inner, motion| {
+        carried(inner, &motion.segment(0.5 * (from + to)), from, to)
+    })
+}
+
+/// Reach after one segment of a motion: scale, then rotations, then translation, each by the product rule.
+fn carried(inner: Reach, segment: &Segment, from: f64, to: f64) -> Reach {
+    let [from, to] = [from, to].map(|time| segment.since(time));
+    let largest = |scale: DVec3| scale.abs().max_element();
+    let scale = segment.scale.greatest(from, to, largest);
+    let scaled = Reach {
+        distance: scale.value * inner.distance,
+        speed: scale.slope * inner.distance + scale.value * inner.speed,
+        acceleration: scale.bend * inner.distance
+            + 2.0 * scale.slope * inner.speed
+            + scale.value * inner.acceleration,
+    };
+    let turned = segment.turns().fold(scaled, |inner, turn| {
+        let turn = turn.angle.greatest(from, to, f64::abs);
+        Reach {
+            distance: inner.distance,
+            speed: turn.slope * inner.distance + inner.speed,
+            acceleration: (turn.slope * turn.slope + turn.bend) * inner.distance
+                + 2.0 * turn.slope * inner.speed
+                + inner.acceleration,
+        }
+    });
+    let offset = segment.translation.greatest(from, to, DVec3::length);
+    Reach {
+        distance: turned.distance + offset.value,
+        speed: turned.speed + offset.slope,
+        acceleration: turned.acceleration + offset.bend,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+    use std::path::PathBuf;
+
+    use frame::ShutterProfile;
+    use glam::{DQuat, Vec3};
+
+    use super::*;
+    use crate::motion::keys::{Interpolation, Key, Turn};
+    use crate::scene::{Background, Camera, Display, Family, FlipExposures, Object, Shape};
+
+    /// SplitMix64 in [-1, 1): enough to vary poses.
+    struct Numbers(u64);
+
+    impl Numbers {
+        fn next(&mut self) -> f64 {
+            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let mut z = self.0;
+            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            ((z ^ (z >> 31)) >> 11) as f64 / 2f64.powi(52) - 1.0
+        }
+
+        fn vector(&mut self) -> DVec3 {
+            DVec3::new(self.next(), self.next(), self.next())
+        }
+    }
+
+    /// Keys at -0.7, 0 and 0.4 with turns of up to `turn` radians, drifts and growth.
+    fn random_motion(numbers: &mut Numbers, interpolation: Interpolation, turn: f64) -> Motion {
+        let mut orientation = DQuat::from_axis_angle(numbers.vector().normalize(), 1.0);
+        let keys = [-0.7, 0.0, 0.4].map(|time| {
+            let turn = Turn {
+                axis: numbers.vector().normalize(),
+                angle: turn * numbers.next(),
+            };
+            let key = Key {
+                time,
+                translation: 3.0 * numbers.vector(),
+                orientation,
+                scale: DVec3::ONE + 0.5 * numbers.vector(),
+                turn,
+            };
+            orientation = DQuat::from_axis_angle(turn.axis, turn.angle) * orientation;
+            key
+        });
+        Motion {
+            keys: keys.to_vec(),
+            interpolation,
+        }
+    }
+
+    fn scene(
+        numbers: &mut Numbers,
+        interpolation: Interpolation,
+        turn: f64,
+        deforms: bool,
+    ) -> Scene {
+        let mut corners = || -> Vec<Vec3> { (0..8).map(|_| numbers.vector().as_vec3()).collect() };
+        let shapes: Vec<Shape> = if deforms {
+            [-0.5, 0.0, 0.2]
+                .map(|time| Shape {
+                    time,
+                    positions: corners(),
+                    normals: Vec::new(),
+                })
+                .into()
+        } else {
+            Vec::new()
+        };
+        let corners = corners();
+        let object = |numbers: &mut Numbers, parent| Object {
+            name: "thing".into(),
+            mesh: 0,
+            materials: Vec::new(),
+            motion: random_motion(numbers, interpolation, turn),
+            parent,
+        };
+        Scene {
+            name: String::new(),
+            exposes: String::new(),
+            family: Family::Rotation,
+            exposure: 1.0,
+            shutter_profile: ShutterProfile::default(),
+            width: 1,
+            height: 1,
+            display: Display {
+                stops: 0.0,
+                flip: FlipExposures {
+                    start: 0.0,
+                    stop: 0.0,
+                    count: 2,
+                },
+            },
+            camera: Camera {
+                motion: Motion {
+                    interpolation,
+                    keys: random_motion(numbers, interpolation, turn)
+                        .keys
+                        .into_iter()
+                        .map(|key| Key {
+                            scale: DVec3::ONE,
+                            ..key
+                        })
+                        .collect(),
+                },
+                vertical_fov: vec![(0.0, 1.0)],
+            },
+            background: Background::Constant(Vec3::ZERO),
+            sun: None,
+            meshes: vec![Mesh {
+                path: PathBuf::new(),
+                positions: corners,
+                normals: Vec::new(),
+                texcoords: Vec::new(),
+                triangles: Vec::new(),
+                slots: Vec::new(),
+                shapes,
+            }],
+            textures: Vec::new(),
+            materials: Vec::new(),
+            objects: vec![
+                object(numbers, Parent::World),
+                object(numbers, Parent::Object(0)),
+                object(numbers, Parent::Camera),
+            ],
+            notes: Vec::new(),
+            hash: String::new(),
+        }
+    }
+
+    /// Scenes of both ways between keys, rigid and deforming, with turns of no radians between keys, a little, nearly
+    /// half a turn, and several turns.
+    fn scenes(numbers: &mut Numbers) -> Vec<Scene> {
+        let mut scenes = Vec::new();
+        for interpolation in [Interpolation::Linear, Interpolation::Cubic] {
+            for turn in [0.0, 0.3, 179.0_f64.to_radians(), 6.0 * PI] {
+                for deforms in [false, true] {
+                    scenes.push(scene(numbers, interpolation, turn, deforms));
+                }
+            }
+        }
+        scenes
+    }
+
+    #[test]
+    fn a_swept_box_contains_the_mesh_at_every_time() {
+        let mut numbers = Numbers(1);
+        for _ in 0..4 {
+            for scene in scenes(&mut numbers) {
+                for object in 0..scene.objects.len() {
+                    // The interval contains a key and ends beyond the last.
+                    for (from, to) in [(-0.1, 0.0), (-0.3, 0.6)] {
+                        // Rounding only.
+                        let bounds =
+                            swept_bounds(&scene, &Extent::of_meshes(&scene), object, from, to)
+                                .grown(1e-12);
+                        for step in 0..=1000 {
+                            let time = from + (to - from) * f64::from(step) / 1000.0;
+                            let pose = scene.object_to_world(object, time);
+                            for position in scene.meshes[0].at(time).positions() {
+                                let point = pose.transform_point3(position);
+                                let inside =
+                                    point.cmpge(bounds.min).all() && point.cmple(bounds.max).all();
+                                assert!(inside, "object {object} leaves {bounds:?} at {time}");
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_is_faster_than_the_greatest_speed() {
+        let mut numbers = Numbers(4);
+        for scene in scenes(&mut numbers) {
+            for object in 0..scene.objects.len() {
+                let greatest =
+                    greatest_speed(&scene, &Extent::of_meshes(&scene), object, -0.8, 0.6);
+                for step in 0..1000 {
+                    let time = -0.8 + 1.4 * f64::from(step) / 1000.0;
+                    let [now, then] = [time, time + 1e-6].map(|time| {
+                        let pose = scene.object_to_world(object, time);
+                        let positions = scene.meshes[0].at(time).positions();
+                        positions
+                            .map(|position| pose.transform_point3(position))
+                            .collect::<Vec<_>>()
+                    });
+                    for (now, then) in now.iter().zip(&then) {
+                        // A chord is no longer than its arc; rounding divided by the step is 1e-9.
+                        assert!(now.distance(*then) / 1e-6 <= greatest + 1e-7);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_box_of_a_translation_is_tight() {
+        let mut numbers = Numbers(2);
+        let mut scene = scene(&mut numbers, Interpolation::Linear, 0.0, false);
+        for key in &mut scene.objects[0].motion.keys {
+            key.scale = DVec3::ONE;
+        }
+        let ends =
+            [-0.1, 0.0].map(|time| swept_bounds(&scene, &Extent::of_meshes(&scene), 0, time, time));
+        let swept = swept_bounds(&scene, &Extent::of_meshes(&scene), 0, -0.1, 0.0);
+        assert_eq!(swept, ends[0].union(ends[1]));
+    }
+}
