@@ -1,4 +1,4 @@
-//! What goes into a file about its making, and into a cache's key.
+//! The content hashes of renders, and their provenance.
 
 use std::fmt::Debug;
 
@@ -10,13 +10,13 @@ use crate::stage::Stage;
 
 const PROGRAM: &str = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"));
 
-/// The content hash of the frame that [`trace_frame`](crate::trace_frame) would make, without making it: of the
-/// scene's own hash, the settings and the tracer's sources. Equal hashes mean equal pixels.
+/// The content hash of the frame that [`trace_frame`](crate::trace_frame) would render. It covers the scene's own hash, the
+/// settings and the tracer's sources, so equal hashes mean equal pixels.
 pub fn frame_hash(scene: &Scene, settings: &FrameSettings) -> String {
     content_hash(scene, "frame", settings)
 }
 
-/// The content hash of every replicate of a truth, whatever their number; see [`frame_hash`].
+/// The content hash that all replicates of a truth share, independent of their number; see [`frame_hash`].
 pub fn replicate_hash(scene: &Scene, settings: &TruthSettings) -> String {
     let each = TruthSettings {
         samples_per_pixel: settings.samples_per_replicate(),
@@ -26,12 +26,12 @@ pub fn replicate_hash(scene: &Scene, settings: &TruthSettings) -> String {
     content_hash(scene, "replicate", &(each, &scene.shutter_profile))
 }
 
-/// The content hash of the truth that [`trace_truth`](crate::trace_truth) would make; see [`frame_hash`].
+/// The content hash of the truth that [`trace_truth`](crate::trace_truth) would render; see [`frame_hash`].
 pub fn truth_hash(scene: &Scene, settings: &TruthSettings) -> String {
     frame::truth_hash(&replicate_hash(scene, settings), settings.replicates)
 }
 
-/// The content hash of the ladder that [`trace_ladder`](crate::trace_ladder) would make from the truth of the same
+/// The content hash of the ladder that [`trace_ladder`](crate::trace_ladder) would render from the truth of the same
 /// settings; see [`frame_hash`].
 pub fn ladder_hash(scene: &Scene, settings: &TruthSettings, subframes: &[u32]) -> String {
     content_hash(
@@ -41,6 +41,7 @@ pub fn ladder_hash(scene: &Scene, settings: &TruthSettings, subframes: &[u32]) -
     )
 }
 
+/// The provenance of a render, as its file states it.
 pub(crate) fn provenance(
     stage: &Stage,
     seed: u64,
@@ -59,14 +60,7 @@ pub(crate) fn provenance(
     }
 }
 
-/// Object names by id.
-pub(crate) fn object_names(scene: &Scene) -> Vec<String> {
-    std::iter::once("background".to_owned())
-        .chain(scene.objects.iter().map(|object| object.name.clone()))
-        .collect()
-}
-
-/// Debug output holds every field, and numbers so that they read back equal: a new setting cannot be forgotten.
+/// Hashes the debug output of the settings. It holds every field, and every number in full: no new setting can be forgotten.
 fn content_hash(scene: &Scene, kind: &str, settings: &dyn Debug) -> String {
     let tracer = env!("TRACER_SOURCES");
     let text = format!("{PROGRAM}\n{tracer}\n{kind}\n{}\n{settings:?}", scene.hash);

@@ -4,6 +4,7 @@
 
 mod accel;
 mod content_hash;
+mod error;
 mod film;
 mod geometry;
 mod instant;
@@ -20,7 +21,9 @@ mod stage;
 mod truth;
 
 pub use content_hash::{frame_hash, ladder_hash, replicate_hash, truth_hash};
+pub use error::TraceError;
 pub use film::sampler::MOST_SAMPLES;
+pub use geometry::hit::Hit;
 pub use geometry::ray::Ray;
 pub use instant::trace_frame;
 pub use ladder::trace_ladder;
@@ -29,13 +32,14 @@ pub use load::{
     load_scene_and_files,
 };
 pub use motion::camera::View;
-pub use motion::keys::{Interpolation, Key, Motion, Turn};
+pub use motion::curve::Interpolation;
+pub use motion::keys::{Key, Motion, Turn};
 pub use motion::poses::Poses;
 pub use progress::{Progress, Watch};
 pub use scene::{
     Background, Camera, Display, EnvironmentMap, Family, Finish, FlipExposures, Material, Mesh,
     Object, Parent, Scene, Shape, Sun, Texture,
 };
-pub use settings::{FrameSettings, LARGEST_REACH, LARGEST_VALUE, TraceError, TruthSettings};
-pub use stage::{Hit, Stage};
+pub use settings::{FrameSettings, TruthSettings};
+pub use stage::Stage;
 pub use truth::{TruthTracer, trace_truth};

@@ -1,49 +1,44 @@
-//! The bounding volume hierarchy: how rays walk through it.
+//! Bounding volume hierarchies of wide nodes, and their traversal.
 
-use bytemuck::{Pod, Zeroable};
 use prefetch_index::prefetch_index;
 
-use crate::accel::build::Growth;
-use crate::accel::collapse::LeafRules;
 use crate::accel::lanes::{Boxes, Lanes, SlabRay, WIDTH};
-use crate::accel::pages::Pages;
-use crate::geometry::aabb::Bounds;
 use crate::geometry::ray::Ray;
 
 /// Wide trees over boxes, which may share what is below their topmost nodes.
 pub(crate) struct Tree {
-    pub nodes: Pages<Node>,
-    /// The greatest coordinate of any box, metres.
-    pub reach: f64,
-    /// Children that may wait while a ray is in another: the room that a walk needs.
-    pub most_waiting: usize,
+    pub nodes: Vec<Node>,
+    /// Greatest coordinate of any box, metres.
+    pub largest_coordinate: f64,
+    /// Size of the stack that a traversal needs.
+    pub stack_size: usize,
 }
 
 /// A node or a leaf, by its number.
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-#[repr(transparent)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Child(pub u32);
 
-/// Set in a child that is a leaf; the rest is the leaf's number.
+/// Bit that is set in a child which is a leaf. The rest is the leaf's number.
 const IS_LEAF: u32 = 1 << 31;
 
-/// What a tree's leaves hold. Leaves are numbered from 0.
+/// The items of a tree's leaves. Leaves are numbered from 0.
 pub(crate) struct Leaves {
-    /// Per leaf and one past the last, where its items begin in `order`.
-    starts: Vec<u32>,
-    order: Vec<u32>,
+    /// Per leaf and one past the last, the place in `order` where its items begin.
+    pub starts: Vec<u32>,
+    pub order: Vec<u32>,
 }
 
-#[derive(Clone, Copy, Pod, Zeroable)]
+/// Boxes and children of a wide node.
+#[derive(Clone, Copy)]
 #[repr(C, align(32))]
 pub(crate) struct Node {
     pub boxes: Boxes,
-    /// Those of unused lanes have no meaning.
+    /// Children per lane; those of unused lanes have no meaning.
     pub children: [Child; WIDTH],
 }
 
 impl Child {
-    /// The topmost node of a tree that was made at once.
+    /// The topmost node of a tree that was built first.
     pub const ROOT: Child = Child(0);
 
     /// Bits that a leaf's number may have.
@@ -54,16 +49,16 @@ impl Child {
         Self(IS_LEAF | number)
     }
 
-    /// None for a node.
+    /// The leaf's number; none for a node.
     pub fn leaf_number(self) -> Option<u32> {
         (self.0 & IS_LEAF != 0).then_some(self.0 & !IS_LEAF)
     }
 }
 
 impl Node {
-    /// Has the processor fetch it from memory, to be there when it is visited.
+    /// Prefetches the node from memory.
     #[inline(always)]
-    fn fetch(&self) {
+    fn prefetch(&self) {
         for axis in &self.boxes.0 {
             for side in axis {
                 prefetch_index(side, 0);
@@ -80,74 +75,59 @@ impl Leaves {
         &self.order[start..end]
     }
 
-    /// How many there are.
+    /// Number of leaves.
     pub fn count(&self) -> u32 {
         self.starts.len() as u32 - 1
     }
 
-    /// Bytes that they take.
+    /// Size in memory, in bytes.
     pub fn bytes(&self) -> usize {
         size_of_val(self.starts.as_slice()) + size_of_val(self.order.as_slice())
     }
 }
 
 impl Tree {
-    /// A tree over `boxes`, and what its leaves hold.
-    pub fn over(boxes: &[Bounds], rules: LeafRules) -> (Self, Leaves) {
-        let mut growth = Growth::default();
-        let mut leaves = Leaves {
-            starts: vec![0],
-            order: Vec::new(),
-        };
-        if !boxes.is_empty() {
-            growth.grow(boxes, rules, 0, |items| {
-                leaves.order.extend(items);
-                leaves.starts.push(leaves.order.len() as u32);
-                Child::leaf(leaves.count() - 1)
-            });
-        }
-        (growth.finish(), leaves)
-    }
-
-    /// Bytes that the tree takes.
+    /// Size in memory, in bytes.
     pub fn bytes(&self) -> usize {
-        size_of_val::<[Node]>(&self.nodes)
+        size_of_val(self.nodes.as_slice())
     }
 
-    /// Visits the leaves below a node that the ray may enter before the limit, in units of its direction: roughly from near to far
-    /// where `SORTED`, else in any order. `visit` takes the room that is left for children that wait, and returns the limit
-    /// from then on; one below 0 ends the walk. `fetch` is told of leaves that are to be visited later.
+    /// Visits the leaves below a node that the ray may enter before the limit, in units of its direction: roughly from near
+    /// to far where `SORTED`, else in any order.
+    ///
+    /// `visit` takes the free part of the stack and returns the new limit; one below 0 ends the traversal. `prefetch` is
+    /// told of leaves that are pushed on the stack.
     #[inline(always)]
-    pub fn walk<L: Lanes, const SORTED: bool>(
+    pub fn traverse<L: Lanes, const SORTED: bool>(
         &self,
         lanes: L,
-        waiting: &mut [u64],
+        stack: &mut [u64],
         (ray, Child(root)): (&Ray, Child),
         limit: f64,
         mut visit: impl FnMut(&mut [u64], u32) -> f64,
-        fetch: impl Fn(u32),
+        prefetch: impl Fn(u32),
     ) {
         let nodes: &[Node] = &self.nodes;
         if nodes.is_empty() {
             return;
         }
-        let ray = SlabRay::new(ray.origin, ray.direction, self.reach);
+        let ray = SlabRay::new(ray.origin, ray.direction, self.largest_coordinate);
         let mut limit = limit as f32;
         let mut count = 0;
         let mut child = root;
         loop {
             if let Some(leaf) = Child(child).leaf_number() {
-                limit = visit(&mut waiting[count..], leaf) as f32;
+                limit = visit(&mut stack[count..], leaf) as f32;
             } else {
                 let node = &nodes[child as usize];
-                // Copied at once: a processor waits for memory once, not again for each child.
+                // Copied at once, so that the processor waits for memory once and not for each child.
                 let children = node.children;
                 let (mut entered, near) = lanes.enter(&node.boxes, &ray, limit);
                 if entered != 0 {
                     let mut next = || {
                         let lane = entered.trailing_zeros() as usize % WIDTH;
                         entered &= entered - 1;
-                        (pending(children[lane].0, near[lane]), entered)
+                        (stack_entry(children[lane].0, near[lane]), entered)
                     };
                     let first = count;
                     let (mut nearest, mut rest) = next();
@@ -157,16 +137,16 @@ impl Tree {
                         let farther = nearest.max(other);
                         nearest = nearest.min(other);
                         match Child(farther as u32).leaf_number() {
-                            Some(leaf) => fetch(leaf),
-                            None => nodes[farther as u32 as usize].fetch(),
+                            Some(leaf) => prefetch(leaf),
+                            None => nodes[farther as u32 as usize].prefetch(),
                         }
-                        // Insertion sort: there are fifteen at most, and mostly one or two. The nearest comes last.
+                        // Insertion sort, of fifteen at most and mostly of one or two. The nearest comes last.
                         let mut at = count;
-                        while SORTED && at > first && waiting[at - 1] < farther {
-                            waiting[at] = waiting[at - 1];
+                        while SORTED && at > first && stack[at - 1] < farther {
+                            stack[at] = stack[at - 1];
                             at -= 1;
                         }
-                        waiting[at] = farther;
+                        stack[at] = farther;
                         count += 1;
                     }
                     child = nearest as u32;
@@ -178,23 +158,22 @@ impl Tree {
                     return;
                 }
                 count -= 1;
-                if entry(waiting[count]) <= limit {
-                    break waiting[count] as u32;
+                if entry_distance(stack[count]) <= limit {
+                    break stack[count] as u32;
                 }
             };
         }
     }
 }
 
-/// A child yet to be visited and the distance at which the ray enters it: numbers in the order of the distances, which
-/// are not negative.
+/// A child, and the distance at which the ray enters it. Entries sort by their distances, which are not negative.
 #[inline(always)]
-fn pending(child: u32, near: f32) -> u64 {
+fn stack_entry(child: u32, near: f32) -> u64 {
     u64::from(near.to_bits()) << 32 | u64::from(child)
 }
 
-/// The distance in what [`pending`] gave.
+/// The distance of a [`stack_entry`].
 #[inline(always)]
-fn entry(pending: u64) -> f32 {
-    f32::from_bits((pending >> 32) as u32)
+fn entry_distance(entry: u64) -> f32 {
+    f32::from_bits((entry >> 32) as u32)
 }

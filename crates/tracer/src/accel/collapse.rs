@@ -1,55 +1,56 @@
-//! How a binary tree is folded into wide nodes and leaves, so that rays are expected to visit as few as possible.
+//! The collapse of a binary tree into wide nodes and leaves that rays are expected to visit least.
 //!
-//! A ray that enters a box enters one inside it with a probability in proportion to their areas. Of all ways to cut the
-//! binary tree into nodes of at most sixteen children and leaves, the cheapest by that measure is found from the leaves
-//! upwards (Wald, Benthin and Boulos 2008 state the measure; Ylitie, Karras and Laine 2017, section 4, the search).
+//! A ray that enters a box enters a box inside it with a probability in proportion to their areas (Wald, Benthin and Boulos
+//! 2008). Of all ways to collapse the binary tree into leaves and nodes of at most sixteen children, the cheapest by that
+//! measure is found from the leaves upwards (Ylitie, Karras and Laine 2017, section 4).
 
 use obvhs::bvh2::Bvh2;
 
+use crate::accel::binary_tree::parents_first;
 use crate::accel::lanes::WIDTH;
 
-/// What a leaf may hold, and what it costs.
+/// The size and the cost of leaves.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LeafRules {
-    /// Items at most.
-    pub most: u32,
-    /// What the test of one item costs on top of the visit; a visit to a node or leaf costs 1.
+    /// Most items of a leaf.
+    pub max_items: u32,
+    /// Cost of testing one item, added to that of the visit; a visit to a node or leaf costs 1.
     pub item_cost: f32,
 }
 
-/// The cheapest cuts of a binary tree.
-pub(crate) struct Folding<'a> {
+/// The cheapest collapse of a binary tree.
+pub(crate) struct Collapse<'a> {
     binary: &'a Bvh2,
     rules: LeafRules,
-    /// Per node of the binary tree.
-    parts: Vec<Part>,
+    /// Costs per node of the binary tree.
+    costs: Vec<Costs>,
 }
 
-/// What is below a node of the binary tree.
+/// The costs of everything below a node of the binary tree.
 #[derive(Clone, Copy, Default)]
-struct Part {
+struct Costs {
     items: u32,
-    /// What it costs as a leaf; infinite where it is none.
+    /// Cost as a leaf; infinite where it has too many items.
     leaf: f32,
-    /// What it costs if at most 1, 2, ... children of a wide node cover it.
-    costs: [f32; WIDTH],
+    /// Cost if at most 1, 2, ... children of a wide node cover it.
+    children: [f32; WIDTH],
 }
 
-impl<'a> Folding<'a> {
-    /// Of a tree that is not empty.
-    pub fn of(binary: &'a Bvh2, rules: LeafRules) -> Self {
-        let mut folding = Self {
+impl<'a> Collapse<'a> {
+    /// Finds the cheapest collapse of a tree that is not empty.
+    pub fn new(binary: &'a Bvh2, rules: LeafRules) -> Self {
+        let mut collapse = Self {
             binary,
             rules,
-            parts: vec![Part::default(); binary.nodes.len()],
+            costs: vec![Costs::default(); binary.nodes.len()],
         };
         for node in parents_first(binary).into_iter().rev() {
-            folding.weigh(node as usize);
+            collapse.compute_costs(node as usize);
         }
-        folding
+        collapse
     }
 
-    /// The nodes of the binary tree that become the children of the wide node for `top`: itself where all fits into a leaf.
+    /// The nodes of the binary tree that become the children of the wide node for `top`; `top` itself where it is a leaf.
     pub fn children(&self, top: usize) -> Vec<usize> {
         let mut children = Vec::with_capacity(WIDTH);
         if self.is_leaf(top) {
@@ -60,14 +61,14 @@ impl<'a> Folding<'a> {
         children
     }
 
-    /// Whether a node of the binary tree becomes a leaf, if a child is to cover it.
+    /// Tells that a node of the binary tree becomes a leaf where a single child covers it.
     pub fn is_leaf(&self, node: usize) -> bool {
-        self.parts[node].leaf <= self.parts[node].costs[0]
+        self.costs[node].leaf <= self.costs[node].children[0]
     }
 
     /// All items below a node of the binary tree.
     pub fn items(&self, node: usize) -> Vec<u32> {
-        let mut items = Vec::with_capacity(self.parts[node].items as usize);
+        let mut items = Vec::with_capacity(self.costs[node].items as usize);
         let mut below = vec![node];
         while let Some(node) = below.pop() {
             let node = &self.binary.nodes[node];
@@ -82,41 +83,46 @@ impl<'a> Folding<'a> {
         items
     }
 
-    /// Works out a part whose own two are known.
-    fn weigh(&mut self, node: usize) {
+    /// Computes the costs of a node; those of its two children are known.
+    fn compute_costs(&mut self, node: usize) {
         let binary = &self.binary.nodes[node];
         let area = binary.aabb.half_area();
         let is_leaf = binary.is_leaf();
         let mut items = binary.prim_count;
         if !is_leaf {
             let halves = [0, 1].map(|half| binary.first_index as usize + half);
-            items = halves.iter().map(|&half| self.parts[half].items).sum();
+            items = halves.iter().map(|&half| self.costs[half].items).sum();
         }
-        let leaf = if is_leaf || items <= self.rules.most {
+        let leaf = if is_leaf || items <= self.rules.max_items {
             area * (1.0 + items as f32 * self.rules.item_cost)
         } else {
             f32::INFINITY
         };
-        let mut costs = [leaf; WIDTH];
+        let mut children = [leaf; WIDTH];
         if !is_leaf {
-            costs[0] = leaf.min(area + self.split(node, WIDTH).0);
+            children[0] = leaf.min(area + self.split(node, WIDTH).0);
             for count in 2..=WIDTH {
-                costs[count - 1] = costs[count - 2].min(self.split(node, count).0);
+                children[count - 1] = children[count - 2].min(self.split(node, count).0);
             }
         }
-        self.parts[node] = Part { items, leaf, costs };
+        self.costs[node] = Costs {
+            items,
+            leaf,
+            children,
+        };
     }
 
-    /// What a node's two halves cost that share so many children of a wide node, and how many of them the first gets.
+    /// The cost of a node's two halves if they share `count` children of a wide node, and the first half's number of them.
     fn split(&self, node: usize, count: usize) -> (f32, usize) {
         let first = self.binary.nodes[node].first_index as usize;
-        let [left, right] = [first, first + 1].map(|half| &self.parts[half].costs);
+        let [left, right] = [first, first + 1].map(|half| &self.costs[half].children);
         (1..count)
             .map(|given| (left[given - 1] + right[count - given - 1], given))
             .min_by(|a, b| a.0.total_cmp(&b.0))
             .expect("halves share two children at least")
     }
 
+    /// Adds `count` children that cover the two halves of a node.
     fn share(&self, node: usize, count: usize, children: &mut Vec<usize>) {
         let first = self.binary.nodes[node].first_index as usize;
         let (_, given) = self.split(node, count);
@@ -124,9 +130,9 @@ impl<'a> Folding<'a> {
         self.cover(first + 1, count - given, children);
     }
 
-    /// Adds at most so many children that cover a node, as few as cost no more.
+    /// Adds at most `count` children that cover a node, as few as cost no more.
     fn cover(&self, node: usize, count: usize, children: &mut Vec<usize>) {
-        let costs = &self.parts[node].costs[..count];
+        let costs = &self.costs[node].children[..count];
         let enough = 1 + costs
             .iter()
             .take_while(|cost| **cost > costs[count - 1])
@@ -139,27 +145,12 @@ impl<'a> Folding<'a> {
     }
 }
 
-/// All nodes of a binary tree, every one before those below it. Trees may be deeper than a thread's stack.
-pub(crate) fn parents_first(binary: &Bvh2) -> Vec<u32> {
-    let mut order = Vec::with_capacity(binary.nodes.len());
-    order.extend((!binary.nodes.is_empty()).then_some(0));
-    let mut next = 0;
-    while let Some(&node) = order.get(next) {
-        next += 1;
-        let node = &binary.nodes[node as usize];
-        if !node.is_leaf() {
-            order.extend([node.first_index, node.first_index + 1]);
-        }
-    }
-    order
-}
-
 #[cfg(test)]
 mod tests {
     use std::time::Duration;
 
     use obvhs::BvhBuildParams;
-    use obvhs::aabb::Aabb;
+    use obvhs::aabb::Aabb as Aabb32;
     use obvhs::bvh2::builder::build_bvh2;
 
     use super::*;
@@ -168,7 +159,7 @@ mod tests {
     fn boxes(count: u32) -> Bvh2 {
         let boxes = (0..count).map(|index| {
             let x = index as f32;
-            Aabb::new([x, 0.0, 0.0].into(), [x + 0.9, 1.0, 1.0].into())
+            Aabb32::new([x, 0.0, 0.0].into(), [x + 0.9, 1.0, 1.0].into())
         });
         binary(boxes.collect())
     }
@@ -179,12 +170,12 @@ mod tests {
         let boxes = (0..count).map(|index| {
             let corner = [0.819_172_5, 0.671_043_6, 0.549_700_5].map(|step| part(index, step));
             let size = 0.5 * part(index, 0.618_034).powi(3);
-            Aabb::new(corner.into(), corner.map(|least| least + size).into())
+            Aabb32::new(corner.into(), corner.map(|least| least + size).into())
         });
         binary(boxes.collect())
     }
 
-    fn binary(boxes: Vec<Aabb>) -> Bvh2 {
+    fn binary(boxes: Vec<Aabb32>) -> Bvh2 {
         let params = BvhBuildParams {
             max_prims_per_leaf: 1,
             ..BvhBuildParams::very_slow_build()
@@ -193,14 +184,14 @@ mod tests {
     }
 
     /// The items of every leaf at or below the wide node for `top`.
-    fn leaves(folding: &Folding, top: usize) -> Vec<Vec<u32>> {
-        let children = folding.children(top);
+    fn leaves(collapse: &Collapse, top: usize) -> Vec<Vec<u32>> {
+        let children = collapse.children(top);
         assert!((1..=WIDTH).contains(&children.len()));
         let below = children.into_iter().map(|child| {
-            if !folding.is_leaf(child) {
-                return leaves(folding, child);
+            if !collapse.is_leaf(child) {
+                return leaves(collapse, child);
             }
-            vec![folding.items(child)]
+            vec![collapse.items(child)]
         });
         below.flatten().collect()
     }
@@ -208,14 +199,14 @@ mod tests {
     #[test]
     fn every_item_is_in_one_leaf_and_no_leaf_is_too_full() {
         for count in [1, 2, 7, 8, 9, 64, 1000] {
-            for most in [1, 4, 8] {
+            for max_items in [1, 4, 8] {
                 let binary = boxes(count);
                 let rules = LeafRules {
-                    most,
+                    max_items,
                     item_cost: 0.5,
                 };
-                let leaves = leaves(&Folding::of(&binary, rules), 0);
-                assert!(leaves.iter().all(|items| items.len() <= most as usize));
+                let leaves = leaves(&Collapse::new(&binary, rules), 0);
+                assert!(leaves.iter().all(|items| items.len() <= max_items as usize));
                 let mut items = leaves.concat();
                 items.sort_unstable();
                 assert_eq!(items, (0..count).collect::<Vec<_>>());
@@ -227,8 +218,11 @@ mod tests {
     fn items_that_cost_nothing_share_leaves_and_dear_ones_do_not() {
         let binary = boxes(64);
         let count = |item_cost| {
-            let rules = LeafRules { most: 8, item_cost };
-            leaves(&Folding::of(&binary, rules), 0).len()
+            let rules = LeafRules {
+                max_items: 8,
+                item_cost,
+            };
+            leaves(&Collapse::new(&binary, rules), 0).len()
         };
         // 64 boxes in leaves of eight, in one node; apart, they take five nodes.
         assert_eq!(count(0.0), 8);
@@ -270,31 +264,34 @@ mod tests {
 
     /// Infinite where the items are too many.
     fn leaf_cost(binary: &Bvh2, rules: LeafRules, node: usize) -> f32 {
-        let items = Folding::of(binary, rules).items(node).len();
-        if items > rules.most as usize {
+        let items = Collapse::new(binary, rules).items(node).len();
+        if items > rules.max_items as usize {
             return f32::INFINITY;
         }
         binary.nodes[node].aabb.half_area() * (1.0 + items as f32 * rules.item_cost)
     }
 
     /// What a child of a wide node costs as it is folded.
-    fn cost(folding: &Folding, node: usize) -> f32 {
-        if folding.is_leaf(node) {
-            return leaf_cost(folding.binary, folding.rules, node);
+    fn cost(collapse: &Collapse, node: usize) -> f32 {
+        if collapse.is_leaf(node) {
+            return leaf_cost(collapse.binary, collapse.rules, node);
         }
-        let children = folding.children(node).into_iter();
-        let below: f32 = children.map(|child| cost(folding, child)).sum();
-        below + folding.binary.nodes[node].aabb.half_area()
+        let children = collapse.children(node).into_iter();
+        let below: f32 = children.map(|child| cost(collapse, child)).sum();
+        below + collapse.binary.nodes[node].aabb.half_area()
     }
 
     #[test]
     fn no_way_to_fold_is_cheaper() {
-        for (most, item_cost) in [(1, 0.0), (3, 0.2), (3, 1.0)] {
-            let rules = LeafRules { most, item_cost };
+        for (max_items, item_cost) in [(1, 0.0), (3, 0.2), (3, 1.0)] {
+            let rules = LeafRules {
+                max_items,
+                item_cost,
+            };
             let binary = scattered(22);
             let known = &mut vec![None; binary.nodes.len()];
             let least = cheapest(&binary, rules, 0, known);
-            let found = cost(&Folding::of(&binary, rules), 0);
+            let found = cost(&Collapse::new(&binary, rules), 0);
             // Sums of two dozen numbers of 32 bits in another order.
             assert!(
                 (found / least - 1.0).abs() < 1e-5,

@@ -1,44 +1,48 @@
-//! The triangles of a deforming mesh under trees, one per slice of time.
+//! The tree of a deforming mesh, in object space.
 
+use crate::accel::build::build_tree;
 use crate::accel::bvh::{Child, Leaves, Tree};
 use crate::accel::collapse::LeafRules;
 use crate::accel::lanes::Lanes;
-use crate::geometry::aabb::Bounds;
+use crate::geometry::aabb::Aabb;
 use crate::geometry::ball::{Approach, Ball};
 use crate::geometry::ray::Ray;
 use crate::geometry::triangle::{Crossing, cross};
+use crate::motion::keys::times_within;
 use crate::scene::Mesh;
 
-const MOST_SLICES: usize = 16;
-/// Triangles are tested one by one, each as long as a visit takes.
+const MAX_SLICES: usize = 16;
+/// Triangles are tested one by one, each in the time of a visit.
 const LEAF_RULES: LeafRules = LeafRules {
-    most: 4,
+    max_items: 4,
     item_cost: 1.0,
 };
 
-/// A deforming mesh between two times. Vertices are interpolated to the ray's time in `f64`, the same for every triangle
-/// that has them, so that no gap opens between neighbours.
-pub(crate) struct ShapeTree<'a> {
+/// A deforming mesh between two times, with one tree per slice of time.
+///
+/// Vertices are interpolated to the ray's time in `f64`, the same for every triangle that has them, so that no gap opens
+/// between neighbours.
+pub(crate) struct DeformingTree<'a> {
     mesh: &'a Mesh,
     from: f64,
     to: f64,
     slices: Vec<Slice>,
 }
 
-/// Trees over the boxes that triangles sweep within a slice, and a sphere around them.
+/// A tree over the boxes that triangles sweep within a slice, and a ball around them.
 struct Slice {
     tree: Tree,
     leaves: Leaves,
     ball: Ball,
 }
 
-impl<'a> ShapeTree<'a> {
-    /// Of a mesh that rays meet at times in `[from, to]`.
-    pub fn of(mesh: &'a Mesh, from: f64, to: f64) -> Self {
+impl<'a> DeformingTree<'a> {
+    /// Builds the trees of a mesh for rays at times in `[from, to]`.
+    pub fn build(mesh: &'a Mesh, from: f64, to: f64) -> Self {
         let count = slice_count(mesh, from, to);
         let border = |slice: usize| from + (to - from) * slice as f64 / count as f64;
         let slices = (0..count)
-            .map(|slice| Slice::of(mesh, border(slice), border(slice + 1)))
+            .map(|slice| Slice::build(mesh, border(slice), border(slice + 1)))
             .collect();
         Self {
             mesh,
@@ -48,7 +52,7 @@ impl<'a> ShapeTree<'a> {
         }
     }
 
-    /// Bytes that the trees take.
+    /// Size of the trees in memory, in bytes.
     pub fn bytes(&self) -> usize {
         let slices = self.slices.iter();
         slices
@@ -56,21 +60,18 @@ impl<'a> ShapeTree<'a> {
             .sum()
     }
 
-    /// Room that [`ShapeTree::walk`] needs for children that wait.
-    pub fn most_waiting(&self) -> usize {
+    /// Size of the stack that [`DeformingTree::traverse`] needs.
+    pub fn stack_size(&self) -> usize {
         let slices = self.slices.iter();
-        slices
-            .map(|slice| slice.tree.most_waiting)
-            .max()
-            .unwrap_or(0)
+        slices.map(|slice| slice.tree.stack_size).max().unwrap_or(0)
     }
 
-    /// As [`crate::accel::rigid_tree::MeshTree::walk`], at a time.
+    /// Traverses the mesh at a time; see [`crate::accel::rigid_tree::RigidTree::traverse`].
     #[inline(always)]
-    pub fn walk<L: Lanes, const SORTED: bool>(
+    pub fn traverse<L: Lanes, const SORTED: bool>(
         &self,
         lanes: L,
-        waiting: &mut [u64],
+        stack: &mut [u64],
         ray: &Ray,
         time: f64,
         limit: f64,
@@ -81,11 +82,11 @@ impl<'a> ShapeTree<'a> {
             return;
         };
         let mut limit = limit;
-        slice.tree.walk::<L, SORTED>(
+        slice.tree.traverse::<L, SORTED>(
             lanes,
-            waiting,
+            stack,
             (&approach.ray, Child::ROOT),
-            approach.local(limit),
+            approach.local_limit(limit),
             #[inline(always)]
             |_, leaf| {
                 for &triangle in slice.leaves.items(leaf) {
@@ -93,14 +94,14 @@ impl<'a> ShapeTree<'a> {
                         limit = visit(triangle, crossing);
                     }
                 }
-                approach.local(limit)
+                approach.local_limit(limit)
             },
             |_| {},
         );
     }
 
-    /// Every crossing at `0 < t`, tree or no tree: what the walks are tested against.
-    pub fn exhaustive(&self, ray: &Ray, time: f64, mut visit: impl FnMut(u32, Crossing)) {
+    /// Visits every crossing at `0 < t` without a tree: the reference for tests of traversals.
+    pub fn visit_all(&self, ray: &Ray, time: f64, mut visit: impl FnMut(u32, Crossing)) {
         let Some(approach) = self.slice(time).ball.approach(ray) else {
             return;
         };
@@ -131,34 +132,28 @@ impl<'a> ShapeTree<'a> {
 }
 
 impl Slice {
-    /// Vertices move in straight lines between key shapes: the box around a triangle at both ends and at the keys inside
-    /// contains it at all times.
-    fn of(mesh: &Mesh, from: f64, to: f64) -> Self {
-        let inside = mesh.shape_times().filter(|time| from < *time && *time < to);
-        let times: Vec<f64> = inside.chain([from, to]).collect();
-        let boxes: Vec<Bounds> = (0..mesh.triangles.len() as u32)
+    /// Builds the tree of a slice. Vertices move in straight lines between key shapes, so the box around a triangle at both
+    /// ends and at the keys inside contains it at all times.
+    fn build(mesh: &Mesh, from: f64, to: f64) -> Self {
+        let times = times_within(mesh.shape_times(), from, to);
+        let boxes: Vec<Aabb> = (0..mesh.triangles.len() as u32)
             .map(|triangle| {
-                Bounds::around(
-                    times
-                        .iter()
-                        .flat_map(|time| mesh.at(*time).corners(triangle)),
-                )
+                let corners = times.iter().map(|time| mesh.at(*time).corners(triangle));
+                Aabb::around(corners.flatten())
             })
             .collect();
-        let bounds = boxes
-            .iter()
-            .fold(Bounds::EMPTY, |union, bounds| union.union(*bounds));
-        let (tree, leaves) = Tree::over(&boxes, LEAF_RULES);
+        let union = (boxes.iter()).fold(Aabb::EMPTY, |union, aabb| union.union(*aabb));
+        let (tree, leaves) = build_tree(&boxes, LEAF_RULES);
         Self {
             tree,
             leaves,
-            ball: Ball::around(bounds.centre(), [bounds.min, bounds.max]),
+            ball: Ball::around(union.centre(), [union.min, union.max]),
         }
     }
 }
 
-/// The smallest power of two that keeps every vertex's way within a slice below the mean edge, so that boxes do not
-/// swell; few enough not to cost more memory than they save time.
+/// The smallest power of two with which no vertex travels farther than the mean edge within a slice, so that boxes stay
+/// small; limited, because more slices cost more memory than they save time.
 fn slice_count(mesh: &Mesh, from: f64, to: f64) -> usize {
     let shape = mesh.at(0.5 * (from + to));
     let edges: f64 = (0..mesh.triangles.len() as u32)
@@ -168,15 +163,10 @@ fn slice_count(mesh: &Mesh, from: f64, to: f64) -> usize {
         })
         .sum();
     let mean_edge = edges / (3 * mesh.triangles.len()) as f64;
-    let mut times: Vec<f64> = (mesh.shape_times())
-        .filter(|time| from < *time && *time < to)
-        .chain([from, to])
-        .collect();
-    times.sort_by(f64::total_cmp);
-    let way: f64 = times
+    let travel: f64 = times_within(mesh.shape_times(), from, to)
         .windows(2)
-        .map(|span| mesh.vertex_reach(span[0], span[1])[1] * (span[1] - span[0]))
+        .map(|span| mesh.vertex_maxima(span[0], span[1])[1] * (span[1] - span[0]))
         .sum();
-    let needed = (way / mean_edge.max(f64::MIN_POSITIVE)).clamp(1.0, MOST_SLICES as f64);
+    let needed = (travel / mean_edge.max(f64::MIN_POSITIVE)).clamp(1.0, MAX_SLICES as f64);
     (needed.ceil() as usize).next_power_of_two()
 }

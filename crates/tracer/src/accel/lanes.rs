@@ -1,12 +1,12 @@
-//! Sixteen boxes or eight triangles at a time: with AVX2 and FMA where the processor has them, else one by one.
+//! Tests of sixteen boxes or eight triangles at once, with AVX2 and FMA or portably.
 //!
-//! Both ways only *reject*, and only what is certainly missed; whatever they let pass is decided by the same scalar
-//! code. Hits, and with them all bytes, are therefore the same on every path.
+//! The portable tests serve processors without AVX2, those of Apple and ARM among them, and are the reference in tests of
+//! the others. Both only *reject*, and only what a ray certainly misses. Everything else is decided by the same scalar code,
+//! so hits, and with them all bytes of a picture, do not depend on the processor.
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 
-use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 
 #[cfg(target_arch = "x86_64")]
@@ -18,53 +18,54 @@ pub(crate) const WIDTH: usize = 16;
 pub(crate) const LEAF: usize = 8;
 
 /// Sixteen boxes side by side: per axis the least and the greatest coordinates, metres. Unused lanes are empty boxes.
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub(crate) struct Boxes(pub [[[f32; WIDTH]; 2]; 3]);
 
 /// Eight triangles side by side: per vertex and axis. Unused lanes repeat the first triangle.
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub(crate) struct Triangles(pub [[[f32; LEAF]; 3]; 3]);
 
-/// A ray as boxes want it: `t = scale * plane + offset` is where it crosses a plane, in units of its direction.
+/// A ray prepared for boxes: it crosses a plane at `t = scale * plane + offset`, in units of its direction.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SlabRay {
     scale: [f32; 3],
-    /// For planes through which the ray enters and leaves; the first a little early, the second a little late.
+    /// Offsets for planes through which the ray enters, a little too early, and leaves, a little too late.
     offsets: [[f32; 3]; 2],
-    /// Per axis, which side of a box is met first: 0 the least, 1 the greatest.
+    /// Per axis, the side of a box that is met first: 0 the least, 1 the greatest.
     first: [usize; 3],
 }
 
-/// A ray as triangles want it: seen along its direction, every vertex has a place in the plane across the ray's longest
-/// axis, and the ray is the plane's origin (the shear of Woop, Benthin and Wald 2013).
+/// A ray prepared for triangles: a shear moves every vertex along the ray into the plane across the ray's longest axis, with
+/// the ray at the plane's origin (Woop, Benthin and Wald 2013).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EdgeRay {
     /// The two axes of the plane, then the one along which the direction is longest.
     axes: [usize; 3],
-    /// What the ray goes along the plane's axes for one metre along the third.
+    /// Slope of the ray along the plane's axes, per metre along the third.
     shear: [f32; 2],
-    /// Where its line meets the plane through the world's origin, metres.
+    /// Point where its line meets the plane through the world's origin, metres.
     foot: [f32; 2],
-    /// How far from its true place rounding may have moved a vertex, metres.
+    /// Greatest rounding error of a vertex's place, metres.
     doubt: f32,
 }
 
-/// Boxes are grown by this fraction of the greatest coordinate involved, for each ray by its own. The test runs in `f32`:
-/// plane, origin, direction, its inverse, their product, the sum and the limit are each rounded by 6e-8 of at most a few
-/// times that coordinate, about 1e-6 together. A hit at exactly the limit is therefore still visited, and the caller
-/// decides ties.
+/// Part of the greatest coordinate involved by which each ray grows the boxes.
+///
+/// The test runs in `f32`: plane, origin, direction, its inverse, their product, the sum and the limit are each rounded by
+/// 6e-8 of at most a few times that coordinate, about 1e-6 together. A hit at exactly the limit is therefore still visited,
+/// and the caller decides ties.
 const PAD: f64 = 2e-6;
-/// As a part of the greatest coordinate involved: a vertex's place is rounded five times, each time by 6e-8 of at most three
-/// times that coordinate.
+/// Rounding error of a vertex's place, as a part of the greatest coordinate involved: five roundings, each of 6e-8 of at most
+/// three times that coordinate.
 const EDGE_PAD: f64 = 1e-6;
-/// Squares of greater coordinates, metres, are not numbers of 32 bits: nothing is rejected there.
+/// Coordinate, in metres, beyond which squares overflow 32 bits and nothing is rejected.
 const GREATEST_SQUARED: f64 = 1e18;
-/// A smaller part of a direction has no finite inverse worth having: over the size of a scene it leads nowhere.
+/// Least component of a direction: the inverse of a smaller one is not finite, and over a scene it leads nowhere.
 const LEAST_DIRECTION: f32 = 1e-18;
 
-/// A way to test several things at once.
+/// Instructions that test several boxes or triangles at once.
 pub(crate) trait Lanes: Copy {
     /// Runs `work` with the processor's features switched on for whatever is inlined into it.
     fn run<R>(self, work: impl FnOnce() -> R) -> R;
@@ -77,15 +78,15 @@ pub(crate) trait Lanes: Copy {
     fn cross(self, triangles: &Triangles, size: f32, ray: &EdgeRay) -> u32;
 }
 
-/// One by one.
+/// Plain Rust for any processor.
 #[derive(Clone, Copy)]
 pub(crate) struct Portable;
 
 impl SlabRay {
-    /// For boxes whose coordinates are at most `reach` metres.
+    /// Prepares a ray for boxes of coordinates up to `largest_coordinate`, in metres.
     #[inline(always)]
-    pub fn new(origin: DVec3, direction: DVec3, reach: f64) -> Self {
-        let pad = (PAD * reach.max(origin.abs().max_element())) as f32;
+    pub fn new(origin: DVec3, direction: DVec3, largest_coordinate: f64) -> Self {
+        let pad = (PAD * largest_coordinate.max(origin.abs().max_element())) as f32;
         let direction = direction.as_vec3().to_array();
         let origin = origin.as_vec3().to_array();
         let scale = direction.map(|d| {
@@ -106,15 +107,15 @@ impl SlabRay {
 }
 
 impl EdgeRay {
-    /// For triangles whose coordinates are at most `reach` metres.
+    /// Prepares a ray for triangles of coordinates up to `largest_coordinate`, in metres.
     #[inline(always)]
-    pub fn new(origin: DVec3, direction: DVec3, reach: f64) -> Self {
+    pub fn new(origin: DVec3, direction: DVec3, largest_coordinate: f64) -> Self {
         let [o, d] = [origin, direction].map(|vector| vector.to_array());
         let longest = direction.abs().max_position();
         let axes = [(longest + 1) % 3, (longest + 2) % 3, longest];
         let along = 1.0 / d[longest];
         let shear = [d[axes[0]] * along, d[axes[1]] * along];
-        let greatest = reach.max(origin.abs().max_element());
+        let greatest = largest_coordinate.max(origin.abs().max_element());
         Self {
             axes,
             shear: shear.map(|shear| shear as f32),
@@ -127,7 +128,7 @@ impl EdgeRay {
         }
     }
 
-    /// How far from 0 rounding may have moved a weight of a triangle of this size that the ray does cross. Its vertices lie
+    /// The greatest rounding error of a weight of a triangle of this size that the ray crosses. The triangle's vertices lie
     /// within twice the size of the ray, and each of a product's four factors errs by `doubt`.
     #[inline(always)]
     fn doubt(&self, size: f32) -> f32 {
@@ -177,7 +178,7 @@ impl Lanes for Portable {
             std::array::from_fn(|lane| p[0][lane] * q[1][lane] - p[1][lane] * q[0][lane])
         };
         let [u, v, w] = [weight(c, b), weight(a, c), weight(b, a)];
-        // Written so that processors do it for several lanes at once.
+        // Written so that compilers vectorise it.
         let pick = |first: bool, p: f32, q: f32| if first { p } else { q };
         let least: [f32; LEAF] = std::array::from_fn(|lane| {
             let least = pick(u[lane] < v[lane], u[lane], v[lane]);
@@ -210,7 +211,7 @@ mod tests {
         DVec3::from_array([0, 1, 2].map(|axis| number(index, dimension + axis)))
     }
 
-    /// Eight triangles of this size around places up to a metre from the world's origin, and the size as a leaf knows it.
+    /// Eight triangles of this size around places up to a metre from the world's origin, and the size that a leaf stores.
     fn triangles(index: usize, size: f64) -> ([[DVec3; 3]; LEAF], Triangles, f32) {
         let corners: [[DVec3; 3]; LEAF] = std::array::from_fn(|lane| {
             let centre = point(LEAF * index + lane, 0);
@@ -227,7 +228,7 @@ mod tests {
         (corners, lanes, greatest.next_up())
     }
 
-    /// What both ways let pass; they may differ in triangles that the exact test refuses.
+    /// The lanes that each instruction set lets pass; they may differ in triangles that the exact test refuses.
     fn let_through(lanes: &Triangles, size: f32, ray: &EdgeRay) -> Vec<u32> {
         #[cfg(target_arch = "x86_64")]
         if let Some(avx2) = Avx2::detect() {

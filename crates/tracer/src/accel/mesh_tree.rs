@@ -1,77 +1,77 @@
-//! What rays meet in an object's space: a rigid mesh or a deforming one.
+//! The tree of a mesh, rigid or deforming, in object space.
 
-use crate::accel::deforming_tree::ShapeTree;
+use crate::accel::deforming_tree::DeformingTree;
 use crate::accel::lanes::Lanes;
-use crate::accel::rigid_tree::MeshTree;
+use crate::accel::rigid_tree::RigidTree;
 use crate::geometry::ray::Ray;
 use crate::geometry::triangle::Crossing;
 use crate::scene::Mesh;
 
-/// A mesh under its trees; shared by every object that shows it.
-pub(crate) enum Geometry<'a> {
-    Rigid(MeshTree),
-    Deforming(ShapeTree<'a>),
+/// A mesh and its trees; shared by every object that shows it.
+pub(crate) enum MeshTree<'a> {
+    Rigid(RigidTree),
+    Deforming(DeformingTree<'a>),
 }
 
-impl<'a> Geometry<'a> {
-    /// Of a mesh that rays meet at times in `[from, to]`.
-    pub fn of(mesh: &'a Mesh, from: f64, to: f64) -> Self {
+impl<'a> MeshTree<'a> {
+    /// Builds the trees of a mesh for rays at times in `[from, to]`.
+    pub fn build(mesh: &'a Mesh, from: f64, to: f64) -> Self {
         if mesh.deforms() {
-            Geometry::Deforming(ShapeTree::of(mesh, from, to))
+            MeshTree::Deforming(DeformingTree::build(mesh, from, to))
         } else {
-            Geometry::Rigid(MeshTree::of(mesh))
+            MeshTree::Rigid(RigidTree::build(mesh))
         }
     }
 
-    /// The leaves of a rigid mesh, which may lie in the tree of the world.
+    /// The tree of a rigid mesh, whose leaves may lie in the world tree.
     #[inline(always)]
-    pub fn rigid(&self) -> &MeshTree {
+    pub fn rigid(&self) -> &RigidTree {
         match self {
-            Geometry::Rigid(tree) => tree,
-            Geometry::Deforming(_) => panic!("only rigid meshes lie in the tree of the world"),
+            MeshTree::Rigid(tree) => tree,
+            MeshTree::Deforming(_) => panic!("only leaves of rigid meshes lie in the world tree"),
         }
     }
 
-    /// Bytes that trees and triangles take.
+    /// Size of trees and triangles in memory, in bytes.
     pub fn bytes(&self) -> usize {
         match self {
-            Geometry::Rigid(tree) => tree.bytes(),
-            Geometry::Deforming(tree) => tree.bytes(),
+            MeshTree::Rigid(tree) => tree.bytes(),
+            MeshTree::Deforming(tree) => tree.bytes(),
         }
     }
 
-    /// Room that [`Geometry::walk`] needs for children that wait.
-    pub fn most_waiting(&self) -> usize {
+    /// Size of the stack that [`MeshTree::traverse`] needs.
+    pub fn stack_size(&self) -> usize {
         match self {
-            Geometry::Rigid(tree) => tree.most_waiting(),
-            Geometry::Deforming(tree) => tree.most_waiting(),
+            MeshTree::Rigid(tree) => tree.stack_size(),
+            MeshTree::Deforming(tree) => tree.stack_size(),
         }
     }
 
-    /// As [`MeshTree::walk`], at a time.
+    /// Traverses the mesh at a time; see [`RigidTree::traverse`].
     #[inline(always)]
-    pub fn walk<L: Lanes, const SORTED: bool>(
+    pub fn traverse<L: Lanes, const SORTED: bool>(
         &self,
         lanes: L,
-        waiting: &mut [u64],
+        stack: &mut [u64],
         ray: &Ray,
         time: f64,
         limit: f64,
         visit: impl FnMut(u32, Crossing) -> f64,
     ) {
         match self {
-            Geometry::Rigid(tree) => tree.walk::<L, SORTED>(lanes, waiting, ray, limit, visit),
-            Geometry::Deforming(tree) => {
-                tree.walk::<L, SORTED>(lanes, waiting, ray, time, limit, visit)
+            MeshTree::Rigid(tree) => tree.traverse::<L, SORTED>(lanes, stack, ray, limit, visit),
+            MeshTree::Deforming(tree) => {
+                tree.traverse::<L, SORTED>(lanes, stack, ray, time, limit, visit)
             }
         }
     }
 
-    /// As [`MeshTree::exhaustive`], at a time.
-    pub fn exhaustive(&self, ray: &Ray, time: f64, visit: impl FnMut(u32, Crossing)) {
+    /// Visits every crossing at `0 < t` without a tree: the reference for tests of traversals.
+    pub fn visit_all(&self, ray: &Ray, time: f64, visit: impl FnMut(u32, Crossing)) {
         match self {
-            Geometry::Rigid(tree) => tree.exhaustive(ray, visit),
-            Geometry::Deforming(tree) => tree.exhaustive(ray, time, visit),
+            MeshTree::Rigid(tree) => tree.visit_all(ray, visit),
+            MeshTree::Deforming(tree) => tree.visit_all(ray, time, visit),
         }
     }
 }

@@ -7,7 +7,6 @@ pub(crate) mod collapse;
 pub(crate) mod deforming_tree;
 pub(crate) mod lanes;
 pub(crate) mod mesh_tree;
-pub(crate) mod pages;
 pub(crate) mod rigid_tree;
 pub(crate) mod scene_tree;
 pub(crate) mod world_leaves;

@@ -1,37 +1,36 @@
-//! A mesh's triangles under a tree, in object space; shared by every object that shows the mesh.
+//! The tree of a rigid mesh, in object space.
 
-use bytemuck::{Pod, Zeroable};
 use glam::{DAffine3, DVec3, Vec3};
 use prefetch_index::prefetch_index;
 
+use crate::accel::build::build_tree;
 use crate::accel::bvh::{Child, Tree};
 use crate::accel::collapse::LeafRules;
 use crate::accel::lanes::{EdgeRay, LEAF, Lanes, Triangles};
-use crate::accel::pages::Pages;
-use crate::geometry::aabb::Bounds;
+use crate::geometry::aabb::Aabb;
 use crate::geometry::ball::{Approach, Ball};
 use crate::geometry::ray::Ray;
 use crate::geometry::triangle::{Crossing, cross};
 use crate::scene::Mesh;
 
-/// Triangles in leaves, those of a leaf side by side, and a tree over the leaves.
-pub(crate) struct MeshTree {
-    /// None where no walk needs it: where every object that shows the mesh has its leaves in the tree of the world.
+/// Leaves of triangles side by side, and a tree over the leaves.
+pub(crate) struct RigidTree {
+    /// None where no traversal needs it: the leaves of every object that shows the mesh lie in the world tree.
     tree: Option<Tree>,
-    leaves: Pages<Leaf>,
+    leaves: Vec<Leaf>,
     ball: Ball,
-    /// The greatest coordinate of the mesh, metres.
-    reach: f64,
+    /// Greatest coordinate of the mesh, metres.
+    largest_coordinate: f64,
 }
 
-/// A ray made ready for the leaves of a mesh, in the mesh's space.
-pub(crate) struct Aim {
+/// A ray in the mesh's space, prepared for its leaves.
+pub(crate) struct LeafRay {
     approach: Approach,
     edges: EdgeRay,
 }
 
-/// Triangles that are tested together, by the tree's number of the leaf.
-#[derive(Clone, Copy, Pod, Zeroable)]
+/// Triangles that are tested together.
+#[derive(Clone, Copy)]
 #[repr(C, align(32))]
 struct Leaf {
     triangles: Triangles,
@@ -39,147 +38,145 @@ struct Leaf {
     indices: [u32; LEAF],
     /// One bit per used lane.
     used: u32,
-    /// The greatest extent of any of them along an axis, metres.
+    /// Greatest extent of any of them along an axis, metres.
     size: f32,
-    /// Room up to the next one's beginning.
-    unused: [u32; 6],
 }
 
-impl MeshTree {
-    pub fn of(mesh: &Mesh) -> Self {
-        let boxes: Vec<Bounds> = (0..mesh.triangles.len())
-            .map(|triangle| Bounds::around(corners(mesh, triangle).map(|corner| corner.as_dvec3())))
+impl RigidTree {
+    /// Builds the tree of a mesh.
+    pub fn build(mesh: &Mesh) -> Self {
+        let boxes: Vec<Aabb> = (0..mesh.triangles.len())
+            .map(|triangle| Aabb::around(corners(mesh, triangle).map(|corner| corner.as_dvec3())))
             .collect();
-        let bounds = boxes
-            .iter()
-            .fold(Bounds::EMPTY, |union, bounds| union.union(*bounds));
+        let union = (boxes.iter()).fold(Aabb::EMPTY, |union, aabb| union.union(*aabb));
         let vertices = mesh.triangles.iter().flatten();
         let vertices = vertices.map(|&vertex| mesh.positions[vertex as usize].as_dvec3());
         // Eight triangles are tested at once, as fast as one.
         let rules = LeafRules {
-            most: LEAF as u32,
+            max_items: LEAF as u32,
             item_cost: 0.0,
         };
-        let (tree, listed) = Tree::over(&boxes, rules);
+        let (tree, listed) = build_tree(&boxes, rules);
         let leaves = (0..listed.count())
-            .map(|leaf| Leaf::of(mesh, listed.items(leaf)))
+            .map(|leaf| Leaf::new(mesh, listed.items(leaf)))
             .collect();
         Self {
             tree: Some(tree),
-            leaves: Pages::of(leaves),
-            ball: Ball::around(bounds.centre(), vertices),
-            reach: bounds.reach(),
+            leaves,
+            ball: Ball::around(union.centre(), vertices),
+            largest_coordinate: union.largest_coordinate(),
         }
     }
 
-    /// Leaves the tree over the leaves out: only [`MeshTree::meet`] remains.
+    /// Drops the tree over the leaves; only [`RigidTree::intersect_leaf`] remains.
     pub fn drop_tree(&mut self) {
         self.tree = None;
     }
 
-    /// Bytes that tree and triangles take.
+    /// Size of tree and triangles in memory, in bytes.
     pub fn bytes(&self) -> usize {
-        self.tree.as_ref().map_or(0, Tree::bytes) + size_of_val::<[Leaf]>(&self.leaves)
+        self.tree.as_ref().map_or(0, Tree::bytes) + size_of_val(self.leaves.as_slice())
     }
 
-    /// Room that [`MeshTree::walk`] needs for children that wait.
-    pub fn most_waiting(&self) -> usize {
-        self.tree.as_ref().map_or(0, |tree| tree.most_waiting)
+    /// Size of the stack that [`RigidTree::traverse`] needs.
+    pub fn stack_size(&self) -> usize {
+        self.tree.as_ref().map_or(0, |tree| tree.stack_size)
     }
 
-    /// How many leaves there are.
+    /// Number of leaves.
     pub fn leaf_count(&self) -> usize {
         self.leaves.len()
     }
 
-    /// Boxes around the leaves, at a pose.
-    pub fn leaf_bounds(&self, pose: &DAffine3) -> Vec<Bounds> {
-        let posed = |corner| pose.transform_point3(corner);
+    /// Boxes around the leaves, transformed by `pose`.
+    pub fn leaf_aabbs(&self, pose: &DAffine3) -> Vec<Aabb> {
+        let to_world = |corner| pose.transform_point3(corner);
         let leaves = self.leaves.iter();
         leaves
             .map(|leaf| {
                 let corners = leaf.lanes().flat_map(|lane| leaf.corners(lane));
-                Bounds::around(corners.map(posed))
+                Aabb::around(corners.map(to_world))
             })
             .collect()
     }
 
-    /// None where the ray misses the mesh.
+    /// Prepares a ray for the leaves; none where it misses the mesh.
     #[inline(always)]
-    pub fn aim(&self, ray: &Ray) -> Option<Aim> {
+    pub fn prepare_ray(&self, ray: &Ray) -> Option<LeafRay> {
         let approach = self.ball.approach(ray)?;
-        let edges = EdgeRay::new(approach.ray.origin, approach.ray.direction, self.reach);
-        Some(Aim { approach, edges })
+        let ray = &approach.ray;
+        let edges = EdgeRay::new(ray.origin, ray.direction, self.largest_coordinate);
+        Some(LeafRay { approach, edges })
     }
 
     /// Visits the crossings at `0 < t <= limit`: roughly from near to far where `SORTED`, else in any order. `visit` takes
-    /// the triangle's index in the mesh and returns the limit from then on: one below 0 ends the walk.
+    /// the triangle's index in the mesh and returns the new limit; one below 0 ends the traversal.
     #[inline(always)]
-    pub fn walk<L: Lanes, const SORTED: bool>(
+    pub fn traverse<L: Lanes, const SORTED: bool>(
         &self,
         lanes: L,
-        waiting: &mut [u64],
+        stack: &mut [u64],
         ray: &Ray,
         limit: f64,
         mut visit: impl FnMut(u32, Crossing) -> f64,
     ) {
-        let Some(aim) = self.aim(ray) else {
+        let Some(ray) = self.prepare_ray(ray) else {
             return;
         };
         let tree = self
             .tree
             .as_ref()
-            .expect("only meshes with trees are walked through");
+            .expect("only meshes with trees are traversed");
         let mut limit = limit;
-        tree.walk::<L, SORTED>(
+        tree.traverse::<L, SORTED>(
             lanes,
-            waiting,
-            (&aim.approach.ray, Child::ROOT),
-            aim.approach.local(limit),
+            stack,
+            (&ray.approach.ray, Child::ROOT),
+            ray.approach.local_limit(limit),
             #[inline(always)]
             |_, leaf| {
-                limit = self.meet(lanes, leaf, &aim, limit, &mut visit);
-                aim.approach.local(limit)
+                limit = self.intersect_leaf(lanes, leaf, &ray, limit, &mut visit);
+                ray.approach.local_limit(limit)
             },
             #[inline(always)]
-            |leaf| self.fetch(leaf),
+            |leaf| self.prefetch(leaf),
         );
     }
 
-    /// Visits the crossings of one leaf, as [`MeshTree::walk`] does; returns the limit from then on.
+    /// Visits the crossings of one leaf, as [`RigidTree::traverse`] does; returns the new limit.
     #[inline(always)]
-    pub fn meet<L: Lanes>(
+    pub fn intersect_leaf<L: Lanes>(
         &self,
         lanes: L,
         leaf: u32,
-        aim: &Aim,
+        ray: &LeafRay,
         mut limit: f64,
         mut visit: impl FnMut(u32, Crossing) -> f64,
     ) -> f64 {
         let leaf = &self.leaves[leaf as usize];
-        let mut inside = lanes.cross(&leaf.triangles, leaf.size, &aim.edges) & leaf.used;
+        let mut inside = lanes.cross(&leaf.triangles, leaf.size, &ray.edges) & leaf.used;
         while inside != 0 {
             let lane = inside.trailing_zeros() as usize;
             inside &= inside - 1;
-            if let Some(crossing) = leaf.crossing(&aim.approach, lane, limit) {
+            if let Some(crossing) = leaf.crossing(&ray.approach, lane, limit) {
                 limit = visit(leaf.indices[lane], crossing);
             }
         }
         limit
     }
 
-    /// Has the processor fetch a leaf from memory, to be there when it is met.
+    /// Prefetches a leaf from memory.
     #[inline(always)]
-    pub fn fetch(&self, leaf: u32) {
-        self.leaves[leaf as usize].fetch();
+    pub fn prefetch(&self, leaf: u32) {
+        self.leaves[leaf as usize].prefetch();
     }
 
-    /// Every crossing at `0 < t`, tree or no tree: what the walks are tested against.
-    pub fn exhaustive(&self, ray: &Ray, mut visit: impl FnMut(u32, Crossing)) {
+    /// Visits every crossing at `0 < t` without the tree: the reference for tests of traversals.
+    pub fn visit_all(&self, ray: &Ray, mut visit: impl FnMut(u32, Crossing)) {
         let Some(approach) = self.ball.approach(ray) else {
             return;
         };
-        for leaf in self.leaves.iter() {
+        for leaf in &self.leaves {
             for lane in leaf.lanes() {
                 if let Some(crossing) = leaf.crossing(&approach, lane, f64::INFINITY) {
                     visit(leaf.indices[lane], crossing);
@@ -190,8 +187,8 @@ impl MeshTree {
 }
 
 impl Leaf {
-    /// Of at most eight triangles of the mesh.
-    fn of(mesh: &Mesh, items: &[u32]) -> Self {
+    /// Packs at most eight triangles of the mesh.
+    fn new(mesh: &Mesh, items: &[u32]) -> Self {
         let indices = std::array::from_fn(|lane| *items.get(lane).unwrap_or(&items[0]));
         let corners = indices.map(|triangle| corners(mesh, triangle as usize));
         Self {
@@ -200,8 +197,7 @@ impl Leaf {
             })),
             indices,
             used: (1 << items.len()) - 1,
-            size: corners.map(extent).into_iter().fold(0.0, f32::max),
-            unused: [0; 6],
+            size: corners.map(size).into_iter().fold(0.0, f32::max),
         }
     }
 
@@ -211,7 +207,7 @@ impl Leaf {
     }
 
     #[inline(always)]
-    fn fetch(&self) {
+    fn prefetch(&self) {
         let [a, b, c] = &self.triangles.0;
         for lanes in [&a[0], &a[2], &b[1], &c[0], &c[2]] {
             prefetch_index(lanes, 0);
@@ -239,8 +235,8 @@ fn corners(mesh: &Mesh, triangle: usize) -> [Vec3; 3] {
     mesh.triangles[triangle].map(|index| mesh.positions[index as usize])
 }
 
-/// The greatest extent along an axis, metres; never too small.
-fn extent([a, b, c]: [Vec3; 3]) -> f32 {
+/// The greatest extent of a triangle along an axis, metres; never too small.
+fn size([a, b, c]: [Vec3; 3]) -> f32 {
     let sides = a.max(b).max(c) - a.min(b).min(c);
     sides.max_element().next_up()
 }

@@ -1,56 +1,129 @@
-//! Walks through a stage: what is nearest, and whether anything is in between.
+//! The geometry of a scene under its trees: the nearest hit of a ray, and occlusion.
 
 use crate::accel::lanes::Lanes;
-use crate::accel::rigid_tree::{Aim, MeshTree};
-use crate::accel::world_tree::Part;
+use crate::accel::mesh_tree::MeshTree;
+use crate::accel::rigid_tree::{LeafRay, RigidTree};
+use crate::accel::world_leaves::collect_world_leaves;
+use crate::accel::world_tree::{Part, WorldTree};
+use crate::error::TraceError;
+use crate::geometry::aabb::Aabb;
+use crate::geometry::hit::Hit;
 use crate::geometry::ray::Ray;
 use crate::geometry::triangle::Crossing;
+use crate::limits::LARGEST_COORDINATE;
+use crate::material::surface::Opacity;
 use crate::motion::poses::Poses;
-use crate::stage::{Hit, Stage};
+use crate::motion::slices::sweep_slices;
+use crate::scene::Scene;
 
-/// A limit that nothing lies before: it ends a walk.
+/// A limit before every crossing: it ends a traversal.
 const NOWHERE: f64 = f64::NEG_INFINITY;
 
-/// A ray made ready for the leaves of the object that it came to last.
-#[derive(Default)]
-struct Aimed {
-    object: Option<usize>,
-    aim: Option<Aim>,
+/// The meshes of a scene, and the world tree above them.
+///
+/// Still objects lie in the world tree, leaf by leaf. Per slice of the shutter interval a small tree holds the topmost nodes
+/// of that tree and the boxes that moving objects sweep.
+pub(crate) struct SceneTree<'a> {
+    scene: &'a Scene,
+    /// Per mesh of the scene; none where no object shows it.
+    meshes: Vec<Option<MeshTree<'a>>>,
+    world: WorldTree,
+    /// Per object.
+    opacities: Vec<Opacity>,
+    stack_size: usize,
 }
 
-impl Aimed {
-    /// For the leaves of an object; none where the ray misses them all.
+/// The ray in the space of the object whose leaf it met last.
+#[derive(Default)]
+struct LastLeafRay {
+    object: Option<usize>,
+    ray: Option<LeafRay>,
+}
+
+impl LastLeafRay {
+    /// The ray for the leaves of an object; none where it misses them all.
     #[inline(always)]
-    fn at(&mut self, mesh: &MeshTree, object: usize, poses: &mut Poses, ray: &Ray) -> Option<&Aim> {
+    fn get(
+        &mut self,
+        mesh: &RigidTree,
+        object: usize,
+        poses: &mut Poses,
+        ray: &Ray,
+    ) -> Option<&LeafRay> {
         if self.object != Some(object) {
             self.object = Some(object);
-            self.aim = mesh.aim(&ray.transformed(&poses.pose(object).to_object));
+            self.ray = mesh.prepare_ray(&ray.transformed(&poses.pose(object).to_object));
         }
-        self.aim.as_ref()
+        self.ray.as_ref()
     }
 }
 
-impl Stage<'_> {
-    /// [`Stage::closest`] with these instructions.
-    #[inline(always)]
-    pub(crate) fn closest_by<L: Lanes>(
-        &self,
-        lanes: L,
+impl<'a> SceneTree<'a> {
+    /// Builds all trees for rays at times in `[from, to]`, the interval of `poses`. Refuses objects with coordinates above
+    /// [`LARGEST_COORDINATE`].
+    pub fn build(
+        scene: &'a Scene,
         poses: &mut Poses,
-        ray: &Ray,
-    ) -> Option<Hit> {
+        from: f64,
+        to: f64,
+    ) -> Result<Self, TraceError> {
+        let slices = sweep_slices(scene, from, to);
+        check_coordinates(scene, &slices)?;
+        let shown: Vec<usize> = scene.objects.iter().map(|object| object.mesh).collect();
+        let mut meshes: Vec<Option<MeshTree>> = scene
+            .meshes
+            .iter()
+            .enumerate()
+            .map(|(index, mesh)| {
+                shown
+                    .contains(&index)
+                    .then(|| MeshTree::build(mesh, from, to))
+            })
+            .collect();
+        let swept = slices
+            .iter()
+            .flatten()
+            .map(|aabb| aabb.largest_coordinate());
+        let leaves = collect_world_leaves(scene, &meshes, poses, swept.fold(0.0, f64::max));
+        let world = WorldTree::build(&leaves, &slices, [from, to]);
+        for (index, mesh) in meshes.iter_mut().enumerate() {
+            let is_traversed = (leaves.iter().zip(&shown))
+                .any(|(leaves, shown)| *shown == index && leaves.is_none());
+            if let (Some(MeshTree::Rigid(tree)), false) = (mesh, is_traversed) {
+                tree.drop_tree();
+            }
+        }
+        let in_meshes = meshes.iter().flatten().map(MeshTree::stack_size).max();
+        Ok(Self {
+            scene,
+            stack_size: world.stack_size() + in_meshes.unwrap_or(0),
+            meshes,
+            world,
+            opacities: Opacity::of_objects(scene),
+        })
+    }
+
+    /// Size of trees and triangles in memory, in bytes.
+    pub fn bytes(&self) -> usize {
+        let meshes: usize = self.meshes.iter().flatten().map(MeshTree::bytes).sum();
+        meshes + self.world.bytes()
+    }
+
+    /// Finds the nearest surface at `t > 0`; among equally near ones that of the lowest object, then triangle.
+    #[inline(always)]
+    pub fn closest<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
         let time = poses.time();
-        let mut waiting = poses.take_waiting(self.most_waiting);
+        let mut stack = poses.take_stack(self.stack_size);
         let mut best: Option<Hit> = None;
-        let mut aimed = Aimed::default();
+        let mut leaf_ray = LastLeafRay::default();
         let limit = |best: &Option<Hit>| best.map_or(f64::INFINITY, |hit| hit.t);
-        self.world.walk::<L, true>(
+        self.world.traverse::<L, true>(
             lanes,
-            &mut waiting,
+            &mut stack,
             (ray, time),
             f64::INFINITY,
             #[inline(always)]
-            |waiting, Part { object, leaf }| {
+            |stack, Part { object, leaf }| {
                 let before = limit(&best);
                 let visit = |triangle, crossing| {
                     self.keep_nearer(&mut best, time, object, triangle, crossing);
@@ -59,85 +132,93 @@ impl Stage<'_> {
                 match leaf {
                     Some(leaf) => {
                         let mesh = self.mesh(object).rigid();
-                        if let Some(aim) = aimed.at(mesh, object, poses, ray) {
-                            mesh.meet(lanes, leaf, aim, before, visit);
+                        if let Some(ray) = leaf_ray.get(mesh, object, poses, ray) {
+                            mesh.intersect_leaf(lanes, leaf, ray, before, visit);
                         }
                     }
-                    None if poses.missed(object, ray) => {}
+                    None if poses.is_missed(object, ray) => {}
                     None => {
                         let local = ray.transformed(&poses.pose(object).to_object);
                         let mesh = self.mesh(object);
-                        mesh.walk::<L, true>(lanes, waiting, &local, time, before, visit);
+                        mesh.traverse::<L, true>(lanes, stack, &local, time, before, visit);
                     }
                 }
                 limit(&best)
             },
             #[inline(always)]
-            |part| self.fetch(part),
+            |part| self.prefetch(part),
         );
-        poses.waiting = waiting;
+        poses.stack = stack;
         best
     }
 
-    /// [`Stage::blocked`] with these instructions.
+    /// Tells that anything lies at `0 < t < limit`.
     #[inline(always)]
-    pub(crate) fn blocked_by<L: Lanes>(
-        &self,
-        lanes: L,
-        poses: &mut Poses,
-        ray: &Ray,
-        limit: f64,
-    ) -> bool {
+    pub fn blocked<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
         let time = poses.time();
-        let mut waiting = poses.take_waiting(self.most_waiting);
+        let mut stack = poses.take_stack(self.stack_size);
         let mut blocked = false;
-        let mut aimed = Aimed::default();
-        self.world.walk::<L, false>(
+        let mut leaf_ray = LastLeafRay::default();
+        self.world.traverse::<L, false>(
             lanes,
-            &mut waiting,
+            &mut stack,
             (ray, time),
             limit,
             #[inline(always)]
-            |waiting, Part { object, leaf }| {
+            |stack, Part { object, leaf }| {
                 let visit = |triangle, crossing: Crossing| {
-                    let opaque = self.opacities[object].opaque(self.scene, triangle, &crossing);
+                    let opaque = self.opacities[object].is_opaque(self.scene, triangle, &crossing);
                     blocked |= crossing.t < limit && opaque;
                     if blocked { NOWHERE } else { limit }
                 };
                 match leaf {
                     Some(leaf) => {
                         let mesh = self.mesh(object).rigid();
-                        if let Some(aim) = aimed.at(mesh, object, poses, ray) {
-                            mesh.meet(lanes, leaf, aim, limit, visit);
+                        if let Some(ray) = leaf_ray.get(mesh, object, poses, ray) {
+                            mesh.intersect_leaf(lanes, leaf, ray, limit, visit);
                         }
                     }
-                    None if poses.missed(object, ray) => {}
+                    None if poses.is_missed(object, ray) => {}
                     None => {
                         let local = ray.transformed(&poses.pose(object).to_object);
                         let mesh = self.mesh(object);
-                        mesh.walk::<L, false>(lanes, waiting, &local, time, limit, visit);
+                        mesh.traverse::<L, false>(lanes, stack, &local, time, limit, visit);
                     }
                 }
                 if blocked { NOWHERE } else { limit }
             },
             #[inline(always)]
-            |part| self.fetch(part),
+            |part| self.prefetch(part),
         );
-        poses.waiting = waiting;
+        poses.stack = stack;
         blocked
     }
 
-    /// Has the processor fetch from memory what a part of the world's tree consists of.
+    /// Finds the hit of [`SceneTree::closest`] by testing every triangle: the reference for tests.
+    pub fn closest_of_all(&self, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
+        let time = poses.time();
+        let mut best = None;
+        for object in 0..self.scene.objects.len() {
+            let local = ray.transformed(&poses.pose(object).to_object);
+            self.mesh(object)
+                .visit_all(&local, time, |triangle, crossing| {
+                    self.keep_nearer(&mut best, time, object, triangle, crossing);
+                });
+        }
+        best
+    }
+
+    /// Prefetches the leaf of a part of the world tree.
     #[inline(always)]
-    fn fetch(&self, part: Part) {
+    fn prefetch(&self, part: Part) {
         if let Some(leaf) = part.leaf {
-            self.mesh(part.object).rigid().fetch(leaf);
+            self.mesh(part.object).rigid().prefetch(leaf);
         }
     }
 
-    /// Takes a crossing for the best hit where it is nearer and the surface has no hole there.
+    /// Replaces the best hit by a crossing that is nearer, unless the surface has a hole there.
     #[inline(always)]
-    pub(crate) fn keep_nearer(
+    fn keep_nearer(
         &self,
         best: &mut Option<Hit>,
         time: f64,
@@ -148,7 +229,7 @@ impl Stage<'_> {
         let nearer = best.is_none_or(|best| {
             (crossing.t, object, triangle) < (best.t, best.object, best.triangle)
         });
-        if nearer && self.opacities[object].opaque(self.scene, triangle, &crossing) {
+        if nearer && self.opacities[object].is_opaque(self.scene, triangle, &crossing) {
             *best = Some(Hit {
                 t: crossing.t,
                 object,
@@ -158,4 +239,44 @@ impl Stage<'_> {
             });
         }
     }
+
+    #[inline(always)]
+    fn mesh(&self, object: usize) -> &MeshTree<'a> {
+        self.meshes[self.scene.objects[object].mesh]
+            .as_ref()
+            .expect("every shown mesh has a tree")
+    }
+}
+
+/// Refuses objects with too large coordinates: of their swept boxes, or of their meshes in their own space.
+fn check_coordinates(scene: &Scene, slices: &[Vec<Aabb>]) -> Result<(), TraceError> {
+    let own: Vec<f64> = (scene.meshes.iter())
+        .map(|mesh| {
+            let shapes = mesh.shapes.iter().flat_map(|shape| &shape.positions);
+            let positions = mesh.positions.iter().chain(shapes);
+            positions.fold(0.0, |largest: f64, position| {
+                largest.max(f64::from(position.abs().max_element()))
+            })
+        })
+        .collect();
+    for (index, object) in scene.objects.iter().enumerate() {
+        let swept = slices.iter().map(|swept| swept[index]);
+        let corners = swept.flat_map(|swept| [swept.min, swept.max]);
+        let mut coordinates = corners.map(|corner| match corner.is_finite() {
+            true => corner.abs().max_element(),
+            false => f64::INFINITY,
+        });
+        let too_large = |coordinate: &f64| *coordinate > LARGEST_COORDINATE;
+        if let Some(coordinate) = coordinates
+            .find(too_large)
+            .or(Some(own[object.mesh]).filter(too_large))
+        {
+            return Err(TraceError::TooFar {
+                scene: scene.name.clone(),
+                object: object.name.clone(),
+                coordinate,
+            });
+        }
+    }
+    Ok(())
 }

@@ -1,49 +1,51 @@
-//! Which objects have their triangles in the tree of the world.
+//! The choice of objects whose leaves lie in the world tree.
 
-use crate::accel::mesh_tree::Geometry;
+use crate::accel::mesh_tree::MeshTree;
 use crate::accel::world_tree::Numbers;
-use crate::geometry::aabb::Bounds;
+use crate::geometry::aabb::Aabb;
 use crate::motion::poses::Poses;
 use crate::scene::Scene;
 
-/// So many leaves at most are in the tree of the world once more than they are in meshes: of up to 2 million triangles.
-const MOST_REPEATED: usize = 1 << 18;
-/// A ray's boxes are grown by 2e-6 of the greatest coordinate; by this measure a fifth of a leaf at most.
-const LEAST_LEAF: f64 = 2e-5;
+/// Upper limit on instanced leaves that are copied into the world tree, those of up to 2 million triangles.
+const MAX_COPIES: usize = 1 << 18;
+/// Least mean size of an object's leaves, as a part of the scene's greatest coordinate. A ray's boxes are grown by 2e-6 of
+/// that coordinate, so by a fifth of a leaf at most.
+const MIN_LEAF_SIZE: f64 = 2e-5;
 
-/// Per object the boxes of its leaves in the world, where they are to lie in the world's own tree: where the object stands still,
-/// rays need no tree of its own, nor to be moved into its space before they meet a leaf. Objects that share a mesh share
-/// its triangles; only the nodes above them are held once more. `reach`: the greatest coordinate in the scene.
-pub(crate) fn joining(
+/// Collects per object the boxes of its leaves in the world, where they are to lie in the world tree.
+///
+/// Rays then need no tree of the object's own, and enter its space only at a leaf. Only still objects qualify. Objects that
+/// share a mesh share its triangles; only the nodes above them are copied.
+pub(crate) fn collect_world_leaves(
     scene: &Scene,
-    geometries: &[Option<Geometry>],
+    meshes: &[Option<MeshTree>],
     poses: &mut Poses,
-    reach: f64,
-) -> Vec<Option<Vec<Bounds>>> {
-    let mut joining = vec![None; scene.objects.len()];
-    let most_leaves = Numbers::new(scene.objects.len()).most_leaves();
-    let mut repeated = 0;
-    for (mesh, geometry) in geometries.iter().enumerate() {
-        let Some(Geometry::Rigid(tree)) = geometry else {
+    largest_coordinate: f64,
+) -> Vec<Option<Vec<Aabb>>> {
+    let mut world_leaves = vec![None; scene.objects.len()];
+    let max_leaves = Numbers::new(scene.objects.len()).max_leaves();
+    let mut copies = 0;
+    for (mesh, tree) in meshes.iter().enumerate() {
+        let Some(MeshTree::Rigid(tree)) = tree else {
             continue;
         };
         let showing = (0..scene.objects.len()).filter(|&object| scene.objects[object].mesh == mesh);
         let (still, moving): (Vec<usize>, Vec<usize>) =
             showing.partition(|&object| poses.stands_still(object));
         let own = usize::from(moving.is_empty());
-        let more = repeated + still.len().saturating_sub(own) * tree.leaf_count();
-        if more > MOST_REPEATED || tree.leaf_count() > most_leaves {
+        let with_these = copies + still.len().saturating_sub(own) * tree.leaf_count();
+        if with_these > MAX_COPIES || tree.leaf_count() > max_leaves {
             continue;
         }
-        repeated = more;
+        copies = with_these;
         for object in still {
-            let leaves = tree.leaf_bounds(&poses.pose(object).to_world);
-            let sizes: f64 = leaves.iter().map(|bounds| bounds.diagonal()).sum();
-            let coarse = sizes >= LEAST_LEAF * reach * leaves.len() as f64;
-            joining[object] = coarse.then_some(leaves);
+            let leaves = tree.leaf_aabbs(&poses.pose(object).to_world);
+            let sizes: f64 = leaves.iter().map(|aabb| aabb.diagonal()).sum();
+            let coarse = sizes >= MIN_LEAF_SIZE * largest_coordinate * leaves.len() as f64;
+            world_leaves[object] = coarse.then_some(leaves);
         }
     }
-    joining
+    world_leaves
 }
 
 #[cfg(test)]
@@ -53,7 +55,7 @@ mod tests {
     use glam::{DVec3, Vec3};
 
     use super::*;
-    use crate::load_scene;
+    use crate::load::load_scene;
     use crate::motion::keys::{Key, Motion, Turn};
     use crate::scene::{Mesh, Object, Parent};
 
@@ -99,42 +101,46 @@ mod tests {
         object
     }
 
-    /// Whether each object joins.
-    fn joined(meshes: Vec<Mesh>, objects: Vec<Object>, reach: f64) -> Vec<bool> {
+    /// Tells per object whether its leaves lie in the world tree.
+    fn in_world_tree(
+        meshes: Vec<Mesh>,
+        objects: Vec<Object>,
+        largest_coordinate: f64,
+    ) -> Vec<bool> {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/two_spheres");
         let mut scene = load_scene(&folder, None).expect("the built-in scenes load");
         scene.meshes = meshes;
         scene.objects = objects;
         let meshes = scene.meshes.iter();
-        let geometries: Vec<Option<Geometry>> = meshes
-            .map(|mesh| Some(Geometry::of(mesh, -1.0, 0.0)))
+        let trees: Vec<Option<MeshTree>> = meshes
+            .map(|mesh| Some(MeshTree::build(mesh, -1.0, 0.0)))
             .collect();
         let mut poses = Poses::new(&scene, -1.0, 0.0);
-        let joining = joining(&scene, &geometries, &mut poses, reach);
-        joining.iter().map(Option::is_some).collect()
+        let leaves = collect_world_leaves(&scene, &trees, &mut poses, largest_coordinate);
+        leaves.iter().map(Option::is_some).collect()
     }
 
     #[test]
-    fn what_stands_still_joins_and_what_moves_does_not() {
+    fn leaves_of_still_objects_lie_in_the_world_tree() {
         let objects = vec![still(0), turning(0), still(1), turning(1)];
         assert_eq!(
-            joined(vec![fan(40), fan(9)], objects, 1.0),
+            in_world_tree(vec![fan(40), fan(9)], objects, 1.0),
             [true, false, true, false]
         );
     }
 
     #[test]
-    fn what_is_fine_in_a_wide_world_does_not_join() {
+    fn fine_meshes_in_a_wide_scene_stay_out() {
         // Leaves of fans of 8 triangles in all are as large as the fan, those of thousands a hundred times smaller.
         let meshes = || vec![fan(8), fan(8000)];
         let objects = || vec![still(0), still(1)];
-        assert_eq!(joined(meshes(), objects(), 1.0), [true, true]);
-        assert_eq!(joined(meshes(), objects(), 8e4), [true, false]);
-        assert_eq!(joined(meshes(), objects(), 1e7), [false, false]);
+        assert_eq!(in_world_tree(meshes(), objects(), 1.0), [true, true]);
+        assert_eq!(in_world_tree(meshes(), objects(), 8e4), [true, false]);
+        assert_eq!(in_world_tree(meshes(), objects(), 1e7), [false, false]);
     }
 
     #[test]
-    fn a_mesh_in_too_many_places_does_not_join() {
+    fn a_mesh_in_too_many_places_stays_out() {
         // 8000 triangles take from 1000 leaves on.
         let objects = |count: usize| {
             let mut objects = vec![still(0); count];
@@ -143,12 +149,12 @@ mod tests {
         };
         let meshes = || vec![fan(8000), fan(8)];
         assert!(
-            joined(meshes(), objects(20), 1.0)
+            in_world_tree(meshes(), objects(20), 1.0)
                 .iter()
-                .all(|joins| *joins)
+                .all(|inside| *inside)
         );
-        let many = joined(meshes(), objects(MOST_REPEATED / 1000 + 2), 1.0);
-        assert!(many.iter().rev().skip(1).all(|joins| !joins));
-        assert_eq!(many.last(), Some(&true), "another mesh joins");
+        let many = in_world_tree(meshes(), objects(MAX_COPIES / 1000 + 2), 1.0);
+        assert!(many.iter().rev().skip(1).all(|inside| !inside));
+        assert_eq!(many.last(), Some(&true), "another mesh is in");
     }
 }

@@ -1,49 +1,48 @@
-//! What a ray walks through first: trees over the whole scene, in the world.
+//! The world tree: the upper level of the hierarchy, over the whole scene.
 
-use crate::accel::build::Growth;
+use crate::accel::build::TreeBuilder;
 use crate::accel::bvh::{Child, Tree};
 use crate::accel::collapse::LeafRules;
 use crate::accel::lanes::Lanes;
-use crate::geometry::aabb::Bounds;
+use crate::geometry::aabb::Aabb;
 use crate::geometry::ray::Ray;
 
-/// Nodes of the tree over what stands still are opened until there are so many, for the trees of the slices to sort in
-/// among what moves.
-const OPENED: usize = 16;
+/// Topmost nodes of the still tree that the slices' trees sort in among the moving objects.
+const TOPMOST: usize = 16;
 const LEAF_RULES: LeafRules = LeafRules {
-    most: 1,
+    max_items: 1,
     item_cost: 0.0,
 };
 
-/// A tree over the leaves of the objects that stand still, and per slice of the shutter a small one over its topmost nodes and
-/// the boxes that all other objects sweep.
+/// A tree over the leaves of still objects. Per slice of the shutter interval, a small tree lies above it, over its topmost
+/// nodes and the boxes that all other objects sweep.
 pub(crate) struct WorldTree {
     tree: Tree,
-    /// Per slice; all are equally long.
+    /// Root per slice; all slices are equally long.
     roots: Vec<Child>,
     from: f64,
     to: f64,
     numbers: Numbers,
 }
 
-/// What a leaf of the tree holds.
+/// The content of one leaf of the world tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Part {
     /// Index into the scene's objects.
     pub object: usize,
-    /// A leaf of the object's mesh; none for the whole object.
+    /// Leaf of the object's mesh; none for the whole object.
     pub leaf: Option<u32>,
 }
 
-/// How parts are numbered: the object's index, and below it the leaf's.
+/// The numbering of parts: the object's index in the high bits, the leaf's in the low ones.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Numbers {
-    /// Bits of the leaf's.
+    /// Bits of the leaf's index.
     bits: u32,
 }
 
 impl Numbers {
-    /// For scenes of so many objects.
+    /// The numbering for a scene of this many objects.
     pub fn new(objects: usize) -> Self {
         let for_objects = usize::BITS - objects.leading_zeros();
         assert!(
@@ -55,12 +54,12 @@ impl Numbers {
         }
     }
 
-    /// Leaves of one object that have numbers.
-    pub fn most_leaves(self) -> usize {
+    /// Most leaves of one object that can be numbered.
+    pub fn max_leaves(self) -> usize {
         self.whole() as usize
     }
 
-    /// What stands for no leaf.
+    /// The low bits of a whole object.
     #[inline(always)]
     fn whole(self) -> u32 {
         (1 << self.bits) - 1
@@ -81,30 +80,26 @@ impl Numbers {
 }
 
 impl WorldTree {
-    /// `leaves`: per object the boxes of its leaves where they lie in this tree. `slices`: per slice of `[from, to]` the boxes
-    /// that the objects sweep.
-    pub fn over(
-        leaves: &[Option<Vec<Bounds>>],
-        slices: &[Vec<Bounds>],
-        [from, to]: [f64; 2],
-    ) -> Self {
+    /// Builds the tree. `leaves` holds the boxes of each object's leaves where they lie in the world tree. `slices` holds the
+    /// boxes that the objects sweep in each slice of `[from, to]`.
+    pub fn build(leaves: &[Option<Vec<Aabb>>], slices: &[Vec<Aabb>], [from, to]: [f64; 2]) -> Self {
         let numbers = Numbers::new(leaves.len());
         let mut boxes = Vec::new();
         let mut children = Vec::new();
         for (object, leaves) in leaves.iter().enumerate() {
-            for (leaf, bounds) in leaves.iter().flatten().enumerate() {
+            for (leaf, aabb) in leaves.iter().flatten().enumerate() {
                 let leaf = Some(leaf as u32);
-                boxes.push(*bounds);
+                boxes.push(*aabb);
                 children.push(numbers.child(Part { object, leaf }));
             }
         }
-        let mut growth = Growth::default();
-        let mut opened = Vec::new();
+        let mut builder = TreeBuilder::default();
+        let mut topmost = Vec::new();
         if !boxes.is_empty() {
-            growth.grow(&boxes, LEAF_RULES, 0, |items| children[items[0] as usize]);
-            opened = growth.opened(OPENED);
+            builder.add_tree(&boxes, LEAF_RULES, 0, |items| children[items[0] as usize]);
+            topmost = builder.topmost(TOPMOST);
         }
-        let waiting = growth.most_waiting;
+        let stack_size = builder.stack_size;
         let whole: Vec<usize> = (0..leaves.len())
             .filter(|&object| leaves[object].is_none())
             .collect();
@@ -118,17 +113,16 @@ impl WorldTree {
                         let part = Part { object, leaf: None };
                         (swept[object], numbers.child(part))
                     });
-                    let items: Vec<(Bounds, Child)> =
-                        opened.iter().copied().chain(objects).collect();
-                    let boxes: Vec<Bounds> = items.iter().map(|(bounds, _)| *bounds).collect();
-                    growth.grow(&boxes, LEAF_RULES, waiting, |item| {
-                        items[item[0] as usize].1
+                    let items = topmost.iter().copied().chain(objects);
+                    let (boxes, children): (Vec<Aabb>, Vec<Child>) = items.unzip();
+                    builder.add_tree(&boxes, LEAF_RULES, stack_size, |item| {
+                        children[item[0] as usize]
                     })
                 })
                 .collect()
         };
         Self {
-            tree: growth.finish(),
+            tree: builder.finish(),
             roots,
             from,
             to,
@@ -136,36 +130,36 @@ impl WorldTree {
         }
     }
 
-    /// Bytes that the trees take.
+    /// Size of the trees in memory, in bytes.
     pub fn bytes(&self) -> usize {
         self.tree.bytes()
     }
 
-    /// Room that [`WorldTree::walk`] needs for children that wait.
-    pub fn most_waiting(&self) -> usize {
-        self.tree.most_waiting
+    /// Size of the stack that [`WorldTree::traverse`] needs.
+    pub fn stack_size(&self) -> usize {
+        self.tree.stack_size
     }
 
-    /// As [`Tree::walk`], at a time.
+    /// Traverses the tree at a time; see [`Tree::traverse`].
     #[inline(always)]
-    pub fn walk<L: Lanes, const SORTED: bool>(
+    pub fn traverse<L: Lanes, const SORTED: bool>(
         &self,
         lanes: L,
-        waiting: &mut [u64],
+        stack: &mut [u64],
         (ray, time): (&Ray, f64),
         limit: f64,
         mut visit: impl FnMut(&mut [u64], Part) -> f64,
-        fetch: impl Fn(Part),
+        prefetch: impl Fn(Part),
     ) {
-        self.tree.walk::<L, SORTED>(
+        self.tree.traverse::<L, SORTED>(
             lanes,
-            waiting,
+            stack,
             (ray, self.root(time)),
             limit,
             #[inline(always)]
-            |waiting, leaf| visit(waiting, self.numbers.part(leaf)),
+            |stack, leaf| visit(stack, self.numbers.part(leaf)),
             #[inline(always)]
-            |leaf| fetch(self.numbers.part(leaf)),
+            |leaf| prefetch(self.numbers.part(leaf)),
         );
     }
 
@@ -193,9 +187,9 @@ mod tests {
     use crate::accel::lanes::Portable;
 
     /// A cube of 0.9 metres.
-    fn cube(x: f64) -> Bounds {
+    fn cube(x: f64) -> Aabb {
         let centre = DVec3::new(x, 0.0, 0.0);
-        Bounds {
+        Aabb {
             min: centre,
             max: centre,
         }
@@ -209,10 +203,10 @@ mod tests {
             direction: DVec3::X,
         };
         let mut parts = Vec::new();
-        let mut waiting = vec![0; tree.most_waiting()];
-        tree.walk::<_, true>(
+        let mut stack = vec![0; tree.stack_size()];
+        tree.traverse::<_, true>(
             Portable,
-            &mut waiting,
+            &mut stack,
             (&ray, time),
             f64::INFINITY,
             |_, part| {
@@ -228,7 +222,7 @@ mod tests {
     fn every_part_has_a_number_of_its_own() {
         for objects in [1, 2, 7, 8, 1000] {
             let numbers = Numbers::new(objects);
-            let last = numbers.most_leaves() as u32 - 1;
+            let last = numbers.max_leaves() as u32 - 1;
             for object in [0, objects / 2, objects - 1] {
                 for leaf in [None, Some(0), Some(last)] {
                     let part = Part { object, leaf };
@@ -243,10 +237,10 @@ mod tests {
     fn what_moves_is_met_among_what_stands_still() {
         // A hundred leaves in a row; the second object passes from before them over their middle to behind them.
         let leaves = (0..100).map(|x| cube(f64::from(x))).collect();
-        let slices: Vec<Vec<Bounds>> = [-10.0, 49.5, 200.0]
-            .map(|x| vec![Bounds::EMPTY, cube(x)])
+        let slices: Vec<Vec<Aabb>> = [-10.0, 49.5, 200.0]
+            .map(|x| vec![Aabb::EMPTY, cube(x)])
             .into();
-        let tree = WorldTree::over(&[Some(leaves), None], &slices, [0.0, 3.0]);
+        let tree = WorldTree::build(&[Some(leaves), None], &slices, [0.0, 3.0]);
         for (time, places) in [(0.5, 0..1), (1.5, 1..100), (3.0, 100..101)] {
             let mut parts = met(&tree, time);
             let place = parts.iter().position(|part| part.object == 1);
@@ -260,10 +254,10 @@ mod tests {
 
     #[test]
     fn slices_share_the_tree_of_what_stands_still() {
-        let leaves: Vec<Bounds> = (0..1000).map(|x| cube(f64::from(x))).collect();
+        let leaves: Vec<Aabb> = (0..1000).map(|x| cube(f64::from(x))).collect();
         let bytes = |slices: usize| {
-            let slices = vec![vec![Bounds::EMPTY, cube(-5.0)]; slices];
-            WorldTree::over(&[Some(leaves.clone()), None], &slices, [0.0, 1.0]).bytes()
+            let slices = vec![vec![Aabb::EMPTY, cube(-5.0)]; slices];
+            WorldTree::build(&[Some(leaves.clone()), None], &slices, [0.0, 1.0]).bytes()
         };
         // Over a thousand leaves there are at least 143 nodes; above 16 of them and one object, at most 17.
         assert!(bytes(8) < 2 * bytes(1), "{} and {}", bytes(8), bytes(1));

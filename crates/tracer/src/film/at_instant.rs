@@ -1,42 +1,42 @@
-//! What is seen at one time, as it was at the frame's instant.
+//! The view of the frame's instant on points that are seen at other times.
 
 use glam::{DVec2, DVec3, Vec3};
 
 use crate::film::canvas::Canvas;
 use crate::film::sampler::Sampler;
+use crate::geometry::hit::Hit;
 use crate::geometry::ray::Ray;
-use crate::light::path::{Integrator, LIFT, PathSample};
-use crate::material::surface::{corners, winding};
+use crate::light::integrator::{Integrator, LIFT, PathSample};
+use crate::material::surface::winding_normal;
 use crate::motion::camera::View;
 use crate::motion::poses::Poses;
-use crate::stage::{Hit, Stage};
+use crate::stage::Stage;
 
-/// Places are projected again and err by less than this many pixels: what is seen at the picture's very border is in it.
+/// Rounding of a projected place, in pixels; points at the picture's very border still count as inside.
 const ROUNDING: f64 = 1e-9;
 
-/// The instant, made ready to be asked about what is seen at other times.
-pub(crate) struct Recall {
+/// The camera of the instant, and the picture that it takes.
+pub(crate) struct InstantView {
     view: View,
     canvas: Canvas,
-    /// Nothing changes in the world and all surfaces look the same from everywhere: shading at the instant is then shading at
-    /// any time.
+    /// True where nothing changes in the world and all surfaces are diffuse: shading is then the same at all times.
     unchanging: bool,
 }
 
-/// One sample as it was at the instant.
+/// One sample, as it was at the instant.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Recalled {
-    /// What the visible point would have sent beyond what it sends now; none where that was not asked.
+pub(crate) struct InstantSample {
+    /// Radiance of the visible point at the instant, minus its radiance now; none where it was not asked for.
     pub shift: Option<Vec3>,
-    /// Where it was, in pixels from the picture's top left; none behind the camera.
+    /// Place of the point at the instant, in pixels from the picture's top left; none behind the camera.
     pub place: Option<DVec2>,
-    /// Whether the frame shows it.
-    pub known: bool,
+    /// True if the frame shows the point.
+    pub is_shown: bool,
 }
 
-/// Sums over samples.
+/// Sums over the samples of a pixel.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Recollection {
+pub(crate) struct InstantSums {
     live: DVec3,
     shift: DVec3,
     shifts: u32,
@@ -46,9 +46,9 @@ pub(crate) struct Recollection {
     spread: DVec3,
 }
 
-/// The means of a pixel.
+/// Means over the samples of a pixel.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Recollected {
+pub(crate) struct InstantMeans {
     pub frozen: DVec3,
     pub unknowable: f64,
     pub placed: f64,
@@ -57,8 +57,17 @@ pub(crate) struct Recollected {
     pub spread: DVec3,
 }
 
-impl Recall {
-    pub fn of(stage: &Stage, canvas: Canvas) -> Self {
+/// The ray of the instant's camera to a visible point.
+struct InstantRay {
+    ray: Ray,
+    hit: Hit,
+    point: DVec3,
+    /// True if the camera saw the same side of the surface then.
+    same_side: bool,
+}
+
+impl InstantView {
+    pub fn new(stage: &Stage, canvas: Canvas) -> Self {
         Self {
             view: stage.scene.camera.view(0.0, canvas.width, canvas.height),
             canvas,
@@ -66,8 +75,8 @@ impl Recall {
         }
     }
 
-    /// The sample that `ray` brought home at the time of `poses`; `then` are the poses of the instant. Shading once more is
-    /// the dear part: `shade` says whether to.
+    /// Looks back at a sample that `ray` found at the time of `poses`; `then` are the poses of the instant. `shade` asks for
+    /// the shading at the instant, which is the expensive part.
     pub fn sample(
         &self,
         integrator: &Integrator,
@@ -76,29 +85,30 @@ impl Recall {
         sample: &PathSample,
         sampler: &Sampler,
         shade: bool,
-    ) -> Recalled {
+    ) -> InstantSample {
+        let stage = integrator.stage;
         let Some(hit) = &sample.hit else {
-            return self.background(integrator.stage, then, ray.direction, shade);
+            return self.sample_background(stage, then, ray.direction, shade);
         };
-        let point = self.point(integrator.stage, then, hit);
-        let sight = self.sight(integrator.stage, (poses, then), ray, hit, point);
+        let point = self.point(stage, then, hit);
+        let instant = self.ray_to(stage, (poses, then), ray, hit, point);
         let place = self.view.project(point).map(DVec2::from);
         let shift = shade.then(|| {
             if self.unchanging || !sample.scattered {
                 return Vec3::ZERO;
             }
-            let frozen = integrator.radiance_along(then, sight.ray, Some(sight.hit), sampler);
+            let frozen = integrator.radiance_along(then, instant.ray, Some(instant.hit), sampler);
             frozen - sample.radiance
         });
-        Recalled {
+        InstantSample {
             shift,
             place,
-            known: self.is_shown(integrator.stage, then, &sight, place),
+            is_shown: self.shows_point(stage, then, &instant, place),
         }
     }
 
-    /// Whether the frame shows what `ray` meets at the time of `poses`; `then` are the poses of the instant.
-    pub fn knows(
+    /// Tells that the frame shows the point that `ray` meets at the time of `poses`; `then` are the poses of the instant.
+    pub fn shows(
         &self,
         stage: &Stage,
         (poses, then): (&mut Poses, &mut Poses),
@@ -106,68 +116,69 @@ impl Recall {
         hit: Option<&Hit>,
     ) -> bool {
         let Some(hit) = hit else {
-            return self.background(stage, then, ray.direction, false).known;
+            return self
+                .sample_background(stage, then, ray.direction, false)
+                .is_shown;
         };
         let point = self.point(stage, then, hit);
-        let sight = self.sight(stage, (poses, then), ray, hit, point);
+        let instant = self.ray_to(stage, (poses, then), ray, hit, point);
         let place = self.view.project(point).map(DVec2::from);
-        self.is_shown(stage, then, &sight, place)
+        self.shows_point(stage, then, &instant, place)
     }
 
-    /// Whether the frame shows the point that was looked at, which lay at `place` in it.
-    fn is_shown(
+    /// Tells that the frame shows a point, which lay at `place` in it.
+    fn shows_point(
         &self,
         stage: &Stage,
         then: &mut Poses,
-        sight: &Sight,
+        instant: &InstantRay,
         place: Option<DVec2>,
     ) -> bool {
-        sight.same_side
-            && place.is_some_and(|place| self.shows(place))
-            && !self.hidden(stage, then, sight)
+        instant.same_side
+            && place.is_some_and(|place| self.contains(place))
+            && !self.is_hidden(stage, then, instant)
     }
 
-    /// Infinity sends the same at all times.
-    fn background(
+    /// Looks back at a point at infinity, whose radiance never changes.
+    fn sample_background(
         &self,
         stage: &Stage,
         then: &mut Poses,
         direction: DVec3,
         shade: bool,
-    ) -> Recalled {
+    ) -> InstantSample {
         let place = self.view.project_direction(direction).map(DVec2::from);
         let ray = Ray {
             origin: self.view.to_world.translation,
             direction,
         };
-        Recalled {
+        InstantSample {
             shift: shade.then_some(Vec3::ZERO),
             place,
-            known: place.is_some_and(|place| self.shows(place))
+            is_shown: place.is_some_and(|place| self.contains(place))
                 && !stage.blocked(then, &ray, f64::INFINITY),
         }
     }
 
-    /// Where a hit's point was in the world.
+    /// The position of a hit's point in the world at the instant.
     fn point(&self, stage: &Stage, then: &mut Poses, hit: &Hit) -> DVec3 {
         let mesh = &stage.scene.meshes[stage.scene.objects[hit.object].mesh];
-        let [a, b, c] = corners(mesh, hit.triangle, 0.0);
-        let point = a + hit.weights[0] * (b - a) + hit.weights[1] * (c - a);
+        let point = mesh.at(0.0).point(hit.triangle, hit.weights);
         then.pose(hit.object).to_world.transform_point3(point)
     }
 
-    /// The ray on which the instant's camera looked at the point. Where it looked at the surface's other side, the side
-    /// that is seen now is looked at in the same way as now, in the object's own space.
-    fn sight(
+    /// The ray of the instant's camera to the point. Where that camera saw the surface's other side, the ray instead meets
+    /// the side that is seen now, in the same direction as now in the object's own space.
+    fn ray_to(
         &self,
         stage: &Stage,
         (poses, then): (&mut Poses, &mut Poses),
         ray: &Ray,
         hit: &Hit,
         point: DVec3,
-    ) -> Sight {
+    ) -> InstantRay {
         let side = |poses: &mut Poses, time: f64, direction: DVec3| {
-            winding(stage.scene, poses.pose(hit.object), hit, time).dot(direction) > 0.0
+            winding_normal(stage.scene, poses.pose(hit.object), hit, time).dot(direction) > 0.0
         };
         let eye = self.view.to_world.translation;
         let way = point - eye;
@@ -186,7 +197,7 @@ impl Recall {
                 .normalize()
         };
         let distance = if same_side { way.length() } else { hit.t };
-        Sight {
+        InstantRay {
             ray: Ray {
                 origin: point - distance * direction,
                 direction,
@@ -201,16 +212,17 @@ impl Recall {
         }
     }
 
-    fn shows(&self, place: DVec2) -> bool {
+    /// Tells that a place lies inside the picture.
+    fn contains(&self, place: DVec2) -> bool {
         let size = DVec2::new(f64::from(self.canvas.width), f64::from(self.canvas.height));
         place.cmpge(DVec2::splat(-ROUNDING)).all() && place.cmplt(size + ROUNDING).all()
     }
 
-    /// Whether anything lies between the eye and the point: a ray that leaves the surface as shadow rays do.
-    fn hidden(&self, stage: &Stage, then: &mut Poses, sight: &Sight) -> bool {
-        let facet = stage.facet(then, &sight.ray, &sight.hit);
-        let magnitude = sight.point.abs().max_element().max(sight.hit.t);
-        let start = sight.point + LIFT * magnitude * facet;
+    /// Tells that anything lies between the eye and the point. The ray leaves the surface as shadow rays do.
+    fn is_hidden(&self, stage: &Stage, then: &mut Poses, instant: &InstantRay) -> bool {
+        let facet = stage.facet(then, &instant.ray, &instant.hit);
+        let magnitude = instant.point.abs().max_element().max(instant.hit.t);
+        let start = instant.point + LIFT * magnitude * facet;
         let way = self.view.to_world.translation - start;
         let back = Ray {
             origin: start,
@@ -220,25 +232,16 @@ impl Recall {
     }
 }
 
-/// A look at a point of a surface at the instant.
-struct Sight {
-    ray: Ray,
-    hit: Hit,
-    point: DVec3,
-    /// Whether the camera saw the same side then.
-    same_side: bool,
-}
-
-impl Recollection {
-    /// Adds a sample of this radiance of the pixel with this centre.
-    pub fn add(&mut self, recalled: &Recalled, radiance: Vec3, centre: [f64; 2]) {
+impl InstantSums {
+    /// Adds a sample of this radiance, of the pixel with this centre.
+    pub fn add(&mut self, sample: &InstantSample, radiance: Vec3, centre: [f64; 2]) {
         self.live += radiance.as_dvec3();
-        if let Some(shift) = recalled.shift {
+        if let Some(shift) = sample.shift {
             self.shift += shift.as_dvec3();
             self.shifts += 1;
         }
-        self.unknowable += f64::from(!recalled.known);
-        if let Some(place) = recalled.place {
+        self.unknowable += f64::from(!sample.is_shown);
+        if let Some(place) = sample.place {
             let offset = place - DVec2::from(centre);
             self.placed += 1.0;
             self.offset += offset;
@@ -250,12 +253,14 @@ impl Recollection {
         }
     }
 
-    /// The means over so many samples. Frozen shading is the live one, of all samples, and its mean change over those that
-    /// were shaded again: most change little or not at all, so that a part of them tells it nearly as well as all would.
-    /// Where few change much the estimate may fall below 0, and has to, or its mean would be too high.
-    pub fn over(&self, samples: u32) -> Recollected {
+    /// The means over `samples`.
+    ///
+    /// Frozen shading is the live shading of all samples plus the mean shift of those that were shaded again. Most samples
+    /// shift little or not at all, so that a part of them suffices. Where few shift much the estimate may fall below 0; it
+    /// must not be clamped, or its mean would be too high.
+    pub fn means(&self, samples: u32) -> InstantMeans {
         let samples = f64::from(samples);
-        Recollected {
+        InstantMeans {
             frozen: self.live / samples + self.shift / f64::from(self.shifts),
             unknowable: self.unknowable / samples,
             placed: self.placed / samples,

@@ -1,14 +1,14 @@
-//! The pixels of a picture, and of a band around it that only a frame has.
+//! The pixels of a picture and of the guard band around it.
 
-/// A picture's size, and how far the rasters reach beyond it on every side. Positions are counted from the picture's top
-/// left corner, so that those in the band are negative or beyond the size.
+/// The size of a picture and of its guard band, which only frames have. Positions count from the picture's top left corner:
+/// in the band they are negative or beyond the size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Canvas {
     /// Pixels per row of the picture.
     pub width: u32,
     /// Rows of the picture.
     pub height: u32,
-    /// Pixels beyond the picture on every side.
+    /// Pixels by which the rasters extend beyond the picture on every side.
     pub guard_band: u32,
 }
 
@@ -32,20 +32,20 @@ impl Canvas {
         self.height + 2 * self.guard_band
     }
 
-    /// Every pixel, row by row.
+    /// Indices of all pixels, row by row.
     pub fn pixels(&self) -> Vec<u32> {
         (0..self.columns() * self.rows()).collect()
     }
 
-    /// Top left corner of a pixel.
+    /// The top left corner of a pixel.
     pub fn corner(&self, pixel: u32) -> [f64; 2] {
         [pixel % self.columns(), pixel / self.columns()]
             .map(|index| f64::from(index) - f64::from(self.guard_band))
     }
 
-    /// A number of the pixel's own; inside the picture it does not depend on the band, so that neither do the random
-    /// numbers that it chooses.
-    pub fn number(&self, pixel: u32) -> u32 {
+    /// The number that seeds a pixel. Inside the picture it does not depend on the guard band, and so neither do the random
+    /// numbers.
+    pub fn seed_number(&self, pixel: u32) -> u32 {
         let [column, row] = [pixel % self.columns(), pixel / self.columns()]
             .map(|index| index.wrapping_sub(self.guard_band));
         if column < self.width && row < self.height {
@@ -70,13 +70,13 @@ mod tests {
         let mut numbers: Vec<u32> = padded
             .pixels()
             .iter()
-            .map(|&pixel| padded.number(pixel))
+            .map(|&pixel| padded.seed_number(pixel))
             .collect();
         for pixel in padded.pixels() {
             let [x, y] = padded.corner(pixel);
             if (0.0..5.0).contains(&x) && (0.0..3.0).contains(&y) {
                 let of_bare = (y * 5.0 + x) as u32;
-                assert_eq!(padded.number(pixel), of_bare);
+                assert_eq!(padded.seed_number(pixel), of_bare);
                 assert_eq!(bare.corner(of_bare), [x, y]);
             }
         }

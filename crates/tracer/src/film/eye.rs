@@ -1,4 +1,4 @@
-//! What looks: the camera and all poses at one time after the other.
+//! The camera and all poses, at the time of one sample after the other.
 
 use crate::film::canvas::Canvas;
 use crate::motion::camera::View;
@@ -6,11 +6,11 @@ use crate::motion::poses::Poses;
 use crate::scene::Scene;
 use crate::stage::Stage;
 
-/// The camera and all poses, moving from sample to sample.
+/// The camera and all poses of one thread.
 pub(crate) struct Eye<'a> {
     scene: &'a Scene,
     pub poses: Poses<'a>,
-    /// As everything is at `t = 0`.
+    /// Poses at `t = 0`.
     pub instant: Poses<'a>,
     view: View,
     moves: bool,
@@ -33,8 +33,8 @@ impl<'a> Eye<'a> {
         }
     }
 
-    /// Everything as it is at `time`.
-    pub fn look(&mut self, time: f64) -> &View {
+    /// Moves everything to `time`; returns the camera's view.
+    pub fn view_at(&mut self, time: f64) -> &View {
         self.poses.at(time);
         if self.moves {
             self.view = self.scene.camera.view(time, self.size[0], self.size[1]);

@@ -1,32 +1,33 @@
-//! The last check of what was rendered: every pixel is a finite number.
+//! The last check of a render: every pixel is a finite number.
 
 use frame::{AtInstant, Picture, Plane, Raster};
 
+use crate::error::TraceError;
+use crate::limits::LARGEST_VALUE;
 use crate::scene::Scene;
-use crate::settings::{LARGEST_VALUE, TraceError};
 
-/// Refuses a picture with a pixel that is no finite number.
+/// Refuses a picture with a pixel that is not a finite number.
 pub(crate) fn check_picture(scene: &Scene, picture: &Picture) -> Result<(), TraceError> {
-    check(scene, "color", &picture.color)?;
+    check_layer(scene, "color", &picture.color)?;
     let mut coverages = picture.coverage.iter().enumerate();
     coverages.try_for_each(|(id, plane)| check_coverage(scene, id, plane))
 }
 
-/// Refuses what was recalled of the instant where a pixel is no finite number.
+/// Refuses layers of the instant with a pixel that is not a finite number.
 pub(crate) fn check_at_instant(scene: &Scene, at_instant: &AtInstant) -> Result<(), TraceError> {
-    check(scene, "frozen", &at_instant.frozen)?;
-    check(scene, "offset", &at_instant.offset)?;
-    check(scene, "spread", &at_instant.spread)
+    check_layer(scene, "frozen", &at_instant.frozen)?;
+    check_layer(scene, "offset", &at_instant.offset)?;
+    check_layer(scene, "spread", &at_instant.spread)
 }
 
-/// Refuses a layer with a pixel that is no finite number.
-pub(crate) fn check<const N: usize>(
+/// Refuses a layer with a pixel that is not a finite number.
+pub(crate) fn check_layer<const N: usize>(
     scene: &Scene,
     layer: &str,
     raster: &Raster<[f32; N]>,
 ) -> Result<(), TraceError> {
-    first(scene, layer, raster, |pixel| {
-        // In this order NaN is the largest of all.
+    check_pixels(scene, layer, raster, |pixel| {
+        // In this order NaN is the largest number.
         let bad = |value: &f32| value.abs().total_cmp(&LARGEST_VALUE).is_gt();
         pixel.iter().copied().find(bad)
     })
@@ -37,13 +38,13 @@ fn check_coverage(scene: &Scene, id: usize, plane: &Plane) -> Result<(), TraceEr
         Some(object) => &scene.objects[object].name,
         None => "background",
     };
-    first(scene, &format!("coverage.{name}"), plane, |value| {
+    check_pixels(scene, &format!("coverage.{name}"), plane, |value| {
         (!value.is_finite()).then_some(*value)
     })
 }
 
-/// An error about the first pixel that `bad` finds a value in.
-fn first<T>(
+/// Refuses a layer by the first pixel in which `bad` finds a value.
+fn check_pixels<T>(
     scene: &Scene,
     layer: &str,
     raster: &Raster<T>,

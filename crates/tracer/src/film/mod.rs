@@ -1,4 +1,4 @@
-//! The samples of a picture: their random numbers, their times and their means.
+//! The samples of a picture: their places, times and random numbers, and their means.
 
 pub(crate) mod at_instant;
 pub(crate) mod canvas;

@@ -1,4 +1,4 @@
-//! Many samples of many pixels, in an order that no number of threads changes.
+//! The samples of many pixels, summed in an order that does not depend on the number of threads.
 
 use std::ops::Range;
 
@@ -6,52 +6,52 @@ use frame::{Image, Picture, Plane};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::film::at_instant::{Recall, Recollected, Recollection};
+use crate::error::TraceError;
+use crate::film::at_instant::{InstantMeans, InstantSums, InstantView};
 use crate::film::canvas::Canvas;
 use crate::film::eye::Eye;
 use crate::film::sampler::{Sampler, Stream, pixel_seed};
-use crate::film::shutter_sampler::Opening;
-use crate::light::path::Integrator;
+use crate::film::shutter_sampler::ShutterSampler;
+use crate::light::integrator::Integrator;
 use crate::progress::Meter;
-use crate::settings::TraceError;
 
-/// Pixels between two looks at the meter.
+/// Pixels that a thread takes at a time; between two tasks it reports progress.
 pub(crate) const PIXELS_PER_TASK: usize = 32;
 
-/// One sample in so many is shaded once more as at the instant.
+/// Samples per sample that is shaded once more as at the instant.
 const SHADED_AGAIN: u32 = 4;
 
-/// When the samples of a picture are taken.
+/// Times of the samples of a picture.
 #[derive(Clone, Copy)]
 pub(crate) enum Times<'a> {
-    /// All at `t = 0`.
+    /// The instant `t = 0`.
     Instant,
-    /// Evenly over the light that passes the shutter.
-    Open(&'a Opening),
-    /// At the middles of so many equal parts of that light.
-    Midpoints(&'a Opening, u32),
+    /// Times spread evenly over the light that passes the shutter.
+    Shutter(&'a ShutterSampler),
+    /// The middles of this many equal parts of that light.
+    Midpoints(&'a ShutterSampler, u32),
 }
 
-/// Where in a pixel its samples lie.
+/// Places of the samples in a pixel.
 #[derive(Clone, Copy)]
 pub(crate) enum Places {
-    /// Evenly over its area.
+    /// Places spread evenly over its area.
     Area,
-    /// All at its centre.
+    /// The centre.
     Centre,
 }
 
-/// A render: what every pixel's samples have in common.
+/// The parameters of a render, the same for every pixel.
 pub(crate) struct Film<'a> {
     pub integrator: Integrator<'a>,
     pub canvas: Canvas,
     pub places: Places,
     pub times: Times<'a>,
-    /// Whether samples are recalled as they were at the instant; the stage must then hold `t = 0`.
-    pub recall: Option<Recall>,
-    /// Independent, complete sets of samples, by the numbers that choose their random numbers.
+    /// View of the instant, if samples are looked up there; the stage must then hold `t = 0`.
+    pub instant: Option<InstantView>,
+    /// Independent, complete sets of samples, by the numbers that seed them.
     pub replicates: Range<u32>,
-    /// A power of two.
+    /// Samples per pixel of each, a power of two.
     pub samples_per_replicate: u32,
     pub seed: u64,
     pub stream: Stream,
@@ -61,10 +61,10 @@ pub(crate) struct Film<'a> {
 #[derive(Clone, Debug)]
 pub(crate) struct Estimate {
     pub radiance: DVec3,
-    /// Per object id, the samples that saw it.
+    /// Samples that saw each object, by id.
     pub seen: Vec<u32>,
-    /// Means of what was recalled, if anything was.
-    pub recollected: Recollected,
+    /// Means at the instant; zero without a view of it.
+    pub at_instant: InstantMeans,
 }
 
 /// A pixel's colour and coverages.
@@ -75,14 +75,14 @@ pub(crate) struct PixelMean {
 }
 
 impl Times<'_> {
-    /// From a number in [0, 1), for a row of the picture.
+    /// The time for a number in [0, 1), in a row of the picture.
     pub fn at(self, part: f64, row: u32, height: u32) -> f64 {
         match self {
             Times::Instant => 0.0,
-            Times::Open(opening) => opening.at(part, row, height),
-            Times::Midpoints(opening, parts) => {
+            Times::Shutter(shutter) => shutter.time(part, row, height),
+            Times::Midpoints(shutter, parts) => {
                 let parts = f64::from(parts);
-                opening.at(((part * parts).floor() + 0.5) / parts, row, height)
+                shutter.time(((part * parts).floor() + 0.5) / parts, row, height)
             }
         }
     }
@@ -94,8 +94,8 @@ impl<'a> Film<'a> {
         self.replicates.len() as u64 * u64::from(self.samples_per_replicate)
     }
 
-    /// Renders the listed pixels (indices in row-major order) and turns each one's estimates into a result.
-    pub fn develop<T: Send>(
+    /// Renders the listed pixels (indices in row-major order) and turns the estimates of each into a result.
+    pub fn render<T: Send>(
         &self,
         pixels: &[u32],
         meter: &Meter,
@@ -126,10 +126,10 @@ impl<'a> Film<'a> {
     fn estimate(&self, eye: &mut Eye, pixel: u32, replicate: u32) -> Estimate {
         let [left, top] = self.canvas.corner(pixel);
         let row = pixel / self.canvas.columns();
-        let number = self.canvas.number(pixel);
+        let number = self.canvas.seed_number(pixel);
         let seed = pixel_seed(self.seed, self.stream, number, replicate);
         let mut sum = DVec3::ZERO;
-        let mut recollection = Recollection::default();
+        let mut instant_sums = InstantSums::default();
         let mut seen = vec![0; self.integrator.stage.scene.objects.len() + 1];
         for index in 0..self.samples_per_replicate {
             let sampler = Sampler::new(seed, index);
@@ -139,13 +139,13 @@ impl<'a> Film<'a> {
                 Places::Centre => [0.5, 0.5],
             };
             let time = self.times.at(part, row, self.canvas.height);
-            let ray = eye.look(time).ray(left + x, top + y);
+            let ray = eye.view_at(time).ray(left + x, top + y);
             let sample = self.integrator.trace(&mut eye.poses, ray, &sampler);
             sum += sample.radiance.as_dvec3();
             seen[sample.object_id()] += 1;
-            if let Some(recall) = &self.recall {
+            if let Some(instant) = &self.instant {
                 let poses = (&mut eye.poses, &mut eye.instant);
-                let recalled = recall.sample(
+                let at_instant = instant.sample(
                     &self.integrator,
                     poses,
                     &ray,
@@ -153,15 +153,15 @@ impl<'a> Film<'a> {
                     &sampler,
                     index % SHADED_AGAIN == 0,
                 );
-                recollection.add(&recalled, sample.radiance, [left + 0.5, top + 0.5]);
+                instant_sums.add(&at_instant, sample.radiance, [left + 0.5, top + 0.5]);
             }
         }
         Estimate {
             radiance: sum / f64::from(self.samples_per_replicate),
             seen,
-            recollected: match self.recall {
-                Some(_) => recollection.over(self.samples_per_replicate),
-                None => Recollected::default(),
+            at_instant: match self.instant {
+                Some(_) => instant_sums.means(self.samples_per_replicate),
+                None => InstantMeans::default(),
             },
         }
     }
@@ -193,8 +193,8 @@ impl PixelMean {
     }
 }
 
-/// A picture of all its pixels in row-major order.
-pub(crate) fn picture(canvas: Canvas, pixels: &[PixelMean]) -> Picture {
+/// Assembles a picture from its pixels in row-major order.
+pub(crate) fn assemble_picture(canvas: Canvas, pixels: &[PixelMean]) -> Picture {
     let [width, height] = [canvas.columns(), canvas.rows()];
     let objects = pixels.first().map_or(0, |pixel| pixel.coverage.len());
     Picture {

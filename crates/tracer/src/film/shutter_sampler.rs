@@ -1,30 +1,30 @@
-//! Times at which light passes a shutter, in proportion to its efficiency.
+//! Times within a shutter interval, in proportion to the shutter's efficiency.
 
 use frame::{Shutter, ShutterProfile};
 
-/// A shutter made ready to draw times from: its cumulative efficiency, and the way back.
+/// Draws times from a shutter by its cumulative efficiency.
 #[derive(Clone, Debug)]
-pub(crate) struct Opening {
+pub(crate) struct ShutterSampler {
     shutter: Shutter,
     profile: ShutterProfile,
     pieces: Vec<Piece>,
-    /// Integral of the efficiency over the interval taken as 1.
+    /// Integral of the efficiency over the interval, whose length counts as 1.
     total: f64,
 }
 
 /// A part of the interval in which the efficiency is linear.
 #[derive(Clone, Copy, Debug)]
 struct Piece {
-    /// Where it begins and how long it is, as parts of the interval.
+    /// Start and length, as parts of the interval.
     start: f64,
     length: f64,
-    /// At its two ends.
+    /// Efficiencies at both ends.
     efficiencies: [f64; 2],
-    /// Integral of the efficiency up to its end.
+    /// Integral of the efficiency up to the end of the piece.
     until: f64,
 }
 
-impl Opening {
+impl ShutterSampler {
     pub fn new(shutter: Shutter, profile: &ShutterProfile) -> Self {
         let mut total = 0.0;
         let pieces = profile
@@ -51,15 +51,15 @@ impl Opening {
         }
     }
 
-    /// The time in frames by which `part` of all light that a row receives has passed; `part` is in [0, 1).
-    pub fn at(&self, part: f64, row: u32, height: u32) -> f64 {
+    /// The time, in frames, by which `part` of all light of a row has passed; `part` is in [0, 1).
+    pub fn time(&self, part: f64, row: u32, height: u32) -> f64 {
         self.shutter.at(self.place(part * self.total)) + self.profile.row_offset(row, height)
     }
 
     /// The part of the interval after which the efficiency's integral is `sum`.
     fn place(&self, sum: f64) -> f64 {
         let index = self.pieces.partition_point(|piece| piece.until <= sum);
-        // Rounding may lead past the end.
+        // Rounding may lead past the last piece.
         let piece = self.pieces[index.min(self.pieces.len() - 1)];
         let [first, last] = piece.efficiencies;
         let before = piece.until - 0.5 * (first + last) * piece.length;

@@ -1,28 +1,28 @@
-//! Axis-aligned boxes in `f64`.
+//! Axis-aligned bounding boxes in `f64`.
 
 use glam::DVec3;
 
 /// A box; empty when `min` exceeds `max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
+pub(crate) struct Aabb {
     /// Least corner, metres.
     pub min: DVec3,
     /// Greatest corner, metres.
     pub max: DVec3,
 }
 
-impl Bounds {
-    /// Contains nothing; the start of a union.
-    pub const EMPTY: Bounds = Bounds {
+impl Aabb {
+    /// A box that contains nothing: the start of a union.
+    pub const EMPTY: Aabb = Aabb {
         min: DVec3::INFINITY,
         max: DVec3::NEG_INFINITY,
     };
 
     /// The smallest box around points.
     pub fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
-        points.into_iter().fold(Self::EMPTY, |bounds, point| Self {
-            min: bounds.min.min(point),
-            max: bounds.max.max(point),
+        points.into_iter().fold(Self::EMPTY, |aabb, point| Self {
+            min: aabb.min.min(point),
+            max: aabb.max.max(point),
         })
     }
 
@@ -34,7 +34,7 @@ impl Bounds {
         }
     }
 
-    /// Moves every face outwards.
+    /// The box with every face moved outwards, in metres.
     pub fn grown(self, by: f64) -> Self {
         Self {
             min: self.min - by,
@@ -47,7 +47,7 @@ impl Bounds {
         0.5 * (self.min + self.max)
     }
 
-    /// From the least to the greatest corner, metres.
+    /// Distance from the least to the greatest corner, metres.
     pub fn diagonal(self) -> f64 {
         (self.max - self.min).length()
     }
@@ -59,7 +59,7 @@ impl Bounds {
     }
 
     /// The greatest absolute coordinate of any corner, metres.
-    pub fn reach(self) -> f64 {
+    pub fn largest_coordinate(self) -> f64 {
         self.min.abs().max(self.max.abs()).max_element()
     }
 }

@@ -1,4 +1,4 @@
-//! Rays brought near what they are to meet, or told that they miss it.
+//! Balls around meshes: rays that miss one skip the mesh, rays from afar start at it.
 
 use glam::DVec3;
 
@@ -6,9 +6,10 @@ use crate::geometry::ray::Ray;
 
 /// Room for rounding.
 const SLACK: f64 = 1.0 + 1e-6;
-/// A ray that starts within so many radii of the centre stays where it is: its origin is of the mesh's own magnitude.
+/// Radii from the centre within which a ray keeps its origin, which is there of the mesh's own magnitude.
 const NEAR: f64 = 8.0;
-/// From so many radii away squares of distances are rounded by a hundredth of the slack.
+/// Radii from the centre beyond which the early test gives no answer. There squared distances are rounded by a hundredth of
+/// the slack.
 const FAR: f64 = 1e4;
 
 /// A ball around a mesh.
@@ -17,10 +18,10 @@ pub(crate) struct Ball {
     radius_squared: f64,
 }
 
-/// A ray moved up to a ball, so that its origin is of the ball's own magnitude.
+/// A ray whose origin is moved up to a ball, so that it is of the ball's own magnitude.
 pub(crate) struct Approach {
     pub ray: Ray,
-    /// What was taken off `t`, in units of the direction.
+    /// Distance by which the origin was moved, in units of the direction.
     pub start: f64,
 }
 
@@ -44,7 +45,7 @@ impl Ball {
         }
     }
 
-    /// Whether a ray certainly misses the ball. From very far away rounding leaves that open.
+    /// Tells that a ray certainly misses the ball. From very far away rounding leaves that open.
     #[inline(always)]
     pub fn is_missed(&self, ray: &Ray) -> bool {
         let way = self.centre - ray.origin;
@@ -57,8 +58,8 @@ impl Ball {
             && (along <= 0.0 || aside_squared > self.radius_squared * squared)
     }
 
-    /// None where the ray misses the ball. A ball may be hit at its border only, by a flat mesh: it is grown by
-    /// rounding, never shrunk.
+    /// Moves a ray up to the ball; none where the ray misses it. A flat mesh may touch its ball at the border only, so the
+    /// ball is grown by rounding, never shrunk.
     #[inline(always)]
     pub fn approach(&self, ray: &Ray) -> Option<Approach> {
         let way = self.centre - ray.origin;
@@ -93,9 +94,9 @@ impl Ball {
 }
 
 impl Approach {
-    /// A limit on `t` as one from the approached origin.
+    /// A limit on `t`, counted from the moved origin.
     #[inline(always)]
-    pub fn local(&self, limit: f64) -> f64 {
+    pub fn local_limit(&self, limit: f64) -> f64 {
         limit - self.start
     }
 }

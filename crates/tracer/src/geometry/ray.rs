@@ -2,12 +2,13 @@
 
 use glam::{DAffine3, DVec3};
 
-/// Points `origin + t * direction` for `t > 0`.
+/// The points `origin + t * direction` for `t > 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     /// Metres.
     pub origin: DVec3,
-    /// Unit in the world; kept as transformed in an object's space, so that `t` means the same in both.
+    /// Unit in the world. In an object's space it keeps the length that the transform gives it, so that `t` means the same
+    /// in both.
     pub direction: DVec3,
 }
 

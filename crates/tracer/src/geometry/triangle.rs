@@ -1,4 +1,4 @@
-//! Where a ray crosses a triangle, without gaps between neighbours.
+//! The crossing of a ray and a triangle, without gaps between neighbours.
 
 use glam::DVec3;
 
@@ -19,15 +19,16 @@ pub(crate) struct Crossing {
 /// operations errs by 1.1e-16 of at most that.
 const ROUNDING: f64 = 1e-14;
 
-/// What is behind the origin by more than this part of the greatest length is not crossed. Rounding is a thousandth of it.
+/// Part of the greatest length by which a crossing may lie behind the origin. Rounding is a thousandth of it.
 const BEHIND: f64 = 1e-12;
 
-/// Crosses a triangle from either side; its border belongs to it. None where that is behind the ray, by more than rounding.
+/// Crosses a triangle from either side; its border belongs to it. None where the crossing lies behind the ray by more than
+/// rounding.
 ///
 /// Edge functions in `f64` (Woop, Benthin and Wald 2013 discuss the sheared form). Two triangles that share an edge
 /// compute its function from the same vertices with exactly the opposite sign, so at least one of them accepts. Around a
-/// vertex that is not enough: rounding could turn a ray away from all triangles that meet there. Where a sign is in
-/// doubt it is therefore decided exactly, for one and the same line (Shewchuk 1997, adaptive predicates).
+/// vertex that is not enough: rounding could make every triangle there refuse the ray. A sign in doubt is therefore
+/// decided exactly, for one and the same line (Shewchuk 1997, adaptive predicates).
 #[inline(always)]
 pub(crate) fn cross(ray: &Ray, corners: [DVec3; 3]) -> Option<Crossing> {
     let [a, b, c] = corners.map(|corner| corner - ray.origin);
@@ -51,7 +52,7 @@ pub(crate) fn cross(ray: &Ray, corners: [DVec3; 3]) -> Option<Crossing> {
     if (least(&weights) < 0.0 && greatest(&weights) > 0.0) || total == 0.0 {
         return None;
     }
-    // Before the divisions: rays leave surfaces that their lines cross right behind them.
+    // Tested before the divisions: a ray that leaves a surface has it right behind its origin.
     let [wa, wb, wc] = weights;
     let along = (wa * a + wb * b + wc * c).dot(ray.direction) * total.signum();
     if along < -BEHIND * longest.max_element() * ray.direction.abs().max_element() * total.abs() {

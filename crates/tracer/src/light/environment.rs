@@ -1,10 +1,10 @@
-//! Radiance from infinity as an image of all directions.
+//! Environment maps: radiance from infinity as an image of all directions.
 
 use std::f64::consts::{PI, TAU};
 
 use glam::{DMat3, DVec3, Vec3};
 
-use crate::light::lights::LightSample;
+use crate::light::light_sample::LightSample;
 use crate::scene::EnvironmentMap;
 
 impl EnvironmentMap {
@@ -25,7 +25,7 @@ impl EnvironmentMap {
         Vec3::from(self.texels[row * self.width as usize + column])
     }
 
-    /// Where in the image, in texels from its top left, a unit direction lies.
+    /// The place of a unit direction in the image, in texels from its top left.
     fn place(&self, direction: DVec3) -> [f64; 2] {
         let local = DMat3::from_rotation_y(-self.rotation) * direction;
         let azimuth = local.x.atan2(-local.z);
@@ -44,33 +44,35 @@ impl EnvironmentMap {
         row * self.width as usize + column
     }
 
-    /// The direction at an azimuth, as a part of the image's width, and a height over the horizon, as the sine.
+    /// The direction at an azimuth, as a part of the image's width, and a height above the horizon, as a sine.
     fn direction(&self, across: f64, height: f64) -> DVec3 {
         let (sine, cosine) = (TAU * (across - 0.5)).sin_cos();
         let level = (1.0 - height * height).max(0.0).sqrt();
         DMat3::from_rotation_y(self.rotation) * DVec3::new(level * sine, height, -level * cosine)
     }
 
-    /// Height over the horizon, as the sine, of a row's upper border.
+    /// The height above the horizon of a row's upper border, as a sine.
     fn border(&self, row: usize) -> f64 {
         (PI * row as f64 / f64::from(self.height)).cos()
     }
 }
 
-/// A map's directions, drawn in proportion to about what comes from there: evenly within a texel, texels by the mean of
-/// themselves and their neighbours, so that nothing that interpolation makes bright goes undrawn.
-pub(crate) struct Patches {
+/// Draws directions of an environment map roughly in proportion to its radiance.
+///
+/// A texel is drawn by the mean of itself and its neighbours, so that every direction that interpolation makes bright can be
+/// drawn. Within a texel directions are drawn evenly.
+pub(crate) struct EnvironmentSampler {
     /// Per texel, probability per steradian.
     densities: Vec<f64>,
-    /// Probability of a row or one above it.
+    /// Probability of each row or one above it.
     rows: Vec<f64>,
     /// Per texel, the probability within its row of itself or one to the left.
     columns: Vec<f64>,
 }
 
-impl Patches {
-    /// None where the map is black.
-    pub fn of(map: &EnvironmentMap) -> Option<Self> {
+impl EnvironmentSampler {
+    /// Prepares a map; none where it is black.
+    pub fn new(map: &EnvironmentMap) -> Option<Self> {
         let [width, height] = [map.width as usize, map.height as usize];
         let weights = weights(map);
         let area = |row: usize| (map.border(row) - map.border(row + 1)) * TAU / width as f64;
@@ -95,18 +97,18 @@ impl Patches {
         })
     }
 
-    /// The brightest density and the darkest.
+    /// The greatest and the least density.
     pub fn extremes(&self) -> [f64; 2] {
         let brightest = self.densities.iter().copied().fold(0.0, f64::max);
         let darkest = self.densities.iter().copied().fold(f64::INFINITY, f64::min);
         [brightest, darkest]
     }
 
-    /// A direction from two numbers in [0, 1).
+    /// Draws a direction from two numbers in [0, 1).
     pub fn sample(&self, map: &EnvironmentMap, [u, v]: [f64; 2]) -> LightSample {
         let width = map.width as usize;
-        let (row, down) = place_among(&self.rows, v);
-        let (column, across) = place_among(&self.columns[row * width..(row + 1) * width], u);
+        let (row, down) = find_interval(&self.rows, v);
+        let (column, across) = find_interval(&self.columns[row * width..(row + 1) * width], u);
         let [upper, lower] = [map.border(row), map.border(row + 1)];
         let direction = map.direction(
             (column as f64 + across) / width as f64,
@@ -120,7 +122,7 @@ impl Patches {
         }
     }
 
-    /// Probability per steradian with which [`Patches::sample`] draws a unit direction.
+    /// The probability per steradian with which [`EnvironmentSampler::sample`] draws a unit direction.
     pub fn density(&self, map: &EnvironmentMap, direction: DVec3) -> f64 {
         self.densities[map.cell(direction)]
     }
@@ -155,8 +157,8 @@ fn running_sums(values: &[f64]) -> Vec<f64> {
     values.iter().map(add).collect()
 }
 
-/// Which of the intervals that end at these numbers holds another, and where in it as a part of its length.
-fn place_among(ends: &[f64], number: f64) -> (usize, f64) {
+/// Finds which of the intervals that end at these numbers holds `number`, and its place there as a part of the length.
+fn find_interval(ends: &[f64], number: f64) -> (usize, f64) {
     let index = ends
         .partition_point(|end| *end <= number)
         .min(ends.len() - 1);
@@ -221,13 +223,13 @@ mod tests {
             lamp(),
             map(16, 8, |x, y| [(1 + x) as f32, y as f32, (x * y) as f32]),
         ] {
-            let patches = Patches::of(&map).unwrap();
+            let sampler = EnvironmentSampler::new(&map).unwrap();
             let mut drawn = DVec3::ZERO;
             let mut integral = DVec3::ZERO;
             for at in 0..SIDE * SIDE {
                 let middle = |cell: usize| (cell as f64 + 0.5) / SIDE as f64;
                 let [u, v] = [middle(at % SIDE), middle(at / SIDE)];
-                let sample = patches.sample(&map, [u, v]);
+                let sample = sampler.sample(&map, [u, v]);
                 assert!((sample.direction.length() - 1.0).abs() < 1e-12);
                 drawn += sample.radiance.as_dvec3() / sample.density;
                 // Equal heights are equal solid angles.
@@ -243,12 +245,12 @@ mod tests {
     fn the_density_is_one_over_the_sphere_and_nowhere_nothing_where_there_is_light() {
         const SIDE: usize = 800;
         let map = lamp();
-        let patches = Patches::of(&map).unwrap();
+        let sampler = EnvironmentSampler::new(&map).unwrap();
         let mut sum = 0.0;
         for at in 0..SIDE * SIDE {
             let middle = |cell: usize| (cell as f64 + 0.5) / SIDE as f64;
             let direction = map.direction(middle(at % SIDE), 2.0 * middle(at / SIDE) - 1.0);
-            let density = patches.density(&map, direction);
+            let density = sampler.density(&map, direction);
             assert!(density > 0.0 || map.radiance(direction) == Vec3::ZERO);
             sum += 2.0 * TAU * density / (SIDE * SIDE) as f64;
         }
@@ -258,6 +260,6 @@ mod tests {
 
     #[test]
     fn a_black_map_draws_nothing() {
-        assert!(Patches::of(&map(4, 2, |_, _| [0.0; 3])).is_none());
+        assert!(EnvironmentSampler::new(&map(4, 2, |_, _| [0.0; 3])).is_none());
     }
 }

@@ -1,37 +1,27 @@
-//! Lights that are sampled directly: the sun and the triangles that emit.
+//! Lights that are sampled directly: the sun and emissive triangles.
 
 use std::f64::consts::TAU;
 
 use glam::{DVec3, Vec3};
 
-use crate::material::surface::{corners, emission, material};
+use crate::light::light_sample::{LightSample, density_per_steradian};
+use crate::material::surface::{emission, material};
 use crate::motion::poses::Poses;
 use crate::scene::{Scene, Sun};
 
-/// Every triangle that emits, chosen in proportion to its area and emission at one reference time.
+/// All emissive triangles, drawn in proportion to their area and emission at one reference time.
 pub(crate) struct Emitters {
+    /// Object and triangle of each.
     triangles: Vec<(usize, u32)>,
-    /// Rising to 1, one per triangle.
+    /// Sums of the chances up to each triangle, rising to 1.
     cumulative: Vec<f64>,
-    /// Per object and triangle, the chance of being chosen; empty for objects that do not emit.
+    /// Per object and triangle, the chance of being drawn; empty for objects that do not emit.
     chances: Vec<Vec<f64>>,
 }
 
-/// A point drawn on a light, as seen from a surface.
-pub(crate) struct LightSample {
-    /// Unit.
-    pub direction: DVec3,
-    /// Metres; infinite for the sun.
-    pub distance: f64,
-    /// Radiance that arrives if nothing is in between.
-    pub radiance: Vec3,
-    /// Probability per steradian of having drawn this direction.
-    pub density: f64,
-}
-
 impl Emitters {
-    /// The emitters of a scene, weighted as they are at the time of `poses`.
-    pub fn of(scene: &Scene, poses: &mut Poses) -> Self {
+    /// Collects the emitters of a scene, weighted by their areas at the time of `poses`.
+    pub fn new(scene: &Scene, poses: &mut Poses) -> Self {
         let mut triangles = Vec::new();
         let mut weights = Vec::new();
         for (object, shown) in scene.objects.iter().enumerate() {
@@ -68,7 +58,7 @@ impl Emitters {
         }
     }
 
-    /// A point on an emitter, from three numbers in [0, 1), seen from `from`; none where the drawn triangle is seen
+    /// Draws a point on an emitter from three numbers in [0, 1), as seen from `from`; none where the drawn triangle is seen
     /// edge-on, or nothing emits.
     pub fn sample(
         &self,
@@ -82,7 +72,7 @@ impl Emitters {
         let drawn = self.cumulative.partition_point(|&sum| sum <= choice);
         let (object, triangle) = self.triangles[drawn.min(last)];
         let mesh = &scene.meshes[scene.objects[object].mesh];
-        let [a, b, c] = corners(mesh, triangle, poses.time());
+        let [a, b, c] = mesh.at(poses.time()).corners(triangle);
         // The square's upper half is folded onto the triangle.
         let weights = if u + v > 1.0 {
             [1.0 - u, 1.0 - v]
@@ -111,12 +101,12 @@ impl Emitters {
         })
     }
 
-    /// Whether nothing emits.
+    /// Tells that nothing emits.
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty()
     }
 
-    /// Probability of drawing this triangle.
+    /// The probability of drawing this triangle.
     pub fn chance(&self, object: usize, triangle: u32) -> f64 {
         self.chances[object]
             .get(triangle as usize)
@@ -125,20 +115,8 @@ impl Emitters {
     }
 }
 
-/// Probability per steradian of a point drawn uniformly on an area seen at a distance and a cosine.
-pub(crate) fn density_per_steradian(area: f64, distance: f64, cosine: f64) -> f64 {
-    distance * distance / (area * cosine.abs())
-}
-
-/// Weight of a sample drawn with density `own` that `other` might have drawn as well: the power heuristic
-/// (Veach 1997, section 9.2).
-pub(crate) fn power_heuristic(own: f64, other: f64) -> f64 {
-    let ratio = other / own;
-    1.0 / (1.0 + ratio * ratio)
-}
-
 impl Sun {
-    /// A direction to the sun from two numbers in [0, 1). A point sun has a density of 1 and its irradiance as
+    /// Draws a direction to the sun from two numbers in [0, 1). A point sun has a density of 1 and its irradiance as
     /// radiance, since nothing else can draw it.
     pub(crate) fn sample(&self, [u, v]: [f64; 2]) -> LightSample {
         let direction = if self.angular_radius == 0.0 {
@@ -158,7 +136,7 @@ impl Sun {
         }
     }
 
-    /// Radiance of the disc: its irradiance on a facing surface is radiance x pi sin^2(radius).
+    /// The radiance of the disc: its irradiance on a facing surface is radiance x pi sin^2(radius).
     pub(crate) fn radiance(&self) -> Vec3 {
         if self.angular_radius == 0.0 {
             return self.irradiance;
@@ -167,7 +145,7 @@ impl Sun {
         self.irradiance * (1.0 / (std::f64::consts::PI * sine * sine)) as f32
     }
 
-    /// Probability per steradian of a direction inside the disc.
+    /// The probability per steradian of a direction inside the disc.
     pub(crate) fn density(&self) -> f64 {
         if self.angular_radius == 0.0 {
             1.0
@@ -176,7 +154,7 @@ impl Sun {
         }
     }
 
-    /// Whether a ray that leaves the scene in this unit direction ends on the disc.
+    /// Tells that a ray which leaves the scene in this unit direction ends on the disc.
     pub(crate) fn covers(&self, direction: DVec3) -> bool {
         self.angular_radius > 0.0 && 1.0 - direction.dot(self.direction) <= self.cap()
     }
@@ -190,7 +168,7 @@ impl Sun {
 
 fn world_area(scene: &Scene, poses: &mut Poses, object: usize, triangle: u32) -> f64 {
     let mesh = &scene.meshes[scene.objects[object].mesh];
-    let [a, b, c] = corners(mesh, triangle, poses.time());
+    let [a, b, c] = mesh.at(poses.time()).corners(triangle);
     let to_world = poses.pose(object).to_world;
     let edge = |to: DVec3| to_world.transform_vector3(to - a);
     0.5 * edge(b).cross(edge(c)).length()

@@ -1,16 +1,16 @@
-//! What rays see that leave the scene.
+//! The background: its radiance, and directions drawn to it.
 
 use std::f64::consts::TAU;
 
 use glam::{DVec3, Vec3};
 
-use crate::light::environment::Patches;
-use crate::light::lights::LightSample;
+use crate::light::environment::EnvironmentSampler;
+use crate::light::light_sample::LightSample;
 use crate::scene::Background;
 
-/// A sky whose brightest level is more than this many times its darkest is drawn as a light. A more even one is left to
-/// the surfaces' own lobes, which draw nearly in proportion to what it sends: there another shadow ray a bounce lowers
-/// the noise by less than as many more samples would.
+/// Ratio of the brightest to the darkest level above which a sky is sampled as a light. A more even sky is left to the BRDFs,
+/// which sample it nearly in proportion to its radiance: another shadow ray per bounce would lower the noise by less than as
+/// many more samples.
 const UNEVEN: f64 = 8.0;
 
 impl Background {
@@ -32,23 +32,23 @@ impl Background {
     }
 }
 
-/// A background made ready to be drawn as a light.
+/// A background, prepared to be sampled as a light.
 pub(crate) struct Sky<'a> {
     background: &'a Background,
     profile: Profile,
 }
 
-/// How directions are drawn.
+/// The method of drawing directions.
 enum Profile {
-    /// Not at all.
+    /// None: the sky is even.
     Even,
     /// In proportion to the strongest component at heights -1, 0 and 1, linear between them.
     Heights([f64; 3]),
-    Patches(Patches),
+    Map(EnvironmentSampler),
 }
 
 impl<'a> Sky<'a> {
-    pub fn of(background: &'a Background) -> Self {
+    pub fn new(background: &'a Background) -> Self {
         let profile = match background {
             Background::Constant(_) => Profile::Even,
             Background::Gradient {
@@ -66,8 +66,8 @@ impl<'a> Sky<'a> {
                     Profile::Even
                 }
             }
-            Background::Map(map) => match Patches::of(map) {
-                Some(patches) if is_uneven(patches.extremes()) => Profile::Patches(patches),
+            Background::Map(map) => match EnvironmentSampler::new(map) {
+                Some(sampler) if is_uneven(sampler.extremes()) => Profile::Map(sampler),
                 _ => Profile::Even,
             },
         };
@@ -77,19 +77,21 @@ impl<'a> Sky<'a> {
         }
     }
 
-    /// A direction from two numbers in [0, 1); none from an even sky.
+    /// Draws a direction from two numbers in [0, 1); none from an even sky.
     pub fn sample(&self, [u, v]: [f64; 2]) -> Option<LightSample> {
         match (&self.profile, self.background) {
-            (Profile::Patches(patches), Background::Map(map)) => Some(patches.sample(map, [u, v])),
-            (Profile::Heights(strengths), _) => Some(self.at_height(height(*strengths, u), v)),
+            (Profile::Map(sampler), Background::Map(map)) => Some(sampler.sample(map, [u, v])),
+            (Profile::Heights(strengths), _) => {
+                Some(self.sample_at_height(sample_height(*strengths, u), v))
+            }
             _ => None,
         }
     }
 
-    /// Probability per steradian with which [`Sky::sample`] draws a unit direction.
+    /// The probability per steradian with which [`Sky::sample`] draws a unit direction.
     pub fn density(&self, direction: DVec3) -> f64 {
         match (&self.profile, self.background) {
-            (Profile::Patches(patches), Background::Map(map)) => patches.density(map, direction),
+            (Profile::Map(sampler), Background::Map(map)) => sampler.density(map, direction),
             (Profile::Heights([ground, horizon, zenith]), _) => {
                 let height = direction.y.clamp(-1.0, 1.0);
                 let end = if height < 0.0 { ground } else { zenith };
@@ -100,7 +102,7 @@ impl<'a> Sky<'a> {
         }
     }
 
-    fn at_height(&self, height: f64, v: f64) -> LightSample {
+    fn sample_at_height(&self, height: f64, v: f64) -> LightSample {
         let (sine, cosine) = (TAU * v).sin_cos();
         let level = (1.0 - height * height).max(0.0).sqrt();
         let direction = DVec3::new(level * cosine, height, level * sine);
@@ -117,20 +119,20 @@ fn is_uneven([brightest, darkest]: [f64; 2]) -> bool {
     brightest > UNEVEN * darkest
 }
 
-/// The height's density is linear on either side of the horizon; equal heights have equal solid angles.
-fn height([ground, horizon, zenith]: [f64; 3], u: f64) -> f64 {
+/// Draws a height. Its density is linear on either side of the horizon; equal ranges of height have equal solid angles.
+fn sample_height([ground, horizon, zenith]: [f64; 3], u: f64) -> f64 {
     let [below, above] = [ground + horizon, horizon + zenith];
     let split = below / (below + above);
     if u < split {
-        -linear(horizon, ground, 1.0 - u / split)
+        -sample_linear(horizon, ground, 1.0 - u / split)
     } else {
-        linear(horizon, zenith, (u - split) / (1.0 - split))
+        sample_linear(horizon, zenith, (u - split) / (1.0 - split))
     }
 }
 
-/// Where in [0, 1] a number in [0, 1] falls under a density that goes linearly from `from` to `to` (Pharr, Jakob and
+/// Draws a place in [0, 1] from a number in [0, 1], with a density that is linear from `from` to `to` (Pharr, Jakob and
 /// Humphreys 2023, A.4.1).
-fn linear(from: f64, to: f64, u: f64) -> f64 {
+fn sample_linear(from: f64, to: f64, u: f64) -> f64 {
     let slope = from + ((1.0 - u) * from * from + u * to * to).sqrt();
     if slope > 0.0 {
         (u * (from + to) / slope).min(1.0)
@@ -165,7 +167,7 @@ mod tests {
     fn drawn_directions_estimate_the_whole_sky() {
         const SIDE: usize = 256;
         for background in &SKIES {
-            let sky = Sky::of(background);
+            let sky = Sky::new(background);
             let mut estimate = DVec3::ZERO;
             let mut moment = 0.0;
             for at in 0..SIDE * SIDE {
@@ -197,7 +199,7 @@ mod tests {
     fn the_density_is_one_over_the_sphere() {
         const STEPS: usize = 10_000;
         for background in &SKIES {
-            let sky = Sky::of(background);
+            let sky = Sky::new(background);
             let sum: f64 = (0..STEPS)
                 .map(|step| -1.0 + 2.0 * (step as f64 + 0.5) / STEPS as f64)
                 .map(|height| sky.density(DVec3::new((1.0 - height * height).sqrt(), height, 0.0)))
@@ -217,7 +219,7 @@ mod tests {
         };
         let constant = [Vec3::ZERO, Vec3::new(0.5, 0.25, 1.0)].map(Background::Constant);
         for background in constant.into_iter().chain([even]) {
-            let sky = Sky::of(&background);
+            let sky = Sky::new(&background);
             assert!(sky.sample([0.5, 0.5]).is_none());
             assert_eq!(sky.density(DVec3::Y), 0.0);
         }

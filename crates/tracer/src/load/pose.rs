@@ -9,7 +9,7 @@ use super::document::Document;
 use super::error::{SceneError, list};
 use super::schema::{ObjectTable, RotationTable, ScaleTable};
 use crate::limits::{CLOSEST_KEYS, MOST_KEYS};
-use crate::motion::sweep::key_times;
+use crate::motion::keys::key_times;
 use crate::{Interpolation, Key, Motion, Turn};
 
 /// Two orientations say nothing about the way between them beyond half a turn; this much is kept off it, in degrees.

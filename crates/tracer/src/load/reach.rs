@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::Motion;
 use crate::limits::{FARTHEST, SMALLEST_SCALE};
-use crate::motion::sweep::key_times;
+use crate::motion::keys::key_times;
 
 /// What a motion, or a chain of them, does to a point at the distance `d` from the origin: it ends up at most
 /// `scale * d + offset` from the world's.
@@ -39,8 +39,8 @@ impl Reach {
             let size = |scale: DVec3| scale.abs().max_element();
             reach.scale = reach
                 .scale
-                .max(segment.scale.greatest(start, end, size).value);
-            let offset = segment.translation.greatest(start, end, DVec3::length);
+                .max(segment.scale.maxima(start, end, size).value);
+            let offset = segment.translation.maxima(start, end, DVec3::length);
             reach.offset = reach.offset.max(offset.value);
         }
         for key in &motion.keys {

@@ -1,26 +1,26 @@
-//! The directions in which a diffuse surface scatters.
+//! The cosine lobe of a diffuse surface.
 
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
-/// A cosine lobe about the shading normal, its part below the facet folded up.
+/// A cosine lobe about the shading normal, with its part below the facet mirrored up.
 ///
-/// Interpolated normals turn part of the lobe into the body. Dropping that part would darken every smooth mesh;
-/// mirrored at the facet it keeps the albedo exact, and sampling and evaluation stay each other's equal.
+/// Interpolated normals turn part of the lobe into the body. Without that part every smooth mesh would be too dark. Mirrored
+/// at the facet it keeps the albedo exact, and sampling still agrees with evaluation.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Lobe {
+pub(crate) struct DiffuseLobe {
     facet: DVec3,
     normal: DVec3,
 }
 
-impl Lobe {
-    /// Both unit and within 90 degrees of one another.
+impl DiffuseLobe {
+    /// The lobe of unit vectors that lie within 90 degrees of one another.
     pub fn new(facet: DVec3, normal: DVec3) -> Self {
         Self { facet, normal }
     }
 
-    /// Probability per steradian of a unit direction: the scattered share of light is albedo times this.
+    /// Probability per steradian of a unit direction. The scattered share of light is the albedo times this.
     pub fn density(&self, direction: DVec3) -> f64 {
         let above = direction.dot(self.facet);
         if above <= 0.0 {
@@ -30,7 +30,7 @@ impl Lobe {
         (self.normal.dot(direction).max(0.0) + self.normal.dot(mirrored).max(0.0)) / PI
     }
 
-    /// A direction of that density from two numbers in [0, 1).
+    /// Draws a direction of that density from two numbers in [0, 1).
     pub fn sample(&self, u: f64, v: f64) -> DVec3 {
         let radius = u.sqrt();
         let (sine, cosine) = (TAU * v).sin_cos();
@@ -47,18 +47,18 @@ mod tests {
     use super::*;
 
     /// Normals off the facet's by nothing, by half and nearly by a right angle.
-    fn lobes() -> Vec<Lobe> {
+    fn lobes() -> Vec<DiffuseLobe> {
         let facet = DVec3::new(0.6, 0.0, 0.8);
         [0.0, 0.8, 1.5]
             .map(|tilt: f64| {
                 let aside = DVec3::new(0.8, 0.0, -0.6);
-                Lobe::new(facet, tilt.cos() * facet + tilt.sin() * aside)
+                DiffuseLobe::new(facet, tilt.cos() * facet + tilt.sin() * aside)
             })
             .to_vec()
     }
 
     /// The integral of `value` times density over the sphere, by the midpoint rule in height and azimuth.
-    fn integral(lobe: &Lobe, value: impl Fn(DVec3) -> DVec3) -> DVec3 {
+    fn integral(lobe: &DiffuseLobe, value: impl Fn(DVec3) -> DVec3) -> DVec3 {
         let steps = 400;
         let mut sum = DVec3::ZERO;
         for row in 0..steps {

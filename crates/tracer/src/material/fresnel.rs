@@ -1,9 +1,9 @@
-//! How much an interface reflects, by the angle.
+//! Fresnel reflectance of dielectrics and metals.
 
 use glam::Vec3;
 
-/// Unpolarised light that meets a smooth dielectric of this index of refraction, at least 1, from outside at this cosine
-/// (Fresnel's equations).
+/// The reflectance of a smooth dielectric for unpolarised light from outside (Fresnel's equations). The index of refraction
+/// is at least 1.
 pub(crate) fn dielectric(index: f64, cosine: f64) -> f64 {
     let inside = (1.0 - (1.0 - cosine * cosine) / (index * index)).sqrt();
     let across = (cosine - index * inside) / (cosine + index * inside);
@@ -11,7 +11,7 @@ pub(crate) fn dielectric(index: f64, cosine: f64) -> f64 {
     0.5 * (across * across + along * along)
 }
 
-/// A metal, by its reflectance at normal incidence (Schlick 1994, equation 15).
+/// The reflectance of a metal, from that at normal incidence (Schlick 1994, equation 15).
 pub(crate) fn conductor(normal_incidence: Vec3, cosine: f64) -> Vec3 {
     let grazing = (1.0 - cosine).clamp(0.0, 1.0).powi(5) as f32;
     normal_incidence + grazing * (Vec3::ONE - normal_incidence)

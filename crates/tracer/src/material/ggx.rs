@@ -16,7 +16,7 @@ pub(crate) struct Ggx {
 /// One reflection at the microfacets.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reflection {
-    /// Light per light arriving per steradian, cosine included, from facets that reflect everything.
+    /// Radiance sent per radiance arriving per steradian, cosine included, from facets that reflect everything.
     pub scattered: f64,
     /// Probability per steradian with which [`Ggx::sample`] draws the incoming direction.
     pub density: f64,
@@ -25,8 +25,8 @@ pub(crate) struct Reflection {
 }
 
 impl Ggx {
-    /// Both directions unit and above the surface.
-    pub fn reflection(&self, outgoing: DVec3, incoming: DVec3) -> Reflection {
+    /// Evaluates a pair of unit directions above the surface.
+    pub fn evaluate(&self, outgoing: DVec3, incoming: DVec3) -> Reflection {
         let facet = (outgoing + incoming).normalize();
         let [lambda_out, lambda_in] = [self.lambda(outgoing), self.lambda(incoming)];
         let shared = self.distribution(facet) / (4.0 * outgoing.z);
@@ -37,9 +37,8 @@ impl Ggx {
         }
     }
 
-    /// The normal of a facet that `outgoing` sees, in proportion to how much it sees of it: from two numbers in
-    /// [0, 1). The incoming direction is `outgoing` mirrored at it (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals
-    /// with Spherical Caps").
+    /// Draws the normal of a facet from two numbers in [0, 1), in proportion to how much of it `outgoing` sees. The incoming
+    /// direction is `outgoing` reflected at it (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps").
     pub fn sample(&self, outgoing: DVec3, [u, v]: [f64; 2]) -> DVec3 {
         let stretch = DVec3::new(self.alpha, self.alpha, 1.0);
         let straight = (stretch * outgoing).normalize();
@@ -50,9 +49,10 @@ impl Ggx {
         (stretch * cap.with_z(cap.z.max(0.0))).normalize()
     }
 
-    /// What single reflections give back of the light that goes to `cosine`, `fresnel` being the share that a facet
-    /// reflects. By the midpoint rule over [`Ggx::sample`], whose azimuth is symmetric, with steps that shrink towards the long
-    /// tail of slopes.
+    /// The share of light that single reflections return at `cosine`; `fresnel` is the share that a facet reflects.
+    ///
+    /// It is integrated by the midpoint rule over [`Ggx::sample`], whose azimuth is symmetric, with steps that shrink
+    /// towards the long tail of slopes.
     pub fn albedo(&self, cosine: f64, fresnel: impl Fn(f64) -> f64) -> f64 {
         const STEPS: u32 = 32;
         let outgoing = DVec3::new((1.0 - cosine * cosine).max(0.0).sqrt(), 0.0, cosine);
@@ -64,7 +64,7 @@ impl Ggx {
             let [place, weight] = [1.0 - left.powi(3), 3.0 * left * left];
             weights += weight;
             let normal = self.sample(outgoing, [0.5 * middle(row), place]);
-            let incoming = mirrored(outgoing, normal);
+            let incoming = reflect(outgoing, normal);
             if incoming.z > 0.0 {
                 let unmasked = (1.0 + lambda_out) / (1.0 + lambda_out + self.lambda(incoming));
                 sum += weight * unmasked * fresnel(outgoing.dot(normal));
@@ -88,8 +88,8 @@ impl Ggx {
     }
 }
 
-/// A direction away from a mirror, seen in it.
-pub(crate) fn mirrored(direction: DVec3, normal: DVec3) -> DVec3 {
+/// Reflects a direction, which points away from the surface, at a normal.
+pub(crate) fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
     2.0 * direction.dot(normal) * normal - direction
 }
 
@@ -114,7 +114,7 @@ mod tests {
                 for row in 0..side {
                     for column in 0..side {
                         let normal = ggx.sample(outgoing, [middle(row), middle(column)]);
-                        let incoming = mirrored(outgoing, normal);
+                        let incoming = reflect(outgoing, normal);
                         if incoming.z > 0.0 {
                             drawn += moments(incoming);
                         }
@@ -122,7 +122,7 @@ mod tests {
                         let radius = (1.0 - height * height).sqrt();
                         let incoming =
                             DVec3::new(radius * azimuth.cos(), radius * azimuth.sin(), height);
-                        let density = ggx.reflection(outgoing, incoming).density;
+                        let density = ggx.evaluate(outgoing, incoming).density;
                         integral += TAU * density * moments(incoming);
                     }
                 }
@@ -138,8 +138,8 @@ mod tests {
         let ggx = Ggx { alpha: 0.3 };
         let [a, b] = [DVec3::new(0.5, 0.2, 0.4), DVec3::new(-0.7, 0.1, 0.3)];
         let [a, b] = [a.normalize(), b.normalize()];
-        let there = ggx.reflection(a, b).scattered / b.z;
-        let back = ggx.reflection(b, a).scattered / a.z;
+        let there = ggx.evaluate(a, b).scattered / b.z;
+        let back = ggx.evaluate(b, a).scattered / a.z;
         assert!((there / back - 1.0).abs() < 1e-12);
     }
 }

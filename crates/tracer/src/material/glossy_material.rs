@@ -1,37 +1,37 @@
-//! A glossy material made ready: its microfacets and how much light they leave over.
+//! Glossy materials: microfacets and the table of their albedo.
 
 use crate::material::fresnel;
 use crate::material::ggx::Ggx;
 use crate::scene::{Finish, Material};
 
-/// Cosines at which the albedo is tabulated, 0 and 1 included; the more towards grazing angles.
+/// Cosines at which the albedo is tabulated, 0 and 1 included, denser towards grazing angles.
 const COSINES: usize = 129;
-/// A cosine of 0 sees no surface; the limit is taken from here.
+/// Cosine that stands for 0, at which no surface is seen.
 const GRAZING: f64 = 1e-6;
 
-/// What all points of a glossy material have in common.
+/// A glossy material, prepared for all its points.
 #[derive(Clone, Debug)]
-pub(crate) struct Gloss {
-    /// None for a mirror.
+pub(crate) struct GlossyMaterial {
+    /// Microfacets; none for a mirror.
     pub facets: Option<Ggx>,
     /// Index of refraction of a coat; none for bare metal.
     pub coat: Option<f64>,
-    pub albedo: Albedo,
+    pub albedo: AlbedoTable,
 }
 
-/// The share of light that one reflection gives back, by the cosine: of a coat with its own reflectance, of a metal as if
+/// The share of light that one reflection returns, by the cosine. A coat has its own reflectance; a metal is tabulated as if
 /// it reflected everything.
 #[derive(Clone, Debug)]
-pub(crate) struct Albedo {
-    /// At cosines that are the squares of equal steps.
+pub(crate) struct AlbedoTable {
+    /// Shares at cosines that are the squares of equal steps.
     nodes: Vec<f64>,
-    /// Over the hemisphere, weighted by the cosine.
+    /// Mean over the hemisphere, weighted by the cosine.
     pub mean: f64,
 }
 
-impl Gloss {
-    /// None for a diffuse material.
-    pub fn of(material: &Material) -> Option<Self> {
+impl GlossyMaterial {
+    /// Prepares a material; none for a diffuse one.
+    pub fn new(material: &Material) -> Option<Self> {
         let (roughness, coat) = match material.finish {
             Finish::Diffuse => return None,
             Finish::Conductor { roughness } => (roughness, None),
@@ -41,7 +41,7 @@ impl Gloss {
         let facets = (alpha > 0.0).then_some(Ggx { alpha });
         let reflectance =
             |cosine: f64| coat.map_or(1.0, |index| fresnel::dielectric(index, cosine));
-        let albedo = Albedo::tabulated(|cosine| match facets {
+        let albedo = AlbedoTable::tabulate(|cosine| match facets {
             None => reflectance(cosine),
             Some(facets) => facets.albedo(cosine, reflectance),
         });
@@ -53,8 +53,8 @@ impl Gloss {
     }
 }
 
-impl Albedo {
-    fn tabulated(albedo: impl Fn(f64) -> f64) -> Self {
+impl AlbedoTable {
+    fn tabulate(albedo: impl Fn(f64) -> f64) -> Self {
         let steps = (COSINES - 1) as f64;
         let nodes: Vec<f64> = (0..COSINES)
             .map(|node| (node as f64 / steps).powi(2))
@@ -71,7 +71,7 @@ impl Albedo {
         Self { nodes, mean }
     }
 
-    /// For a direction at this cosine to the surface.
+    /// The share for a direction at this cosine to the normal.
     pub fn at(&self, cosine: f64) -> f64 {
         let place = cosine.clamp(0.0, 1.0).sqrt() * (COSINES - 1) as f64;
         let node = (place as usize).min(COSINES - 2);
@@ -87,7 +87,7 @@ mod tests {
     fn the_table_is_right_between_its_nodes() {
         for alpha in [0.01, 0.1, 0.5, 1.0] {
             let facets = Ggx { alpha };
-            let table = Albedo::tabulated(|cosine| facets.albedo(cosine, |_| 1.0));
+            let table = AlbedoTable::tabulate(|cosine| facets.albedo(cosine, |_| 1.0));
             for cosine in [0.003, 0.03, 0.2, 0.55, 0.97] {
                 let exact = facets.albedo(cosine, |_| 1.0);
                 let error = (table.at(cosine) - exact).abs();
@@ -98,7 +98,7 @@ mod tests {
 
     #[test]
     fn the_mean_is_that_of_the_interpolated_table() {
-        let table = Albedo::tabulated(|cosine| 1.0 - 0.5 * cosine);
+        let table = AlbedoTable::tabulate(|cosine| 1.0 - 0.5 * cosine);
         let steps = 100_000;
         let sum: f64 = (0..steps)
             .map(|step| (f64::from(step) + 0.5) / f64::from(steps))

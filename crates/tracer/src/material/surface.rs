@@ -1,25 +1,25 @@
-//! What a hit says about light: place, orientation, colour, emission.
+//! The surface at a hit: position, normals, colour and emission.
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 
+use crate::geometry::hit::Hit;
 use crate::geometry::ray::Ray;
 use crate::geometry::triangle::Crossing;
 use crate::material::brdf::Brdf;
-use crate::material::glossy_material::Gloss;
-use crate::motion::poses::Pose;
+use crate::material::glossy_material::GlossyMaterial;
+use crate::motion::pose::Pose;
 use crate::scene::{Material, Mesh, Scene};
-use crate::stage::Hit;
 
-/// Surfaces whose opacity falls below this have a hole.
+/// Opacity below which a surface has a hole.
 const HOLE: f32 = 0.5;
 
 /// A point of a surface at one time, in the world.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Surface {
     pub position: DVec3,
-    /// Unit, of the facet, on the ray's side.
+    /// Unit normal of the facet, on the ray's side.
     pub facet: DVec3,
-    /// Unit, interpolated where the mesh has normals, on the facet's side.
+    /// Unit shading normal on the facet's side, interpolated where the mesh has normals.
     pub normal: DVec3,
     /// Albedo, or a metal's reflectance at normal incidence.
     pub color: Vec3,
@@ -30,7 +30,7 @@ pub(crate) struct Surface {
     pub area: f64,
 }
 
-/// Which of an object's slots may have holes.
+/// The holes of an object, cut out by opacity.
 pub(crate) struct Opacity {
     object: usize,
     solid: bool,
@@ -53,9 +53,9 @@ impl Opacity {
             .collect()
     }
 
-    /// Whether the surface is there at the crossing.
+    /// Tells that the surface has no hole at the crossing.
     #[inline]
-    pub fn opaque(&self, scene: &Scene, triangle: u32, crossing: &Crossing) -> bool {
+    pub fn is_opaque(&self, scene: &Scene, triangle: u32, crossing: &Crossing) -> bool {
         self.solid || opacity(scene, self.object, triangle, [crossing.u, crossing.v]) >= HOLE
     }
 }
@@ -64,17 +64,18 @@ impl Surface {
     /// The surface that `ray` meets at `hit`, the object being at `pose`.
     pub fn at(scene: &Scene, pose: &Pose, ray: &Ray, hit: &Hit) -> Surface {
         let mesh = &scene.meshes[scene.objects[hit.object].mesh];
-        let [a, b, c] = corners(mesh, hit.triangle, hit.time);
+        let [a, b, c] = mesh.at(hit.time).corners(hit.triangle);
         let edge = |to: DVec3| pose.to_world.transform_vector3(to - a);
         let scaled = edge(b).cross(edge(c));
-        let facet = towards(scaled.normalize_or_zero(), -ray.direction);
+        let facet = face_towards(scaled.normalize_or_zero(), -ray.direction);
         let texcoord = texcoord(mesh, hit.triangle, hit.weights);
         let index = material_index(scene, hit.object, hit.triangle);
         let material = &scene.materials[index];
         Surface {
             position: ray.at(hit.t),
             facet,
-            normal: shading_normal(mesh, pose, hit).map_or(facet, |normal| towards(normal, facet)),
+            normal: shading_normal(mesh, pose, hit)
+                .map_or(facet, |normal| face_towards(normal, facet)),
             color: textured(scene, material.diffuse, material.diffuse_texture, texcoord),
             material: index,
             emission: textured(
@@ -87,21 +88,17 @@ impl Surface {
         }
     }
 
-    /// How it scatters towards the ray that met it; none where it scatters nothing.
-    pub fn brdf<'a>(&self, gloss: Option<&'a Gloss>, ray: &Ray) -> Option<Brdf<'a>> {
-        Brdf::new(gloss, self.color, self.facet, self.normal, -ray.direction)
+    /// The BRDF towards the ray that met the surface; none where it scatters nothing.
+    pub fn brdf<'a>(&self, glossy: Option<&'a GlossyMaterial>, ray: &Ray) -> Option<Brdf<'a>> {
+        Brdf::new(glossy, self.color, self.facet, self.normal, -ray.direction)
     }
 }
 
-/// Vertices of a triangle in object space, at `time` (frames).
-pub(crate) fn corners(mesh: &Mesh, triangle: u32, time: f64) -> [DVec3; 3] {
-    mesh.at(time).corners(triangle)
-}
-
-/// The normal by which a triangle is wound, in the world; not of unit length.
-pub(crate) fn winding(scene: &Scene, pose: &Pose, hit: &Hit, time: f64) -> DVec3 {
+/// The normal of a hit's triangle in the world at `time` (frames), on the side from which it is wound anticlockwise; its
+/// length is twice the triangle's area.
+pub(crate) fn winding_normal(scene: &Scene, pose: &Pose, hit: &Hit, time: f64) -> DVec3 {
     let mesh = &scene.meshes[scene.objects[hit.object].mesh];
-    let [a, b, c] = corners(mesh, hit.triangle, time);
+    let [a, b, c] = mesh.at(time).corners(hit.triangle);
     let edge = |to: DVec3| pose.to_world.transform_vector3(to - a);
     edge(b).cross(edge(c))
 }
@@ -117,7 +114,7 @@ fn material_index(scene: &Scene, object: usize, triangle: u32) -> usize {
     object.materials[slot as usize]
 }
 
-/// Emitted radiance at a point of a triangle; nothing where it has a hole.
+/// Emitted radiance at a point of a triangle; zero where it has a hole.
 pub(crate) fn emission(scene: &Scene, object: usize, triangle: u32, weights: [f64; 2]) -> Vec3 {
     if opacity(scene, object, triangle, weights) < HOLE {
         return Vec3::ZERO;
@@ -133,11 +130,11 @@ pub(crate) fn emission(scene: &Scene, object: usize, triangle: u32, weights: [f6
     )
 }
 
-/// Opacity lies in the texels' alpha.
+/// The opacity at a point of a triangle; in a texture it is the texels' alpha.
 fn opacity(scene: &Scene, object: usize, triangle: u32, weights: [f64; 2]) -> f32 {
     let mesh = &scene.meshes[scene.objects[object].mesh];
     let material = material(scene, object, triangle);
-    let texel = lookup(
+    let texel = sample_texture(
         scene,
         material.opacity_texture,
         texcoord(mesh, triangle, weights),
@@ -149,10 +146,10 @@ fn textured(scene: &Scene, factor: Vec3, texture: Option<usize>, texcoord: Vec2)
     if factor == Vec3::ZERO {
         return factor;
     }
-    factor * lookup(scene, texture, texcoord).truncate()
+    factor * sample_texture(scene, texture, texcoord).truncate()
 }
 
-fn lookup(scene: &Scene, texture: Option<usize>, texcoord: Vec2) -> Vec4 {
+fn sample_texture(scene: &Scene, texture: Option<usize>, texcoord: Vec2) -> Vec4 {
     texture.map_or(Vec4::ONE, |texture| {
         scene.textures[texture].sample(texcoord)
     })
@@ -167,17 +164,17 @@ fn texcoord(mesh: &Mesh, triangle: u32, weights: [f64; 2]) -> Vec2 {
     (a + weights[0] * (b - a) + weights[1] * (c - a)).as_vec2()
 }
 
-/// None where the mesh has no normals, or where they cancel.
+/// The interpolated normal; none where the mesh has no normals, or where they cancel.
 fn shading_normal(mesh: &Mesh, pose: &Pose, hit: &Hit) -> Option<DVec3> {
     let shape = mesh.at(hit.time);
     let [a, b, c] = mesh.triangles[hit.triangle as usize].map(|vertex| shape.normal(vertex));
     let [a, b, c] = [a?, b?, c?];
     let normal = a + hit.weights[0] * (b - a) + hit.weights[1] * (c - a);
-    // Normals move by the transpose of the way back.
+    // Normals transform by the transpose of the inverse.
     (pose.to_object.matrix3.transpose() * normal).try_normalize()
 }
 
-fn towards(normal: DVec3, side: DVec3) -> DVec3 {
+fn face_towards(normal: DVec3, side: DVec3) -> DVec3 {
     if normal.dot(side) < 0.0 {
         -normal
     } else {

@@ -1,4 +1,4 @@
-//! Bilinear, repeating lookup of textures.
+//! Bilinear lookup of repeating textures.
 
 use glam::{Vec2, Vec4};
 
@@ -7,8 +7,8 @@ use crate::scene::Texture;
 impl Texture {
     /// The texture's linear RGBA at texture coordinates `uv`, v up: (0, 0) is the image's bottom left corner.
     pub fn sample(&self, uv: Vec2) -> Vec4 {
-        let x = wrapped(uv.x, self.width);
-        let y = wrapped(1.0 - uv.y, self.height);
+        let x = wrap(uv.x, self.width);
+        let y = wrap(1.0 - uv.y, self.height);
         let [left, top] = [x.floor(), y.floor()];
         let [across, down] = [x - left, y - top];
         let texel = |dx: i64, dy: i64| {
@@ -22,9 +22,9 @@ impl Texture {
     }
 }
 
-/// A coordinate in texels from the centre of the first; the integer part of `fraction` goes first, so that far
-/// repeats keep their precision.
-fn wrapped(fraction: f32, texels: u32) -> f32 {
+/// Wraps a texture coordinate and converts it to texels from the centre of the first. The integer part of `fraction` is
+/// dropped first, so that far repeats keep their precision.
+fn wrap(fraction: f32, texels: u32) -> f32 {
     fraction.rem_euclid(1.0) * texels as f32 - 0.5
 }
 

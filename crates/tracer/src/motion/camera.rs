@@ -1,4 +1,4 @@
-//! The camera at one time: from pixels to rays and back.
+//! The camera at one time: rays through pixels, and projection back to them.
 
 use glam::{DAffine3, DVec3};
 
@@ -6,13 +6,13 @@ use crate::geometry::ray::Ray;
 use crate::motion::curve::{Cubic, Keyed};
 use crate::scene::Camera;
 
-/// A camera with its pose and field of view at one time, and a picture size.
+/// A camera at one time, with a picture size.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
-    /// From camera to world.
+    /// Transform from camera to world.
     pub to_world: DAffine3,
     to_camera: DAffine3,
-    /// Half the picture's height in pixels over the tangent of half its angle: the focal length in pixels.
+    /// Focal length in pixels: half the picture's height over the tangent of half its angle.
     focal: f64,
     /// Half the picture's width and height in pixels.
     half: [f64; 2],
@@ -25,7 +25,7 @@ impl Camera {
         curve.at(time - start)
     }
 
-    /// Where within `[from, to]` the field of view may be greatest or least: the ends, keys, and turning points.
+    /// Times within `[from, to]` at which the field of view may be greatest or least: the ends, keys and turning points.
     pub(crate) fn vertical_fov_extremes(&self, from: f64, to: f64) -> Vec<f64> {
         let keys = self.vertical_fov.iter().map(|(time, _)| *time);
         let turns = keys.clone().flat_map(|key| {
@@ -36,7 +36,7 @@ impl Camera {
         inside.chain([from, to]).collect()
     }
 
-    /// The field of view about `time` as a curve, and the time that it counts from.
+    /// The curve of the field of view around `time`, and the time that it counts from.
     fn vertical_fov_curve(&self, time: f64) -> (f64, Cubic<f64>) {
         let keys = self.vertical_fov.as_slice();
         let keyed = Keyed {
@@ -44,10 +44,10 @@ impl Camera {
             time: |(time, _): &(f64, f64)| *time,
             interpolation: self.motion.interpolation,
         };
-        let stretch = keyed.stretch(time);
+        let segment = keyed.segment(time);
         let chord = |from: usize| (keys[from + 1].1 - keys[from].1) / keyed.duration(from);
-        let curve = keyed.curve(stretch, |key| keys[key].1, chord);
-        (keys[keyed.anchor(stretch)].0, curve)
+        let curve = keyed.curve(segment, |key| keys[key].1, chord);
+        (keys[keyed.anchor(segment)].0, curve)
     }
 
     /// The view at `time` (frames) of a picture of `width` x `height` pixels.
@@ -73,18 +73,18 @@ impl View {
         }
     }
 
-    /// Where a point of the world is seen, in pixels from the top left; none behind the camera.
+    /// Projects a point of the world to pixels from the top left; none behind the camera.
     pub fn project(&self, point: DVec3) -> Option<[f64; 2]> {
-        self.project_seen(self.to_camera.transform_point3(point))
+        self.project_local(self.to_camera.transform_point3(point))
     }
 
-    /// Where a point at infinity is seen, in pixels from the top left; none behind the camera.
+    /// Projects a point at infinity to pixels from the top left; none behind the camera.
     pub fn project_direction(&self, direction: DVec3) -> Option<[f64; 2]> {
-        self.project_seen(self.to_camera.transform_vector3(direction))
+        self.project_local(self.to_camera.transform_vector3(direction))
     }
 
-    /// From a place of this view's picture to the same point's place in `other`'s: three rows that act on (x, y, 1, 1 / depth),
-    /// pixels and metres, and give (x', y', 1) times what is common to all three, which is positive before the camera.
+    /// The homography from this view's picture to `other`'s. Its three rows act on (x, y, 1, 1 / depth), in pixels and
+    /// metres, and give (x', y', 1) times a common factor, which is positive in front of the camera.
     pub(crate) fn to_picture_of(self, other: &View) -> [[f64; 4]; 3] {
         let to_other = other.to_camera * self.to_world;
         // Half the picture and the focal length take a place to a direction, and a direction to a place.
@@ -121,8 +121,8 @@ impl View {
         -self.to_camera.transform_point3(point).z
     }
 
-    /// The same of a point or direction in camera space.
-    fn project_seen(&self, seen: DVec3) -> Option<[f64; 2]> {
+    /// Projects a point or direction in camera space.
+    fn project_local(&self, seen: DVec3) -> Option<[f64; 2]> {
         let depth = -seen.z;
         (depth > 0.0).then(|| {
             [

@@ -1,35 +1,34 @@
-//! How far a mesh reaches in every direction, without looking at its vertices again.
+//! The extent of a mesh in every direction, for boxes around it at any pose.
 
 use glam::{DAffine3, DVec3};
 
-use crate::geometry::aabb::Bounds;
+use crate::geometry::aabb::Aabb;
 use crate::scene::{Mesh, Scene};
 
-/// Nodes along an edge of the cube of directions. With 9 a cell is 0.25 wide, and a box around a sphere at most
-/// `2 x 0.25^2 / 8` = 1.6 % too large: the curvature of the length of a vector on the cube is at most 1.
+/// Nodes along an edge of the cube of directions. With 9 a cell is 0.25 wide and a box around a sphere at most
+/// `2 x 0.25^2 / 8` = 1.6 % too large, because the curvature of a vector's length on the cube is at most 1.
 const NODES: usize = 9;
-/// Meshes of fewer vertices are asked one by one.
+/// Vertices below which a mesh has no grid: its vertices are transformed one by one.
 const FEW: usize = 64;
 
-/// How far a rigid mesh reaches.
+/// The extent of a mesh.
 pub(crate) struct Extent {
-    /// The greatest distance of a vertex from the origin, metres.
+    /// Greatest distance of a vertex from the origin, metres.
     pub distance: f64,
     grid: Option<Grid>,
 }
 
-/// The reach of a mesh in the directions of a grid on the faces of a cube.
+/// The support function of a rigid mesh, sampled at a grid on the faces of a cube.
 ///
-/// A direction inside a cell of the grid is a mean of the cell's corners with weights from 0 to 1, and no point
-/// reaches farther along a mean of directions than the same mean of how far any reaches along each: a bound in all
-/// directions, exact along the axes.
+/// A direction inside a cell is a weighted mean of the cell's corners. The support function is convex, so the same mean of
+/// its samples is an upper limit for that direction; along the axes it is exact.
 struct Grid {
-    /// Per face of the cube (+x, -x, +y, -y, +z, -z), row and column.
-    reach: Vec<f64>,
+    /// Per face of the cube (+x, -x, +y, -y, +z, -z), row and column: the greatest `direction . vertex`.
+    support: Vec<f64>,
 }
 
 impl Extent {
-    /// Of each of a scene's meshes.
+    /// The extents of a scene's meshes.
     pub fn of_meshes(scene: &Scene) -> Vec<Self> {
         scene.meshes.iter().map(Self::of).collect()
     }
@@ -43,11 +42,11 @@ impl Extent {
         }
     }
 
-    /// A box around the mesh as it is at `time`, at a pose; contains it up to rounding.
-    pub fn posed(&self, mesh: &Mesh, pose: &DAffine3, time: f64) -> Bounds {
+    /// A box around the mesh with its shape at `time`, transformed by `pose`; contains it up to rounding.
+    pub fn aabb(&self, mesh: &Mesh, pose: &DAffine3, time: f64) -> Aabb {
         match &self.grid {
-            Some(grid) => grid.posed(pose),
-            None => Bounds::around(
+            Some(grid) => grid.aabb(pose),
+            None => Aabb::around(
                 mesh.at(time)
                     .positions()
                     .map(|position| pose.transform_point3(position)),
@@ -64,20 +63,20 @@ impl Grid {
         };
         let nodes = 0..6 * NODES * NODES;
         Self {
-            reach: nodes.map(|node| farthest(direction(node))).collect(),
+            support: nodes.map(|node| farthest(direction(node))).collect(),
         }
     }
 
-    fn posed(&self, pose: &DAffine3) -> Bounds {
+    fn aabb(&self, pose: &DAffine3) -> Aabb {
         // A world axis, seen from the mesh, is a row of the matrix.
         let axes = pose.matrix3.transpose().to_cols_array_2d().map(DVec3::from);
-        Bounds {
+        Aabb {
             min: pose.translation - DVec3::from(axes.map(|axis| self.along(-axis))),
             max: pose.translation + DVec3::from(axes.map(|axis| self.along(axis))),
         }
     }
 
-    /// An upper bound of `direction . point` over all points of the mesh.
+    /// An upper limit of `direction . point` over all points of the mesh.
     fn along(&self, direction: DVec3) -> f64 {
         let major = direction.abs().max_position();
         let size = direction[major].abs();
@@ -88,14 +87,14 @@ impl Grid {
             (cell, place - cell as f64)
         };
         let ((row, down), (column, right)) = (cell((major + 1) % 3), cell((major + 2) % 3));
-        let node = |row: usize, column: usize| self.reach[(face * NODES + row) * NODES + column];
+        let node = |row: usize, column: usize| self.support[(face * NODES + row) * NODES + column];
         let between =
             |row: usize| node(row, column) * (1.0 - right) + node(row, column + 1) * right;
         size * (between(row) * (1.0 - down) + between(row + 1) * down)
     }
 }
 
-/// The direction of a node: a point on the surface of the cube from -1 to 1.
+/// The direction of a node, a point on the surface of the cube from -1 to 1.
 fn direction(node: usize) -> DVec3 {
     let (face, row, column) = (node / NODES / NODES, node / NODES % NODES, node % NODES);
     let place = |step: usize| 2.0 * step as f64 / (NODES - 1) as f64 - 1.0;
@@ -152,9 +151,9 @@ mod tests {
                 DQuat::from_axis_angle(axis.normalize(), 0.7 * angle),
                 3.0 * axis,
             );
-            let found = extent.posed(&mesh, &pose, 0.0);
+            let found = extent.aabb(&mesh, &pose, 0.0);
             let points = mesh.positions.iter();
-            let exact = Bounds::around(points.map(|p| pose.transform_point3(p.as_dvec3())));
+            let exact = Aabb::around(points.map(|p| pose.transform_point3(p.as_dvec3())));
             // Rounding only.
             let grown = found.grown(1e-12);
             assert!(grown.min.cmple(exact.min).all() && grown.max.cmpge(exact.max).all());
@@ -167,8 +166,8 @@ mod tests {
     #[test]
     fn along_the_axes_a_box_from_the_grid_is_exact() {
         let mesh = sphere();
-        let found = Extent::of(&mesh).posed(&mesh, &DAffine3::IDENTITY, 0.0);
-        let exact = Bounds::around(mesh.positions.iter().map(|p| p.as_dvec3()));
+        let found = Extent::of(&mesh).aabb(&mesh, &DAffine3::IDENTITY, 0.0);
+        let exact = Aabb::around(mesh.positions.iter().map(|p| p.as_dvec3()));
         assert_eq!(found, exact);
     }
 }

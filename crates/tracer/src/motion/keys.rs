@@ -1,8 +1,8 @@
-//! Rigid motion through keys.
+//! Motion through keys: position, orientation and scale.
 
 use glam::{DAffine3, DQuat, DVec3};
 
-use crate::motion::curve::{Cubic, Keyed};
+use crate::motion::curve::{Cubic, Interpolation, Keyed};
 
 /// A rotation about a fixed axis; more than one turn is allowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,55 +20,39 @@ pub struct Key {
     pub time: f64,
     /// Metres.
     pub translation: DVec3,
-    /// Unit quaternion.
+    /// Rotation, a unit quaternion.
     pub orientation: DQuat,
-    /// Factor per axis, applied before the rotation; never 0.
+    /// Factors per axis, applied before the rotation; never 0.
     pub scale: DVec3,
-    /// Rotation from this key to the next, in the parent's axes; at the last key it has no meaning.
+    /// Rotation from this key to the next, in the parent's axes; unused at the last key.
     pub turn: Turn,
 }
 
-/// How a motion goes from one key to the next.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Interpolation {
-    /// Position and scale change at a constant rate, the orientation turns at a constant angular velocity. Velocities
-    /// jump at keys.
-    #[default]
-    Linear,
-    /// Velocities are continuous. Position and scale follow cubic polynomials whose slope at a key is that of the
-    /// parabola through the key and its neighbours (Catmull and Rom 1974, for uneven times): keys taken from a parabola
-    /// give it back. The angular velocity at a key is the same mean of the turns beside it. Between keys the orientation
-    /// is a product of rotations about fixed axes by cubic angles (the kind of curve of Kim, Kim and Shin 1995): the turn
-    /// from key to key, and before and after it a swing that vanishes at both keys and makes up for what the angular
-    /// velocity there has across the turn's axis. Turns about one axis are cubic angles, however many they are.
-    Cubic,
-}
-
-/// Keys in rising order of time; at least one. Before the first and after the last key the motion goes on at the
-/// velocity that it has there: a motion does not stop because its keys end. A single key stands still.
+/// At least one key, in rising order of time. Before the first key and after the last the motion goes on at the velocity
+/// that it has there. A motion of one key stands still.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motion {
-    /// The poses, times strictly rising.
+    /// Poses at strictly rising times.
     pub keys: Vec<Key>,
-    /// The way between them.
+    /// Path between them.
     pub interpolation: Interpolation,
 }
 
-/// A stretch of a motion without keys inside: every part is a polynomial in time.
+/// A part of a motion without keys inside, as polynomials in time.
 pub(crate) struct Segment {
-    /// The time that the curves count from, in frames.
+    /// Time that the curves count from, in frames.
     pub start: f64,
     pub translation: Cubic<DVec3>,
     pub scale: Cubic<DVec3>,
-    /// At the start.
+    /// Orientation at the start.
     pub orientation: DQuat,
-    pub turn: Turning,
-    /// Before and after the turn.
-    pub swings: Option<[Turning; 2]>,
+    pub turn: Rotation,
+    /// Rotations before and after the turn.
+    pub swings: Option<[Rotation; 2]>,
 }
 
-/// A rotation about a fixed axis.
-pub(crate) struct Turning {
+/// A rotation about a fixed axis by an angle that changes.
+pub(crate) struct Rotation {
     /// Unit vector.
     pub axis: DVec3,
     /// Radians.
@@ -103,19 +87,19 @@ impl Motion {
         }
     }
 
-    /// From the object's space to its parent's at `time` (frames).
+    /// Transform from the object's space to its parent's at `time` (frames).
     pub fn at(&self, time: f64) -> DAffine3 {
         self.segment(time).at(time)
     }
 
-    /// The stretch that holds `time`; at a key, the one that begins there.
+    /// The segment that holds `time`; at a key, the one that begins there.
     pub(crate) fn segment(&self, time: f64) -> Segment {
-        self.segment_of(self.keyed().stretch(time))
+        self.segment_at(self.keyed().segment(time))
     }
 
-    /// All stretches: before the first key, and from each key on.
+    /// All segments: before the first key, and from each key on.
     pub(crate) fn segments(&self) -> impl Iterator<Item = Segment> {
-        (0..=self.keys.len()).map(|stretch| self.segment_of(stretch))
+        (0..=self.keys.len()).map(|index| self.segment_at(index))
     }
 
     fn keyed(&self) -> Keyed<'_, Key> {
@@ -126,7 +110,7 @@ impl Motion {
         }
     }
 
-    fn segment_of(&self, stretch: usize) -> Segment {
+    fn segment_at(&self, index: usize) -> Segment {
         let keyed = self.keyed();
         let key = |index: usize| &self.keys[index];
         let chord = |part: fn(&Key) -> DVec3| {
@@ -135,10 +119,11 @@ impl Motion {
                 (part(to) - part(from)) / (to.time - from.time)
             }
         };
-        let curve =
-            |part: fn(&Key) -> DVec3| keyed.curve(stretch, |index| part(key(index)), chord(part));
-        let anchor = key(keyed.anchor(stretch));
-        let (turn, swings) = turning(&keyed, stretch);
+        let curve = |part: fn(&Key) -> DVec3| {
+            keyed.curve(index, |key_index| part(key(key_index)), chord(part))
+        };
+        let anchor = key(keyed.anchor(index));
+        let (turn, swings) = rotations(&keyed, index);
         Segment {
             start: anchor.time,
             translation: curve(|key| key.translation),
@@ -150,33 +135,33 @@ impl Motion {
     }
 }
 
-/// The turn over a stretch, and the swings before and after it.
-fn turning(keyed: &Keyed<Key>, stretch: usize) -> (Turning, Option<[Turning; 2]>) {
+/// The turn over a segment, and the swings before and after it.
+fn rotations(keyed: &Keyed<Key>, segment: usize) -> (Rotation, Option<[Rotation; 2]>) {
     let turn = |from: usize| keyed.keys[from].turn;
     let chord = |from: usize| turn(from).angle / keyed.duration(from) * turn(from).axis;
-    let from = keyed.anchor(stretch);
-    if !keyed.is_between(stretch) || keyed.interpolation == Interpolation::Linear {
+    let from = keyed.anchor(segment);
+    if !keyed.is_between(segment) || keyed.interpolation == Interpolation::Linear {
         let spin = keyed.slope(from, &chord);
         let angle = Cubic::line(0.0, spin.length());
-        return (Turning::about(spin, angle), None);
+        return (Rotation::about(spin, angle), None);
     }
     let Turn { axis, angle } = turn(from);
-    let spins = [from, stretch].map(|key| keyed.slope(key, &chord));
+    let spins = [from, segment].map(|key| keyed.slope(key, &chord));
     let along = spins.map(|spin| spin.dot(axis));
     let across = [0, 1].map(|end| spins[end] - along[end] * axis);
     let duration = keyed.duration(from);
     let swing =
-        |across: DVec3, slopes| Turning::about(across, Cubic::between([0.0; 2], slopes, duration));
+        |across: DVec3, slopes| Rotation::about(across, Cubic::between([0.0; 2], slopes, duration));
     let swings = [
         swing(across[0], [across[0].length(), 0.0]),
         swing(across[1], [0.0, across[1].length()]),
     ];
     let angle = Cubic::between([0.0, angle], along, duration);
-    (Turning { axis, angle }, Some(swings))
+    (Rotation { axis, angle }, Some(swings))
 }
 
-impl Turning {
-    /// About the direction of a vector; where it is zero the angle is to be zero too.
+impl Rotation {
+    /// A rotation about the direction of a vector. Where the vector is zero, so must the angle be.
     fn about(direction: DVec3, angle: Cubic<f64>) -> Self {
         let axis = direction.try_normalize().unwrap_or(Turn::NONE.axis);
         Self { axis, angle }
@@ -202,13 +187,13 @@ impl Segment {
         )
     }
 
-    /// The time that the curves know, from frames.
+    /// Frames since the start, as the curves count them.
     pub fn since(&self, time: f64) -> f64 {
         time - self.start
     }
 
-    /// Rotations, each about an axis of its own, in the order in which they are applied.
-    pub fn turns(&self) -> impl Iterator<Item = &Turning> {
+    /// All rotations in the order in which they are applied.
+    pub fn turns(&self) -> impl Iterator<Item = &Rotation> {
         let [before, after] = self
             .swings
             .as_ref()
@@ -216,10 +201,29 @@ impl Segment {
         before.into_iter().chain([&self.turn]).chain(after)
     }
 
-    /// Whether nothing changes within it.
+    /// Tells that nothing changes within the segment.
     pub fn stands_still(&self) -> bool {
         self.translation.is_constant()
             && self.scale.is_constant()
             && self.turns().all(|turn| turn.angle.is_constant())
     }
+}
+
+/// Times of `motions`' keys strictly between `from` and `to`, with both ends, rising.
+pub(crate) fn key_times<'a>(
+    motions: impl IntoIterator<Item = &'a Motion>,
+    from: f64,
+    to: f64,
+) -> Vec<f64> {
+    let keys = motions.into_iter().flat_map(|motion| &motion.keys);
+    times_within(keys.map(|key| key.time), from, to)
+}
+
+/// The times strictly between `from` and `to`, with both ends, rising and each once.
+pub(crate) fn times_within(times: impl IntoIterator<Item = f64>, from: f64, to: f64) -> Vec<f64> {
+    let inside = (times.into_iter()).filter(|time| from < *time && *time < to);
+    let mut times: Vec<f64> = inside.chain([from, to]).collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    times
 }

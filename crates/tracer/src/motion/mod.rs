@@ -5,6 +5,7 @@ pub(crate) mod curve;
 pub(crate) mod extent;
 pub(crate) mod keys;
 pub(crate) mod moving;
+pub(crate) mod pose;
 pub(crate) mod poses;
 pub(crate) mod screw;
 pub(crate) mod shape;

@@ -1,54 +1,44 @@
-//! Where everything is at the time of one path: computed when first asked for, kept for all its bounces.
+//! The poses of all objects at the time of one path, computed when first asked for and kept for all bounces.
 
 use std::sync::Arc;
 
-use glam::DAffine3;
-
 use crate::geometry::ray::Ray;
-use crate::motion::keys::{Motion, Segment};
+use crate::motion::keys::{Motion, Segment, key_times};
+use crate::motion::pose::Pose;
 use crate::motion::screw::Screw;
-use crate::motion::sweep::{chain, key_times};
 use crate::scene::{Mesh, Parent, Scene};
-
-/// An object's place at one time.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Pose {
-    pub to_world: DAffine3,
-    pub to_object: DAffine3,
-}
 
 /// The poses of all objects at one time.
 #[derive(Clone)]
 pub struct Poses<'a> {
     scene: &'a Scene,
-    ways: Arc<Ways>,
+    motions: Arc<PreparedMotions>,
     time: f64,
-    /// Per object; valid when its stamp is the current one, or for ever.
+    /// Per object; valid where the stamp is the current one or [`FOR_EVER`].
     poses: Vec<(Stamp, Pose)>,
     current: Stamp,
-    /// Room for the children of tree nodes that wait while a ray is in another. Kept here because clearing such room for
-    /// every ray takes a twentieth of its time.
-    pub(crate) waiting: Vec<u64>,
+    /// Stack of the traversal. It is kept here because clearing one for every ray takes a twentieth of the ray's time.
+    pub(crate) stack: Vec<u64>,
 }
 
 /// Every motion of a scene.
-struct Ways {
-    camera: Way,
+struct PreparedMotions {
+    camera: PreparedMotion,
     /// Per object, relative to its parent.
-    objects: Vec<Way>,
-    /// Per object, how far its mesh reaches from its origin, metres; infinite where that changes.
-    reaches: Vec<f64>,
+    objects: Vec<PreparedMotion>,
+    /// Per object, the greatest distance of its vertices from its origin, metres; infinite where the mesh deforms.
+    radii: Vec<f64>,
 }
 
-/// A motion whose stretches are worked out once, for poses at many times.
-struct Way {
-    /// Of the keys, in frames.
+/// A motion whose segments are worked out once, for poses at many times.
+struct PreparedMotion {
+    /// Times of the keys, in frames.
     times: Vec<f64>,
-    /// Before the first key, and from each key on.
-    stretches: Vec<Stretch>,
+    /// Segments before the first key, and from each key on.
+    segments: Vec<PreparedSegment>,
 }
 
-enum Stretch {
+enum PreparedSegment {
     Screw(Screw),
     Other(Segment),
 }
@@ -56,52 +46,35 @@ enum Stretch {
 type Stamp = u64;
 const FOR_EVER: Stamp = Stamp::MAX;
 
-impl Pose {
-    fn new(to_world: DAffine3) -> Self {
-        Self {
-            to_world,
-            to_object: to_world.inverse(),
-        }
-    }
-
-    /// Of what stands at `own` in a space that stands at this pose.
-    fn carrying(&self, own: &Pose) -> Self {
-        Self {
-            to_world: self.to_world * own.to_world,
-            to_object: own.to_object * self.to_object,
-        }
-    }
-}
-
-impl Way {
-    fn of(motion: &Motion) -> Self {
+impl PreparedMotion {
+    fn new(motion: &Motion) -> Self {
         Self {
             times: motion.keys.iter().map(|key| key.time).collect(),
-            stretches: motion
+            segments: motion
                 .segments()
                 .map(|segment| match Screw::of(&segment) {
-                    Some(screw) => Stretch::Screw(screw),
-                    None => Stretch::Other(segment),
+                    Some(screw) => PreparedSegment::Screw(screw),
+                    None => PreparedSegment::Other(segment),
                 })
                 .collect(),
         }
     }
 
-    fn stretch(&self, time: f64) -> &Stretch {
-        &self.stretches[self.times.partition_point(|key| *key <= time)]
+    fn segment(&self, time: f64) -> &PreparedSegment {
+        &self.segments[self.times.partition_point(|key| *key <= time)]
     }
 
-    /// As [`Motion::at`].
+    /// The pose of [`Motion::at`].
     fn at(&self, time: f64) -> Pose {
-        match self.stretch(time) {
-            Stretch::Screw(screw) => screw.at(time),
-            Stretch::Other(segment) => Pose::new(segment.at(time)),
+        match self.segment(time) {
+            PreparedSegment::Screw(screw) => screw.at(time),
+            PreparedSegment::Other(segment) => Pose::new(segment.at(time)),
         }
     }
 }
 
 impl<'a> Poses<'a> {
-    /// Objects that stand still in `[from, to]` are posed once; times asked for later must lie in that interval.
+    /// Prepares all motions for times within `[from, to]`. Objects that stand still there are posed once.
     pub(crate) fn new(scene: &'a Scene, from: f64, to: f64) -> Self {
         let poses = (0..scene.objects.len())
             .map(|object| {
@@ -113,24 +86,26 @@ impl<'a> Poses<'a> {
                 }
             })
             .collect();
-        let reaches: Vec<f64> = scene.meshes.iter().map(reach).collect();
+        let radii: Vec<f64> = scene.meshes.iter().map(radius).collect();
         let objects = scene.objects.iter();
-        let ways = Ways {
-            camera: Way::of(&scene.camera.motion),
-            reaches: objects.clone().map(|object| reaches[object.mesh]).collect(),
-            objects: objects.map(|object| Way::of(&object.motion)).collect(),
+        let motions = PreparedMotions {
+            camera: PreparedMotion::new(&scene.camera.motion),
+            radii: objects.clone().map(|object| radii[object.mesh]).collect(),
+            objects: objects
+                .map(|object| PreparedMotion::new(&object.motion))
+                .collect(),
         };
         Self {
             scene,
-            ways: Arc::new(ways),
+            motions: Arc::new(motions),
             time: from,
             poses,
             current: 1,
-            waiting: Vec::new(),
+            stack: Vec::new(),
         }
     }
 
-    /// Whether an object never moves.
+    /// Tells that an object never moves.
     pub(crate) fn stands_still(&self, object: usize) -> bool {
         self.poses[object].0 == FOR_EVER
     }
@@ -147,30 +122,30 @@ impl<'a> Poses<'a> {
         self.time
     }
 
-    /// Room for so many; to be put back into `waiting` after the walk.
+    /// Takes out the stack, of at least this size. The traversal puts it back into `stack`.
     #[inline(always)]
-    pub(crate) fn take_waiting(&mut self, most: usize) -> Vec<u64> {
-        let mut waiting = std::mem::take(&mut self.waiting);
-        if waiting.len() < most {
-            waiting.resize(most, 0);
+    pub(crate) fn take_stack(&mut self, size: usize) -> Vec<u64> {
+        let mut stack = std::mem::take(&mut self.stack);
+        if stack.len() < size {
+            stack.resize(size, 0);
         }
-        waiting
+        stack
     }
 
-    /// Whether a ray certainly misses an object, told without its pose where that is not yet known.
+    /// Tells that a ray certainly misses an object. Where the object's pose is not yet known its position must do.
     #[inline(always)]
-    pub(crate) fn missed(&self, object: usize, ray: &Ray) -> bool {
+    pub(crate) fn is_missed(&self, object: usize, ray: &Ray) -> bool {
         let stamp = self.poses[object].0;
         if stamp == FOR_EVER || stamp == self.current {
             return false;
         }
         match (
             self.scene.objects[object].parent,
-            self.ways.objects[object].stretch(self.time),
+            self.motions.objects[object].segment(self.time),
         ) {
-            (Parent::World, Stretch::Screw(screw)) => {
-                let reach = self.ways.reaches[object];
-                screw.ball(reach, self.time).is_missed(ray)
+            (Parent::World, PreparedSegment::Screw(screw)) => {
+                let radius = self.motions.radii[object];
+                screw.ball(radius, self.time).is_missed(ray)
             }
             _ => false,
         }
@@ -179,21 +154,21 @@ impl<'a> Poses<'a> {
     #[inline]
     pub(crate) fn pose(&mut self, object: usize) -> &Pose {
         if !self.is_current(object) {
-            self.pose_anew(object);
+            self.update(object);
         }
         &self.poses[object].1
     }
 
-    /// Whether an object's pose is that of the current time.
+    /// Tells that an object's pose is that of the current time.
     #[inline]
     fn is_current(&self, object: usize) -> bool {
         let stamp = self.poses[object].0;
         stamp == FOR_EVER || stamp == self.current
     }
 
-    /// Poses an object, and before it those of its parents that are not yet posed. Chains of parents may be longer than a
-    /// thread's stack.
-    fn pose_anew(&mut self, object: usize) {
+    /// Poses an object, and before it those of its parents that are out of date. A loop, because chains of parents may be
+    /// deeper than a thread's stack.
+    fn update(&mut self, object: usize) {
         let mut due = Vec::new();
         let mut outermost = object;
         while let Parent::Object(parent) = self.scene.objects[outermost].parent
@@ -202,26 +177,26 @@ impl<'a> Poses<'a> {
             due.push(outermost);
             outermost = parent;
         }
-        self.pose_one(outermost);
+        self.update_one(outermost);
         for object in due.into_iter().rev() {
-            self.pose_one(object);
+            self.update_one(object);
         }
     }
 
-    /// Poses an object whose parent is posed.
-    fn pose_one(&mut self, object: usize) {
-        let own = self.ways.objects[object].at(self.time);
+    /// Poses an object whose parent is up to date.
+    fn update_one(&mut self, object: usize) {
+        let own = self.motions.objects[object].at(self.time);
         let pose = match self.scene.objects[object].parent {
             Parent::World => own,
-            Parent::Camera => self.ways.camera.at(self.time).carrying(&own),
-            Parent::Object(parent) => self.poses[parent].1.carrying(&own),
+            Parent::Camera => self.motions.camera.at(self.time).compose(&own),
+            Parent::Object(parent) => self.poses[parent].1.compose(&own),
         };
         self.poses[object] = (self.current, pose);
     }
 }
 
 /// The greatest distance of a vertex from the origin, metres; infinite where the mesh deforms.
-fn reach(mesh: &Mesh) -> f64 {
+fn radius(mesh: &Mesh) -> f64 {
     if mesh.deforms() {
         return f64::INFINITY;
     }
@@ -229,9 +204,9 @@ fn reach(mesh: &Mesh) -> f64 {
     lengths.fold(0.0, f64::max)
 }
 
-/// Whether no motion between the object and the world changes anything within the interval.
+/// Tells that no motion between the object and the world changes anything within the interval.
 fn stands_still(scene: &Scene, object: usize, from: f64, to: f64) -> bool {
-    chain(scene, object).into_iter().all(|motion| {
+    scene.motion_chain(object).into_iter().all(|motion| {
         key_times([motion], from, to)
             .windows(2)
             .all(|span| motion.segment(0.5 * (span[0] + span[1])).stands_still())

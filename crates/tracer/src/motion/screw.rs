@@ -1,18 +1,20 @@
-//! Motion about a fixed axis, worked out in advance.
+//! Motion that turns about a fixed axis, worked out in advance.
 
 use glam::{DAffine3, DMat3, DVec3};
 
 use crate::geometry::ball::Ball;
 use crate::motion::curve::Cubic;
 use crate::motion::keys::Segment;
-use crate::motion::poses::Pose;
+use crate::motion::pose::Pose;
 
-/// A segment of a motion that turns about one axis and keeps its scale. Its matrices are sums of a constant, a part in proportion
-/// to the angle's cosine and one to its sine (Rodrigues' formula), and so are their inverses: none has to be inverted.
+/// A segment of a motion that turns about one axis and keeps its scale.
+///
+/// Its matrix is the sum of a constant, a part in proportion to the angle's cosine and one to its sine (Rodrigues'
+/// formula). So is the inverse: no matrix has to be inverted.
 pub(crate) struct Screw {
     start: f64,
     translation: Cubic<DVec3>,
-    /// The greatest factor along any axis.
+    /// Greatest factor along any axis.
     scale: f64,
     /// Radians.
     angle: Cubic<f64>,
@@ -21,7 +23,7 @@ pub(crate) struct Screw {
 }
 
 impl Screw {
-    /// None where a segment is more than that.
+    /// None for a segment that swings or scales.
     pub fn of(segment: &Segment) -> Option<Self> {
         if segment.swings.is_some() || !segment.scale.is_constant() {
             return None;
@@ -52,9 +54,10 @@ impl Screw {
         })
     }
 
-    /// What a mesh that reaches so far (metres) from its origin lies in at `time` (frames): known before its orientation is.
-    pub fn ball(&self, reach: f64, time: f64) -> Ball {
-        Ball::new(self.translation.at(time - self.start), reach * self.scale)
+    /// A ball around a mesh of this radius about its origin, in metres, at `time` (frames). It does not depend on the
+    /// orientation.
+    pub fn ball(&self, radius: f64, time: f64) -> Ball {
+        Ball::new(self.translation.at(time - self.start), radius * self.scale)
     }
 
     /// The pose at `time` (frames) within the segment.
@@ -82,9 +85,10 @@ mod tests {
     use glam::DQuat;
 
     use super::*;
-    use crate::motion::keys::{Interpolation, Key, Motion, Turn};
+    use crate::motion::curve::Interpolation;
+    use crate::motion::keys::{Key, Motion, Turn};
 
-    /// A drift of metres and a turn of this many radians about an axis aslant, of something large, flat and mirrored.
+    /// A drift of metres and a turn of this many radians about a tilted axis, for a large, flat, mirrored object.
     fn drifting(angle: f64) -> Motion {
         let axis = DVec3::new(0.36, 0.48, 0.8);
         let start = Key {
@@ -109,17 +113,17 @@ mod tests {
     #[test]
     fn a_screw_goes_where_its_segment_goes_and_back() {
         for angle in [0.0, 0.3, -3.1, 40.0] {
-            for (stretch, segment) in drifting(angle).segments().enumerate() {
+            for (index, segment) in drifting(angle).segments().enumerate() {
                 let screw = Screw::of(&segment).expect("it turns about one axis");
                 for step in 0..=20 {
                     let time = -1.0 + f64::from(step) / 10.0;
                     let pose = screw.at(time);
                     // Rounding, a few dozen times, of coordinates of up to 20 metres, and of angles of up to 80 radians.
                     let near = |a: DAffine3, b: DAffine3| a.abs_diff_eq(b, 1e-12);
-                    assert!(near(pose.to_world, segment.at(time)), "{stretch}, {time}");
+                    assert!(near(pose.to_world, segment.at(time)), "{index}, {time}");
                     assert!(
                         near(pose.to_object, segment.at(time).inverse()),
-                        "{stretch}, {time}"
+                        "{index}, {time}"
                     );
                     assert!(near(pose.to_object * pose.to_world, DAffine3::IDENTITY));
                 }

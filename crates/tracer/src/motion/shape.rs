@@ -1,4 +1,4 @@
-//! A mesh as it is at one time.
+//! The vertices of a mesh at one time.
 
 use glam::{DVec3, Vec3};
 
@@ -14,7 +14,7 @@ pub(crate) struct ShapeAt<'a> {
 #[derive(Clone, Copy)]
 struct Between<'a> {
     shapes: [&'a Shape; 2],
-    /// 0 at the first, 1 at the second; beyond that the change goes on.
+    /// 0 at the first, 1 at the second; outside that range the change goes on.
     fraction: f64,
 }
 
@@ -38,7 +38,7 @@ impl Mesh {
         }
     }
 
-    /// Whether it changes its shape.
+    /// Tells that the mesh changes its shape.
     pub(crate) fn deforms(&self) -> bool {
         !self.shapes.is_empty()
     }
@@ -48,9 +48,9 @@ impl Mesh {
         self.shapes.iter().map(|shape| shape.time)
     }
 
-    /// The greatest distance from the origin and the greatest speed (metres per frame) of any vertex within
+    /// The greatest distance from the origin (metres) and the greatest speed (metres per frame) of any vertex within
     /// `[from, to]`, an interval without key shapes inside.
-    pub(crate) fn vertex_reach(&self, from: f64, to: f64) -> [f64; 2] {
+    pub(crate) fn vertex_maxima(&self, from: f64, to: f64) -> [f64; 2] {
         let farthest = |time: f64| {
             let lengths = self.at(time).positions().map(DVec3::length);
             lengths.fold(0.0, f64::max)
@@ -69,24 +69,24 @@ impl Mesh {
 }
 
 impl ShapeAt<'_> {
-    /// Of a vertex, metres, in the object's space.
+    /// Position of a vertex in the object's space, metres.
     #[inline]
     pub fn position(&self, vertex: u32) -> DVec3 {
         self.value(vertex, &self.mesh.positions, |shape| &shape.positions)
     }
 
-    /// Of a triangle's vertices.
+    /// Positions of a triangle's vertices.
     #[inline]
     pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
         self.mesh.triangles[triangle as usize].map(|vertex| self.position(vertex))
     }
 
-    /// Of all vertices.
+    /// Positions of all vertices.
     pub fn positions(self) -> impl Iterator<Item = DVec3> {
         (0..self.mesh.positions.len() as u32).map(move |vertex| self.position(vertex))
     }
 
-    /// Unit, of a vertex; none where the mesh has none, where the face is flat, or where two shapes' cancel.
+    /// Unit normal of a vertex; none where the mesh has none, where the face is flat, or where two shapes' cancel.
     pub fn normal(&self, vertex: u32) -> Option<DVec3> {
         if self.mesh.normals.is_empty() {
             return None;
@@ -96,6 +96,12 @@ impl ShapeAt<'_> {
             Some(_) => normal.try_normalize(),
             None => Some(normal),
         }
+    }
+
+    /// A point of a triangle from the weights of its second and third vertex.
+    pub fn point(&self, triangle: u32, weights: [f64; 2]) -> DVec3 {
+        let [a, b, c] = self.corners(triangle);
+        a + weights[0] * (b - a) + weights[1] * (c - a)
     }
 
     #[inline]

@@ -1,16 +1,16 @@
-//! Boxes that contain a moving mesh over an interval of time.
+//! Boxes around a moving mesh over an interval of time.
 
 use glam::DVec3;
 
-use crate::geometry::aabb::Bounds;
+use crate::geometry::aabb::Aabb;
 use crate::motion::extent::Extent;
-use crate::motion::keys::{Motion, Segment};
-use crate::scene::{Mesh, Parent, Scene};
+use crate::motion::keys::{Motion, Segment, times_within};
+use crate::scene::{Mesh, Scene};
 
-/// The greatest distance from an origin, speed and acceleration of any point of a mesh within an interval.
+/// Upper limits for all points of a mesh within an interval.
 #[derive(Clone, Copy)]
-struct Reach {
-    /// Metres.
+struct PointMaxima {
+    /// Distance from the origin, metres.
     distance: f64,
     /// Metres per frame.
     speed: f64,
@@ -18,67 +18,32 @@ struct Reach {
     acceleration: f64,
 }
 
-/// The motions from the object outwards to the world.
-pub(crate) fn chain(scene: &Scene, object: usize) -> Vec<&Motion> {
-    let mut motions = vec![&scene.objects[object].motion];
-    let mut parent = scene.objects[object].parent;
-    loop {
-        match parent {
-            Parent::World => return motions,
-            Parent::Camera => {
-                motions.push(&scene.camera.motion);
-                return motions;
-            }
-            Parent::Object(index) => {
-                motions.push(&scene.objects[index].motion);
-                parent = scene.objects[index].parent;
-            }
-        }
-    }
-}
-
-/// Times of `motions`' keys strictly between `from` and `to`, with both ends, rising.
-pub(crate) fn key_times<'a>(
-    motions: impl IntoIterator<Item = &'a Motion>,
-    from: f64,
-    to: f64,
-) -> Vec<f64> {
-    let mut times: Vec<f64> = motions
-        .into_iter()
-        .flat_map(|motion| motion.keys.iter().map(|key| key.time))
-        .filter(|time| from < *time && *time < to)
-        .chain([from, to])
-        .collect();
-    times.sort_by(f64::total_cmp);
-    times.dedup();
-    times
-}
-
 /// A box around the object's mesh at every time of `[from, to]`, in the world; `extents` are those of the scene's meshes.
 ///
-/// Between keys a point moves along a curve of bounded acceleration `A`, and a curve strays from its chord by at
-/// most `A h^2 / 8`: the union of the boxes at both ends, grown by that, contains it. Translation needs no growth.
-pub(crate) fn swept_bounds(
+/// Between keys a point moves along a curve of an acceleration of at most `A`, and such a curve strays from its chord by at
+/// most `A h^2 / 8`. The union of the boxes at both ends, grown by that, contains it. Translation needs no growth.
+pub(crate) fn swept_aabb(
     scene: &Scene,
     extents: &[Extent],
     object: usize,
     from: f64,
     to: f64,
-) -> Bounds {
+) -> Aabb {
     let mesh = &scene.meshes[scene.objects[object].mesh];
     let extent = &extents[scene.objects[object].mesh];
-    let posed = |time: f64| extent.posed(mesh, &scene.object_to_world(object, time), time);
-    let motions = chain(scene, object);
+    let at = |time: f64| extent.aabb(mesh, &scene.object_to_world(object, time), time);
+    let motions = scene.motion_chain(object);
     let times = span_times(mesh, &motions, from, to);
-    let first = posed(from);
+    let first = at(from);
     let (union, _) = times
         .windows(2)
         .fold((first, first), |(union, start), span| {
-            let end = posed(span[1]);
+            let end = at(span[1]);
             let length = span[1] - span[0];
-            let sagitta =
-                reach(&motions, mesh, extent, span[0], span[1]).acceleration * length * length
-                    / 8.0;
+            let sagitta = chain_maxima(&motions, mesh, extent, span[0], span[1]).acceleration
+                * length
+                * length
+                / 8.0;
             (union.union(start.union(end).grown(sagitta)), end)
         });
     union
@@ -94,45 +59,48 @@ pub(crate) fn greatest_speed(
 ) -> f64 {
     let mesh = &scene.meshes[scene.objects[object].mesh];
     let extent = &extents[scene.objects[object].mesh];
-    let motions = chain(scene, object);
+    let motions = scene.motion_chain(object);
     span_times(mesh, &motions, from, to)
         .windows(2)
-        .map(|span| reach(&motions, mesh, extent, span[0], span[1]).speed)
+        .map(|span| chain_maxima(&motions, mesh, extent, span[0], span[1]).speed)
         .fold(0.0, f64::max)
 }
 
-/// The times of `key_times`, and of the mesh's key shapes.
+/// The ends of the interval, and the times inside it of the motions' keys and the mesh's key shapes.
 fn span_times(mesh: &Mesh, motions: &[&Motion], from: f64, to: f64) -> Vec<f64> {
-    let mut times = key_times(motions.iter().copied(), from, to);
-    times.extend(mesh.shape_times().filter(|time| from < *time && *time < to));
-    times.sort_by(f64::total_cmp);
-    times.dedup();
-    times
+    let keys = motions.iter().flat_map(|motion| &motion.keys);
+    times_within(keys.map(|key| key.time).chain(mesh.shape_times()), from, to)
 }
 
-/// Through the chain of motions, in an interval without keys inside.
-fn reach(motions: &[&Motion], mesh: &Mesh, extent: &Extent, from: f64, to: f64) -> Reach {
+/// The limits after a chain of motions, within an interval without keys inside.
+fn chain_maxima(
+    motions: &[&Motion],
+    mesh: &Mesh,
+    extent: &Extent,
+    from: f64,
+    to: f64,
+) -> PointMaxima {
     let [distance, speed] = if mesh.deforms() {
-        mesh.vertex_reach(from, to)
+        mesh.vertex_maxima(from, to)
     } else {
         [extent.distance, 0.0]
     };
-    let at_rest = Reach {
+    let at_rest = PointMaxima {
         distance,
         speed,
         acceleration: 0.0,
     };
     motions.iter().fold(at_rest, |inner, motion| {
-        carried(inner, &motion.segment(0.5 * (from + to)), from, to)
+        segment_maxima(inner, &motion.segment(0.5 * (from + to)), from, to)
     })
 }
 
-/// Reach after one segment of a motion: scale, then rotations, then translation, each by the product rule.
-fn carried(inner: Reach, segment: &Segment, from: f64, to: f64) -> Reach {
+/// The limits after one segment of a motion: scale, then rotations, then translation, each by the product rule.
+fn segment_maxima(inner: PointMaxima, segment: &Segment, from: f64, to: f64) -> PointMaxima {
     let [from, to] = [from, to].map(|time| segment.since(time));
     let largest = |scale: DVec3| scale.abs().max_element();
-    let scale = segment.scale.greatest(from, to, largest);
-    let scaled = Reach {
+    let scale = segment.scale.maxima(from, to, largest);
+    let scaled = PointMaxima {
         distance: scale.value * inner.distance,
         speed: scale.slope * inner.distance + scale.value * inner.speed,
         acceleration: scale.bend * inner.distance
@@ -140,8 +108,8 @@ fn carried(inner: Reach, segment: &Segment, from: f64, to: f64) -> Reach {
             + scale.value * inner.acceleration,
     };
     let turned = segment.turns().fold(scaled, |inner, turn| {
-        let turn = turn.angle.greatest(from, to, f64::abs);
-        Reach {
+        let turn = turn.angle.maxima(from, to, f64::abs);
+        PointMaxima {
             distance: inner.distance,
             speed: turn.slope * inner.distance + inner.speed,
             acceleration: (turn.slope * turn.slope + turn.bend) * inner.distance
@@ -149,8 +117,8 @@ fn carried(inner: Reach, segment: &Segment, from: f64, to: f64) -> Reach {
                 + inner.acceleration,
         }
     });
-    let offset = segment.translation.greatest(from, to, DVec3::length);
-    Reach {
+    let offset = segment.translation.maxima(from, to, DVec3::length);
+    PointMaxima {
         distance: turned.distance + offset.value,
         speed: turned.speed + offset.slope,
         acceleration: turned.acceleration + offset.bend,
@@ -166,8 +134,9 @@ mod tests {
     use glam::{DQuat, Vec3};
 
     use super::*;
-    use crate::motion::keys::{Interpolation, Key, Turn};
-    use crate::scene::{Background, Camera, Display, Family, FlipExposures, Object, Shape};
+    use crate::motion::curve::Interpolation;
+    use crate::motion::keys::{Key, Turn};
+    use crate::scene::{Background, Camera, Display, Family, FlipExposures, Object, Parent, Shape};
 
     /// SplitMix64 in [-1, 1): enough to vary poses.
     struct Numbers(u64);
@@ -312,17 +281,16 @@ mod tests {
                     // The interval contains a key and ends beyond the last.
                     for (from, to) in [(-0.1, 0.0), (-0.3, 0.6)] {
                         // Rounding only.
-                        let bounds =
-                            swept_bounds(&scene, &Extent::of_meshes(&scene), object, from, to)
-                                .grown(1e-12);
+                        let aabb = swept_aabb(&scene, &Extent::of_meshes(&scene), object, from, to)
+                            .grown(1e-12);
                         for step in 0..=1000 {
                             let time = from + (to - from) * f64::from(step) / 1000.0;
                             let pose = scene.object_to_world(object, time);
                             for position in scene.meshes[0].at(time).positions() {
                                 let point = pose.transform_point3(position);
                                 let inside =
-                                    point.cmpge(bounds.min).all() && point.cmple(bounds.max).all();
-                                assert!(inside, "object {object} leaves {bounds:?} at {time}");
+                                    point.cmpge(aabb.min).all() && point.cmple(aabb.max).all();
+                                assert!(inside, "object {object} leaves {aabb:?} at {time}");
                             }
                         }
                     }
@@ -364,8 +332,8 @@ mod tests {
             key.scale = DVec3::ONE;
         }
         let ends =
-            [-0.1, 0.0].map(|time| swept_bounds(&scene, &Extent::of_meshes(&scene), 0, time, time));
-        let swept = swept_bounds(&scene, &Extent::of_meshes(&scene), 0, -0.1, 0.0);
+            [-0.1, 0.0].map(|time| swept_aabb(&scene, &Extent::of_meshes(&scene), 0, time, time));
+        let swept = swept_aabb(&scene, &Extent::of_meshes(&scene), 0, -0.1, 0.0);
         assert_eq!(swept, ends[0].union(ends[1]));
     }
 }

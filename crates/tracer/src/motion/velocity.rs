@@ -1,18 +1,17 @@
-//! Screen motion of what is seen at a point of the picture, from its exact position as a function of time.
+//! Screen velocity of a visible point, from its exact position as a function of time.
 
 use frame::{Reprojection, VelocityKind};
 use glam::DVec3;
 
-use crate::material::surface::corners;
+use crate::geometry::hit::Hit;
 use crate::scene::Scene;
-use crate::stage::Hit;
 
-/// Step of the difference quotient, in frames: its error is the third derivative times the step squared over 3
-/// (for ten turns per frame at 100 pixels' radius 1e-3 pixels), rounding adds about 1e-6 pixels.
+/// Step of the difference quotient, in frames. The error is the third derivative times the step squared over 3: 1e-3 pixels
+/// for ten turns per frame at a radius of 100 pixels. Rounding adds about 1e-6 pixels.
 const STEP: f64 = 1e-5;
 
-/// A point that moves with what is seen.
-pub(crate) enum Tracked {
+/// A visible point, followed through time.
+pub(crate) enum TrackedPoint {
     /// A point of an object's surface.
     Surface {
         /// Index into the scene's objects.
@@ -26,24 +25,26 @@ pub(crate) enum Tracked {
     Infinity(DVec3),
 }
 
-impl Tracked {
-    /// What the camera ray in `direction` met.
+impl TrackedPoint {
+    /// The point that the camera ray in `direction` met.
     pub fn of(hit: Option<&Hit>, direction: DVec3) -> Self {
-        hit.map_or(Tracked::Infinity(direction), |hit| Tracked::Surface {
-            object: hit.object,
-            triangle: hit.triangle,
-            weights: hit.weights,
+        hit.map_or(TrackedPoint::Infinity(direction), |hit| {
+            TrackedPoint::Surface {
+                object: hit.object,
+                triangle: hit.triangle,
+                weights: hit.weights,
+            }
         })
     }
 
     /// Pixels per frame at `t = 0`, +x right, +y down.
     ///
-    /// The derivative is taken from the left: at a key on `t = 0`, where a motion may have a corner, that is the
-    /// side that an engine sees which compares with the frame before. A point that was behind the camera one frame
-    /// ago has no previous position; it gets the derivative. One that was so just before `t = 0` gets zero.
+    /// The derivative is taken from the left. At a key on `t = 0`, where a motion may have a corner, that is the side that
+    /// an engine sees, which compares with the frame before. A point that was behind the camera one frame ago has no
+    /// previous position and gets the derivative. A point that was behind it just before `t = 0` gets zero.
     pub fn velocity(&self, scene: &Scene, size: [u32; 2], kind: VelocityKind) -> [f64; 2] {
-        let at = |time: f64| self.seen(scene, size, time);
-        let since_the_frame_before = || Some(difference(at(0.0)?, at(-1.0)?));
+        let at = |time: f64| self.project(scene, size, time);
+        let frame_difference = || Some(difference(at(0.0)?, at(-1.0)?));
         let derivative = || {
             let [now, then, before] = [at(0.0)?, at(-STEP)?, at(-2.0 * STEP)?];
             Some(std::array::from_fn(|axis| {
@@ -53,32 +54,31 @@ impl Tracked {
         match kind {
             VelocityKind::Instantaneous => derivative(),
             VelocityKind::PreviousFrame | VelocityKind::CameraOnly => {
-                since_the_frame_before().or_else(derivative)
+                frame_difference().or_else(derivative)
             }
         }
         .unwrap_or([0.0, 0.0])
     }
 
-    /// Where it is seen at `time` (frames), in pixels; none behind the camera.
-    fn seen(&self, scene: &Scene, [width, height]: [u32; 2], time: f64) -> Option<[f64; 2]> {
+    /// The place in the picture at `time` (frames), in pixels; none behind the camera.
+    fn project(&self, scene: &Scene, [width, height]: [u32; 2], time: f64) -> Option<[f64; 2]> {
         let view = scene.camera.view(time, width, height);
         match *self {
-            Tracked::Surface {
+            TrackedPoint::Surface {
                 object,
                 triangle,
                 weights,
             } => {
                 let mesh = &scene.meshes[scene.objects[object].mesh];
-                let [a, b, c] = corners(mesh, triangle, time);
-                let point = a + weights[0] * (b - a) + weights[1] * (c - a);
+                let point = mesh.at(time).point(triangle, weights);
                 view.project(scene.object_to_world(object, time).transform_point3(point))
             }
-            Tracked::Infinity(direction) => view.project_direction(direction),
+            TrackedPoint::Infinity(direction) => view.project_direction(direction),
         }
     }
 }
 
-/// From this frame's picture to the last one's, for what stands still in the world.
+/// The map from this frame's picture to the last one's, for points that stand still in the world.
 pub(crate) fn reprojection(scene: &Scene, [width, height]: [u32; 2]) -> Reprojection {
     let [now, then] = [0.0, -1.0].map(|time| scene.camera.view(time, width, height));
     Reprojection {
@@ -86,8 +86,9 @@ pub(crate) fn reprojection(scene: &Scene, [width, height]: [u32; 2]) -> Reprojec
     }
 }
 
-/// What an engine without a velocity buffer rebuilds: the way since the frame before of whatever stands still in the world
-/// at `depth` (metres, infinite for the background) under a pixel centre. Zero for what was behind the camera then.
+/// The velocity that an engine without a velocity buffer rebuilds: the motion since the frame before of a point that
+/// stands still in the world, at `depth` (metres, infinite for the background) under a pixel centre. Zero for a point that
+/// was behind the camera then.
 pub(crate) fn camera_velocity(
     reprojection: &Reprojection,
     centre: [f64; 2],
@@ -98,7 +99,7 @@ pub(crate) fn camera_velocity(
 }
 
 /// The earliest time that a velocity depends on, in frames.
-pub(crate) fn looks_back_to(kind: VelocityKind) -> f64 {
+pub(crate) fn earliest_time(kind: VelocityKind) -> f64 {
     match kind {
         VelocityKind::Instantaneous => -2.0 * STEP,
         VelocityKind::PreviousFrame | VelocityKind::CameraOnly => -1.0,

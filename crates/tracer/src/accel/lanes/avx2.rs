@@ -1,4 +1,4 @@
-//! The wide instructions of x86-64 processors since 2013.
+//! Tests with the wide instructions of x86-64 processors since 2013.
 
 use std::arch::x86_64::{__m256, _CMP_LE_OQ, _CMP_NGT_UQ, _CMP_NLT_UQ};
 
@@ -7,17 +7,17 @@ use pulp::x86::V3;
 
 use super::{Boxes, EdgeRay, LEAF, Lanes, SlabRay, Triangles, WIDTH};
 
-/// AVX2 and FMA; a value of this type is proof that the processor has them.
+/// Proof that the processor has AVX2 and FMA.
 #[derive(Clone, Copy)]
 pub(crate) struct Avx2(V3);
 
 impl Avx2 {
-    /// None where the processor lacks them.
+    /// The instructions; none where the processor lacks them.
     pub fn detect() -> Option<Self> {
         V3::try_new().map(Self)
     }
 
-    /// Where the ray enters (end 0) or leaves (end 1) the space between the pairs of planes of one half of the boxes.
+    /// The distances at which the ray enters (end 0) or leaves (end 1) the slabs of one half of the boxes.
     #[inline(always)]
     fn planes(self, boxes: &Boxes, half: usize, ray: &SlabRay, axis: usize, end: usize) -> __m256 {
         let Self(V3 { avx, fma, .. }) = self;
@@ -55,7 +55,7 @@ impl Avx2 {
         (avx._mm256_movemask_ps(entered) as u32, near)
     }
 
-    /// Where vertices lie, seen along the ray.
+    /// The places of vertices in the ray's plane.
     #[inline(always)]
     fn place(self, vertex: &[[f32; LEAF]; 3], ray: &EdgeRay) -> [__m256; 2] {
         let along = cast(vertex[ray.axes[2]]);
@@ -72,7 +72,7 @@ impl Avx2 {
         fma._mm256_fnmadd_ps(along, avx._mm256_set1_ps(shear), from_foot)
     }
 
-    /// p x q
+    /// The cross product p x q.
     #[inline(always)]
     fn weight(self, p: [__m256; 2], q: [__m256; 2]) -> __m256 {
         let Self(V3 { avx, fma, .. }) = self;
@@ -107,7 +107,7 @@ impl Lanes for Avx2 {
         let least = avx._mm256_min_ps(avx._mm256_min_ps(u, v), w);
         let greatest = avx._mm256_max_ps(avx._mm256_max_ps(u, v), w);
         let doubt = ray.doubt(size);
-        // What is not a number is not rejected.
+        // NaN is not rejected.
         let inside = avx._mm256_or_ps(
             avx._mm256_cmp_ps::<_CMP_NLT_UQ>(least, avx._mm256_set1_ps(-doubt)),
             avx._mm256_cmp_ps::<_CMP_NGT_UQ>(greatest, avx._mm256_set1_ps(doubt)),

@@ -1,21 +1,24 @@
-//! Light along one path: the integrand.
+//! The path integrator: radiance along one path.
 
 use glam::{DVec3, Vec3};
 
 use crate::film::sampler::Sampler;
+use crate::geometry::hit::Hit;
 use crate::geometry::ray::Ray;
-use crate::light::lights::{Emitters, LightSample, density_per_steradian, power_heuristic};
-use crate::material::brdf::{Brdf, Scattered};
+use crate::light::light_sample::{LightSample, density_per_steradian, power_heuristic};
+use crate::light::lights::Emitters;
+use crate::material::brdf::Brdf;
+use crate::material::brdf_sample::BrdfValue;
 use crate::material::surface::Surface;
 use crate::motion::poses::Poses;
-use crate::stage::{Hit, Stage};
+use crate::stage::Stage;
 
-/// Roulette begins at this bounce: before, every path goes on.
+/// Bounce at which roulette begins; before it every path goes on.
 const ROULETTE_FROM: u32 = 3;
-/// No path is longer. Roulette ends nearly all long before: at albedo 0.8 one in a million gets so far.
+/// Most bounces of a path. Roulette ends nearly all paths long before: at albedo 0.8 one in a million gets here.
 const MOST_BOUNCES: u32 = 64;
-/// Secondary rays start this far off their surface, as a part of the greatest coordinate: positions are exact to
-/// about 1e-14 of it.
+/// Offset of secondary rays from their surface, as a part of the greatest coordinate. Positions are exact to about 1e-14 of
+/// it.
 pub(crate) const LIFT: f64 = 1e-9;
 
 /// Traces paths through a stage.
@@ -24,40 +27,40 @@ pub(crate) struct Integrator<'a> {
     pub emitters: Emitters,
 }
 
-/// What one path brings home.
+/// The result of one path.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PathSample {
     pub radiance: Vec3,
-    /// The surface seen first; none for the background.
+    /// First surface; none for the background.
     pub hit: Option<Hit>,
-    /// Whether that surface scattered any light, or sent only its own.
+    /// True where that surface scattered light, false where it sent only its own.
     pub scattered: bool,
 }
 
 impl PathSample {
-    /// The object seen first, by id: 0 is the background.
+    /// The id of the first object; 0 is the background.
     pub fn object_id(&self) -> usize {
         self.hit.map_or(0, |hit| hit.object + 1)
     }
 }
 
-/// The density of the direction that a ray was drawn with; none for rays that lights cannot draw: the camera's and those in
-/// a mirror.
-type Drawn = Option<f64>;
+/// Density with which a ray's direction was drawn; none for rays that no light could have drawn: those of the camera and of
+/// mirrors.
+type RayDensity = Option<f64>;
 
 impl<'a> Integrator<'a> {
-    /// Emitters are weighted as they are at `time` (frames).
+    /// Prepares the emitters with their weights at `time` (frames).
     pub fn new(stage: &'a Stage<'a>, time: f64) -> Self {
         Self {
             stage,
-            emitters: Emitters::of(stage.scene, stage.poses().at(time)),
+            emitters: Emitters::new(stage.scene, stage.poses().at(time)),
         }
     }
 
-    /// Radiance that arrives along a camera ray, at the time of `poses`.
+    /// Traces a path from a camera ray, at the time of `poses`.
     pub fn trace(&self, poses: &mut Poses, camera_ray: Ray, sampler: &Sampler) -> PathSample {
         let hit = self.stage.closest(poses, &camera_ray);
-        let (radiance, bounces) = self.follow(poses, camera_ray, hit, sampler);
+        let (radiance, bounces) = self.follow_path(poses, camera_ray, hit, sampler);
         PathSample {
             radiance,
             hit,
@@ -65,7 +68,7 @@ impl<'a> Integrator<'a> {
         }
     }
 
-    /// Radiance that arrives along a camera ray which meets a known surface first.
+    /// The radiance along a camera ray whose first hit is known.
     pub fn radiance_along(
         &self,
         poses: &mut Poses,
@@ -73,11 +76,11 @@ impl<'a> Integrator<'a> {
         first_hit: Option<Hit>,
         sampler: &Sampler,
     ) -> Vec3 {
-        self.follow(poses, camera_ray, first_hit, sampler).0
+        self.follow_path(poses, camera_ray, first_hit, sampler).0
     }
 
-    /// The path from its first hit on: its radiance, and how often it was scattered.
-    fn follow(
+    /// Follows a path from its first hit; returns its radiance and the number of bounces.
+    fn follow_path(
         &self,
         poses: &mut Poses,
         camera_ray: Ray,
@@ -87,34 +90,34 @@ impl<'a> Integrator<'a> {
         let scene = self.stage.scene;
         let mut radiance = Vec3::ZERO;
         let mut ray = camera_ray;
-        let mut met = first_hit;
-        let mut drawn: Drawn = None;
+        let mut next_hit = first_hit;
+        let mut density: RayDensity = None;
         let mut throughput = Vec3::ONE;
         for depth in 0..MOST_BOUNCES {
-            let Some(hit) = met else {
-                radiance += throughput * self.beyond(&ray, drawn);
+            let Some(hit) = next_hit else {
+                radiance += throughput * self.background_radiance(&ray, density);
                 return (radiance, depth);
             };
             let surface = Surface::at(scene, poses.pose(hit.object), &ray, &hit);
-            radiance += throughput * self.emitted(&surface, &ray, &hit, drawn);
-            let gloss = self.stage.gloss(surface.material);
-            let Some(brdf) = surface.brdf(gloss, &ray) else {
+            radiance += throughput * self.emission(&surface, &ray, &hit, density);
+            let glossy = self.stage.glossy_material(surface.material);
+            let Some(brdf) = surface.brdf(glossy, &ray) else {
                 return (radiance, depth);
             };
             let [u, v, roulette, choice] = sampler.bounce(depth);
-            let [sky_u, sky_v, by_facets, _] = sampler.sky(depth);
+            let [sky_u, sky_v, lobe_choice, _] = sampler.sky(depth);
             let start = surface.position + LIFT * magnitude(&surface, &hit) * surface.facet;
             if self.has_lights() {
                 let points = sampler.lights(depth);
-                radiance += throughput * self.direct(poses, start, &brdf, choice, points);
+                radiance += throughput * self.direct_light(poses, start, &brdf, choice, points);
             }
             if let Some(sky) = self.stage.sky().sample([sky_u, sky_v]) {
-                radiance += throughput * self.arriving(poses, start, &brdf, &sky, true);
+                radiance += throughput * self.light_from(poses, start, &brdf, &sky, true);
             }
-            let Some(draw) = brdf.sample(by_facets, [u, v]) else {
+            let Some(drawn) = brdf.sample(lobe_choice, [u, v]) else {
                 return (radiance, depth + 1);
             };
-            throughput *= draw.weight;
+            throughput *= drawn.weight;
             if depth >= ROULETTE_FROM {
                 let survival = f64::from(throughput.max_element()).min(1.0);
                 if roulette >= survival {
@@ -122,12 +125,12 @@ impl<'a> Integrator<'a> {
                 }
                 throughput /= survival as f32;
             }
-            drawn = draw.density;
+            density = drawn.density;
             ray = Ray {
                 origin: start,
-                direction: draw.direction,
+                direction: drawn.direction,
             };
-            met = self.stage.closest(poses, &ray);
+            next_hit = self.stage.closest(poses, &ray);
         }
         (radiance, MOST_BOUNCES)
     }
@@ -136,39 +139,39 @@ impl<'a> Integrator<'a> {
         self.stage.scene.sun.is_some() || !self.emitters.is_empty()
     }
 
-    /// Background and sun disc, weighted by whether light sampling could have found them.
-    fn beyond(&self, ray: &Ray, drawn: Drawn) -> Vec3 {
+    /// Radiance of the background and the sun's disc, weighted against the chance that light sampling drew the ray.
+    fn background_radiance(&self, ray: &Ray, density: RayDensity) -> Vec3 {
         let scene = self.stage.scene;
-        let weight = drawn.map_or(1.0, |drawn| {
-            power_heuristic(drawn, self.stage.sky().density(ray.direction))
+        let weight = density.map_or(1.0, |density| {
+            power_heuristic(density, self.stage.sky().density(ray.direction))
         });
         let background = scene.background.radiance(ray.direction) * weight as f32;
         match &scene.sun {
             Some(sun) if sun.covers(ray.direction) => {
-                let weight = drawn.map_or(1.0, |drawn| power_heuristic(drawn, sun.density()));
+                let weight = density.map_or(1.0, |density| power_heuristic(density, sun.density()));
                 background + sun.radiance() * weight as f32
             }
             _ => background,
         }
     }
 
-    /// A surface's own light, weighted by whether light sampling could have found it.
-    fn emitted(&self, surface: &Surface, ray: &Ray, hit: &Hit, drawn: Drawn) -> Vec3 {
+    /// Radiance that a surface emits, weighted against the chance that light sampling drew the ray.
+    fn emission(&self, surface: &Surface, ray: &Ray, hit: &Hit, density: RayDensity) -> Vec3 {
         if surface.emission == Vec3::ZERO {
             return Vec3::ZERO;
         }
-        let weight = drawn.map_or(1.0, |drawn| {
+        let weight = density.map_or(1.0, |density| {
             let cosine = surface.facet.dot(ray.direction);
             let by_light = self.emitters.chance(hit.object, hit.triangle)
                 * density_per_steradian(surface.area, hit.t, cosine);
-            power_heuristic(drawn, by_light)
+            power_heuristic(density, by_light)
         });
         surface.emission * weight as f32
     }
 
-    /// Light that comes straight from the sun and from one emitter, scattered by a surface. The random
-    /// numbers choose the emitter, the point on it and the point on the sun.
-    fn direct(
+    /// Light from the sun and from one emitter, scattered by a surface. The random numbers choose the emitter, the point on
+    /// it and the point on the sun.
+    fn direct_light(
         &self,
         poses: &mut Poses,
         start: DVec3,
@@ -180,16 +183,17 @@ impl<'a> Integrator<'a> {
         let mut light = Vec3::ZERO;
         if let Some(sun) = &scene.sun {
             let by_surface = sun.angular_radius > 0.0;
-            light += self.arriving(poses, start, brdf, &sun.sample([sun_u, sun_v]), by_surface);
+            light += self.light_from(poses, start, brdf, &sun.sample([sun_u, sun_v]), by_surface);
         }
         if let Some(drawn) = self.emitters.sample(scene, poses, start, choice, [u, v]) {
-            light += self.arriving(poses, start, brdf, &drawn, true);
+            light += self.light_from(poses, start, brdf, &drawn, true);
         }
         light
     }
 
-    /// One light sample's contribution; `by_surface`: the surface might have drawn it too.
-    fn arriving(
+    /// Light from one light sample, scattered by a surface. `by_surface` says that the BRDF might have drawn the direction
+    /// too.
+    fn light_from(
         &self,
         poses: &mut Poses,
         start: DVec3,
@@ -197,15 +201,15 @@ impl<'a> Integrator<'a> {
         light: &LightSample,
         by_surface: bool,
     ) -> Vec3 {
-        let Scattered { share, density } = brdf.scattered(light.direction);
-        if share == Vec3::ZERO || light.radiance == Vec3::ZERO {
+        let BrdfValue { scattered, density } = brdf.evaluate(light.direction);
+        if scattered == Vec3::ZERO || light.radiance == Vec3::ZERO {
             return Vec3::ZERO;
         }
         let ray = Ray {
             origin: start,
             direction: light.direction,
         };
-        // The light's own triangle lies at the end.
+        // The light's own triangle lies at the end of the ray.
         let limit = light.distance * (1.0 - LIFT);
         if self.stage.blocked(poses, &ray, limit) {
             return Vec3::ZERO;
@@ -215,11 +219,11 @@ impl<'a> Integrator<'a> {
         } else {
             1.0
         };
-        light.radiance * share * (weight / light.density) as f32
+        light.radiance * scattered * (weight / light.density) as f32
     }
 }
 
-/// The greatest length that went into a hit's position, metres.
+/// The greatest length that a hit's position was computed from, metres.
 fn magnitude(surface: &Surface, hit: &Hit) -> f64 {
     surface.position.abs().max_element().max(hit.t)
 }
