@@ -18,6 +18,8 @@ mod progress;
 mod scene;
 mod settings;
 mod stage;
+#[cfg(test)]
+mod test_scene;
 mod truth;
 
 pub use content_hash::{frame_hash, ladder_hash, replicate_hash, truth_hash};

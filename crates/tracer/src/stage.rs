@@ -21,7 +21,7 @@ use crate::scene::Scene;
 pub struct Stage<'a> {
     pub(crate) scene: &'a Scene,
     tree: SceneTree<'a>,
-    /// Per material of the scene; none where it is diffuse.
+    /// Glossy part of each material of the scene; none where it is diffuse.
     glossy_materials: Vec<Option<GlossyMaterial>>,
     sky: Sky<'a>,
     poses: Poses<'a>,

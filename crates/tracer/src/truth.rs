@@ -154,20 +154,16 @@ fn assemble_at_instant(canvas: Canvas, pixels: Vec<InstantMeans>) -> AtInstant {
 #[cfg(test)]
 mod tests {
     use std::ops::ControlFlow;
-    use std::path::Path;
 
-    use crate::load::load_scene;
     use crate::scene::Background;
+    use crate::test_scene::load_test_scene;
 
     use super::*;
 
     #[test]
     fn every_instruction_set_renders_the_same_bytes() {
         for scene in ["two_spheres", "fan"] {
-            let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
-                .join("../../scenes")
-                .join(scene);
-            let scene = load_scene(&folder, None).expect("the built-in scenes load");
+            let scene = load_test_scene(scene);
             let settings = TruthSettings {
                 width: 48,
                 height: 27,
@@ -187,8 +183,7 @@ mod tests {
 
     /// Renders two replicates of a scene at four by four pixels.
     fn trace_small(change: impl FnOnce(&mut Scene)) -> Result<Truth, TraceError> {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/two_spheres");
-        let mut scene = load_scene(&folder, None).expect("the built-in scenes load");
+        let mut scene = load_test_scene("two_spheres");
         change(&mut scene);
         let settings = TruthSettings {
             width: 4,

@@ -242,8 +242,8 @@ mod tests {
         ways
     }
 
-    /// What the cheapest child of a wide node costs that covers a node of the binary tree, found by trying all ways.
-    fn cheapest(binary: &Bvh2, rules: LeafRules, node: usize, known: &mut [Option<f32>]) -> f32 {
+    /// The cost of the cheapest child of a wide node that covers a node of the binary tree, found by trying all covers.
+    fn least_cost(binary: &Bvh2, rules: LeafRules, node: usize, known: &mut [Option<f32>]) -> f32 {
         if let Some(cost) = known[node] {
             return cost;
         }
@@ -252,7 +252,7 @@ mod tests {
             if (2..=WIDTH).contains(&cover.len()) {
                 let parts = cover.iter();
                 let cost: f32 = parts
-                    .map(|&part| cheapest(binary, rules, part, known))
+                    .map(|&part| least_cost(binary, rules, part, known))
                     .sum();
                 least = least.min(cost + binary.nodes[node].aabb.half_area());
             }
@@ -262,7 +262,7 @@ mod tests {
         cost
     }
 
-    /// Infinite where the items are too many.
+    /// The cost of a node as a leaf; infinite where it has too many items.
     fn leaf_cost(binary: &Bvh2, rules: LeafRules, node: usize) -> f32 {
         let items = Collapse::new(binary, rules).items(node).len();
         if items > rules.max_items as usize {
@@ -271,7 +271,7 @@ mod tests {
         binary.nodes[node].aabb.half_area() * (1.0 + items as f32 * rules.item_cost)
     }
 
-    /// What a child of a wide node costs as it is folded.
+    /// The cost of a child of a wide node after the collapse.
     fn cost(collapse: &Collapse, node: usize) -> f32 {
         if collapse.is_leaf(node) {
             return leaf_cost(collapse.binary, collapse.rules, node);
@@ -282,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn no_way_to_fold_is_cheaper() {
+    fn no_other_collapse_is_cheaper() {
         for (max_items, item_cost) in [(1, 0.0), (3, 0.2), (3, 1.0)] {
             let rules = LeafRules {
                 max_items,
@@ -290,7 +290,7 @@ mod tests {
             };
             let binary = scattered(22);
             let known = &mut vec![None; binary.nodes.len()];
-            let least = cheapest(&binary, rules, 0, known);
+            let least = least_cost(&binary, rules, 0, known);
             let found = cost(&Collapse::new(&binary, rules), 0);
             // Sums of two dozen numbers of 32 bits in another order.
             assert!(

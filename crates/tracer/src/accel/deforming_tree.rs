@@ -9,9 +9,9 @@ use crate::geometry::ball::{Approach, Ball};
 use crate::geometry::ray::Ray;
 use crate::geometry::triangle::{Crossing, cross};
 use crate::motion::keys::times_within;
+use crate::motion::slices::Slices;
 use crate::scene::Mesh;
 
-const MAX_SLICES: usize = 16;
 /// Triangles are tested one by one, each in the time of a visit.
 const LEAF_RULES: LeafRules = LeafRules {
     max_items: 4,
@@ -24,9 +24,9 @@ const LEAF_RULES: LeafRules = LeafRules {
 /// between neighbours.
 pub(crate) struct DeformingTree<'a> {
     mesh: &'a Mesh,
-    from: f64,
-    to: f64,
-    slices: Vec<Slice>,
+    slices: Slices,
+    /// Tree of each slice.
+    trees: Vec<Slice>,
 }
 
 /// A tree over the boxes that triangles sweep within a slice, and a ball around them.
@@ -39,31 +39,28 @@ struct Slice {
 impl<'a> DeformingTree<'a> {
     /// Builds the trees of a mesh for rays at times in `[from, to]`.
     pub fn build(mesh: &'a Mesh, from: f64, to: f64) -> Self {
-        let count = slice_count(mesh, from, to);
-        let border = |slice: usize| from + (to - from) * slice as f64 / count as f64;
-        let slices = (0..count)
-            .map(|slice| Slice::build(mesh, border(slice), border(slice + 1)))
-            .collect();
+        let slices = Slices::new([from, to], needed_slices(mesh, from, to));
         Self {
             mesh,
-            from,
-            to,
             slices,
+            trees: (slices.spans())
+                .map(|[from, to]| Slice::build(mesh, from, to))
+                .collect(),
         }
     }
 
     /// Size of the trees in memory, in bytes.
     pub fn bytes(&self) -> usize {
-        let slices = self.slices.iter();
-        slices
+        let trees = self.trees.iter();
+        trees
             .map(|slice| slice.tree.bytes() + slice.leaves.bytes())
             .sum()
     }
 
     /// Size of the stack that [`DeformingTree::traverse`] needs.
     pub fn stack_size(&self) -> usize {
-        let slices = self.slices.iter();
-        slices.map(|slice| slice.tree.stack_size).max().unwrap_or(0)
+        let sizes = self.trees.iter().map(|slice| slice.tree.stack_size);
+        sizes.max().unwrap_or(0)
     }
 
     /// Traverses the mesh at a time; see [`crate::accel::rigid_tree::RigidTree::traverse`].
@@ -125,9 +122,7 @@ impl<'a> DeformingTree<'a> {
     }
 
     fn slice(&self, time: f64) -> &Slice {
-        let fraction = (time - self.from) / (self.to - self.from).max(f64::MIN_POSITIVE);
-        let slice = (fraction * self.slices.len() as f64) as usize;
-        &self.slices[slice.min(self.slices.len() - 1)]
+        &self.trees[self.slices.find(time)]
     }
 }
 
@@ -152,9 +147,8 @@ impl Slice {
     }
 }
 
-/// The smallest power of two with which no vertex travels farther than the mean edge within a slice, so that boxes stay
-/// small; limited, because more slices cost more memory than they save time.
-fn slice_count(mesh: &Mesh, from: f64, to: f64) -> usize {
+/// The number of slices with which no vertex travels farther than the mean edge within one, so that boxes stay small.
+fn needed_slices(mesh: &Mesh, from: f64, to: f64) -> f64 {
     let shape = mesh.at(0.5 * (from + to));
     let edges: f64 = (0..mesh.triangles.len() as u32)
         .map(|triangle| {
@@ -167,6 +161,5 @@ fn slice_count(mesh: &Mesh, from: f64, to: f64) -> usize {
         .windows(2)
         .map(|span| mesh.vertex_maxima(span[0], span[1])[1] * (span[1] - span[0]))
         .sum();
-    let needed = (travel / mean_edge.max(f64::MIN_POSITIVE)).clamp(1.0, MAX_SLICES as f64);
-    (needed.ceil() as usize).next_power_of_two()
+    travel / mean_edge.max(f64::MIN_POSITIVE)
 }

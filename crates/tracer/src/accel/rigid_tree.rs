@@ -15,7 +15,7 @@ use crate::scene::Mesh;
 
 /// Leaves of triangles side by side, and a tree over the leaves.
 pub(crate) struct RigidTree {
-    /// None where no traversal needs it: the leaves of every object that shows the mesh lie in the world tree.
+    /// Tree over the leaves; dropped where the leaves of every object that shows the mesh lie in the world tree.
     tree: Option<Tree>,
     leaves: Vec<Leaf>,
     ball: Ball,

@@ -25,10 +25,10 @@ const NOWHERE: f64 = f64::NEG_INFINITY;
 /// of that tree and the boxes that moving objects sweep.
 pub(crate) struct SceneTree<'a> {
     scene: &'a Scene,
-    /// Per mesh of the scene; none where no object shows it.
+    /// Trees per mesh of the scene; none where no object shows it.
     meshes: Vec<Option<MeshTree<'a>>>,
     world: WorldTree,
-    /// Per object.
+    /// Holes per object.
     opacities: Vec<Opacity>,
     stack_size: usize,
 }
@@ -67,8 +67,8 @@ impl<'a> SceneTree<'a> {
         from: f64,
         to: f64,
     ) -> Result<Self, TraceError> {
-        let slices = sweep_slices(scene, from, to);
-        check_coordinates(scene, &slices)?;
+        let (slices, swept) = sweep_slices(scene, from, to);
+        check_coordinates(scene, &swept)?;
         let shown: Vec<usize> = scene.objects.iter().map(|object| object.mesh).collect();
         let mut meshes: Vec<Option<MeshTree>> = scene
             .meshes
@@ -80,12 +80,9 @@ impl<'a> SceneTree<'a> {
                     .then(|| MeshTree::build(mesh, from, to))
             })
             .collect();
-        let swept = slices
-            .iter()
-            .flatten()
-            .map(|aabb| aabb.largest_coordinate());
-        let leaves = collect_world_leaves(scene, &meshes, poses, swept.fold(0.0, f64::max));
-        let world = WorldTree::build(&leaves, &slices, [from, to]);
+        let coordinates = swept.iter().flatten().map(|aabb| aabb.largest_coordinate());
+        let leaves = collect_world_leaves(scene, &meshes, poses, coordinates.fold(0.0, f64::max));
+        let world = WorldTree::build(&leaves, slices, &swept);
         for (index, mesh) in meshes.iter_mut().enumerate() {
             let is_traversed = (leaves.iter().zip(&shown))
                 .any(|(leaves, shown)| *shown == index && leaves.is_none());

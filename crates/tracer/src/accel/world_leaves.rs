@@ -50,14 +50,14 @@ pub(crate) fn collect_world_leaves(
 
 #[cfg(test)]
 mod tests {
-    use std::path::{Path, PathBuf};
+    use std::path::PathBuf;
 
     use glam::{DVec3, Vec3};
 
     use super::*;
-    use crate::load::load_scene;
     use crate::motion::keys::{Key, Motion, Turn};
     use crate::scene::{Mesh, Object, Parent};
+    use crate::test_scene::load_test_scene;
 
     /// A fan of so many triangles, two metres wide.
     fn fan(triangles: u32) -> Mesh {
@@ -107,8 +107,7 @@ mod tests {
         objects: Vec<Object>,
         largest_coordinate: f64,
     ) -> Vec<bool> {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/two_spheres");
-        let mut scene = load_scene(&folder, None).expect("the built-in scenes load");
+        let mut scene = load_test_scene("two_spheres");
         scene.meshes = meshes;
         scene.objects = objects;
         let meshes = scene.meshes.iter();

@@ -6,6 +6,7 @@ use crate::accel::collapse::LeafRules;
 use crate::accel::lanes::Lanes;
 use crate::geometry::aabb::Aabb;
 use crate::geometry::ray::Ray;
+use crate::motion::slices::Slices;
 
 /// Topmost nodes of the still tree that the slices' trees sort in among the moving objects.
 const TOPMOST: usize = 16;
@@ -18,10 +19,9 @@ const LEAF_RULES: LeafRules = LeafRules {
 /// nodes and the boxes that all other objects sweep.
 pub(crate) struct WorldTree {
     tree: Tree,
-    /// Root per slice; all slices are equally long.
+    slices: Slices,
+    /// Root of each slice, or of them all.
     roots: Vec<Child>,
-    from: f64,
-    to: f64,
     numbers: Numbers,
 }
 
@@ -80,9 +80,9 @@ impl Numbers {
 }
 
 impl WorldTree {
-    /// Builds the tree. `leaves` holds the boxes of each object's leaves where they lie in the world tree. `slices` holds the
-    /// boxes that the objects sweep in each slice of `[from, to]`.
-    pub fn build(leaves: &[Option<Vec<Aabb>>], slices: &[Vec<Aabb>], [from, to]: [f64; 2]) -> Self {
+    /// Builds the tree. `leaves` holds the boxes of each object's leaves where they lie in the world tree. `swept`
+    /// holds the boxes that the objects sweep in each slice.
+    pub fn build(leaves: &[Option<Vec<Aabb>>], slices: Slices, swept: &[Vec<Aabb>]) -> Self {
         let numbers = Numbers::new(leaves.len());
         let mut boxes = Vec::new();
         let mut children = Vec::new();
@@ -106,8 +106,8 @@ impl WorldTree {
         let roots = if whole.is_empty() {
             vec![Child::ROOT]
         } else {
-            let slices = slices.iter();
-            slices
+            let swept = swept.iter();
+            swept
                 .map(|swept| {
                     let objects = whole.iter().map(|&object| {
                         let part = Part { object, leaf: None };
@@ -123,9 +123,8 @@ impl WorldTree {
         };
         Self {
             tree: builder.finish(),
+            slices,
             roots,
-            from,
-            to,
             numbers,
         }
     }
@@ -166,16 +165,13 @@ impl WorldTree {
     #[inline(always)]
     fn root(&self, time: f64) -> Child {
         assert!(
-            self.from <= time && time <= self.to,
+            self.slices.contain(time),
             "a ray's time lies in the stage's interval"
         );
-        let last = self.roots.len() - 1;
-        if last == 0 {
-            return self.roots[0];
+        match self.roots[..] {
+            [root] => root,
+            _ => self.roots[self.slices.find(time)],
         }
-        let fraction = (time - self.from) / (self.to - self.from);
-        let slice = (fraction * self.roots.len() as f64) as usize;
-        self.roots[slice.min(last)]
     }
 }
 
@@ -237,11 +233,10 @@ mod tests {
     fn what_moves_is_met_among_what_stands_still() {
         // A hundred leaves in a row; the second object passes from before them over their middle to behind them.
         let leaves = (0..100).map(|x| cube(f64::from(x))).collect();
-        let slices: Vec<Vec<Aabb>> = [-10.0, 49.5, 200.0]
-            .map(|x| vec![Aabb::EMPTY, cube(x)])
-            .into();
-        let tree = WorldTree::build(&[Some(leaves), None], &slices, [0.0, 3.0]);
-        for (time, places) in [(0.5, 0..1), (1.5, 1..100), (3.0, 100..101)] {
+        let swept = [-10.0, 49.5, 49.5, 200.0].map(|x| vec![Aabb::EMPTY, cube(x)]);
+        let slices = Slices::new([0.0, 4.0], 4.0);
+        let tree = WorldTree::build(&[Some(leaves), None], slices, &swept);
+        for (time, places) in [(0.5, 0..1), (1.5, 1..100), (4.0, 100..101)] {
             let mut parts = met(&tree, time);
             let place = parts.iter().position(|part| part.object == 1);
             let place = place.expect("the ray comes to the second object");
@@ -255,9 +250,10 @@ mod tests {
     #[test]
     fn slices_share_the_tree_of_what_stands_still() {
         let leaves: Vec<Aabb> = (0..1000).map(|x| cube(f64::from(x))).collect();
-        let bytes = |slices: usize| {
-            let slices = vec![vec![Aabb::EMPTY, cube(-5.0)]; slices];
-            WorldTree::build(&[Some(leaves.clone()), None], &slices, [0.0, 1.0]).bytes()
+        let bytes = |count: usize| {
+            let swept = vec![vec![Aabb::EMPTY, cube(-5.0)]; count];
+            let slices = Slices::new([0.0, 1.0], count as f64);
+            WorldTree::build(&[Some(leaves.clone()), None], slices, &swept).bytes()
         };
         // Over a thousand leaves there are at least 143 nodes; above 16 of them and one object, at most 17.
         assert!(bytes(8) < 2 * bytes(1), "{} and {}", bytes(8), bytes(1));

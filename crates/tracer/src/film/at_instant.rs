@@ -7,7 +7,6 @@ use crate::film::sampler::Sampler;
 use crate::geometry::hit::Hit;
 use crate::geometry::ray::Ray;
 use crate::light::integrator::{Integrator, LIFT, PathSample};
-use crate::material::surface::winding_normal;
 use crate::motion::camera::View;
 use crate::motion::poses::Poses;
 use crate::stage::Stage;
@@ -177,8 +176,11 @@ impl InstantView {
         hit: &Hit,
         point: DVec3,
     ) -> InstantRay {
+        let mesh = &stage.scene.meshes[stage.scene.objects[hit.object].mesh];
         let side = |poses: &mut Poses, time: f64, direction: DVec3| {
-            winding_normal(stage.scene, poses.pose(hit.object), hit, time).dot(direction) > 0.0
+            let to_world = &poses.pose(hit.object).to_world;
+            let normal = mesh.at(time).area_normal(hit.triangle, to_world);
+            normal.dot(direction) > 0.0
         };
         let eye = self.view.to_world.translation;
         let way = point - eye;

@@ -62,11 +62,11 @@ impl EnvironmentMap {
 /// A texel is drawn by the mean of itself and its neighbours, so that every direction that interpolation makes bright can be
 /// drawn. Within a texel directions are drawn evenly.
 pub(crate) struct EnvironmentSampler {
-    /// Per texel, probability per steradian.
+    /// Probability per steradian of each texel.
     densities: Vec<f64>,
     /// Probability of each row or one above it.
     rows: Vec<f64>,
-    /// Per texel, the probability within its row of itself or one to the left.
+    /// Probability within its row of each texel or one to the left.
     columns: Vec<f64>,
 }
 
@@ -128,7 +128,7 @@ impl EnvironmentSampler {
     }
 }
 
-/// Per texel, the mean strength of itself and its eight neighbours.
+/// The mean strength of each texel and its eight neighbours.
 fn weights(map: &EnvironmentMap) -> Vec<f64> {
     let [width, height] = [i64::from(map.width), i64::from(map.height)];
     let strength = |column, row| f64::from(map.texel(column, row).max_element());

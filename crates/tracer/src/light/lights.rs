@@ -15,7 +15,7 @@ pub(crate) struct Emitters {
     triangles: Vec<(usize, u32)>,
     /// Sums of the chances up to each triangle, rising to 1.
     cumulative: Vec<f64>,
-    /// Per object and triangle, the chance of being drawn; empty for objects that do not emit.
+    /// Chance of being drawn, per object and triangle; empty for objects that do not emit.
     chances: Vec<Vec<f64>>,
 }
 
@@ -72,7 +72,7 @@ impl Emitters {
         let drawn = self.cumulative.partition_point(|&sum| sum <= choice);
         let (object, triangle) = self.triangles[drawn.min(last)];
         let mesh = &scene.meshes[scene.objects[object].mesh];
-        let [a, b, c] = mesh.at(poses.time()).corners(triangle);
+        let shape = mesh.at(poses.time());
         // The square's upper half is folded onto the triangle.
         let weights = if u + v > 1.0 {
             [1.0 - u, 1.0 - v]
@@ -80,13 +80,11 @@ impl Emitters {
             [u, v]
         };
         let to_world = poses.pose(object).to_world;
-        let point = to_world.transform_point3(a + weights[0] * (b - a) + weights[1] * (c - a));
+        let point = to_world.transform_point3(shape.point(triangle, weights));
         let way = point - from;
         let distance = way.length();
         let direction = way / distance;
-        let scaled = to_world
-            .transform_vector3(b - a)
-            .cross(to_world.transform_vector3(c - a));
+        let scaled = shape.area_normal(triangle, &to_world);
         let density = self.chance(object, triangle)
             * density_per_steradian(
                 0.5 * scaled.length(),
@@ -168,8 +166,7 @@ impl Sun {
 
 fn world_area(scene: &Scene, poses: &mut Poses, object: usize, triangle: u32) -> f64 {
     let mesh = &scene.meshes[scene.objects[object].mesh];
-    let [a, b, c] = mesh.at(poses.time()).corners(triangle);
-    let to_world = poses.pose(object).to_world;
-    let edge = |to: DVec3| to_world.transform_vector3(to - a);
-    0.5 * edge(b).cross(edge(c)).length()
+    let shape = mesh.at(poses.time());
+    let to_world = &poses.pose(object).to_world;
+    0.5 * shape.area_normal(triangle, to_world).length()
 }

@@ -40,10 +40,11 @@ pub(crate) struct Sky<'a> {
 
 /// The method of drawing directions.
 enum Profile {
-    /// None: the sky is even.
+    /// No directions, because the sky is even.
     Even,
-    /// In proportion to the strongest component at heights -1, 0 and 1, linear between them.
+    /// Heights, in proportion to the strongest component at -1, 0 and 1, linear between them.
     Heights([f64; 3]),
+    /// Texels of the map.
     Map(EnvironmentSampler),
 }
 

@@ -64,9 +64,7 @@ impl Surface {
     /// The surface that `ray` meets at `hit`, the object being at `pose`.
     pub fn at(scene: &Scene, pose: &Pose, ray: &Ray, hit: &Hit) -> Surface {
         let mesh = &scene.meshes[scene.objects[hit.object].mesh];
-        let [a, b, c] = mesh.at(hit.time).corners(hit.triangle);
-        let edge = |to: DVec3| pose.to_world.transform_vector3(to - a);
-        let scaled = edge(b).cross(edge(c));
+        let scaled = mesh.at(hit.time).area_normal(hit.triangle, &pose.to_world);
         let facet = face_towards(scaled.normalize_or_zero(), -ray.direction);
         let texcoord = texcoord(mesh, hit.triangle, hit.weights);
         let index = material_index(scene, hit.object, hit.triangle);
@@ -92,15 +90,6 @@ impl Surface {
     pub fn brdf<'a>(&self, glossy: Option<&'a GlossyMaterial>, ray: &Ray) -> Option<Brdf<'a>> {
         Brdf::new(glossy, self.color, self.facet, self.normal, -ray.direction)
     }
-}
-
-/// The normal of a hit's triangle in the world at `time` (frames), on the side from which it is wound anticlockwise; its
-/// length is twice the triangle's area.
-pub(crate) fn winding_normal(scene: &Scene, pose: &Pose, hit: &Hit, time: f64) -> DVec3 {
-    let mesh = &scene.meshes[scene.objects[hit.object].mesh];
-    let [a, b, c] = mesh.at(time).corners(hit.triangle);
-    let edge = |to: DVec3| pose.to_world.transform_vector3(to - a);
-    edge(b).cross(edge(c))
 }
 
 /// The material of a triangle.

@@ -14,7 +14,7 @@ pub struct Poses<'a> {
     scene: &'a Scene,
     motions: Arc<PreparedMotions>,
     time: f64,
-    /// Per object; valid where the stamp is the current one or [`FOR_EVER`].
+    /// Pose of each object, valid where its stamp is the current one or [`FOR_EVER`].
     poses: Vec<(Stamp, Pose)>,
     current: Stamp,
     /// Stack of the traversal. It is kept here because clearing one for every ray takes a twentieth of the ray's time.
@@ -24,9 +24,9 @@ pub struct Poses<'a> {
 /// Every motion of a scene.
 struct PreparedMotions {
     camera: PreparedMotion,
-    /// Per object, relative to its parent.
+    /// Motion of each object, relative to its parent.
     objects: Vec<PreparedMotion>,
-    /// Per object, the greatest distance of its vertices from its origin, metres; infinite where the mesh deforms.
+    /// Greatest distance of each object's vertices from its origin, metres; infinite where the mesh deforms.
     radii: Vec<f64>,
 }
 

@@ -1,6 +1,6 @@
 //! The vertices of a mesh at one time.
 
-use glam::{DVec3, Vec3};
+use glam::{DAffine3, DVec3, Vec3};
 
 use crate::scene::{Mesh, Shape};
 
@@ -96,6 +96,13 @@ impl ShapeAt<'_> {
             Some(_) => normal.try_normalize(),
             None => Some(normal),
         }
+    }
+
+    /// The normal of a transformed triangle, on the side from which it is wound anticlockwise. Its length is twice the area.
+    pub fn area_normal(&self, triangle: u32, transform: &DAffine3) -> DVec3 {
+        let [a, b, c] = self.corners(triangle);
+        let edge = |to: DVec3| transform.transform_vector3(to - a);
+        edge(b).cross(edge(c))
     }
 
     /// A point of a triangle from the weights of its second and third vertex.

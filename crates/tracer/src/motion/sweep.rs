@@ -130,13 +130,13 @@ mod tests {
     use std::f64::consts::PI;
     use std::path::PathBuf;
 
-    use frame::ShutterProfile;
     use glam::{DQuat, Vec3};
 
     use super::*;
     use crate::motion::curve::Interpolation;
     use crate::motion::keys::{Key, Turn};
-    use crate::scene::{Background, Camera, Display, Family, FlipExposures, Object, Parent, Shape};
+    use crate::scene::{Camera, Object, Parent, Shape};
+    use crate::test_scene::load_test_scene;
 
     /// SplitMix64 in [-1, 1): enough to vary poses.
     struct Numbers(u64);
@@ -206,21 +206,6 @@ mod tests {
             parent,
         };
         Scene {
-            name: String::new(),
-            exposes: String::new(),
-            family: Family::Rotation,
-            exposure: 1.0,
-            shutter_profile: ShutterProfile::default(),
-            width: 1,
-            height: 1,
-            display: Display {
-                stops: 0.0,
-                flip: FlipExposures {
-                    start: 0.0,
-                    stop: 0.0,
-                    count: 2,
-                },
-            },
             camera: Camera {
                 motion: Motion {
                     interpolation,
@@ -235,8 +220,6 @@ mod tests {
                 },
                 vertical_fov: vec![(0.0, 1.0)],
             },
-            background: Background::Constant(Vec3::ZERO),
-            sun: None,
             meshes: vec![Mesh {
                 path: PathBuf::new(),
                 positions: corners,
@@ -246,20 +229,17 @@ mod tests {
                 slots: Vec::new(),
                 shapes,
             }],
-            textures: Vec::new(),
-            materials: Vec::new(),
             objects: vec![
                 object(numbers, Parent::World),
                 object(numbers, Parent::Object(0)),
                 object(numbers, Parent::Camera),
             ],
-            notes: Vec::new(),
-            hash: String::new(),
+            ..load_test_scene("two_spheres")
         }
     }
 
-    /// Scenes of both ways between keys, rigid and deforming, with turns of no radians between keys, a little, nearly
-    /// half a turn, and several turns.
+    /// Scenes of both interpolations, rigid and deforming, with turns between keys of 0, a little, nearly half a turn, and
+    /// several turns.
     fn scenes(numbers: &mut Numbers) -> Vec<Scene> {
         let mut scenes = Vec::new();
         for interpolation in [Interpolation::Linear, Interpolation::Cubic] {
