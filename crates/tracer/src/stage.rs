@@ -56,7 +56,7 @@ impl<'a> Stage<'a> {
         })
     }
 
-    /// Tells that nothing in the world changes its place or shape.
+    /// Returns true if nothing in the world changes its place or shape.
     pub(crate) fn stands_still(&self) -> bool {
         let mut objects = self.scene.objects.iter().enumerate();
         objects.all(|(index, object)| {
@@ -64,7 +64,7 @@ impl<'a> Stage<'a> {
         })
     }
 
-    /// Tells that all surfaces look the same from everywhere.
+    /// Returns true if all surfaces look the same from everywhere.
     pub(crate) fn is_diffuse(&self) -> bool {
         self.glossy_materials.iter().all(Option::is_none)
     }
@@ -96,7 +96,7 @@ impl<'a> Stage<'a> {
         }
     }
 
-    /// Tells that anything lies at `0 < t < limit`.
+    /// Returns true if anything lies at `0 < t < limit`.
     pub fn blocked(&self, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
         match self.traversal {
             #[cfg(target_arch = "x86_64")]

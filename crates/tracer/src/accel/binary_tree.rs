@@ -14,7 +14,7 @@ use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::bvh2::{Bvh2, DEFAULT_MAX_STACK_DEPTH};
 use obvhs::ploc::morton::morton_encode_u128_unorm;
 
-/// Neighbours on either side among which a node looks for its partner.
+/// Neighbours on each side among which a node looks for its partner.
 const NEIGHBOURS: usize = 14;
 /// Nodes per merge above which a round counts as slow; the next round merges all.
 const SLOW: usize = 32;
@@ -73,7 +73,7 @@ pub(crate) fn optimize(tree: &mut Bvh2) {
             if depth > MAX_DEPTH {
                 return;
             }
-            // obvhs ends the program where its room for nodes that wait is too small.
+            // obvhs panics if its stack is too small.
             tree.max_depth = (depth + 1).max(DEFAULT_MAX_STACK_DEPTH);
             let affordable = MAX_VISITS / (overlap * tree.nodes.len() as f64);
             let ratio = (1.0 / part as f32).min(affordable as f32);

@@ -61,7 +61,7 @@ impl<'a> Collapse<'a> {
         children
     }
 
-    /// Tells that a node of the binary tree becomes a leaf where a single child covers it.
+    /// Returns true if a node of the binary tree becomes a leaf where a single child covers it.
     pub fn is_leaf(&self, node: usize) -> bool {
         self.costs[node].leaf <= self.costs[node].children[0]
     }

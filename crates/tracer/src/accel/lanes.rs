@@ -1,6 +1,6 @@
 //! Tests of sixteen boxes or eight triangles at once, with AVX2 and FMA or portably.
 //!
-//! The portable tests serve processors without AVX2, those of Apple and ARM among them, and are the reference in tests of
+//! The portable tests serve processors without AVX2, ARM among them, and are the reference in tests of
 //! the others. Both only *reject*, and only what a ray certainly misses. Everything else is decided by the same scalar code,
 //! so hits, and with them all bytes of a picture, do not depend on the processor.
 

@@ -149,7 +149,7 @@ impl<'a> SceneTree<'a> {
         best
     }
 
-    /// Tells that anything lies at `0 < t < limit`.
+    /// Returns true if anything lies at `0 < t < limit`.
     #[inline(always)]
     pub fn blocked<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
         let time = poses.time();

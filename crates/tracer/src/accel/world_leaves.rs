@@ -101,7 +101,7 @@ mod tests {
         object
     }
 
-    /// Tells per object whether its leaves lie in the world tree.
+    /// Finds per object whether its leaves lie in the world tree.
     fn in_world_tree(
         meshes: Vec<Mesh>,
         objects: Vec<Object>,

@@ -165,7 +165,7 @@ impl WorldTree {
     #[inline(always)]
     fn root(&self, time: f64) -> Child {
         assert!(
-            self.slices.contain(time),
+            self.slices.contains(time),
             "a ray's time lies in the stage's interval"
         );
         match self.roots[..] {

@@ -106,7 +106,7 @@ impl InstantView {
         }
     }
 
-    /// Tells that the frame shows the point that `ray` meets at the time of `poses`; `then` are the poses of the instant.
+    /// Returns true if the frame shows the point that `ray` meets at the time of `poses`; `then` are the poses of the instant.
     pub fn shows(
         &self,
         stage: &Stage,
@@ -125,7 +125,7 @@ impl InstantView {
         self.shows_point(stage, then, &instant, place)
     }
 
-    /// Tells that the frame shows a point, which lay at `place` in it.
+    /// Returns true if the frame shows a point, which lay at `place` in it.
     fn shows_point(
         &self,
         stage: &Stage,
@@ -214,13 +214,13 @@ impl InstantView {
         }
     }
 
-    /// Tells that a place lies inside the picture.
+    /// Returns true if a place lies inside the picture.
     fn contains(&self, place: DVec2) -> bool {
         let size = DVec2::new(f64::from(self.canvas.width), f64::from(self.canvas.height));
         place.cmpge(DVec2::splat(-ROUNDING)).all() && place.cmplt(size + ROUNDING).all()
     }
 
-    /// Tells that anything lies between the eye and the point. The ray leaves the surface as shadow rays do.
+    /// Returns true if anything lies between the eye and the point. The ray leaves the surface as shadow rays do.
     fn is_hidden(&self, stage: &Stage, then: &mut Poses, instant: &InstantRay) -> bool {
         let facet = stage.facet(then, &instant.ray, &instant.hit);
         let magnitude = instant.point.abs().max_element().max(instant.hit.t);

@@ -18,7 +18,7 @@ use crate::progress::Meter;
 /// Pixels that a thread takes at a time; between two tasks it reports progress.
 pub(crate) const PIXELS_PER_TASK: usize = 32;
 
-/// Samples per sample that is shaded once more as at the instant.
+/// Distance between samples that are shaded once more, as at the instant.
 const SHADED_AGAIN: u32 = 4;
 
 /// Times of the samples of a picture.

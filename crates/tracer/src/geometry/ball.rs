@@ -45,7 +45,7 @@ impl Ball {
         }
     }
 
-    /// Tells that a ray certainly misses the ball. From very far away rounding leaves that open.
+    /// Returns true if a ray certainly misses the ball. From very far away rounding leaves that open.
     #[inline(always)]
     pub fn is_missed(&self, ray: &Ray) -> bool {
         let way = self.centre - ray.origin;

@@ -99,7 +99,7 @@ impl Emitters {
         })
     }
 
-    /// Tells that nothing emits.
+    /// Returns true if nothing emits.
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty()
     }
@@ -152,7 +152,7 @@ impl Sun {
         }
     }
 
-    /// Tells that a ray which leaves the scene in this unit direction ends on the disc.
+    /// Returns true if a ray which leaves the scene in this unit direction ends on the disc.
     pub(crate) fn covers(&self, direction: DVec3) -> bool {
         self.angular_radius > 0.0 && 1.0 - direction.dot(self.direction) <= self.cap()
     }

@@ -53,7 +53,7 @@ impl Opacity {
             .collect()
     }
 
-    /// Tells that the surface has no hole at the crossing.
+    /// Returns true if the surface has no hole at the crossing.
     #[inline]
     pub fn is_opaque(&self, scene: &Scene, triangle: u32, crossing: &Crossing) -> bool {
         self.solid || opacity(scene, self.object, triangle, [crossing.u, crossing.v]) >= HOLE
@@ -74,9 +74,9 @@ impl Surface {
             facet,
             normal: shading_normal(mesh, pose, hit)
                 .map_or(facet, |normal| face_towards(normal, facet)),
-            color: textured(scene, material.diffuse, material.diffuse_texture, texcoord),
+            color: apply_texture(scene, material.diffuse, material.diffuse_texture, texcoord),
             material: index,
-            emission: textured(
+            emission: apply_texture(
                 scene,
                 material.emission,
                 material.emission_texture,
@@ -111,7 +111,7 @@ pub(crate) fn emission(scene: &Scene, object: usize, triangle: u32, weights: [f6
     let mesh = &scene.meshes[scene.objects[object].mesh];
     let material = material(scene, object, triangle);
     let texcoord = texcoord(mesh, triangle, weights);
-    textured(
+    apply_texture(
         scene,
         material.emission,
         material.emission_texture,
@@ -131,7 +131,7 @@ fn opacity(scene: &Scene, object: usize, triangle: u32, weights: [f64; 2]) -> f3
     material.opacity * texel.w
 }
 
-fn textured(scene: &Scene, factor: Vec3, texture: Option<usize>, texcoord: Vec2) -> Vec3 {
+fn apply_texture(scene: &Scene, factor: Vec3, texture: Option<usize>, texcoord: Vec2) -> Vec3 {
     if factor == Vec3::ZERO {
         return factor;
     }

@@ -97,7 +97,7 @@ impl<T: Quantity> Cubic<T> {
 }
 
 impl<T: Quantity + PartialEq> Cubic<T> {
-    /// Tells that the curve never changes.
+    /// Returns true if the curve never changes.
     pub fn is_constant(&self) -> bool {
         self.0[1..].iter().all(|part| *part == T::default())
     }
@@ -135,7 +135,7 @@ impl<K> Keyed<'_, K> {
         segment.saturating_sub(1)
     }
 
-    /// Tells that a segment has a key at both ends.
+    /// Returns true if a segment has a key at both ends.
     pub fn is_between(&self, segment: usize) -> bool {
         0 < segment && segment < self.keys.len()
     }

@@ -13,7 +13,7 @@ pub struct Turn {
     pub angle: f64,
 }
 
-/// A pose at one time, and the way to the next.
+/// A pose at one time, and the turn to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Key {
     /// Frames relative to the instant.
@@ -201,7 +201,7 @@ impl Segment {
         before.into_iter().chain([&self.turn]).chain(after)
     }
 
-    /// Tells that nothing changes within the segment.
+    /// Returns true if nothing changes within the segment.
     pub fn stands_still(&self) -> bool {
         self.translation.is_constant()
             && self.scale.is_constant()

@@ -71,7 +71,7 @@ fn sample_times(scene: &Scene, object: Option<usize>, shutter: Shutter) -> Vec<f
     times
 }
 
-/// Tells that any point moves away from its place at the first of the times.
+/// Returns true if any point moves away from its place at the first of the times.
 fn changes(times: &[f64], points: impl Fn(f64) -> Vec<DVec3>) -> bool {
     let first = points(times[0]);
     let size = first.iter().map(|point| point.length()).fold(0.0, f64::max);

@@ -105,7 +105,7 @@ impl<'a> Poses<'a> {
         }
     }
 
-    /// Tells that an object never moves.
+    /// Returns true if an object never moves.
     pub(crate) fn stands_still(&self, object: usize) -> bool {
         self.poses[object].0 == FOR_EVER
     }
@@ -132,7 +132,7 @@ impl<'a> Poses<'a> {
         stack
     }
 
-    /// Tells that a ray certainly misses an object. Where the object's pose is not yet known its position must do.
+    /// Returns true if a ray certainly misses an object. It is a quick test of objects whose pose is not yet known.
     #[inline(always)]
     pub(crate) fn is_missed(&self, object: usize, ray: &Ray) -> bool {
         let stamp = self.poses[object].0;
@@ -159,7 +159,7 @@ impl<'a> Poses<'a> {
         &self.poses[object].1
     }
 
-    /// Tells that an object's pose is that of the current time.
+    /// Returns true if an object's pose is that of the current time.
     #[inline]
     fn is_current(&self, object: usize) -> bool {
         let stamp = self.poses[object].0;
@@ -204,7 +204,7 @@ fn radius(mesh: &Mesh) -> f64 {
     lengths.fold(0.0, f64::max)
 }
 
-/// Tells that no motion between the object and the world changes anything within the interval.
+/// Returns true if no motion between the object and the world changes anything within the interval.
 fn stands_still(scene: &Scene, object: usize, from: f64, to: f64) -> bool {
     scene.motion_chain(object).into_iter().all(|motion| {
         key_times([motion], from, to)

@@ -38,7 +38,7 @@ impl Mesh {
         }
     }
 
-    /// Tells that the mesh changes its shape.
+    /// Returns true if the mesh changes its shape.
     pub(crate) fn deforms(&self) -> bool {
         !self.shapes.is_empty()
     }

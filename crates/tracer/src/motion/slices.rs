@@ -18,7 +18,7 @@ pub(crate) struct Slices {
 }
 
 impl Slices {
-    /// Cuts `[from, to]` into the power of two of slices from `needed` up, 16 at most.
+    /// Cuts `[from, to]` into at least `needed` slices, rounded up to a power of two, and into 16 at most.
     pub fn new([from, to]: [f64; 2], needed: f64) -> Self {
         let count = needed.clamp(1.0, MAX_SLICES as f64).ceil() as usize;
         Self {
@@ -46,9 +46,9 @@ impl Slices {
         ((fraction * self.count as f64) as usize).min(self.count - 1)
     }
 
-    /// Tells that a time lies in the interval.
+    /// Returns true if a time lies in the interval.
     #[inline(always)]
-    pub fn contain(self, time: f64) -> bool {
+    pub fn contains(self, time: f64) -> bool {
         self.from <= time && time <= self.to
     }
 }
