@@ -1,29 +1,30 @@
-//! The frame of the instant: what an engine would hand to its motion blur.
+//! The frame of the instant, as an engine would hand it to its motion blur.
 
 use frame::{ColorSampling, FAR_DEPTH, Frame, Raster, VelocityKind};
 use rayon::prelude::*;
 
-use crate::canvas::Canvas;
-use crate::film::{Film, PixelMean, Places, Times, picture};
-use crate::finite::{check, check_picture};
-use crate::path::Integrator;
+use crate::content_hash::{frame_hash, provenance};
+use crate::error::TraceError;
+use crate::film::canvas::Canvas;
+use crate::film::finite::{check_layer, check_picture};
+use crate::film::render::{Film, PixelMean, Places, Times, assemble_picture};
+use crate::film::sampler::Stream;
+use crate::light::integrator::Integrator;
+use crate::motion::velocity::{TrackedPoint, camera_velocity, reprojection};
 use crate::progress::{Meter, Watch};
-use crate::provenance::{frame_hash, object_names, provenance};
-use crate::sampler::Stream;
 use crate::scene::Scene;
-use crate::settings::{FrameSettings, TraceError};
+use crate::settings::FrameSettings;
 use crate::stage::Stage;
-use crate::velocity::{Tracked, camera_velocity, reprojection};
 
-/// What a rasteriser would have written at one pixel's centre.
+/// The values that a rasteriser writes at one pixel's centre.
 struct PointSample {
     velocity: [f32; 2],
     depth: f32,
     object_id: u32,
 }
 
-/// Renders the instant `t = 0`: colour and coverage filtered over each pixel or sampled at its centre; velocity, depth
-/// and object id of what is seen there. All rasters reach beyond the picture by the guard band of the settings.
+/// Renders the instant `t = 0`. Colour and coverage are filtered over each pixel or sampled at its centre. Velocity, depth and
+/// object id are those of the point at the centre. All rasters extend beyond the picture by the guard band of the settings.
 pub fn trace_frame(
     scene: &Scene,
     settings: &FrameSettings,
@@ -35,7 +36,7 @@ pub fn trace_frame(
         height: settings.height,
         guard_band: settings.guard_band,
     };
-    let stage = Stage::checked(scene, 0.0, 0.0)?;
+    let stage = Stage::try_new(scene, 0.0, 0.0)?;
     let film = Film {
         integrator: Integrator::new(&stage, 0.0),
         canvas,
@@ -44,7 +45,7 @@ pub fn trace_frame(
             ColorSampling::Point => Places::Centre,
         },
         times: Times::Instant,
-        recall: None,
+        instant: None,
         replicates: 0..1,
         samples_per_replicate: settings.samples_per_pixel,
         seed: settings.seed,
@@ -52,16 +53,16 @@ pub fn trace_frame(
     };
     let pixels = canvas.pixels();
     let meter = Meter::new(watch, pixels.len() as u64 * film.samples_per_pixel());
-    let seen = film.develop(&pixels, &meter, |estimates| PixelMean::of(estimates))?;
-    let seen = picture(canvas, &seen);
+    let pixel_means = film.render(&pixels, &meter, |estimates| PixelMean::of(estimates))?;
+    let picture = assemble_picture(canvas, &pixel_means);
     let points = Raster {
         width: canvas.columns(),
         height: canvas.rows(),
-        pixels: point_samples(&stage, canvas, settings),
+        pixels: sample_points(&stage, canvas, settings),
     };
     let velocity = points.map(|point| point.velocity);
-    check_picture(scene, &seen)?;
-    check(scene, "velocity", &velocity)?;
+    check_picture(scene, &picture)?;
+    check_layer(scene, "velocity", &velocity)?;
     Ok(Frame {
         provenance: provenance(
             &stage,
@@ -77,16 +78,17 @@ pub fn trace_frame(
         guard_band: settings.guard_band,
         reprojection: reprojection(scene, [settings.width, settings.height]),
         display: scene.display,
-        objects: object_names(scene),
-        color: seen.color,
-        coverage: seen.coverage,
+        objects: scene.object_names(),
+        color: picture.color,
+        coverage: picture.coverage,
         velocity,
         depth: points.map(|point| point.depth),
         object_id: points.map(|point| point.object_id),
     })
 }
 
-fn point_samples(stage: &Stage, canvas: Canvas, settings: &FrameSettings) -> Vec<PointSample> {
+/// Samples what a rasteriser writes, at the centres of all pixels.
+fn sample_points(stage: &Stage, canvas: Canvas, settings: &FrameSettings) -> Vec<PointSample> {
     let scene = stage.scene;
     let size = [canvas.width, canvas.height];
     let view = scene.camera.view(0.0, size[0], size[1]);
@@ -105,7 +107,7 @@ fn point_samples(stage: &Stage, canvas: Canvas, settings: &FrameSettings) -> Vec
                     let depth = hit.map_or(f64::INFINITY, |_| f64::from(depth));
                     camera_velocity(&before, centre, depth)
                 } else {
-                    let tracked = Tracked::of(hit.as_ref(), ray.direction);
+                    let tracked = TrackedPoint::of(hit.as_ref(), ray.direction);
                     tracked.velocity(scene, size, settings.velocity)
                 };
                 PointSample {

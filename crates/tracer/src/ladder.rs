@@ -1,31 +1,33 @@
-//! Accumulations of a few sub-frames, for comparison with the truth of the same shutter.
+//! Ladders: accumulations of a few sub-frames, for comparison with the truth of the same shutter.
 
 use frame::{Accumulation, Ladder, Picture, Plane, Raster, Truth};
 
-use crate::canvas::Canvas;
-use crate::film::{Estimate, Film, PixelMean, Places, Times};
-use crate::finite::check_picture;
-use crate::opening::Opening;
-use crate::path::Integrator;
+use crate::content_hash::{ladder_hash, provenance};
+use crate::error::TraceError;
+use crate::film::canvas::Canvas;
+use crate::film::finite::check_picture;
+use crate::film::render::{Film, PixelMean, Places, Times};
+use crate::film::sampler::{MOST_SAMPLES, Stream};
+use crate::film::shutter_sampler::ShutterSampler;
+use crate::light::integrator::Integrator;
 use crate::progress::{Meter, Watch};
-use crate::provenance::{ladder_hash, object_names, provenance};
-use crate::sampler::{MOST_SAMPLES, Stream};
 use crate::scene::Scene;
-use crate::settings::{TraceError, TruthSettings};
+use crate::settings::TruthSettings;
 use crate::stage::Stage;
 
-/// One replicate per half: more would only stratify worse.
+/// One replicate per half; more would only stratify worse.
 const REPLICATES: u32 = 2;
-/// A sample that sees the background costs this part less than one that meets a surface (measured: about 0.2 and 1.6
-/// microseconds where surfaces are lit).
+/// Part of a sample's cost that is saved where it sees the background (measured: about 0.2 against 1.6 microseconds where
+/// surfaces are lit).
 const SAVED_BY_A_MISS: f64 = 0.875;
 
-/// Renders accumulations of so many sub-frames each over the shutter of `truth`, which `settings` made.
+/// Renders one accumulation per number of `subframes`, over the shutter of `truth`, which was rendered with `settings`.
 ///
-/// Only pixels near motion are rendered, where an accumulation can differ from the truth; elsewhere both halves hold
-/// the truth's mean. (A moving shadow on a still floor far from anything that moves is therefore the truth's.) All
-/// rungs have the same number of samples, the most with which they together cost no more than the truth, in
-/// samples and in work. Their random numbers are their own, so that their noise is independent of the truth's.
+/// Only pixels near motion are rendered, because only there an accumulation can differ from the truth. Elsewhere both halves
+/// hold the truth's mean; so does a moving shadow on a still floor, if it is far from anything that moves.
+///
+/// All rungs have the same number of samples, the most with which they together cost no more than the truth, in samples and
+/// in work. Their random numbers are their own, so that their noise is independent of the truth's.
 pub fn trace_ladder(
     scene: &Scene,
     settings: &TruthSettings,
@@ -38,14 +40,15 @@ pub fn trace_ladder(
     assert_eq!(
         truth.size(),
         (settings.width, settings.height),
-        "the truth was made with the ladder's settings"
+        "the truth was rendered with the ladder's settings"
     );
     let whole = scene.shutter_profile.whole(shutter);
-    let stage = Stage::checked(scene, whole.open, whole.close)?;
-    let opening = Opening::new(shutter, &scene.shutter_profile);
+    let stage = Stage::try_new(scene, whole.open, whole.close)?;
+    let shutter_sampler = ShutterSampler::new(shutter, &scene.shutter_profile);
     let pixels = pixels_near_motion(&truth.support.moving, truth.motion_margin());
     let mean = truth.mean();
-    let samples_per_replicate = affordable(settings, &mean.coverage[0], &pixels, subframes.len());
+    let samples_per_replicate =
+        affordable_samples(settings, &mean.coverage[0], &pixels, subframes.len());
     let samples_per_pixel = REPLICATES * samples_per_replicate;
     let meter = Meter::new(
         watch,
@@ -57,18 +60,20 @@ pub fn trace_ladder(
             integrator: Integrator::new(&stage, shutter.at(0.5)),
             canvas: Canvas::bare(settings.width, settings.height),
             places: Places::Area,
-            times: Times::Midpoints(&opening, subframes),
-            recall: None,
+            times: Times::Midpoints(&shutter_sampler, subframes),
+            instant: None,
             replicates: 0..REPLICATES,
             samples_per_replicate,
             seed: settings.seed,
             stream: Stream::Accumulation(subframes),
         };
-        let developed = film.develop(&pixels, &meter, halves)?;
+        let rendered = film.render(&pixels, &meter, |estimates| {
+            [0, 1].map(|half| PixelMean::of([&estimates[half]]))
+        })?;
         let halves = [0, 1].map(|half| {
             let mut picture = mean.clone();
-            for (&pixel, halves) in pixels.iter().zip(&developed) {
-                paint(&mut picture, pixel as usize, &halves[half]);
+            for (&pixel, halves) in pixels.iter().zip(&rendered) {
+                set_pixel(&mut picture, pixel as usize, &halves[half]);
             }
             picture
         });
@@ -88,7 +93,7 @@ pub fn trace_ladder(
         shutter,
         shutter_profile: scene.shutter_profile.clone(),
         alignment: settings.alignment,
-        objects: object_names(scene),
+        objects: scene.object_names(),
         rungs,
     })
 }
@@ -101,20 +106,21 @@ fn check_subframes(subframes: &[u32]) -> Result<(), TraceError> {
     }
 }
 
-fn halves(estimates: &[Estimate]) -> [PixelMean; 2] {
-    [0, 1].map(|half| PixelMean::of([&estimates[half]]))
-}
-
-fn paint(picture: &mut Picture, pixel: usize, mean: &PixelMean) {
+fn set_pixel(picture: &mut Picture, pixel: usize, mean: &PixelMean) {
     picture.color.pixels[pixel] = mean.color;
     for (plane, coverage) in picture.coverage.iter_mut().zip(&mean.coverage) {
         plane.pixels[pixel] = *coverage;
     }
 }
 
-/// Samples per replicate: the largest power of two with which all rungs together take no more samples and no more
-/// work than the truth, and none is sampled more densely than it; at least one.
-fn affordable(settings: &TruthSettings, background: &Plane, pixels: &[u32], rungs: usize) -> u32 {
+/// The samples per replicate: the largest power of two with which all rungs together take no more samples and no more work
+/// than the truth, and no rung has more samples per pixel than it; at least one.
+fn affordable_samples(
+    settings: &TruthSettings,
+    background: &Plane,
+    pixels: &[u32],
+    rungs: usize,
+) -> u32 {
     let work = |pixel: &f32| 1.0 - SAVED_BY_A_MISS * f64::from(*pixel);
     let work_of_truth: f64 = background.pixels.iter().map(work).sum();
     let work_of_rung: f64 = pixels
@@ -129,17 +135,17 @@ fn affordable(settings: &TruthSettings, background: &Plane, pixels: &[u32], rung
     1 << most.ilog2()
 }
 
-/// Indices of the pixels within the margin of any pixel that shows motion, rising: a square's reach, which contains
-/// the disc's.
+/// Indices of the pixels within the margin of any pixel that shows motion, rising. The margin is a square, which contains the
+/// disc.
 fn pixels_near_motion(motion: &Raster<bool>, margin: u32) -> Vec<u32> {
-    let reached = |at: u32, end: u32| at.saturating_sub(margin)..(at + margin + 1).min(end);
+    let within = |at: u32, end: u32| at.saturating_sub(margin)..(at + margin + 1).min(end);
     let across = Raster::from_fn(motion.width, motion.height, |x, y| {
-        reached(x, motion.width).any(|x| *motion.at(x, y))
+        within(x, motion.width).any(|x| *motion.at(x, y))
     });
     (0..motion.width * motion.height)
         .filter(|pixel| {
             let (x, y) = (pixel % motion.width, pixel / motion.width);
-            reached(y, motion.height).any(|y| *across.at(x, y))
+            within(y, motion.height).any(|y| *across.at(x, y))
         })
         .collect()
 }

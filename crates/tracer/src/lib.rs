@@ -2,81 +2,46 @@
 //!
 //! The conventions are those of the [`frame`] crate.
 
-mod approach;
-mod background;
-mod bounds;
-mod brdf;
-mod bvh;
-mod camera;
-mod canvas;
-mod clustering;
-mod curve;
-mod environment;
-mod extent;
-mod eye;
+mod accel;
+mod content_hash;
+mod error;
 mod film;
-mod finite;
-mod folding;
-mod fresnel;
 mod geometry;
-mod ggx;
-mod gloss;
-mod glossy;
-mod growth;
 mod instant;
-mod joining;
 mod ladder;
-mod lanes;
-mod lights;
+mod light;
 pub mod limits;
 mod load;
-mod lobe;
-mod mesh_tree;
+mod material;
 mod motion;
-mod moving;
-mod opening;
-mod pages;
-mod path;
-mod poses;
 mod progress;
-mod provenance;
-mod ray;
-mod recall;
-mod sampler;
 mod scene;
-mod screw;
 mod settings;
-mod shape;
-mod shape_tree;
-mod slices;
 mod stage;
-mod support;
-mod surface;
-mod swept;
-mod texture;
-mod triangle;
+#[cfg(test)]
+mod test_scene;
 mod truth;
-mod velocity;
-mod walks;
-mod world_tree;
 
-pub use camera::View;
+pub use content_hash::{frame_hash, ladder_hash, replicate_hash, truth_hash};
+pub use error::TraceError;
+pub use film::sampler::MOST_SAMPLES;
+pub use geometry::hit::Hit;
+pub use geometry::ray::Ray;
 pub use instant::trace_frame;
 pub use ladder::trace_ladder;
 pub use load::{
     MOST_COINCIDENT, SceneError, SceneListing, list_scene, list_scenes, load_scene,
     load_scene_and_files,
 };
-pub use motion::{Interpolation, Key, Motion, Turn};
-pub use poses::Poses;
+pub use motion::camera::View;
+pub use motion::curve::Interpolation;
+pub use motion::keys::{Key, Motion, Turn};
+pub use motion::poses::Poses;
 pub use progress::{Progress, Watch};
-pub use provenance::{frame_hash, ladder_hash, replicate_hash, truth_hash};
-pub use ray::Ray;
-pub use sampler::MOST_SAMPLES;
 pub use scene::{
     Background, Camera, Display, EnvironmentMap, Family, Finish, FlipExposures, Material, Mesh,
     Object, Parent, Scene, Shape, Sun, Texture,
 };
-pub use settings::{FrameSettings, LARGEST_REACH, LARGEST_VALUE, TraceError, TruthSettings};
-pub use stage::{Hit, Stage};
+pub use settings::{FrameSettings, TruthSettings};
+pub use stage::Stage;
 pub use truth::{TruthTracer, trace_truth};

@@ -1,7 +1,7 @@
-//! What a scene may hold at most. `docs/limits.md` lists these numbers and says why; a test compares the two.
+//! The limits of scenes and renders. `docs/limits.md` lists these numbers with their reasons; a test compares the two.
 //!
-//! Each is far above what scenes need, and low enough that memory and time stay bounded. What exceeds one is refused before
-//! room is made for it.
+//! Each is far above the needs of scenes, and low enough to bound memory and time. A file beyond a limit is refused before
+//! memory is allocated for it.
 
 /// Widest and highest picture, in pixels.
 pub const LARGEST_SIDE: u32 = 16_384;
@@ -60,14 +60,13 @@ pub const MOST_VARIANTS: usize = 4_096;
 /// Most keys of a motion, and most key shapes of a mesh.
 pub const MOST_KEYS: usize = 16_384;
 
-/// Largest number in a scene's files, and smallest with a minus: metres, watts, degrees, frames alike.
+/// Greatest magnitude of a number in a scene's files: metres, watts, degrees and frames alike.
 pub const LARGEST_NUMBER: f64 = 1e12;
 
-/// Greatest distance from the world's origin that anything may reach while it is rendered, in metres, as summed up over
-/// sizes and motions.
+/// Greatest distance of anything in a scene file from the world's origin, in metres, summed up over sizes and motions.
 pub const FARTHEST: f64 = 1e12;
 
-/// Smallest factor by which scales, those of parents included, may shrink an object.
+/// Smallest factor by which all scales together, those of parents included, may shrink an object.
 pub const SMALLEST_SCALE: f64 = 1e-12;
 
 /// Least time between two keys, in frames.
@@ -84,3 +83,10 @@ pub const BRIGHTEST: f32 = 1e12;
 
 /// Most exposures of HDR-FLIP.
 pub const MOST_FLIP_EXPOSURES: u32 = 128;
+
+/// Greatest coordinate of anything that is rendered, in metres: the areas of boxes must be 32-bit numbers, and positions
+/// exact to less than a metre.
+pub const LARGEST_COORDINATE: f64 = 1e15;
+
+/// Greatest value of a pixel, in any layer but depth: sums and products of pixels must be 32-bit numbers.
+pub const LARGEST_VALUE: f32 = 1e36;

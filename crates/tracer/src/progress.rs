@@ -1,11 +1,11 @@
-//! How far a render is, and whether to go on.
+//! The progress of a render, and its cancellation.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use crate::settings::TraceError;
+use crate::error::TraceError;
 
-/// Work done out of the whole, both in samples of pixels.
+/// The work done and the whole work, in samples of pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
     /// Samples traced.
@@ -14,7 +14,7 @@ pub struct Progress {
     pub total: u64,
 }
 
-/// Called from any thread after every piece of work; `Break` cancels the render.
+/// A function that any thread calls after every piece of work; `Break` cancels the render.
 pub type Watch<'a> = &'a (dyn Fn(Progress) -> ControlFlow<()> + Sync);
 
 /// Counts the work of several threads.
@@ -35,7 +35,7 @@ impl<'a> Meter<'a> {
         }
     }
 
-    /// Reports that so many more samples are done.
+    /// Reports that this many more samples are done.
     pub fn advance(&self, samples: u64) {
         let done = self.done.fetch_add(samples, Ordering::Relaxed) + samples;
         let progress = Progress {
@@ -47,7 +47,7 @@ impl<'a> Meter<'a> {
         }
     }
 
-    /// An error once the watcher has asked to stop.
+    /// Fails once the watcher has asked to stop.
     pub fn check(&self) -> Result<(), TraceError> {
         if self.cancelled.load(Ordering::Relaxed) {
             Err(TraceError::Cancelled)

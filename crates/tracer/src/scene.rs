@@ -1,4 +1,4 @@
-//! A scene in memory: what `scenes/<name>/scene.toml` and its meshes say, checked.
+//! A scene in memory: the checked content of `scenes/<name>/scene.toml` and its meshes.
 
 use std::path::PathBuf;
 
@@ -6,48 +6,48 @@ use frame::ShutterProfile;
 pub use frame::{Display, FlipExposures};
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
-use crate::motion::Motion;
+use crate::motion::keys::Motion;
 
-/// Everything a render needs. Indices are valid, numbers finite, meshes not empty.
+/// The input of a render. Indices are valid, numbers finite, meshes not empty.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// Folder name, with the variant if one was chosen: `sliding_panel@64px_45deg`.
     pub name: String,
-    /// What the scene exposes, in one sentence.
+    /// Defect that the scene exposes, in one sentence.
     pub exposes: String,
-    /// For leave-one-family-out cross-validation.
+    /// Family, for leave-one-family-out cross-validation.
     pub family: Family,
     /// Exposure in frames; 0.5 = 180 degrees.
     pub exposure: f64,
-    /// How the shutter opens and closes, and how rows follow one another.
+    /// Opening and closing of the shutter, and the delay from row to row.
     pub shutter_profile: ShutterProfile,
     /// Default width in pixels.
     pub width: u32,
     /// Default height in pixels.
     pub height: u32,
-    /// How it is shown and compared.
+    /// Display of pictures, for people and for comparison.
     pub display: Display,
-    /// The eye.
+    /// Camera.
     pub camera: Camera,
-    /// What rays see that leave the scene.
+    /// Radiance of rays that leave the scene.
     pub background: Background,
-    /// A distant light.
+    /// Distant light.
     pub sun: Option<Sun>,
-    /// Geometry in object space; several objects may share one.
+    /// Meshes in object space; several objects may share one.
     pub meshes: Vec<Mesh>,
     /// Textures, decoded to linear.
     pub textures: Vec<Texture>,
     /// Surfaces.
     pub materials: Vec<Material>,
-    /// In order of their ids, the first having id 1 (0 is the background).
+    /// Objects by id; the first has id 1 (0 is the background).
     pub objects: Vec<Object>,
-    /// What its files hold that is left out, a line each: for the user to know.
+    /// Notes for the user on parts of the files that are left out, a line each.
     pub notes: Vec<String>,
     /// Hash of every file and choice that the scene was made from, in hexadecimal.
     pub hash: String,
 }
 
-/// What kind of motion a scene is about.
+/// The kind of motion that a scene is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Family {
@@ -85,17 +85,17 @@ impl Family {
 /// A pinhole camera that looks along its own -Z, +Y up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
-    /// From camera to world; never scales.
+    /// Transform from camera to world; never scales.
     pub motion: Motion,
-    /// (time in frames, vertical field of view in radians), at least one; between these keys and beyond them it changes
-    /// as the motion does.
+    /// At least one key of time in frames and vertical field of view in radians. Between and beyond its keys the field of
+    /// view is interpolated as the motion is.
     pub vertical_fov: Vec<(f64, f64)>,
 }
 
 /// Radiance from infinity.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Background {
-    /// The same from everywhere.
+    /// Radiance that is the same from everywhere.
     Constant(Vec3),
     /// Piecewise linear in the height (y) of the unit direction: `ground` at -1, `horizon` at 0, `zenith` at +1.
     Gradient {
@@ -124,7 +124,7 @@ pub struct EnvironmentMap {
     pub texels: Vec<[f32; 3]>,
     /// Factor on the texels.
     pub strength: f32,
-    /// Radians by which the map is turned about +Y.
+    /// Turn of the map about +Y, in radians.
     pub rotation: f64,
 }
 
@@ -146,16 +146,16 @@ pub struct Mesh {
     pub path: PathBuf,
     /// Metres.
     pub positions: Vec<Vec3>,
-    /// Unit, one per position; empty where the file has none (then facets are flat).
+    /// Unit normals, one per position; empty where the file has none (then facets are flat).
     pub normals: Vec<Vec3>,
-    /// One per position, v up; empty where the file has none.
+    /// Texture coordinates, one per position, v up; empty where the file has none.
     pub texcoords: Vec<Vec2>,
     /// Indices into `positions`.
     pub triangles: Vec<[u32; 3]>,
-    /// Per triangle: index into the object's `materials`.
+    /// Index into the object's `materials`, per triangle.
     pub slots: Vec<u32>,
-    /// Key shapes at strictly rising times; none for a rigid mesh, else at least two, the first being `positions` and
-    /// `normals`. Vertices move in straight lines between them, and beyond them on as between the nearest two.
+    /// Key shapes at strictly rising times: none for a rigid mesh, else at least two, of which the first is `positions` and
+    /// `normals`. Vertices move in straight lines between them, and beyond the ends as between the nearest two.
     pub shapes: Vec<Shape>,
 }
 
@@ -166,7 +166,7 @@ pub struct Shape {
     pub time: f64,
     /// Metres, as many as the mesh has.
     pub positions: Vec<Vec3>,
-    /// Unit, or zero where the face is flat; as many as the mesh has.
+    /// Unit normals, or zero where the face is flat; as many as the mesh has.
     pub normals: Vec<Vec3>,
 }
 
@@ -179,48 +179,48 @@ pub struct Texture {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Colour decoded from sRGB, alpha as it is.
+    /// Colour decoded from sRGB; alpha unchanged.
     pub texels: Vec<[f32; 4]>,
 }
 
 /// A two-sided surface that may emit, with cut-outs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// Its name in the MTL file.
+    /// Name in the MTL file.
     pub name: String,
-    /// How it reflects.
+    /// Reflection.
     pub finish: Finish,
     /// Linear albedo (Kd), each component in [0, 1]; multiplied by the texture if there is one. A conductor's
     /// reflectance at normal incidence.
     pub diffuse: Vec3,
-    /// map_Kd: index into the scene's textures.
+    /// Index into the scene's textures (map_Kd).
     pub diffuse_texture: Option<usize>,
     /// Emitted radiance (Ke), from both sides.
     pub emission: Vec3,
-    /// map_Ke: index into the scene's textures; multiplies `emission`. With no albedo it makes an unlit surface.
+    /// Index into the scene's textures (map_Ke); multiplies `emission`. Without albedo it makes an unlit surface.
     pub emission_texture: Option<usize>,
-    /// d: where opacity (times its texture's) is below 0.5 the surface has a hole.
+    /// Opacity (d). Where it is below 0.5, times its texture's, the surface has a hole.
     pub opacity: f32,
-    /// map_d: index into the scene's textures; its alpha if it has one, else its first component undecoded.
+    /// Index into the scene's textures (map_d); its alpha counts if it has one, else its first component undecoded.
     pub opacity_texture: Option<usize>,
 }
 
-/// How a surface reflects. Roughness is 0 for a mirror, else from [`Finish::SMOOTHEST`] to 1; its square is the width of the GGX
-/// distribution of slopes.
+/// The reflection of a surface. Roughness is 0 for a mirror, else from [`Finish::SMOOTHEST`] to 1; its square is the width of
+/// the GGX distribution of slopes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Finish {
-    /// The same towards everywhere (Lambert).
+    /// Diffuse reflection (Lambert).
     Diffuse,
     /// Bare metal.
     Conductor {
-        /// Pr.
+        /// Roughness (Pr).
         roughness: f32,
     },
     /// Diffuse below a dielectric coat.
     Coated {
-        /// Pr.
+        /// Roughness (Pr).
         roughness: f32,
-        /// Ni: index of refraction of the coat, above 1.
+        /// Index of refraction of the coat, above 1 (Ni).
         index: f32,
     },
 }
@@ -228,16 +228,16 @@ pub enum Finish {
 impl Finish {
     /// Smallest roughness that is not a mirror.
     pub const SMOOTHEST: f32 = 0.01;
-    /// Largest index of refraction: more than diamond's.
+    /// Largest index of refraction, more than diamond's.
     pub const DENSEST: f32 = 4.0;
 }
 
-/// What an object's motion is relative to.
+/// The space that an object's motion is relative to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parent {
     /// The world.
     World,
-    /// The camera: a dashboard.
+    /// The camera, as for a dashboard.
     Camera,
     /// An earlier object, by index.
     Object(usize),
@@ -246,35 +246,52 @@ pub enum Parent {
 /// A mesh in motion.
 #[derive(Clone, Debug)]
 pub struct Object {
-    /// Letters, digits, `_` and `-`; unique; the name of its coverage channel.
+    /// Unique name of letters, digits, `_` and `-`; also that of its coverage channel.
     pub name: String,
     /// Index into the scene's meshes.
     pub mesh: usize,
-    /// Index into the scene's materials for each slot of the mesh.
+    /// Index into the scene's materials, per slot of the mesh.
     pub materials: Vec<usize>,
-    /// Relative to the parent.
+    /// Motion relative to the parent.
     pub motion: Motion,
-    /// What it is attached to.
+    /// Parent.
     pub parent: Parent,
 }
 
 impl Scene {
-    /// From the object's space to the world at `time` (frames).
-    pub fn object_to_world(&self, object: usize, time: f64) -> DAffine3 {
-        // Chains of parents may be longer than a thread's stack: outwards first, and back.
-        let mut chain = vec![object];
-        let mut outermost = &self.objects[object];
-        while let Parent::Object(parent) = outermost.parent {
-            chain.push(parent);
-            outermost = &self.objects[parent];
+    /// Names of the background and the objects, by id.
+    pub(crate) fn object_names(&self) -> Vec<String> {
+        let objects = self.objects.iter().map(|object| object.name.clone());
+        std::iter::once("background".to_owned())
+            .chain(objects)
+            .collect()
+    }
+
+    /// Motions from the object outwards to the world.
+    pub(crate) fn motion_chain(&self, object: usize) -> Vec<&Motion> {
+        let mut motions = vec![&self.objects[object].motion];
+        let mut parent = self.objects[object].parent;
+        loop {
+            match parent {
+                Parent::World => return motions,
+                Parent::Camera => {
+                    motions.push(&self.camera.motion);
+                    return motions;
+                }
+                Parent::Object(index) => {
+                    motions.push(&self.objects[index].motion);
+                    parent = self.objects[index].parent;
+                }
+            }
         }
-        let own = |object: &usize| self.objects[*object].motion.at(time);
-        let mut chain = chain.iter().rev().map(own);
-        let first = chain.next().expect("an object is in its own chain");
-        let first = match outermost.parent {
-            Parent::Camera => self.camera.motion.at(time) * first,
-            _ => first,
-        };
-        chain.fold(first, |outer, own| outer * own)
+    }
+
+    /// Transform from the object's space to the world at `time` (frames).
+    pub fn object_to_world(&self, object: usize, time: f64) -> DAffine3 {
+        let outwards = self.motion_chain(object).into_iter();
+        let transforms = outwards.rev().map(|motion| motion.at(time));
+        transforms
+            .reduce(|outer, own| outer * own)
+            .expect("an object is in its own chain")
     }
 }

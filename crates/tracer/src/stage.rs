@@ -1,110 +1,62 @@
-//! The scene made ready for rays: one tree over all that stands still, and one per mesh that moves.
+//! A scene prepared for rays.
 
 use glam::DVec3;
 
-use crate::background::Sky;
-use crate::bounds::Bounds;
-use crate::geometry::Geometry;
-use crate::gloss::Gloss;
-use crate::joining::joining;
 #[cfg(target_arch = "x86_64")]
-use crate::lanes::Avx2;
-use crate::lanes::{Lanes, Portable};
-use crate::poses::Poses;
-use crate::ray::Ray;
+use crate::accel::lanes::Avx2;
+use crate::accel::lanes::{Lanes, Portable};
+use crate::accel::scene_tree::SceneTree;
+use crate::error::TraceError;
+use crate::geometry::hit::Hit;
+use crate::geometry::ray::Ray;
+use crate::light::sky::Sky;
+use crate::material::glossy_material::GlossyMaterial;
+use crate::material::surface::Surface;
+use crate::motion::poses::Poses;
 use crate::scene::Scene;
-use crate::settings::{LARGEST_REACH, TraceError};
-use crate::slices::slices;
-use crate::surface::{Opacity, Surface};
-use crate::world_tree::WorldTree;
 
-/// A scene between two times, ready for rays.
+/// A scene between two times, prepared for rays.
 ///
-/// Objects that stand still lie in one tree, leaf by leaf. The shutter is cut into slices, each with its own small tree over
-/// the topmost nodes of that one and the boxes that moving objects sweep. A ray is moved into an object's space by the exact
-/// pose at its time; nothing about the motion is linearised.
+/// A ray is transformed into an object's space by the exact pose at its time; motion is not linearised.
 pub struct Stage<'a> {
     pub(crate) scene: &'a Scene,
-    /// Per mesh of the scene; none where no object shows it.
-    meshes: Vec<Option<Geometry<'a>>>,
-    pub(crate) world: WorldTree,
-    pub(crate) opacities: Vec<Opacity>,
-    /// Per material of the scene.
-    glosses: Vec<Option<Gloss>>,
+    tree: SceneTree<'a>,
+    /// Glossy part of each material of the scene; none where it is diffuse.
+    glossy_materials: Vec<Option<GlossyMaterial>>,
     sky: Sky<'a>,
-    /// Room for the children that wait while a ray is in another.
-    pub(crate) most_waiting: usize,
     poses: Poses<'a>,
     traversal: Traversal,
 }
 
-/// Which instructions find the hits; all find the same.
+/// The instructions that traverse the trees. All find the same hits.
 enum Traversal {
     #[cfg(target_arch = "x86_64")]
     Avx2(Avx2),
     Portable,
 }
 
-/// Where a ray meets a surface first.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    /// Distance in units of the ray's direction.
-    pub t: f64,
-    /// Index into the scene's objects.
-    pub object: usize,
-    /// Index into the mesh's triangles.
-    pub triangle: u32,
-    /// Weights of the triangle's second and third vertex.
-    pub weights: [f64; 2],
-    /// Frames relative to the instant: where a deforming mesh is met depends on it.
-    pub time: f64,
-}
-
 impl<'a> Stage<'a> {
-    /// Makes the scene ready for rays whose times lie in `[from, to]` (frames); ends the program where [`Stage::checked`] refuses.
+    /// Prepares the scene for rays at times in `[from, to]` (frames). Panics where [`Stage::try_new`] refuses.
     pub fn new(scene: &'a Scene, from: f64, to: f64) -> Self {
-        Self::checked(scene, from, to).expect("no object reaches too far")
+        Self::try_new(scene, from, to).expect("no object is too far away")
     }
 
-    /// Makes the scene ready for rays whose times lie in `[from, to]` (frames). Refuses objects that reach farther than
-    /// [`LARGEST_REACH`].
-    pub fn checked(scene: &'a Scene, from: f64, to: f64) -> Result<Self, TraceError> {
+    /// Prepares the scene for rays at times in `[from, to]` (frames). Refuses objects with coordinates above
+    /// [`LARGEST_COORDINATE`](crate::limits::LARGEST_COORDINATE).
+    pub fn try_new(scene: &'a Scene, from: f64, to: f64) -> Result<Self, TraceError> {
         assert!(from <= to, "a stage's interval runs forwards in time");
-        let slices = slices(scene, from, to);
-        check_reach(scene, &slices)?;
-        let shown: Vec<usize> = scene.objects.iter().map(|object| object.mesh).collect();
-        let mut meshes: Vec<Option<Geometry>> = scene
-            .meshes
-            .iter()
-            .enumerate()
-            .map(|(index, mesh)| shown.contains(&index).then(|| Geometry::of(mesh, from, to)))
-            .collect();
         let mut poses = Poses::new(scene, from, to);
-        let swept = slices.iter().flatten().map(|bounds| bounds.reach());
-        let joining = joining(scene, &meshes, &mut poses, swept.fold(0.0, f64::max));
-        let world = WorldTree::over(&joining, &slices, [from, to]);
-        for (mesh, geometry) in meshes.iter_mut().enumerate() {
-            let walked = (joining.iter().zip(&shown))
-                .any(|(leaves, shown)| *shown == mesh && leaves.is_none());
-            if let (Some(Geometry::Rigid(tree)), false) = (geometry, walked) {
-                tree.drop_tree();
-            }
-        }
-        let in_meshes = meshes.iter().flatten().map(Geometry::most_waiting).max();
         Ok(Self {
             scene,
-            most_waiting: world.most_waiting() + in_meshes.unwrap_or(0),
-            meshes,
-            world,
-            opacities: Opacity::of_objects(scene),
-            sky: Sky::of(&scene.background),
-            glosses: scene.materials.iter().map(Gloss::of).collect(),
+            tree: SceneTree::build(scene, &mut poses, from, to)?,
+            sky: Sky::new(&scene.background),
+            glossy_materials: scene.materials.iter().map(GlossyMaterial::new).collect(),
             poses,
             traversal: Traversal::best(),
         })
     }
 
-    /// Whether nothing in the world changes its place or shape.
+    /// Returns true if nothing in the world changes its place or shape.
     pub(crate) fn stands_still(&self) -> bool {
         let mut objects = self.scene.objects.iter().enumerate();
         objects.all(|(index, object)| {
@@ -112,14 +64,14 @@ impl<'a> Stage<'a> {
         })
     }
 
-    /// Whether all surfaces look the same from everywhere.
+    /// Returns true if all surfaces look the same from everywhere.
     pub(crate) fn is_diffuse(&self) -> bool {
-        self.glosses.iter().all(Option::is_none)
+        self.glossy_materials.iter().all(Option::is_none)
     }
 
-    /// The gloss of a material; none where it is diffuse.
-    pub(crate) fn gloss(&self, material: usize) -> Option<&Gloss> {
-        self.glosses[material].as_ref()
+    /// The glossy part of a material; none where it is diffuse.
+    pub(crate) fn glossy_material(&self, material: usize) -> Option<&GlossyMaterial> {
+        self.glossy_materials[material].as_ref()
     }
 
     /// The background as a light.
@@ -127,42 +79,42 @@ impl<'a> Stage<'a> {
         &self.sky
     }
 
-    /// A store of poses for one path at a time.
+    /// A store of poses, for one path at a time.
     pub fn poses(&self) -> Poses<'a> {
         self.poses.clone()
     }
 
-    /// The nearest surface at `t > 0`; among equally near ones that of the lowest object, then triangle.
+    /// Finds the nearest surface at `t > 0`; among equally near ones that of the lowest object, then triangle.
     pub fn closest(&self, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
         match self.traversal {
             #[cfg(target_arch = "x86_64")]
             Traversal::Avx2(lanes) => lanes.run(
                 #[inline(always)]
-                || self.closest_by(lanes, poses, ray),
+                || self.tree.closest(lanes, poses, ray),
             ),
-            Traversal::Portable => self.closest_by(Portable, poses, ray),
+            Traversal::Portable => self.tree.closest(Portable, poses, ray),
         }
     }
 
-    /// Whether anything lies at `0 < t < limit`.
+    /// Returns true if anything lies at `0 < t < limit`.
     pub fn blocked(&self, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
         match self.traversal {
             #[cfg(target_arch = "x86_64")]
             Traversal::Avx2(lanes) => lanes.run(
                 #[inline(always)]
-                || self.blocked_by(lanes, poses, ray, limit),
+                || self.tree.blocked(lanes, poses, ray, limit),
             ),
-            Traversal::Portable => self.blocked_by(Portable, poses, ray, limit),
+            Traversal::Portable => self.tree.blocked(Portable, poses, ray, limit),
         }
     }
 
-    /// The same stage, walked without the processor's wide instructions: for comparison.
+    /// The same stage, traversed as on a processor without AVX2: for comparison.
     pub fn portable(mut self) -> Self {
         self.traversal = Traversal::Portable;
         self
     }
 
-    /// Which instructions find the hits: `avx2` or `portable`.
+    /// The instructions that traverse the trees: `avx2` or `portable`.
     pub fn traversal(&self) -> &'static str {
         match self.traversal {
             #[cfg(target_arch = "x86_64")]
@@ -171,10 +123,9 @@ impl<'a> Stage<'a> {
         }
     }
 
-    /// Bytes that trees and triangles take.
+    /// Size of trees and triangles in memory, in bytes.
     pub fn bytes(&self) -> usize {
-        let meshes: usize = self.meshes.iter().flatten().map(Geometry::bytes).sum();
-        meshes + self.world.bytes()
+        self.tree.bytes()
     }
 
     /// The unit normal of the facet that a ray met, on the ray's side.
@@ -182,59 +133,10 @@ impl<'a> Stage<'a> {
         Surface::at(self.scene, poses.pose(hit.object), ray, hit).facet
     }
 
-    /// What [`Stage::closest`] finds, from every triangle in turn: its reference in tests.
+    /// Finds the hit of [`Stage::closest`] by testing every triangle: the reference for tests.
     pub fn closest_of_all(&self, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
-        let time = poses.time();
-        let mut best = None;
-        for object in 0..self.scene.objects.len() {
-            let local = ray.transformed(&poses.pose(object).to_object);
-            self.mesh(object)
-                .exhaustive(&local, time, |triangle, crossing| {
-                    self.keep_nearer(&mut best, time, object, triangle, crossing);
-                });
-        }
-        best
+        self.tree.closest_of_all(poses, ray)
     }
-
-    #[inline(always)]
-    pub(crate) fn mesh(&self, object: usize) -> &Geometry<'a> {
-        self.meshes[self.scene.objects[object].mesh]
-            .as_ref()
-            .expect("every shown mesh has a tree")
-    }
-}
-
-/// Refuses objects whose swept boxes, or whose meshes in their own space, reach too far.
-fn check_reach(scene: &Scene, slices: &[Vec<Bounds>]) -> Result<(), TraceError> {
-    let own: Vec<f64> = (scene.meshes.iter())
-        .map(|mesh| {
-            let shapes = mesh.shapes.iter().flat_map(|shape| &shape.positions);
-            let positions = mesh.positions.iter().chain(shapes);
-            positions.fold(0.0, |reach: f64, position| {
-                reach.max(f64::from(position.abs().max_element()))
-            })
-        })
-        .collect();
-    for (index, object) in scene.objects.iter().enumerate() {
-        let swept = slices.iter().map(|swept| swept[index]);
-        let corners = swept.flat_map(|swept| [swept.min, swept.max]);
-        let mut reaches = corners.map(|corner| match corner.is_finite() {
-            true => corner.abs().max_element(),
-            false => f64::INFINITY,
-        });
-        let too_far = |reach: &f64| *reach > LARGEST_REACH;
-        if let Some(reach) = reaches
-            .find(too_far)
-            .or(Some(own[object.mesh]).filter(too_far))
-        {
-            return Err(TraceError::Reach {
-                scene: scene.name.clone(),
-                object: object.name.clone(),
-                reach,
-            });
-        }
-    }
-    Ok(())
 }
 
 impl Traversal {

@@ -1,36 +1,37 @@
-//! The truth: radiance and visibility integrated over the shutter.
+//! The truth: radiance and visibility integrated over the shutter interval.
 
 use std::sync::OnceLock;
 
 use frame::{AtInstant, Raster, Replicate, Shutter, Support, Truth};
 
-use crate::canvas::Canvas;
-use crate::film::{Film, PixelMean, Places, Times, picture};
-use crate::finite::{check_at_instant, check_picture};
-use crate::moving::moving_objects;
-use crate::opening::Opening;
-use crate::path::Integrator;
+use crate::content_hash::{provenance, replicate_hash};
+use crate::error::TraceError;
+use crate::film::at_instant::{InstantMeans, InstantView};
+use crate::film::canvas::Canvas;
+use crate::film::finite::{check_at_instant, check_picture};
+use crate::film::render::{Film, PixelMean, Places, Times, assemble_picture};
+use crate::film::sampler::Stream;
+use crate::film::shutter_sampler::ShutterSampler;
+use crate::film::support::trace_support;
+use crate::light::integrator::Integrator;
+use crate::motion::moving::find_moving_objects;
 use crate::progress::{Meter, Progress, Watch};
-use crate::provenance::{object_names, provenance, replicate_hash};
-use crate::recall::{Recall, Recollected};
-use crate::sampler::Stream;
 use crate::scene::Scene;
-use crate::settings::{TraceError, TruthSettings};
+use crate::settings::TruthSettings;
 use crate::stage::Stage;
-use crate::support::trace_support;
 
-/// A scene made ready to render the replicates of one truth.
+/// A scene prepared to render the replicates of one truth.
 pub struct TruthTracer<'a> {
     stage: Stage<'a>,
     settings: TruthSettings,
     shutter: Shutter,
-    opening: Opening,
+    shutter_sampler: ShutterSampler,
     moving: Vec<bool>,
-    /// Probed with the first replicate.
+    /// Objects seen per pixel, probed with the first replicate.
     support: OnceLock<Support>,
 }
 
-/// Renders what a camera with an open shutter would have seen, with its own noise.
+/// Renders the picture that a camera with an open shutter would have taken, and measures its noise.
 pub fn trace_truth(
     scene: &Scene,
     settings: &TruthSettings,
@@ -51,40 +52,40 @@ pub fn trace_truth(
 }
 
 impl<'a> TruthTracer<'a> {
-    /// Refuses what cannot be rendered.
+    /// Prepares a scene; refuses settings with which it cannot be rendered.
     pub fn new(scene: &'a Scene, settings: &TruthSettings) -> Result<Self, TraceError> {
         let shutter = settings.check(scene)?;
         let whole = scene.shutter_profile.whole(shutter);
         Ok(Self {
-            stage: Stage::checked(scene, whole.open.min(0.0), whole.close.max(0.0))?,
+            stage: Stage::try_new(scene, whole.open.min(0.0), whole.close.max(0.0))?,
             settings: *settings,
             shutter,
-            opening: Opening::new(shutter, &scene.shutter_profile),
-            moving: moving_objects(scene, whole),
+            shutter_sampler: ShutterSampler::new(shutter, &scene.shutter_profile),
+            moving: find_moving_objects(scene, whole),
             support: OnceLock::new(),
         })
     }
 
-    /// Bytes that a pixel takes while a replicate is traced: its mean, what was recalled of the instant, and the support.
+    /// Memory that a pixel takes while a replicate is traced, in bytes: its means, those at the instant, and the support.
     pub fn bytes_per_pixel(&self) -> usize {
         let coverages = self.stage.scene.objects.len() + 1;
         let masks = coverages + 2;
         size_of::<PixelMean>()
             + coverages * size_of::<f32>()
-            + size_of::<Recollected>()
+            + size_of::<InstantMeans>()
             + masks * size_of::<bool>()
     }
 
-    /// Renders one replicate. The index chooses its random numbers and nothing else; it may lie beyond the number of
-    /// replicates that the settings name.
+    /// Renders one replicate. The index seeds its random numbers and changes nothing else; it may exceed the number of
+    /// replicates in the settings.
     pub fn trace(&self, index: u32, watch: Watch) -> Result<Replicate, TraceError> {
         let canvas = Canvas::bare(self.settings.width, self.settings.height);
         let film = Film {
             integrator: Integrator::new(&self.stage, self.shutter.at(0.5)),
             canvas,
             places: Places::Area,
-            times: Times::Open(&self.opening),
-            recall: Some(Recall::of(&self.stage, canvas)),
+            times: Times::Shutter(&self.shutter_sampler),
+            instant: Some(InstantView::new(&self.stage, canvas)),
             replicates: index..index + 1,
             samples_per_replicate: self.settings.samples_per_replicate(),
             seed: self.settings.seed,
@@ -93,14 +94,14 @@ impl<'a> TruthTracer<'a> {
         let pixels = canvas.pixels();
         let meter = Meter::new(watch, pixels.len() as u64 * film.samples_per_pixel());
         let support = self.support(&film, &meter)?;
-        let developed = film.develop(&pixels, &meter, |estimates| {
-            (PixelMean::of(estimates), estimates[0].recollected)
+        let rendered = film.render(&pixels, &meter, |estimates| {
+            (PixelMean::of(estimates), estimates[0].at_instant)
         })?;
-        let (means, recollected): (Vec<PixelMean>, Vec<Recollected>) =
-            developed.into_iter().unzip();
+        let (means, instant_means): (Vec<PixelMean>, Vec<InstantMeans>) =
+            rendered.into_iter().unzip();
         let scene = self.stage.scene;
-        let picture = picture(canvas, &means);
-        let at_instant = at_instant(canvas, &recollected);
+        let picture = assemble_picture(canvas, &means);
+        let at_instant = assemble_at_instant(canvas, instant_means);
         check_picture(scene, &picture)?;
         check_at_instant(scene, &at_instant)?;
         Ok(Replicate {
@@ -115,7 +116,7 @@ impl<'a> TruthTracer<'a> {
             shutter: self.shutter,
             shutter_profile: scene.shutter_profile.clone(),
             alignment: self.settings.alignment,
-            objects: object_names(scene),
+            objects: scene.object_names(),
             moving: self.moving.clone(),
             picture,
             at_instant,
@@ -123,22 +124,23 @@ impl<'a> TruthTracer<'a> {
         })
     }
 
-    /// The support of every replicate: no number of the film's own has a part in it.
+    /// The support, which is the same for every replicate.
     fn support(&self, film: &Film, meter: &Meter) -> Result<Support, TraceError> {
         if self.support.get().is_none() {
             let found = trace_support(film, &self.moving, meter)?;
-            // Another thread may have been faster, with the same.
+            // Another thread may have been faster, with the same result.
             self.support.get_or_init(|| found);
         }
         Ok(self.support.get().expect("it was just probed").clone())
     }
 }
 
-fn at_instant(canvas: Canvas, recollected: &[Recollected]) -> AtInstant {
-    let pixels: Raster<Recollected> = Raster {
+/// Assembles the layers of the instant from their pixels in row-major order.
+fn assemble_at_instant(canvas: Canvas, pixels: Vec<InstantMeans>) -> AtInstant {
+    let pixels: Raster<InstantMeans> = Raster {
         width: canvas.width,
         height: canvas.height,
-        pixels: recollected.to_vec(),
+        pixels,
     };
     AtInstant {
         frozen: pixels.map(|pixel| pixel.frozen.as_vec3().to_array()),
@@ -152,19 +154,16 @@ fn at_instant(canvas: Canvas, recollected: &[Recollected]) -> AtInstant {
 #[cfg(test)]
 mod tests {
     use std::ops::ControlFlow;
-    use std::path::Path;
 
-    use crate::load_scene;
+    use crate::scene::Background;
+    use crate::test_scene::load_test_scene;
 
     use super::*;
 
     #[test]
     fn every_instruction_set_renders_the_same_bytes() {
         for scene in ["two_spheres", "fan"] {
-            let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
-                .join("../../scenes")
-                .join(scene);
-            let scene = load_scene(&folder, None).expect("the built-in scenes load");
+            let scene = load_test_scene(scene);
             let settings = TruthSettings {
                 width: 48,
                 height: 27,
@@ -182,10 +181,9 @@ mod tests {
         }
     }
 
-    /// What two replicates of a scene of four by four pixels come to.
-    fn traced(change: impl FnOnce(&mut Scene)) -> Result<Truth, TraceError> {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/two_spheres");
-        let mut scene = load_scene(&folder, None).expect("the built-in scenes load");
+    /// Renders two replicates of a scene at four by four pixels.
+    fn trace_small(change: impl FnOnce(&mut Scene)) -> Result<Truth, TraceError> {
+        let mut scene = load_test_scene("two_spheres");
         change(&mut scene);
         let settings = TruthSettings {
             width: 4,
@@ -200,8 +198,8 @@ mod tests {
     #[test]
     fn a_pixel_that_is_not_finite_is_refused_by_layer_and_place() {
         for radiance in [f32::INFINITY, f32::NAN, f32::MAX] {
-            let found = traced(|scene| {
-                scene.background = crate::Background::Constant(glam::Vec3::splat(radiance));
+            let found = trace_small(|scene| {
+                scene.background = Background::Constant(glam::Vec3::splat(radiance));
             });
             let Err(TraceError::NotFinite { layer, x, y, .. }) = found else {
                 panic!("{radiance} went into a truth");
@@ -211,15 +209,15 @@ mod tests {
     }
 
     #[test]
-    fn what_reaches_too_far_is_refused_by_name() {
+    fn an_object_too_far_away_is_refused_by_name() {
         for far in [1e16, f64::INFINITY, f64::NAN] {
-            let found = traced(|scene| {
+            let found = trace_small(|scene| {
                 for key in &mut scene.objects[1].motion.keys {
                     key.translation.x = far;
                 }
             });
-            let Err(TraceError::Reach { object, .. }) = found else {
-                panic!("{far} m is within reach");
+            let Err(TraceError::TooFar { object, .. }) = found else {
+                panic!("{far} m is allowed");
             };
             assert!(!object.is_empty());
         }

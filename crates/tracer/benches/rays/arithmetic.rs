@@ -1,14 +1,14 @@
-//! What two threads can gain at most: work without memory, which tells a machine that shares its cores from rays that hinder one
-//! another.
+//! Arithmetic without memory, the upper limit of what a second thread gains. It tells a machine that shares its cores from
+//! rays that hinder one another.
 
 use divan::black_box;
 
-/// Numbers that are worked on side by side: few enough for registers, enough to keep all units busy.
+/// Numbers computed side by side: few enough for registers, enough to keep all units busy.
 const NUMBERS: usize = 32;
-/// About as long as a part of the rays.
+/// Rounds that take about as long as a part of the rays.
 const ROUNDS: usize = 450_000;
 
-/// Multiplies and adds in 32 bits; the count is of no use but must be made.
+/// Multiplies and adds in 32 bits. The count is unused but keeps the compiler from dropping the work.
 pub fn arithmetic() -> usize {
     let mut numbers: [f32; NUMBERS] = std::array::from_fn(|at| at as f32);
     let factor = black_box(0.999_f32);

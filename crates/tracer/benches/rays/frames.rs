@@ -1,4 +1,4 @@
-//! Whole truths of scenes from the catalogue: camera samples per second, and how fast the noise falls.
+//! Whole truths of shipped scenes: camera samples per second, and the time to a given noise.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -9,8 +9,8 @@ use tracer::{Progress, TruthSettings, TruthTracer, load_scene, trace_truth};
 
 const SCENES: [&str; 3] = ["fan", "railing", "two_spheres"];
 const TURNS: u32 = 3;
-/// Standard error to which times are scaled, by the square of the one that was reached. Noise falls faster than that,
-/// so the times are upper bounds.
+/// Standard error that times are scaled to, by the square of the error that was reached. Noise falls faster than that, so the
+/// times are upper limits.
 const TARGET: f64 = 0.003;
 
 /// Renders small truths on all processors and prints what they cost.
@@ -62,7 +62,7 @@ pub fn report() {
     }
 }
 
-/// Bytes per pixel of a replicate, and of the truth that replicates make.
+/// Bytes per pixel of a replicate, and of a truth.
 fn stored_per_pixel(truth: &Truth) -> [usize; 2] {
     let replicate = in_picture(&truth.halves[0]) + in_instant(&truth.at_instant[0]);
     let own = in_raster(&truth.standard_error) + in_raster(&truth.motion);

@@ -10,16 +10,17 @@ use tracer::{
     Parent, Scene, Turn,
 };
 
-/// Quads along either side of the ground.
+/// Quads along each side of the ground.
 const GROUND_SIDE: u32 = 300;
 /// Rows of quads from pole to pole of a sphere; twice as many around.
 const SPHERE_ROWS: u32 = 60;
-/// Spheres along either side of their square.
+/// Spheres along each side of their square.
 const SPHERES_SIDE: u32 = 5;
-/// Frames over which everything is timed.
+/// Shutter interval of all rays, in frames.
 pub const SHUTTER: [f64; 2] = [-1.0, 0.0];
 
-/// Every sphere drifts by two radii over the shutter and turns, or all stand still where they are in mid-shutter.
+/// Makes the scene. Every sphere drifts by two radii over the shutter interval and turns, or all stand still where they are in
+/// mid-shutter.
 pub fn made_scene(moving: bool) -> Scene {
     let still = |mesh, name: String| Object {
         name,

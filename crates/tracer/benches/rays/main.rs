@@ -1,5 +1,5 @@
-//! Rays per second. Timed variants take turns, part by part, and the best of several turns of every part counts, so that
-//! rates hold on a machine that does other things as well.
+//! Rays per second. The variants take turns, part by part, and the best of several turns of every part counts, so that
+//! rates hold on a busy machine.
 
 mod arithmetic;
 mod frames;
@@ -18,7 +18,7 @@ use tracer::{Ray, Scene, Stage};
 
 /// Rays of one turn.
 const RAYS: usize = 1 << 16;
-/// Parts that are timed by themselves, short enough to find the machine free now and then.
+/// Parts that are timed one by one, short enough to find the machine free now and then.
 const PARTS: usize = 16;
 /// Turns of each variant.
 const TURNS: u32 = 16;
@@ -35,14 +35,14 @@ fn main() {
 /// A ray and its time in frames.
 type TimedRay = (Ray, f64);
 
-/// What is asked of a ray.
+/// The query of a ray.
 #[derive(Clone, Copy, Debug)]
 enum Kind {
     /// The closest hit of camera rays over the whole picture.
     Primary,
     /// The closest hit of one cosine-distributed bounce from each of theirs.
     Diffuse,
-    /// Whether anything lies between their hits and a distant light.
+    /// Occlusion between their hits and a distant light.
     Shadow,
 }
 
@@ -65,7 +65,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Traces a part of the rays of a kind; how many met something.
+    /// Traces a part of the rays of a kind; returns the number that met something.
     fn trace(&self, kind: Kind, part: usize) -> usize {
         let mut poses = self.stage.poses();
         let rays = &self.rays[kind as usize];
@@ -83,7 +83,7 @@ impl<'a> Field<'a> {
         Self { stage, ..self }
     }
 
-    /// Best rate of several turns, rays per second.
+    /// The rate of the best of several turns, rays per second.
     fn rate(&self, kind: Kind, best: Duration) -> f64 {
         self.rays[kind as usize].len() as f64 / best.as_secs_f64()
     }
@@ -167,14 +167,14 @@ fn ratios() {
     frames::report();
 }
 
-/// The time that a work takes.
+/// Measures the time of some work.
 fn once(work: impl Fn() -> usize) -> Duration {
     let start = Instant::now();
     black_box(work());
     start.elapsed()
 }
 
-/// The time that it takes on the slower of two threads, which both do it, and begin when both are there.
+/// Measures the time of some work on the slower of two threads, which both do it and start together.
 fn twice(work: impl Fn() -> usize + Sync) -> Duration {
     let there = AtomicUsize::new(0);
     let timed = || {
@@ -190,7 +190,7 @@ fn twice(work: impl Fn() -> usize + Sync) -> Duration {
     })
 }
 
-/// The time that each of several works takes, in parts and in turns: the sum of every part's shortest.
+/// Measures several works in parts and in turns; returns for each the sum of its parts' shortest times.
 fn best_of<const N: usize>(works: [&dyn Fn(usize) -> Duration; N]) -> [Duration; N] {
     let mut best = [[Duration::MAX; PARTS]; N];
     for _ in 0..TURNS {
@@ -213,7 +213,7 @@ fn number(index: usize, dimension: usize) -> f64 {
     (0.5 + (index + 1) as f64 * STEPS[dimension % 3] + dimension as f64 * 0.37).fract()
 }
 
-/// In rows from left to right, as a renderer takes them, each with a time of its own.
+/// Camera rays in rows from left to right, as a renderer takes them, each with a time of its own.
 fn camera_rays(scene: &Scene) -> Vec<TimedRay> {
     let view = scene.camera.view(0.0, scene.width, scene.height);
     let columns = 341; // about 16:9
@@ -228,7 +228,7 @@ fn camera_rays(scene: &Scene) -> Vec<TimedRay> {
         .collect()
 }
 
-/// One bounce and one shadow ray from each hit, at the time of the path.
+/// One bounce and one shadow ray from each hit, at the time of the camera ray.
 fn bounces(stage: &Stage, primary: &[TimedRay]) -> (Vec<TimedRay>, Vec<TimedRay>) {
     let light = DVec3::new(0.3, 1.0, 0.4).normalize();
     let mut poses = stage.poses();

@@ -9,7 +9,7 @@ use super::document::Document;
 use super::error::{SceneError, join_names};
 use super::rotation::{LARGEST_TURN, Rotation};
 use crate::limits::{CLOSEST_KEYS, MOST_KEYS};
-use crate::swept::key_times;
+use crate::motion::keys::key_times;
 use crate::{Interpolation, Key, Motion, Turn};
 
 /// Interpolations by name.

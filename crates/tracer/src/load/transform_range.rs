@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::Motion;
 use crate::limits::{FARTHEST, SMALLEST_SCALE};
-use crate::swept::key_times;
+use crate::motion::keys::key_times;
 
 /// Range of a motion, or of a chain of motions: it moves a point at distance `d` from its origin to at most
 /// `largest_scale * d + offset` from the world's.
@@ -36,9 +36,9 @@ impl TransformRange {
             let segment = motion.segment(0.5 * (span[0] + span[1]));
             let [start, end] = [span[0], span[1]].map(|time| segment.since(time));
             let size = |scale: DVec3| scale.abs().max_element();
-            let scale = segment.scale.greatest(start, end, size);
+            let scale = segment.scale.maxima(start, end, size);
             range.largest_scale = range.largest_scale.max(scale.value);
-            let offset = segment.translation.greatest(start, end, DVec3::length);
+            let offset = segment.translation.maxima(start, end, DVec3::length);
             range.offset = range.offset.max(offset.value);
         }
         for key in &motion.keys {

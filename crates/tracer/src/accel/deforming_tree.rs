@@ -1,0 +1,165 @@
+//! The tree of a deforming mesh, in object space.
+
+use crate::accel::build::build_tree;
+use crate::accel::bvh::{Child, Leaves, Tree};
+use crate::accel::collapse::LeafRules;
+use crate::accel::lanes::Lanes;
+use crate::geometry::aabb::Aabb;
+use crate::geometry::ball::{Approach, Ball};
+use crate::geometry::ray::Ray;
+use crate::geometry::triangle::{Crossing, cross};
+use crate::motion::keys::times_within;
+use crate::motion::slices::Slices;
+use crate::scene::Mesh;
+
+/// Triangles are tested one by one, each in the time of a visit.
+const LEAF_RULES: LeafRules = LeafRules {
+    max_items: 4,
+    item_cost: 1.0,
+};
+
+/// A deforming mesh between two times, with one tree per slice of time.
+///
+/// Vertices are interpolated to the ray's time in `f64`, the same for every triangle that has them, so that no gap opens
+/// between neighbours.
+pub(crate) struct DeformingTree<'a> {
+    mesh: &'a Mesh,
+    slices: Slices,
+    /// Tree of each slice.
+    trees: Vec<Slice>,
+}
+
+/// A tree over the boxes that triangles sweep within a slice, and a ball around them.
+struct Slice {
+    tree: Tree,
+    leaves: Leaves,
+    ball: Ball,
+}
+
+impl<'a> DeformingTree<'a> {
+    /// Builds the trees of a mesh for rays at times in `[from, to]`.
+    pub fn build(mesh: &'a Mesh, from: f64, to: f64) -> Self {
+        let slices = Slices::new([from, to], needed_slices(mesh, from, to));
+        Self {
+            mesh,
+            slices,
+            trees: (slices.spans())
+                .map(|[from, to]| Slice::build(mesh, from, to))
+                .collect(),
+        }
+    }
+
+    /// Size of the trees in memory, in bytes.
+    pub fn bytes(&self) -> usize {
+        let trees = self.trees.iter();
+        trees
+            .map(|slice| slice.tree.bytes() + slice.leaves.bytes())
+            .sum()
+    }
+
+    /// Size of the stack that [`DeformingTree::traverse`] needs.
+    pub fn stack_size(&self) -> usize {
+        let sizes = self.trees.iter().map(|slice| slice.tree.stack_size);
+        sizes.max().unwrap_or(0)
+    }
+
+    /// Traverses the mesh at a time; see [`crate::accel::rigid_tree::RigidTree::traverse`].
+    #[inline(always)]
+    pub fn traverse<L: Lanes, const SORTED: bool>(
+        &self,
+        lanes: L,
+        stack: &mut [u64],
+        ray: &Ray,
+        time: f64,
+        limit: f64,
+        mut visit: impl FnMut(u32, Crossing) -> f64,
+    ) {
+        let slice = self.slice(time);
+        let Some(approach) = slice.ball.approach(ray) else {
+            return;
+        };
+        let mut limit = limit;
+        slice.tree.traverse::<L, SORTED>(
+            lanes,
+            stack,
+            (&approach.ray, Child::ROOT),
+            approach.local_limit(limit),
+            #[inline(always)]
+            |_, leaf| {
+                for &triangle in slice.leaves.items(leaf) {
+                    if let Some(crossing) = self.crossing(&approach, time, triangle, limit) {
+                        limit = visit(triangle, crossing);
+                    }
+                }
+                approach.local_limit(limit)
+            },
+            |_| {},
+        );
+    }
+
+    /// Visits every crossing at `0 < t` without a tree: the reference for tests of traversals.
+    pub fn visit_all(&self, ray: &Ray, time: f64, mut visit: impl FnMut(u32, Crossing)) {
+        let Some(approach) = self.slice(time).ball.approach(ray) else {
+            return;
+        };
+        for triangle in 0..self.mesh.triangles.len() as u32 {
+            if let Some(crossing) = self.crossing(&approach, time, triangle, f64::INFINITY) {
+                visit(triangle, crossing);
+            }
+        }
+    }
+
+    fn crossing(
+        &self,
+        approach: &Approach,
+        time: f64,
+        triangle: u32,
+        limit: f64,
+    ) -> Option<Crossing> {
+        let mut crossing = cross(&approach.ray, self.mesh.at(time).corners(triangle))?;
+        crossing.t += approach.start;
+        (crossing.t > 0.0 && crossing.t <= limit).then_some(crossing)
+    }
+
+    fn slice(&self, time: f64) -> &Slice {
+        &self.trees[self.slices.find(time)]
+    }
+}
+
+impl Slice {
+    /// Builds the tree of a slice. Vertices move in straight lines between key shapes, so the box around a triangle at both
+    /// ends and at the keys inside contains it at all times.
+    fn build(mesh: &Mesh, from: f64, to: f64) -> Self {
+        let times = times_within(mesh.shape_times(), from, to);
+        let boxes: Vec<Aabb> = (0..mesh.triangles.len() as u32)
+            .map(|triangle| {
+                let corners = times.iter().map(|time| mesh.at(*time).corners(triangle));
+                Aabb::around(corners.flatten())
+            })
+            .collect();
+        let union = (boxes.iter()).fold(Aabb::EMPTY, |union, aabb| union.union(*aabb));
+        let (tree, leaves) = build_tree(&boxes, LEAF_RULES);
+        Self {
+            tree,
+            leaves,
+            ball: Ball::around(union.centre(), [union.min, union.max]),
+        }
+    }
+}
+
+/// The number of slices with which no vertex travels farther than the mean edge within one, so that boxes stay small.
+fn needed_slices(mesh: &Mesh, from: f64, to: f64) -> f64 {
+    let shape = mesh.at(0.5 * (from + to));
+    let edges: f64 = (0..mesh.triangles.len() as u32)
+        .map(|triangle| {
+            let [a, b, c] = shape.corners(triangle);
+            a.distance(b) + b.distance(c) + c.distance(a)
+        })
+        .sum();
+    let mean_edge = edges / (3 * mesh.triangles.len()) as f64;
+    let travel: f64 = times_within(mesh.shape_times(), from, to)
+        .windows(2)
+        .map(|span| mesh.vertex_maxima(span[0], span[1])[1] * (span[1] - span[0]))
+        .sum();
+    travel / mean_edge.max(f64::MIN_POSITIVE)
+}

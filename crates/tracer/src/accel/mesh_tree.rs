@@ -1,0 +1,77 @@
+//! The tree of a mesh, rigid or deforming, in object space.
+
+use crate::accel::deforming_tree::DeformingTree;
+use crate::accel::lanes::Lanes;
+use crate::accel::rigid_tree::RigidTree;
+use crate::geometry::ray::Ray;
+use crate::geometry::triangle::Crossing;
+use crate::scene::Mesh;
+
+/// A mesh and its trees; shared by every object that shows it.
+pub(crate) enum MeshTree<'a> {
+    Rigid(RigidTree),
+    Deforming(DeformingTree<'a>),
+}
+
+impl<'a> MeshTree<'a> {
+    /// Builds the trees of a mesh for rays at times in `[from, to]`.
+    pub fn build(mesh: &'a Mesh, from: f64, to: f64) -> Self {
+        if mesh.deforms() {
+            MeshTree::Deforming(DeformingTree::build(mesh, from, to))
+        } else {
+            MeshTree::Rigid(RigidTree::build(mesh))
+        }
+    }
+
+    /// The tree of a rigid mesh, whose leaves may lie in the world tree.
+    #[inline(always)]
+    pub fn rigid(&self) -> &RigidTree {
+        match self {
+            MeshTree::Rigid(tree) => tree,
+            MeshTree::Deforming(_) => panic!("only leaves of rigid meshes lie in the world tree"),
+        }
+    }
+
+    /// Size of trees and triangles in memory, in bytes.
+    pub fn bytes(&self) -> usize {
+        match self {
+            MeshTree::Rigid(tree) => tree.bytes(),
+            MeshTree::Deforming(tree) => tree.bytes(),
+        }
+    }
+
+    /// Size of the stack that [`MeshTree::traverse`] needs.
+    pub fn stack_size(&self) -> usize {
+        match self {
+            MeshTree::Rigid(tree) => tree.stack_size(),
+            MeshTree::Deforming(tree) => tree.stack_size(),
+        }
+    }
+
+    /// Traverses the mesh at a time; see [`RigidTree::traverse`].
+    #[inline(always)]
+    pub fn traverse<L: Lanes, const SORTED: bool>(
+        &self,
+        lanes: L,
+        stack: &mut [u64],
+        ray: &Ray,
+        time: f64,
+        limit: f64,
+        visit: impl FnMut(u32, Crossing) -> f64,
+    ) {
+        match self {
+            MeshTree::Rigid(tree) => tree.traverse::<L, SORTED>(lanes, stack, ray, limit, visit),
+            MeshTree::Deforming(tree) => {
+                tree.traverse::<L, SORTED>(lanes, stack, ray, time, limit, visit)
+            }
+        }
+    }
+
+    /// Visits every crossing at `0 < t` without a tree: the reference for tests of traversals.
+    pub fn visit_all(&self, ray: &Ray, time: f64, visit: impl FnMut(u32, Crossing)) {
+        match self {
+            MeshTree::Rigid(tree) => tree.visit_all(ray, visit),
+            MeshTree::Deforming(tree) => tree.visit_all(ray, time, visit),
+        }
+    }
+}

@@ -1,0 +1,279 @@
+//! The geometry of a scene under its trees: the nearest hit of a ray, and occlusion.
+
+use crate::accel::lanes::Lanes;
+use crate::accel::mesh_tree::MeshTree;
+use crate::accel::rigid_tree::{LeafRay, RigidTree};
+use crate::accel::world_leaves::collect_world_leaves;
+use crate::accel::world_tree::{Part, WorldTree};
+use crate::error::TraceError;
+use crate::geometry::aabb::Aabb;
+use crate::geometry::hit::Hit;
+use crate::geometry::ray::Ray;
+use crate::geometry::triangle::Crossing;
+use crate::limits::LARGEST_COORDINATE;
+use crate::material::surface::Opacity;
+use crate::motion::poses::Poses;
+use crate::motion::slices::sweep_slices;
+use crate::scene::Scene;
+
+/// A limit before every crossing: it ends a traversal.
+const NOWHERE: f64 = f64::NEG_INFINITY;
+
+/// The meshes of a scene, and the world tree above them.
+///
+/// Still objects lie in the world tree, leaf by leaf. Per slice of the shutter interval a small tree holds the topmost nodes
+/// of that tree and the boxes that moving objects sweep.
+pub(crate) struct SceneTree<'a> {
+    scene: &'a Scene,
+    /// Trees per mesh of the scene; none where no object shows it.
+    meshes: Vec<Option<MeshTree<'a>>>,
+    world: WorldTree,
+    /// Holes per object.
+    opacities: Vec<Opacity>,
+    stack_size: usize,
+}
+
+/// The ray in the space of the object whose leaf it met last.
+#[derive(Default)]
+struct LastLeafRay {
+    object: Option<usize>,
+    ray: Option<LeafRay>,
+}
+
+impl LastLeafRay {
+    /// The ray for the leaves of an object; none where it misses them all.
+    #[inline(always)]
+    fn get(
+        &mut self,
+        mesh: &RigidTree,
+        object: usize,
+        poses: &mut Poses,
+        ray: &Ray,
+    ) -> Option<&LeafRay> {
+        if self.object != Some(object) {
+            self.object = Some(object);
+            self.ray = mesh.prepare_ray(&ray.transformed(&poses.pose(object).to_object));
+        }
+        self.ray.as_ref()
+    }
+}
+
+impl<'a> SceneTree<'a> {
+    /// Builds all trees for rays at times in `[from, to]`, the interval of `poses`. Refuses objects with coordinates above
+    /// [`LARGEST_COORDINATE`].
+    pub fn build(
+        scene: &'a Scene,
+        poses: &mut Poses,
+        from: f64,
+        to: f64,
+    ) -> Result<Self, TraceError> {
+        let (slices, swept) = sweep_slices(scene, from, to);
+        check_coordinates(scene, &swept)?;
+        let shown: Vec<usize> = scene.objects.iter().map(|object| object.mesh).collect();
+        let mut meshes: Vec<Option<MeshTree>> = scene
+            .meshes
+            .iter()
+            .enumerate()
+            .map(|(index, mesh)| {
+                shown
+                    .contains(&index)
+                    .then(|| MeshTree::build(mesh, from, to))
+            })
+            .collect();
+        let coordinates = swept.iter().flatten().map(|aabb| aabb.largest_coordinate());
+        let leaves = collect_world_leaves(scene, &meshes, poses, coordinates.fold(0.0, f64::max));
+        let world = WorldTree::build(&leaves, slices, &swept);
+        for (index, mesh) in meshes.iter_mut().enumerate() {
+            let is_traversed = (leaves.iter().zip(&shown))
+                .any(|(leaves, shown)| *shown == index && leaves.is_none());
+            if let (Some(MeshTree::Rigid(tree)), false) = (mesh, is_traversed) {
+                tree.drop_tree();
+            }
+        }
+        let in_meshes = meshes.iter().flatten().map(MeshTree::stack_size).max();
+        Ok(Self {
+            scene,
+            stack_size: world.stack_size() + in_meshes.unwrap_or(0),
+            meshes,
+            world,
+            opacities: Opacity::of_objects(scene),
+        })
+    }
+
+    /// Size of trees and triangles in memory, in bytes.
+    pub fn bytes(&self) -> usize {
+        let meshes: usize = self.meshes.iter().flatten().map(MeshTree::bytes).sum();
+        meshes + self.world.bytes()
+    }
+
+    /// Finds the nearest surface at `t > 0`; among equally near ones that of the lowest object, then triangle.
+    #[inline(always)]
+    pub fn closest<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
+        let time = poses.time();
+        let mut stack = poses.take_stack(self.stack_size);
+        let mut best: Option<Hit> = None;
+        let mut leaf_ray = LastLeafRay::default();
+        let limit = |best: &Option<Hit>| best.map_or(f64::INFINITY, |hit| hit.t);
+        self.world.traverse::<L, true>(
+            lanes,
+            &mut stack,
+            (ray, time),
+            f64::INFINITY,
+            #[inline(always)]
+            |stack, Part { object, leaf }| {
+                let before = limit(&best);
+                let visit = |triangle, crossing| {
+                    self.keep_nearer(&mut best, time, object, triangle, crossing);
+                    limit(&best)
+                };
+                match leaf {
+                    Some(leaf) => {
+                        let mesh = self.mesh(object).rigid();
+                        if let Some(ray) = leaf_ray.get(mesh, object, poses, ray) {
+                            mesh.intersect_leaf(lanes, leaf, ray, before, visit);
+                        }
+                    }
+                    None if poses.is_missed(object, ray) => {}
+                    None => {
+                        let local = ray.transformed(&poses.pose(object).to_object);
+                        let mesh = self.mesh(object);
+                        mesh.traverse::<L, true>(lanes, stack, &local, time, before, visit);
+                    }
+                }
+                limit(&best)
+            },
+            #[inline(always)]
+            |part| self.prefetch(part),
+        );
+        poses.stack = stack;
+        best
+    }
+
+    /// Returns true if anything lies at `0 < t < limit`.
+    #[inline(always)]
+    pub fn blocked<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
+        let time = poses.time();
+        let mut stack = poses.take_stack(self.stack_size);
+        let mut blocked = false;
+        let mut leaf_ray = LastLeafRay::default();
+        self.world.traverse::<L, false>(
+            lanes,
+            &mut stack,
+            (ray, time),
+            limit,
+            #[inline(always)]
+            |stack, Part { object, leaf }| {
+                let visit = |triangle, crossing: Crossing| {
+                    let opaque = self.opacities[object].is_opaque(self.scene, triangle, &crossing);
+                    blocked |= crossing.t < limit && opaque;
+                    if blocked { NOWHERE } else { limit }
+                };
+                match leaf {
+                    Some(leaf) => {
+                        let mesh = self.mesh(object).rigid();
+                        if let Some(ray) = leaf_ray.get(mesh, object, poses, ray) {
+                            mesh.intersect_leaf(lanes, leaf, ray, limit, visit);
+                        }
+                    }
+                    None if poses.is_missed(object, ray) => {}
+                    None => {
+                        let local = ray.transformed(&poses.pose(object).to_object);
+                        let mesh = self.mesh(object);
+                        mesh.traverse::<L, false>(lanes, stack, &local, time, limit, visit);
+                    }
+                }
+                if blocked { NOWHERE } else { limit }
+            },
+            #[inline(always)]
+            |part| self.prefetch(part),
+        );
+        poses.stack = stack;
+        blocked
+    }
+
+    /// Finds the hit of [`SceneTree::closest`] by testing every triangle: the reference for tests.
+    pub fn closest_of_all(&self, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
+        let time = poses.time();
+        let mut best = None;
+        for object in 0..self.scene.objects.len() {
+            let local = ray.transformed(&poses.pose(object).to_object);
+            self.mesh(object)
+                .visit_all(&local, time, |triangle, crossing| {
+                    self.keep_nearer(&mut best, time, object, triangle, crossing);
+                });
+        }
+        best
+    }
+
+    /// Prefetches the leaf of a part of the world tree.
+    #[inline(always)]
+    fn prefetch(&self, part: Part) {
+        if let Some(leaf) = part.leaf {
+            self.mesh(part.object).rigid().prefetch(leaf);
+        }
+    }
+
+    /// Replaces the best hit by a crossing that is nearer, unless the surface has a hole there.
+    #[inline(always)]
+    fn keep_nearer(
+        &self,
+        best: &mut Option<Hit>,
+        time: f64,
+        object: usize,
+        triangle: u32,
+        crossing: Crossing,
+    ) {
+        let nearer = best.is_none_or(|best| {
+            (crossing.t, object, triangle) < (best.t, best.object, best.triangle)
+        });
+        if nearer && self.opacities[object].is_opaque(self.scene, triangle, &crossing) {
+            *best = Some(Hit {
+                t: crossing.t,
+                object,
+                triangle,
+                weights: [crossing.u, crossing.v],
+                time,
+            });
+        }
+    }
+
+    #[inline(always)]
+    fn mesh(&self, object: usize) -> &MeshTree<'a> {
+        self.meshes[self.scene.objects[object].mesh]
+            .as_ref()
+            .expect("every shown mesh has a tree")
+    }
+}
+
+/// Refuses objects with too large coordinates: of their swept boxes, or of their meshes in their own space.
+fn check_coordinates(scene: &Scene, slices: &[Vec<Aabb>]) -> Result<(), TraceError> {
+    let own: Vec<f64> = (scene.meshes.iter())
+        .map(|mesh| {
+            let shapes = mesh.shapes.iter().flat_map(|shape| &shape.positions);
+            let positions = mesh.positions.iter().chain(shapes);
+            positions.fold(0.0, |largest: f64, position| {
+                largest.max(f64::from(position.abs().max_element()))
+            })
+        })
+        .collect();
+    for (index, object) in scene.objects.iter().enumerate() {
+        let swept = slices.iter().map(|swept| swept[index]);
+        let corners = swept.flat_map(|swept| [swept.min, swept.max]);
+        let mut coordinates = corners.map(|corner| match corner.is_finite() {
+            true => corner.abs().max_element(),
+            false => f64::INFINITY,
+        });
+        let too_large = |coordinate: &f64| *coordinate > LARGEST_COORDINATE;
+        if let Some(coordinate) = coordinates
+            .find(too_large)
+            .or(Some(own[object.mesh]).filter(too_large))
+        {
+            return Err(TraceError::TooFar {
+                scene: scene.name.clone(),
+                object: object.name.clone(),
+                coordinate,
+            });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,68 @@
+//! The content hashes of renders, and their provenance.
+
+use std::fmt::Debug;
+
+use frame::Provenance;
+
+use crate::scene::Scene;
+use crate::settings::{FrameSettings, TruthSettings};
+use crate::stage::Stage;
+
+const PROGRAM: &str = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"));
+
+/// The content hash of the frame that [`trace_frame`](crate::trace_frame) would render. It covers the scene's own hash, the
+/// settings and the tracer's sources, so equal hashes mean equal pixels.
+pub fn frame_hash(scene: &Scene, settings: &FrameSettings) -> String {
+    content_hash(scene, "frame", settings)
+}
+
+/// The content hash that all replicates of a truth share, independent of their number; see [`frame_hash`].
+pub fn replicate_hash(scene: &Scene, settings: &TruthSettings) -> String {
+    let each = TruthSettings {
+        samples_per_pixel: settings.samples_per_replicate(),
+        replicates: 1,
+        ..*settings
+    };
+    content_hash(scene, "replicate", &(each, &scene.shutter_profile))
+}
+
+/// The content hash of the truth that [`trace_truth`](crate::trace_truth) would render; see [`frame_hash`].
+pub fn truth_hash(scene: &Scene, settings: &TruthSettings) -> String {
+    frame::truth_hash(&replicate_hash(scene, settings), settings.replicates)
+}
+
+/// The content hash of the ladder that [`trace_ladder`](crate::trace_ladder) would render from the truth of the same
+/// settings; see [`frame_hash`].
+pub fn ladder_hash(scene: &Scene, settings: &TruthSettings, subframes: &[u32]) -> String {
+    content_hash(
+        scene,
+        "ladder",
+        &(settings, subframes, &scene.shutter_profile),
+    )
+}
+
+/// The provenance of a render, as its file states it.
+pub(crate) fn provenance(
+    stage: &Stage,
+    seed: u64,
+    samples_per_pixel: u32,
+    replicates: u32,
+    content_hash: String,
+) -> Provenance {
+    Provenance {
+        scene: stage.scene.name.clone(),
+        program: PROGRAM.into(),
+        seed,
+        samples_per_pixel,
+        replicates,
+        traversal: stage.traversal().into(),
+        content_hash,
+    }
+}
+
+/// Hashes the debug output of the settings. It holds every field, and every number in full: no new setting can be forgotten.
+fn content_hash(scene: &Scene, kind: &str, settings: &dyn Debug) -> String {
+    let tracer = env!("TRACER_SOURCES");
+    let text = format!("{PROGRAM}\n{tracer}\n{kind}\n{}\n{settings:?}", scene.hash);
+    blake3::hash(text.as_bytes()).to_hex().to_string()
+}

@@ -1,0 +1,87 @@
+//! The pixels of a picture and of the guard band around it.
+
+/// The size of a picture and of its guard band, which only frames have. Positions count from the picture's top left corner:
+/// in the band they are negative or beyond the size.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Canvas {
+    /// Pixels per row of the picture.
+    pub width: u32,
+    /// Rows of the picture.
+    pub height: u32,
+    /// Pixels by which the rasters extend beyond the picture on every side.
+    pub guard_band: u32,
+}
+
+impl Canvas {
+    /// A picture without a band.
+    pub fn bare(width: u32, height: u32) -> Self {
+        Self {
+            width,
+            height,
+            guard_band: 0,
+        }
+    }
+
+    /// Pixels per row with the band.
+    pub fn columns(&self) -> u32 {
+        self.width + 2 * self.guard_band
+    }
+
+    /// Rows with the band.
+    pub fn rows(&self) -> u32 {
+        self.height + 2 * self.guard_band
+    }
+
+    /// Indices of all pixels, row by row.
+    pub fn pixels(&self) -> Vec<u32> {
+        (0..self.columns() * self.rows()).collect()
+    }
+
+    /// The top left corner of a pixel.
+    pub fn corner(&self, pixel: u32) -> [f64; 2] {
+        [pixel % self.columns(), pixel / self.columns()]
+            .map(|index| f64::from(index) - f64::from(self.guard_band))
+    }
+
+    /// The number that seeds a pixel. Inside the picture it does not depend on the guard band, and so neither do the random
+    /// numbers.
+    pub fn seed_number(&self, pixel: u32) -> u32 {
+        let [column, row] = [pixel % self.columns(), pixel / self.columns()]
+            .map(|index| index.wrapping_sub(self.guard_band));
+        if column < self.width && row < self.height {
+            row * self.width + column
+        } else {
+            self.width * self.height + pixel
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pixels_inside_have_the_numbers_of_a_bare_picture_and_all_numbers_differ() {
+        let bare = Canvas::bare(5, 3);
+        let padded = Canvas {
+            guard_band: 2,
+            ..bare
+        };
+        let mut numbers: Vec<u32> = padded
+            .pixels()
+            .iter()
+            .map(|&pixel| padded.seed_number(pixel))
+            .collect();
+        for pixel in padded.pixels() {
+            let [x, y] = padded.corner(pixel);
+            if (0.0..5.0).contains(&x) && (0.0..3.0).contains(&y) {
+                let of_bare = (y * 5.0 + x) as u32;
+                assert_eq!(padded.seed_number(pixel), of_bare);
+                assert_eq!(bare.corner(of_bare), [x, y]);
+            }
+        }
+        numbers.sort_unstable();
+        numbers.dedup();
+        assert_eq!(numbers.len(), 9 * 7);
+    }
+}

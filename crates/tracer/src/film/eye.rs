@@ -1,0 +1,44 @@
+//! The camera and all poses, at the time of one sample after the other.
+
+use crate::film::canvas::Canvas;
+use crate::motion::camera::View;
+use crate::motion::poses::Poses;
+use crate::scene::Scene;
+use crate::stage::Stage;
+
+/// The camera and all poses of one thread.
+pub(crate) struct Eye<'a> {
+    scene: &'a Scene,
+    pub poses: Poses<'a>,
+    /// Poses at `t = 0`.
+    pub instant: Poses<'a>,
+    view: View,
+    moves: bool,
+    size: [u32; 2],
+}
+
+impl<'a> Eye<'a> {
+    pub fn new(stage: &Stage<'a>, canvas: Canvas) -> Self {
+        let scene = stage.scene;
+        let poses = stage.poses();
+        let mut instant = stage.poses();
+        instant.at(0.0);
+        Self {
+            scene,
+            view: (scene.camera).view(poses.time(), canvas.width, canvas.height),
+            poses,
+            instant,
+            moves: scene.camera.motion.keys.len() > 1 || scene.camera.vertical_fov.len() > 1,
+            size: [canvas.width, canvas.height],
+        }
+    }
+
+    /// Moves everything to `time`; returns the camera's view.
+    pub fn view_at(&mut self, time: f64) -> &View {
+        self.poses.at(time);
+        if self.moves {
+            self.view = self.scene.camera.view(time, self.size[0], self.size[1]);
+        }
+        &self.view
+    }
+}

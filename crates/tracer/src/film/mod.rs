@@ -1,0 +1,10 @@
+//! The samples of a picture: their places, times and random numbers, and their means.
+
+pub(crate) mod at_instant;
+pub(crate) mod canvas;
+pub(crate) mod eye;
+pub(crate) mod finite;
+pub(crate) mod render;
+pub(crate) mod sampler;
+pub(crate) mod shutter_sampler;
+pub(crate) mod support;

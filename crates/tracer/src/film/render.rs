@@ -1,0 +1,214 @@
+//! The samples of many pixels, summed in an order that does not depend on the number of threads.
+
+use std::ops::Range;
+
+use frame::{Image, Picture, Plane};
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::error::TraceError;
+use crate::film::at_instant::{InstantMeans, InstantSums, InstantView};
+use crate::film::canvas::Canvas;
+use crate::film::eye::Eye;
+use crate::film::sampler::{Sampler, Stream, pixel_seed};
+use crate::film::shutter_sampler::ShutterSampler;
+use crate::light::integrator::Integrator;
+use crate::progress::Meter;
+
+/// Pixels that a thread takes at a time; between two tasks it reports progress.
+pub(crate) const PIXELS_PER_TASK: usize = 32;
+
+/// Distance between samples that are shaded once more, as at the instant.
+const SHADED_AGAIN: u32 = 4;
+
+/// Times of the samples of a picture.
+#[derive(Clone, Copy)]
+pub(crate) enum Times<'a> {
+    /// The instant `t = 0`.
+    Instant,
+    /// Times spread evenly over the light that passes the shutter.
+    Shutter(&'a ShutterSampler),
+    /// The middles of this many equal parts of that light.
+    Midpoints(&'a ShutterSampler, u32),
+}
+
+/// Places of the samples in a pixel.
+#[derive(Clone, Copy)]
+pub(crate) enum Places {
+    /// Places spread evenly over its area.
+    Area,
+    /// The centre.
+    Centre,
+}
+
+/// The parameters of a render, the same for every pixel.
+pub(crate) struct Film<'a> {
+    pub integrator: Integrator<'a>,
+    pub canvas: Canvas,
+    pub places: Places,
+    pub times: Times<'a>,
+    /// View of the instant, if samples are looked up there; the stage must then hold `t = 0`.
+    pub instant: Option<InstantView>,
+    /// Independent, complete sets of samples, by the numbers that seed them.
+    pub replicates: Range<u32>,
+    /// Samples per pixel of each, a power of two.
+    pub samples_per_replicate: u32,
+    pub seed: u64,
+    pub stream: Stream,
+}
+
+/// The mean of one complete set of samples of one pixel.
+#[derive(Clone, Debug)]
+pub(crate) struct Estimate {
+    pub radiance: DVec3,
+    /// Samples that saw each object, by id.
+    pub seen: Vec<u32>,
+    /// Means at the instant; zero without a view of it.
+    pub at_instant: InstantMeans,
+}
+
+/// A pixel's colour and coverages.
+#[derive(Clone)]
+pub(crate) struct PixelMean {
+    pub color: [f32; 3],
+    pub coverage: Vec<f32>,
+}
+
+impl Times<'_> {
+    /// The time for a number in [0, 1), in a row of the picture.
+    pub fn at(self, part: f64, row: u32, height: u32) -> f64 {
+        match self {
+            Times::Instant => 0.0,
+            Times::Shutter(shutter) => shutter.time(part, row, height),
+            Times::Midpoints(shutter, parts) => {
+                let parts = f64::from(parts);
+                shutter.time(((part * parts).floor() + 0.5) / parts, row, height)
+            }
+        }
+    }
+}
+
+impl<'a> Film<'a> {
+    /// Samples per pixel over all replicates.
+    pub fn samples_per_pixel(&self) -> u64 {
+        self.replicates.len() as u64 * u64::from(self.samples_per_replicate)
+    }
+
+    /// Renders the listed pixels (indices in row-major order) and turns the estimates of each into a result.
+    pub fn render<T: Send>(
+        &self,
+        pixels: &[u32],
+        meter: &Meter,
+        result: impl Fn(&[Estimate]) -> T + Sync,
+    ) -> Result<Vec<T>, TraceError> {
+        let tasks = pixels
+            .par_chunks(PIXELS_PER_TASK)
+            .map(|task| {
+                let mut eye = Eye::new(self.integrator.stage, self.canvas);
+                let mut results = Vec::with_capacity(task.len());
+                for &pixel in task {
+                    meter.check()?;
+                    let estimates: Vec<Estimate> = self
+                        .replicates
+                        .clone()
+                        .map(|replicate| self.estimate(&mut eye, pixel, replicate))
+                        .collect();
+                    results.push(result(&estimates));
+                }
+                meter.advance(task.len() as u64 * self.samples_per_pixel());
+                Ok(results)
+            })
+            .collect::<Result<Vec<Vec<T>>, TraceError>>()?;
+        meter.check()?;
+        Ok(tasks.into_iter().flatten().collect())
+    }
+
+    fn estimate(&self, eye: &mut Eye, pixel: u32, replicate: u32) -> Estimate {
+        let [left, top] = self.canvas.corner(pixel);
+        let row = pixel / self.canvas.columns();
+        let number = self.canvas.seed_number(pixel);
+        let seed = pixel_seed(self.seed, self.stream, number, replicate);
+        let mut sum = DVec3::ZERO;
+        let mut instant_sums = InstantSums::default();
+        let mut seen = vec![0; self.integrator.stage.scene.objects.len() + 1];
+        for index in 0..self.samples_per_replicate {
+            let sampler = Sampler::new(seed, index);
+            let [x, y, part, _] = sampler.camera();
+            let [x, y] = match self.places {
+                Places::Area => [x, y],
+                Places::Centre => [0.5, 0.5],
+            };
+            let time = self.times.at(part, row, self.canvas.height);
+            let ray = eye.view_at(time).ray(left + x, top + y);
+            let sample = self.integrator.trace(&mut eye.poses, ray, &sampler);
+            sum += sample.radiance.as_dvec3();
+            seen[sample.object_id()] += 1;
+            if let Some(instant) = &self.instant {
+                let poses = (&mut eye.poses, &mut eye.instant);
+                let at_instant = instant.sample(
+                    &self.integrator,
+                    poses,
+                    &ray,
+                    &sample,
+                    &sampler,
+                    index % SHADED_AGAIN == 0,
+                );
+                instant_sums.add(&at_instant, sample.radiance, [left + 0.5, top + 0.5]);
+            }
+        }
+        Estimate {
+            radiance: sum / f64::from(self.samples_per_replicate),
+            seen,
+            at_instant: match self.instant {
+                Some(_) => instant_sums.means(self.samples_per_replicate),
+                None => InstantMeans::default(),
+            },
+        }
+    }
+}
+
+impl PixelMean {
+    /// The mean over estimates, all of the same number of samples, in their order.
+    pub fn of<'r>(estimates: impl IntoIterator<Item = &'r Estimate>) -> Self {
+        let mut count = 0;
+        let mut samples = 0;
+        let mut radiance = DVec3::ZERO;
+        let mut seen: Vec<u32> = Vec::new();
+        for estimate in estimates {
+            count += 1;
+            radiance += estimate.radiance;
+            seen.resize(estimate.seen.len(), 0);
+            for (sum, &seen) in seen.iter_mut().zip(&estimate.seen) {
+                *sum += seen;
+                samples += seen;
+            }
+        }
+        Self {
+            color: (radiance / f64::from(count)).as_vec3().to_array(),
+            coverage: seen
+                .iter()
+                .map(|&seen| (f64::from(seen) / f64::from(samples)) as f32)
+                .collect(),
+        }
+    }
+}
+
+/// Assembles a picture from its pixels in row-major order.
+pub(crate) fn assemble_picture(canvas: Canvas, pixels: &[PixelMean]) -> Picture {
+    let [width, height] = [canvas.columns(), canvas.rows()];
+    let objects = pixels.first().map_or(0, |pixel| pixel.coverage.len());
+    Picture {
+        color: Image {
+            width,
+            height,
+            pixels: pixels.iter().map(|pixel| pixel.color).collect(),
+        },
+        coverage: (0..objects)
+            .map(|object| Plane {
+                width,
+                height,
+                pixels: pixels.iter().map(|pixel| pixel.coverage[object]).collect(),
+            })
+            .collect(),
+    }
+}

@@ -1,0 +1,229 @@
+//! The path integrator: radiance along one path.
+
+use glam::{DVec3, Vec3};
+
+use crate::film::sampler::Sampler;
+use crate::geometry::hit::Hit;
+use crate::geometry::ray::Ray;
+use crate::light::light_sample::{LightSample, density_per_steradian, power_heuristic};
+use crate::light::lights::Emitters;
+use crate::material::brdf::Brdf;
+use crate::material::brdf_sample::BrdfValue;
+use crate::material::surface::Surface;
+use crate::motion::poses::Poses;
+use crate::stage::Stage;
+
+/// Bounce at which roulette begins; before it every path goes on.
+const ROULETTE_FROM: u32 = 3;
+/// Most bounces of a path. Roulette ends nearly all paths long before: at albedo 0.8 one in a million gets here.
+const MOST_BOUNCES: u32 = 64;
+/// Offset of secondary rays from their surface, as a part of the greatest coordinate. Positions are exact to about 1e-14 of
+/// it.
+pub(crate) const LIFT: f64 = 1e-9;
+
+/// Traces paths through a stage.
+pub(crate) struct Integrator<'a> {
+    pub stage: &'a Stage<'a>,
+    pub emitters: Emitters,
+}
+
+/// The result of one path.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PathSample {
+    pub radiance: Vec3,
+    /// First surface; none for the background.
+    pub hit: Option<Hit>,
+    /// True where that surface scattered light, false where it sent only its own.
+    pub scattered: bool,
+}
+
+impl PathSample {
+    /// The id of the first object; 0 is the background.
+    pub fn object_id(&self) -> usize {
+        self.hit.map_or(0, |hit| hit.object + 1)
+    }
+}
+
+/// Density with which a ray's direction was drawn; none for rays that no light could have drawn: those of the camera and of
+/// mirrors.
+type RayDensity = Option<f64>;
+
+impl<'a> Integrator<'a> {
+    /// Prepares the emitters with their weights at `time` (frames).
+    pub fn new(stage: &'a Stage<'a>, time: f64) -> Self {
+        Self {
+            stage,
+            emitters: Emitters::new(stage.scene, stage.poses().at(time)),
+        }
+    }
+
+    /// Traces a path from a camera ray, at the time of `poses`.
+    pub fn trace(&self, poses: &mut Poses, camera_ray: Ray, sampler: &Sampler) -> PathSample {
+        let hit = self.stage.closest(poses, &camera_ray);
+        let (radiance, bounces) = self.follow_path(poses, camera_ray, hit, sampler);
+        PathSample {
+            radiance,
+            hit,
+            scattered: bounces > 0,
+        }
+    }
+
+    /// The radiance along a camera ray whose first hit is known.
+    pub fn radiance_along(
+        &self,
+        poses: &mut Poses,
+        camera_ray: Ray,
+        first_hit: Option<Hit>,
+        sampler: &Sampler,
+    ) -> Vec3 {
+        self.follow_path(poses, camera_ray, first_hit, sampler).0
+    }
+
+    /// Follows a path from its first hit; returns its radiance and the number of bounces.
+    fn follow_path(
+        &self,
+        poses: &mut Poses,
+        camera_ray: Ray,
+        first_hit: Option<Hit>,
+        sampler: &Sampler,
+    ) -> (Vec3, u32) {
+        let scene = self.stage.scene;
+        let mut radiance = Vec3::ZERO;
+        let mut ray = camera_ray;
+        let mut next_hit = first_hit;
+        let mut density: RayDensity = None;
+        let mut throughput = Vec3::ONE;
+        for depth in 0..MOST_BOUNCES {
+            let Some(hit) = next_hit else {
+                radiance += throughput * self.background_radiance(&ray, density);
+                return (radiance, depth);
+            };
+            let surface = Surface::at(scene, poses.pose(hit.object), &ray, &hit);
+            radiance += throughput * self.emission(&surface, &ray, &hit, density);
+            let glossy = self.stage.glossy_material(surface.material);
+            let Some(brdf) = surface.brdf(glossy, &ray) else {
+                return (radiance, depth);
+            };
+            let [u, v, roulette, choice] = sampler.bounce(depth);
+            let [sky_u, sky_v, lobe_choice, _] = sampler.sky(depth);
+            let start = surface.position + LIFT * magnitude(&surface, &hit) * surface.facet;
+            if self.has_lights() {
+                let points = sampler.lights(depth);
+                radiance += throughput * self.direct_light(poses, start, &brdf, choice, points);
+            }
+            if let Some(sky) = self.stage.sky().sample([sky_u, sky_v]) {
+                radiance += throughput * self.light_from(poses, start, &brdf, &sky, true);
+            }
+            let Some(drawn) = brdf.sample(lobe_choice, [u, v]) else {
+                return (radiance, depth + 1);
+            };
+            throughput *= drawn.weight;
+            if depth >= ROULETTE_FROM {
+                let survival = f64::from(throughput.max_element()).min(1.0);
+                if roulette >= survival {
+                    return (radiance, depth + 1);
+                }
+                throughput /= survival as f32;
+            }
+            density = drawn.density;
+            ray = Ray {
+                origin: start,
+                direction: drawn.direction,
+            };
+            next_hit = self.stage.closest(poses, &ray);
+        }
+        (radiance, MOST_BOUNCES)
+    }
+
+    fn has_lights(&self) -> bool {
+        self.stage.scene.sun.is_some() || !self.emitters.is_empty()
+    }
+
+    /// Radiance of the background and the sun's disc, weighted against the chance that light sampling drew the ray.
+    fn background_radiance(&self, ray: &Ray, density: RayDensity) -> Vec3 {
+        let scene = self.stage.scene;
+        let weight = density.map_or(1.0, |density| {
+            power_heuristic(density, self.stage.sky().density(ray.direction))
+        });
+        let background = scene.background.radiance(ray.direction) * weight as f32;
+        match &scene.sun {
+            Some(sun) if sun.covers(ray.direction) => {
+                let weight = density.map_or(1.0, |density| power_heuristic(density, sun.density()));
+                background + sun.radiance() * weight as f32
+            }
+            _ => background,
+        }
+    }
+
+    /// Radiance that a surface emits, weighted against the chance that light sampling drew the ray.
+    fn emission(&self, surface: &Surface, ray: &Ray, hit: &Hit, density: RayDensity) -> Vec3 {
+        if surface.emission == Vec3::ZERO {
+            return Vec3::ZERO;
+        }
+        let weight = density.map_or(1.0, |density| {
+            let cosine = surface.facet.dot(ray.direction);
+            let by_light = self.emitters.chance(hit.object, hit.triangle)
+                * density_per_steradian(surface.area, hit.t, cosine);
+            power_heuristic(density, by_light)
+        });
+        surface.emission * weight as f32
+    }
+
+    /// Light from the sun and from one emitter, scattered by a surface. The random numbers choose the emitter, the point on
+    /// it and the point on the sun.
+    fn direct_light(
+        &self,
+        poses: &mut Poses,
+        start: DVec3,
+        brdf: &Brdf,
+        choice: f64,
+        [u, v, sun_u, sun_v]: [f64; 4],
+    ) -> Vec3 {
+        let scene = self.stage.scene;
+        let mut light = Vec3::ZERO;
+        if let Some(sun) = &scene.sun {
+            let by_surface = sun.angular_radius > 0.0;
+            light += self.light_from(poses, start, brdf, &sun.sample([sun_u, sun_v]), by_surface);
+        }
+        if let Some(drawn) = self.emitters.sample(scene, poses, start, choice, [u, v]) {
+            light += self.light_from(poses, start, brdf, &drawn, true);
+        }
+        light
+    }
+
+    /// Light from one light sample, scattered by a surface. `by_surface` says that the BRDF might have drawn the direction
+    /// too.
+    fn light_from(
+        &self,
+        poses: &mut Poses,
+        start: DVec3,
+        brdf: &Brdf,
+        light: &LightSample,
+        by_surface: bool,
+    ) -> Vec3 {
+        let BrdfValue { scattered, density } = brdf.evaluate(light.direction);
+        if scattered == Vec3::ZERO || light.radiance == Vec3::ZERO {
+            return Vec3::ZERO;
+        }
+        let ray = Ray {
+            origin: start,
+            direction: light.direction,
+        };
+        // The light's own triangle lies at the end of the ray.
+        let limit = light.distance * (1.0 - LIFT);
+        if self.stage.blocked(poses, &ray, limit) {
+            return Vec3::ZERO;
+        }
+        let weight = if by_surface {
+            power_heuristic(light.density, density)
+        } else {
+            1.0
+        };
+        light.radiance * scattered * (weight / light.density) as f32
+    }
+}
+
+/// The greatest length that a hit's position was computed from, metres.
+fn magnitude(surface: &Surface, hit: &Hit) -> f64 {
+    surface.position.abs().max_element().max(hit.t)
+}

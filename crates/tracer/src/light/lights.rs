@@ -1,0 +1,172 @@
+//! Lights that are sampled directly: the sun and emissive triangles.
+
+use std::f64::consts::TAU;
+
+use glam::{DVec3, Vec3};
+
+use crate::light::light_sample::{LightSample, density_per_steradian};
+use crate::material::surface::{emission, material};
+use crate::motion::poses::Poses;
+use crate::scene::{Scene, Sun};
+
+/// All emissive triangles, drawn in proportion to their area and emission at one reference time.
+pub(crate) struct Emitters {
+    /// Object and triangle of each.
+    triangles: Vec<(usize, u32)>,
+    /// Sums of the chances up to each triangle, rising to 1.
+    cumulative: Vec<f64>,
+    /// Chance of being drawn, per object and triangle; empty for objects that do not emit.
+    chances: Vec<Vec<f64>>,
+}
+
+impl Emitters {
+    /// Collects the emitters of a scene, weighted by their areas at the time of `poses`.
+    pub fn new(scene: &Scene, poses: &mut Poses) -> Self {
+        let mut triangles = Vec::new();
+        let mut weights = Vec::new();
+        for (object, shown) in scene.objects.iter().enumerate() {
+            let mesh = &scene.meshes[shown.mesh];
+            for triangle in 0..mesh.triangles.len() as u32 {
+                let strength = material(scene, object, triangle).emission.max_element();
+                let weight = f64::from(strength) * world_area(scene, poses, object, triangle);
+                if weight > 0.0 {
+                    triangles.push((object, triangle));
+                    weights.push(weight);
+                }
+            }
+        }
+        let total: f64 = weights.iter().sum();
+        let mut chances: Vec<Vec<f64>> = vec![Vec::new(); scene.objects.len()];
+        let mut cumulative = Vec::with_capacity(weights.len());
+        let mut sum = 0.0;
+        for (&(object, triangle), weight) in triangles.iter().zip(&weights) {
+            let of_object = &mut chances[object];
+            if of_object.is_empty() {
+                of_object.resize(
+                    scene.meshes[scene.objects[object].mesh].triangles.len(),
+                    0.0,
+                );
+            }
+            of_object[triangle as usize] = weight / total;
+            sum += weight;
+            cumulative.push(sum / total);
+        }
+        Self {
+            triangles,
+            cumulative,
+            chances,
+        }
+    }
+
+    /// Draws a point on an emitter from three numbers in [0, 1), as seen from `from`; none where the drawn triangle is seen
+    /// edge-on, or nothing emits.
+    pub fn sample(
+        &self,
+        scene: &Scene,
+        poses: &mut Poses,
+        from: DVec3,
+        choice: f64,
+        [u, v]: [f64; 2],
+    ) -> Option<LightSample> {
+        let last = self.triangles.len().checked_sub(1)?;
+        let drawn = self.cumulative.partition_point(|&sum| sum <= choice);
+        let (object, triangle) = self.triangles[drawn.min(last)];
+        let mesh = &scene.meshes[scene.objects[object].mesh];
+        let shape = mesh.at(poses.time());
+        // The square's upper half is folded onto the triangle.
+        let weights = if u + v > 1.0 {
+            [1.0 - u, 1.0 - v]
+        } else {
+            [u, v]
+        };
+        let to_world = poses.pose(object).to_world;
+        let point = to_world.transform_point3(shape.point(triangle, weights));
+        let way = point - from;
+        let distance = way.length();
+        let direction = way / distance;
+        let scaled = shape.area_normal(triangle, &to_world);
+        let density = self.chance(object, triangle)
+            * density_per_steradian(
+                0.5 * scaled.length(),
+                distance,
+                direction.dot(scaled.normalize_or_zero()),
+            );
+        density.is_finite().then(|| LightSample {
+            direction,
+            distance,
+            radiance: emission(scene, object, triangle, weights),
+            density,
+        })
+    }
+
+    /// Returns true if nothing emits.
+    pub fn is_empty(&self) -> bool {
+        self.triangles.is_empty()
+    }
+
+    /// The probability of drawing this triangle.
+    pub fn chance(&self, object: usize, triangle: u32) -> f64 {
+        self.chances[object]
+            .get(triangle as usize)
+            .copied()
+            .unwrap_or(0.0)
+    }
+}
+
+impl Sun {
+    /// Draws a direction to the sun from two numbers in [0, 1). A point sun has a density of 1 and its irradiance as
+    /// radiance, since nothing else can draw it.
+    pub(crate) fn sample(&self, [u, v]: [f64; 2]) -> LightSample {
+        let direction = if self.angular_radius == 0.0 {
+            self.direction
+        } else {
+            let cosine = 1.0 - u * self.cap();
+            let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+            let (y, x) = (TAU * v).sin_cos();
+            let (tangent, bitangent) = self.direction.any_orthonormal_pair();
+            sine * x * tangent + sine * y * bitangent + cosine * self.direction
+        };
+        LightSample {
+            direction,
+            distance: f64::INFINITY,
+            radiance: self.radiance(),
+            density: self.density(),
+        }
+    }
+
+    /// The radiance of the disc: its irradiance on a facing surface is radiance x pi sin^2(radius).
+    pub(crate) fn radiance(&self) -> Vec3 {
+        if self.angular_radius == 0.0 {
+            return self.irradiance;
+        }
+        let sine = self.angular_radius.sin();
+        self.irradiance * (1.0 / (std::f64::consts::PI * sine * sine)) as f32
+    }
+
+    /// The probability per steradian of a direction inside the disc.
+    pub(crate) fn density(&self) -> f64 {
+        if self.angular_radius == 0.0 {
+            1.0
+        } else {
+            1.0 / (TAU * self.cap())
+        }
+    }
+
+    /// Returns true if a ray which leaves the scene in this unit direction ends on the disc.
+    pub(crate) fn covers(&self, direction: DVec3) -> bool {
+        self.angular_radius > 0.0 && 1.0 - direction.dot(self.direction) <= self.cap()
+    }
+
+    /// 1 - cos(radius), without cancellation.
+    fn cap(&self) -> f64 {
+        let sine = (0.5 * self.angular_radius).sin();
+        2.0 * sine * sine
+    }
+}
+
+fn world_area(scene: &Scene, poses: &mut Poses, object: usize, triangle: u32) -> f64 {
+    let mesh = &scene.meshes[scene.objects[object].mesh];
+    let shape = mesh.at(poses.time());
+    let to_world = &poses.pose(object).to_world;
+    0.5 * shape.area_normal(triangle, to_world).length()
+}

@@ -1,0 +1,172 @@
+//! The surface at a hit: position, normals, colour and emission.
+
+use glam::{DVec3, Vec2, Vec3, Vec4};
+
+use crate::geometry::hit::Hit;
+use crate::geometry::ray::Ray;
+use crate::geometry::triangle::Crossing;
+use crate::material::brdf::Brdf;
+use crate::material::glossy_material::GlossyMaterial;
+use crate::motion::pose::Pose;
+use crate::scene::{Material, Mesh, Scene};
+
+/// Opacity below which a surface has a hole.
+const HOLE: f32 = 0.5;
+
+/// A point of a surface at one time, in the world.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Surface {
+    pub position: DVec3,
+    /// Unit normal of the facet, on the ray's side.
+    pub facet: DVec3,
+    /// Unit shading normal on the facet's side, interpolated where the mesh has normals.
+    pub normal: DVec3,
+    /// Albedo, or a metal's reflectance at normal incidence.
+    pub color: Vec3,
+    /// Index into the scene's materials.
+    pub material: usize,
+    pub emission: Vec3,
+    /// Area of the whole triangle, square metres.
+    pub area: f64,
+}
+
+/// The holes of an object, cut out by opacity.
+pub(crate) struct Opacity {
+    object: usize,
+    solid: bool,
+}
+
+impl Opacity {
+    pub fn of_objects(scene: &Scene) -> Vec<Opacity> {
+        let solid = |&material: &usize| {
+            let material = &scene.materials[material];
+            material.opacity >= HOLE && material.opacity_texture.is_none()
+        };
+        scene
+            .objects
+            .iter()
+            .enumerate()
+            .map(|(index, object)| Opacity {
+                object: index,
+                solid: object.materials.iter().all(solid),
+            })
+            .collect()
+    }
+
+    /// Returns true if the surface has no hole at the crossing.
+    #[inline]
+    pub fn is_opaque(&self, scene: &Scene, triangle: u32, crossing: &Crossing) -> bool {
+        self.solid || opacity(scene, self.object, triangle, [crossing.u, crossing.v]) >= HOLE
+    }
+}
+
+impl Surface {
+    /// The surface that `ray` meets at `hit`, the object being at `pose`.
+    pub fn at(scene: &Scene, pose: &Pose, ray: &Ray, hit: &Hit) -> Surface {
+        let mesh = &scene.meshes[scene.objects[hit.object].mesh];
+        let scaled = mesh.at(hit.time).area_normal(hit.triangle, &pose.to_world);
+        let facet = face_towards(scaled.normalize_or_zero(), -ray.direction);
+        let texcoord = texcoord(mesh, hit.triangle, hit.weights);
+        let index = material_index(scene, hit.object, hit.triangle);
+        let material = &scene.materials[index];
+        Surface {
+            position: ray.at(hit.t),
+            facet,
+            normal: shading_normal(mesh, pose, hit)
+                .map_or(facet, |normal| face_towards(normal, facet)),
+            color: apply_texture(scene, material.diffuse, material.diffuse_texture, texcoord),
+            material: index,
+            emission: apply_texture(
+                scene,
+                material.emission,
+                material.emission_texture,
+                texcoord,
+            ),
+            area: 0.5 * scaled.length(),
+        }
+    }
+
+    /// The BRDF towards the ray that met the surface; none where it scatters nothing.
+    pub fn brdf<'a>(&self, glossy: Option<&'a GlossyMaterial>, ray: &Ray) -> Option<Brdf<'a>> {
+        Brdf::new(glossy, self.color, self.facet, self.normal, -ray.direction)
+    }
+}
+
+/// The material of a triangle.
+pub(crate) fn material(scene: &Scene, object: usize, triangle: u32) -> &Material {
+    &scene.materials[material_index(scene, object, triangle)]
+}
+
+fn material_index(scene: &Scene, object: usize, triangle: u32) -> usize {
+    let object = &scene.objects[object];
+    let slot = scene.meshes[object.mesh].slots[triangle as usize];
+    object.materials[slot as usize]
+}
+
+/// Emitted radiance at a point of a triangle; zero where it has a hole.
+pub(crate) fn emission(scene: &Scene, object: usize, triangle: u32, weights: [f64; 2]) -> Vec3 {
+    if opacity(scene, object, triangle, weights) < HOLE {
+        return Vec3::ZERO;
+    }
+    let mesh = &scene.meshes[scene.objects[object].mesh];
+    let material = material(scene, object, triangle);
+    let texcoord = texcoord(mesh, triangle, weights);
+    apply_texture(
+        scene,
+        material.emission,
+        material.emission_texture,
+        texcoord,
+    )
+}
+
+/// The opacity at a point of a triangle; in a texture it is the texels' alpha.
+fn opacity(scene: &Scene, object: usize, triangle: u32, weights: [f64; 2]) -> f32 {
+    let mesh = &scene.meshes[scene.objects[object].mesh];
+    let material = material(scene, object, triangle);
+    let texel = sample_texture(
+        scene,
+        material.opacity_texture,
+        texcoord(mesh, triangle, weights),
+    );
+    material.opacity * texel.w
+}
+
+fn apply_texture(scene: &Scene, factor: Vec3, texture: Option<usize>, texcoord: Vec2) -> Vec3 {
+    if factor == Vec3::ZERO {
+        return factor;
+    }
+    factor * sample_texture(scene, texture, texcoord).truncate()
+}
+
+fn sample_texture(scene: &Scene, texture: Option<usize>, texcoord: Vec2) -> Vec4 {
+    texture.map_or(Vec4::ONE, |texture| {
+        scene.textures[texture].sample(texcoord)
+    })
+}
+
+fn texcoord(mesh: &Mesh, triangle: u32, weights: [f64; 2]) -> Vec2 {
+    if mesh.texcoords.is_empty() {
+        return Vec2::ZERO;
+    }
+    let [a, b, c] =
+        mesh.triangles[triangle as usize].map(|index| mesh.texcoords[index as usize].as_dvec2());
+    (a + weights[0] * (b - a) + weights[1] * (c - a)).as_vec2()
+}
+
+/// The interpolated normal; none where the mesh has no normals, or where they cancel.
+fn shading_normal(mesh: &Mesh, pose: &Pose, hit: &Hit) -> Option<DVec3> {
+    let shape = mesh.at(hit.time);
+    let [a, b, c] = mesh.triangles[hit.triangle as usize].map(|vertex| shape.normal(vertex));
+    let [a, b, c] = [a?, b?, c?];
+    let normal = a + hit.weights[0] * (b - a) + hit.weights[1] * (c - a);
+    // Normals transform by the transpose of the inverse.
+    (pose.to_object.matrix3.transpose() * normal).try_normalize()
+}
+
+fn face_towards(normal: DVec3, side: DVec3) -> DVec3 {
+    if normal.dot(side) < 0.0 {
+        -normal
+    } else {
+        normal
+    }
+}

@@ -1,0 +1,134 @@
+//! The camera at one time: rays through pixels, and projection back to them.
+
+use glam::{DAffine3, DVec3};
+
+use crate::geometry::ray::Ray;
+use crate::motion::curve::{Cubic, Keyed};
+use crate::scene::Camera;
+
+/// A camera at one time, with a picture size.
+#[derive(Clone, Copy, Debug)]
+pub struct View {
+    /// Transform from camera to world.
+    pub to_world: DAffine3,
+    to_camera: DAffine3,
+    /// Focal length in pixels: half the picture's height over the tangent of half its angle.
+    focal: f64,
+    /// Half the picture's width and height in pixels.
+    half: [f64; 2],
+}
+
+impl Camera {
+    /// Vertical field of view at `time` (frames), in radians.
+    pub fn vertical_fov_at(&self, time: f64) -> f64 {
+        let (start, curve) = self.vertical_fov_curve(time);
+        curve.at(time - start)
+    }
+
+    /// Times within `[from, to]` at which the field of view may be greatest or least: the ends, keys and turning points.
+    pub(crate) fn vertical_fov_extremes(&self, from: f64, to: f64) -> Vec<f64> {
+        let keys = self.vertical_fov.iter().map(|(time, _)| *time);
+        let turns = keys.clone().flat_map(|key| {
+            let (start, curve) = self.vertical_fov_curve(key);
+            curve.turning_points().map(move |since| start + since)
+        });
+        let inside = keys.chain(turns).filter(|time| from < *time && *time < to);
+        inside.chain([from, to]).collect()
+    }
+
+    /// The curve of the field of view around `time`, and the time that it counts from.
+    fn vertical_fov_curve(&self, time: f64) -> (f64, Cubic<f64>) {
+        let keys = self.vertical_fov.as_slice();
+        let keyed = Keyed {
+            keys,
+            time: |(time, _): &(f64, f64)| *time,
+            interpolation: self.motion.interpolation,
+        };
+        let segment = keyed.segment(time);
+        let chord = |from: usize| (keys[from + 1].1 - keys[from].1) / keyed.duration(from);
+        let curve = keyed.curve(segment, |key| keys[key].1, chord);
+        (keys[keyed.anchor(segment)].0, curve)
+    }
+
+    /// The view at `time` (frames) of a picture of `width` x `height` pixels.
+    pub fn view(&self, time: f64, width: u32, height: u32) -> View {
+        let to_world = self.motion.at(time);
+        let half = [0.5 * f64::from(width), 0.5 * f64::from(height)];
+        View {
+            to_world,
+            to_camera: to_world.inverse(),
+            focal: half[1] / (0.5 * self.vertical_fov_at(time)).tan(),
+            half,
+        }
+    }
+}
+
+impl View {
+    /// The ray through a point of the picture, in pixels from the top left.
+    pub fn ray(&self, x: f64, y: f64) -> Ray {
+        let direction = DVec3::new(x - self.half[0], self.half[1] - y, -self.focal);
+        Ray {
+            origin: self.to_world.translation,
+            direction: self.to_world.transform_vector3(direction).normalize(),
+        }
+    }
+
+    /// Projects a point of the world to pixels from the top left; none behind the camera.
+    pub fn project(&self, point: DVec3) -> Option<[f64; 2]> {
+        self.project_local(self.to_camera.transform_point3(point))
+    }
+
+    /// Projects a point at infinity to pixels from the top left; none behind the camera.
+    pub fn project_direction(&self, direction: DVec3) -> Option<[f64; 2]> {
+        self.project_local(self.to_camera.transform_vector3(direction))
+    }
+
+    /// The homography from this view's picture to `other`'s. Its three rows act on (x, y, 1, 1 / depth), in pixels and
+    /// metres, and give (x', y', 1) times a common factor, which is positive in front of the camera.
+    pub(crate) fn to_picture_of(self, other: &View) -> [[f64; 4]; 3] {
+        let to_other = other.to_camera * self.to_world;
+        // Half the picture and the focal length take a place to a direction, and a direction to a place.
+        let [half_x, half_y] = self.half;
+        let direction = |place: DVec3| {
+            DVec3::new(
+                place.x - half_x * place.z,
+                half_y * place.z - place.y,
+                -self.focal * place.z,
+            ) / self.focal
+        };
+        let place = |seen: DVec3| {
+            DVec3::new(
+                other.focal * seen.x - other.half[0] * seen.z,
+                -other.focal * seen.y - other.half[1] * seen.z,
+                -seen.z,
+            )
+        };
+        let columns = [DVec3::X, DVec3::Y, DVec3::Z]
+            .map(|axis| place(to_other.transform_vector3(direction(axis))));
+        let shift = place(to_other.translation);
+        [0, 1, 2].map(|row| {
+            [
+                columns[0][row],
+                columns[1][row],
+                columns[2][row],
+                shift[row],
+            ]
+        })
+    }
+
+    /// Distance of a point of the world along the view axis, metres.
+    pub fn depth(&self, point: DVec3) -> f64 {
+        -self.to_camera.transform_point3(point).z
+    }
+
+    /// Projects a point or direction in camera space.
+    fn project_local(&self, seen: DVec3) -> Option<[f64; 2]> {
+        let depth = -seen.z;
+        (depth > 0.0).then(|| {
+            [
+                self.half[0] + self.focal * seen.x / depth,
+                self.half[1] - self.focal * seen.y / depth,
+            ]
+        })
+    }
+}

@@ -1,0 +1,229 @@
+//! Motion through keys: position, orientation and scale.
+
+use glam::{DAffine3, DQuat, DVec3};
+
+use crate::motion::curve::{Cubic, Interpolation, Keyed};
+
+/// A rotation about a fixed axis; more than one turn is allowed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turn {
+    /// Unit vector.
+    pub axis: DVec3,
+    /// Radians, right-handed about `axis`.
+    pub angle: f64,
+}
+
+/// A pose at one time, and the turn to the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Key {
+    /// Frames relative to the instant.
+    pub time: f64,
+    /// Metres.
+    pub translation: DVec3,
+    /// Rotation, a unit quaternion.
+    pub orientation: DQuat,
+    /// Factors per axis, applied before the rotation; never 0.
+    pub scale: DVec3,
+    /// Rotation from this key to the next, in the parent's axes; unused at the last key.
+    pub turn: Turn,
+}
+
+/// At least one key, in rising order of time. Before the first key and after the last the motion goes on at the velocity
+/// that it has there. A motion of one key stands still.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// Poses at strictly rising times.
+    pub keys: Vec<Key>,
+    /// Path between them.
+    pub interpolation: Interpolation,
+}
+
+/// A part of a motion without keys inside, as polynomials in time.
+pub(crate) struct Segment {
+    /// Time that the curves count from, in frames.
+    pub start: f64,
+    pub translation: Cubic<DVec3>,
+    pub scale: Cubic<DVec3>,
+    /// Orientation at the start.
+    pub orientation: DQuat,
+    pub turn: Rotation,
+    /// Rotations before and after the turn.
+    pub swings: Option<[Rotation; 2]>,
+}
+
+/// A rotation about a fixed axis by an angle that changes.
+pub(crate) struct Rotation {
+    /// Unit vector.
+    pub axis: DVec3,
+    /// Radians.
+    pub angle: Cubic<f64>,
+}
+
+impl Turn {
+    /// No rotation.
+    pub const NONE: Turn = Turn {
+        axis: DVec3::Y,
+        angle: 0.0,
+    };
+}
+
+impl Key {
+    /// The identity pose at time 0.
+    pub const REST: Key = Key {
+        time: 0.0,
+        translation: DVec3::ZERO,
+        orientation: DQuat::IDENTITY,
+        scale: DVec3::ONE,
+        turn: Turn::NONE,
+    };
+}
+
+impl Motion {
+    /// A pose that never changes.
+    pub fn still(key: Key) -> Self {
+        Self {
+            keys: vec![key],
+            ..Self::default()
+        }
+    }
+
+    /// Transform from the object's space to its parent's at `time` (frames).
+    pub fn at(&self, time: f64) -> DAffine3 {
+        self.segment(time).at(time)
+    }
+
+    /// The segment that holds `time`; at a key, the one that begins there.
+    pub(crate) fn segment(&self, time: f64) -> Segment {
+        self.segment_at(self.keyed().segment(time))
+    }
+
+    /// All segments: before the first key, and from each key on.
+    pub(crate) fn segments(&self) -> impl Iterator<Item = Segment> {
+        (0..=self.keys.len()).map(|index| self.segment_at(index))
+    }
+
+    fn keyed(&self) -> Keyed<'_, Key> {
+        Keyed {
+            keys: &self.keys,
+            time: |key: &Key| key.time,
+            interpolation: self.interpolation,
+        }
+    }
+
+    fn segment_at(&self, index: usize) -> Segment {
+        let keyed = self.keyed();
+        let key = |index: usize| &self.keys[index];
+        let chord = |part: fn(&Key) -> DVec3| {
+            move |from: usize| {
+                let [from, to] = [key(from), key(from + 1)];
+                (part(to) - part(from)) / (to.time - from.time)
+            }
+        };
+        let curve = |part: fn(&Key) -> DVec3| {
+            keyed.curve(index, |key_index| part(key(key_index)), chord(part))
+        };
+        let anchor = key(keyed.anchor(index));
+        let (turn, swings) = rotations(&keyed, index);
+        Segment {
+            start: anchor.time,
+            translation: curve(|key| key.translation),
+            scale: curve(|key| key.scale),
+            orientation: anchor.orientation,
+            turn,
+            swings,
+        }
+    }
+}
+
+/// The turn over a segment, and the swings before and after it.
+fn rotations(keyed: &Keyed<Key>, segment: usize) -> (Rotation, Option<[Rotation; 2]>) {
+    let turn = |from: usize| keyed.keys[from].turn;
+    let chord = |from: usize| turn(from).angle / keyed.duration(from) * turn(from).axis;
+    let from = keyed.anchor(segment);
+    if !keyed.is_between(segment) || keyed.interpolation == Interpolation::Linear {
+        let spin = keyed.slope(from, &chord);
+        let angle = Cubic::line(0.0, spin.length());
+        return (Rotation::about(spin, angle), None);
+    }
+    let Turn { axis, angle } = turn(from);
+    let spins = [from, segment].map(|key| keyed.slope(key, &chord));
+    let along = spins.map(|spin| spin.dot(axis));
+    let across = [0, 1].map(|end| spins[end] - along[end] * axis);
+    let duration = keyed.duration(from);
+    let swing =
+        |across: DVec3, slopes| Rotation::about(across, Cubic::between([0.0; 2], slopes, duration));
+    let swings = [
+        swing(across[0], [across[0].length(), 0.0]),
+        swing(across[1], [0.0, across[1].length()]),
+    ];
+    let angle = Cubic::between([0.0, angle], along, duration);
+    (Rotation { axis, angle }, Some(swings))
+}
+
+impl Rotation {
+    /// A rotation about the direction of a vector. Where the vector is zero, so must the angle be.
+    fn about(direction: DVec3, angle: Cubic<f64>) -> Self {
+        let axis = direction.try_normalize().unwrap_or(Turn::NONE.axis);
+        Self { axis, angle }
+    }
+
+    fn at(&self, since: f64) -> DQuat {
+        DQuat::from_axis_angle(self.axis, self.angle.at(since))
+    }
+}
+
+impl Segment {
+    /// The pose at `time` (frames) within the segment.
+    pub fn at(&self, time: f64) -> DAffine3 {
+        let since = self.since(time);
+        let mut turn = self.turn.at(since);
+        if let Some([before, after]) = &self.swings {
+            turn = after.at(since) * turn * before.at(since);
+        }
+        DAffine3::from_scale_rotation_translation(
+            self.scale.at(since),
+            turn * self.orientation,
+            self.translation.at(since),
+        )
+    }
+
+    /// Frames since the start, as the curves count them.
+    pub fn since(&self, time: f64) -> f64 {
+        time - self.start
+    }
+
+    /// All rotations in the order in which they are applied.
+    pub fn turns(&self) -> impl Iterator<Item = &Rotation> {
+        let [before, after] = self
+            .swings
+            .as_ref()
+            .map_or([None; 2], |[before, after]| [Some(before), Some(after)]);
+        before.into_iter().chain([&self.turn]).chain(after)
+    }
+
+    /// Returns true if nothing changes within the segment.
+    pub fn stands_still(&self) -> bool {
+        self.translation.is_constant()
+            && self.scale.is_constant()
+            && self.turns().all(|turn| turn.angle.is_constant())
+    }
+}
+
+/// Times of `motions`' keys strictly between `from` and `to`, with both ends, rising.
+pub(crate) fn key_times<'a>(
+    motions: impl IntoIterator<Item = &'a Motion>,
+    from: f64,
+    to: f64,
+) -> Vec<f64> {
+    let keys = motions.into_iter().flat_map(|motion| &motion.keys);
+    times_within(keys.map(|key| key.time), from, to)
+}
+
+/// The times strictly between `from` and `to`, with both ends, rising and each once.
+pub(crate) fn times_within(times: impl IntoIterator<Item = f64>, from: f64, to: f64) -> Vec<f64> {
+    let inside = (times.into_iter()).filter(|time| from < *time && *time < to);
+    let mut times: Vec<f64> = inside.chain([from, to]).collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    times
+}

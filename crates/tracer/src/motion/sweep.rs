@@ -1,0 +1,319 @@
+//! Boxes around a moving mesh over an interval of time.
+
+use glam::DVec3;
+
+use crate::geometry::aabb::Aabb;
+use crate::motion::extent::Extent;
+use crate::motion::keys::{Motion, Segment, times_within};
+use crate::scene::{Mesh, Scene};
+
+/// Upper limits for all points of a mesh within an interval.
+#[derive(Clone, Copy)]
+struct PointMaxima {
+    /// Distance from the origin, metres.
+    distance: f64,
+    /// Metres per frame.
+    speed: f64,
+    /// Metres per frame squared.
+    acceleration: f64,
+}
+
+/// A box around the object's mesh at every time of `[from, to]`, in the world; `extents` are those of the scene's meshes.
+///
+/// Between keys a point moves along a curve of an acceleration of at most `A`, and such a curve strays from its chord by at
+/// most `A h^2 / 8`. The union of the boxes at both ends, grown by that, contains it. Translation needs no growth.
+pub(crate) fn swept_aabb(
+    scene: &Scene,
+    extents: &[Extent],
+    object: usize,
+    from: f64,
+    to: f64,
+) -> Aabb {
+    let mesh = &scene.meshes[scene.objects[object].mesh];
+    let extent = &extents[scene.objects[object].mesh];
+    let at = |time: f64| extent.aabb(mesh, &scene.object_to_world(object, time), time);
+    let motions = scene.motion_chain(object);
+    let times = span_times(mesh, &motions, from, to);
+    let first = at(from);
+    let (union, _) = times
+        .windows(2)
+        .fold((first, first), |(union, start), span| {
+            let end = at(span[1]);
+            let length = span[1] - span[0];
+            let sagitta = chain_maxima(&motions, mesh, extent, span[0], span[1]).acceleration
+                * length
+                * length
+                / 8.0;
+            (union.union(start.union(end).grown(sagitta)), end)
+        });
+    union
+}
+
+/// The greatest speed of any point of the object's mesh within `[from, to]`, metres per frame; never too small.
+pub(crate) fn greatest_speed(
+    scene: &Scene,
+    extents: &[Extent],
+    object: usize,
+    from: f64,
+    to: f64,
+) -> f64 {
+    let mesh = &scene.meshes[scene.objects[object].mesh];
+    let extent = &extents[scene.objects[object].mesh];
+    let motions = scene.motion_chain(object);
+    span_times(mesh, &motions, from, to)
+        .windows(2)
+        .map(|span| chain_maxima(&motions, mesh, extent, span[0], span[1]).speed)
+        .fold(0.0, f64::max)
+}
+
+/// The ends of the interval, and the times inside it of the motions' keys and the mesh's key shapes.
+fn span_times(mesh: &Mesh, motions: &[&Motion], from: f64, to: f64) -> Vec<f64> {
+    let keys = motions.iter().flat_map(|motion| &motion.keys);
+    times_within(keys.map(|key| key.time).chain(mesh.shape_times()), from, to)
+}
+
+/// The limits after a chain of motions, within an interval without keys inside.
+fn chain_maxima(
+    motions: &[&Motion],
+    mesh: &Mesh,
+    extent: &Extent,
+    from: f64,
+    to: f64,
+) -> PointMaxima {
+    let [distance, speed] = if mesh.deforms() {
+        mesh.vertex_maxima(from, to)
+    } else {
+        [extent.distance, 0.0]
+    };
+    let at_rest = PointMaxima {
+        distance,
+        speed,
+        acceleration: 0.0,
+    };
+    motions.iter().fold(at_rest, |inner, motion| {
+        segment_maxima(inner, &motion.segment(0.5 * (from + to)), from, to)
+    })
+}
+
+/// The limits after one segment of a motion: scale, then rotations, then translation, each by the product rule.
+fn segment_maxima(inner: PointMaxima, segment: &Segment, from: f64, to: f64) -> PointMaxima {
+    let [from, to] = [from, to].map(|time| segment.since(time));
+    let largest = |scale: DVec3| scale.abs().max_element();
+    let scale = segment.scale.maxima(from, to, largest);
+    let scaled = PointMaxima {
+        distance: scale.value * inner.distance,
+        speed: scale.slope * inner.distance + scale.value * inner.speed,
+        acceleration: scale.bend * inner.distance
+            + 2.0 * scale.slope * inner.speed
+            + scale.value * inner.acceleration,
+    };
+    let turned = segment.turns().fold(scaled, |inner, turn| {
+        let turn = turn.angle.maxima(from, to, f64::abs);
+        PointMaxima {
+            distance: inner.distance,
+            speed: turn.slope * inner.distance + inner.speed,
+            acceleration: (turn.slope * turn.slope + turn.bend) * inner.distance
+                + 2.0 * turn.slope * inner.speed
+                + inner.acceleration,
+        }
+    });
+    let offset = segment.translation.maxima(from, to, DVec3::length);
+    PointMaxima {
+        distance: turned.distance + offset.value,
+        speed: turned.speed + offset.slope,
+        acceleration: turned.acceleration + offset.bend,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+    use std::path::PathBuf;
+
+    use glam::{DQuat, Vec3};
+
+    use super::*;
+    use crate::motion::curve::Interpolation;
+    use crate::motion::keys::{Key, Turn};
+    use crate::scene::{Camera, Object, Parent, Shape};
+    use crate::test_scene::load_test_scene;
+
+    /// SplitMix64 in [-1, 1): enough to vary poses.
+    struct Numbers(u64);
+
+    impl Numbers {
+        fn next(&mut self) -> f64 {
+            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let mut z = self.0;
+            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            ((z ^ (z >> 31)) >> 11) as f64 / 2f64.powi(52) - 1.0
+        }
+
+        fn vector(&mut self) -> DVec3 {
+            DVec3::new(self.next(), self.next(), self.next())
+        }
+    }
+
+    /// Keys at -0.7, 0 and 0.4 with turns of up to `turn` radians, drifts and growth.
+    fn random_motion(numbers: &mut Numbers, interpolation: Interpolation, turn: f64) -> Motion {
+        let mut orientation = DQuat::from_axis_angle(numbers.vector().normalize(), 1.0);
+        let keys = [-0.7, 0.0, 0.4].map(|time| {
+            let turn = Turn {
+                axis: numbers.vector().normalize(),
+                angle: turn * numbers.next(),
+            };
+            let key = Key {
+                time,
+                translation: 3.0 * numbers.vector(),
+                orientation,
+                scale: DVec3::ONE + 0.5 * numbers.vector(),
+                turn,
+            };
+            orientation = DQuat::from_axis_angle(turn.axis, turn.angle) * orientation;
+            key
+        });
+        Motion {
+            keys: keys.to_vec(),
+            interpolation,
+        }
+    }
+
+    fn scene(
+        numbers: &mut Numbers,
+        interpolation: Interpolation,
+        turn: f64,
+        deforms: bool,
+    ) -> Scene {
+        let mut corners = || -> Vec<Vec3> { (0..8).map(|_| numbers.vector().as_vec3()).collect() };
+        let shapes: Vec<Shape> = if deforms {
+            [-0.5, 0.0, 0.2]
+                .map(|time| Shape {
+                    time,
+                    positions: corners(),
+                    normals: Vec::new(),
+                })
+                .into()
+        } else {
+            Vec::new()
+        };
+        let corners = corners();
+        let object = |numbers: &mut Numbers, parent| Object {
+            name: "thing".into(),
+            mesh: 0,
+            materials: Vec::new(),
+            motion: random_motion(numbers, interpolation, turn),
+            parent,
+        };
+        Scene {
+            camera: Camera {
+                motion: Motion {
+                    interpolation,
+                    keys: random_motion(numbers, interpolation, turn)
+                        .keys
+                        .into_iter()
+                        .map(|key| Key {
+                            scale: DVec3::ONE,
+                            ..key
+                        })
+                        .collect(),
+                },
+                vertical_fov: vec![(0.0, 1.0)],
+            },
+            meshes: vec![Mesh {
+                path: PathBuf::new(),
+                positions: corners,
+                normals: Vec::new(),
+                texcoords: Vec::new(),
+                triangles: Vec::new(),
+                slots: Vec::new(),
+                shapes,
+            }],
+            objects: vec![
+                object(numbers, Parent::World),
+                object(numbers, Parent::Object(0)),
+                object(numbers, Parent::Camera),
+            ],
+            ..load_test_scene("two_spheres")
+        }
+    }
+
+    /// Scenes of both interpolations, rigid and deforming, with turns between keys of 0, a little, nearly half a turn, and
+    /// several turns.
+    fn scenes(numbers: &mut Numbers) -> Vec<Scene> {
+        let mut scenes = Vec::new();
+        for interpolation in [Interpolation::Linear, Interpolation::Cubic] {
+            for turn in [0.0, 0.3, 179.0_f64.to_radians(), 6.0 * PI] {
+                for deforms in [false, true] {
+                    scenes.push(scene(numbers, interpolation, turn, deforms));
+                }
+            }
+        }
+        scenes
+    }
+
+    #[test]
+    fn a_swept_box_contains_the_mesh_at_every_time() {
+        let mut numbers = Numbers(1);
+        for _ in 0..4 {
+            for scene in scenes(&mut numbers) {
+                for object in 0..scene.objects.len() {
+                    // The interval contains a key and ends beyond the last.
+                    for (from, to) in [(-0.1, 0.0), (-0.3, 0.6)] {
+                        // Rounding only.
+                        let aabb = swept_aabb(&scene, &Extent::of_meshes(&scene), object, from, to)
+                            .grown(1e-12);
+                        for step in 0..=1000 {
+                            let time = from + (to - from) * f64::from(step) / 1000.0;
+                            let pose = scene.object_to_world(object, time);
+                            for position in scene.meshes[0].at(time).positions() {
+                                let point = pose.transform_point3(position);
+                                let inside =
+                                    point.cmpge(aabb.min).all() && point.cmple(aabb.max).all();
+                                assert!(inside, "object {object} leaves {aabb:?} at {time}");
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_is_faster_than_the_greatest_speed() {
+        let mut numbers = Numbers(4);
+        for scene in scenes(&mut numbers) {
+            for object in 0..scene.objects.len() {
+                let greatest =
+                    greatest_speed(&scene, &Extent::of_meshes(&scene), object, -0.8, 0.6);
+                for step in 0..1000 {
+                    let time = -0.8 + 1.4 * f64::from(step) / 1000.0;
+                    let [now, then] = [time, time + 1e-6].map(|time| {
+                        let pose = scene.object_to_world(object, time);
+                        let positions = scene.meshes[0].at(time).positions();
+                        positions
+                            .map(|position| pose.transform_point3(position))
+                            .collect::<Vec<_>>()
+                    });
+                    for (now, then) in now.iter().zip(&then) {
+                        // A chord is no longer than its arc; rounding divided by the step is 1e-9.
+                        assert!(now.distance(*then) / 1e-6 <= greatest + 1e-7);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_box_of_a_translation_is_tight() {
+        let mut numbers = Numbers(2);
+        let mut scene = scene(&mut numbers, Interpolation::Linear, 0.0, false);
+        for key in &mut scene.objects[0].motion.keys {
+            key.scale = DVec3::ONE;
+        }
+        let ends =
+            [-0.1, 0.0].map(|time| swept_aabb(&scene, &Extent::of_meshes(&scene), 0, time, time));
+        let swept = swept_aabb(&scene, &Extent::of_meshes(&scene), 0, -0.1, 0.0);
+        assert_eq!(swept, ends[0].union(ends[1]));
+    }
+}
