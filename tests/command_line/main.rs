@@ -21,8 +21,6 @@ mod own_filter;
 mod reference_width;
 mod refusals;
 mod report;
-mod report_layers;
-mod report_tuning;
 mod score;
 mod serve;
 mod terminal;

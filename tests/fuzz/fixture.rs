@@ -4,6 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use tests::plate::{MTL, OBJ};
+
 /// The program that is fuzzed.
 pub const PROGRAM: &str = env!("CARGO_BIN_EXE_shuttertruth");
 
@@ -17,19 +19,6 @@ pub const RENDER: [&str; 7] = [
     "--samples-per-pixel",
     "16",
 ];
-
-const OBJ: &str = "\
-mtllib plate.mtl
-v -0.5 -0.5 0
-v 0.5 -0.5 0
-v 0.5 0.5 0
-v -0.5 0.5 0
-usemtl paint
-f 1 2 3
-f 1 3 4
-";
-
-const MTL: &str = "newmtl paint\nKd 0 0 0\nKe 0.7 0.4 0.2\n";
 
 const SCENE: &str = "\
 exposes = \"nothing: it serves the fuzzer\"

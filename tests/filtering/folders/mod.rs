@@ -1,0 +1,35 @@
+//! Filter folders from disk: the one in the documentation works, and each wrong one says what is wrong.
+
+mod example;
+mod inputs;
+mod refusals;
+mod textures;
+
+use filters::{Filter, FilterError};
+
+const README: &str = include_str!("../../../shaders/README.md");
+
+/// The first code block of that language in shaders/README.md.
+fn example(language: &str) -> &'static str {
+    let start = README.split_once(&format!("```{language}\n")).unwrap().1;
+    start.split_once("```").unwrap().0
+}
+
+fn write(folder: &Path, name: &str, manifest: &str, kernels: &str) {
+    std::fs::write(folder.join("filter.toml"), manifest).unwrap();
+    std::fs::write(folder.join(format!("{name}.wgsl")), kernels).unwrap();
+}
+
+/// Loads the example with one piece of its files replaced.
+fn load_changed(file: &str, from: &str, to: &str) -> Result<Filter, FilterError> {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut manifest, mut kernels) = (example("toml").to_owned(), example("wgsl").to_owned());
+    let text = match file {
+        "filter.toml" => &mut manifest,
+        _ => &mut kernels,
+    };
+    assert!(text.contains(from), "the example holds \"{from}\"");
+    *text = text.replacen(from, to, 1);
+    write(folder.path(), "centre_blur", &manifest, &kernels);
+    Filter::load(folder.path())
+}
