@@ -6,6 +6,7 @@ use std::path::Path;
 use frame::{Alignment, Picture};
 use metrics::{Measured, Metric, Reference};
 use suite::{Judged, Level, Outcome, Programs, RenderSettings, SceneBounds, SceneChoice};
+use tests::text::assert_contains;
 
 use crate::kept_truths;
 
@@ -281,12 +282,7 @@ fn bounds_that_mean_nothing_are_refused_with_file_and_line() {
     ];
     for (beside_scenes, beside_scene, parts) in rows {
         let message = read(beside_scenes, beside_scene).unwrap_err();
-        for part in *parts {
-            assert!(
-                message.contains(part),
-                "\"{part}\" is missing from: {message}"
-            );
-        }
+        assert_contains(&message, &parts);
     }
 }
 

@@ -71,9 +71,8 @@ pub fn write_program(folder: &Path, name: &str, lines: &str, more: &str) {
 /// Writes a filter folder that holds only filter.toml: three lines, and `more`.
 pub fn write_manifest(folder: &Path, name: &str, more: &str) {
     fs::create_dir_all(folder).unwrap();
-    let text = format!(
-        "name = \"{name}\"\nsummary = \"A program.\"\nalignment = \"trailing\"\n{more}\n"
-    );
+    let text =
+        format!("name = \"{name}\"\nsummary = \"A program.\"\nalignment = \"trailing\"\n{more}\n");
     fs::write(folder.join("filter.toml"), text).unwrap();
 }
 

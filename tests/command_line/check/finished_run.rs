@@ -9,12 +9,7 @@ use crate::bench::assert_refused;
 fn a_finished_run_is_judged_without_an_adapter() {
     let bench = bounded(0.2, "required");
     let made = assert_ends(&bench.check(&IDENTITY), 1, &["BROKEN flip_moving"]);
-    let judge = |words: &[&str]| {
-        let mut command = bench.command(&[&["check"], words].concat());
-        command.env("VK_DRIVER_FILES", "/dev/null");
-        command.env("VK_ICD_FILENAMES", "/dev/null");
-        command.env_remove("CI").output().unwrap()
-    };
+    let judge = |words: &[&str]| bench.without_adapter(&[&["check"], words].concat());
     assert_eq!(
         assert_ends(&judge(&["out/run.json", "--evidence"]), 1, &[]),
         made

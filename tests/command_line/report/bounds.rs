@@ -1,7 +1,9 @@
 //! Bounds on the page, and the evidence for those that are broken.
 
+use tests::text::assert_contains;
+
 use super::{article, between, reported};
-use crate::bench::{Bench, assert_done, quick, stdout};
+use crate::bench::{Bench, quick, stdout};
 
 #[test]
 fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
@@ -35,18 +37,16 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
     let article = article(&page, index);
     let findings = bench.findings();
     let worst = findings[0].worst.as_ref().unwrap();
-    for words in [
-        "1 of 2 kept.",
-        "BROKEN flip_moving 0.2",
-        "scenes/plate/bounds.toml:2: it &lt;i&gt;serves&lt;/i&gt; a test",
-        "the wrong blur <strong>no_blur</strong>, 0 % off",
-        &format!("Worst at ({}, {}) of flip.", worst.x, worst.y),
-    ] {
-        assert!(
-            article.contains(words),
-            "\"{words}\" is missing from:\n{article}"
-        );
-    }
+    assert_contains(
+        &article,
+        &[
+            "1 of 2 kept.",
+            "BROKEN flip_moving 0.2",
+            "scenes/plate/bounds.toml:2: it &lt;i&gt;serves&lt;/i&gt; a test",
+            "the wrong blur <strong>no_blur</strong>, 0 % off",
+            &format!("Worst at ({}, {}) of flip.", worst.x, worst.y),
+        ],
+    );
     let crop = format!(
         "<figure class=\"crop\" data-x=\"{}\" data-y=\"{}\"",
         worst.x, worst.y
@@ -84,7 +84,7 @@ fn a_run_that_looked_for_no_place_gets_one_in_its_report() {
     )[0]
     .to_owned();
     let words = [&quick("run", "64")[..], &["--filters", "identity"]].concat();
-    assert_done(&bench.shuttertruth(&words));
+    bench.done(&words);
     let page = reported(&bench);
     let article = article(&page, case(&bench));
     assert_eq!(

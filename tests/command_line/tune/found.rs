@@ -5,6 +5,8 @@ use std::path::Path;
 
 use filters::Filter;
 use suite::TrialOutcome;
+use tests::filter_folder::copy_shipped_filter;
+use tests::text::assert_contains;
 
 use super::{bench, journal, trials, tuning, tuning_words};
 use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
@@ -12,19 +14,18 @@ use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
 #[test]
 fn a_tuning_beats_the_start_and_writes_down_how() {
     let bench = bench();
-    let output = bench.shuttertruth(&tuning_words("out", "40", &["--sealed", "plate"]));
-    assert_done(&output);
-    let table = stdout(&output);
-    for part in [
-        "jump_flood:paper, 40 trials on 7 scenes",
-        "the start",
-        "chosen: trial",
-        "family left out",
-        "sealed scenes, opened once at 320x180",
-        "FLIP of chosen against start",
-    ] {
-        assert!(table.contains(part), "\"{part}\" is missing from:\n{table}");
-    }
+    let table = bench.done(&tuning_words("out", "40", &["--sealed", "plate"]));
+    assert_contains(
+        &table,
+        &[
+            "jump_flood:paper, 40 trials on 7 scenes",
+            "the start",
+            "chosen: trial",
+            "family left out",
+            "sealed scenes, opened once at 320x180",
+            "FLIP of chosen against start",
+        ],
+    );
     let journal = journal(&bench, "out");
     let trials = trials(&journal);
     assert_eq!(trials.len(), 40);
@@ -90,7 +91,7 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
     assert_eq!(tuned.scenes.iter().collect::<Vec<_>>(), scenes);
 
     // Another look at the same is no second opening; one at something else is.
-    assert_done(&bench.shuttertruth(&tuning_words("out", "40", &["--sealed", "plate"])));
+    bench.done(&tuning_words("out", "40", &["--sealed", "plate"]));
     assert_eq!(self::tuning(&bench, "out").openings.len(), 1);
     let other = ["--sealed", "plate", "--sealed-size", "64x32"];
     let output = bench.shuttertruth(&tuning_words("out", "40", &other));
@@ -105,7 +106,7 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
 #[test]
 fn a_score_of_a_trial_is_that_of_a_run() {
     let bench = bench();
-    assert_done(&bench.shuttertruth(&tuning_words("out", "1", &[])));
+    bench.done(&tuning_words("out", "1", &[]));
     assert_done(&bench.run(&["--filters", "jump_flood:paper", "--scenes", "a,b,c,d,e,f,g"]));
     let trial = &trials(&journal(&bench, "out"))[0];
     for case in bench.measured_filters() {
@@ -123,17 +124,15 @@ fn a_score_of_a_trial_is_that_of_a_run() {
 
 /// The built-in jump flood with a preset of a file instead of a tuned one of its own.
 fn with_preset(bench: &Bench, preset: &str) -> Filter {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shaders/jump_flood");
+    let copy = bench.path("jump_flood");
+    copy_shipped_filter("jump_flood", &copy);
     let read = |path: &Path| fs::read_to_string(path).unwrap();
-    let mut filter: toml::Table = read(&folder.join("filter.toml")).parse().unwrap();
+    let mut filter: toml::Table = read(&copy.join("filter.toml")).parse().unwrap();
     let mut added: toml::Table = read(&bench.path(preset)).parse().unwrap();
     let presets = filter["preset"].as_array_mut().unwrap();
     presets.retain(|preset| preset["name"].as_str() != Some("tuned"));
     presets.append(added["preset"].as_array_mut().unwrap());
-    let copy = bench.path("jump_flood");
-    fs::create_dir(&copy).unwrap();
     fs::write(copy.join("filter.toml"), filter.to_string()).unwrap();
-    fs::copy(folder.join("jump_flood.wgsl"), copy.join("jump_flood.wgsl")).unwrap();
     Filter::load(&copy).unwrap()
 }
 
@@ -177,8 +176,7 @@ fn a_study_tells_what_matters() {
     let few = ["--samples-per-pixel", "16", "--out", "out"];
     let output = bench.shuttertruth(&[&words[..], &more, &few].concat());
     assert_done(&output);
-    let found: suite::Sensitivity =
-        serde_json::from_slice(&fs::read(bench.path("out/sensitivity.json")).unwrap()).unwrap();
+    let found: suite::Sensitivity = bench.read_json("out/sensitivity.json");
     // Weighted taps do not read the extent at all, which replaced ones alone ask for.
     let extent = &found.parameters["behind_extent"];
     assert!(extent.constant && extent.slice.iter().all(|(_, error)| *error == 0.0));
@@ -205,7 +203,7 @@ fn a_cost_is_a_ratio_to_the_start() {
     let bench = bench();
     let words = split("tune --quiet --filter jump_flood --vary samples --scenes a");
     let more = split("--size 64x32 --samples-per-pixel 16 --budget 6 --out out");
-    assert_done(&bench.shuttertruth(&[&words[..], &more].concat()));
+    bench.done(&[&words[..], &more].concat());
     let trials = trials(&journal(&bench, "out"));
     assert_eq!(trials[0].cost, Some(1.0));
     assert!(

@@ -5,12 +5,12 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use super::{bench, journal, tuning_words};
-use crate::bench::{assert_done, assert_refused};
+use crate::bench::assert_refused;
 
 #[test]
 fn a_killed_tuning_goes_on_where_it_was_and_ends_with_the_same_bytes() {
     let bench = bench();
-    assert_done(&bench.shuttertruth(&tuning_words("whole", "30", &[])));
+    bench.done(&tuning_words("whole", "30", &[]));
     let mut child = bench
         .command(&tuning_words("killed", "30", &[]))
         .spawn()
@@ -31,7 +31,7 @@ fn a_killed_tuning_goes_on_where_it_was_and_ends_with_the_same_bytes() {
     assert!(left.lines().count() < 31, "it was killed on its way");
     // A line that was half written when the power failed.
     fs::write(&path, format!("{left}{{\"trial\":7")).unwrap();
-    assert_done(&bench.shuttertruth(&tuning_words("killed", "30", &[])));
+    bench.done(&tuning_words("killed", "30", &[]));
     assert_eq!(journal(&bench, "killed"), journal(&bench, "whole"));
 }
 
@@ -55,9 +55,9 @@ fn a_file_that_is_no_journal_of_this_tuning_is_left_as_it_was() {
 #[test]
 fn a_smaller_budget_is_the_beginning_of_a_larger_one_and_another_seed_is_another_search() {
     let bench = bench();
-    assert_done(&bench.shuttertruth(&tuning_words("out", "12", &[])));
+    bench.done(&tuning_words("out", "12", &[]));
     let first = journal(&bench, "out");
-    assert_done(&bench.shuttertruth(&tuning_words("out", "16", &[])));
+    bench.done(&tuning_words("out", "16", &[]));
     let second = journal(&bench, "out");
     assert!(second.starts_with(&first) && second.lines().count() == 17);
     let other = tuning_words("out", "16", &["--search-seed", "2"]);
@@ -77,7 +77,7 @@ fn a_smaller_budget_is_the_beginning_of_a_larger_one_and_another_seed_is_another
 #[test]
 fn a_full_disk_loses_nothing() {
     let bench = bench();
-    assert_done(&bench.shuttertruth(&tuning_words("out", "1", &[])));
+    bench.done(&tuning_words("out", "1", &[]));
     let begun = journal(&bench, "out");
     // Blocks of 512 bytes: room for some trials more.
     let blocks = (begun.len() + 2000).div_ceil(512).to_string();
@@ -97,7 +97,7 @@ fn a_full_disk_loses_nothing() {
     );
     let left = journal(&bench, "out");
     assert!(left.starts_with(&begun) && left.len() > begun.len());
-    assert_done(&bench.shuttertruth(&tuning_words("out", "20", &[])));
-    assert_done(&bench.shuttertruth(&tuning_words("whole", "20", &[])));
+    bench.done(&tuning_words("out", "20", &[]));
+    bench.done(&tuning_words("whole", "20", &[]));
     assert_eq!(journal(&bench, "out"), journal(&bench, "whole"));
 }

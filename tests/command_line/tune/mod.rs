@@ -78,5 +78,5 @@ fn trials(journal: &str) -> Vec<Trial> {
 }
 
 fn tuning(bench: &Bench, out: &str) -> Tuning {
-    serde_json::from_slice(&fs::read(bench.path(out).join("tune.json")).unwrap()).unwrap()
+    bench.read_json(&format!("{out}/tune.json"))
 }

@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use tests::filter_folder::{write_manifest, write_script};
+
 use super::{bench, tuning};
 use crate::bench::{Bench, SCENE, assert_done, assert_refused, split, stderr, stdout};
 
@@ -74,20 +76,14 @@ fn what_cannot_be_tuned_is_refused_and_leaves_nothing_behind() {
 /// A filter that is a program: it copies, and fails where its one parameter is above a half.
 #[cfg(unix)]
 fn fails_above_a_half(bench: &Bench, name: &str, default: &str) {
-    use std::os::unix::fs::PermissionsExt;
-    let folder = bench.path(name);
-    fs::create_dir_all(&folder).unwrap();
-    let manifest = format!(
-        "name = \"{name}\"\nsummary = \"A program.\"\nalignment = \"trailing\"\n\
-         command = [\"./blur.sh\", \"{{frame}}\", \"{{out}}\", \"{{strength}}\"]\n\
+    let parameter = format!(
+        "command = [\"./blur.sh\", \"{{frame}}\", \"{{out}}\", \"{{strength}}\"]\n\
          [[parameter]]\nname = \"strength\"\nkind = \"real\"\nrange = [0.0, 1.0]\ndefault = {default}\ndoc = \"None.\"\n\
-         [[preset]]\nname = \"default\"\ndoc = \"As it is.\"\n"
+         [[preset]]\nname = \"default\"\ndoc = \"As it is.\""
     );
-    fs::write(folder.join("filter.toml"), manifest).unwrap();
-    let script =
-        "#!/bin/sh\ncase $3 in 0.[5-9]*|1*) echo too strong >&2; exit 7;; esac\ncp $1 $2\n";
-    fs::write(folder.join("blur.sh"), script).unwrap();
-    fs::set_permissions(folder.join("blur.sh"), fs::Permissions::from_mode(0o755)).unwrap();
+    write_manifest(&bench.path(name), name, &parameter);
+    let script = "case $3 in 0.[5-9]*|1*) echo too strong >&2; exit 7;; esac\ncp $1 $2";
+    write_script(&bench.path(name).join("blur.sh"), script);
 }
 
 #[cfg(unix)]

@@ -1,11 +1,10 @@
 //! Folders that load: the documented example, and those that are built in.
 
-use std::path::Path;
-
 use filters::{Blur, Filter, Gpu, Input, Settings, Value};
 use frame::Raster;
+use tests::filter_folder::{load_filter, shipped_filter};
 
-use super::{example, write};
+use super::example;
 
 /// A bar that moves right, at the middle of a wide image.
 fn blurred_row(filter: &Filter, settings: &Settings) -> Vec<f32> {
@@ -30,14 +29,7 @@ fn blurred_row(filter: &Filter, settings: &Settings) -> Vec<f32> {
 
 #[test]
 fn the_documented_example_loads_from_a_folder_and_blurs() {
-    let folder = tempfile::tempdir().unwrap();
-    write(
-        folder.path(),
-        "centre_blur",
-        example("toml"),
-        example("wgsl"),
-    );
-    let filter = Filter::load(folder.path()).unwrap();
+    let filter = load_filter("centre_blur", example("toml"), example("wgsl")).unwrap();
     assert_eq!(filter.alignment, frame::Alignment::Centred);
     let settings = filter.settings(None).unwrap();
     assert_eq!(settings.preset, "fast");
@@ -99,7 +91,7 @@ fn the_smallest_reach_that_covers_a_trail_is_set() {
 
 #[test]
 fn built_in_folders_load_from_disk_alike() {
-    let shaders = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders");
+    let shaders = shipped_filter("");
     let folders = std::fs::read_dir(&shaders).unwrap().map(Result::unwrap);
     let mut names: Vec<String> = folders
         .filter(|entry| entry.path().is_dir())

@@ -6,6 +6,7 @@ mod refusals;
 mod textures;
 
 use filters::{Filter, FilterError};
+use tests::filter_folder::load_filter;
 
 const README: &str = include_str!("../../../shaders/README.md");
 
@@ -15,14 +16,8 @@ fn example(language: &str) -> &'static str {
     start.split_once("```").unwrap().0
 }
 
-fn write(folder: &Path, name: &str, manifest: &str, kernels: &str) {
-    std::fs::write(folder.join("filter.toml"), manifest).unwrap();
-    std::fs::write(folder.join(format!("{name}.wgsl")), kernels).unwrap();
-}
-
 /// Loads the example with one piece of its files replaced.
 fn load_changed(file: &str, from: &str, to: &str) -> Result<Filter, FilterError> {
-    let folder = tempfile::tempdir().unwrap();
     let (mut manifest, mut kernels) = (example("toml").to_owned(), example("wgsl").to_owned());
     let text = match file {
         "filter.toml" => &mut manifest,
@@ -30,6 +25,5 @@ fn load_changed(file: &str, from: &str, to: &str) -> Result<Filter, FilterError>
     };
     assert!(text.contains(from), "the example holds \"{from}\"");
     *text = text.replacen(from, to, 1);
-    write(folder.path(), "centre_blur", &manifest, &kernels);
-    Filter::load(folder.path())
+    load_filter("centre_blur", &manifest, &kernels)
 }

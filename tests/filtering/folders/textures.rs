@@ -1,9 +1,9 @@
 //! Textures that kernels read and write.
 
-use filters::{Blur, Filter, Gpu, Input};
+use filters::{Blur, Gpu, Input};
 use frame::Raster;
-
-use super::write;
+use tests::filter_folder::load_filter;
+use tests::text::assert_contains;
 
 const SHIFT_MANIFEST: &str = r#"
 name = "shift"
@@ -63,9 +63,7 @@ fn show(@builtin(global_invocation_id) id: vec3<u32>) {
 
 #[test]
 fn a_texture_that_a_pass_reads_and_writes_is_exchanged_for_every_colour() {
-    let folder = tempfile::tempdir().unwrap();
-    write(folder.path(), "shift", SHIFT_MANIFEST, SHIFT_KERNELS);
-    let filter = Filter::load(folder.path()).unwrap();
+    let filter = load_filter("shift", SHIFT_MANIFEST, SHIFT_KERNELS).unwrap();
     let gpu = Gpu::new(None).expect("these tests run filters");
     for distance in 1..=4 {
         let mut settings = filter.settings(None).unwrap();
@@ -128,9 +126,7 @@ fn show(@builtin(global_invocation_id) id: vec3<u32>) {
 
 #[test]
 fn whole_numbers_keep_every_bit_in_a_texture_of_a_fixed_fraction() {
-    let folder = tempfile::tempdir().unwrap();
-    write(folder.path(), "numbers", NUMBERS_MANIFEST, NUMBERS_KERNELS);
-    let filter = Filter::load(folder.path()).unwrap();
+    let filter = load_filter("numbers", NUMBERS_MANIFEST, NUMBERS_KERNELS).unwrap();
     let gpu = Gpu::new(None).expect("these tests run filters");
     let mut blur = Blur::new(&gpu, &filter, &filter.settings(None).unwrap(), 10, 5).unwrap();
     let color = Raster::filled(10, 5, [0.0; 3]);
@@ -170,15 +166,8 @@ fn a_texture_is_read_as_what_it_holds() {
         (NUMBERS_MANIFEST, read.replace("blocks:", "depth:").replace("(blocks,", "(depth,"), &["\"depth\" holds floats", "texture_2d<f32>"]),
     ];
     for (manifest, kernels, fragments) in wrong {
-        let folder = tempfile::tempdir().unwrap();
-        write(folder.path(), "numbers", manifest, &kernels);
-        let message = Filter::load(folder.path()).unwrap_err().to_string();
-        for fragment in fragments {
-            assert!(
-                message.contains(fragment),
-                "\"{fragment}\" is missing from: {message}"
-            );
-        }
+        let error = load_filter("numbers", manifest, &kernels).unwrap_err();
+        assert_contains(&error.to_string(), fragments);
     }
 }
 
@@ -189,9 +178,8 @@ fn only_compute_kernels_are_passes() {
         "@fragment\nfn show(@builtin(position) id: vec4<f32>)",
     );
     let kernels = kernels.replace("id.xy", "vec2<i32>(id.xy)");
-    let folder = tempfile::tempdir().unwrap();
-    write(folder.path(), "shift", SHIFT_MANIFEST, &kernels);
-    let message = Filter::load(folder.path()).unwrap_err().to_string();
+    let error = load_filter("shift", SHIFT_MANIFEST, &kernels).unwrap_err();
+    let message = error.to_string();
     assert!(
         message.ends_with("has no such @compute entry point; it has: hold, shift"),
         "{message}"

@@ -3,7 +3,6 @@
 mod device;
 mod text;
 
-use std::fs;
 use std::process::Output;
 
 use filters::Filter;
@@ -72,9 +71,7 @@ fn change(bench: &Bench, changes: &[(&str, &str)]) {
         manifest = manifest.replacen(from, to, 1);
         kernels = kernels.replacen(from, to, 1);
     }
-    fs::create_dir_all(bench.path("mine")).unwrap();
-    fs::write(bench.path("mine/filter.toml"), manifest).unwrap();
-    fs::write(bench.path("mine/mine.wgsl"), kernels).unwrap();
+    bench.write_filter("mine", &manifest, &kernels);
 }
 
 fn list(bench: &Bench) -> Output {
@@ -83,14 +80,4 @@ fn list(bench: &Bench) -> Output {
 
 fn load(bench: &Bench) -> Result<Filter, String> {
     Filter::load(&bench.path("mine")).map_err(|error| error.to_string())
-}
-
-#[track_caller]
-fn assert_says(message: &str, parts: &[&str]) {
-    for part in parts {
-        assert!(
-            message.contains(part),
-            "\"{part}\" is missing from: {message}"
-        );
-    }
 }

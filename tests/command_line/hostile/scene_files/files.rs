@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use tests::text::assert_contains;
+
 use super::{refused, render, with_sky, with_texture};
 use crate::bench::{Bench, SCENE, assert_done, assert_refused};
 
@@ -41,12 +43,10 @@ fn what_is_no_regular_file_is_refused_before_it_is_opened() {
             // In this process, since there are so many: a file that is opened after all hangs it.
             let error = tracer::load_scene(&bench.path("scenes/plate"), None).unwrap_err();
             let message = error.to_string();
-            for part in [place, found, "where a regular file is expected"] {
-                assert!(
-                    message.contains(part),
-                    "\"{part}\" is missing from: {message}"
-                );
-            }
+            assert_contains(
+                &message,
+                &[place, found, "where a regular file is expected"],
+            );
         }
     }
 }
