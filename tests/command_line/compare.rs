@@ -1,4 +1,4 @@
-//! Two runs side by side: what changed, and what is noise.
+//! `compare`: two runs side by side, changes told from noise.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! A filter that fails on a scene costs that case, and not the run; every output says so.
+//! Filters that fail on a scene: the case is lost, the run is not, and every output says so.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! Models of anybody's, made into scenes.
+//! `import`: foreign models made into scenes.
 
 use std::fmt::Write;
 use std::fs;

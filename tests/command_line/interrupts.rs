@@ -1,4 +1,4 @@
-//! Ctrl-C ends every command within two seconds, whatever the GPU is doing.
+//! Ctrl-C: every command ends within two seconds, whatever the GPU is doing.
 
 use std::process::Command;
 use std::time::{Duration, Instant};

@@ -1,4 +1,4 @@
-//! Work is kept: replicates on disk, resumed, shared between processes and joined, always to the same bytes.
+//! Kept replicates: resumed, shared between processes and joined, always to the same bytes.
 
 use std::fs;
 use std::path::Path;

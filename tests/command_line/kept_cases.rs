@@ -1,4 +1,4 @@
-//! What was measured is kept: a case is measured again where something that it was made of has changed, and only there.
+//! Kept cases: a case is measured again only where something that it was made of has changed.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -35,7 +35,7 @@ fn run(bench: &Bench, more: &[&str]) {
     assert_done(&bench.run(&[&FILTERS[..], more].concat()));
 }
 
-/// When every file below `out` was last written, but for run.json.
+/// Returns when every file below `out` was last written, but for run.json.
 fn times(bench: &Bench) -> BTreeMap<String, SystemTime> {
     let out = bench.path("out/plate");
     (files_below(&out).into_iter())

@@ -1,4 +1,4 @@
-//! The program as its user meets it: what it prints, what it writes, how it ends.
+//! The program as its user meets it: output, files and exit codes.
 
 mod baseline;
 mod bench;

@@ -1,4 +1,4 @@
-//! A filter of one's own: the README's works as it stands, and its mistakes say what the README says.
+//! The README's filter of one's own, and the messages that the README quotes for mistakes in it.
 
 use metrics::Measured;
 use tests::filter_folder::one_kernel_without_parameters;

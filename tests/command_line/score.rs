@@ -1,4 +1,4 @@
-//! Finished pictures, scored by themselves.
+//! `score`: finished pictures without a filter.
 
 use std::fs;
 
@@ -43,7 +43,7 @@ fn without_mattes(bench: &Bench, from: &str, to: &str) {
     write_exr(&bench.path(to), &file).unwrap();
 }
 
-/// Whether a metric is about colours, and so can be told of any picture.
+/// Returns whether a metric is about colours, and so can be told of any picture.
 fn of_colour(metric: &Metric) -> bool {
     matches!(
         metric,

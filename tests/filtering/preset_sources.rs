@@ -1,4 +1,4 @@
-//! What a preset says of where it comes from, and the pictures that it was made for.
+//! Sources of presets, and the width of pictures that a preset was made for.
 
 use filters::{Filter, FilterError, Settings, Value};
 use tests::filter_folder::{load_filter, one_kernel};

@@ -1,4 +1,4 @@
-//! Kernels that would make a wrong picture are refused with their place: none is scored.
+//! Kernels that would make a wrong picture: each is refused with its place, and none is scored.
 
 use filters::{Blur, Filter, FilterError, Gpu, Input};
 use frame::{Image, Raster};

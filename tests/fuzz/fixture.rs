@@ -1,4 +1,4 @@
-//! Real files of every kind, made by the program itself before the first case: so they always have today's layout.
+//! Real files of every kind. The program itself makes them before the first case, so they always have today's layout.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use tests::plate::{MTL, OBJ};
 /// The program that is fuzzed.
 pub const PROGRAM: &str = env!("CARGO_BIN_EXE_shuttertruth");
 
-/// How all of its pictures are rendered.
+/// Options that all of its pictures are rendered with.
 pub const RENDER: [&str; 7] = [
     "--quiet",
     "--scenes",
@@ -74,7 +74,7 @@ impl Fixture {
         fixture
     }
 
-    /// Where it lies.
+    /// Returns its folder.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }

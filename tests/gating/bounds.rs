@@ -1,4 +1,4 @@
-//! The shipped bounds tell a blur from none: on every shipped scene where something moves.
+//! Shipped bounds that tell a blur from none on every scene where something moves, and the rules of bounds.
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! A report in a real browser: what a person sees, points at and presses.
+//! Reports in a real browser: pictures, pointer and keys.
 
 #[path = "../command_line/bench.rs"]
 #[expect(dead_code, reason = "the tests of the command line need more of it")]

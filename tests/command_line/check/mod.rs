@@ -1,4 +1,4 @@
-//! Bounds as their user meets them: every exit code of `check`, and every form of its report.
+//! `check`: bounds as their user meets them.
 
 mod calibrated;
 mod finished_run;

@@ -1,4 +1,4 @@
-//! Exit codes of `check`, and what it prints with each.
+//! Exit codes of `check`, each with its text.
 
 use std::fs;
 

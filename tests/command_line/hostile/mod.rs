@@ -1,4 +1,4 @@
-//! Hostile and broken input: each is refused with an error that names it, and none ends the program in another way.
+//! Hostile and broken input: an error names each, and none ends the program in another way.
 
 mod kernels;
 mod limits_page;

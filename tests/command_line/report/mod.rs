@@ -21,7 +21,7 @@ fn reported(bench: &Bench) -> String {
     fs::read_to_string(bench.path("page/report.html")).unwrap()
 }
 
-/// What stands between two texts, each time.
+/// Returns every text between `before` and `after`.
 fn between<'a>(page: &'a str, before: &str, after: &str) -> Vec<&'a str> {
     let rests = page.split(before).skip(1);
     rests

@@ -1,4 +1,4 @@
-//! What a tuning finds, how it compares presets, and what it says of parameters and costs.
+//! Results of a tuning: the chosen preset, comparisons, sensitivities and costs.
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! The journal of a tuning, and what it survives.
+//! The journal of a tuning: kills, full disks, foreign files, other budgets.
 
 use std::fs;
 use std::process::Command;

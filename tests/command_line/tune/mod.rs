@@ -1,4 +1,4 @@
-//! `tune`: the search, the journal, and what is said of what it found.
+//! `tune`: the search, the journal, the results and the refusals.
 
 mod found;
 mod journal;

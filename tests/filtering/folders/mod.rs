@@ -1,4 +1,4 @@
-//! Filter folders from disk: the one in the documentation works, and each wrong one says what is wrong.
+//! Filter folders from disk: the documented one, built-in ones, and wrong ones.
 
 mod example;
 mod inputs;

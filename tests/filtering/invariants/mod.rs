@@ -1,4 +1,4 @@
-//! What must hold for every filter that the program brings, with every preset.
+//! Properties of every built-in filter with every preset.
 
 mod colours;
 mod repeated;

@@ -1,4 +1,4 @@
-//! Runs that must repeat others bit for bit.
+//! Runs that must repeat other runs bit for bit.
 
 use filters::{Blur, Filter, Input, Kernels};
 use frame::Image;

@@ -34,7 +34,7 @@ fn wall(left: bool, whole: bool, speed: f32, exposure: f64) -> Field {
     }
 }
 
-/// What became of the edge, along the motion.
+/// Measures the edge along the motion.
 fn ramp(output: &Image) -> Ramp {
     // Over all rows, noise becomes the distribution that it is drawn from.
     let mean = |x: u32| {

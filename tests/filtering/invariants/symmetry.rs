@@ -24,7 +24,7 @@ fn mirrored(field: &Field, horizontal: bool) -> Field {
     }
 }
 
-/// With x = side - x' on both sides, along one axis.
+/// Mirrors the reprojection: x = side - x' on both sides, along one axis.
 fn mirrored_camera(field: &Field, axis: usize) -> Reprojection {
     let side = f64::from([field.color.width, field.color.height][axis]);
     let mut rows = field.reprojection.rows.map(|mut row| {

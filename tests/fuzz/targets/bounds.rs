@@ -1,4 +1,4 @@
-//! bounds.toml, and what is judged by it.
+//! bounds.toml, and judgements by it.
 
 use filters::Filter;
 use suite::{

@@ -1,6 +1,6 @@
 //! Words of filter folders.
 
-/// Of filter.toml.
+/// Words of filter.toml.
 pub const FILTER: &[&str] = &[
     "[[parameter]]\n",
     "[[preset]]\n",
@@ -39,7 +39,7 @@ pub const FILTER: &[&str] = &[
     "[preset.tuned]\n",
 ];
 
-/// Of WGSL.
+/// Words of WGSL.
 pub const WGSL: &[&str] = &[
     "@compute @workgroup_size(8, 8)\n",
     "@workgroup_size(0)\n",

@@ -1,6 +1,6 @@
 //! Words that the program is started with, and lines that it is sent.
 
-/// Of the lines that `serve` reads.
+/// Words of the lines that `serve` reads.
 pub const SERVE: &[&str] = &[
     "{\"id\": 7, \"params\": {}}",
     "{\"id\": 7, \"params\": {}, \"scenes\": [\"plate\"]}",
@@ -23,7 +23,7 @@ pub const SERVE: &[&str] = &[
     "\u{0}",
 ];
 
-/// Of the command line; what takes long where it is allowed is left out.
+/// Words of the command line, without those that are allowed and take long.
 pub const WORDS: &[&str] = &[
     "--out",
     "--size",

@@ -1,6 +1,6 @@
 //! Words of files that the program writes, and of bounds.
 
-/// Of every JSON.
+/// Words of every JSON.
 pub const JSON: &[&str] = &[
     "null",
     "true",
@@ -35,7 +35,7 @@ pub const JSON: &[&str] = &[
     "\n",
 ];
 
-/// Of bounds.toml.
+/// Words of bounds.toml.
 pub const BOUNDS: &[&str] = &[
     "[default]\n",
     "[margin]\n",

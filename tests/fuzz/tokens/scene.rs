@@ -1,6 +1,6 @@
 //! Words of scene folders.
 
-/// Of scene.toml.
+/// Words of scene.toml.
 pub const SCENE: &[&str] = &[
     "[[object]]\n",
     "[object.part]\n",
@@ -60,7 +60,7 @@ pub const SCENE: &[&str] = &[
     "#",
 ];
 
-/// Of OBJ and MTL.
+/// Words of OBJ and MTL.
 pub const MODEL: &[&str] = &[
     "f 1 2 3\n",
     "f 1 1 1\n",

@@ -1,4 +1,4 @@
-//! The space of parameters, the search through it, and the journal.
+//! The space of parameters, and the search through it.
 
 use std::collections::BTreeMap;
 

@@ -23,7 +23,7 @@ const ROWS: f64 = 0.05;
 /// Sums of single-precision mattes, sampled 512 times: what is exactly 0 by geometry.
 const NOTHING: f64 = 1e-6;
 
-/// What rows along the motion have more or less of.
+/// Scores of the mass that rows along the motion gain or lose.
 const ROW_MASS: [&str; 3] = ["lateral_growth", "row_gain", "row_loss"];
 
 fn direction(degrees: f64) -> [f64; 2] {

@@ -1,4 +1,4 @@
-//! Scores: when they are silent, how they are pooled, named and stored, and what is refused.
+//! Scores: their silence, pooling, names and refusals.
 
 mod names;
 mod pooling;
@@ -25,10 +25,10 @@ fn small_scene(bar_at: [f64; 2]) -> Scene {
     }
 }
 
-/// What stands beside the disc's way.
+/// Place of a bar beside the disc's way.
 const BESIDE: [f64; 2] = [10.0, 30.0];
 
-/// What stands in its way.
+/// Place of a bar in its way.
 const BEFORE: [f64; 2] = [40.0, 30.0];
 
 fn clean_truth(scene: &Scene) -> Truth {

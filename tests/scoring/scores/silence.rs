@@ -1,4 +1,4 @@
-//! Scenes in which a score means nothing, and what it says there.
+//! Scenes in which a score means nothing, and the reason that it gives.
 
 use frame::Raster;
 use metrics::{Measured, ObjectMetric, measure};

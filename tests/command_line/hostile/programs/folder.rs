@@ -1,4 +1,4 @@
-//! One folder, several processes.
+//! One folder with several processes.
 
 use std::fs::{self, File, OpenOptions};
 use std::os::unix::fs::PermissionsExt;
@@ -9,7 +9,7 @@ use crate::bench::{Bench, assert_done, assert_refused, files_below, split};
 const RUN: &str = "run --quiet --size 64x32 --samples-per-pixel 16 --filters identity --out out";
 const RENDER: &str = "render --quiet --samples-per-pixel 16 --out out";
 
-/// What another process would hold.
+/// Opens the lock that another process would hold.
 fn lock_file(bench: &Bench) -> File {
     fs::create_dir_all(bench.path("out")).unwrap();
     let path = bench.path("out/.shuttertruth.lock");

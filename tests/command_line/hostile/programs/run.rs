@@ -1,4 +1,4 @@
-//! What runs at all, what it gets to see, and how it ends.
+//! Programs as filters: permission, environment and end.
 
 use std::fs;
 use std::path::Path;
@@ -122,7 +122,7 @@ fn a_program_sees_no_secret() {
 const LEAVES_ONE: &str = "(setsid sh -c 'echo $$ > pid.new; mv pid.new pid; exec sleep 300' &)\n\
                           while [ ! -e pid ]; do sleep 0.01; done";
 
-/// Whether the process in `pid` has ended; a zombie has.
+/// Returns whether the process in `pid` has ended; a zombie has.
 #[cfg(target_os = "linux")]
 fn has_ended(bench: &Bench) -> bool {
     let pid = fs::read_to_string(bench.path("mine/pid")).unwrap();

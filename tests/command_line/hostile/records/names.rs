@@ -1,4 +1,4 @@
-//! Names of scenes: of every script, with an @, without any sense.
+//! Names of scenes: in every script, with an @, without any sense.
 
 use std::fs;
 

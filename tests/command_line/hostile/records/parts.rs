@@ -1,4 +1,4 @@
-//! Parts of a truth for `merge` that are none.
+//! Files that `merge` must not take for parts of a truth.
 
 use std::fs;
 use std::path::Path;
