@@ -1,4 +1,4 @@
-//! Scores that were accepted, and whether later ones are no worse.
+//! Baselines: accepted scores, and later scores held against them.
 
 use std::fs;
 use std::process::Output;

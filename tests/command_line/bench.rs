@@ -4,18 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-pub const OBJ: &str = "\
-mtllib plate.mtl
-v -0.5 -0.5 0
-v 0.5 -0.5 0
-v 0.5 0.5 0
-v -0.5 0.5 0
-usemtl paint
-f 1 2 3
-f 1 3 4
-";
-
-pub const MTL: &str = "newmtl paint\nKd 0 0 0\nKe 0.7 0.4 0.2\n";
+use serde::de::DeserializeOwned;
+use tests::filter_folder;
+pub use tests::plate::{MTL, OBJ};
+use tests::text::assert_contains;
 
 /// 60 degrees of vertical field of view seen from 4 m: 0.4 m is about 2.7 px of 32 px rows.
 pub const SCENE: &str = "\
@@ -77,8 +69,37 @@ impl Bench {
         fs::write(copy.join("scene.toml"), text).unwrap();
     }
 
+    /// Writes the filter `name`, with one file of kernels, to a folder of that name.
+    pub fn write_filter(&self, name: &str, manifest: &str, kernels: &str) {
+        filter_folder::write_filter(&self.path(name), name, manifest, kernels);
+    }
+
     pub fn shuttertruth(&self, words: &[&str]) -> Output {
         self.command(words).output().unwrap()
+    }
+
+    /// Runs a command that must succeed; returns what it prints.
+    #[track_caller]
+    pub fn done(&self, words: &[&str]) -> String {
+        let output = self.shuttertruth(words);
+        assert_done(&output);
+        stdout(&output)
+    }
+
+    /// Runs a command outside of any CI.
+    pub fn outside_ci(&self, words: &[&str]) -> Output {
+        let mut command = self.command(words);
+        command.env_remove("CI").env_remove("GITHUB_STEP_SUMMARY");
+        command.output().unwrap()
+    }
+
+    /// Runs a command where no Vulkan driver is found.
+    pub fn without_adapter(&self, words: &[&str]) -> Output {
+        let mut command = self.command(words);
+        for name in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
+            command.env(name, "/no/driver.json");
+        }
+        command.env_remove("CI").output().unwrap()
     }
 
     pub fn command(&self, words: &[&str]) -> Command {
@@ -96,14 +117,17 @@ impl Bench {
     /// `check` with few samples, outside of any CI; the report is on standard output.
     pub fn check(&self, more: &[&str]) -> Output {
         let words = quick("check", "64");
-        let mut command = self.command(&[&words, more].concat());
-        command.env_remove("CI").env_remove("GITHUB_STEP_SUMMARY");
-        command.output().unwrap()
+        self.outside_ci(&[&words, more].concat())
     }
 
     /// run.json of the last run.
     pub fn measured(&self) -> suite::Run {
-        serde_json::from_slice(&fs::read(self.path("out/run.json")).unwrap()).unwrap()
+        self.read_json("out/run.json")
+    }
+
+    /// Reads a file of JSON.
+    pub fn read_json<T: DeserializeOwned>(&self, below: &str) -> T {
+        serde_json::from_slice(&fs::read(self.path(below)).unwrap()).unwrap()
     }
 
     /// The findings about the last run.
@@ -136,12 +160,7 @@ pub fn assert_done(output: &Output) {
 pub fn assert_refused(output: &Output, code: i32, parts: &[&str]) {
     let message = stderr(output);
     assert_eq!(output.status.code(), Some(code), "{message}");
-    for part in parts {
-        assert!(
-            message.contains(part),
-            "\"{part}\" is missing from: {message}"
-        );
-    }
+    assert_contains(&message, parts);
     assert_eq!(
         stdout(output),
         "",

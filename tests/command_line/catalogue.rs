@@ -1,4 +1,4 @@
-//! The scenes in pictures.
+//! `catalogue`: the scenes in pictures.
 
 use std::fs;
 

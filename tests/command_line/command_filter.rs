@@ -1,38 +1,25 @@
 //! Filters that are programs.
 
 use std::fs;
-use std::os::unix::fs::PermissionsExt;
 use std::process::Command;
 use std::time::Duration;
 
 use frame::{ExrFile, Frame, Raster, Reprojection, read_exr, write_exr};
+use tests::filter_folder::{write_manifest, write_program, write_script};
 
 use crate::bench::{Bench, assert_done, assert_refused, stderr, stdout};
 
-const HEAD: &str = "summary = \"A program.\"\nalignment = \"trailing\"\n";
-
-/// Writes a filter folder that holds only filter.toml, with more lines.
-fn folder(bench: &Bench, name: &str, more: &str) {
-    fs::create_dir_all(bench.path(name)).unwrap();
-    let text = format!("name = \"{name}\"\n{HEAD}{more}\n");
-    fs::write(bench.path(name).join("filter.toml"), text).unwrap();
+fn write_lines(bench: &Bench, name: &str, more: &str) {
+    write_manifest(&bench.path(name), name, more);
 }
 
-/// A filter that is a shell script with the files as $1 and $2; it lies in the filter's folder.
-fn script(bench: &Bench, name: &str, lines: &str, more: &str) {
-    let command = "command = [\"./blur.sh\", \"{frame}\", \"{out}\"]";
-    folder(bench, name, &format!("{command}\n{more}"));
-    executable(bench, &format!("{name}/blur.sh"), lines);
-}
-
-fn executable(bench: &Bench, path: &str, lines: &str) {
-    fs::write(bench.path(path), format!("#!/bin/sh\n{lines}\n")).unwrap();
-    fs::set_permissions(bench.path(path), fs::Permissions::from_mode(0o755)).unwrap();
+fn write_blur(bench: &Bench, name: &str, lines: &str, more: &str) {
+    write_program(&bench.path(name), name, lines, more);
 }
 
 fn render(bench: &Bench) {
     let words = ["render", "--quiet", "--out", "r", "--samples-per-pixel"];
-    assert_done(&bench.shuttertruth(&[&words[..], &["16"]].concat()));
+    bench.done(&[&words[..], &["16"]].concat());
 }
 
 fn blur(filter: &str) -> [&str; 8] {
@@ -59,7 +46,7 @@ fn a_program_that_blurs_as_kernels_do_scores_as_they_do() {
          [[parameter]]\nname = 'samples'\nkind = 'integer'\nrange = [1, 64]\ndefault = 10\ndoc = 'Taps.'\n\
          [[preset]]\nname = 'coarse'\ndoc = 'Few.'\nvalues = {{ samples = 8 }}\n"
     );
-    folder(&bench, "outside", &command);
+    write_lines(&bench, "outside", &command);
     let filters = "velocity_gather:coarse,./outside:coarse";
     assert_done(&bench.run(&["--filters", filters, "--allow-commands"]));
     let cases = bench.measured_filters();
@@ -76,7 +63,7 @@ fn a_program_that_blurs_as_kernels_do_scores_as_they_do() {
 #[test]
 fn a_program_needs_no_adapter() {
     let bench = Bench::new();
-    script(&bench, "copy", "cp $1 $2", "");
+    write_blur(&bench, "copy", "cp $1 $2", "");
     let mut command = bench.command(&[
         "run",
         "--quiet",
@@ -116,9 +103,8 @@ fn the_program_of_the_readme_takes_part() {
     fs::create_dir_all(bench.path("bin")).unwrap();
     let program = env!("CARGO_BIN_EXE_shuttertruth");
     let line = "blur --filter velocity_gather --frame $1 --out $2 --exposure $4";
-    executable(
-        &bench,
-        "bin/my_blur",
+    write_script(
+        &bench.path("bin/my_blur"),
         &format!("[ $3 = --shutter ] && {program} {line}"),
     );
     let path = format!(
@@ -130,7 +116,7 @@ fn the_program_of_the_readme_takes_part() {
     let mut command = bench.command(&blur("./my_engine"));
     assert_done(&command.env("PATH", path).output().unwrap());
     let outside = read_exr(&bench.path("b.exr")).unwrap().color("").unwrap();
-    assert_done(&bench.shuttertruth(&blur("velocity_gather")));
+    bench.done(&blur("velocity_gather"));
     let inside = read_exr(&bench.path("b.exr")).unwrap().color("").unwrap();
     assert_eq!(outside, inside);
 }
@@ -141,10 +127,9 @@ fn a_program_knows_what_kernels_know_and_no_more() {
     render(&bench);
     let more = "[[parameter]]\nname = \"gain\"\nkind = \"real\"\nrange = [0, 2]\ndefault = 0.25\ndoc = \"\"";
     let command = "command = [\"./blur.sh\", \"{frame}\", \"{out}\", \"{exposure},{frame_index},{gain},{{}}\"]";
-    folder(&bench, "told", &format!("{command}\n{more}"));
-    executable(
-        &bench,
-        "told/blur.sh",
+    write_lines(&bench, "told", &format!("{command}\n{more}"));
+    write_script(
+        &bench.path("told/blur.sh"),
         "pwd > where; echo $3 > words; cp $1 given.exr; cp $1 $2; echo chatter",
     );
     let output = bench.shuttertruth(&[&blur("./told")[..], &["--frame-index", "7"]].concat());
@@ -182,9 +167,9 @@ fn a_program_knows_what_kernels_know_and_no_more() {
 #[test]
 fn an_edited_program_is_run_anew() {
     let bench = Bench::new();
-    script(&bench, "copy", "cp $1 $2", "");
+    write_blur(&bench, "copy", "cp $1 $2", "");
     assert_done(&bench.run(&["--filter", "copy", "--allow-commands"]));
-    executable(&bench, "copy/blur.sh", "exit 3");
+    write_script(&bench.path("copy/blur.sh"), "exit 3");
     let failed = bench.run(&["--filter", "copy", "--allow-commands"]);
     assert_eq!(failed.status.code(), Some(1));
     let failures = bench.measured().failures;
@@ -244,7 +229,7 @@ fn programs_that_fail_say_how_and_leave_no_picture() {
         ),
     ];
     for (lines, parts) in rows {
-        script(&bench, "mine", lines, "");
+        write_blur(&bench, "mine", lines, "");
         let output = bench.shuttertruth(&blur("./mine"));
         assert_refused(
             &output,
@@ -263,7 +248,7 @@ fn programs_that_fail_say_how_and_leave_no_picture() {
         ("./filter.toml", ["cannot be run in", "Permission denied"]),
     ] {
         let command = format!("command = [\"{program}\", \"{{frame}}\", \"{{out}}\"]");
-        folder(&bench, "mine", &command);
+        write_lines(&bench, "mine", &command);
         assert_refused(&bench.shuttertruth(&blur("./mine")), 2, &parts);
     }
 }
@@ -294,7 +279,7 @@ fn a_program_that_takes_too_long_is_stopped_with_all_that_it_started() {
     let bench = Bench::new();
     render(&bench);
     // Long enough for a shell to write a line on a busy machine.
-    script(&bench, "slow", SLEEPERS, "time_limit = 5");
+    write_blur(&bench, "slow", SLEEPERS, "time_limit = 5");
     let output = bench.shuttertruth(&blur("./slow"));
     assert_refused(
         &output,
@@ -312,7 +297,7 @@ fn a_program_that_takes_too_long_is_stopped_with_all_that_it_started() {
 fn ctrl_c_stops_a_program() {
     let bench = Bench::new();
     render(&bench);
-    script(&bench, "slow", SLEEPERS, "");
+    write_blur(&bench, "slow", SLEEPERS, "");
     let mut child = bench.command(&blur("./slow")).spawn().unwrap();
     while !bench.path("slow/pid").exists() {
         assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
@@ -391,7 +376,7 @@ fn folders_of_programs_that_cannot_be_are_refused_with_the_line() {
         (String::new(), &["neither a [[pass]] nor a command"]),
     ];
     for (lines, parts) in rows {
-        folder(&bench, "mine", &lines);
+        write_lines(&bench, "mine", &lines);
         assert_refused(&bench.run(&["--filter", "mine"]), 2, parts);
         assert!(!bench.path("out").exists(), "{lines}");
     }

@@ -1,4 +1,4 @@
-//! Two runs side by side: what changed, and what is noise.
+//! `compare`: two runs side by side, changes told from noise.
 
 use std::fs;
 
@@ -230,7 +230,7 @@ fn the_page_holds_both_pictures_and_says_what_each_run_was() {
         "something is fetched"
     );
     assert!(text.contains("default-src 'none'"));
-    assert_done(&bench.shuttertruth(&words));
+    bench.done(&words);
     assert_eq!(
         fs::read_to_string(&page).unwrap(),
         text,
@@ -245,7 +245,7 @@ fn a_scene_called_script_is_shown_and_not_run() {
     assert_done(&bench.run(&GATHER));
     let more = [&GATHER[..], &["--set", "velocity_gather.samples=2"]].concat();
     assert_done(&run_into(&bench, "other", "16", &more));
-    assert_done(&bench.shuttertruth(&["compare", "out", "other", "--html", "page.html"]));
+    bench.done(&["compare", "out", "other", "--html", "page.html"]);
     let page = fs::read_to_string(bench.path("page.html")).unwrap();
     assert!(
         page.contains("&lt;script&gt;alert(1)"),

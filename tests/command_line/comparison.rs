@@ -1,4 +1,4 @@
-//! What a run sets beside the filters' own scores: bars, a common shutter, noise apart, and frames stored less finely.
+//! Measurements beside the filters' own scores: bars, a common shutter, noise apart, coarser frames.
 
 use suite::{Case, DepthFormat, Overall, Run, VelocityFormat};
 

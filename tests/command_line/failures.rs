@@ -1,6 +1,8 @@
-//! A filter that fails on a scene costs that case, and not the run; every output says so.
+//! Filters that fail on a scene: the case is lost, the run is not, and every output says so.
 
 use std::fs;
+
+use tests::filter_folder::one_kernel_without_parameters;
 
 use crate::bench::{Bench, assert_done, assert_refused, stderr, stdout};
 
@@ -14,18 +16,10 @@ entry = "work"
 "#;
 
 /// Not finite at one pixel where the exposure is that of the scene `dim`.
-const KERNELS: &str = "
-@group(0) @binding(1) var color: texture_2d<f32>;
-@group(0) @binding(2) var output: texture_storage_2d<rgba32float, write>;
-
-@compute @workgroup_size(8, 8)
-fn work(@builtin(global_invocation_id) id: vec3<u32>) {
-    let pixel = vec2<i32>(id.xy);
-    if !inside(pixel) { return; }
+const BODY: &str = "
     var value = textureLoad(color, pixel, 0);
     if pixel.x == 9 && pixel.y == 4 { value /= frame.exposure - 0.25; }
     textureStore(output, pixel, value);
-}
 ";
 
 /// Two scenes, on one of which the filter `torn` fails.
@@ -34,9 +28,7 @@ fn torn() -> Bench {
     bench.copy_scene("dim", |scene| {
         scene.replace("exposure = 0.5", "exposure = 0.25")
     });
-    fs::create_dir(bench.path("torn")).unwrap();
-    fs::write(bench.path("torn/filter.toml"), MANIFEST).unwrap();
-    fs::write(bench.path("torn/torn.wgsl"), KERNELS).unwrap();
+    bench.write_filter("torn", MANIFEST, &one_kernel_without_parameters(BODY));
     bench
 }
 
@@ -102,8 +94,7 @@ fn a_run_names_the_case_that_failed_and_goes_on() {
         "--reason",
         "none",
     ];
-    let mut command = bench.command(&accept);
-    let refused = command.env_remove("CI").output().unwrap();
+    let refused = bench.outside_ci(&accept);
     assert_refused(&refused, 1, &["1 case failed", "torn:default on dim"]);
     assert!(!bench.path("base.json").exists());
 }

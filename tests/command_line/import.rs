@@ -1,4 +1,4 @@
-//! Models of anybody's, made into scenes.
+//! `import`: foreign models made into scenes.
 
 use std::fmt::Write;
 use std::fs;
@@ -53,7 +53,7 @@ fn import(bench: &Bench, more: &[&str]) -> Output {
 
 /// The frame of the imported scene, half as large as its speeds are meant for.
 fn frame(bench: &Bench) -> Frame {
-    assert_done(&bench.shuttertruth(&[
+    bench.done(&[
         "render",
         "--scenes",
         "house",
@@ -66,7 +66,7 @@ fn frame(bench: &Bench) -> Frame {
         "--quiet",
         "--out",
         "out",
-    ]));
+    ]);
     Frame::read(&bench.path("out/house/frame.exr")).unwrap()
 }
 

@@ -1,7 +1,9 @@
-//! Ctrl-C ends every command within two seconds, whatever the GPU is doing.
+//! Ctrl-C: every command ends within two seconds, whatever the GPU is doing.
 
 use std::process::Command;
 use std::time::{Duration, Instant};
+
+use tests::filter_folder::one_kernel_without_parameters;
 
 use crate::bench::{Bench, assert_done, quick};
 
@@ -16,20 +18,12 @@ entry = "work"
 repeat = 1000
 "#;
 
-const KERNELS: &str = "
-@group(0) @binding(1) var color: texture_2d<f32>;
-@group(0) @binding(2) var output: texture_storage_2d<rgba32float, write>;
-
-@compute @workgroup_size(8, 8)
-fn work(@builtin(global_invocation_id) id: vec3<u32>) {
-    let pixel = vec2<i32>(id.xy);
-    if !inside(pixel) { return; }
+const BODY: &str = "
     var sum = vec4<f32>(0.0);
     for (var i = 0; i < 8000; i++) {
         sum += textureLoad(color, (pixel + i) % frame.size, 0);
     }
     textureStore(output, pixel, sum / 8000.0);
-}
 ";
 
 /// Longest time from Ctrl-C to the end of a process.
@@ -38,9 +32,7 @@ const LIMIT: Duration = Duration::from_secs(2);
 #[test]
 fn ctrl_c_ends_work_on_the_gpu_within_two_seconds() {
     let bench = Bench::new();
-    std::fs::create_dir_all(bench.path("slow")).unwrap();
-    std::fs::write(bench.path("slow/filter.toml"), MANIFEST).unwrap();
-    std::fs::write(bench.path("slow/slow.wgsl"), KERNELS).unwrap();
+    bench.write_filter("slow", MANIFEST, &one_kernel_without_parameters(BODY));
     // The frame and the truth are there, so that both commands are at the GPU soon.
     assert_done(&bench.run(&["--filters", "identity"]));
     let frame = bench.path("out/plate/frame.exr").display().to_string();

@@ -1,4 +1,4 @@
-//! Work is kept: replicates on disk, resumed, shared between processes and joined, always to the same bytes.
+//! Kept replicates: resumed, shared between processes and joined, always to the same bytes.
 
 use std::fs;
 use std::path::Path;
@@ -6,6 +6,7 @@ use std::process::{Child, Stdio};
 use std::time::Duration;
 
 use frame::{read_exr, write_exr};
+use tests::text::assert_contains;
 
 use crate::bench::{Bench, OBJ, assert_done, assert_refused, files_below, stdout};
 
@@ -55,7 +56,7 @@ fn assert_same(bench: &Bench, one: &str, other: &str) {
 #[test]
 fn parts_of_several_processes_join_to_the_bytes_of_one() {
     let bench = Bench::new();
-    assert_done(&bench.shuttertruth(&render("whole", &[])));
+    bench.done(&render("whole", &[]));
     let parts = [("a", "0..3"), ("b", "3..4"), ("c", "4..8")];
     let children: Vec<Child> = parts
         .map(|(out, part)| spawn(&bench, &render(out, &["--replicates", part])))
@@ -75,14 +76,14 @@ fn parts_of_several_processes_join_to_the_bytes_of_one() {
 #[test]
 fn processes_may_share_one_folder() {
     let bench = Bench::new();
-    assert_done(&bench.shuttertruth(&render("whole", &[])));
+    bench.done(&render("whole", &[]));
     let children: Vec<Child> = ["0..3", "2..5", "5..8", "0..8"]
         .map(|part| spawn(&bench, &render("shared", &["--replicates", part])))
         .into();
     for mut child in children {
         assert!(child.wait().unwrap().success());
     }
-    assert_done(&bench.shuttertruth(&["merge", "shared", "--out", "shared"]));
+    bench.done(&["merge", "shared", "--out", "shared"]);
     assert_same(&bench, "whole", "shared");
 }
 
@@ -91,7 +92,7 @@ fn a_killed_render_goes_on_to_the_same_bytes() {
     let bench = Bench::new();
     let many = ["--samples-per-pixel", "32768", "--threads", "1"];
     let words = |out: &'static str| [&["render", "--quiet", "--out", out][..], &many].concat();
-    assert_done(&bench.shuttertruth(&words("whole")));
+    bench.done(&words("whole"));
     let replicate = |index: u32| {
         bench.path(&format!(
             "killed/plate/truth_trailing/replicate_{index:03}.exr"
@@ -112,7 +113,7 @@ fn a_killed_render_goes_on_to_the_same_bytes() {
         assert!(!bench.path("killed/plate/truth_trailing.exr").exists());
     }
     let kept = fs::metadata(replicate(1)).unwrap().modified().unwrap();
-    assert_done(&bench.shuttertruth(&words("killed")));
+    bench.done(&words("killed"));
     assert_eq!(
         fs::metadata(replicate(1)).unwrap().modified().unwrap(),
         kept,
@@ -125,7 +126,7 @@ fn a_killed_render_goes_on_to_the_same_bytes() {
 fn files_of_older_versions_are_rendered_anew_and_never_joined() {
     let bench = Bench::new();
     for out in ["whole", "old"] {
-        assert_done(&bench.shuttertruth(&render(out, &[])));
+        bench.done(&render(out, &[]));
     }
     let truths = files_below(&bench.path("old")).into_iter().filter(|path| {
         let name = path.file_name().unwrap().to_string_lossy();
@@ -150,15 +151,15 @@ fn files_of_older_versions_are_rendered_anew_and_never_joined() {
             "make it anew with `shuttertruth render`",
         ],
     );
-    assert_done(&bench.shuttertruth(&render("old", &[])));
+    bench.done(&render("old", &[]));
     assert_same(&bench, "whole", "old");
 }
 
 #[test]
 fn a_broken_replicate_is_rendered_anew() {
     let bench = Bench::new();
-    assert_done(&bench.shuttertruth(&render("whole", &[])));
-    assert_done(&bench.shuttertruth(&render("out", &["--replicates", "0..4"])));
+    bench.done(&render("whole", &[]));
+    bench.done(&render("out", &["--replicates", "0..4"]));
     let replicate = bench.path("out/plate/truth_trailing/replicate_002.exr");
     let bytes = fs::read(&replicate).unwrap();
     fs::write(&replicate, &bytes[..bytes.len() / 2]).unwrap();
@@ -168,7 +169,7 @@ fn a_broken_replicate_is_rendered_anew() {
         stray,
     )
     .unwrap();
-    assert_done(&bench.shuttertruth(&render("out", &[])));
+    bench.done(&render("out", &[]));
     assert_same(&bench, "whole", "out");
 }
 
@@ -183,40 +184,40 @@ fn flip_a_bit(path: &Path) {
 #[test]
 fn a_flipped_bit_in_a_replicate_never_reaches_a_truth() {
     let bench = Bench::new();
-    assert_done(&bench.shuttertruth(&render("whole", &[])));
-    assert_done(&bench.shuttertruth(&render("out", &["--replicates", "0..7"])));
-    assert_done(&bench.shuttertruth(&render("rest", &["--replicates", "7..8"])));
+    bench.done(&render("whole", &[]));
+    bench.done(&render("out", &["--replicates", "0..7"]));
+    bench.done(&render("rest", &["--replicates", "7..8"]));
     flip_a_bit(&bench.path("out/plate/truth_trailing/replicate_002.exr"));
     let merged = bench.shuttertruth(&["merge", "out", "rest", "--out", "joined"]);
     assert_refused(&merged, 2, &["out/plate/truth_trailing/replicate_002.exr"]);
     assert!(!bench.path("joined").exists());
-    assert_done(&bench.shuttertruth(&render("out", &[])));
+    bench.done(&render("out", &[]));
     assert_same(&bench, "whole", "out");
     // A truth that was damaged is made again as well.
     flip_a_bit(&bench.path("out/plate/truth_trailing.exr"));
-    assert_done(&bench.shuttertruth(&render("out", &[])));
+    bench.done(&render("out", &[]));
     assert_same(&bench, "whole", "out");
 }
 
 #[test]
 fn a_changed_byte_in_a_mesh_renders_anew() {
     let bench = Bench::new();
-    assert_done(&bench.shuttertruth(&render("out", &[])));
+    bench.done(&render("out", &[]));
     bench.write("plate.obj", &OBJ.replace("v -0.5 -0.5 0", "v -0.6 -0.5 0"));
-    assert_done(&bench.shuttertruth(&render("out", &[])));
-    assert_done(&bench.shuttertruth(&render("fresh", &[])));
+    bench.done(&render("out", &[]));
+    bench.done(&render("fresh", &[]));
     assert_same(&bench, "fresh", "out");
 }
 
 #[test]
 fn more_replicates_build_on_those_that_are_there() {
     let bench = Bench::new();
-    assert_done(&bench.shuttertruth(&render("out", &["--replicates", "4"])));
+    bench.done(&render("out", &["--replicates", "4"]));
     let first = bench.path("out/plate/truth_trailing/replicate_000.exr");
     let before = fs::metadata(&first).unwrap().modified().unwrap();
-    assert_done(&bench.shuttertruth(&render("out", &["--replicates", "8"])));
+    bench.done(&render("out", &["--replicates", "8"]));
     assert_eq!(fs::metadata(&first).unwrap().modified().unwrap(), before);
-    assert_done(&bench.shuttertruth(&render("whole", &[])));
+    bench.done(&render("whole", &[]));
     assert_same(&bench, "whole", "out");
 }
 
@@ -228,7 +229,7 @@ fn parts_that_make_no_whole_are_refused() {
         ("gap", &["--replicates", "5..8"]),
         ("other", &["--replicates", "0..4", "--seed", "2"]),
     ] {
-        assert_done(&bench.shuttertruth(&render(out, more)));
+        bench.done(&render(out, more));
     }
     fs::create_dir(bench.path("empty")).unwrap();
     for (parts, complaint) in [
@@ -255,7 +256,7 @@ fn parts_that_make_no_whole_are_refused() {
         );
     }
     // Replicates of two truths whose files never have the same name.
-    assert_done(&bench.shuttertruth(&render("rest", &["--replicates", "3..4", "--seed", "2"])));
+    bench.done(&render("rest", &["--replicates", "3..4", "--seed", "2"]));
     let refused = bench.shuttertruth(&["merge", "start", "rest", "--out", "joined"]);
     assert_refused(
         &refused,
@@ -291,17 +292,15 @@ fn a_noise_target_adds_replicates_until_it_is_reached_or_says_that_it_was_not() 
     let short = bench.shuttertruth(&render("short", &more));
     assert_eq!(short.status.code(), Some(4));
     let message = String::from_utf8(short.stderr.clone()).unwrap();
-    for part in [
-        "plate trailing",
-        "moving",
-        "4 replicates",
-        "--most-replicates",
-        "--samples-per-pixel",
-    ] {
-        assert!(
-            message.contains(part),
-            "\"{part}\" is missing from: {message}"
-        );
-    }
+    assert_contains(
+        &message,
+        &[
+            "plate trailing",
+            "moving",
+            "4 replicates",
+            "--most-replicates",
+            "--samples-per-pixel",
+        ],
+    );
     assert!(bench.path("short/plate/truth_trailing.exr").is_file());
 }

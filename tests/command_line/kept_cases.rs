@@ -1,9 +1,9 @@
-//! What was measured is kept: a case is measured again where something that it was made of has changed, and only there.
+//! Kept cases: a case is measured again only where something that it was made of has changed.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::PathBuf;
 use std::time::SystemTime;
+use tests::filter_folder::{copy_shipped_filter, write_program};
 
 use crate::bench::{Bench, assert_done, files_below, quick, stdout};
 
@@ -27,11 +27,7 @@ const OF_FILTERS: [&str; 4] = [
 /// A bench whose filter `mine` is a copy of one that is built in.
 fn bench() -> Bench {
     let bench = Bench::new();
-    let shaders = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../shaders/velocity_gather");
-    fs::create_dir(bench.path("mine")).unwrap();
-    for name in ["filter.toml", "velocity_gather.wgsl"] {
-        fs::copy(shaders.join(name), bench.path("mine").join(name)).unwrap();
-    }
+    copy_shipped_filter("velocity_gather", &bench.path("mine"));
     bench
 }
 
@@ -39,7 +35,7 @@ fn run(bench: &Bench, more: &[&str]) {
     assert_done(&bench.run(&[&FILTERS[..], more].concat()));
 }
 
-/// When every file below `out` was last written, but for run.json.
+/// Returns when every file below `out` was last written, but for run.json.
 fn times(bench: &Bench) -> BTreeMap<String, SystemTime> {
     let out = bench.path("out/plate");
     (files_below(&out).into_iter())
@@ -137,7 +133,7 @@ fn a_run_takes_what_a_check_left() {
     bench.check(&FILTERS);
     let before = times_of_measured(&bench);
     let words = [&quick("run", "64")[..], &FILTERS].concat();
-    assert_done(&bench.shuttertruth(&words));
+    bench.done(&words);
     assert_eq!(times_of_measured(&bench), before);
     // What it says does not depend on who measured.
     let kept = fs::read_to_string(bench.path("out/run.json")).unwrap();
@@ -149,7 +145,7 @@ fn a_run_takes_what_a_check_left() {
             .all(|case| case.intervals.is_empty())
     );
     fs::remove_dir_all(bench.path("out")).unwrap();
-    assert_done(&bench.shuttertruth(&words));
+    bench.done(&words);
     assert!(fs::read_to_string(bench.path("out/run.json")).unwrap() == kept);
 }
 
@@ -253,15 +249,13 @@ fn what_is_missing_cut_short_or_altered_is_made_anew() {
 #[cfg(unix)]
 #[test]
 fn a_program_is_run_again_every_time() {
-    use std::os::unix::fs::PermissionsExt;
     let bench = Bench::new();
-    fs::create_dir(bench.path("copy")).unwrap();
-    let manifest = "name = \"copy\"\nsummary = \"A program.\"\nalignment = \"trailing\"\n\
-                    command = [\"./blur.sh\", \"{frame}\", \"{out}\"]\n";
-    fs::write(bench.path("copy/filter.toml"), manifest).unwrap();
-    let script = bench.path("copy/blur.sh");
-    fs::write(&script, "#!/bin/sh\necho again >> runs\ncp $1 $2\n").unwrap();
-    fs::set_permissions(&script, fs::Permissions::from_mode(0o755)).unwrap();
+    write_program(
+        &bench.path("copy"),
+        "copy",
+        "echo again >> runs\ncp $1 $2",
+        "",
+    );
     let runs = || {
         assert_done(&bench.run(&["--filter", "copy", "--allow-commands"]));
         let text = fs::read_to_string(bench.path("copy/runs")).unwrap();

@@ -28,7 +28,7 @@ fn pages(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// What stands outside of blocks of code.
+/// Returns the text outside of code blocks.
 fn prose(text: &str) -> String {
     let parts = text.split("```").step_by(2);
     let lines = parts

@@ -1,4 +1,4 @@
-//! The program as its user meets it: what it prints, what it writes, how it ends.
+//! The program as its user meets it: output, files and exit codes.
 
 mod baseline;
 mod bench;
@@ -21,8 +21,6 @@ mod own_filter;
 mod reference_width;
 mod refusals;
 mod report;
-mod report_layers;
-mod report_tuning;
 mod score;
 mod serve;
 mod terminal;
@@ -31,8 +29,10 @@ mod tune;
 mod variants;
 
 use std::fs;
-use std::path::Path;
 use std::process::Stdio;
+
+use tests::filter_folder::copy_shipped_filter;
+use tests::text::assert_contains;
 
 use bench::{Bench, assert_done, assert_refused, files_below, stdout};
 
@@ -193,7 +193,7 @@ fn the_number_of_threads_changes_no_byte() {
 #[test]
 fn a_rendered_frame_can_be_blurred_by_any_filter() {
     let bench = Bench::new();
-    assert_done(&bench.shuttertruth(&[
+    bench.done(&[
         "render",
         "--quiet",
         "--out",
@@ -204,7 +204,7 @@ fn a_rendered_frame_can_be_blurred_by_any_filter() {
         "16",
         "--alignments",
         "trailing,centred",
-    ]));
+    ]);
     assert_eq!(
         frame::Truth::read(&bench.path("r/plate/truth_centred.exr"))
             .unwrap()
@@ -226,7 +226,7 @@ fn a_rendered_frame_can_be_blurred_by_any_filter() {
             "--out",
             "blurred.exr",
         ];
-        assert_done(&bench.shuttertruth(&words));
+        bench.done(&words);
         let blurred = frame::read_exr(&bench.path("blurred.exr")).unwrap();
         assert_eq!(
             blurred.color("").unwrap() != frame.color,
@@ -264,7 +264,7 @@ fn an_exr_of_an_engine_needs_only_the_channels_and_an_exposure() {
         &file,
         &["engine.exr: has no attribute \"exposure\"", "--exposure"],
     );
-    assert_done(&bench.shuttertruth(&[&words[..], &["--exposure", "0.5"]].concat()));
+    bench.done(&[&words[..], &["--exposure", "0.5"]].concat());
     fs::remove_file(bench.path("blurred.exr")).unwrap();
     let mut nan = ones.clone();
     nan.pixels[5 * 16 + 3] = f32::NAN;
@@ -284,11 +284,7 @@ fn an_exr_of_an_engine_needs_only_the_channels_and_an_exposure() {
 fn scenes_and_filters_of_ones_own_are_given_by_their_paths() {
     let bench = Bench::new();
     let mine = bench.path("my_blur");
-    fs::create_dir(&mine).unwrap();
-    let shaders = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shaders/velocity_gather");
-    for entry in fs::read_dir(shaders).unwrap().map(Result::unwrap) {
-        fs::copy(entry.path(), mine.join(entry.file_name())).unwrap();
-    }
+    copy_shipped_filter("velocity_gather", &mine);
     let absolute = mine.display().to_string();
     for words in [
         ["--filter", "my_blur"],
@@ -312,26 +308,23 @@ fn list_shows_scenes_filters_parameters_and_presets() {
     let bench = Bench::new();
     let output = bench.shuttertruth(&["list"]);
     assert_done(&output);
-    for words in [
-        "plate",
-        "nothing: it serves",
-        "identity",
-        "velocity_gather",
-        "jump_flood",
-        "paper",
-        "samples",
-        "source: https://github.com/keijiro/KinoMotion at",
-        "differs: Tiles hold 32-bit floats",
-        "published: McGuire, Hennessy, Bukowski and Osman 2012",
-        "made for pictures 1280 pixels wide",
-        ".tile_size = 20 pixels",
-    ] {
-        assert!(
-            stdout(&output).contains(words),
-            "\"{words}\" is missing from:\n{}",
-            stdout(&output)
-        );
-    }
+    assert_contains(
+        &stdout(&output),
+        &[
+            "plate",
+            "nothing: it serves",
+            "identity",
+            "velocity_gather",
+            "jump_flood",
+            "paper",
+            "samples",
+            "source: https://github.com/keijiro/KinoMotion at",
+            "differs: Tiles hold 32-bit floats",
+            "published: McGuire, Hennessy, Bukowski and Osman 2012",
+            "made for pictures 1280 pixels wide",
+            ".tile_size = 20 pixels",
+        ],
+    );
     let output = bench.shuttertruth(&["list", "--json"]);
     let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(json["scenes"][0]["name"], "plate");

@@ -1,8 +1,7 @@
-//! A filter of one's own: the README's works as it stands, and its mistakes say what the README says.
-
-use std::fs;
+//! The README's filter of one's own, and the messages that the README quotes for mistakes in it.
 
 use metrics::Measured;
+use tests::filter_folder::one_kernel_without_parameters;
 
 use crate::bench::{Bench, assert_done, stderr};
 
@@ -22,20 +21,16 @@ fn block(language: &str) -> &'static str {
 
 /// Writes the README's filter, with one word written for another in one of its files.
 fn write(bench: &Bench, change: Option<&Mistake>) {
-    for (name, text) in [
-        ("filter.toml", block("toml")),
-        ("my_blur.wgsl", block("wgsl")),
-    ] {
-        let text = match change {
+    let [manifest, kernels] =
+        [("filter.toml", "toml"), ("my_blur.wgsl", "wgsl")].map(|(name, language)| match change {
             Some(change) if change.file == name => {
+                let text = block(language);
                 assert!(text.contains(change.from), "{name} holds {}", change.from);
                 text.replace(change.from, change.to)
             }
-            _ => text.to_owned(),
-        };
-        fs::create_dir_all(bench.path("my_blur")).unwrap();
-        fs::write(bench.path("my_blur").join(name), text).unwrap();
-    }
+            _ => block(language).to_owned(),
+        });
+    bench.write_filter("my_blur", &manifest, &kernels);
 }
 
 /// A mistake that the README shows: `from` written `to` in a file, and what the program says to it.
@@ -104,28 +99,19 @@ fn each_mistake_says_what_the_readme_says() {
 #[test]
 fn weights_that_depend_on_colour_leave_no_scores_of_mattes_and_say_why() {
     let bench = Bench::new();
-    let toml = "name = 'bright'\nsummary = 'Counts what is bright more.'\nalignment = 'trailing'\n[[pass]]\nentry = 'blur'\n";
-    let wgsl = "\
-@group(0) @binding(2) var color: texture_2d<f32>;
-@group(0) @binding(3) var velocity: texture_2d<f32>;
-@group(0) @binding(4) var output: texture_storage_2d<rgba32float, write>;
-@compute @workgroup_size(8, 8)
-fn blur(@builtin(global_invocation_id) id: vec3<u32>) {
-    let pixel = vec2<i32>(id.xy);
-    if !inside(pixel) { return; }
-    let trail = frame.exposure * textureLoad(velocity, pixel, 0).xy;
+    let toml = "name = 'bright'\nsummary = 'Counts what is bright more.'\nalignment = 'trailing'\n[[pass]]\nentry = 'work'\n";
+    let wgsl = "@group(0) @binding(4) var velocity: texture_2d<f32>;\n".to_owned()
+        + &one_kernel_without_parameters(
+            "let trail = frame.exposure * textureLoad(velocity, pixel, 0).xy;
     var sum = vec4<f32>(0.0);
     for (var tap = 0; tap < 8; tap++) {
         let there = bilinear(color, centre(pixel) + trail * (f32(tap) + 0.5) / 8.0);
         let bright = 1.0 + there.g;
         sum += bright * vec4<f32>(there.rgb, 1.0);
     }
-    textureStore(output, pixel, sum / sum.a);
-}
-";
-    fs::create_dir(bench.path("bright")).unwrap();
-    fs::write(bench.path("bright/filter.toml"), toml).unwrap();
-    fs::write(bench.path("bright/bright.wgsl"), wgsl).unwrap();
+    textureStore(output, pixel, sum / sum.a);",
+        );
+    bench.write_filter("bright", toml, &wgsl);
     assert_done(&bench.run(&["--filters", "identity", "--filter", "bright"]));
     let [identity, bright] = &bench.measured_filters()[..] else {
         panic!("two filters on one scene");

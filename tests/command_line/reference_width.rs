@@ -4,6 +4,7 @@ use std::fs;
 
 use filters::Value;
 use suite::Case;
+use tests::filter_folder::one_kernel;
 
 use crate::bench::{Bench, assert_done, stdout};
 
@@ -27,31 +28,20 @@ doc = "As an engine has it."
 reference_width = 256
 
 [[pass]]
-entry = "average"
+entry = "work"
 "#;
 
-const KERNELS: &str = "
-struct Parameters { radius: i32 }
-@group(0) @binding(1) var<uniform> parameters: Parameters;
-@group(0) @binding(2) var color: texture_2d<f32>;
-@group(0) @binding(3) var output: texture_storage_2d<rgba32float, write>;
-@compute @workgroup_size(8, 8)
-fn average(@builtin(global_invocation_id) id: vec3<u32>) {
-    let pixel = vec2<i32>(id.xy);
-    if !inside(pixel) { return; }
+const BODY: &str = "
     var sum = vec4<f32>(0.0);
     for (var i = 0; i < parameters.radius; i++) {
         sum += bilinear(color, centre(pixel) + vec2<f32>(f32(i), 0.0));
     }
     textureStore(output, pixel, sum / f32(parameters.radius));
-}
 ";
 
 fn bench() -> Bench {
     let bench = Bench::new();
-    fs::create_dir(bench.path("mine")).unwrap();
-    fs::write(bench.path("mine/filter.toml"), MANIFEST).unwrap();
-    fs::write(bench.path("mine/mine.wgsl"), KERNELS).unwrap();
+    bench.write_filter("mine", MANIFEST, &one_kernel("radius: i32", BODY));
     bench
 }
 
@@ -98,7 +88,7 @@ fn a_guard_band_is_not_part_of_the_width() {
         "--out",
     ];
     let blur = |out: &str, more: &[&str]| {
-        assert_done(&bench.shuttertruth(&[&words[..], &[out], more].concat()));
+        bench.done(&[&words[..], &[out], more].concat());
         let file = frame::read_exr(&bench.path(out)).unwrap();
         file.color("").unwrap()
     };
@@ -113,11 +103,8 @@ fn a_guard_band_is_not_part_of_the_width() {
 #[test]
 fn every_command_that_runs_filters_scales_and_can_be_told_not_to() {
     let bench = bench();
-    let json = |words: &[&str]| -> serde_json::Value {
-        let output = bench.shuttertruth(words);
-        assert_done(&output);
-        serde_json::from_slice(&output.stdout).unwrap()
-    };
+    let json =
+        |words: &[&str]| -> serde_json::Value { serde_json::from_str(&bench.done(words)).unwrap() };
     let bench_words = [
         "bench",
         "--filters",
@@ -190,7 +177,7 @@ fn what_tuning_finds_is_meant_for_the_width_it_was_found_at() {
     ];
     let preset = |more: &[&str]| {
         let _ = fs::remove_dir_all(bench.path("tuned"));
-        assert_done(&bench.shuttertruth(&[&words[..], more].concat()));
+        bench.done(&[&words[..], more].concat());
         fs::read_to_string(bench.path("tuned/preset.toml")).unwrap()
     };
     let scaled = preset(&[]);

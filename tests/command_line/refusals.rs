@@ -1,4 +1,4 @@
-//! What is refused, with which words and exit code, and that nothing is left behind.
+//! Refused command lines: their words, their exit codes, and nothing left behind.
 
 use std::fs;
 use std::process::Command;

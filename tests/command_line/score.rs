@@ -1,4 +1,4 @@
-//! Finished pictures, scored by themselves.
+//! `score`: finished pictures without a filter.
 
 use std::fs;
 
@@ -43,7 +43,7 @@ fn without_mattes(bench: &Bench, from: &str, to: &str) {
     write_exr(&bench.path(to), &file).unwrap();
 }
 
-/// Whether a metric is about colours, and so can be told of any picture.
+/// Returns whether a metric is about colours, and so can be told of any picture.
 fn of_colour(metric: &Metric) -> bool {
     matches!(
         metric,
@@ -145,7 +145,7 @@ fn a_guard_band_is_cropped_from_the_picture() {
     let bench = Bench::new();
     let expected = run(&bench, &["--guard-band", "8"]);
     let words = ["blur", "--filter", "velocity_gather:fine", "--out", "b.exr"];
-    assert_done(&bench.shuttertruth(&[&words[..], &FRAME].concat()));
+    bench.done(&[&words[..], &FRAME].concat());
     let found = scores(&bench, "b.exr", &[]);
     assert_eq!(found.moving, expected.moving);
     assert_eq!(found.full, expected.full);
@@ -161,7 +161,7 @@ fn what_does_not_belong_together_is_refused() {
     let bench = Bench::new();
     let words = ["--quiet", "--samples-per-pixel", "16", "--out"];
     let render = |more: &[&str]| {
-        assert_done(&bench.shuttertruth(&[&["render"][..], &words, more].concat()));
+        bench.done(&[&["render"][..], &words, more].concat());
     };
     render(&["out", "--alignments", "trailing,centred"]);
     render(&["short", "--exposure", "0.25"]);
@@ -170,7 +170,7 @@ fn what_does_not_belong_together_is_refused() {
     render(&["out"]);
     let blur = |more: &[&str]| {
         let words = ["blur", "--filter", "velocity_gather", "--out", "b.exr"];
-        assert_done(&bench.shuttertruth(&[&words[..], &FRAME, more].concat()));
+        bench.done(&[&words[..], &FRAME, more].concat());
     };
     let refused = |words: [&str; 6], parts: &[&str]| {
         assert_refused(

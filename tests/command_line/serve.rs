@@ -1,4 +1,4 @@
-//! `serve` and `evaluate`: the search driven from outside.
+//! `serve` and `evaluate`: searches driven from outside.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Write};

@@ -1,4 +1,4 @@
-//! What a terminal shows, and what everything else gets.
+//! Output to a terminal, and to everything else.
 
 use std::fs;
 

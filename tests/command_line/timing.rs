@@ -1,13 +1,14 @@
 //! `shuttertruth bench`.
 
-use std::fs;
+use tests::filter_folder::write_manifest;
+use tests::text::assert_contains;
 
-use crate::bench::{Bench, assert_done, assert_refused, stdout};
+use crate::bench::{Bench, assert_refused};
 
 #[test]
 fn a_bench_prints_tables_and_writes_what_they_show() {
     let bench = Bench::new();
-    let output = bench.shuttertruth(&[
+    let table = bench.done(&[
         "bench",
         "--quiet",
         "--as-written",
@@ -16,32 +17,27 @@ fn a_bench_prints_tables_and_writes_what_they_show() {
         "--filters",
         "jump_flood_packed:paper,identity",
     ]);
-    assert_done(&output);
-    let table = stdout(&output);
-    for words in [
-        "32x16",
-        "quartiles",
-        // The baseline takes part though it was not named.
-        "jump_flood:paper",
-        "jump_flood_packed:paper",
-        "  dilate x 3",
-        "identity:default",
-        "copy of a buffer",
-        "256 / 16",
-        "written: out/bench.json",
-    ] {
-        assert!(
-            table.contains(words),
-            "\"{words}\" is missing from:\n{table}"
-        );
-    }
+    assert_contains(
+        &table,
+        &[
+            "32x16",
+            "quartiles",
+            // The baseline takes part though it was not named.
+            "jump_flood:paper",
+            "jump_flood_packed:paper",
+            "  dilate x 3",
+            "identity:default",
+            "copy of a buffer",
+            "256 / 16",
+            "written: out/bench.json",
+        ],
+    );
 
     // Wherever the line of 80 columns ends.
     let words: Vec<&str> = table.split_whitespace().collect();
     assert!(words.join(" ").contains("of 20 rounds by"), "{table}");
 
-    let json = fs::read(bench.path("out/bench.json")).unwrap();
-    let done: suite::Bench = serde_json::from_slice(&json).unwrap();
+    let done: suite::Bench = bench.read_json("out/bench.json");
     assert_eq!((done.width, done.height, done.rounds), (32, 16, 20));
     let names: Vec<&str> = done.cases.iter().map(|case| &case.filter[..]).collect();
     assert_eq!(names, ["jump_flood", "jump_flood_packed", "identity"]);
@@ -85,9 +81,8 @@ fn a_bench_prints_tables_and_writes_what_they_show() {
 #[test]
 fn what_cannot_be_timed_is_refused() {
     let bench = Bench::new();
-    fs::create_dir(bench.path("outside")).unwrap();
-    let program = "name = 'outside'\nsummary = 'A program.'\nalignment = 'centred'\ncommand = ['cp', '{frame}', '{out}']\n";
-    fs::write(bench.path("outside/filter.toml"), program).unwrap();
+    let program = "command = ['cp', '{frame}', '{out}']";
+    write_manifest(&bench.path("outside"), "outside", program);
     let rows: &[(&[&str], &[&str])] = &[
         (&["--filters", "./outside"], &["outside is a program"]),
         (&["--filters", "jumpflood"], &["jumpflood", "jump_flood"]),
@@ -108,11 +103,9 @@ fn what_cannot_be_timed_is_refused() {
             "{more:?} left something behind"
         );
     }
-    let output = bench
-        .command(&["bench"])
-        .env("VK_DRIVER_FILES", "/no/driver.json")
-        .env("VK_ICD_FILENAMES", "/no/driver.json")
-        .output()
-        .unwrap();
-    assert_refused(&output, 3, &["mesa-vulkan-drivers"]);
+    assert_refused(
+        &bench.without_adapter(&["bench"]),
+        3,
+        &["mesa-vulkan-drivers"],
+    );
 }

@@ -1,4 +1,4 @@
-//! What kind of frame a filter is given.
+//! Kinds of frames that filters get.
 
 use crate::bench::{Bench, assert_done, assert_refused};
 

@@ -3,7 +3,7 @@
 use frame::{FAR_DEPTH, Image, Plane, Raster, Vectors};
 use tests::random::Random;
 
-/// What a frame holds beside its provenance.
+/// Content of a frame beside its provenance.
 pub struct Field {
     pub color: Image,
     /// Pixels per frame.

@@ -1,4 +1,4 @@
-//! The packed jump flood paints what the jump flood paints.
+//! Equality of the packed jump flood and the jump flood.
 
 use crate::fields::{Field, noise, rectangles};
 use filters::{Blur, Filter, Gpu, Input, Settings};
@@ -105,7 +105,7 @@ struct Painted {
     output: Image,
     /// Column and row of the pixel that the flood found for each.
     seeds: Vec<[u32; 2]>,
-    /// Of the tiles, how many a trail may reach.
+    /// Number of tiles that a trail may reach.
     reached: Option<(usize, usize)>,
 }
 

@@ -1,4 +1,4 @@
-//! What is said about the cost of passes. How long they take depends on the machine, and is not tested.
+//! Reports of what passes cost. The times themselves depend on the machine, and no test looks at them.
 
 use filters::{Blur, BufferCopy, Clock, Filter, Gpu, Input};
 use frame::Raster;

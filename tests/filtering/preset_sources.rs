@@ -1,6 +1,8 @@
-//! What a preset says of where it comes from, and the pictures that it was made for.
+//! Sources of presets, and the width of pictures that a preset was made for.
 
 use filters::{Filter, FilterError, Settings, Value};
+use tests::filter_folder::{load_filter, one_kernel};
+use tests::text::assert_contains;
 
 const COMMIT: &str = "0123456789abcdef0123456789abcdef01234567";
 
@@ -50,31 +52,22 @@ name = "anywhere"
 doc = "The same in pixels at every width."
 
 [[pass]]
-entry = "copy"
+entry = "work"
 "#;
 
-const KERNELS: &str = "
-struct Parameters { tile_size: i32, threshold: f32, samples: i32 }
-@group(0) @binding(1) var<uniform> parameters: Parameters;
-@group(0) @binding(2) var color: texture_2d<f32>;
-@group(0) @binding(3) var output: texture_storage_2d<rgba32float, write>;
-@compute @workgroup_size(8, 8)
-fn copy(@builtin(global_invocation_id) id: vec3<u32>) {
-    if inside(vec2<i32>(id.xy)) {
-        let used = f32(parameters.tile_size) + parameters.threshold + f32(parameters.samples);
-        textureStore(output, id.xy, textureLoad(color, id.xy, 0) + 0.0 * used);
-    }
+fn load(manifest: &str) -> Result<Filter, FilterError> {
+    let kernels = one_kernel(
+        "tile_size: i32, threshold: f32, samples: i32",
+        "let used = f32(parameters.tile_size) + parameters.threshold + f32(parameters.samples);
+        textureStore(output, pixel, textureLoad(color, pixel, 0) + 0.0 * used);",
+    );
+    load_filter("still", manifest, &kernels)
 }
-";
 
 /// Loads the filter with one piece of its filter.toml replaced.
 fn load_changed(from: &str, to: &str) -> Result<Filter, FilterError> {
-    let folder = tempfile::tempdir().unwrap();
     assert!(MANIFEST.contains(from), "the filter holds \"{from}\"");
-    let manifest = MANIFEST.replacen(from, to, 1);
-    std::fs::write(folder.path().join("filter.toml"), manifest).unwrap();
-    std::fs::write(folder.path().join("still.wgsl"), KERNELS).unwrap();
-    Filter::load(folder.path())
+    load(&MANIFEST.replacen(from, to, 1))
 }
 
 fn filter() -> Filter {
@@ -132,32 +125,18 @@ fn a_wrong_source_says_where_and_what() {
         ("range = [1, 64]\n", "range = [1, 64]\nunit = \"metres\"\n", &["filter.toml:27", "metres", "pixels"]),
     ];
     for (from, to, parts) in cases {
-        let message = load_changed(from, to).unwrap_err().to_string();
-        for part in parts {
-            assert!(
-                message.contains(part),
-                "{to:?}: \"{part}\" is missing from: {message}"
-            );
-        }
+        println!("{from:?} becomes {to:?}");
+        assert_contains(&load_changed(from, to).unwrap_err().to_string(), parts);
     }
 }
 
 #[test]
 fn only_what_has_pixels_can_be_scaled() {
-    let folder = tempfile::tempdir().unwrap();
-    let refused = |manifest: &str, parts: &[&str]| {
-        std::fs::write(folder.path().join("filter.toml"), manifest).unwrap();
-        std::fs::write(folder.path().join("still.wgsl"), KERNELS).unwrap();
-        let message = Filter::load(folder.path()).unwrap_err().to_string();
-        for part in parts {
-            assert!(
-                message.contains(part),
-                "\"{part}\" is missing from: {message}"
-            );
-        }
+    let refuse = |manifest: &str, parts: &[&str]| {
+        assert_contains(&load(manifest).unwrap_err().to_string(), parts);
     };
     let without = MANIFEST.replace("unit = \"pixels\"\n", "");
-    refused(
+    refuse(
         &without,
         &[
             "filter.toml:30",
@@ -167,7 +146,7 @@ fn only_what_has_pixels_can_be_scaled() {
     );
     let choice = "kind = \"choice\"\nchoices = [\"a\", \"b\"]\ndefault = \"a\"\n";
     let number = "kind = \"integer\"\ndefault = 20\nrange = [2, 256]\n";
-    refused(
+    refuse(
         &MANIFEST.replace(number, choice),
         &["tile_size", "a choice is counted in nothing"],
     );

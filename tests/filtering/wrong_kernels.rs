@@ -1,9 +1,8 @@
-//! Kernels that would make a wrong picture are refused with their place: none is scored.
-
-use std::path::Path;
+//! Kernels that would make a wrong picture: each is refused with its place, and none is scored.
 
 use filters::{Blur, Filter, FilterError, Gpu, Input};
 use frame::{Image, Raster};
+use tests::filter_folder::{load_filter, one_kernel};
 
 const MANIFEST: &str = r#"
 name = "wrong"
@@ -22,34 +21,15 @@ doc = "Loop iterations; more take longer."
 entry = "work"
 "#;
 
-const KERNELS: &str = "
-struct Parameters {
-    steps: i32,
-}
-@group(0) @binding(1) var<uniform> parameters: Parameters;
-@group(0) @binding(2) var color: texture_2d<f32>;
-@group(0) @binding(3) var output: texture_storage_2d<rgba32float, write>;
-
-@compute @workgroup_size(8, 8)
-fn work(@builtin(global_invocation_id) id: vec3<u32>) {
-    let pixel = vec2<i32>(id.xy);
-    if !inside(pixel) { return; }
-    BODY
-}
-";
-
 /// Loads a filter with one kernel around `body`, which takes at most `limit` seconds.
-fn load(folder: &Path, body: &str, limit: f64) -> Filter {
+fn load(body: &str, limit: f64) -> Filter {
     let manifest = MANIFEST.replace("LIMIT", &limit.to_string());
-    std::fs::write(folder.join("filter.toml"), manifest).unwrap();
-    std::fs::write(folder.join("wrong.wgsl"), KERNELS.replace("BODY", body)).unwrap();
-    Filter::load(folder).unwrap()
+    load_filter("wrong", &manifest, &one_kernel("steps: i32", body)).unwrap()
 }
 
-/// What comes of `body` with that many steps, on a grey picture of 40x20 pixels.
-fn blurred(gpu: &Gpu, body: &str, steps: i64, limit: f64) -> Result<Vec<Image>, FilterError> {
-    let folder = tempfile::tempdir().unwrap();
-    let filter = load(folder.path(), body, limit);
+/// Runs `body` with that many steps on a grey picture of 40x20 pixels.
+fn blur(gpu: &Gpu, body: &str, steps: i64, limit: f64) -> Result<Vec<Image>, FilterError> {
+    let filter = load(body, limit);
     let mut settings = filter.settings(None).unwrap();
     settings.set(&filter, "steps", &steps.to_string()).unwrap();
     let (width, height) = (40, 20);
@@ -89,21 +69,21 @@ fn loops_that_the_adapter_ends_early_are_refused_and_shorter_ones_are_whole() {
     let gpu = Gpu::new(None).expect("this test runs filters");
     let Some(limit) = gpu.loop_limit else {
         // An adapter without a limit counts to the end.
-        let output = blurred(&gpu, COUNT, 1_000_000, 60.0).unwrap();
+        let output = blur(&gpu, COUNT, 1_000_000, 60.0).unwrap();
         assert_eq!(output[0].at(39, 19)[0], 1e6);
         return;
     };
     println!("{limit:?}");
     // The iteration that finds the end counts as well.
     let longest = i64::from(limit.safe()) - 2;
-    let output = blurred(&gpu, COUNT, longest, 60.0).unwrap();
+    let output = blur(&gpu, COUNT, longest, 60.0).unwrap();
     assert_eq!(output[0].at(39, 19)[0], longest as f32);
     for steps in [
         i64::from(limit.safe()),
         i64::from(limit.iterations) + 1,
         200_000,
     ] {
-        let text = refusal(blurred(&gpu, COUNT, steps, 60.0));
+        let text = refusal(blur(&gpu, COUNT, steps, 60.0));
         for part in [
             "filter wrong, pass work",
             &limit.iterations.to_string(),
@@ -131,8 +111,8 @@ fn iterations_of_all_loops_and_functions_count_together() {
     textureStore(output, pixel, vec4<f32>(f32(value & 255u)));
     ";
     let side = f64::from(limit.safe()).sqrt() as i64;
-    blurred(&gpu, nested, side / 2, 60.0).unwrap();
-    assert!(refusal(blurred(&gpu, nested, side + 1, 60.0)).contains("loop iterations"));
+    blur(&gpu, nested, side / 2, 60.0).unwrap();
+    assert!(refusal(blur(&gpu, nested, side + 1, 60.0)).contains("loop iterations"));
 }
 
 #[test]
@@ -142,7 +122,7 @@ fn a_pixel_that_no_pass_writes_is_named() {
     if pixel.y == 7 && pixel.x >= 12 { return; }
     textureStore(output, pixel, textureLoad(color, pixel, 0));
     ";
-    let text = refusal(blurred(&gpu, body, 1, 60.0));
+    let text = refusal(blur(&gpu, body, 1, 60.0));
     assert!(text.contains("pass work"), "{text}");
     assert!(
         text.contains("pixel (12, 7) of the output unwritten"),
@@ -159,8 +139,8 @@ fn a_pixel_that_is_not_finite_is_named() {
     if pixel.y == 3 && pixel.x == 5 { grey = grey / zero; }
     textureStore(output, pixel, grey);
     ";
-    blurred(&gpu, body, 1, 60.0).unwrap();
-    let text = refusal(blurred(&gpu, body, 0, 60.0));
+    blur(&gpu, body, 1, 60.0).unwrap();
+    let text = refusal(blur(&gpu, body, 0, 60.0));
     assert!(text.contains("to pixel (5, 3)"), "{text}");
     assert!(text.contains("finite"), "{text}");
 }
@@ -169,7 +149,7 @@ fn a_pixel_that_is_not_finite_is_named() {
 fn a_pass_that_takes_too_long_is_given_up_with_its_name() {
     let gpu = Gpu::new(None).expect("this test runs filters");
     // Far more work than a hundredth of a second allows, in loops that are no longer than allowed.
-    let text = refusal(blurred(&gpu, COUNT, 8000, 1e-4));
+    let text = refusal(blur(&gpu, COUNT, 8000, 1e-4));
     for part in [
         "filter wrong, pass work",
         "took longer than 0.0001 s",

@@ -16,7 +16,7 @@ use crate::worker::MARK;
 /// Address space of a worker, and of every program that it starts, in KiB.
 pub const MEMORY: u64 = 4 << 20;
 
-/// What all workers have in common.
+/// Settings that all workers have in common.
 pub struct Terms<'a> {
     /// Folder of the [`fixture`](crate::fixture).
     pub fixture: &'a Path,
@@ -30,13 +30,13 @@ pub struct Terms<'a> {
 pub struct Failed {
     /// Its number.
     pub case: u64,
-    /// How it failed.
+    /// Kind of failure.
     pub how: How,
-    /// What was tried.
+    /// Case that was tried.
     pub input: Vec<u8>,
 }
 
-/// How a worker ended.
+/// End of a worker.
 pub struct Ended {
     /// The case that failed; none where all were tried.
     pub failed: Option<Failed>,
@@ -124,7 +124,7 @@ fn start(target: &Target, words: &[String], terms: &Terms, stderr: File) -> Chil
         .expect("sh can be started")
 }
 
-/// What the worker says, line by line.
+/// Lines that the worker prints.
 fn lines(child: &mut Child) -> Receiver<String> {
     let out = child.stdout.take().expect("its output is a pipe");
     let (sender, receiver) = channel();

@@ -1,4 +1,4 @@
-//! Batch after batch in worker processes, on all cores.
+//! Batches of cases in worker processes, on all cores.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -25,7 +25,7 @@ const MOST_FAILURES: u64 = 40;
 /// Rounds of a campaign by time, to which every target adds a part of its share.
 const PARTS: u64 = 10;
 
-/// What became of one target.
+/// Result of one target.
 #[derive(Default)]
 pub struct Tally {
     /// Cases tried.
@@ -38,12 +38,12 @@ pub struct Tally {
     pub slowest: (Duration, u64),
 }
 
-/// What was found.
+/// Result of a campaign.
 #[derive(Default)]
 pub struct Found {
-    /// By target and [kind](How::kind).
+    /// Failures by target and [kind](How::kind).
     pub failures: BTreeMap<(&'static str, String), Failure>,
-    /// By target.
+    /// Results by target.
     pub tallies: BTreeMap<&'static str, Tally>,
 }
 
@@ -172,7 +172,7 @@ impl Found {
         self.failures.insert(key, failure);
     }
 
-    /// How each failure happened, by target.
+    /// Returns how each failure happened, by target.
     pub fn hows(&self, target: &str) -> Vec<&How> {
         let own = self.failures.values();
         own.filter(|failure| failure.target.name == target)

@@ -1,4 +1,4 @@
-//! What was found.
+//! Failures that the fuzzer found.
 
 use std::fmt::{self, Display};
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use crate::target::Target;
 
-/// How a case failed.
+/// Failure of a case.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum How {
     /// A panic: its place and message.
@@ -43,20 +43,20 @@ impl How {
 
 /// The first input that failed in some way.
 pub struct Failure {
-    /// Whose input.
+    /// Name of the target.
     pub target: &'static Target,
-    /// How it failed.
+    /// Kind of failure.
     pub how: How,
-    /// Where it is kept.
+    /// File that keeps the input.
     pub path: PathBuf,
     /// Its number.
     pub case: u64,
-    /// How many inputs failed alike.
+    /// Number of inputs that failed alike.
     pub count: u64,
 }
 
 impl Failure {
-    /// What was found, and how to see it again.
+    /// Describes the failure, and how to see it again.
     pub fn text(&self, seed: u64) -> String {
         format!(
             "fuzz: {target}: {how} ({count} inputs; the first is case {case} of seed {seed})\n  input: {path}\n  \

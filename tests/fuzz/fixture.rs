@@ -1,13 +1,15 @@
-//! Real files of every kind, made by the program itself before the first case: so they always have today's layout.
+//! Real files of every kind. The program itself makes them before the first case, so they always have today's layout.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use tests::plate::{MTL, OBJ};
+
 /// The program that is fuzzed.
 pub const PROGRAM: &str = env!("CARGO_BIN_EXE_shuttertruth");
 
-/// How all of its pictures are rendered.
+/// Options that all of its pictures are rendered with.
 pub const RENDER: [&str; 7] = [
     "--quiet",
     "--scenes",
@@ -17,19 +19,6 @@ pub const RENDER: [&str; 7] = [
     "--samples-per-pixel",
     "16",
 ];
-
-const OBJ: &str = "\
-mtllib plate.mtl
-v -0.5 -0.5 0
-v 0.5 -0.5 0
-v 0.5 0.5 0
-v -0.5 0.5 0
-usemtl paint
-f 1 2 3
-f 1 3 4
-";
-
-const MTL: &str = "newmtl paint\nKd 0 0 0\nKe 0.7 0.4 0.2\n";
 
 const SCENE: &str = "\
 exposes = \"nothing: it serves the fuzzer\"
@@ -85,7 +74,7 @@ impl Fixture {
         fixture
     }
 
-    /// Where it lies.
+    /// Returns its folder.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }

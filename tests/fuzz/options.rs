@@ -1,4 +1,4 @@
-//! The words behind `cargo test --test fuzz --`.
+//! Options of the fuzzer: the words behind `cargo test --test fuzz --`.
 
 use std::ops::Range;
 use std::path::PathBuf;
@@ -9,7 +9,7 @@ use crate::target::{Target, find};
 /// Cases of one pass of the tests, over all targets.
 pub const CASES: u64 = 20_000;
 
-/// What to do.
+/// Task of this process.
 pub enum Options {
     /// The words ask for other tests.
     Nothing,
@@ -21,9 +21,9 @@ pub enum Options {
     Work(Work),
 }
 
-/// How to fuzz.
+/// Settings of a campaign.
 pub struct Plan {
-    /// What to fuzz.
+    /// Names of the targets.
     pub targets: Vec<&'static Target>,
     /// Cases of all targets together, were all of them chosen.
     pub cases: u64,
@@ -35,15 +35,15 @@ pub struct Plan {
 
 /// One input to try.
 pub struct Input {
-    /// Whose.
+    /// Name of the target.
     pub target: &'static Target,
     /// Its file.
     pub path: PathBuf,
 }
 
-/// What a worker does.
+/// Task of a worker.
 pub struct Work {
-    /// Whose inputs.
+    /// Name of the target.
     pub target: &'static Target,
     /// Folder of the [`fixture`](crate::fixture).
     pub fixture: PathBuf,
@@ -53,7 +53,7 @@ pub struct Work {
 
 /// Inputs of a worker.
 pub enum Inputs {
-    /// Those that the seed makes.
+    /// Inputs that the seed makes.
     Made {
         /// Chooses the inputs.
         seed: u64,
@@ -62,7 +62,7 @@ pub enum Inputs {
         /// The file that each is kept in while it is tried.
         kept: PathBuf,
     },
-    /// That of a file.
+    /// Input of a file.
     File(PathBuf),
 }
 

@@ -1,4 +1,4 @@
-//! Where a worker's cases run.
+//! Folder in which a worker's cases run.
 
 use std::fs;
 use std::os::unix::fs::FileTypeExt;
@@ -10,7 +10,7 @@ use suite::FilterChoice;
 use crate::fixture;
 use crate::targets::Service;
 
-/// What lies beside the folder of a case, and no case may change.
+/// File beside the folder of a case, which no case may change.
 const CANARY: &str = "this file belongs to nobody's run";
 
 /// A folder that vanishes with the value, and what is kept from case to case.
@@ -18,7 +18,7 @@ pub struct Place {
     _keep: tempfile::TempDir,
     /// The cases' own folder.
     pub folder: PathBuf,
-    /// What the program wrote before the first case.
+    /// Files that the program wrote before the first case.
     pub fixture: PathBuf,
     /// Opened once.
     pub gpu: Option<Gpu>,

@@ -28,7 +28,7 @@ impl Random {
         self.below(count) == 0
     }
 
-    /// From 1 to `most`; small numbers are as likely as large ones.
+    /// Draws a number from 1 to `most`; small numbers are as likely as large ones.
     pub fn magnitude(&mut self, most: usize) -> usize {
         let bits = 1 + self.below(most.ilog2() as usize + 1);
         (1 + self.below(1 << bits)).min(most)

@@ -11,7 +11,7 @@ const LONGEST: usize = 200_000;
 
 /// An input to begin with.
 pub enum Seed {
-    /// As it is, and changed.
+    /// Tried as it is, and changed.
     Bytes(Vec<u8>),
     /// Made when it is needed, and tried as it is.
     Made(fn() -> Vec<u8>),
@@ -57,7 +57,7 @@ fn corpus() -> PathBuf {
     in_repository("tests/fuzz/corpus")
 }
 
-/// What lies in a folder, by name; nothing where there is none.
+/// Reads the files of a folder, by name; none where there is no folder.
 fn files(folder: &Path) -> impl Iterator<Item = PathBuf> + use<> {
     let entries = fs::read_dir(folder).into_iter().flatten();
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();

@@ -1,4 +1,4 @@
-//! A fuzzer that finds nothing must be able to: inputs that fail on purpose are found, each for what it is.
+//! Self-test of the fuzzer: it finds the inputs that fail on purpose, and names each kind of failure rightly.
 
 use std::path::Path;
 use std::time::Duration;

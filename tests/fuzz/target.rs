@@ -1,4 +1,4 @@
-//! What is fuzzed.
+//! A target of the fuzzer.
 
 use crate::place::Place;
 use crate::seeds::Seed;
@@ -8,11 +8,11 @@ use crate::targets;
 pub struct Target {
     /// Also the folder of its corpus, and its word on the command line.
     pub name: &'static str,
-    /// Of 20,000 cases, how many are its own.
+    /// Number of its cases among 20,000.
     pub share: u64,
     /// Cases of one worker process: many where a case takes little time.
     pub batch: u64,
-    /// How inputs are changed.
+    /// Changes that its inputs undergo.
     pub shape: Shape,
     /// Words that are worth trying somewhere in an input.
     pub tokens: &'static [&'static str],
@@ -22,7 +22,7 @@ pub struct Target {
     pub run: fn(&mut Place, &[u8]),
 }
 
-/// How inputs are changed.
+/// Kind of changes to inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// Lines of words and numbers.

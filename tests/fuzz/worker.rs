@@ -1,4 +1,4 @@
-//! The process that cases run in. Whatever ends it ends nothing else.
+//! The process that cases run in. Its end ends nothing else.
 
 use std::any::Any;
 use std::io::Write;

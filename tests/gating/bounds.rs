@@ -1,4 +1,4 @@
-//! The shipped bounds tell a blur from none: on every shipped scene where something moves.
+//! Shipped bounds that tell a blur from none on every scene where something moves, and the rules of bounds.
 
 use std::fs;
 use std::path::Path;
@@ -7,6 +7,7 @@ use cli::{Programs, SceneChoice};
 use frame::{Alignment, Picture};
 use metrics::{Measured, Metric, Reference};
 use suite::{Judged, Level, Monitor, Outcome, RenderSettings, SceneBounds};
+use tests::text::assert_contains;
 
 use crate::kept_truths;
 
@@ -283,12 +284,7 @@ fn bounds_that_mean_nothing_are_refused_with_file_and_line() {
     ];
     for (beside_scenes, beside_scene, parts) in rows {
         let message = read(beside_scenes, beside_scene).unwrap_err();
-        for part in *parts {
-            assert!(
-                message.contains(part),
-                "\"{part}\" is missing from: {message}"
-            );
-        }
+        assert_contains(&message, &parts);
     }
 }
 

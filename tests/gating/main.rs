@@ -1,4 +1,4 @@
-//! Bounds, and presets that are tuned and held to them.
+//! Bounds, tuning, and tuned presets.
 
 mod bounds;
 mod planted_defects;

@@ -1,4 +1,4 @@
-//! Image error and edge bleed of the filters that people will compare with stay where they were measured, on every scene.
+//! Required bounds of the filters that people will compare with, on every scene.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use suite::{
 
 use crate::kept_truths;
 
-/// What is bounded there.
+/// Filters with required bounds.
 const GUARDED: [&str; 4] = [
     "jump_flood:paper",
     "jump_flood:corrected",

@@ -1,4 +1,4 @@
-//! What tuning found is better than what was published, on scenes that it was not tuned on.
+//! Tuned presets against published ones, on scenes that the tuning never met.
 
 use std::path::Path;
 

@@ -23,7 +23,7 @@ pub struct Browser {
     socket: WebSocket<TcpStream>,
     session: Option<String>,
     calls: u64,
-    /// What happened, in order: objects with `method` and `params`.
+    /// Events in order: objects with `method` and `params`.
     pub events: Vec<Value>,
     _profile: tempfile::TempDir,
 }
@@ -147,7 +147,7 @@ impl Browser {
         [0, 1, 2, 3].map(|at| place[at].as_f64().unwrap())
     }
 
-    /// What an element looks like, as PNG.
+    /// Takes a PNG of an element.
     pub fn picture(&mut self, selector: &str) -> Vec<u8> {
         let [x, y, width, height] = self.place(selector);
         let [left, top] = ["scrollX", "scrollY"].map(|name| self.value(name).as_f64().unwrap());
@@ -256,7 +256,7 @@ fn program() -> PathBuf {
     })
 }
 
-/// Where Chromium listens, which it says once it does.
+/// Reads the address that Chromium listens at.
 fn address(process: &mut Child) -> String {
     let mut said = Vec::new();
     let mut lines = BufReader::new(process.stderr.take().unwrap()).lines();
@@ -272,7 +272,7 @@ fn address(process: &mut Child) -> String {
     panic!("Chromium ended before it listened: {}", said.join("\n"));
 }
 
-/// As a browser's address line has it.
+/// Writes a path as a browser's address line does.
 pub fn address_of(page: &Path) -> String {
     let path = page.to_str().unwrap();
     let escaped: String = (path.chars())

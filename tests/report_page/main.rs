@@ -1,4 +1,4 @@
-//! A report in a real browser: what a person sees, points at and presses.
+//! Reports in a real browser: pictures, pointer and keys.
 
 #[path = "../command_line/bench.rs"]
 #[expect(dead_code, reason = "the tests of the command line need more of it")]
@@ -9,6 +9,7 @@ mod numbers;
 use std::path::PathBuf;
 
 use report::{LARGEST_PAGE, report};
+use tests::text::assert_contains;
 
 use bench::{Bench, assert_done};
 use browser::{Browser, address_of};
@@ -208,19 +209,17 @@ fn a_broken_bound_is_seen_with_its_place_and_its_pictures() {
     let section = browser.text(&format!(
         "document.querySelector('#case-{number} .verdicts').innerText"
     ));
-    for words in [
-        "Why it failed",
-        "BROKEN flip_moving 0.2",
-        "it serves a test",
-        "no_blur",
-        "95 % CI",
-        "noise floor",
-    ] {
-        assert!(
-            section.contains(words),
-            "\"{words}\" is missing from: {section}"
-        );
-    }
+    assert_contains(
+        &section,
+        &[
+            "Why it failed",
+            "BROKEN flip_moving 0.2",
+            "it serves a test",
+            "no_blur",
+            "95 % CI",
+            "noise floor",
+        ],
+    );
     // Truth, output and error are drawn, and no two of them are alike.
     let canvas = |at: usize| {
         format!("document.querySelectorAll('#case-{number} .crop canvas')[{at}].toDataURL()")

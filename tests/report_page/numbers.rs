@@ -1,4 +1,4 @@
-//! The numbers behind the pictures: what a pixel is said to be is what the files hold.
+//! Numbers behind the pictures: the page's readout of a pixel is what the files hold.
 
 use std::fs;
 use std::path::Path;
@@ -38,7 +38,7 @@ fn channels(files: &[ExrFile; 4]) -> Vec<(&'static str, &ExrFile, Vec<&'static s
     ]
 }
 
-/// What a run left of a case: truth, output, frame, errors.
+/// Files of a case: truth, output, frame, errors.
 fn files_of(bench: &Bench, case: &Case) -> [ExrFile; 4] {
     let own = bench.path("out").join(&case.folder);
     let scene = bench.path("out").join(&case.scene);
@@ -125,7 +125,7 @@ fn assert_near(bench: &Bench, page: &Path, browser: &mut Browser, digits: &Digit
     assert_eq!(browser.complaints(), [""; 0]);
 }
 
-/// How far a number may be from the file's: in parts of it, and for shares half a step more.
+/// Returns how far a number may be from the file's: in parts of it, and for shares half a step more.
 struct Digits {
     part: f32,
     step: f32,

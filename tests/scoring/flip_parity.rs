@@ -1,5 +1,6 @@
-//! FLIP equals the reference tool, flip-evaluator 1.7, on pictures made by formula: `fixtures/flip/make.py` makes the same
-//! ones and stores what the tool says.
+//! Parity of FLIP with the reference tool, flip-evaluator 1.7, on pictures made by formula.
+//!
+//! `fixtures/flip/make.py` makes the same pictures and stores what the tool says.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +11,7 @@ use serde::Deserialize;
 /// An integer from 0 to 256 by column, row and channel.
 type Formula = fn(u32, u32, u32) -> u32;
 
-/// What the reference tool says about one pair.
+/// Answer of the reference tool about one pair.
 #[derive(Deserialize)]
 struct Expected {
     mean: f64,

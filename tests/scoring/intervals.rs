@@ -1,4 +1,4 @@
-//! The interval of a score holds what the score converges to: counted over many noisy truths.
+//! Intervals of scores, counted over many noisy truths: they hold what the score converges to.
 
 use std::path::Path;
 
@@ -112,7 +112,7 @@ fn moved(picture: &Picture) -> Picture {
     }
 }
 
-/// How many of the intervals of a metric hold the score that it converges to.
+/// Counts the intervals of a metric that hold the score that it converges to.
 fn held(metric: &str, (found, converged): &Found) -> usize {
     let expected = converged.get(metric.parse().unwrap()).value().unwrap();
     (found.iter().map(|intervals| &intervals[metric]))

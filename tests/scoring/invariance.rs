@@ -1,4 +1,4 @@
-//! What the scores do not depend on: the picture's orientation, whole pixels, object numbers, threads.
+//! Independence of scores from orientation, shifts by whole pixels, object numbers and threads.
 
 use frame::{AtInstant, Frame, Image, Picture, Raster, Support, Truth};
 use metrics::{Measured, Measurement, Metric, ObjectMetric, Scores, Viewing, measure};

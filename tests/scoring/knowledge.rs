@@ -1,4 +1,4 @@
-//! What one frame can know, what a filter gathers, and what a picture is worth beside doing nothing.
+//! Knowledge of one frame, taps of a filter, and skill over doing nothing.
 
 use frame::{Frame, Image, Picture, Raster, Region, Truth};
 use metrics::{Measured, Metric, Probes, Reference, Scores, regions};
@@ -186,7 +186,7 @@ fn skill_does_not_apply_where_the_oracle_is_no_better_than_doing_nothing_or_is_n
     }
 }
 
-/// What a gather makes of the probes that takes `taps` (offset in whole pixels, weight) at every pixel.
+/// Returns the probes after a gather that takes `taps` (offset in whole pixels, weight) at every pixel.
 fn gathered(taps: &[([i32; 2], f32)]) -> Probes {
     // Far enough from the border that no tap leaves the picture there.
     let images = Probes::images(72, 48);

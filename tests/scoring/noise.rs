@@ -1,5 +1,6 @@
-//! Noise in the truth, in the ladder and in a picture: errors are unbiased, floors are what noise makes of a score, and an
-//! accumulation of N sub-frames is found to be one of N.
+//! Noise in the truth, in the ladder and in a picture.
+//!
+//! Errors are unbiased, floors are what noise makes of a score, and an accumulation of N sub-frames is found to be one of N.
 
 use std::sync::LazyLock;
 

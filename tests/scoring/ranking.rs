@@ -1,4 +1,4 @@
-//! Who is best: within a shutter by FLIP, across shutters by skill.
+//! Ranking of filters: within a shutter by FLIP, across shutters by skill.
 
 use std::collections::BTreeMap;
 
@@ -8,13 +8,13 @@ use suite::{Case, FORMAT, InputFormat, Overall, Run, overall};
 use tests::synthetic::{Object, Sampling, Scene, Shape, VIEWING};
 use tracer::Family;
 
-/// How hard the scenes of a run are, beside one another.
+/// Difficulty of a run's scenes relative to one another.
 const SCENES: [f64; 5] = [0.6, 0.8, 1.0, 1.2, 1.4];
 
 /// A filter or bar: its alignment, and its mean FLIP and FLIP*.
 type Entry = (&'static str, bool, &'static str, f64, f64);
 
-/// As on the five scenes of `make run`.
+/// Difficulties of the five scenes of `make run`.
 const ENTRIES: [Entry; 7] = [
     ("identity", true, "trailing", 0.270, 0.154),
     ("scatter_oracle", true, "trailing", 0.050, 0.120),

@@ -1,4 +1,4 @@
-//! The bar that the suite sets: right wherever one frame with straight motion tells what is right.
+//! The bar `scatter_oracle`: right wherever one frame with straight motion tells what is right.
 
 use frame::{Efficiency, Frame, Image, Picture, Raster, Shutter, ShutterProfile, Vectors};
 use suite::scatter_oracle;

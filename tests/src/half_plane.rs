@@ -1,4 +1,4 @@
-//! How much of a pixel a half-plane covers, at one time and over a shutter.
+//! Coverage of a pixel by a half-plane, at one time and over a shutter.
 
 use frame::Shutter;
 use glam::DVec2;

@@ -1,6 +1,6 @@
-//! What every filter averages on a surface that moves evenly, from what was published about it, in closed form.
+//! The taps of every filter on a surface that moves evenly: a closed form, from what was published about each.
 //!
-//! There all taps lie on one surface, and what remains of a filter is where they lie and how their weights fall off.
+//! All taps lie on one surface there. What remains of a filter is the places and weights of its taps.
 
 mod gathers;
 mod jimenez;
@@ -27,7 +27,7 @@ pub struct Steady {
 pub struct Tap {
     /// Pixels from the one that the average is for.
     pub offset: [f64; 2],
-    /// How much it counts.
+    /// Weight.
     pub weight: f64,
 }
 
@@ -57,7 +57,7 @@ pub fn expected_ramp(filter: &str, preset: &str, steady: &Steady) -> Ramp {
     Ramp::spread(averages.flatten())
 }
 
-/// What one pixel averages where its noise has a value in [0, 1).
+/// Returns the taps of one pixel whose noise has a value in [0, 1).
 pub fn taps(filter: &str, preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     match filter {
         "identity" => vec![own(1.0)],
@@ -73,7 +73,7 @@ pub fn taps(filter: &str, preset: &str, steady: &Steady, noise: f64) -> Vec<Tap>
     }
 }
 
-/// How far along the motion an offset goes, in pixels.
+/// Returns the part of an offset along the motion, in pixels.
 pub fn along_motion(steady: &Steady, offset: [f64; 2]) -> f64 {
     dot(offset, direction(steady.velocity))
 }
@@ -126,7 +126,7 @@ fn scaled(a: [f64; 2], factor: f64) -> [f64; 2] {
     a.map(|component| component * factor)
 }
 
-/// Of length 1; any for what stands still.
+/// Scales a vector to length 1; (1, 0) where it has no length.
 fn direction(a: [f64; 2]) -> [f64; 2] {
     match length(a) {
         0.0 => [1.0, 0.0],

@@ -1,11 +1,11 @@
-//! Small frames of surfaces that move to one side each, and what a filter makes of them.
+//! Small frames of surfaces that move to one side each, and their blurs.
 
 use filters::{Blur, Filter, Gpu, Input, Settings};
 use frame::{Image, Plane, Raster, Vectors};
 
 use crate::ramp::Ramp;
 
-/// What is seen at a pixel.
+/// A surface, as a pixel sees it.
 #[derive(Clone, Copy)]
 pub struct Surface {
     /// Grey value.
@@ -32,7 +32,7 @@ pub const fn white(speed: f32) -> Surface {
     }
 }
 
-/// What a filter is given.
+/// Input of a filter.
 pub struct Picture {
     /// Scene-linear.
     pub color: Image,
@@ -55,7 +55,7 @@ impl Picture {
         }
     }
 
-    /// With these colours in the place of its own.
+    /// Makes the input of a filter with these colours instead of its own.
     pub fn input<'a>(&'a self, color: &'a [&'a Image]) -> Input<'a> {
         Input {
             color,
@@ -76,7 +76,7 @@ impl Picture {
         blur.run(&self.input(&[&self.color])).unwrap().remove(0)
     }
 
-    /// What a filter leaves in one of its textures.
+    /// Runs a filter; returns one of its textures.
     pub fn texture(
         &self,
         filter: &str,

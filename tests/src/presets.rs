@@ -21,7 +21,7 @@ pub fn every_preset() -> Vec<(Filter, Settings)> {
         .collect()
 }
 
-/// How a test calls them.
+/// Names a preset as a test's messages do.
 pub fn preset_name(filter: &Filter, settings: &Settings) -> String {
     format!("{} with preset {}", filter.name, settings.preset)
 }

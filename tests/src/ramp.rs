@@ -1,16 +1,16 @@
-//! What a blur makes of an edge.
+//! The ramp that a blur makes of an edge.
 
 /// The way from one side of an edge to the other, along the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ramp {
     /// Length in pixels of the even ramp that spreads as far.
     pub length: f64,
-    /// Where its middle lies, in pixels from where positions count; negative against the motion.
+    /// Position of its middle, in pixels; negative against the motion.
     pub middle: f64,
 }
 
 impl Ramp {
-    /// Of an edge seen at rising positions, in pixels: (position, brightness). Slopes are weighed with their sign, so that
+    /// Measures an edge seen at rising positions, in pixels: (position, brightness). Slopes are weighed with their sign, so that
     /// noise cancels.
     pub fn of(profile: &[(f64, f64)]) -> Self {
         let slopes: Vec<(f64, f64)> = profile
@@ -20,7 +20,7 @@ impl Ramp {
         Self::spread(slopes)
     }
 
-    /// Of offsets, in pixels, and how much each counts.
+    /// Makes the ramp of offsets in pixels, each with its weight.
     pub fn spread(weighed: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let (mut total, mut sum, mut squares) = (0.0, 0.0, 0.0);
         for (offset, weight) in weighed {
@@ -38,7 +38,7 @@ impl Ramp {
         }
     }
 
-    /// What the blur added to an edge that was not sharp before: variances add.
+    /// Takes out the softness that the edge had before the blur: variances add.
     pub fn beyond(self, before: Self) -> Self {
         let squares = self.length * self.length - before.length * before.length;
         Self {

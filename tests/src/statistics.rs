@@ -1,4 +1,4 @@
-//! Whether noisy pixels agree with known values.
+//! Agreement of noisy pixels with known values.
 
 use frame::Truth;
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -9,13 +9,13 @@ const ROUNDING: f64 = 2e-6;
 /// An estimate, its standard error, and what it should be.
 #[derive(Clone, Copy, Debug)]
 pub struct Estimate {
-    /// What the render says.
+    /// Rendered value.
     pub value: f64,
-    /// From the spread of replicates.
+    /// Standard error, from the spread of replicates.
     pub error: f64,
-    /// What the error of one pixel is taken for at least.
+    /// Least standard error that a pixel is given.
     pub floor: f64,
-    /// What the closed form says.
+    /// Value of the closed form.
     pub expected: f64,
 }
 

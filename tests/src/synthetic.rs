@@ -1,5 +1,6 @@
-//! Pictures by formula: flat shapes that move over a still background, sampled without a tracer, so that what a metric
-//! must say is known beforehand.
+//! Pictures by formula: flat shapes that move over a still background.
+//!
+//! No tracer takes part, so the right value of a metric is known beforehand.
 
 use frame::{
     Accumulation, Alignment, AtInstant, ColorSampling, Display, FAR_DEPTH, FlipExposures, Frame,
@@ -85,7 +86,7 @@ impl Scene {
         Picture { color, coverage }
     }
 
-    /// What a filter is given, with clean colour and coverage.
+    /// Makes the frame that a filter gets, with clean colour and coverage.
     pub fn frame(&self) -> Frame {
         let instant = self.render(&Blur::IDENTITY, Sampling::CLEAN);
         let center = |x: u32, y: u32| [f64::from(x) + 0.5, f64::from(y) + 0.5];
@@ -154,7 +155,7 @@ impl Scene {
         }
     }
 
-    /// What the open shutter sees: the same for all truths of the scene, whatever their noise.
+    /// Finds the pixels that the open shutter sees: the same for all truths of the scene, whatever their noise.
     pub fn support(&self) -> Support {
         let probe = self.render(&Blur::TRUE, Sampling::CLEAN);
         let seen: Vec<Raster<bool>> = (probe.coverage.iter())
@@ -294,7 +295,7 @@ fn ground(pixel: [u32; 2]) -> [f64; 3] {
     [0.7 * value, value, 1.1 * value]
 }
 
-/// As if everything were known and stood still: what no score of these truths looks at.
+/// Makes layers in which everything is known and stands still; no score of these truths looks at them.
 fn nothing_unknown(color: &Image) -> AtInstant {
     AtInstant {
         frozen: color.clone(),

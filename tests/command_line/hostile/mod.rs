@@ -1,6 +1,7 @@
-//! Hostile and broken input: each is refused with an error that names it, and none ends the program in another way.
+//! Hostile and broken input: an error names each, and none ends the program in another way.
 
 mod kernels;
+mod limits_page;
 mod programs;
 mod records;
 mod scene_files;

@@ -1,4 +1,4 @@
-//! What reaches a terminal, a log and a summary, whatever names and messages hold, and however it is closed.
+//! Output to terminals, logs and summaries: hostile names and messages, and readers that go away.
 
 use std::fs;
 use std::path::Path;

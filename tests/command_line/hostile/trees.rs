@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::bench::{Bench, OBJ, SCENE, assert_done, assert_refused, files_below, stderr};
 
-/// What takes a second or two may take so long on a busy machine; without a mend these took longer, or ended the program.
+/// Time limit for work of a second or two, on a busy machine. Once these took longer, or ended the program.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Renders the plate with these faces after its own two.

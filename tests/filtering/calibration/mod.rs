@@ -1,5 +1,5 @@
-//! How long every filter's smear is, against what its preset promises: on the scene `sliding_panel`, at several speeds
-//! and angles.
+//! Lengths of every filter's smear against what its preset promises, on the scene `sliding_panel` at several speeds and
+//! angles.
 
 mod outcome;
 mod panel;
@@ -54,7 +54,7 @@ fn the_truth_measures_as_long_as_the_shutter_is_open() {
     }
 }
 
-/// Whether the panel is long enough to hold what the taps of a preset make of its middle, and the picture, where a preset
+/// Returns whether the panel is long enough to hold what the taps of a preset make of its middle, and the picture, where a preset
 /// pushes them inwards at its border, to hold them beside all of that.
 fn fits(outcome: &Outcome) -> bool {
     let steady = outcome.shot().steady();
@@ -74,7 +74,7 @@ fn fits(outcome: &Outcome) -> bool {
     reach < (HALF_PANEL - 3.0).min(room)
 }
 
-/// What the taps of a preset make of an edge painted on the panel. This camera stands still.
+/// Returns the ramp that the taps of a preset make of an edge painted on the panel. This camera stands still.
 fn expected(outcome: &Outcome) -> Ramp {
     match outcome.filter.as_str() {
         "camera_gather" => Ramp {
@@ -85,7 +85,7 @@ fn expected(outcome: &Outcome) -> Ramp {
     }
 }
 
-/// What became of the edge painted on the panel; nothing where the panel is too short for it.
+/// Measures the edge painted on the panel; none where the panel is too short for it.
 fn measured(outcome: &Outcome) -> Option<Ramp> {
     let shot = outcome.shot();
     let before = Ramp::of(&shot.profile(&shot.painted()));

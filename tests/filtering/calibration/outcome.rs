@@ -1,4 +1,4 @@
-//! What every filter makes of every shot.
+//! Blurs of every shot by every filter.
 
 use std::sync::LazyLock;
 
@@ -16,9 +16,9 @@ pub struct Outcome {
     pub preset: String,
     /// Index into [`SHOTS`].
     pub shot: usize,
-    /// What became of [`Shot::painted`].
+    /// Blur of [`Shot::painted`].
     pub painted: Plane,
-    /// What became of [`Shot::matte`].
+    /// Blur of [`Shot::matte`].
     pub matte: Plane,
 }
 
@@ -30,7 +30,7 @@ pub static SHOTS: LazyLock<Vec<Shot>> = LazyLock::new(|| {
         .collect()
 });
 
-/// Of every preset, in the order of the shots.
+/// Blurs by every preset, in the order of the shots.
 pub static OUTCOMES: LazyLock<Vec<Outcome>> = LazyLock::new(|| {
     let gpu = Gpu::new(None).expect("these tests run filters");
     let mut outcomes = Vec::new();

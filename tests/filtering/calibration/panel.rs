@@ -1,4 +1,4 @@
-//! The scene `sliding_panel`, its panel made larger, turned to face its motion, and as fast as a test wants it.
+//! The scene `sliding_panel` with a larger panel that faces its motion, as fast as a test wants it.
 
 use std::path::Path;
 use std::sync::LazyLock;
@@ -17,7 +17,7 @@ pub const HEIGHT: u32 = 144;
 const METRES_PER_PIXEL: f64 = 3.6 / HEIGHT as f64;
 /// On the panel of 0.8 m: longer than the longest trail by a band on either side.
 const SCALE: f64 = 3.4;
-/// From the panel's middle to its edges, in pixels.
+/// Distance from the panel's middle to its edges, in pixels.
 pub const HALF_PANEL: f64 = 0.5 * 0.8 * SCALE / METRES_PER_PIXEL;
 /// Half the width of the band, in pixels, along which edges are measured.
 const HALF_BAND: f64 = 16.0;
@@ -38,7 +38,7 @@ pub static TRUTHS: LazyLock<(Shot, [(Alignment, Plane); 2])> = LazyLock::new(|| 
 pub struct Shot {
     /// Pixels per frame.
     pub speed: f64,
-    /// Of the motion, 0 to the right and 90 upwards.
+    /// Angle of the motion, 0 to the right and 90 upwards.
     pub degrees: f64,
     pub frame: Frame,
     scene: Scene,
@@ -81,13 +81,13 @@ impl Shot {
         }
     }
 
-    /// Of the motion, +y down.
+    /// Direction of the motion, +y down.
     pub fn direction(&self) -> DVec2 {
         let (sine, cosine) = self.degrees.to_radians().sin_cos();
         DVec2::new(cosine, -sine)
     }
 
-    /// From the middle of the picture along the motion, in pixels.
+    /// Returns the way from the middle of the picture along the motion, in pixels.
     pub fn to_border(&self) -> f64 {
         let [across, down] = self.direction().to_array().map(f64::abs);
         (middle().x / across).min(middle().y / down)
@@ -111,12 +111,12 @@ impl Shot {
         })
     }
 
-    /// How much of each pixel the panel covers at the instant.
+    /// Returns the part of each pixel that the panel covers at the instant.
     pub fn matte(&self) -> &Plane {
         &self.frame.coverage[self.panel()]
     }
 
-    /// How much of each pixel it covers while the shutter is open.
+    /// Returns the part of each pixel that it covers while the shutter is open.
     fn true_matte(&self, alignment: Alignment) -> Plane {
         let settings = TruthSettings {
             width: WIDTH,

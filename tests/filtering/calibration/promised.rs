@@ -1,4 +1,4 @@
-//! How long every filter says that its smear is.
+//! Lengths of smears that every filter promises.
 
 use std::ops::RangeInclusive;
 
@@ -44,7 +44,7 @@ pub fn promised(filter: &str, preset: &str, steady: &Steady) -> f64 {
     }
 }
 
-/// What every filter's text says that an edge on the panel spreads by, from 8 pixels on: parts of the promised length, in
+/// Returns what every filter's text says that an edge on the panel spreads by, from 8 pixels on: parts of the promised length, in
 /// whole hundredths.
 pub fn stated(filter: &str, preset: &str) -> RangeInclusive<f64> {
     match (filter, preset) {

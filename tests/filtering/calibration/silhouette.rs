@@ -1,5 +1,6 @@
-//! Where a smear lies at the panel's two edges across the motion: as light that the panel puts on the wall, and light that
-//! it loses to it.
+//! Places of the smears at the panel's front and back edge.
+//!
+//! Each is measured twice: by the light that the panel puts on the wall, and by the light that it loses to the wall.
 
 use frame::{Alignment, Plane};
 use tests::kernels::{along_motion, expected_ramp, taps};
@@ -51,7 +52,7 @@ impl Light {
     }
 }
 
-/// How far taps lie ahead of their pixel, and how far behind it, on average over all: as much as the panel loses of itself
+/// Returns how far taps lie ahead of their pixel and behind it, on average over all: as much as the panel loses of itself
 /// to the wall there.
 fn average_reach(outcome: &Outcome) -> [f64; 2] {
     let steady = outcome.shot().steady();
@@ -70,7 +71,7 @@ fn average_reach(outcome: &Outcome) -> [f64; 2] {
     reach
 }
 
-/// Whether a smear of so many pixels behind the panel lies on the picture.
+/// Returns whether a smear of so many pixels behind the panel lies on the picture.
 fn on_picture(shot: &Shot, smear: f64) -> bool {
     let [right, down] = shot.direction().to_array().map(f64::abs);
     (HALF_PANEL + smear) * right < 0.5 * f64::from(WIDTH)

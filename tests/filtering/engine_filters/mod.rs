@@ -1,4 +1,4 @@
-//! What the blurs of game engines do and do not, measured: what was read in their sources, shown true or false.
+//! Claims read in the sources of game engines' blurs, each shown to be true or false.
 
 mod bevy;
 mod hdrp;

@@ -1,10 +1,10 @@
-//! Which candidate the dilation keeps. The published comparison reads as if distances along the path had a say.
+//! The candidate that the dilation keeps. The published comparison reads as if distances along the path mattered.
 
 use filters::{Blur, Filter, Gpu, Input};
 use frame::Raster;
 use tests::random::Random;
 
-/// What the paper's listing keeps of a candidate.
+/// A candidate, as the paper's listing keeps it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Candidate {
     /// |tau - m/2|.
@@ -14,7 +14,7 @@ struct Candidate {
     valid: bool,
 }
 
-/// What the listing begins with.
+/// Candidate that the listing begins with.
 const NOTHING: Candidate = Candidate {
     from_middle: f32::MAX as f64,
     depth: f32::MAX as f64,

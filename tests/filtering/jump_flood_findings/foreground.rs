@@ -1,4 +1,4 @@
-//! What counts of what lies in front of a trail.
+//! Weight of surfaces in front of a trail.
 
 use tests::picture::{BLACK_WALL, Picture, Surface, column, white};
 

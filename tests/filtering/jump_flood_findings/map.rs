@@ -1,4 +1,4 @@
-//! What the map of sources loses in 16 bits, two days later.
+//! Precision that the map of sources loses in 16 bits, in the version of two days later.
 
 use tests::picture::{Picture, Surface, column, white};
 

@@ -1,5 +1,6 @@
-//! What reading the jump flood's paper and demo suggested, shown true or false one by one; shaders/jump_flood/README.md
-//! lists the outcomes.
+//! Claims that the paper and the demo of the jump flood suggest, each shown to be true or false.
+//!
+//! shaders/jump_flood/README.md lists the outcomes.
 
 mod acceptance;
 mod foreground;

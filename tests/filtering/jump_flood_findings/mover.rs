@@ -21,7 +21,7 @@ fn bar() -> Picture {
     })
 }
 
-/// How much of a column shows the mover, if the rest shows what lies ahead.
+/// Returns the part of a column that shows the mover; the rest shows what lies ahead.
 fn share(x: u32) -> f64 {
     // Taps 3 pixels apart lie on pixel centres.
     let output = bar().blurred("jump_flood", "paper", &[("jitter", "none")]);

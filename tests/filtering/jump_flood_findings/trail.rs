@@ -1,4 +1,4 @@
-//! How long trails are.
+//! Lengths of trails.
 
 use tests::picture::{Picture, Surface, column, moving_edge};
 
@@ -11,7 +11,7 @@ fn slope(speed: f32) -> Picture {
     })
 }
 
-/// How far ahead each pixel's mean lies, in pixels, in rising order; away from the border.
+/// Returns how far ahead each pixel's mean lies, in pixels, in rising order; away from the border.
 fn displacements(preset: &str, jitter: &str, speed: f32) -> Vec<f32> {
     let output = slope(speed).blurred("jump_flood", preset, &[("jitter", jitter)]);
     let inner = (0..120).flat_map(|x| (0..32).map(move |y| (x, y)));

@@ -69,7 +69,7 @@ impl Reference<'_> {
         map
     }
 
-    /// Where a pixel lies as a source in an iteration: what an earlier one stored went through the map.
+    /// Returns the place of a pixel as a source in an iteration: an earlier one stored it in the map.
     pub fn place(&self, pixel: [i64; 2], iteration: u32) -> Vec2 {
         match iteration {
             0 => self.uv(pixel),

@@ -2,7 +2,7 @@
 
 use super::paper::{Jitter, POSITION, ROUNDING, Reference, Vec2, dot, minus};
 
-/// What 32-bit floats make of the gradient noise: 53 times the rounding of a number up to 32, twice.
+/// Error of the gradient noise in 32-bit floats: 53 times the rounding of a number up to 32, twice.
 const NOISE: f64 = 2e-4;
 
 struct Share {
@@ -84,7 +84,7 @@ impl Reference<'_> {
         })
     }
 
-    /// How far from p towards x the colour is taken: max(nb, nf), and how far off 32-bit floats may put it.
+    /// Returns how far from p towards x the colour is taken: max(nb, nf), and the error of 32-bit floats.
     fn share(&self, p: Vec2, own: Vec2, x: Vec2, extent: f64) -> Share {
         let [source, here, tap] = [own, p, x].map(|uv| self.depth(uv));
         let [source_reverse, here_reverse] = [source, here].map(|depth| 0.05 / depth);

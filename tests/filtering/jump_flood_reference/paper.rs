@@ -1,8 +1,8 @@
 //! Golan 2024 in 64-bit floats, from its description: UV coordinates, the velocity V that leads back to the previous
 //! frame, reverse depth. Plain loops; nothing is shared with the kernels.
 //!
-//! Where a decision hangs on less than what 32-bit floats resolve, every outcome is kept: a pixel holds the set of
-//! sources that a correct run may choose.
+//! Where a decision depends on less than 32-bit floats resolve, every outcome is kept: a pixel holds all sources that a
+//! correct run may choose.
 
 use crate::fields::Field;
 
@@ -73,7 +73,7 @@ pub enum Answer {
     Either,
 }
 
-/// Whether `value <= limit`, unless they are nearer than `margin`.
+/// Returns whether `value <= limit`, or none where they are nearer than `margin`.
 pub fn at_most(value: f64, limit: f64, margin: f64) -> Answer {
     if (value - limit).abs() <= margin {
         Answer::Either
@@ -158,7 +158,7 @@ impl<'f> Reference<'f> {
         0.05 / reverse
     }
 
-    /// From UV to the space in which paths are measured.
+    /// Converts UV to the space in which paths are measured.
     pub fn measured(&self, uv: Vec2) -> Vec2 {
         match self.paper.pixel_metric {
             true => self.pixels(uv),
@@ -166,7 +166,7 @@ impl<'f> Reference<'f> {
         }
     }
 
-    /// What the map holds of a UV: 11 binary digits, towards zero.
+    /// Rounds a UV as the map does: 11 binary digits, towards zero.
     pub fn stored(&self, uv: Vec2) -> Vec2 {
         match self.paper.half_map {
             true => uv.map(|c| f64::from_bits(c.to_bits() & !((1 << 42) - 1))),

@@ -3,7 +3,7 @@
 use super::flood::Chosen;
 use super::paper::{Answer, POSITION, ROUNDING, Reference, Vec2, at_most, both, cross, dot, minus};
 
-/// Where a pixel's velocity comes from after the way back, in pixels, and the paper's flag.
+/// Place that a pixel's velocity comes from after the way back, in pixels, and the paper's flag.
 #[derive(Clone, Copy, Debug)]
 pub struct Source {
     pub position: Vec2,
@@ -97,7 +97,7 @@ impl Reference<'_> {
         outcomes
     }
 
-    /// What the map may hold of a UV that 32-bit floats round to either side.
+    /// Returns what the map may hold of a UV that 32-bit floats round to either side.
     fn ends(&self, uv: Vec2) -> Vec<Source> {
         let mut sources: Vec<Source> = Vec::new();
         for (right, down) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
@@ -120,7 +120,7 @@ impl Reference<'_> {
         sources
     }
 
-    /// Whether probe q at k frames is looked at.
+    /// Returns whether probe q at k frames is looked at.
     fn looks(&self, k: f64, q: Vec2) -> Answer {
         if k < f64::from(f32::MIN_POSITIVE) {
             return Answer::No;
@@ -134,7 +134,7 @@ impl Reference<'_> {
         answer
     }
 
-    /// Whether probe q matches a source of velocity v and distance z.
+    /// Returns whether probe q matches a source of velocity v and distance z.
     fn matches(&self, v: Vec2, z: f64, q: Vec2) -> Answer {
         // The probe may round to either side of a texel's edge.
         let at = |dx: f64, dy: f64| {

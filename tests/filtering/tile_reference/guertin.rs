@@ -1,12 +1,14 @@
-//! Guertin et al. 2014, the reconstruction. Its relative depth comparison is taken on inverse depth, which is larger
-//! for what is nearer, as the paper's operands want it.
+//! Reconstruction of Guertin et al. 2014.
+//!
+//! Depths are compared relative to each other as inverse depths, which are larger for nearer surfaces: the paper's operands
+//! require it.
 
 use super::mcguire::{cone, cylinder, on_image};
 use super::noise::{NOISE, noise};
 use super::tiles::{Vec2, direction, dot, length, scaled};
 use super::{Expected, FRAME_INDEX, Run};
 
-/// What a pixel becomes, given the neighbourhoods of the GPU; nothing where rounding decides which texel is read.
+/// Returns what a pixel becomes, given the neighbourhoods of the GPU; nothing where rounding decides which texel is read.
 pub fn reconstructed(run: &Run, pixel: [i64; 2]) -> Option<Expected> {
     let tile = asked_tile(run, pixel)?;
     let noise = match run.real("jitter") {
@@ -102,7 +104,7 @@ fn asked_tile(run: &Run, pixel: [i64; 2]) -> Option<[i64; 2]> {
     Some([0, 1].map(|axis| across[axis].clamp(0, tiles.count()[axis] - 1)))
 }
 
-/// Whether tap i follows the pixel's own motion; nothing where rounding decides.
+/// Returns whether tap i follows the pixel's own motion; nothing where rounding decides.
 fn is_own(run: &Run, i: i64, variance: f64) -> Option<bool> {
     if run.choice("split") == "alternate" {
         return Some(i % 2 == 1);

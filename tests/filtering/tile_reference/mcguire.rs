@@ -1,4 +1,4 @@
-//! McGuire et al. 2012, the reconstruction, as the paper writes it: Z is negative into the screen.
+//! Reconstruction of McGuire et al. 2012, as the paper writes it: Z is negative into the screen.
 
 use super::noise::{NOISE, noise};
 use super::tiles::{Vec2, length, scaled};
@@ -7,7 +7,7 @@ use super::{Expected, FRAME_INDEX, Run};
 /// The paper's epsilon, in pixels.
 const EPSILON: f64 = 1e-4;
 
-/// What a pixel becomes, given the neighbourhoods of the GPU; nothing where rounding decides which texel a tap reads.
+/// Returns what a pixel becomes, given the neighbourhoods of the GPU; nothing where rounding decides which texel a tap reads.
 pub fn reconstructed(run: &Run, pixel: [i64; 2]) -> Option<Expected> {
     // Distances are between pixels, so noise cannot change a weight.
     color(run, pixel).map(|color| Expected {

@@ -1,4 +1,4 @@
-//! Tile filters on the GPU against their papers in 64-bit floats. Each pass is given what the one before it left.
+//! Tile filters on the GPU against their papers in 64-bit floats. Each pass gets what the pass before it left.
 
 mod guertin;
 mod mcguire;
@@ -59,10 +59,10 @@ const CASES: [Case; 9] = [
 
 const FRAME_INDEX: u32 = 11;
 
-/// What a reference says of a pixel, where rounding does not decide.
+/// Value of a pixel by a reference, where rounding does not decide.
 struct Expected {
     color: [f64; 3],
-    /// How far off 32-bit noise may put it.
+    /// Error that 32-bit noise may cause.
     tolerance: f64,
 }
 

@@ -1,6 +1,6 @@
 //! Interleaved gradient noise in 64-bit floats.
 
-/// What 32-bit floats make of it: 53 times the rounding of a number up to 64, twice.
+/// Error in 32-bit floats: 53 times the rounding of a number up to 64, twice.
 pub const NOISE: f64 = 4e-4;
 
 /// The noise of a pixel on a cycle of 8 frames, `offset` pixels further right and down; nothing where it may wrap

@@ -1,5 +1,6 @@
-//! What was deduced from reading the published repository that the preset `motion_blur_demo` stands for, shown true or false one
-//! by one; shaders/mcguire/README.md lists the outcomes.
+//! Claims about the published repository behind the preset `motion_blur_demo`, each shown to be true or false.
+//!
+//! shaders/mcguire/README.md lists the outcomes.
 
 use filters::{Blur, Filter, Gpu, Input};
 use frame::{Image, Plane, Raster, Vectors};
@@ -9,7 +10,7 @@ const WIDTH: u32 = 97;
 const HEIGHT: u32 = 31;
 /// Pixels per frame: 8 of half-velocity, so that unshifted taps of 15 lie on the whole pixels from -7 to 7.
 const SPEED: f32 = 16.0;
-/// Where things begin or end; in the middle of the image.
+/// Column at which things begin or end, in the middle of the image.
 const EDGE: u32 = 48;
 
 type Changes<'c> = &'c [(&'c str, &'c str)];
@@ -68,7 +69,7 @@ impl Frame {
     }
 }
 
-/// What a pixel takes of the tap at -7 to 7 pixels from it, as parts of the whole.
+/// Returns what a pixel takes of the tap at -7 to 7 pixels from it, as parts of the whole.
 fn tap_weights(changes: Changes) -> impl Fn(i64) -> f32 {
     let output = steady(|x| if x == EDGE { 1.0 } else { 0.0 }).motion_blur_demo(changes);
     move |offset| output.at((i64::from(EDGE) - offset) as u32, HEIGHT / 2)[0]
@@ -129,7 +130,7 @@ fn the_centre_tap_counts_beside_the_pixel_itself() {
     assert!((skipped - 0.125 / 56.125).abs() < 1e-3, "{skipped}");
 }
 
-/// How far noise displaces the picture at each pixel, in pixels.
+/// Returns how far noise displaces the picture at each pixel, in pixels.
 fn displacements(changes: Changes) -> Vec<f32> {
     let output = steady(|x| x as f32).motion_blur_demo(changes);
     let inner = 12..WIDTH - 12;

@@ -16,7 +16,7 @@ pub fn scaled(a: Vec2, factor: f64) -> Vec2 {
     a.map(|component| component * factor)
 }
 
-/// Of length 1; (0, 0) for what has no direction.
+/// Scales a vector to length 1; (0, 0) where it has no direction.
 pub fn direction(a: Vec2) -> Vec2 {
     match length(a) {
         0.0 => [0.0, 0.0],
@@ -89,7 +89,7 @@ impl Tiles<'_> {
     }
 }
 
-/// Whether a tile's half-velocity counts for the one that sees it at `offset`.
+/// Returns whether a tile's half-velocity counts for the one that sees it at `offset`.
 pub fn counts(rule: &str, offset: [i64; 2], vector: Vec2) -> bool {
     let offset = offset.map(|component| component as f64);
     let diagonal = offset[0] != 0.0 && offset[1] != 0.0;

@@ -1,4 +1,4 @@
-//! Changes of OpenEXR files: right files with wrong content. Whoever writes one writes its checksum anew.
+//! Changes of OpenEXR files: wrong content with right checksums.
 
 use std::fs;
 

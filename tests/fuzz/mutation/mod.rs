@@ -1,4 +1,4 @@
-//! From inputs to other inputs.
+//! Changes that make other inputs from inputs.
 
 #![expect(
     clippy::explicit_auto_deref,
@@ -20,13 +20,13 @@ use crate::target::{Shape, Target};
 /// Longest input that is made.
 const LONGEST: usize = 400_000;
 
-/// How files begin.
+/// First bytes of files.
 const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
 const EXR: &[u8] = b"\x76\x2F\x31\x01";
 
-/// What changes are made with.
+/// Material that changes are made with.
 pub struct Source<'a> {
-    /// Of the target.
+    /// Words of the target.
     pub tokens: &'static [&'static str],
     /// Another input.
     pub other: &'a [u8],

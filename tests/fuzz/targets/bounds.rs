@@ -1,4 +1,4 @@
-//! bounds.toml, and what is judged by it.
+//! bounds.toml, and judgements by it.
 
 use cli::{Programs, select_filters};
 use filters::Filter;

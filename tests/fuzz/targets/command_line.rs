@@ -78,7 +78,7 @@ pub fn shuttertruth(place: &Place, words: &[impl AsRef<OsStr>]) {
     );
 }
 
-/// Whether some number is so large that the work may be, or the scenes and filters are all there are.
+/// Returns whether some number is so large that the work may be, or the scenes and filters are all there are.
 fn asks_for_much(words: &[impl AsRef<OsStr>]) -> bool {
     let words: Vec<String> = (words.iter())
         .map(|word| word.as_ref().to_string_lossy().into_owned())

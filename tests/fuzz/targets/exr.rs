@@ -1,4 +1,4 @@
-//! What the program rendered and reads again: frames, truths, replicates, ladders, pictures.
+//! Pictures that the program rendered and reads again: frames, truths, replicates, ladders, blurs.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -122,7 +122,7 @@ fn rendered(scene: &Path) -> [PathBuf; 3] {
     ["frame.exr", "truth_trailing.exr", "ladder_trailing.exr"].map(|name| scene.join(name))
 }
 
-/// As `score` does, with one file of another origin; some picture of the run is scored.
+/// Scores as `score` does, with one file of another origin; some picture of the run is scored.
 fn score_picture(frame: &Path, truth: &Path, ladder: Option<&Path>, scene: &Path) {
     let (Ok(frame), Ok(truth)) = (Frame::read(frame), Truth::read(truth)) else {
         return;

@@ -1,4 +1,4 @@
-//! Kernels that run where they can be loaded.
+//! Kernels; those that can be loaded are run.
 
 use filters::{Blur, Filter, Gpu, Input};
 use frame::{Image, Plane, Raster, Vectors};

@@ -1,4 +1,4 @@
-//! Everything that the program reads.
+//! Targets: everything that the program reads.
 
 mod bounds;
 mod command_line;

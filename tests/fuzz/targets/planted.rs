@@ -1,4 +1,4 @@
-//! What fails on purpose, so that the fuzzer can be seen to notice.
+//! Inputs that fail on purpose, which the fuzzer must notice.
 
 use std::time::Duration;
 

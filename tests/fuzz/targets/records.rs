@@ -1,4 +1,4 @@
-//! Records of what was measured before: case.json and frame.json, whose seals are made right again.
+//! Records of earlier measurements: case.json and frame.json, with right seals.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -40,7 +40,7 @@ pub static TARGET: Target = Target {
     },
 };
 
-/// Where a record of that kind lies.
+/// Returns the place of a record of that kind.
 fn record(place: &Place, input: &[u8]) -> PathBuf {
     let is_frame = input.windows(9).any(|it| it == b"frame.exr");
     let end = match is_frame {
@@ -51,7 +51,7 @@ fn record(place: &Place, input: &[u8]) -> PathBuf {
     found.first().expect("a run leaves records").clone()
 }
 
-/// With the seal that the content would have; as it is where it is no record.
+/// Gives a record the seal that fits its content; leaves anything else as it is.
 fn sealed(input: &[u8]) -> Vec<u8> {
     let Ok(mut record) = serde_json::from_slice::<Value>(input) else {
         return input.to_vec();
@@ -73,7 +73,7 @@ fn sealed(input: &[u8]) -> Vec<u8> {
     serde_json::to_vec(&record).expect("JSON stays JSON")
 }
 
-/// As the program seals.
+/// Computes the seal as the program does.
 fn seal(inputs: &str, files: &BTreeMap<String, String>, made: &impl Serialize) -> String {
     let bytes = serde_json::to_vec(&(inputs, files, made)).expect("records are plain data");
     blake3::hash(&bytes).to_hex().to_string()

@@ -1,4 +1,4 @@
-//! What `run`, `accept` and `bench` wrote, and other commands read again.
+//! Files that `run`, `accept` and `bench` wrote and other commands read again.
 
 use std::collections::BTreeMap;
 use std::fs;

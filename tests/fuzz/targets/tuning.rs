@@ -1,4 +1,4 @@
-//! What `tune` wrote, and reads again.
+//! Files that `tune` wrote and reads again.
 
 use std::fs;
 

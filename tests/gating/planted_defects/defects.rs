@@ -1,20 +1,20 @@
-//! What is planted: one line of a kernel, wrong.
+//! Planted defects: one wrong line of a kernel each.
 //!
-//! Not among them: the break of the jump flood at the picture's border. Without it taps beyond the border repeat its colours,
-//! which on `frame_edge` is a little nearer to the truth (mean squared error 0.95 of what it was, at 160x90), and nowhere
-//! else is it more than 1.02 of that: the loss of the break cannot matter.
+//! One defect is left out: the jump flood without its break at the picture's border. Taps beyond the border then repeat its
+//! colours. On `frame_edge` that is a little nearer to the truth (0.95 times the mean squared error, at 160x90), and nowhere
+//! else is the error more than 1.02 times what it was: the loss of the break cannot matter.
 
 /// A defect of one shipped filter.
 pub struct Defect {
-    /// What is wrong, in a word.
+    /// Name of the defect.
     pub name: &'static str,
     /// The filter.
     pub filter: &'static str,
     /// The preset that is bounded.
     pub preset: &'static str,
-    /// What the kernels hold, once.
+    /// Text that the kernels hold once.
     pub sound: &'static str,
-    /// What they hold instead.
+    /// Text that replaces it.
     pub broken: &'static str,
 }
 

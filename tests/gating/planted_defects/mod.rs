@@ -1,6 +1,6 @@
-//! The gate guards: every defect that is planted in a copy of a shipped filter breaks a bound that the filter keeps as it is.
+//! Planted defects against the gate: each breaks a bound that the sound filter keeps.
 //!
-//! The bounds come from `calibrate`, of the filter as it is, on small pictures of shipped scenes.
+//! `calibrate` makes the bounds from the sound filters, on small pictures of shipped scenes.
 
 mod defects;
 
@@ -33,7 +33,7 @@ const NAMES: [&str; 7] = [
     "ornaments",
 ];
 
-/// What the filters are bounded in.
+/// Metrics with bounds.
 const METRICS: [&str; 17] = [
     "mse_moving",
     "flip_moving",
@@ -123,7 +123,7 @@ impl Bench {
         run(&plan, self.gpu.as_ref(), Vec::new()).unwrap()
     }
 
-    /// What a check says of each of the filters, which all take part in one run.
+    /// Checks each of the filters, which all take part in one run.
     fn checks(&self, filters: Vec<FilterChoice>) -> Vec<Check> {
         let count = filters.len();
         let run = self.run(filters, CHECKED_WITH);

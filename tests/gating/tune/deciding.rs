@@ -1,4 +1,4 @@
-//! Which candidates are dropped, which one is chosen, and what is said about it.
+//! Choice among candidates: those dropped, the one chosen, and the reasons.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Tuning: known answers of everything that decides.
+//! Tuning: known answers for every decision.
 
 mod deciding;
 mod searching;

@@ -1,9 +1,10 @@
-//! The space of parameters, the search through it, and the journal.
+//! The space of parameters, and the search through it.
 
 use std::collections::BTreeMap;
 
 use filters::{Filter, Value};
 use suite::{Search, Space};
+use tests::text::assert_contains;
 
 fn jump_flood() -> Filter {
     Filter::builtin("jump_flood").unwrap()
@@ -100,9 +101,7 @@ fn what_cannot_be_varied_is_refused_with_what_can() {
     ] {
         let text = space(&[word]).unwrap_err();
         assert!(text.contains(&format!("--vary {word}")), "{text}");
-        for part in parts {
-            assert!(text.contains(part), "\"{part}\" is missing from: {text}");
-        }
+        assert_contains(&text, &parts);
     }
     assert!(
         space(&["samples", "samples"])

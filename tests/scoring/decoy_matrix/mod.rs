@@ -1,4 +1,4 @@
-//! No wrong blur passes: on every scene each breaks a bound that is asked of all filters, and the right ones break none.
+//! Wrong blurs against the bounds that hold for all filters: on every scene each breaks one, and the right blurs break none.
 
 mod decoys;
 mod scenes;
@@ -13,7 +13,7 @@ use tests::synthetic::{Blur, Sampling, Scene, VIEWING};
 use decoys::{APART, decoys};
 use scenes::scenes;
 
-/// What is asked of every filter on every scene, required or not.
+/// Reads the bounds of every filter on every scene, required or not.
 fn bounds() -> Bounds {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/bounds.toml");
     read_bounds_file(Path::new(path)).unwrap().default

@@ -1,10 +1,10 @@
 //! Jimenez 2014 and the engines that follow it, from their sources.
 //!
-//! Where everything moves alike at one depth, weights are whole but for kajiya's, which compare in pixels.
+//! Where everything moves alike at one depth, weights are whole, except those of kajiya, which compare in pixels.
 
 use super::{Steady, Tap, bilinear, length, on_trail, own, scaled};
 
-/// What a preset averages.
+/// Returns the taps of a preset.
 pub fn taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     match preset {
         "slides_2014" => slides(steady, noise),

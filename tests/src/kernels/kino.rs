@@ -2,7 +2,7 @@
 
 use super::{Steady, Tap, bilinear, length, own, scaled};
 
-/// What its preset averages.
+/// Returns the taps of its preset.
 pub fn taps(steady: &Steady, noise: f64) -> Vec<Tap> {
     let motion = packed(steady);
     let reach = length(motion);

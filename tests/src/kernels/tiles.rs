@@ -1,5 +1,6 @@
-//! Filters whose taps count by a cone and a cylinder. Where everything moves alike at one depth, every tap is in front and
-//! behind: two cones and two cylinders.
+//! Filters that weigh taps by a cone and a cylinder.
+//!
+//! Where everything moves alike at one depth, every tap is both in front and behind: two cones and two cylinders.
 
 use super::{Steady, Tap, bilinear, length, nearest, own, scaled};
 

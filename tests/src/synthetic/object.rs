@@ -1,4 +1,4 @@
-//! Flat shapes, how they move, and how they are smeared.
+//! Flat shapes, their motions and their smears.
 
 /// A flat shape around its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +17,7 @@ pub enum Shape {
 /// A shape that moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Object {
-    /// What it is.
+    /// Form and size.
     pub shape: Shape,
     /// Its centre at the instant, in pixels.
     pub center: [f64; 2],
@@ -27,12 +27,12 @@ pub struct Object {
     pub turn: f64,
 }
 
-/// How moving objects are smeared: rightly or wrongly.
+/// A smear of moving objects, right or wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blur {
-    /// Where the smear begins, in displacements from the instant.
+    /// Begin of the smear, in displacements from the instant.
     pub from: f64,
-    /// Where it ends.
+    /// End of the smear.
     pub to: f64,
     /// Sub-frames at the midpoints of equal parts; none for a continuous smear.
     pub subframes: Option<u32>,
@@ -43,7 +43,7 @@ pub struct Blur {
 }
 
 impl Blur {
-    /// What a camera with a trailing shutter sees.
+    /// The smear that a camera with a trailing shutter sees.
     pub const TRUE: Blur = Blur {
         from: -1.0,
         to: 0.0,
@@ -95,7 +95,7 @@ impl Object {
         rotate(moved, -self.turn * time)
     }
 
-    /// Whether any part of a pixel can see the object at any time of a blur; generous.
+    /// Returns whether any part of a pixel can see the object at any time of a blur; errs towards true.
     pub(crate) fn reaches(&self, pixel: [u32; 2], blur: &Blur) -> bool {
         let size = match self.shape {
             Shape::Disc(radius) => radius,
@@ -108,7 +108,7 @@ impl Object {
         distance[0].hypot(distance[1]) <= size + travel + shift + 1.0
     }
 
-    /// Whether the object, dilated across its motion by `dilation` to both sides, holds a point of its own coordinates.
+    /// Returns whether the object, dilated across its motion by `dilation` to both sides, holds a point of its own coordinates.
     pub(crate) fn holds(&self, local: [f64; 2], dilation: f64) -> bool {
         let along = unit(self.displacement);
         let across = [-along[1], along[0]];

@@ -1,8 +1,8 @@
-//! Where and when a pixel is sampled.
+//! Places and times at which a pixel is sampled.
 
 use crate::random::hash;
 
-/// How a picture is sampled.
+/// Number and seed of a picture's samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampling {
     /// Samples per pixel.

@@ -268,7 +268,10 @@ fn blur<'g>(
     Blur::new(gpu, &choice.filter, settings, plan.width, plan.height)
 }
 
-fn load<'b, 'g>(blur: &'b mut Blur<'g>, panels: &Panels) -> Result<LoadedBlur<'b, 'g>, FilterError> {
+fn load<'b, 'g>(
+    blur: &'b mut Blur<'g>,
+    panels: &Panels,
+) -> Result<LoadedBlur<'b, 'g>, FilterError> {
     blur.load(&Input {
         color: &[&panels.color],
         velocity: &panels.velocity,

@@ -1,4 +1,4 @@
-//! Whether a check takes what it finds in `--out` for granted.
+//! Files in `--out` that a check must not believe.
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -1,4 +1,4 @@
-//! One folder, several processes.
+//! One folder with several processes.
 
 use std::fs::{self, File, OpenOptions};
 use std::os::unix::fs::PermissionsExt;
@@ -9,7 +9,7 @@ use crate::bench::{Bench, assert_done, assert_refused, files_below, split};
 const RUN: &str = "run --quiet --size 64x32 --samples-per-pixel 16 --filters identity --out out";
 const RENDER: &str = "render --quiet --samples-per-pixel 16 --out out";
 
-/// What another process would hold.
+/// Opens the lock that another process would hold.
 fn lock_file(bench: &Bench) -> File {
     fs::create_dir_all(bench.path("out")).unwrap();
     let path = bench.path("out/.shuttertruth.lock");
@@ -48,12 +48,12 @@ fn two_runs_do_not_write_to_one_folder_at_a_time() {
     // Renders share a folder with one another, and with nobody else.
     other.unlock().unwrap();
     other.try_lock_shared().unwrap();
-    assert_done(&bench.shuttertruth(&split(RENDER)));
+    bench.done(&split(RENDER));
     assert_refused(&bench.shuttertruth(&split(RUN)), 2, &parts);
     // The lock of a process that has ended is gone.
     drop(other);
-    assert_done(&bench.shuttertruth(&split(RUN)));
-    assert_done(&bench.shuttertruth(&split(RUN)));
+    bench.done(&split(RUN));
+    bench.done(&split(RUN));
 }
 
 #[test]
@@ -71,7 +71,7 @@ fn what_a_killed_process_was_writing_is_removed_by_the_next_run() {
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         fs::write(path, "half").unwrap();
     }
-    assert_done(&bench.shuttertruth(&split(RUN)));
+    bench.done(&split(RUN));
     for name in gone {
         assert!(!bench.path(name).exists(), "{name}");
     }

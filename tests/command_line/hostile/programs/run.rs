@@ -1,26 +1,18 @@
-//! What runs at all, what it gets to see, and how it ends.
+//! Programs as filters: permission, environment and end.
 
 use std::fs;
-use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
 use frame::{ExrFile, Raster, write_exr};
+use tests::filter_folder::write_program;
 
 use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
 
-/// A filter `mine` that is a shell script with the files as $1 and $2.
-fn script(bench: &Bench, lines: &str, more: &str) {
-    fs::create_dir_all(bench.path("mine")).unwrap();
-    let manifest = format!(
-        "name = \"mine\"\nsummary = \"A program.\"\nalignment = \"trailing\"\n\
-         command = [\"./blur.sh\", \"{{frame}}\", \"{{out}}\"]\n{more}\n"
-    );
-    fs::write(bench.path("mine/filter.toml"), manifest).unwrap();
-    let script = bench.path("mine/blur.sh");
-    fs::write(&script, format!("#!/bin/sh\n{lines}\n")).unwrap();
-    fs::set_permissions(&script, fs::Permissions::from_mode(0o755)).unwrap();
+/// Writes a filter `mine` that is a shell script with the files as $1 and $2.
+fn write_mine(bench: &Bench, lines: &str, more: &str) {
+    write_program(&bench.path("mine"), "mine", lines, more);
 }
 
 /// A bench with a frame of 16 x 16 pixels, which takes no time.
@@ -49,7 +41,7 @@ fn blur(bench: &Bench) -> Command {
 #[test]
 fn no_command_runs_a_program_that_was_not_allowed() {
     let bench = bench();
-    script(&bench, "touch ran; cp $1 $2", "");
+    write_mine(&bench, "touch ran; cp $1 $2", "");
     for words in [
         "run --out out --filter mine",
         "check --out out --filter mine",
@@ -72,7 +64,7 @@ fn no_command_runs_a_program_that_was_not_allowed() {
     assert_done(&output);
     assert!(stdout(&output).contains("runs: ./blur.sh {frame} {out}"));
     assert!(!bench.path("mine/ran").exists(), "it ran");
-    assert_done(&bench.shuttertruth(&split(BLUR)));
+    bench.done(&split(BLUR));
     assert!(bench.path("mine/ran").exists());
 }
 
@@ -80,7 +72,7 @@ fn no_command_runs_a_program_that_was_not_allowed() {
 fn a_program_sees_no_secret() {
     let bench = bench();
     let named = "environment = [\"CUDA_VISIBLE_DEVICES\", \"NOT_SET\"]";
-    script(&bench, "env > seen; cp $1 $2", named);
+    write_mine(&bench, "env > seen; cp $1 $2", named);
     let mut command = blur(&bench);
     for name in ["GITHUB_TOKEN", "ACTIONS_RUNTIME_TOKEN", "MY_SECRET"] {
         command.env(name, "hidden");
@@ -111,7 +103,7 @@ fn a_program_sees_no_secret() {
         ("environment = [\"\"]", "\"\" names no variable"),
         ("environment = [\"1A\"]", "\"1A\" names no variable"),
     ] {
-        script(&bench, "", more);
+        write_mine(&bench, "", more);
         let refused = bench.shuttertruth(&split(BLUR));
         assert_refused(&refused, 2, &["mine/filter.toml:5: environment: ", part]);
     }
@@ -130,7 +122,7 @@ fn a_program_sees_no_secret() {
 const LEAVES_ONE: &str = "(setsid sh -c 'echo $$ > pid.new; mv pid.new pid; exec sleep 300' &)\n\
                           while [ ! -e pid ]; do sleep 0.01; done";
 
-/// Whether the process in `pid` has ended; a zombie has.
+/// Returns whether the process in `pid` has ended; a zombie has.
 #[cfg(target_os = "linux")]
 fn has_ended(bench: &Bench) -> bool {
     let pid = fs::read_to_string(bench.path("mine/pid")).unwrap();
@@ -147,7 +139,7 @@ fn a_session_of_its_own_ends_with_the_program() {
         ("sleep 300", "time_limit = 2", 2, "took longer than 2 s"),
     ] {
         let bench = bench();
-        script(&bench, &format!("{LEAVES_ONE}\n{rest}"), more);
+        write_mine(&bench, &format!("{LEAVES_ONE}\n{rest}"), more);
         let output = blur(&bench).output().unwrap();
         assert_eq!(output.status.code(), Some(code), "{rest}");
         let said = String::from_utf8(output.stderr).unwrap();
@@ -160,7 +152,7 @@ fn a_session_of_its_own_ends_with_the_program() {
 #[test]
 fn a_session_of_its_own_ends_at_ctrl_c() {
     let bench = bench();
-    script(&bench, &format!("{LEAVES_ONE}\nsleep 300"), "");
+    write_mine(&bench, &format!("{LEAVES_ONE}\nsleep 300"), "");
     let mut child = bench.command(&split(BLUR)).spawn().unwrap();
     while !bench.path("mine/pid").exists() {
         assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
@@ -185,12 +177,12 @@ fn what_is_no_file_in_the_place_of_out_is_refused_at_once() {
         ("ln -s $1 $2", "left a link in the place of {out}"),
         ("mkdir $2", "left a folder in the place of {out}"),
     ] {
-        script(&bench, lines, "");
+        write_mine(&bench, lines, "");
         let output = blur(&bench).output().unwrap();
         assert_refused(&output, 2, &[part, "a regular file"]);
     }
     // Nobody else may look into the folder of the files.
-    script(&bench, "ls -ld $(dirname $2) > mode; cp $1 $2", "");
+    write_mine(&bench, "ls -ld $(dirname $2) > mode; cp $1 $2", "");
     assert_done(&blur(&bench).output().unwrap());
     let mode = fs::read_to_string(bench.path("mine/mode")).unwrap();
     assert!(mode.starts_with("drwx------"), "{mode}");
@@ -205,11 +197,11 @@ fn what_a_program_writes_is_bounded() {
         "head -c 20000000 /dev/zero > $2; sleep 300",
         "truncate -s 1T $2",
     ] {
-        script(&bench, lines, "");
+        write_mine(&bench, lines, "");
         assert_refused(&blur(&bench).output().unwrap(), 2, &parts);
     }
     // 300 MB on standard output, where no file may have more than 50: only the end is kept, and not in a file.
-    script(
+    write_mine(
         &bench,
         "yes | head -c 300000000; echo the end >&2; exit 7",
         "",
@@ -230,7 +222,7 @@ fn what_a_program_writes_is_bounded() {
 #[test]
 fn a_program_that_closes_its_pipes_and_lives_on_is_stopped() {
     let bench = bench();
-    script(&bench, "exec >&- 2>&-; sleep 300", "time_limit = 1");
+    write_mine(&bench, "exec >&- 2>&-; sleep 300", "time_limit = 1");
     let output = blur(&bench).output().unwrap();
     assert_refused(&output, 2, &["took longer than 1 s", "printed nothing"]);
 }

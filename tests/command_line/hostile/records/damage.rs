@@ -1,4 +1,4 @@
-//! Every number and list of a run.json, changed: an error that names the file, or a report, and nothing else.
+//! Changed numbers and lists of a run.json: each gives a report, or an error that names the file.
 
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -29,7 +29,7 @@ fn pointers(value: &Value, at: &str, all: &mut Vec<String>) {
     }
 }
 
-/// What such a value is changed to.
+/// Values that such a value is changed to.
 fn hostile(value: &Value) -> Vec<Value> {
     match value {
         Value::Number(_) => vec![json!(-1), json!(4294967295u32), json!(1e308), Value::Null],

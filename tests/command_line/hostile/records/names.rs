@@ -1,4 +1,4 @@
-//! Names of scenes: of every script, with an @, without any sense.
+//! Names of scenes: in every script, with an @, without any sense.
 
 use std::fs;
 
@@ -27,7 +27,7 @@ fn names_of_every_script_stand_in_files_as_utf_8() {
     for name in ["\u{e9}ventail", "\u{6247}\u{98a8}\u{6a5f}_\u{1f300}"] {
         let bench = Bench::new();
         renamed(&bench, &format!("scenes/{name}"));
-        assert_done(&bench.shuttertruth(&RENDER));
+        bench.done(&RENDER);
         let path = bench.path("r").join(name).join("frame.exr");
         assert_eq!(Frame::read(&path).unwrap().provenance.scene, name);
         let bytes = fs::read(&path).unwrap();
@@ -69,7 +69,7 @@ fn all_variants_of_a_scene_are_taken_by_its_path_too() {
         &format!("{text}\n[variant.short]\nexposure = 0.25\n[variant.long]\nexposure = 1.0\n"),
     );
     let words = [&RENDER[..], &["--scenes", "./scenes/plate@all"]].concat();
-    assert_done(&bench.shuttertruth(&words));
+    bench.done(&words);
     for variant in ["plate@short", "plate@long"] {
         assert!(bench.path("r").join(variant).join("frame.exr").is_file());
     }

@@ -27,7 +27,7 @@ fn score(bench: &Bench, image: &str) -> Output {
     ])
 }
 
-/// What an OpenEXR header says.
+/// Content of an OpenEXR header.
 struct Claim {
     names: Vec<String>,
     size: [i32; 2],

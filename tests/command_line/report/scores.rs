@@ -1,27 +1,9 @@
-//! The page of a finished run.
+//! Scores, rankings and pictures on the page.
 
 use std::collections::BTreeSet;
-use std::fs;
 
-use crate::bench::{Bench, assert_done, assert_refused, quick, split, stdout};
-
-const WORDS: [&str; 4] = ["report", "out/run.json", "--html", "page/report.html"];
-
-/// Makes the page of the bench's last run.
-fn reported(bench: &Bench) -> String {
-    let output = bench.shuttertruth(&WORDS);
-    assert_done(&output);
-    assert!(stdout(&output).contains("written: page/report.html ("));
-    fs::read_to_string(bench.path("page/report.html")).unwrap()
-}
-
-/// What stands between two texts, each time.
-fn between<'a>(page: &'a str, before: &str, after: &str) -> Vec<&'a str> {
-    let rests = page.split(before).skip(1);
-    rests
-        .map(|rest| rest.split_once(after).expect("an end").0)
-        .collect()
-}
+use super::{article, between, reported};
+use crate::bench::{Bench, assert_done};
 
 /// The numbers of a page's scenes, as JSON.
 fn shelves(page: &str) -> Vec<serde_json::Value> {
@@ -41,15 +23,6 @@ fn panel<'a>(page: &'a str, metric: &str) -> &'a str {
         .split_once(&format!("data-metric=\"{metric}\""))
         .unwrap();
     rest.split("data-metric=").next().unwrap()
-}
-
-/// The part of a page that shows a case, by the case's number.
-fn article(page: &str, case: usize) -> &str {
-    between(
-        page,
-        &format!("<article class=\"case\" id=\"case-{case}\""),
-        "</article>",
-    )[0]
 }
 
 #[test]
@@ -219,146 +192,6 @@ fn a_scene_called_script_is_shown_and_not_run() {
 }
 
 #[test]
-fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
-    let bench = Bench::new();
-    bench.write(
-        "bounds.toml",
-        "[default]\n\
-         flip_moving = { limit = 0.2, why = \"it <i>serves</i> a test\" }\n\
-         label_tv = { limit = 0.9, why = \"it serves a test, too\" }\n",
-    );
-    let output = bench.check(&["--filters", "identity"]);
-    assert_eq!(output.status.code(), Some(1), "{}", stdout(&output));
-    let page = reported(&bench);
-    let run = bench.measured();
-    let index = run.cases.iter().position(|case| !case.bar).unwrap();
-    let case = &run.cases[index];
-
-    assert!(page.contains("2 bounds: 1 kept, 1 broken, 0 inconclusive"));
-    let flip = case.scores.moving.flip.value().unwrap();
-    // A limit's half again is half of the strongest colour.
-    let strength = 100.0 * (flip / 0.2 - 1.0);
-    let cell = format!(
-        "<td class=\"broken required\" style=\"--strength:{strength:.0}%\" data-value=\"{flip}\">\
-         <a href=\"#case-{index}\"><span class=\"sign\" aria-hidden=\"true\">✗</span>{flip:.3}\
-         <span class=\"unseen\">, broken, required limit 0.2000</span></a>"
-    );
-    assert!(page.contains(&cell), "{cell}");
-    let failures = between(&page, "<details class=\"failures\"", "</details>")[0];
-    assert!(failures.contains("plate / identity:default"));
-
-    let article = article(&page, index);
-    let findings = bench.findings();
-    let worst = findings[0].worst.as_ref().unwrap();
-    for words in [
-        "1 of 2 kept.",
-        "BROKEN flip_moving 0.2",
-        "scenes/plate/bounds.toml:2: it &lt;i&gt;serves&lt;/i&gt; a test",
-        "the wrong blur <strong>no_blur</strong>, 0 % off",
-        &format!("Worst at ({}, {}) of flip.", worst.x, worst.y),
-    ] {
-        assert!(
-            article.contains(words),
-            "\"{words}\" is missing from:\n{article}"
-        );
-    }
-    let crop = format!(
-        "<figure class=\"crop\" data-x=\"{}\" data-y=\"{}\"",
-        worst.x, worst.y
-    );
-    assert_eq!(article.matches(&crop).count(), 1);
-    assert_eq!(
-        article.matches("<figure class=\"crop\"").count(),
-        1,
-        "what is kept needs no picture"
-    );
-}
-
-#[test]
-fn a_run_that_looked_for_no_place_gets_one_in_its_report() {
-    let bench = Bench::new();
-    bench.write(
-        "bounds.toml",
-        "[default]\nflip_moving = { limit = 0.2, why = \"it serves a test\" }\n",
-    );
-    let output = bench.check(&["--filters", "identity"]);
-    assert_eq!(output.status.code(), Some(1));
-    let page = reported(&bench);
-    let case = |bench: &Bench| {
-        bench
-            .measured()
-            .cases
-            .iter()
-            .position(|case| !case.bar)
-            .unwrap()
-    };
-    let checked = between(
-        article(&page, case(&bench)),
-        "<figure class=\"crop\" ",
-        " data-map",
-    )[0]
-    .to_owned();
-    let words = [&quick("run", "64")[..], &["--filters", "identity"]].concat();
-    assert_done(&bench.shuttertruth(&words));
-    let page = reported(&bench);
-    let article = article(&page, case(&bench));
-    assert_eq!(
-        between(article, "<figure class=\"crop\" ", " data-map")[0],
-        checked
-    );
-    assert!(article.contains("No known failure pattern matched (only <code>check</code> looks"));
-}
-
-#[test]
-fn costs_are_those_of_the_bench_beside_the_run() {
-    let bench = Bench::new();
-    let words = "--filters identity,mcguire:paper --set mcguire.samples=7";
-    assert_done(&bench.run(&split(words)));
-    let without = reported(&bench);
-    assert!(without.contains("Nothing was timed beside this run."));
-    let words =
-        "bench --quiet --filters identity,jump_flood:paper,mcguire:paper --size 64x32 --out out";
-    assert_done(&bench.shuttertruth(&split(words)));
-    let page = reported(&bench);
-    let text = fs::read_to_string(bench.path("out/bench.json")).unwrap();
-    let timed: suite::Bench = serde_json::from_str(&text).unwrap();
-    let seconds = timed
-        .cases
-        .iter()
-        .find(|cost| cost.filter == "identity")
-        .unwrap()
-        .seconds;
-    // In every table of scores one cell of the filter that was run and timed, and none of those that were only timed, or run with
-    // other parameters.
-    let cell = format!("<td class=\"cost\" data-value=\"{}\">", seconds.median);
-    assert_eq!(page.matches(&cell).count(), 9);
-    assert_eq!(page.matches("<td class=\"cost\" data-value").count(), 9);
-    let costs = between(&page, "<section class=\"costs\">", "</section>")[0];
-    for words in [
-        "identity:default",
-        "copy",
-        "256 px",
-        "accumulate:64 (trailing)",
-        timed.adapter.name.as_str(),
-    ] {
-        assert!(
-            costs.contains(words),
-            "\"{words}\" is missing from:\n{costs}"
-        );
-    }
-    fs::write(
-        bench.path("out/bench.json"),
-        text.replace("\"format\": 1", "\"format\": 0"),
-    )
-    .unwrap();
-    let parts = [
-        "out/bench.json: has format 0; allowed: 1",
-        "`shuttertruth bench`",
-    ];
-    assert_refused(&bench.shuttertruth(&WORDS), 2, &parts);
-}
-
-#[test]
 fn a_run_keeps_what_the_jump_flood_dilated() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "jump_flood:corrected"]));
@@ -382,40 +215,4 @@ fn a_run_keeps_what_the_jump_flood_dilated() {
             "({column}, {row})"
         );
     }
-}
-
-#[test]
-fn what_is_no_run_or_lacks_its_pictures_is_refused() {
-    let bench = Bench::new();
-    fs::create_dir(bench.path("out")).unwrap();
-    let refused = |parts: &[&str]| {
-        assert_refused(&bench.shuttertruth(&WORDS), 2, parts);
-        assert!(!bench.path("page").exists());
-    };
-    refused(&["out/run.json", "read"]);
-    fs::write(bench.path("out/run.json"), "{}").unwrap();
-    refused(&["out/run.json: no run of this program", "`shuttertruth run`"]);
-    assert_done(&bench.run(&["--filters", "identity"]));
-    let picture = bench.path("out/plate/identity_default/output.exr");
-    let other = bench.path("out/other.exr");
-    fs::copy(&picture, &other).unwrap();
-    fs::write(&picture, "no picture").unwrap();
-    refused(&["out/plate/identity_default/output.exr"]);
-    fs::remove_file(&picture).unwrap();
-    refused(&["out/plate/identity_default/output.exr", "read"]);
-    let mut small = frame::ExrFile::new(16, 16);
-    small.push_color("", &frame::Raster::filled(16, 16, [0.0; 3]));
-    frame::write_exr(&picture, &small).unwrap();
-    refused(&[
-        "out/plate/identity_default: output.exr has 16x16 pixels, errors.exr 64x32, the scene's frame 64x32",
-        "run the case again",
-    ]);
-    fs::rename(&other, &picture).unwrap();
-
-    let text = fs::read_to_string(bench.path("out/run.json")).unwrap();
-    let mut run: serde_json::Value = serde_json::from_str(&text).unwrap();
-    fs::remove_file(bench.path("out/judgement.json")).unwrap();
-    run["cases"] = serde_json::json!([]);
-    fs::write(bench.path("out/run.json"), run.to_string()).unwrap();
-    refused(&["the run has no cases"]);
 }

@@ -1,0 +1,58 @@
+//! Judgement of a finished run.
+
+use std::fs;
+
+use super::{IDENTITY, assert_ends, bound, bounded};
+use crate::bench::assert_refused;
+
+#[test]
+fn a_finished_run_is_judged_without_an_adapter() {
+    let bench = bounded(0.2, "required");
+    let made = assert_ends(&bench.check(&IDENTITY), 1, &["BROKEN flip_moving"]);
+    let judge = |words: &[&str]| bench.without_adapter(&[&["check"], words].concat());
+    assert_eq!(
+        assert_ends(&judge(&["out/run.json", "--evidence"]), 1, &[]),
+        made
+    );
+    // Evidence takes a while, and is made only for who asks.
+    let plain = assert_ends(&judge(&["out"]), 1, &["BROKEN flip_moving"]);
+    assert!(!plain.contains("worst at"), "{plain}");
+
+    bench.write("bounds.toml", &bound("flip_moving", 0.9, "required"));
+    assert_ends(&judge(&["out"]), 0, &["1 bounds: 1 kept, 0 broken"]);
+    assert_eq!(bench.findings()[0].limit, 0.9);
+
+    let output = judge(&["out", "--scenes-dir", "elsewhere"]);
+    assert_refused(
+        &output,
+        2,
+        &["elsewhere/plate", "no such scene", "--scenes-dir"],
+    );
+    fs::remove_file(bench.path("scenes/plate/bounds.toml")).unwrap();
+    assert_refused(
+        &judge(&["out"]),
+        2,
+        &["out/run.json", "no score of it has a bound"],
+    );
+    let output = judge(&["out", "--size", "64x32"]);
+    assert_refused(&output, 2, &["--size", "cannot be used with", "RUN"]);
+}
+
+#[test]
+fn a_judgement_of_another_run_is_refused() {
+    let bench = bounded(0.2, "required");
+    bench.check(&IDENTITY);
+    let run = bench.path("out/run.json");
+    let text = fs::read_to_string(&run).unwrap();
+    fs::write(&run, text.replace("\"seed\": 1,", "\"seed\": 2,")).unwrap();
+    let output = bench.shuttertruth(&["report", "out", "--html", "page.html"]);
+    assert_refused(
+        &output,
+        2,
+        &[
+            "judgement.json",
+            "about another run.json",
+            "shuttertruth check out/run.json",
+        ],
+    );
+}

@@ -1,0 +1,43 @@
+//! `check`: bounds as their user meets them.
+
+mod calibrated;
+mod finished_run;
+mod formats;
+mod outcomes;
+
+use std::process::Output;
+
+use crate::bench::{Bench, stderr, stdout};
+
+const IDENTITY: [&str; 2] = ["--filters", "identity"];
+
+/// A bench whose scene holds the identity to a limit on `flip_moving`, which it scores about 0.3 in.
+fn bounded(limit: f64, level: &str) -> Bench {
+    let bench = Bench::new();
+    bench.write("bounds.toml", &bound("flip_moving", limit, level));
+    bench
+}
+
+fn bound(metric: &str, limit: f64, level: &str) -> String {
+    format!(
+        "[default]\n{metric} = {{ limit = {limit:?}, why = \"it serves a test\", level = \"{level}\" }}\n"
+    )
+}
+
+#[track_caller]
+fn assert_ends(output: &Output, code: i32, parts: &[&str]) -> String {
+    let text = stdout(output);
+    assert_eq!(output.status.code(), Some(code), "{text}{}", stderr(output));
+    // Lines break where the terminal ends.
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    for part in parts {
+        let found = text.contains(part) || words.contains(part);
+        assert!(found, "\"{part}\" is missing from:\n{text}");
+    }
+    text
+}
+
+fn json(bench: &Bench, more: &[&str]) -> serde_json::Value {
+    let output = bench.check(&[&IDENTITY[..], &["--json"], more].concat());
+    serde_json::from_slice(&output.stdout).unwrap()
+}

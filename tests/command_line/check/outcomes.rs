@@ -1,0 +1,222 @@
+//! Exit codes of `check`, each with its text.
+
+use std::fs;
+
+use super::{IDENTITY, assert_ends, bound, bounded, json};
+use crate::bench::{Bench, SCENE, assert_refused, stderr};
+
+#[test]
+fn scores_that_keep_their_bounds_pass() {
+    let bench = bounded(0.9, "required");
+    let text = assert_ends(&bench.check(&IDENTITY), 0, &["1 bounds: 1 kept, 0 broken"]);
+    assert!(
+        !text.contains("plate /"),
+        "what is kept is not listed: {text}"
+    );
+    let case = &bench.measured_filters()[0];
+    let interval = case.intervals["flip_moving"];
+    let value = case
+        .scores
+        .get("flip_moving".parse().unwrap())
+        .value()
+        .unwrap();
+    assert!(
+        interval.low < value && value < interval.high,
+        "{interval:?} {value}"
+    );
+}
+
+#[test]
+fn a_broken_bound_is_exit_code_1_with_all_that_helps() {
+    let bench = bounded(0.2, "required");
+    let output = bench.check(&IDENTITY);
+    let text = assert_ends(
+        &output,
+        1,
+        &[
+            "plate / identity:default",
+            "BROKEN flip_moving 0.2",
+            "95 % CI 0.2",
+            "limit 0.2000, floor 0.0",
+            "scenes/plate/bounds.toml:2: it serves a test",
+            "worst at (24, 8): out/plate/identity_default/worst_flip_moving.png",
+            "most like no_blur, 0 % off",
+            "pictures: out/plate/identity_default",
+            "1 bounds: 0 kept, 1 broken",
+        ],
+    );
+    assert!(stderr(&output).contains("a required bound is broken"));
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 80),
+        "{text}"
+    );
+    assert!(
+        bench
+            .path("out/plate/identity_default/worst_flip_moving.png")
+            .is_file()
+    );
+}
+
+#[test]
+fn a_blur_that_is_like_no_wrong_one_is_said_to_be_like_none() {
+    let bench = bounded(0.04, "required");
+    // A box over whatever moves, with front and back swapped: wrong in a way of its own. Scaled to 64 pixels, its tiles would be
+    // too small for any blur.
+    let output = bench.check(&[
+        "--filters",
+        "mcguire:motion_blur_demo,mcguire:paper",
+        "--as-written",
+        "--json",
+    ]);
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let [own, short] = [0, 1].map(|filter| &found["findings"][filter]);
+    assert_eq!([&own["kind"], &short["kind"]], ["broken"; 2]);
+    assert!(own["resembles"].is_null(), "{own}");
+    // Its taps count less towards the ends, and at 3 px that is much of them.
+    assert_eq!(short["resembles"]["decoy"], "half_length", "{short}");
+}
+
+#[test]
+fn what_is_only_reported_fails_nothing() {
+    let bench = Bench::new();
+    let text = bound("flip_moving", 0.2, "report");
+    let required = "label_tv = { limit = 0.9, why = \"it serves a test\" }\n";
+    bench.write("bounds.toml", &(text + required));
+    assert_ends(
+        &bench.check(&IDENTITY),
+        0,
+        &["broken (report) flip_moving", "1 of them required"],
+    );
+}
+
+#[test]
+fn a_limit_inside_the_interval_is_exit_code_4_and_says_what_would_settle_it() {
+    let bench = bounded(0.9, "required");
+    let found = json(&bench, &[]);
+    let interval = &found["findings"][0]["interval"];
+    let [low, high] = ["low", "high"].map(|end| interval[end].as_f64().unwrap());
+    // A little more than a quarter of the half width from its middle: 16 times the samples halve it twice.
+    let limit = 0.5 * (low + high) + 0.26 * 0.5 * (high - low);
+    bench.write("bounds.toml", &bound("flip_moving", limit, "required"));
+    let output = bench.check(&IDENTITY);
+    assert_ends(
+        &output,
+        4,
+        &[
+            "INCONCLUSIVE flip_moving",
+            "--samples-per-pixel 1024 would settle it",
+        ],
+    );
+    assert!(stderr(&output).contains("raise --samples-per-pixel"));
+    let value = found["findings"][0]["value"].as_f64().unwrap();
+    bench.write(
+        "bounds.toml",
+        &bound("flip_moving", value.min(limit), "report"),
+    );
+    let required = "label_tv = { limit = 0.9, why = \"it serves a test\" }\n";
+    let text = fs::read_to_string(bench.path("scenes/plate/bounds.toml")).unwrap();
+    bench.write("bounds.toml", &(text + required));
+    assert_ends(
+        &bench.check(&IDENTITY),
+        0,
+        &["inconclusive (report) flip_moving"],
+    );
+}
+
+#[test]
+fn a_bound_within_three_floors_is_exit_code_2_and_names_the_strictest() {
+    let bench = bounded(0.9, "required");
+    let found = json(&bench, &[]);
+    let floor = found["findings"][0]["floor"].as_f64().unwrap();
+    let strictest = found["findings"][0]["strictest"].as_f64().unwrap();
+    assert_eq!(strictest, 3.0 * floor);
+    bench.write(
+        "bounds.toml",
+        &bound("flip_moving", 0.99 * strictest, "report"),
+    );
+    let required = "label_tv = { limit = 0.9, why = \"it serves a test\" }\n";
+    let text = fs::read_to_string(bench.path("scenes/plate/bounds.toml")).unwrap();
+    bench.write("bounds.toml", &(text + required));
+    let output = bench.check(&IDENTITY);
+    let allowed = format!("the noise floor of {floor:.5}");
+    assert_ends(
+        &output,
+        2,
+        &["TOO STRICT flip_moving", &allowed[..20], "at the strictest"],
+    );
+    assert!(stderr(&output).contains("stricter than three noise floors"));
+}
+
+#[test]
+fn a_case_of_which_no_bound_applies_is_no_success() {
+    let bench = bounded(0.9, "required");
+    bench.write("scene.toml", &SCENE.replace("[-1.6, 0, 0]", "[0, 0, 0]"));
+    let output = bench.check(&IDENTITY);
+    assert_ends(&output, 2, &["1 not applicable"]);
+    assert!(stderr(&output).contains("no bound that applies"));
+}
+
+#[test]
+fn what_cannot_be_checked_is_refused_before_anything_is_rendered() {
+    let rows: &[(&str, &[&str], &[&str])] = &[
+        (
+            "",
+            &[],
+            &["plate / identity:default: has no bound", "[default]"],
+        ),
+        (
+            "[default]\nflip_moving = { limit = 0.1, why = \"w\", level = \"report\" }\n",
+            &[],
+            &["no bound of identity:default is required"],
+        ),
+        (
+            "[default]\nflip = { limit = 0.1, why = \"w\" }\n",
+            &[],
+            &["bounds.toml:2: metric \"flip\" is unknown"],
+        ),
+        (
+            "[filter.jumpflood]\nextent = { limit = 0.1, why = \"w\" }\n",
+            &[],
+            &["bounds.toml:1: no filter is called \"jumpflood\""],
+        ),
+        (
+            "[default]\nflip_moving = { limit = 0.1, why = \"w\" }\n",
+            &["--replicates", "2"],
+            &["--replicates 2: 4 or more are needed"],
+        ),
+        (
+            "[default]\nflip_moving = { limit = 0.1, why = \"w\" }\n",
+            &["--github"],
+            &["GITHUB_STEP_SUMMARY is not set"],
+        ),
+        (
+            "[default]\nflip_moving = { limit = 0.1, why = \"w\" }\n",
+            &["--baseline", "base.json"],
+            &["base.json"],
+        ),
+    ];
+    for (bounds, more, parts) in rows {
+        let bench = Bench::new();
+        bench.write("bounds.toml", bounds);
+        assert_refused(&bench.check(&[&IDENTITY[..], *more].concat()), 2, parts);
+        assert!(
+            !bench.path("out").exists(),
+            "{more:?} left something behind"
+        );
+    }
+    let bench = bounded(0.9, "required");
+    fs::create_dir(bench.path("scenes/plates")).unwrap();
+    fs::write(bench.path("scenes/plates/bounds.toml"), "").unwrap();
+    assert_refused(
+        &bench.check(&IDENTITY),
+        2,
+        &["plates/bounds.toml: bounds of a scene that does not exist"],
+    );
+}
+
+#[test]
+fn no_adapter_is_exit_code_3() {
+    let bench = bounded(0.9, "required");
+    let output = bench.without_adapter(&["check", "--out", "out", "--filters", "identity"]);
+    assert_refused(&output, 3, &["mesa-vulkan-drivers"]);
+}

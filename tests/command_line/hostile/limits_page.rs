@@ -1,0 +1,46 @@
+//! The page that lists all limits.
+
+use std::fs;
+use std::path::Path;
+
+#[test]
+fn the_page_of_limits_says_what_the_constants_say() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let read = |path: &str| fs::read_to_string(root.join(path)).unwrap();
+    let page = read("docs/limits.md");
+    // Each holds a number, and the constant that has it as `NAME` in `path`.
+    let rows: Vec<Vec<&str>> = (page.lines())
+        .filter(|line| line.starts_with("| ") && line.contains("` in `"))
+        .map(|line| line.split('|').map(str::trim).collect())
+        .collect();
+    for row in &rows {
+        let written: f64 = row[2].replace(',', "").parse().unwrap();
+        let place: Vec<&str> = row[4].split('`').collect();
+        let (name, path) = (place[1], place[3]);
+        let source = read(path);
+        let declared = source
+            .split_once(&format!("const {name}:"))
+            .unwrap_or_else(|| panic!("{path} has no constant {name}"));
+        let (_, value) = declared.1.split_once('=').unwrap();
+        let (value, _) = value.split_once(';').unwrap();
+        assert_eq!(written, number(value), "{name} in {path}");
+    }
+    let source = read("crates/tracer/src/limits.rs");
+    for line in source.lines().filter(|line| line.starts_with("pub const")) {
+        let name = line.split([' ', ':']).nth(2).unwrap();
+        let named = rows.iter().any(|row| row[4].contains(&format!("`{name}`")));
+        assert!(named, "docs/limits.md lacks {name}");
+    }
+}
+
+/// A product of numbers as Rust writes them, or a shifted 1.
+fn number(text: &str) -> f64 {
+    let text = text.trim().replace('_', "");
+    match text.split_once("<<") {
+        Some((one, bits)) => number(one) * number(bits).exp2(),
+        None => (text
+            .split('*')
+            .map(|factor| factor.trim().parse::<f64>().unwrap()))
+        .product(),
+    }
+}

@@ -1,0 +1,133 @@
+//! Kinds, sizes, names and places of files.
+
+use std::fs;
+use std::path::Path;
+
+use tests::text::assert_contains;
+
+use super::{refused, render, with_sky, with_texture};
+use crate::bench::{Bench, SCENE, assert_done, assert_refused};
+
+#[cfg(unix)]
+#[test]
+fn what_is_no_regular_file_is_refused_before_it_is_opened() {
+    let fifo = |path: &Path| {
+        let made = std::process::Command::new("mkfifo").arg(path).status();
+        assert!(made.unwrap().success());
+    };
+    let zero = |path: &Path| std::os::unix::fs::symlink("/dev/zero", path).unwrap();
+    let socket = |path: &Path| drop(std::os::unix::net::UnixListener::bind(path).unwrap());
+    let folder = |path: &Path| fs::create_dir(path).unwrap();
+    type Make<'a> = &'a dyn Fn(&Path);
+    let kinds: [(Make, &str); 4] = [
+        (&fifo, "it is a FIFO"),
+        (&zero, "it is a device"),
+        (&socket, "it is a socket"),
+        (&folder, "it is a folder"),
+    ];
+    for (make, found) in kinds {
+        for (file, place) in [
+            ("scene.toml", "scene.toml: cannot be read"),
+            ("plate.obj", "scene.toml:15: mesh"),
+            ("plate.mtl", "plate.obj:1: material library"),
+            ("paint.png", "plate.mtl:3: texture"),
+            ("sky.exr", "scene.toml:12: the background's image"),
+        ] {
+            let bench = Bench::new();
+            match file {
+                "paint.png" => with_texture(&bench, file),
+                "sky.exr" => with_sky(&bench, file),
+                _ => fs::remove_file(bench.path("scenes/plate").join(file)).unwrap(),
+            }
+            make(&bench.path("scenes/plate").join(file));
+            // In this process, since there are so many: a file that is opened after all hangs it.
+            let error = tracer::load_scene(&bench.path("scenes/plate"), None).unwrap_err();
+            let message = error.to_string();
+            assert_contains(
+                &message,
+                &[place, found, "where a regular file is expected"],
+            );
+        }
+    }
+}
+
+#[test]
+fn a_file_that_is_too_large_is_refused_before_it_is_read() {
+    let bench = Bench::new();
+    // A hole: no disk is taken.
+    let file = fs::File::create(bench.path("scenes/plate/plate.obj")).unwrap();
+    file.set_len(tracer::limits::LARGEST_MESH_FILE + 1).unwrap();
+    let found = "holds 2147483649 bytes, and at most 2147483648 are read";
+    refused(&bench, &["scene.toml:15: mesh", "plate.obj", found]);
+}
+
+#[test]
+fn a_folder_whose_name_moves_the_cursor_is_refused() {
+    let bench = Bench::new();
+    bench.copy_scene("turn\u{1b}[31med", |scene| {
+        scene.replace("exposure = 0.5", "exposure = 1")
+    });
+    let found = "the folder's name is the scene's, and it holds the control character U+001B";
+    let output = bench.shuttertruth(&["list"]);
+    assert_refused(&output, 2, &[found, "rename the folder"]);
+}
+
+#[test]
+fn letters_of_other_languages_are_allowed() {
+    let bench = Bench::new();
+    bench.copy_scene("été_桜", |scene| {
+        scene.replace("nothing: it serves", "Ничего: it serves")
+    });
+    let name = "scenes/été_桜";
+    let scene = tracer::load_scene(&bench.path(name), None).unwrap();
+    assert_eq!(scene.name, "été_桜");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_scene_that_cannot_be_read_is_named_and_not_passed_over() {
+    let message = |bench: &Bench| {
+        let error = tracer::list_scenes(&bench.path("scenes")).unwrap_err();
+        error.to_string()
+    };
+    let link = std::os::unix::fs::symlink::<&str, std::path::PathBuf>;
+
+    // A folder that is gone.
+    let bench = Bench::new();
+    link("nowhere", bench.path("scenes/moved")).unwrap();
+    let found = message(&bench);
+    assert!(found.contains("scenes/moved: cannot be read"), "{found}");
+
+    // A scene.toml that is gone, and one that is a folder.
+    let bench = Bench::new();
+    fs::create_dir(bench.path("scenes/half")).unwrap();
+    assert_eq!(tracer::list_scenes(&bench.path("scenes")).unwrap().len(), 1);
+    link("nowhere", bench.path("scenes/half/scene.toml")).unwrap();
+    let found = message(&bench);
+    assert!(found.contains("half/scene.toml: cannot be read"), "{found}");
+    fs::remove_file(bench.path("scenes/half/scene.toml")).unwrap();
+    fs::create_dir(bench.path("scenes/half/scene.toml")).unwrap();
+    let found = message(&bench);
+    assert!(found.contains("it is a folder"), "{found}");
+}
+
+#[test]
+fn files_outside_of_the_scenes_folder_are_read() {
+    let bench = Bench::new();
+    fs::create_dir(bench.path("shared")).unwrap();
+    for file in ["plate.obj", "plate.mtl"] {
+        fs::rename(
+            bench.path("scenes/plate").join(file),
+            bench.path("shared").join(file),
+        )
+        .unwrap();
+    }
+    let elsewhere = toml::Value::from(bench.path("shared/plate.obj").to_string_lossy().as_ref());
+    for mesh in [
+        "\"../../shared/plate.obj\"".to_owned(),
+        elsewhere.to_string(),
+    ] {
+        bench.write("scene.toml", &SCENE.replace("\"plate.obj\"", &mesh));
+        assert_done(&render(&bench));
+    }
+}

@@ -1,0 +1,152 @@
+//! Scenes of very many objects, variants, keys, parents and brackets.
+
+use std::fmt::Write as _;
+use std::time::{Duration, Instant};
+
+use super::{refused, render};
+use crate::bench::{Bench, OBJ, SCENE, assert_refused, stderr};
+
+/// A scene of the plate and a text behind it.
+fn with_more(bench: &Bench, more: impl FnOnce(&mut String)) {
+    let mut scene = SCENE.to_owned();
+    more(&mut scene);
+    bench.write("scene.toml", &scene);
+}
+
+fn objects(scene: &mut String, count: usize, rest: impl Fn(usize) -> String) {
+    for object in 0..count {
+        let rest = rest(object);
+        write!(scene, "[object.o{object}]\nmesh = \"plate.obj\"\n{rest}\n").unwrap();
+    }
+}
+
+/// Each of these took minutes, or grew with the square or the cube of the number; now some 0.2 s. The limit is one for a
+/// slow machine that does other things.
+#[track_caller]
+fn loads_soon<T>(load: impl FnOnce() -> T) -> T {
+    let start = Instant::now();
+    let loaded = load();
+    let took = start.elapsed();
+    assert!(took < Duration::from_secs(60), "{took:?}");
+    loaded
+}
+
+#[test]
+fn loading_takes_a_time_that_grows_with_the_scenes_size() {
+    let bench = Bench::new();
+    let load = || loads_soon(|| tracer::load_scene(&bench.path("scenes/plate"), None));
+
+    // 16,000 objects in chains of 250.
+    with_more(&bench, |scene| {
+        objects(scene, 16_000, |object| match object % 250 {
+            0 => String::new(),
+            _ => format!("parent = \"o{}\"", object - 1),
+        });
+    });
+    assert_eq!(load().unwrap().objects.len(), 16_001);
+
+    // 4,000 variants, each of which changes an object that the others do not.
+    with_more(&bench, |scene| {
+        objects(scene, 4_000, |_| String::new());
+        for variant in 0..4_000 {
+            write!(scene, "[variant.v{variant}.object.o{variant}]\nscale = 2\n").unwrap();
+        }
+    });
+    assert_eq!(load().unwrap().objects.len(), 4_001);
+    let listings = loads_soon(|| tracer::list_scenes(&bench.path("scenes")).unwrap());
+    assert_eq!(listings[0].variants.len(), 4_000);
+
+    // 30,000 groups of as many materials, and 200 objects that show them all.
+    let mut obj = OBJ.replace("usemtl paint\n", "");
+    let mut mtl = String::new();
+    for group in 0..30_000 {
+        let corner = 5 + group;
+        write!(
+            obj,
+            "v 0 0 {group}\ng g{group}\nusemtl m{group}\nf 1 2 {corner}\n"
+        )
+        .unwrap();
+        write!(mtl, "newmtl m{group}\nKd 0 0 0\n").unwrap();
+    }
+    bench.write("plate.obj", &obj);
+    bench.write("plate.mtl", &mtl);
+    with_more(&bench, |scene| objects(scene, 200, |_| String::new()));
+    assert_eq!(load().unwrap().meshes.len(), 1);
+}
+
+#[test]
+fn a_chain_of_too_many_parents_is_refused_without_recursion() {
+    let bench = Bench::new();
+    with_more(&bench, |scene| {
+        objects(scene, 10_000, |object| match object {
+            0 => String::new(),
+            _ => format!("parent = \"o{}\"", object - 1),
+        });
+    });
+    let found = "object \"o257\" has 257 parents above it; allowed: 256; attach it to one nearer to the world";
+    refused(&bench, &["scene.toml:791:", found]);
+
+    // All in one circle.
+    with_more(&bench, |scene| {
+        objects(scene, 10_000, |object| {
+            format!("parent = \"o{}\"", (object + 1) % 10_000)
+        });
+    });
+    let found = "the parents of objects form a cycle: o0 -> o1 -> o2 -> o3 -> o4 -> o5 -> o6 -> o7 -> ... -> o9993";
+    refused(&bench, &["scene.toml:22:", found]);
+}
+
+#[test]
+fn too_many_of_anything_are_refused() {
+    let bench = Bench::new();
+    with_more(&bench, |scene| objects(scene, 16_384, |_| String::new()));
+    let found = "the scene has 16385 objects; allowed: 16384";
+    refused(&bench, &["scene.toml:", found]);
+
+    with_more(&bench, |scene| {
+        for variant in 0..4_097 {
+            write!(scene, "[variant.v{variant}]\nexposure = 1\n").unwrap();
+        }
+    });
+    let found = "the scene has 4097 variants; allowed: 4096; move some to a folder of their own";
+    refused(&bench, &["scene.toml:", found]);
+
+    let mut keys = String::new();
+    for key in 0..16_385 {
+        write!(keys, "{{ time = {key} }},").unwrap();
+    }
+    with_more(&bench, |scene| {
+        objects(scene, 1, |_| format!("keys = [{keys}]"));
+    });
+    let found = "object \"o0\" has 16385 keys; allowed: 1 to 16384";
+    refused(&bench, &["scene.toml:22:", found]);
+}
+
+#[test]
+fn a_long_list_of_names_is_cut_in_messages() {
+    let bench = Bench::new();
+    with_more(&bench, |scene| {
+        objects(scene, 5_000, |_| String::new());
+        *scene += "[object.last]\nmesh = \"plate.obj\"\nparent = \"nobody\"\n";
+    });
+    let output = render(&bench);
+    assert_refused(&output, 2, &["allowed: camera, plate, o0, o1", "4961 more"]);
+    assert!(stderr(&output).len() < 1_000);
+}
+
+#[test]
+fn a_text_that_nests_without_end_is_refused() {
+    let bench = Bench::new();
+    for text in [
+        format!("a = {}", "[".repeat(200_000)),
+        format!("a = {}", "{a=".repeat(200_000)),
+        format!("[{}a]\n", "a.".repeat(200_000)),
+        format!("{}a = 1\n", "a.".repeat(200_000)),
+    ] {
+        bench.write("scene.toml", &text);
+        refused(
+            &bench,
+            &["scene.toml:", "nested too deeply; allowed: up to 80"],
+        );
+    }
+}

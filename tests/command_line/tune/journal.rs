@@ -1,0 +1,103 @@
+//! The journal of a tuning: kills, full disks, foreign files, other budgets.
+
+use std::fs;
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use super::{bench, journal, tuning_words};
+use crate::bench::assert_refused;
+
+#[test]
+fn a_killed_tuning_goes_on_where_it_was_and_ends_with_the_same_bytes() {
+    let bench = bench();
+    bench.done(&tuning_words("whole", "30", &[]));
+    let mut child = bench
+        .command(&tuning_words("killed", "30", &[]))
+        .spawn()
+        .unwrap();
+    let path = bench.path("killed/journal.jsonl");
+    let began = Instant::now();
+    while fs::read_to_string(&path).map_or(0, |text| text.lines().count()) < 8 {
+        // Generous: it takes a second or two.
+        assert!(
+            began.elapsed() < Duration::from_secs(120),
+            "no trial after two minutes"
+        );
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let left = journal(&bench, "killed");
+    assert!(left.lines().count() < 31, "it was killed on its way");
+    // A line that was half written when the power failed.
+    fs::write(&path, format!("{left}{{\"trial\":7")).unwrap();
+    bench.done(&tuning_words("killed", "30", &[]));
+    assert_eq!(journal(&bench, "killed"), journal(&bench, "whole"));
+}
+
+#[test]
+fn a_file_that_is_no_journal_of_this_tuning_is_left_as_it_was() {
+    let bench = bench();
+    let path = bench.path("out/journal.jsonl");
+    fs::create_dir_all(bench.path("out")).unwrap();
+    for foreign in [
+        "my notes, without an end of line",
+        "{\"format\":1}\nand half a line",
+        "first line\nsecond line\n",
+    ] {
+        fs::write(&path, foreign).unwrap();
+        let refused = bench.shuttertruth(&tuning_words("out", "4", &[]));
+        assert_refused(&refused, 2, &["journal.jsonl:1:", "another --out"]);
+        assert_eq!(fs::read_to_string(&path).unwrap(), foreign);
+    }
+}
+
+#[test]
+fn a_smaller_budget_is_the_beginning_of_a_larger_one_and_another_seed_is_another_search() {
+    let bench = bench();
+    bench.done(&tuning_words("out", "12", &[]));
+    let first = journal(&bench, "out");
+    bench.done(&tuning_words("out", "16", &[]));
+    let second = journal(&bench, "out");
+    assert!(second.starts_with(&first) && second.lines().count() == 17);
+    let other = tuning_words("out", "16", &["--search-seed", "2"]);
+    assert_refused(
+        &bench.shuttertruth(&other),
+        2,
+        &[
+            "journal.jsonl:1: it was begun with another design",
+            "another --out",
+        ],
+    );
+    assert_eq!(journal(&bench, "out"), second, "nothing is lost");
+}
+
+/// A limit on the size of files stands for a disk that is full: either way, a write comes back with an error.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_loses_nothing() {
+    let bench = bench();
+    bench.done(&tuning_words("out", "1", &[]));
+    let begun = journal(&bench, "out");
+    // Blocks of 512 bytes: room for some trials more.
+    let blocks = (begun.len() + 2000).div_ceil(512).to_string();
+    let program = env!("CARGO_BIN_EXE_shuttertruth");
+    let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec {program} \"$@\"");
+    let mut full = Command::new("sh");
+    full.current_dir(bench.path("")).args(["-c", &script, "sh"]);
+    let output = full.args(tuning_words("out", "20", &[])).output().unwrap();
+    assert_refused(
+        &output,
+        2,
+        &[
+            "journal.jsonl: cannot be written",
+            "whole trials are safe",
+            "run the same command again",
+        ],
+    );
+    let left = journal(&bench, "out");
+    assert!(left.starts_with(&begun) && left.len() > begun.len());
+    bench.done(&tuning_words("out", "20", &[]));
+    bench.done(&tuning_words("whole", "20", &[]));
+    assert_eq!(journal(&bench, "out"), journal(&bench, "whole"));
+}

@@ -1,0 +1,82 @@
+//! `tune`: the search, the journal, the results and the refusals.
+
+mod found;
+mod journal;
+mod refusals;
+
+use std::fs;
+
+use suite::{Trial, Tuning};
+
+use crate::bench::{Bench, MTL, OBJ, SCENE};
+
+/// Ways of the plate in one frame, in metres, and the families that its scenes claim.
+const SCENES: [(&str, &str, &str); 7] = [
+    ("a", "-1.6", "translation"),
+    ("b", "-1.2", "camera"),
+    ("c", "0.9", "thin"),
+    ("d", "1.3", "translation"),
+    ("e", "-0.8", "camera"),
+    ("f", "1.8", "thin"),
+    ("g", "-2.0", "translation"),
+];
+
+/// A bench with scenes a to g.
+fn bench() -> Bench {
+    let bench = Bench::new();
+    for (name, way, family) in SCENES {
+        let scene = SCENE
+            .replace("translation = [-1.6,", &format!("translation = [{way},"))
+            .replace("\"translation\"", &format!("\"{family}\""));
+        let folder = bench.path("scenes").join(name);
+        fs::create_dir_all(&folder).unwrap();
+        for (file, text) in [
+            ("scene.toml", scene.as_str()),
+            ("plate.obj", OBJ),
+            ("plate.mtl", MTL),
+        ] {
+            fs::write(folder.join(file), text).unwrap();
+        }
+    }
+    bench
+}
+
+/// A tuning of five parameters on six scenes, by what does not depend on a clock.
+const TUNE: [&str; 17] = [
+    "tune",
+    "--quiet",
+    "--filter",
+    "jump_flood",
+    "--from",
+    "paper",
+    "--vary",
+    "samples=2..16,probes,match_threshold,jitter,foreground_extent",
+    "--objective",
+    "flip,bleed",
+    "--scenes",
+    "a,b,c,d,e,f,g",
+    "--size",
+    "64x32",
+    "--samples-per-pixel",
+    "16",
+    "--budget",
+];
+
+fn tuning_words<'w>(out: &'w str, budget: &'w str, more: &[&'w str]) -> Vec<&'w str> {
+    [&TUNE[..], &[budget, "--out", out], more].concat()
+}
+
+fn journal(bench: &Bench, out: &str) -> String {
+    fs::read_to_string(bench.path(out).join("journal.jsonl")).unwrap()
+}
+
+fn trials(journal: &str) -> Vec<Trial> {
+    let lines = journal.lines().skip(1);
+    lines
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect()
+}
+
+fn tuning(bench: &Bench, out: &str) -> Tuning {
+    bench.read_json(&format!("{out}/tune.json"))
+}

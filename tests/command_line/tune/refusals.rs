@@ -1,0 +1,132 @@
+//! Tunings that are refused, and candidates that fail.
+
+use std::fs;
+
+use tests::filter_folder::{write_manifest, write_script};
+
+use super::{bench, tuning};
+use crate::bench::{Bench, SCENE, assert_done, assert_refused, split, stderr, stdout};
+
+#[test]
+fn what_cannot_be_tuned_is_refused_and_leaves_nothing_behind() {
+    let bench = bench();
+    fs::write(
+        bench.path("scenes/g/scene.toml"),
+        SCENE.replace("translation = [-1.6,", "translation = [0,"),
+    )
+    .unwrap();
+    let rows: [(&[&str], &[&str]); 9] = [
+        (&["--budget", "0"], &["--budget 0", "allowed is 1 or more"]),
+        (
+            &["--vary", "sample"],
+            &["--vary sample", "no parameter", "samples"],
+        ),
+        (
+            &["--vary", "samples=9..3"],
+            &["--vary samples=9..3", "the range is empty"],
+        ),
+        (
+            &["--scenes", "nowhere"],
+            &["no scene \"nowhere\"", "allowed: a, b"],
+        ),
+        (&["--scenes", "a,a"], &["a is named twice"]),
+        (&["--sealed", "b"], &["--sealed b", "proves nothing"]),
+        (
+            &["--cost-at-most", "1x"],
+            &["--cost-at-most", "--objective flip,cost"],
+        ),
+        (&["--objective", "speed"], &["allowed: flip, bleed, cost"]),
+        (&["--from", "fastest"], &["no preset \"fastest\"", "paper"]),
+    ];
+    let usual = [
+        ("--budget", "2"),
+        ("--filter", "jump_flood"),
+        ("--scenes", "a"),
+        ("--out", "out"),
+    ];
+    for (more, parts) in rows {
+        let mut words = vec!["tune", "--quiet", "--objective", "flip"];
+        if more[0] == "--objective" {
+            words.truncate(2);
+        }
+        for (name, value) in usual.iter().filter(|(name, _)| *name != more[0]) {
+            words.extend([name, value]);
+        }
+        if more[0] == "--sealed" {
+            words.extend(["--vary", "samples"]);
+            let at = words.iter().position(|word| *word == "a").unwrap();
+            words[at] = "a,b";
+        }
+        assert_refused(&bench.shuttertruth(&[&words[..], more].concat()), 2, parts);
+        assert!(
+            !bench.path("out").exists(),
+            "{more:?} left something behind"
+        );
+    }
+    let still = split("tune --quiet --filter jump_flood --scenes g --size 64x32 --out out");
+    let few = ["--samples-per-pixel", "16"];
+    let output = bench.shuttertruth(&[&still[..], &few].concat());
+    assert_refused(
+        &output,
+        2,
+        &["scene g: nothing moves", "leave it out of --scenes"],
+    );
+}
+
+/// A filter that is a program: it copies, and fails where its one parameter is above a half.
+#[cfg(unix)]
+fn fails_above_a_half(bench: &Bench, name: &str, default: &str) {
+    let parameter = format!(
+        "command = [\"./blur.sh\", \"{{frame}}\", \"{{out}}\", \"{{strength}}\"]\n\
+         [[parameter]]\nname = \"strength\"\nkind = \"real\"\nrange = [0.0, 1.0]\ndefault = {default}\ndoc = \"None.\"\n\
+         [[preset]]\nname = \"default\"\ndoc = \"As it is.\""
+    );
+    write_manifest(&bench.path(name), name, &parameter);
+    let script = "case $3 in 0.[5-9]*|1*) echo too strong >&2; exit 7;; esac\ncp $1 $2";
+    write_script(&bench.path(name).join("blur.sh"), script);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_candidate_that_fails_is_told_of_and_the_others_go_on() {
+    let bench = bench();
+    fails_above_a_half(&bench, "fragile", "0.25");
+    let tune = |filter| {
+        let words = [
+            "tune",
+            "--quiet",
+            "--allow-commands",
+            "--filter",
+            filter,
+            "--objective",
+            "flip",
+            "--scenes",
+            "a,b",
+        ];
+        let more = split("--size 64x32 --samples-per-pixel 16 --budget 8 --out out");
+        bench.shuttertruth(&[&words[..], &more].concat())
+    };
+    let output = tune("./fragile");
+    assert_done(&output);
+    let tuning = tuning(&bench, "out");
+    assert_eq!(tuning.trials, 8);
+    assert!((1..8).contains(&tuning.failed.len()), "{:?}", tuning.failed);
+    let text = stdout(&output);
+    assert!(
+        text.contains("failed: trial") && text.contains("too strong"),
+        "{text}"
+    );
+    for (trial, reason) in &tuning.failed {
+        assert!(reason.contains("too strong"), "trial {trial}: {reason}");
+    }
+    // A start that fails leaves nothing to compare with.
+    fails_above_a_half(&bench, "broken", "0.75");
+    fs::remove_dir_all(bench.path("out")).unwrap();
+    let output = tune("./broken");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("too strong"),
+        "{}",
+        stderr(&output)
+    );
+}

@@ -1,0 +1,126 @@
+//! Folders that load: the documented example, and those that are built in.
+
+use filters::{Blur, Filter, Gpu, Input, Settings, Value};
+use frame::Raster;
+use tests::filter_folder::{load_filter, shipped_filter};
+
+use super::example;
+
+/// A bar that moves right, at the middle of a wide image.
+fn blurred_row(filter: &Filter, settings: &Settings) -> Vec<f32> {
+    let gpu = Gpu::new(None).expect("these tests run filters");
+    let color = Raster::from_fn(90, 5, |x, _| {
+        [if (40..50).contains(&x) { 1.0 } else { 0.0 }; 3]
+    });
+    let velocity = Raster::filled(90, 5, [20.0, 0.0]);
+    let depth = Raster::filled(90, 5, 3.0);
+    let mut blur = Blur::new(&gpu, filter, settings, 90, 5).unwrap();
+    let input = Input {
+        color: &[&color],
+        velocity: &velocity,
+        depth: &depth,
+        reprojection: None,
+        exposure: 0.5,
+        frame_index: 0,
+    };
+    let output = blur.run(&input).unwrap();
+    (0..90).map(|x| output[0].at(x, 2)[0]).collect()
+}
+
+#[test]
+fn the_documented_example_loads_from_a_folder_and_blurs() {
+    let filter = load_filter("centre_blur", example("toml"), example("wgsl")).unwrap();
+    assert_eq!(filter.alignment, frame::Alignment::Centred);
+    let settings = filter.settings(None).unwrap();
+    assert_eq!(settings.preset, "fast");
+    let row = blurred_row(&filter, &settings);
+    // Ten pixels of motion on ten pixels of bar: a triangle over 35 to 55.
+    let energy: f32 = row.iter().sum();
+    assert!(
+        (energy - 10.0).abs() < 1e-4,
+        "taps of one weight move light, and add none: {energy}"
+    );
+    let centre: f32 = row
+        .iter()
+        .enumerate()
+        .map(|(x, v)| (x as f32 + 0.5) * v)
+        .sum::<f32>()
+        / energy;
+    assert!(
+        (centre - 45.0).abs() < 1e-3,
+        "a centred blur stays where it was: {centre}"
+    );
+    let reach: Vec<usize> = (0..90).filter(|x| row[*x] > 0.0).collect();
+    assert_eq!((reach[0], reach[reach.len() - 1]), (35, 54));
+}
+
+#[test]
+fn the_smallest_reach_that_covers_a_trail_is_set() {
+    let flood = Filter::builtin("jump_flood").unwrap();
+    let passes = |preset: &str, pixels: u32| {
+        let settings = flood.settings(Some(preset)).unwrap();
+        let reaching = settings.with_reach(&flood, pixels).unwrap();
+        reaching.values["passes"].clone()
+    };
+    // Largest steps of 8, 16 and 128 pixels; then of 1, 16 and 128.
+    for (preset, pixels, expected) in [
+        ("paper", 1, 1),
+        ("paper", 8, 1),
+        ("paper", 9, 2),
+        ("paper", 128, 5),
+        ("corrected", 1, 1),
+        ("corrected", 16, 5),
+        ("corrected", 128, 8),
+    ] {
+        assert_eq!(
+            passes(preset, pixels),
+            Value::Integer(expected),
+            "{preset}, {pixels}"
+        );
+    }
+    let settings = flood.settings(None).unwrap();
+    let message = settings
+        .with_reach(&flood, 1 << 20)
+        .unwrap_err()
+        .to_string();
+    assert_eq!(
+        message,
+        "jump_flood.passes: found 18; allowed: a whole number from 1 to 12"
+    );
+    let gather = Filter::builtin("velocity_gather").unwrap();
+    let settings = gather.settings(None).unwrap();
+    assert_eq!(settings.with_reach(&gather, 256).unwrap(), settings);
+}
+
+#[test]
+fn built_in_folders_load_from_disk_alike() {
+    let shaders = shipped_filter("");
+    let folders = std::fs::read_dir(&shaders).unwrap().map(Result::unwrap);
+    let mut names: Vec<String> = folders
+        .filter(|entry| entry.path().is_dir())
+        .map(|entry| entry.file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    assert!(names.len() > 1);
+    assert_eq!(Filter::builtin_names(), names);
+    for name in Filter::builtin_names() {
+        let (built_in, on_disk) = (
+            Filter::builtin(&name).unwrap(),
+            Filter::load(&shaders.join(&name)).unwrap(),
+        );
+        assert_eq!(built_in.name, name);
+        assert_eq!(built_in.parameters, on_disk.parameters);
+        assert_eq!(built_in.presets, on_disk.presets);
+        for said in [
+            &built_in.summary,
+            &built_in.source,
+            &built_in.reach,
+            &built_in.cannot,
+        ] {
+            assert!(
+                !said.is_empty(),
+                "{name} says what it is and what it cannot do"
+            );
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Mirrored frames.
+
+use filters::{Filter, Gpu, Settings};
+use frame::{Raster, Reprojection};
+use tests::presets::{every_preset, preset_name};
+use tests::random::Random;
+
+use super::{Field, gpu};
+
+fn mirrored(field: &Field, horizontal: bool) -> Field {
+    fn turn<T: Copy>(raster: &Raster<T>, horizontal: bool) -> Raster<T> {
+        Raster::from_fn(raster.width, raster.height, |x, y| match horizontal {
+            true => *raster.at(raster.width - 1 - x, y),
+            false => *raster.at(x, raster.height - 1 - y),
+        })
+    }
+    let velocity = turn(&field.velocity, horizontal);
+    Field {
+        color: turn(&field.color, horizontal),
+        velocity: velocity.map(|[x, y]| if horizontal { [-x, *y] } else { [*x, -y] }),
+        depth: turn(&field.depth, horizontal),
+        reprojection: mirrored_camera(field, usize::from(!horizontal)),
+        exposure: field.exposure,
+    }
+}
+
+/// Mirrors the reprojection: x = side - x' on both sides, along one axis.
+fn mirrored_camera(field: &Field, axis: usize) -> Reprojection {
+    let side = f64::from([field.color.width, field.color.height][axis]);
+    let mut rows = field.reprojection.rows.map(|mut row| {
+        row[2] += side * row[axis];
+        row[axis] = -row[axis];
+        row
+    });
+    let common = rows[2];
+    for (value, common) in rows[axis].iter_mut().zip(common) {
+        *value = side * common - *value;
+    }
+    Reprojection { rows }
+}
+
+/// Pixels that differ by more than 1e-3 of the brightest tap: many times the rounding of positions (1e-5 pixels) times
+/// the contrast of neighbours, and far below the weight of one tap of twenty.
+fn asymmetric_pixels(gpu: &Gpu, field: &Field, filter: &Filter, settings: &Settings) -> usize {
+    let output = field.blurred(gpu, filter, settings);
+    let mut count = 0;
+    for horizontal in [true, false] {
+        let turned = mirrored(field, horizontal);
+        let back = mirrored(
+            &Field {
+                color: turned.blurred(gpu, filter, settings),
+                ..turned.clone()
+            },
+            horizontal,
+        );
+        count += output
+            .pixels
+            .iter()
+            .zip(&back.color.pixels)
+            .filter(|(a, b)| (0..3).any(|c| (a[c] - b[c]).abs() > 1e-3))
+            .count();
+    }
+    count
+}
+
+/// Colours up to 1 and no two depths alike, so that nothing but the geometry decides.
+fn distinct_depths(seed: u64) -> Field {
+    let mut field = Field::random(seed);
+    let mut random = Random::new(seed);
+    field.color = field.color.map(|pixel| pixel.map(|value| value.min(1.0)));
+    field.depth = field.depth.map(|_| random.real(0.2, 40.0));
+    field
+}
+
+#[test]
+fn a_mirrored_frame_gives_the_mirrored_output() {
+    let gpu = gpu();
+    let field = distinct_depths(9);
+    let symmetric = every_preset()
+        .into_iter()
+        .filter(|(filter, _)| filter.mirror_symmetric);
+    let mut tried = 0;
+    for (filter, settings) in symmetric {
+        let count = asymmetric_pixels(&gpu, &field, &filter, &settings);
+        assert_eq!(count, 0, "{}", preset_name(&filter, &settings));
+        tried += 1;
+    }
+    assert!(
+        tried >= 4,
+        "identity and three presets of velocity_gather declare themselves symmetric"
+    );
+}
+
+#[test]
+fn the_jump_flood_is_symmetric_but_for_noise_equal_depths_and_rounded_places() {
+    let gpu = gpu();
+    let filter = Filter::builtin("jump_flood").unwrap();
+    for preset in &filter.presets {
+        let mut settings = filter.settings(Some(&preset.name)).unwrap();
+        settings.set(&filter, "jitter", "none").unwrap();
+        // Between texels of random depth, rounding of a position moves replaced taps by tenths of a pixel.
+        if settings.values["tap"].to_string() == "replaced" {
+            settings.set(&filter, "fetch", "nearest").unwrap();
+        }
+        // 16 bits round places towards the top left.
+        settings.set(&filter, "map", "float32").unwrap();
+        let count = asymmetric_pixels(&gpu, &distinct_depths(10), &filter, &settings);
+        // Of 2 x 3053 pixels; a tap on the edge of a texel, or a decision within rounding of its threshold, may fall
+        // either way.
+        assert!(count <= 6, "preset {}: {count} pixels differ", preset.name);
+    }
+}

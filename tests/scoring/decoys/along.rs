@@ -1,0 +1,143 @@
+//! Errors along the motion: length and place of the smear.
+
+use metrics::{Ideal, ImageMetric, Measured, Metric, Score};
+use tests::synthetic::Blur;
+
+use super::{DISCS, NOTHING, RADIUS, ROW_MASS, ROWS, TRAVEL, assert_near, discs, get};
+
+/// Standard deviation along the motion, within rows, of a disc smeared over `travel` pixels.
+fn spread_of_disc(travel: f64) -> f64 {
+    (RADIUS * RADIUS / 4.0 + travel * travel / 12.0).sqrt()
+}
+
+#[test]
+fn the_truth_itself_scores_perfectly() {
+    let [scores] = DISCS[1].score_blurs([Blur::TRUE]);
+    for metric in Metric::all() {
+        let Measured::Score(score) = scores.get(metric) else {
+            continue;
+        };
+        let perfect = match (metric, metric.ideal()) {
+            (_, Ideal::Lowest) => 0.0,
+            (_, Ideal::Target(target)) => target,
+            (Metric::Image(ImageMetric::Psnr, _), Ideal::Highest) => metrics::PSNR_LIMIT,
+            (_, Ideal::Highest) => 1.0,
+        };
+        assert_near(&metric.name(), score.value, perfect, 1e-9);
+    }
+}
+
+#[test]
+fn blurs_that_only_err_along_the_motion_neither_grow_nor_gain_nor_lose() {
+    for (degrees, disc) in discs() {
+        let half = Blur {
+            from: -0.5,
+            ..Blur::TRUE
+        };
+        let blurs = [
+            Blur::IDENTITY,
+            half,
+            Blur::accumulation(2),
+            Blur::accumulation(4),
+            Blur::accumulation(16),
+        ];
+        for (scores, blur) in disc.score_blurs(blurs).iter().zip(blurs) {
+            let what = |name: &str| format!("{name} of {blur:?} at {degrees} degrees");
+            for name in ROW_MASS {
+                assert_near(&what(name), get(scores, name), 0.0, ROWS);
+            }
+            for name in ["bleed_lateral", "bleed_leading", "bleed_trailing"] {
+                assert_near(&what(name), get(scores, name), 0.0, NOTHING);
+            }
+            // Sampling of 512 per pixel, over thousands of pixels.
+            assert_near(&what("energy"), get(scores, "energy"), 1.0, 1e-3);
+        }
+    }
+}
+
+#[test]
+fn the_floor_of_growth_is_what_the_instants_own_rows_differ_by() {
+    for (degrees, disc) in discs() {
+        let [scores] = disc.score_blurs([Blur::IDENTITY]);
+        for name in ROW_MASS {
+            let score = scores.get(name.parse().expect("a metric's name"));
+            let Measured::Score(Score { value, floor }) = score else {
+                panic!("{name} of a translation at {degrees} degrees: {score:?}");
+            };
+            // The truth has no noise here, and the identity's rows are the instant's.
+            assert_near(name, floor, value, 1e-12);
+        }
+    }
+}
+
+#[test]
+fn a_blur_of_the_wrong_length_is_misplaced_by_half_of_what_is_missing() {
+    for (degrees, disc) in discs() {
+        let lengths = [0.0, 0.5, 1.5];
+        let blurs = lengths.map(|length| Blur {
+            from: -length,
+            ..Blur::TRUE
+        });
+        for (scores, length) in disc.score_blurs(blurs).iter().zip(lengths) {
+            let what = |name: &str| format!("{name} of length {length} at {degrees} degrees");
+            let ahead = TRAVEL * (1.0 - length) / 2.0;
+            // Mattes sampled 512 times, and rows one pixel wide at an angle: hundredths of a pixel.
+            assert_near(&what("centroid"), get(scores, "centroid"), ahead, 0.05);
+            assert_near(
+                &what("misplacement"),
+                get(scores, "misplacement"),
+                ahead.abs(),
+                0.05,
+            );
+            let extent = spread_of_disc(TRAVEL * length) / spread_of_disc(TRAVEL);
+            assert_near(&what("extent"), get(scores, "extent"), extent, 0.01);
+        }
+    }
+}
+
+#[test]
+fn too_long_a_blur_bleeds_behind_only() {
+    for (degrees, disc) in discs() {
+        let long = Blur {
+            from: -1.5,
+            ..Blur::TRUE
+        };
+        let [scores] = disc.score_blurs([long]);
+        assert!(get(&scores, "bleed_trailing") > 1.0, "{degrees} degrees");
+        assert_near("leading", get(&scores, "bleed_leading"), 0.0, NOTHING);
+        assert_near("growth", get(&scores, "lateral_growth"), 0.0, ROWS);
+    }
+}
+
+#[test]
+fn a_centred_shutter_against_a_trailing_truth_bleeds_ahead_and_lies_half_the_way_ahead() {
+    for (degrees, disc) in discs() {
+        let centred = Blur {
+            from: -0.5,
+            to: 0.5,
+            ..Blur::TRUE
+        };
+        let [scores] = disc.score_blurs([centred]);
+        assert!(get(&scores, "bleed_leading") > 1.0, "{degrees} degrees");
+        assert_near("trailing", get(&scores, "bleed_trailing"), 0.0, NOTHING);
+        assert_near("centroid", get(&scores, "centroid"), TRAVEL / 2.0, 0.05);
+        assert_near("extent", get(&scores, "extent"), 1.0, 0.01);
+        assert_near("growth", get(&scores, "lateral_growth"), 0.0, ROWS);
+    }
+}
+
+#[test]
+fn a_shift_along_the_motion_is_its_centroid_with_its_sign() {
+    for (_, disc) in discs() {
+        let shifts = [3.0, -3.0];
+        let blurs = shifts.map(|shift| Blur {
+            shift: [shift, 0.0],
+            ..Blur::TRUE
+        });
+        for (scores, shift) in disc.score_blurs(blurs).iter().zip(shifts) {
+            assert_near("centroid", get(scores, "centroid"), shift, 0.05);
+            assert_near("misplacement", get(scores, "misplacement"), 3.0, 0.05);
+            assert_near("growth", get(scores, "lateral_growth"), 0.0, ROWS);
+        }
+    }
+}

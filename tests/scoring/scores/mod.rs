@@ -1,0 +1,55 @@
+//! Scores: their silence, pooling, names and refusals.
+
+mod names;
+mod pooling;
+mod refusals;
+mod silence;
+
+use frame::Truth;
+use metrics::{Measured, Measurement, Scores, measure};
+use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
+
+/// A disc of 8 px that slides 12 px to the right, and a bar that stands still, in front of it or not.
+fn small_scene(bar_at: [f64; 2]) -> Scene {
+    let bar = Shape::Bar {
+        half: [2.0, 20.0],
+        tilt: 0.0,
+    };
+    Scene {
+        width: 80,
+        height: 60,
+        objects: vec![
+            Object::sliding(bar, bar_at, [0.0, 0.0]),
+            Object::sliding(Shape::Disc(8.0), [46.2, 30.3], [12.0, 0.0]),
+        ],
+    }
+}
+
+/// Place of a bar beside the disc's way.
+const BESIDE: [f64; 2] = [10.0, 30.0];
+
+/// Place of a bar in its way.
+const BEFORE: [f64; 2] = [40.0, 30.0];
+
+fn clean_truth(scene: &Scene) -> Truth {
+    scene.truth([Sampling::CLEAN; 2])
+}
+
+fn measured(scene: &Scene, blur: Blur) -> Measurement {
+    let output = scene.render(&blur, Sampling::CLEAN);
+    measure(&output, &scene.frame(), &clean_truth(scene), None, &VIEWING).expect("they agree")
+}
+
+fn reason(scores: &Scores, metric: &str) -> String {
+    match scores.get(metric.parse().expect("a metric's name")) {
+        Measured::NotApplicable { reason } => reason,
+        Measured::Score(score) => panic!("{metric} scores {} where it means nothing", score.value),
+    }
+}
+
+fn value(scores: &Scores, metric: &str) -> f64 {
+    let measured = scores.get(metric.parse().expect("a metric's name"));
+    measured
+        .value()
+        .unwrap_or_else(|| panic!("{metric}: {measured:?}"))
+}

@@ -1,0 +1,86 @@
+//! Names, meanings and groups of metrics, scores as JSON, and the strictest bounds.
+
+use metrics::{Group, Ideal, ImageMetric, Metric, ObjectMetric, Region, Scores};
+use tests::synthetic::Blur;
+
+use super::{BEFORE, measured, small_scene};
+
+#[test]
+fn every_metric_has_one_name_that_finds_it() {
+    let all = Metric::all();
+    for metric in &all {
+        assert_eq!(metric.name().parse(), Ok(*metric));
+    }
+    let names: std::collections::BTreeSet<String> =
+        all.iter().map(|metric| metric.name()).collect();
+    assert_eq!(names.len(), all.len());
+    let error = "flip_mooving"
+        .parse::<Metric>()
+        .expect_err("no such metric");
+    assert!(
+        error.contains("\"flip_mooving\"") && error.contains("flip_moving"),
+        "{error}"
+    );
+}
+
+#[test]
+fn every_metric_has_a_meaning_of_its_own() {
+    let all: Vec<String> = Metric::all().into_iter().map(Metric::meaning).collect();
+    for (index, meaning) in all.iter().enumerate() {
+        assert!(!all[..index].contains(meaning), "two mean \"{meaning}\"");
+    }
+}
+
+#[test]
+fn every_group_that_a_page_shows_has_metrics() {
+    let all = Metric::all();
+    for group in Group::SHOWN {
+        assert!(
+            all.iter().any(|metric| metric.group() == group),
+            "{group:?}"
+        );
+    }
+}
+
+#[test]
+fn the_documentation_names_every_metric() {
+    let page = include_str!("../../../crates/metrics/README.md");
+    for metric in ImageMetric::ALL {
+        let name = Metric::Image(metric, Region::Moving).name();
+        assert!(page.contains(&format!("`{name}`")), "{name}");
+    }
+    for metric in Metric::all() {
+        if !matches!(metric, Metric::Image(..)) {
+            assert!(page.contains(&format!("`{metric}`")), "{metric}");
+        }
+    }
+}
+
+#[test]
+fn scores_survive_being_written_as_json() {
+    let scores = measured(&small_scene(BEFORE), Blur::IDENTITY).scores;
+    let text = serde_json::to_string(&scores).expect("scores are plain data");
+    let back: Scores = serde_json::from_str(&text).expect("as written");
+    assert_eq!(back, scores);
+    assert!(text.contains(r#""static":{"mse":{"value":"#), "{text}");
+    assert!(
+        text.contains(r#""lateral_growth":{"not_applicable":"rows do not"#),
+        "{text}"
+    );
+}
+
+#[test]
+fn the_strictest_bound_lies_three_floors_from_perfect() {
+    let bound = |name: &str, floor| {
+        name.parse::<Metric>()
+            .expect("a name")
+            .strictest_bound(floor)
+    };
+    assert_eq!(bound("flip_moving", 0.01), 0.03);
+    assert!((bound("psnr_moving", 50.0) - 45.2288).abs() < 1e-4);
+    assert_eq!(bound("n_eq", 48.0), 16.0);
+    assert_eq!(
+        Metric::Object(ObjectMetric::Extent).ideal(),
+        Ideal::Target(1.0)
+    );
+}

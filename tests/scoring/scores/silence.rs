@@ -1,0 +1,149 @@
+//! Scenes in which a score means nothing, and the reason that it gives.
+
+use frame::Raster;
+use metrics::{Measured, ObjectMetric, measure};
+use tests::synthetic::{Blur, Object, Shape, VIEWING};
+
+use super::{BEFORE, BESIDE, clean_truth, measured, reason, small_scene, value};
+
+/// Scores that need rows along a translation.
+const ROW_SCORES: [&str; 6] = [
+    "lateral_growth",
+    "row_gain",
+    "row_loss",
+    "misplacement",
+    "centroid",
+    "extent",
+];
+
+#[test]
+fn an_object_cut_off_by_the_border_has_no_row_scores_but_bleeds() {
+    let mut scene = small_scene(BESIDE);
+    scene.objects[1].center = [75.0, 30.0];
+    let scores = measured(&scene, Blur::IDENTITY).scores;
+    for metric in ROW_SCORES.iter().chain(&["energy"]) {
+        assert!(reason(&scores, metric).contains("border"), "{metric}");
+    }
+    assert_eq!(value(&scores, "bleed_trailing"), 0.0);
+}
+
+#[test]
+fn a_rotation_has_no_row_scores_but_bleeds() {
+    let mut scene = small_scene(BESIDE);
+    let arm = Shape::Bar {
+        half: [20.0, 3.0],
+        tilt: 0.3,
+    };
+    // In place, and while it travels: the mean of its velocities is nothing, and something.
+    for travel in [0.0, 4.0] {
+        scene.objects[1] = Object {
+            turn: 0.8,
+            ..Object::sliding(arm, [46.0, 30.0], [travel, 0.0])
+        };
+        let scores = measured(&scene, Blur::IDENTITY).scores;
+        for metric in ROW_SCORES {
+            let reason = reason(&scores, metric);
+            assert!(reason.contains("does not translate"), "{metric}: {reason}");
+        }
+        assert_eq!(value(&scores, "bleed_lateral"), 0.0);
+        assert!(value(&scores, "label_tv") > 0.1);
+    }
+}
+
+#[test]
+fn turning_too_far_bleeds_ahead_of_the_local_motion() {
+    let mut scene = small_scene(BESIDE);
+    let arm = Shape::Bar {
+        half: [20.0, 3.0],
+        tilt: 0.3,
+    };
+    scene.objects[1] = Object {
+        turn: 0.6,
+        ..Object::sliding(arm, [46.0, 30.0], [0.0, 0.0])
+    };
+    let ahead = Blur {
+        to: 0.6,
+        ..Blur::TRUE
+    };
+    let scores = measured(&scene, ahead).scores;
+    let leading = value(&scores, "bleed_leading");
+    assert!(leading > 0.2, "{leading}");
+    // The two ends of the arm swing towards opposite sides; judged by one direction, half of this would be trailing.
+    let trailing = value(&scores, "bleed_trailing");
+    assert!(
+        trailing < 0.1 * leading,
+        "{trailing} trailing, {leading} leading"
+    );
+}
+
+#[test]
+fn an_object_behind_another_cannot_tell_growth_from_occlusion() {
+    let scores = measured(&small_scene(BEFORE), Blur::IDENTITY).scores;
+    assert!(reason(&scores, "lateral_growth").contains("rows do not keep their mass"));
+    // Rows are normalised there: half of the way of 12 px, and what the bar hides of it.
+    assert!((value(&scores, "misplacement") - 6.0).abs() < 1.5);
+}
+
+#[test]
+fn objects_that_stand_still_or_are_not_seen_say_so() {
+    let mut scene = small_scene(BESIDE);
+    let hidden = Object::sliding(Shape::Disc(1.0), BESIDE, [5.0, 0.0]);
+    scene.objects.push(hidden);
+    let scores = measured(&scene, Blur::IDENTITY).scores;
+    let of = |object: usize| match scores.objects[object].get(ObjectMetric::BleedLateral) {
+        Measured::NotApplicable { reason } => reason.clone(),
+        Measured::Score(_) => "a score".to_owned(),
+    };
+    assert_eq!(scores.objects[1].displacement, [12.0, 0.0]);
+    assert_eq!(of(0), "does not move");
+    assert_eq!(of(1), "a score");
+    assert_eq!(of(2), "is not visible at the instant");
+}
+
+#[test]
+fn an_object_with_an_id_but_no_coverage_has_no_outline_to_measure_by() {
+    let scene = small_scene(BESIDE);
+    let (mut frame, truth) = (scene.frame(), clean_truth(&scene));
+    frame.coverage[2] = Raster::filled(80, 60, 0.0);
+    let output = truth.mean();
+    let scores = measure(&output, &frame, &truth, None, &VIEWING)
+        .expect("they agree")
+        .scores;
+    for metric in ["lateral_growth", "bleed_lateral"] {
+        assert!(
+            reason(&scores, metric).contains("no silhouette"),
+            "{metric}"
+        );
+    }
+}
+
+#[test]
+fn a_scene_without_motion_has_nothing_to_score_but_stillness() {
+    let mut scene = small_scene(BESIDE);
+    scene.objects.truncate(1);
+    let scores = measured(&scene, Blur::IDENTITY).scores;
+    assert_eq!(reason(&scores, "flip_moving"), "nothing moves on screen");
+    assert_eq!(reason(&scores, "label_tv"), "nothing moves on screen");
+    assert_eq!(
+        reason(&scores, "lateral_growth"),
+        "no object moves on screen"
+    );
+    assert_eq!(value(&scores, "flip_static"), 0.0);
+}
+
+#[test]
+fn without_a_ladder_there_is_no_count_of_sub_frames() {
+    let scores = measured(&small_scene(BESIDE), Blur::IDENTITY).scores;
+    assert_eq!(
+        reason(&scores, "n_eq"),
+        "no ladder of accumulations was given"
+    );
+}
+
+#[test]
+fn a_hole_needs_a_pixel_that_is_covered_throughout() {
+    let mut scene = small_scene(BESIDE);
+    scene.objects[1].displacement = [30.0, 0.0];
+    let scores = measured(&scene, Blur::IDENTITY).scores;
+    assert!(reason(&scores, "hole").contains("covers no pixel throughout"));
+}

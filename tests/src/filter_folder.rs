@@ -1,0 +1,85 @@
+//! Filter folders that tests write.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use filters::{Filter, FilterError};
+
+/// Writes a filter of one file of kernels: `filter.toml` and `<name>.wgsl` in `folder`, which is made where it is missing.
+pub fn write_filter(folder: &Path, name: &str, manifest: &str, kernels: &str) {
+    fs::create_dir_all(folder).unwrap();
+    fs::write(folder.join("filter.toml"), manifest).unwrap();
+    fs::write(folder.join(format!("{name}.wgsl")), kernels).unwrap();
+}
+
+/// Loads a filter of one file of kernels from a folder that is gone afterwards.
+pub fn load_filter(name: &str, manifest: &str, kernels: &str) -> Result<Filter, FilterError> {
+    let folder = tempfile::tempdir().unwrap();
+    write_filter(folder.path(), name, manifest, kernels);
+    Filter::load(folder.path())
+}
+
+/// Makes the kernels of a filter with one pass, `work`: `body` writes `pixel` of `output` from `color`; `parameters` are the
+/// members of `Parameters`, one or more.
+pub fn one_kernel(parameters: &str, body: &str) -> String {
+    format!(
+        "struct Parameters {{ {parameters} }}
+@group(0) @binding(1) var<uniform> parameters: Parameters;
+{}",
+        one_kernel_without_parameters(body)
+    )
+}
+
+/// Makes such kernels of a filter that has no parameters.
+pub fn one_kernel_without_parameters(body: &str) -> String {
+    format!(
+        "@group(0) @binding(2) var color: texture_2d<f32>;
+@group(0) @binding(3) var output: texture_storage_2d<rgba32float, write>;
+@compute @workgroup_size(8, 8)
+fn work(@builtin(global_invocation_id) id: vec3<u32>) {{
+    let pixel = vec2<i32>(id.xy);
+    if !inside(pixel) {{ return; }}
+    {body}
+}}
+"
+    )
+}
+
+/// Returns the folder of a filter that the program brings.
+pub fn shipped_filter(name: &str) -> PathBuf {
+    let shaders = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders");
+    shaders.join(name)
+}
+
+/// Copies a filter that the program brings.
+pub fn copy_shipped_filter(name: &str, copy: &Path) {
+    fs::create_dir_all(copy).unwrap();
+    for entry in fs::read_dir(shipped_filter(name)).unwrap() {
+        let file = entry.unwrap();
+        fs::copy(file.path(), copy.join(file.file_name())).unwrap();
+    }
+}
+
+/// Writes a filter that is a shell script with the files as $1 and $2: `lines` is the script, `more` follows in filter.toml.
+#[cfg(unix)]
+pub fn write_program(folder: &Path, name: &str, lines: &str, more: &str) {
+    let command = "command = [\"./blur.sh\", \"{frame}\", \"{out}\"]";
+    write_manifest(folder, name, &format!("{command}\n{more}"));
+    write_script(&folder.join("blur.sh"), lines);
+}
+
+/// Writes a filter folder that holds only filter.toml: three lines, and `more`.
+pub fn write_manifest(folder: &Path, name: &str, more: &str) {
+    fs::create_dir_all(folder).unwrap();
+    let text =
+        format!("name = \"{name}\"\nsummary = \"A program.\"\nalignment = \"trailing\"\n{more}\n");
+    fs::write(folder.join("filter.toml"), text).unwrap();
+}
+
+/// Writes a shell script that can be started.
+#[cfg(unix)]
+pub fn write_script(path: &Path, lines: &str) {
+    use std::os::unix::fs::PermissionsExt;
+    fs::write(path, format!("#!/bin/sh\n{lines}\n")).unwrap();
+    fs::set_permissions(path, fs::Permissions::from_mode(0o755)).unwrap();
+}

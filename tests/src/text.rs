@@ -1,0 +1,9 @@
+//! Texts that a test looks for parts in.
+
+/// Fails, with the whole text, where it lacks one of `parts`.
+#[track_caller]
+pub fn assert_contains(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "\"{part}\" is missing from:\n{text}");
+    }
+}
