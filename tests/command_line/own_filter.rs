@@ -1,4 +1,4 @@
-//! A filter of one's own: the README's works as it stands, and its mistakes say what the README says.
+//! A filter of one's own: the guide's works as it stands, and its mistakes say what the guide says.
 
 use std::fs;
 
@@ -6,11 +6,11 @@ use metrics::Measured;
 
 use crate::bench::{Bench, assert_done, stderr};
 
-const README: &str = include_str!("../../README.md");
+const GUIDE: &str = include_str!("../../docs/add-a-filter.md");
 
-/// The README's part about bringing one's own.
+/// The guide's part about writing a filter.
 fn section() -> &'static str {
-    let start = README.split_once("\n## Bring your own\n").unwrap().1;
+    let start = GUIDE.split_once("\n## 1. Write it\n").unwrap().1;
     start.split_once("\n## ").unwrap().0
 }
 
@@ -20,7 +20,7 @@ fn block(language: &str) -> &'static str {
     start.split_once("```").unwrap().0
 }
 
-/// Writes the README's filter, with one word written for another in one of its files.
+/// Writes the guide's filter, with one word written for another in one of its files.
 fn write(bench: &Bench, change: Option<&Mistake>) {
     for (name, text) in [
         ("filter.toml", block("toml")),
@@ -38,7 +38,7 @@ fn write(bench: &Bench, change: Option<&Mistake>) {
     }
 }
 
-/// A mistake that the README shows: `from` written `to` in a file, and what the program says to it.
+/// A mistake that the guide shows: `from` written `to` in a file, and what the program says to it.
 struct Mistake {
     from: &'static str,
     to: &'static str,
@@ -71,7 +71,7 @@ fn mistakes() -> Vec<Mistake> {
 }
 
 #[test]
-fn the_filter_of_the_readme_runs_and_is_better_than_none() {
+fn the_filter_of_the_guide_runs_and_is_better_than_none() {
     let bench = Bench::new();
     write(&bench, None);
     assert!(block("wgsl").lines().count() <= 20);
