@@ -125,7 +125,7 @@ fn a_bad_scene_is_refused_with_file_and_line_and_leaves_nothing_behind() {
                 "translation = [0, 0, 0] },",
                 "translation = [0, 0, 0], rotation = [0, 0, 0, 0] },",
             ),
-            &["scene.toml:18:", "length is not above 0"],
+            &["scene.toml:18:", "which has no length"],
         ),
         (scene("time = -1", "time = 2"), &["scene.toml:", "time"]),
         (

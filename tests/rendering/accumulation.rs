@@ -1,4 +1,4 @@
-//! The unit of the headline score: N accumulated sub-frames are worth N.
+//! Worth of accumulated sub-frames, the unit of the headline score.
 
 use frame::{Alignment, Picture};
 use metrics::Reference;
@@ -41,9 +41,8 @@ fn n_subframes_are_worth_n() {
     .unwrap();
     let truth = trace_truth(&scene, &settings, watch).unwrap();
     let ladder = trace_ladder(&scene, &settings, &truth, &suite::LADDER, watch).unwrap();
-    let viewing = suite::viewing(&scene);
-    let reference = Reference::new(&frame, &truth, Some(&ladder), &viewing).unwrap();
-    // Other random numbers: what is measured is not what it is measured against.
+    let reference = Reference::new(&frame, &truth, Some(&ladder), &suite::viewing(&scene)).unwrap();
+    // Other random numbers than those of the reference.
     let again = TruthSettings {
         seed: 2,
         ..settings

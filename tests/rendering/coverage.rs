@@ -1,37 +1,19 @@
-//! Coverage of shapes in motion against closed forms.
-//!
-//! The camera sees one metre as one pixel at the shapes' distance, the image's centre at the origin.
+//! Coverage of shapes in motion, against closed forms.
 
+use crate::moving_shapes::{
+    DISTANCE, HEIGHT, SPEED, WIDTH, expect_coverage, pixel_corner, render_truth, truth_settings,
+};
 use frame::{Alignment, Shutter, Truth};
 use glam::{DQuat, DVec2, DVec3};
 use tests::half_plane::half_plane;
 use tests::shapes::*;
-use tests::statistics::{coverage_estimates, expect_agreement, expect_total};
 use tests::unwatched;
 use tracer::{Key, Mesh, Motion, Scene, TruthSettings, trace_truth};
 
-const WIDTH: u32 = 32;
-const HEIGHT: u32 = 18;
-/// At a vertical field of view of 90 degrees half the height in pixels is the focal length.
-const DISTANCE: f64 = 0.5 * HEIGHT as f64;
+/// Directions of motion, in degrees.
 const ANGLES: [f64; 4] = [0.0, 30.0, 45.0, 90.0];
-/// Pixels per frame, and frames.
-const SPEED: f64 = 14.0;
-const EXPOSURE: f64 = 0.75;
-
-fn settings(alignment: Alignment) -> TruthSettings {
-    TruthSettings {
-        width: WIDTH,
-        height: HEIGHT,
-        exposure: EXPOSURE,
-        alignment,
-        samples_per_pixel: 1024,
-        ..TruthSettings::default()
-    }
-}
-
-/// A white mesh on black in straight motion: `at` its place at `t = 0`, turned by `angle`, velocity in the plane.
-fn scene(mesh: Mesh, at: DVec2, angle: f64, velocity: DVec2) -> Scene {
+/// White mesh on black in straight motion, turned by `angle`; at `t = 0` it passes `at`.
+fn moving_scene(mesh: Mesh, at: DVec2, angle: f64, velocity: DVec2) -> Scene {
     let mut scene = empty_scene("coverage");
     let place = |time: f64| {
         let place = at + time * velocity;
@@ -50,16 +32,8 @@ fn scene(mesh: Mesh, at: DVec2, angle: f64, velocity: DVec2) -> Scene {
     scene
 }
 
-/// Lower left corner of a pixel, y up.
-fn corner(x: u32, y: u32) -> DVec2 {
-    DVec2::new(
-        f64::from(x) - 0.5 * f64::from(WIDTH),
-        0.5 * f64::from(HEIGHT) - f64::from(y) - 1.0,
-    )
-}
-
 /// Mean of `value` over a pixel, by the midpoint rule on `side` squared points.
-fn over_pixel(pixel: DVec2, side: u32, value: impl Fn(DVec2) -> f64) -> f64 {
+fn mean_over_pixel(pixel: DVec2, side: u32, value: impl Fn(DVec2) -> f64) -> f64 {
     let at = |index: u32| (f64::from(index) + 0.5) / f64::from(side);
     let sum: f64 = (0..side * side)
         .map(|index| value(pixel + DVec2::new(at(index % side), at(index / side))))
@@ -72,31 +46,28 @@ fn overlap(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[1].min(b[1]) - a[0].max(b[0])).max(0.0)
 }
 
-/// Every shutter and every angle (in radians).
+/// Every shutter with every angle, in radians.
 fn cases() -> impl Iterator<Item = (Alignment, f64)> {
     Alignment::ALL
         .into_iter()
         .flat_map(|alignment| ANGLES.map(|degrees| (alignment, degrees.to_radians())))
 }
 
-fn expect(what: &str, scene: &Scene, alignment: Alignment, exact: impl Fn(DVec2, Shutter) -> f64) {
-    let settings = settings(alignment);
-    let truth = trace_truth(scene, &settings, &unwatched).expect("settings are allowed");
-    let shutter = truth.shutter;
-    let estimates = coverage_estimates(&truth, |x, y| exact(corner(x, y), shutter));
-    let what = format!("{what}, {alignment}");
-    expect_agreement(&what, &estimates, settings.replicates);
-    // Shifts and stretches show in the first moments.
-    expect_total(&what, &estimates, |pixel| {
-        f64::from(pixel as u32 % WIDTH) - 15.5
-    });
-    expect_total(&what, &estimates, |pixel| {
-        f64::from(pixel as u32 / WIDTH) - 8.5
+/// Renders a truth and compares its coverage with the exact one, and with its colour.
+fn expect_rendered(
+    what: &str,
+    scene: &Scene,
+    alignment: Alignment,
+    exact: impl Fn(DVec2, Shutter) -> f64,
+) {
+    let truth = render_truth(scene, alignment);
+    expect_coverage(&format!("{what}, {alignment}"), &truth, |x, y| {
+        exact(pixel_corner(x, y), truth.shutter)
     });
     expect_same_as_color(&truth);
 }
 
-/// The object shines with 1 on black, so that its coverage is the colour, and the background's the rest.
+/// Compares coverage with colour: the object emits 1 on black.
 fn expect_same_as_color(truth: &Truth) {
     let mean = truth.mean();
     for (pixel, color) in mean.color.pixels.iter().enumerate() {
@@ -111,13 +82,13 @@ fn a_half_plane_covers_what_the_polynomial_says() {
     for (alignment, angle) in cases() {
         let normal = DVec2::from_angle(angle);
         // The edge lies 2.3 pixels ahead of the centre; the other edges are far outside.
-        let scene = scene(
+        let scene = moving_scene(
             rectangle(400.0, 400.0),
             (2.3 - 200.0) * normal,
             angle,
             SPEED * normal,
         );
-        expect(
+        expect_rendered(
             &format!("half-plane at {angle}"),
             &scene,
             alignment,
@@ -134,7 +105,7 @@ fn a_slab_covers_the_difference_of_two_half_planes() {
         let velocity = SPEED * DVec2::from_angle(angle + 0.35);
         let (behind, ahead) = (-1.2, 1.9);
         let middle = 0.5 * (behind + ahead) * normal;
-        let scene = scene(
+        let scene = moving_scene(
             rectangle((ahead - behind) as f32, 400.0),
             middle,
             angle,
@@ -142,7 +113,7 @@ fn a_slab_covers_the_difference_of_two_half_planes() {
         );
         let speed = velocity.dot(normal);
         // The slab's width is rounded to f32.
-        expect(
+        expect_rendered(
             &format!("slab at {angle}"),
             &scene,
             alignment,
@@ -155,7 +126,7 @@ fn a_slab_covers_the_difference_of_two_half_planes() {
 }
 
 #[test]
-fn several_keys_inside_one_shutter_cover_the_sum_of_their_ways() {
+fn several_keys_inside_one_shutter_cover_the_sum_of_their_parts() {
     // Ahead, back faster, and ahead again: keys inside the shutter of every alignment.
     let keys = [
         (-0.9, 0.0),
@@ -167,7 +138,7 @@ fn several_keys_inside_one_shutter_cover_the_sum_of_their_ways() {
     ];
     for (alignment, angle) in cases() {
         let normal = DVec2::from_angle(angle);
-        let mut scene = scene(rectangle(400.0, 400.0), DVec2::ZERO, angle, DVec2::ZERO);
+        let mut scene = moving_scene(rectangle(400.0, 400.0), DVec2::ZERO, angle, DVec2::ZERO);
         let key = |(time, along): (f64, f64)| {
             let place = (along - 200.0) * normal;
             Key {
@@ -178,7 +149,7 @@ fn several_keys_inside_one_shutter_cover_the_sum_of_their_ways() {
             }
         };
         scene.objects[0].motion.keys = keys.map(key).to_vec();
-        expect("reversals", &scene, alignment, |pixel, shutter| {
+        expect_rendered("reversals", &scene, alignment, |pixel, shutter| {
             keys.windows(2)
                 .map(|pair| {
                     let [(from, start), (to, end)] = [pair[0], pair[1]];
@@ -202,8 +173,8 @@ fn a_disc_covers_its_chord_s_share_of_the_shutter() {
     for (alignment, angle) in cases() {
         let along = DVec2::from_angle(angle);
         let centre = DVec2::new(0.7, -0.3);
-        let scene = scene(disc(radius as f32, 2048), centre, 0.0, SPEED * along);
-        expect(
+        let scene = moving_scene(disc(radius as f32, 2048), centre, 0.0, SPEED * along);
+        expect_rendered(
             &format!("disc at {angle}"),
             &scene,
             alignment,
@@ -218,7 +189,7 @@ fn a_disc_covers_its_chord_s_share_of_the_shutter() {
                 };
                 // The chord's end has a root: error (1/128)^1.5 x 0.2 x sqrt(2 radius) / travel = 5e-5 of the pixels it
                 // crosses; standard errors are above 2e-4.
-                over_pixel(pixel, 128, share)
+                mean_over_pixel(pixel, 128, share)
             },
         );
     }
@@ -236,7 +207,7 @@ fn a_rotating_bar_covers_its_sector_of_the_annulus() {
         }
         let centre = DVec3::new(0.0, 0.0, -DISTANCE);
         add(&mut scene, bar, glowing(1.0), spin(centre, DVec3::Z, rate));
-        expect("bar", &scene, alignment, |pixel, shutter| {
+        expect_rendered("bar", &scene, alignment, |pixel, shutter| {
             let swept = [rate * shutter.open, rate * shutter.close];
             let share = |point: DVec2| {
                 let distance = point.length();
@@ -263,7 +234,7 @@ fn a_rotating_bar_covers_its_sector_of_the_annulus() {
                 sides / (swept[1] - swept[0])
             };
             // The share jumps by up to 0.1 across the bar's end: 1e-4 by the midpoint rule; standard errors are 1e-3.
-            over_pixel(pixel, 128, share)
+            mean_over_pixel(pixel, 128, share)
         });
     }
 }
@@ -271,7 +242,7 @@ fn a_rotating_bar_covers_its_sector_of_the_annulus() {
 #[test]
 fn noise_falls_as_stratification_predicts() {
     let normal = DVec2::from_angle(30f64.to_radians());
-    let scene = scene(
+    let scene = moving_scene(
         rectangle(400.0, 400.0),
         (2.3 - 200.0) * normal,
         30f64.to_radians(),
@@ -281,13 +252,13 @@ fn noise_falls_as_stratification_predicts() {
         let settings = TruthSettings {
             samples_per_pixel: 2 * samples,
             replicates: 2,
-            ..settings(Alignment::Trailing)
+            ..truth_settings(Alignment::Trailing)
         };
         let truth = trace_truth(&scene, &settings, &unwatched).expect("settings are allowed");
         let mut squares = Vec::new();
         for y in 0..HEIGHT {
             for x in 0..WIDTH {
-                let exact = half_plane(corner(x, y), normal, 2.3, SPEED, truth.shutter);
+                let exact = half_plane(pixel_corner(x, y), normal, 2.3, SPEED, truth.shutter);
                 if exact > 0.0 && exact < 1.0 {
                     squares.extend(truth.halves.iter().map(|half| {
                         (f64::from(half.coverage[1].at(x, y).to_owned()) - exact).powi(2)

@@ -1,25 +1,17 @@
-//! Meshes that change their shape, against rigid ones, closed forms and every triangle in turn.
+//! Deforming meshes, against rigid ones, closed forms and brute force.
 
+use crate::moving_shapes::{DISTANCE, HEIGHT, WIDTH, expect_coverage, pixel_corner, render_truth};
 use frame::{Alignment, Truth, VelocityKind};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 use tests::brute_force::expect_what_every_triangle_gives;
 use tests::half_plane::half_plane;
 use tests::random::Numbers;
 use tests::shapes::*;
-use tests::statistics::{coverage_estimates, expect_agreement, expect_total};
 use tests::unwatched;
-use tracer::{
-    FrameSettings, Key, Mesh, Motion, Ray, Scene, Shape, Stage, TruthSettings, trace_frame,
-    trace_truth,
-};
+use tracer::{FrameSettings, Key, Mesh, Motion, Ray, Scene, Shape, Stage, trace_frame};
 
-const WIDTH: u32 = 32;
-const HEIGHT: u32 = 18;
-/// At a vertical field of view of 90 degrees half the height in pixels is the focal length, and one metre one pixel.
-const DISTANCE: f64 = 0.5 * HEIGHT as f64;
-
-/// The mesh in key shapes: where each of its vertices is at each time.
-fn deforming(mesh: Mesh, times: &[f64], place: impl Fn(Vec3, f64) -> Vec3) -> Mesh {
+/// Mesh with key shapes: `place` moves each vertex.
+fn deforming_mesh(mesh: Mesh, times: &[f64], place: impl Fn(Vec3, f64) -> Vec3) -> Mesh {
     let shapes: Vec<Shape> = times
         .iter()
         .map(|&time| Shape {
@@ -35,19 +27,7 @@ fn deforming(mesh: Mesh, times: &[f64], place: impl Fn(Vec3, f64) -> Vec3) -> Me
     }
 }
 
-fn truth(scene: &Scene, alignment: Alignment) -> Truth {
-    let settings = TruthSettings {
-        width: WIDTH,
-        height: HEIGHT,
-        exposure: 0.75,
-        alignment,
-        samples_per_pixel: 1024,
-        ..TruthSettings::default()
-    };
-    trace_truth(scene, &settings, &unwatched).expect("settings are allowed")
-}
-
-fn velocities(scene: &Scene, velocity: VelocityKind) -> Vec<[f32; 2]> {
+fn render_velocities(scene: &Scene, velocity: VelocityKind) -> Vec<[f32; 2]> {
     let settings = FrameSettings {
         width: WIDTH,
         height: HEIGHT,
@@ -59,20 +39,9 @@ fn velocities(scene: &Scene, velocity: VelocityKind) -> Vec<[f32; 2]> {
     frame.velocity.pixels
 }
 
-/// Lower left corner of a pixel, y up.
-fn corner(x: u32, y: u32) -> DVec2 {
-    DVec2::new(
-        f64::from(x) - 0.5 * f64::from(WIDTH),
-        0.5 * f64::from(HEIGHT) - f64::from(y) - 1.0,
-    )
-}
-
-fn expect(what: &str, truth: &Truth, exact: impl Fn(DVec2) -> f64) {
-    let estimates = coverage_estimates(truth, |x, y| exact(corner(x, y)));
-    expect_agreement(what, &estimates, truth.provenance.replicates);
-    expect_total(what, &estimates, |pixel| {
-        f64::from(pixel as u32 % WIDTH) - 15.5
-    });
+/// Compares the coverage of the only object, and checks that only it moves.
+fn expect_object(what: &str, truth: &Truth, exact: impl Fn(DVec2) -> f64) {
+    expect_coverage(what, truth, |x, y| exact(pixel_corner(x, y)));
     assert_eq!(
         truth.motion,
         truth.mean().coverage[1],
@@ -80,11 +49,11 @@ fn expect(what: &str, truth: &Truth, exact: impl Fn(DVec2) -> f64) {
     );
 }
 
-/// One glowing mesh at the distance where metres are pixels.
-fn shown(mesh: Mesh, motion: impl Fn(DVec3) -> Motion) -> Scene {
+/// Scene of one glowing mesh at the distance where metres are pixels.
+fn scene_of(mesh: Mesh, motion: impl Fn(DVec3) -> Motion) -> Scene {
     let mut scene = empty_scene("deforming");
-    let motion = motion(DVec3::new(0.0, 0.0, -DISTANCE));
-    add(&mut scene, mesh, glowing(1.0), motion);
+    let at = DVec3::new(0.0, 0.0, -DISTANCE);
+    add(&mut scene, mesh, glowing(1.0), motion(at));
     scene
 }
 
@@ -93,22 +62,22 @@ fn shapes_that_only_shift_are_a_translation() {
     let velocity = DVec3::new(14.0, 3.0, 0.0);
     let panel = rectangle(6.0, 40.0);
     // Beyond the last shape, too.
-    let shifted = deforming(panel.clone(), &[-1.0, -0.25, 0.0], |place, time| {
+    let shifted = deforming_mesh(panel.clone(), &[-1.0, -0.25, 0.0], |place, time| {
         place + (time * velocity).as_vec3()
     });
-    let rigid = shown(panel, |at| drift(at, velocity));
-    let scene = shown(shifted, placed);
+    let rigid = scene_of(panel, |at| drift(at, velocity));
+    let scene = scene_of(shifted, placed);
     for alignment in Alignment::ALL {
-        let truth = truth(&scene, alignment);
-        expect(&format!("shifted, {alignment}"), &truth, |pixel| {
+        let truth = render_truth(&scene, alignment);
+        expect_object(&format!("shifted, {alignment}"), &truth, |pixel| {
             let edge = |offset| half_plane(pixel, DVec2::X, offset, velocity.x, truth.shutter);
             edge(3.0) - edge(-3.0)
         });
     }
     for kind in VelocityKind::ALL {
-        for (found, expected) in velocities(&scene, kind)
+        for (found, expected) in render_velocities(&scene, kind)
             .iter()
-            .zip(velocities(&rigid, kind))
+            .zip(render_velocities(&rigid, kind))
         {
             // The step of the difference quotient leaves 1e-6 pixels of rounding.
             assert!((0..2).all(|axis| (found[axis] - expected[axis]).abs() < 1e-4));
@@ -124,16 +93,16 @@ fn a_stretching_panel_covers_and_moves_as_its_edges_do() {
         true => 5.0 + 10.0 * time,
         false => 3.0 - 5.0 * (time + 0.2),
     };
-    let stretched = deforming(panel, &[-1.0, -0.2, 0.5], |place, time| {
+    let stretched = deforming_mesh(panel, &[-1.0, -0.2, 0.5], |place, time| {
         match place.x > 0.0 {
             true => Vec3::new(right(time) as f32, place.y, 0.0),
             false => place,
         }
     });
-    let scene = shown(stretched, placed);
-    let truth = truth(&scene, Alignment::Trailing);
+    let scene = scene_of(stretched, placed);
+    let truth = render_truth(&scene, Alignment::Trailing);
     let shutter = truth.shutter;
-    expect("stretched", &truth, |pixel| {
+    expect_object("stretched", &truth, |pixel| {
         let part = |open: f64, close: f64, offset, speed| {
             let part = frame::Shutter::new(open, close).expect("not empty");
             let weight = part.exposure() / shutter.exposure();
@@ -143,11 +112,11 @@ fn a_stretching_panel_covers_and_moves_as_its_edges_do() {
         edge - half_plane(pixel, DVec2::X, -5.0, 0.0, shutter)
     });
     // At t = 0 the panel reaches from -5 to 2 and its points are drawn along in proportion.
-    for (pixel, found) in velocities(&scene, VelocityKind::Instantaneous)
+    for (pixel, found) in render_velocities(&scene, VelocityKind::Instantaneous)
         .iter()
         .enumerate()
     {
-        let x = corner(pixel as u32 % WIDTH, 0).x + 0.5;
+        let x = pixel_corner(pixel as u32 % WIDTH, 0).x + 0.5;
         let expected = if (-5.0..2.0).contains(&x) {
             -5.0 * (x + 5.0) / 7.0
         } else {
@@ -161,7 +130,7 @@ fn a_stretching_panel_covers_and_moves_as_its_edges_do() {
 #[test]
 fn between_and_beyond_two_shapes_a_surface_is_on_the_line_through_them() {
     let depth = |time: f64| 3.0 + time;
-    let panel = deforming(rectangle(9.0, 9.0), &[-1.0, 1.0], |place, time| {
+    let panel = deforming_mesh(rectangle(9.0, 9.0), &[-1.0, 1.0], |place, time| {
         place - (depth(time) * DVec3::Z).as_vec3()
     });
     let mut scene = empty_scene("depth");
@@ -179,11 +148,11 @@ fn between_and_beyond_two_shapes_a_surface_is_on_the_line_through_them() {
     }
 }
 
-/// A sphere that turns into a potato and back into an egg.
+/// Sphere that turns into a potato and back into an egg.
 fn potato() -> Mesh {
     let mut numbers = Numbers(5 << 32);
     let waves: Vec<DVec3> = (0..4).map(|_| 3.0 * numbers.vector()).collect();
-    deforming(icosphere(1.0, 3), &[-0.7, -0.1, 0.3], |place, time| {
+    deforming_mesh(icosphere(1.0, 3), &[-0.7, -0.1, 0.3], |place, time| {
         let place = place.as_dvec3();
         let bump: f64 = waves.iter().map(|wave| wave.dot(place).sin()).sum();
         let stretched = DVec3::new(1.0 + 0.5 * time, 1.0, 1.0 - 0.5 * time) * place;
@@ -191,8 +160,8 @@ fn potato() -> Mesh {
     })
 }
 
-/// Moves it, turns it and scales it, so that nothing is exact in the world.
-fn turned(at: DVec3) -> Motion {
+/// Pose that is exact in no coordinate: moved, turned and scaled.
+fn skewed(at: DVec3) -> Motion {
     let mut motion = spin(at, DVec3::new(0.36, 0.48, 0.8), 1.7);
     for key in &mut motion.keys {
         key.scale = DVec3::new(2.0, 0.5, 1.0);
@@ -204,7 +173,7 @@ fn turned(at: DVec3) -> Motion {
 fn a_deforming_sphere_does_not_leak_at_its_edges_and_vertices() {
     let mesh = potato();
     let mut scene = empty_scene("potato");
-    let motion = turned(DVec3::new(3.0, -70.0, 11.0));
+    let motion = skewed(DVec3::new(3.0, -70.0, 11.0));
     add(&mut scene, mesh.clone(), glowing(1.0), motion.clone());
     let stage = Stage::new(&scene, -0.9, 0.4);
     let mut poses = stage.poses();
@@ -239,13 +208,13 @@ fn a_deforming_sphere_does_not_leak_at_its_edges_and_vertices() {
 }
 
 #[test]
-fn the_trees_find_what_every_triangle_in_turn_gives() {
+fn the_trees_find_what_brute_force_finds() {
     let mut scene = empty_scene("potatoes");
     add(
         &mut scene,
         potato(),
         glowing(1.0),
-        turned(DVec3::new(1.0, 0.0, 0.0)),
+        skewed(DVec3::new(1.0, 0.0, 0.0)),
     );
     let mut small = Motion::still(Key {
         scale: DVec3::splat(0.5),
@@ -267,7 +236,7 @@ fn the_trees_find_what_every_triangle_in_turn_gives() {
 fn a_growing_lamp_lights_as_one_that_is_scaled() {
     let grown = |time: f64| 1.0 + 0.5 * time;
     let lamp = rectangle(4.0, 2.0);
-    let shapes = deforming(lamp.clone(), &[-1.0, 1.0], |place, time| {
+    let shapes = deforming_mesh(lamp.clone(), &[-1.0, 1.0], |place, time| {
         grown(time) as f32 * place
     });
     let scaled = |at: DVec3| {
@@ -296,7 +265,7 @@ fn a_growing_lamp_lights_as_one_that_is_scaled() {
             glowing(3.0),
             motion(DVec3::new(0.0, 1.0, -5.0)),
         );
-        truth(&scene, Alignment::Trailing).mean().color
+        render_truth(&scene, Alignment::Trailing).mean().color
     };
     let [deformed, scaled] = [lit(shapes, &placed), lit(lamp, &scaled)];
     let largest = (deformed.pixels.iter().zip(&scaled.pixels))

@@ -1,4 +1,4 @@
-//! The same inputs give the same bytes.
+//! Determinism: equal inputs give equal bytes.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -12,7 +12,7 @@ use tracer::{
     ladder_hash, trace_frame, trace_ladder, trace_truth, truth_hash,
 };
 
-/// Everything that draws random numbers: sky, sun disc, lamp, bounces, motion.
+/// Scene with everything that draws random numbers: sky, sun disc, lamp, bounces, motion.
 fn busy_scene() -> Scene {
     let mut scene = empty_scene("busy");
     scene.background = Background::Gradient {

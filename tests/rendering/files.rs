@@ -1,4 +1,4 @@
-//! Frames, truths and ladders on disk: bit-exact, whole or not at all, and clear about what is wrong with a file.
+//! Files of frames, truths and ladders: bit-exact, written whole or not at all, and refused with a clear reason.
 
 use std::fs;
 use std::path::Path;
@@ -13,7 +13,7 @@ use frame::{
 const WIDTH: u32 = 13;
 const HEIGHT: u32 = 7;
 
-/// Values of every magnitude, subnormal and negative ones too: rounding anywhere would show.
+/// Values of every magnitude, subnormal and negative ones too, so that any rounding shows.
 fn plane(salt: u32) -> Plane {
     Raster::from_fn(WIDTH, HEIGHT, |x, y| {
         let mut bits = (x + 17 * y + 1009 * salt).wrapping_mul(0x9e37_79b9);
@@ -389,31 +389,4 @@ fn a_failed_write_leaves_what_was_there_and_nothing_else() {
         .collect();
     assert_eq!(left, ["taken"], "a temporary file was left behind");
     assert_eq!(fs::read_to_string(path.join("inside")).unwrap(), "kept");
-}
-
-#[test]
-fn a_shutter_that_closes_before_it_opens_is_refused() {
-    let message = frame::Shutter::new(0.75, 0.25).unwrap_err().to_string();
-    assert!(
-        message.starts_with("shutter closes at 0.25 before it opens at 0.75"),
-        "{message}"
-    );
-    for exposure in [0.0, -0.5, f64::NAN, f64::INFINITY] {
-        let message = Alignment::Leading
-            .shutter(exposure)
-            .unwrap_err()
-            .to_string();
-        assert!(message.contains("allowed: above 0 and finite"), "{message}");
-    }
-}
-
-#[test]
-fn the_alignments_lie_around_the_instant_as_they_say() {
-    let interval = |alignment: Alignment| {
-        let shutter = alignment.shutter(0.5).unwrap();
-        (shutter.open, shutter.close)
-    };
-    assert_eq!(interval(Alignment::Trailing), (-0.5, 0.0));
-    assert_eq!(interval(Alignment::Centred), (-0.25, 0.25));
-    assert_eq!(interval(Alignment::Leading), (0.0, 0.5));
 }

@@ -1,4 +1,4 @@
-//! The frames that engines really have: motion from the camera alone, colour at pixel centres, a still sky, a guard band.
+//! Frames as engines have them: velocity from the camera alone, colour at pixel centres, a still sky, a guard band.
 
 use frame::{ColorSampling, Frame, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
@@ -10,7 +10,7 @@ use tracer::{
 
 const SIZE: [u32; 2] = [36, 24];
 
-fn settings() -> FrameSettings {
+fn frame_settings() -> FrameSettings {
     FrameSettings {
         width: SIZE[0],
         height: SIZE[1],
@@ -19,12 +19,12 @@ fn settings() -> FrameSettings {
     }
 }
 
-fn frame(scene: &Scene, settings: &FrameSettings) -> Frame {
+fn render_frame(scene: &Scene, settings: &FrameSettings) -> Frame {
     trace_frame(scene, settings, &unwatched).expect("allowed")
 }
 
-/// Two glowing spheres under a grey sky: the near one still, the other drifting when `moving`.
-fn scene(moving: bool) -> Scene {
+/// Two glowing spheres under a grey sky; the far one drifts if `moving`.
+fn spheres_scene(moving: bool) -> Scene {
     let mut scene = empty_scene("spheres");
     scene.background = Background::Constant(Vec3::splat(0.25));
     let velocity = if moving {
@@ -50,8 +50,8 @@ fn scene(moving: bool) -> Scene {
     scene
 }
 
-/// Moves and turns at once.
-fn travelling(mut scene: Scene) -> Scene {
+/// Moves and turns the camera at once.
+fn move_camera(mut scene: Scene) -> Scene {
     let key = |time, translation, angle| Key {
         time,
         translation,
@@ -77,19 +77,19 @@ fn travelling(mut scene: Scene) -> Scene {
 
 #[test]
 fn in_a_still_world_the_camera_alone_tells_the_whole_motion() {
-    let scene = travelling(scene(false));
-    let whole = frame(
+    let scene = move_camera(spheres_scene(false));
+    let whole = render_frame(
         &scene,
         &FrameSettings {
             velocity: VelocityKind::PreviousFrame,
-            ..settings()
+            ..frame_settings()
         },
     );
-    let rebuilt = frame(
+    let rebuilt = render_frame(
         &scene,
         &FrameSettings {
             velocity: VelocityKind::CameraOnly,
-            ..settings()
+            ..frame_settings()
         },
     );
     let moved = whole
@@ -109,14 +109,14 @@ fn in_a_still_world_the_camera_alone_tells_the_whole_motion() {
 #[test]
 fn what_moves_by_itself_stands_still_for_the_camera_alone() {
     let velocity = VelocityKind::CameraOnly;
-    let rebuilt = frame(
-        &scene(true),
+    let rebuilt = render_frame(
+        &spheres_scene(true),
         &FrameSettings {
             velocity,
-            ..settings()
+            ..frame_settings()
         },
     );
-    let known = frame(&scene(true), &settings());
+    let known = render_frame(&spheres_scene(true), &frame_settings());
     assert!(known.velocity.pixels.iter().any(|v| v[0] > 0.5));
     for v in &rebuilt.velocity.pixels {
         // Rounding of depth, unprojected and projected again.
@@ -126,11 +126,11 @@ fn what_moves_by_itself_stands_still_for_the_camera_alone() {
 
 #[test]
 fn point_sampled_colour_shows_what_is_at_the_centre() {
-    let frame = frame(
-        &scene(true),
+    let frame = render_frame(
+        &spheres_scene(true),
         &FrameSettings {
             color: ColorSampling::Point,
-            ..settings()
+            ..frame_settings()
         },
     );
     let radiance = [0.25, 0.5, 1.0];
@@ -141,7 +141,7 @@ fn point_sampled_colour_shows_what_is_at_the_centre() {
             assert_eq!(coverage.pixels[pixel], f32::from(object == id));
         }
     }
-    let filtered = self::frame(&scene(true), &settings());
+    let filtered = render_frame(&spheres_scene(true), &frame_settings());
     assert!(
         filtered
             .color
@@ -153,13 +153,13 @@ fn point_sampled_colour_shows_what_is_at_the_centre() {
 
 #[test]
 fn a_sky_without_velocity_is_still_and_nothing_else_changes() {
-    let scene = travelling(scene(true));
-    let with = frame(&scene, &settings());
-    let without = frame(
+    let scene = move_camera(spheres_scene(true));
+    let with = render_frame(&scene, &frame_settings());
+    let without = render_frame(
         &scene,
         &FrameSettings {
             sky_velocity: false,
-            ..settings()
+            ..frame_settings()
         },
     );
     for pixel in 0..with.object_id.pixels.len() {
@@ -181,20 +181,20 @@ fn a_sky_without_velocity_is_still_and_nothing_else_changes() {
 #[test]
 fn inside_its_guard_band_a_frame_is_the_bare_frame() {
     for velocity in VelocityKind::ALL {
-        let scene = travelling(scene(true));
-        let bare = frame(
+        let scene = move_camera(spheres_scene(true));
+        let bare = render_frame(
             &scene,
             &FrameSettings {
                 velocity,
-                ..settings()
+                ..frame_settings()
             },
         );
-        let padded = frame(
+        let padded = render_frame(
             &scene,
             &FrameSettings {
                 velocity,
                 guard_band: 5,
-                ..settings()
+                ..frame_settings()
             },
         );
         assert_eq!(padded.size(), (SIZE[0] + 10, SIZE[1] + 10));
@@ -213,24 +213,24 @@ fn inside_its_guard_band_a_frame_is_the_bare_frame() {
 #[test]
 fn the_guard_band_shows_what_a_wider_view_would() {
     let band = 6;
-    let scene = travelling(scene(true));
-    let padded = frame(
+    let scene = move_camera(spheres_scene(true));
+    let padded = render_frame(
         &scene,
         &FrameSettings {
             guard_band: band,
-            ..settings()
+            ..frame_settings()
         },
     );
     let [width, height] = SIZE.map(|side| side + 2 * band);
     let mut wider = scene.clone();
     let tangent = f64::from(height) / f64::from(SIZE[1]); // of half of 90 degrees, times this
     wider.camera.vertical_fov = vec![(0.0, 2.0 * tangent.atan())];
-    let wider = frame(
+    let wider = render_frame(
         &wider,
         &FrameSettings {
             width,
             height,
-            ..settings()
+            ..frame_settings()
         },
     );
     assert_eq!(padded.object_id, wider.object_id);
@@ -246,10 +246,10 @@ fn the_guard_band_shows_what_a_wider_view_would() {
 #[test]
 fn a_band_that_no_picture_can_have_is_refused() {
     let refused = trace_frame(
-        &scene(false),
+        &spheres_scene(false),
         &FrameSettings {
             guard_band: 9000,
-            ..settings()
+            ..frame_settings()
         },
         &unwatched,
     );

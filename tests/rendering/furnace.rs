@@ -1,36 +1,21 @@
-//! Scenes whose radiance is known in closed form.
+//! Scenes with radiance in closed form.
 
 use std::f64::consts::{PI, TAU};
 
-use frame::{Alignment, Truth};
+use crate::small_truths::render_truth;
+use frame::Truth;
 use glam::{DQuat, DVec3, Vec2, Vec3};
 use tests::shapes::*;
 use tests::statistics::{estimates, expect_pooled_agreement};
-use tests::unwatched;
-use tracer::{
-    Background, EnvironmentMap, Key, Material, Motion, Scene, Sun, Texture, TruthSettings, Turn,
-    trace_truth,
-};
-
-fn truth(scene: &Scene, samples_per_pixel: u32) -> Truth {
-    let settings = TruthSettings {
-        width: 16,
-        height: 9,
-        exposure: 1.0,
-        alignment: Alignment::Centred,
-        samples_per_pixel,
-        ..TruthSettings::default()
-    };
-    trace_truth(scene, &settings, &unwatched).expect("settings are allowed")
-}
+use tracer::{Background, EnvironmentMap, Key, Material, Motion, Scene, Sun, Texture, Turn};
 
 /// Fails unless the first component agrees with one known value.
 fn expect_everywhere(what: &str, truth: &Truth, expected: f64) {
     expect_pooled_agreement(what, &estimates(truth, |_, _| expected));
 }
 
-/// A camera at `eye` that looks at `target`, `degrees` high.
-fn look(scene: &mut Scene, eye: DVec3, target: DVec3, degrees: f64) {
+/// Points the camera from `eye` at `target`, with a vertical field of view in degrees.
+fn look_at(scene: &mut Scene, eye: DVec3, target: DVec3, degrees: f64) {
     scene.camera.motion = Motion::still(Key {
         translation: eye,
         orientation: DQuat::from_rotation_arc(DVec3::NEG_Z, (target - eye).normalize()),
@@ -39,7 +24,7 @@ fn look(scene: &mut Scene, eye: DVec3, target: DVec3, degrees: f64) {
     scene.camera.vertical_fov = vec![(0.0, degrees.to_radians())];
 }
 
-/// A pose of a rectangle or disc that faces upwards.
+/// Pose of a rectangle or disc that faces upwards.
 fn facing_up(at: DVec3) -> Key {
     Key {
         translation: at,
@@ -48,13 +33,13 @@ fn facing_up(at: DVec3) -> Key {
     }
 }
 
-/// A floor at y = 0 of albedo 0.6, looked at in one small spot around the origin: 2 mm, so that the light of a lamp 1 m
-/// above varies by less than 2e-6 of itself within it.
+/// Floor at y = 0 of albedo 0.6, seen in a spot of 2 mm around the origin. There the light of a lamp 1 m above varies by less
+/// than 2e-6 of itself.
 fn floor_scene(name: &str) -> Scene {
     let mut scene = empty_scene(name);
     let floor = Motion::still(facing_up(DVec3::ZERO));
     add(&mut scene, rectangle(100.0, 100.0), diffuse(0.6), floor);
-    look(&mut scene, DVec3::new(4.0, 2.0, 0.0), DVec3::ZERO, 0.005);
+    look_at(&mut scene, DVec3::new(4.0, 2.0, 0.0), DVec3::ZERO, 0.005);
     scene
 }
 
@@ -68,7 +53,7 @@ fn a_floor_under_a_gradient_sky_gathers_it_by_the_cosine() {
     };
     // The mean of the height over the cosine lobe is 2/3.
     let expected = 0.6 * (1.0 + 3.0 * 2.0 / 3.0);
-    expect_everywhere("gradient", &truth(&scene, 256), expected);
+    expect_everywhere("gradient", &render_truth(&scene, 256), expected);
 }
 
 #[test]
@@ -98,7 +83,7 @@ fn a_textured_panel_hangs_upright_and_has_its_holes() {
     };
     let at = placed(DVec3::new(0.0, 0.0, -4.5));
     add(&mut scene, panel, paint, at);
-    let mean = truth(&scene, 64).mean();
+    let mean = render_truth(&scene, 64).mean();
     // Pixels between texels of one quadrant, where interpolation changes nothing.
     for (x, y, expected) in [(3, 2, 0.9), (12, 2, 0.4), (3, 6, 0.6), (12, 6, 0.8)] {
         let found = mean.color.at(x, y)[0];
@@ -125,7 +110,7 @@ fn a_closed_glowing_sphere_has_the_radiance_of_the_geometric_series() {
         };
         let motion = spin(DVec3::ZERO, DVec3::Y, 2.0);
         add(&mut scene, icosphere(3.0, 2), walls, motion);
-        expect_everywhere(&format!("albedo {albedo}"), &truth(&scene, 256), 1.0);
+        expect_everywhere(&format!("albedo {albedo}"), &render_truth(&scene, 256), 1.0);
     }
 }
 
@@ -153,7 +138,7 @@ fn white_things_under_a_white_sky_cannot_be_seen() {
         diffuse(1.0),
         drift(away(0.8), DVec3::X),
     );
-    let truth = truth(&scene, 256);
+    let truth = render_truth(&scene, 256);
     assert!(truth.mean().coverage[0].pixels.contains(&0.0));
     // Every path ends in the sky with all its energy, whatever its length.
     expect_everywhere("white", &truth, 1.0);
@@ -168,7 +153,7 @@ fn a_convex_body_under_a_white_sky_has_the_radiance_of_its_albedo() {
     let body = icosphere(1.0, 0);
     add(&mut scene, body, diffuse(0.5), spin(near, DVec3::Y, 2.0));
     scene.camera.vertical_fov = vec![(0.0, 0.5)];
-    expect_everywhere("grey", &truth(&scene, 256), 0.5);
+    expect_everywhere("grey", &render_truth(&scene, 256), 0.5);
 }
 
 #[test]
@@ -187,7 +172,7 @@ fn a_smooth_normal_shades_and_moves_as_a_normal() {
     // A normal shrinks where its surface grows; then it is turned to face upwards.
     let moved = DQuat::from_rotation_x(-0.5 * PI) * (normal.as_dvec3() / scale).normalize();
     let expected = 0.6 * moved.dot(sun) / PI;
-    expect_everywhere("smooth", &truth(&scene, 16), expected);
+    expect_everywhere("smooth", &render_truth(&scene, 16), expected);
 }
 
 /// Irradiance over pi, times albedo, below the centre of a parallel disc of radiance 1 (radius / height = `ratio`).
@@ -204,10 +189,14 @@ fn a_floor_under_a_glowing_disc_has_the_radiance_of_its_form_factor() {
         add(&mut scene, disc(radius, 256), glowing(1.0), lamp);
         if radius > 1.0 {
             // The eye must stay below the lamp.
-            look(&mut scene, DVec3::new(4.0, 0.5, 0.0), DVec3::ZERO, 0.005);
+            look_at(&mut scene, DVec3::new(4.0, 0.5, 0.0), DVec3::ZERO, 0.005);
         }
         let expected = under_disc(0.6, f64::from(radius));
-        expect_everywhere(&format!("radius {radius}"), &truth(&scene, 512), expected);
+        expect_everywhere(
+            &format!("radius {radius}"),
+            &render_truth(&scene, 512),
+            expected,
+        );
     }
 }
 
@@ -227,7 +216,7 @@ fn a_growing_lamp_gives_the_mean_of_its_form_factors() {
     add(&mut scene, disc(1.0, 256), glowing(1.0), lamp);
     // The mean of r^2 / (1 + r^2) for r from 0.5 to 2.
     let expected = 0.6 * (1.0 - (2.0_f64.atan() - 0.5_f64.atan()) / 1.5);
-    expect_everywhere("growing lamp", &truth(&scene, 512), expected);
+    expect_everywhere("growing lamp", &render_truth(&scene, 512), expected);
 }
 
 #[test]
@@ -243,7 +232,7 @@ fn the_sun_lights_a_floor_by_the_cosine() {
             // A disc wholly above the horizon gives its irradiance times its centre's cosine.
             let expected = 0.6 * f64::from(color) * f64::sin(elevation) / PI;
             let what = format!("radius {angular_radius}, elevation {elevation}");
-            expect_everywhere(&what, &truth(&scene, 256), expected);
+            expect_everywhere(&what, &render_truth(&scene, 256), expected);
         }
     }
 }
@@ -264,7 +253,11 @@ fn a_surface_in_the_sun_s_shadow_is_black_and_a_hole_lets_it_through() {
         let above = Motion::still(facing_up(DVec3::new(0.0, 1.0, 0.0)));
         add(&mut scene, rectangle(1.0, 1.0), screen, above);
         let expected = if opacity < 0.5 { 0.6 / PI } else { 0.0 };
-        expect_everywhere(&format!("opacity {opacity}"), &truth(&scene, 64), expected);
+        expect_everywhere(
+            &format!("opacity {opacity}"),
+            &render_truth(&scene, 64),
+            expected,
+        );
     }
 }
 
@@ -276,15 +269,15 @@ fn a_sun_with_a_disc_is_seen_and_a_point_is_not() {
         angular_radius,
     };
     let mut scene = empty_scene("sun");
-    look(&mut scene, DVec3::ZERO, DVec3::NEG_Z, 1.0);
+    look_at(&mut scene, DVec3::ZERO, DVec3::NEG_Z, 1.0);
     scene.sun = Some(sun(0.0));
-    expect_everywhere("point", &truth(&scene, 16), 0.0);
+    expect_everywhere("point", &render_truth(&scene, 16), 0.0);
     scene.sun = Some(sun(0.2));
     let radiance = 1.0 / (PI * f64::sin(0.2).powi(2));
-    expect_everywhere("disc", &truth(&scene, 16), radiance);
+    expect_everywhere("disc", &render_truth(&scene, 16), radiance);
 }
 
-/// What an image of `sky` in 128 x 64 texels shows.
+/// Environment map of `sky` in 128 x 64 texels.
 fn image_of(sky: &Background) -> Background {
     let (width, height) = (128, 64);
     let texel = |at: u32| {
@@ -329,7 +322,7 @@ fn an_image_of_a_sky_lights_as_the_sky_does() {
     ] {
         let mut scene = floor_scene("image");
         scene.background = image_of(&sky);
-        let mean = truth(&scene, 4096).mean().color;
+        let mean = render_truth(&scene, 4096).mean().color;
         let sum: f64 = mean.pixels.iter().map(|pixel| f64::from(pixel[0])).sum();
         let found = sum / mean.pixels.len() as f64;
         // Interpolation between rows of 3 degrees rounds the horizon's kink off: some 5e-4 of the brightest level.
@@ -364,7 +357,7 @@ fn a_small_bright_sun_in_an_image_is_found() {
             1000.0 * tent * area * polar.cos() / f64::from(steps * steps)
         })
         .sum();
-    let truth = truth(&scene, 1024);
+    let truth = render_truth(&scene, 1024);
     expect_everywhere("sun in an image", &truth, 0.6 * irradiance / PI);
     // Unsampled it would be met by one path in 500, with a deviation of 20 times its mean.
     let worst = estimates(&truth, |_, _| 0.0)

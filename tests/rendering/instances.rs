@@ -6,7 +6,7 @@ use tests::random::Numbers;
 use tests::shapes::*;
 use tracer::{Interpolation, Key, Motion, Object, Parent, Scene, Turn};
 
-/// So many objects of one mesh, each on a way of its own; every third follows another.
+/// Scene of `count` objects of one mesh, each with its own motion; every third has another as its parent.
 fn swarm(count: usize) -> Scene {
     let mut numbers = Numbers(8 << 32);
     let mut scene = empty_scene("swarm");
@@ -55,26 +55,26 @@ fn swarm(count: usize) -> Scene {
 }
 
 #[test]
-fn four_hundred_objects_of_one_mesh_are_met_as_every_triangle_in_turn_says() {
+fn rays_hit_four_hundred_objects_of_one_mesh_as_brute_force_says() {
     let scene = swarm(400);
     expect_what_every_triangle_gives(&scene, [-0.9, 0.5], 10.0, 600);
 }
 
 #[test]
-fn what_stands_still_is_met_among_what_moves_as_every_triangle_in_turn_says() {
+fn rays_hit_still_objects_among_moving_ones_as_brute_force_says() {
     let mut scene = swarm(60);
     for (index, object) in scene.objects.iter_mut().enumerate() {
-        // Some of those that stand still follow one that moves, or the other way round.
+        // Some still objects have moving parents, and the other way round.
         if index % 5 < 3 {
             object.motion.keys.truncate(1);
         }
-        // Of those that move half keep their size.
+        // Half of the moving objects keep their size.
         if index % 2 == 0 {
             let scale = object.motion.keys[0].scale;
             (object.motion.keys.iter_mut()).for_each(|key| key.scale = scale);
         }
     }
-    // Shares the mesh and is all hole.
+    // An object of the same mesh that is all hole.
     let mut hole = glowing(1.0);
     hole.opacity = 0.0;
     scene.materials.push(hole);

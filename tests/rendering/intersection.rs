@@ -1,4 +1,4 @@
-//! Rays and triangles: no holes, no leaks, nothing lost, at every scale.
+//! Rays against triangles: no holes, no leaks, nothing lost, at every scale.
 
 use glam::{DQuat, DVec3, Vec3};
 use rayon::prelude::*;
@@ -11,7 +11,7 @@ use tracer::{
     trace_frame, trace_truth,
 };
 
-fn reversed(mut mesh: Mesh) -> Mesh {
+fn reverse_faces(mut mesh: Mesh) -> Mesh {
     for triangle in &mut mesh.triangles {
         triangle.swap(1, 2);
     }
@@ -21,7 +21,7 @@ fn reversed(mut mesh: Mesh) -> Mesh {
 #[test]
 fn a_square_panel_has_no_hole_at_any_pixel_centre() {
     for size in [16, 64, 90] {
-        for panel in [rectangle(1.0, 1.0), reversed(rectangle(1.0, 1.0))] {
+        for panel in [rectangle(1.0, 1.0), reverse_faces(rectangle(1.0, 1.0))] {
             // Fills the picture exactly at a field of view of 90 degrees: the diagonal passes through pixel centres.
             let mut scene = empty_scene("panel");
             let at = placed(DVec3::new(0.0, 0.0, -0.5));
@@ -46,7 +46,7 @@ fn a_square_panel_has_no_hole_at_any_pixel_centre() {
 
 #[test]
 fn parallel_rays_find_no_hole_along_a_diagonal() {
-    for panel in [rectangle(1.0, 1.0), reversed(rectangle(1.0, 1.0))] {
+    for panel in [rectangle(1.0, 1.0), reverse_faces(rectangle(1.0, 1.0))] {
         let mut scene = empty_scene("panel");
         add(&mut scene, panel, glowing(1.0), placed(DVec3::ZERO));
         let stage = Stage::new(&scene, 0.0, 0.0);
@@ -108,7 +108,7 @@ fn a_closed_sphere_does_not_leak_at_its_edges_and_vertices() {
     }
 }
 
-/// Rays at exact edges and vertices, half of them from inside.
+/// Number of rays at exact edges and vertices, half of them from inside.
 const AIMED_RAYS: u64 = 10_000_000;
 
 #[test]
@@ -196,7 +196,7 @@ fn a_convex_surface_never_meets_its_own_rays_from_1_mm_to_10_km() {
     }
 }
 
-/// Ridges and pits on a square of this side, facing +Z: every facet has the same angle to it, with a cosine of 2 / sqrt(6).
+/// Ridges and pits on a square that faces +Z; the normal of every facet has the cosine 2 / sqrt(6) to +Z.
 fn egg_crate(side: f32) -> Mesh {
     const CELLS: u32 = 24;
     let cell = side / CELLS as f32;
@@ -344,7 +344,7 @@ fn of_equally_near_surfaces_the_first_is_seen() {
     }
 }
 
-/// Meshes of every kind in every motion, all sizes and distances times `scale`.
+/// Scene of meshes of every kind in every motion; `scale` multiplies all sizes and distances.
 fn crowd(scale: f64) -> Scene {
     let mut numbers = Numbers(6 << 32);
     let mut scene = empty_scene("crowd");
@@ -389,7 +389,7 @@ fn crowd(scale: f64) -> Scene {
 }
 
 #[test]
-fn the_trees_find_what_every_triangle_in_turn_gives() {
+fn the_trees_find_what_brute_force_finds() {
     for scale in [1e-4, 1e-2, 1.0, 1e3] {
         let scene = crowd(scale);
         expect_what_every_triangle_gives(&scene, [-0.8, 0.7], 3.0 * scale, 4000);

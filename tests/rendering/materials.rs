@@ -1,11 +1,11 @@
-//! Glossy materials in renders, against what is known of them.
+//! Renders of glossy materials, against known answers.
 
-use frame::{Alignment, Truth};
+use crate::small_truths::render_truth;
+use frame::Truth;
 use glam::{DQuat, DVec3, Vec3};
 use tests::shapes::*;
 use tests::statistics::estimates;
-use tests::unwatched;
-use tracer::{Background, Finish, Key, Material, Motion, Scene, TruthSettings, trace_truth};
+use tracer::{Background, Finish, Key, Material, Motion, Scene};
 
 const GLOSSY: [Finish; 6] = [
     Finish::Conductor { roughness: 0.0 },
@@ -32,26 +32,14 @@ fn glossy(finish: Finish, color: f32) -> Material {
     }
 }
 
-fn truth(scene: &Scene, samples_per_pixel: u32) -> Truth {
-    let settings = TruthSettings {
-        width: 16,
-        height: 9,
-        exposure: 1.0,
-        alignment: Alignment::Centred,
-        samples_per_pixel,
-        ..TruthSettings::default()
-    };
-    trace_truth(scene, &settings, &unwatched).expect("settings are allowed")
-}
-
 /// Mean over the picture of the first component.
 fn mean(truth: &Truth) -> f64 {
     let pixels = &truth.mean().color.pixels;
     pixels.iter().map(|pixel| f64::from(pixel[0])).sum::<f64>() / pixels.len() as f64
 }
 
-/// A sphere of few facets with smooth normals, so near that it is all that is seen, turning under `sky`.
-fn sphere(finish: Finish, color: f32, sky: Background) -> Scene {
+/// Turning sphere of few facets with smooth normals under `sky`, so near that it fills the picture.
+fn sphere_scene(finish: Finish, color: f32, sky: Background) -> Scene {
     let mut scene = empty_scene("sphere");
     scene.background = sky;
     let near = DVec3::new(0.0, 0.0, -1.3);
@@ -66,8 +54,8 @@ fn sphere(finish: Finish, color: f32, sky: Background) -> Scene {
     scene
 }
 
-/// A floor at y = 0, looked at in one small spot at a slope of 1 to 2.
-fn floor(finish: Finish, color: f32, sky: Background) -> Scene {
+/// Floor at y = 0, with one small spot seen at a slope of 1 to 2.
+fn floor_scene(finish: Finish, color: f32, sky: Background) -> Scene {
     let mut scene = empty_scene("floor");
     scene.background = sky;
     let flat = Motion::still(Key {
@@ -101,8 +89,8 @@ fn heights(ground: f32, horizon: f32, zenith: f32) -> Background {
 #[test]
 fn white_gloss_under_a_white_sky_cannot_be_seen() {
     for finish in GLOSSY {
-        let scene = sphere(finish, 1.0, Background::Constant(Vec3::ONE));
-        let found = mean(&truth(&scene, 256));
+        let scene = sphere_scene(finish, 1.0, Background::Constant(Vec3::ONE));
+        let found = mean(&render_truth(&scene, 256));
         // The error of the albedo's table, times the few bounces between facets.
         assert!((found - 1.0).abs() < 3e-3, "{finish:?}: {found}");
     }
@@ -111,12 +99,12 @@ fn white_gloss_under_a_white_sky_cannot_be_seen() {
 #[test]
 fn a_mirror_shows_the_sky_that_it_faces() {
     // The mirrored ray rises at 1 to sqrt(5).
-    let scene = floor(
+    let scene = floor_scene(
         Finish::Conductor { roughness: 0.0 },
         1.0,
         heights(9.0, 0.0, 1.0),
     );
-    let found = estimates(&truth(&scene, 64), |_, _| 0.2_f64.sqrt());
+    let found = estimates(&render_truth(&scene, 64), |_, _| 0.2_f64.sqrt());
     for estimate in &found {
         // The spot is 1e-4 radians high.
         assert!((estimate.value - 0.2_f64.sqrt()).abs() < 1e-4);
@@ -129,13 +117,13 @@ fn a_black_surface_below_a_smooth_coat_shows_what_fresnel_s_equations_say() {
         roughness: 0.0,
         index: 1.5,
     };
-    let scene = floor(coat, 0.0, Background::Constant(Vec3::ONE));
+    let scene = floor_scene(coat, 0.0, Background::Constant(Vec3::ONE));
     let cosine = 0.2_f64.sqrt();
     let inside = (1.0 - 0.8 / 2.25_f64).sqrt();
     let across = (cosine - 1.5 * inside) / (cosine + 1.5 * inside);
     let along = (1.5 * cosine - inside) / (1.5 * cosine + inside);
     let expected = 0.5 * (across * across + along * along);
-    let found = mean(&truth(&scene, 256));
+    let found = mean(&render_truth(&scene, 256));
     // The spot is 1e-4 radians high, where the reflectance changes by 0.4 per radian.
     assert!((found - expected).abs() < 1e-4, "{found} {expected}");
 }
@@ -148,21 +136,21 @@ fn a_metal_seen_straight_on_has_its_own_colour() {
     let metal = glossy(Finish::Conductor { roughness: 0.0 }, 0.3);
     add(&mut scene, rectangle(10.0, 10.0), metal, wall);
     scene.camera.vertical_fov = vec![(0.0, 0.01)];
-    let found = mean(&truth(&scene, 16));
+    let found = mean(&render_truth(&scene, 16));
     assert!((found - 0.3).abs() < 1e-6, "{found}");
 }
 
-/// A bright sky above is drawn as a light, one below the floor's horizon too, their sum, which is even, is not.
+/// A sky bright above is sampled as a light, and so is one bright below; their sum is even and is not.
 #[test]
 fn light_that_is_drawn_and_light_that_is_met_add_up_alike() {
     for finish in GLOSSY {
         let [above, below] = [heights(0.0, 0.0, 1.0), heights(1.0, 1.0, 0.0)];
         let sum: f64 = [above, below]
-            .map(|sky| mean(&truth(&floor(finish, 0.5, sky), 4096)))
+            .map(|sky| mean(&render_truth(&floor_scene(finish, 0.5, sky), 4096)))
             .iter()
             .sum();
-        let whole = mean(&truth(
-            &floor(finish, 0.5, Background::Constant(Vec3::ONE)),
+        let whole = mean(&render_truth(
+            &floor_scene(finish, 0.5, Background::Constant(Vec3::ONE)),
             1024,
         ));
         // 144 pixels of 4096 samples whose deviation is about 1.

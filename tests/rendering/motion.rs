@@ -1,4 +1,4 @@
-//! Motions through keys, against formulas and from both sides of every key.
+//! Motions through keys, against formulas and on both sides of every key.
 
 use glam::{DQuat, DVec3};
 use tests::random::hash;
@@ -9,29 +9,29 @@ use tracer::{
     trace_truth,
 };
 
-/// In [-1, 1), from a counter.
-fn number(counter: &mut u64) -> f64 {
+/// Draws a number in [-1, 1) from a counter.
+fn draw_number(counter: &mut u64) -> f64 {
     *counter += 1;
     (hash(*counter) >> 11) as f64 / 2f64.powi(52) - 1.0
 }
 
-fn vector(counter: &mut u64) -> DVec3 {
-    DVec3::from_array(std::array::from_fn(|_| number(counter)))
+fn draw_vector(counter: &mut u64) -> DVec3 {
+    DVec3::from_array(std::array::from_fn(|_| draw_number(counter)))
 }
 
-/// Keys at uneven times; every turn about an axis of its own, of up to `turn` radians.
+/// Motion through keys at uneven times, with turns of up to `turn` radians about random axes.
 fn random_motion(counter: &mut u64, interpolation: Interpolation, turn: f64) -> Motion {
     let mut orientation = DQuat::IDENTITY;
     let keys = [-1.3, -1.0, 0.0, 0.2, 0.9].map(|time| {
         let turn = Turn {
-            axis: vector(counter).normalize(),
-            angle: turn * number(counter),
+            axis: draw_vector(counter).normalize(),
+            angle: turn * draw_number(counter),
         };
         let key = Key {
             time,
-            translation: 3.0 * vector(counter),
+            translation: 3.0 * draw_vector(counter),
             orientation,
-            scale: DVec3::ONE + 0.5 * vector(counter),
+            scale: DVec3::ONE + 0.5 * draw_vector(counter),
             turn,
         };
         orientation = DQuat::from_axis_angle(turn.axis, turn.angle) * orientation;
@@ -43,7 +43,7 @@ fn random_motion(counter: &mut u64, interpolation: Interpolation, turn: f64) -> 
     }
 }
 
-/// Keys of a pose that is known at every time.
+/// Motion through keys at given times, with known translations and scales.
 fn keys(times: &[f64], place: impl Fn(f64) -> DVec3, scale: impl Fn(f64) -> DVec3) -> Motion {
     Motion {
         keys: times

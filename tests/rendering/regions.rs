@@ -1,4 +1,4 @@
-//! Regions are a property of scene, shutter and size: no noise of a truth moves them.
+//! Regions, which depend on scene, shutter and size but on no noise of a truth.
 
 use std::path::Path;
 
@@ -8,12 +8,12 @@ use tests::synthetic::{Object, Sampling, Scene, Shape, VIEWING};
 use tests::unwatched;
 use tracer::{TruthSettings, TruthTracer, load_scene, trace_truth};
 
-fn scene(name: &str) -> tracer::Scene {
+fn load_shipped(name: &str) -> tracer::Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
     load_scene(&folder.join(name), None).unwrap()
 }
 
-fn settings(samples_per_pixel: u32, replicates: u32, seed: u64) -> TruthSettings {
+fn truth_settings(samples_per_pixel: u32, replicates: u32, seed: u64) -> TruthSettings {
     TruthSettings {
         width: 80,
         height: 45,
@@ -32,9 +32,9 @@ fn count(regions: &Regions, region: Region) -> usize {
 #[test]
 fn regions_depend_on_no_seed_no_samples_and_no_replicates() {
     for name in ["two_spheres", "fan", "railing"] {
-        let scene = scene(name);
-        let few = trace_truth(&scene, &settings(16, 2, 1), &unwatched).unwrap();
-        let many = trace_truth(&scene, &settings(256, 4, 2), &unwatched).unwrap();
+        let scene = load_shipped(name);
+        let few = trace_truth(&scene, &truth_settings(16, 2, 1), &unwatched).unwrap();
+        let many = trace_truth(&scene, &truth_settings(256, 4, 2), &unwatched).unwrap();
         assert!(few.motion != many.motion, "{name}: noise differs");
         assert!(few.support == many.support, "{name}");
         let regions = [&few, &many].map(regions);
@@ -46,7 +46,8 @@ fn regions_depend_on_no_seed_no_samples_and_no_replicates() {
 #[test]
 fn the_support_holds_nearly_all_that_a_truth_sees() {
     for name in ["two_spheres", "fan", "wires"] {
-        let truth = trace_truth(&scene(name), &settings(1024, 2, 1), &unwatched).unwrap();
+        let truth =
+            trace_truth(&load_shipped(name), &truth_settings(1024, 2, 1), &unwatched).unwrap();
         let mean = truth.mean();
         for (object, seen) in truth.support.seen.iter().enumerate() {
             let missed: f64 = (mean.coverage[object].pixels.iter().zip(&seen.pixels))
@@ -69,8 +70,8 @@ fn the_support_holds_nearly_all_that_a_truth_sees() {
 
 #[test]
 fn a_support_that_differs_between_replicates_makes_no_truth() {
-    let scene = scene("two_spheres");
-    let tracer = TruthTracer::new(&scene, &settings(16, 2, 1)).unwrap();
+    let scene = load_shipped("two_spheres");
+    let tracer = TruthTracer::new(&scene, &truth_settings(16, 2, 1)).unwrap();
     let mut replicates: Vec<Replicate> = (0..2)
         .map(|index| tracer.trace(index, &unwatched).unwrap())
         .collect();
@@ -89,11 +90,11 @@ fn the_margin_does_not_dilute_an_error_over_the_support() {
         objects: vec![Object::sliding(Shape::Disc(6.0), [50.0, 45.0], [20.0, 0.0])],
     };
     let (frame, truth) = (scene.frame(), scene.truth([Sampling::CLEAN; 2]));
-    let regions = regions(&truth);
-    let [support, moving] = [Region::Support, Region::Moving].map(|region| count(&regions, region));
+    let found = regions(&truth);
+    let [support, moving] = [Region::Support, Region::Moving].map(|region| count(&found, region));
     assert!(moving > 2 * support, "{moving} {support}");
     let mut output = truth.mean();
-    output.color = (output.color).zip(&regions.support, |color, moves| {
+    output.color = (output.color).zip(&found.support, |color, moves| {
         color.map(|value| if *moves { value + 0.1 } else { value })
     });
     let scores = measure(&output, &frame, &truth, None, &VIEWING)

@@ -1,39 +1,19 @@
-//! Shutters that open gradually, and rows that follow one another, against closed forms.
-//!
-//! The camera sees one metre as one pixel at the shapes' distance, the image's centre at the origin.
+//! Alignments, gradual shutters and rolling shutters, against closed forms.
 
-use frame::{Alignment, Efficiency, Shutter, ShutterError, ShutterProfile, Truth};
+use crate::moving_shapes::{
+    DISTANCE, HEIGHT, SPEED, WIDTH, expect_coverage, pixel_corner, render_truth, truth_settings,
+};
+use frame::{Alignment, Efficiency, Shutter, ShutterError, ShutterProfile};
 use glam::{DQuat, DVec2, DVec3};
 use tests::half_plane::{area, half_plane};
 use tests::shapes::*;
-use tests::statistics::{coverage_estimates, expect_agreement, expect_total};
 use tests::unwatched;
 use tracer::{
-    Interpolation, Key, Motion, Scene, TraceError, TruthSettings, replicate_hash, trace_ladder,
-    trace_truth,
+    Interpolation, Key, Motion, Scene, TraceError, replicate_hash, trace_ladder, trace_truth,
 };
 
-const WIDTH: u32 = 32;
-const HEIGHT: u32 = 18;
-/// At a vertical field of view of 90 degrees half the height in pixels is the focal length.
-const DISTANCE: f64 = 0.5 * HEIGHT as f64;
-/// Pixels per frame, and frames.
-const SPEED: f64 = 14.0;
-const EXPOSURE: f64 = 0.75;
-
-fn settings(alignment: Alignment) -> TruthSettings {
-    TruthSettings {
-        width: WIDTH,
-        height: HEIGHT,
-        exposure: EXPOSURE,
-        alignment,
-        samples_per_pixel: 1024,
-        ..TruthSettings::default()
-    }
-}
-
-/// A white half-plane on black whose edge lies `along(t)` pixels from the centre in the direction of `normal`.
-fn scene(normal: DVec2, times: &[f64], along: impl Fn(f64) -> f64) -> Scene {
+/// White half-plane on black whose edge lies `along(t)` pixels from the centre in the direction of `normal`.
+fn half_plane_scene(normal: DVec2, times: &[f64], along: impl Fn(f64) -> f64) -> Scene {
     let mut scene = empty_scene("shutter");
     let key = |&time: &f64| {
         let place = (along(time) - 200.0) * normal;
@@ -52,31 +32,7 @@ fn scene(normal: DVec2, times: &[f64], along: impl Fn(f64) -> f64) -> Scene {
     scene
 }
 
-/// Lower left corner of a pixel, y up.
-fn corner(x: u32, y: u32) -> DVec2 {
-    DVec2::new(
-        f64::from(x) - 0.5 * f64::from(WIDTH),
-        0.5 * f64::from(HEIGHT) - f64::from(y) - 1.0,
-    )
-}
-
-fn expect(what: &str, truth: &Truth, exact: impl Fn(u32, u32) -> f64) {
-    let estimates = coverage_estimates(truth, exact);
-    expect_agreement(what, &estimates, truth.provenance.replicates);
-    // Shifts and stretches show in the first moments.
-    expect_total(what, &estimates, |pixel| {
-        f64::from(pixel as u32 % WIDTH) - 15.5
-    });
-    expect_total(what, &estimates, |pixel| {
-        f64::from(pixel as u32 / WIDTH) - 8.5
-    });
-}
-
-fn traced(scene: &Scene, alignment: Alignment) -> Truth {
-    trace_truth(scene, &settings(alignment), &unwatched).expect("settings are allowed")
-}
-
-/// Efficiencies, and what they are at a part of the interval, written out by hand.
+/// Efficiency, and its value at a part of the interval, written out by hand.
 type Curve = (Efficiency, fn(f64) -> f64);
 
 const TABLE: [f64; 4] = [0.2, 1.0, 0.0, 0.7];
@@ -100,9 +56,9 @@ fn curves() -> Vec<Curve> {
     ]
 }
 
-/// Mean over the shutter of `value` of a time, weighted by `weight` of the part of the interval: the midpoint rule, whose
-/// error where the weights have corners is below 1e-7.
-fn weighted(shutter: Shutter, weight: fn(f64) -> f64, value: impl Fn(f64) -> f64) -> f64 {
+/// Mean of `value` over the shutter, weighted by `weight` of the part of the interval. The midpoint rule errs by less than
+/// 1e-7 where the weights have corners.
+fn weighted_mean(shutter: Shutter, weight: fn(f64) -> f64, value: impl Fn(f64) -> f64) -> f64 {
     const STEPS: u32 = 6000;
     let (mut sum, mut total) = (0.0, 0.0);
     for step in 0..STEPS {
@@ -119,13 +75,13 @@ fn a_ramp_is_the_integral_of_the_efficiency() {
         for (alignment, degrees) in [(Alignment::Trailing, 0.0), (Alignment::Centred, 30.0)] {
             let normal = DVec2::from_angle(f64::to_radians(degrees));
             let along = |time: f64| 2.3 + SPEED * time;
-            let mut scene = scene(normal, &[-1.0, 1.0], along);
+            let mut scene = half_plane_scene(normal, &[-1.0, 1.0], along);
             scene.shutter_profile.efficiency = efficiency.clone();
-            let truth = traced(&scene, alignment);
+            let truth = render_truth(&scene, alignment);
             let shutter = truth.shutter;
-            expect(&format!("{efficiency}, {alignment}"), &truth, |x, y| {
-                weighted(shutter, weight, |time| {
-                    area(corner(x, y), normal, along(time))
+            expect_coverage(&format!("{efficiency}, {alignment}"), &truth, |x, y| {
+                weighted_mean(shutter, weight, |time| {
+                    area(pixel_corner(x, y), normal, along(time))
                 })
             });
         }
@@ -140,17 +96,17 @@ fn braking_inside_a_gradual_shutter_covers_what_the_parabola_says() {
         (Efficiency::Box, (|_| 1.0) as fn(f64) -> f64),
         curves()[0].clone(),
     ] {
-        let mut scene = scene(normal, &[-0.7, -0.5, -0.1, 0.2], along);
+        let mut scene = half_plane_scene(normal, &[-0.7, -0.5, -0.1, 0.2], along);
         scene.shutter_profile.efficiency = efficiency;
-        let truth = traced(&scene, Alignment::Trailing);
+        let truth = render_truth(&scene, Alignment::Trailing);
         // Before the first key the motion is a line of the same slope.
         let along = |time: f64| match time < -0.7 {
             true => along(-0.7) + (time + 0.7) * (-2.0 + 40.0 * 0.7),
             false => along(time),
         };
-        expect("braking", &truth, |x, y| {
-            weighted(truth.shutter, weight, |time| {
-                area(corner(x, y), normal, along(time))
+        expect_coverage("braking", &truth, |x, y| {
+            weighted_mean(truth.shutter, weight, |time| {
+                area(pixel_corner(x, y), normal, along(time))
             })
         });
     }
@@ -161,16 +117,16 @@ fn a_rolling_shutter_shifts_each_row_in_time() {
     for rolling in [0.5, -0.8] {
         for (alignment, degrees) in [(Alignment::Trailing, 0.0), (Alignment::Leading, 45.0)] {
             let normal = DVec2::from_angle(f64::to_radians(degrees));
-            let mut scene = scene(normal, &[-1.0, 1.0], |time| 2.3 + SPEED * time);
+            let mut scene = half_plane_scene(normal, &[-1.0, 1.0], |time| 2.3 + SPEED * time);
             scene.shutter_profile.rolling = rolling;
-            let truth = traced(&scene, alignment);
-            expect(
+            let truth = render_truth(&scene, alignment);
+            expect_coverage(
                 &format!("rolling by {rolling}, {alignment}"),
                 &truth,
                 |x, y| {
                     let later = rolling * ((f64::from(y) + 0.5) / f64::from(HEIGHT) - 0.5);
                     let offset = 2.3 + SPEED * later;
-                    half_plane(corner(x, y), normal, offset, SPEED, truth.shutter)
+                    half_plane(pixel_corner(x, y), normal, offset, SPEED, truth.shutter)
                 },
             );
         }
@@ -179,7 +135,7 @@ fn a_rolling_shutter_shifts_each_row_in_time() {
 
 #[test]
 fn sub_frames_lie_at_the_middles_of_equal_light() {
-    let mut scene = scene(DVec2::X, &[-1.0, 1.0], |time| SPEED * time);
+    let mut scene = half_plane_scene(DVec2::X, &[-1.0, 1.0], |time| SPEED * time);
     scene.shutter_profile = ShutterProfile {
         efficiency: Efficiency::Trapezoid {
             rise: 1.0,
@@ -187,8 +143,8 @@ fn sub_frames_lie_at_the_middles_of_equal_light() {
         },
         rolling: 0.3,
     };
-    let settings = settings(Alignment::Trailing);
-    let truth = traced(&scene, Alignment::Trailing);
+    let settings = truth_settings(Alignment::Trailing);
+    let truth = render_truth(&scene, Alignment::Trailing);
     let ladder = trace_ladder(&scene, &settings, &truth, &[2], &unwatched).expect("allowed");
     assert_eq!(ladder.shutter_profile, scene.shutter_profile);
     // Light grows with the square of time: a quarter has passed at half of it, three quarters at the root of that.
@@ -199,7 +155,7 @@ fn sub_frames_lie_at_the_middles_of_equal_light() {
     for x in 0..WIDTH {
         let areas = parts.map(|part| {
             let time = truth.shutter.at(part) + later;
-            area(corner(x, row), DVec2::X, SPEED * time)
+            area(pixel_corner(x, row), DVec2::X, SPEED * time)
         });
         // Pixels that an edge cuts have noise.
         if areas.iter().all(|area| area.fract() == 0.0) {
@@ -218,12 +174,12 @@ fn sub_frames_lie_at_the_middles_of_equal_light() {
 }
 
 #[test]
-fn what_moves_only_while_late_rows_are_open_moves() {
+fn motion_while_only_late_rows_are_open_counts() {
     let along = |time: f64| 30.0 * time.max(0.0);
-    let mut scene = scene(DVec2::X, &[-1.0, 0.0, 0.2], along);
+    let mut scene = half_plane_scene(DVec2::X, &[-1.0, 0.0, 0.2], along);
     scene.objects[0].motion.interpolation = Interpolation::Linear;
     let moves = |scene: &Scene| {
-        traced(scene, Alignment::Trailing)
+        render_truth(scene, Alignment::Trailing)
             .motion
             .pixels
             .iter()
@@ -236,11 +192,11 @@ fn what_moves_only_while_late_rows_are_open_moves() {
 
 #[test]
 fn the_hash_of_a_truth_follows_its_shutter() {
-    let scene = scene(DVec2::X, &[-1.0, 1.0], |time| time);
+    let scene = half_plane_scene(DVec2::X, &[-1.0, 1.0], |time| time);
     let hash = |change: fn(&mut ShutterProfile)| {
         let mut scene = scene.clone();
         change(&mut scene.shutter_profile);
-        replicate_hash(&scene, &settings(Alignment::Trailing))
+        replicate_hash(&scene, &truth_settings(Alignment::Trailing))
     };
     let plain = hash(|_| ());
     assert_ne!(plain, hash(|profile| profile.rolling = 0.1));
@@ -278,9 +234,10 @@ fn shutters_that_cannot_be_are_refused() {
         ),
         (table(&[0.0, 0.0]), ShutterError::Dark),
     ] {
-        let mut scene = scene(DVec2::X, &[-1.0, 1.0], |time| time);
+        let mut scene = half_plane_scene(DVec2::X, &[-1.0, 1.0], |time| time);
         scene.shutter_profile.efficiency = efficiency;
-        let found = trace_truth(&scene, &settings(Alignment::Trailing), &unwatched).unwrap_err();
+        let found =
+            trace_truth(&scene, &truth_settings(Alignment::Trailing), &unwatched).unwrap_err();
         assert_eq!(found, TraceError::Shutter(error));
     }
     for never in [
@@ -296,4 +253,31 @@ fn shutters_that_cannot_be_are_refused() {
         ..ShutterProfile::default()
     };
     assert_eq!(profile.check(), Err(ShutterError::Rolling(rolling)));
+}
+
+#[test]
+fn a_shutter_that_closes_before_it_opens_is_refused() {
+    let message = Shutter::new(0.75, 0.25).unwrap_err().to_string();
+    assert!(
+        message.starts_with("shutter closes at 0.25 before it opens at 0.75"),
+        "{message}"
+    );
+    for exposure in [0.0, -0.5, f64::NAN, f64::INFINITY] {
+        let message = Alignment::Leading
+            .shutter(exposure)
+            .unwrap_err()
+            .to_string();
+        assert!(message.contains("allowed: above 0 and finite"), "{message}");
+    }
+}
+
+#[test]
+fn alignments_place_the_shutter_around_the_instant() {
+    let interval = |alignment: Alignment| {
+        let shutter = alignment.shutter(0.5).unwrap();
+        (shutter.open, shutter.close)
+    };
+    assert_eq!(interval(Alignment::Trailing), (-0.5, 0.0));
+    assert_eq!(interval(Alignment::Centred), (-0.25, 0.25));
+    assert_eq!(interval(Alignment::Leading), (0.0, 0.5));
 }

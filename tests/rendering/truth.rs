@@ -1,4 +1,4 @@
-//! What shutters do to pictures: stillness, length, side, and accumulations of sub-frames.
+//! Truths and accumulations: stillness, length and side of a smear, independent halves, sub-frames.
 
 use frame::{Alignment, FAR_DEPTH, Frame, Truth};
 use glam::{DVec3, Vec3};
@@ -12,14 +12,14 @@ use tracer::{
 
 const WIDTH: u32 = 48;
 const HEIGHT: u32 = 18;
-/// Where one metre is one pixel.
+/// Distance at which one metre is one pixel.
 const DISTANCE: f64 = 0.5 * HEIGHT as f64;
-/// Pixels per frame.
+/// Speed in pixels per frame.
 const SPEED: f64 = 16.0;
 /// Width of the slab in pixels.
 const SLAB: f64 = 5.5;
 
-fn settings(exposure: f64, alignment: Alignment) -> TruthSettings {
+fn truth_settings(exposure: f64, alignment: Alignment) -> TruthSettings {
     TruthSettings {
         width: WIDTH,
         height: HEIGHT,
@@ -30,11 +30,11 @@ fn settings(exposure: f64, alignment: Alignment) -> TruthSettings {
     }
 }
 
-fn truth(scene: &Scene, exposure: f64, alignment: Alignment) -> Truth {
-    trace_truth(scene, &settings(exposure, alignment), &unwatched).expect("allowed")
+fn render_truth(scene: &Scene, exposure: f64, alignment: Alignment) -> Truth {
+    trace_truth(scene, &truth_settings(exposure, alignment), &unwatched).expect("allowed")
 }
 
-fn frame(scene: &Scene) -> Frame {
+fn render_frame(scene: &Scene) -> Frame {
     let settings = FrameSettings {
         width: WIDTH,
         height: HEIGHT,
@@ -44,7 +44,7 @@ fn frame(scene: &Scene) -> Frame {
     trace_frame(scene, &settings, &unwatched).expect("allowed")
 }
 
-/// A tall white slab that moves to the right through the centre at `t = 0`, `speed` pixels per frame.
+/// Tall white slab that moves to the right through the centre at `t = 0`; `speed` is in pixels per frame.
 fn slab_scene(speed: f64) -> Scene {
     let mut scene = empty_scene("slab");
     let motion = drift(DVec3::new(0.0, 0.0, -DISTANCE), speed * DVec3::X);
@@ -101,8 +101,8 @@ fn the_truth_of_a_still_scene_is_its_frame() {
         glowing(0.8),
         placed(at(0.0) - DVec3::Z),
     );
-    let truth = truth(&scene, 1.0, Alignment::Trailing);
-    let frame = frame(&scene);
+    let truth = render_truth(&scene, 1.0, Alignment::Trailing);
+    let frame = render_frame(&scene);
     // The frame has as many samples as the truth, in one set, and so at most its noise.
     let mut against_frame = estimates(&truth, |x, y| f64::from(frame.color.at(x, y)[0]));
     for estimate in &mut against_frame {
@@ -123,7 +123,7 @@ fn the_truth_of_a_still_scene_is_its_frame() {
 fn half_the_exposure_gives_half_the_smear() {
     let scene = slab_scene(SPEED);
     for exposure in [1.0, 0.5] {
-        let (_, variance) = spread(&truth(&scene, exposure, Alignment::Centred));
+        let (_, variance) = spread(&render_truth(&scene, exposure, Alignment::Centred));
         // The smear, the slab and the pixel are three boxes: their variances add, each its width squared over 12.
         let smear = (12.0 * variance - SLAB * SLAB - 1.0).sqrt();
         // Noise of the second moment: 2e-4 of it.
@@ -143,7 +143,7 @@ fn the_smear_lies_on_the_shutter_s_side() {
         (Alignment::Leading, 0.5),
     ];
     for (alignment, middle) in middles {
-        let (centroid, _) = spread(&truth(&scene, 0.8, alignment));
+        let (centroid, _) = spread(&render_truth(&scene, 0.8, alignment));
         // Noise of the centroid: 2e-3 pixels.
         assert!(
             (centroid - middle * 0.8 * SPEED).abs() < 0.01,
@@ -170,8 +170,8 @@ fn trailing_mirrored_in_time_is_leading() {
     );
     let mut back = scene.clone();
     back.objects[0].motion = mirrored_in_time(&motion);
-    let trailing = truth(&scene, 0.7, Alignment::Trailing);
-    let leading = truth(&back, 0.7, Alignment::Leading);
+    let trailing = render_truth(&scene, 0.7, Alignment::Trailing);
+    let leading = render_truth(&back, 0.7, Alignment::Leading);
     let mut between = coverage_estimates(&trailing, |x, y| {
         f64::from(leading.mean().color.at(x, y)[0])
     });
@@ -179,7 +179,7 @@ fn trailing_mirrored_in_time_is_leading() {
         estimate.error = estimate.error.hypot(f64::from(error[0]));
     }
     expect_agreement("mirrored", &between, 8);
-    let unmirrored = truth(&scene, 0.7, Alignment::Leading);
+    let unmirrored = render_truth(&scene, 0.7, Alignment::Leading);
     assert!(spread(&unmirrored).0 > 2.0 && spread(&leading).0 < -2.0);
 }
 
@@ -196,10 +196,10 @@ fn mirrored_in_time(motion: &Motion) -> Motion {
 #[test]
 fn halves_are_independent() {
     let scene = slab_scene(SPEED);
-    let truth = truth(&scene, 1.0, Alignment::Trailing);
+    let truth = render_truth(&scene, 1.0, Alignment::Trailing);
     let ladder = trace_ladder(
         &scene,
-        &settings(1.0, Alignment::Trailing),
+        &truth_settings(1.0, Alignment::Trailing),
         &truth,
         &[256],
         &unwatched,
@@ -235,7 +235,7 @@ fn halves_are_independent() {
 #[test]
 fn a_ladder_s_rungs_are_means_of_midpoint_instants() {
     let scene = slab_scene(SPEED);
-    let settings = settings(1.0, Alignment::Leading);
+    let settings = truth_settings(1.0, Alignment::Leading);
     let truth = trace_truth(&scene, &settings, &unwatched).expect("allowed");
     let subframes = [1, 2, 4, 8];
     let ladder = trace_ladder(&scene, &settings, &truth, &subframes, &unwatched).expect("allowed");
@@ -272,7 +272,7 @@ fn a_ladder_is_the_truth_where_nothing_moves_and_costs_no_more() {
     // Columns 13.2 to 18.4: its left edge is out of reach of what moves, its right edge within.
     let panel = placed(DVec3::new(-8.2, 0.1, -DISTANCE));
     add(&mut scene, rectangle(5.2, 30.0), glowing(0.5), panel);
-    let settings = settings(1.0, Alignment::Trailing);
+    let settings = truth_settings(1.0, Alignment::Trailing);
     let truth = trace_truth(&scene, &settings, &unwatched).expect("allowed");
     let work = std::sync::atomic::AtomicU64::new(0);
     let ladder = trace_ladder(
@@ -318,7 +318,7 @@ fn motion_is_that_of_what_moves_on_screen() {
     ];
     for (camera, moving) in expectations {
         scene.camera.motion = camera;
-        let truth = truth(&scene, 0.5, Alignment::Centred);
+        let truth = render_truth(&scene, 0.5, Alignment::Centred);
         for (pixel, motion) in truth.motion.pixels.iter().enumerate() {
             let expected: f32 = (0..4)
                 .filter(|&object| moving[object])
@@ -331,7 +331,7 @@ fn motion_is_that_of_what_moves_on_screen() {
 
 #[test]
 fn a_frame_holds_the_instant_and_not_the_shutter() {
-    let frame = frame(&slab_scene(SPEED));
+    let frame = render_frame(&slab_scene(SPEED));
     for x in 0..WIDTH {
         let place = f64::from(x) + 0.5 - 0.5 * f64::from(WIDTH);
         let inside = place.abs() < 0.5 * SLAB;

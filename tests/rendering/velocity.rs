@@ -1,4 +1,4 @@
-//! Velocity and depth against formulas written out by hand.
+//! Velocity and depth, against formulas written out by hand.
 
 use frame::{FAR_DEPTH, Frame, VelocityKind};
 use glam::{DQuat, DVec2, DVec3, Vec3};
@@ -10,10 +10,10 @@ const WIDTH: u32 = 33;
 const HEIGHT: u32 = 21;
 /// Focal length in pixels at a vertical field of view of 90 degrees.
 const FOCAL: f64 = 0.5 * HEIGHT as f64;
-/// Pixels.
+/// Tolerance in pixels per frame.
 const TOLERANCE: f64 = 1e-3;
 
-fn frame(scene: &Scene, velocity: VelocityKind) -> Frame {
+fn render_frame(scene: &Scene, velocity: VelocityKind) -> Frame {
     let settings = FrameSettings {
         width: WIDTH,
         height: HEIGHT,
@@ -24,30 +24,30 @@ fn frame(scene: &Scene, velocity: VelocityKind) -> Frame {
     trace_frame(scene, &settings, &unwatched).expect("allowed")
 }
 
-/// A pixel centre in pixels from the picture's centre, +x right, +y **up**.
-fn place(x: u32, y: u32) -> DVec2 {
+/// Centre of a pixel, in pixels from the picture's centre, +x right, +y **up**.
+fn pixel_center(x: u32, y: u32) -> DVec2 {
     DVec2::new(
         f64::from(x) + 0.5 - 0.5 * f64::from(WIDTH),
         0.5 * f64::from(HEIGHT) - f64::from(y) - 0.5,
     )
 }
 
-/// The point at that place and depth, seen from a camera at rest at the origin.
-fn point(place: DVec2, depth: f64) -> DVec3 {
+/// Point that a camera at rest at the origin sees at a place and depth.
+fn point_at(place: DVec2, depth: f64) -> DVec3 {
     DVec3::new(place.x * depth / FOCAL, place.y * depth / FOCAL, -depth)
 }
 
-/// Where a camera at rest at the origin sees a point: pixels from the centre, y up.
-fn seen(point: DVec3) -> DVec2 {
+/// Place at which a camera at rest at the origin sees a point, in pixels from the centre, y up.
+fn project(point: DVec3) -> DVec2 {
     FOCAL * DVec2::new(point.x, point.y) / -point.z
 }
 
-/// Compares every pixel's velocity with `expected` of its place (y up).
-fn expect(what: &str, frame: &Frame, expected: impl Fn(DVec2) -> DVec2) {
+/// Compares every pixel's velocity with the exact one at its place, y up.
+fn expect_velocity(what: &str, frame: &Frame, exact: impl Fn(DVec2) -> DVec2) {
     for y in 0..HEIGHT {
         for x in 0..WIDTH {
             let [right, down] = frame.velocity.at(x, y).map(f64::from);
-            let expected = expected(place(x, y));
+            let expected = exact(pixel_center(x, y));
             let off = DVec2::new(right, -down).distance(expected);
             assert!(
                 off < TOLERANCE,
@@ -57,10 +57,25 @@ fn expect(what: &str, frame: &Frame, expected: impl Fn(DVec2) -> DVec2) {
     }
 }
 
-/// A wall that fills the view, `depth` metres away at `t = 0`.
-fn wall(depth: f64, motion: impl Fn(DVec3) -> Motion) -> Scene {
+/// Compares both kinds of velocity: the derivative at the instant, and the motion since the previous frame.
+fn expect_velocities(
+    scene: &Scene,
+    derivative: impl Fn(DVec2) -> DVec2,
+    previous: impl Fn(DVec2) -> DVec2,
+) {
+    let render = |kind| render_frame(scene, kind);
+    expect_velocity(
+        "derivative",
+        &render(VelocityKind::Instantaneous),
+        derivative,
+    );
+    expect_velocity("previous", &render(VelocityKind::PreviousFrame), previous);
+}
+
+/// Scene of a wall that fills the view, `depth` metres away at `t = 0`.
+fn wall_scene(depth: f64, motion_at: impl Fn(DVec3) -> Motion) -> Scene {
     let mut scene = empty_scene("wall");
-    let motion = motion(DVec3::new(0.0, 0.0, -depth));
+    let motion = motion_at(DVec3::new(0.0, 0.0, -depth));
     add(&mut scene, rectangle(1000.0, 1000.0), glowing(1.0), motion);
     scene
 }
@@ -69,34 +84,24 @@ fn wall(depth: f64, motion: impl Fn(DVec3) -> Motion) -> Scene {
 fn a_translated_wall_moves_by_perspective() {
     let depth = 7.0;
     let velocity = DVec3::new(0.8, -0.5, 1.3);
-    let scene = wall(depth, |at| drift(at, velocity));
-    expect(
-        "derivative",
-        &frame(&scene, VelocityKind::Instantaneous),
+    let scene = wall_scene(depth, |at| drift(at, velocity));
+    expect_velocities(
+        &scene,
         |place| {
             // d/dt of focal x / depth, the depth shrinking by velocity.z.
             (FOCAL * DVec2::new(velocity.x, velocity.y) + place * velocity.z) / depth
         },
-    );
-    expect(
-        "previous",
-        &frame(&scene, VelocityKind::PreviousFrame),
-        |place| place - seen(point(place, depth) - velocity),
+        |place| place - project(point_at(place, depth) - velocity),
     );
 }
 
 #[test]
 fn a_spinning_wall_moves_around_its_axis() {
     for rate in [0.3, -2.0, 40.0] {
-        let scene = wall(5.0, |at| spin(at, DVec3::Z, rate));
-        expect(
-            "derivative",
-            &frame(&scene, VelocityKind::Instantaneous),
+        let scene = wall_scene(5.0, |at| spin(at, DVec3::Z, rate));
+        expect_velocities(
+            &scene,
             |place| rate * place.perp(),
-        );
-        expect(
-            "previous",
-            &frame(&scene, VelocityKind::PreviousFrame),
             |place| place - DVec2::from_angle(-rate).rotate(place),
         );
     }
@@ -114,9 +119,9 @@ fn a_tilted_turning_box_moves_as_its_points_do() {
         glowing(1.0),
         spin(centre, axis, rate),
     );
-    let frame = frame(&scene, VelocityKind::Instantaneous);
-    expect("box", &frame, |place| {
-        let point = point(place, 5.0);
+    let frame = render_frame(&scene, VelocityKind::Instantaneous);
+    expect_velocity("box", &frame, |place| {
+        let point = point_at(place, 5.0);
         let velocity = rate * axis.cross(point - centre);
         (FOCAL * DVec2::new(velocity.x, velocity.y) + place * velocity.z) / 5.0
     });
@@ -124,7 +129,7 @@ fn a_tilted_turning_box_moves_as_its_points_do() {
 
 #[test]
 fn a_child_moves_with_its_parent() {
-    let mut scene = wall(5.0, placed);
+    let mut scene = wall_scene(5.0, placed);
     let rate = 0.9;
     add(
         &mut scene,
@@ -134,9 +139,9 @@ fn a_child_moves_with_its_parent() {
     );
     scene.objects.swap(0, 1);
     scene.objects[1].parent = Parent::Object(0);
-    expect(
+    expect_velocity(
         "child",
-        &frame(&scene, VelocityKind::Instantaneous),
+        &render_frame(&scene, VelocityKind::Instantaneous),
         |place| rate * place.perp(),
     );
 }
@@ -144,16 +149,11 @@ fn a_child_moves_with_its_parent() {
 #[test]
 fn a_dolly_makes_everything_stream_from_the_centre() {
     let (depth, speed) = (4.0, 0.6);
-    let mut scene = wall(depth, placed);
+    let mut scene = wall_scene(depth, placed);
     scene.camera.motion = drift(DVec3::ZERO, speed * DVec3::NEG_Z);
-    expect(
-        "derivative",
-        &frame(&scene, VelocityKind::Instantaneous),
+    expect_velocities(
+        &scene,
         |place| place * speed / depth,
-    );
-    expect(
-        "previous",
-        &frame(&scene, VelocityKind::PreviousFrame),
         |place| place * (1.0 - depth / (depth + speed)),
     );
 }
@@ -161,24 +161,19 @@ fn a_dolly_makes_everything_stream_from_the_centre() {
 #[test]
 fn a_pan_moves_near_and_infinite_things_alike() {
     let rate = 0.2;
-    let wall_scene = wall(4.0, placed);
-    for mut scene in [wall_scene, empty_scene("background")] {
+    let wall = wall_scene(4.0, placed);
+    for mut scene in [wall, empty_scene("background")] {
         scene.camera.motion = spin(DVec3::ZERO, DVec3::Y, rate);
         // The camera turns to the left, so that pictures move to the right.
-        expect(
-            "derivative",
-            &frame(&scene, VelocityKind::Instantaneous),
+        expect_velocities(
+            &scene,
             |place| {
                 let slope = place / FOCAL;
                 FOCAL * rate * DVec2::new(1.0 + slope.x * slope.x, slope.x * slope.y)
             },
-        );
-        expect(
-            "previous",
-            &frame(&scene, VelocityKind::PreviousFrame),
             |place| {
-                let before = DQuat::from_rotation_y(-rate).inverse() * point(place, 1.0);
-                place - seen(before)
+                let before = DQuat::from_rotation_y(-rate).inverse() * point_at(place, 1.0);
+                place - project(before)
             },
         );
     }
@@ -187,42 +182,32 @@ fn a_pan_moves_near_and_infinite_things_alike() {
 #[test]
 fn a_roll_turns_the_picture_the_other_way() {
     let rate = 0.7;
-    let mut scene = wall(4.0, placed);
+    let mut scene = wall_scene(4.0, placed);
     scene.camera.motion = spin(DVec3::ZERO, DVec3::Z, rate);
-    expect(
-        "derivative",
-        &frame(&scene, VelocityKind::Instantaneous),
+    expect_velocities(
+        &scene,
         |place| -rate * place.perp(),
-    );
-    expect(
-        "previous",
-        &frame(&scene, VelocityKind::PreviousFrame),
         |place| place - DVec2::from_angle(rate).rotate(place),
     );
 }
 
 #[test]
 fn a_zoom_scales_the_picture_by_the_focal_length() {
-    let mut scene = wall(4.0, placed);
+    let mut scene = wall_scene(4.0, placed);
     let half_pi = std::f64::consts::FRAC_PI_2;
     scene.camera.vertical_fov = vec![(-1.0, half_pi + 0.1), (1.0, half_pi - 0.1)];
-    expect(
-        "derivative",
-        &frame(&scene, VelocityKind::Instantaneous),
+    expect_velocities(
+        &scene,
         |place| {
             // d/dt of 1 / tan(angle / 2) at 45 degrees, the angle shrinking by 0.1 per frame.
             place * 0.1
         },
-    );
-    expect(
-        "previous",
-        &frame(&scene, VelocityKind::PreviousFrame),
         |place| place * (1.0 - 1.0 / (0.5 * (half_pi + 0.1)).tan()),
     );
 }
 
-/// Cubic keys at -1, 0 and 1 whose places are known and whose turns are of `angle` about one axis.
-fn smooth(axis: DVec3, angle: impl Fn(f64) -> f64, place: impl Fn(f64) -> DVec3) -> Motion {
+/// Cubic motion through keys at -1, 0 and 1, with places and angles about one axis.
+fn smooth_motion(axis: DVec3, angle: impl Fn(f64) -> f64, place: impl Fn(f64) -> DVec3) -> Motion {
     let key = |time: f64| Key {
         time,
         translation: place(time),
@@ -242,17 +227,12 @@ fn smooth(axis: DVec3, angle: impl Fn(f64) -> f64, place: impl Fn(f64) -> DVec3)
 #[test]
 fn a_braking_dolly_has_the_speed_of_its_parabola() {
     let (depth, speed, brake) = (4.0, 0.6, 0.2);
-    let mut scene = wall(depth, placed);
+    let mut scene = wall_scene(depth, placed);
     let place = |time: f64| (speed * time - brake * time * time) * DVec3::NEG_Z;
-    scene.camera.motion = smooth(DVec3::Y, |_| 0.0, place);
-    expect(
-        "derivative",
-        &frame(&scene, VelocityKind::Instantaneous),
+    scene.camera.motion = smooth_motion(DVec3::Y, |_| 0.0, place);
+    expect_velocities(
+        &scene,
         |place| place * speed / depth,
-    );
-    expect(
-        "previous",
-        &frame(&scene, VelocityKind::PreviousFrame),
         |place| place * (1.0 - depth / (depth + speed + brake)),
     );
 }
@@ -261,28 +241,23 @@ fn a_braking_dolly_has_the_speed_of_its_parabola() {
 fn pans_and_rolls_that_gather_speed_have_the_rate_of_the_instant() {
     let (rate, growth) = (0.2, 0.05);
     for axis in [DVec3::Y, DVec3::Z, DVec3::new(0.6, 0.0, 0.8)] {
-        let wall_scene = wall(4.0, placed);
-        for mut scene in [wall_scene, empty_scene("background")] {
+        let wall = wall_scene(4.0, placed);
+        for mut scene in [wall, empty_scene("background")] {
             let angle = |time: f64| rate * time + growth * time * time;
-            scene.camera.motion = smooth(axis, angle, |_| DVec3::ZERO);
-            expect(
-                "derivative",
-                &frame(&scene, VelocityKind::Instantaneous),
-                |place| screen_motion(place, 4.0, -rate * axis.cross(point(place, 4.0))),
-            );
-            expect(
-                "previous",
-                &frame(&scene, VelocityKind::PreviousFrame),
+            scene.camera.motion = smooth_motion(axis, angle, |_| DVec3::ZERO);
+            expect_velocities(
+                &scene,
+                |place| screen_motion(place, 4.0, -rate * axis.cross(point_at(place, 4.0))),
                 |place| {
                     let before = DQuat::from_axis_angle(axis, angle(-1.0));
-                    place - seen(before.inverse() * point(place, 4.0))
+                    place - project(before.inverse() * point_at(place, 4.0))
                 },
             );
         }
     }
 }
 
-/// Velocity on screen of a point at that place and depth which moves so relative to the camera.
+/// Velocity on screen of a point that moves relative to the camera.
 fn screen_motion(place: DVec2, depth: f64, velocity: DVec3) -> DVec2 {
     (FOCAL * DVec2::new(velocity.x, velocity.y) + place * velocity.z) / depth
 }
@@ -290,67 +265,57 @@ fn screen_motion(place: DVec2, depth: f64, velocity: DVec3) -> DVec2 {
 #[test]
 fn an_orbit_moves_and_turns_the_camera_at_once() {
     let (depth, radius, rate) = (4.0, 5.0, 0.15);
-    let mut scene = wall(depth, placed);
+    let mut scene = wall_scene(depth, placed);
     // Around a point straight ahead, which the camera keeps in the middle.
     let place = |time: f64| {
         let (sine, cosine) = (rate * time).sin_cos();
         radius * DVec3::new(sine, 0.0, cosine - 1.0)
     };
-    scene.camera.motion = smooth(DVec3::Y, |time| rate * time, place);
+    scene.camera.motion = smooth_motion(DVec3::Y, |time| rate * time, place);
     // The slope at the middle key is that from the first key to the last.
     let velocity = DVec3::new(radius * rate.sin(), 0.0, 0.0);
-    expect(
-        "derivative",
-        &frame(&scene, VelocityKind::Instantaneous),
+    expect_velocities(
+        &scene,
         |place| {
-            let turned = rate * DVec3::Y.cross(point(place, depth));
+            let turned = rate * DVec3::Y.cross(point_at(place, depth));
             screen_motion(place, depth, -velocity - turned)
         },
-    );
-    expect(
-        "previous",
-        &frame(&scene, VelocityKind::PreviousFrame),
         |at| {
             let before = DQuat::from_rotation_y(-rate).inverse();
-            at - seen(before * (point(at, depth) - place(-1.0)))
+            at - project(before * (point_at(at, depth) - place(-1.0)))
         },
     );
 }
 
 #[test]
 fn a_smooth_zoom_has_the_rate_of_its_parabola() {
-    let mut scene = wall(4.0, placed);
+    let mut scene = wall_scene(4.0, placed);
     let half_pi = std::f64::consts::FRAC_PI_2;
     let angle = |time: f64| half_pi - 0.1 * time + 0.05 * time * time;
     scene.camera.motion.interpolation = Interpolation::Cubic;
     scene.camera.vertical_fov = [-1.0, 0.0, 1.0].map(|time| (time, angle(time))).to_vec();
-    expect(
-        "derivative",
-        &frame(&scene, VelocityKind::Instantaneous),
+    expect_velocities(
+        &scene,
         |place| place * 0.1,
-    );
-    expect(
-        "previous",
-        &frame(&scene, VelocityKind::PreviousFrame),
         |place| place * (1.0 - 1.0 / (0.5 * angle(-1.0)).tan()),
     );
 }
 
 #[test]
 fn what_the_camera_carries_stands_still() {
-    let mut scene = wall(4.0, placed);
+    let mut scene = wall_scene(4.0, placed);
     scene.camera.motion = spin(DVec3::new(1.0, 2.0, 3.0), DVec3::Y, 2.0);
     scene.objects[0].parent = Parent::Camera;
     // The camera alone takes a dashboard for a part of the world.
     for kind in [VelocityKind::Instantaneous, VelocityKind::PreviousFrame] {
-        expect("dashboard", &frame(&scene, kind), |_| DVec2::ZERO);
+        expect_velocity("dashboard", &render_frame(&scene, kind), |_| DVec2::ZERO);
     }
 }
 
 #[test]
 fn at_a_turning_point_the_velocity_is_that_of_the_way_there() {
     let depth = 4.0;
-    let scene = wall(depth, |at| {
+    let scene = wall_scene(depth, |at| {
         let key = |time, x| Key {
             time,
             translation: at + x * DVec3::X,
@@ -361,9 +326,9 @@ fn at_a_turning_point_the_velocity_is_that_of_the_way_there() {
             ..Motion::default()
         }
     });
-    expect(
+    expect_velocity(
         "reversal",
-        &frame(&scene, VelocityKind::Instantaneous),
+        &render_frame(&scene, VelocityKind::Instantaneous),
         |_| DVec2::new(0.5 * FOCAL / depth, 0.0),
     );
 }
@@ -372,10 +337,10 @@ fn at_a_turning_point_the_velocity_is_that_of_the_way_there() {
 fn what_was_behind_the_camera_one_frame_ago_gets_the_derivative() {
     let (depth, speed) = (1.0, 3.0);
     // The wall comes from behind, through the camera.
-    let scene = wall(depth, |at| drift(at, speed * DVec3::NEG_Z));
-    expect(
+    let scene = wall_scene(depth, |at| drift(at, speed * DVec3::NEG_Z));
+    expect_velocity(
         "through",
-        &frame(&scene, VelocityKind::PreviousFrame),
+        &render_frame(&scene, VelocityKind::PreviousFrame),
         |place| -place * speed / depth,
     );
 }
@@ -400,16 +365,16 @@ fn depth_is_the_distance_along_the_view_axis() {
         })
     });
     scene.objects[object].parent = Parent::Camera;
-    let frame = frame(&scene, VelocityKind::Instantaneous);
+    let frame = render_frame(&scene, VelocityKind::Instantaneous);
     let normal = turned * DVec3::Z;
-    let mut seen = 0;
+    let mut hits = 0;
     for y in 0..HEIGHT {
         for x in 0..WIDTH {
-            let direction = point(place(x, y), 1.0);
+            let direction = point_at(pixel_center(x, y), 1.0);
             let depth = centre.dot(normal) / direction.dot(normal);
             let inside = turned.inverse() * (depth * direction - centre);
             if inside.x.abs() < 6.0 && inside.y.abs() < 3.5 {
-                seen += 1;
+                hits += 1;
                 let found = f64::from(*frame.depth.at(x, y));
                 assert!((found / depth - 1.0).abs() < 1e-5, "{found} is not {depth}");
             } else {
@@ -417,5 +382,5 @@ fn depth_is_the_distance_along_the_view_axis() {
             }
         }
     }
-    assert!(seen > 50, "only {seen} pixels show the panel");
+    assert!(hits > 50, "only {hits} pixels show the panel");
 }

@@ -1,29 +1,29 @@
-//! What a scene's files say about gloss and about the light of an environment.
+//! Finishes and environments read from a scene's files.
 
 use crate::scene_folder::Folder;
 use image::{ImageBuffer, Rgb32FImage};
 use tracer::{Background, EnvironmentMap, Finish, Scene};
 
-/// The finish of the material `paint` after an edit of the MTL file.
-fn paint(statements: &str) -> Finish {
+/// Loads the finish of the material `paint` with more MTL statements.
+fn load_finish(statements: &str) -> Finish {
     let folder = Folder::new();
     folder.edit(
         "mesh.mtl",
         "Kd 0.5 0.6 0.7",
         &format!("Kd 0.5 0.6 0.7\n{statements}"),
     );
-    finish(&folder.load().unwrap_or_else(|error| panic!("{error}")))
+    finish_of(&folder.load().unwrap_or_else(|error| panic!("{error}")))
 }
 
-/// The finish of the material `paint` as the second object has it.
-fn finish(scene: &Scene) -> Finish {
+/// Finish of the second object's material `paint`.
+fn finish_of(scene: &Scene) -> Finish {
     let materials = scene.objects[1].materials.iter();
     let mut materials = materials.map(|index| &scene.materials[*index]);
     let paint = materials.find(|material| material.name == "paint");
     paint.expect("it is there").finish
 }
 
-fn refusal(folder: &Folder) -> String {
+fn load_refusal(folder: &Folder) -> String {
     let error = folder.load().expect_err("it must be refused").to_string();
     let prefix = format!("{}{}", folder.path.display(), std::path::MAIN_SEPARATOR);
     error.replace(&prefix, "")
@@ -46,7 +46,7 @@ fn roughness_makes_gloss_and_metallic_makes_metal() {
         ("Pr 0.25\nPm 1", metal(0.25)),
         ("Pm 1\nNi 0.2\nPr 0", metal(0.0)),
     ] {
-        assert_eq!(paint(statements), expected, "{statements}");
+        assert_eq!(load_finish(statements), expected, "{statements}");
     }
 }
 
@@ -93,7 +93,7 @@ fn a_scene_changes_the_finish_of_one_object() {
         let diffuse = "diffuse = [0.1, 0.2, 0.3]";
         folder.edit("scene.toml", diffuse, &format!("{diffuse}\n{keys}"));
         assert_eq!(
-            finish(&folder.load().unwrap()),
+            finish_of(&folder.load().unwrap()),
             expected,
             "{before} then {keys}"
         );
@@ -125,12 +125,12 @@ fn slips_in_finishes_are_refused() {
         ),
         (
             "Pm 1",
-            "mesh.mtl:3: Pm makes a metal, of no roughness; give it one (0 is a mirror)",
+            "mesh.mtl:3: Pm makes a metal without a roughness; give it one (0 is a mirror)",
         ),
         ("Pr 0.5\nNi 0.9", "mesh.mtl:4: Ni is 0.9; allowed: 1 to 4"),
         (
             "Pr 0.5\nPr 0.5",
-            "mesh.mtl:4: Pr of material \"paint\" is given again; it stands in mesh.mtl:3 already",
+            "mesh.mtl:4: Pr of material \"paint\" is given twice, first in mesh.mtl:3; delete one",
         ),
     ] {
         let folder = Folder::new();
@@ -139,7 +139,7 @@ fn slips_in_finishes_are_refused() {
             "Kd 0.5 0.6 0.7",
             &format!("Kd 0.5 0.6 0.7\n{statements}"),
         );
-        assert_eq!(refusal(&folder), message);
+        assert_eq!(load_refusal(&folder), message);
     }
     for (keys, message) in [
         (
@@ -148,7 +148,7 @@ fn slips_in_finishes_are_refused() {
         ),
         (
             "metallic = true",
-            "scene.toml:33: metallic makes a metal, of no roughness; give it one (0 is a mirror)",
+            "scene.toml:33: metallic makes a metal without a roughness; give it one (0 is a mirror)",
         ),
         (
             "roughness = 1\nindex_of_refraction = 5",
@@ -158,17 +158,17 @@ fn slips_in_finishes_are_refused() {
         let folder = Folder::new();
         let diffuse = "diffuse = [0.1, 0.2, 0.3]";
         folder.edit("scene.toml", diffuse, &format!("{diffuse}\n{keys}"));
-        assert_eq!(refusal(&folder), message);
+        assert_eq!(load_refusal(&folder), message);
     }
 }
 
-/// Two rows of four texels that count up from 0.
-fn counting() -> Rgb32FImage {
+/// Image of two rows of four texels that count up from 0.
+fn counting_image() -> Rgb32FImage {
     ImageBuffer::from_fn(4, 2, |x, y| image::Rgb([(x + 4 * y) as f32, 1.0, 0.5]))
 }
 
-/// A folder whose background is the key and value given.
-fn under(background: &str) -> Folder {
+/// Folder of the scene with another background.
+fn folder_with_background(background: &str) -> Folder {
     let folder = Folder::new();
     folder.edit("scene.toml", "constant = [0, 0, 0]", background);
     folder
@@ -177,8 +177,9 @@ fn under(background: &str) -> Folder {
 #[test]
 fn an_environment_is_read_from_exr_and_hdr() {
     for name in ["sky.exr", "sky.hdr"] {
-        let folder = under(&format!("image = \"{name}\"\nstrength = 2\nrotation = 90"));
-        counting().save(folder.path.join(name)).unwrap();
+        let folder =
+            folder_with_background(&format!("image = \"{name}\"\nstrength = 2\nrotation = 90"));
+        counting_image().save(folder.path.join(name)).unwrap();
         let Background::Map(map) = folder.load().unwrap().background else {
             panic!("{name} is a map");
         };
@@ -196,13 +197,13 @@ fn an_environment_is_read_from_exr_and_hdr() {
         let expected: Vec<[f32; 3]> = (0..8).map(|count| [count as f32, 1.0, 0.5]).collect();
         assert_eq!(texels, expected, "{name}");
     }
-    let folder = under("image = \"sky.exr\"");
-    counting().save(folder.path.join("sky.exr")).unwrap();
+    let folder = folder_with_background("image = \"sky.exr\"");
+    counting_image().save(folder.path.join("sky.exr")).unwrap();
     let before = folder.load().unwrap();
     assert!(
         matches!(before.background, Background::Map(map) if map.strength == 1.0 && map.rotation == 0.0)
     );
-    let mut brighter = counting();
+    let mut brighter = counting_image();
     brighter.put_pixel(0, 0, image::Rgb([9.0; 3]));
     brighter.save(folder.path.join("sky.exr")).unwrap();
     assert_ne!(
@@ -240,21 +241,21 @@ fn slips_in_environments_are_refused() {
         ),
         (
             "image = \"sky.exr\"\nstrength = 0",
-            Some(counting()),
+            Some(counting_image()),
             "scene.toml:13: strength is 0; allowed: above 0".into(),
         ),
         (
             "constant = [1, 1, 1]\nstrength = 2",
             None,
-            "scene.toml:11: strength and rotation belong to an image; name one: image = \"sky.exr\"".into(),
+            "scene.toml:11: strength and rotation need an image; add one: image = \"sky.exr\"".into(),
         ),
         ("constant = [1, 1, 1]\nimage = \"sky.exr\"", None, needs.to_owned()),
     ] {
-        let folder = under(background);
+        let folder = folder_with_background(background);
         if let Some(image) = image {
             Rgb32FImage::save(&image, folder.path.join("sky.exr")).unwrap();
         }
-        let found = refusal(&folder);
+        let found = load_refusal(&folder);
         assert_eq!(found.replace(&format!("{}/", folder.path.display()), ""), message);
     }
 }

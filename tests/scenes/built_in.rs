@@ -1,19 +1,19 @@
-//! The scenes that the project ships: their files, and what they promise to show.
+//! The shipped scenes: their files and their motions.
 
 use std::path::{Path, PathBuf};
 
 use glam::{DVec2, DVec3};
 use tracer::{Scene, list_scenes, load_scene};
 
-fn scenes() -> PathBuf {
+fn scenes_folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes")
 }
 
 fn load(name: &str, variant: Option<&str>) -> Scene {
-    load_scene(&scenes().join(name), variant).unwrap_or_else(|error| panic!("{error}"))
+    load_scene(&scenes_folder().join(name), variant).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Where the still camera sees a world point, in pixels.
+/// Projects a world point into the still camera's picture, in pixels.
 fn project(scene: &Scene, point: DVec3) -> DVec2 {
     let seen = scene
         .camera
@@ -27,14 +27,14 @@ fn project(scene: &Scene, point: DVec3) -> DVec2 {
 }
 
 /// Index of an object.
-fn object(scene: &Scene, name: &str) -> usize {
+fn object_index(scene: &Scene, name: &str) -> usize {
     let index = scene.objects.iter().position(|object| object.name == name);
     index.unwrap_or_else(|| panic!("{} has no object {name}", scene.name))
 }
 
 /// Least and largest pixel coordinates of an object at a time.
-fn extent(scene: &Scene, name: &str, time: f64) -> [DVec2; 2] {
-    let index = object(scene, name);
+fn pixel_range(scene: &Scene, name: &str, time: f64) -> [DVec2; 2] {
+    let index = object_index(scene, name);
     let to_world = scene.object_to_world(index, time);
     let positions = &scene.meshes[scene.objects[index].mesh].positions;
     let pixels = positions
@@ -48,7 +48,7 @@ fn extent(scene: &Scene, name: &str, time: f64) -> [DVec2; 2] {
 
 #[test]
 fn every_scene_loads_with_every_variant() {
-    let listings = list_scenes(&scenes()).unwrap_or_else(|error| panic!("{error}"));
+    let listings = list_scenes(&scenes_folder()).unwrap_or_else(|error| panic!("{error}"));
     let names: Vec<_> = listings
         .iter()
         .map(|listing| listing.name.as_str())
@@ -97,8 +97,8 @@ fn every_scene_loads_with_every_variant() {
 
 #[test]
 fn the_generator_makes_the_files_that_are_there() {
-    for file in generator::files() {
-        let found = std::fs::read(scenes().join(&file.path));
+    for file in generator::generate_files() {
+        let found = std::fs::read(scenes_folder().join(&file.path));
         let found = found.unwrap_or_else(|error| panic!("{}: {error}", file.path));
         assert!(
             found == file.bytes,
@@ -110,7 +110,7 @@ fn the_generator_makes_the_files_that_are_there() {
 
 #[test]
 fn the_panel_moves_as_its_variant_says() {
-    let listings = list_scenes(&scenes()).unwrap();
+    let listings = list_scenes(&scenes_folder()).unwrap();
     let listing = listings.iter().find(|l| l.name == "sliding_panel").unwrap();
     assert_eq!(listing.variants.len(), 20, "five speeds in four directions");
     for variant in &listing.variants {
@@ -118,7 +118,7 @@ fn the_panel_moves_as_its_variant_says() {
         let angle: f64 = angle.strip_suffix("deg").unwrap().parse().unwrap();
         let speed: f64 = speed.parse().unwrap();
         let scene = load("sliding_panel", Some(variant));
-        let panel = object(&scene, "panel");
+        let panel = object_index(&scene, "panel");
         let centre = |time| project(&scene, scene.object_to_world(panel, time).translation);
         let [before, after] = [-0.5, 0.5].map(centre);
         // Screen y points down.
@@ -135,7 +135,7 @@ fn the_panel_moves_as_its_variant_says() {
 
 #[test]
 fn the_panel_keeps_clear_of_the_border() {
-    for listing in list_scenes(&scenes()).unwrap() {
+    for listing in list_scenes(&scenes_folder()).unwrap() {
         if !listing.name.contains("panel") {
             continue;
         }
@@ -148,7 +148,7 @@ fn the_panel_keeps_clear_of_the_border() {
             let [width, height] = [scene.width, scene.height].map(f64::from);
             // Trailing and leading shutters reach as far as the exposure on either side.
             for time in [-scene.exposure, 0.0, scene.exposure] {
-                let [least, largest] = extent(&scene, "panel", time);
+                let [least, largest] = pixel_range(&scene, "panel", time);
                 let clear = least.min(DVec2::new(width, height) - largest).min_element();
                 assert!(clear >= 30.0, "{} at {time}: {clear} pixels", scene.name);
                 // A square of 80 pixels; its sides show as less than a tenth of one.
@@ -161,10 +161,10 @@ fn the_panel_keeps_clear_of_the_border() {
 #[test]
 fn the_white_sphere_hides_red_light_that_the_trailing_shutter_sees() {
     let scene = load("two_spheres", None);
-    let [red, _] = extent(&scene, "red", 0.0);
-    let [_, hidden] = extent(&scene, "white", 0.0);
-    let [_, hidden_before] = extent(&scene, "white", -scene.exposure);
-    let [_, red_end] = extent(&scene, "red", 0.0);
+    let [red, _] = pixel_range(&scene, "red", 0.0);
+    let [_, hidden] = pixel_range(&scene, "white", 0.0);
+    let [_, hidden_before] = pixel_range(&scene, "white", -scene.exposure);
+    let [_, red_end] = pixel_range(&scene, "red", 0.0);
     assert!(
         red.x < hidden.x && hidden.x < red_end.x,
         "part of the red sphere is hidden at the instant"
@@ -183,17 +183,17 @@ fn the_car_is_seen_whole_behind_the_railing_and_its_wheels_roll() {
     let scene = load("railing", None);
     for name in ["car", "wheel_rear_near", "wheel_front_near", "aeroplane"] {
         for time in [-scene.exposure, 0.0, scene.exposure] {
-            let [least, largest] = extent(&scene, name, time);
+            let [least, largest] = pixel_range(&scene, name, time);
             assert!(least.min_element() > 30.0, "{name} at {time}");
             assert!(largest.x < 610.0 && largest.y < 330.0, "{name} at {time}");
         }
     }
-    let speed = |name| (extent(&scene, name, 0.5)[0] - extent(&scene, name, -0.5)[0]).x;
+    let speed = |name| (pixel_range(&scene, name, 0.5)[0] - pixel_range(&scene, name, -0.5)[0]).x;
     assert!((48.0..64.0).contains(&speed("car")));
     assert!((3.0..10.0).contains(&speed("aeroplane")));
 
     // A rolling wheel stands still where it touches the road, and moves twice as fast as the car at its top.
-    let wheel = object(&scene, "wheel_front_near");
+    let wheel = object_index(&scene, "wheel_front_near");
     let velocity = |height: f64| {
         let to_wheel = scene.object_to_world(wheel, 0.0).inverse();
         let axle = scene.object_to_world(wheel, 0.0).translation;
@@ -216,7 +216,7 @@ fn the_fan_turns_as_its_variant_says() {
         (Some("60deg"), 60.0),
     ] {
         let scene = load("fan", variant);
-        let fan = object(&scene, "fan");
+        let fan = object_index(&scene, "fan");
         let blade = |time| scene.object_to_world(fan, time).transform_vector3(DVec3::X);
         let turned = blade(0.0).angle_between(blade(1.0)).to_degrees();
         // 1e-6 degrees: an angle from a cosine has half of the digits.

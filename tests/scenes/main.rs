@@ -1,4 +1,4 @@
-//! Scenes: how folders are read and refused, and what the built-in ones show.
+//! Scenes: reading and refusing folders, and the shipped scenes.
 
 mod appearance;
 mod built_in;

@@ -1,4 +1,4 @@
-//! A small scene in a temporary folder, for tests to load and to spoil.
+//! A small scene in a temporary folder, which tests load and edit.
 
 use std::path::PathBuf;
 
@@ -78,20 +78,20 @@ Ke 1 2 3
 d 0.25
 ";
 
-/// A folder that vanishes with the value.
+/// Temporary folder of a scene, deleted with the value.
 pub struct Folder {
-    _keep: tempfile::TempDir,
-    /// The scene's folder in it.
+    _parent: tempfile::TempDir,
+    /// Path of the scene.
     pub path: PathBuf,
 }
 
 impl Folder {
-    /// The scene above, whole.
+    /// Writes the scene above.
     pub fn new() -> Self {
-        let keep = tempfile::tempdir().unwrap();
+        let parent = tempfile::tempdir().unwrap();
         let folder = Self {
-            path: keep.path().join("square"),
-            _keep: keep,
+            path: parent.path().join("square"),
+            _parent: parent,
         };
         std::fs::create_dir(&folder.path).unwrap();
         folder.write("scene.toml", SCENE);
@@ -110,7 +110,7 @@ impl Folder {
         std::fs::write(self.path.join(file), content).unwrap();
     }
 
-    /// Replaces a piece of a file that stands there once.
+    /// Replaces a text that a file holds once.
     pub fn edit(&self, file: &str, from: &str, to: &str) {
         let text = std::fs::read_to_string(self.path.join(file)).unwrap();
         assert_eq!(

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use cli::table;
+use cli::run_table;
 use metrics::{ImageMetric, Measured, Reference, Region, Scores};
 use suite::{Case, FORMAT, InputFormat, Overall, Run, overall};
 use tests::synthetic::{Object, Sampling, Scene, Shape, VIEWING};
@@ -119,7 +119,7 @@ fn rows(text: &str, from: &str, to: &str) -> Vec<String> {
 /// Without the codes of colours.
 fn printed(run: &Run) -> String {
     let mut text = String::new();
-    for (index, part) in table(run).split('\u{1b}').enumerate() {
+    for (index, part) in run_table(run).split('\u{1b}').enumerate() {
         text += match index {
             0 => part,
             _ => part.split_once('m').expect("a code of a colour").1,

@@ -12,31 +12,32 @@ use clap::Parser;
 use filters::FilterError;
 use suite::{Error, printable, printable_lines};
 
-use output::progress::{INTERRUPTED_CODE, catch_interrupts, tell};
+use output::print::print_error;
+use output::progress::{INTERRUPTED_CODE, catch_interrupts};
 
-pub use output::github::{annotations, summary};
+pub use output::annotations::{annotations, summary};
 pub use output::junit::junit;
 pub use selection::{Programs, SceneChoice, select_filters, select_scenes};
 pub use tables::bench::bench_table;
-pub use tables::cases::{score_table, table};
+pub use tables::cases::{run_table, score_table};
 pub use tables::check::check_text;
 pub use tables::comparison::compare_table;
 pub use tables::tuning::{paired_table, tuning_table};
 
-/// Does what the words of the command line say, and returns the exit code.
+/// Runs the command of the command line and returns its exit code.
 pub fn run_program() -> ExitCode {
     catch_interrupts();
-    let arguments = arguments::Cli::try_parse().unwrap_or_else(|error| refuse_words(&error));
+    let arguments = arguments::Cli::try_parse().unwrap_or_else(|error| refuse_arguments(&error));
     match commands::execute(arguments) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            tell(&printable_lines(&format!("shuttertruth: {error}")));
+            print_error(&printable_lines(&format!("shuttertruth: {error}")));
             ExitCode::from(exit_code(&error))
         }
     }
 }
 
-/// 1 where a check fails, 2 for usage and bad input, 3 where there is no adapter, 4 where a truth stayed noisier than asked for
+/// Chooses the exit code: 1 where a check fails, 2 for usage and bad input, 3 where there is no adapter, 4 where a truth stayed noisier than asked for
 /// or than a check needs, 130 after Ctrl-C.
 fn exit_code(error: &Error) -> u8 {
     match error {
@@ -48,8 +49,8 @@ fn exit_code(error: &Error) -> u8 {
     }
 }
 
-/// Says what is wrong with the command line, or prints its help. The message quotes the words.
-fn refuse_words(error: &clap::Error) -> ! {
+/// Prints the error in the command line, or its help. The message quotes arguments.
+fn refuse_arguments(error: &clap::Error) -> ! {
     let all_fit = std::env::args_os().all(|word| {
         let word = word.to_string_lossy();
         printable(&word) == word
@@ -57,7 +58,7 @@ fn refuse_words(error: &clap::Error) -> ! {
     match all_fit {
         true => error.exit(),
         false => {
-            tell(&printable_lines(error.to_string().trim_end()));
+            print_error(&printable_lines(error.to_string().trim_end()));
             std::process::exit(error.exit_code())
         }
     }

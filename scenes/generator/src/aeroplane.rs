@@ -1,15 +1,15 @@
-//! An airliner that heads for +X, about its middle.
+//! An airliner that flies towards +X, its middle at the origin.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::{DAffine3, DVec3};
 
-use crate::cuboid::cuboid;
+use crate::cuboid::add_cuboid;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
 use crate::revolution::revolve;
-use crate::{Files, model};
 
-/// In metres.
+/// Length and radius of the hull, in metres.
 const LENGTH: f64 = 16.0;
 const RADIUS: f64 = 1.0;
 
@@ -24,7 +24,7 @@ Kd 0.3 0.3 0.32
 
 pub(crate) fn files() -> Files {
     let mut mesh = Mesh::default();
-    mesh.surface(
+    mesh.add_surface(
         [20, 32],
         |_, _| "hull",
         |u, v| {
@@ -64,24 +64,24 @@ pub(crate) fn files() -> Files {
         let place = DAffine3::from_translation(DVec3::new(0.9, -1.1, side * 3.0));
         mesh.append(&engine, place * DAffine3::from_rotation_y(FRAC_PI_2));
     }
-    cuboid(
+    add_cuboid(
         &mut mesh,
         "fin",
         DVec3::new(-6.9, 2.1, 0.0),
         DVec3::new(1.7, 2.6, 0.15),
         1,
     );
-    model("aeroplane", &mesh, MATERIALS)
+    model_files("aeroplane", &mesh, MATERIALS)
 }
 
-/// The hull's radius along it, 0 at the tail and 1 at the nose, as part of the largest.
+/// Relative radius of the hull at `v`, from 0 at the tail to 1 at the nose.
 fn fullness(v: f64) -> f64 {
     let tail = (v / 0.35).clamp(0.0, 1.0).powf(0.7);
     let nose = (1.0 - ((v - 0.85) / 0.15).clamp(0.0, 1.0).powi(2)).sqrt();
     tail * nose
 }
 
-/// A swept wing of lens-shaped sections from `root` outwards; chords at root and tip in metres.
+/// Adds a swept wing of lens-shaped sections from `root` outwards; chords at root and tip in metres.
 fn add_wing(
     mesh: &mut Mesh,
     material: &'static str,
@@ -90,7 +90,7 @@ fn add_wing(
     span: f64,
     [root_chord, tip_chord]: [f64; 2],
 ) {
-    mesh.surface(
+    mesh.add_surface(
         [12, 6],
         |_, _| material,
         |u, v| {

@@ -1,24 +1,25 @@
-//! A road along the Z axis between trees, houses' walls and marker posts: what rushes by a driver who heads for -Z.
+//! A road along the Z axis between trees, house walls and marker posts, for a driver who heads for -Z.
 
 use glam::{DVec2, DVec3};
 
-use crate::cuboid::cuboid;
-use crate::ground::{grass, ground};
-use crate::hash::noise;
+use crate::cuboid::add_cuboid;
+use crate::files::{Files, model_files};
+use crate::ground::{grass, ground_files};
 use crate::mesh::Mesh;
-use crate::texture::png;
-use crate::{Files, model, road, tree};
+use crate::noise::noise;
+use crate::texture::encode_png;
+use crate::{road, tree};
 
-/// Behind and ahead of the viewer at z = 0, in metres.
+/// Ends of the road behind and ahead of the viewer at z = 0, in metres.
 const BEHIND: f64 = 24.0;
 const AHEAD: f64 = -240.0;
 
-/// From tree to tree, in metres.
+/// Distance from tree to tree, in metres.
 const SPACING: f64 = 11.0;
 
 pub(crate) fn files() -> Files {
     let mut asphalt = Mesh::default();
-    asphalt.surface(
+    asphalt.add_surface(
         [2, 40],
         |_, _| "asphalt",
         |u, v| {
@@ -39,7 +40,7 @@ pub(crate) fn files() -> Files {
             let random = |seed: u32| noise(index + 60, seed + (side > 0.0) as u32);
             if index < 9 {
                 let foot = DVec3::new(side * (6.3 + 0.8 * random(1)), 0.0, z + 2.0 * random(3));
-                tree::tree(
+                tree::add_tree(
                     &mut trees,
                     foot,
                     6.0 + 2.5 * random(5),
@@ -47,8 +48,8 @@ pub(crate) fn files() -> Files {
                 );
             }
             let post = DVec3::new(side * 3.9, 0.45, z + 4.0);
-            cuboid(&mut trees, "post", post, DVec3::new(0.12, 0.9, 0.12), 1);
-            cuboid(
+            add_cuboid(&mut trees, "post", post, DVec3::new(0.12, 0.9, 0.12), 1);
+            add_cuboid(
                 &mut trees,
                 "mark",
                 post + DVec3::Y * 0.28,
@@ -61,17 +62,17 @@ pub(crate) fn files() -> Files {
         "{}newmtl post\nKd 0.85 0.85 0.85\nnewmtl mark\nKd 0.08 0.08 0.08\n",
         tree::MATERIALS
     );
-    let mut files = model(
+    let mut files = model_files(
         "avenue",
         &asphalt,
         "newmtl asphalt\nKd 1 1 1\nmap_Kd road.png\n",
     );
     files.push((
         "road.png".into(),
-        png(128, |x, y| road::color(2 * x, 2 * y)),
+        encode_png(128, |x, y| road::color(2 * x, 2 * y)),
     ));
-    files.extend(model("trees", &trees, &materials));
+    files.extend(model_files("trees", &trees, &materials));
     let corners = [DVec2::new(-140.0, AHEAD), DVec2::new(140.0, BEHIND)];
-    files.extend(ground("grass", corners, 4.0, grass));
+    files.extend(ground_files("grass", corners, 4.0, grass));
     files
 }

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use crate::ellipsoid::{ellipsoid, striped_ellipsoid};
+use crate::ellipsoid::{add_ellipsoid, add_striped_ellipsoid};
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::{Files, model};
 
 const STRIPES: [&str; 6] = ["red", "white", "blue", "white", "yellow", "white"];
 
@@ -22,10 +22,10 @@ Kd 0.95 0.75 0.05
 pub(crate) fn files() -> Files {
     let mut mesh = Mesh::default();
     let stripe = |column: usize| STRIPES[column / 6];
-    striped_ellipsoid(&mut mesh, stripe, DVec3::ZERO, DVec3::ONE, [36, 18]);
+    add_striped_ellipsoid(&mut mesh, stripe, DVec3::ZERO, DVec3::ONE, [36, 18]);
     for y in [-0.97, 0.97] {
         let radii = DVec3::new(0.2, 0.04, 0.2);
-        ellipsoid(&mut mesh, "white", DVec3::new(0.0, y, 0.0), radii, [18, 6]);
+        add_ellipsoid(&mut mesh, "white", DVec3::new(0.0, y, 0.0), radii, [18, 6]);
     }
-    model("beach_ball", &mesh, MATERIALS)
+    model_files("beach_ball", &mesh, MATERIALS)
 }

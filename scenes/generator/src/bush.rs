@@ -1,17 +1,17 @@
-//! A leafy bush about 1.6 m high that stands on y = 0, and a smooth body of its outline.
+//! A leafy bush about 1.6 m high that stands on y = 0, and a smooth body of the same outline.
 
 use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use crate::ellipsoid::ellipsoid;
-use crate::hash::noise;
+use crate::ellipsoid::add_ellipsoid;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::prism::face;
-use crate::tube::{curve, tube};
-use crate::{Files, model};
+use crate::noise::noise;
+use crate::prism::add_face;
+use crate::tube::{add_tube, sample_curve};
 
-/// The crown's middle and radii, in metres.
+/// Centre and radii of the crown, in metres.
 const MIDDLE: DVec3 = DVec3::new(0.0, 0.95, 0.0);
 const RADII: DVec3 = DVec3::new(0.95, 0.75, 0.8);
 
@@ -26,7 +26,7 @@ newmtl bark
 Kd 0.2 0.14 0.09
 ";
 
-/// A bush of so many leaves.
+/// Bush with a number of leaves.
 pub(crate) fn files(leaves: u32) -> Files {
     let mut mesh = Mesh::default();
     for leaf in 0..leaves {
@@ -36,31 +36,31 @@ pub(crate) fn files(leaves: u32) -> Files {
         let random = |seed: u32| noise(branch, 300 + seed) - 0.5;
         let end = MIDDLE + RADII * DVec3::new(1.3 * random(1), 0.5 + random(2), 1.3 * random(3));
         let bend = DVec3::new(0.3 * random(4), 0.5, 0.3 * random(5));
-        let path = curve(5, |part| {
+        let path = sample_curve(5, |part| {
             let bent = (0.12 * end).lerp(bend.lerp(end, part), part);
             bent * DVec3::new(1.0, part, 1.0)
         });
-        tube(&mut mesh, "bark", 6, &path, |part| {
+        add_tube(&mut mesh, "bark", 6, &path, |part| {
             0.035 * (1.0 - 0.8 * part)
         });
     }
-    model("bush", &mesh, MATERIALS)
+    model_files("bush", &mesh, MATERIALS)
 }
 
-/// The bush without gaps between its leaves: one closed body.
+/// Bush without gaps between its leaves: one closed body.
 pub(crate) fn smooth() -> Files {
     let mut mesh = Mesh::default();
-    ellipsoid(&mut mesh, "leaf", MIDDLE, RADII, [40, 20]);
-    model("smooth_bush", &mesh, MATERIALS)
+    add_ellipsoid(&mut mesh, "leaf", MIDDLE, RADII, [40, 20]);
+    model_files("smooth_bush", &mesh, MATERIALS)
 }
 
-/// A folded leaf near the crown's outside, that points away from its middle and down.
+/// Adds a folded leaf near the outside of the crown, which points outwards and down.
 fn add_leaf(mesh: &mut Mesh, leaf: u32) {
     let random = |seed: u32| noise(leaf, seed);
     let (height, around) = (2.0 * random(1) - 1.0, TAU * random(2));
     let ring = (1.0 - height * height).sqrt();
     let out = DVec3::new(ring * around.cos(), height, ring * around.sin());
-    // Lumps, so that the outline is not a ball's.
+    // Lumps keep the outline from being a ball's.
     let lump = 0.86 + 0.16 * (5.0 * out.x + 1.0).sin() * (4.0 * out.y + 2.0 * out.z).cos();
     let foot = MIDDLE + RADII * out * lump * (0.55 + 0.45 * random(3).sqrt());
     let turn = |seed: u32| random(seed) - 0.5;
@@ -73,6 +73,6 @@ fn add_leaf(mesh: &mut Mesh, leaf: u32) {
     let fold = 0.12 * length * along.cross(across);
     let material = ["leaf", "leaf_light", "leaf", "leaf_dark"][(4.0 * random(10)) as usize];
     let [middle, tip] = [foot + 0.45 * length * along, foot + length * along];
-    face(mesh, material, &[foot, middle - half + fold, tip]);
-    face(mesh, material, &[foot, tip, middle + half + fold]);
+    add_face(mesh, material, &[foot, middle - half + fold, tip]);
+    add_face(mesh, material, &[foot, tip, middle + half + fold]);
 }

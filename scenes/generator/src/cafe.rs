@@ -2,14 +2,14 @@
 
 use glam::{DAffine3, DVec2, DVec3};
 
-use crate::cuboid::cuboid;
-use crate::ellipsoid::ellipsoid;
-use crate::ground::{ground, slabs};
+use crate::cuboid::add_cuboid;
+use crate::ellipsoid::add_ellipsoid;
+use crate::files::{Files, model_files};
+use crate::ground::{ground_files, slabs};
 use crate::mesh::Mesh;
-use crate::prism::face;
-use crate::revolution::{revolve, turned};
-use crate::tube::{curve, rod, tube};
-use crate::{Files, model};
+use crate::prism::add_face;
+use crate::revolution::{revolve, revolve_upright};
+use crate::tube::{add_rod, add_tube, sample_curve};
 
 const MATERIALS: &str = "\
 newmtl plaster
@@ -45,14 +45,14 @@ pub(crate) fn files() -> Files {
     let mut table = Mesh::default();
     add_table(&mut table);
     let mut planter = Mesh::default();
-    cuboid(
+    add_cuboid(
         &mut planter,
         "clay",
         DVec3::new(0.0, 0.2, 0.0),
         DVec3::new(0.95, 0.4, 0.4),
         1,
     );
-    cuboid(
+    add_cuboid(
         &mut planter,
         "timber",
         DVec3::new(0.0, 0.38, 0.0),
@@ -60,21 +60,21 @@ pub(crate) fn files() -> Files {
         1,
     );
     let mut files = [
-        model("front", &front, MATERIALS),
-        model("sign", &sign, MATERIALS),
-        model("table", &table, MATERIALS),
-        model("planter", &planter, MATERIALS),
+        model_files("front", &front, MATERIALS),
+        model_files("sign", &sign, MATERIALS),
+        model_files("table", &table, MATERIALS),
+        model_files("planter", &planter, MATERIALS),
     ]
     .concat();
     let corners = [DVec2::new(-8.0, 0.0), DVec2::new(8.0, 8.0)];
-    files.extend(ground("pavement", corners, 2.0, slabs));
+    files.extend(ground_files("pavement", corners, 2.0, slabs));
     files
 }
 
-/// Wall, door, two windows with bars and curtains, a plinth and a moulding.
+/// Adds the wall, a door, two windows with bars and curtains, a plinth and a moulding.
 fn add_front(mesh: &mut Mesh) {
     let mut add = |material, [x, y, z]: [f64; 3], size: [f64; 3]| {
-        cuboid(mesh, material, DVec3::new(x, y, z), size.into(), 1);
+        add_cuboid(mesh, material, DVec3::new(x, y, z), size.into(), 1);
     };
     add("plaster", [0.0, 2.5, -0.15], [16.0, 5.0, 0.3]);
     add("timber", [0.0, 0.2, 0.03], [16.0, 0.4, 0.06]);
@@ -99,7 +99,7 @@ fn add_front(mesh: &mut Mesh) {
     add("metal", [0.28, 1.05, 0.12], [0.04, 0.18, 0.06]);
 }
 
-/// Stripes of cloth over both windows, with a hanging edge.
+/// Adds stripes of cloth over both windows, with a hanging edge.
 fn add_awning(mesh: &mut Mesh) {
     for (from, count) in [(-4.0, 14), (1.0, 13)] {
         for stripe in 0..count {
@@ -110,7 +110,7 @@ fn add_awning(mesh: &mut Mesh) {
                 "awning_light"
             };
             let at = |dx: f64, y: f64, z: f64| DVec3::new(x + dx, y, z);
-            face(
+            add_face(
                 mesh,
                 material,
                 &[
@@ -120,7 +120,7 @@ fn add_awning(mesh: &mut Mesh) {
                     at(0.0, 2.86, 0.1),
                 ],
             );
-            face(
+            add_face(
                 mesh,
                 material,
                 &[
@@ -130,7 +130,7 @@ fn add_awning(mesh: &mut Mesh) {
                     at(0.2, 2.5, 0.95),
                 ],
             );
-            face(
+            add_face(
                 mesh,
                 material,
                 &[at(0.0, 2.34, 0.96), at(0.2, 2.5, 0.95), at(0.0, 2.5, 0.95)],
@@ -139,9 +139,9 @@ fn add_awning(mesh: &mut Mesh) {
     }
 }
 
-/// A round board on an arm beside the door, with a cup on it.
+/// Adds a round board on an arm beside the door, with a cup on it.
 fn add_sign(mesh: &mut Mesh) {
-    rod(
+    add_rod(
         mesh,
         "metal",
         [DVec3::new(0.75, 2.55, 0.0), DVec3::new(0.75, 2.55, 0.75)],
@@ -160,9 +160,9 @@ fn add_sign(mesh: &mut Mesh) {
         (0.0, -0.03, [0.28, 0.2, 0.03]),
         (0.0, -0.17, [0.4, 0.035, 0.03]),
     ] {
-        cuboid(&mut board, "coffee", DVec3::new(x, y, 0.04), size.into(), 1);
+        add_cuboid(&mut board, "coffee", DVec3::new(x, y, 0.04), size.into(), 1);
     }
-    let handle = curve(8, |part| {
+    let handle = sample_curve(8, |part| {
         let angle = 1.4 - 2.8 * part;
         DVec3::new(
             0.15 + 0.07 * f64::cos(angle),
@@ -170,16 +170,16 @@ fn add_sign(mesh: &mut Mesh) {
             0.045,
         )
     });
-    tube(&mut board, "coffee", 6, &handle, |_| 0.016);
+    add_tube(&mut board, "coffee", 6, &handle, |_| 0.016);
     for steam in [-0.07, 0.0, 0.07] {
-        let wisp = curve(8, |part| {
+        let wisp = sample_curve(8, |part| {
             DVec3::new(
                 steam + 0.02 * f64::sin(9.0 * part),
                 0.1 + 0.16 * part,
                 0.045,
             )
         });
-        tube(&mut board, "coffee", 6, &wisp, |_| 0.01);
+        add_tube(&mut board, "coffee", 6, &wisp, |_| 0.01);
     }
     mesh.append(
         &board,
@@ -187,18 +187,18 @@ fn add_sign(mesh: &mut Mesh) {
     );
 }
 
-/// A round table, two chairs, and a slate with the day's cake.
+/// Adds a round table, two chairs, and a slate with the day's cake.
 fn add_table(mesh: &mut Mesh) {
     let top = [(0.05, 0.72), (0.36, 0.72), (0.36, 0.75), (0.0, 0.75)];
-    turned(mesh, "board", 28, &top, DVec3::ZERO);
-    turned(
+    revolve_upright(mesh, "board", 28, &top, DVec3::ZERO);
+    revolve_upright(
         mesh,
         "metal",
         10,
         &[(0.22, 0.0), (0.2, 0.03), (0.03, 0.05), (0.03, 0.72)],
         DVec3::ZERO,
     );
-    ellipsoid(
+    add_ellipsoid(
         mesh,
         "awning_light",
         DVec3::new(0.12, 0.79, 0.1),
@@ -207,7 +207,7 @@ fn add_table(mesh: &mut Mesh) {
     );
     for side in [-1.0, 1.0] {
         let at = |x: f64, y: f64, z: f64| DVec3::new(side * x, y, z);
-        turned(
+        revolve_upright(
             mesh,
             "timber",
             18,
@@ -215,30 +215,30 @@ fn add_table(mesh: &mut Mesh) {
             at(0.62, 0.0, 0.0),
         );
         for z in [-0.15, 0.15] {
-            rod(mesh, "metal", [at(0.5, 0.0, z), at(0.52, 0.45, z)], 0.014);
-            rod(mesh, "metal", [at(0.8, 0.0, z), at(0.8, 0.9, z)], 0.014);
+            add_rod(mesh, "metal", [at(0.5, 0.0, z), at(0.52, 0.45, z)], 0.014);
+            add_rod(mesh, "metal", [at(0.8, 0.0, z), at(0.8, 0.9, z)], 0.014);
         }
-        rod(
+        add_rod(
             mesh,
             "timber",
             [at(0.8, 0.86, -0.17), at(0.8, 0.86, 0.17)],
             0.03,
         );
-        rod(
+        add_rod(
             mesh,
             "timber",
             [at(0.8, 0.7, -0.17), at(0.8, 0.7, 0.17)],
             0.02,
         );
     }
-    cuboid(
+    add_cuboid(
         mesh,
         "timber",
         DVec3::new(1.5, 0.42, -0.1),
         DVec3::new(0.5, 0.84, 0.05),
         1,
     );
-    cuboid(
+    add_cuboid(
         mesh,
         "slate",
         DVec3::new(1.5, 0.46, -0.06),
@@ -248,7 +248,7 @@ fn add_table(mesh: &mut Mesh) {
     for line in 0..4 {
         let width = 0.3 - 0.05 * f64::from(line % 3);
         let y = 0.68 - 0.13 * f64::from(line);
-        cuboid(
+        add_cuboid(
             mesh,
             "awning_light",
             DVec3::new(1.5, y, -0.035),

@@ -2,22 +2,24 @@
 
 use glam::DVec3;
 
-use crate::cuboid::cuboid;
+use crate::cuboid::add_cuboid;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::{Files, model, wheel};
+use crate::wheel;
 
-/// From the middle to either end, in metres.
+/// Distance from the middle to either end, in metres.
 const HALF_LENGTH: f64 = 2.1;
 
-/// From the middle to either axle, in metres.
+/// Distance from the middle to either axle, in metres.
 const AXLE: f64 = 1.3;
 
+/// Height of the floor above the ground, in metres.
 const CLEARANCE: f64 = 0.26;
 
-/// Lower edge of the windows, in metres above the ground.
+/// Height of the lower edge of the windows above the ground, in metres.
 const SILL: f64 = 0.94;
 
-/// The outline above: (along, height) from rear to front, in metres.
+/// Upper outline, as (position along, height) from rear to front, in metres.
 const TOP: [(f64, f64); 10] = [
     (-2.1, 0.6),
     (-2.04, 0.86),
@@ -53,10 +55,10 @@ pub(crate) fn files() -> Files {
     }
     add_top(&mut mesh);
     add_floor(&mut mesh);
-    model("car", &mesh, MATERIALS)
+    model_files("car", &mesh, MATERIALS)
 }
 
-/// Metres along the car at u of its length, 0 being the end that lies at -`direction`.
+/// Position along the car at `u` of its length, in metres; 0 is the end at -`direction`.
 fn along(u: f64, direction: f64) -> f64 {
     direction * HALF_LENGTH * (2.0 * u.clamp(0.0, 1.0) - 1.0)
 }
@@ -69,7 +71,7 @@ fn top(x: f64) -> f64 {
     from.1 + (x - from.0) / (to.0 - from.0) * (to.1 - from.1)
 }
 
-/// The lower edge, cut out above the wheels.
+/// Height of the lower edge, cut out above the wheels.
 fn bottom(x: f64) -> f64 {
     let from_axle = x.abs() - AXLE;
     let arch = wheel::RADIUS + 0.06;
@@ -81,7 +83,7 @@ fn bottom(x: f64) -> f64 {
     }
 }
 
-/// From the middle to the side at a height: widest at the doors, narrower towards the roof.
+/// Distance from the middle to the side at a height: widest at the doors, narrower towards the roof.
 fn half_width(y: f64) -> f64 {
     if y < 0.9 {
         0.85 - 0.3 * (y - 0.65).powi(2)
@@ -90,7 +92,7 @@ fn half_width(y: f64) -> f64 {
     }
 }
 
-/// One flank: rows below the windows, then rows of windows, which shrink to nothing at bonnet and boot.
+/// Adds a flank: rows below the windows, then rows of windows, which shrink to nothing at bonnet and boot.
 fn add_side(mesh: &mut Mesh, side: f64) {
     let (columns, rows, rows_below) = (60, 14, 8);
     let position = |u: f64, v: f64| {
@@ -116,10 +118,10 @@ fn add_side(mesh: &mut Mesh, side: f64) {
             "paint"
         }
     };
-    mesh.surface([columns, rows], material, position);
+    mesh.add_surface([columns, rows], material, position);
 }
 
-/// Bonnet, windscreen, roof and boot.
+/// Adds bonnet, windscreen, roof and boot.
 fn add_top(mesh: &mut Mesh) {
     let size = [60, 8];
     let position = |u: f64, v: f64| {
@@ -135,11 +137,11 @@ fn add_top(mesh: &mut Mesh) {
             "paint"
         }
     };
-    mesh.surface(size, material, position);
+    mesh.add_surface(size, material, position);
 }
 
 fn add_floor(mesh: &mut Mesh) {
-    mesh.surface(
+    mesh.add_surface(
         [60, 1],
         |_, _| "trim",
         |u, v| {
@@ -149,10 +151,10 @@ fn add_floor(mesh: &mut Mesh) {
     );
 }
 
-/// Front (1) or rear (-1).
+/// Adds the front (1) or the rear (-1).
 fn add_end(mesh: &mut Mesh, end: f64) {
     let x = end * HALF_LENGTH;
-    mesh.surface(
+    mesh.add_surface(
         [4, 4],
         |_, row| if row < 2 { "trim" } else { "paint" },
         |u, v| {
@@ -162,17 +164,17 @@ fn add_end(mesh: &mut Mesh, end: f64) {
     );
 }
 
-/// Lamps of both ends on one side, let into the corners.
+/// Adds the lamps of both ends on one side, set into the corners.
 fn add_lights(mesh: &mut Mesh, side: f64) {
     let size = DVec3::new(0.2, 0.12, 0.2);
-    cuboid(
+    add_cuboid(
         mesh,
         "headlight",
         DVec3::new(1.98, 0.63, side * 0.74),
         size,
         1,
     );
-    cuboid(
+    add_cuboid(
         mesh,
         "tail_light",
         DVec3::new(-2.0, 0.75, side * 0.74),

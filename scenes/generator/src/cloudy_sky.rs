@@ -1,16 +1,16 @@
-//! A sky with clouds, as a map of what comes from infinity.
+//! A sky with clouds, as an environment map.
 
 use std::f64::consts::PI;
 
 use image::codecs::hdr::HdrEncoder;
 
-use crate::Files;
-use crate::hash::soft_noise;
+use crate::files::Files;
+use crate::noise::soft_noise;
 
-/// Texels around the horizon; half as many from the nadir to the zenith.
+/// Texels around the horizon, and twice the texels from nadir to zenith.
 const AROUND: u32 = 1024;
 
-/// Clouds lie between these heights, in radians above the horizon: what is even above them takes no room in the file.
+/// Lowest and highest angle of clouds above the horizon, in radians. The even sky above them compresses well.
 const CLOUDS: [f64; 2] = [0.03, 0.6];
 
 pub(crate) fn files() -> Files {
@@ -24,7 +24,7 @@ pub(crate) fn files() -> Files {
     vec![("sky.hdr".into(), bytes)]
 }
 
-/// Linear, of a texel that counts from the zenith.
+/// Linear radiance of a texel; `y` counts from the zenith.
 fn radiance(x: u32, y: u32) -> [f32; 3] {
     let height = 0.5 * PI - PI * (f64::from(y) + 0.5) / f64::from(AROUND / 2);
     let clear = match height > 0.0 {
@@ -42,6 +42,6 @@ fn radiance(x: u32, y: u32) -> [f32; 3] {
     let billows = soft(128, 1.0) + soft(64, 0.7) + soft(32, 0.5) + soft(16, 0.35) + soft(8, 0.2);
     let cloud = belt * (4.0 * billows).clamp(0.0, 1.0);
     let white = 1.25 + soft(16, 0.5);
-    // Steps of a 64th: rounded so far that no machine's sine shows.
+    // Steps of a 64th hide differences between the sines of machines.
     clear.map(|part| ((part + cloud * (white - part)) * 64.0).round() as f32 / 64.0)
 }

@@ -1,17 +1,17 @@
-//! A crossing of two roads at y = 0, to be seen from above: asphalt, lines, zebra crossings and the pavements between.
+//! A crossing of two roads at y = 0, seen from above: asphalt, lines, zebra crossings and pavements.
 
 use glam::{DVec2, DVec3};
 
-use crate::cuboid::cuboid;
-use crate::ground::{asphalt, ground, slabs};
+use crate::cuboid::add_cuboid;
+use crate::files::{Files, model_files};
+use crate::ground::{asphalt, ground_files, slabs};
 use crate::mesh::Mesh;
-use crate::texture::png;
-use crate::{Files, model};
+use crate::texture::encode_png;
 
-/// From the middle of a road to its edge, in metres.
+/// Distance from the middle of a road to its edge, in metres.
 const HALF_WIDTH: f64 = 3.6;
 
-/// From the middle of the crossing to where the ground ends.
+/// Distance from the middle of the crossing to the end of the ground, in metres.
 const END: f64 = 20.0;
 
 const MATERIALS: &str = "\
@@ -28,10 +28,10 @@ Kd 0.12 0.12 0.12
 
 pub(crate) fn files() -> Files {
     let mut mesh = Mesh::default();
-    // A paint's thickness above the asphalt, so that no ray takes one for the other.
+    // Paint lies a little above the asphalt, so that rays tell them apart.
     let mut patch = |material, x: f64, z: f64, length: f64, width: f64| {
         let size = DVec3::new(length, 0.01, width);
-        cuboid(&mut mesh, material, DVec3::new(x, 0.005, z), size, 1);
+        add_cuboid(&mut mesh, material, DVec3::new(x, 0.005, z), size, 1);
     };
     for side in [-1.0, 1.0] {
         let edge = side * HALF_WIDTH;
@@ -50,9 +50,9 @@ pub(crate) fn files() -> Files {
     for (x, z) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
         add_pavement(&mut mesh, DVec2::new(x, z));
     }
-    let mut files = model("crossroads", &mesh, MATERIALS);
-    files.push(("slabs.png".into(), png(128, slabs)));
-    files.extend(ground(
+    let mut files = model_files("crossroads", &mesh, MATERIALS);
+    files.push(("slabs.png".into(), encode_png(128, slabs)));
+    files.extend(ground_files(
         "asphalt",
         [DVec2::splat(-END), DVec2::splat(END)],
         2.0,
@@ -61,13 +61,13 @@ pub(crate) fn files() -> Files {
     files
 }
 
-/// The corner between two roads, higher by a kerb; slabs of half a metre.
+/// Adds the corner between two roads, higher by a kerb, with slabs of half a metre.
 fn add_pavement(mesh: &mut Mesh, quarter: DVec2) {
     let height = 0.12;
     let middle = 0.5 * (END + HALF_WIDTH) * quarter;
     let width = END - HALF_WIDTH;
     let size = DVec3::new(width, height, width);
-    cuboid(
+    add_cuboid(
         mesh,
         "kerb",
         DVec3::new(middle.x, 0.5 * height, middle.y),
@@ -76,7 +76,7 @@ fn add_pavement(mesh: &mut Mesh, quarter: DVec2) {
     );
     let from = middle - 0.5 * width + 0.15;
     let mut top = Mesh::default();
-    top.surface(
+    top.add_surface(
         [4, 4],
         |_, _| "slabs",
         |u, v| {

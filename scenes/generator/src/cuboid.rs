@@ -4,8 +4,8 @@ use glam::{DMat3, DVec3};
 
 use crate::mesh::Mesh;
 
-/// Adds a box about `centre`, each face divided into `parts` x `parts` quads and bearing the whole texture.
-pub(crate) fn cuboid(
+/// Adds a box around `centre`; each face has `parts` x `parts` quads and shows the whole texture.
+pub(crate) fn add_cuboid(
     mesh: &mut Mesh,
     material: &'static str,
     centre: DVec3,
@@ -23,7 +23,7 @@ pub(crate) fn cuboid(
         [x, z, -y],
     ] {
         let axes = DMat3::from_cols(right, up, out);
-        mesh.surface(
+        mesh.add_surface(
             [parts, parts],
             |_, _| material,
             |u, v| centre + axes * DVec3::new(u - 0.5, v - 0.5, 0.5) * size,

@@ -1,15 +1,15 @@
-//! A car's cockpit as the driver's camera has it: the eye is the origin and looks along -Z.
+//! The cockpit of a car around the driver's eye, which is the origin and looks along -Z.
 
 use std::f64::consts::TAU;
 
 use glam::{DAffine3, DVec3};
 
-use crate::cuboid::cuboid;
-use crate::ellipsoid::ellipsoid;
+use crate::cuboid::add_cuboid;
+use crate::ellipsoid::add_ellipsoid;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::revolution::{revolve, ring};
-use crate::tube::{rod, tube};
-use crate::{Files, model};
+use crate::revolution::{add_ring, revolve};
+use crate::tube::{add_rod, add_tube};
 
 const MATERIALS: &str = "\
 newmtl plastic
@@ -43,18 +43,18 @@ pub(crate) fn files() -> Files {
     }
     add_steering_wheel(&mut mesh);
     add_window_frame(&mut mesh);
-    ellipsoid(
+    add_ellipsoid(
         &mut mesh,
         "bonnet",
         DVec3::new(0.1, -0.74, -1.75),
         DVec3::new(0.85, 0.3, 0.95),
         [40, 16],
     );
-    model("dashboard", &mesh, MATERIALS)
+    model_files("dashboard", &mesh, MATERIALS)
 }
 
 fn add_board(mesh: &mut Mesh) {
-    // (y, z) from the knees over the edge to the windscreen.
+    // Outline (y, z) from the knees over the edge to the windscreen.
     let outline = [
         (-0.7, -0.4),
         (-0.4, -0.44),
@@ -64,7 +64,7 @@ fn add_board(mesh: &mut Mesh) {
     ];
     for (index, piece) in outline.windows(2).enumerate() {
         let material = if index == 1 { "wood" } else { "plastic" };
-        mesh.surface(
+        mesh.add_surface(
             [16, 1],
             |_, _| material,
             |u, v| {
@@ -76,7 +76,7 @@ fn add_board(mesh: &mut Mesh) {
             },
         );
     }
-    ellipsoid(
+    add_ellipsoid(
         mesh,
         "plastic",
         DVec3::new(-0.27, -0.3, -0.66),
@@ -90,10 +90,10 @@ fn add_board(mesh: &mut Mesh) {
                 -0.345 - 0.016 * f64::from(slat),
                 -0.475,
             );
-            cuboid(mesh, "trim", at, DVec3::new(0.16, 0.006, 0.02), 1);
+            add_cuboid(mesh, "trim", at, DVec3::new(0.16, 0.006, 0.02), 1);
         }
     }
-    cuboid(
+    add_cuboid(
         mesh,
         "trim",
         DVec3::new(0.24, -0.46, -0.44),
@@ -101,7 +101,7 @@ fn add_board(mesh: &mut Mesh) {
         1,
     );
     for knob in [0.1, 0.24, 0.38] {
-        ellipsoid(
+        add_ellipsoid(
             mesh,
             "chrome",
             DVec3::new(knob, -0.46, -0.42),
@@ -111,15 +111,15 @@ fn add_board(mesh: &mut Mesh) {
     }
 }
 
-/// A round instrument that faces the driver, its needle turned by that part of a full turn.
+/// Round instrument that faces the driver; `turn` is the angle of its needle in full turns.
 fn dial(turn: f64) -> Mesh {
     let mut mesh = Mesh::default();
     revolve(&mut mesh, |_| "dial", 28, &[(0.075, 0.0), (0.0, 0.0)]);
-    ring(&mut mesh, "chrome", [0.078, 0.006], 0.0, [28, 6]);
+    add_ring(&mut mesh, "chrome", [0.078, 0.006], 0.0, [28, 6]);
     for mark in 0..10 {
         let angle = TAU * (0.1 + 0.8 * f64::from(mark) / 9.0) - 0.25 * TAU;
         let out = DVec3::new(angle.cos(), angle.sin(), 0.0);
-        rod(
+        add_rod(
             &mut mesh,
             "mark",
             [
@@ -131,7 +131,7 @@ fn dial(turn: f64) -> Mesh {
     }
     let angle = TAU * turn;
     let tip = DVec3::new(0.06 * angle.cos(), 0.06 * angle.sin(), 0.006);
-    rod(
+    add_rod(
         &mut mesh,
         "needle",
         [DVec3::new(0.0, 0.0, 0.006), tip],
@@ -142,12 +142,12 @@ fn dial(turn: f64) -> Mesh {
 
 fn add_steering_wheel(mesh: &mut Mesh) {
     let mut wheel = Mesh::default();
-    ring(&mut wheel, "leather", [0.2, 0.017], 0.0, [48, 8]);
+    add_ring(&mut wheel, "leather", [0.2, 0.017], 0.0, [48, 8]);
     for angle in [0.0, 0.5 * TAU, 0.75 * TAU] {
         let out = DVec3::new(f64::cos(angle), f64::sin(angle), 0.0);
-        rod(&mut wheel, "chrome", [0.03 * out, 0.19 * out], 0.012);
+        add_rod(&mut wheel, "chrome", [0.03 * out, 0.19 * out], 0.012);
     }
-    ellipsoid(
+    add_ellipsoid(
         &mut wheel,
         "leather",
         DVec3::ZERO,
@@ -158,30 +158,30 @@ fn add_steering_wheel(mesh: &mut Mesh) {
     mesh.append(&wheel, place * DAffine3::from_rotation_x(-0.35));
 }
 
-/// Pillars, the edge of the roof and the mirror.
+/// Adds pillars, the edge of the roof and the mirror.
 fn add_window_frame(mesh: &mut Mesh) {
     for side in [-1.0, 1.0] {
         let pillar = [
             DVec3::new(0.78 * side, -0.36, -0.95),
             DVec3::new(0.62 * side, 0.4, -0.66),
         ];
-        tube(mesh, "plastic", 8, &pillar, |_| 0.035);
+        add_tube(mesh, "plastic", 8, &pillar, |_| 0.035);
     }
-    cuboid(
+    add_cuboid(
         mesh,
         "plastic",
         DVec3::new(0.0, 0.36, -0.66),
         DVec3::new(1.5, 0.12, 0.1),
         1,
     );
-    cuboid(
+    add_cuboid(
         mesh,
         "trim",
         DVec3::new(0.14, 0.21, -0.6),
         DVec3::new(0.2, 0.06, 0.03),
         1,
     );
-    rod(
+    add_rod(
         mesh,
         "trim",
         [DVec3::new(0.14, 0.23, -0.61), DVec3::new(0.14, 0.32, -0.64)],

@@ -1,4 +1,4 @@
-//! Ellipsoids along the axes.
+//! Ellipsoids aligned with the axes.
 
 use std::f64::consts::{PI, TAU};
 
@@ -6,26 +6,26 @@ use glam::DVec3;
 
 use crate::mesh::Mesh;
 
-/// Adds an ellipsoid of `around` x `up` quads with its poles above and below.
-pub(crate) fn ellipsoid(
+/// Adds an ellipsoid of `parts` quads around and up, with its poles above and below.
+pub(crate) fn add_ellipsoid(
     mesh: &mut Mesh,
     material: &'static str,
     centre: DVec3,
     radii: DVec3,
     parts: [usize; 2],
 ) {
-    striped_ellipsoid(mesh, |_| material, centre, radii, parts);
+    add_striped_ellipsoid(mesh, |_| material, centre, radii, parts);
 }
 
-/// The same with a material for each column of quads.
-pub(crate) fn striped_ellipsoid(
+/// Adds an ellipsoid with a material for each column of quads.
+pub(crate) fn add_striped_ellipsoid(
     mesh: &mut Mesh,
     material: impl Fn(usize) -> &'static str,
     centre: DVec3,
     radii: DVec3,
     parts: [usize; 2],
 ) {
-    mesh.surface(
+    mesh.add_surface(
         parts,
         |column, _| material(column),
         |u, v| {

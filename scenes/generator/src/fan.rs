@@ -1,17 +1,17 @@
-//! A fan of five twisted blades, and the stand that it turns on.
+//! A fan of five twisted blades, and its stand.
 
 use std::f64::consts::TAU;
 
 use glam::{DAffine3, DVec3};
 
-use crate::cuboid::cuboid;
+use crate::cuboid::add_cuboid;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::revolution::{revolve, ring};
-use crate::{Files, model};
+use crate::revolution::{add_ring, revolve};
 
 const BLADES: u32 = 5;
 
-/// Radii at which blades begin and end, in metres from the axis (Z).
+/// Radii at which blades begin and end, in metres from the Z axis.
 const SPAN: [f64; 2] = [0.2, 1.25];
 
 const FAN_MATERIALS: &str = "\
@@ -32,8 +32,8 @@ Kd 0.85 0.85 0.85
 
 pub(crate) fn files() -> Files {
     [
-        model("fan", &fan(), FAN_MATERIALS),
-        model("stand", &stand(), STAND_MATERIALS),
+        model_files("fan", &fan(), FAN_MATERIALS),
+        model_files("stand", &stand(), STAND_MATERIALS),
     ]
     .concat()
 }
@@ -41,7 +41,7 @@ pub(crate) fn files() -> Files {
 fn fan() -> Mesh {
     let mut mesh = Mesh::default();
     for index in 0..BLADES {
-        // One blade differs: without a mark a fan of five looks the same after every fifth of a turn.
+        // One blade differs: without it the fan looks the same after each fifth of a turn.
         let material = if index == 0 { "marked" } else { "blade" };
         let angle = TAU * f64::from(index) / f64::from(BLADES);
         mesh.append(&blade(material), DAffine3::from_rotation_z(angle));
@@ -57,10 +57,10 @@ fn fan() -> Mesh {
     mesh
 }
 
-/// A blade along +X: elliptic sections, twisted less towards the tip, where it is rounded.
+/// Blade along +X of elliptic sections, less twisted towards its rounded tip.
 fn blade(material: &'static str) -> Mesh {
     let mut mesh = Mesh::default();
-    mesh.surface(
+    mesh.add_surface(
         [20, 20],
         |_, _| material,
         |u, v| {
@@ -84,13 +84,13 @@ fn stand() -> Mesh {
     let mut mesh = Mesh::default();
     let outline = [(0.0, -0.6), (0.2, -0.6), (0.22, -0.2), (0.0, -0.2)];
     revolve(&mut mesh, |_| "motor", 32, &outline);
-    cuboid(
+    add_cuboid(
         &mut mesh,
         "motor",
         DVec3::new(0.0, -1.25, -0.4),
         DVec3::new(0.14, 2.5, 0.14),
         2,
     );
-    ring(&mut mesh, "guard", [1.4, 0.03], 0.0, [96, 10]);
+    add_ring(&mut mesh, "guard", [1.4, 0.03], 0.0, [96, 10]);
     mesh
 }

@@ -1,23 +1,23 @@
-//! A flag in the wind, as it is every half frame, and its pole. The pole is the Y axis.
+//! A flag in the wind, in shapes half a frame apart, and its pole, which is the Y axis.
 
 use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use crate::ellipsoid::ellipsoid;
+use crate::ellipsoid::add_ellipsoid;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::revolution::turned;
-use crate::{Files, model};
+use crate::revolution::revolve_upright;
 
-/// In metres.
+/// Length and height of the cloth, and the height of its upper edge, in metres.
 const LENGTH: f64 = 2.4;
 const HEIGHT: f64 = 1.5;
 const TOP: f64 = 4.2;
 
-/// Quads along and across.
+/// Quads along and across the cloth.
 const PARTS: [usize; 2] = [44, 18];
 
-/// The wave moves on by so much of its length in a frame.
+/// Speed of the wave, in wavelengths per frame.
 const WAVES_PER_FRAME: f64 = 0.24;
 
 const MATERIALS: &str = "\
@@ -39,10 +39,10 @@ pub(crate) fn files() -> Files {
         // From one frame before the instant to one after it.
         let time = 0.5 * f64::from(shape) - 1.0;
         let mut mesh = Mesh::default();
-        mesh.surface(PARTS, stripe, |u, v| cloth(u, v, time));
+        mesh.add_surface(PARTS, stripe, |u, v| cloth(u, v, time));
         files.push((
             format!("flag_{shape}.obj"),
-            mesh.obj("flag.mtl").into_bytes(),
+            mesh.to_obj("flag.mtl").into_bytes(),
         ));
     }
     files.push(("flag.mtl".into(), MATERIALS.into()));
@@ -53,14 +53,14 @@ pub(crate) fn files() -> Files {
         (0.04, TOP + 0.1),
         (0.0, TOP + 0.1),
     ];
-    turned(&mut pole, "pole", 14, &outline, DVec3::ZERO);
+    revolve_upright(&mut pole, "pole", 14, &outline, DVec3::ZERO);
     let knob = DVec3::new(0.0, TOP + 0.16, 0.0);
-    ellipsoid(&mut pole, "knob", knob, DVec3::splat(0.09), [16, 10]);
-    files.extend(model("pole", &pole, MATERIALS));
+    add_ellipsoid(&mut pole, "knob", knob, DVec3::splat(0.09), [16, 10]);
+    files.extend(model_files("pole", &pole, MATERIALS));
     files
 }
 
-/// Stripes, and an orange corner at the pole's upper end.
+/// Material of a quad: stripes, and an orange corner at the upper end of the pole.
 fn stripe(column: usize, row: usize) -> &'static str {
     if column < 16 && row >= 8 {
         if (column + row) % 4 == 1 && column.is_multiple_of(2) {
@@ -75,7 +75,8 @@ fn stripe(column: usize, row: usize) -> &'static str {
     }
 }
 
-/// A wave that runs away from the pole and grows on its way; the cloth keeps its length and sags towards its free end.
+/// Position of a point of the cloth: a wave runs away from the pole and grows; the cloth keeps its length and sags
+/// towards its free end.
 fn cloth(u: f64, v: f64, time: f64) -> DVec3 {
     let phase = TAU * (1.5 * u - WAVES_PER_FRAME * time) + 0.9 * v;
     let growth = u * (1.4 - 0.4 * u);

@@ -1,19 +1,19 @@
-//! Level ground at y = 0, seen from above, with a texture that repeats.
+//! Level ground at y = 0 with a repeated texture.
 
 use std::f64::consts::FRAC_PI_8;
 
 use glam::{DVec2, DVec3};
 
-use crate::hash::{noise, soft_noise};
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::texture::png;
-use crate::{Files, model};
+use crate::noise::{noise, soft_noise};
+use crate::texture::encode_png;
 
-/// Along an edge of a texture.
+/// Texels along an edge of a texture.
 const TEXELS: u32 = 128;
 
-/// Ground from corner `from` to corner `to`, as (x, z) in metres, in quads of `tile` metres that bear the whole texture.
-pub(crate) fn ground(
+/// Ground from corner `from` to corner `to`, as (x, z) in metres; a texture covers `tile` metres.
+pub(crate) fn ground_files(
     name: &'static str,
     [from, to]: [DVec2; 2],
     tile: f64,
@@ -21,7 +21,7 @@ pub(crate) fn ground(
 ) -> Files {
     let tiles = ((to - from) / tile).round();
     let mut mesh = Mesh::default();
-    mesh.surface(
+    mesh.add_surface(
         [16, 16],
         |_, _| name,
         |u, v| {
@@ -31,12 +31,12 @@ pub(crate) fn ground(
     );
     mesh.repeat_texture(tiles);
     let materials = format!("newmtl {name}\nKd 1 1 1\nmap_Kd {name}.png\n");
-    let mut files = model(name, &mesh, &materials);
-    files.push((format!("{name}.png"), png(TEXELS, color)));
+    let mut files = model_files(name, &mesh, &materials);
+    files.push((format!("{name}.png"), encode_png(TEXELS, color)));
     files
 }
 
-/// Grains of several sizes; sRGB.
+/// Brightness of grains of several sizes, sRGB-encoded.
 fn grains(x: u32, y: u32) -> f64 {
     let soft = |size: u32| soft_noise(x, y, size, TEXELS) - 0.5;
     0.5 * soft(32) + 0.6 * soft(8) + 0.8 * soft(2)
@@ -62,7 +62,7 @@ pub(crate) fn asphalt(x: u32, y: u32) -> [f64; 3] {
     [0.36 + 0.1 * grains(x, y); 3]
 }
 
-/// Boards along x, 16 texels wide.
+/// Color of boards along x, 16 texels wide.
 pub(crate) fn boards(x: u32, y: u32) -> [f64; 3] {
     let board = y / 16;
     let joint = y.is_multiple_of(16) || (x + 40 * board).is_multiple_of(TEXELS);
@@ -75,7 +75,7 @@ pub(crate) fn boards(x: u32, y: u32) -> [f64; 3] {
     [0.86 * light, 0.62 * light, 0.4 * light]
 }
 
-/// Slabs of 32 texels with joints.
+/// Color of slabs of 32 texels with joints.
 pub(crate) fn slabs(x: u32, y: u32) -> [f64; 3] {
     let joint = x % 32 < 2 || y % 32 < 2;
     let shade = 0.12 * (noise(x / 32, y / 32) - 0.5);

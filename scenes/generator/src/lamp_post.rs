@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 
-use crate::ellipsoid::ellipsoid;
+use crate::ellipsoid::add_ellipsoid;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::revolution::turned;
-use crate::tube::rod;
-use crate::{Files, model};
+use crate::revolution::revolve_upright;
+use crate::tube::add_rod;
 
 const MATERIALS: &str = "\
 newmtl iron
@@ -28,9 +28,9 @@ pub(crate) fn files() -> Files {
         (0.09, 2.7),
         (0.0, 2.72),
     ];
-    turned(&mut mesh, "iron", 16, &post, DVec3::ZERO);
+    revolve_upright(&mut mesh, "iron", 16, &post, DVec3::ZERO);
     for side in [-1.0, 1.0] {
-        rod(
+        add_rod(
             &mut mesh,
             "iron",
             [
@@ -41,7 +41,7 @@ pub(crate) fn files() -> Files {
         );
     }
     for (x, y) in [(-0.32, 2.7), (0.0, 2.88), (0.32, 2.7)] {
-        ellipsoid(
+        add_ellipsoid(
             &mut mesh,
             "globe",
             DVec3::new(x, y, 0.0),
@@ -49,5 +49,5 @@ pub(crate) fn files() -> Files {
             [20, 12],
         );
     }
-    model("lamp_post", &mesh, MATERIALS)
+    model_files("lamp_post", &mesh, MATERIALS)
 }

@@ -2,19 +2,19 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::hash::{noise, soft_noise};
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::texture::png;
-use crate::{Files, model};
+use crate::noise::{noise, soft_noise};
+use crate::texture::encode_png;
 
-/// From ledge to ledge, in metres.
+/// Distance from ledge to ledge, in metres.
 const STOREY: f64 = 1.4;
 
 const TEXELS: u32 = 128;
 
 pub(crate) fn files() -> Files {
     let mut mesh = Mesh::default();
-    // The outline in (z, y), from below the lower ledge to above the upper one.
+    // Outline (z, y) from below the lower ledge to above the upper one.
     let outline = [
         (0.5, -1.2),
         (0.5, 0.0),
@@ -26,7 +26,7 @@ pub(crate) fn files() -> Files {
     for piece in outline.windows(2) {
         let [from, to] = [piece[0], piece[1]];
         let mut strip = Mesh::default();
-        strip.surface(
+        strip.add_surface(
             [12, 2],
             |_, _| "stone",
             |u, v| {
@@ -38,12 +38,12 @@ pub(crate) fn files() -> Files {
         strip.repeat_texture(DVec2::new(10.0, length));
         mesh.append(&strip, glam::DAffine3::IDENTITY);
     }
-    let mut files = model("ledge", &mesh, "newmtl stone\nKd 1 1 1\nmap_Kd stone.png\n");
-    files.push(("stone.png".into(), png(TEXELS, color)));
+    let mut files = model_files("ledge", &mesh, "newmtl stone\nKd 1 1 1\nmap_Kd stone.png\n");
+    files.push(("stone.png".into(), encode_png(TEXELS, color)));
     files
 }
 
-/// Moss on stone.
+/// Color of moss on stone.
 fn color(x: u32, y: u32) -> [f64; 3] {
     let soft = |size: u32| soft_noise(x, y, size, TEXELS);
     let grain = 0.2 * (noise(x, y) - 0.5) + 0.2 * (soft(4) - 0.5);

@@ -1,6 +1,6 @@
-//! Makes the meshes and textures of the built-in scenes. The scene.toml files beside them are written by hand.
+//! The meshes and textures of the built-in scenes. Their scene.toml files are written by hand.
 //!
-//! Everything is a pure function of nothing: the same bytes each time.
+//! Generation takes no input and gives the same bytes each time.
 
 mod aeroplane;
 mod avenue;
@@ -8,7 +8,6 @@ mod beach_ball;
 mod bush;
 mod cafe;
 mod car;
-
 mod cloudy_sky;
 mod crossroads;
 mod cuboid;
@@ -16,10 +15,10 @@ mod dashboard;
 mod ellipsoid;
 mod fan;
 mod fence;
+mod files;
 mod flag;
 mod flat_shapes;
 mod ground;
-mod hash;
 mod hills;
 mod lamp_post;
 mod ledge;
@@ -28,6 +27,7 @@ mod mannequin;
 mod mesh;
 mod motorbike;
 mod neon_sign;
+mod noise;
 mod ornaments;
 mod overhead_line;
 mod panel;
@@ -50,22 +50,24 @@ mod village;
 mod wall;
 mod wheel;
 
-/// A file of a built-in scene.
+use files::scene_files;
+
+/// File of a built-in scene.
 pub struct File {
-    /// Below the folder of scenes: `fan/fan.obj`.
+    /// Path below the folder of scenes: `fan/fan.obj`.
     pub path: String,
-    /// What it holds.
+    /// Content.
     pub bytes: Vec<u8>,
 }
 
-/// Every generated file of every scene.
-pub fn files() -> Vec<File> {
+/// Generates every file of every scene.
+pub fn generate_files() -> Vec<File> {
     [
-        scene("sliding_panel", &[panel::files(), wall::plain()]),
-        scene("panel_over_texture", &[panel::files(), wall::patchwork()]),
-        scene("two_spheres", &[sphere::files()]),
-        scene("fan", &[fan::files(), wall::brick()]),
-        scene(
+        scene_files("sliding_panel", &[panel::files(), wall::plain()]),
+        scene_files("panel_over_texture", &[panel::files(), wall::patchwork()]),
+        scene_files("two_spheres", &[sphere::files()]),
+        scene_files("fan", &[fan::files(), wall::brick()]),
+        scene_files(
             "railing",
             &[
                 aeroplane::files(),
@@ -76,9 +78,9 @@ pub fn files() -> Vec<File> {
                 wheel::files(),
             ],
         ),
-        scene("cockpit", &[avenue::files(), dashboard::files()]),
-        scene("creep", &[ledge::files(), snail::files()]),
-        scene(
+        scene_files("cockpit", &[avenue::files(), dashboard::files()]),
+        scene_files("creep", &[ledge::files(), snail::files()]),
+        scene_files(
             "crossing",
             &[
                 car::files(),
@@ -87,49 +89,49 @@ pub fn files() -> Vec<File> {
                 motorbike::files(),
             ],
         ),
-        scene("dolly", &[avenue::files(), car::files(), wheel::files()]),
-        scene(
+        scene_files("dolly", &[avenue::files(), car::files(), wheel::files()]),
+        scene_files(
             "fence",
             &[
                 fence::files(),
-                ground::ground("gravel", FIELD, 4.0, ground::gravel),
+                ground::ground_files("gravel", FIELD, 4.0, ground::gravel),
                 train::files(),
             ],
         ),
-        scene("flag", &[flag::files(), ridge::files()]),
-        scene("flat_field", &[flat_shapes::files()]),
-        scene(
+        scene_files("flag", &[flag::files(), ridge::files()]),
+        scene_files("flat_field", &[flat_shapes::files()]),
+        scene_files(
             "foliage",
             &[
                 bush::files(800),
                 bush::smooth(),
-                ground::ground("grass", FIELD, 4.0, ground::grass),
+                ground::ground_files("grass", FIELD, 4.0, ground::grass),
                 lamp_post::files(),
                 ridge::files(),
             ],
         ),
-        scene(
+        scene_files(
             "frame_edge",
             &[
                 beach_ball::files(),
-                ground::ground("sand", FIELD, 2.0, ground::sand),
+                ground::ground_files("sand", FIELD, 2.0, ground::sand),
             ],
         ),
-        scene("neon", &[neon_sign::files(), wall::brick()]),
-        scene("ornaments", &[ornaments::files(), wall::boards()]),
-        scene("pan_sky", &[cloudy_sky::files(), skyline::files()]),
-        scene("ramp_floor", &[passage::files()]),
-        scene(
+        scene_files("neon", &[neon_sign::files(), wall::brick()]),
+        scene_files("ornaments", &[ornaments::files(), wall::boards()]),
+        scene_files("pan_sky", &[cloudy_sky::files(), skyline::files()]),
+        scene_files("ramp_floor", &[passage::files()]),
+        scene_files(
             "reversal",
             &[
                 beach_ball::files(),
-                ground::ground("asphalt", FIELD, 4.0, ground::asphalt),
+                ground::ground_files("asphalt", FIELD, 4.0, ground::asphalt),
                 lorry::files(),
                 ridge::files(),
             ],
         ),
-        scene("roll", &[village::files()]),
-        scene(
+        scene_files("roll", &[village::files()]),
+        scene_files(
             "walker",
             &[
                 bush::files(420),
@@ -139,15 +141,15 @@ pub fn files() -> Vec<File> {
                 scooter::files(),
             ],
         ),
-        scene(
+        scene_files(
             "wheel_roll",
             &[
                 spoked_wheel::files(),
-                ground::ground("gravel", FIELD, 1.0, ground::gravel),
+                ground::ground_files("gravel", FIELD, 1.0, ground::gravel),
                 ridge::files(),
             ],
         ),
-        scene("wires", &[overhead_line::files(), ridge::files()]),
+        scene_files("wires", &[overhead_line::files(), ridge::files()]),
     ]
     .concat()
     .into_iter()
@@ -157,26 +159,3 @@ pub fn files() -> Vec<File> {
 
 /// Ground around the origin, from corner to corner as (x, z) in metres.
 const FIELD: [glam::DVec2; 2] = [glam::DVec2::splat(-40.0), glam::DVec2::splat(40.0)];
-
-/// Name and content of files that belong together.
-type Files = Vec<(String, Vec<u8>)>;
-
-/// Puts files into a scene's folder.
-fn scene(name: &str, parts: &[Files]) -> Files {
-    parts
-        .concat()
-        .into_iter()
-        .map(|(file, bytes)| (format!("{name}/{file}"), bytes))
-        .collect()
-}
-
-/// The OBJ file of a mesh and its MTL file.
-fn model(name: &str, mesh: &mesh::Mesh, materials: &str) -> Files {
-    vec![
-        (
-            format!("{name}.obj"),
-            mesh.obj(&format!("{name}.mtl")).into_bytes(),
-        ),
-        (format!("{name}.mtl"), materials.into()),
-    ]
-}

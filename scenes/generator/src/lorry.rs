@@ -1,11 +1,11 @@
-//! A lorry that heads for +X. The ground is y = 0, z = 0 its middle.
+//! A lorry that heads for +X, on the ground y = 0, its middle at z = 0.
 
 use glam::{DAffine3, DVec3};
 
-use crate::cuboid::cuboid;
+use crate::cuboid::add_cuboid;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
 use crate::revolution::revolve;
-use crate::{Files, model};
 
 const MATERIALS: &str = "\
 newmtl box
@@ -26,7 +26,7 @@ pub(crate) fn files() -> Files {
     let mut mesh = Mesh::default();
     let mut add = |material, [x, y, z]: [f64; 3], [length, height, width]: [f64; 3]| {
         let size = DVec3::new(length, height, width);
-        cuboid(&mut mesh, material, DVec3::new(x, y, z), size, 1);
+        add_cuboid(&mut mesh, material, DVec3::new(x, y, z), size, 1);
     };
     add("box", [-1.0, 2.2, 0.0], [5.8, 2.5, 2.45]);
     for rib in 0..8 {
@@ -56,5 +56,5 @@ pub(crate) fn files() -> Files {
             mesh.append(&tyre, DAffine3::from_translation(place));
         }
     }
-    model("lorry", &mesh, MATERIALS)
+    model_files("lorry", &mesh, MATERIALS)
 }

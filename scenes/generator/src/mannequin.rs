@@ -1,11 +1,11 @@
-//! The parts of a jointed mannequin that heads for +X. Each hangs from its joint, the origin.
+//! The parts of a jointed mannequin that heads for +X, each with its joint at the origin.
 
 use glam::DVec3;
 
-use crate::ellipsoid::ellipsoid;
+use crate::ellipsoid::add_ellipsoid;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::tube::tube;
-use crate::{Files, model};
+use crate::tube::add_tube;
 
 const MATERIALS: &str = "\
 newmtl skin
@@ -22,7 +22,7 @@ newmtl eye
 Kd 0.05 0.05 0.06
 ";
 
-/// Lengths in metres.
+/// Lengths of limbs, in metres.
 const UPPER_ARM: f64 = 0.3;
 const FOREARM: f64 = 0.27;
 const THIGH: f64 = 0.44;
@@ -38,35 +38,35 @@ pub(crate) fn files() -> Files {
         ("shin", shin()),
     ]
     .into_iter()
-    .flat_map(|(name, mesh)| model(name, &mesh, MATERIALS))
+    .flat_map(|(name, mesh)| model_files(name, &mesh, MATERIALS))
     .collect()
 }
 
-/// From the hips, the origin, up to the neck.
+/// Torso from the hips, the origin, up to the neck.
 fn torso() -> Mesh {
     let mut mesh = Mesh::default();
-    ellipsoid(
+    add_ellipsoid(
         &mut mesh,
         "trousers",
         DVec3::new(0.0, 0.04, 0.0),
         DVec3::new(0.13, 0.12, 0.17),
         [20, 12],
     );
-    ellipsoid(
+    add_ellipsoid(
         &mut mesh,
         "shirt",
         DVec3::new(0.0, 0.22, 0.0),
         DVec3::new(0.115, 0.2, 0.155),
         [20, 12],
     );
-    ellipsoid(
+    add_ellipsoid(
         &mut mesh,
         "shirt",
         DVec3::new(0.01, 0.42, 0.0),
         DVec3::new(0.135, 0.17, 0.2),
         [20, 12],
     );
-    tube(
+    add_tube(
         &mut mesh,
         "skin",
         10,
@@ -76,24 +76,24 @@ fn torso() -> Mesh {
     mesh
 }
 
-/// On the neck, the origin.
+/// Head above the neck, the origin.
 fn head() -> Mesh {
     let mut mesh = Mesh::default();
-    ellipsoid(
+    add_ellipsoid(
         &mut mesh,
         "skin",
         DVec3::new(0.02, 0.13, 0.0),
         DVec3::new(0.1, 0.13, 0.08),
         [20, 14],
     );
-    ellipsoid(
+    add_ellipsoid(
         &mut mesh,
         "hair",
         DVec3::new(-0.015, 0.165, 0.0),
         DVec3::new(0.105, 0.115, 0.09),
         [20, 12],
     );
-    ellipsoid(
+    add_ellipsoid(
         &mut mesh,
         "skin",
         DVec3::new(0.125, 0.12, 0.0),
@@ -101,14 +101,14 @@ fn head() -> Mesh {
         [8, 6],
     );
     for side in [-1.0, 1.0] {
-        ellipsoid(
+        add_ellipsoid(
             &mut mesh,
             "eye",
             DVec3::new(0.1, 0.15, 0.035 * side),
             DVec3::splat(0.013),
             [8, 6],
         );
-        ellipsoid(
+        add_ellipsoid(
             &mut mesh,
             "skin",
             DVec3::new(0.0, 0.13, 0.085 * side),
@@ -119,12 +119,12 @@ fn head() -> Mesh {
     mesh
 }
 
-/// Downwards, `thickness` at the joint and at the other end; round at both.
+/// Limb from the joint downwards, rounded, with a thickness at either end.
 fn limb(material: &'static str, length: f64, thickness: [f64; 2]) -> Mesh {
     let mut mesh = Mesh::default();
     let ends = [DVec3::ZERO, DVec3::new(0.0, -length, 0.0)];
     let middle = ends[0].lerp(ends[1], 0.5);
-    tube(
+    add_tube(
         &mut mesh,
         material,
         14,
@@ -132,14 +132,14 @@ fn limb(material: &'static str, length: f64, thickness: [f64; 2]) -> Mesh {
         |part| thickness[0] + part * (thickness[1] - thickness[0]),
     );
     for (end, radius) in ends.into_iter().zip(thickness) {
-        ellipsoid(&mut mesh, material, end, DVec3::splat(radius), [14, 8]);
+        add_ellipsoid(&mut mesh, material, end, DVec3::splat(radius), [14, 8]);
     }
     mesh
 }
 
 fn forearm() -> Mesh {
     let mut mesh = limb("skin", FOREARM, [0.048, 0.035]);
-    ellipsoid(
+    add_ellipsoid(
         &mut mesh,
         "shirt",
         DVec3::ZERO,
@@ -147,7 +147,7 @@ fn forearm() -> Mesh {
         [12, 8],
     );
     let hand = DVec3::new(0.01, -FOREARM - 0.07, 0.0);
-    ellipsoid(
+    add_ellipsoid(
         &mut mesh,
         "skin",
         hand,
@@ -157,18 +157,18 @@ fn forearm() -> Mesh {
     mesh
 }
 
-/// With the foot, whose sole is 0.08 m below the ankle.
+/// Shin with its foot, whose sole is 0.08 m below the ankle.
 fn shin() -> Mesh {
     let mut mesh = limb("trousers", SHIN, [0.068, 0.055]);
     let ankle = DVec3::new(0.0, -SHIN, 0.0);
-    ellipsoid(
+    add_ellipsoid(
         &mut mesh,
         "shoe",
         ankle + DVec3::new(0.065, -0.035, 0.0),
         DVec3::new(0.135, 0.045, 0.05),
         [16, 8],
     );
-    ellipsoid(
+    add_ellipsoid(
         &mut mesh,
         "shoe",
         ankle,

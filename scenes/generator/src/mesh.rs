@@ -4,18 +4,18 @@ use std::fmt::Write;
 
 use glam::{DVec2, DVec3, Vec2Swizzles};
 
-/// A point of a surface.
+/// Point of a surface.
 #[derive(Clone, Copy)]
 pub(crate) struct Vertex {
-    /// Metres.
+    /// Position, in metres.
     pub(crate) position: DVec3,
-    /// Unit, outward.
+    /// Unit normal, outward.
     pub(crate) normal: DVec3,
-    /// v up.
+    /// Texture coordinate, v up.
     pub(crate) texcoord: DVec2,
 }
 
-/// Polygons with their groups and materials.
+/// Polygons with their materials.
 #[derive(Default)]
 pub(crate) struct Mesh {
     vertices: Vec<Vertex>,
@@ -29,7 +29,7 @@ struct Face {
 
 impl Mesh {
     /// Adds a polygon, counter-clockwise seen from outside, with vertices of its own.
-    pub(crate) fn polygon(&mut self, material: &'static str, vertices: &[Vertex]) {
+    pub(crate) fn add_polygon(&mut self, material: &'static str, vertices: &[Vertex]) {
         let first = self.vertices.len();
         self.vertices.extend_from_slice(vertices);
         self.faces.push(Face {
@@ -38,9 +38,9 @@ impl Mesh {
         });
     }
 
-    /// Adds the surface `position(u, v)` over the unit square as `columns` x `rows` quads; it is seen from the side
-    /// from which u runs right and v up. Normals are those of the surface, texture coordinates are (u, v).
-    pub(crate) fn surface(
+    /// Adds the surface `position(u, v)` over the unit square as `columns` x `rows` quads, with smooth normals and the
+    /// texture coordinates (u, v). Its outside is the side from which u runs right and v up.
+    pub(crate) fn add_surface(
         &mut self,
         [columns, rows]: [usize; 2],
         material: impl Fn(usize, usize) -> &'static str,
@@ -76,14 +76,14 @@ impl Mesh {
         }
     }
 
-    /// Exchanges u and v: what ran across a texture runs up it.
+    /// Swaps u and v.
     pub(crate) fn turn_texture(&mut self) {
         for vertex in &mut self.vertices {
             vertex.texcoord = vertex.texcoord.yx();
         }
     }
 
-    /// Adds another mesh, moved.
+    /// Adds a transformed copy of another mesh.
     pub(crate) fn append(&mut self, other: &Mesh, place: glam::DAffine3) {
         let first = self.vertices.len();
         self.vertices
@@ -98,17 +98,17 @@ impl Mesh {
         }));
     }
 
-    /// The mesh as OBJ text, which names its materials in the file `library`.
-    pub(crate) fn obj(&self, library: &str) -> String {
+    /// Writes the mesh as OBJ text with the materials of the file `library`.
+    pub(crate) fn to_obj(&self, library: &str) -> String {
         let mut text = format!("# Made by `cargo run -p generator`.\nmtllib {library}\n");
         for vertex in &self.vertices {
-            line(&mut text, "v", &vertex.position.to_array(), 5);
+            write_statement(&mut text, "v", &vertex.position.to_array(), 5);
         }
         for vertex in &self.vertices {
-            line(&mut text, "vt", &vertex.texcoord.to_array(), 5);
+            write_statement(&mut text, "vt", &vertex.texcoord.to_array(), 5);
         }
         for vertex in &self.vertices {
-            line(&mut text, "vn", &vertex.normal.to_array(), 4);
+            write_statement(&mut text, "vn", &vertex.normal.to_array(), 4);
         }
         let mut material = "";
         for face in &self.faces {
@@ -127,8 +127,8 @@ impl Mesh {
     }
 }
 
-/// Numbers are rounded so far that no machine's sine shows; -0 becomes 0 for the same reason.
-fn line(text: &mut String, keyword: &str, numbers: &[f64], decimals: i32) {
+/// Writes a statement. Rounding hides differences between the sines of machines; for the same reason -0 becomes 0.
+fn write_statement(text: &mut String, keyword: &str, numbers: &[f64], decimals: i32) {
     let unit = 10f64.powi(decimals);
     *text += keyword;
     for number in numbers {
@@ -138,10 +138,10 @@ fn line(text: &mut String, keyword: &str, numbers: &[f64], decimals: i32) {
     *text += "\n";
 }
 
-/// Normal of a surface from its slopes; at a point, from the slopes a little inside.
+/// Normal of a surface from its slopes; where the surface shrinks to a point, from the slopes a little inside.
 fn normal(position: impl Fn(f64, f64) -> DVec3, u: f64, v: f64) -> DVec3 {
     const STEP: f64 = 1e-4;
-    // Less than any slope of a surface of millimetres, more than the rounding of a sine.
+    // Less than a slope of millimetres, more than the rounding of a sine.
     const FLAT: f64 = 1e-14;
     let cross = |u: f64, v: f64| {
         let along_u = position(u + STEP, v) - position(u - STEP, v);

@@ -4,10 +4,10 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::{DVec2, DVec3};
 
-use crate::cuboid::cuboid;
+use crate::cuboid::add_cuboid;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::tube::{curve, tube};
-use crate::{Files, model};
+use crate::tube::{add_tube, sample_curve};
 
 /// Radius of the tubes, in metres.
 const RADIUS: f64 = 0.022;
@@ -31,7 +31,7 @@ Kd 0.2 0.2 0.22
 
 pub(crate) fn files() -> Files {
     let mut mesh = Mesh::default();
-    cuboid(
+    add_cuboid(
         &mut mesh,
         "board",
         DVec3::new(0.0, 0.0, -0.1),
@@ -39,7 +39,7 @@ pub(crate) fn files() -> Files {
         1,
     );
     for x in [-1.2, 1.2] {
-        cuboid(
+        add_cuboid(
             &mut mesh,
             "bracket",
             DVec3::new(x, 0.0, -0.2),
@@ -49,9 +49,9 @@ pub(crate) fn files() -> Files {
     }
     let mut line = |material, path: Vec<DVec2>| {
         let path: Vec<DVec3> = path.into_iter().map(|point| point.extend(0.0)).collect();
-        tube(&mut mesh, material, 8, &path, |_| RADIUS);
+        add_tube(&mut mesh, material, 8, &path, |_| RADIUS);
     };
-    // A letter's foot stands at (x, -0.35).
+    // Letters begin at (x, -0.35).
     let at = |x: f64, y: f64| DVec2::new(x, y - 0.5 * HEIGHT);
     for x in [-1.2, 0.2] {
         line("pink", vec![at(x, 0.0), at(x, 0.5 * HEIGHT), at(x, HEIGHT)]);
@@ -77,13 +77,13 @@ pub(crate) fn files() -> Files {
     line("cyan", vec![at(1.0, 0.4), at(1.0, 0.02)]);
     line("cyan", vec![at(0.85, 0.0), at(1.15, 0.0)]);
     line("cyan", frame());
-    model("neon_sign", &mesh, MATERIALS)
+    model_files("neon_sign", &mesh, MATERIALS)
 }
 
-/// The round part of a B or an R: right of (x, y), so high.
+/// Round part of a B or an R, to the right of (x, y), with a height.
 fn bow([x, y]: [f64; 2], height: f64) -> Vec<DVec2> {
     let middle = DVec2::new(x + 0.16, y + 0.5 * height - 0.5 * HEIGHT);
-    let round = curve(10, |part| {
+    let round = sample_curve(10, |part| {
         let (sine, cosine) = (PI * part - FRAC_PI_2).sin_cos();
         (middle + 0.5 * height * DVec2::new(0.95 * cosine, sine)).extend(0.0)
     });
@@ -96,7 +96,7 @@ fn bow([x, y]: [f64; 2], height: f64) -> Vec<DVec2> {
         .collect()
 }
 
-/// A rounded rectangle around everything.
+/// Rounded rectangle around everything.
 fn frame() -> Vec<DVec2> {
     let corner = |part: f64| {
         let angle = TAU * part;

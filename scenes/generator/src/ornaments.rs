@@ -4,14 +4,14 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DAffine3, DVec2, DVec3};
 
-use crate::ellipsoid::ellipsoid;
+use crate::ellipsoid::add_ellipsoid;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::prism::{face, prism, star};
-use crate::revolution::turned;
-use crate::tube::rod;
-use crate::{Files, model};
+use crate::prism::{add_face, add_prism, star_outline};
+use crate::revolution::revolve_upright;
+use crate::tube::add_rod;
 
-/// Position of each ornament, in metres, from left to right.
+/// Positions of the ornaments from left to right, in metres.
 const PLACES: [(f64, f64); 9] = [
     (-2.4, 0.3),
     (-1.85, -0.55),
@@ -44,34 +44,34 @@ pub(crate) fn files() -> Files {
         let place = DVec3::new(x, y, 0.0);
         let ornament = match index % 4 {
             0 => ball(if index == 4 { "blue" } else { "red" }),
-            1 => flat(&star(5, 0.07, 0.17)),
+            1 => flat(&star_outline(5, 0.07, 0.17)),
             2 => bell(),
             _ => moon(),
         };
         ornaments.append(&ornament, DAffine3::from_translation(place));
         let hook = place + 0.15 * DVec3::Y;
-        rod(
+        add_rod(
             &mut strings,
             "string",
             [hook, DVec3::new(x, 4.5, 0.0)],
             0.008,
         );
     }
-    let mut files = model("ornaments", &ornaments, MATERIALS);
-    files.extend(model("strings", &strings, MATERIALS));
+    let mut files = model_files("ornaments", &ornaments, MATERIALS);
+    files.extend(model_files("strings", &strings, MATERIALS));
     files
 }
 
 fn ball(material: &'static str) -> Mesh {
     let mut mesh = Mesh::default();
-    ellipsoid(
+    add_ellipsoid(
         &mut mesh,
         material,
         DVec3::ZERO,
         DVec3::splat(0.14),
         [24, 14],
     );
-    turned(
+    revolve_upright(
         &mut mesh,
         "silver",
         12,
@@ -83,7 +83,7 @@ fn ball(material: &'static str) -> Mesh {
 
 fn flat(outline: &[DVec2]) -> Mesh {
     let mut mesh = Mesh::default();
-    prism(&mut mesh, "gold", outline, [-0.02, 0.02]);
+    add_prism(&mut mesh, "gold", outline, [-0.02, 0.02]);
     mesh
 }
 
@@ -97,8 +97,8 @@ fn bell() -> Mesh {
         (0.03, 0.14),
         (0.0, 0.15),
     ];
-    turned(&mut mesh, "gold", 20, &outline, DVec3::ZERO);
-    ellipsoid(
+    revolve_upright(&mut mesh, "gold", 20, &outline, DVec3::ZERO);
+    add_ellipsoid(
         &mut mesh,
         "silver",
         DVec3::new(0.0, -0.14, 0.0),
@@ -108,7 +108,7 @@ fn bell() -> Mesh {
     mesh
 }
 
-/// A crescent: what an outer circle has and an inner one, to its right, has not.
+/// Crescent: an outer circle without an inner one to its right.
 fn moon() -> Mesh {
     let mut mesh = Mesh::default();
     let point = |part: f64, inner: bool| {
@@ -130,7 +130,7 @@ fn moon() -> Mesh {
             point(parts[1], true),
         ];
         for (z, order) in [(0.02, [0, 1, 2, 3]), (-0.02, [3, 2, 1, 0])] {
-            face(
+            add_face(
                 &mut mesh,
                 "silver",
                 &order.map(|corner: usize| outline[corner].extend(z)),

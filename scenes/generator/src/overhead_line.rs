@@ -1,17 +1,17 @@
-//! The overhead line of a railway along the X axis, of masts, posts and wires from 16 to 2 cm thick.
+//! The overhead line of a railway along the X axis: masts, posts and wires from 2 to 16 cm thick.
 
 use glam::DVec3;
 
-use crate::cuboid::cuboid;
+use crate::cuboid::add_cuboid;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::tube::{curve, rod, tube};
-use crate::{Files, model};
+use crate::tube::{add_rod, add_tube, sample_curve};
 
-/// From mast to mast, in metres, and the masts on either side of the one in the middle.
+/// Distance from mast to mast in metres, and the number of masts on either side of the middle one.
 const SPAN: f64 = 6.0;
 const MASTS: i32 = 2;
 
-/// Above the ground, in metres.
+/// Heights above the ground, in metres.
 const CONTACT_WIRE: f64 = 4.6;
 const SUPPORT: f64 = 5.9;
 
@@ -33,52 +33,52 @@ pub(crate) fn files() -> Files {
         add_mast(&mut mesh, x);
         if index < MASTS {
             add_wires(&mut mesh, x);
-            // Posts of a fence beside the line, thinner from one to the next.
+            // Posts of a fence beside the line, each thinner than the one before.
             for (post, width) in [(1.5, 0.08), (3.0, 0.04), (4.5, 0.02)] {
                 let size = DVec3::new(width, 2.6, width);
-                cuboid(&mut mesh, "wood", DVec3::new(x + post, 1.3, 0.3), size, 1);
+                add_cuboid(&mut mesh, "wood", DVec3::new(x + post, 1.3, 0.3), size, 1);
             }
         }
     }
-    model("overhead_line", &mesh, MATERIALS)
+    model_files("overhead_line", &mesh, MATERIALS)
 }
 
 fn add_mast(mesh: &mut Mesh, x: f64) {
     let at = |dx: f64, y: f64, z: f64| DVec3::new(x + dx, y, z);
-    cuboid(
+    add_cuboid(
         mesh,
         "steel",
         at(0.0, 3.3, -0.2),
         DVec3::new(0.16, 6.6, 0.16),
         1,
     );
-    // An arm that holds the wires, its strut, and a stay against their pull.
-    rod(
+    // Arm that holds the wires, its strut, and a stay against their pull.
+    add_rod(
         mesh,
         "steel",
         [at(0.0, SUPPORT + 0.3, -0.1), at(0.0, SUPPORT, 0.1)],
         0.03,
     );
-    rod(
+    add_rod(
         mesh,
         "steel",
         [at(0.0, 5.0, -0.1), at(0.7, SUPPORT, 0.0)],
         0.03,
     );
-    rod(
+    add_rod(
         mesh,
         "steel",
         [at(0.0, SUPPORT + 0.3, -0.1), at(0.7, SUPPORT, 0.0)],
         0.02,
     );
-    rod(
+    add_rod(
         mesh,
         "wire",
         [at(0.0, 6.4, -0.2), at(-2.4, 0.0, -0.2)],
         0.02,
     );
     for y in [5.1, SUPPORT + 0.25] {
-        rod(
+        add_rod(
             mesh,
             "insulator",
             [at(0.08, y, -0.1), at(0.25, y + 0.1, -0.05)],
@@ -87,17 +87,17 @@ fn add_mast(mesh: &mut Mesh, x: f64) {
     }
 }
 
-/// A wire that hangs through, droppers from it, and the straight wire that they hold.
+/// Adds a sagging wire, droppers from it, and the straight wire that they hold.
 fn add_wires(mesh: &mut Mesh, x: f64) {
     let support = |part: f64| {
         let sag = 0.8 * 4.0 * part * (1.0 - part);
         DVec3::new(x + SPAN * part, SUPPORT - sag, 0.0)
     };
-    tube(mesh, "wire", 6, &curve(16, support), |_| 0.015);
+    add_tube(mesh, "wire", 6, &sample_curve(16, support), |_| 0.015);
     let contact = |part: f64| DVec3::new(x + SPAN * part, CONTACT_WIRE, 0.0);
-    rod(mesh, "wire", [contact(0.0), contact(1.0)], 0.02);
+    add_rod(mesh, "wire", [contact(0.0), contact(1.0)], 0.02);
     for dropper in 0..6 {
         let part = (f64::from(dropper) + 0.5) / 6.0;
-        rod(mesh, "wire", [support(part), contact(part)], 0.01);
+        add_rod(mesh, "wire", [support(part), contact(part)], 0.01);
     }
 }

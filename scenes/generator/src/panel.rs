@@ -1,17 +1,17 @@
-//! The mover of the panel scenes: a thin square box that shines by itself.
+//! The moving panel of the panel scenes: a thin square box that emits light.
 
 use glam::DVec3;
 
-use crate::cuboid::cuboid;
+use crate::cuboid::add_cuboid;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::texture::png;
-use crate::{Files, model};
+use crate::texture::encode_png;
 
 /// Edge of the front face, in metres.
 const EDGE: f64 = 0.8;
 
-/// In metres; the front face lies at z = 0. So thin that the sides, seen from the middle of the picture, stay below a
-/// tenth of a pixel, and the smear is that of a square.
+/// Thickness behind the front face at z = 0, in metres. The sides appear as less than a tenth of a pixel, so that the smear
+/// is that of a square.
 const THICKNESS: f64 = 0.004;
 
 /// Texels along an edge.
@@ -28,19 +28,19 @@ map_Ke panel.png
 pub(crate) fn files() -> Files {
     let mut mesh = Mesh::default();
     let centre = DVec3::new(0.0, 0.0, -THICKNESS / 2.0);
-    cuboid(
+    add_cuboid(
         &mut mesh,
         "panel",
         centre,
         DVec3::new(EDGE, EDGE, THICKNESS),
         8,
     );
-    let mut files = model("panel", &mesh, MATERIALS);
-    files.push(("panel.png".into(), png(TEXELS, color)));
+    let mut files = model_files("panel", &mesh, MATERIALS);
+    files.push(("panel.png".into(), encode_png(TEXELS, color)));
     files
 }
 
-/// A warm checkerboard with a light frame and a disc: brighter than the walls everywhere, so that its smear shows.
+/// Color of a warm checkerboard with a light frame and a disc, brighter than the walls so that its smear shows.
 fn color(x: u32, y: u32) -> [f64; 3] {
     let border = x.min(y).min(TEXELS - 1 - x).min(TEXELS - 1 - y);
     let middle = f64::from(TEXELS - 1) / 2.0;

@@ -2,13 +2,13 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::cuboid::cuboid;
-use crate::hash::noise;
+use crate::cuboid::add_cuboid;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::texture::png;
-use crate::{Files, model};
+use crate::noise::noise;
+use crate::texture::encode_png;
 
-/// In metres.
+/// Half the length of the passage, z of its wall and the wall's height, in metres.
 const HALF_LENGTH: f64 = 40.0;
 const WALL: f64 = -2.5;
 const HEIGHT: f64 = 2.8;
@@ -38,7 +38,7 @@ pub(crate) fn files() -> Files {
     let mut mesh = Mesh::default();
     let strip = |material, [from, to]: [DVec3; 2], across: f64| {
         let mut strip = Mesh::default();
-        strip.surface(
+        strip.add_surface(
             [40, 2],
             |_, _| material,
             |u, v| from.lerp(to, v) + HALF_LENGTH * (2.0 * u - 1.0) * DVec3::X,
@@ -54,7 +54,7 @@ pub(crate) fn files() -> Files {
         mesh.append(&part, glam::DAffine3::IDENTITY);
     }
     let rail = DVec3::new(2.0 * HALF_LENGTH, 0.06, 0.05);
-    cuboid(
+    add_cuboid(
         &mut mesh,
         "rail",
         DVec3::new(0.0, 0.95, WALL + 0.08),
@@ -62,7 +62,7 @@ pub(crate) fn files() -> Files {
         1,
     );
     let coping = DVec3::new(2.0 * HALF_LENGTH, 0.15, 0.4);
-    cuboid(
+    add_cuboid(
         &mut mesh,
         "coping",
         DVec3::new(0.0, HEIGHT, WALL - 0.1),
@@ -73,18 +73,18 @@ pub(crate) fn files() -> Files {
         let x = 4.0 * f64::from(index);
         add_poster(&mut mesh, x + 2.8, index);
     }
-    let mut files = model("passage", &mesh, MATERIALS);
-    files.push(("tiles.png".into(), png(128, tile_color)));
-    files.push(("slabs.png".into(), png(128, crate::ground::slabs)));
+    let mut files = model_files("passage", &mesh, MATERIALS);
+    files.push(("tiles.png".into(), encode_png(128, tile_color)));
+    files.push(("slabs.png".into(), encode_png(128, crate::ground::slabs)));
     files
 }
 
-/// A framed poster with a headline.
+/// Adds a framed poster with a headline.
 fn add_poster(mesh: &mut Mesh, x: f64, index: i32) {
     let material = ["poster_red", "poster_blue", "poster_yellow"][(index + 9) as usize % 3];
     let mut sheet = |material, dx: f64, y: f64, size: [f64; 2], lift: f64| {
         let at = DVec3::new(x + dx, y, WALL + lift);
-        cuboid(mesh, material, at, DVec3::new(size[0], size[1], 0.01), 1);
+        add_cuboid(mesh, material, at, DVec3::new(size[0], size[1], 0.01), 1);
     };
     sheet("paper", 0.0, 1.65, [0.9, 1.2], 0.01);
     sheet(material, 0.0, 1.65, [0.8, 1.1], 0.02);
@@ -101,7 +101,7 @@ fn add_poster(mesh: &mut Mesh, x: f64, index: i32) {
     sheet("paper", 0.1, 1.32, [0.36, 0.26], 0.03);
 }
 
-/// Square tiles of 16 texels, a coloured course in each metre.
+/// Color of square tiles of 16 texels, with a coloured course in each metre.
 fn tile_color(x: u32, y: u32) -> [f64; 3] {
     let shade = 0.12 * (noise(x / 16, y / 16) - 0.5);
     if x.is_multiple_of(16) || y.is_multiple_of(16) {

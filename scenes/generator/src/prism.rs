@@ -1,12 +1,12 @@
-//! Flat shapes with a thickness.
+//! Prisms, flat faces and star outlines.
 
 use glam::{DVec2, DVec3};
 
 use crate::mesh::{Mesh, Vertex};
 
-/// Adds what lies between z = `back` and z = `front` within an outline, counter-clockwise seen from the front. Straight
-/// lines from the middle of its corners to its edge must not leave it.
-pub(crate) fn prism(
+/// Adds a prism from z = `back` to z = `front` within an outline, counter-clockwise seen from the front. Straight lines
+/// from the middle of the corners to the edge must not leave the outline.
+pub(crate) fn add_prism(
     mesh: &mut Mesh,
     material: &'static str,
     outline: &[DVec2],
@@ -15,19 +15,19 @@ pub(crate) fn prism(
     let middle = outline.iter().sum::<DVec2>() / outline.len() as f64;
     for (index, from) in outline.iter().enumerate() {
         let to = outline[(index + 1) % outline.len()];
-        face(
+        add_face(
             mesh,
             material,
             &[middle, *from, to].map(|p| p.extend(front)),
         );
-        face(mesh, material, &[middle, to, *from].map(|p| p.extend(back)));
+        add_face(mesh, material, &[middle, to, *from].map(|p| p.extend(back)));
         let side = [(*from, back), (to, back), (to, front), (*from, front)];
-        face(mesh, material, &side.map(|(p, z)| p.extend(z)));
+        add_face(mesh, material, &side.map(|(p, z)| p.extend(z)));
     }
 }
 
-/// A flat face, counter-clockwise seen from outside, with the whole texture between its least and largest corners.
-pub(crate) fn face(mesh: &mut Mesh, material: &'static str, corners: &[DVec3]) {
+/// Adds a flat face, counter-clockwise seen from outside; its corners get those of the texture.
+pub(crate) fn add_face(mesh: &mut Mesh, material: &'static str, corners: &[DVec3]) {
     let normal = (corners[1] - corners[0])
         .cross(corners[2] - corners[0])
         .normalize();
@@ -39,11 +39,11 @@ pub(crate) fn face(mesh: &mut Mesh, material: &'static str, corners: &[DVec3]) {
             texcoord: texcoord.into(),
         })
         .collect();
-    mesh.polygon(material, &vertices);
+    mesh.add_polygon(material, &vertices);
 }
 
 /// Corners of a star with `points` points.
-pub(crate) fn star(points: usize, inner: f64, outer: f64) -> Vec<DVec2> {
+pub(crate) fn star_outline(points: usize, inner: f64, outer: f64) -> Vec<DVec2> {
     let step = std::f64::consts::PI / points as f64;
     (0..2 * points)
         .map(|corner| {

@@ -1,19 +1,19 @@
-//! A roadside railing along the X axis: a post every metre, two rails.
+//! A roadside railing along the X axis, with a post every metre and two rails.
 
 use glam::DVec3;
 
-use crate::cuboid::cuboid;
+use crate::cuboid::add_cuboid;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::{Files, model};
 
-/// In metres.
+/// Height in metres.
 const HEIGHT: f64 = 1.0;
 
 pub(crate) fn files() -> Files {
     let mut mesh = Mesh::default();
     for index in -7..7 {
         let centre = DVec3::new(f64::from(index) + 0.5, HEIGHT / 2.0, 0.0);
-        cuboid(
+        add_cuboid(
             &mut mesh,
             "steel",
             centre,
@@ -23,7 +23,7 @@ pub(crate) fn files() -> Files {
     }
     for y in [0.55, HEIGHT - 0.03] {
         let size = DVec3::new(14.0, 0.05, 0.03);
-        cuboid(&mut mesh, "steel", DVec3::new(0.0, y, 0.04), size, 2);
+        add_cuboid(&mut mesh, "steel", DVec3::new(0.0, y, 0.04), size, 2);
     }
-    model("railing", &mesh, "newmtl steel\nKd 0.6 0.62 0.64\n")
+    model_files("railing", &mesh, "newmtl steel\nKd 0.6 0.62 0.64\n")
 }

@@ -6,9 +6,9 @@ use glam::{DAffine3, DVec3};
 
 use crate::mesh::Mesh;
 
-/// Turns the outline `(radius, height)` about the Z axis, `around` quads a turn, each of the material that its number
-/// has. The outside lies to the right of the outline as it is walked, with +Z ahead and the radius to the right; each
-/// piece is a surface of its own, so that its corners stay sharp.
+/// Revolves the outline `(radius, height)` about the Z axis in `around` quads, with a material for each column. Seen with +Z
+/// up and the radius to the right, the outside lies to the right of the outline's direction. Corners stay sharp: each piece
+/// is a surface of its own.
 pub(crate) fn revolve(
     mesh: &mut Mesh,
     material: impl Fn(usize) -> &'static str,
@@ -17,7 +17,7 @@ pub(crate) fn revolve(
 ) {
     for piece in outline.windows(2) {
         let [from, to] = [piece[0], piece[1]];
-        mesh.surface(
+        mesh.add_surface(
             [around, 1],
             |column, _| material(column),
             |u, v| {
@@ -30,8 +30,8 @@ pub(crate) fn revolve(
     }
 }
 
-/// Turns the outline `(radius, height)` about the vertical through `foot`.
-pub(crate) fn turned(
+/// Revolves the outline `(radius, height)` about the vertical through `foot`.
+pub(crate) fn revolve_upright(
     mesh: &mut Mesh,
     material: &'static str,
     around: usize,
@@ -44,16 +44,16 @@ pub(crate) fn turned(
     mesh.append(&about_z, DAffine3::from_translation(foot) * upright);
 }
 
-/// A ring about the Z axis at `height`, of `parts` quads around the axis and around the tube: the tube has radius `tube`,
-/// its middle runs at `radius`.
-pub(crate) fn ring(
+/// Adds a ring about the Z axis at `height`, of `parts` quads around the axis and around the tube. The tube has the radius
+/// `tube`; its middle runs at `radius`.
+pub(crate) fn add_ring(
     mesh: &mut Mesh,
     material: &'static str,
     [radius, tube]: [f64; 2],
     height: f64,
     parts: [usize; 2],
 ) {
-    mesh.surface(
+    mesh.add_surface(
         parts,
         |_, _| material,
         |u, v| {

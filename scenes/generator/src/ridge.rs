@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::{Files, model};
 
-/// In metres from the viewer, who looks along -Z, nearest last so that it reads from the back.
+/// Ridges and their distances from the viewer, who looks along -Z, in metres; nearest last.
 const RIDGES: [(&str, f64); 4] = [
     ("farthest", 4000.0),
     ("far", 2400.0),
@@ -27,7 +27,7 @@ Kd 0.3 0.42 0.16
 pub(crate) fn files() -> Files {
     let mut mesh = Mesh::default();
     for (index, (material, distance)) in RIDGES.into_iter().enumerate() {
-        mesh.surface(
+        mesh.add_surface(
             [160, 1],
             |_, _| material,
             |u, v| {
@@ -38,7 +38,7 @@ pub(crate) fn files() -> Files {
         );
     }
     let [_, _, _, (material, distance)] = RIDGES;
-    mesh.surface(
+    mesh.add_surface(
         [1, 1],
         |_, _| material,
         |u, v| {
@@ -49,10 +49,10 @@ pub(crate) fn files() -> Files {
             )
         },
     );
-    model("ridge", &mesh, MATERIALS)
+    model_files("ridge", &mesh, MATERIALS)
 }
 
-/// Height as a part of the distance.
+/// Height of a ridge, relative to its distance.
 fn crest(along: f64, index: usize) -> f64 {
     let height = [0.16, 0.1, 0.055, 0.02][index];
     let rough = [0.25, 0.2, 0.25, 0.3][index];

@@ -2,21 +2,21 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::hash::noise;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::texture::png;
-use crate::{Files, model};
+use crate::noise::noise;
+use crate::texture::encode_png;
 
-/// In metres; z = 0 is the middle.
+/// Half the length, and half the width about z = 0, in metres.
 const HALF_LENGTH: f64 = 60.0;
 pub(crate) const HALF_WIDTH: f64 = 3.2;
 
-/// One texture is this long, in metres: a dash and a gap.
+/// Length of a texture in metres: a dash and a gap.
 pub(crate) const TILE: f64 = 4.0;
 
 pub(crate) fn files() -> Files {
     let mut mesh = Mesh::default();
-    mesh.surface(
+    mesh.add_surface(
         [30, 2],
         |_, _| "asphalt",
         |u, v| {
@@ -28,12 +28,12 @@ pub(crate) fn files() -> Files {
         },
     );
     mesh.repeat_texture(DVec2::new(2.0 * HALF_LENGTH / TILE, 1.0));
-    let mut files = model("road", &mesh, "newmtl asphalt\nKd 1 1 1\nmap_Kd road.png\n");
-    files.push(("road.png".into(), png(256, color)));
+    let mut files = model_files("road", &mesh, "newmtl asphalt\nKd 1 1 1\nmap_Kd road.png\n");
+    files.push(("road.png".into(), encode_png(256, color)));
     files
 }
 
-/// Lines at the edges, dashes in the middle, grains of asphalt between.
+/// Color of asphalt with lines at the edges and dashes in the middle.
 pub(crate) fn color(x: u32, y: u32) -> [f64; 3] {
     let edge = (8..14).contains(&y) || (242..248).contains(&y);
     let dash = (125..131).contains(&y) && x < 128;

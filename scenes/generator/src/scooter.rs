@@ -1,12 +1,12 @@
-//! A motor scooter that heads for +X, parked. The ground is y = 0, z = 0 its middle.
+//! A parked motor scooter that faces +X, on the ground y = 0, its middle at z = 0.
 
 use glam::{DAffine3, DVec3};
 
-use crate::ellipsoid::ellipsoid;
+use crate::ellipsoid::add_ellipsoid;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::revolution::{revolve, ring};
-use crate::tube::{rod, tube};
-use crate::{Files, model};
+use crate::revolution::{add_ring, revolve};
+use crate::tube::{add_rod, add_tube};
 
 const MATERIALS: &str = "\
 newmtl paint
@@ -27,7 +27,7 @@ pub(crate) fn files() -> Files {
     let mut mesh = Mesh::default();
     for x in [-0.55, 0.62] {
         let mut wheel = Mesh::default();
-        ring(&mut wheel, "tyre", [0.17, 0.05], 0.0, [28, 8]);
+        add_ring(&mut wheel, "tyre", [0.17, 0.05], 0.0, [28, 8]);
         revolve(
             &mut wheel,
             |_| "rim",
@@ -37,7 +37,7 @@ pub(crate) fn files() -> Files {
         mesh.append(&wheel, DAffine3::from_translation(DVec3::new(x, 0.22, 0.0)));
     }
     let mut blob = |material, at: [f64; 3], radii: [f64; 3]| {
-        ellipsoid(&mut mesh, material, at.into(), radii.into(), [18, 10]);
+        add_ellipsoid(&mut mesh, material, at.into(), radii.into(), [18, 10]);
     };
     blob("paint", [-0.5, 0.46, 0.0], [0.36, 0.22, 0.19]);
     blob("paint", [0.62, 0.36, 0.0], [0.25, 0.11, 0.09]);
@@ -51,18 +51,18 @@ pub(crate) fn files() -> Files {
         DVec3::new(0.42, 0.75, 0.0),
         DVec3::new(0.4, 0.98, 0.0),
     ];
-    // Wider than deep: three tubes side by side.
+    // Three tubes side by side make it wider than deep.
     for z in [-0.1, 0.0, 0.1] {
         let path = shield.map(|point| point + z * DVec3::Z);
-        tube(&mut mesh, "paint", 8, &path, |_| 0.065);
+        add_tube(&mut mesh, "paint", 8, &path, |_| 0.065);
     }
-    rod(
+    add_rod(
         &mut mesh,
         "chrome",
         [DVec3::new(0.62, 0.22, 0.08), DVec3::new(0.44, 0.95, 0.04)],
         0.025,
     );
-    rod(
+    add_rod(
         &mut mesh,
         "chrome",
         [DVec3::new(0.4, 1.02, -0.3), DVec3::new(0.4, 1.02, 0.3)],
@@ -70,9 +70,9 @@ pub(crate) fn files() -> Files {
     );
     for side in [-1.0, 1.0] {
         let at = |x: f64, y: f64| DVec3::new(x, y, 0.27 * side);
-        rod(&mut mesh, "tyre", [at(0.4, 1.02), at(0.34, 1.02)], 0.028);
-        rod(&mut mesh, "chrome", [at(0.4, 1.02), at(0.44, 1.2)], 0.008);
-        ellipsoid(
+        add_rod(&mut mesh, "tyre", [at(0.4, 1.02), at(0.34, 1.02)], 0.028);
+        add_rod(&mut mesh, "chrome", [at(0.4, 1.02), at(0.44, 1.2)], 0.008);
+        add_ellipsoid(
             &mut mesh,
             "chrome",
             at(0.44, 1.22),
@@ -80,11 +80,11 @@ pub(crate) fn files() -> Files {
             [10, 8],
         );
     }
-    rod(
+    add_rod(
         &mut mesh,
         "chrome",
         [DVec3::new(-0.1, 0.25, 0.1), DVec3::new(-0.2, 0.0, 0.2)],
         0.014,
     );
-    model("scooter", &mesh, MATERIALS)
+    model_files("scooter", &mesh, MATERIALS)
 }

@@ -2,18 +2,18 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::cuboid::cuboid;
-use crate::hash::noise;
+use crate::cuboid::add_cuboid;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::revolution::turned;
-use crate::texture::png;
-use crate::{Files, model};
+use crate::noise::noise;
+use crate::revolution::revolve_upright;
+use crate::texture::encode_png;
 
 /// Texels along an edge of a texture, and of a window.
 const TEXELS: u32 = 128;
 const WINDOW: u32 = 8;
 
-/// A texture covers so many metres of a wall.
+/// Length of wall that a texture covers, in metres.
 const TILE: f64 = 48.0;
 
 const MATERIALS: &str = "\
@@ -58,7 +58,7 @@ pub(crate) fn files() -> Files {
         add_tower(&mut mesh, walls[index as usize % 4], middle, size);
         if random(4) > 0.6 {
             let foot = DVec3::new(middle.x, size.y + 4.0, middle.y);
-            turned(
+            revolve_upright(
                 &mut mesh,
                 "roof",
                 6,
@@ -68,7 +68,7 @@ pub(crate) fn files() -> Files {
         }
     }
     let mut flat = |material, half: [f64; 2], z: f64, y: f64| {
-        mesh.surface(
+        mesh.add_surface(
             [8, 2],
             |_, _| material,
             |u, v| DVec3::new(half[0] * (2.0 * u - 1.0), y, z + half[1] * (1.0 - 2.0 * v)),
@@ -76,20 +76,20 @@ pub(crate) fn files() -> Files {
     };
     flat("quay", [900.0, 260.0], -380.0, 0.0);
     flat("water", [900.0, 120.0], 0.0, -1.0);
-    let mut files = model("skyline", &mesh, MATERIALS);
-    files.push(("windows.png".into(), png(TEXELS, window_color)));
+    let mut files = model_files("skyline", &mesh, MATERIALS);
+    files.push(("windows.png".into(), encode_png(TEXELS, window_color)));
     files
 }
 
-/// A tower of three storeys of walls, each narrower, with windows of one size.
+/// Adds a tower of three parts, each narrower than the one below, with windows of one size.
 fn add_tower(mesh: &mut Mesh, wall: &'static str, middle: DVec2, size: DVec3) {
     let mut foot = 0.0;
     for (part, width) in [(0.6, 1.0), (0.3, 0.78), (0.1, 0.5)] {
         let (height, [x, z]) = (part * size.y, [width * size.x, width * size.z]);
         let mut block = Mesh::default();
         let centre = DVec3::new(middle.x, foot + 0.5 * height, middle.y);
-        cuboid(&mut block, wall, centre, DVec3::new(x, height, z), 1);
-        // Whole windows, so that none is cut at an edge.
+        add_cuboid(&mut block, wall, centre, DVec3::new(x, height, z), 1);
+        // A whole number of windows, so that no edge cuts one.
         let windows = f64::from(TEXELS / WINDOW);
         let whole = |length: f64| (length / TILE * windows).round() / windows;
         block.repeat_texture(DVec2::new(whole(x), whole(height)));
@@ -97,7 +97,7 @@ fn add_tower(mesh: &mut Mesh, wall: &'static str, middle: DVec2, size: DVec3) {
         foot += height;
     }
     let roof = DVec3::new(0.52 * size.x, 1.0, 0.52 * size.z);
-    cuboid(
+    add_cuboid(
         mesh,
         "roof",
         DVec3::new(middle.x, foot + 0.5, middle.y),
@@ -106,7 +106,7 @@ fn add_tower(mesh: &mut Mesh, wall: &'static str, middle: DVec2, size: DVec3) {
     );
 }
 
-/// Dark panes in a light wall, some of them with blinds.
+/// Color of a light wall with dark panes, some with blinds.
 fn window_color(x: u32, y: u32) -> [f64; 3] {
     let pane = (2..7).contains(&(x % WINDOW)) && (2..6).contains(&(y % WINDOW));
     let random = noise(x / WINDOW, y / WINDOW);

@@ -1,13 +1,13 @@
-//! A snail that heads for +X, its sole on y = 0.
+//! A snail that heads for +X, its sole at y = 0.
 
 use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use crate::ellipsoid::ellipsoid;
+use crate::ellipsoid::add_ellipsoid;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::tube::{curve, tube};
-use crate::{Files, model};
+use crate::tube::{add_tube, sample_curve};
 
 const MATERIALS: &str = "\
 newmtl body
@@ -22,36 +22,36 @@ Kd 0.04 0.03 0.03
 
 pub(crate) fn files() -> Files {
     let mut mesh = Mesh::default();
-    let back = curve(14, |part| {
+    let back = sample_curve(14, |part| {
         let neck = ((part - 0.75) / 0.25).max(0.0);
         DVec3::new(1.0 * part - 0.55, 0.06 + 0.2 * neck * neck, 0.0)
     });
     // Pointed at the tail, round at the head.
-    tube(&mut mesh, "body", 12, &back, |part| {
+    add_tube(&mut mesh, "body", 12, &back, |part| {
         0.09 * (part / 0.3).min(1.0) * ((1.0 - part) / 0.08).clamp(0.0, 1.0).sqrt()
     });
     for side in [-1.0, 1.0] {
-        let stalk = curve(4, |part| {
+        let stalk = sample_curve(4, |part| {
             DVec3::new(
                 0.42 + 0.1 * part,
                 0.28 + 0.2 * part,
                 side * (0.03 + 0.06 * part),
             )
         });
-        tube(&mut mesh, "body", 6, &stalk, |_| 0.016);
+        add_tube(&mut mesh, "body", 6, &stalk, |_| 0.016);
         let eye = DVec3::new(0.52, 0.49, side * 0.09);
-        ellipsoid(&mut mesh, "eye", eye, DVec3::splat(0.028), [8, 6]);
+        add_ellipsoid(&mut mesh, "eye", eye, DVec3::splat(0.028), [8, 6]);
         let feeler = [
             DVec3::new(0.45, 0.2, side * 0.03),
             DVec3::new(0.56, 0.16, side * 0.06),
         ];
-        tube(&mut mesh, "body", 6, &feeler, |_| 0.012);
+        add_tube(&mut mesh, "body", 6, &feeler, |_| 0.012);
     }
     add_shell(&mut mesh);
-    model("snail", &mesh, MATERIALS)
+    model_files("snail", &mesh, MATERIALS)
 }
 
-/// A spiral in the plane of the body, with a dark line along its outside.
+/// Adds a spiral in the plane of the body, with a dark line along its outside.
 fn add_shell(mesh: &mut Mesh) {
     let shrink = |part: f64| 0.12f64.powf(part);
     let turns = 2.3;
@@ -64,14 +64,14 @@ fn add_shell(mesh: &mut Mesh) {
     };
     for side in [-1.0, 1.0] {
         let fold = |lift| {
-            curve(48, move |part| {
+            sample_curve(48, move |part| {
                 spiral(lift)(part) * DVec3::new(1.0, 1.0, side)
             })
         };
-        tube(mesh, "shell", 12, &fold(0.0), move |part| {
+        add_tube(mesh, "shell", 12, &fold(0.0), move |part| {
             0.125 * shrink(part)
         });
-        tube(mesh, "band", 6, &fold(0.095), move |part| {
+        add_tube(mesh, "band", 6, &fold(0.095), move |part| {
             0.045 * shrink(part)
         });
     }

@@ -4,13 +4,13 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::{Files, model};
 
-/// A unit sphere about the origin, poles on the Y axis.
+/// Unit sphere about the origin, with its poles on the Y axis.
 pub(crate) fn sphere(material: &'static str, [around, up]: [usize; 2]) -> Mesh {
     let mut mesh = Mesh::default();
-    mesh.surface(
+    mesh.add_surface(
         [around, up],
         |_, _| material,
         |u, v| {
@@ -26,7 +26,7 @@ pub(crate) fn sphere(material: &'static str, [around, up]: [usize; 2]) -> Mesh {
 }
 
 pub(crate) fn files() -> Files {
-    model(
+    model_files(
         "sphere",
         &sphere("surface", [64, 32]),
         "newmtl surface\nKd 0.9 0.9 0.9\n",

@@ -1,16 +1,16 @@
-//! The wheel of a motorbike about the Z axis, the cover on its hub, which does not turn with it, and its fork.
+//! The wheel of a motorbike about the Z axis, the still cover on its hub, and its fork.
 
 use std::f64::consts::TAU;
 
 use glam::{DAffine3, DVec3};
 
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::prism::{prism, star};
-use crate::revolution::{revolve, ring};
-use crate::tube::{rod, tube};
-use crate::{Files, model};
+use crate::prism::{add_prism, star_outline};
+use crate::revolution::{add_ring, revolve};
+use crate::tube::{add_rod, add_tube};
 
-/// Radius of the tyre's outside, in metres.
+/// Outer radius of the tyre, in metres.
 const RADIUS: f64 = 0.32;
 
 const SPOKES: u32 = 14;
@@ -38,22 +38,22 @@ Kd 0.45 0.06 0.05
 
 pub(crate) fn files() -> Files {
     [
-        model("wheel", &wheel(), MATERIALS),
-        model("cover", &cover(), MATERIALS),
-        model("fork", &fork(), MATERIALS),
+        model_files("wheel", &wheel(), MATERIALS),
+        model_files("cover", &cover(), MATERIALS),
+        model_files("fork", &fork(), MATERIALS),
     ]
     .concat()
 }
 
 fn wheel() -> Mesh {
     let mut mesh = Mesh::default();
-    ring(&mut mesh, "tyre", [RADIUS - 0.045, 0.042], 0.0, [56, 10]);
-    ring(&mut mesh, "rim", [RADIUS - 0.09, 0.018], 0.0, [56, 8]);
+    add_ring(&mut mesh, "tyre", [RADIUS - 0.045, 0.042], 0.0, [56, 10]);
+    add_ring(&mut mesh, "rim", [RADIUS - 0.09, 0.018], 0.0, [56, 8]);
     for block in 0..40 {
         let turn = DAffine3::from_rotation_z(TAU * f64::from(block) / 40.0);
         let mut lug = Mesh::default();
         let size = DVec3::new(0.014, 0.02, 0.08);
-        crate::cuboid::cuboid(
+        crate::cuboid::add_cuboid(
             &mut lug,
             "tread",
             DVec3::new(RADIUS - 0.006, 0.0, 0.0),
@@ -65,9 +65,9 @@ fn wheel() -> Mesh {
     for spoke in 0..SPOKES {
         let angle = TAU * f64::from(spoke) / f64::from(SPOKES);
         let out = DVec3::new(angle.cos(), angle.sin(), 0.0);
-        // One spoke differs, so that a turn from spoke to spoke shows.
+        // One spoke differs, so that a turn by one spoke shows.
         let material = if spoke == 0 { "marked" } else { "spoke" };
-        rod(
+        add_rod(
             &mut mesh,
             material,
             [0.05 * out, (RADIUS - 0.1) * out],
@@ -77,7 +77,7 @@ fn wheel() -> Mesh {
     mesh
 }
 
-/// A disc with a star, towards +Z.
+/// Disc with a star that faces +Z.
 fn cover() -> Mesh {
     let mut mesh = Mesh::default();
     let outline = [
@@ -88,26 +88,31 @@ fn cover() -> Mesh {
         (0.0, 0.065),
     ];
     revolve(&mut mesh, |_| "cover", 40, &outline);
-    prism(&mut mesh, "star", &star(5, 0.024, 0.058), [0.065, 0.07]);
+    add_prism(
+        &mut mesh,
+        "star",
+        &star_outline(5, 0.024, 0.058),
+        [0.065, 0.07],
+    );
     mesh
 }
 
-/// Two legs to the right and up, and a mudguard over the tyre.
+/// Two legs towards -X and up, and a mudguard over the tyre.
 fn fork() -> Mesh {
     let mut mesh = Mesh::default();
     for z in [-0.09, 0.09] {
-        rod(
+        add_rod(
             &mut mesh,
             "fork",
             [DVec3::new(0.0, 0.0, z), DVec3::new(-0.32, 0.8, z)],
             0.022,
         );
     }
-    let arc = crate::tube::curve(16, |part| {
+    let arc = crate::tube::sample_curve(16, |part| {
         let angle = 0.55 + 2.3 * part;
-        let reach = RADIUS + 0.045;
-        DVec3::new(reach * f64::cos(angle), reach * f64::sin(angle), 0.0)
+        let radius = RADIUS + 0.045;
+        DVec3::new(radius * f64::cos(angle), radius * f64::sin(angle), 0.0)
     });
-    tube(&mut mesh, "mudguard", 6, &arc, |_| 0.03);
+    add_tube(&mut mesh, "mudguard", 6, &arc, |_| 0.03);
     mesh
 }

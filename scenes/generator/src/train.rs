@@ -1,18 +1,18 @@
-//! A goods train along the X axis: box wagons. The top of the rails is y = 0, z = 0 the middle.
+//! A goods train of box wagons along the X axis, its rails' top at y = 0, its middle at z = 0.
 
 use glam::{DAffine3, DVec3};
 
-use crate::cuboid::cuboid;
-use crate::hash::noise;
+use crate::cuboid::add_cuboid;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
+use crate::noise::noise;
 use crate::revolution::revolve;
-use crate::texture::png;
-use crate::{Files, model};
+use crate::texture::encode_png;
 
-/// From coupling to coupling, in metres.
+/// Length of a wagon from coupling to coupling, in metres.
 const WAGON: f64 = 8.0;
 
-/// Wagons on either side of the one in the middle.
+/// Number of wagons on either side of the middle one.
 const NEIGHBOURS: i32 = 2;
 
 const MATERIALS: &str = "\
@@ -43,8 +43,8 @@ pub(crate) fn files() -> Files {
         let place = DAffine3::from_translation(DVec3::new(WAGON * f64::from(index), 0.0, 0.0));
         mesh.append(&wagon(body), place);
     }
-    let mut files = model("train", &mesh, MATERIALS);
-    files.push(("planks.png".into(), png(128, plank_color)));
+    let mut files = model_files("train", &mesh, MATERIALS);
+    files.push(("planks.png".into(), encode_png(128, plank_color)));
     files
 }
 
@@ -52,7 +52,7 @@ fn wagon(body: &'static str) -> Mesh {
     let mut mesh = Mesh::default();
     let mut add = |material, [x, y, z]: [f64; 3], [length, height, width]: [f64; 3]| {
         let size = DVec3::new(length, height, width);
-        cuboid(&mut mesh, material, DVec3::new(x, y, z), size, 1);
+        add_cuboid(&mut mesh, material, DVec3::new(x, y, z), size, 1);
     };
     add(body, [0.0, 2.2, 0.0], [7.3, 2.4, 2.5]);
     add("roof", [0.0, 3.44, 0.0], [7.5, 0.1, 2.7]);
@@ -77,7 +77,7 @@ fn wagon(body: &'static str) -> Mesh {
     mesh
 }
 
-/// Two on an axle along Z.
+/// Two wheels on an axle along Z.
 fn wheels() -> Mesh {
     let mut mesh = Mesh::default();
     for z in [-0.75, 0.75] {
@@ -98,7 +98,7 @@ fn wheels() -> Mesh {
     mesh
 }
 
-/// Upright planks of 8 texels, a white band with a number's worth of marks in it.
+/// Color of upright planks of 8 texels, and a white band with marks like a number.
 fn plank_color(x: u32, y: u32) -> [f64; 3] {
     let marks = (70..92).contains(&y) && (18..46).contains(&x) && noise(x / 7, 3 + y / 8) < 0.6;
     let light = if x.is_multiple_of(8) {

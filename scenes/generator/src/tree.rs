@@ -1,13 +1,13 @@
-//! A leafy tree.
+//! Leafy trees.
 
 use glam::DVec3;
 
-use crate::ellipsoid::ellipsoid;
-use crate::hash::noise;
+use crate::ellipsoid::add_ellipsoid;
 use crate::mesh::Mesh;
-use crate::revolution::turned;
+use crate::noise::noise;
+use crate::revolution::revolve_upright;
 
-/// Materials that [`tree`] names; paste into a mesh's materials.
+/// Materials of [`add_tree`], for the MTL file of its mesh.
 pub(crate) const MATERIALS: &str = "\
 newmtl bark
 Kd 0.2 0.14 0.09
@@ -18,13 +18,13 @@ Kd 0.26 0.42 0.12
 ";
 
 /// Adds a tree `height` metres high; trees of other `kind`s have other crowns.
-pub(crate) fn tree(mesh: &mut Mesh, foot: DVec3, height: f64, kind: u32) {
+pub(crate) fn add_tree(mesh: &mut Mesh, foot: DVec3, height: f64, kind: u32) {
     let trunk = [
         (0.05 * height, 0.0),
         (0.035 * height, 0.3 * height),
         (0.02 * height, 0.6 * height),
     ];
-    turned(mesh, "bark", 6, &trunk, foot);
+    revolve_upright(mesh, "bark", 6, &trunk, foot);
     for blob in 0..4 {
         let random = |seed: u32| noise(7 * kind + blob, seed) - 0.5;
         let centre = DVec3::new(0.34 * random(1), 0.66 + 0.3 * random(2), 0.34 * random(3));
@@ -35,6 +35,6 @@ pub(crate) fn tree(mesh: &mut Mesh, foot: DVec3, height: f64, kind: u32) {
             "crown_light"
         };
         let radii = height * radius * DVec3::new(1.0, 0.85, 1.0);
-        ellipsoid(mesh, material, foot + height * centre, radii, [6, 4]);
+        add_ellipsoid(mesh, material, foot + height * centre, radii, [6, 4]);
     }
 }

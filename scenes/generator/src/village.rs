@@ -2,12 +2,13 @@
 
 use glam::{DAffine3, DVec2, DVec3};
 
-use crate::cuboid::cuboid;
-use crate::hash::{noise, soft_noise};
+use crate::cuboid::add_cuboid;
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
-use crate::prism::{face, prism};
-use crate::texture::png;
-use crate::{Files, model, tree};
+use crate::noise::{noise, soft_noise};
+use crate::prism::{add_face, add_prism};
+use crate::texture::encode_png;
+use crate::tree;
 
 /// Half the length of the ground, in metres.
 const HALF_LENGTH: f64 = 1600.0;
@@ -30,20 +31,20 @@ Kd 0.2 0.26 0.3
 
 pub(crate) fn files() -> Files {
     let mut mesh = Mesh::default();
-    mesh.surface(
+    mesh.add_surface(
         [16, 16],
         |_, _| "fields",
         |u, v| HALF_LENGTH * DVec3::new(2.0 * u - 1.0, 0.0, 1.0 - 2.0 * v),
     );
     mesh.repeat_texture(DVec2::splat(8.0));
-    cuboid(
+    add_cuboid(
         &mut mesh,
         "road",
         DVec3::new(0.0, 0.2, -300.0),
         DVec3::new(9.0, 0.4, 1800.0),
         1,
     );
-    cuboid(
+    add_cuboid(
         &mut mesh,
         "road",
         DVec3::new(0.0, 0.2, -190.0),
@@ -63,22 +64,22 @@ pub(crate) fn files() -> Files {
         mesh.append(&house(size), DAffine3::from_translation(at) * turn);
         if index.is_multiple_of(2) {
             let beside = at + DVec3::new(side * 14.0, 0.0, 5.0 - 10.0 * random(5));
-            tree::tree(&mut mesh, beside, 7.0 + 6.0 * random(6), index);
+            tree::add_tree(&mut mesh, beside, 7.0 + 6.0 * random(6), index);
         }
     }
     mesh.append(
         &church(),
         DAffine3::from_translation(DVec3::new(-30.0, 0.0, -170.0)),
     );
-    let mut files = model("village", &mesh, &format!("{MATERIALS}{}", tree::MATERIALS));
-    files.push(("fields.png".into(), png(128, field_color)));
+    let mut files = model_files("village", &mesh, &format!("{MATERIALS}{}", tree::MATERIALS));
+    files.push(("fields.png".into(), encode_png(128, field_color)));
     files
 }
 
-/// Walls, windows and a gabled roof with its ridge along X.
+/// House with windows and a gabled roof, its ridge along X.
 fn house(size: DVec3) -> Mesh {
     let mut mesh = Mesh::default();
-    cuboid(
+    add_cuboid(
         &mut mesh,
         "plaster",
         DVec3::new(0.0, 0.5 * size.y, 0.0),
@@ -95,7 +96,7 @@ fn house(size: DVec3) -> Mesh {
                     side * (0.5 * size.z + 0.1),
                 )
             });
-            face(&mut mesh, "window", &pane);
+            add_face(&mut mesh, "window", &pane);
         }
     }
     add_roof(&mut mesh, size, 0.65 * size.z);
@@ -111,19 +112,19 @@ fn add_roof(mesh: &mut Mesh, size: DVec3, height: f64) {
             at(side, height, 0.0),
             at(-side, height, 0.0),
         ];
-        face(mesh, "tiles", &slope);
+        add_face(mesh, "tiles", &slope);
         let gable = [
             at(0.93 * side, 0.0, side),
             at(0.93 * side, 0.0, -side),
             at(0.93 * side, height, 0.0),
         ];
-        face(mesh, "plaster", &gable);
+        add_face(mesh, "plaster", &gable);
     }
 }
 
 fn church() -> Mesh {
     let mut mesh = house(DVec3::new(30.0, 10.0, 13.0));
-    cuboid(
+    add_cuboid(
         &mut mesh,
         "plaster",
         DVec3::new(-18.0, 13.0, 0.0),
@@ -132,7 +133,7 @@ fn church() -> Mesh {
     );
     let corners = [(-4.5, 0.0), (4.5, 0.0), (0.0, 18.0)].map(DVec2::from);
     let mut gable = Mesh::default();
-    prism(&mut gable, "spire", &corners, [-4.5, 4.5]);
+    add_prism(&mut gable, "spire", &corners, [-4.5, 4.5]);
     mesh.append(
         &gable,
         DAffine3::from_translation(DVec3::new(-18.0, 26.0, 0.0)),
@@ -140,7 +141,7 @@ fn church() -> Mesh {
     mesh
 }
 
-/// Patches of 32 texels, each with furrows of its own.
+/// Color of patches of 32 texels, each with furrows of its own.
 fn field_color(x: u32, y: u32) -> [f64; 3] {
     let [column, row] = [x / 32, y / 32];
     let kind = noise(column + 3, row + 8);

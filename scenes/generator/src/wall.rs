@@ -1,46 +1,46 @@
-//! Walls that stand behind a mover.
+//! Walls that stand behind moving objects.
 
 use glam::{DAffine3, DVec2, DVec3};
 
-use crate::hash::noise;
+use crate::files::{Files, model_files};
 use crate::mesh::{Mesh, Vertex};
-use crate::texture::png;
-use crate::{Files, model};
+use crate::noise::noise;
+use crate::texture::encode_png;
 
-/// A plain mid-grey wall, unlit.
+/// Plain mid-grey wall, unlit.
 pub(crate) fn plain() -> Files {
     let materials = "newmtl wall\nKd 0 0 0\nKe 0.2 0.2 0.2\n";
-    model("wall", &wall(), materials)
+    model_files("wall", &wall(), materials)
 }
 
-/// A wall of small patches, each with a fine pattern of its own, unlit.
+/// Wall of small patches, each with a fine pattern of its own, unlit.
 pub(crate) fn patchwork() -> Files {
     let materials = "newmtl wall\nKd 0 0 0\nKe 0.6 0.6 0.6\nmap_Ke wall.png\n";
-    let mut files = model("wall", &wall(), materials);
-    files.push(("wall.png".into(), png(256, patch_color)));
+    let mut files = model_files("wall", &wall(), materials);
+    files.push(("wall.png".into(), encode_png(256, patch_color)));
     files
 }
 
-/// A brick wall.
+/// Brick wall.
 pub(crate) fn brick() -> Files {
     let materials = "newmtl wall\nKd 1 1 1\nmap_Kd wall.png\n";
-    let mut files = model("wall", &wall(), materials);
-    files.push(("wall.png".into(), png(256, brick_color)));
+    let mut files = model_files("wall", &wall(), materials);
+    files.push(("wall.png".into(), encode_png(256, brick_color)));
     files
 }
 
-/// A wall of boards.
+/// Wall of boards.
 pub(crate) fn boards() -> Files {
     let materials = "newmtl wall\nKd 1 1 1\nmap_Kd wall.png\n";
-    let mut files = model("wall", &wall(), materials);
-    files.push(("wall.png".into(), png(128, crate::ground::boards)));
+    let mut files = model_files("wall", &wall(), materials);
+    files.push(("wall.png".into(), encode_png(128, crate::ground::boards)));
     files
 }
 
-/// 12 m x 8 m about the origin, facing +Z, of tiles of 2 m that bear the whole texture each.
+/// Wall of 12 m x 8 m about the origin that faces +Z; the texture covers 2 m.
 fn wall() -> Mesh {
     let mut tile = Mesh::default();
-    tile.polygon(
+    tile.add_polygon(
         "wall",
         &[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(u, v)| Vertex {
             position: DVec3::new(2.0 * u, 2.0 * v, 0.0),
@@ -48,7 +48,7 @@ fn wall() -> Mesh {
             texcoord: DVec2::new(u, v),
         }),
     );
-    let mut wall = Mesh::default();
+    let mut mesh = Mesh::default();
     for row in 0..4 {
         for column in 0..6 {
             let corner = DVec3::new(
@@ -56,13 +56,13 @@ fn wall() -> Mesh {
                 2.0 * f64::from(row) - 4.0,
                 0.0,
             );
-            wall.append(&tile, DAffine3::from_translation(corner));
+            mesh.append(&tile, DAffine3::from_translation(corner));
         }
     }
-    wall
+    mesh
 }
 
-/// Patches of 32 texels (a quarter of a metre); features of 2 to 6 texels.
+/// Color of patches of 32 texels (a quarter of a metre) with features of 2 to 6 texels.
 fn patch_color(x: u32, y: u32) -> [f64; 3] {
     let (column, row) = (x / 32, y / 32);
     let period = 4 + 2 * (noise(column + 9, row + 5) * 4.0) as u32;
@@ -79,7 +79,7 @@ fn patch_color(x: u32, y: u32) -> [f64; 3] {
     color.map(|component| if light { component } else { component * 0.3 })
 }
 
-/// Courses of 32 texels, bricks of 64, every second course shifted by half a brick; mortar of 4 texels.
+/// Color of bricks of 64 x 32 texels with mortar of 4 texels, every second course shifted by half a brick.
 fn brick_color(x: u32, y: u32) -> [f64; 3] {
     let course = y / 32;
     let along = (x + 32 * (course % 2)) % 256;

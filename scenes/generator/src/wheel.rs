@@ -1,12 +1,12 @@
-//! A car's wheel: its rim shows that it turns.
+//! The wheel of a car, whose rim shows that it turns.
 
 use glam::{DAffine3, DVec3};
 
+use crate::files::{Files, model_files};
 use crate::mesh::Mesh;
 use crate::revolution::revolve;
-use crate::{Files, model};
 
-/// In metres; the axle is the Z axis.
+/// Radius about the axle, the Z axis, in metres.
 pub(crate) const RADIUS: f64 = 0.32;
 
 const HALF_WIDTH: f64 = 0.11;
@@ -44,5 +44,5 @@ pub(crate) fn files() -> Files {
     mesh.append(&rim, DAffine3::IDENTITY);
     let half_turn = DAffine3::from_axis_angle(DVec3::Y, std::f64::consts::PI);
     mesh.append(&rim, half_turn);
-    model("wheel", &mesh, MATERIALS)
+    model_files("wheel", &mesh, MATERIALS)
 }

@@ -301,7 +301,7 @@ fn a_chain_of_too_many_parents_is_refused_without_recursion() {
             format!("parent = \"o{}\"", (object + 1) % 10_000)
         });
     });
-    let found = "objects are each other's parents: o0 -> o1 -> o2 -> o3 -> o4 -> o5 -> o6 -> o7 -> ... -> o9993";
+    let found = "the parents of objects form a cycle: o0 -> o1 -> o2 -> o3 -> o4 -> o5 -> o6 -> o7 -> ... -> o9993";
     refused(&bench, &["scene.toml:22:", found]);
 }
 
@@ -355,7 +355,7 @@ fn a_text_that_nests_without_end_is_refused() {
         bench.write("scene.toml", &text);
         refused(
             &bench,
-            &["scene.toml:", "lie in one another; allowed: up to 80"],
+            &["scene.toml:", "nested too deeply; allowed: up to 80"],
         );
     }
 }

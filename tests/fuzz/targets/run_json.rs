@@ -5,7 +5,7 @@ use std::fs;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use cli::{annotations, check_text, compare_table, junit, summary, table};
+use cli::{annotations, check_text, compare_table, junit, run_table, summary};
 use report::{LARGEST_PAGE, compare_page, report};
 use suite::{
     Acceptance, Baseline, Finding, Judgement, Margin, Run, RunBounds, Side, accept, add_evidence,
@@ -103,7 +103,7 @@ pub fn of(place: &Place, name: &str) -> Seed {
 }
 
 fn read_by_all(run: &Run, folder: &Path, place: &Place) {
-    drop(table(run));
+    drop(run_table(run));
     let mut findings = judge(run, &bounds(run, place));
     drop(add_evidence(run, &mut findings, folder));
     write_page(run, &findings, folder);

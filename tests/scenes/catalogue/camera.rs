@@ -1,27 +1,27 @@
-//! Cameras that move.
+//! Moving cameras.
 
 use frame::Alignment;
 
 use super::assert_worse;
-use super::shot::{Shot, Take};
+use super::rendered_scene::{RenderSettings, RenderedScene};
 
 #[test]
 fn a_sky_without_velocity_stays_sharp_above_a_fast_pan() {
-    let taken = |sky_velocity| {
-        Shot::taken(
+    let render = |sky_velocity| {
+        RenderedScene::with_settings(
             "pan_sky",
-            Take {
+            RenderSettings {
                 sky_velocity,
-                ..Take::default()
+                ..RenderSettings::default()
             },
         )
     };
-    let [without, with] = [taken(false), taken(true)];
+    let [without, with] = [render(false), render(true)];
     let sky = with.truth(Alignment::Trailing).mean().coverage[0].clone();
-    // Where the sky is seen all the time.
+    // Pixels that show only sky.
     let above = |x: u32, y: u32| f64::from(u8::from(*sky.at(x, y) > 0.999));
     for filter in ["velocity_gather:fine", "jump_flood:corrected"] {
-        let error = [&without, &with].map(|shot| shot.error_over(filter, above));
+        let error = [&without, &with].map(|scene| scene.squared_error(filter, above));
         // Measured 114 and 39.
         assert_worse(&format!("sky in {filter}"), error, 10.0);
     }
@@ -29,9 +29,9 @@ fn a_sky_without_velocity_stays_sharp_above_a_fast_pan() {
 
 #[test]
 fn a_roll_bends_trails_away_from_straight_smears_far_from_the_axis() {
-    let shots = ["roll@40deg", "roll@5deg"].map(Shot::of);
+    let scenes = ["roll@40deg", "roll@5deg"].map(RenderedScene::new);
     let radius = |x: u32, y: u32| (f64::from(x) - 79.5).hypot(f64::from(y) - 44.5);
-    // Of the ground: in the sky there is little to tell trails by.
+    // Only the ground: the sky has little detail.
     let between = |from: f64, to: f64| {
         move |x: u32, y: u32| f64::from(u8::from((from..to).contains(&radius(x, y)) && y > 45))
     };
@@ -41,9 +41,9 @@ fn a_roll_bends_trails_away_from_straight_smears_far_from_the_axis() {
         ("velocity_gather:fine", 2.0),
     ] {
         let error = |from, to| {
-            shots
+            scenes
                 .each_ref()
-                .map(|shot| shot.error_over(filter, between(from, to)))
+                .map(|scene| scene.squared_error(filter, between(from, to)))
         };
         let far = error(60.0, 92.0);
         assert_worse(&format!("far from the axis in {filter}"), far, times);
@@ -55,38 +55,38 @@ fn a_roll_bends_trails_away_from_straight_smears_far_from_the_axis() {
 
 #[test]
 fn the_world_that_rushes_by_smears_the_dashboard() {
-    let shots = ["cockpit", "cockpit@crawling"].map(Shot::of);
+    let scenes = ["cockpit", "cockpit@crawling"].map(RenderedScene::new);
     // Measured 71, 16 and 7.7.
     for (filter, times) in [
         ("mcguire:motion_blur_demo", 20.0),
         ("jimenez:o3de", 8.0),
         ("jimenez:kajiya_scaled", 4.0),
     ] {
-        let dashboard = shots
+        let dashboard = scenes
             .each_ref()
-            .map(|shot| shot.object_label_tv(filter, "dashboard"));
+            .map(|scene| scene.object_label_tv(filter, "dashboard"));
         assert_worse(&format!("dashboard in {filter}"), dashboard, times);
     }
     // A filter that compares depth keeps it: measured 0.003, the wrong ones 0.15, 0.32 and 0.02.
-    let kept = shots[0].object_label_tv("jimenez:hdrp", "dashboard");
-    assert!(kept < 0.008, "{kept}");
+    let bleed = scenes[0].object_label_tv("jimenez:hdrp", "dashboard");
+    assert!(bleed < 0.008, "{bleed}");
 }
 
 #[test]
 fn the_road_that_comes_nearer_smears_over_the_car_ahead() {
-    let shots = ["dolly", "dolly@crawling"].map(Shot::of);
+    let scenes = ["dolly", "dolly@crawling"].map(RenderedScene::new);
     // Measured 87, 7.1 and 15.
     for (filter, times) in [
         ("mcguire:motion_blur_demo", 20.0),
         ("jimenez:wicked", 4.0),
         ("jimenez:kajiya_scaled", 8.0),
     ] {
-        let car = shots
+        let car = scenes
             .each_ref()
-            .map(|shot| shot.object_label_tv(filter, "car"));
+            .map(|scene| scene.object_label_tv(filter, "car"));
         assert_worse(&format!("car in {filter}"), car, times);
     }
     // A filter that compares depth keeps it: measured 0.003, the wrong ones 0.20, 0.27 and 0.03.
-    let kept = shots[0].object_label_tv("jimenez:hdrp", "car");
-    assert!(kept < 0.008, "{kept}");
+    let bleed = scenes[0].object_label_tv("jimenez:hdrp", "car");
+    assert!(bleed < 0.008, "{bleed}");
 }

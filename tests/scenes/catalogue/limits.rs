@@ -1,4 +1,4 @@
-//! Where filters meet their limits: borders, brightness, slow and bent motion, slopes, weights.
+//! Limits of filters: borders, brightness, slow and bent motion, slopes, weights.
 
 use std::fs;
 use std::path::Path;
@@ -8,86 +8,91 @@ use frame::{Alignment, Image, Picture};
 use tests::presets::{every_preset, preset_name};
 
 use super::assert_worse;
-use super::shot::{Shot, Take, chosen, value};
+use super::rendered_scene::{RenderSettings, RenderedScene, find_preset, value};
 
 #[test]
 fn what_lies_beyond_the_border_is_missed() {
-    let taken = |guard_band| {
-        let take = Take {
+    let render = |guard_band| {
+        let settings = RenderSettings {
             guard_band,
-            ..Take::default()
+            ..RenderSettings::default()
         };
-        Shot::taken("frame_edge", take)
+        RenderedScene::with_settings("frame_edge", settings)
     };
-    let [cut, whole] = [0, 24].map(taken);
+    let [cut, whole] = [0, 24].map(render);
     let border = |x: u32, y: u32| f64::from(u8::from(x.min(159 - x).min(y).min(89 - y) < 6));
     // Measured 6.3 and 6.8: the trailing shutter saw a part of each smear that lies beyond the border.
     for filter in ["jump_flood:corrected", "velocity_gather:fine"] {
-        let error = [&cut, &whole].map(|shot| shot.error_over(filter, border));
+        let error = [&cut, &whole].map(|scene| scene.squared_error(filter, border));
         assert_worse(&format!("border in {filter}"), error, 3.0);
     }
 }
 
 #[test]
 fn motion_below_a_pixel_is_left_sharp() {
-    // At the size that the speeds are given for.
-    let take = Take {
+    // The size to which the scenes' speeds refer.
+    let settings = RenderSettings {
         width: 640,
         height: 360,
         samples_per_pixel: 1,
-        ..Take::default()
+        ..RenderSettings::default()
     };
-    let [creeping, hurried] = ["creep", "creep@hurried"].map(|name| Shot::taken(name, take));
-    // The part of the pixels that move and whose colour a filter changes.
-    let changed = |shot: &Shot, filter: &str| {
-        let (filter, preset) = chosen(filter);
-        let color = &shot.frame.color;
-        let output = shot.run(&filter, &preset, &[color]).remove(0);
-        // A fifth of the slowest; still things move by rounding.
+    let [creeping, hurried] =
+        ["creep", "creep@hurried"].map(|name| RenderedScene::with_settings(name, settings));
+    // Share of the moving pixels whose colour a filter changes.
+    let changed = |scene: &RenderedScene, filter: &str| {
+        let (filter, preset) = find_preset(filter);
+        let color = &scene.frame.color;
+        let output = scene.run_filter(&filter, &preset, &[color]).remove(0);
+        // A fifth of the slowest speed; rounding moves still things a little.
         let moves = |velocity: &[f32; 2]| velocity[0].hypot(velocity[1]) > 0.02;
-        let moving: Vec<usize> = (shot.frame.velocity.pixels.iter().enumerate())
+        let moving: Vec<usize> = (scene.frame.velocity.pixels.iter().enumerate())
             .filter(|(_, velocity)| moves(velocity))
             .map(|(at, _)| at)
             .collect();
         let differs = |at: &&usize| output.pixels[**at] != color.pixels[**at];
         moving.iter().filter(differs).count() as f64 / moving.len() as f64
     };
-    // Their thresholds are 2, 1 and 0.5 pixels. Measured 0.61, 1.00 and 0.61 of those who hurry, 0, 0.40 and 0 of those who creep.
+    // Their thresholds are 2, 1 and 0.5 pixels. Measured 0.61, 1.00 and 0.61 of the hurrying ones,
+    // 0, 0.40 and 0 of the creeping ones.
     for (filter, most) in [
         ("kino:default", 0.0),
         ("bevy:high", 0.5),
         ("mcguire:paper", 0.0),
     ] {
-        let [fast, slow] = [&hurried, &creeping].map(|shot| changed(shot, filter));
+        let [fast, slow] = [&hurried, &creeping].map(|scene| changed(scene, filter));
         println!("{filter} changes {slow:.3}, where they hurry {fast:.3}");
         assert!(slow <= most && fast > 0.55, "{filter}: {slow}, {fast}");
     }
-    // It can be done: measured 0.997.
+    // One filter does it: measured 0.997.
     let all = changed(&creeping, "velocity_gather:fine");
     assert!(all > 0.95, "{all}");
 }
 
 #[test]
 fn averages_in_a_display_s_colours_lose_the_light_of_a_neon_sign() {
-    let shots = ["neon", "neon@dim"].map(Shot::of);
-    let (filter, preset) = chosen("velocity_gather:fine");
-    let toned = |shot: &Shot| {
-        let compressed = shot
+    let scenes = ["neon", "neon@dim"].map(RenderedScene::new);
+    let (filter, preset) = find_preset("velocity_gather:fine");
+    let average_compressed = |scene: &RenderedScene| {
+        let compressed = scene
             .frame
             .color
             .map(|pixel| pixel.map(|part| part / (1.0 + part)));
-        let output = shot.run(&filter, &preset, &[&compressed]).remove(0);
+        let output = scene.run_filter(&filter, &preset, &[&compressed]).remove(0);
         let color: Image = output.map(|pixel| pixel.map(|part| part / (1.0 - part)));
         Picture {
             color,
-            coverage: shot.frame.coverage.clone(),
+            coverage: scene.frame.coverage.clone(),
         }
     };
     // Measured 25 and 1.4, without the cause 1.0: bright light is a matter of linear averages.
     for (metric, least) in [("mse_moving", 5.0), ("flip_hdr_moving", 1.2)] {
-        let times = shots.each_ref().map(|shot| {
-            let wrong = value(&shot.measured(&toned(shot), Alignment::Trailing), metric);
-            wrong / shot.score("velocity_gather:fine", metric)
+        let times = scenes.each_ref().map(|scene| {
+            let wrong = value(
+                &scene.measure(&average_compressed(scene), Alignment::Trailing),
+                metric,
+            );
+            wrong / scene.score("velocity_gather:fine", metric)
         });
         let what = format!("{metric} of averages in a display's colours over that of linear ones");
         assert_worse(&what, times, least);
@@ -96,40 +101,42 @@ fn averages_in_a_display_s_colours_lose_the_light_of_a_neon_sign() {
 
 #[test]
 fn one_velocity_does_not_tell_a_bounce_or_a_brake() {
-    let shots = ["reversal", "reversal@steady"].map(Shot::of);
+    let scenes = ["reversal", "reversal@steady"].map(RenderedScene::new);
     // Trailing: measured 4.1 and 1.8.
     for (filter, times) in [("jump_flood:corrected", 2.0), ("velocity_gather:fine", 1.4)] {
-        let variation = shots.each_ref().map(|shot| shot.score(filter, "label_tv"));
+        let variation = scenes
+            .each_ref()
+            .map(|scene| scene.score(filter, "label_tv"));
         assert_worse(&format!("label_tv of {filter}"), variation, times);
     }
     // Centred, where half of the brake makes up for the other half: measured 2.3.
-    let ball = shots
+    let ball = scenes
         .each_ref()
-        .map(|shot| shot.object_label_tv("jimenez:hdrp", "ball"));
+        .map(|scene| scene.object_label_tv("jimenez:hdrp", "ball"));
     assert_worse("ball in jimenez:hdrp", ball, 1.5);
 }
 
 #[test]
 fn on_a_slope_the_fastest_nearby_is_not_what_a_pixel_makes() {
-    let shots = ["ramp_floor", "ramp_floor@facing"].map(Shot::of);
-    let flip = shots
+    let scenes = ["ramp_floor", "ramp_floor@facing"].map(RenderedScene::new);
+    let flip = scenes
         .each_ref()
-        .map(|shot| shot.score("jimenez:kajiya_scaled", "flip_moving"));
+        .map(|scene| scene.score("jimenez:kajiya_scaled", "flip_moving"));
     // Measured 2.3; 1.2 for what moves every pixel by itself.
     assert_worse("flip_moving of jimenez:kajiya_scaled", flip, 1.6);
     // It is hardly better than no blur: it leaves 0.76 of its squared error, and 0.03 before the wall that faces the camera.
-    let left = shots
+    let left = scenes
         .each_ref()
-        .map(|shot| shot.left_by("jimenez:kajiya_scaled", "mse_moving"));
+        .map(|scene| scene.error_left_by("jimenez:kajiya_scaled", "mse_moving"));
     assert!(left[0] > 0.65 && left[1] < 0.2, "{left:?}");
 }
 
 #[test]
 fn light_that_is_the_same_everywhere_comes_out_unchanged_and_weights_that_amplify_show() {
-    let flat = Shot::of("flat_field");
+    let flat = RenderedScene::new("flat_field");
     for (filter, settings) in every_preset() {
         let output = flat
-            .run(&filter, &settings.preset, &[&flat.frame.color])
+            .run_filter(&filter, &settings.preset, &[&flat.frame.color])
             .remove(0);
         let differences = output.pixels.iter().zip(&flat.frame.color.pixels);
         let worst = differences
@@ -139,16 +146,19 @@ fn light_that_is_the_same_everywhere_comes_out_unchanged_and_weights_that_amplif
         assert!(worst < 1e-5, "{}: {worst}", preset_name(&filter, &settings));
     }
     let folder = tempfile::tempdir().unwrap();
-    let planted = amplifying(folder.path());
-    let painted = Shot::of("flat_field@painted");
-    let error = |shot: &Shot, filter: &Filter| {
-        let color = shot.run(filter, "paper", &[&shot.frame.color]).remove(0);
-        let coverage = shot.frame.coverage.clone();
-        let scores = shot.measured(&Picture { color, coverage }, Alignment::Centred);
+    let planted = write_amplifying_filter(folder.path());
+    let painted = RenderedScene::new("flat_field@painted");
+    let error = |scene: &RenderedScene, filter: &Filter| {
+        let color = scene
+            .run_filter(filter, "paper", &[&scene.frame.color])
+            .remove(0);
+        let coverage = scene.frame.coverage.clone();
+        let scores = scene.measure(&Picture { color, coverage }, Alignment::Centred);
         value(&scores, "mae_moving")
     };
     let sound = Filter::builtin("mcguire").unwrap();
-    let times = [&flat, &painted].map(|shot| error(shot, &planted) / error(shot, &sound).max(1e-7));
+    let times =
+        [&flat, &painted].map(|scene| error(scene, &planted) / error(scene, &sound).max(1e-7));
     // Measured 2.5e5 (32-bit rounding is all that the sound ones err by) and 2.3.
     assert_worse(
         "error of amplifying weights over that of sound ones",
@@ -157,8 +167,8 @@ fn light_that_is_the_same_everywhere_comes_out_unchanged_and_weights_that_amplif
     );
 }
 
-/// A copy of a shipped filter whose weights add up to 1.05.
-fn amplifying(folder: &Path) -> Filter {
+/// Writes a copy of a shipped filter whose weights add up to 1.05.
+fn write_amplifying_filter(folder: &Path) -> Filter {
     let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders/mcguire");
     let copy = folder.join("mcguire");
     fs::create_dir(&copy).unwrap();

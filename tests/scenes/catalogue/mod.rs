@@ -1,17 +1,17 @@
-//! Every scene of the catalogue exposes what it says: a filter that falls for it is clearly worse there than where the cause
-//! is taken away.
+//! Proofs that each scene of the catalogue exposes its cause: a filter that fails is clearly worse there than in the variant
+//! without the cause.
 //!
-//! Shots are small, so that speeds in pixels are a quarter of those in the scenes' files.
+//! Renders are small, so that speeds in pixels are a quarter of those in the scenes' files.
 
 mod camera;
 mod deforming;
 mod limits;
 mod overlap;
+mod rendered_scene;
 mod rotation;
-mod shot;
 mod thin;
 
-/// Asserts that a score is so many times what it is where the cause is taken away, and shows both.
+/// Asserts that a score is at least a multiple of the score without the cause, and prints both.
 fn assert_worse(what: &str, [there, without]: [f64; 2], times: f64) {
     println!(
         "{what}: {there:.4}, without the cause {without:.4}: {:.2} times",

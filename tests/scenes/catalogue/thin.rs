@@ -1,11 +1,11 @@
-//! Things that are thin, or small.
+//! Thin and small things.
 
 use super::assert_worse;
-use super::shot::Shot;
+use super::rendered_scene::RenderedScene;
 
-/// A score of one of the objects that move.
-fn of_object(shot: &Shot, filter: &str, object: &str, metric: &str) -> f64 {
-    let scores = shot.scores(filter);
+/// Returns a score of a moving object.
+fn object_score(scene: &RenderedScene, filter: &str, object: &str, metric: &str) -> f64 {
+    let scores = scene.score_filter(filter);
     let found = (scores.objects.iter()).find(|scores| scores.object == object);
     let found = found.expect("the scene has it");
     let score = match metric {
@@ -20,9 +20,9 @@ fn of_object(shot: &Shot, filter: &str, object: &str, metric: &str) -> f64 {
 
 #[test]
 fn a_dilation_in_steps_of_8_pixels_loses_the_smear_of_wires() {
-    let [thin, wide] = ["wires", "wires@wide"].map(Shot::of);
+    let [thin, wide] = ["wires", "wires@wide"].map(RenderedScene::new);
     let missing =
-        |filter: &str| [&thin, &wide].map(|shot| of_object(shot, filter, "line", "deficit"));
+        |filter: &str| [&thin, &wide].map(|scene| object_score(scene, filter, "line", "deficit"));
     // Measured 2.4.
     assert_worse(
         "missing of jump_flood:paper",
@@ -40,22 +40,22 @@ fn a_dilation_in_steps_of_8_pixels_loses_the_smear_of_wires() {
 
 #[test]
 fn ornaments_become_heavier_with_their_speed() {
-    let [fast, slow] = ["ornaments@48px", "ornaments@8px"].map(Shot::of);
+    let [fast, slow] = ["ornaments@48px", "ornaments@8px"].map(RenderedScene::new);
     for (filter, times) in [
         // Measured 163 and 32; nothing lies beside the rows of the ornaments.
         ("guertin:paper", 10.0),
         ("mcguire:motion_blur_demo", 5.0),
     ] {
-        let gain = [&fast, &slow].map(|shot| of_object(shot, filter, "ornaments", "row_gain"));
+        let gain = [&fast, &slow].map(|scene| object_score(scene, filter, "ornaments", "row_gain"));
         assert_worse(&format!("gain of rows in {filter}"), gain, times);
     }
 }
 
 #[test]
 fn leaves_are_harder_than_a_smooth_bush() {
-    let [leafy, smooth] = ["foliage", "foliage@smooth"].map(Shot::of);
+    let [leafy, smooth] = ["foliage", "foliage@smooth"].map(RenderedScene::new);
     for filter in ["guertin:paper", "mcguire:paper"] {
-        let variation = [&leafy, &smooth].map(|shot| shot.score(filter, "label_tv"));
+        let variation = [&leafy, &smooth].map(|scene| scene.score(filter, "label_tv"));
         // Measured 1.75 and 1.70.
         assert_worse(&format!("label_tv of {filter}"), variation, 1.4);
     }

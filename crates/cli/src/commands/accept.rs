@@ -1,9 +1,9 @@
-//! `shuttertruth accept`
+//! The command `accept`.
 
 use suite::{Acceptance, Baseline, Error, Run, accept, refuse_failures};
 
-use super::say;
 use crate::arguments::AcceptArgs;
+use crate::output::print::print;
 
 /// Writes the scores of a finished run into the baseline.
 pub fn execute(args: &AcceptArgs) -> Result<(), Error> {
@@ -30,7 +30,7 @@ pub fn execute(args: &AcceptArgs) -> Result<(), Error> {
         },
     )?;
     baseline.write(&args.baseline)?;
-    say(&format!(
+    print(&format!(
         "written: {}\n",
         suite::printable_path(&args.baseline)
     ))

@@ -1,14 +1,16 @@
-//! `shuttertruth bench`
+//! The command `bench`.
 
-use crate::output::progress::monitor;
+use std::path::PathBuf;
+
+use suite::{Bench, BenchPlan, Error, bench, open_adapter, printable_path};
+
+use crate::arguments::BenchArgs;
+use crate::output::print::print;
+use crate::output::progress::make_monitor;
 use crate::selection::{Programs, select_filters};
 use crate::tables::bench::bench_table;
-use suite::{Bench, BenchPlan, Error, bench, open_adapter};
 
-use super::say;
-use crate::arguments::BenchArgs;
-
-/// Times what is named, writes `bench.json`, prints the tables.
+/// Times the selected filters, writes `bench.json`, prints the tables.
 pub fn execute(args: &BenchArgs) -> Result<(), Error> {
     // Programs are refused below, for another reason.
     let filters = select_filters(&args.filters, None, &[], Programs::Allowed)?;
@@ -18,7 +20,7 @@ pub fn execute(args: &BenchArgs) -> Result<(), Error> {
             choice.filter.name
         )));
     }
-    let gpu = open_adapter(args.adapter.adapter.as_deref(), monitor(args.quiet))?;
+    let gpu = open_adapter(args.adapter.adapter.as_deref(), make_monitor(args.quiet))?;
     let (width, height) = args.size.unwrap_or(match gpu.adapter.kind.as_str() {
         "software" => (320, 180),
         _ => (1920, 1080),
@@ -30,25 +32,25 @@ pub fn execute(args: &BenchArgs) -> Result<(), Error> {
         rounds: args.rounds,
         as_written: args.as_written,
     };
-    let done = monitor(args.quiet).watch("bench", |watch| bench(plan, &gpu, watch))?;
+    let done = make_monitor(args.quiet).watch("bench", |watch| bench(plan, &gpu, watch))?;
     let json = write_bench(&done, args)?;
     if args.json {
-        return say(&format!("{json}\n"));
+        return print(&format!("{json}\n"));
     }
-    say(&bench_table(&done))?;
-    say(&format!(
+    print(&bench_table(&done))?;
+    print(&format!(
         "\nwritten: {}\n",
-        suite::printable_path(&path(args))
+        printable_path(&bench_path(args))
     ))
 }
 
-/// Returns what stands in the file.
+/// Writes `bench.json` and returns its text.
 fn write_bench(done: &Bench, args: &BenchArgs) -> Result<String, Error> {
     let json = serde_json::to_string_pretty(done).expect("a bench is plain data");
-    frame::write_atomically(&path(args), json.as_bytes())?;
+    frame::write_atomically(&bench_path(args), json.as_bytes())?;
     Ok(json)
 }
 
-fn path(args: &BenchArgs) -> std::path::PathBuf {
+fn bench_path(args: &BenchArgs) -> PathBuf {
     args.out.join("bench.json")
 }

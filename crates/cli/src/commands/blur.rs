@@ -1,15 +1,16 @@
-//! `shuttertruth blur`
+//! The command `blur`.
 
 use std::path::Path;
 
-use crate::selection::select_filters;
 use filters::{FilterError, Input};
 use frame::{ExrFile, Image, Plane, Reprojection, Vectors, read_exr, write_exr};
 use suite::{Error, FilterChoice, Runner, open_gpu, printable_path};
 
-use super::{check_exposure, say};
+use super::render_settings::check_exposure;
 use crate::arguments::BlurArgs;
-use crate::output::progress::monitor;
+use crate::output::print::print;
+use crate::output::progress::make_monitor;
+use crate::selection::select_filters;
 
 /// Runs one filter on one frame file and writes its colour.
 pub fn execute(args: &BlurArgs) -> Result<(), Error> {
@@ -19,10 +20,10 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     let gpu = open_gpu(
         std::slice::from_ref(&choice),
         args.adapter.adapter.as_deref(),
-        monitor(true),
+        make_monitor(true),
     )?;
     let (width, height) = (buffers.color.width, buffers.color.height);
-    let mut runner = Runner::new(gpu.as_ref(), &choice, (width, height), monitor(true))?;
+    let mut runner = Runner::new(gpu.as_ref(), &choice, (width, height), make_monitor(true))?;
     let input = Input {
         color: &[&buffers.color],
         velocity: &buffers.velocity,
@@ -48,13 +49,13 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     file.set("exposure", buffers.exposure);
     file.set("alignment", choice.filter.alignment);
     write_exr(&args.out, &file)?;
-    say(&format!("{}\n", printable_path(&args.out)))
+    print(&format!("{}\n", printable_path(&args.out)))
 }
 
 fn select_filter(args: &BlurArgs) -> Result<FilterChoice, Error> {
-    let words = [args.filter.clone()];
+    let names = [args.filter.clone()];
     let mut filters = select_filters(
-        &words,
+        &names,
         args.preset.as_deref(),
         &args.set,
         args.programs.programs(),
@@ -62,7 +63,7 @@ fn select_filter(args: &BlurArgs) -> Result<FilterChoice, Error> {
     Ok(filters.remove(0).as_written(args.as_written))
 }
 
-/// What a filter needs of a frame file: any OpenEXR file that has the channels will do.
+/// Buffers of a frame file that a filter needs. Any OpenEXR file with these channels will do.
 struct Buffers {
     color: Image,
     velocity: Vectors,
@@ -73,7 +74,7 @@ struct Buffers {
 }
 
 impl Buffers {
-    /// Pixels per row without the guard band.
+    /// Counts the pixels per row without the guard band.
     fn picture_width(&self) -> u32 {
         self.color
             .width
@@ -82,8 +83,8 @@ impl Buffers {
     }
 }
 
-/// The camera's motion between places of the file's rasters, if the file tells it.
-fn reprojection(file: &ExrFile, band: u32) -> Result<Option<Reprojection>, Error> {
+/// Reads the camera's motion between places of the file's rasters, if the file has it.
+fn read_reprojection(file: &ExrFile, band: u32) -> Result<Option<Reprojection>, Error> {
     if !file.attributes.contains_key("reprojection") {
         return Ok(None);
     }
@@ -101,7 +102,7 @@ fn read_buffers(path: &Path, exposure: Option<f64>) -> Result<Buffers, Error> {
         color: file.color("")?,
         velocity: x.zip(&y, |x, y| [*x, *y]),
         depth: file.plane("Z")?,
-        reprojection: reprojection(&file, guard_band)?,
+        reprojection: read_reprojection(&file, guard_band)?,
         guard_band,
         exposure: match exposure {
             Some(exposure) => exposure,

@@ -1,20 +1,20 @@
-//! `shuttertruth calibrate`
+//! The command `calibrate`.
 
 use suite::{
     Error, Plan, Run, calibrate, check_names, open_gpu, printable_path, refuse_failures, run,
 };
 use tracer::{Progress, Watch};
 
-use super::measure::{check_replicates, claim_out, plan, write_run};
-use super::say;
+use super::plan::{check_replicates_for_intervals, claim_out, make_plan};
+use super::run_files::write_run;
 use crate::arguments::CalibrateArgs;
+use crate::output::print::print;
 
-/// Runs with one seed after the other on one adapter after the other, and prints the limits that follow, scene by scene, as
-/// bounds.toml.
+/// Runs once per seed and adapter, and prints the limits that follow as one bounds.toml per scene.
 pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     let out = &args.measure.scenes.out;
-    let (mut plan, bounds) = plan(&args.measure, out.clone())?;
-    check_replicates(plan.render.replicates)?;
+    let (mut plan, bounds) = make_plan(&args.measure, out.clone())?;
+    check_replicates_for_intervals(plan.render.replicates)?;
     plan.intervals = true;
     // No limit is on a filter's noise apart from its error.
     plan.jitter_frames = 0;
@@ -26,13 +26,13 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     check_seeds(plan.render.seed, args.runs)?;
     let _claim = claim_out(&plan)?;
     let monitor = plan.monitor;
-    let runs = monitor.watch("runs in all", |watch| all_runs(args, &mut plan, watch))?;
+    let runs = monitor.watch("runs in all", |watch| run_all(args, &mut plan, watch))?;
     let calibration = calibrate(&runs, |case| &bounds[&case.scene], &args.metrics);
     for scene in calibration.scores.keys() {
         let path = out.join(scene).with_extension("bounds.toml");
         let text = calibration.toml(scene);
         frame::write_atomically(&path, text.as_bytes())?;
-        say(&format!("# {}\n\n{text}", printable_path(&path)))?;
+        print(&format!("# {}\n\n{text}", printable_path(&path)))?;
     }
     Ok(())
 }
@@ -48,9 +48,9 @@ fn check_seeds(first: u64, runs: u32) -> Result<(), Error> {
     }
 }
 
-/// One run per adapter and seed.
-fn all_runs(args: &CalibrateArgs, plan: &mut Plan, watch: Watch) -> Result<Vec<Run>, Error> {
-    let adapters = adapters(args);
+/// Runs once per adapter and seed.
+fn run_all(args: &CalibrateArgs, plan: &mut Plan, watch: Watch) -> Result<Vec<Run>, Error> {
+    let adapters = chosen_adapters(args);
     let total = adapters.len() as u64 * u64::from(args.runs);
     let first = plan.render.seed;
     let mut runs: Vec<Run> = Vec::new();
@@ -66,17 +66,17 @@ fn all_runs(args: &CalibrateArgs, plan: &mut Plan, watch: Watch) -> Result<Vec<R
             // The truths serve every adapter.
             plan.out = args.measure.scenes.out.join(format!("seed_{seed}"));
             let _claim = claim_out(plan)?;
-            let run = run(plan, gpu.as_ref(), std::env::args().collect())?;
-            write_run(&run, &plan.out)?;
-            refuse_failures(&run.failures)?;
-            runs.push(run);
+            let finished = run(plan, gpu.as_ref(), std::env::args().collect())?;
+            write_run(&finished, &plan.out)?;
+            refuse_failures(&finished.failures)?;
+            runs.push(finished);
         }
     }
     Ok(runs)
 }
 
-/// Those that are named; the fastest where none is.
-fn adapters(args: &CalibrateArgs) -> Vec<Option<&str>> {
+/// Lists the adapters to run on: those that are named, or the fastest.
+fn chosen_adapters(args: &CalibrateArgs) -> Vec<Option<&str>> {
     match args.adapters.as_slice() {
         [] => vec![None],
         named => named.iter().map(|name| Some(name.as_str())).collect(),

@@ -1,30 +1,32 @@
-//! `shuttertruth check`
+//! The command `check`.
 
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::output::github::{annotations, summary};
-use crate::output::junit::junit;
-use crate::tables::check::check_text;
 use frame::FileError;
 use suite::{
-    BOUNDS_FILE, Baseline, Check, Error, Finding, Judgement, Margin, Run, RunBounds, add_evidence,
+    BOUNDS_FILE, Baseline, Error, Finding, Judgement, Margin, Run, RunBounds, add_evidence,
     bounded_size, check, check_bounded, check_names, compare, judge, open_gpu, read_bounds,
     read_bounds_file, refuse_tracked, run,
 };
 
-use super::measure::{adapter_line, check_replicates, claim_out, plan, write_judged};
-use super::report::write_report;
-use super::say;
+use super::pages::{write_run_page, written_lines};
+use super::plan::{check_replicates_for_intervals, claim_out, make_plan};
+use super::run_files::write_judged_run;
 use crate::arguments::CheckArgs;
+use crate::output::annotations::{annotations, summary};
+use crate::output::junit::junit;
+use crate::output::print::{print, print_json};
+use crate::tables::adapter::adapter_text;
+use crate::tables::check::check_text;
 
-/// Judges a run, one that is made now or one that is finished, and reports in every form that is asked for. What is wrong with
-/// the words of the command line, the bounds or the baseline is said before anything is rendered.
+/// Judges a run, made now or finished before, and reports in every form that is asked for. Refuses wrong arguments, bounds and
+/// baselines before anything is rendered.
 pub fn execute(args: &CheckArgs) -> Result<(), Error> {
     let baseline = args.baseline.as_deref().map(Baseline::read).transpose()?;
-    let margins = margins(&args.measure.scenes.scenes_dir)?;
-    let summary_file = args.github.then(summary_file).transpose()?;
+    let margins = read_margins(&args.measure.scenes.scenes_dir)?;
+    let summary_file = args.github.then(find_summary_file).transpose()?;
     let Judged {
         run,
         findings,
@@ -37,34 +39,34 @@ pub fn execute(args: &CheckArgs) -> Result<(), Error> {
         (Some(baseline), Some(path)) => compare(&run, baseline, &margins, path)?,
         _ => Vec::new(),
     };
-    let page = (args.html.as_deref())
-        .map(|html| write_report(&run, &findings, &folder, html))
-        .transpose()?;
-    let check = check(&run, findings, comparisons);
+    let pages = (args.html.as_deref())
+        .map(|html| write_run_page(&run, &findings, &folder, html))
+        .transpose()?
+        .unwrap_or_default();
+    let checked = check(&run, findings, comparisons);
 
     if let Some(path) = &args.junit {
-        frame::write_atomically(path, junit(&check).as_bytes())?;
+        frame::write_atomically(path, junit(&checked).as_bytes())?;
     }
     if let Some(path) = &summary_file {
-        append(path, &summary(&check))?;
+        append(path, &summary(&checked))?;
     }
     if args.json {
-        say(&json(&check))?;
+        print_json(&checked)?;
     } else {
-        let text = check_text(&check, &folder);
-        let adapter = adapter_line(&run.adapter);
+        let text = check_text(&checked, &folder);
+        let (adapter, pages) = (adapter_text(&run.adapter), written_lines(&pages));
         let other = (baseline.iter()).find(|baseline| !baseline.is_of_class(&run.adapter));
         let note = other.map_or(String::new(), |baseline| {
-            let theirs = adapter_line(&baseline.adapter);
+            let theirs = adapter_text(&baseline.adapter);
             format!("the baseline is of another class of adapter: {theirs}\n")
         });
-        let page = page.unwrap_or_default();
-        say(&format!("{text}adapter: {adapter}\n{note}{page}"))?;
+        print(&format!("{text}adapter: {adapter}\n{note}{pages}"))?;
     }
     if args.github {
-        say(&annotations(&check))?;
+        print(&annotations(&checked))?;
     }
-    check.verdict()
+    checked.verdict()
 }
 
 /// A run, the findings about it, and the folder of its files.
@@ -76,13 +78,13 @@ struct Judged {
 
 /// Measures every case, as `run` does, judges it and looks for evidence.
 fn run_and_judge(args: &CheckArgs, compared: bool) -> Result<Judged, Error> {
-    let (mut plan, bounds) = plan(&args.measure, args.measure.scenes.out.clone())?;
+    let (mut plan, bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
     if let Some((width, height)) = bounded_size(bounds.values(), &plan.filters, args.measure.size)?
     {
         (plan.render.width, plan.render.height) = (width, height);
     }
     plan.intervals = true;
-    check_replicates(plan.render.replicates)?;
+    check_replicates_for_intervals(plan.render.replicates)?;
     let root = &args.measure.scenes.scenes_dir;
     check_names(root, bounds.values(), &plan.filters)?;
     // With a baseline, nothing else need be bounded.
@@ -96,12 +98,12 @@ fn run_and_judge(args: &CheckArgs, compared: bool) -> Result<Judged, Error> {
     }
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref(), plan.monitor)?;
     let _claim = claim_out(&plan)?;
-    let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
-    let mut findings = judge(&run, &bounds);
-    add_evidence(&run, &mut findings, &plan.out)?;
-    write_judged(&run, &findings, &plan.out)?;
+    let finished = run(&plan, gpu.as_ref(), std::env::args().collect())?;
+    let mut findings = judge(&finished, &bounds);
+    add_evidence(&finished, &mut findings, &plan.out)?;
+    write_judged_run(&finished, &findings, &plan.out)?;
     Ok(Judged {
-        run,
+        run: finished,
         findings,
         folder: plan.out,
     })
@@ -120,7 +122,7 @@ fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judge
     };
     refuse_tracked(&folder, "measure it now: shuttertruth check, without a RUN")?;
     let root = &args.measure.scenes.scenes_dir;
-    let bounds = bounds_of(&run, root)?;
+    let bounds = read_run_bounds(&run, root)?;
     let mut findings = judge(&run, &bounds);
     if findings.is_empty() && !compared {
         return Err(Error::Usage(format!(
@@ -141,8 +143,8 @@ fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judge
     })
 }
 
-/// The bounds of a run's scenes, in the folder of scenes that they came from, for pictures of the run's size.
-fn bounds_of(run: &Run, root: &Path) -> Result<RunBounds, Error> {
+/// Reads the bounds of a run's scenes, for pictures of the run's size, from the folder of scenes.
+fn read_run_bounds(run: &Run, root: &Path) -> Result<RunBounds, Error> {
     let mut found = RunBounds::new();
     for case in &run.cases {
         if found.contains_key(&case.scene) {
@@ -162,8 +164,8 @@ fn bounds_of(run: &Run, root: &Path) -> Result<RunBounds, Error> {
     Ok(found)
 }
 
-/// Margins by which scores may be worse than the baseline's.
-fn margins(root: &Path) -> Result<BTreeMap<String, Margin>, Error> {
+/// Reads the margins by which scores may be worse than the baseline's.
+fn read_margins(root: &Path) -> Result<BTreeMap<String, Margin>, Error> {
     let path = root.join(BOUNDS_FILE);
     match path.exists() {
         true => Ok(read_bounds_file(&path)?.margins),
@@ -171,7 +173,7 @@ fn margins(root: &Path) -> Result<BTreeMap<String, Margin>, Error> {
     }
 }
 
-fn summary_file() -> Result<PathBuf, Error> {
+fn find_summary_file() -> Result<PathBuf, Error> {
     match std::env::var_os("GITHUB_STEP_SUMMARY") {
         Some(path) if !path.is_empty() => Ok(path.into()),
         _ => Err(Error::Usage(
@@ -187,8 +189,4 @@ fn append(path: &Path, text: &str) -> Result<(), Error> {
         file.write_all(text.as_bytes())
     };
     Ok(write().map_err(|source| FileError::io(path, "write", source))?)
-}
-
-fn json(check: &Check) -> String {
-    serde_json::to_string_pretty(check).expect("a check is plain data") + "\n"
 }

@@ -1,18 +1,18 @@
-//! `shuttertruth compare`
+//! The command `compare`.
 
-use crate::output::progress::monitor;
-use crate::tables::comparison::compare_table;
 use report::compare_page;
 use suite::{Error, Side, compare_runs};
 
-use super::report::write_page;
-use super::say;
+use super::pages::write_page;
 use crate::arguments::CompareArgs;
+use crate::output::print::{print, print_json};
+use crate::output::progress::make_monitor;
+use crate::tables::comparison::compare_table;
 
 /// Reads two finished runs, prints what changed, and writes the page.
 pub fn execute(args: &CompareArgs) -> Result<(), Error> {
     let (first, second) = (Side::read(&args.first)?, Side::read(&args.second)?);
-    let compared = monitor(args.quiet).watch("cases that changed", |watch| {
+    let compared = make_monitor(args.quiet).watch("cases that changed", |watch| {
         compare_runs(&first, &second, watch)
     })?;
     let written = match &args.html {
@@ -20,8 +20,7 @@ pub fn execute(args: &CompareArgs) -> Result<(), Error> {
         None => String::new(),
     };
     if args.json {
-        let json = serde_json::to_string_pretty(&compared).expect("a comparison is plain data");
-        return say(&format!("{json}\n"));
+        return print_json(&compared);
     }
-    say(&(compare_table(&compared) + &written))
+    print(&(compare_table(&compared) + &written))
 }

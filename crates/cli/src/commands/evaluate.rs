@@ -1,39 +1,38 @@
-//! `shuttertruth evaluate`
+//! The command `evaluate`.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use filters::{Settings, Value};
 use frame::{FileError, read_bounded};
-use suite::{Answer, Error, FilterChoice, MOST_JSON_BYTES, Objective, Sharing, answer, evaluator};
+use suite::{Error, FilterChoice, MOST_JSON_BYTES, Objective, Sharing, answer, evaluator};
 
-use super::measure::scenes;
-use super::say;
-use super::tune::{claimed_shots, open, select_candidate};
+use super::candidate::{open_candidate_gpu, render_shots, select_candidate};
+use super::plan::load_scenes;
 use crate::arguments::EvaluateArgs;
-use crate::output::progress::monitor;
+use crate::output::print::print_json;
+use crate::output::progress::make_monitor;
 
 /// Scores one set of parameters on every scene and prints JSON.
 pub fn execute(args: &EvaluateArgs) -> Result<(), Error> {
     let candidate = &args.candidate;
     let choice = select_candidate(candidate)?;
     let settings = read_params(&args.params, &choice)?;
-    let scenes = scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
-    let gpu = open(&choice, candidate)?;
-    let (_, shots) = claimed_shots(&scenes, &choice, candidate, Sharing::Together)?;
+    let scenes = load_scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
+    let gpu = open_candidate_gpu(&choice, candidate)?;
+    let (_, shots) = render_shots(&scenes, &choice, candidate, Sharing::Together)?;
     let bleed = candidate.objective.contains(&Objective::Bleed);
-    let mut evaluator = evaluator(
+    let mut scorer = evaluator(
         &shots,
         &choice,
         gpu.as_ref(),
         bleed,
-        monitor(candidate.scenes.quiet),
+        make_monitor(candidate.scenes.quiet),
     )?;
     let cost = candidate.objective.contains(&Objective::Cost);
     let all: Vec<usize> = (0..shots.len()).collect();
-    let answer: Answer = answer(&mut evaluator, &settings, &all, cost, |_, _| true)?;
-    let json = serde_json::to_string_pretty(&answer).expect("an answer is plain data");
-    say(&format!("{json}\n"))
+    let scores = answer(&mut scorer, &settings, &all, cost, |_, _| true)?;
+    print_json(&scores)
 }
 
 fn read_params(path: &Path, choice: &FilterChoice) -> Result<Settings, Error> {
@@ -48,11 +47,11 @@ fn read_params(path: &Path, choice: &FilterChoice) -> Result<Settings, Error> {
             "{error}; allowed is one table of parameters, such as {{\"samples\": 12}}"
         ))
     })?;
-    changed(choice, values).map_err(|error| refuse(error.to_string()))
+    change_settings(choice, values).map_err(|error| refuse(error.to_string()))
 }
 
-/// The preset's values, some of them replaced.
-pub fn changed(
+/// Replaces some of the preset's values.
+pub fn change_settings(
     choice: &FilterChoice,
     values: BTreeMap<String, Value>,
 ) -> Result<Settings, filters::FilterError> {

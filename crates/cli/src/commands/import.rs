@@ -1,11 +1,12 @@
-//! `shuttertruth import`
+//! The command `import`.
 
 use suite::{Error, ImportPlan, Imported, Motions, import, printable_path};
 
-use super::{check_exposure, say};
+use super::render_settings::check_exposure;
 use crate::arguments::ImportArgs;
+use crate::output::print::print;
 
-/// Makes the scene folder and says what is in it.
+/// Makes the scene folder and prints what it holds.
 pub fn execute(args: &ImportArgs) -> Result<(), Error> {
     check_exposure(args.exposure)?;
     let plan = ImportPlan {
@@ -22,7 +23,7 @@ pub fn execute(args: &ImportArgs) -> Result<(), Error> {
     };
     let Imported { exposes, triangles } = import(&plan)?;
     let folder = printable_path(&args.out);
-    say(&format!(
+    print(&format!(
         "{exposes}\n{triangles} triangles, the set's among them\nwritten: {folder}\nnext: shuttertruth run --scenes {}{folder} --out out\n",
         if args.out.is_relative() { "./" } else { "" },
     ))

@@ -1,9 +1,7 @@
-//! `shuttertruth list` and `--list-adapters`
+//! The command `list`, and the option `--list-adapters`.
 
 use std::path::Path;
 
-use crate::output::progress::{monitor, tell};
-use crate::output::wrapped::push_wrapped;
 use filters::{
     AdapterDescription, Command, Filter, FilterError, Limits, Parameter, Preset, Unit,
     list_adapters, try_out,
@@ -11,11 +9,12 @@ use filters::{
 use suite::{Error, open_adapter, printable};
 use tracer::{SceneListing, list_scenes};
 
-use super::say;
 use crate::arguments::ListArgs;
+use crate::output::print::{print, print_json, print_note};
+use crate::output::progress::make_monitor;
+use crate::output::wrap::push_wrapped;
 
-/// Prints scenes, filters, parameters and presets. Filters of one's own are tried out before: those that are built in were
-/// tried when they were built in.
+/// Prints scenes, filters, parameters and presets. Tries out filters of the user's own before.
 pub fn execute(args: &ListArgs) -> Result<(), Error> {
     let scenes = list_scenes(&args.scenes_dir)?;
     let mut filters = Filter::builtin_names()
@@ -25,30 +24,31 @@ pub fn execute(args: &ListArgs) -> Result<(), Error> {
     let own = (args.filter.iter())
         .map(|folder| Filter::load(Path::new(folder)))
         .collect::<Result<Vec<_>, _>>()?;
-    try_all(&own, args.adapter.adapter.as_deref())?;
+    try_filters(&own, args.adapter.adapter.as_deref())?;
     filters.extend(own);
     if args.json {
         let listing = serde_json::json!({
             "scenes": scenes.iter().map(scene_json).collect::<Vec<_>>(),
             "filters": filters.iter().map(filter_json).collect::<Vec<_>>(),
         });
-        let json = serde_json::to_string_pretty(&listing).expect("listings are plain data");
-        say(&format!("{json}\n"))
+        print_json(&listing)
     } else {
         let scenes: String = scenes.iter().map(scene_text).collect();
         let filters: String = filters.iter().map(filter_text).collect();
-        say(&wrapped(&format!("scenes\n\n{scenes}filters\n\n{filters}")))
+        print(&wrap_lines(&format!(
+            "scenes\n\n{scenes}filters\n\n{filters}"
+        )))
     }
 }
 
 /// Holds kernels to the adapter's limits and runs them with every preset and at both ends of every range. Without an adapter,
 /// holds them to the lowest common limits, and says so.
-fn try_all(filters: &[Filter], adapter: Option<&str>) -> Result<(), Error> {
+fn try_filters(filters: &[Filter], adapter: Option<&str>) -> Result<(), Error> {
     let have_kernels = filters.iter().any(|filter| filter.command.is_none());
     if !have_kernels && adapter.is_none() {
         return Ok(());
     }
-    match open_adapter(adapter, monitor(true)) {
+    match open_adapter(adapter, make_monitor(true)) {
         Ok(gpu) => {
             let limits = Limits::of(&gpu);
             for filter in filters {
@@ -61,7 +61,7 @@ fn try_all(filters: &[Filter], adapter: Option<&str>) -> Result<(), Error> {
             for filter in filters {
                 limits.check(filter)?;
             }
-            note(
+            print_note(
                 "no GPU adapter was found: kernels were held to the lowest common limits, and no preset or range was tried",
             );
         }
@@ -69,19 +69,14 @@ fn try_all(filters: &[Filter], adapter: Option<&str>) -> Result<(), Error> {
     }
     for filter in filters {
         if let Err(error) = Limits::lowest().check(filter) {
-            note(&format!("other adapters may refuse this filter: {error}"));
+            print_note(&format!("other adapters may refuse this filter: {error}"));
         }
     }
     Ok(())
 }
 
-/// Says on standard error what is no error.
-fn note(text: &str) {
-    tell(&format!("shuttertruth: note: {}", printable(text)));
-}
-
 /// Wraps lines and keeps their indentation.
-fn wrapped(text: &str) -> String {
+fn wrap_lines(text: &str) -> String {
     let mut wrapped = String::new();
     for line in text.lines() {
         let words = line.trim_start_matches(' ');
@@ -94,18 +89,20 @@ fn wrapped(text: &str) -> String {
 }
 
 /// Prints one adapter a line, numbered as `--adapter` takes them.
-pub fn adapters() -> Result<(), Error> {
+pub fn print_adapters() -> Result<(), Error> {
     let line = |(number, adapter): (usize, &AdapterDescription)| {
         format!(
             "{number}: {} ({}, {}, {})\n",
             adapter.name, adapter.backend, adapter.driver, adapter.kind
         )
     };
-    say(&list_adapters()
-        .iter()
-        .enumerate()
-        .map(line)
-        .collect::<String>())
+    print(
+        &list_adapters()
+            .iter()
+            .enumerate()
+            .map(line)
+            .collect::<String>(),
+    )
 }
 
 fn scene_json(scene: &SceneListing) -> serde_json::Value {
@@ -190,7 +187,7 @@ fn filter_text(filter: &Filter) -> String {
     )
 }
 
-/// What a program is, and which variables it wants to see.
+/// Describes the program of a filter, and the variables that it wants to see.
 fn command_text(command: &Command) -> String {
     let words = command.words().join(" ");
     let mut text = format!("    runs: {}\n", printable(&words));
@@ -201,7 +198,7 @@ fn command_text(command: &Command) -> String {
     text
 }
 
-/// A preset, and below it whose work it follows and where it leaves that.
+/// Describes a preset: its source, and its differences from that.
 fn preset_text(preset: &Preset) -> String {
     let mut text = format!("    :{}  {}\n", preset.name, printable(&preset.doc));
     let mut line = |words: String| text += &format!("        {}\n", printable(&words));

@@ -1,16 +1,16 @@
-//! `shuttertruth merge`
+//! The command `merge`.
 
-use suite::{Error, merge};
+use suite::{Error, merge, printable_path};
 
-use super::say;
 use crate::arguments::MergeArgs;
+use crate::output::print::print;
 
-/// Joins parts, and says which truths they made.
+/// Joins parts and prints the truths that they made.
 pub fn execute(args: &MergeArgs) -> Result<(), Error> {
     for merged in merge(&args.parts, &args.out)? {
-        say(&format!(
+        print(&format!(
             "{} ({} replicates)\n",
-            suite::printable_path(&merged.truth),
+            printable_path(&merged.truth),
             merged.replicates
         ))?;
     }

@@ -1,6 +1,5 @@
-//! `shuttertruth render`
+//! The command `render`.
 
-use crate::selection::{SceneChoice, select_scenes};
 use frame::Truth;
 use suite::{
     Error, MOST_REPLICATES, RenderSettings, Sharing, claim, deciding_floor, frame_of, part_of,
@@ -8,11 +7,13 @@ use suite::{
 };
 use tracer::Scene;
 
-use super::{render_settings, say, tell_notes};
+use super::render_settings::make_render_settings;
 use crate::arguments::{RenderArgs, Replicates};
-use crate::output::progress::monitor;
+use crate::output::print::{print, print_scene_notes};
+use crate::output::progress::make_monitor;
+use crate::selection::{SceneChoice, select_scenes};
 
-/// Renders each scene's frame and its truths, or a part of them, and says where they are and how noisy.
+/// Renders each scene's frame and truths, or a part of them, and prints their folders and noise.
 pub fn execute(args: &RenderArgs) -> Result<(), Error> {
     if args.most_replicates > MOST_REPLICATES {
         return Err(Error::Usage(format!(
@@ -22,13 +23,13 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
     }
     let mut noisy = Vec::new();
     let choices = select_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
-    tell_notes(choices.iter().map(|choice| &choice.scene));
+    print_scene_notes(choices.iter().map(|choice| &choice.scene));
     for SceneChoice { scene, .. } in choices {
         match &args.replicates {
-            Replicates::All(count) => noisy.extend(whole(args, &scene, *count)?),
+            Replicates::All(count) => noisy.extend(render_whole(args, &scene, *count)?),
             Replicates::Part(indices) if args.noise.is_none() => {
-                let settings = settings(args, &scene, RenderSettings::default().replicates)?;
-                let (out, monitor) = (&args.scenes.out, monitor(args.scenes.quiet));
+                let settings = scene_settings(args, &scene, RenderSettings::default().replicates)?;
+                let (out, monitor) = (&args.scenes.out, make_monitor(args.scenes.quiet));
                 let _claim = claim(out, [&scene], Sharing::Together)?;
                 if indices.start == 0 {
                     frame_of(&scene, &settings, out, monitor)?;
@@ -36,7 +37,7 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
                 for alignment in &args.alignments {
                     part_of(&scene, &settings, *alignment, indices.clone(), out, monitor)?;
                 }
-                say(&format!("{}\n", printable_path(&scene_folder(out, &scene))))?;
+                print(&format!("{}\n", printable_path(&scene_folder(out, &scene))))?;
             }
             Replicates::Part(_) => {
                 return Err(Error::Usage(
@@ -53,9 +54,9 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
 }
 
 /// Renders a scene's frame and truths; returns a line for each truth that stayed noisier than asked for.
-fn whole(args: &RenderArgs, scene: &Scene, count: u32) -> Result<Vec<String>, Error> {
-    let settings = settings(args, scene, count)?;
-    let (out, monitor) = (&args.scenes.out, monitor(args.scenes.quiet));
+fn render_whole(args: &RenderArgs, scene: &Scene, count: u32) -> Result<Vec<String>, Error> {
+    let settings = scene_settings(args, scene, count)?;
+    let (out, monitor) = (&args.scenes.out, make_monitor(args.scenes.quiet));
     let _claim = claim(out, [scene], Sharing::Together)?;
     frame_of(scene, &settings, out, monitor)?;
     let mut noisy = Vec::new();
@@ -68,24 +69,24 @@ fn whole(args: &RenderArgs, scene: &Scene, count: u32) -> Result<Vec<String>, Er
                 let (truth, reached) =
                     truth_until(scene, &settings, alignment, (target, most), out, monitor)?;
                 if !reached {
-                    noisy.push(too_noisy(&truth, target, most));
+                    noisy.push(too_noisy_line(&truth, target, most));
                 }
                 truth
             }
         };
-        report += &floors(&truth);
+        report += &floors_line(&truth);
     }
-    say(&report)?;
+    print(&report)?;
     Ok(noisy)
 }
 
-fn settings(args: &RenderArgs, scene: &Scene, count: u32) -> Result<RenderSettings, Error> {
+fn scene_settings(args: &RenderArgs, scene: &Scene, count: u32) -> Result<RenderSettings, Error> {
     let size = args.size.unwrap_or((scene.width, scene.height));
-    render_settings(&args.scenes, size, count)
+    make_render_settings(&args.scenes, size, count)
 }
 
-/// `  trailing: 8 replicates, noise: moving 0.0021, static 0.0009, full 0.0012`
-fn floors(truth: &Truth) -> String {
+/// Makes a line: `  trailing: 8 replicates, noise: moving 0.0021, static 0.0009, full 0.0012`
+fn floors_line(truth: &Truth) -> String {
     let floors: Vec<String> = (truth.noise_floors().iter())
         .map(|(region, floor)| format!("{region} {floor:.2e}"))
         .collect();
@@ -97,7 +98,7 @@ fn floors(truth: &Truth) -> String {
     )
 }
 
-fn too_noisy(truth: &Truth, target: f64, most: u32) -> String {
+fn too_noisy_line(truth: &Truth, target: f64, most: u32) -> String {
     let (region, floor) = deciding_floor(truth);
     format!(
         "{} {}: the noise ({region}) is {floor:.2e} with {} replicates, above the {target:e} asked for; allow more than \

@@ -1,26 +1,26 @@
-//! `shuttertruth report`
+//! The command `report`.
 
 use std::path::{Path, PathBuf};
 
-use crate::output::progress::monitor;
-use report::{LARGEST_PAGE, TuneFolder, report, tuning_page};
-use suite::{Error, Finding, Judgement, Run, printable_path, write_layers};
+use report::{TuneFolder, tuning_page};
+use suite::{Error, Judgement, Run, printable_path, write_layers};
 
-use super::say;
+use super::pages::{WrittenFile, write_page, write_run_page, written_lines};
 use crate::arguments::ReportArgs;
+use crate::output::print::{print, print_json};
+use crate::output::progress::make_monitor;
 
 /// Reads a finished run, or a tuning, and writes its page, and its layers where they are asked for.
 pub fn execute(args: &ReportArgs) -> Result<(), Error> {
-    let (pages, layers) = match subject(&args.run) {
-        Subject::Run(path) => of_run(args, &path)?,
-        Subject::Tuning(folder) => (of_tuning(args, &folder)?, Vec::new()),
+    let (pages, layers) = match find_subject(&args.run) {
+        Subject::Run(path) => write_run_report(args, &path)?,
+        Subject::Tuning(folder) => (write_tuning_report(args, &folder)?, Vec::new()),
     };
     if args.json {
-        let written: Vec<&Written> = pages.iter().chain(&layers).collect();
-        let json = serde_json::to_string_pretty(&written).expect("a list of paths is plain data");
-        return say(&format!("{json}\n"));
+        let written: Vec<&WrittenFile> = pages.iter().chain(&layers).collect();
+        return print_json(&written);
     }
-    let mut text: String = pages.iter().map(Written::line).collect();
+    let mut text = written_lines(&pages);
     if let Some(folder) = &args.exr {
         let bytes: u64 = layers.iter().map(|file| file.bytes).sum();
         let (count, size) = (layers.len(), bytes as f64 / 1e6);
@@ -29,18 +29,19 @@ pub fn execute(args: &ReportArgs) -> Result<(), Error> {
             printable_path(folder)
         );
     }
-    say(&text)
+    print(&text)
 }
 
+/// The thing that a report is about.
 enum Subject {
-    /// A run.json.
+    /// Path of a run.json.
     Run(PathBuf),
-    /// A folder.
+    /// Folder of a tuning.
     Tuning(PathBuf),
 }
 
-/// What lies there, by the names that `run` and `tune` give to their files.
-fn subject(path: &Path) -> Subject {
+/// Finds out what lies at a path, by the names that `run` and `tune` give to their files.
+fn find_subject(path: &Path) -> Subject {
     let run = path.join("run.json");
     let file = path.file_name().unwrap_or_default();
     if path.is_dir() && run.is_file() {
@@ -54,29 +55,31 @@ fn subject(path: &Path) -> Subject {
     }
 }
 
-/// The page's files, and those of the layers.
-fn of_run(args: &ReportArgs, path: &Path) -> Result<(Vec<Written>, Vec<Written>), Error> {
+/// Writes the page of a run, and its layers; returns the page's files, then those of the layers.
+fn write_run_report(
+    args: &ReportArgs,
+    path: &Path,
+) -> Result<(Vec<WrittenFile>, Vec<WrittenFile>), Error> {
     let run = Run::read(path)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let pages = match &args.html {
         Some(html) => {
             let judgement = Judgement::read(&run, folder)?;
             let findings = judgement.map_or_else(Vec::new, |judgement| judgement.findings);
-            write_report_files(&run, &findings, folder, html)?
+            write_run_page(&run, &findings, folder, html)?
         }
         None => Vec::new(),
     };
     let layers = match &args.exr {
-        Some(out) => {
-            monitor(args.quiet).watch("layers", |watch| write_layers(&run, folder, out, watch))?
-        }
+        Some(out) => make_monitor(args.quiet)
+            .watch("layers", |watch| write_layers(&run, folder, out, watch))?,
         None => Vec::new(),
     };
-    let layers = layers.into_iter().map(Written::of);
+    let layers = layers.into_iter().map(WrittenFile::new);
     Ok((pages, layers.collect::<Result<_, _>>()?))
 }
 
-fn of_tuning(args: &ReportArgs, folder: &Path) -> Result<Vec<Written>, Error> {
+fn write_tuning_report(args: &ReportArgs, folder: &Path) -> Result<Vec<WrittenFile>, Error> {
     if args.exr.is_some() {
         return Err(Error::Usage(format!(
             "--exr: {} is a tuning, which keeps no pictures; give the folder of a run",
@@ -86,65 +89,4 @@ fn of_tuning(args: &ReportArgs, folder: &Path) -> Result<Vec<Written>, Error> {
     let page = tuning_page(&TuneFolder::read(folder)?)?;
     let html = (args.html.as_deref()).expect("clap requires a page where there are no layers");
     Ok(vec![write_page(&page, html)?])
-}
-
-/// A file that is there now.
-#[derive(serde::Serialize)]
-pub struct Written {
-    /// Where.
-    pub path: PathBuf,
-    /// How large.
-    pub bytes: u64,
-}
-
-impl Written {
-    fn of(path: PathBuf) -> Result<Self, Error> {
-        let found = std::fs::metadata(&path)
-            .map_err(|source| frame::FileError::io(&path, "read", source))?;
-        Ok(Self {
-            bytes: found.len(),
-            path,
-        })
-    }
-
-    /// `written: report.html (4.5 MB)`
-    pub fn line(&self) -> String {
-        format!(
-            "written: {} ({:.1} MB)\n",
-            printable_path(&self.path),
-            self.bytes as f64 / 1e6
-        )
-    }
-}
-
-/// Writes the page of a run whose pictures lie below `folder`; returns the lines that say so.
-pub fn write_report(
-    run: &Run,
-    findings: &[Finding],
-    folder: &Path,
-    html: &Path,
-) -> Result<String, Error> {
-    let written = write_report_files(run, findings, folder, html)?;
-    Ok(written.iter().map(Written::line).collect())
-}
-
-/// Writes the page of a run, and whatever has to lie beside it.
-fn write_report_files(
-    run: &Run,
-    findings: &[Finding],
-    folder: &Path,
-    html: &Path,
-) -> Result<Vec<Written>, Error> {
-    let report = report(run, findings, folder, html, LARGEST_PAGE)?;
-    report.write()?;
-    let beside = report.siblings.into_iter().map(|(path, _)| path);
-    (std::iter::once(report.html).chain(beside))
-        .map(Written::of)
-        .collect()
-}
-
-/// Writes a page.
-pub fn write_page(page: &str, html: &Path) -> Result<Written, Error> {
-    frame::write_atomically(html, page.as_bytes())?;
-    Written::of(html.to_owned())
 }

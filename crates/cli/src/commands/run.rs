@@ -1,43 +1,46 @@
-//! `shuttertruth run`
+//! The command `run`.
 
 use std::path::Path;
 
-use crate::output::wrapped::push_wrapped;
-use crate::tables::cases::table;
-use crate::tables::failures::failures_text;
 use suite::{Error, Finding, Outcome, Run, judge, open_gpu, printable_path, refuse_failures, run};
 
-use super::measure::{adapter_line, claim_out, plan, write_judged};
-use super::report::write_report;
-use super::say;
+use super::pages::{write_run_page, written_lines};
+use super::plan::{claim_out, make_plan};
+use super::run_files::write_judged_run;
 use crate::arguments::RunArgs;
+use crate::output::print::print;
+use crate::output::wrap::push_wrapped;
+use crate::tables::adapter::adapter_text;
+use crate::tables::cases::run_table;
+use crate::tables::failures::failures_text;
 
-/// Loads what is named, runs every case, writes `run.json` and the page, prints the table.
+/// Runs every case, writes `run.json` and the page, prints the table.
 pub fn execute(args: &RunArgs) -> Result<(), Error> {
-    let (plan, mut bounds) = plan(&args.measure, args.measure.scenes.out.clone())?;
+    let (plan, mut bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
     let size = (plan.render.width, plan.render.height);
     for bounds in bounds.values_mut() {
         *bounds = std::mem::take(bounds).at(size);
     }
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref(), plan.monitor)?;
     let _claim = claim_out(&plan)?;
-    let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
-    let findings = judge(&run, &bounds);
-    let json = write_judged(&run, &findings, &plan.out)?;
-    let page = (args.html.as_deref())
-        .map(|html| write_report(&run, &findings, &plan.out, html))
-        .transpose()?;
+    let finished = run(&plan, gpu.as_ref(), std::env::args().collect())?;
+    let findings = judge(&finished, &bounds);
+    let json = write_judged_run(&finished, &findings, &plan.out)?;
+    let pages = (args.html.as_deref())
+        .map(|html| write_run_page(&finished, &findings, &plan.out, html))
+        .transpose()?
+        .unwrap_or_default();
     if args.json {
-        say(&format!("{json}\n"))?;
+        print(&format!("{json}\n"))?;
     } else {
-        let scores = table(&run) + &failures_text(&run.failures);
-        say(&(scores + &closing(&run, &findings, &plan.out) + &page.unwrap_or_default()))?;
+        let scores = run_table(&finished) + &failures_text(&finished.failures);
+        print(&(scores + &closing_text(&finished, &findings, &plan.out) + &written_lines(&pages)))?;
     }
-    refuse_failures(&run.failures)
+    refuse_failures(&finished.failures)
 }
 
-/// Counts of bounds, the adapter, and the path of run.json.
-fn closing(run: &Run, findings: &[Finding], out: &Path) -> String {
+/// Counts the bounds, and names the adapter and run.json.
+fn closing_text(run: &Run, findings: &[Finding], out: &Path) -> String {
     let count = |outcome| {
         (findings.iter())
             .filter(|finding| finding.outcome == outcome)
@@ -55,7 +58,7 @@ fn closing(run: &Run, findings: &[Finding], out: &Path) -> String {
     push_wrapped(&mut text, 0, &bounds);
     text += &format!(
         "adapter: {}\nwritten: {}\n",
-        adapter_line(&run.adapter),
+        adapter_text(&run.adapter),
         printable_path(&out.join("run.json"))
     );
     text

@@ -1,14 +1,14 @@
-//! `shuttertruth score`
+//! The command `score`.
 
-use crate::tables::cases::score_table;
 use frame::{Frame, Ladder, Truth};
 use metrics::Metric;
 use suite::{Error, Scored, missing, printable, read_finished, score};
 
-use super::say;
 use crate::arguments::ScoreArgs;
+use crate::output::print::{print, print_json};
+use crate::tables::cases::score_table;
 
-/// Scores one finished picture, and says which scores its file does not allow.
+/// Scores one finished picture and prints the scores, and those that its file does not allow.
 pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
     let truth = Truth::read(&args.truth)?;
     let frame = Frame::read(&args.frame)?;
@@ -18,9 +18,9 @@ pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
     let scored = score(&picture, &frame, &truth, ladder.as_ref())
         .map_err(|error| Error::Usage(format!("{}: {error}", args.image.display())))?;
     if args.json {
-        say(&json(args, &truth, &scored))
+        print_json(&scores_json(args, &truth, &scored))
     } else {
-        say(&text(args, &truth, &scored))
+        print(&scores_text(args, &truth, &scored))
     }
 }
 
@@ -45,7 +45,7 @@ fn check_scenes(
     Ok(())
 }
 
-fn text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Scored) -> String {
+fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Scored) -> String {
     let name = args.image.file_name().unwrap_or(args.image.as_os_str());
     let name = name.to_string_lossy();
     let name = printable(&name);
@@ -71,8 +71,12 @@ fn text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Scored) -> S
     text
 }
 
-fn json(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Scored) -> String {
-    let scored = serde_json::json!({
+fn scores_json(
+    args: &ScoreArgs,
+    truth: &Truth,
+    Scored { scores, notes }: &Scored,
+) -> serde_json::Value {
+    serde_json::json!({
         "format": suite::FORMAT,
         "program": suite::PROGRAM,
         "image": args.image,
@@ -82,7 +86,5 @@ fn json(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Scored) -> S
         "truth_hash": truth.provenance.content_hash,
         "notes": notes,
         "scores": scores,
-    });
-    let json = serde_json::to_string_pretty(&scored).expect("scores are plain data");
-    json + "\n"
+    })
 }

@@ -1,23 +1,24 @@
-//! `shuttertruth tune`
+//! The command `tune`.
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use crate::output::progress::{monitor, tell};
-use crate::selection::select_filters;
+use suite::{
+    Effort, Error, FilterChoice, Objective, RenderSettings, Sharing, Space, TunePlan, Tuning,
+    claim, compare_paired, evaluator, interleaved, preset_text, printable_path, sensitivity, tune,
+};
+use tracer::Progress;
+
+use super::candidate::{
+    candidate_render_settings, open_candidate_gpu, render_shots, select_candidate,
+};
+use super::plan::load_scenes;
+use super::render_settings::make_render_settings;
+use crate::arguments::TuneArgs;
+use crate::output::print::{print, print_error};
+use crate::output::progress::make_monitor;
 use crate::tables::sensitivity::sensitivity_table;
 use crate::tables::tuning::{paired_table, tuning_table};
-use filters::Gpu;
-use suite::{
-    Claim, Effort, Error, FilterChoice, Objective, RenderSettings, SceneBounds, Sharing, Shot,
-    Space, TunePlan, Tuning, claim, compare_paired, evaluator, interleaved, open_gpu, preset_text,
-    printable_path, sensitivity, shots, tune,
-};
-use tracer::{Progress, Scene};
-
-use super::measure::scenes;
-use super::{render_settings, say};
-use crate::arguments::{CandidateArgs, SceneArgs, TuneArgs};
 
 /// Tunes, writes `journal.jsonl`, `tune.json` and the choice's values; or compares two presets.
 pub fn execute(args: &TuneArgs) -> Result<(), Error> {
@@ -28,11 +29,11 @@ pub fn execute(args: &TuneArgs) -> Result<(), Error> {
         rows: args.sobol,
     };
     if effort != Effort::default() {
-        return study(args, choice, effort);
+        return study_parameters(args, choice, effort);
     }
     match args.compare.as_slice() {
-        [] => run(args, choice),
-        [first, second] => compare(args, choice, [first, second]),
+        [] => tune_filter(args, choice),
+        [first, second] => compare_presets(args, choice, [first, second]),
         other => Err(Error::Usage(format!(
             "--compare {}: allowed are two presets, such as --compare paper,tuned",
             other.join(",")
@@ -40,10 +41,10 @@ pub fn execute(args: &TuneArgs) -> Result<(), Error> {
     }
 }
 
-fn run(args: &TuneArgs, choice: FilterChoice) -> Result<(), Error> {
-    let plan = plan(args, choice)?;
+fn tune_filter(args: &TuneArgs, choice: FilterChoice) -> Result<(), Error> {
+    let plan = make_plan(args, choice)?;
     plan.check()?;
-    let gpu = open(&plan.choice, &args.candidate)?;
+    let gpu = open_candidate_gpu(&plan.choice, &args.candidate)?;
     let scenes = plan.scenes.iter().chain(&plan.sealed);
     let _claim = claim(&plan.out, scenes.map(|(scene, _)| scene), Sharing::Alone)?;
     let began = Instant::now();
@@ -59,20 +60,20 @@ fn run(args: &TuneArgs, choice: FilterChoice) -> Result<(), Error> {
     })?;
     if !args.candidate.scenes.quiet {
         let seconds = began.elapsed().as_secs_f64();
-        tell(&format!("{} trials in {seconds:.1} s", tuning.trials));
+        print_error(&format!("{} trials in {seconds:.1} s", tuning.trials));
     }
-    print(args, &write(&tuning, &plan)?)
+    print_result(args, &write_tuning(&tuning, &plan)?)
 }
 
-fn plan(args: &TuneArgs, choice: FilterChoice) -> Result<TunePlan, Error> {
+fn make_plan(args: &TuneArgs, choice: FilterChoice) -> Result<TunePlan, Error> {
     let candidate = &args.candidate;
     let scene_args = &candidate.scenes;
     let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;
     let sealed = match args.sealed.as_slice() {
         [] => Vec::new(),
-        words => scenes(&scene_args.scenes_dir, words)?,
+        words => load_scenes(&scene_args.scenes_dir, words)?,
     };
-    let mut open = scenes(&scene_args.scenes_dir, &scene_args.scenes)?;
+    let mut open = load_scenes(&scene_args.scenes_dir, &scene_args.scenes)?;
     if scene_args.scenes.is_empty() {
         // Every scene means every one that is not sealed.
         open.retain(|(scene, _)| sealed.iter().all(|(other, _)| other.name != scene.name));
@@ -84,8 +85,8 @@ fn plan(args: &TuneArgs, choice: FilterChoice) -> Result<TunePlan, Error> {
         space,
         scenes: interleaved(open),
         sealed,
-        render: render(candidate)?,
-        sealed_render: render_settings(
+        render: candidate_render_settings(candidate)?,
+        sealed_render: make_render_settings(
             &sealed_args,
             args.sealed_size,
             RenderSettings::default().replicates,
@@ -98,27 +99,27 @@ fn plan(args: &TuneArgs, choice: FilterChoice) -> Result<TunePlan, Error> {
         race: !args.no_race,
         seed: args.search_seed,
         out: scene_args.out.clone(),
-        monitor: monitor(scene_args.quiet),
+        monitor: make_monitor(scene_args.quiet),
     })
 }
 
-/// What a command found, for people and for machines.
-struct Found {
+/// A result, for people and for machines.
+struct CommandResult {
     table: String,
     json: String,
     path: PathBuf,
 }
 
-fn print(args: &TuneArgs, found: &Found) -> Result<(), Error> {
-    let Found { table, json, path } = found;
+fn print_result(args: &TuneArgs, found: &CommandResult) -> Result<(), Error> {
+    let CommandResult { table, json, path } = found;
     match args.json {
-        true => say(&format!("{json}\n")),
-        false => say(&format!("{table}\nwritten: {}\n", printable_path(path))),
+        true => print(&format!("{json}\n")),
+        false => print(&format!("{table}\nwritten: {}\n", printable_path(path))),
     }
 }
 
-/// Writes what was found.
-fn write(tuning: &Tuning, plan: &TunePlan) -> Result<Found, Error> {
+/// Writes tune.json, params.json and preset.toml.
+fn write_tuning(tuning: &Tuning, plan: &TunePlan) -> Result<CommandResult, Error> {
     let pretty = |json: Result<String, serde_json::Error>| json.expect("a tuning is plain data");
     let write = |name: &str, text: &str| {
         frame::write_atomically(&plan.out.join(name), text.as_bytes()).map_err(Error::from)
@@ -130,99 +131,62 @@ fn write(tuning: &Tuning, plan: &TunePlan) -> Result<Found, Error> {
         &pretty(serde_json::to_string_pretty(&tuning.values)),
     )?;
     write("preset.toml", &preset_text(tuning, plan))?;
-    Ok(Found {
+    Ok(CommandResult {
         table: tuning_table(tuning) + "\nthe choice: params.json and preset.toml beside tune.json",
         json,
         path: plan.out.join("tune.json"),
     })
 }
 
-fn compare(tune: &TuneArgs, choice: FilterChoice, presets: [&String; 2]) -> Result<(), Error> {
+fn compare_presets(
+    tune: &TuneArgs,
+    choice: FilterChoice,
+    presets: [&String; 2],
+) -> Result<(), Error> {
     let args = &tune.candidate;
     let [first, second] = presets.map(|preset| choice.preset_at(preset, args.size.0));
     let (first, second) = (first?, second?);
-    let scenes = scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
-    let gpu = open(&choice, args)?;
-    let (_claim, shots) = claimed_shots(&scenes, &choice, args, Sharing::Alone)?;
+    let scenes = load_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
+    let gpu = open_candidate_gpu(&choice, args)?;
+    let (_claim, shots) = render_shots(&scenes, &choice, args, Sharing::Alone)?;
     let bleed = args.objective.contains(&Objective::Bleed);
-    let mut evaluator = evaluator(
+    let mut scorer = evaluator(
         &shots,
         &choice,
         gpu.as_ref(),
         bleed,
-        monitor(args.scenes.quiet),
+        make_monitor(args.scenes.quiet),
     )?;
-    let paired = compare_paired(&mut evaluator, &first, &second)?;
+    let paired = compare_paired(&mut scorer, &first, &second)?;
     let names = presets.map(|preset| preset.as_str());
     let json = serde_json::to_string_pretty(&paired).expect("a comparison is plain data");
     let path = args.scenes.out.join("compare.json");
     frame::write_atomically(&path, json.as_bytes())?;
     let table = paired_table(&paired, names);
-    print(tune, &Found { table, json, path })
+    print_result(tune, &CommandResult { table, json, path })
 }
 
-fn study(args: &TuneArgs, choice: FilterChoice, effort: Effort) -> Result<(), Error> {
+fn study_parameters(args: &TuneArgs, choice: FilterChoice, effort: Effort) -> Result<(), Error> {
     let candidate = &args.candidate;
     let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;
-    let scenes = scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
-    let gpu = open(&choice, candidate)?;
+    let scenes = load_scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
+    let gpu = open_candidate_gpu(&choice, candidate)?;
     let out = &candidate.scenes.out;
-    let (_claim, shots) = claimed_shots(&scenes, &choice, candidate, Sharing::Alone)?;
-    let mut evaluator = evaluator(
+    let (_claim, shots) = render_shots(&scenes, &choice, candidate, Sharing::Alone)?;
+    let mut scorer = evaluator(
         &shots,
         &choice,
         gpu.as_ref(),
         false,
-        monitor(candidate.scenes.quiet),
+        make_monitor(candidate.scenes.quiet),
     )?;
     let label = format!("parameters of {}", choice.filter.name);
-    let found = monitor(candidate.scenes.quiet).watch(&label, |watch| {
-        sensitivity(&mut evaluator, &space, effort, args.search_seed, watch)
+    let found = make_monitor(candidate.scenes.quiet).watch(&label, |watch| {
+        sensitivity(&mut scorer, &space, effort, args.search_seed, watch)
     })?;
     let json = serde_json::to_string_pretty(&found).expect("a study is plain data");
     let path = out.join("sensitivity.json");
     frame::write_atomically(&path, json.as_bytes())?;
     let table = sensitivity_table(&found);
-    print(args, &Found { table, json, path })
-}
-
-/// The folder for files, and the frames and truths that it holds.
-pub fn claimed_shots(
-    scenes: &[(Scene, SceneBounds)],
-    choice: &FilterChoice,
-    args: &CandidateArgs,
-    sharing: Sharing,
-) -> Result<(Claim, Vec<Shot>), Error> {
-    let SceneArgs { out, quiet, .. } = &args.scenes;
-    let render = render(args)?;
-    let claim = claim(out, scenes.iter().map(|(scene, _)| scene), sharing)?;
-    let shots = shots(scenes, choice, &render, out, monitor(*quiet))?;
-    Ok((claim, shots))
-}
-
-/// The filter with the preset to start from, for pictures of the size that is asked for.
-pub fn select_candidate(args: &CandidateArgs) -> Result<FilterChoice, Error> {
-    let words = [args.filter.clone()];
-    let choice =
-        select_filters(&words, args.from.as_deref(), &[], args.programs.programs())?.remove(0);
-    Ok(choice.as_written(args.as_written).scaled_to(args.size.0))
-}
-
-/// How scenes are rendered.
-pub fn render(args: &CandidateArgs) -> Result<RenderSettings, Error> {
-    render_settings(
-        &args.scenes,
-        args.size,
-        RenderSettings::default().replicates,
-    )
-}
-
-/// The adapter, where the filter needs one.
-pub fn open(choice: &FilterChoice, args: &CandidateArgs) -> Result<Option<Gpu>, Error> {
-    let adapter = args.adapter.adapter.as_deref();
-    Ok(open_gpu(
-        std::slice::from_ref(choice),
-        adapter,
-        monitor(args.scenes.quiet),
-    )?)
+    print_result(args, &CommandResult { table, json, path })
 }

@@ -1,15 +1,13 @@
-//! A check as JUnit XML: one suite per scene, one case per filter and bound.
+//! JUnit XML of a check: one suite per scene, one case per filter and bound.
 
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
 use report::{finding_line, way_out};
+use suite::{Check, Decision, Finding, Level, Outcome};
 
 use crate::tables::check::comparison_line;
-use suite::Level;
-use suite::{Check, Decision};
-use suite::{Finding, Outcome};
 
-/// The document. A case that failed and a broken required bound are failures; an inconclusive one and one that is too strict are
+/// Makes the document. A case that failed and a broken required bound are failures; an inconclusive one and one that is too strict are
 /// errors; what does not apply, and what is broken but only reported, is skipped.
 pub fn junit(check: &Check) -> String {
     let mut report = Report::new("shuttertruth check");

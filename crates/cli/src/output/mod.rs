@@ -1,7 +1,8 @@
-//! Everything that reaches a terminal, a log or a service that reads checks.
+//! Text for terminals, logs and services that read checks.
 
-pub mod github;
+pub mod annotations;
+pub mod colors;
 pub mod junit;
-pub mod paint;
+pub mod print;
 pub mod progress;
-pub mod wrapped;
+pub mod wrap;

@@ -1,7 +1,7 @@
 //! Progress with the remaining time on standard error, and Ctrl-C.
 
 use std::fmt;
-use std::io::{IsTerminal, Write};
+use std::io::IsTerminal;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{LazyLock, Mutex};
 use std::time::{Duration, Instant};
@@ -11,51 +11,48 @@ use tracer::Progress;
 
 use suite::{Monitor, Step, printable};
 
-/// Between two lines where no terminal shows a bar: what a log of some hours can hold.
+use super::print::print_error;
+
+/// Time between two lines of a log, where no terminal shows a bar.
 const BETWEEN_LINES: Duration = Duration::from_secs(30);
 
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
-/// All bars on the screen: a long step has one, and so has the part of it that is under way.
+/// All bars on the screen: one per step under way.
 static BARS: LazyLock<MultiProgress> = LazyLock::new(MultiProgress::new);
 
-/// How long work has to end by itself after Ctrl-C.
+/// Time that work has to end by itself after Ctrl-C.
 const GRACE: Duration = Duration::from_millis(1500);
 
-/// What a process ends with that Ctrl-C ended.
+/// Exit code after Ctrl-C.
 pub const INTERRUPTED_CODE: u8 = 130;
 
-/// Makes Ctrl-C end the work that is under way, so that it can say how far it came. Work that does not look ends with the
-/// process a moment later. No file is left half written: files are renamed into place when they are whole.
+/// Makes Ctrl-C end the work under way. Work that does not ask ends with the process a moment later. No file is left half
+/// written: files are renamed into place when they are whole.
 pub fn catch_interrupts() {
     // A handler that cannot be set leaves Ctrl-C as it is.
     let _ = ctrlc::set_handler(|| {
         INTERRUPTED.store(true, Ordering::Relaxed);
         std::thread::sleep(GRACE);
-        tell("shuttertruth: interrupted");
+        print_error("shuttertruth: interrupted");
         std::process::exit(INTERRUPTED_CODE.into());
     });
 }
 
-/// Writes a line to standard error. What nobody can read is no reason to end otherwise.
-pub fn tell(line: &str) {
-    let _ = writeln!(std::io::stderr(), "{line}");
-}
-
-/// Whether Ctrl-C was pressed.
-pub fn interrupted() -> bool {
+/// Tells whether Ctrl-C was pressed.
+pub fn was_interrupted() -> bool {
     INTERRUPTED.load(Ordering::Relaxed)
 }
 
-/// The monitor of a command: what it shows, and Ctrl-C.
-pub fn monitor(quiet: bool) -> Monitor {
+/// Makes the monitor of a command: a bar on a terminal, lines in a log, nothing where `quiet`. It ends work after Ctrl-C.
+pub fn make_monitor(quiet: bool) -> Monitor {
     Monitor {
         begin: match (quiet, std::io::stderr().is_terminal()) {
             (true, _) => Monitor::SILENT.begin,
             (false, true) => |label| Box::new(Bar::new(label)),
             (false, false) => |label| Box::new(Lines::new(label, Instant::now())),
         },
-        interrupted,
+        interrupted: was_interrupted,
     }
 }
 
@@ -72,7 +69,7 @@ impl Bar {
                 |state: &ProgressState, text: &mut dyn fmt::Write| {
                     // Nothing done says nothing about the rest.
                     if state.pos() > 0 {
-                        let _ = write!(text, "{} left", clock(state.eta()));
+                        let _ = write!(text, "{} left", clock_text(state.eta()));
                     }
                 },
             );
@@ -96,8 +93,8 @@ impl Drop for Bar {
     }
 }
 
-/// `1:30`: minutes and seconds.
-fn clock(time: Duration) -> String {
+/// Formats minutes and seconds: `1:30`.
+fn clock_text(time: Duration) -> String {
     let seconds = time.as_secs_f64().round() as u64;
     format!("{}:{:02}", seconds / 60, seconds % 60)
 }
@@ -112,7 +109,7 @@ struct Lines {
 impl Step for Lines {
     fn advance(&self, progress: Progress) {
         if let Some(line) = self.line(progress, Instant::now()) {
-            tell(&line);
+            print_error(&line);
         }
     }
 }
@@ -126,7 +123,7 @@ impl Lines {
         }
     }
 
-    /// `fan trailing, replicate 3: 40 %, 1:30 left`; none where the last line is not long ago.
+    /// Makes a line, `fan trailing, replicate 3: 40 %, 1:30 left`; none where the last line is recent.
     fn line(&self, progress: Progress, now: Instant) -> Option<String> {
         let mut last = self.last.lock().ok()?;
         if now.duration_since(*last) < BETWEEN_LINES || progress.total == 0 {
@@ -138,7 +135,7 @@ impl Lines {
             true => {
                 let elapsed = now.duration_since(self.began).as_secs_f64();
                 let left = Duration::from_secs_f64(elapsed * (1.0 - part) / part);
-                format!(", {} left", clock(left))
+                format!(", {} left", clock_text(left))
             }
             false => String::new(),
         };

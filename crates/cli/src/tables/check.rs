@@ -1,18 +1,14 @@
-//! A check as text: every score that does not keep its bound.
+//! Text of a check: every score that does not keep its bound.
 
 use std::fmt::Write;
 
-use crate::output::paint::{bad, doubtful, good, heading};
-use crate::output::wrapped::push_wrapped;
+use crate::output::colors::{bad, doubtful, good, heading};
+use crate::output::wrap::push_wrapped;
 use crate::tables::failures::failures_text;
 use report::{finding_score, finding_status, way_out};
-use suite::Check;
-use suite::Comparison;
-use suite::Level;
-use suite::printable_path;
-use suite::{Finding, Outcome, number};
+use suite::{Check, Comparison, Finding, Level, Outcome, number, printable_path};
 
-/// What is broken, inconclusive or too narrow, by scene and filter, then the comparisons, then the counts. `out` is the
+/// Lists scores that are broken, inconclusive or too noisy, by scene and filter; then comparisons, then counts. `out` is the
 /// folder of the run's pictures.
 pub fn check_text(check: &Check, out: &std::path::Path) -> String {
     let mut text = failures_text(&check.failures);
@@ -26,7 +22,7 @@ pub fn check_text(check: &Check, out: &std::path::Path) -> String {
             let _ = writeln!(text, "{}", heading(&format!("{} / {}", own.0, own.1)));
             case = own;
         }
-        for (indent, line) in lines(finding, out) {
+        for (indent, line) in finding_lines(finding, out) {
             push_wrapped(&mut text, indent, &line);
         }
     }
@@ -36,10 +32,10 @@ pub fn check_text(check: &Check, out: &std::path::Path) -> String {
             push_wrapped(&mut text, 2, &comparison_line(comparison));
         }
     }
-    text + &counts(check)
+    text + &counts_text(check)
 }
 
-fn lines(finding: &Finding, out: &std::path::Path) -> Vec<(usize, String)> {
+fn finding_lines(finding: &Finding, out: &std::path::Path) -> Vec<(usize, String)> {
     let status = match finding.outcome {
         Outcome::Broken => bad(finding_status(finding)),
         Outcome::Kept => good(finding_status(finding)),
@@ -47,7 +43,7 @@ fn lines(finding: &Finding, out: &std::path::Path) -> Vec<(usize, String)> {
     };
     let mut lines = vec![
         (2, format!("{status} {}", finding_score(finding))),
-        (6, place(finding)),
+        (6, place_text(finding)),
     ];
     if let Some(worst) = &finding.worst {
         let picture = out.join(&worst.picture);
@@ -77,11 +73,11 @@ fn lines(finding: &Finding, out: &std::path::Path) -> Vec<(usize, String)> {
     lines
 }
 
-fn place(finding: &Finding) -> String {
+fn place_text(finding: &Finding) -> String {
     format!("{}: {}", finding.place, finding.why)
 }
 
-/// A comparison with the baseline on one line.
+/// Describes a comparison with the baseline on one line.
 pub fn comparison_line(comparison: &Comparison) -> String {
     let Comparison {
         filter,
@@ -106,16 +102,15 @@ pub fn comparison_line(comparison: &Comparison) -> String {
     )
 }
 
-fn counts(check: &Check) -> String {
-    let count = |outcome| check.count(outcome);
+fn counts_text(check: &Check) -> String {
     let mut text = format!(
         "{} bounds: {} kept, {} broken, {} inconclusive, {} too strict, {} not applicable\n",
         check.findings.len(),
-        count(Outcome::Kept),
-        count(Outcome::Broken),
-        count(Outcome::Inconclusive),
-        count(Outcome::TooNoisy),
-        count(Outcome::NotApplicable)
+        check.count(Outcome::Kept),
+        check.count(Outcome::Broken),
+        check.count(Outcome::Inconclusive),
+        check.count(Outcome::TooNoisy),
+        check.count(Outcome::NotApplicable)
     );
     if !check.findings.is_empty() {
         let required = (check.findings.iter()).filter(|finding| finding.level == Level::Required);

@@ -1,18 +1,17 @@
-//! Text of a comparison, 80 columns wide.
+//! Tables of a comparison of two runs.
 
-use crate::output::paint::{bad, doubtful, faint, good, heading};
-use crate::output::wrapped::push_wrapped;
+use crate::output::colors::{bad, doubtful, faint, good, heading};
+use crate::output::wrap::push_wrapped;
 use report::signed;
-use suite::number;
-use suite::printable;
-use suite::{Basis, Change, ChangeKind, rank_changes};
-use suite::{Compared, SettingChange};
-use suite::{MeanChange, MeanKind};
+use suite::{
+    Basis, Change, ChangeKind, Compared, MeanChange, MeanKind, SettingChange, number, printable,
+    rank_changes,
+};
 
-/// Changed cases that are printed; `--json` and the page have all.
+/// Upper limit on changed cases in the table; `--json` and the page have all.
 const CASES: usize = 12;
 
-/// Settings, cases of one run alone, means over scenes, cases that changed, counts.
+/// Makes the tables: settings, cases of one run alone, means over scenes, cases that changed, counts.
 pub fn compare_table(compared: &Compared) -> String {
     let mut text = String::new();
     for setting in &compared.settings {
@@ -48,7 +47,7 @@ fn setting_line(setting: &SettingChange) -> String {
     )
 }
 
-/// Filters of which no scene changed are named in one line.
+/// Makes the table of means; one line names the filters of which no scene changed.
 fn means_table(means: &[MeanChange]) -> String {
     let mut text = String::new();
     let mut filter = "";
@@ -97,10 +96,10 @@ fn means_table(means: &[MeanChange]) -> String {
     text
 }
 
-/// Case by case, those with the largest changes first.
+/// Makes the table of cases, those with the largest changes first.
 fn changes_table(changes: &[Change]) -> String {
-    let rank_changes = rank_changes(changes);
-    if rank_changes.is_empty() {
+    let ranked = rank_changes(changes);
+    if ranked.is_empty() {
         return String::new();
     }
     let mut text = format!(
@@ -108,7 +107,7 @@ fn changes_table(changes: &[Change]) -> String {
         heading(&format!("{:<19}", "scene / filter")),
         columns("95 % CI")
     );
-    for (scene, filter) in rank_changes.iter().take(CASES) {
+    for (scene, filter) in ranked.iter().take(CASES) {
         text += &format!("{scene} / {filter}\n");
         let own = changes
             .iter()
@@ -117,8 +116,8 @@ fn changes_table(changes: &[Change]) -> String {
             text += &change_row(change);
         }
     }
-    if rank_changes.len() > CASES {
-        let more = rank_changes.len() - CASES;
+    if ranked.len() > CASES {
+        let more = ranked.len() - CASES;
         text += &faint(&format!(
             "and {more} cases more: --json or --html show them\n"
         ));

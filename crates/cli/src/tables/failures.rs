@@ -1,11 +1,11 @@
-//! The failed cases of a run, with their reasons.
+//! List of a run's failed cases.
 
 use suite::{Failure, printable, printable_lines};
 
-use crate::output::paint::{bad, heading};
-use crate::output::wrapped::push_wrapped;
+use crate::output::colors::{bad, heading};
+use crate::output::wrap::push_wrapped;
 
-/// Every failure with its reason; nothing where there is none.
+/// Lists every failure with its reason; empty where there is none.
 pub fn failures_text(failures: &[Failure]) -> String {
     let mut text = String::new();
     for failure in failures {

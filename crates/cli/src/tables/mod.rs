@@ -1,10 +1,12 @@
-//! Results as text, in 80 columns.
+//! Tables of results, in 80 columns.
 
+pub mod adapter;
 pub mod bench;
 pub mod cases;
 pub mod check;
+pub mod columns;
 pub mod comparison;
 pub mod failures;
-pub mod means;
+pub mod scene_means;
 pub mod sensitivity;
 pub mod tuning;

@@ -1,8 +1,8 @@
-//! The table of a sensitivity study.
+//! Table of a sensitivity study.
 
 use suite::{ParameterSensitivity, Sensitivity, SobolIndices};
 
-/// The parameters, those that matter most first.
+/// Makes the table of parameters, those that matter most first.
 pub fn sensitivity_table(found: &Sensitivity) -> String {
     let mut rows: Vec<(&String, &ParameterSensitivity)> = found.parameters.iter().collect();
     rows.sort_by(|(_, a), (_, b)| b.importance().total_cmp(&a.importance()));

@@ -1,17 +1,15 @@
-//! A finished tuning as text.
+//! Tables of a finished tuning, and of two presets.
 
-use crate::output::paint::heading;
-use crate::output::wrapped::push_wrapped;
-use suite::LEAST_BLEED;
-use suite::{Difference, Paired, Preference};
-use suite::{Trial, Tuning};
+use crate::output::colors::heading;
+use crate::output::wrap::push_wrapped;
+use suite::{Difference, LEAST_BLEED, Paired, Preference, Trial, Tuning};
 
-/// Rows of the front that are printed; `tune.json` has all.
+/// Upper limit on rows of the front; `tune.json` has all.
 const ROWS: usize = 12;
-/// Where their values begin.
+/// Column at which their values begin.
 const VALUES: usize = 34;
 
-/// Start, front, choice, folds and sealed scenes.
+/// Makes the tables: start, front, choice, folds and held-out scenes.
 pub fn tuning_table(tuning: &Tuning) -> String {
     let journal = &tuning.journal;
     let mut text = heading(&format!(
@@ -32,7 +30,7 @@ pub fn tuning_table(tuning: &Tuning) -> String {
     }
     for (index, trial) in rows.iter().enumerate() {
         if index == 0 || trial.trial != 0 {
-            text += &row(trial, &tuning.start, tuning.chosen.trial);
+            text += &trial_row(trial, &tuning.start, tuning.chosen.trial);
         }
     }
     text += "bleed: bleed_lateral of the worst scene, in pixels\n";
@@ -84,7 +82,7 @@ pub fn tuning_table(tuning: &Tuning) -> String {
     text
 }
 
-fn row(trial: &Trial, start: &Trial, chosen: usize) -> String {
+fn trial_row(trial: &Trial, start: &Trial, chosen: usize) -> String {
     let changed: Vec<String> = (trial.values.iter())
         .filter(|(name, value)| start.values[*name] != **value)
         .map(|(name, value)| format!("{name}={value}"))
@@ -111,7 +109,7 @@ fn row(trial: &Trial, start: &Trial, chosen: usize) -> String {
     numbers + values.get(VALUES - 2..).unwrap_or_default()
 }
 
-/// Two candidates scene by scene, and the verdicts.
+/// Compares two candidates scene by scene.
 pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
     let width = paired
         .scenes
@@ -151,7 +149,7 @@ pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
         percent(*mean),
         percent(bounds[0]),
         percent(bounds[1]),
-        verdict(&paired.flip, names)
+        verdict_text(&paired.flip, names)
     );
     push_wrapped(&mut text, 0, &flip);
     if let Some(bleed) = &paired.bleed {
@@ -167,7 +165,7 @@ pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
                 Preference::Undecided if bleed.is_no_worse(LEAST_BLEED) => {
                     "undecided, and no worse".to_owned()
                 }
-                _ => verdict(bleed, names),
+                _ => verdict_text(bleed, names),
             }
         );
         push_wrapped(&mut text, 0, &bleed);
@@ -175,7 +173,7 @@ pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
     text
 }
 
-fn verdict(difference: &Difference, names: [&str; 2]) -> String {
+fn verdict_text(difference: &Difference, names: [&str; 2]) -> String {
     match difference.verdict {
         Preference::First => format!("{} is better", names[0]),
         Preference::Second => format!("{} is better", names[1]),
@@ -183,7 +181,7 @@ fn verdict(difference: &Difference, names: [&str; 2]) -> String {
     }
 }
 
-/// A mean of logs as a change of the error.
+/// Formats a mean of logs as a change of the error.
 fn percent(log: f64) -> String {
     format!("{:+.1} %", 100.0 * log.exp_m1())
 }

@@ -5,22 +5,24 @@ use toml::Spanned;
 
 use super::document::Document;
 use super::error::SceneError;
-use super::pose::{Pose, Rotation, interpolation, through};
+use super::keyed_motion::{Pose, build_motion, read_interpolation};
+use super::rotation::Rotation;
 use super::schema::{CameraTable, RotationTable};
 use crate::limits::NARROWEST_VIEW;
 use crate::{Camera, Key, Motion};
 
-/// Where a camera looks, as written: towards a point, or by its rotation.
+/// View of a camera as written: towards a point, or with a rotation.
 struct View<'a> {
     position: [f64; 3],
     look_at: &'a Option<Spanned<[f64; 3]>>,
     up: &'a Option<Spanned<[f64; 3]>>,
     rotation: &'a Option<Spanned<RotationTable>>,
-    /// Where it is written.
+    /// Place in the file.
     place: std::ops::Range<usize>,
 }
 
-pub(super) fn camera(
+/// Reads the camera, still or moving.
+pub(super) fn read_camera(
     document: &Document,
     table: &Spanned<CameraTable>,
 ) -> Result<Camera, SceneError> {
@@ -28,9 +30,10 @@ pub(super) fn camera(
     let table = table.get_ref();
     let mut fields_of_view = Vec::new();
     if let Some(degrees) = &table.vertical_fov {
-        fields_of_view.push((0.0, field_of_view(document, degrees)?));
+        fields_of_view.push((0.0, read_field_of_view(document, degrees)?));
     }
-    let interpolation = interpolation(document, "the camera", &table.interpolation, &table.keys)?;
+    let interpolation =
+        read_interpolation(document, "the camera", &table.interpolation, &table.keys)?;
     let motion = match (&table.keys, table.position) {
         (None, Some(position)) => {
             let view = View {
@@ -42,7 +45,7 @@ pub(super) fn camera(
             };
             Motion::still(Key {
                 translation: DVec3::from(position),
-                orientation: rotation(document, &view)?.orientation(),
+                orientation: read_view_rotation(document, &view)?.orientation(),
                 ..Key::REST
             })
         }
@@ -63,28 +66,28 @@ pub(super) fn camera(
                 poses.push(Pose {
                     time,
                     translation: DVec3::from(key.position),
-                    rotation: rotation(document, &view)?,
+                    rotation: read_view_rotation(document, &view)?,
                     scale: DVec3::ONE,
                     place: key.time.span(),
                 });
                 if let Some(degrees) = &key.vertical_fov {
                     if still {
-                        let reason = "the camera has a vertical_fov of its own and one in a key; give it once for \
-                                      all, or in keys only";
+                        let reason = "vertical_fov stands both beside the keys and in a key; leave it out in one of \
+                                      these places";
                         return Err(document.error(degrees.span(), reason));
                     }
-                    fields_of_view.push((time, field_of_view(document, degrees)?));
+                    fields_of_view.push((time, read_field_of_view(document, degrees)?));
                 }
             }
-            through(document, "the camera", keys.span(), &poses, interpolation)?
+            build_motion(document, "the camera", keys.span(), &poses, interpolation)?
         }
         _ => {
-            let reason = "a camera needs either position with look_at or rotation, or else keys that hold them";
+            let reason = "a camera needs either a position with look_at or rotation, or keys that hold these";
             return Err(document.error(place, reason));
         }
     };
     if fields_of_view.is_empty() {
-        let reason = "the camera has no vertical_fov; give it in degrees, once for all or in keys";
+        let reason = "the camera has no vertical_fov; give it in degrees, once or in the keys";
         return Err(document.error(place, reason));
     }
     Ok(Camera {
@@ -93,7 +96,7 @@ pub(super) fn camera(
     })
 }
 
-fn field_of_view(document: &Document, degrees: &Spanned<f64>) -> Result<f64, SceneError> {
+fn read_field_of_view(document: &Document, degrees: &Spanned<f64>) -> Result<f64, SceneError> {
     let found = *degrees.get_ref();
     if (NARROWEST_VIEW..180.0).contains(&found) {
         return Ok(found.to_radians());
@@ -103,19 +106,19 @@ fn field_of_view(document: &Document, degrees: &Spanned<f64>) -> Result<f64, Sce
     Err(document.error(degrees.span(), reason))
 }
 
-fn rotation(document: &Document, view: &View) -> Result<Rotation, SceneError> {
+fn read_view_rotation(document: &Document, view: &View) -> Result<Rotation, SceneError> {
     match (view.look_at, view.rotation) {
         (None, Some(table)) if view.up.is_none() => Rotation::read(document, table),
-        (Some(target), None) => look_at(document, view, target),
+        (Some(target), None) => read_look_at(document, view, target),
         _ => {
-            let reason = "a camera needs either look_at (up goes with it) or rotation";
+            let reason = "a camera needs either look_at, with up or without, or rotation";
             Err(document.error(view.place.clone(), reason))
         }
     }
 }
 
-/// The orientation that turns -Z towards the target and +Y as far up as that allows.
-fn look_at(
+/// Turns -Z towards the target and +Y as far up as that allows.
+fn read_look_at(
     document: &Document,
     view: &View,
     target: &Spanned<[f64; 3]>,
@@ -124,7 +127,7 @@ fn look_at(
         (DVec3::from(view.position) - DVec3::from(*target.get_ref())).try_normalize()
     else {
         let reason = format!(
-            "the camera stands at {:?} and looks at the same point; give another look_at",
+            "the camera is at {:?} and looks at the same point; give another look_at",
             view.position
         );
         return Err(document.error(target.span(), reason));
@@ -133,7 +136,7 @@ fn look_at(
         Some(up) => (*up.get_ref(), up.span()),
         None => ([0.0, 1.0, 0.0], target.span()),
     };
-    // A millionth of a radian from the view the side is still sure to many digits.
+    // An angle of 1e-6 radians still gives the side to many digits.
     let side = DVec3::from(up)
         .try_normalize()
         .map(|up| up.cross(backward))
@@ -141,7 +144,7 @@ fn look_at(
         .and_then(DVec3::try_normalize);
     let Some(right) = side else {
         let reason = format!(
-            "the camera's up {up:?} is [0, 0, 0] or parallel to its view; give an up across the view"
+            "the camera's up {up:?} is zero or parallel to its view; give an up across the view"
         );
         return Err(document.error(place, reason));
     };

@@ -1,4 +1,4 @@
-//! The text of a scene.toml: its syntax, and the lines that its values stand in.
+//! The text of a scene.toml: its syntax, and the lines of its values.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -7,15 +7,15 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
-use super::error::{SceneError, hidden};
+use super::error::{SceneError, check_visible};
 use crate::limits::LARGEST_NUMBER;
 
-/// The parser's own limit.
-const TOO_DEEP: &str = "too many tables or arrays lie in one another; allowed: up to 80";
+/// Message for the TOML parser's own limit.
+const TOO_DEEP: &str = "tables and arrays are nested too deeply; allowed: up to 80 levels";
 
-/// A scene.toml as text.
+/// Text of a scene.toml.
 pub(super) struct Document {
-    /// The file.
+    /// File that holds the text.
     pub(super) path: PathBuf,
     text: String,
 }
@@ -28,27 +28,27 @@ impl Document {
         }
     }
 
-    /// An error at a place in the text.
+    /// Makes an error about a place in the text.
     pub(super) fn error(&self, place: Range<usize>, reason: impl Into<String>) -> SceneError {
         let before = &self.text.as_bytes()[..place.start.min(self.text.len())];
         let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
-        SceneError::line(&self.path, line, reason)
+        SceneError::at_line(&self.path, line, reason)
     }
 
-    /// The whole text as a table of checked numbers and words.
-    pub(super) fn table(&self) -> Result<DeTable<'_>, SceneError> {
+    /// Parses the whole text and checks its numbers and strings.
+    pub(super) fn parse(&self) -> Result<DeTable<'_>, SceneError> {
         let table = DeTable::parse(&self.text).map_err(|error| self.syntax_error(&error))?;
         let table = table.into_inner();
         self.check_table(&table)?;
         Ok(table)
     }
 
-    /// The whole text's place.
+    /// Place of the whole text.
     pub(super) fn whole(&self) -> Range<usize> {
         0..self.text.len()
     }
 
-    /// A part of the text as what the schema says it is.
+    /// Reads a value by its schema.
     pub(super) fn read<T: DeserializeOwned>(
         &self,
         value: Spanned<DeValue<'_>>,
@@ -56,8 +56,8 @@ impl Document {
         T::deserialize(ValueDeserializer::from(value)).map_err(|error| self.syntax_error(&error))
     }
 
-    /// A part of the text that must be a table.
-    pub(super) fn as_table<'a, 'i>(
+    /// Takes a value as a table; refuses any other.
+    pub(super) fn expect_table<'a, 'i>(
         &self,
         what: &str,
         value: &'a Spanned<DeValue<'i>>,
@@ -65,7 +65,7 @@ impl Document {
         match value.get_ref() {
             DeValue::Table(table) => Ok(table),
             other => {
-                let reason = format!("{what} is a {}; a table is needed", other.type_str());
+                let reason = format!("{what} is a {}; allowed: a table", other.type_str());
                 Err(self.error(value.span(), reason))
             }
         }
@@ -73,13 +73,13 @@ impl Document {
 
     fn check_table(&self, table: &DeTable<'_>) -> Result<(), SceneError> {
         for (key, value) in table {
-            self.check_word(key.get_ref(), key.span())?;
+            self.check_text(key.get_ref(), key.span())?;
             self.check_value(value)?;
         }
         Ok(())
     }
 
-    /// The parser bounds how deep values lie in one another.
+    /// Checks a value and all within it; the parser limits how deeply they are nested.
     fn check_value(&self, value: &Spanned<DeValue<'_>>) -> Result<(), SceneError> {
         match value.get_ref() {
             DeValue::Float(number) => {
@@ -87,20 +87,17 @@ impl Document {
             }
             DeValue::Integer(number) => {
                 let parsed = i128::from_str_radix(number.as_str(), number.radix());
-                self.check_number(
-                    Some(parsed.map_or(f64::MAX, |parsed| parsed as f64)),
-                    number,
-                    value.span(),
-                )
+                let parsed = parsed.map_or(f64::MAX, |parsed| parsed as f64);
+                self.check_number(Some(parsed), number, value.span())
             }
-            DeValue::String(word) => self.check_word(word, value.span()),
+            DeValue::String(text) => self.check_text(text, value.span()),
             DeValue::Array(values) => values.iter().try_for_each(|value| self.check_value(value)),
             DeValue::Table(table) => self.check_table(table),
             _ => Ok(()),
         }
     }
 
-    /// TOML can write `nan` and `inf`; a scene cannot use them anywhere, nor what a 32-bit number cannot hold the square of.
+    /// Refuses `nan` and `inf`, which TOML allows, and numbers whose squares overflow 32-bit floats.
     fn check_number(
         &self,
         parsed: Option<f64>,
@@ -117,16 +114,14 @@ impl Document {
         Err(self.error(place, format!("found {written}; allowed: {allowed}")))
     }
 
-    /// Names and sentences reach terminals, logs and reports.
-    fn check_word(&self, word: &str, place: Range<usize>) -> Result<(), SceneError> {
-        match hidden(word) {
-            Some(reason) => Err(self.error(place, format!("the text {reason}"))),
-            None => Ok(()),
-        }
+    /// Checks a name or sentence, which may go to terminals, logs and reports.
+    fn check_text(&self, text: &str, place: Range<usize>) -> Result<(), SceneError> {
+        check_visible(text).map_err(|reason| self.error(place, format!("the text {reason}")))
     }
 
-    /// serde speaks of fields, variants and types of Rust; a scene has keys, families and numbers.
-    pub(super) fn syntax_error(&self, error: &toml::de::Error) -> SceneError {
+    /// Turns a parser's error into one about the file: keys, families and numbers instead of fields, variants and Rust
+    /// types.
+    fn syntax_error(&self, error: &toml::de::Error) -> SceneError {
         let reason = error
             .message()
             .replace("recursion limit", TOO_DEEP)
@@ -138,11 +133,12 @@ impl Document {
             .replace("expected f64", "expected a number")
             .replace("expected f32", "expected a number")
             .replace("expected u32", "expected a whole number from 0")
-            .replace("expected one of", "allowed:")
+            .replace(", expected one of", "; allowed:")
+            .replace(", expected", "; allowed:")
             .replace("expected", "allowed:");
         match error.span() {
             Some(place) => self.error(place, reason),
-            None => SceneError::file(&self.path, reason),
+            None => SceneError::in_file(&self.path, reason),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! EXR and HDR files as environment maps.
+//! Environment maps from EXR and HDR files.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -12,9 +12,8 @@ use crate::limits::{
     BRIGHTEST, LARGEST_IMAGE_FILE, MOST_ENVIRONMENT_TEXELS, MOST_ENVIRONMENT_VALUES,
 };
 
-/// Reads a map, neither strengthened nor turned; the error is the reason alone, for the caller knows the place that
-/// names the file.
-pub(super) fn load(files: &mut Files, path: &Path) -> Result<EnvironmentMap, String> {
+/// Reads a map with strength 1 and rotation 0. The error is a reason alone: the caller knows the line that names the file.
+pub(super) fn read_map(files: &mut Files, path: &Path) -> Result<EnvironmentMap, String> {
     let name = path.display();
     let format = match path.extension().and_then(|extension| extension.to_str()) {
         Some("exr") => ImageFormat::OpenExr,
@@ -26,12 +25,12 @@ pub(super) fn load(files: &mut Files, path: &Path) -> Result<EnvironmentMap, Str
         }
     };
     let bytes = files
-        .bytes(path, LARGEST_IMAGE_FILE)
+        .read(path, LARGEST_IMAGE_FILE)
         .map_err(|error| format!("the background's image {name} cannot be read: {error}"))?;
     decode(&bytes, path, format).map_err(|reason| format!("the background's image {name} {reason}"))
 }
 
-/// The error is a reason that follows the file's name.
+/// Decodes a map. The error follows the file's name.
 fn decode(bytes: &[u8], path: &Path, format: ImageFormat) -> Result<EnvironmentMap, String> {
     let undecodable = |error: String| format!("cannot be decoded: {error}");
     let header = Header::read(bytes, format).map_err(undecodable)?;
@@ -43,13 +42,13 @@ fn decode(bytes: &[u8], path: &Path, format: ImageFormat) -> Result<EnvironmentM
         ));
     }
     if format == ImageFormat::OpenExr {
-        check_values(bytes)?;
+        check_exr_values(bytes)?;
     }
     let image = header.decode().map_err(undecodable)?.into_rgb32f();
     let (width, height) = image.dimensions();
     let texels: Vec<[f32; 3]> = image.pixels().map(|pixel| pixel.0).collect();
-    let amiss = |texel: &[f32; 3]| !texel.iter().all(|part| (0.0..=BRIGHTEST).contains(part));
-    if let Some(index) = texels.iter().position(amiss) {
+    let is_wrong = |texel: &[f32; 3]| !texel.iter().all(|part| (0.0..=BRIGHTEST).contains(part));
+    if let Some(index) = texels.iter().position(is_wrong) {
         let [x, y] = [index % width as usize, index / width as usize];
         return Err(format!(
             "holds {:?} at ({x}, {y}); allowed: 0 to {BRIGHTEST:e}",
@@ -66,20 +65,19 @@ fn decode(bytes: &[u8], path: &Path, format: ImageFormat) -> Result<EnvironmentM
     })
 }
 
-/// An EXR file may hold more than the picture that it shows: other channels, other layers, pixels around it. All of that is
-/// decoded.
-fn check_values(bytes: &[u8]) -> Result<(), String> {
+/// Limits all values of an EXR file: the decoder reads every channel and layer, and pixels outside the picture.
+fn check_exr_values(bytes: &[u8]) -> Result<(), String> {
     let file = exr::block::read(Cursor::new(bytes), false)
         .map_err(|error| format!("cannot be decoded: {error}"))?;
-    let of_layer = |layer: &exr::meta::header::Header| {
+    let count = |layer: &exr::meta::header::Header| {
         let texels = layer.layer_size.width() as u64 * layer.layer_size.height() as u64;
         texels.saturating_mul(layer.channels.list.len() as u64)
     };
-    let values = (file.headers().iter().map(of_layer)).fold(0, u64::saturating_add);
+    let values = (file.headers().iter().map(count)).fold(0, u64::saturating_add);
     if values > MOST_ENVIRONMENT_VALUES {
         return Err(format!(
             "holds {values} values in all its channels and layers; allowed: {MOST_ENVIRONMENT_VALUES}; scale it down, \
-             or save R, G and B alone"
+             or save only R, G and B"
         ));
     }
     Ok(())

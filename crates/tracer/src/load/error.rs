@@ -1,24 +1,24 @@
-//! What is wrong with a scene on disk, and where.
+//! Errors in the files of a scene, and the rules for names and texts in them.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 
 use frame::is_hidden;
 
-/// A scene that cannot be used. Reads `path:line: reason`; the reason says what was found and what is allowed.
+/// Error in a scene's files. It reads `path:line: reason`; the reason says what was found and what is allowed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneError {
-    /// The file to mend.
+    /// File to mend.
     pub path: PathBuf,
-    /// Its line, counted from 1, where there is one.
+    /// Line to mend, counted from 1; none if the error concerns the whole file.
     pub line: Option<usize>,
-    /// What was found, what is allowed, the way out.
+    /// What was found, what is allowed, and the way out.
     pub reason: String,
 }
 
 impl SceneError {
-    /// An error about a file as a whole.
-    pub(super) fn file(path: &Path, reason: impl Into<String>) -> Self {
+    /// Makes an error about a whole file.
+    pub(super) fn in_file(path: &Path, reason: impl Into<String>) -> Self {
         Self {
             path: path.to_owned(),
             line: None,
@@ -26,12 +26,19 @@ impl SceneError {
         }
     }
 
-    /// An error in one line of a file, counted from 1.
-    pub(super) fn line(path: &Path, line: usize, reason: impl Into<String>) -> Self {
+    /// Makes an error about one line of a file, counted from 1.
+    pub(super) fn at_line(path: &Path, line: usize, reason: impl Into<String>) -> Self {
         Self {
             line: Some(line),
-            ..Self::file(path, reason)
+            ..Self::in_file(path, reason)
         }
+    }
+
+    /// Makes the error about a mesh that no ray can hit.
+    pub(super) fn without_area(path: &Path, triangles: usize) -> Self {
+        let reason =
+            format!("all {triangles} triangles have no area; a mesh needs at least one with area");
+        Self::in_file(path, reason)
     }
 }
 
@@ -50,8 +57,8 @@ impl std::error::Error for SceneError {}
 /// Most names that a message lists.
 const MOST_LISTED: usize = 40;
 
-/// `a, b, c` for messages; `none` where there is nothing.
-pub(super) fn list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+/// Joins names for a message: `a, b, c`, or `none`.
+pub(super) fn join_names<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     let mut names = names.into_iter();
     let mut listed: Vec<&str> = names.by_ref().take(MOST_LISTED).collect();
     let more = match names.count() {
@@ -68,18 +75,25 @@ pub(super) fn list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     }
 }
 
-/// What names of objects and variants may hold; they become names of channels and folders.
-pub(super) fn is_name(word: &str) -> bool {
+/// Checks a name of an object or variant, which becomes part of channel and folder names.
+pub(super) fn check_name(name: &str) -> Result<(), String> {
     let allowed = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-    !word.is_empty() && word.chars().all(allowed)
+    if !name.is_empty() && name.chars().all(allowed) {
+        return Ok(());
+    }
+    Err(format!(
+        "name \"{name}\"; allowed: letters, digits, _ and -"
+    ))
 }
 
-/// What is wrong with a text that people are to read, if anything: characters that move the cursor, end a line, or turn
-/// the direction of writing, which terminals, logs and reports obey.
-pub(super) fn hidden(text: &str) -> Option<String> {
-    let found = text.chars().find(|letter| is_hidden(*letter))?;
-    Some(format!(
-        "holds the control character U+{:04X}; allowed: what can be seen, in one line",
-        u32::from(found)
-    ))
+/// Refuses characters that terminals, logs and reports obey: they move the cursor, end a line, or turn the direction of
+/// writing. The error follows the name of the text.
+pub(super) fn check_visible(text: &str) -> Result<(), String> {
+    match text.chars().find(|letter| is_hidden(*letter)) {
+        None => Ok(()),
+        Some(found) => Err(format!(
+            "holds the control character U+{:04X}; allowed: one line of visible characters",
+            u32::from(found)
+        )),
+    }
 }

@@ -1,12 +1,13 @@
-//! Faces that no ray tells from nothing, or from one before them: left out of meshes, with a note.
+//! Removal of faces that no ray needs, with a note to the user.
 //!
-//! A face whose corners lie on a line has no area: no ray meets it. Of two faces with the same corners, attributes and material
-//! every ray meets the first; the second would only be drawn as a light of its own, and that light counted twice. Faces with the
-//! same corners that differ otherwise stay: rays meet the first of them. As a ray is tested against each, their number has a
-//! limit.
+//! - A face whose corners lie on a line has no area; no ray hits it.
+//! - Of two faces with the same corners, attributes and material, every ray hits the first. The second would only count its light
+//!   twice.
 //!
-//! Up to half of a mesh's faces go without a note where they have no area: at the poles of a sphere a square becomes one triangle
-//! and one such face.
+//! Faces with the same corners that differ otherwise stay. A ray is tested against each of them, so that their number is limited.
+//!
+//! Faces without area get a note only if they are more than half: at the pole of a sphere, each square becomes one triangle and one
+//! such face.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -16,28 +17,31 @@ use glam::Vec3;
 use super::error::SceneError;
 use crate::scene::{Mesh, Object};
 
-/// Faces of a mesh that may have the same three corners.
+/// Most faces of a mesh with the same three corners.
 pub const MOST_COINCIDENT: usize = 256;
 
-/// What was left out of a mesh.
+/// Numbers of faces removed from a mesh.
 #[derive(Default)]
-struct LeftOut {
+struct Removed {
     without_area: usize,
     copies: usize,
 }
 
-/// Leaves faces out of meshes that no ray tells from nothing or from others; a note per mesh that had more such than usual. Refuses meshes with too
-/// many faces in one place.
-pub(super) fn tidy(meshes: &mut [Mesh], objects: &[Object]) -> Result<Vec<String>, SceneError> {
+/// Removes faces without area and copies of faces, and returns a note for each mesh with more of them than usual. Refuses
+/// meshes with too many faces in one place.
+pub(super) fn remove_redundant_faces(
+    meshes: &mut [Mesh],
+    objects: &[Object],
+) -> Result<Vec<String>, SceneError> {
     let mut notes = Vec::new();
     for (index, mesh) in meshes.iter_mut().enumerate() {
         let object = objects.iter().find(|object| object.mesh == index);
         let name = object.map_or("", |object| object.name.as_str());
         let faces = mesh.triangles.len();
-        let left_out = tidy_mesh(mesh, name)?;
+        let removed = remove_from_mesh(mesh, name)?;
         let kinds = [
-            (left_out.without_area, faces / 2, "have no area"),
-            (left_out.copies, 0, "are copies of others"),
+            (removed.without_area, faces / 2, "have no area"),
+            (removed.copies, 0, "are copies of others"),
         ];
         for (count, usual, what) in kinds {
             if count <= usual {
@@ -52,48 +56,39 @@ pub(super) fn tidy(meshes: &mut [Mesh], objects: &[Object]) -> Result<Vec<String
     Ok(notes)
 }
 
-fn tidy_mesh(mesh: &mut Mesh, object: &str) -> Result<LeftOut, SceneError> {
-    let mut left_out = LeftOut::default();
-    // Per set of corners, the faces that stay.
+fn remove_from_mesh(mesh: &mut Mesh, object: &str) -> Result<Removed, SceneError> {
+    let mut removed = Removed::default();
+    // Faces that stay, by corners.
     let mut places: HashMap<[[u32; 3]; 3], Vec<u32>> = HashMap::with_capacity(mesh.triangles.len());
-    let mut staying = Vec::with_capacity(mesh.triangles.len());
+    let mut remaining = Vec::with_capacity(mesh.triangles.len());
     for face in 0..mesh.triangles.len() as u32 {
-        let corners = mesh.triangles[face as usize].map(|vertex| place(mesh, vertex));
+        let corners = mesh.triangles[face as usize].map(|vertex| place_key(mesh, vertex));
         if has_no_area(mesh, face, corners) {
-            left_out.without_area += 1;
+            removed.without_area += 1;
             continue;
         }
         let mut sorted = corners;
         sorted.sort_unstable();
         let others = places.entry(sorted).or_default();
         if others.iter().any(|other| is_copy(mesh, face, *other)) {
-            left_out.copies += 1;
+            removed.copies += 1;
             continue;
         }
         others.push(face);
         if others.len() > MOST_COINCIDENT {
             return Err(too_many(&mesh.path, object, corners_of(mesh, face)));
         }
-        staying.push(face);
+        remaining.push(face);
     }
-    if staying.is_empty() {
-        let reason = format!(
-            "all its {} triangles have no area; a mesh needs at least one that has",
-            mesh.triangles.len()
-        );
-        return Err(SceneError::file(&mesh.path, reason));
+    if remaining.is_empty() {
+        return Err(SceneError::without_area(&mesh.path, mesh.triangles.len()));
     }
-    if staying.len() < mesh.triangles.len() {
-        mesh.triangles = staying
-            .iter()
-            .map(|face| mesh.triangles[*face as usize])
-            .collect();
-        mesh.slots = staying
-            .iter()
-            .map(|face| mesh.slots[*face as usize])
-            .collect();
+    if remaining.len() < mesh.triangles.len() {
+        let faces = || remaining.iter().map(|face| *face as usize);
+        mesh.triangles = faces().map(|face| mesh.triangles[face]).collect();
+        mesh.slots = faces().map(|face| mesh.slots[face]).collect();
     }
-    Ok(left_out)
+    Ok(removed)
 }
 
 fn too_many(path: &Path, object: &str, [a, b, c]: [Vec3; 3]) -> SceneError {
@@ -101,14 +96,14 @@ fn too_many(path: &Path, object: &str, [a, b, c]: [Vec3; 3]) -> SceneError {
         "more than {MOST_COINCIDENT} triangles of object {object} have the corners {a}, {b} and {c}; allowed: {MOST_COINCIDENT}, since a \
          ray is tested against each; delete all but one"
     );
-    SceneError::file(path, reason)
+    SceneError::in_file(path, reason)
 }
 
-/// What tells a corner's place: its position, or its vertex where the mesh deforms.
-fn place(mesh: &Mesh, vertex: u32) -> [u32; 3] {
+/// Key of a corner's place: its position, or its vertex if the mesh deforms.
+fn place_key(mesh: &Mesh, vertex: u32) -> [u32; 3] {
     match mesh.deforms() {
         true => [vertex; 3],
-        // -0 is 0.
+        // Adding 0 turns -0 into 0.
         false => (mesh.positions[vertex as usize] + Vec3::ZERO)
             .to_array()
             .map(f32::to_bits),
@@ -119,7 +114,7 @@ fn corners_of(mesh: &Mesh, face: u32) -> [Vec3; 3] {
     mesh.triangles[face as usize].map(|vertex| mesh.positions[vertex as usize])
 }
 
-/// Whether the corners lie on a line, at all times. Decided exactly: beside a face that is merely thin a gap would open.
+/// Tells whether the corners lie on a line at all times. Exact: removing a face that is merely thin would leave a gap.
 fn has_no_area(mesh: &Mesh, face: u32, [a, b, c]: [[u32; 3]; 3]) -> bool {
     if a == b || b == c || c == a {
         return true;
@@ -135,7 +130,8 @@ fn has_no_area(mesh: &Mesh, face: u32, [a, b, c]: [[u32; 3]; 3]) -> bool {
         })
 }
 
-/// Whether two faces in one place have the same corners in the same order, and the same normals, texture coordinates and material.
+/// Tells whether two faces in one place have the same corners in the same order, and the same normals, texture coordinates
+/// and material.
 fn is_copy(mesh: &Mesh, face: u32, other: u32) -> bool {
     let [faces, others] = [face, other].map(|face| mesh.triangles[face as usize]);
     let same_corners = faces.iter().zip(&others).all(|(vertex, other)| {
@@ -155,7 +151,7 @@ mod tests {
 
     use super::*;
 
-    fn mesh(positions: &[[f32; 3]], triangles: Vec<[u32; 3]>) -> Mesh {
+    fn build_mesh(positions: &[[f32; 3]], triangles: Vec<[u32; 3]>) -> Mesh {
         Mesh {
             path: PathBuf::from("mesh.obj"),
             positions: positions.iter().copied().map(Vec3::from).collect(),
@@ -185,38 +181,38 @@ mod tests {
             [2, 1, 0], // the second from behind
             [1, 2, 0], // its corners in another order
         ];
-        let mut mesh = mesh(&CORNERS, triangles);
-        let left_out = tidy_mesh(&mut mesh, "thing").expect("few are in one place");
-        assert_eq!((left_out.without_area, left_out.copies), (2, 1));
+        let mut mesh = build_mesh(&CORNERS, triangles);
+        let removed = remove_from_mesh(&mut mesh, "thing").expect("few are in one place");
+        assert_eq!((removed.without_area, removed.copies), (2, 1));
         assert_eq!(mesh.triangles, [[0, 1, 2], [2, 1, 0], [1, 2, 0]]);
         assert_eq!(mesh.slots.len(), 3);
     }
 
     #[test]
     fn another_material_or_texture_coordinate_makes_another_face() {
-        let mut textured = mesh(&CORNERS, vec![[0, 1, 2], [3, 1, 2]]);
+        let mut textured = build_mesh(&CORNERS, vec![[0, 1, 2], [3, 1, 2]]);
         textured.texcoords = (0..5).map(|u| glam::Vec2::splat(u as f32)).collect();
-        tidy_mesh(&mut textured, "thing").expect("few are in one place");
+        remove_from_mesh(&mut textured, "thing").expect("few are in one place");
         assert_eq!(textured.triangles.len(), 2);
-        let mut painted = mesh(&CORNERS, vec![[0, 1, 2]; 2]);
+        let mut painted = build_mesh(&CORNERS, vec![[0, 1, 2]; 2]);
         painted.slots[1] = 1;
-        tidy_mesh(&mut painted, "thing").expect("few are in one place");
+        remove_from_mesh(&mut painted, "thing").expect("few are in one place");
         assert_eq!(painted.triangles.len(), 2);
     }
 
     #[test]
     fn a_thin_face_stays() {
         let thin = [[0.0, 0.0, 0.0], [1.0, 1e-45, 0.0], [2.0, 0.0, 0.0]];
-        let mut thin = mesh(&thin, vec![[0, 1, 2]]);
-        tidy_mesh(&mut thin, "thing").expect("few are in one place");
+        let mut thin = build_mesh(&thin, vec![[0, 1, 2]]);
+        remove_from_mesh(&mut thin, "thing").expect("few are in one place");
         assert_eq!(thin.triangles.len(), 1);
     }
 
     #[test]
     fn too_many_different_faces_in_one_place_are_refused() {
-        let mut crowd = mesh(&CORNERS, vec![[0, 1, 2]; MOST_COINCIDENT + 1]);
+        let mut crowd = build_mesh(&CORNERS, vec![[0, 1, 2]; MOST_COINCIDENT + 1]);
         crowd.slots = (0..crowd.slots.len() as u32).collect();
-        let Err(error) = tidy_mesh(&mut crowd, "thing") else {
+        let Err(error) = remove_from_mesh(&mut crowd, "thing") else {
             panic!("{} faces in one place", MOST_COINCIDENT + 1);
         };
         assert!(error.reason.contains("256"), "{error}");

@@ -1,54 +1,55 @@
-//! The files that a scene is made from, read once each and hashed.
+//! The files that a scene is made of, each with the hash of its bytes.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use frame::{FileError, read_bounded};
 
-/// Reads files and remembers what was in them.
+/// Files of a scene that have been read.
 pub(super) struct Files {
     folder: PathBuf,
-    read: BTreeMap<String, blake3::Hash>,
+    /// Hashes by name, relative to the folder.
+    hashes: BTreeMap<String, blake3::Hash>,
 }
 
 impl Files {
-    /// Files of the scene in `folder`.
+    /// Starts with no files of the scene in `folder`.
     pub(super) fn new(folder: &Path) -> Self {
         Self {
             folder: folder.to_owned(),
-            read: BTreeMap::new(),
+            hashes: BTreeMap::new(),
         }
     }
 
-    /// The bytes of a regular file of at most `limit` bytes; the error is the reason alone, for the caller knows the
-    /// place that names the file.
-    pub(super) fn bytes(&mut self, path: &Path, limit: u64) -> Result<Vec<u8>, String> {
-        let bytes = read_bounded(path, limit).map_err(reason)?;
+    /// Reads a regular file of at most `limit` bytes. The error is a reason alone: the caller knows the line that names
+    /// the file.
+    pub(super) fn read(&mut self, path: &Path, limit: u64) -> Result<Vec<u8>, String> {
+        let bytes = read_bounded(path, limit).map_err(describe)?;
         // Relative to the scene, so that a copy of the folder elsewhere has the same hash.
         let name = path.strip_prefix(&self.folder).unwrap_or(path);
         let name = name.to_string_lossy().replace('\\', "/");
-        self.read.insert(name, blake3::hash(&bytes));
+        self.hashes.insert(name, blake3::hash(&bytes));
         Ok(bytes)
     }
 
-    /// The text of such a file.
-    pub(super) fn text(&mut self, path: &Path, limit: u64) -> Result<String, String> {
-        String::from_utf8(self.bytes(path, limit)?).map_err(|_| "it is not UTF-8 text".to_owned())
+    /// Reads a file of UTF-8 text.
+    pub(super) fn read_text(&mut self, path: &Path, limit: u64) -> Result<String, String> {
+        String::from_utf8(self.read(path, limit)?).map_err(|_| "it is not UTF-8 text".to_owned())
     }
 
-    /// Where the files lie that were read, in the order of their names.
+    /// Paths of the files read, in the order of their names.
     pub(super) fn paths(&self) -> Vec<PathBuf> {
-        self.read
+        self.hashes
             .keys()
             .map(|name| self.folder.join(name))
             .collect()
     }
 
-    /// One hash of the names and bytes of all files read and of the choice made, in hexadecimal.
+    /// Hash of the names and bytes of all files read and of the variant chosen, in hexadecimal.
     pub(super) fn hash(&self, variant: Option<&str>) -> String {
         let mut hasher = blake3::Hasher::new();
-        for (name, hash) in &self.read {
-            // A fixed-length hash ends each entry: no two lists of files run together.
+        for (name, hash) in &self.hashes {
+            // Lengths and fixed-size hashes keep entries apart.
             hasher.update(&(name.len() as u64).to_le_bytes());
             hasher.update(name.as_bytes());
             hasher.update(hash.as_bytes());
@@ -58,8 +59,8 @@ impl Files {
     }
 }
 
-/// Why a file cannot be read, without its name.
-pub(super) fn reason(error: FileError) -> String {
+/// Says why a file cannot be read, without its name.
+fn describe(error: FileError) -> String {
     match error {
         FileError::Io { source, .. } => source.to_string(),
         FileError::Foreign { reason, .. } => format!("it {reason}"),

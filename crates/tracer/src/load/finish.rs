@@ -1,29 +1,28 @@
-//! How a surface reflects, from the numbers that files give.
+//! The finish of a surface, from the numbers that files give.
 
 use crate::Finish;
 
-/// Of a coat for which none is given: glass, and most paints and plastics.
+/// Refractive index of a coat if no file gives one: glass, most paints and plastics.
 const DEFAULT_INDEX: f32 = 1.5;
 
-/// What a file may say about a finish.
+/// Values that a file may give for a finish.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Numbers {
+pub(super) struct FinishValues {
     pub roughness: Option<f32>,
     pub metallic: bool,
     pub index: Option<f32>,
 }
 
-/// One of the numbers.
+/// Name of one of the values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Number {
+pub(super) enum FinishValue {
     Roughness,
     Metallic,
     Index,
 }
 
-impl Numbers {
-    /// What the finish was made from.
-    pub fn of(finish: Finish) -> Self {
+impl From<Finish> for FinishValues {
+    fn from(finish: Finish) -> Self {
         match finish {
             Finish::Diffuse => Self::default(),
             Finish::Conductor { roughness } => Self {
@@ -38,14 +37,16 @@ impl Numbers {
             },
         }
     }
+}
 
-    /// Without a roughness nothing glosses, whatever the index: exporters write one for every material. The error is the
-    /// number that is amiss, and why.
-    pub fn finish(self) -> Result<Finish, (Number, String)> {
+impl FinishValues {
+    /// Builds the finish. Without a roughness it is diffuse, whatever the index: exporters write an index for every
+    /// material. The error names the wrong value and says why.
+    pub fn build(self) -> Result<Finish, (FinishValue, String)> {
         let Some(roughness) = self.roughness else {
             return if self.metallic {
-                let reason = "makes a metal, of no roughness; give it one (0 is a mirror)";
-                Err((Number::Metallic, reason.into()))
+                let reason = "makes a metal without a roughness; give it one (0 is a mirror)";
+                Err((FinishValue::Metallic, reason.into()))
             } else {
                 Ok(Finish::Diffuse)
             };
@@ -53,20 +54,17 @@ impl Numbers {
         if roughness != 0.0 && !(Finish::SMOOTHEST..=1.0).contains(&roughness) {
             let smoothest = Finish::SMOOTHEST;
             let reason = format!("is {roughness}; allowed: 0 (a mirror) and {smoothest} to 1");
-            return Err((Number::Roughness, reason));
+            return Err((FinishValue::Roughness, reason));
         }
         if self.metallic {
             return Ok(Finish::Conductor { roughness });
         }
         let index = self.index.unwrap_or(DEFAULT_INDEX);
         if !(1.0..=Finish::DENSEST).contains(&index) {
-            let densest = Finish::DENSEST;
-            return Err((
-                Number::Index,
-                format!("is {index}; allowed: 1 to {densest}"),
-            ));
+            let reason = format!("is {index}; allowed: 1 to {}", Finish::DENSEST);
+            return Err((FinishValue::Index, reason));
         }
-        // A coat of air reflects nothing.
+        // A coat of index 1 reflects nothing.
         Ok(if index == 1.0 {
             Finish::Diffuse
         } else {

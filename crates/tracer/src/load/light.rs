@@ -1,4 +1,4 @@
-//! Background, sun and display of a scene.toml.
+//! The background, sun and display of a scene.toml.
 
 use std::path::Path;
 
@@ -14,14 +14,15 @@ use super::schema::{BackgroundTable, DisplayTable, FlipTable, SunTable};
 use crate::limits::{BRIGHTEST, MOST_FLIP_EXPOSURES, SMALLEST_SUN};
 use crate::{Background, Display, EnvironmentMap, FlipExposures, Sun};
 
-/// Exposures of HDR-FLIP where a scene names none: two stops about its own exposure, a step per stop.
-const FLIP: FlipExposures = FlipExposures {
+/// Default exposures of HDR-FLIP: two stops either way, a step per stop.
+const DEFAULT_FLIP: FlipExposures = FlipExposures {
     start: -2.0,
     stop: 2.0,
     count: 5,
 };
 
-pub(super) fn background(
+/// Reads the background with its image, if it has one.
+pub(super) fn read_background(
     document: &Document,
     files: &mut Files,
     folder: &Path,
@@ -35,17 +36,17 @@ pub(super) fn background(
         rotation,
     } = table.get_ref();
     if image.is_none() && (strength.is_some() || rotation.is_some()) {
-        let reason = "strength and rotation belong to an image; name one: image = \"sky.exr\"";
+        let reason = "strength and rotation need an image; add one: image = \"sky.exr\"";
         return Err(document.error(table.span(), reason));
     }
     match (constant, gradient, image) {
         (Some(constant), None, None) => {
             let place = constant.span();
-            let constant = radiance(document, "constant", *constant.get_ref(), place)?;
+            let constant = read_radiance(document, "constant", *constant.get_ref(), place)?;
             Ok(Background::Constant(constant))
         }
         (None, Some(gradient), None) => {
-            let part = |what, value| radiance(document, what, value, gradient.span());
+            let part = |what, value| read_radiance(document, what, value, gradient.span());
             let gradient = gradient.get_ref();
             Ok(Background::Gradient {
                 ground: part("ground", gradient.ground)?,
@@ -54,7 +55,7 @@ pub(super) fn background(
             })
         }
         (None, None, Some(image)) => {
-            let map = environment::load(files, &folder.join(image.get_ref()))
+            let map = environment::read_map(files, &folder.join(image.get_ref()))
                 .map_err(|reason| document.error(image.span(), reason))?;
             if let Some(strength) = strength {
                 check_strength(document, strength, &map)?;
@@ -75,14 +76,15 @@ pub(super) fn background(
     }
 }
 
-pub(super) fn sun(document: &Document, table: &SunTable) -> Result<Sun, SceneError> {
+/// Reads the sun.
+pub(super) fn read_sun(document: &Document, table: &SunTable) -> Result<Sun, SceneError> {
     let direction = DVec3::from(*table.direction.get_ref())
         .try_normalize()
         .ok_or_else(|| {
             let reason = "the sun's direction is [0, 0, 0]; give a direction towards the sun";
             document.error(table.direction.span(), reason)
         })?;
-    let irradiance = radiance(
+    let irradiance = read_radiance(
         document,
         "irradiance",
         *table.irradiance.get_ref(),
@@ -106,7 +108,7 @@ pub(super) fn sun(document: &Document, table: &SunTable) -> Result<Sun, SceneErr
     let brightest = sun.radiance().max_element();
     if brightest > BRIGHTEST {
         let reason = format!(
-            "irradiance makes the sun's disc of {degrees} degrees as bright as {brightest:.2e}; allowed: {BRIGHTEST:e}; \
+            "irradiance gives the sun's disc of {degrees} degrees a radiance of {brightest:.2e}; allowed: {BRIGHTEST:e}; \
              lower it, or give a larger angular_radius"
         );
         return Err(document.error(table.irradiance.span(), reason));
@@ -125,7 +127,7 @@ fn check_strength(
         format!("strength is {factor}; allowed: above 0")
     } else if factor * brightest > BRIGHTEST {
         format!(
-            "strength is {factor}, and the image's brightest texel is {brightest:.2e}; allowed: a product of at most \
+            "strength is {factor}, and the image's brightest texel is {brightest:.2e}; allowed: a product up to \
              {BRIGHTEST:e}"
         )
     } else {
@@ -134,10 +136,14 @@ fn check_strength(
     Err(document.error(strength.span(), reason))
 }
 
-/// Exposures of HDR-FLIP, at least and at most.
+/// Allowed numbers of exposures of HDR-FLIP.
 const FLIP_COUNTS: std::ops::RangeInclusive<u32> = 2..=MOST_FLIP_EXPOSURES;
 
-pub(super) fn display(document: &Document, table: &DisplayTable) -> Result<Display, SceneError> {
+/// Reads how pictures of the scene are shown.
+pub(super) fn read_display(
+    document: &Document,
+    table: &DisplayTable,
+) -> Result<Display, SceneError> {
     let stops = match &table.stops {
         Some(stops) => {
             check_stops(document, "stops", *stops.get_ref(), stops.span())?;
@@ -146,13 +152,13 @@ pub(super) fn display(document: &Document, table: &DisplayTable) -> Result<Displ
         None => 0.0,
     };
     let flip = match &table.flip {
-        Some(flip) => flip_exposures(document, flip)?,
-        None => FLIP,
+        Some(flip) => read_flip_exposures(document, flip)?,
+        None => DEFAULT_FLIP,
     };
     Ok(Display { stops, flip })
 }
 
-/// Beyond that many stops nothing can be shown or compared.
+/// Refuses more stops than can be shown or compared.
 fn check_stops(
     document: &Document,
     what: &str,
@@ -169,14 +175,14 @@ fn check_stops(
     }
 }
 
-fn flip_exposures(
+fn read_flip_exposures(
     document: &Document,
     table: &Spanned<FlipTable>,
 ) -> Result<FlipExposures, SceneError> {
     let FlipTable { start, stop, count } = *table.get_ref();
     if !FLIP_COUNTS.contains(&count) {
         let reason = format!(
-            "flip has {count} exposures; count must be at least {} and at most {}",
+            "flip has {count} exposures; allowed: {} to {}",
             FLIP_COUNTS.start(),
             FLIP_COUNTS.end()
         );
@@ -186,35 +192,37 @@ fn flip_exposures(
         check_stops(document, what, stops, table.span())?;
     }
     if stop <= start {
-        let reason = format!(
-            "flip stops at {stop}, not above its start at {start}; stop must be above start"
-        );
+        let reason =
+            format!("flip starts at {start} and stops at {stop}; stop must be above start");
         return Err(document.error(table.span(), reason));
     }
     Ok(FlipExposures { start, stop, count })
 }
 
-/// Light: any amount, but not less than none.
-pub(super) fn radiance(
+/// Reads an amount of light, which is never negative.
+pub(super) fn read_radiance(
     document: &Document,
     what: &str,
     value: [f32; 3],
     place: std::ops::Range<usize>,
 ) -> Result<Vec3, SceneError> {
-    match amiss_in_radiance(value) {
-        None => Ok(Vec3::from(value)),
-        Some(reason) => Err(document.error(place, format!("{what} {reason}"))),
+    check_radiance(value)
+        .map(|()| Vec3::from(value))
+        .map_err(|reason| document.error(place, format!("{what} {reason}")))
+}
+
+/// Checks an amount of light. The error follows its name.
+pub(super) fn check_radiance(value: [f32; 3]) -> Result<(), String> {
+    if value.iter().all(|part| (0.0..=BRIGHTEST).contains(part)) {
+        return Ok(());
     }
+    Err(format!("is {value:?}; allowed: 0 to {BRIGHTEST:e}"))
 }
 
-/// What is wrong with an amount of light, if anything.
-pub(super) fn amiss_in_radiance(value: [f32; 3]) -> Option<String> {
-    let allowed = value.iter().all(|part| (0.0..=BRIGHTEST).contains(part));
-    (!allowed).then(|| format!("is {value:?}; allowed: 0 to {BRIGHTEST:e}"))
-}
-
-/// What is wrong with an albedo, if anything: a surface cannot give back more light than falls on it.
-pub(super) fn amiss_in_albedo(value: [f32; 3]) -> Option<String> {
-    let allowed = value.iter().all(|part| (0.0..=1.0).contains(part));
-    (!allowed).then(|| format!("is {value:?}; allowed: 0 to 1"))
+/// Checks an albedo: a surface reflects no more light than falls on it. The error follows its name.
+pub(super) fn check_albedo(value: [f32; 3]) -> Result<(), String> {
+    if value.iter().all(|part| (0.0..=1.0).contains(part)) {
+        return Ok(());
+    }
+    Err(format!("is {value:?}; allowed: 0 to 1"))
 }

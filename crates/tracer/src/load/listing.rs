@@ -1,36 +1,34 @@
-//! The scenes in a folder.
+//! Lists of the scenes in a folder, and what each says about itself.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
 use super::error::SceneError;
 use super::files::Files;
-use super::variants::Parsed;
-use super::{folder_name, read_document};
+use super::scene_folder::{folder_name, read_document};
+use super::variants::ParsedScene;
 use crate::Family;
 
-/// What a scene says about itself, meshes not loaded.
+/// Description of a scene, without its meshes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneListing {
-    /// The folder to load it from.
+    /// Folder to load it from.
     pub folder: PathBuf,
-    /// The folder's name.
+    /// Name of the folder.
     pub name: String,
-    /// For leave-one-family-out cross-validation.
+    /// Family, for leave-one-family-out cross-validation.
     pub family: Family,
-    /// What the scene exposes, in one sentence.
+    /// Sentence that says what the scene exposes.
     pub exposes: String,
-    /// Names of its variants, in the order of its file.
+    /// Names of the variants, in the order of the file.
     pub variants: Vec<String>,
 }
 
-/// The scenes in `root`, by name: every folder in it that holds a scene.toml. Having none is an error.
+/// Lists the scenes in `root` by name: every folder that holds a scene.toml. A folder without scenes is an error.
 pub fn list_scenes(root: &Path) -> Result<Vec<SceneListing>, SceneError> {
     let unreadable = |error| {
-        SceneError::file(
-            root,
-            format!("the folder of scenes cannot be read: {error}"),
-        )
+        let reason = format!("the folder of scenes cannot be read: {error}");
+        SceneError::in_file(root, reason)
     };
     let mut folders = Vec::new();
     for entry in std::fs::read_dir(root).map_err(unreadable)? {
@@ -42,18 +40,18 @@ pub fn list_scenes(root: &Path) -> Result<Vec<SceneListing>, SceneError> {
     folders.sort();
     if folders.is_empty() {
         let reason = "holds no scene; a scene is a folder with a scene.toml";
-        return Err(SceneError::file(root, reason));
+        return Err(SceneError::in_file(root, reason));
     }
     folders.iter().map(|folder| list_scene(folder)).collect()
 }
 
-/// Whether something named scene.toml lies in a folder. What cannot be told is an error: a scene that is passed over in
-/// silence is missing from every mean.
+/// Tells whether a folder holds something named scene.toml. A folder that cannot be read is an error: skipped in silence,
+/// its scene would be missing from every mean.
 fn holds_scene(folder: &Path) -> Result<bool, SceneError> {
     let unreadable = |error: io::Error| {
         let reason =
             format!("cannot be read: {error}; mend it, or move it out of the folder of scenes");
-        SceneError::file(folder, reason)
+        SceneError::in_file(folder, reason)
     };
     if !std::fs::metadata(folder).map_err(unreadable)?.is_dir() {
         return Ok(false);
@@ -65,16 +63,16 @@ fn holds_scene(folder: &Path) -> Result<bool, SceneError> {
     }
 }
 
-/// What the scene in a folder says about itself.
+/// Describes the scene in a folder.
 pub fn list_scene(folder: &Path) -> Result<SceneListing, SceneError> {
     let document = read_document(&mut Files::new(folder), folder)?;
-    let parsed = Parsed::of(&document)?;
-    let table = parsed.scene(None)?;
+    let parsed = ParsedScene::parse(&document)?;
+    let table = parsed.read(None)?;
     Ok(SceneListing {
         folder: folder.to_owned(),
         name: folder_name(folder)?,
         family: table.family,
         exposes: table.exposes.into_inner(),
-        variants: parsed.names().to_vec(),
+        variants: parsed.variant_names().to_vec(),
     })
 }

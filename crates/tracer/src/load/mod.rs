@@ -1,6 +1,6 @@
-//! From `scenes/<name>/scene.toml` and the OBJ, MTL and texture files that it names to a checked [`Scene`].
+//! The loader of scenes: from a scene.toml, and the OBJ, MTL and picture files that it names, to a checked [`Scene`].
 //!
-//! The format is documented in `scenes/README.md`, with a complete example.
+//! `scenes/README.md` documents the format, with a complete example.
 
 mod camera;
 mod document;
@@ -9,72 +9,87 @@ mod error;
 mod faces;
 mod files;
 mod finish;
+mod key_shapes;
+mod keyed_motion;
 mod light;
 mod listing;
 mod material;
+mod mesh_sources;
+mod meshes;
 mod mtl;
 mod obj;
 mod obj_check;
+mod object_motion;
 mod objects;
 mod parents;
 mod picture;
-mod pose;
-mod reach;
+mod rotation;
+mod scene_folder;
 mod schema;
-mod shapes;
 mod shutter;
 mod statements;
-mod surfaces;
 mod texture;
+mod transform_range;
+mod variant_changes;
 mod variants;
 
 use std::path::{Path, PathBuf};
 
 use document::Document;
 pub use error::SceneError;
-use error::hidden;
 pub use faces::MOST_COINCIDENT;
 use files::Files;
 pub use listing::{SceneListing, list_scene, list_scenes};
-use objects::Stage;
+use meshes::MeshLoader;
+use objects::ObjectLoader;
+use scene_folder::{folder_name, read_document};
 use schema::SceneTable;
-use variants::Parsed;
+use variants::ParsedScene;
 
 use crate::Scene;
-use crate::limits::{LARGEST_SCENE_FILE, LARGEST_SIDE, MOST_PIXELS};
+use crate::limits::{LARGEST_SIDE, MOST_PIXELS};
 
-/// Loads the scene in `folder`, with the changes of one of its variants or as it is.
+/// Loads the scene in `folder`, or one of its variants.
 ///
-/// Refuses whatever a render could not use, and says where it stands and what is allowed; repairs nothing.
+/// Refuses whatever a render could not use, with its place and what is allowed; repairs nothing.
 pub fn load_scene(folder: &Path, variant: Option<&str>) -> Result<Scene, SceneError> {
     load_scene_and_files(folder, variant).map(|(scene, _)| scene)
 }
 
-/// The same, and where the files lie that it was made from: its scene.toml and all that is named there, and by those.
+/// Loads a scene, and returns it with the paths of all files that it was made from.
 pub fn load_scene_and_files(
     folder: &Path,
     variant: Option<&str>,
 ) -> Result<(Scene, Vec<PathBuf>), SceneError> {
     let mut files = Files::new(folder);
     let document = read_document(&mut files, folder)?;
-    let parsed = Parsed::of(&document)?;
-    let table = parsed.scene(variant)?;
-    parsed.check()?;
-    check_frame(&document, &table)?;
+    let parsed = ParsedScene::parse(&document)?;
+    let table = parsed.read(variant)?;
+    parsed.check_variants()?;
+    check_picture(&document, &table)?;
 
-    let shutter_profile = shutter::shutter_profile(&document, &table.shutter)?;
-    let camera = camera::camera(&document, &table.camera)?;
-    let background = light::background(&document, &mut files, folder, &table.background)?;
-    let sun = table.sun.as_ref().map(|sun| light::sun(&document, sun));
-    let display = light::display(&document, &table.display)?;
+    let shutter_profile = shutter::read_shutter(&document, &table.shutter)?;
+    let camera = camera::read_camera(&document, &table.camera)?;
+    let background = light::read_background(&document, &mut files, folder, &table.background)?;
+    let sun = table
+        .sun
+        .as_ref()
+        .map(|sun| light::read_sun(&document, sun));
+    let display = light::read_display(&document, &table.display)?;
     let interval = rendered_interval(&table, shutter_profile.rolling);
-    let mut stage = Stage::new(&document, folder, files, interval);
-    stage.add_objects(&table.camera, &camera, &table.object)?;
-    let notes = faces::tidy(&mut stage.meshes, &stage.objects)?;
+    let meshes = MeshLoader::new(&document, folder, files, interval);
+    let mut loader = ObjectLoader::new(&document, meshes, interval);
+    loader.add_objects(&table.camera, &camera, &table.object)?;
+    let ObjectLoader {
+        objects,
+        mut meshes,
+        ..
+    } = loader;
+    let notes = faces::remove_redundant_faces(&mut meshes.meshes, &objects)?;
 
     let [width, height] = *table.size.get_ref();
     let name = folder_name(folder)?;
-    let paths = stage.files.paths();
+    let paths = meshes.files.paths();
     let scene = Scene {
         name: variant.map_or(name.clone(), |variant| format!("{name}@{variant}")),
         exposes: table.exposes.into_inner(),
@@ -87,54 +102,24 @@ pub fn load_scene_and_files(
         camera,
         background,
         sun: sun.transpose()?,
-        meshes: stage.meshes,
-        textures: stage.textures.decoded,
-        materials: stage.materials,
-        objects: stage.objects,
+        meshes: meshes.meshes,
+        textures: meshes.textures.decoded,
+        materials: meshes.materials,
+        objects,
         notes,
-        hash: stage.files.hash(variant),
+        hash: meshes.files.hash(variant),
     };
     Ok((scene, paths))
 }
 
-fn read_document(files: &mut Files, folder: &Path) -> Result<Document, SceneError> {
-    let path = folder.join("scene.toml");
-    let text = files.text(&path, LARGEST_SCENE_FILE).map_err(|error| {
-        let reason = format!("cannot be read: {error}; a scene is a folder with a scene.toml");
-        SceneError::file(&path, reason)
-    })?;
-    Ok(Document::new(&path, text))
-}
-
-/// The last part of the path; that of the full path where it is written as `.`.
-fn folder_name(folder: &Path) -> Result<String, SceneError> {
-    let full = match folder.file_name() {
-        Some(_) => folder.to_owned(),
-        None => folder.canonicalize().unwrap_or_default(),
-    };
-    let name = full.file_name().unwrap_or_default();
-    let refused = |reason: String| {
-        let reason =
-            format!("the folder's name is the scene's, and it {reason}; rename the folder");
-        Err(SceneError::file(folder, reason))
-    };
-    match name.to_str() {
-        Some(name) => match hidden(name) {
-            None => Ok(name.to_owned()),
-            Some(reason) => refused(reason),
-        },
-        None => refused("is not Unicode".to_owned()),
-    }
-}
-
-/// Times, in frames, of which a render may ask where things are: while the shutter is open, and a frame to either side.
+/// Finds the times, in frames, that a render may ask for: those of an open shutter, and a frame to either side.
 fn rendered_interval(table: &SceneTable, rolling: f64) -> [f64; 2] {
     let longest = 1.0 + table.exposure.get_ref() + rolling.abs();
     [-longest, longest]
 }
 
-/// What concerns the picture as a whole.
-fn check_frame(document: &Document, table: &SceneTable) -> Result<(), SceneError> {
+/// Checks what concerns the picture as a whole.
+fn check_picture(document: &Document, table: &SceneTable) -> Result<(), SceneError> {
     if table.exposes.get_ref().trim().is_empty() {
         let reason = "exposes is empty; say in one sentence what the scene exposes";
         return Err(document.error(table.exposes.span(), reason));
@@ -158,7 +143,7 @@ fn check_frame(document: &Document, table: &SceneTable) -> Result<(), SceneError
     }
     if table.object.is_empty() {
         let reason = "no objects; a scene needs at least one [object.name] with a mesh";
-        return Err(SceneError::file(&document.path, reason));
+        return Err(SceneError::in_file(&document.path, reason));
     }
     Ok(())
 }

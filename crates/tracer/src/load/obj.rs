@@ -1,4 +1,4 @@
-//! OBJ files as meshes.
+//! Meshes from OBJ files.
 
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -8,31 +8,31 @@ use glam::{Vec2, Vec3};
 use super::error::SceneError;
 use super::files::Files;
 use super::mtl::{Libraries, default_material};
-use super::obj_check::check;
+use super::obj_check::check_obj;
 use super::texture::Textures;
 use crate::limits::LARGEST_MESH_FILE;
 use crate::{Material, Mesh};
 
-/// An OBJ file and its materials.
+/// OBJ file with its materials.
 #[derive(Clone)]
 pub(super) struct ObjFile {
     pub(super) path: PathBuf,
     pub(super) text: String,
-    /// One per run of faces with one group and one material.
+    /// Runs of faces with one group and one material.
     pub(super) parts: Vec<tobj::Model>,
     materials: Vec<Material>,
 }
 
-/// One material of a mesh.
+/// Material of a mesh.
 #[derive(Clone)]
 pub(super) struct Slot {
-    /// As the MTL file has it.
+    /// Material as the MTL file has it.
     pub(super) material: Material,
-    /// Whether all its faces have texture coordinates.
+    /// True if all its faces have texture coordinates.
     pub(super) textured: bool,
 }
 
-/// The slots of a mesh, found by name: two materials of one name are rare, and a mesh may have thousands.
+/// Slots of a mesh, found by name: a mesh may have thousands, and two of one name are rare.
 #[derive(Default)]
 struct Slots {
     slots: Vec<Slot>,
@@ -40,11 +40,11 @@ struct Slots {
 }
 
 impl Slots {
-    /// Index of the slot for a part's material, made if it is new.
-    fn index(&mut self, material: Material, textured: bool) -> u32 {
+    /// Adds a slot for a part's material, unless an equal one is there, and returns its index.
+    fn add(&mut self, material: Material, textured: bool) -> u32 {
         let named = self.by_name.entry(material.name.clone()).or_default();
-        let known = named.iter().copied();
-        let index = (known.into_iter()).find(|index| self.slots[*index].material == material);
+        let mut known = named.iter().copied();
+        let index = known.find(|index| self.slots[*index].material == material);
         let index = index.unwrap_or_else(|| {
             named.push(self.slots.len());
             self.slots.push(Slot { material, textured });
@@ -56,14 +56,13 @@ impl Slots {
 }
 
 impl ObjFile {
-    /// Reads an OBJ file. The outer error is the reason why it cannot be read at all, for the caller knows the place
-    /// that names the file.
+    /// Reads an OBJ file. The outer error says why it cannot be read; the caller knows the line that names the file.
     pub(super) fn read(
         files: &mut Files,
         textures: &mut Textures,
         path: &Path,
     ) -> Result<Result<Self, SceneError>, String> {
-        let text = files.text(path, LARGEST_MESH_FILE)?;
+        let text = files.read_text(path, LARGEST_MESH_FILE)?;
         Ok(Self::parse(files, textures, path, text))
     }
 
@@ -74,7 +73,7 @@ impl ObjFile {
         text: String,
     ) -> Result<Self, SceneError> {
         let mut libraries = Libraries::default();
-        let checked = check(files, path, &text, &mut libraries)?;
+        let checked = check_obj(files, path, &text, &mut libraries)?;
         let options = tobj::LoadOptions {
             single_index: true,
             triangulate: true,
@@ -84,10 +83,12 @@ impl ObjFile {
         let read = tobj::load_obj_buf(&mut checked.as_bytes(), &options, library);
         let (parts, read) = read
             .and_then(|(parts, materials)| Ok((parts, materials?)))
-            .map_err(|error| SceneError::file(path, format!("not a readable OBJ file: {error}")))?;
+            .map_err(|error| {
+                SceneError::in_file(path, format!("not a readable OBJ file: {error}"))
+            })?;
         let materials = read
             .iter()
-            .map(|material| libraries.material(files, textures, material))
+            .map(|material| libraries.build_material(files, textures, material))
             .collect::<Result<_, _>>()?;
         Ok(Self {
             path: path.to_owned(),
@@ -100,26 +101,26 @@ impl ObjFile {
         })
     }
 
-    /// Names of the groups and objects that have faces, each once, in the order of the file.
+    /// Lists the names of groups and objects that have faces, each once, in the order of the file.
     pub(super) fn groups(&self) -> Vec<&str> {
         let mut seen = HashSet::new();
         let names = self.parts.iter().map(|part| part.name.as_str());
         names.filter(|name| seen.insert(*name)).collect()
     }
 
-    /// The whole file or one group as a mesh, with the materials of its slots.
-    pub(super) fn mesh(&self, group: Option<&str>) -> Result<(Mesh, Vec<Slot>), SceneError> {
-        let (mesh, slots) = self.unchecked_mesh(group);
+    /// Builds a mesh of the whole file or one group, with the materials of its slots.
+    pub(super) fn build_mesh(&self, group: Option<&str>) -> Result<(Mesh, Vec<Slot>), SceneError> {
+        let (mesh, slots) = self.build_unchecked(group);
         self.check_area(&mesh)?;
         Ok((mesh, slots))
     }
 
-    /// The same as one of several shapes, which may have no area.
-    pub(super) fn shape(&self, group: Option<&str>) -> Mesh {
-        self.unchecked_mesh(group).0
+    /// Builds one of several shapes, which may have no area.
+    pub(super) fn build_shape(&self, group: Option<&str>) -> Mesh {
+        self.build_unchecked(group).0
     }
 
-    /// The parts of the whole file or of one group.
+    /// Parts of the whole file or of one group.
     pub(super) fn parts_of<'a>(
         &'a self,
         group: Option<&'a str>,
@@ -130,7 +131,7 @@ impl ObjFile {
             .map(|part| &part.mesh)
     }
 
-    /// The material of a part.
+    /// Material of a part.
     pub(super) fn material(&self, part: &tobj::Mesh) -> Material {
         match part.material_id {
             Some(index) => self.materials[index].clone(),
@@ -138,7 +139,7 @@ impl ObjFile {
         }
     }
 
-    fn unchecked_mesh(&self, group: Option<&str>) -> (Mesh, Vec<Slot>) {
+    fn build_unchecked(&self, group: Option<&str>) -> (Mesh, Vec<Slot>) {
         let parts: Vec<_> = self.parts_of(group).collect();
         let with_normals = parts.iter().any(|part| !part.normals.is_empty());
         let with_texcoords = parts.iter().any(|part| !part.texcoords.is_empty());
@@ -153,7 +154,7 @@ impl ObjFile {
         };
         let mut slots = Slots::default();
         for part in parts {
-            let slot = slots.index(self.material(part), !part.texcoords.is_empty());
+            let slot = slots.add(self.material(part), !part.texcoords.is_empty());
             push_part(&mut mesh, part, slot, with_normals, with_texcoords);
         }
         (mesh, slots.slots)
@@ -162,25 +163,21 @@ impl ObjFile {
     fn check_area(&self, mesh: &Mesh) -> Result<(), SceneError> {
         if mesh.triangles.is_empty() {
             let reason = "holds no faces; a mesh needs at least one f statement with 3 corners";
-            return Err(SceneError::file(&self.path, reason));
+            return Err(SceneError::in_file(&self.path, reason));
         }
         let has_area = |triangle: &[u32; 3]| {
             let [a, b, c] = triangle.map(|index| mesh.positions[index as usize].as_dvec3());
             (b - a).cross(c - a).length_squared() > 0.0
         };
         if !mesh.triangles.iter().any(has_area) {
-            let reason = format!(
-                "all its {} triangles have no area; a mesh needs at least one that has",
-                mesh.triangles.len()
-            );
-            return Err(SceneError::file(&self.path, reason));
+            return Err(SceneError::without_area(&self.path, mesh.triangles.len()));
         }
         Ok(())
     }
 }
 
-/// Adds faces of one material. Where only other parts have normals, these faces get their own, flat; where only other
-/// parts have texture coordinates, they get (0, 0), which no texture reads.
+/// Adds the faces of one part. Beside parts with normals, faces without get flat ones; beside parts with texture
+/// coordinates, faces without get (0, 0), which no texture reads.
 fn push_part(
     mesh: &mut Mesh,
     part: &tobj::Mesh,
@@ -190,14 +187,14 @@ fn push_part(
 ) {
     let flat = with_normals && part.normals.is_empty();
     // Flat faces share no vertices.
-    let picked: Vec<u32> = if flat {
+    let vertices: Vec<u32> = if flat {
         part.indices.clone()
     } else {
         (0..part.positions.len() as u32 / 3).collect()
     };
     let first = mesh.positions.len() as u32;
     let triple = |values: &[f32], index: u32| Vec3::from_slice(&values[3 * index as usize..]);
-    for &index in &picked {
+    for &index in &vertices {
         mesh.positions.push(triple(&part.positions, index));
         if with_texcoords {
             let texcoord = match part.texcoords.is_empty() {
@@ -219,7 +216,7 @@ fn push_part(
         let triangle = corners.map(|corner| first + corner);
         if flat {
             let [a, b, c] = triangle.map(|index| mesh.positions[index as usize].as_dvec3());
-            // A face without area has no direction, and no ray meets it.
+            // A face without area has no direction, and no ray hits it.
             let normal = (b - a).cross(c - a).normalize_or(glam::DVec3::Y);
             mesh.normals.extend([normal.as_vec3(); 3]);
         }

@@ -1,15 +1,15 @@
-//! What an OBJ file must hold before tobj reads it: tobj names no lines, takes NaN for a number, forgets materials that
-//! it does not find, and panics on some indices.
+//! Checks of an OBJ file before tobj reads it: tobj reports no lines, accepts NaN, forgets unknown materials and panics on
+//! some indices.
 
 use std::path::Path;
 
 use super::error::SceneError;
 use super::files::Files;
 use super::mtl::Libraries;
-use super::statements::{Statement, shown, statements};
+use super::statements::{Statement, shorten, split_statements};
 use crate::limits::{LARGEST_NUMBER, MOST_CORNERS, MOST_TRIANGLES, MOST_VERTICES};
 
-/// How many of each precede a face, in the order of a corner's indices.
+/// Numbers of elements above a line.
 #[derive(Default)]
 struct Counts {
     vertices: usize,
@@ -18,11 +18,11 @@ struct Counts {
     triangles: usize,
 }
 
-/// Which indices the corners of a face have: texture coordinates, normals.
+/// Kinds of indices that the corners of a face have: texture coordinates, normals.
 type Form = (bool, bool);
 
-/// Checks an OBJ file, reads the MTL files that it names, and returns the statements that make up its mesh.
-pub(super) fn check(
+/// Checks an OBJ file, reads the MTL files that it names, and returns the statements of its mesh.
+pub(super) fn check_obj(
     files: &mut Files,
     path: &Path,
     text: &str,
@@ -30,34 +30,34 @@ pub(super) fn check(
 ) -> Result<String, SceneError> {
     let mut checked = String::with_capacity(text.len());
     let mut counts = Counts::default();
-    // Of the faces that tobj will take as one mesh: it would mix up their arrays if their forms differed.
+    // Form of the faces that tobj takes as one mesh; it would mix up their arrays if their forms differed.
     let mut form: Option<Form> = None;
     let mut material = "";
-    for statement in statements(text) {
-        let fail = |reason: String| SceneError::line(path, statement.line, reason);
+    for statement in split_statements(text) {
+        let fail = |reason: String| SceneError::at_line(path, statement.line, reason);
         match statement.keyword {
             "v" => {
                 check_vertex(&statement).map_err(fail)?;
-                count(&mut counts.vertices, 1, MOST_VERTICES, "vertices").map_err(fail)?;
+                add_count(&mut counts.vertices, 1, MOST_VERTICES, "vertices").map_err(fail)?;
             }
             "vt" => {
-                statement.numbers(&[2, 3]).map_err(fail)?;
+                statement.read_numbers(&[2, 3]).map_err(fail)?;
                 let texcoords = &mut counts.texcoords;
-                count(texcoords, 1, MOST_VERTICES, "texture coordinates").map_err(fail)?;
+                add_count(texcoords, 1, MOST_VERTICES, "texture coordinates").map_err(fail)?;
             }
             "vn" => {
-                let normal = statement.numbers(&[3]).map_err(fail)?;
+                let normal = statement.read_numbers(&[3]).map_err(fail)?;
                 if normal.iter().map(|part| part * part).sum::<f32>() == 0.0 {
-                    return Err(fail("vn has no length; a normal is a direction".into()));
+                    return Err(fail("vn has no length; give it a direction".into()));
                 }
-                count(&mut counts.normals, 1, MOST_VERTICES, "normals").map_err(fail)?;
+                add_count(&mut counts.normals, 1, MOST_VERTICES, "normals").map_err(fail)?;
             }
             "f" => {
                 let (found, corners) = check_face(&statement, &counts).map_err(fail)?;
                 let triangles = &mut counts.triangles;
-                count(triangles, corners - 2, MOST_TRIANGLES, "triangles").map_err(fail)?;
+                add_count(triangles, corners - 2, MOST_TRIANGLES, "triangles").map_err(fail)?;
                 if *form.get_or_insert(found) != found {
-                    let reason = "the face has other kinds of indices than those before it; give texture \
+                    let reason = "the face has other kinds of indices than the faces before it; give texture \
                                   coordinates and normals to all faces of a group and material, or to none";
                     return Err(fail(reason.into()));
                 }
@@ -84,11 +84,11 @@ pub(super) fn check(
                         fail(format!("material library {name} cannot be read: {error}"))
                     })??;
             }
-            // Lines and points too: tobj would make triangles of lines with three points.
+            // Skips lines and points too: tobj would make triangles of lines with three points.
             _ => continue,
         }
         checked += statement.keyword;
-        // Six numbers are a position and a colour, which nothing here uses.
+        // Six numbers are a position and a colour, which is not used.
         let words = || statement.rest.split_whitespace();
         if statement.keyword == "v" && words().count() == 6 {
             for word in words().take(3) {
@@ -104,20 +104,19 @@ pub(super) fn check(
     Ok(checked)
 }
 
-/// Adds to a count that has a limit.
-fn count(counted: &mut usize, more: usize, most: usize, what: &str) -> Result<(), String> {
-    *counted += more;
-    if *counted <= most {
+/// Adds to a count, up to a limit.
+fn add_count(count: &mut usize, more: usize, most: usize, what: &str) -> Result<(), String> {
+    *count += more;
+    if *count <= most {
         return Ok(());
     }
     Err(format!(
-        "the file has more {what} up to here than the {most} that are allowed; simplify the mesh, or split it into \
-         several files"
+        "the file has more than {most} {what}, as many as are allowed; simplify the mesh, or split it into several files"
     ))
 }
 
 fn check_vertex(statement: &Statement) -> Result<(), String> {
-    let numbers = statement.numbers(&[3, 4, 6])?;
+    let numbers = statement.read_numbers(&[3, 4, 6])?;
     if numbers.len() == 4 && numbers[3] == 0.0 {
         return Err("v has the weight 0, which puts it at infinity; leave the weight out".into());
     }
@@ -140,12 +139,12 @@ fn check_material(statement: &Statement, libraries: &Libraries) -> Result<(), St
     }
     Err(format!(
         "usemtl names material \"{}\", which no mtllib above it defines; materials: {}",
-        shown(statement.rest),
-        libraries.names()
+        shorten(statement.rest),
+        libraries.list_names()
     ))
 }
 
-/// The form of a face, and how many corners it has.
+/// Checks a face, and returns its form and number of corners.
 fn check_face(statement: &Statement, counts: &Counts) -> Result<(Form, usize), String> {
     let mut form = None;
     let mut corners = 0;
@@ -154,7 +153,7 @@ fn check_face(statement: &Statement, counts: &Counts) -> Result<(Form, usize), S
         if *form.get_or_insert(found) != found {
             return Err(format!(
                 "f has corners with different kinds of indices: \"{}\"; write all as v, v/vt, v//vn or v/vt/vn",
-                shown(statement.rest)
+                shorten(statement.rest)
             ));
         }
         corners += 1;
@@ -164,39 +163,39 @@ fn check_face(statement: &Statement, counts: &Counts) -> Result<(Form, usize), S
             "f has {corners} corners; allowed: 3 to {MOST_CORNERS}; cut the face into triangles"
         )),
         Some(form) if corners >= 3 => Ok((form, corners)),
-        _ => Err(format!("f has {corners} corners; a face needs at least 3")),
+        _ => Err(format!("f has {corners} corners; allowed: 3 or more")),
     }
 }
 
 fn check_corner(corner: &str, counts: &Counts) -> Result<Form, String> {
     let mut parts = corner.split('/');
-    let mut index = |what: &str, count: usize| match parts.next() {
+    let mut read_index = |what: &str, count: usize| match parts.next() {
         None | Some("") => Ok(false),
         Some(word) => check_index(word, what, count).map(|()| true),
     };
-    let vertex = index("vertex", counts.vertices)?;
-    let texcoord = index("texture coordinate", counts.texcoords)?;
-    let normal = index("normal", counts.normals)?;
+    let vertex = read_index("vertex", counts.vertices)?;
+    let texcoord = read_index("texture coordinate", counts.texcoords)?;
+    let normal = read_index("normal", counts.normals)?;
     if !vertex || parts.next().is_some() {
         return Err(format!(
             "f has the corner \"{}\"; allowed: v, v/vt, v//vn or v/vt/vn",
-            shown(corner)
+            shorten(corner)
         ));
     }
     Ok((texcoord, normal))
 }
 
-/// 1 is the first, -1 the latest so far.
+/// Checks an index: 1 is the first element, -1 the latest above the line.
 fn check_index(word: &str, what: &str, count: usize) -> Result<(), String> {
     let index: i64 = word.parse().map_err(|_| {
-        let word = shown(word);
+        let word = shorten(word);
         format!("f has the {what} index \"{word}\"; allowed: whole numbers")
     })?;
     if index != 0 && index.unsigned_abs() <= count as u64 {
         return Ok(());
     }
     Err(if count == 0 {
-        format!("f has the {what} index {index}, but no {what} precedes it")
+        format!("f has the {what} index {index}, but no {what} stands above it")
     } else {
         format!("f has the {what} index {index}; allowed: 1 to {count}, or -{count} to -1")
     })

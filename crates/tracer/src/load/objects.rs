@@ -1,79 +1,51 @@
-//! The objects of a scene.toml with their meshes and materials.
+//! The objects of a scene.toml.
 
-use std::collections::{BTreeMap, HashMap};
-use std::path::{Path, PathBuf};
-use std::rc::Rc;
+use std::collections::BTreeMap;
 
 use toml::Spanned;
 
 use super::document::Document;
-use super::error::{SceneError, is_name};
-use super::files::Files;
-use super::obj::ObjFile;
-use super::parents::parent;
-use super::pose::object_motion;
-use super::reach::Reach;
+use super::error::{SceneError, check_name};
+use super::meshes::{LoadedMesh, MeshLoader};
+use super::object_motion::read_object_motion;
+use super::parents::OrderedObjects;
 use super::schema::{CameraTable, ObjectTable};
-use super::surfaces::{MeshKey, Surface};
-use super::texture::Textures;
+use super::transform_range::TransformRange;
 use crate::limits::{MOST_EMISSIVE_TRIANGLES, MOST_PARENTS};
-use crate::{Camera, Material, Mesh, Motion, Object, Parent};
+use crate::{Camera, Motion, Object, Parent};
 
 /// Names that mean something else where objects are named.
 const RESERVED: [&str; 2] = ["background", "camera"];
 
-/// Objects and all that they share.
-pub(super) struct Stage<'a> {
-    pub(super) document: &'a Document,
-    pub(super) folder: &'a Path,
+/// Loader of objects, with all that they share.
+pub(super) struct ObjectLoader<'a> {
+    document: &'a Document,
     /// Times that a render may ask for, in frames.
-    pub(super) interval: [f64; 2],
-    pub(super) files: Files,
-    pub(super) textures: Textures,
-    pub(super) materials: Vec<Material>,
-    pub(super) meshes: Vec<Mesh>,
+    interval: [f64; 2],
+    pub(super) meshes: MeshLoader<'a>,
     pub(super) objects: Vec<Object>,
-    pub(super) obj_files: BTreeMap<PathBuf, ObjFile>,
-    pub(super) surfaces: BTreeMap<MeshKey, Rc<Surface>>,
-    /// By mesh, the materials of objects that change none.
-    pub(super) unchanged: BTreeMap<usize, Vec<usize>>,
-    pub(super) materials_by_name: HashMap<String, Vec<usize>>,
-    /// Per object, with all its parents.
-    carried: Vec<Carried>,
-    pub(super) triangles: usize,
+    /// Placement of each object.
+    placements: Vec<Placement>,
     emissive_triangles: usize,
 }
 
-/// What carries an object.
+/// Place of an object below its parents.
 #[derive(Clone, Copy)]
-struct Carried {
-    reach: Reach,
-    /// Objects above it.
-    parents: usize,
+struct Placement {
+    /// Range of the object's motion and its parents'.
+    range: TransformRange,
+    /// Number of parents, and parents of parents.
+    ancestors: usize,
 }
 
-impl<'a> Stage<'a> {
-    pub(super) fn new(
-        document: &'a Document,
-        folder: &'a Path,
-        files: Files,
-        interval: [f64; 2],
-    ) -> Self {
+impl<'a> ObjectLoader<'a> {
+    pub(super) fn new(document: &'a Document, meshes: MeshLoader<'a>, interval: [f64; 2]) -> Self {
         Self {
             document,
-            folder,
             interval,
-            files,
-            textures: Textures::default(),
-            materials: Vec::new(),
-            meshes: Vec::new(),
+            meshes,
             objects: Vec::new(),
-            obj_files: BTreeMap::new(),
-            surfaces: BTreeMap::new(),
-            unchanged: BTreeMap::new(),
-            materials_by_name: HashMap::new(),
-            carried: Vec::new(),
-            triangles: 0,
+            placements: Vec::new(),
             emissive_triangles: 0,
         }
     }
@@ -81,38 +53,26 @@ impl<'a> Stage<'a> {
     /// Adds every object, in the order of the file.
     pub(super) fn add_objects(
         &mut self,
-        place: &Spanned<CameraTable>,
+        camera_table: &Spanned<CameraTable>,
         camera: &Camera,
         tables: &BTreeMap<Spanned<String>, ObjectTable>,
     ) -> Result<(), SceneError> {
-        let camera = Reach::of(&camera.motion, self.interval);
-        if let Some(reason) = camera.amiss("the camera", 0.0) {
-            return Err(self.document.error(place.span(), reason));
-        }
-        let mut in_file_order: Vec<_> = tables.iter().collect();
-        in_file_order.sort_by_key(|(name, _)| name.span().start);
-        let places: HashMap<&str, usize> = (in_file_order.iter().enumerate())
-            .map(|(index, (name, _))| (name.get_ref().as_str(), index))
-            .collect();
-        for (name, table) in &in_file_order {
-            self.check_name(name)?;
-            let above = self.objects.len();
-            let parent = parent(
-                self.document,
-                above,
-                name.get_ref(),
-                table,
-                &in_file_order,
-                &places,
-            )?;
-            let motion = object_motion(self.document, name.get_ref(), table)?;
-            let carried = self.carried(name, &motion, parent, camera)?;
-            let (surface, materials) = self.surface(name, table)?;
-            self.check_object(name, &carried, &surface, &materials)?;
-            self.carried.push(carried);
+        let camera_range = TransformRange::new(&camera.motion, self.interval);
+        camera_range
+            .check("the camera", 0.0)
+            .map_err(|reason| self.document.error(camera_table.span(), reason))?;
+        let ordered = OrderedObjects::new(tables);
+        for (index, (name, table)) in ordered.tables.iter().enumerate() {
+            self.check_object_name(name)?;
+            let parent = ordered.read_parent(self.document, index)?;
+            let motion = read_object_motion(self.document, name.get_ref(), table)?;
+            let placement = self.place_object(name, &motion, parent, camera_range)?;
+            let (mesh, materials) = self.meshes.load_object(name, table)?;
+            self.check_object(name, &placement, &mesh, &materials)?;
+            self.placements.push(placement);
             self.objects.push(Object {
                 name: name.get_ref().clone(),
-                mesh: surface.mesh,
+                mesh: mesh.index,
                 materials,
                 motion,
                 parent,
@@ -121,46 +81,51 @@ impl<'a> Stage<'a> {
         Ok(())
     }
 
-    fn carried(
+    /// Places an object below its parent.
+    fn place_object(
         &self,
         name: &Spanned<String>,
         motion: &Motion,
         parent: Parent,
-        camera: Reach,
-    ) -> Result<Carried, SceneError> {
-        let (outer, parents) = match parent {
-            Parent::World => (Reach::WORLD, 0),
-            Parent::Camera => (camera, 0),
-            Parent::Object(index) => (self.carried[index].reach, self.carried[index].parents + 1),
+        camera_range: TransformRange,
+    ) -> Result<Placement, SceneError> {
+        let (outer, ancestors) = match parent {
+            Parent::World => (TransformRange::STILL, 0),
+            Parent::Camera => (camera_range, 0),
+            Parent::Object(index) => {
+                let parent = self.placements[index];
+                (parent.range, parent.ancestors + 1)
+            }
         };
-        if parents > MOST_PARENTS {
+        if ancestors > MOST_PARENTS {
             let reason = format!(
-                "object \"{}\" has {parents} parents above it; allowed: {MOST_PARENTS}; attach it to one nearer to \
+                "object \"{}\" has {ancestors} parents above it; allowed: {MOST_PARENTS}; attach it to one nearer to \
                  the world",
                 name.get_ref()
             );
             return Err(self.document.error(name.span(), reason));
         }
-        Ok(Carried {
-            reach: Reach::of(motion, self.interval).within(outer),
-            parents,
+        Ok(Placement {
+            range: TransformRange::new(motion, self.interval).within(outer),
+            ancestors,
         })
     }
 
-    /// What can be told once the mesh is known.
+    /// Checks the limits that depend on the mesh of an object.
     fn check_object(
         &mut self,
         name: &Spanned<String>,
-        carried: &Carried,
-        surface: &Surface,
+        placement: &Placement,
+        mesh: &LoadedMesh,
         materials: &[usize],
     ) -> Result<(), SceneError> {
         let what = format!("object \"{}\"", name.get_ref());
-        if let Some(reason) = carried.reach.amiss(&what, surface.radius) {
-            return Err(self.document.error(name.span(), reason));
-        }
-        for (material, triangles) in materials.iter().zip(&surface.triangles) {
-            if self.materials[*material].emission.max_element() > 0.0 {
+        placement
+            .range
+            .check(&what, mesh.radius)
+            .map_err(|reason| self.document.error(name.span(), reason))?;
+        for (material, triangles) in materials.iter().zip(&mesh.triangles) {
+            if self.meshes.materials[*material].emission.max_element() > 0.0 {
                 self.emissive_triangles += triangles;
             }
         }
@@ -175,16 +140,12 @@ impl<'a> Stage<'a> {
         Ok(())
     }
 
-    fn check_name(&self, name: &Spanned<String>) -> Result<(), SceneError> {
-        let word = name.get_ref();
-        if !is_name(word) {
-            let reason = format!("object name \"{word}\": allowed are letters, digits, _ and -");
-            return Err(self.document.error(name.span(), reason));
-        }
-        if RESERVED.contains(&word.as_str()) {
-            let reason = format!("object name \"{word}\" is taken; choose another name");
-            return Err(self.document.error(name.span(), reason));
-        }
-        Ok(())
+    fn check_object_name(&self, name: &Spanned<String>) -> Result<(), SceneError> {
+        let text = name.get_ref().as_str();
+        let checked = check_name(text).and_then(|()| match RESERVED.contains(&text) {
+            true => Err(format!("name \"{text}\" is reserved; choose another name")),
+            false => Ok(()),
+        });
+        checked.map_err(|reason| self.document.error(name.span(), format!("object {reason}")))
     }
 }

@@ -1,83 +1,100 @@
-//! The parents of objects: each stands above what is attached to it.
+//! The parents of objects: each stands above its children in the file.
 
 use std::collections::{HashMap, HashSet};
 
 use toml::Spanned;
 
 use super::document::Document;
-use super::error::{SceneError, list};
+use super::error::{SceneError, join_names};
 use super::schema::ObjectTable;
 use crate::Parent;
 
-/// What an object is attached to; `above` objects stand above it in the file.
-pub(super) fn parent(
-    document: &Document,
-    above: usize,
-    name: &str,
-    table: &ObjectTable,
-    in_file_order: &[(&Spanned<String>, &ObjectTable)],
-    places: &HashMap<&str, usize>,
-) -> Result<Parent, SceneError> {
-    let Some(parent) = &table.parent else {
-        return Ok(Parent::World);
-    };
-    let word = parent.get_ref().as_str();
-    if word == "camera" {
-        return Ok(Parent::Camera);
+/// Objects of a scene.toml in the order of the file.
+pub(super) struct OrderedObjects<'a> {
+    /// Names and tables.
+    pub(super) tables: Vec<(&'a Spanned<String>, &'a ObjectTable)>,
+    /// Index by name.
+    indices: HashMap<&'a str, usize>,
+}
+
+impl<'a> OrderedObjects<'a> {
+    /// Sorts tables by their place in the file.
+    pub(super) fn new(
+        tables: impl IntoIterator<Item = (&'a Spanned<String>, &'a ObjectTable)>,
+    ) -> Self {
+        let mut tables: Vec<_> = tables.into_iter().collect();
+        tables.sort_by_key(|(name, _)| name.span().start);
+        let indices = (tables.iter().enumerate())
+            .map(|(index, (name, _))| (name.get_ref().as_str(), index))
+            .collect();
+        Self { tables, indices }
     }
-    let fail = |reason| Err(document.error(parent.span(), reason));
-    match places.get(word) {
-        // What stands above has been checked: there is no way back from there.
-        Some(index) if *index < above => Ok(Parent::Object(*index)),
-        None => {
-            let names = in_file_order
-                .iter()
-                .map(|(name, _)| name.get_ref().as_str());
-            fail(format!(
-                "object \"{name}\" has the parent \"{word}\", which the scene lacks; allowed: camera, {}",
-                list(names.filter(|other| *other != name))
-            ))
+
+    /// Reads the parent of the object at `index`.
+    pub(super) fn read_parent(
+        &self,
+        document: &Document,
+        index: usize,
+    ) -> Result<Parent, SceneError> {
+        let (name, table) = self.tables[index];
+        let name = name.get_ref().as_str();
+        let Some(parent) = &table.parent else {
+            return Ok(Parent::World);
+        };
+        let parent_name = parent.get_ref().as_str();
+        if parent_name == "camera" {
+            return Ok(Parent::Camera);
         }
-        Some(_) => match circle(name, parent, in_file_order, places) {
-            Some(circle) => fail(format!(
-                "objects are each other's parents: {circle}; one of them must have another parent or none"
-            )),
-            None => fail(format!(
-                "object \"{name}\" stands before its parent \"{word}\"; move the parent above it"
-            )),
-        },
+        let reason = match self.indices.get(parent_name) {
+            // Objects above this one have been checked, so that no cycle leads through them.
+            Some(above) if *above < index => return Ok(Parent::Object(*above)),
+            None => {
+                let names = self.tables.iter().map(|(name, _)| name.get_ref().as_str());
+                format!(
+                    "object \"{name}\" has the parent \"{parent_name}\", which the scene does not have; allowed: \
+                     camera, {}",
+                    join_names(names.filter(|other| *other != name))
+                )
+            }
+            Some(_) => match self.find_cycle(name, parent) {
+                Some(cycle) => format!(
+                    "the parents of objects form a cycle: {cycle}; give one of them another parent or none"
+                ),
+                None => format!(
+                    "object \"{name}\" stands before its parent \"{parent_name}\"; move the parent above it"
+                ),
+            },
+        };
+        Err(document.error(parent.span(), reason))
+    }
+
+    /// Follows the parents of an object; returns the path if it meets an object twice: `a -> b -> a`.
+    fn find_cycle(&self, name: &str, parent: &Spanned<String>) -> Option<String> {
+        let mut path = vec![name];
+        let mut seen = HashSet::from([name]);
+        let mut next = Some(parent);
+        while let Some(ancestor) = next {
+            let ancestor = ancestor.get_ref().as_str();
+            path.push(ancestor);
+            if !seen.insert(ancestor) {
+                return Some(shorten_path(&path));
+            }
+            let index = self.indices.get(ancestor);
+            next = index.and_then(|index| self.tables[*index].1.parent.as_ref());
+        }
+        None
     }
 }
 
-/// The way from an object over its parents to one that it meets twice, if it does: `a -> b -> a`.
-fn circle(
-    name: &str,
-    parent: &Spanned<String>,
-    in_file_order: &[(&Spanned<String>, &ObjectTable)],
-    places: &HashMap<&str, usize>,
-) -> Option<String> {
-    let mut way = vec![name];
-    let mut seen = HashSet::from([name]);
-    let mut next = Some(parent);
-    while let Some(ancestor) = next {
-        let ancestor = ancestor.get_ref().as_str();
-        way.push(ancestor);
-        if !seen.insert(ancestor) {
-            return Some(way_shown(&way));
-        }
-        next = places
-            .get(ancestor)
-            .and_then(|index| in_file_order[*index].1.parent.as_ref());
-    }
-    None
-}
-
-/// Both ends of a way, and what is between if that is short.
-fn way_shown(way: &[&str]) -> String {
+/// Joins both ends of a path, and its middle if that is short.
+fn shorten_path(path: &[&str]) -> String {
     const MOST_SHOWN: usize = 16;
-    if way.len() <= MOST_SHOWN {
-        return way.join(" -> ");
+    if path.len() <= MOST_SHOWN {
+        return path.join(" -> ");
     }
-    let [begin, end] = [&way[..MOST_SHOWN / 2], &way[way.len() - MOST_SHOWN / 2..]];
+    let [begin, end] = [
+        &path[..MOST_SHOWN / 2],
+        &path[path.len() - MOST_SHOWN / 2..],
+    ];
     format!("{} -> ... -> {}", begin.join(" -> "), end.join(" -> "))
 }

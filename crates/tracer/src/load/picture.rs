@@ -1,10 +1,10 @@
-//! Pictures that others made, decoded only if their headers state a size that is allowed.
+//! Picture files whose headers are checked before they are decoded.
 
 use std::io::Cursor;
 
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 
-/// A picture whose header has been read, and nothing else.
+/// Picture of which only the header has been read.
 pub(super) struct Header<'a> {
     decoder: Box<dyn ImageDecoder + 'a>,
     /// Pixels per row.
@@ -26,12 +26,12 @@ impl<'a> Header<'a> {
         })
     }
 
-    /// Texels of the whole picture.
+    /// Number of texels.
     pub(super) fn texels(&self) -> u64 {
         u64::from(self.width) * u64::from(self.height)
     }
 
-    /// Says what is wrong with the size, if it is nothing or above `most`.
+    /// Refuses an empty picture and one of more than `most` texels. The error follows the name of the picture.
     pub(super) fn check(&self, most: u64) -> Result<(), String> {
         if (1..=most).contains(&self.texels()) {
             return Ok(());

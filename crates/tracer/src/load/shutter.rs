@@ -7,7 +7,8 @@ use super::document::Document;
 use super::error::SceneError;
 use super::schema::ShutterTable;
 
-pub(super) fn shutter_profile(
+/// Reads the shutter's efficiency and rolling.
+pub(super) fn read_shutter(
     document: &Document,
     table: &Option<Spanned<ShutterTable>>,
 ) -> Result<ShutterProfile, SceneError> {
@@ -24,7 +25,8 @@ pub(super) fn shutter_profile(
         },
         (Some(values), None, None) => Efficiency::Table(values.clone()),
         (Some(_), ..) => {
-            let reason = "the shutter has an efficiency and a rise or fall; give one or the other";
+            let reason =
+                "the shutter has both an efficiency and a rise or fall; give one or the other";
             return Err(document.error(place, reason));
         }
     };

@@ -1,26 +1,26 @@
-//! OBJ and MTL text as statements with their lines.
+//! Statements of OBJ and MTL text, with their lines.
 
-use super::error::hidden;
+use super::error::check_visible;
 use crate::limits::LARGEST_NUMBER;
 
-/// One line of an OBJ or MTL file.
+/// Line of an OBJ or MTL file.
 #[derive(Clone, Copy)]
 pub(super) struct Statement<'a> {
-    /// Counted from 1.
+    /// Line number, counted from 1.
     pub(super) line: usize,
-    /// `v`, `usemtl`, `map_Kd`.
+    /// First word: `v`, `usemtl`, `map_Kd`.
     pub(super) keyword: &'a str,
-    /// The rest, without the blanks around it.
+    /// Text after the keyword, without surrounding blanks.
     pub(super) rest: &'a str,
 }
 
-/// The lines that are neither empty nor comments.
-pub(super) fn statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
+/// Splits a text into statements; skips blank lines and comments.
+pub(super) fn split_statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
     text.lines().enumerate().filter_map(|(index, line)| {
         let line = line.trim();
         let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
-        let said = !keyword.is_empty() && !keyword.starts_with('#');
-        said.then(|| Statement {
+        let is_statement = !keyword.is_empty() && !keyword.starts_with('#');
+        is_statement.then(|| Statement {
             line: index + 1,
             keyword,
             rest: rest.trim(),
@@ -28,8 +28,8 @@ pub(super) fn statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
     })
 }
 
-/// The beginning of a text that is to be quoted.
-pub(super) fn shown(text: &str) -> String {
+/// Shortens a text for a quotation.
+pub(super) fn shorten(text: &str) -> String {
     const MOST: usize = 80;
     match text.char_indices().nth(MOST) {
         Some((end, _)) => format!("{}...", &text[..end]),
@@ -38,45 +38,45 @@ pub(super) fn shown(text: &str) -> String {
 }
 
 impl Statement<'_> {
-    /// Refuses a name that is more than it shows.
+    /// Refuses invisible characters in the name after the keyword.
     pub(super) fn check_name(&self) -> Result<(), String> {
-        match hidden(self.rest) {
-            Some(reason) => Err(format!("the name after {} {reason}", self.keyword)),
-            None => Ok(()),
-        }
+        check_visible(self.rest)
+            .map_err(|reason| format!("the name after {} {reason}", self.keyword))
     }
 
-    /// The rest as finite numbers, as many as `allowed` says; else what is wrong.
-    pub(super) fn numbers(&self, allowed: &[usize]) -> Result<Vec<f32>, String> {
-        let mut numbers = Vec::new();
-        for word in self.rest.split_whitespace() {
-            match word.parse::<f32>() {
-                Ok(number) if f64::from(number).abs() <= LARGEST_NUMBER => numbers.push(number),
-                _ => {
-                    // Too large for 32 bits, or for a scene; else no number at all.
-                    let large = word.parse::<f64>().is_ok_and(f64::is_finite);
-                    let allowed = match large {
-                        true => format!("numbers from -{LARGEST_NUMBER:e} to {LARGEST_NUMBER:e}"),
-                        false => "finite numbers".to_owned(),
-                    };
-                    return Err(format!(
-                        "{} holds \"{}\"; allowed: {allowed}",
-                        self.keyword,
-                        shown(word)
-                    ));
-                }
-            }
-        }
+    /// Reads the numbers after the keyword; `allowed` lists how many there may be.
+    pub(super) fn read_numbers(&self, allowed: &[usize]) -> Result<Vec<f32>, String> {
+        let words = self.rest.split_whitespace();
+        let numbers = words
+            .map(|word| self.read_number(word))
+            .collect::<Result<Vec<f32>, _>>()?;
         if allowed.contains(&numbers.len()) {
-            Ok(numbers)
-        } else {
-            let counts: Vec<String> = allowed.iter().map(usize::to_string).collect();
-            Err(format!(
-                "{} holds {} numbers; allowed: {}",
-                self.keyword,
-                numbers.len(),
-                counts.join(" or ")
-            ))
+            return Ok(numbers);
         }
+        let counts: Vec<String> = allowed.iter().map(usize::to_string).collect();
+        Err(format!(
+            "{} holds {} numbers; allowed: {}",
+            self.keyword,
+            numbers.len(),
+            counts.join(" or ")
+        ))
+    }
+
+    fn read_number(&self, word: &str) -> Result<f32, String> {
+        if let Ok(number) = word.parse::<f32>()
+            && f64::from(number).abs() <= LARGEST_NUMBER
+        {
+            return Ok(number);
+        }
+        // A number that is too large, or no number at all.
+        let allowed = match word.parse::<f64>().is_ok_and(f64::is_finite) {
+            true => format!("numbers from -{LARGEST_NUMBER:e} to {LARGEST_NUMBER:e}"),
+            false => "finite numbers".to_owned(),
+        };
+        Err(format!(
+            "{} holds \"{}\"; allowed: {allowed}",
+            self.keyword,
+            shorten(word)
+        ))
     }
 }

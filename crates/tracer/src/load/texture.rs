@@ -1,4 +1,4 @@
-//! PNG and JPEG files as linear texels.
+//! Textures from PNG and JPEG files, with linear texels.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use crate::limits::{LARGEST_IMAGE_FILE, MOST_TEXELS, MOST_TEXELS_TOGETHER};
 use super::files::Files;
 use super::picture::Header;
 
-/// What a texture is read for.
+/// Purpose of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Use {
     /// Colour decoded from sRGB to linear; alpha as it is.
@@ -21,17 +21,18 @@ pub(super) enum Use {
     Opacity,
 }
 
-/// Textures, each file and use decoded once.
+/// Textures of a scene, decoded once per file and use.
 #[derive(Default)]
 pub(super) struct Textures {
     pub(super) decoded: Vec<Texture>,
     indices: BTreeMap<(PathBuf, Use), usize>,
-    /// Of all textures.
+    /// Texels of all textures together.
     texels: u64,
 }
 
 impl Textures {
-    /// Index of a texture; the error is the reason alone, for the caller knows the place that names the file.
+    /// Loads a texture, unless it is there, and returns its index. The error is a reason alone: the caller knows the
+    /// line that names the file.
     pub(super) fn load(
         &mut self,
         files: &mut Files,
@@ -44,7 +45,7 @@ impl Textures {
         }
         let name = path.display();
         let bytes = files
-            .bytes(path, LARGEST_IMAGE_FILE)
+            .read(path, LARGEST_IMAGE_FILE)
             .map_err(|error| format!("texture {name} cannot be read: {error}"))?;
         let texture = self
             .decode(&bytes, path, usage)
@@ -55,7 +56,7 @@ impl Textures {
         Ok(index)
     }
 
-    /// Whatever the name ends in; the error is a reason that follows the file's name.
+    /// Decodes a file by its content, whatever its extension. The error follows the file's name.
     fn decode(&mut self, bytes: &[u8], path: &Path, usage: Use) -> Result<Texture, String> {
         let format = match image::guess_format(bytes) {
             Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => format,
@@ -77,7 +78,7 @@ impl Textures {
         }
         let image = header.decode().map_err(broken)?;
         let has_alpha = image.color().has_alpha();
-        // 16 bits hold 8-bit and 16-bit files alike: 8-bit values are spread by 257, exactly.
+        // 16 bits hold files of 8 and 16 bits: 8-bit values times 257, exactly.
         let image = image.into_rgba16();
         let (width, height) = image.dimensions();
         self.texels = together;
@@ -87,23 +88,24 @@ impl Textures {
             height,
             texels: image
                 .pixels()
-                .map(|pixel| texel(pixel.0, usage, has_alpha))
+                .map(|pixel| decode_texel(pixel.0, usage, has_alpha))
                 .collect(),
         })
     }
 }
 
-fn texel(encoded: [u16; 4], usage: Use, has_alpha: bool) -> [f32; 4] {
+/// Decodes a texel.
+fn decode_texel(encoded: [u16; 4], usage: Use, has_alpha: bool) -> [f32; 4] {
     let [r, g, b, a] = encoded.map(|component| f32::from(component) / 65535.0);
     let alpha = match usage {
         Use::Opacity if !has_alpha => r,
         Use::Color | Use::Opacity => a,
     };
-    [linear(r), linear(g), linear(b), alpha]
+    [decode_srgb(r), decode_srgb(g), decode_srgb(b), alpha]
 }
 
-/// IEC 61966-2-1.
-fn linear(encoded: f32) -> f32 {
+/// Decodes an sRGB component (IEC 61966-2-1).
+fn decode_srgb(encoded: f32) -> f32 {
     if encoded <= 0.040_45 {
         encoded / 12.92
     } else {

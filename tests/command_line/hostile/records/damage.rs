@@ -4,7 +4,7 @@ use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use cli::{compare_table, table};
+use cli::{compare_table, run_table};
 use report::{LARGEST_PAGE, compare_page, report};
 use serde_json::{Value, json};
 use suite::{Acceptance, Baseline, Error, Run, Side, accept, compare_runs};
@@ -45,7 +45,7 @@ fn hostile(value: &Value) -> Vec<Value> {
 fn read_everywhere(changed: &Path, whole: &Side) -> Result<(), Error> {
     let side = Side::read(changed)?;
     let folder = changed.parent().unwrap();
-    let _ = table(&side.run);
+    let _ = run_table(&side.run);
     let compared = compare_runs(whole, &side, &|_| std::ops::ControlFlow::Continue(()));
     if let Ok(compared) = compared {
         let _ = compare_table(&compared);

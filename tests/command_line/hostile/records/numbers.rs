@@ -86,7 +86,7 @@ fn exposures_of_display_and_flip_that_show_nothing_are_refused_by_every_command_
         ),
         (
             "flip = { start = -2, stop = 2, count = 400 }",
-            &["scene.toml:7: flip has 400 exposures", "at most 128"],
+            &["scene.toml:7: flip has 400 exposures", "2 to 128"],
         ),
     ] {
         let table = format!("[display]\n{display}\n\n[camera]");

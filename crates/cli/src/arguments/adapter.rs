@@ -1,0 +1,11 @@
+//! Argument that chooses the adapter.
+
+use clap::Args;
+
+/// Choice of the adapter.
+#[derive(Debug, Args)]
+pub struct AdapterArgs {
+    /// Adapter that filters run on: its number in --list-adapters, or part of its name [default: the fastest].
+    #[arg(long, value_name = "ADAPTER")]
+    pub adapter: Option<String>,
+}

@@ -1,0 +1,42 @@
+//! Arguments of `blur`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::adapter::AdapterArgs;
+use super::programs::ProgramArgs;
+
+/// `shuttertruth blur`
+#[derive(Debug, Args)]
+pub struct BlurArgs {
+    /// Filter: a name or a folder, with an optional :preset.
+    #[arg(long, value_name = "FILTER")]
+    pub filter: String,
+    /// Preset [default: the filter's first].
+    #[arg(long, value_name = "NAME")]
+    pub preset: Option<String>,
+    /// Override a parameter; repeatable.
+    #[arg(long, value_name = "FILTER.PARAMETER=VALUE")]
+    pub set: Vec<String>,
+    /// Keep lengths in pixels as the preset has them [default: scale them from the width that the preset was made for to the
+    /// picture's].
+    #[arg(long)]
+    pub as_written: bool,
+    /// OpenEXR file with the channels R G B, Z, velocity.X, velocity.Y.
+    #[arg(long, value_name = "FILE")]
+    pub frame: PathBuf,
+    /// Exposure in frames [default: the file's attribute "exposure"].
+    #[arg(long, value_name = "E")]
+    pub exposure: Option<f64>,
+    /// Frame number, which seeds the filter's noise.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub frame_index: u32,
+    /// OpenEXR file to write.
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+    #[command(flatten)]
+    pub programs: ProgramArgs,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+}

@@ -1,0 +1,25 @@
+//! Arguments of `compare`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+/// `shuttertruth compare`
+#[derive(Debug, Args)]
+pub struct CompareArgs {
+    /// run.json of the first run, or its folder.
+    #[arg(value_name = "RUN_A")]
+    pub first: PathBuf,
+    /// run.json of the second run, or its folder.
+    #[arg(value_name = "RUN_B")]
+    pub second: PathBuf,
+    /// Write the comparison as an HTML page with the pictures that changed.
+    #[arg(long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
+    /// Print all changes as JSON instead of the table.
+    #[arg(long)]
+    pub json: bool,
+    /// Show no progress.
+    #[arg(long)]
+    pub quiet: bool,
+}

@@ -1,0 +1,16 @@
+//! Arguments of `merge`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+/// `shuttertruth merge`
+#[derive(Debug, Args)]
+pub struct MergeArgs {
+    /// Folders that `render --replicates A..B` wrote.
+    #[arg(required = true, value_name = "FOLDER")]
+    pub parts: Vec<PathBuf>,
+    /// Folder for the whole, as one machine would have written it.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+}

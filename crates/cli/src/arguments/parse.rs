@@ -1,0 +1,221 @@
+//! Parsers of single values on the command line.
+
+use std::ops::Range;
+
+use suite::{MOST_REPLICATES, SIDES};
+
+/// Number of replicates, or a part of them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Replicates {
+    /// All replicates of a truth, by their number.
+    All(u32),
+    /// Some replicates, by their indices.
+    Part(Range<u32>),
+}
+
+/// Parses `640x360`.
+pub fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let parsed = text
+        .split_once('x')
+        .and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
+    match parsed {
+        Some((width, height)) if SIDES.contains(&width) && SIDES.contains(&height) => {
+            Ok((width, height))
+        }
+        _ => Err(format!(
+            "allowed is WIDTHxHEIGHT, each from {} to {} pixels, such as 640x360",
+            SIDES.start(),
+            SIDES.end()
+        )),
+    }
+}
+
+/// Parses `8` as all eight, `3..6` as the replicates 3, 4 and 5.
+pub fn parse_replicates(text: &str) -> Result<Replicates, String> {
+    let parsed = match text.split_once("..") {
+        None => text.parse().ok().map(Replicates::All),
+        Some((first, end)) => (first.parse().ok())
+            .zip(end.parse().ok())
+            .filter(|(first, end)| first < end)
+            .map(|(first, end)| Replicates::Part(first..end)),
+    };
+    let end = |replicates: &Replicates| match replicates {
+        Replicates::All(count) => *count,
+        Replicates::Part(indices) => indices.end,
+    };
+    parsed.filter(|replicates| end(replicates) <= MOST_REPLICATES).ok_or_else(|| {
+        format!(
+            "allowed is a number up to {MOST_REPLICATES}, such as 8, or A..B with A below B: 3..6 is replicates 3, 4 and 5"
+        )
+    })
+}
+
+/// Parses a number of rounds, enough for quartiles.
+pub fn parse_rounds(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(rounds @ 20..=10_000) => Ok(rounds),
+        _ => Err("allowed is 20 to 10000: fewer say nothing about the spread".to_owned()),
+    }
+}
+
+/// Parses a number of runs, enough for a spread.
+pub fn parse_runs(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(runs @ 2..=100) => Ok(runs),
+        _ => Err("allowed is 2 to 100: one run says nothing about the spread".to_owned()),
+    }
+}
+
+/// Parses a number of frames, which are kept in memory together.
+pub fn parse_jitter_frames(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(frames @ 0..=1024) => Ok(frames),
+        _ => Err("allowed is 0 to 1024".to_owned()),
+    }
+}
+
+/// Parses a number of candidates, walks or rows.
+pub fn parse_effort(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(count @ 0..=1_000_000) => Ok(count),
+        _ => Err("allowed is 0 to 1000000".to_owned()),
+    }
+}
+
+/// Parses a pattern as shells have it.
+pub fn parse_glob(text: &str) -> Result<glob::Pattern, String> {
+    glob::Pattern::new(text).map_err(|error| error.to_string())
+}
+
+/// Parses a radiance above 0.
+pub fn parse_noise(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(target) if target > 0.0 && target.is_finite() => Ok(target),
+        _ => Err("allowed is a radiance above 0, such as 0.002".to_owned()),
+    }
+}
+
+/// Parses `1.2x`.
+pub fn parse_ratio(text: &str) -> Result<f64, String> {
+    match text.strip_suffix('x').unwrap_or(text).parse::<f64>() {
+        Ok(ratio) if ratio > 0.0 && ratio.is_finite() => Ok(ratio),
+        _ => Err("allowed is a ratio above 0, such as 1.0x".to_owned()),
+    }
+}
+
+/// Parses `20deg/frame`.
+pub fn parse_degrees_per_frame(text: &str) -> Result<f64, String> {
+    parse_speed(text, "deg/frame", "20deg/frame")
+}
+
+/// Parses `40px/frame`.
+pub fn parse_pixels_per_frame(text: &str) -> Result<f64, String> {
+    parse_speed(text, "px/frame", "40px/frame")
+}
+
+/// Upper limit on the speed of an imported model, in its unit.
+const FASTEST: f64 = 1e5;
+
+fn parse_speed(text: &str, unit: &str, example: &str) -> Result<f64, String> {
+    let number = text
+        .strip_suffix(unit)
+        .and_then(|number| number.parse::<f64>().ok());
+    match number {
+        Some(speed) if speed.abs() <= FASTEST && speed != 0.0 => Ok(speed),
+        _ => Err(format!(
+            "allowed is a speed other than 0, from -{FASTEST} to {FASTEST}, with its unit, such as {example}"
+        )),
+    }
+}
+
+/// Parses minutes above 0.
+pub fn parse_minutes(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(minutes) if minutes > 0.0 && minutes <= 1e6 => Ok(minutes),
+        _ => Err("allowed is a number above 0".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_size_is_two_numbers() {
+        assert_eq!(parse_size("640x360"), Ok((640, 360)));
+        for wrong in [
+            "640",
+            "640x",
+            "x360",
+            "0x360",
+            "640x99999",
+            "640 x 360",
+            "-1x5",
+        ] {
+            assert!(
+                parse_size(wrong).unwrap_err().contains("640x360"),
+                "{wrong} must be refused"
+            );
+        }
+    }
+
+    #[test]
+    fn replicates_are_a_number_or_a_rising_range() {
+        assert_eq!(parse_replicates("16"), Ok(Replicates::All(16)));
+        assert_eq!(parse_replicates("3..6"), Ok(Replicates::Part(3..6)));
+        for wrong in [
+            "", "x", "3..", "..3", "3..3", "6..3", "3..=6", "-1..2", "1.5",
+        ] {
+            assert!(
+                parse_replicates(wrong).unwrap_err().contains("3..6"),
+                "{wrong} must be refused"
+            );
+        }
+    }
+
+    #[test]
+    fn rounds_suffice_for_quartiles() {
+        assert_eq!(parse_rounds("20"), Ok(20));
+        for wrong in ["19", "0", "-1", "many", "1000000", "20.5"] {
+            assert!(parse_rounds(wrong).is_err(), "{wrong} must be refused");
+        }
+    }
+
+    #[test]
+    fn a_noise_target_is_above_zero() {
+        assert_eq!(parse_noise("0.002"), Ok(0.002));
+        for wrong in ["0", "-1", "nan", "inf", "low"] {
+            assert!(parse_noise(wrong).is_err(), "{wrong} must be refused");
+        }
+    }
+
+    #[test]
+    fn a_ratio_is_above_zero() {
+        assert_eq!(parse_ratio("1.25x"), Ok(1.25));
+        assert_eq!(parse_ratio("2"), Ok(2.0));
+        for wrong in ["0x", "-1x", "x", "nan", "infx", "1.0 x"] {
+            assert!(parse_ratio(wrong).unwrap_err().contains("1.0x"), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_speed_has_its_unit() {
+        assert_eq!(parse_degrees_per_frame("-7.5deg/frame"), Ok(-7.5));
+        assert_eq!(parse_pixels_per_frame("40px/frame"), Ok(40.0));
+        for wrong in [
+            "20",
+            "20deg",
+            "deg/frame",
+            "0deg/frame",
+            "nandeg/frame",
+            "20px/frame",
+        ] {
+            assert!(
+                parse_degrees_per_frame(wrong)
+                    .unwrap_err()
+                    .contains("20deg/frame"),
+                "{wrong} must be refused"
+            );
+        }
+    }
+}

@@ -1,0 +1,23 @@
+//! Permission for filters that are programs.
+
+use clap::Args;
+
+use crate::selection::Programs;
+
+/// Permission to run filters that are programs.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct ProgramArgs {
+    /// Run filters that are programs. They have all rights that you have: read their filter.toml first.
+    #[arg(long)]
+    pub allow_commands: bool,
+}
+
+impl ProgramArgs {
+    /// Makes the permission for selecting filters.
+    pub fn programs(self) -> Programs {
+        match self.allow_commands {
+            true => Programs::Allowed,
+            false => Programs::Refused,
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! Arguments that choose scenes and say how they are rendered.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use frame::{ColorSampling, VelocityKind};
+
+/// On or off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Switch {
+    /// On.
+    On,
+    /// Off.
+    Off,
+}
+
+/// Choice of scenes, and how they are rendered.
+#[derive(Clone, Debug, Args)]
+pub struct SceneArgs {
+    /// Scenes: names or folders, each with an optional @variant or @all, separated by commas [default: all].
+    #[arg(long, value_delimiter = ',', value_name = "SCENES")]
+    pub scenes: Vec<String>,
+    /// Folder that holds the scenes.
+    #[arg(long, value_name = "FOLDER", default_value = "scenes")]
+    pub scenes_dir: PathBuf,
+    /// Samples per pixel of a truth with 8 replicates: 8 times a power of two.
+    #[arg(long, value_name = "N", default_value_t = 256)]
+    pub samples_per_pixel: u32,
+    /// Exposure in frames; 0.5 is a shutter of 180 degrees [default: each scene's own].
+    #[arg(long, value_name = "E")]
+    pub exposure: Option<f64>,
+    /// Content of the velocity buffer: instantaneous, previous_frame, or camera_only (rebuilt from depth and the last frame's
+    /// camera).
+    #[arg(long, value_name = "KIND", default_value_t = VelocityKind::Instantaneous)]
+    pub velocity: VelocityKind,
+    /// Sampling of the frame's colour: antialiased, or point (at pixel centres).
+    #[arg(long, value_name = "SAMPLING", default_value_t = ColorSampling::Antialiased)]
+    pub color: ColorSampling,
+    /// Velocity of the background: on, or off for zero.
+    #[arg(long, value_enum, value_name = "SWITCH", default_value_t = Switch::On)]
+    pub sky_velocity: Switch,
+    /// Pixels of the frame beyond the picture on every side. Filters see them; their output there is cropped.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub guard_band: u32,
+    /// Threads that render [default: one per core].
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+    /// Seed of all random numbers.
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub seed: u64,
+    /// Folder for all files. Truths and cases that lie there are used again if their inputs have not changed.
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+    /// Show no progress.
+    #[arg(long)]
+    pub quiet: bool,
+}

@@ -1,0 +1,25 @@
+//! Arguments of `score`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+/// `shuttertruth score`
+#[derive(Debug, Args)]
+pub struct ScoreArgs {
+    /// The truth: truth_<alignment>.exr of `render` or `run`.
+    #[arg(long, value_name = "FILE")]
+    pub truth: PathBuf,
+    /// The frame that the picture was made from: frame.exr of the same scene.
+    #[arg(long, value_name = "FILE")]
+    pub frame: PathBuf,
+    /// The picture: OpenEXR with scene-linear R G B and optional coverage.<object>; or a PNG for display.
+    #[arg(long, value_name = "FILE")]
+    pub image: PathBuf,
+    /// ladder_<alignment>.exr of `run` [default: no equivalent sub-frames].
+    #[arg(long, value_name = "FILE")]
+    pub ladder: Option<PathBuf>,
+    /// Print all scores as JSON instead of the table.
+    #[arg(long)]
+    pub json: bool,
+}

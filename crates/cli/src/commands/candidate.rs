@@ -1,0 +1,56 @@
+//! A candidate of `tune`, `evaluate` and `serve`: its filter, and the rendered scenes that it is scored on.
+
+use filters::Gpu;
+use suite::{
+    Claim, Error, FilterChoice, RenderSettings, SceneBounds, Sharing, Shot, claim, open_gpu, shots,
+};
+use tracer::Scene;
+
+use super::render_settings::make_render_settings;
+use crate::arguments::{CandidateArgs, SceneArgs};
+use crate::output::progress::make_monitor;
+use crate::selection::select_filters;
+
+/// Selects the filter with the preset to start from, for pictures of the size that is asked for.
+pub fn select_candidate(args: &CandidateArgs) -> Result<FilterChoice, Error> {
+    let names = [args.filter.clone()];
+    let choice =
+        select_filters(&names, args.from.as_deref(), &[], args.programs.programs())?.remove(0);
+    Ok(choice.as_written(args.as_written).scaled_to(args.size.0))
+}
+
+/// Makes the settings that scenes are rendered by.
+pub fn candidate_render_settings(args: &CandidateArgs) -> Result<RenderSettings, Error> {
+    make_render_settings(
+        &args.scenes,
+        args.size,
+        RenderSettings::default().replicates,
+    )
+}
+
+/// Opens the adapter, where the filter needs one.
+pub fn open_candidate_gpu(
+    choice: &FilterChoice,
+    args: &CandidateArgs,
+) -> Result<Option<Gpu>, Error> {
+    let adapter = args.adapter.adapter.as_deref();
+    Ok(open_gpu(
+        std::slice::from_ref(choice),
+        adapter,
+        make_monitor(args.scenes.quiet),
+    )?)
+}
+
+/// Claims the folder for files, and renders the frames and truths of the scenes into it, or reads them back.
+pub fn render_shots(
+    scenes: &[(Scene, SceneBounds)],
+    choice: &FilterChoice,
+    args: &CandidateArgs,
+    sharing: Sharing,
+) -> Result<(Claim, Vec<Shot>), Error> {
+    let SceneArgs { out, quiet, .. } = &args.scenes;
+    let settings = candidate_render_settings(args)?;
+    let claimed = claim(out, scenes.iter().map(|(scene, _)| scene), sharing)?;
+    let rendered = shots(scenes, choice, &settings, out, make_monitor(*quiet))?;
+    Ok((claimed, rendered))
+}

@@ -1,0 +1,137 @@
+//! The command `serve`.
+
+mod inbox;
+mod line_reader;
+mod reply;
+
+use std::collections::BTreeSet;
+
+use serde_json::json;
+use suite::{Error, Evaluator, Objective, SceneScore, Sharing, answer, evaluator};
+
+use self::inbox::{Inbox, ScoreRequest};
+use self::reply::print_reply;
+use super::candidate::{open_candidate_gpu, render_shots, select_candidate};
+use super::evaluate::change_settings;
+use super::plan::load_scenes;
+use crate::arguments::ServeArgs;
+use crate::output::progress::make_monitor;
+
+/// Answers until standard input ends and all is answered.
+pub fn execute(args: &ServeArgs) -> Result<(), Error> {
+    let candidate = &args.candidate;
+    let choice = select_candidate(candidate)?;
+    let scenes = load_scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
+    let gpu = open_candidate_gpu(&choice, candidate)?;
+    // The claim on the folder ends here: all is read.
+    let (_, shots) = render_shots(&scenes, &choice, candidate, Sharing::Together)?;
+    let bleed = candidate.objective.contains(&Objective::Bleed);
+    let mut service = Service {
+        evaluator: evaluator(
+            &shots,
+            &choice,
+            gpu.as_ref(),
+            bleed,
+            make_monitor(candidate.scenes.quiet),
+        )?,
+        cost: candidate.objective.contains(&Objective::Cost),
+        inbox: Inbox::open(),
+    };
+    let names: Vec<&String> = shots.iter().map(|shot| &shot.name).collect();
+    print_reply(json!({"ready": true, "filter": choice.filter.name, "scenes": names}))?;
+    while let Some(request) = service.inbox.next()? {
+        service.answer(request)?;
+    }
+    Ok(())
+}
+
+/// A service that answers requests about one filter.
+struct Service<'a> {
+    evaluator: Evaluator<'a>,
+    cost: bool,
+    inbox: Inbox,
+}
+
+impl Service<'_> {
+    /// Scores one candidate scene by scene, and sums up. A request that cannot be answered gets an error and ends nothing.
+    fn answer(&mut self, request: ScoreRequest) -> Result<(), Error> {
+        let id = request.id;
+        if self.inbox.cancelled.remove(&id) {
+            return print_reply(json!({"id": id, "cancelled": true}));
+        }
+        let known: Vec<String> = (self.evaluator.targets.iter())
+            .map(|target| target.shot.name.clone())
+            .collect();
+        let found = scene_indices(&known, request.scenes).and_then(|scenes| {
+            let settings = change_settings(&self.evaluator.choice, request.params)?;
+            let inbox = &mut self.inbox;
+            answer(
+                &mut self.evaluator,
+                &settings,
+                &scenes,
+                self.cost,
+                |scene, score| report_scene(inbox, id, &known[scene], score),
+            )
+        });
+        match found {
+            Ok(answer) => print_reply(json!({"id": id, "done": answer})),
+            Err(_) if self.inbox.cancelled.remove(&id) => {
+                print_reply(json!({"id": id, "cancelled": true}))
+            }
+            Err(error) if error.is_interruption() => Err(error),
+            Err(error) => print_reply(json!({"id": id, "error": error.to_string()})),
+        }
+    }
+}
+
+/// Reports the scores of one scene; false where the request was cancelled or nobody reads.
+fn report_scene(inbox: &mut Inbox, id: u64, scene: &str, score: &SceneScore) -> bool {
+    let printed =
+        print_reply(json!({"id": id, "scene": scene, "flip": score.flip, "bleed": score.bleed}));
+    printed.is_ok() && inbox.read().is_ok() && !inbox.cancelled.contains(&id)
+}
+
+fn scene_indices(known: &[String], names: Option<Vec<String>>) -> Result<Vec<usize>, Error> {
+    let Some(names) = names else {
+        return Ok((0..known.len()).collect());
+    };
+    let mut seen = BTreeSet::new();
+    if let Some(twin) = names.iter().find(|name| !seen.insert(*name)) {
+        return Err(Error::Usage(format!(
+            "scenes: \"{twin}\" is named twice; allowed: each once"
+        )));
+    }
+    (names.iter())
+        .map(|name| {
+            let index = known.iter().position(|it| it == name);
+            index.ok_or_else(|| {
+                Error::Usage(format!(
+                    "scenes: \"{name}\" was not loaded; allowed: {}",
+                    known.join(", ")
+                ))
+            })
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc::channel;
+
+    use super::*;
+
+    #[test]
+    fn a_request_under_way_ends_when_it_is_cancelled_and_no_other_does() {
+        let (sender, lines) = channel();
+        let mut inbox = Inbox::new(lines);
+        let score = SceneScore {
+            flip: 0.1,
+            bleed: None,
+        };
+        assert!(report_scene(&mut inbox, 7, "fan", &score));
+        sender.send(Ok("{\"cancel\": 8}".to_owned())).unwrap();
+        assert!(report_scene(&mut inbox, 7, "fan", &score));
+        sender.send(Ok("{\"cancel\": 7}".to_owned())).unwrap();
+        assert!(!report_scene(&mut inbox, 7, "fan", &score));
+    }
+}

@@ -1,0 +1,25 @@
+//! Threads of a command.
+
+use suite::Error;
+
+/// Threads that one command may have.
+const MOST_THREADS: usize = 1024;
+
+/// Works on a pool of its own: one thread per core, or as many as are asked for.
+pub fn work_on_threads(
+    threads: Option<usize>,
+    work: impl FnOnce() -> Result<(), Error> + Send,
+) -> Result<(), Error> {
+    if let Some(threads) = threads
+        && !(1..=MOST_THREADS).contains(&threads)
+    {
+        return Err(Error::Usage(format!(
+            "--threads {threads}: allowed is 1 to {MOST_THREADS}"
+        )));
+    }
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.unwrap_or(0))
+        .build()
+        .map_err(|error| Error::Usage(format!("cannot start the threads: {error}")))?
+        .install(work)
+}

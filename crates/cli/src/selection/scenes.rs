@@ -1,0 +1,133 @@
+//! Selection of scenes.
+
+use std::path::{Path, PathBuf};
+
+use suite::Error;
+use tracer::{Scene, list_scene, list_scenes, load_scene};
+
+use super::path::is_path;
+
+/// A loaded scene and the folder that it came from.
+pub struct SceneChoice {
+    /// Holds scene.toml, and bounds.toml if the scene has bounds of its own.
+    pub folder: PathBuf,
+    /// The scene.
+    pub scene: Scene,
+}
+
+/// Loads the named scenes; all of `root`, each in its default variant, where none is named.
+///
+/// A name is that of a folder under `root` or the path of any scene folder, then optionally `@variant`; `@all` takes
+/// every variant.
+pub fn select_scenes(root: &Path, names: &[String]) -> Result<Vec<SceneChoice>, Error> {
+    // Where every scene is given by its path, `root` need not exist.
+    let listings = match !names.is_empty() && names.iter().all(|name| is_path(name)) {
+        true => Vec::new(),
+        false => list_scenes(root)?,
+    };
+    if names.is_empty() {
+        return listings
+            .iter()
+            .map(|listing| load_choice(&listing.folder, None))
+            .collect();
+    }
+    let mut scenes: Vec<SceneChoice> = Vec::new();
+    for text in names {
+        let (name, variant) = split_variant(text);
+        let listed = listings.iter().find(|listing| listing.name == name);
+        let folder = match listed {
+            Some(listing) => listing.folder.clone(),
+            None if is_path(name) => PathBuf::from(name),
+            None => {
+                let known: Vec<&str> = listings
+                    .iter()
+                    .map(|listing| listing.name.as_str())
+                    .collect();
+                return Err(Error::Usage(format!(
+                    "--scenes: no scene \"{name}\" in {}; allowed: {}, or the path of a scene folder, such as ./{name}",
+                    root.display(),
+                    known.join(", ")
+                )));
+            }
+        };
+        match variant {
+            Some("all") => scenes.extend(load_all_variants(&folder)?),
+            _ => scenes.push(load_choice(&folder, variant)?),
+        }
+    }
+    refuse_duplicates(&scenes)?;
+    Ok(scenes)
+}
+
+/// Splits a text into a scene and its variant. Folders above the scene's own may have an @ in their names.
+fn split_variant(text: &str) -> (&str, Option<&str>) {
+    let name = text.trim_end_matches(['/', '\\']);
+    let own = name.rfind(['/', '\\']).map_or(0, |separator| separator + 1);
+    match name[own..].split_once('@') {
+        Some((folder, variant)) => (&name[..own + folder.len()], Some(variant)),
+        None => (text, None),
+    }
+}
+
+/// Loads every variant of the scene in a folder.
+fn load_all_variants(folder: &Path) -> Result<Vec<SceneChoice>, Error> {
+    let variants = list_scene(folder)?.variants;
+    if variants.is_empty() {
+        return Err(Error::Usage(format!(
+            "--scenes: {} has no variants for @all; name the scene without it",
+            folder.display()
+        )));
+    }
+    (variants.iter())
+        .map(|variant| load_choice(folder, Some(variant)))
+        .collect()
+}
+
+/// Refuses two scenes of one name: both would be written to one folder and counted as two.
+fn refuse_duplicates(scenes: &[SceneChoice]) -> Result<(), Error> {
+    for (index, scene) in scenes.iter().enumerate() {
+        let name = &scene.scene.name;
+        let mut before = scenes[..index].iter();
+        if let Some(other) = before.find(|other| other.scene.name == *name) {
+            return Err(Error::Usage(format!(
+                "--scenes: {name} is named twice, as {} and {}; allowed: each name once; rename one of the folders, or \
+                 run them into two --out folders",
+                other.folder.display(),
+                scene.folder.display()
+            )));
+        }
+    }
+    Ok(())
+}
+
+fn load_choice(folder: &Path, variant: Option<&str>) -> Result<SceneChoice, Error> {
+    let own = folder.file_name().unwrap_or_default().to_string_lossy();
+    if own.contains('@') {
+        return Err(Error::Usage(format!(
+            "--scenes: the folder {} cannot name a scene; allowed: names without @, which stands before a variant; rename it",
+            folder.display()
+        )));
+    }
+    Ok(SceneChoice {
+        folder: folder.to_owned(),
+        scene: load_scene(folder, variant)?,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_at_stands_before_a_variant_only_in_the_last_name() {
+        for (text, name, variant) in [
+            ("fan", "fan", None),
+            ("fan@fast", "fan", Some("fast")),
+            ("./me@home/fan", "./me@home/fan", None),
+            ("./me@home/fan@fast", "./me@home/fan", Some("fast")),
+            ("me@home/fan@fast/", "me@home/fan", Some("fast")),
+        ] {
+            assert_eq!(split_variant(text), (name, variant), "{text}");
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! Motions through keys of a scene.toml.
+
+use std::ops::Range;
+
+use glam::DVec3;
+use toml::Spanned;
+
+use super::document::Document;
+use super::error::{SceneError, join_names};
+use super::rotation::{LARGEST_TURN, Rotation};
+use crate::limits::{CLOSEST_KEYS, MOST_KEYS};
+use crate::swept::key_times;
+use crate::{Interpolation, Key, Motion, Turn};
+
+/// Interpolations by name.
+const INTERPOLATIONS: [(&str, Interpolation); 2] = [
+    ("linear", Interpolation::Linear),
+    ("cubic", Interpolation::Cubic),
+];
+
+/// Pose at one key.
+pub(super) struct Pose {
+    pub(super) time: f64,
+    pub(super) translation: DVec3,
+    pub(super) rotation: Rotation,
+    pub(super) scale: DVec3,
+    /// Place in the file.
+    pub(super) place: Range<usize>,
+}
+
+/// Reads the interpolation between keys; linear by default.
+pub(super) fn read_interpolation<K>(
+    document: &Document,
+    what: &str,
+    name: &Option<Spanned<String>>,
+    keys: &Option<Spanned<Vec<K>>>,
+) -> Result<Interpolation, SceneError> {
+    let Some(name) = name else {
+        return Ok(Interpolation::default());
+    };
+    if keys.is_none() {
+        let reason =
+            format!("{what} has an interpolation but no keys; give it keys, or leave it out");
+        return Err(document.error(name.span(), reason));
+    }
+    let mut known = INTERPOLATIONS.into_iter();
+    match known.find(|(known, _)| known == name.get_ref()) {
+        Some((_, interpolation)) => Ok(interpolation),
+        None => {
+            let reason = format!(
+                "interpolation of {what} is \"{}\"; allowed: {}",
+                name.get_ref(),
+                join_names(INTERPOLATIONS.map(|(known, _)| known))
+            );
+            Err(document.error(name.span(), reason))
+        }
+    }
+}
+
+/// Builds the motion through poses at rising times.
+pub(super) fn build_motion(
+    document: &Document,
+    what: &str,
+    place: Range<usize>,
+    poses: &[Pose],
+    interpolation: Interpolation,
+) -> Result<Motion, SceneError> {
+    if !(1..=MOST_KEYS).contains(&poses.len()) {
+        let reason = format!("{what} has {} keys; allowed: 1 to {MOST_KEYS}", poses.len());
+        return Err(document.error(place, reason));
+    }
+    let mut keys = Vec::new();
+    for (index, pose) in poses.iter().enumerate() {
+        let turn = match poses.get(index + 1) {
+            Some(next) => turn_between(document, what, pose, next)?,
+            None => Turn::NONE,
+        };
+        keys.push(Key {
+            time: pose.time,
+            translation: pose.translation,
+            orientation: pose.rotation.orientation(),
+            scale: pose.scale,
+            turn,
+        });
+    }
+    let motion = Motion {
+        keys,
+        interpolation,
+    };
+    check_scales(document, what, poses, &motion)?;
+    Ok(motion)
+}
+
+/// Refuses times that do not rise, or so close that the speed between them has no meaning. `noun` is a key or a shape.
+pub(super) fn check_times(
+    document: &Document,
+    what: &str,
+    noun: &str,
+    [from, to]: [f64; 2],
+    place: Range<usize>,
+) -> Result<(), SceneError> {
+    let reason = if to <= from {
+        format!("{what} has a {noun} at time {to} after one at {from}; times must rise")
+    } else if to - from < CLOSEST_KEYS {
+        format!(
+            "{what} has {noun}s at times {from:?} and {to:?}; allowed: {CLOSEST_KEYS:e} frames apart or more"
+        )
+    } else {
+        return Ok(());
+    };
+    Err(document.error(place, reason))
+}
+
+fn turn_between(
+    document: &Document,
+    what: &str,
+    pose: &Pose,
+    next: &Pose,
+) -> Result<Turn, SceneError> {
+    let times = [pose.time, next.time];
+    check_times(document, what, "key", times, next.place.clone())?;
+    pose.rotation.turn_to(next.rotation).ok_or_else(|| {
+        let reason = format!(
+            "{what} turns by half a turn or more between two keys, so that its direction is ambiguous; allowed: below \
+             {LARGEST_TURN} degrees, or any number of degrees if both keys have {{ axis, degrees }} with the same axis"
+        );
+        document.error(next.place.clone(), reason)
+    })
+}
+
+/// Refuses scales that pass through 0, from a frame before the instant to a frame after it, and between all keys.
+fn check_scales(
+    document: &Document,
+    what: &str,
+    poses: &[Pose],
+    motion: &Motion,
+) -> Result<(), SceneError> {
+    let earliest = poses[0].time.min(-1.0);
+    let latest = poses[poses.len() - 1].time.max(1.0);
+    let times = key_times([motion], earliest, latest);
+    for span in times.windows(2) {
+        let segment = motion.segment(0.5 * (span[0] + span[1]));
+        let [start, end] = [span[0], span[1]].map(|time| segment.since(time));
+        let inside = (0..3)
+            .flat_map(|axis| segment.scale.part(|scale| scale[axis]).turning_points())
+            .filter(|since| start < *since && *since < end);
+        for since in inside.chain([end, start]) {
+            let scale = segment.scale.at(since);
+            let (pose, next) = keys_beside(poses, span[1]);
+            if (pose.scale * scale).min_element() <= 0.0 {
+                let time = span[0] + (since - start);
+                let reason = format!(
+                    "{what} has scale {:.3} at time {} and would have {scale:.3} at {time}; each factor must keep its \
+                     sign, between the keys and beyond them",
+                    pose.scale, pose.time
+                );
+                return Err(document.error(next.place.clone(), reason));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Keys on either side of a span that ends at `end`; beyond the keys, the nearest two.
+fn keys_beside(poses: &[Pose], end: f64) -> (&Pose, &Pose) {
+    let last = poses.len() - 1;
+    let next = poses
+        .partition_point(|pose| pose.time < end)
+        .clamp(last.min(1), last);
+    (&poses[next.saturating_sub(1)], &poses[next])
+}

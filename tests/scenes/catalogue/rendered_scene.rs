@@ -1,0 +1,212 @@
+//! Small renders of a scene of the catalogue, with the outputs and scores of filters.
+
+use std::cell::OnceCell;
+use std::path::Path;
+
+use filters::{Blur, Filter, Gpu, Input};
+use frame::{Alignment, Frame, Image, Picture, Truth};
+use metrics::{Metric, Reference, Scores};
+use tests::unwatched;
+use tracer::{FrameSettings, Scene, TruthSettings, load_scene, trace_frame, trace_truth};
+
+/// Settings of a frame and its truths.
+#[derive(Clone, Copy)]
+pub struct RenderSettings {
+    pub width: u32,
+    pub height: u32,
+    /// Samples of the frame, and of the two replicates of a truth together.
+    pub samples_per_pixel: u32,
+    pub sky_velocity: bool,
+    /// Width of the border that the frame has beyond the picture, in pixels.
+    pub guard_band: u32,
+}
+
+impl Default for RenderSettings {
+    fn default() -> Self {
+        Self {
+            width: 160,
+            height: 90,
+            samples_per_pixel: 32,
+            sky_velocity: true,
+            guard_band: 0,
+        }
+    }
+}
+
+/// Frame of a scene, and truths that are rendered when needed.
+pub struct RenderedScene {
+    pub frame: Frame,
+    scene: Scene,
+    settings: RenderSettings,
+    gpu: Gpu,
+    truths: [OnceCell<Truth>; 2],
+}
+
+impl RenderedScene {
+    /// Renders `scene` or `scene@variant`.
+    pub fn new(name: &str) -> Self {
+        Self::with_settings(name, RenderSettings::default())
+    }
+
+    pub fn with_settings(name: &str, settings: RenderSettings) -> Self {
+        let (name, variant) = match name.split_once('@') {
+            Some((name, variant)) => (name, Some(variant)),
+            None => (name, None),
+        };
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../scenes")
+            .join(name);
+        let scene = load_scene(&folder, variant).unwrap_or_else(|error| panic!("{error}"));
+        let frame_settings = FrameSettings {
+            width: settings.width,
+            height: settings.height,
+            exposure: scene.exposure,
+            sky_velocity: settings.sky_velocity,
+            guard_band: settings.guard_band,
+            samples_per_pixel: settings.samples_per_pixel,
+            ..FrameSettings::default()
+        };
+        Self {
+            frame: trace_frame(&scene, &frame_settings, &unwatched).unwrap(),
+            scene,
+            settings,
+            gpu: Gpu::new(None).expect("these tests run filters"),
+            truths: Default::default(),
+        }
+    }
+
+    /// Returns the truth of an alignment, trailing or centred; renders it the first time.
+    pub fn truth(&self, alignment: Alignment) -> &Truth {
+        let index = match alignment {
+            Alignment::Trailing => 0,
+            Alignment::Centred => 1,
+            Alignment::Leading => panic!("no filter's shutter leads"),
+        };
+        self.truths[index].get_or_init(|| {
+            let settings = TruthSettings {
+                width: self.settings.width,
+                height: self.settings.height,
+                exposure: self.scene.exposure,
+                alignment,
+                samples_per_pixel: self.settings.samples_per_pixel,
+                replicates: 2,
+                seed: 1,
+            };
+            trace_truth(&self.scene, &settings, &unwatched).unwrap()
+        })
+    }
+
+    /// Blurs colour and mattes with a filter, `name:preset`.
+    pub fn blur(&self, filter: &str) -> Picture {
+        let mattes: Vec<Image> = (self.frame.coverage.iter())
+            .map(|matte| matte.map(|part| [*part; 3]))
+            .collect();
+        let colors: Vec<&Image> = [&self.frame.color].into_iter().chain(&mattes).collect();
+        let (filter, preset) = find_preset(filter);
+        let mut outputs = self.run_filter(&filter, &preset, &colors).into_iter();
+        Picture {
+            color: outputs.next().expect("an output per colour"),
+            coverage: outputs.map(|matte| matte.map(|pixel| pixel[0])).collect(),
+        }
+    }
+
+    /// Runs a filter on colours in place of the frame's own, and crops the guard band.
+    pub fn run_filter(&self, filter: &Filter, preset: &str, colors: &[&Image]) -> Vec<Image> {
+        let settings = filter.settings(Some(preset)).unwrap();
+        let (width, height) = self.frame.size();
+        let mut blur = Blur::new(&self.gpu, filter, &settings, width, height).unwrap();
+        let input = Input {
+            color: colors,
+            velocity: &self.frame.velocity,
+            depth: &self.frame.depth,
+            reprojection: Some(
+                self.frame
+                    .reprojection
+                    .moved(f64::from(self.settings.guard_band)),
+            ),
+            exposure: self.frame.exposure,
+            frame_index: 0,
+        };
+        let outputs = blur.run(&input).unwrap();
+        outputs
+            .iter()
+            .map(|output| output.cropped(self.settings.guard_band))
+            .collect()
+    }
+
+    /// Scores a picture against the truth of an alignment.
+    pub fn measure(&self, picture: &Picture, alignment: Alignment) -> Scores {
+        let frame = self.frame.cropped();
+        let reference = Reference::new(
+            &frame,
+            self.truth(alignment),
+            None,
+            &suite::viewing(&self.scene),
+        )
+        .unwrap();
+        reference.measure(picture).unwrap().scores
+    }
+
+    /// Scores a filter against the truth of its declared shutter.
+    pub fn score_filter(&self, filter: &str) -> Scores {
+        let alignment = find_preset(filter).0.alignment;
+        self.measure(&self.blur(filter), alignment)
+    }
+
+    /// Returns one score of a filter.
+    pub fn score(&self, filter: &str, metric: &str) -> f64 {
+        value(&self.score_filter(filter), metric)
+    }
+
+    /// Error of a filter, relative to that of doing nothing.
+    pub fn error_left_by(&self, filter: &str, metric: &str) -> f64 {
+        let frame = self.frame.cropped();
+        let nothing = Picture {
+            color: frame.color,
+            coverage: frame.coverage,
+        };
+        let nothing = self.measure(&nothing, find_preset(filter).0.alignment);
+        self.score(filter, metric) / value(&nothing, metric)
+    }
+
+    /// Share of an object that a filter gives to others.
+    pub fn object_label_tv(&self, filter: &str, object: &str) -> f64 {
+        let scores = self.score_filter(filter);
+        let found = scores.objects.iter().find(|scores| scores.object == object);
+        let found = found.unwrap_or_else(|| panic!("there is no object {object}"));
+        found.label_total_variation.value().expect("it is seen")
+    }
+
+    /// Weighted mean of the squared error of a filter's radiance; unbiased, as the truth's halves are independent.
+    pub fn squared_error(&self, filter: &str, weight_at: impl Fn(u32, u32) -> f64) -> f64 {
+        let output = self.blur(filter).color;
+        let [a, b] = &self.truth(find_preset(filter).0.alignment).halves;
+        let (mut sum, mut total) = (0.0, 0.0);
+        for y in 0..output.height {
+            for x in 0..output.width {
+                let [output, a, b] = [&output, &a.color, &b.color].map(|image| image.at(x, y));
+                let product = |c: usize| f64::from((output[c] - a[c]) * (output[c] - b[c]));
+                let weight = weight_at(x, y);
+                sum += weight * (product(0) + product(1) + product(2)) / 3.0;
+                total += weight;
+            }
+        }
+        assert!(total > 0.0, "some pixels count");
+        sum / total
+    }
+}
+
+/// Returns a metric's value; fails the test if it does not apply.
+pub fn value(scores: &Scores, metric: &str) -> f64 {
+    let parsed: Metric = metric.parse().unwrap();
+    let found = scores.get(parsed);
+    found
+        .value()
+        .unwrap_or_else(|| panic!("{metric} does not apply: {found:?}"))
+}
+
+/// Finds a built-in filter, and returns it with the preset's name.
+pub fn find_preset(filter: &str) -> (Filter, String) {
+    let (name, preset) = filter.split_once(':').expect("name:preset");
+    (Filter::builtin(name).unwrap(), preset.to_owned())
+}

@@ -1,0 +1,92 @@
+//! Materials and textures from MTL and picture files.
+
+use crate::scene_folder::{Folder, SCENE};
+use glam::Vec3;
+
+#[test]
+fn a_material_is_changed_for_one_object_alone() {
+    let scene = Folder::new().load().unwrap();
+    let paint =
+        |object: usize, slot: usize| &scene.materials[scene.objects[object].materials[slot]];
+    assert_eq!(paint(0, 0).diffuse, Vec3::new(0.5, 0.6, 0.7));
+    assert_eq!(paint(1, 1).diffuse, Vec3::new(0.1, 0.2, 0.3));
+    assert_eq!(
+        paint(1, 1).diffuse_texture,
+        Some(0),
+        "what is not changed stays"
+    );
+    let glow = paint(0, 1);
+    assert_eq!(
+        (glow.emission, glow.opacity),
+        (Vec3::new(1.0, 2.0, 3.0), 0.25)
+    );
+}
+
+#[test]
+fn faces_without_a_material_are_grey() {
+    let folder = Folder::new();
+    folder.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+    let text = SCENE
+        .replace("group = \"left\"\n", "")
+        .replace("material.paint", "material.default");
+    folder.write("scene.toml", text);
+    let scene = folder.load().unwrap();
+    assert_eq!(scene.meshes[0].normals, []);
+    assert_eq!(scene.materials[0].name, "default");
+    assert_eq!(scene.materials[0].diffuse, Vec3::splat(0.5));
+}
+
+#[test]
+fn texture_colours_are_decoded_and_opacities_are_not() {
+    let folder = Folder::new();
+    folder.edit(
+        "mesh.mtl",
+        "map_Kd dots.png",
+        "map_Kd dots.png\nmap_d dots.png",
+    );
+    let scene = folder.load().unwrap();
+    let paint = scene.materials.iter().find(|m| m.name == "paint").unwrap();
+    let color = &scene.textures[paint.diffuse_texture.unwrap()];
+    let opacity = &scene.textures[paint.opacity_texture.unwrap()];
+    assert_eq!((color.width, color.height), (2, 1));
+    // 128 of 255 is 0.215861 in IEC 61966-2-1; 1e-6 is the rounding of 32-bit floats.
+    assert!((color.texels[0][0] - 0.215_861).abs() < 1e-6);
+    assert_eq!(color.texels[0][1..], [0.0, 1.0, 1.0]);
+    assert_eq!(opacity.texels[0][3], 128.0 / 255.0);
+    assert_eq!(opacity.texels[1][3], 1.0);
+}
+
+#[test]
+fn a_jpeg_is_a_texture_too_and_a_name_from_windows_finds_it() {
+    let folder = Folder::new();
+    // One colour, so that nothing is lost: 128 of 255.
+    let grey = image::GrayImage::from_pixel(16, 8, image::Luma([128]));
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    grey.write_to(&mut bytes, image::ImageFormat::Jpeg).unwrap();
+    std::fs::create_dir(folder.path.join("paints")).unwrap();
+    folder.write("paints/grey.jpg", bytes.into_inner());
+    folder.edit("mesh.mtl", "map_Kd dots.png", "map_Kd paints\\grey.jpg");
+    let scene = folder.load().unwrap();
+    let paint = scene.materials.iter().find(|m| m.name == "paint").unwrap();
+    let color = &scene.textures[paint.diffuse_texture.unwrap()];
+    assert_eq!((color.width, color.height), (16, 8));
+    for texel in &color.texels {
+        assert!((texel[0] - 0.215_861).abs() < 1e-6, "{texel:?}");
+        assert_eq!(*texel, [texel[0], texel[0], texel[0], 1.0]);
+    }
+}
+
+#[test]
+fn a_textures_factor_is_one_unless_given() {
+    let folder = Folder::new();
+    folder.write(
+        "mesh.mtl",
+        "newmtl paint\nmap_Kd dots.png\nmap_Ke dots.png\nnewmtl glow\n",
+    );
+    let scene = folder.load().unwrap();
+    let material = |name| scene.materials.iter().find(|m| m.name == name).unwrap();
+    assert_eq!(material("paint").diffuse, Vec3::ONE);
+    assert_eq!(material("paint").emission, Vec3::ONE);
+    assert_eq!(material("glow").diffuse, Vec3::splat(0.5));
+    assert_eq!(material("glow").emission, Vec3::ZERO);
+}

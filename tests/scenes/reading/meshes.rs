@@ -1,0 +1,180 @@
+//! Meshes, groups and key shapes from OBJ files.
+
+use crate::scene_folder::{Folder, MTL, OBJ};
+use glam::{Vec2, Vec3};
+use tracer::load_scene;
+
+#[test]
+fn a_group_is_a_mesh_of_its_own_and_faces_keep_their_materials() {
+    let scene = Folder::new().load().unwrap();
+    let [whole, left] = [0, 1].map(|object| &scene.meshes[scene.objects[object].mesh]);
+    assert_eq!((whole.triangles.len(), left.triangles.len()), (5, 3));
+    assert_eq!(whole.slots, [0, 0, 1, 1, 0]);
+    assert_eq!(left.slots, [0, 0, 1]);
+    let names = |object: usize| -> Vec<&str> {
+        let materials = scene.objects[object].materials.iter();
+        materials
+            .map(|index| scene.materials[*index].name.as_str())
+            .collect()
+    };
+    assert_eq!(names(0), ["paint", "glow"]);
+    assert_eq!(names(1), ["glow", "paint"]);
+    assert_eq!(
+        whole.normals,
+        vec![Vec3::Z; whole.positions.len()],
+        "normals have unit length"
+    );
+    assert_eq!(whole.texcoords[1], Vec2::new(1.0, 0.0));
+    assert_eq!(whole.positions[whole.triangles[0][1] as usize], Vec3::X);
+}
+
+#[test]
+fn objects_of_one_mesh_share_it() {
+    let folder = Folder::new();
+    folder.edit("scene.toml", "group = \"left\"\n", "");
+    let scene = folder.load().unwrap();
+    assert_eq!(scene.meshes.len(), 1);
+    assert_eq!((scene.objects[0].mesh, scene.objects[1].mesh), (0, 0));
+}
+
+#[test]
+fn other_ways_to_write_a_mesh_mean_the_same() {
+    let plain = Folder::new().load().unwrap();
+    let spaced = |text: &str| {
+        text.replace("paint", "old  red paint")
+            .replace("mesh.mtl", "my mesh.mtl")
+    };
+    let folder = Folder::new();
+    folder.write("my mesh.mtl", spaced(MTL).replace('\n', "\r\n"));
+    let written_otherwise = spaced(OBJ)
+        .replace("f 1/1/1 2/2/1 3/3/1", "f -6/-3/-1 -5/-2/-1 -4/-1/-1")
+        .replace("usemtl old", "  usemtl \t old")
+        .replace("v 1 1 0", "v 2 2 0 2")
+        .replace("v 0 1 0", "v 0 1 0 0.5 0.5 0.5")
+        .replace("g left", "l 1 2 3\n\n# faces on the left\n o left")
+        .replace('\n', "\r\n");
+    folder.write("mesh.obj", written_otherwise);
+    folder.edit(
+        "scene.toml",
+        "material.paint",
+        "material.\"old  red paint\"",
+    );
+    let other = folder.load().unwrap_or_else(|error| panic!("{error}"));
+    for (plain, other) in plain.meshes.iter().zip(&other.meshes) {
+        assert_eq!(plain.positions, other.positions);
+        assert_eq!(plain.normals, other.normals);
+        assert_eq!(plain.texcoords, other.texcoords);
+        assert_eq!(plain.triangles, other.triangles);
+        assert_eq!(plain.slots, other.slots);
+    }
+    assert!(other.materials.iter().any(|m| m.name == "old  red paint"));
+}
+
+#[test]
+fn faces_without_normals_are_flat_beside_smooth_ones() {
+    let folder = Folder::new();
+    let without = "usemtl paint\nf 1/1/1 4/2/1 6/3/1";
+    folder.edit("mesh.obj", without, "usemtl paint\nf 1/1 6/3 4/2");
+    let scene = folder.load().unwrap();
+    let mesh = &scene.meshes[0];
+    assert_eq!(mesh.normals.len(), mesh.positions.len());
+    let last = mesh.triangles.last().unwrap();
+    // Clockwise seen from +Z.
+    assert_eq!(
+        last.map(|corner| mesh.normals[corner as usize]),
+        [Vec3::NEG_Z; 3]
+    );
+    assert_eq!(mesh.texcoords[last[1] as usize], Vec2::ONE);
+}
+
+/// The square with its corner (1, 1) elsewhere, and other indices for the same normals.
+fn bent_obj() -> String {
+    OBJ.replace("v 1 1 0", "v 3 5 0")
+        .replace("vn 0 0 2", "vn 0 0 2\nvn 0 0 3")
+        .replace("3/3/1 4/2/1", "3/3/2 4/2/1")
+}
+
+const SHAPES: &str =
+    "shapes = [{ time = -1, mesh = \"mesh.obj\" }, { time = 1, mesh = \"bent.obj\" }]";
+
+#[test]
+fn key_shapes_are_one_mesh_that_deforms() {
+    let folder = Folder::new();
+    folder.write("bent.obj", bent_obj());
+    folder.edit(
+        "scene.toml",
+        "mesh = \"mesh.obj\"\nkeys",
+        &format!("{SHAPES}\nkeys"),
+    );
+    let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
+    let mesh = &scene.meshes[scene.objects[0].mesh];
+    let times: Vec<f64> = mesh.shapes.iter().map(|shape| shape.time).collect();
+    assert_eq!(times, [-1.0, 1.0]);
+    assert_eq!(mesh.positions, mesh.shapes[0].positions);
+    assert_eq!(mesh.triangles.len(), 5);
+    for triangle in &mesh.triangles {
+        for vertex in triangle.map(|vertex| vertex as usize) {
+            let [from, to] = [0, 1].map(|shape| mesh.shapes[shape].positions[vertex]);
+            let expected = if from == Vec3::new(1.0, 1.0, 0.0) {
+                Vec3::new(3.0, 5.0, 0.0)
+            } else {
+                from
+            };
+            assert_eq!(to, expected);
+        }
+    }
+    for shape in &mesh.shapes {
+        assert_eq!(shape.normals, vec![Vec3::Z; mesh.positions.len()]);
+    }
+    assert_eq!(mesh.texcoords.len(), mesh.positions.len());
+    // Another object shows a group of the first file, as it is.
+    assert!(scene.meshes[scene.objects[1].mesh].shapes.is_empty());
+}
+
+#[test]
+fn a_group_of_key_shapes_deforms_and_a_variant_may_choose_them() {
+    let folder = Folder::new();
+    folder.write("bent.obj", bent_obj());
+    folder.edit(
+        "scene.toml",
+        "mesh = \"mesh.obj\"\ngroup",
+        &format!("{SHAPES}\ngroup"),
+    );
+    folder.edit(
+        "scene.toml",
+        "[variant.fast.object.body]",
+        &format!("[variant.fast.object.body]\n{SHAPES}"),
+    );
+    let fast = load_scene(&folder.path, Some("fast")).unwrap_or_else(|error| panic!("{error}"));
+    let [body, part] = [0, 1].map(|object| &fast.meshes[fast.objects[object].mesh]);
+    assert_eq!((body.shapes.len(), part.shapes.len()), (2, 2));
+    assert_eq!(part.triangles.len(), 3);
+}
+
+#[test]
+fn faces_of_key_shapes_without_normals_are_flat_beside_smooth_ones() {
+    let folder = Folder::new();
+    let flat = |text: String| {
+        text.replace(
+            "usemtl paint\nf 1/1/1 4/2/1 6/3/1",
+            "usemtl paint\nf 1/1 4/2 6/3",
+        )
+    };
+    folder.write("bent.obj", flat(bent_obj()));
+    folder.write("mesh.obj", flat(OBJ.to_owned()));
+    folder.edit(
+        "scene.toml",
+        "mesh = \"mesh.obj\"\nkeys",
+        &format!("{SHAPES}\nkeys"),
+    );
+    let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
+    let mesh = &scene.meshes[0];
+    let last = mesh.triangles.last().unwrap();
+    for shape in &mesh.shapes {
+        assert_eq!(
+            last.map(|vertex| shape.normals[vertex as usize]),
+            [Vec3::ZERO; 3]
+        );
+        assert_eq!(shape.normals[0], Vec3::Z);
+    }
+}

@@ -1,0 +1,108 @@
+//! Scenes read from files: the documented example, defaults and hashes; and by subject what files come to mean.
+
+mod materials;
+mod meshes;
+mod motions;
+
+use crate::scene_folder::{Folder, OBJ, SCENE};
+use frame::{Efficiency, ShutterProfile};
+use glam::DVec3;
+use tracer::{Background, Family, Interpolation, Parent, load_scene};
+
+#[test]
+fn the_documented_example_loads() {
+    let folder = Folder::new();
+    let readme = include_str!("../../../scenes/README.md");
+    let (_, example) = readme.split_once("```toml\n").unwrap();
+    let (example, _) = example.split_once("```").unwrap();
+    folder.write("scene.toml", example);
+    // The same mesh with the names that the example uses.
+    folder.write("car.obj", OBJ.replace("g left", "g wheel"));
+    for shape in 0..3 {
+        folder.write(
+            &format!("flag_{shape}.obj"),
+            OBJ.replace("v 1 1 0", &format!("v 1 1 {shape}")),
+        );
+    }
+    let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
+
+    assert_eq!(scene.name, "square");
+    assert_eq!(scene.family, Family::Overlap);
+    assert_eq!((scene.exposure, scene.width, scene.height), (0.5, 640, 360));
+    assert_eq!(scene.display.stops, 0.5);
+    assert_eq!(scene.display.flip.count, 5);
+    assert!(matches!(scene.background, Background::Gradient { .. }));
+    assert_eq!(scene.sun.unwrap().angular_radius, 0.27f64.to_radians());
+    let trapezoid = Efficiency::Trapezoid {
+        rise: 0.2,
+        fall: 0.1,
+    };
+    assert_eq!(scene.shutter_profile.efficiency, trapezoid);
+    assert_eq!(scene.shutter_profile.rolling, 0.05);
+    let names: Vec<_> = scene
+        .objects
+        .iter()
+        .map(|object| object.name.as_str())
+        .collect();
+    assert_eq!(names, ["car", "wheel", "dashboard", "flag"]);
+    assert_eq!(scene.meshes[scene.objects[3].mesh].shapes.len(), 3);
+    let parents: Vec<_> = scene.objects.iter().map(|object| object.parent).collect();
+    assert_eq!(
+        parents,
+        [
+            Parent::World,
+            Parent::Object(0),
+            Parent::Camera,
+            Parent::World
+        ]
+    );
+    assert_eq!(scene.camera.motion.interpolation, Interpolation::Cubic);
+    assert_eq!(scene.objects[0].motion.interpolation, Interpolation::Linear);
+
+    let fast = load_scene(&folder.path, Some("fast")).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!((fast.name.as_str(), fast.exposure), ("square@fast", 1.0));
+    let table = Efficiency::Table(vec![0.0, 1.0, 1.0, 0.4]);
+    let expected = ShutterProfile {
+        efficiency: table,
+        rolling: 0.0,
+    };
+    assert_eq!(fast.shutter_profile, expected);
+    let moved = fast.object_to_world(0, 1.0).translation;
+    assert_eq!(moved, DVec3::new(2.0, 0.0, 0.0));
+}
+
+#[test]
+fn what_a_scene_leaves_out_has_its_documented_value() {
+    let scene = Folder::new().load().unwrap();
+    assert_eq!(scene.display.stops, 0.0);
+    assert_eq!(scene.shutter_profile, ShutterProfile::default());
+    let flip = scene.display.flip;
+    assert_eq!((flip.start, flip.stop, flip.count), (-2.0, 2.0, 5));
+    assert_eq!(scene.sun.unwrap().angular_radius, 0.0);
+    assert_eq!(scene.objects[0].motion.keys[0].scale, DVec3::ONE);
+}
+
+#[test]
+fn the_hash_follows_every_file_and_the_variant_but_not_the_place() {
+    let hash = |folder: &Folder, variant| load_scene(&folder.path, variant).unwrap().hash;
+    let plain = hash(&Folder::new(), None);
+    assert_eq!(plain, hash(&Folder::new(), None), "folders in two places");
+    assert_ne!(plain, hash(&Folder::new(), Some("fast")));
+    for (file, from, to) in [
+        ("scene.toml", "# A comment counts too", ""),
+        ("mesh.obj", "vn 0 0 2", "vn 0 0 3"),
+        ("mesh.mtl", "Kd 0.5", "Kd 0.4"),
+    ] {
+        let folder = Folder::new();
+        if file == "scene.toml" {
+            folder.write(file, format!("{SCENE}{from}\n"));
+        } else {
+            folder.edit(file, from, to);
+        }
+        assert_ne!(plain, hash(&folder, None), "{file}");
+    }
+    let folder = Folder::new();
+    let white = frame::Raster::filled(2, 1, [1.0; 3]);
+    frame::write_png(&folder.path.join("dots.png"), &white).unwrap();
+    assert_ne!(plain, hash(&folder, None), "dots.png");
+}
