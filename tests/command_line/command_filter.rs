@@ -90,12 +90,9 @@ fn a_program_needs_no_adapter() {
 }
 
 #[test]
-fn the_program_of_the_readme_takes_part() {
-    let readme = include_str!("../../README.md");
-    let start = readme
-        .split("```toml\nname = \"my_engine\"")
-        .nth(1)
-        .unwrap();
+fn the_program_of_the_guide_takes_part() {
+    let guide = include_str!("../../docs/add-a-filter.md");
+    let start = guide.split("```toml\nname = \"my_engine\"").nth(1).unwrap();
     let manifest = format!("name = \"my_engine\"{}", start.split("```").next().unwrap());
     let bench = Bench::new();
     fs::create_dir_all(bench.path("my_engine")).unwrap();

@@ -1,15 +1,15 @@
-//! The README's filter of one's own, and the messages that the README quotes for mistakes in it.
+//! The guide's filter of one's own, and the messages that the guide quotes for mistakes in it.
 
 use metrics::Measured;
 use tests::filter_folder::one_kernel_without_parameters;
 
 use crate::bench::{Bench, assert_done, stderr};
 
-const README: &str = include_str!("../../README.md");
+const GUIDE: &str = include_str!("../../docs/add-a-filter.md");
 
-/// The README's part about bringing one's own.
+/// The guide's part about writing a filter.
 fn section() -> &'static str {
-    let start = README.split_once("\n## Bring your own\n").unwrap().1;
+    let start = GUIDE.split_once("\n## 1. Write it\n").unwrap().1;
     start.split_once("\n## ").unwrap().0
 }
 
@@ -19,7 +19,7 @@ fn block(language: &str) -> &'static str {
     start.split_once("```").unwrap().0
 }
 
-/// Writes the README's filter, with one word written for another in one of its files.
+/// Writes the guide's filter, with one word written for another in one of its files.
 fn write(bench: &Bench, change: Option<&Mistake>) {
     let [manifest, kernels] =
         [("filter.toml", "toml"), ("my_blur.wgsl", "wgsl")].map(|(name, language)| match change {
@@ -33,7 +33,7 @@ fn write(bench: &Bench, change: Option<&Mistake>) {
     bench.write_filter("my_blur", &manifest, &kernels);
 }
 
-/// A mistake that the README shows: `from` written `to` in a file, and what the program says to it.
+/// A mistake that the guide shows: `from` written `to` in a file, and what the program says to it.
 struct Mistake {
     from: &'static str,
     to: &'static str,
@@ -66,7 +66,7 @@ fn mistakes() -> Vec<Mistake> {
 }
 
 #[test]
-fn the_filter_of_the_readme_runs_and_is_better_than_none() {
+fn the_filter_of_the_guide_runs_and_is_better_than_none() {
     let bench = Bench::new();
     write(&bench, None);
     assert!(block("wgsl").lines().count() <= 20);

@@ -8,6 +8,8 @@ mod calibrate;
 mod candidate;
 mod catalogue;
 mod check;
+#[cfg(test)]
+mod commands_page;
 mod compare;
 mod evaluate;
 #[cfg(test)]

@@ -1,0 +1,58 @@
+//! The page of all commands, held to the help of the program.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use clap::CommandFactory;
+
+use super::Cli;
+
+/// Columns of the help on the page.
+const WIDTH: usize = 100;
+
+const INTRODUCTION: &str = "\
+# Commands
+
+`shuttertruth help run` prints the same for one command. Results go to standard output, progress and errors to standard error.
+
+| exit code | meaning |
+|---|---|
+| 0 | done; `check`: every required bound is kept |
+| 1 | `check`: a required bound is broken, a score is worse than the baseline's by more than its margin, or a case failed |
+| 2 | usage or bad input; bounds that are wrong, missing, or stricter than the noise of the truth can carry |
+| 3 | no adapter |
+| 4 | too noisy: `check` cannot decide, or `render` did not reach `--noise` |
+| 130 | interrupted |
+";
+
+/// The page as the help has it.
+fn page() -> String {
+    let mut text = INTRODUCTION.to_owned();
+    let program = Cli::command().term_width(WIDTH);
+    for command in program.get_subcommands() {
+        let name = command.get_name();
+        let mut command = command
+            .clone()
+            .term_width(WIDTH)
+            .bin_name(format!("shuttertruth {name}"));
+        let help = command.render_long_help().to_string();
+        let lines = help.lines().map(str::trim_end).collect::<Vec<_>>();
+        let _ = write!(text, "\n## {name}\n\n```text\n{}\n```\n", lines.join("\n"));
+    }
+    text
+}
+
+#[test]
+fn the_page_of_commands_is_the_help() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let written = std::fs::read_to_string(root.join("docs/commands.md")).unwrap_or_default();
+    let expected = page();
+    if written != expected {
+        let fresh = std::env::temp_dir().join("commands.md");
+        std::fs::write(&fresh, expected).unwrap();
+        panic!(
+            "docs/commands.md is not what the help says; copy {} over it",
+            fresh.display()
+        );
+    }
+}
