@@ -469,7 +469,7 @@ fn two_presets_are_compared_scene_by_scene() {
 #[test]
 fn a_study_tells_what_matters() {
     let bench = bench();
-    let words = split("tune --quiet --filter jump_flood --from corrected --morris 4");
+    let words = split("tune --quiet --filter jump_flood --from corrected --sobol 4");
     let more = split("--vary samples,behind_extent --scenes a,b --size 64x32");
     let few = ["--samples-per-pixel", "16", "--out", "out"];
     let output = bench.shuttertruth(&[&words[..], &more, &few].concat());
@@ -494,7 +494,7 @@ fn a_study_tells_what_matters() {
         "what matters comes first:\n{table}"
     );
     let output = bench.shuttertruth(&[&words[..7], &["1"], &more, &few].concat());
-    assert_refused(&output, 2, &["--morris", "2 or more"]);
+    assert_refused(&output, 2, &["--sobol 1", "2 or more"]);
 }
 
 #[test]

@@ -414,7 +414,6 @@ pub const WORDS: &[&str] = &[
     "--budget",
     "--vary",
     "--objective",
-    "--morris",
     "--params",
     "--baseline",
     "--only",

@@ -66,12 +66,11 @@ pub use run::{FORMAT, Plan, Run, run, viewing};
 pub use stats::headline::Headline;
 pub use stats::overall::{Overall, overall, rank_filters};
 pub use tune::{
-    Answer, Choice, Difference, Effort, ElementaryEffects, Estimate, Evaluator, Fold, Header,
-    JOURNAL_FORMAT, Journal, LEAST_BLEED, Limits, Objective, Opening, Paired, ParameterSensitivity,
-    Preference, SceneScore, Search, Sensitivity, Shot, SobolIndices, Space, TUNE_FORMAT, Target,
-    Trial, TrialOutcome, TunePlan, Tuning, answer, choose, compare_paired, evaluator, folds, front,
-    interleaved, log_ratio, morris, preset_text, probability_not_above, sensitivity, shots,
-    sobol_indices, tune,
+    Answer, Choice, Difference, Estimate, Evaluator, Fold, Header, JOURNAL_FORMAT, Journal,
+    LEAST_BLEED, Limits, Objective, Opening, Paired, ParameterSensitivity, Preference, SceneScore,
+    Search, Sensitivity, Shot, SobolIndices, Space, TUNE_FORMAT, Target, Trial, TrialOutcome,
+    TunePlan, Tuning, analyze_sensitivity, answer, choose, compare_paired, evaluator, folds, front,
+    interleaved, log_ratio, preset_text, probability_not_above, shots, sobol_indices, tune,
 };
 
 /// Program name and version, as files and runs record it.

@@ -65,7 +65,7 @@ pub fn jitter_frames(text: &str) -> Result<u32, String> {
     }
 }
 
-/// How many candidates, walks or rows a search may have.
+/// How many candidates or rows a search may have.
 pub fn effort(text: &str) -> Result<usize, String> {
     match text.parse() {
         Ok(count @ 0..=1_000_000) => Ok(count),

@@ -9,9 +9,9 @@ use crate::tables::sensitivity::sensitivity_table;
 use crate::tables::tuning::{paired_table, tuning_table};
 use filters::Gpu;
 use suite::{
-    Claim, Effort, Error, FilterChoice, Objective, RenderSettings, SceneBounds, Sharing, Shot,
-    Space, TunePlan, Tuning, claim, compare_paired, evaluator, interleaved, open_gpu, preset_text,
-    printable_path, sensitivity, shots, tune,
+    Claim, Error, FilterChoice, Objective, RenderSettings, SceneBounds, Sharing, Shot, Space,
+    TunePlan, Tuning, analyze_sensitivity, claim, compare_paired, evaluator, interleaved, open_gpu,
+    preset_text, printable_path, shots, tune,
 };
 use tracer::{Progress, Scene};
 
@@ -23,12 +23,14 @@ use crate::arguments::{CandidateArgs, SceneArgs, TuneArgs};
 pub fn execute(args: &TuneArgs) -> Result<(), Error> {
     let candidate = &args.candidate;
     let choice = select_candidate(candidate)?;
-    let effort = Effort {
-        trajectories: args.morris,
-        rows: args.sobol,
-    };
-    if effort != Effort::default() {
-        return study(args, choice, effort);
+    match args.sobol {
+        None => (),
+        Some(rows @ (0 | 1)) => {
+            return Err(Error::Usage(format!(
+                "--sobol {rows}: allowed is 2 or more; a single row has no variance"
+            )));
+        }
+        Some(rows) => return study(args, choice, rows),
     }
     match args.compare.as_slice() {
         [] => run(args, choice),
@@ -161,7 +163,7 @@ fn compare(tune: &TuneArgs, choice: FilterChoice, presets: [&String; 2]) -> Resu
     print(tune, &Found { table, json, path })
 }
 
-fn study(args: &TuneArgs, choice: FilterChoice, effort: Effort) -> Result<(), Error> {
+fn study(args: &TuneArgs, choice: FilterChoice, rows: usize) -> Result<(), Error> {
     let candidate = &args.candidate;
     let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;
     let scenes = scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
@@ -177,7 +179,7 @@ fn study(args: &TuneArgs, choice: FilterChoice, effort: Effort) -> Result<(), Er
     )?;
     let label = format!("parameters of {}", choice.filter.name);
     let found = monitor(candidate.scenes.quiet).watch(&label, |watch| {
-        sensitivity(&mut evaluator, &space, effort, args.search_seed, watch)
+        analyze_sensitivity(&mut evaluator, &space, rows, args.search_seed, watch)
     })?;
     let json = serde_json::to_string_pretty(&found).expect("a study is plain data");
     let path = out.join("sensitivity.json");

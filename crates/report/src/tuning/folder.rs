@@ -18,7 +18,7 @@ pub struct TuneFolder {
     pub header: Option<Header>,
     /// All whole lines of the journal behind it.
     pub trials: Vec<Trial>,
-    /// Of `tune --morris` or `--sobol`.
+    /// Of `tune --sobol`.
     pub sensitivity: Option<Sensitivity>,
 }
 
