@@ -92,7 +92,7 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
         "the start",
         "chosen: trial",
         "family left out",
-        "sealed scenes, opened once at 320x180",
+        "held-out scenes, evaluated once at 320x180",
         "FLIP of chosen against start",
     ] {
         assert!(table.contains(part), "\"{part}\" is missing from:\n{table}");
@@ -135,7 +135,7 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
         .map(|fold| fold.family.as_str())
         .collect();
     assert_eq!(families, ["camera", "thin", "translation"]);
-    assert_eq!(tuning.openings.len(), 1);
+    assert_eq!(tuning.held_out.len(), 1);
 
     // The choice as a file is what the choice was.
     let params = bench.path("out/params.json");
@@ -144,7 +144,7 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
     let params = [params.to_str().unwrap(), "--objective", "flip,bleed"];
     let output = bench.shuttertruth(&[&words[..], &params, &scene].concat());
     assert_done(&output);
-    let answer: suite::Answer = serde_json::from_str(&stdout(&output)).unwrap();
+    let answer: suite::Evaluation = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!(answer.scenes["a"], tuning.chosen.scenes["a"]);
     assert_eq!(answer.values, tuning.values);
     // And as the preset of a filter.
@@ -163,7 +163,7 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
 
     // Another look at the same is no second opening; one at something else is.
     assert_done(&bench.shuttertruth(&tuning_words("out", "40", &["--sealed", "plate"])));
-    assert_eq!(self::tuning(&bench, "out").openings.len(), 1);
+    assert_eq!(self::tuning(&bench, "out").held_out.len(), 1);
     let other = ["--sealed", "plate", "--sealed-size", "64x32"];
     let output = bench.shuttertruth(&tuning_words("out", "40", &other));
     assert!(
@@ -233,7 +233,7 @@ fn a_file_that_is_no_journal_of_this_tuning_is_left_as_it_was() {
     ] {
         fs::write(&path, foreign).unwrap();
         let refused = bench.shuttertruth(&tuning_words("out", "4", &[]));
-        assert_refused(&refused, 2, &["journal.jsonl:1:", "another --out"]);
+        assert_refused(&refused, 2, &["journal.jsonl:1:", "another output folder"]);
         assert_eq!(fs::read_to_string(&path).unwrap(), foreign);
     }
 }
@@ -252,7 +252,7 @@ fn a_smaller_budget_is_the_beginning_of_a_larger_one_and_another_seed_is_another
         2,
         &[
             "journal.jsonl:1: it was begun with another design",
-            "another --out",
+            "another output folder",
         ],
     );
     assert_eq!(journal(&bench, "out"), second, "nothing is lost");
@@ -270,21 +270,21 @@ fn what_cannot_be_tuned_is_refused_and_leaves_nothing_behind() {
         (&["--budget", "0"], &["--budget 0", "allowed is 1 or more"]),
         (
             &["--vary", "sample"],
-            &["--vary sample", "no parameter", "samples"],
+            &["parameter sample:", "no parameter", "samples"],
         ),
         (
             &["--vary", "samples=9..3"],
-            &["--vary samples=9..3", "the range is empty"],
+            &["parameter samples=9..3", "the range is empty"],
         ),
         (
             &["--scenes", "nowhere"],
             &["no scene \"nowhere\"", "allowed: a, b"],
         ),
         (&["--scenes", "a,a"], &["a is named twice"]),
-        (&["--sealed", "b"], &["--sealed b", "proves nothing"]),
+        (&["--sealed", "b"], &["scene b", "proves nothing"]),
         (
             &["--cost-at-most", "1x"],
-            &["--cost-at-most", "--objective flip,cost"],
+            &["cost has a limit", "objectives: flip,cost"],
         ),
         (&["--objective", "speed"], &["allowed: flip, bleed, cost"]),
         (&["--from", "fastest"], &["no preset \"fastest\"", "paper"]),
@@ -320,7 +320,7 @@ fn what_cannot_be_tuned_is_refused_and_leaves_nothing_behind() {
     assert_refused(
         &output,
         2,
-        &["scene g: nothing moves", "leave it out of --scenes"],
+        &["scene g: nothing moves", "leave the scene out"],
     );
 }
 

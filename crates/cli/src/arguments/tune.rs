@@ -1,7 +1,6 @@
 //! The words of `tune`, `evaluate` and `serve`.
 
 use std::path::PathBuf;
-use std::str::FromStr;
 
 use clap::Args;
 use suite::Objective;
@@ -36,13 +35,13 @@ pub struct TuneArgs {
     /// Seed of the search; --seed is that of the renders.
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub search_seed: u64,
-    /// Scenes to be looked at when all is decided; each look is counted.
+    /// Held-out scenes, evaluated once at the end; each evaluation is counted.
     #[arg(long, value_delimiter = ',', value_name = "SCENES")]
     pub sealed: Vec<String>,
-    /// Picture size of the sealed scenes.
+    /// Picture size of the held-out scenes.
     #[arg(long, value_name = "WxH", default_value = "320x180", value_parser = size)]
     pub sealed_size: (u32, u32),
-    /// Samples per pixel of the sealed scenes' truths.
+    /// Samples per pixel of the held-out scenes' truths.
     #[arg(long, value_name = "N", default_value_t = 256)]
     pub sealed_samples_per_pixel: u32,
     /// Tune nothing: tell which parameters matter, by Sobol indices from so many rows; 64 to 256 will do. A row scores
@@ -88,7 +87,7 @@ pub struct CandidateArgs {
     #[arg(long)]
     pub as_written: bool,
     /// What is measured, separated by commas: flip (always), bleed (`bleed_lateral`, not ahead or behind), cost.
-    #[arg(long, value_delimiter = ',', default_value = "flip,bleed,cost", value_name = "OBJECTIVES", value_parser = Objective::from_str)]
+    #[arg(long, value_delimiter = ',', default_value = "flip,bleed,cost", value_name = "OBJECTIVES", value_parser = objective)]
     pub objective: Vec<Objective>,
     /// Picture size in pixels.
     #[arg(long, value_name = "WxH", default_value = "320x180", value_parser = size)]
@@ -99,6 +98,12 @@ pub struct CandidateArgs {
     pub programs: ProgramArgs,
     #[command(flatten)]
     pub adapter: AdapterArgs,
+}
+
+fn objective(word: &str) -> Result<Objective, String> {
+    (Objective::ALL.into_iter())
+        .find(|objective| objective.name() == word)
+        .ok_or_else(|| "allowed: flip, bleed, cost".to_owned())
 }
 
 fn minutes(text: &str) -> Result<f64, String> {

@@ -5,11 +5,13 @@ use std::path::Path;
 
 use filters::{Settings, Value};
 use frame::{FileError, read_bounded};
-use suite::{Answer, Error, FilterChoice, MOST_JSON_BYTES, Objective, Sharing, answer, evaluator};
+use suite::{
+    Error, Evaluator, FilterChoice, MOST_JSON_BYTES, Objective, Sharing, evaluate_candidate,
+};
 
 use super::measure::scenes;
 use super::say;
-use super::tune::{claimed_shots, open, select_candidate};
+use super::tune::{claim_and_render, open, select_candidate};
 use crate::arguments::EvaluateArgs;
 use crate::output::progress::monitor;
 
@@ -20,19 +22,19 @@ pub fn execute(args: &EvaluateArgs) -> Result<(), Error> {
     let settings = read_params(&args.params, &choice)?;
     let scenes = scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
     let gpu = open(&choice, candidate)?;
-    let (_, shots) = claimed_shots(&scenes, &choice, candidate, Sharing::Together)?;
+    let (_, rendered) = claim_and_render(&scenes, &choice, candidate, Sharing::Together)?;
     let bleed = candidate.objective.contains(&Objective::Bleed);
-    let mut evaluator = evaluator(
-        &shots,
-        &choice,
+    let mut evaluator = Evaluator::new(
         gpu.as_ref(),
+        &choice,
+        &rendered,
         bleed,
         monitor(candidate.scenes.quiet),
     )?;
     let cost = candidate.objective.contains(&Objective::Cost);
-    let all: Vec<usize> = (0..shots.len()).collect();
-    let answer: Answer = answer(&mut evaluator, &settings, &all, cost, |_, _| true)?;
-    let json = serde_json::to_string_pretty(&answer).expect("an answer is plain data");
+    let all: Vec<usize> = (0..rendered.len()).collect();
+    let evaluation = evaluate_candidate(&mut evaluator, &settings, &all, cost, |_, _| true)?;
+    let json = serde_json::to_string_pretty(&evaluation).expect("an evaluation is plain data");
     say(&format!("{json}\n"))
 }
 

@@ -8,13 +8,13 @@ use crate::output::progress::{interrupted, monitor};
 use filters::Value;
 use serde::Deserialize;
 use serde_json::json;
-use suite::{Error, Evaluator, Objective, SceneScore, Sharing, answer, evaluator};
+use suite::{Error, Evaluator, Objective, SceneScore, Sharing, evaluate_candidate};
 
 use super::evaluate::changed;
 use super::lines::{Line, lines};
 use super::measure::scenes;
 use super::say;
-use super::tune::{claimed_shots, open, select_candidate};
+use super::tune::{claim_and_render, open, select_candidate};
 use crate::arguments::ServeArgs;
 
 /// Requests that wait for their turn; what comes on top of them is read later.
@@ -51,13 +51,13 @@ pub fn execute(args: &ServeArgs) -> Result<(), Error> {
     let scenes = scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
     let gpu = open(&choice, candidate)?;
     // The folder is free again as soon as all is read.
-    let (_, shots) = claimed_shots(&scenes, &choice, candidate, Sharing::Together)?;
+    let (_, rendered) = claim_and_render(&scenes, &choice, candidate, Sharing::Together)?;
     let bleed = candidate.objective.contains(&Objective::Bleed);
     let mut service = Service {
-        evaluator: evaluator(
-            &shots,
-            &choice,
+        evaluator: Evaluator::new(
             gpu.as_ref(),
+            &choice,
+            &rendered,
             bleed,
             monitor(candidate.scenes.quiet),
         )?,
@@ -68,7 +68,7 @@ pub fn execute(args: &ServeArgs) -> Result<(), Error> {
             cancelled: BTreeSet::new(),
         },
     };
-    let names: Vec<&String> = shots.iter().map(|shot| &shot.name).collect();
+    let names: Vec<&String> = rendered.iter().map(|scene| &scene.name).collect();
     line(json!({"ready": true, "filter": choice.filter.name, "scenes": names}))?;
     while let Some(request) = service.inbox.next()? {
         service.answer(request)?;
@@ -104,12 +104,12 @@ impl Service<'_> {
             return line(json!({"id": id, "cancelled": true}));
         }
         let known: Vec<String> = (self.evaluator.targets.iter())
-            .map(|target| target.shot.name.clone())
+            .map(|target| target.scene.name.clone())
             .collect();
         let found = scene_indices(&known, request.scenes).and_then(|scenes| {
             let settings = changed(&self.evaluator.choice, request.params)?;
             let inbox = &mut self.inbox;
-            answer(
+            evaluate_candidate(
                 &mut self.evaluator,
                 &settings,
                 &scenes,

@@ -9,9 +9,9 @@ use crate::tables::sensitivity::sensitivity_table;
 use crate::tables::tuning::{paired_table, tuning_table};
 use filters::Gpu;
 use suite::{
-    Claim, Error, FilterChoice, Objective, RenderSettings, SceneBounds, Sharing, Shot, Space,
-    TunePlan, Tuning, analyze_sensitivity, claim, compare_paired, evaluator, interleaved, open_gpu,
-    preset_text, printable_path, shots, tune,
+    Claim, Error, Evaluator, FilterChoice, Objective, RenderSettings, RenderedScene, SceneBounds,
+    Sharing, Space, TuneOptions, Tuning, analyze_sensitivity, claim, compare_candidates,
+    interleave_families, open_gpu, printable_path, render_scenes, tune, tuned_preset_toml,
 };
 use tracer::{Progress, Scene};
 
@@ -43,19 +43,24 @@ pub fn execute(args: &TuneArgs) -> Result<(), Error> {
 }
 
 fn run(args: &TuneArgs, choice: FilterChoice) -> Result<(), Error> {
-    let plan = plan(args, choice)?;
-    plan.check()?;
-    let gpu = open(&plan.choice, &args.candidate)?;
-    let scenes = plan.scenes.iter().chain(&plan.sealed);
-    let _claim = claim(&plan.out, scenes.map(|(scene, _)| scene), Sharing::Alone)?;
+    if args.budget == 0 {
+        return Err(Error::Usage(
+            "--budget 0: allowed is 1 or more; the first trial is the start itself".to_owned(),
+        ));
+    }
+    let options = tune_options(args, choice)?;
+    options.check()?;
+    let gpu = open(&options.choice, &args.candidate)?;
+    let scenes = options.scenes.iter().chain(&options.held_out);
+    let _claim = claim(&options.out, scenes.map(|(scene, _)| scene), Sharing::Alone)?;
     let began = Instant::now();
-    let label = format!("tuning {}", plan.choice.filter.name);
-    let tuning = plan.monitor.watch(&label, |watch| {
-        tune(&plan, gpu.as_ref(), |trial| {
+    let label = format!("tuning {}", options.choice.filter.name);
+    let tuning = options.monitor.watch(&label, |watch| {
+        tune(&options, gpu.as_ref(), |trial| {
             // The loop itself ends where it is interrupted.
             let _ = watch(Progress {
                 done: trial.trial as u64 + 1,
-                total: plan.budget as u64,
+                total: options.budget as u64,
             });
         })
     })?;
@@ -63,32 +68,32 @@ fn run(args: &TuneArgs, choice: FilterChoice) -> Result<(), Error> {
         let seconds = began.elapsed().as_secs_f64();
         tell(&format!("{} trials in {seconds:.1} s", tuning.trials));
     }
-    print(args, &write(&tuning, &plan)?)
+    print(args, &write(&tuning, &options)?)
 }
 
-fn plan(args: &TuneArgs, choice: FilterChoice) -> Result<TunePlan, Error> {
+fn tune_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Error> {
     let candidate = &args.candidate;
     let scene_args = &candidate.scenes;
     let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;
-    let sealed = match args.sealed.as_slice() {
+    let held_out = match args.sealed.as_slice() {
         [] => Vec::new(),
         words => scenes(&scene_args.scenes_dir, words)?,
     };
     let mut open = scenes(&scene_args.scenes_dir, &scene_args.scenes)?;
     if scene_args.scenes.is_empty() {
-        // Every scene means every one that is not sealed.
-        open.retain(|(scene, _)| sealed.iter().all(|(other, _)| other.name != scene.name));
+        // Every scene means every one that is not held out.
+        open.retain(|(scene, _)| held_out.iter().all(|(other, _)| other.name != scene.name));
     }
-    let mut sealed_args = scene_args.clone();
-    sealed_args.samples_per_pixel = args.sealed_samples_per_pixel;
-    Ok(TunePlan {
+    let mut held_out_args = scene_args.clone();
+    held_out_args.samples_per_pixel = args.sealed_samples_per_pixel;
+    Ok(TuneOptions {
         choice,
         space,
-        scenes: interleaved(open),
-        sealed,
+        scenes: interleave_families(open),
+        held_out,
         render: render(candidate)?,
-        sealed_render: render_settings(
-            &sealed_args,
+        held_out_render: render_settings(
+            &held_out_args,
             args.sealed_size,
             RenderSettings::default().replicates,
         )?,
@@ -120,10 +125,10 @@ fn print(args: &TuneArgs, found: &Found) -> Result<(), Error> {
 }
 
 /// Writes what was found.
-fn write(tuning: &Tuning, plan: &TunePlan) -> Result<Found, Error> {
+fn write(tuning: &Tuning, options: &TuneOptions) -> Result<Found, Error> {
     let pretty = |json: Result<String, serde_json::Error>| json.expect("a tuning is plain data");
     let write = |name: &str, text: &str| {
-        frame::write_atomically(&plan.out.join(name), text.as_bytes()).map_err(Error::from)
+        frame::write_atomically(&options.out.join(name), text.as_bytes()).map_err(Error::from)
     };
     let json = pretty(serde_json::to_string_pretty(tuning));
     write("tune.json", &json)?;
@@ -131,11 +136,11 @@ fn write(tuning: &Tuning, plan: &TunePlan) -> Result<Found, Error> {
         "params.json",
         &pretty(serde_json::to_string_pretty(&tuning.values)),
     )?;
-    write("preset.toml", &preset_text(tuning, plan))?;
+    write("preset.toml", &tuned_preset_toml(tuning, options))?;
     Ok(Found {
         table: tuning_table(tuning) + "\nthe choice: params.json and preset.toml beside tune.json",
         json,
-        path: plan.out.join("tune.json"),
+        path: options.out.join("tune.json"),
     })
 }
 
@@ -145,16 +150,16 @@ fn compare(tune: &TuneArgs, choice: FilterChoice, presets: [&String; 2]) -> Resu
     let (first, second) = (first?, second?);
     let scenes = scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
     let gpu = open(&choice, args)?;
-    let (_claim, shots) = claimed_shots(&scenes, &choice, args, Sharing::Alone)?;
+    let (_claim, rendered) = claim_and_render(&scenes, &choice, args, Sharing::Alone)?;
     let bleed = args.objective.contains(&Objective::Bleed);
-    let mut evaluator = evaluator(
-        &shots,
-        &choice,
+    let mut evaluator = Evaluator::new(
         gpu.as_ref(),
+        &choice,
+        &rendered,
         bleed,
         monitor(args.scenes.quiet),
     )?;
-    let paired = compare_paired(&mut evaluator, &first, &second)?;
+    let paired = compare_candidates(&mut evaluator, &first, &second)?;
     let names = presets.map(|preset| preset.as_str());
     let json = serde_json::to_string_pretty(&paired).expect("a comparison is plain data");
     let path = args.scenes.out.join("compare.json");
@@ -169,11 +174,11 @@ fn study(args: &TuneArgs, choice: FilterChoice, rows: usize) -> Result<(), Error
     let scenes = scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
     let gpu = open(&choice, candidate)?;
     let out = &candidate.scenes.out;
-    let (_claim, shots) = claimed_shots(&scenes, &choice, candidate, Sharing::Alone)?;
-    let mut evaluator = evaluator(
-        &shots,
-        &choice,
+    let (_claim, rendered) = claim_and_render(&scenes, &choice, candidate, Sharing::Alone)?;
+    let mut evaluator = Evaluator::new(
         gpu.as_ref(),
+        &choice,
+        &rendered,
         false,
         monitor(candidate.scenes.quiet),
     )?;
@@ -188,18 +193,19 @@ fn study(args: &TuneArgs, choice: FilterChoice, rows: usize) -> Result<(), Error
     print(args, &Found { table, json, path })
 }
 
-/// The folder for files, and the frames and truths that it holds.
-pub fn claimed_shots(
+/// Claims the folder for files, and reads or renders frames and truths there.
+pub fn claim_and_render(
     scenes: &[(Scene, SceneBounds)],
     choice: &FilterChoice,
     args: &CandidateArgs,
     sharing: Sharing,
-) -> Result<(Claim, Vec<Shot>), Error> {
+) -> Result<(Claim, Vec<RenderedScene>), Error> {
     let SceneArgs { out, quiet, .. } = &args.scenes;
     let render = render(args)?;
     let claim = claim(out, scenes.iter().map(|(scene, _)| scene), sharing)?;
-    let shots = shots(scenes, choice, &render, out, monitor(*quiet))?;
-    Ok((claim, shots))
+    let alignment = choice.filter.alignment;
+    let rendered = render_scenes(scenes, alignment, &render, out, monitor(*quiet))?;
+    Ok((claim, rendered))
 }
 
 /// The filter with the preset to start from, for pictures of the size that is asked for.

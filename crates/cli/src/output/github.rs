@@ -17,7 +17,7 @@ const MOST_ROWS: usize = 500;
 /// Workflow commands, one a line, for what keeps the check from passing; the last of ten says how many more there are.
 pub fn annotations(check: &Check) -> String {
     let findings = (check.findings.iter())
-        .filter(|finding| Decision::of(finding) != Decision::Pass)
+        .filter(|finding| finding.decision() != Decision::Pass)
         .map(|finding| {
             let title = format!("{} / {}", finding.scene, finding.filter);
             let way_out = way_out(finding).map(|way_out| format!("; {way_out}"));
@@ -96,13 +96,13 @@ fn row(finding: &Finding) -> String {
         finding.scene.clone(),
         finding.filter.clone(),
         finding.metric.clone(),
-        or_none(finding.value.map(|value| finding.shown(value))),
+        or_none(finding.value.map(|value| finding.with_unit(value))),
         or_none(interval),
         number(finding.limit),
         or_none(finding.floor.map(number)),
         or_none((finding.worst.as_ref()).map(|worst| format!("({}, {})", worst.x, worst.y))),
         or_none((finding.resembles.as_ref()).map(|alike| alike.decoy.clone())),
-        match Decision::of(finding) {
+        match finding.decision() {
             Decision::Pass => "reported".to_owned(),
             decision => words(decision).to_owned(),
         },

@@ -6,8 +6,8 @@ use crate::output::paint::{bad, doubtful, good, heading};
 use crate::output::wrapped::push_wrapped;
 use crate::tables::failures::failures_text;
 use report::{finding_score, finding_status, way_out};
+use suite::BaselineComparison;
 use suite::Check;
-use suite::Comparison;
 use suite::Level;
 use suite::printable_path;
 use suite::{Finding, Outcome, number};
@@ -82,13 +82,13 @@ fn place(finding: &Finding) -> String {
 }
 
 /// A comparison with the baseline on one line.
-pub fn comparison_line(comparison: &Comparison) -> String {
-    let Comparison {
+pub fn comparison_line(comparison: &BaselineComparison) -> String {
+    let BaselineComparison {
         filter,
         metric,
         scenes,
         worse,
-        bounds: [low, high],
+        interval: [low, high],
         margin,
         ..
     } = comparison;
@@ -98,7 +98,7 @@ pub fn comparison_line(comparison: &Comparison) -> String {
     };
     format!(
         "{}: {filter} {metric}, worse by {} over {scenes}, one-sided 95 % bounds {} and {}; margin {}",
-        comparison.kind.words(),
+        comparison.kind.label(),
         number(*worse),
         number(*low),
         number(*high),

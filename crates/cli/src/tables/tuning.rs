@@ -3,7 +3,7 @@
 use crate::output::paint::heading;
 use crate::output::wrapped::push_wrapped;
 use suite::LEAST_BLEED;
-use suite::{Difference, Paired, Preference};
+use suite::{Difference, PairedComparison, Preference};
 use suite::{Trial, Tuning};
 
 /// Rows of the front that are printed; `tune.json` has all.
@@ -11,7 +11,7 @@ const ROWS: usize = 12;
 /// Where their values begin.
 const VALUES: usize = 34;
 
-/// Start, front, choice, folds and sealed scenes.
+/// Start, front, choice, folds and held-out scenes.
 pub fn tuning_table(tuning: &Tuning) -> String {
     let journal = &tuning.journal;
     let mut text = heading(&format!(
@@ -65,10 +65,10 @@ pub fn tuning_table(tuning: &Tuning) -> String {
             );
         }
     }
-    if let Some(last) = tuning.openings.last() {
+    if let Some(last) = tuning.held_out.last() {
         text += &format!(
-            "\nsealed scenes, opened {} at {}x{}, {} samples per pixel:\n",
-            match tuning.openings.len() {
+            "\nheld-out scenes, evaluated {} at {}x{}, {} samples per pixel:\n",
+            match tuning.held_out.len() {
                 1 => "once".to_owned(),
                 times => format!("{times} times"),
             },
@@ -112,7 +112,7 @@ fn row(trial: &Trial, start: &Trial, chosen: usize) -> String {
 }
 
 /// Two candidates scene by scene, and the verdicts.
-pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
+pub fn paired_table(paired: &PairedComparison, names: [&str; 2]) -> String {
     let width = paired
         .scenes
         .keys()
@@ -140,7 +140,7 @@ pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
     }
     let Difference {
         mean,
-        bounds,
+        interval,
         scenes,
         ..
     } = &paired.flip;
@@ -149,8 +149,8 @@ pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
         names[1],
         names[0],
         percent(*mean),
-        percent(bounds[0]),
-        percent(bounds[1]),
+        percent(interval[0]),
+        percent(interval[1]),
         verdict(&paired.flip, names)
     );
     push_wrapped(&mut text, 0, &flip);
@@ -160,8 +160,8 @@ pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
             names[1],
             names[0],
             bleed.mean,
-            bleed.bounds[0],
-            bleed.bounds[1],
+            bleed.interval[0],
+            bleed.interval[1],
             bleed.scenes,
             match bleed.verdict {
                 Preference::Undecided if bleed.is_no_worse(LEAST_BLEED) => {

@@ -61,9 +61,9 @@ pub fn analyze_sensitivity(
 ) -> Result<Sensitivity, Error> {
     let all: Vec<usize> = (0..evaluator.targets.len()).collect();
     let names: Vec<String> = (evaluator.targets.iter())
-        .map(|target| target.shot.name.clone())
+        .map(|target| target.scene.name.clone())
         .collect();
-    let start = evaluator.scores(&space.start, &all, |_, _| true)?;
+    let start = evaluator.score_candidate(&space.start, &all, |_, _| true)?;
     let start: BTreeMap<_, _> = names.iter().cloned().zip(start).collect();
     let axes = space.axes.len();
     let planned = rows * (axes + 2) + axes * SLICE;
@@ -78,7 +78,7 @@ pub fn analyze_sensitivity(
             return Err(TraceError::Cancelled.into());
         }
         candidates += 1;
-        match evaluator.scores(&space.settings(point), &all, |_, _| !interrupted()) {
+        match evaluator.score_candidate(&space.settings(point), &all, |_, _| !interrupted()) {
             Ok(scores) if scores.len() == all.len() => {
                 let scores = names.iter().cloned().zip(scores).collect();
                 Ok(mean_log_ratio(&scores, &start, |_| true).expect("there are scenes"))
