@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use super::side::Side;
 use crate::{Case, Error, Run};
 
-/// The same case in two runs.
+/// A case that two runs have.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair<'a> {
     /// Case of the first run.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::{Case, Error, Run};
 
-/// A finished run and where it lies.
+/// A finished run and its path.
 #[derive(Clone, Debug)]
 pub struct Side {
     /// Its run.json.

@@ -14,7 +14,7 @@ pub const FEWEST_SCENES: usize = 5;
 /// A score on one scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weighted {
-    /// In the metric's unit.
+    /// Score in the metric's unit.
     pub value: f64,
     /// Weight of the scene, above 0: 1, or for a ratio of means what its ratio is divided by.
     pub weight: f64,
@@ -172,7 +172,7 @@ mod tests {
         [0.025, 0.094],
         [0.022, 0.066],
     ];
-    /// How many intervals of so many scenes, drawn from a population, hold the population's mean.
+    /// Returns the share of intervals over `scenes` drawn from a population that hold the population's mean.
     fn coverage(
         population: &[Weighted],
         scenes: usize,

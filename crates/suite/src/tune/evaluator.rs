@@ -73,7 +73,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Scores one candidate on some scenes, by their indices, and returns the scores in that order. Calls `on_score` with
-    /// each score as soon as it is known; where that returns false, the work ends and the scores so far are returned.
+    /// each score as soon as it is known; if that returns false, the work ends and the scores so far are returned.
     pub fn score_candidate(
         &mut self,
         settings: &Settings,

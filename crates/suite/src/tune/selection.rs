@@ -59,7 +59,7 @@ pub fn choose_trial(
         .map(|trial| Some((trial, mean_log_ratio(&trial.scenes, start, &counts)?)))
         .collect::<Option<_>>()?;
     let (best, least) = (allowed.iter().copied()).min_by(|(_, a), (_, b)| a.total_cmp(b))?;
-    let standard_error = standard_error(best, start, &counts);
+    let standard_error = standard_error_of_mean(best, start, &counts);
     let distance = |trial: &Trial| space.distance(&trial_settings(space, trial), &space.start);
     let (chosen, _) = (allowed.iter())
         .filter(|(_, error)| *error <= least + standard_error)
@@ -82,7 +82,7 @@ pub fn trial_settings(space: &Space, trial: &Trial) -> Settings {
 }
 
 /// Returns the standard error of a trial's mean log ratio; 0 for a single scene, which says nothing about others.
-fn standard_error(
+fn standard_error_of_mean(
     trial: &Trial,
     start: &BTreeMap<String, SceneScore>,
     counts: &impl Fn(&str) -> bool,
@@ -111,9 +111,9 @@ pub struct Fold {
     pub trial: usize,
     /// The trial's mean log(error / error of the start) on the others.
     pub others: f64,
-    /// The same on the family that was left out.
+    /// The trial's mean on the family that was left out.
     pub held_out: f64,
-    /// `held_out - others`: above 0, the choice is worse where it was not chosen for.
+    /// `held_out - others`: above 0, the choice is worse on the family that it was not chosen for.
     pub gap: f64,
 }
 

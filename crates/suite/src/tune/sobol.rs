@@ -102,7 +102,7 @@ fn share_of_variance(
     square: impl Fn(&Row) -> f64,
     index: impl Fn(f64) -> f64,
 ) -> f64 {
-    let variance = variance(rows);
+    let variance = pooled_variance(rows);
     if variance <= 0.0 {
         return 0.0;
     }
@@ -110,7 +110,7 @@ fn share_of_variance(
     index(squares / (2.0 * rows.len() as f64 * variance))
 }
 
-fn variance(rows: &[&Row]) -> f64 {
+fn pooled_variance(rows: &[&Row]) -> f64 {
     let values = || rows.iter().flat_map(|row| [row.a, row.b]);
     let count = 2.0 * rows.len() as f64;
     let mean = values().sum::<f64>() / count;

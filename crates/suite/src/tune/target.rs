@@ -13,7 +13,7 @@ use crate::judge::bounds::Bounds;
 pub struct SceneScore {
     /// `flip_moving`.
     pub flip: f64,
-    /// `bleed_lateral`, in pixels; none where it was not asked for or does not apply.
+    /// `bleed_lateral`, in pixels; none if it was not asked for or does not apply.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bleed: Option<f64>,
 }

@@ -19,13 +19,13 @@ pub struct Trial {
     pub outcome: TrialOutcome,
     /// Loss that the search minimises: mean over scenes of log(error / error of the start), plus penalties.
     pub loss: f64,
-    /// The same mean without penalties; none where nothing was measured.
+    /// Mean without penalties; none if nothing was measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<f64>,
-    /// Lateral bleed of the worst scene, in pixels; none where it was not asked for.
+    /// Lateral bleed of the worst scene, in pixels; none if it was not asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bleed: Option<f64>,
-    /// GPU time relative to that of the start, a median; none where it was not asked for.
+    /// GPU time relative to that of the start, a median; none if it was not asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cost: Option<f64>,
     /// Scores on each scene that it ran on.

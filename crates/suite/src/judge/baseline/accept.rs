@@ -39,7 +39,7 @@ pub fn accept_scores(
             .map(|case| format!("{}/{}", case.scene, case.name()));
         return refuse(&format!(
             "{} matches no case of the run; it has {}",
-            how.only.map_or("", Pattern::as_str),
+            how.only.map_or("*", Pattern::as_str),
             names.collect::<Vec<_>>().join(", ")
         ));
     }
@@ -59,12 +59,12 @@ pub fn accept_scores(
     };
     baseline.reasons.push(how.reason.to_owned());
     for case in cases {
-        add(&mut baseline, case)?;
+        add_case(&mut baseline, case)?;
     }
     Ok(baseline)
 }
 
-fn add(baseline: &mut Baseline, case: &Case) -> Result<(), Error> {
+fn add_case(baseline: &mut Baseline, case: &Case) -> Result<(), Error> {
     let truths = baseline.truths.entry(case.scene.clone()).or_default();
     let old = truths.insert(case.alignment.clone(), case.truth_hash.clone());
     if old.is_some_and(|old| old != case.truth_hash) {

@@ -82,7 +82,7 @@ fn one_color(picture: &Picture) -> Picture {
         let sum: f64 = (picture.color.pixels.iter()).map(|p| f64::from(p[c])).sum();
         (sum / count) as f32
     });
-    let mean = |plane: &Plane| {
+    let average = |plane: &Plane| {
         let sum: f64 = plane.pixels.iter().map(|value| f64::from(*value)).sum();
         (sum / count) as f32
     };
@@ -90,7 +90,7 @@ fn one_color(picture: &Picture) -> Picture {
         color: picture.color.map(|_| color),
         coverage: (picture.coverage.iter())
             .map(|plane| {
-                let mean = mean(plane);
+                let mean = average(plane);
                 plane.map(|_| mean)
             })
             .collect(),
