@@ -136,6 +136,11 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
         .collect();
     assert_eq!(families, ["camera", "thin", "translation"]);
     assert_eq!(tuning.held_out.len(), 1);
+    let file: serde_json::Value =
+        serde_json::from_slice(&fs::read(bench.path("out/tune.json")).unwrap()).unwrap();
+    let first = &file["openings"][0];
+    assert_eq!(first["opening"], 1, "keys of files stay");
+    assert!(first["paired"]["flip"]["bounds"].is_array(), "{first}");
 
     // The choice as a file is what the choice was.
     let params = bench.path("out/params.json");
@@ -161,13 +166,13 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
     let scenes: Vec<&String> = tuning.journal.scenes.iter().map(|(name, _)| name).collect();
     assert_eq!(tuned.scenes.iter().collect::<Vec<_>>(), scenes);
 
-    // Another look at the same is no second opening; one at something else is.
+    // Another result for the same is no second evaluation; one for something else is.
     assert_done(&bench.shuttertruth(&tuning_words("out", "40", &["--sealed", "plate"])));
     assert_eq!(self::tuning(&bench, "out").held_out.len(), 1);
     let other = ["--sealed", "plate", "--sealed-size", "64x32"];
     let output = bench.shuttertruth(&tuning_words("out", "40", &other));
     assert!(
-        stdout(&output).contains("opened 2 times"),
+        stdout(&output).contains("evaluated 2 times"),
         "{}",
         stdout(&output)
     );
