@@ -168,7 +168,7 @@ fn json_is_all_that_a_machine_gets() {
             "front",
         ),
         (
-            [&tune[..], &["--vary", "samples", "--morris", "2"]].concat(),
+            [&tune[..], &["--vary", "samples", "--sobol", "2"]].concat(),
             "parameters",
         ),
         (

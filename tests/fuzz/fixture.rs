@@ -69,7 +69,7 @@ impl Fixture {
         let candidate = ["--filter", "velocity_gather", "--objective", "flip"];
         let tune = [&candidate[..], &["--out", "tuned", "--budget", "4"]].concat();
         fixture.render("tune", &tune);
-        let study = [&candidate[..], &["--out", "study", "--morris", "2"]].concat();
+        let study = [&candidate[..], &["--out", "study", "--sobol", "2"]].concat();
         fixture.render("tune", &study);
         fixture
     }

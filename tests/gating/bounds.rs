@@ -6,7 +6,7 @@ use std::path::Path;
 use cli::{Programs, SceneChoice};
 use frame::{Alignment, Picture};
 use metrics::{Measured, Metric, Reference};
-use suite::{Judged, Level, Monitor, Outcome, RenderSettings, SceneBounds};
+use suite::{JudgedScore, Level, Monitor, Outcome, RenderSettings, SceneBounds};
 use tests::text::assert_contains;
 
 use crate::kept_truths;
@@ -17,7 +17,7 @@ const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
 const HARDLY_MOVING: [&str; 1] = ["creep"];
 
 /// Judges the instant itself, and the mean of 64 sub-frames.
-fn judged(choice: &SceneChoice, out: &Path) -> [Vec<Judged>; 2] {
+fn judged(choice: &SceneChoice, out: &Path) -> [Vec<JudgedScore>; 2] {
     let settings = RenderSettings {
         width: 160,
         height: 90,
@@ -47,7 +47,7 @@ fn judged(choice: &SceneChoice, out: &Path) -> [Vec<Judged>; 2] {
     [judged(&identity), judged(&Picture::mean(&rung.halves))]
 }
 
-fn describe(judged: &[Judged]) -> String {
+fn describe(judged: &[JudgedScore]) -> String {
     let lines = judged.iter().map(|judged| {
         let score = match &judged.measured {
             Measured::Score(score) => format!("{:.4}, floor {:.4}", score.value, score.floor),
@@ -70,8 +70,10 @@ fn the_identity_breaks_a_bound_in_every_moving_scene_and_64_subframes_break_none
     let (out, _own) = kept_truths();
     for choice in &scenes {
         let [identity, accumulation] = judged(choice, &out);
-        let broken = |judged: &[Judged]| judged.iter().any(|one| one.outcome == Outcome::Broken);
-        let noisy = |judged: &[Judged]| judged.iter().any(|one| one.outcome == Outcome::TooNoisy);
+        let broken =
+            |judged: &[JudgedScore]| judged.iter().any(|one| one.outcome == Outcome::Broken);
+        let noisy =
+            |judged: &[JudgedScore]| judged.iter().any(|one| one.outcome == Outcome::TooNoisy);
         let name = &choice.scene.name;
         println!("{name}, identity:\n{}", describe(&identity));
         println!("{name}, 64 sub-frames:\n{}", describe(&accumulation));
@@ -106,7 +108,7 @@ fn read(beside_scenes: &str, beside_scene: &str) -> Result<SceneBounds, String> 
     let check = || {
         let bounds = suite::read_bounds(folder.path(), &scene)?;
         suite::check_names(folder.path(), std::iter::once(&bounds), &filters)?;
-        suite::check_bounded(folder.path(), std::iter::once(("fan", &bounds)), &filters)?;
+        suite::require_bounds(folder.path(), std::iter::once(("fan", &bounds)), &filters)?;
         Ok(bounds)
     };
     check().map_err(|error: suite::Error| {
@@ -153,7 +155,7 @@ fn limits_hold_for_the_size_that_they_were_measured_at() {
     let filters =
         cli::select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap();
     let size = |bounds: &[&SceneBounds], asked| {
-        let size = suite::bounded_size(bounds.iter().copied(), &filters, asked);
+        let size = suite::size_for_bounds(bounds.iter().copied(), &filters, asked);
         size.map_err(|error| error.to_string())
     };
     assert_eq!(size(&[&any, &small], None), Ok(Some((160, 90))));
@@ -165,7 +167,7 @@ fn limits_hold_for_the_size_that_they_were_measured_at() {
     assert_eq!(size(&[&any], None), Ok(None));
     let refused = size(&[&small], Some((320, 180))).unwrap_err();
     for part in [
-        "fan/bounds.toml:2: the limit on flip_moving holds for 160x90, and --size is 320x180",
+        "fan/bounds.toml:2: the limit on flip_moving holds for 160x90, and the pictures are to have 320x180",
         "calibrate --size 320x180",
     ] {
         assert!(refused.contains(part), "{refused}");

@@ -6,7 +6,7 @@ use cli::{Programs, select_filters, select_scenes};
 use filters::Gpu;
 use suite::{
     Check, Decision, Finding, InputFormat, Level, Monitor, Outcome, Plan, RenderSettings,
-    RunBounds, bounded_size, check, judge, read_bounds, run,
+    RunBounds, check, judge, read_bounds, run, size_for_bounds,
 };
 
 use crate::kept_truths;
@@ -33,7 +33,7 @@ fn guarded_filters_keep_what_is_required_of_them_on_every_scene() {
             (choice.scene.name.clone(), bounds)
         })
         .collect();
-    let (width, height) = (bounded_size(bounds.values(), &filters, None).unwrap()).unwrap();
+    let (width, height) = (size_for_bounds(bounds.values(), &filters, None).unwrap()).unwrap();
     let (out, _own) = kept_truths();
     let plan = Plan {
         scenes: choices.into_iter().map(|choice| choice.scene).collect(),

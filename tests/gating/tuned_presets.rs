@@ -5,8 +5,8 @@ use std::path::Path;
 use cli::{Programs, paired_table, select_filters, select_scenes};
 use filters::Gpu;
 use suite::{
-    LEAST_BLEED, Monitor, Preference, RenderSettings, SceneBounds, compare_paired, evaluator,
-    read_bounds, shots,
+    Evaluator, LEAST_BLEED, Monitor, Preference, RenderSettings, SceneBounds, compare_candidates,
+    read_bounds, render_scenes,
 };
 use tracer::Scene;
 
@@ -45,10 +45,12 @@ fn tuned_presets_beat_what_was_published_and_bleed_no_more_on_scenes_they_never_
             scenes.len() >= 9,
             "{name}: too few scenes are left to prove anything on"
         );
-        let shots = shots(&scenes, &choice, &render, &out, Monitor::SILENT).unwrap();
-        let mut evaluator = evaluator(&shots, &choice, Some(&gpu), true, Monitor::SILENT).unwrap();
+        let alignment = choice.filter.alignment;
+        let rendered = render_scenes(&scenes, alignment, &render, &out, Monitor::SILENT).unwrap();
+        let mut evaluator =
+            Evaluator::new(Some(&gpu), &choice, &rendered, true, Monitor::SILENT).unwrap();
         let published = choice.filter.settings(Some(&tuned.from)).unwrap();
-        let paired = compare_paired(&mut evaluator, &published, &choice.settings).unwrap();
+        let paired = compare_candidates(&mut evaluator, &published, &choice.settings).unwrap();
         let table = paired_table(&paired, [&tuned.from, "tuned"]);
         println!("{name}\n{table}");
         assert_eq!(paired.flip.verdict, Preference::Second, "{name}\n{table}");

@@ -24,7 +24,7 @@ pub fn finding_status(finding: &Finding) -> &'static str {
 pub fn finding_score(finding: &Finding) -> String {
     let mut text = finding.metric.clone();
     if let Some(value) = finding.value {
-        text += &format!(" {}", finding.shown(value));
+        text += &format!(" {}", finding.with_unit(value));
     }
     if let Some(interval) = &finding.interval {
         let [low, high] = [interval.low, interval.high].map(number);

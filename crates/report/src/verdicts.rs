@@ -108,7 +108,7 @@ fn facts(finding: &Finding) -> Markup {
         dl {
             div { dt { "metric" } dd { (finding.metric) @if let Some(metric) = metric { ": " (metric.meaning()) } } }
             @if let Some(value) = finding.value {
-                div { dt { "value" } dd { (finding.shown(value)) } }
+                div { dt { "value" } dd { (finding.with_unit(value)) } }
             }
             @if let Some(own) = &finding.interval {
                 div { dt { "95 % CI" } dd { (number(own.low)) " to " (number(own.high)) } }

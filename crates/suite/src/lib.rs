@@ -22,8 +22,8 @@ pub use bench::{
 };
 pub use case::{ACCUMULATE, Case, IDENTITY, SCATTER_ORACLE};
 pub use compare::{
-    Basis, COMPARE_FORMAT, Change, ChangeKind, Compared, MeanChange, MeanKind, Pair, SettingChange,
-    Side, compare_runs, pairs, rank_changes, subject,
+    Basis, COMPARE_FORMAT, Change, ChangeKind, MeanChange, MeanKind, Pair, RunComparison,
+    SettingChange, Side, compare_runs, filter_label, pair_cases, rank_changes,
 };
 pub use error::Error;
 pub use folder::claim::{Claim, Sharing, claim};
@@ -31,16 +31,18 @@ pub use folder::tracked::refuse_tracked;
 pub use import::{ImportPlan, Imported, Motions, Up, import};
 pub use json::file::{MOST_JSON_BYTES, read_text};
 pub use judge::baseline::{
-    Acceptance, BASELINE_FORMAT, Baseline, Comparison, ComparisonKind, accept, compare,
+    Acceptance, BASELINE_FORMAT, Baseline, BaselineComparison, ComparisonKind, accept_scores,
+    compare_with_baseline,
 };
 pub use judge::bounds::{
-    BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Level, Margin, SceneBounds, bounded_size,
-    check_bounded, check_names, read_bounds, read_bounds_file,
+    BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Level, Margin, SceneBounds, check_names,
+    read_bounds, read_bounds_file, require_bounds, size_for_bounds,
 };
 pub use judge::calibrate::{Calibration, Proposal, Sample, calibrate};
-pub use judge::check::{CHECK_FORMAT, Check, Decision, check};
+pub use judge::check::{CHECK_FORMAT, Check, check};
+pub use judge::decision::Decision;
 pub use judge::{
-    BLOCK, CROP, Decoys, Finding, JUDGEMENT_FILE, JUDGEMENT_FORMAT, Judged, Judgement,
+    BLOCK, CROP, Decoys, Finding, JUDGEMENT_FILE, JUDGEMENT_FORMAT, JudgedScore, Judgement,
     MOST_SAMPLES, Outcome, Resemblance, RunBounds, Worst, add_evidence, judge, judge_scores,
     limit_as_badness, number, worst_block,
 };
@@ -66,12 +68,13 @@ pub use run::{FORMAT, Plan, Run, run, viewing};
 pub use stats::headline::Headline;
 pub use stats::overall::{Overall, overall, rank_filters};
 pub use tune::{
-    Answer, Choice, Difference, Effort, ElementaryEffects, Estimate, Evaluator, Fold, Header,
-    JOURNAL_FORMAT, Journal, LEAST_BLEED, Limits, Objective, Opening, Paired, ParameterSensitivity,
-    Preference, SceneScore, Search, Sensitivity, Shot, SobolIndices, Space, TUNE_FORMAT, Target,
-    Trial, TrialOutcome, TunePlan, Tuning, answer, choose, compare_paired, evaluator, folds, front,
-    interleaved, log_ratio, morris, preset_text, probability_not_above, sensitivity, shots,
-    sobol_indices, tune,
+    Choice, ChoiceLimits, Difference, Estimate, Evaluation, Evaluator, Fold, HeldOutResult,
+    JOURNAL_FORMAT, Journal, JournalHeader, LEAST_BLEED, Objective, PairedComparison,
+    ParameterSensitivity, Preference, RenderedScene, SceneScore, Search, Sensitivity, SobolIndices,
+    Space, TUNE_FORMAT, Target, Trial, TrialOutcome, TuneOptions, Tuning, analyze_sensitivity,
+    choose_trial, compare_candidates, cross_validate, evaluate_candidate, interleave_families,
+    log_ratio, pareto_front, render_scenes, signed_rank_p_value, sobol_indices, tune,
+    tuned_preset_toml,
 };
 
 /// Program name and version, as files and runs record it.

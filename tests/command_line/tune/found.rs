@@ -22,7 +22,7 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
             "the start",
             "chosen: trial",
             "family left out",
-            "sealed scenes, opened once at 320x180",
+            "held-out scenes, evaluated once at 320x180",
             "FLIP of chosen against start",
         ],
     );
@@ -64,7 +64,12 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
         .map(|fold| fold.family.as_str())
         .collect();
     assert_eq!(families, ["camera", "thin", "translation"]);
-    assert_eq!(tuning.openings.len(), 1);
+    assert_eq!(tuning.held_out.len(), 1);
+    let file: serde_json::Value =
+        serde_json::from_slice(&fs::read(bench.path("out/tune.json")).unwrap()).unwrap();
+    let first = &file["openings"][0];
+    assert_eq!(first["opening"], 1, "keys of files stay");
+    assert!(first["paired"]["flip"]["bounds"].is_array(), "{first}");
 
     // The choice as a file is what the choice was.
     let params = bench.path("out/params.json");
@@ -73,7 +78,7 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
     let params = [params.to_str().unwrap(), "--objective", "flip,bleed"];
     let output = bench.shuttertruth(&[&words[..], &params, &scene].concat());
     assert_done(&output);
-    let answer: suite::Answer = serde_json::from_str(&stdout(&output)).unwrap();
+    let answer: suite::Evaluation = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!(answer.scenes["a"], tuning.chosen.scenes["a"]);
     assert_eq!(answer.values, tuning.values);
     // And as the preset of a filter.
@@ -92,11 +97,11 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
 
     // Another look at the same is no second opening; one at something else is.
     bench.done(&tuning_words("out", "40", &["--sealed", "plate"]));
-    assert_eq!(self::tuning(&bench, "out").openings.len(), 1);
+    assert_eq!(self::tuning(&bench, "out").held_out.len(), 1);
     let other = ["--sealed", "plate", "--sealed-size", "64x32"];
     let output = bench.shuttertruth(&tuning_words("out", "40", &other));
     assert!(
-        stdout(&output).contains("opened 2 times"),
+        stdout(&output).contains("evaluated 2 times"),
         "{}",
         stdout(&output)
     );
@@ -171,7 +176,7 @@ fn two_presets_are_compared_scene_by_scene() {
 #[test]
 fn a_study_tells_what_matters() {
     let bench = bench();
-    let words = split("tune --quiet --filter jump_flood --from corrected --morris 4");
+    let words = split("tune --quiet --filter jump_flood --from corrected --sobol 4");
     let more = split("--vary samples,behind_extent --scenes a,b --size 64x32");
     let few = ["--samples-per-pixel", "16", "--out", "out"];
     let output = bench.shuttertruth(&[&words[..], &more, &few].concat());
@@ -195,7 +200,7 @@ fn a_study_tells_what_matters() {
         "what matters comes first:\n{table}"
     );
     let output = bench.shuttertruth(&[&words[..7], &["1"], &more, &few].concat());
-    assert_refused(&output, 2, &["--morris", "2 or more"]);
+    assert_refused(&output, 2, &["--sobol 1", "2 or more"]);
 }
 
 #[test]

@@ -47,7 +47,7 @@ fn a_file_that_is_no_journal_of_this_tuning_is_left_as_it_was() {
     ] {
         fs::write(&path, foreign).unwrap();
         let refused = bench.shuttertruth(&tuning_words("out", "4", &[]));
-        assert_refused(&refused, 2, &["journal.jsonl:1:", "another --out"]);
+        assert_refused(&refused, 2, &["journal.jsonl:1:", "another output folder"]);
         assert_eq!(fs::read_to_string(&path).unwrap(), foreign);
     }
 }
@@ -66,7 +66,7 @@ fn a_smaller_budget_is_the_beginning_of_a_larger_one_and_another_seed_is_another
         2,
         &[
             "journal.jsonl:1: it was begun with another design",
-            "another --out",
+            "another output folder",
         ],
     );
     assert_eq!(journal(&bench, "out"), second, "nothing is lost");

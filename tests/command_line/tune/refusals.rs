@@ -19,21 +19,21 @@ fn what_cannot_be_tuned_is_refused_and_leaves_nothing_behind() {
         (&["--budget", "0"], &["--budget 0", "allowed is 1 or more"]),
         (
             &["--vary", "sample"],
-            &["--vary sample", "no parameter", "samples"],
+            &["parameter sample:", "no parameter", "samples"],
         ),
         (
             &["--vary", "samples=9..3"],
-            &["--vary samples=9..3", "the range is empty"],
+            &["parameter samples=9..3", "the range is empty"],
         ),
         (
             &["--scenes", "nowhere"],
             &["no scene \"nowhere\"", "allowed: a, b"],
         ),
         (&["--scenes", "a,a"], &["a is named twice"]),
-        (&["--sealed", "b"], &["--sealed b", "proves nothing"]),
+        (&["--sealed", "b"], &["scene b", "proves nothing"]),
         (
             &["--cost-at-most", "1x"],
-            &["--cost-at-most", "--objective flip,cost"],
+            &["cost has a limit", "objectives: flip,cost"],
         ),
         (&["--objective", "speed"], &["allowed: flip, bleed, cost"]),
         (&["--from", "fastest"], &["no preset \"fastest\"", "paper"]),
@@ -69,7 +69,7 @@ fn what_cannot_be_tuned_is_refused_and_leaves_nothing_behind() {
     assert_refused(
         &output,
         2,
-        &["scene g: nothing moves", "leave it out of --scenes"],
+        &["scene g: nothing moves", "leave the scene out"],
     );
 }
 

@@ -2,7 +2,9 @@
 
 use cli::{Programs, select_filters};
 use filters::Filter;
-use suite::{Run, bounded_size, check_bounded, check_names, judge, read_bounds, read_bounds_file};
+use suite::{
+    Run, check_names, judge, read_bounds, read_bounds_file, require_bounds, size_for_bounds,
+};
 
 use super::run_json::of;
 use crate::huge;
@@ -44,13 +46,13 @@ fn run(place: &mut Place, input: &[u8]) {
     };
     let filters = &place.filters;
     drop(check_names(&root, std::iter::once(&bounds), filters));
-    drop(check_bounded(
+    drop(require_bounds(
         &root,
         std::iter::once(("plate", &bounds)),
         filters,
     ));
-    drop(bounded_size(std::iter::once(&bounds), filters, None));
-    drop(bounded_size(
+    drop(size_for_bounds(std::iter::once(&bounds), filters, None));
+    drop(size_for_bounds(
         std::iter::once(&bounds),
         filters,
         Some((16, 16)),

@@ -8,8 +8,8 @@ use std::path::Path;
 use cli::{annotations, check_text, compare_table, junit, run_table, summary};
 use report::{LARGEST_PAGE, compare_page, report};
 use suite::{
-    Acceptance, Baseline, Finding, Judgement, Margin, Run, RunBounds, Side, accept, add_evidence,
-    check, compare, compare_runs, judge, read_bounds, write_layers,
+    Acceptance, Baseline, Finding, Judgement, Margin, Run, RunBounds, Side, accept_scores,
+    add_evidence, check, compare_runs, compare_with_baseline, judge, read_bounds, write_layers,
 };
 
 use crate::huge;
@@ -55,7 +55,7 @@ pub static BASELINE: Target = Target {
             return;
         };
         let run = Run::read(&place.fixture.join("out/run.json")).unwrap();
-        if let Ok(comparisons) = compare(&run, &baseline, &margins(), &path) {
+        if let Ok(comparisons) = compare_with_baseline(&run, &baseline, &margins(), &path) {
             show(&run, Vec::new(), comparisons, &place.folder);
         }
         accept_run(&run, Some(baseline));
@@ -128,7 +128,12 @@ fn write_page(run: &Run, findings: &[Finding], folder: &Path) {
     drop(report(run, findings, folder, &page, LARGEST_PAGE));
 }
 
-fn show(run: &Run, findings: Vec<Finding>, comparisons: Vec<suite::Comparison>, out: &Path) {
+fn show(
+    run: &Run,
+    findings: Vec<Finding>,
+    comparisons: Vec<suite::BaselineComparison>,
+    out: &Path,
+) {
     let check = check(run, findings, comparisons);
     drop(check_text(&check, out));
     drop(junit(&check));
@@ -143,8 +148,13 @@ fn accept_run(run: &Run, old: Option<Baseline>) {
         reason: "a reason",
         forced: true,
     };
-    if let Ok(baseline) = accept(run, old, &how) {
-        drop(compare(run, &baseline, &margins(), Path::new("base.json")));
+    if let Ok(baseline) = accept_scores(run, old, &how) {
+        drop(compare_with_baseline(
+            run,
+            &baseline,
+            &margins(),
+            Path::new("base.json"),
+        ));
     }
 }
 

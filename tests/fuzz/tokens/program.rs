@@ -57,7 +57,6 @@ pub const WORDS: &[&str] = &[
     "--budget",
     "--vary",
     "--objective",
-    "--morris",
     "--params",
     "--baseline",
     "--only",

@@ -183,7 +183,7 @@ fn choices(words: impl Iterator<Item = String>) -> Vec<FilterChoice> {
 /// Names of the metrics whose bounds are broken, with their scenes.
 fn broken(check: &Check) -> Vec<String> {
     (check.findings.iter())
-        .filter(|finding| Decision::of(finding) == Decision::Broken)
+        .filter(|finding| finding.decision() == Decision::Broken)
         .map(|finding| format!("{} on {}", finding.metric, finding.scene))
         .collect()
 }

@@ -4,25 +4,25 @@ use std::collections::BTreeMap;
 
 use filters::{Filter, Value};
 use suite::{
-    Limits, Paired, Preference, SceneScore, Space, Trial, TrialOutcome, choose, folds, front,
-    probability_not_above,
+    ChoiceLimits, PairedComparison, Preference, SceneScore, Space, Trial, TrialOutcome,
+    choose_trial, cross_validate, pareto_front, signed_rank_p_value,
 };
 
 #[test]
 fn the_signed_rank_test_has_wilcoxons_probabilities() {
     // All six on one side: 1 of 2^6 arrangements.
     assert_eq!(
-        probability_not_above(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]),
+        signed_rank_p_value(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]),
         1.0 / 64.0
     );
     assert_eq!(
-        probability_not_above(&[-1.0, -2.0, -3.0, -4.0, -5.0, -6.0]),
+        signed_rank_p_value(&[-1.0, -2.0, -3.0, -4.0, -5.0, -6.0]),
         1.0
     );
     // In Wilcoxon's table for n = 8, the smaller sum 5 is the last one below 5 % on one side, and 3 below 2.5 %.
     let eight = |below: &[usize]| {
         let rank = |rank: usize| if below.contains(&rank) { -1.0 } else { 1.0 } * rank as f64;
-        probability_not_above(&(1..=8).map(rank).collect::<Vec<_>>())
+        signed_rank_p_value(&(1..=8).map(rank).collect::<Vec<_>>())
     };
     // Subsets of 1 to 8 with a sum of at most 3, 5 and 6.
     assert_eq!(eight(&[3]), 5.0 / 256.0);
@@ -35,19 +35,19 @@ fn darwins_plants_have_the_published_probability() {
     // Heights of crossed less self-fertilised plants, in eighths of an inch: scipy.stats.wilcoxon gives W+ = 96 and, with
     // alternative "greater", p = 0.0206.
     let plants = [49, -67, 8, 16, 6, 23, 28, 41, 14, 29, 56, 24, 75, 60, -48];
-    let probability = probability_not_above(&plants.map(f64::from));
+    let probability = signed_rank_p_value(&plants.map(f64::from));
     assert!((probability - 0.0206).abs() < 1e-4, "{probability}");
 }
 
 #[test]
 fn equal_sizes_share_their_ranks_and_zeros_say_nothing() {
     // Both ranks are 1.5: the sums 3, 1.5, 1.5 and 0 are equally likely.
-    assert_eq!(probability_not_above(&[1.0, 1.0]), 0.25);
-    assert_eq!(probability_not_above(&[1.0, -1.0]), 0.75);
-    assert_eq!(probability_not_above(&[0.0, 1.0, 0.0, -1.0]), 0.75);
+    assert_eq!(signed_rank_p_value(&[1.0, 1.0]), 0.25);
+    assert_eq!(signed_rank_p_value(&[1.0, -1.0]), 0.75);
+    assert_eq!(signed_rank_p_value(&[0.0, 1.0, 0.0, -1.0]), 0.75);
     // Ranks 2, 2, 2 and 4, and a sum of 6: as much or more have 8 of 16 arrangements; 9 have if the three were of rank 1.
-    assert_eq!(probability_not_above(&[1.0, 1.0, 1.0, -2.0]), 0.5);
-    assert_eq!(probability_not_above(&[]), 1.0);
+    assert_eq!(signed_rank_p_value(&[1.0, 1.0, 1.0, -2.0]), 0.5);
+    assert_eq!(signed_rank_p_value(&[]), 1.0);
 }
 
 #[test]
@@ -62,8 +62,8 @@ fn the_front_holds_what_nothing_beats() {
     ];
     let rows: Vec<Vec<f64>> = rows.iter().map(|row| row.to_vec()).collect();
     // The third is beaten by the second, the fifth equals it, the last is beaten by all.
-    assert_eq!(front(&rows), [0, 1, 3]);
-    assert!(front(&[]).is_empty());
+    assert_eq!(pareto_front(&rows), [0, 1, 3]);
+    assert!(pareto_front(&[]).is_empty());
 }
 
 /// A start with samples = 8, and trials with other numbers of samples and the given FLIP on scenes a, b, c, d.
@@ -109,7 +109,7 @@ fn of_what_the_scenes_cannot_tell_apart_the_nearest_to_the_start_is_chosen() {
         // Nearer still, and clearly worse.
         (10, [0.08, 0.08, 0.08, 0.08]),
     ];
-    let choice = choose(&trials(&rows), &space(), Limits::default(), |_| true).unwrap();
+    let choice = choose_trial(&trials(&rows), &space(), ChoiceLimits::default(), |_| true).unwrap();
     assert_eq!((choice.best, choice.trial), (1, 2));
     // Logs of 0.5, 0.4, 0.6 and 0.5: standard deviation 0.1659, of the mean 0.0830.
     assert!(
@@ -122,7 +122,7 @@ fn of_what_the_scenes_cannot_tell_apart_the_nearest_to_the_start_is_chosen() {
 #[test]
 fn a_start_that_nothing_clearly_beats_stays() {
     let rows = [(8, [0.1; 4]), (9, [0.05, 0.16, 0.09, 0.11])];
-    let choice = choose(&trials(&rows), &space(), Limits::default(), |_| true).unwrap();
+    let choice = choose_trial(&trials(&rows), &space(), ChoiceLimits::default(), |_| true).unwrap();
     assert_eq!((choice.best, choice.trial), (1, 0));
 }
 
@@ -135,25 +135,28 @@ fn limits_and_failures_keep_trials_out_of_the_choice() {
         (4, [0.06; 4]),
     ];
     let mut trials = trials(&rows);
-    let chosen =
-        |trials: &[Trial], limits| choose(trials, &space(), limits, |_| true).unwrap().trial;
-    assert_eq!(chosen(&trials, Limits::default()), 1);
-    let limits = Limits {
+    let chosen = |trials: &[Trial], limits| {
+        choose_trial(trials, &space(), limits, |_| true)
+            .unwrap()
+            .trial
+    };
+    assert_eq!(chosen(&trials, ChoiceLimits::default()), 1);
+    let limits = ChoiceLimits {
         cost: Some(1.5),
         bleed: None,
     };
     assert_eq!(chosen(&trials, limits), 2);
-    let limits = Limits {
+    let limits = ChoiceLimits {
         cost: None,
         bleed: Some(1.0),
     };
     assert_eq!(chosen(&trials, limits), 3);
     trials[1].outcome = TrialOutcome::Dropped;
-    assert_eq!(chosen(&trials, Limits::default()), 2);
+    assert_eq!(chosen(&trials, ChoiceLimits::default()), 2);
     trials[2].outcome = TrialOutcome::Failed {
         reason: "it serves a test".to_owned(),
     };
-    assert_eq!(chosen(&trials, Limits::default()), 3);
+    assert_eq!(chosen(&trials, ChoiceLimits::default()), 3);
 }
 
 #[test]
@@ -165,7 +168,7 @@ fn a_choice_that_suits_one_family_alone_shows_its_gap() {
         (9, [0.05, 0.05, 0.2, 0.2]),
         (10, [0.2, 0.2, 0.05, 0.05]),
     ];
-    let folds = folds(&trials(&rows), &space(), Limits::default(), &families);
+    let folds = cross_validate(&trials(&rows), &space(), ChoiceLimits::default(), &families);
     let two = 2f64.ln();
     for (fold, (family, trial)) in folds.iter().zip([("camera", 2), ("thin", 1)]) {
         assert_eq!(
@@ -178,16 +181,16 @@ fn a_choice_that_suits_one_family_alone_shows_its_gap() {
     }
     assert_eq!(folds.len(), 2);
     let alone = BTreeMap::from([("camera", vec!["a", "b", "c", "d"])]);
-    assert!(suite::folds(&trials(&rows), &space(), Limits::default(), &alone).is_empty());
+    assert!(cross_validate(&trials(&rows), &space(), ChoiceLimits::default(), &alone).is_empty());
 }
 
-fn paired(rows: &[(f64, f64)]) -> Paired {
+fn paired(rows: &[(f64, f64)]) -> PairedComparison {
     let score = |flip| SceneScore {
         flip,
         bleed: Some(10.0 * flip),
     };
     let scenes = rows.iter().enumerate();
-    Paired::of(
+    PairedComparison::new(
         scenes
             .map(|(index, (first, second))| (index.to_string(), [score(*first), score(*second)]))
             .collect(),

@@ -100,7 +100,7 @@ fn what_cannot_be_varied_is_refused_with_what_can() {
         ("jitter=a..b", vec!["a choice has no range"]),
     ] {
         let text = space(&[word]).unwrap_err();
-        assert!(text.contains(&format!("--vary {word}")), "{text}");
+        assert!(text.contains(&format!("parameter {word}:")), "{text}");
         assert_contains(&text, &parts);
     }
     assert!(

@@ -1,9 +1,9 @@
-//! Morris screening and Sobol indices against functions whose indices are known.
+//! Sobol indices of functions whose indices are known.
 
 use std::convert::Infallible;
 use std::f64::consts::PI;
 
-use suite::{morris, sobol_indices};
+use suite::sobol_indices;
 
 /// Ishigami and Homma 1990 with a = 7, b = 0.1, on the unit cube.
 fn ishigami(point: &[f64]) -> Result<f64, Infallible> {
@@ -76,44 +76,4 @@ fn a_constant_function_has_no_sensitivity() {
     for indices in sobol_indices(2, 16, 1, constant).unwrap() {
         assert_eq!((indices.first.value, indices.total.high), (0.0, 0.0));
     }
-    for effects in morris(2, 4, 1, constant).unwrap() {
-        assert_eq!((effects.mean_size, effects.deviation), (0.0, 0.0));
-    }
-}
-
-#[test]
-fn the_elementary_effects_of_a_plane_are_its_slopes() {
-    let slopes = [3.0, -2.0, 0.0, 0.5];
-    let plane = |point: &[f64]| -> Result<f64, Infallible> {
-        Ok(point.iter().zip(slopes).map(|(x, slope)| x * slope).sum())
-    };
-    for (effects, slope) in morris(4, 6, 1, plane).unwrap().iter().zip(slopes) {
-        // Rounding of a few sums.
-        assert!((effects.mean - slope).abs() < 1e-12, "{effects:?}");
-        assert!(
-            (effects.mean_size - slope.abs()).abs() < 1e-12,
-            "{effects:?}"
-        );
-        assert!(effects.deviation < 1e-12, "{effects:?}");
-    }
-}
-
-#[test]
-fn screening_ranks_the_g_function_as_its_formula_does_and_asks_as_often_as_it_says() {
-    let mut asked = 0;
-    let found = morris(6, 20, 1, |point| {
-        asked += 1;
-        assert!(
-            point.iter().all(|x| (-1e-9..=1.0 + 1e-9).contains(x)),
-            "{point:?}"
-        );
-        g_function(point)
-    })
-    .unwrap();
-    assert_eq!(asked, 20 * (6 + 1));
-    let sizes: Vec<f64> = found.iter().map(|effects| effects.mean_size).collect();
-    // The last two are equals.
-    assert!(sizes[..5].is_sorted_by(|a, b| a > b), "{sizes:?}");
-    assert!(sizes[4] < 0.05 * sizes[0], "{sizes:?}");
-    assert!(found[0].deviation > 0.1, "its effect depends on the others");
 }

@@ -1,12 +1,10 @@
 //! Arguments that choose a candidate: a filter, its preset, and the scenes that it is scored on.
 
-use std::str::FromStr;
-
 use clap::Args;
 use suite::Objective;
 
 use super::adapter::AdapterArgs;
-use super::parse::parse_size;
+use super::parse::{parse_objective, parse_size};
 use super::programs::ProgramArgs;
 use super::scenes::SceneArgs;
 
@@ -24,7 +22,7 @@ pub struct CandidateArgs {
     #[arg(long)]
     pub as_written: bool,
     /// Objectives, separated by commas: flip (always), bleed (`bleed_lateral`, neither ahead nor behind), cost.
-    #[arg(long, value_delimiter = ',', default_value = "flip,bleed,cost", value_name = "OBJECTIVES", value_parser = Objective::from_str)]
+    #[arg(long, value_delimiter = ',', default_value = "flip,bleed,cost", value_name = "OBJECTIVES", value_parser = parse_objective)]
     pub objective: Vec<Objective>,
     /// Picture size in pixels.
     #[arg(long, value_name = "WxH", default_value = "320x180", value_parser = parse_size)]

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use suite::{MOST_REPLICATES, SIDES};
+use suite::{MOST_REPLICATES, Objective, SIDES};
 
 /// Number of replicates, or a part of them.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -126,6 +126,13 @@ fn parse_speed(text: &str, unit: &str, example: &str) -> Result<f64, String> {
             "allowed is a speed other than 0, from -{FASTEST} to {FASTEST}, with its unit, such as {example}"
         )),
     }
+}
+
+/// Parses an objective of a search.
+pub fn parse_objective(text: &str) -> Result<Objective, String> {
+    (Objective::ALL.into_iter())
+        .find(|objective| objective.name() == text)
+        .ok_or_else(|| "allowed: flip, bleed, cost".to_owned())
 }
 
 /// Parses minutes above 0.

@@ -41,12 +41,10 @@ pub struct TuneArgs {
     /// Samples per pixel of the held-out scenes' truths.
     #[arg(long, value_name = "N", default_value_t = 256)]
     pub sealed_samples_per_pixel: u32,
-    /// Tune nothing: tell which parameters matter, by Morris walks through their ranges; 10 to 20 will do.
-    #[arg(long, value_name = "WALKS", default_value_t = 0, value_parser = parse_effort, conflicts_with_all = ["sealed", "minutes", "compare"])]
-    pub morris: usize,
-    /// Tune nothing: tell which parameters matter, by Sobol indices; 64 to 256 rows will do.
-    #[arg(long, value_name = "ROWS", default_value_t = 0, value_parser = parse_effort, conflicts_with_all = ["sealed", "minutes", "compare"])]
-    pub sobol: usize,
+    /// Tune nothing: tell which parameters matter, by Sobol indices from so many rows; 64 to 256 will do. A row scores
+    /// two candidates, and one more for each parameter.
+    #[arg(long, value_name = "ROWS", value_parser = parse_effort, conflicts_with_all = ["sealed", "minutes", "compare"])]
+    pub sobol: Option<usize>,
     /// Tune nothing: compare two presets over the scenes.
     #[arg(long, value_delimiter = ',', num_args = 1, value_name = "PRESET,PRESET", conflicts_with_all = ["vary", "sealed", "minutes"])]
     pub compare: Vec<String>,

@@ -1,6 +1,6 @@
 //! The command `accept`.
 
-use suite::{Acceptance, Baseline, Error, Run, accept, refuse_failures};
+use suite::{Acceptance, Baseline, Error, Run, accept_scores, refuse_failures};
 
 use crate::arguments::AcceptArgs;
 use crate::output::print::print;
@@ -14,18 +14,24 @@ pub fn execute(args: &AcceptArgs) -> Result<(), Error> {
                 .to_owned(),
         ));
     }
+    let reason = args.reason.trim();
+    if reason.is_empty() || reason.contains('\n') {
+        return Err(Error::Usage(
+            "--reason: needs one line on why these scores are right".to_owned(),
+        ));
+    }
     let run = Run::read(&args.out.join("run.json"))?;
     refuse_failures(&run.failures)?;
     let old = match args.baseline.exists() {
         true => Some(Baseline::read(&args.baseline)?),
         false => None,
     };
-    let baseline = accept(
+    let baseline = accept_scores(
         &run,
         old,
         &Acceptance {
             only: args.only.as_ref(),
-            reason: &args.reason,
+            reason,
             forced: args.force,
         },
     )?;

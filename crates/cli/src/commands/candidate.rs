@@ -2,7 +2,8 @@
 
 use filters::Gpu;
 use suite::{
-    Claim, Error, FilterChoice, RenderSettings, SceneBounds, Sharing, Shot, claim, open_gpu, shots,
+    Claim, Error, FilterChoice, RenderSettings, RenderedScene, SceneBounds, Sharing, claim,
+    open_gpu, render_scenes,
 };
 use tracer::Scene;
 
@@ -42,15 +43,16 @@ pub fn open_candidate_gpu(
 }
 
 /// Claims the folder for files, and renders the frames and truths of the scenes into it, or reads them back.
-pub fn render_shots(
+pub fn claim_and_render(
     scenes: &[(Scene, SceneBounds)],
     choice: &FilterChoice,
     args: &CandidateArgs,
     sharing: Sharing,
-) -> Result<(Claim, Vec<Shot>), Error> {
+) -> Result<(Claim, Vec<RenderedScene>), Error> {
     let SceneArgs { out, quiet, .. } = &args.scenes;
     let settings = candidate_render_settings(args)?;
     let claimed = claim(out, scenes.iter().map(|(scene, _)| scene), sharing)?;
-    let rendered = shots(scenes, choice, &settings, out, make_monitor(*quiet))?;
+    let alignment = choice.filter.alignment;
+    let rendered = render_scenes(scenes, alignment, &settings, out, make_monitor(*quiet))?;
     Ok((claimed, rendered))
 }

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use frame::FileError;
 use suite::{
-    BOUNDS_FILE, Baseline, Error, Finding, Judgement, Margin, Run, RunBounds, add_evidence,
-    bounded_size, check, check_bounded, check_names, compare, judge, open_gpu, read_bounds,
-    read_bounds_file, refuse_tracked, run,
+    BOUNDS_FILE, Baseline, Error, Finding, Judgement, Margin, Run, RunBounds, add_evidence, check,
+    check_names, compare_with_baseline, judge, open_gpu, read_bounds, read_bounds_file,
+    refuse_tracked, require_bounds, run, size_for_bounds,
 };
 
 use super::pages::{write_run_page, written_lines};
@@ -36,7 +36,7 @@ pub fn execute(args: &CheckArgs) -> Result<(), Error> {
         None => run_and_judge(args, baseline.is_some())?,
     };
     let comparisons = match (&baseline, &args.baseline) {
-        (Some(baseline), Some(path)) => compare(&run, baseline, &margins, path)?,
+        (Some(baseline), Some(path)) => compare_with_baseline(&run, baseline, &margins, path)?,
         _ => Vec::new(),
     };
     let pages = (args.html.as_deref())
@@ -79,7 +79,8 @@ struct Judged {
 /// Measures every case, as `run` does, judges it and looks for evidence.
 fn run_and_judge(args: &CheckArgs, compared: bool) -> Result<Judged, Error> {
     let (mut plan, bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
-    if let Some((width, height)) = bounded_size(bounds.values(), &plan.filters, args.measure.size)?
+    if let Some((width, height)) =
+        size_for_bounds(bounds.values(), &plan.filters, args.measure.size)?
     {
         (plan.render.width, plan.render.height) = (width, height);
     }
@@ -90,7 +91,7 @@ fn run_and_judge(args: &CheckArgs, compared: bool) -> Result<Judged, Error> {
     // With a baseline, nothing else need be bounded.
     if !compared {
         let scenes = bounds.iter().map(|(name, bounds)| (name.as_str(), bounds));
-        check_bounded(root, scenes, &plan.filters)?;
+        require_bounds(root, scenes, &plan.filters)?;
     }
     if !plan.no_cache {
         let way_out = "choose a folder outside of the repository for --out, or have all made anew with --no-cache";

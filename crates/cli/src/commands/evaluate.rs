@@ -5,9 +5,11 @@ use std::path::Path;
 
 use filters::{Settings, Value};
 use frame::{FileError, read_bounded};
-use suite::{Error, FilterChoice, MOST_JSON_BYTES, Objective, Sharing, answer, evaluator};
+use suite::{
+    Error, Evaluator, FilterChoice, MOST_JSON_BYTES, Objective, Sharing, evaluate_candidate,
+};
 
-use super::candidate::{open_candidate_gpu, render_shots, select_candidate};
+use super::candidate::{claim_and_render, open_candidate_gpu, select_candidate};
 use super::plan::load_scenes;
 use crate::arguments::EvaluateArgs;
 use crate::output::print::print_json;
@@ -20,18 +22,18 @@ pub fn execute(args: &EvaluateArgs) -> Result<(), Error> {
     let settings = read_params(&args.params, &choice)?;
     let scenes = load_scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
     let gpu = open_candidate_gpu(&choice, candidate)?;
-    let (_, shots) = render_shots(&scenes, &choice, candidate, Sharing::Together)?;
+    let (_, rendered) = claim_and_render(&scenes, &choice, candidate, Sharing::Together)?;
     let bleed = candidate.objective.contains(&Objective::Bleed);
-    let mut scorer = evaluator(
-        &shots,
-        &choice,
+    let mut scorer = Evaluator::new(
         gpu.as_ref(),
+        &choice,
+        &rendered,
         bleed,
         make_monitor(candidate.scenes.quiet),
     )?;
     let cost = candidate.objective.contains(&Objective::Cost);
-    let all: Vec<usize> = (0..shots.len()).collect();
-    let scores = answer(&mut scorer, &settings, &all, cost, |_, _| true)?;
+    let all: Vec<usize> = (0..rendered.len()).collect();
+    let scores = evaluate_candidate(&mut scorer, &settings, &all, cost, |_, _| true)?;
     print_json(&scores)
 }
 

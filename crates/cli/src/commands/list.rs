@@ -182,7 +182,11 @@ fn filter_text(filter: &Filter) -> String {
         filter.alignment,
         printable(&filter.summary),
         printable(&filter.cannot),
-        filter.presets.iter().map(preset_text).collect::<String>(),
+        filter
+            .presets
+            .iter()
+            .map(tuned_preset_toml)
+            .collect::<String>(),
         filter.parameters.iter().map(parameter).collect::<String>()
     )
 }
@@ -199,7 +203,7 @@ fn command_text(command: &Command) -> String {
 }
 
 /// Describes a preset: its source, and its differences from that.
-fn preset_text(preset: &Preset) -> String {
+fn tuned_preset_toml(preset: &Preset) -> String {
     let mut text = format!("    :{}  {}\n", preset.name, printable(&preset.doc));
     let mut line = |words: String| text += &format!("        {}\n", printable(&words));
     if let Some(source) = &preset.source {

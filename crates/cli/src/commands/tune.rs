@@ -4,13 +4,14 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use suite::{
-    Effort, Error, FilterChoice, Objective, RenderSettings, Sharing, Space, TunePlan, Tuning,
-    claim, compare_paired, evaluator, interleaved, preset_text, printable_path, sensitivity, tune,
+    Error, Evaluator, FilterChoice, Objective, RenderSettings, Sharing, Space, TuneOptions, Tuning,
+    analyze_sensitivity, claim, compare_candidates, interleave_families, printable_path, tune,
+    tuned_preset_toml,
 };
 use tracer::Progress;
 
 use super::candidate::{
-    candidate_render_settings, open_candidate_gpu, render_shots, select_candidate,
+    candidate_render_settings, claim_and_render, open_candidate_gpu, select_candidate,
 };
 use super::plan::load_scenes;
 use super::render_settings::make_render_settings;
@@ -24,12 +25,14 @@ use crate::tables::tuning::{paired_table, tuning_table};
 pub fn execute(args: &TuneArgs) -> Result<(), Error> {
     let candidate = &args.candidate;
     let choice = select_candidate(candidate)?;
-    let effort = Effort {
-        trajectories: args.morris,
-        rows: args.sobol,
-    };
-    if effort != Effort::default() {
-        return study_parameters(args, choice, effort);
+    match args.sobol {
+        None => (),
+        Some(rows @ (0 | 1)) => {
+            return Err(Error::Usage(format!(
+                "--sobol {rows}: allowed is 2 or more; a single row has no variance"
+            )));
+        }
+        Some(rows) => return study_parameters(args, choice, rows),
     }
     match args.compare.as_slice() {
         [] => tune_filter(args, choice),
@@ -42,19 +45,24 @@ pub fn execute(args: &TuneArgs) -> Result<(), Error> {
 }
 
 fn tune_filter(args: &TuneArgs, choice: FilterChoice) -> Result<(), Error> {
-    let plan = make_plan(args, choice)?;
-    plan.check()?;
-    let gpu = open_candidate_gpu(&plan.choice, &args.candidate)?;
-    let scenes = plan.scenes.iter().chain(&plan.sealed);
-    let _claim = claim(&plan.out, scenes.map(|(scene, _)| scene), Sharing::Alone)?;
+    if args.budget == 0 {
+        return Err(Error::Usage(
+            "--budget 0: allowed is 1 or more; the first trial is the start itself".to_owned(),
+        ));
+    }
+    let options = make_options(args, choice)?;
+    options.check()?;
+    let gpu = open_candidate_gpu(&options.choice, &args.candidate)?;
+    let scenes = options.scenes.iter().chain(&options.held_out);
+    let _claim = claim(&options.out, scenes.map(|(scene, _)| scene), Sharing::Alone)?;
     let began = Instant::now();
-    let label = format!("tuning {}", plan.choice.filter.name);
-    let tuning = plan.monitor.watch(&label, |watch| {
-        tune(&plan, gpu.as_ref(), |trial| {
+    let label = format!("tuning {}", options.choice.filter.name);
+    let tuning = options.monitor.watch(&label, |watch| {
+        tune(&options, gpu.as_ref(), |trial| {
             // The loop itself ends where it is interrupted.
             let _ = watch(Progress {
                 done: trial.trial as u64 + 1,
-                total: plan.budget as u64,
+                total: options.budget as u64,
             });
         })
     })?;
@@ -62,32 +70,32 @@ fn tune_filter(args: &TuneArgs, choice: FilterChoice) -> Result<(), Error> {
         let seconds = began.elapsed().as_secs_f64();
         print_error(&format!("{} trials in {seconds:.1} s", tuning.trials));
     }
-    print_result(args, &write_tuning(&tuning, &plan)?)
+    print_result(args, &write_tuning(&tuning, &options)?)
 }
 
-fn make_plan(args: &TuneArgs, choice: FilterChoice) -> Result<TunePlan, Error> {
+fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Error> {
     let candidate = &args.candidate;
     let scene_args = &candidate.scenes;
     let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;
-    let sealed = match args.sealed.as_slice() {
+    let held_out = match args.sealed.as_slice() {
         [] => Vec::new(),
         words => load_scenes(&scene_args.scenes_dir, words)?,
     };
     let mut open = load_scenes(&scene_args.scenes_dir, &scene_args.scenes)?;
     if scene_args.scenes.is_empty() {
-        // Every scene means every one that is not sealed.
-        open.retain(|(scene, _)| sealed.iter().all(|(other, _)| other.name != scene.name));
+        // Every scene means every one that is not held out.
+        open.retain(|(scene, _)| held_out.iter().all(|(other, _)| other.name != scene.name));
     }
-    let mut sealed_args = scene_args.clone();
-    sealed_args.samples_per_pixel = args.sealed_samples_per_pixel;
-    Ok(TunePlan {
+    let mut held_out_args = scene_args.clone();
+    held_out_args.samples_per_pixel = args.sealed_samples_per_pixel;
+    Ok(TuneOptions {
         choice,
         space,
-        scenes: interleaved(open),
-        sealed,
+        scenes: interleave_families(open),
+        held_out,
         render: candidate_render_settings(candidate)?,
-        sealed_render: make_render_settings(
-            &sealed_args,
+        held_out_render: make_render_settings(
+            &held_out_args,
             args.sealed_size,
             RenderSettings::default().replicates,
         )?,
@@ -119,10 +127,10 @@ fn print_result(args: &TuneArgs, found: &CommandResult) -> Result<(), Error> {
 }
 
 /// Writes tune.json, params.json and preset.toml.
-fn write_tuning(tuning: &Tuning, plan: &TunePlan) -> Result<CommandResult, Error> {
+fn write_tuning(tuning: &Tuning, options: &TuneOptions) -> Result<CommandResult, Error> {
     let pretty = |json: Result<String, serde_json::Error>| json.expect("a tuning is plain data");
     let write = |name: &str, text: &str| {
-        frame::write_atomically(&plan.out.join(name), text.as_bytes()).map_err(Error::from)
+        frame::write_atomically(&options.out.join(name), text.as_bytes()).map_err(Error::from)
     };
     let json = pretty(serde_json::to_string_pretty(tuning));
     write("tune.json", &json)?;
@@ -130,11 +138,11 @@ fn write_tuning(tuning: &Tuning, plan: &TunePlan) -> Result<CommandResult, Error
         "params.json",
         &pretty(serde_json::to_string_pretty(&tuning.values)),
     )?;
-    write("preset.toml", &preset_text(tuning, plan))?;
+    write("preset.toml", &tuned_preset_toml(tuning, options))?;
     Ok(CommandResult {
         table: tuning_table(tuning) + "\nthe choice: params.json and preset.toml beside tune.json",
         json,
-        path: plan.out.join("tune.json"),
+        path: options.out.join("tune.json"),
     })
 }
 
@@ -148,16 +156,16 @@ fn compare_presets(
     let (first, second) = (first?, second?);
     let scenes = load_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
     let gpu = open_candidate_gpu(&choice, args)?;
-    let (_claim, shots) = render_shots(&scenes, &choice, args, Sharing::Alone)?;
+    let (_claim, rendered) = claim_and_render(&scenes, &choice, args, Sharing::Alone)?;
     let bleed = args.objective.contains(&Objective::Bleed);
-    let mut scorer = evaluator(
-        &shots,
-        &choice,
+    let mut evaluator = Evaluator::new(
         gpu.as_ref(),
+        &choice,
+        &rendered,
         bleed,
         make_monitor(args.scenes.quiet),
     )?;
-    let paired = compare_paired(&mut scorer, &first, &second)?;
+    let paired = compare_candidates(&mut evaluator, &first, &second)?;
     let names = presets.map(|preset| preset.as_str());
     let json = serde_json::to_string_pretty(&paired).expect("a comparison is plain data");
     let path = args.scenes.out.join("compare.json");
@@ -166,23 +174,23 @@ fn compare_presets(
     print_result(tune, &CommandResult { table, json, path })
 }
 
-fn study_parameters(args: &TuneArgs, choice: FilterChoice, effort: Effort) -> Result<(), Error> {
+fn study_parameters(args: &TuneArgs, choice: FilterChoice, rows: usize) -> Result<(), Error> {
     let candidate = &args.candidate;
     let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;
     let scenes = load_scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
     let gpu = open_candidate_gpu(&choice, candidate)?;
     let out = &candidate.scenes.out;
-    let (_claim, shots) = render_shots(&scenes, &choice, candidate, Sharing::Alone)?;
-    let mut scorer = evaluator(
-        &shots,
-        &choice,
+    let (_claim, rendered) = claim_and_render(&scenes, &choice, candidate, Sharing::Alone)?;
+    let mut evaluator = Evaluator::new(
         gpu.as_ref(),
+        &choice,
+        &rendered,
         false,
         make_monitor(candidate.scenes.quiet),
     )?;
     let label = format!("parameters of {}", choice.filter.name);
     let found = make_monitor(candidate.scenes.quiet).watch(&label, |watch| {
-        sensitivity(&mut scorer, &space, effort, args.search_seed, watch)
+        analyze_sensitivity(&mut evaluator, &space, rows, args.search_seed, watch)
     })?;
     let json = serde_json::to_string_pretty(&found).expect("a study is plain data");
     let path = out.join("sensitivity.json");

@@ -15,7 +15,7 @@ const MOST_ROWS: usize = 500;
 /// Makes one workflow command per line for each thing that keeps the check from passing. The last of ten counts the rest.
 pub fn annotations(check: &Check) -> String {
     let findings = (check.findings.iter())
-        .filter(|finding| Decision::of(finding) != Decision::Pass)
+        .filter(|finding| finding.decision() != Decision::Pass)
         .map(|finding| {
             let title = format!("{} / {}", finding.scene, finding.filter);
             let suffix = way_out(finding).map(|way_out| format!("; {way_out}"));
@@ -84,7 +84,7 @@ pub fn summary(check: &Check) -> String {
         let _ = writeln!(text, "\nand {} more", notable.len() - MOST_ROWS);
     }
     if !check.comparisons.is_empty() {
-        text += "\n### Compared with the baseline\n\n";
+        text += "\n### RunComparison with the baseline\n\n";
         for comparison in &check.comparisons {
             let _ = writeln!(text, "- {}", escape_cell(&comparison_line(comparison)));
         }
@@ -100,13 +100,13 @@ fn summary_row(finding: &Finding) -> String {
         finding.scene.clone(),
         finding.filter.clone(),
         finding.metric.clone(),
-        or_none(finding.value.map(|value| finding.shown(value))),
+        or_none(finding.value.map(|value| finding.with_unit(value))),
         or_none(interval),
         number(finding.limit),
         or_none(finding.floor.map(number)),
         or_none((finding.worst.as_ref()).map(|worst| format!("({}, {})", worst.x, worst.y))),
         or_none((finding.resembles.as_ref()).map(|alike| alike.decoy.clone())),
-        match Decision::of(finding) {
+        match finding.decision() {
             Decision::Pass => "reported".to_owned(),
             decision => decision_word(decision).to_owned(),
         },

@@ -6,7 +6,7 @@ use crate::output::colors::{bad, doubtful, good, heading};
 use crate::output::wrap::push_wrapped;
 use crate::tables::failures::failures_text;
 use report::{finding_score, finding_status, way_out};
-use suite::{Check, Comparison, Finding, Level, Outcome, number, printable_path};
+use suite::{BaselineComparison, Check, Finding, Level, Outcome, number, printable_path};
 
 /// Lists scores that are broken, inconclusive or too noisy, by scene and filter; then comparisons, then counts. `out` is the
 /// folder of the run's pictures.
@@ -78,13 +78,13 @@ fn place_text(finding: &Finding) -> String {
 }
 
 /// Describes a comparison with the baseline on one line.
-pub fn comparison_line(comparison: &Comparison) -> String {
-    let Comparison {
+pub fn comparison_line(comparison: &BaselineComparison) -> String {
+    let BaselineComparison {
         filter,
         metric,
         scenes,
         worse,
-        bounds: [low, high],
+        interval: [low, high],
         margin,
         ..
     } = comparison;
@@ -94,7 +94,7 @@ pub fn comparison_line(comparison: &Comparison) -> String {
     };
     format!(
         "{}: {filter} {metric}, worse by {} over {scenes}, one-sided 95 % bounds {} and {}; margin {}",
-        comparison.kind.words(),
+        comparison.kind.label(),
         number(*worse),
         number(*low),
         number(*high),

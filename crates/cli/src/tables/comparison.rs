@@ -4,15 +4,15 @@ use crate::output::colors::{bad, doubtful, faint, good, heading};
 use crate::output::wrap::push_wrapped;
 use report::signed;
 use suite::{
-    Basis, Change, ChangeKind, Compared, MeanChange, MeanKind, SettingChange, number, printable,
-    rank_changes,
+    Basis, Change, ChangeKind, MeanChange, MeanKind, RunComparison, SettingChange, number,
+    printable, rank_changes,
 };
 
 /// Upper limit on changed cases in the table; `--json` and the page have all.
 const CASES: usize = 12;
 
 /// Makes the tables: settings, cases of one run alone, means over scenes, cases that changed, counts.
-pub fn compare_table(compared: &Compared) -> String {
+pub fn compare_table(compared: &RunComparison) -> String {
     let mut text = String::new();
     for setting in &compared.settings {
         push_wrapped(&mut text, 0, &setting_line(setting));
@@ -66,9 +66,9 @@ fn means_table(means: &[MeanChange]) -> String {
             signed(mean.interval[1])
         );
         let verdict = match mean.kind {
-            MeanKind::Better => good(mean.kind.words()),
-            MeanKind::Worse => bad(mean.kind.words()),
-            _ => doubtful(mean.kind.words()),
+            MeanKind::Better => good(mean.kind.label()),
+            MeanKind::Worse => bad(mean.kind.label()),
+            _ => doubtful(mean.kind.label()),
         };
         text += &row(
             &mean.metric,
@@ -131,8 +131,8 @@ fn change_row(change: &Change) -> String {
         _ => "beyond the floor".to_owned(),
     };
     let verdict = match change.kind {
-        ChangeKind::Better => good(change.kind.words()),
-        _ => bad(change.kind.words()),
+        ChangeKind::Better => good(change.kind.label()),
+        _ => bad(change.kind.label()),
     };
     row(
         &change.metric,
@@ -162,7 +162,7 @@ fn counts(changes: &[Change]) -> String {
     let words: Vec<String> = (ChangeKind::ALL.iter())
         .map(|kind| {
             let count = changes.iter().filter(|change| change.kind == *kind).count();
-            format!("{count} {}", kind.words())
+            format!("{count} {}", kind.label())
         })
         .collect();
     let mut text = format!(

@@ -2,7 +2,7 @@
 
 use crate::output::colors::heading;
 use crate::output::wrap::push_wrapped;
-use suite::{Difference, LEAST_BLEED, Paired, Preference, Trial, Tuning};
+use suite::{Difference, LEAST_BLEED, PairedComparison, Preference, Trial, Tuning};
 
 /// Upper limit on rows of the front; `tune.json` has all.
 const ROWS: usize = 12;
@@ -63,10 +63,10 @@ pub fn tuning_table(tuning: &Tuning) -> String {
             );
         }
     }
-    if let Some(last) = tuning.openings.last() {
+    if let Some(last) = tuning.held_out.last() {
         text += &format!(
-            "\nsealed scenes, opened {} at {}x{}, {} samples per pixel:\n",
-            match tuning.openings.len() {
+            "\nheld-out scenes, evaluated {} at {}x{}, {} samples per pixel:\n",
+            match tuning.held_out.len() {
                 1 => "once".to_owned(),
                 times => format!("{times} times"),
             },
@@ -110,7 +110,7 @@ fn trial_row(trial: &Trial, start: &Trial, chosen: usize) -> String {
 }
 
 /// Compares two candidates scene by scene.
-pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
+pub fn paired_table(paired: &PairedComparison, names: [&str; 2]) -> String {
     let width = paired
         .scenes
         .keys()
@@ -138,7 +138,7 @@ pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
     }
     let Difference {
         mean,
-        bounds,
+        interval,
         scenes,
         ..
     } = &paired.flip;
@@ -147,8 +147,8 @@ pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
         names[1],
         names[0],
         percent(*mean),
-        percent(bounds[0]),
-        percent(bounds[1]),
+        percent(interval[0]),
+        percent(interval[1]),
         verdict_text(&paired.flip, names)
     );
     push_wrapped(&mut text, 0, &flip);
@@ -158,8 +158,8 @@ pub fn paired_table(paired: &Paired, names: [&str; 2]) -> String {
             names[1],
             names[0],
             bleed.mean,
-            bleed.bounds[0],
-            bleed.bounds[1],
+            bleed.interval[0],
+            bleed.interval[1],
             bleed.scenes,
             match bleed.verdict {
                 Preference::Undecided if bleed.is_no_worse(LEAST_BLEED) => {

@@ -10,22 +10,26 @@ use crate::shell::shell;
 use suite::Error;
 use suite::number;
 use suite::{Basis, Change, ChangeKind, rank_changes};
-use suite::{Compared, Side};
 use suite::{MeanChange, MeanKind};
-use suite::{Pair, pairs, subject};
+use suite::{Pair, filter_label, pair_cases};
+use suite::{RunComparison, Side};
 
 /// So many cases are shown in pictures, those that changed most.
 const SHOWN: usize = 12;
 
 /// Reads the pictures of what changed most and writes nothing; the same runs make the same bytes.
-pub fn compare_page(compared: &Compared, first: &Side, second: &Side) -> Result<String, Error> {
+pub fn compare_page(
+    compared: &RunComparison,
+    first: &Side,
+    second: &Side,
+) -> Result<String, Error> {
     let rank_changes = rank_changes(&compared.changes);
-    let pairs = pairs(&first.run, &second.run);
+    let pairs = pair_cases(&first.run, &second.run);
     let mut shown = Vec::new();
     for (scene, filter) in rank_changes.iter().take(SHOWN) {
         let pair = pairs
             .iter()
-            .find(|pair| pair.first.scene == *scene && subject(pair.first) == *filter);
+            .find(|pair| pair.first.scene == *scene && filter_label(pair.first) == *filter);
         let pair = pair.expect("a change is of a pair");
         shown.push(case(compared, pair, Pictures::read([first, second], pair)?));
     }
@@ -56,7 +60,7 @@ pub fn compare_page(compared: &Compared, first: &Side, second: &Side) -> Result<
     Ok(page.into_string())
 }
 
-fn summary(compared: &Compared) -> String {
+fn summary(compared: &RunComparison) -> String {
     let count = |kind| {
         compared
             .changes
@@ -75,7 +79,7 @@ fn summary(compared: &Compared) -> String {
 }
 
 /// Settings, and cases of one run alone.
-fn differences(compared: &Compared) -> Markup {
+fn differences(compared: &RunComparison) -> Markup {
     let sides = [
         (&compared.only_in_first, &compared.runs[0]),
         (&compared.only_in_second, &compared.runs[1]),
@@ -180,12 +184,12 @@ fn mean_verdict(kind: MeanKind) -> Markup {
         MeanKind::Same => ("text", "= "),
         MeanKind::Undecided | MeanKind::TooFewScenes => ("text", "≈ "),
     };
-    html! { td class=(class) { (sign) (kind.words()) } }
+    html! { td class=(class) { (sign) (kind.label()) } }
 }
 
 /// Both pictures under a divider, the truth, where it changed, and the scores.
-fn case(compared: &Compared, pair: &Pair, pictures: Option<Pictures>) -> Markup {
-    let filter = subject(pair.first);
+fn case(compared: &RunComparison, pair: &Pair, pictures: Option<Pictures>) -> Markup {
+    let filter = filter_label(pair.first);
     let changes = (compared.changes.iter())
         .filter(|change| change.scene == pair.first.scene && change.filter == filter);
     let title = format!("{} / {filter}", pair.first.scene);
@@ -265,7 +269,7 @@ fn change_row(change: &Change, named: bool) -> Markup {
         tr {
             @if named { th scope="row" { (change.scene) " / " (change.filter) } }
             th.text scope="row" { (change.metric) }
-            td class=(class) { (sign) (change.kind.words()) }
+            td class=(class) { (sign) (change.kind.label()) }
             td { (signed(change.worse)) }
             td {
                 @match (change.interval, change.basis) {

@@ -22,10 +22,10 @@ pub fn summary(tuning: &Tuning) -> Markup {
                 @if let Some(bleed) = tuning.chosen.bleed { ", lateral bleed on the worst scene " (format!("{bleed:.3}")) " px" }
                 "."
             }
-            @if let Some(opening) = tuning.openings.last() {
-                @let flip = &opening.paired.flip;
-                " On " (flip.scenes) " sealed scenes: " (percent(flip.mean))
-                ", with 95 % one-sided bounds " (percent(flip.bounds[0])) " and " (percent(flip.bounds[1]))
+            @if let Some(result) = tuning.held_out.last() {
+                @let flip = &result.paired.flip;
+                " On " (flip.scenes) " held-out scenes: " (percent(flip.mean))
+                ", with 95 % one-sided bounds " (percent(flip.interval[0])) " and " (percent(flip.interval[1]))
                 @match flip.verdict {
                     Preference::First => ": the start is better.",
                     Preference::Second => ": the choice is better.",

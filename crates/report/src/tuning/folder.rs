@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::de::DeserializeOwned;
 
 use suite::read_text;
-use suite::{Error, Header, JOURNAL_FORMAT, Sensitivity, TUNE_FORMAT, Trial, Tuning};
+use suite::{Error, JOURNAL_FORMAT, JournalHeader, Sensitivity, TUNE_FORMAT, Trial, Tuning};
 
 /// What is there of tune.json, journal.jsonl and sensitivity.json; at least one is.
 #[derive(Clone, Debug)]
@@ -15,10 +15,10 @@ pub struct TuneFolder {
     /// None of a tuning that is not finished, or of a study of sensitivity alone.
     pub tuning: Option<Tuning>,
     /// The journal's first line.
-    pub header: Option<Header>,
+    pub header: Option<JournalHeader>,
     /// All whole lines of the journal behind it.
     pub trials: Vec<Trial>,
-    /// Of `tune --morris` or `--sobol`.
+    /// Of `tune --sobol`.
     pub sensitivity: Option<Sensitivity>,
 }
 
@@ -70,7 +70,7 @@ fn parse<T: DeserializeOwned>(text: &str, place: &str) -> Result<T, Error> {
 }
 
 /// The whole lines: the last one may be half written while a tuning goes on.
-fn journal(path: &Path) -> Result<(Option<Header>, Vec<Trial>), Error> {
+fn journal(path: &Path) -> Result<(Option<JournalHeader>, Vec<Trial>), Error> {
     let Some(text) = text(path)? else {
         return Ok((None, Vec::new()));
     };
@@ -79,7 +79,7 @@ fn journal(path: &Path) -> Result<(Option<Header>, Vec<Trial>), Error> {
     let Some((first, _)) = lines.next() else {
         return Ok((None, Vec::new()));
     };
-    let header: Header = parse(first, &format!("{}:1", path.display()))?;
+    let header: JournalHeader = parse(first, &format!("{}:1", path.display()))?;
     check_format(path, header.format, JOURNAL_FORMAT)?;
     let trial = |(line, number): (&str, usize)| {
         let place = format!("{}:{number}", path.display());

@@ -30,7 +30,7 @@ pub fn tuning_page(folder: &TuneFolder) -> Result<String, Error> {
         @if let Some(tuning) = &folder.tuning {
             (folds::folds(&tuning.folds))
             (scenes::tuned_on(tuning))
-            (scenes::sealed(&tuning.openings))
+            (scenes::held_out(&tuning.held_out))
         }
         @if let Some(found) = &folder.sensitivity { (importance::importance(found)) }
         (slices::slices(folder))

@@ -2,10 +2,10 @@
 
 use maud::{Markup, html};
 
-use suite::Header;
+use suite::JournalHeader;
 
 /// All that the trials depended on, and the hashes of the truths.
-pub fn provenance(header: &Header) -> Markup {
+pub fn provenance(header: &JournalHeader) -> Markup {
     let limit = |limit: Option<f64>| {
         limit.map_or_else(
             || "none".to_owned(),

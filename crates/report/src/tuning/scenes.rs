@@ -7,7 +7,7 @@ use maud::{Markup, html};
 use super::folds::bar;
 use super::percent;
 use suite::log_ratio;
-use suite::{Opening, SceneScore, Tuning};
+use suite::{HeldOutResult, SceneScore, Tuning};
 
 /// The scenes that were tuned on, those with the largest error of the start first.
 pub fn tuned_on(tuning: &Tuning) -> Markup {
@@ -24,21 +24,21 @@ pub fn tuned_on(tuning: &Tuning) -> Markup {
     }
 }
 
-/// The last look at the sealed scenes.
-pub fn sealed(openings: &[Opening]) -> Markup {
-    let Some(last) = openings.last() else {
+/// The last result on the held-out scenes.
+pub fn held_out(results: &[HeldOutResult]) -> Markup {
+    let Some(last) = results.last() else {
         return html! {};
     };
     let [width, height, samples] = last.render;
     html! {
         section {
-            h2 { "Choice against start on sealed scenes" }
+            h2 { "Choice against start on held-out scenes" }
             p {
-                "No trial ran on these. They were opened " (openings.len())
-                @if openings.len() == 1 { " time" } @else { " times" }
-                "; a set that is opened often is one that is tuned on. " (width) "x" (height) ", " (samples) " samples per pixel."
+                "No trial ran on these. They were evaluated " (results.len())
+                @if results.len() == 1 { " time" } @else { " times" }
+                "; scenes that are evaluated often are scenes that are tuned on. " (width) "x" (height) ", " (samples) " samples per pixel."
             }
-            (table("Sealed scenes, the worst of the start first", &last.paired.scenes))
+            (table("Held-out scenes, the worst of the start first", &last.paired.scenes))
         }
     }
 }

@@ -1,56 +1,56 @@
-//! One score of one case in two runs.
+//! Change of one score of one case between two runs.
 
 use metrics::{Measured, Metric};
 use serde::Serialize;
 
-use super::pairing::{Pair, subject};
+use super::pairing::{Pair, filter_label};
 
 /// A score that both runs have.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Change {
-    /// With its variant.
+    /// Scene, with its variant.
     pub scene: String,
-    /// `jump_flood:paper`; bars with their alignment.
+    /// `jump_flood:paper`; a bar with its alignment.
     pub filter: String,
-    /// Whether it is a bar, and no filter.
+    /// True for a bar, false for a filter.
     pub bar: bool,
     /// Name of the metric.
     pub metric: String,
-    /// In the first run, in the metric's unit.
+    /// Score in the first run, in the metric's unit.
     pub first: f64,
-    /// In the second one.
+    /// Score in the second run.
     pub second: f64,
-    /// By how much the second is worse; negative is better.
+    /// Amount by which the second is worse; negative is better.
     pub worse: f64,
-    /// How much the scene counts in a mean over scenes: 1, or of a skill the error that the one-frame oracle takes away.
+    /// Weight of the scene in a mean over scenes: 1, or for a skill the error that the one-frame oracle removes.
     pub weight: f64,
-    /// Where that lies against a truth without noise with a confidence of 95 %; none without replicates.
+    /// 95 % confidence interval of `worse` against a truth without noise; none without replicates.
     pub interval: Option<[f64; 2]>,
-    /// Its standard error; 0 where nothing changed, none without replicates.
+    /// Standard error of `worse`; 0 if nothing changed, none without replicates.
     pub standard_error: Option<f64>,
-    /// What it was told from noise by.
+    /// Measure of the noise.
     pub basis: Basis,
-    /// The verdict.
+    /// Verdict.
     pub kind: ChangeKind,
 }
 
-/// What tells a change from noise.
+/// Measure of the noise that a change is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Basis {
-    /// The replicates of the truth, left out two by two of both scores at once: what noise the scores share falls out.
+    /// The replicates of the truth, left out in pairs from both scores at once, so that noise in both cancels.
     Replicates,
-    /// The larger of both scores' noise floors: the replicates or the pictures are not there.
+    /// The larger noise floor of the two scores: replicates or pictures are missing.
     Floor,
 }
 
-/// Whether a score changed.
+/// Kind of a change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ChangeKind {
-    /// Not by a bit.
+    /// Equal to the last bit.
     Same,
-    /// By no more than the truth's noise could make.
+    /// No more than the truth's noise could make.
     WithinNoise,
     /// The second is better.
     Better,
@@ -67,8 +67,8 @@ impl ChangeKind {
         ChangeKind::Same,
     ];
 
-    /// As a report says it.
-    pub fn words(self) -> &'static str {
+    /// Returns the words for it in a report.
+    pub fn label(self) -> &'static str {
         match self {
             Self::Same => "same",
             Self::WithinNoise => "within noise",
@@ -78,18 +78,18 @@ impl ChangeKind {
     }
 }
 
-/// How far a difference may be off because the truth is noisy.
+/// Uncertainty of a difference, from the noise of the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uncertainty {
-    /// The lower and the upper end of its 95 % interval.
+    /// Ends of its 95 % confidence interval.
     pub interval: [f64; 2],
     /// Its standard error.
     pub standard_error: f64,
 }
 
 impl Change {
-    /// None where the metric does not apply to both.
-    pub fn of(
+    /// Compares a score of both cases; none if the metric does not apply to both.
+    pub fn new(
         pair: &Pair,
         metric: Metric,
         weight: f64,
@@ -107,7 +107,7 @@ impl Change {
         let interval = uncertainty.map_or([worse - floor, worse + floor], |own| own.interval);
         Some(Self {
             scene: pair.first.scene.clone(),
-            filter: subject(pair.first),
+            filter: filter_label(pair.first),
             bar: pair.first.bar,
             metric: metric.name(),
             first: first.value,
@@ -123,16 +123,16 @@ impl Change {
                 Some(_) => Basis::Replicates,
                 None => Basis::Floor,
             },
-            kind: kind(worse, interval),
+            kind: classify(worse, interval),
         })
     }
 
-    /// Whether it is better or worse.
+    /// Returns true if the second is better or worse.
     pub fn is_beyond_noise(&self) -> bool {
         matches!(self.kind, ChangeKind::Better | ChangeKind::Worse)
     }
 
-    /// The change as a part of the larger score.
+    /// Returns the change as a fraction of the larger score.
     pub fn size(&self) -> f64 {
         match self.first.abs().max(self.second.abs()) {
             0.0 => 0.0,
@@ -141,7 +141,7 @@ impl Change {
     }
 }
 
-/// Scene and filter of cases that changed by more than noise, by the largest part of a score that changed.
+/// Ranks the cases that changed by more than noise by their largest relative change; returns scene and filter.
 pub fn rank_changes(changes: &[Change]) -> Vec<(&str, &str)> {
     let mut ranked: Vec<(f64, (&str, &str))> = Vec::new();
     for change in changes.iter().filter(|change| change.is_beyond_noise()) {
@@ -155,8 +155,8 @@ pub fn rank_changes(changes: &[Change]) -> Vec<(&str, &str)> {
     ranked.into_iter().map(|(_, key)| key).collect()
 }
 
-/// What a difference and its interval come to.
-fn kind(worse: f64, [low, high]: [f64; 2]) -> ChangeKind {
+/// Classifies a difference by its interval.
+fn classify(worse: f64, [low, high]: [f64; 2]) -> ChangeKind {
     if worse == 0.0 {
         ChangeKind::Same
     } else if low > 0.0 {
@@ -181,7 +181,7 @@ mod tests {
             (0.2, [-0.1, 0.5], ChangeKind::WithinNoise),
             (-0.2, [-0.4, 0.0], ChangeKind::WithinNoise),
         ] {
-            assert_eq!(kind(worse, interval), expected, "{worse} {interval:?}");
+            assert_eq!(classify(worse, interval), expected, "{worse} {interval:?}");
         }
     }
 }

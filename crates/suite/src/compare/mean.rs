@@ -1,38 +1,36 @@
-//! A filter's scores over all scenes of two runs.
+//! Changes of means over all scenes between two runs.
+
+use std::cmp::Ordering;
 
 use serde::Serialize;
 
 use super::change::{Change, ChangeKind};
-use crate::stats::scene_mean::{Weighted, scene_mean};
-use crate::tune::FEWEST_SCENES;
+use crate::stats::scene_mean::{FEWEST_SCENES, TWO_SIDED, Weighted, scene_mean};
 
-/// The mean over all such scenes lies beyond either end of its interval with this probability.
-const TAIL: f64 = 0.025;
-
-/// One metric of one filter, over the scenes that it applies to in both runs.
+/// Mean of one metric of one filter, over the scenes that it applies to in both runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MeanChange {
     /// `jump_flood:paper`.
     pub filter: String,
     /// Name of the metric.
     pub metric: String,
-    /// How many scenes.
+    /// Number of scenes.
     pub scenes: usize,
-    /// How many of them are better, and worse, by more than noise.
+    /// Numbers of scenes that are better, and worse, by more than noise.
     pub better_worse: [usize; 2],
-    /// Mean of the first run, in the metric's unit; of a skill the ratio of means, as in run.json.
+    /// Mean of the first run, in the metric's unit; for a skill the ratio of means, as in run.json.
     pub first: f64,
-    /// Of the second.
+    /// Mean of the second run.
     pub second: f64,
-    /// By how much the second is worse; negative is better.
+    /// Amount by which the second is worse; negative is better.
     pub worse: f64,
-    /// 95 % confidence interval of that mean over scenes.
+    /// 95 % confidence interval of `worse`, over scenes.
     pub interval: [f64; 2],
-    /// The verdict.
+    /// Verdict.
     pub kind: MeanKind,
 }
 
-/// What the interval of a mean says.
+/// Verdict on the change of a mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MeanKind {
@@ -44,13 +42,13 @@ pub enum MeanKind {
     Worse,
     /// The interval holds 0.
     Undecided,
-    /// Fewer scenes than an interval can be trusted for.
+    /// The scenes are fewer than an interval can be trusted for.
     TooFewScenes,
 }
 
 impl MeanKind {
-    /// As a report says it.
-    pub fn words(self) -> &'static str {
+    /// Returns the words for it in a report.
+    pub fn label(self) -> &'static str {
         match self {
             Self::Same => "same",
             Self::Better => "better",
@@ -61,8 +59,8 @@ impl MeanKind {
     }
 }
 
-/// Per filter and metric, in the order of the changes.
-pub fn means(changes: &[Change]) -> Vec<MeanChange> {
+/// Averages changes per filter and metric, in the order of the changes; leaves out bars.
+pub fn average_changes(changes: &[Change]) -> Vec<MeanChange> {
     let mut keys: Vec<(&str, &str)> = Vec::new();
     for change in changes.iter().filter(|change| !change.bar) {
         let key = (change.filter.as_str(), change.metric.as_str());
@@ -73,27 +71,27 @@ pub fn means(changes: &[Change]) -> Vec<MeanChange> {
     let of_key = |(filter, metric): (&str, &str)| {
         let own = (changes.iter())
             .filter(|change| change.filter == filter && change.metric == metric && !change.bar);
-        mean(&own.collect::<Vec<_>>())
+        average(&own.collect::<Vec<_>>())
     };
     keys.into_iter().map(of_key).collect()
 }
 
-fn mean(changes: &[&Change]) -> MeanChange {
+fn average(changes: &[&Change]) -> MeanChange {
     let count = changes.len();
     let mean = |value: fn(&Change) -> f64| {
         let weighted = changes.iter().map(|change| Weighted {
             value: value(change),
             weight: change.weight,
         });
-        scene_mean(&weighted.collect::<Vec<_>>(), TAIL)
+        scene_mean(&weighted.collect::<Vec<_>>(), TWO_SIDED)
     };
     let worse = mean(|change| change.worse);
     let of_kind = |kind| changes.iter().filter(|change| change.kind == kind).count();
-    let kind = match worse.bounds {
+    let kind = match worse.side_of_zero() {
         _ if of_kind(ChangeKind::Same) == count => MeanKind::Same,
         _ if count < FEWEST_SCENES => MeanKind::TooFewScenes,
-        [low, _] if low > 0.0 => MeanKind::Worse,
-        [_, high] if high < 0.0 => MeanKind::Better,
+        Some(Ordering::Greater) => MeanKind::Worse,
+        Some(Ordering::Less) => MeanKind::Better,
         _ => MeanKind::Undecided,
     };
     MeanChange {
@@ -104,7 +102,7 @@ fn mean(changes: &[&Change]) -> MeanChange {
         first: mean(|change| change.first).mean,
         second: mean(|change| change.second).mean,
         worse: worse.mean,
-        interval: worse.bounds,
+        interval: worse.interval,
         kind,
     }
 }
@@ -146,7 +144,7 @@ mod tests {
             (&[0.1, 0.2, 0.1, 0.2], MeanKind::TooFewScenes),
             (&[0.0, 0.0], MeanKind::Same),
         ] {
-            let means = means(&changes(worse));
+            let means = average_changes(&changes(worse));
             assert_eq!(means.len(), 1);
             assert_eq!(means[0].kind, expected, "{worse:?}");
             assert_eq!(means[0].scenes, worse.len());
@@ -157,13 +155,13 @@ mod tests {
     fn a_mean_of_skills_counts_scenes_by_what_is_to_be_gained_on_them() {
         let mut all = changes(&[0.1, 0.4]);
         all[0].weight = 3.0;
-        assert!((means(&all)[0].worse - 0.175).abs() < 1e-12);
+        assert!((average_changes(&all)[0].worse - 0.175).abs() < 1e-12);
     }
 
     #[test]
     fn bars_have_no_means() {
         let mut all = changes(&[0.1; 5]);
         all[0].bar = true;
-        assert_eq!(means(&all)[0].scenes, 4);
+        assert_eq!(average_changes(&all)[0].scenes, 4);
     }
 }

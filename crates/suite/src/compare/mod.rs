@@ -1,4 +1,4 @@
-//! Two finished runs of the same cases: what changed, and whether it is more than noise.
+//! Comparison of two finished runs: what changed, by more than noise or not.
 
 mod change;
 mod mean;
@@ -14,26 +14,26 @@ use crate::{Error, PROGRAM};
 
 pub use change::{Basis, Change, ChangeKind, rank_changes};
 pub use mean::{MeanChange, MeanKind};
-pub use pairing::{Pair, pairs, subject};
+pub use pairing::{Pair, filter_label, pair_cases};
 pub use settings::SettingChange;
 pub use side::Side;
 
-use mean::means;
-use noise::changes;
-use pairing::{check_comparable, only_in};
-use settings::settings;
+use mean::average_changes;
+use noise::measure_changes;
+use pairing::{cases_missing_from, check_comparable};
+use settings::compare_settings;
 
-/// Version of the layout of what `compare --json` prints.
+/// Version of the layout of a comparison as JSON.
 pub const COMPARE_FORMAT: u32 = 1;
 
-/// All that two runs have to say about one another.
+/// Differences between two runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Compared {
+pub struct RunComparison {
     /// [`COMPARE_FORMAT`].
     pub format: u32,
     /// Program name and version.
     pub program: &'static str,
-    /// The first run.json and the second one.
+    /// Paths of the first run.json and of the second one.
     pub runs: [String; 2],
     /// Settings in which the runs differ.
     pub settings: Vec<SettingChange>,
@@ -41,26 +41,26 @@ pub struct Compared {
     pub only_in_first: Vec<String>,
     /// Cases of the second run that the first one lacks.
     pub only_in_second: Vec<String>,
-    /// Per filter that both have, and per metric, the mean over scenes; bars are left out.
+    /// Mean over scenes per metric and per filter that both have, without bars.
     pub means: Vec<MeanChange>,
-    /// Per case that both have, and per metric, in the order of the first run.
+    /// Change per metric and per case that both have, in the order of the first run.
     pub changes: Vec<Change>,
 }
 
-/// Compares two runs. Reads, where they are there, the replicates of the truths and the pictures of what changed, to tell
-/// changes from noise; writes nothing. `watch` hears of every pair of cases.
-pub fn compare_runs(first: &Side, second: &Side, watch: Watch) -> Result<Compared, Error> {
-    let pairs = pairs(&first.run, &second.run);
+/// Compares two runs. Tells changes from noise by the truths' replicates and the pictures, if their files exist; writes nothing.
+/// `watch` hears of every pair of cases.
+pub fn compare_runs(first: &Side, second: &Side, watch: Watch) -> Result<RunComparison, Error> {
+    let pairs = pair_cases(&first.run, &second.run);
     check_comparable(first, second, &pairs)?;
-    let changes = changes([first, second], &pairs, watch)?;
-    Ok(Compared {
+    let changes = measure_changes([first, second], &pairs, watch)?;
+    Ok(RunComparison {
         format: COMPARE_FORMAT,
         program: PROGRAM,
         runs: [first, second].map(|side| side.path.display().to_string()),
-        settings: settings(&first.run, &second.run, &pairs),
-        only_in_first: only_in(&first.run, &second.run),
-        only_in_second: only_in(&second.run, &first.run),
-        means: means(&changes),
+        settings: compare_settings(&first.run, &second.run, &pairs),
+        only_in_first: cases_missing_from(&second.run, &first.run),
+        only_in_second: cases_missing_from(&first.run, &second.run),
+        means: average_changes(&changes),
         changes,
     })
 }

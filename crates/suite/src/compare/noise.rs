@@ -1,4 +1,4 @@
-//! Noise of a change between runs: both pictures against the truth without each pair of its replicates.
+//! Noise of a change between runs, by both pictures against the truth without each pair of its replicates.
 
 use std::path::{Path, PathBuf};
 
@@ -17,7 +17,7 @@ use crate::render::scatter_oracle::oracle_of;
 use crate::stats::headline::Headline;
 use crate::{Error, FEWEST_REPLICATES, truths_without_pairs};
 
-/// What is compared.
+/// Metrics that are compared.
 const METRICS: [Metric; 9] = [
     Metric::Image(ImageMetric::Flip, Region::Moving),
     Metric::Skill(SkillMetric::Flip),
@@ -30,10 +30,14 @@ const METRICS: [Metric; 9] = [
     Metric::Label(LabelMetric::Mean),
 ];
 
-/// Every score of every pair.
-pub fn changes(sides: [&Side; 2], pairs: &[Pair], watch: Watch) -> Result<Vec<Change>, Error> {
+/// Measures the change of every score of every pair.
+pub fn measure_changes(
+    sides: [&Side; 2],
+    pairs: &[Pair],
+    watch: Watch,
+) -> Result<Vec<Change>, Error> {
     let mut changes = Vec::new();
-    let mut shared: Option<(String, Option<Parts>)> = None;
+    let mut shared: Option<(String, Option<TruthParts>)> = None;
     for (done, pair) in pairs.iter().enumerate() {
         let progress = Progress {
             done: done as u64,
@@ -51,7 +55,10 @@ pub fn changes(sides: [&Side; 2], pairs: &[Pair], watch: Watch) -> Result<Vec<Ch
                     .as_ref()
                     .is_none_or(|(hash, _)| *hash != pair.first.truth_hash)
                 {
-                    shared = Some((pair.first.truth_hash.clone(), Parts::read(sides, pair)?));
+                    shared = Some((
+                        pair.first.truth_hash.clone(),
+                        TruthParts::read(sides, pair)?,
+                    ));
                 }
                 let parts = shared.as_ref().and_then(|(_, parts)| parts.as_ref());
                 parts
@@ -64,23 +71,23 @@ pub fn changes(sides: [&Side; 2], pairs: &[Pair], watch: Watch) -> Result<Vec<Ch
         changes.extend(METRICS.iter().filter_map(|metric| {
             let uncertainty = measured.as_ref().and_then(|own| own.uncertainty(*metric));
             let weight = Headline::Metric(*metric).weight(pair.first, &sides[0].run.cases)?;
-            Change::of(pair, *metric, weight, uncertainty)
+            Change::new(pair, *metric, weight, uncertainty)
         }));
     }
     Ok(changes)
 }
 
 /// A truth as a whole and without each pair of its replicates, with the frame of its scene.
-struct Parts {
+struct TruthParts {
     frame: Frame,
-    /// What the one-frame oracle makes of it.
+    /// Picture that the one-frame oracle makes of the frame.
     oracle: Picture,
     whole: Truth,
     without: Vec<Truth>,
 }
 
-impl Parts {
-    /// From the first run that still has all files of the truth; none where neither has.
+impl TruthParts {
+    /// Reads the parts from the first run that still has all files of the truth; none if neither has.
     fn read(sides: [&Side; 2], pair: &Pair) -> Result<Option<Self>, Error> {
         for side in sides {
             let folder = side.folder().join(&pair.first.scene);
@@ -122,8 +129,8 @@ impl Parts {
         }))
     }
 
-    /// None where a picture is not there.
-    fn compare(&self, sides: [&Side; 2], pair: &Pair) -> Result<Option<Paired>, Error> {
+    /// Scores both pictures; none if one is missing.
+    fn compare(&self, sides: [&Side; 2], pair: &Pair) -> Result<Option<PairedScores>, Error> {
         let files = [
             sides[0].file(pair.first, "output.exr"),
             sides[1].file(pair.second, "output.exr"),
@@ -131,7 +138,7 @@ impl Parts {
         if !files.iter().all(|file| file.is_file()) {
             return Ok(None);
         }
-        let [first, second] = files.map(|file| picture(&file, &self.whole.objects));
+        let [first, second] = files.map(|file| read_picture(&file, &self.whole.objects));
         let (first, second) = (first?, second?);
         let viewing = self.frame.display.into();
         let whole =
@@ -146,15 +153,15 @@ impl Parts {
             let part = Reference::new(&self.frame, part, None, &viewing)?;
             scores(&part.with_best(&self.oracle)?)
         });
-        Ok(Some(Paired {
+        Ok(Some(PairedScores {
             whole: scores(&whole)?,
             without: without.collect::<Result<_, Error>>()?,
         }))
     }
 }
 
-/// What a filter made, as its run kept it.
-fn picture(path: &Path, objects: &[String]) -> Result<Picture, Error> {
+/// Reads the picture that a filter made.
+fn read_picture(path: &Path, objects: &[String]) -> Result<Picture, Error> {
     let file = read_exr(path)?;
     file.expect_finite()?;
     let mattes = objects
@@ -167,13 +174,13 @@ fn picture(path: &Path, objects: &[String]) -> Result<Picture, Error> {
 }
 
 /// Both pictures' scores against the whole truth, and against it without each pair of replicates.
-struct Paired {
+struct PairedScores {
     whole: [Scores; 2],
     without: Vec<[Scores; 2]>,
 }
 
-impl Paired {
-    /// None where a part of the truth cannot tell the score.
+impl PairedScores {
+    /// Returns the uncertainty of the score's change; none if a part of the truth cannot tell the score.
     fn uncertainty(&self, metric: Metric) -> Option<Uncertainty> {
         let worse = |[first, second]: &[Scores; 2]| {
             let badness =

@@ -5,17 +5,17 @@ use std::collections::{HashMap, HashSet};
 use super::side::Side;
 use crate::{Case, Error, Run};
 
-/// The same case in two runs.
+/// A case that two runs have.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair<'a> {
-    /// Of the first run.
+    /// Case of the first run.
     pub first: &'a Case,
-    /// Of the second one.
+    /// Case of the second run.
     pub second: &'a Case,
 }
 
-/// The cases that both runs have, in the order of the first.
-pub fn pairs<'a>(first: &'a Run, second: &'a Run) -> Vec<Pair<'a>> {
+/// Pairs the cases that both runs have, in the order of the first.
+pub fn pair_cases<'a>(first: &'a Run, second: &'a Run) -> Vec<Pair<'a>> {
     let mut known: HashMap<Key, &Case> = HashMap::new();
     for case in &second.cases {
         known.entry(key(case)).or_insert(case);
@@ -27,27 +27,30 @@ pub fn pairs<'a>(first: &'a Run, second: &'a Run) -> Vec<Pair<'a>> {
     first.cases.iter().filter_map(pair).collect()
 }
 
-/// The cases of `run` that `other` lacks.
-pub fn only_in(run: &Run, other: &Run) -> Vec<String> {
-    let known: HashSet<Key> = other.cases.iter().map(key).collect();
-    let lacks = |case: &&Case| !known.contains(&key(case));
-    run.cases.iter().filter(lacks).map(title).collect()
+/// Lists the cases that `run` lacks and `other` has.
+pub fn cases_missing_from(run: &Run, other: &Run) -> Vec<String> {
+    let known: HashSet<Key> = run.cases.iter().map(key).collect();
+    let missing = other
+        .cases
+        .iter()
+        .filter(|case| !known.contains(&key(case)));
+    missing.map(label).collect()
 }
 
-/// `fan / jump_flood:paper`; bars with their alignment.
-pub fn title(case: &Case) -> String {
-    format!("{} / {}", case.scene, subject(case))
+/// Formats a case: `fan / jump_flood:paper`.
+fn label(case: &Case) -> String {
+    format!("{} / {}", case.scene, filter_label(case))
 }
 
-/// `jump_flood:paper`; bars are made anew for every alignment.
-pub fn subject(case: &Case) -> String {
+/// Formats a case's filter: `jump_flood:paper`; a bar with its alignment, as each alignment has its own.
+pub fn filter_label(case: &Case) -> String {
     match case.bar {
         true => format!("{} ({})", case.name(), case.alignment),
         false => case.name(),
     }
 }
 
-/// Refuses runs whose scores do not say the same.
+/// Refuses runs whose scores do not compare.
 pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(), Error> {
     let refuse = |reason: String| Err(Error::Usage(format!("{}: {reason}", second.path.display())));
     let there = first.path.display();
@@ -55,8 +58,8 @@ pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(
     if size(first) != size(second) {
         let [(w, h), (width, height)] = [size(first), size(second)];
         return refuse(format!(
-            "its pictures have {width}x{height} pixels, those of {there} {w}x{h}; scores of two sizes say different things: \
-             run one of them again with the other's --size"
+            "its pictures have {width}x{height} pixels, those of {there} {w}x{h}; scores of two sizes do not compare: make one \
+             run again at the other's size"
         ));
     }
     if pairs.is_empty() {
@@ -86,21 +89,21 @@ pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(
         None => Ok(()),
         Some(Pair { first, .. }) => refuse(format!(
             "its truth of {} ({}) is another than that of {there}: scene, exposure, samples, seed or tracer have changed, and \
-             scores against two truths differ for that alone; run both with the same --samples-per-pixel, --replicates, --seed \
-             and --exposure by the same version",
+             scores against two truths differ for that alone; run both by the same version with the same samples per pixel, \
+             replicates, seed and exposure",
             first.scene, first.alignment
         )),
     }
 }
 
-/// What tells cases of one run apart.
+/// Key that is unique among the cases of one run.
 type Key<'a> = (&'a str, String, &'a str, bool);
 
 fn key(case: &Case) -> Key<'_> {
     (&case.scene, case.name(), &case.alignment, case.bar)
 }
 
-/// Each once, at most six.
+/// Lists names, each once and six at most.
 fn names<'a>(all: impl Iterator<Item = &'a str>) -> String {
     const MOST: usize = 6;
     let mut once: Vec<&str> = Vec::new();

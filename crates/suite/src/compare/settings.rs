@@ -1,4 +1,4 @@
-//! In what two runs were set up differently.
+//! Differences between the settings of two runs.
 
 use std::collections::BTreeSet;
 
@@ -6,22 +6,22 @@ use filters::AdapterDescription;
 use serde::Serialize;
 
 use super::pairing::Pair;
-use crate::Run;
+use crate::{Case, Run};
 
 /// One setting with two values.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct SettingChange {
     /// `adapter`, or `jump_flood:paper.samples`.
     pub name: String,
-    /// In the first run; empty where it has none.
+    /// Value in the first run; empty if it has none.
     pub first: String,
-    /// In the second one.
+    /// Value in the second run.
     pub second: String,
 }
 
-/// Settings of the runs, then parameters of the filters that both have, where they differ.
-pub fn settings(first: &Run, second: &Run, pairs: &[Pair]) -> Vec<SettingChange> {
-    let of_runs = facts(first).into_iter().zip(facts(second));
+/// Compares the settings of the runs, then the parameters of the filters that both have.
+pub fn compare_settings(first: &Run, second: &Run, pairs: &[Pair]) -> Vec<SettingChange> {
+    let of_runs = run_settings(first).into_iter().zip(run_settings(second));
     let mut all: Vec<SettingChange> = of_runs
         .map(|((name, first), (_, second))| SettingChange {
             name: name.to_owned(),
@@ -30,7 +30,7 @@ pub fn settings(first: &Run, second: &Run, pairs: &[Pair]) -> Vec<SettingChange>
         })
         .collect();
     for pair in pairs {
-        all.extend(parameters(pair));
+        all.extend(compare_parameters(pair));
     }
     let mut known = BTreeSet::new();
     all.retain(|own| {
@@ -40,10 +40,10 @@ pub fn settings(first: &Run, second: &Run, pairs: &[Pair]) -> Vec<SettingChange>
     all
 }
 
-fn facts(run: &Run) -> Vec<(&'static str, String)> {
+fn run_settings(run: &Run) -> Vec<(&'static str, String)> {
     vec![
         ("program", run.program.clone()),
-        ("adapter", adapter(&run.adapter)),
+        ("adapter", adapter_label(&run.adapter)),
         ("velocity", run.velocity.clone()),
         ("color", run.color.clone()),
         ("sky velocity", run.sky_velocity.to_string()),
@@ -51,24 +51,24 @@ fn facts(run: &Run) -> Vec<(&'static str, String)> {
     ]
 }
 
-fn adapter(adapter: &Option<AdapterDescription>) -> String {
+fn adapter_label(adapter: &Option<AdapterDescription>) -> String {
     match adapter {
         Some(own) => format!("{}, {}, driver {}", own.name, own.backend, own.driver),
         None => "none".to_owned(),
     }
 }
 
-fn parameters(pair: &Pair) -> Vec<SettingChange> {
+fn compare_parameters(pair: &Pair) -> Vec<SettingChange> {
     let names: BTreeSet<&String> = [pair.first, pair.second]
         .into_iter()
         .flat_map(|case| case.parameters.keys())
         .collect();
-    let value = |case: &crate::Case, name| {
+    let value = |case: &Case, name| {
         case.parameters
             .get(name)
             .map_or_else(String::new, ToString::to_string)
     };
-    let width = |case: &crate::Case| match case.reference_width {
+    let width = |case: &Case| match case.reference_width {
         Some(width) => format!("{width} px"),
         None => "as written".to_owned(),
     };

@@ -1,20 +1,20 @@
-//! One of two runs.
+//! One of two runs that are compared.
 
 use std::path::{Path, PathBuf};
 
 use crate::{Case, Error, Run};
 
-/// A finished run and where it lies.
+/// A finished run and its path.
 #[derive(Clone, Debug)]
 pub struct Side {
     /// Its run.json.
     pub path: PathBuf,
-    /// What stands in it.
+    /// The run.
     pub run: Run,
 }
 
 impl Side {
-    /// Reads a run.json, or that of a folder.
+    /// Reads a run.json, or the one in a folder.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let path = match path.is_dir() {
             true => path.join("run.json"),
@@ -26,12 +26,12 @@ impl Side {
         })
     }
 
-    /// The folder that the run's pictures lie below.
+    /// Returns the folder above the run's pictures.
     pub fn folder(&self) -> &Path {
         self.path.parent().unwrap_or(Path::new(""))
     }
 
-    /// A file of a case.
+    /// Returns the path of a file of a case.
     pub fn file(&self, case: &Case, name: &str) -> PathBuf {
         self.folder().join(&case.folder).join(name)
     }

@@ -1,4 +1,4 @@
-//! Limits from measurements: how far scores scatter from run to run and from adapter to adapter.
+//! Limits that follow from the scores of several runs.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -6,24 +6,25 @@ use std::fmt::Write;
 use metrics::{Ideal, Interval, Measured, Metric, Score};
 
 use crate::judge::bounds::SceneBounds;
-use crate::judge::{badness_within, number};
+use crate::judge::number;
+use crate::judge::outcome::badness_within;
 use crate::{Case, Run};
 
 /// Margin, in standard deviations.
 const DEVIATIONS: f64 = 3.0;
-/// The margin is at least this part of the worst score: what rounding and another compiler may change.
+/// Smallest margin as a fraction of the worst score: rounding and another compiler may change as much.
 const LEAST_PART: f64 = 0.05;
-/// Above the strictest limit that the truth's noise carries, since that scatters too.
+/// Factor above the strictest limit that the truth's noise carries, since that scatters too.
 const ABOVE_STRICTEST: f64 = 1.2;
 
-/// The least limit on an error, by its unit: a tenth of a pixel, half a hundredth of anything else. Where a score is 0 in
-/// every run, its spread says nothing, and another adapter need not agree to the last bit.
+/// Smallest limit on an error, by its unit: a tenth of a pixel, half a hundredth of anything else. If a score is 0 in every run,
+/// its spread says nothing, and another adapter need not agree to the last bit.
 const LEAST_LIMITS: [(&str, f64); 2] = [("px", 0.1), ("", 0.005)];
 
-/// What every run measured, per scene and filter.
+/// Scores of several runs, per scene and filter.
 #[derive(Clone, Debug, Default)]
 pub struct Calibration {
-    /// Per scene, `filter:preset` and metric, its score in every run where it applies.
+    /// Score in every run to which it applies, per scene, `filter:preset` and metric.
     pub scores: BTreeMap<String, BTreeMap<String, BTreeMap<String, Vec<Sample>>>>,
     /// Columns and rows of the pictures.
     pub size: (u32, u32),
@@ -32,24 +33,24 @@ pub struct Calibration {
 /// A score of one run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// The score.
+    /// Score.
     pub score: Score,
-    /// Its interval, where the truth can tell.
+    /// Its interval, if the truth can tell.
     pub interval: Option<Interval>,
 }
 
-/// A limit that a filter keeps on a scene.
+/// Limit that a filter keeps on a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Proposal {
     /// Name of the metric.
     pub metric: String,
-    /// The proposed limit.
+    /// Proposed limit.
     pub limit: f64,
-    /// What it follows from, in a line.
+    /// Reason for it, in one line.
     pub why: String,
 }
 
-/// Gathers the scores of several runs of the same scenes, size and filters that have a bound; of all `metrics` if any are given.
+/// Gathers the scores that have a bound from several runs of the same scenes, size and filters; those of `metrics` if any are given.
 pub fn calibrate<'a>(
     runs: &[Run],
     bounds: impl Fn(&Case) -> &'a SceneBounds,
@@ -81,11 +82,10 @@ pub fn calibrate<'a>(
     calibration
 }
 
-/// The limit that follows from the scores of one metric. Of their distances from perfect (for scores that are better the
-/// higher, of the scores) it is the worst that any interval reaches, since a check asks that of a score, plus a margin: three
-/// standard deviations between runs, or a twentieth of the worst score if that is more. It is at least 1.2 times as far
-/// from perfect as the strictest limit that the truth's noise carries, and at least a tenth of a pixel or half a hundredth;
-/// rounded to two digits away from perfect.
+/// Proposes the limit that follows from the scores of one metric. It is the worst value that any interval reaches, since a check
+/// asks that of a score, plus a margin: three standard deviations between runs, or a twentieth of the worst score if that is more.
+/// It is at least 1.2 times as far from perfect as the strictest limit that the truth's noise carries, and at least a tenth of a
+/// pixel or half a hundredth. It is rounded to two digits, away from perfect.
 pub fn propose(metric: Metric, samples: &[Sample]) -> Proposal {
     let ideal = metric.ideal();
     let worst_of = |values: &[f64]| values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -99,7 +99,7 @@ pub fn propose(metric: Metric, samples: &[Sample]) -> Proposal {
         })
         .collect();
     let worst = worst_of(&badness);
-    let deviation = deviation(&badness);
+    let deviation = standard_deviation(&badness);
     let margin = (DEVIATIONS * deviation).max(LEAST_PART * worst.abs());
     let far = worst_of(&reached) + margin;
     let bearable = (samples.iter()).map(|sample| metric.strictest_bound(sample.score.floor));
@@ -133,15 +133,15 @@ pub fn propose(metric: Metric, samples: &[Sample]) -> Proposal {
     }
 }
 
-/// Standard deviation of at least one value; 0 of one.
-fn deviation(values: &[f64]) -> f64 {
+/// Returns the standard deviation of at least one value; 0 for one value.
+fn standard_deviation(values: &[f64]) -> f64 {
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
     let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
     (squares / (count - 1.0).max(1.0)).sqrt()
 }
 
-/// To two significant digits, by a rounding of the last one.
+/// Rounds to two significant digits, by a rounding of the last one.
 fn round_away(value: f64, rounding: fn(f64) -> f64) -> f64 {
     if value == 0.0 {
         return 0.0;
@@ -153,7 +153,7 @@ fn round_away(value: f64, rounding: fn(f64) -> f64) -> f64 {
 }
 
 impl Calibration {
-    /// The proposed bounds of one scene as its bounds.toml.
+    /// Formats the proposed bounds of one scene as its bounds.toml.
     pub fn toml(&self, scene: &str) -> String {
         let (width, height) = self.size;
         let mut text = String::new();

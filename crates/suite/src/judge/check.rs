@@ -1,65 +1,39 @@
-//! Decision on a finished run, and its output as text, JUnit and GitHub annotations.
+//! Check of a finished run: its findings and the decision that follows.
 
 use serde::Serialize;
 
-use crate::judge::baseline::Comparison;
-use crate::judge::bounds::Level;
+use crate::judge::baseline::BaselineComparison;
+use crate::judge::decision::Decision;
 use crate::judge::{Finding, Outcome};
 use crate::run::failure::refuse_failures;
 use crate::{Error, Failure, Run};
 
-/// Version of the layout of what `check --json` prints.
+/// Version of the layout of a check as JSON.
 pub const CHECK_FORMAT: u32 = 1;
 
-/// All that a check found.
+/// Results of a check.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Check {
     /// [`CHECK_FORMAT`].
     pub format: u32,
     /// Program name and version.
     pub program: String,
-    /// What it comes to.
+    /// Decision that follows.
     pub decision: Decision,
     /// Cases that failed and have no scores.
     pub failures: Vec<Failure>,
     /// One per bounded score, in the order of the run.
     pub findings: Vec<Finding>,
-    /// Against a baseline, one per filter and metric with a margin; empty without a baseline.
-    pub comparisons: Vec<Comparison>,
+    /// Comparisons with a baseline, one per filter and metric with a margin; empty without a baseline.
+    pub comparisons: Vec<BaselineComparison>,
 }
 
-/// What a check comes to; a later one outweighs an earlier one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Decision {
-    /// Every required bound is kept.
-    Pass,
-    /// None is broken, but of some the truth cannot tell.
-    Inconclusive,
-    /// A required bound is broken, or a case failed.
-    Broken,
-    /// A bound is narrower than the truth's noise can carry, or a case has none that applies.
-    Misconfigured,
-}
-
-impl Decision {
-    /// What one finding alone comes to.
-    pub fn of(finding: &Finding) -> Self {
-        match (finding.outcome, finding.level) {
-            (Outcome::TooNoisy, _) => Decision::Misconfigured,
-            (Outcome::Broken, Level::Required) => Decision::Broken,
-            (Outcome::Inconclusive, Level::Required) => Decision::Inconclusive,
-            _ => Decision::Pass,
-        }
-    }
-}
-
-/// Sums up the findings about a finished run and, where there is a baseline, the comparisons with it. Pure: reads nothing,
+/// Decides on a finished run by the findings about it and, if there is a baseline, the comparisons with it. Pure: reads nothing,
 /// prints nothing.
-pub fn check(run: &Run, findings: Vec<Finding>, comparisons: Vec<Comparison>) -> Check {
+pub fn check(run: &Run, findings: Vec<Finding>, comparisons: Vec<BaselineComparison>) -> Check {
     let applies = |finding: &Finding| finding.outcome != Outcome::NotApplicable;
-    let bounds = findings.iter().map(Decision::of);
-    let baseline = comparisons.iter().map(Comparison::decision);
+    let bounds = findings.iter().map(Finding::decision);
+    let baseline = comparisons.iter().map(BaselineComparison::decision);
     let unchecked = match comparisons.is_empty() {
         true => (run.cases.iter()).any(|case| {
             !case.bar && !(findings.iter()).any(|finding| applies(finding) && finding.is_of(case))
@@ -81,17 +55,17 @@ pub fn check(run: &Run, findings: Vec<Finding>, comparisons: Vec<Comparison>) ->
 }
 
 impl Check {
-    /// Number of findings with this outcome.
+    /// Counts the findings with this outcome.
     pub fn count(&self, outcome: Outcome) -> usize {
         (self.findings.iter())
             .filter(|finding| finding.outcome == outcome)
             .count()
     }
 
-    /// The error that ends the command with the decision's exit code; none where it passes.
+    /// Returns the error that ends the command with the decision's exit code; none if the check passes.
     pub fn verdict(&self) -> Result<(), Error> {
-        let bounds = self.findings.iter().map(Decision::of);
-        let all = bounds.chain(self.comparisons.iter().map(Comparison::decision));
+        let bounds = self.findings.iter().map(Finding::decision);
+        let all = bounds.chain(self.comparisons.iter().map(BaselineComparison::decision));
         let count = all.filter(|found| *found == self.decision).count();
         let counted = |one: &str, many: &str| match count {
             1 => one.to_owned(),
@@ -100,7 +74,7 @@ impl Check {
         match self.decision {
             Decision::Pass => Ok(()),
             Decision::Inconclusive => Err(Error::Inconclusive(format!(
-                "{} cannot be told from the truth's noise; raise --samples-per-pixel as said above",
+                "{} cannot be told from the truth's noise; raise the samples per pixel as said above",
                 counted("a required score", "required scores")
             ))),
             Decision::Broken if !self.failures.is_empty() => refuse_failures(&self.failures),
@@ -113,7 +87,7 @@ impl Check {
                     .to_owned(),
             )),
             Decision::Misconfigured => Err(Error::Usage(format!(
-                "{} stricter than three noise floors; raise the limit, or --samples-per-pixel, as said above",
+                "{} stricter than three noise floors; raise the limit, or the samples per pixel, as said above",
                 counted("a bound is", "bounds are")
             ))),
         }

@@ -1,4 +1,4 @@
-//! Evidence of bounds that are not kept: the place where a picture is worst, and the wrong blur that it is most like.
+//! Evidence of bounds that are not kept: the worst place of a picture, and the wrong blur that it resembles most.
 
 use std::path::Path;
 
@@ -10,8 +10,8 @@ use super::finding::Finding;
 use super::worst::{Worst, worst_block, write_crop};
 use crate::{Case, Error, Run};
 
-/// Adds evidence to every notable finding of a run, from the files that the run left below `folder`, and writes a picture of
-/// each worst place into its case's folder.
+/// Adds evidence to every notable finding of a run, from the run's files below `folder`, and writes a picture of each worst place
+/// into its case's folder.
 pub fn add_evidence(run: &Run, findings: &mut [Finding], folder: &Path) -> Result<(), Error> {
     let mut notable: Vec<(&Case, Vec<&mut Finding>)> = Vec::new();
     for finding in findings
@@ -46,7 +46,7 @@ fn add_evidence_of_truth(
     let (truth, ladder) = (Truth::read(&file("truth"))?, Ladder::read(&file("ladder"))?);
     let reference = Reference::new(&frame, &truth, Some(&ladder), &frame.display.into())?;
     let decoys = Decoys::new(&frame, &truth, &ladder, &reference)?;
-    let shown = Shown {
+    let places = WorstPlaces {
         regions: &reference.regions,
         truth: &truth.mean().color,
         stops: frame.display.stops,
@@ -55,7 +55,7 @@ fn add_evidence_of_truth(
         let resembles = decoys.nearest(&case.scores);
         let files = CaseFiles::read(case, folder)?;
         for finding in findings {
-            finding.worst = Some(shown.worst(case, &files, finding, folder)?);
+            finding.worst = Some(places.show_worst(case, &files, finding, folder)?);
             finding.resembles = resembles.clone();
         }
     }
@@ -78,17 +78,17 @@ impl CaseFiles {
     }
 }
 
-/// What worst places are searched and shown with.
-struct Shown<'a> {
+/// Inputs to find and show worst places.
+struct WorstPlaces<'a> {
     regions: &'a Regions,
     truth: &'a Image,
-    /// The display exposure of pictures, in stops.
+    /// Display exposure of pictures, in stops.
     stops: f32,
 }
 
-impl Shown<'_> {
-    /// Finds where the error of a finding's metric is largest, and writes a picture of it into the case's folder.
-    fn worst(
+impl WorstPlaces<'_> {
+    /// Finds the largest error of a finding's metric, and writes a picture of its place into the case's folder.
+    fn show_worst(
         &self,
         case: &Case,
         files: &CaseFiles,

@@ -1,42 +1,43 @@
-//! One bounded score, with everything there is to say about it.
+//! Finding about one bounded score.
 
 use std::path::PathBuf;
 
 use metrics::{Interval, Measured, Metric};
 use serde::{Deserialize, Serialize};
 
-use super::Judged;
+use super::decision::Decision;
 use super::decoys::Resemblance;
+use super::judged_score::JudgedScore;
 use super::outcome::{Outcome, limit_as_badness};
 use super::worst::Worst;
 use crate::judge::bounds::Level;
 use crate::{Case, Run};
 
-/// A score and its bound.
+/// A score, its bound, and how they stand to each other.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Finding {
-    /// How the score stands to its bound.
+    /// Outcome of the bound.
     #[serde(rename = "kind")]
     pub outcome: Outcome,
-    /// What it means to break the bound.
+    /// Consequence of breaking the bound.
     pub level: Level,
     /// Scene, with its variant.
     pub scene: String,
-    /// `filter:preset`, and the form of its input where that is not the usual one.
+    /// `filter:preset`, and the form of its input if that is not the usual one.
     pub filter: String,
     /// Name of the metric.
     pub metric: String,
     /// Its unit; empty for a pure number.
     pub unit: String,
-    /// The score; none where the metric does not apply.
+    /// Score; none if the metric does not apply.
     pub value: Option<f64>,
-    /// 95 % CI of the score against a truth without noise; none where that cannot be told.
+    /// 95 % confidence interval of the score against a truth without noise; none if that cannot be told.
     pub interval: Option<Interval>,
-    /// The limit.
+    /// Limit of the bound.
     pub limit: f64,
-    /// Noise floor of the score; none where the metric does not apply.
+    /// Noise floor of the score; none if the metric does not apply.
     pub floor: Option<f64>,
-    /// The strictest limit that the floor can carry.
+    /// Strictest limit that the floor can carry.
     pub strictest: Option<f64>,
     /// Reason for the limit.
     pub why: String,
@@ -46,17 +47,17 @@ pub struct Finding {
     pub reason: Option<String>,
     /// Samples per pixel that would settle an inconclusive score.
     pub settled_by: Option<u64>,
-    /// Place where the error is largest; none where nobody asked for evidence.
+    /// Place of the largest error; none without evidence.
     pub worst: Option<Worst>,
-    /// The wrong blur that the picture is most like; none where it is like none, or nobody asked for evidence.
+    /// Wrong blur that the picture resembles most; none if it resembles none, or without evidence.
     pub resembles: Option<Resemblance>,
     /// Folder of the case's pictures, relative to `run.json`.
     pub pictures: PathBuf,
 }
 
-/// Samples per pixel, 8 times a power of two, that would part the interval from the limit if its middle stayed: widths fall
-/// as the root of the samples.
-fn settled_by(run: &Run, metric: Metric, interval: &Interval, limit: f64) -> u64 {
+/// Estimates the samples per pixel that would settle the score: doubles the run's until the interval, whose width falls as the root
+/// of the samples, leaves the limit outside. Assumes that its middle stays.
+fn samples_to_settle(run: &Run, metric: Metric, interval: &Interval, limit: f64) -> u64 {
     let middle = metric.ideal().badness((interval.low + interval.high) / 2.0);
     let apart = (middle - limit_as_badness(metric.ideal(), limit)).abs();
     let half_width = (interval.high - interval.low) / 2.0;
@@ -68,13 +69,13 @@ fn settled_by(run: &Run, metric: Metric, interval: &Interval, limit: f64) -> u64
     samples
 }
 
-/// Samples per pixel that a truth may have at most: a score that needs as many or more stays undecided.
+/// Upper limit on the samples per pixel of a truth: a score that needs as many or more stays undecided.
 pub const MOST_SAMPLES: u64 = tracer::MOST_SAMPLES as u64;
 
 impl Finding {
-    /// What `judged` says of a case of a run, without evidence.
-    pub(super) fn new(run: &Run, case: &Case, judged: Judged) -> Self {
-        let Judged {
+    /// Makes the finding about a judged score of a case, without evidence.
+    pub(super) fn new(run: &Run, case: &Case, judged: JudgedScore) -> Self {
+        let JudgedScore {
             metric: name,
             bound,
             measured,
@@ -103,7 +104,7 @@ impl Finding {
             reason,
             settled_by: match (outcome, &interval) {
                 (Outcome::Inconclusive, Some(interval)) => {
-                    Some(settled_by(run, metric, interval, bound.limit))
+                    Some(samples_to_settle(run, metric, interval, bound.limit))
                 }
                 _ => None,
             },
@@ -113,13 +114,23 @@ impl Finding {
         }
     }
 
-    /// True for a finding about this case.
+    /// Returns the decision that follows from this finding alone.
+    pub fn decision(&self) -> Decision {
+        match (self.outcome, self.level) {
+            (Outcome::TooNoisy, _) => Decision::Misconfigured,
+            (Outcome::Broken, Level::Required) => Decision::Broken,
+            (Outcome::Inconclusive, Level::Required) => Decision::Inconclusive,
+            _ => Decision::Pass,
+        }
+    }
+
+    /// Returns true for a finding about this case.
     pub fn is_of(&self, case: &Case) -> bool {
         self.scene == case.scene && self.filter == case.name()
     }
 
-    /// The score with its unit: `0.0921`, `1.31 px`.
-    pub fn shown(&self, value: f64) -> String {
+    /// Formats a score with its unit: `0.0921`, `1.31 px`.
+    pub fn with_unit(&self, value: f64) -> String {
         match self.unit.as_str() {
             "" => number(value),
             unit => format!("{} {unit}", number(value)),
@@ -127,7 +138,7 @@ impl Finding {
     }
 }
 
-/// A number with four significant digits, as people write it.
+/// Formats a number with four significant digits, as people write it.
 pub fn number(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");

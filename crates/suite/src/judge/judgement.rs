@@ -1,4 +1,4 @@
-//! Findings as a file beside the run that they are about.
+//! Findings about a run, as a file beside it.
 
 use std::path::Path;
 use std::str::FromStr;
@@ -31,7 +31,7 @@ pub struct Judgement {
 }
 
 impl Judgement {
-    /// Findings about the run in `folder`, whose `run.json` is written.
+    /// Makes the judgement of the run in `folder`, whose `run.json` is written.
     pub fn new(folder: &Path, findings: Vec<Finding>) -> Result<Self, Error> {
         Ok(Self {
             format: JUDGEMENT_FORMAT,
@@ -50,8 +50,8 @@ impl Judgement {
         )?)
     }
 
-    /// Reads the judgement of `run`, whose `run.json` lies in `folder`; none where the run was never judged. A judgement of another
-    /// run is refused, and one that names places or files elsewhere.
+    /// Reads the judgement of `run`, whose `run.json` lies in `folder`; none if the run was never judged. Refuses a judgement of
+    /// another run, and one that names places or files elsewhere.
     pub fn read(run: &Run, folder: &Path) -> Result<Option<Self>, Error> {
         let path = folder.join(JUDGEMENT_FILE);
         if !path.exists() {
@@ -76,7 +76,8 @@ impl Judgement {
         if judgement.run != hash_of_run(folder)? {
             return refuse("is about another run.json".to_owned());
         }
-        let broken = (judgement.findings.iter()).find_map(|finding| check(finding, run).err());
+        let broken =
+            (judgement.findings.iter()).find_map(|finding| check_finding(finding, run).err());
         match broken {
             Some(error) => refuse(error),
             None => Ok(Some(judgement)),
@@ -84,7 +85,8 @@ impl Judgement {
     }
 }
 
-fn check(finding: &Finding, run: &Run) -> Result<(), String> {
+/// Refuses a finding about an unknown metric, or with a place outside of the run's pictures or folder.
+fn check_finding(finding: &Finding, run: &Run) -> Result<(), String> {
     Metric::from_str(&finding.metric)?;
     match &finding.worst {
         Some(worst) if worst.x >= run.width || worst.y >= run.height => Err(format!(

@@ -1,26 +1,26 @@
-//! Outcome of one bound: whether a score keeps its limit.
+//! Outcome of one bound.
 
 use metrics::{Ideal, Interval, Measured, Metric};
 use serde::{Deserialize, Serialize};
 
-/// How a score stands to its bound.
+/// Relation of a score to its bound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
-    /// All of its interval lies on the right side of the limit; without an interval, its value.
+    /// The whole interval of the score lies on the right side of the limit; without an interval, its value does.
     Kept,
-    /// All of it lies on the wrong side.
+    /// The whole interval lies on the wrong side.
     Broken,
-    /// The interval lies on both sides of the limit, or parts of the truth cannot tell the score.
+    /// The interval holds the limit, or parts of the truth cannot tell the score.
     Inconclusive,
-    /// The limit is stricter than the truth's noise can carry, three floors: neither kept nor broken.
+    /// The limit is stricter than the truth's noise can carry, which is three floors: neither kept nor broken.
     TooNoisy,
     /// The metric does not apply to this scene.
     NotApplicable,
 }
 
 impl Outcome {
-    /// True for an outcome that a person will want to see the cause of.
+    /// Returns true for an outcome whose cause a person will want to see.
     pub fn is_notable(self) -> bool {
         match self {
             Outcome::Broken | Outcome::Inconclusive | Outcome::TooNoisy => true,
@@ -29,9 +29,9 @@ impl Outcome {
     }
 }
 
-/// Compares a score with a limit: by its interval where `interval` is given, by its value otherwise. `Some(None)` is a score
-/// whose interval the truth cannot tell.
-pub fn outcome(
+/// Compares a score with a limit: by its interval if `interval` is given, by its value otherwise. `Some(None)` is a score whose
+/// interval the truth cannot tell.
+pub fn judge_score(
     metric: Metric,
     measured: &Measured,
     interval: Option<Option<&Interval>>,
@@ -67,7 +67,7 @@ pub fn limit_as_badness(ideal: Ideal, limit: f64) -> f64 {
     }
 }
 
-/// Least and largest badness within an interval.
+/// Returns the least and the largest badness within an interval.
 pub fn badness_within(ideal: Ideal, interval: &Interval) -> (f64, f64) {
     let [low, high] = [interval.low, interval.high].map(|end| ideal.badness(end));
     match ideal {

@@ -8,14 +8,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::run::pictures::magma;
 
-/// The place of the largest error.
+/// Place of the largest error.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Worst {
     /// Column of the middle of the worst block.
     pub x: u32,
-    /// Row of it.
+    /// Row of the middle.
     pub y: u32,
-    /// The error map that was searched, as errors.exr calls it.
+    /// Error map that was searched, as errors.exr calls it.
     pub map: String,
     /// Truth, output and error around it, side by side; relative to `run.json`.
     pub picture: PathBuf,
@@ -23,14 +23,14 @@ pub struct Worst {
 
 /// Side of the blocks whose sums are compared, in pixels: larger than the noise of pixels, smaller than most movers.
 pub const BLOCK: u32 = 16;
-/// Side of what is shown around the worst block, in pixels.
+/// Side of the crop around the worst block, in pixels.
 pub const CROP: u32 = 64;
-/// Every pixel is shown as so many by so many.
+/// Side of an enlarged pixel of a crop.
 const ENLARGED: u32 = 4;
-/// Between the panels, in shown pixels.
+/// Gap between the panels, in shown pixels.
 const GAP: u32 = 8;
 
-/// The middle of the block whose sum over the metric's region is largest; the first of equal ones.
+/// Returns the middle of the block with the largest sum over the metric's region; the first of equal ones.
 pub fn worst_block(metric: Metric, map: &Plane, regions: &Regions) -> (u32, u32) {
     let mask = regions.mask(metric.region());
     let inside = |x: u32, y: u32| mask.is_none_or(|mask| *mask.at(x, y));
@@ -57,8 +57,8 @@ pub fn worst_block(metric: Metric, map: &Plane, regions: &Regions) -> (u32, u32)
     )
 }
 
-/// Writes truth, output and error around a place, enlarged, from left to right; the error as bright as it is in comparison
-/// with the largest of the crop.
+/// Writes truth, output and error around a place, enlarged, from left to right; the brightness of the error is relative to the
+/// largest of the crop.
 pub fn write_crop(
     path: &Path,
     (x, y): (u32, u32),

@@ -4,11 +4,8 @@ use metrics::Measured;
 use serde::{Deserialize, Serialize};
 
 use super::headline::Headline;
-use super::scene_mean::{Weighted, scene_mean};
+use super::scene_mean::{TWO_SIDED, Weighted, scene_mean};
 use crate::Case;
-
-/// The mean over all such scenes lies beyond either end of its interval with this probability.
-const TAIL: f64 = 0.025;
 
 /// One metric of one filter preset, or of one bar, over the scenes that it applies to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -92,7 +89,7 @@ fn mean(own: &[&Case], headline: Headline, all: &[Case]) -> Option<Overall> {
         })
         .collect();
     (scores.len() >= 2).then(|| {
-        let found = scene_mean(&scores, TAIL);
+        let found = scene_mean(&scores, TWO_SIDED);
         Overall {
             filter: own[0].name(),
             bar: own[0].bar,
@@ -100,7 +97,7 @@ fn mean(own: &[&Case], headline: Headline, all: &[Case]) -> Option<Overall> {
             metric: headline.name(),
             scenes: scores.len(),
             mean: found.mean,
-            interval: found.bounds,
+            interval: found.interval,
         }
     })
 }

@@ -1,4 +1,4 @@
-//! Cost of a candidate relative to the values that tuning starts from.
+//! GPU time of a candidate relative to the start of the tuning.
 
 use filters::{Blur, FilterError, Gpu, Input, Settings};
 use frame::Frame;
@@ -8,20 +8,20 @@ use crate::FilterChoice;
 /// Rounds of one candidate and the start in turn; odd, so that the median is one of them.
 const ROUNDS: usize = 5;
 
-/// A filter to be timed on one frame.
+/// Comparison of GPU times on one frame.
 pub struct Stopwatch<'a> {
-    /// What it runs on.
+    /// Adapter that the filter runs on.
     pub gpu: &'a Gpu,
-    /// The filter, with the values that cost 1.
+    /// The filter, with the values whose cost is 1.
     pub choice: &'a FilterChoice,
-    /// What it is given.
+    /// Input of the filter.
     pub frame: &'a Frame,
 }
 
 impl Stopwatch<'_> {
-    /// GPU time of all passes over that of the start, in turns: the median of the rounds' ratios. A round before the first is
-    /// not counted.
-    pub fn ratio(&self, settings: &Settings) -> Result<f64, FilterError> {
+    /// Times candidate and start in turns, all passes of each, and returns the median ratio over the rounds. Runs one round
+    /// before them that does not count.
+    pub fn measure_ratio(&self, settings: &Settings) -> Result<f64, FilterError> {
         let (width, height) = self.frame.size();
         let blur = |settings| Blur::new(self.gpu, &self.choice.filter, settings, width, height);
         let input = Input {

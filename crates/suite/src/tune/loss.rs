@@ -2,24 +2,23 @@
 
 use std::collections::BTreeMap;
 
-use super::SceneScore;
+use super::target::SceneScore;
 
-/// What a candidate that does not run is told to have: as bad as an error e^3 = 20 times the start's.
+/// Loss of a candidate that does not run: as bad as an error e^3 = 20 times the start's.
 pub const FAILED: f64 = 3.0;
-/// Lateral bleed, in pixels, that is too little to be told from none.
+/// Lateral bleed, in pixels, below which a difference counts as none.
 pub const LEAST_BLEED: f64 = 0.01;
-/// An error below this is as good as none: FLIP of half a step of 8 bits in one pixel of a thousand.
+/// FLIP that is as good as none: half a step of 8 bits in one pixel of a thousand.
 const LEAST_FLIP: f64 = 1e-6;
-/// Weight of what a broken limit or bound is exceeded by, in parts of it: 10 % too much cost weighs as much as an error
-/// 22 % larger.
+/// Weight of an exceeded limit or bound, per fraction of the limit: 10 % too much cost weighs as much as an error 22 % larger.
 const PENALTY: f64 = 2.0;
 
-/// Log of a scene's error over that of the start: below 0 is better.
+/// Returns the log of a scene's error over that of the start: below 0 is better.
 pub fn log_ratio(score: &SceneScore, start: &SceneScore) -> f64 {
     (score.flip.max(LEAST_FLIP) / start.flip.max(LEAST_FLIP)).ln()
 }
 
-/// Mean of [`log_ratio`] over the scenes that `scores` names. `None` of no scene.
+/// Averages [`log_ratio`] over the scenes of `scores` that `counts` takes; none if it takes no scene.
 pub fn mean_log_ratio(
     scores: &BTreeMap<String, SceneScore>,
     start: &BTreeMap<String, SceneScore>,
@@ -38,7 +37,7 @@ pub fn worst_bleed(scores: &BTreeMap<String, SceneScore>) -> Option<f64> {
     bleeds.max_by(f64::total_cmp)
 }
 
-/// A penalty for a value above its limit; none where there is no limit or no value.
+/// Returns the penalty for a value above its limit; 0 if there is no limit or no value.
 pub fn penalty(value: Option<f64>, limit: Option<f64>) -> f64 {
     match (value, limit) {
         (Some(value), Some(limit)) if value > limit => {
@@ -48,10 +47,10 @@ pub fn penalty(value: Option<f64>, limit: Option<f64>) -> f64 {
     }
 }
 
-/// A penalty for broken bounds, from what they are exceeded by in parts of themselves.
+/// Returns the penalty for broken bounds, from the fraction by which they are exceeded.
 pub fn bounds_penalty(excess: f64) -> f64 {
     PENALTY * excess.min(1.0)
 }
 
-/// A limit of zero, such as the bleed of a start that never bleeds, is exceeded by parts of this.
+/// Divisor for limits that are smaller, such as the bleed of a start that never bleeds.
 const SMALLEST_LIMIT: f64 = 0.05;

@@ -1,8 +1,8 @@
-//! Pareto front: trials that no other one beats in everything.
+//! Pareto front of trials.
 
-/// Indices of the rows that no other row beats: none is as low in every column and lower in one. Of equal rows the first one
-/// is kept.
-pub fn front(rows: &[Vec<f64>]) -> Vec<usize> {
+/// Returns the indices of the rows that no other row beats: no other is as low in every column and lower in one. Keeps the
+/// first of equal rows.
+pub fn pareto_front(rows: &[Vec<f64>]) -> Vec<usize> {
     let beats = |a: &[f64], b: &[f64]| {
         let no_worse = a.iter().zip(b).all(|(a, b)| a <= b);
         no_worse && a != b

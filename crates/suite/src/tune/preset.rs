@@ -1,13 +1,14 @@
-//! The choice as a preset of filter.toml.
+//! Choice of a tuning as a preset of filter.toml.
 
 use filters::{TuningRecord, Value};
 
-use super::{TunePlan, Tuning};
+use super::options::TuneOptions;
+use super::tuning::Tuning;
 
-/// A `[[preset]]` called `tuned`, with how it was found and the values that differ from the parameters' defaults.
-/// Values in pixels that were scaled to the width of the scenes are meant for that width.
-pub fn preset_text(tuning: &Tuning, plan: &TunePlan) -> String {
-    let render = &plan.render;
+/// Formats a `[[preset]]` called `tuned`, with a record of the tuning and the values that differ from the parameters' defaults.
+/// Values in pixels that were scaled to the width of the scenes hold for that width.
+pub fn tuned_preset_toml(tuning: &Tuning, options: &TuneOptions) -> String {
+    let render = &options.render;
     let journal = &tuning.journal;
     let tuned = TuningRecord {
         by: journal.program.clone(),
@@ -20,16 +21,16 @@ pub fn preset_text(tuning: &Tuning, plan: &TunePlan) -> String {
             .map(|(scene, _)| scene.clone())
             .collect(),
     };
-    let width = match plan.space.start.reference_width {
+    let width = match options.space.start.reference_width {
         Some(_) => format!("reference_width = {}\n", render.width),
         None => String::new(),
     };
     let mut text = format!(
         "[[preset]]\nname = \"tuned\"\ndoc = \"{}'s values, tuned for a smaller error.\"\n{width}[preset.tuned]\n{}[preset.values]\n",
         journal.start,
-        toml::to_string(&tuned).expect("a provenance is plain data")
+        toml::to_string(&tuned).expect("a record is plain data")
     );
-    for parameter in &plan.choice.filter.parameters {
+    for parameter in &options.choice.filter.parameters {
         let value = &tuning.values[&parameter.name];
         if *value != parameter.default {
             text += &match value {

@@ -1,10 +1,10 @@
-//! Random numbers that are the same in every version.
+//! Random numbers that are the same in every version of the program.
 
 /// SplitMix64 (Steele, Lea and Flood 2014).
 pub(crate) struct Random(pub u64);
 
 impl Random {
-    /// A number below `count`.
+    /// Returns a number below `count`.
     pub fn below(&mut self, count: usize) -> usize {
         ((u128::from(self.bits()) * count as u128) >> 64) as usize
     }

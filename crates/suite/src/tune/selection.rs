@@ -6,49 +6,51 @@ use filters::Settings;
 use serde::{Deserialize, Serialize};
 
 use super::loss::{log_ratio, mean_log_ratio};
-use super::{SceneScore, Space, Trial};
+use super::space::Space;
+use super::target::SceneScore;
+use super::trial::Trial;
 
-/// What the choice has to keep.
+/// Upper limits on the choice.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Limits {
-    /// GPU time over that of the start.
+pub struct ChoiceLimits {
+    /// GPU time relative to that of the start.
     pub cost: Option<f64>,
     /// Lateral bleed of the worst scene, in pixels.
     pub bleed: Option<f64>,
 }
 
-impl Limits {
-    /// Whether a trial ran everywhere and keeps the limits.
+impl ChoiceLimits {
+    /// Returns true if a trial ran on every scene and keeps the limits.
     pub fn allow(&self, trial: &Trial) -> bool {
         let kept = |value: Option<f64>, limit: Option<f64>| match limit {
             Some(limit) => value.is_some_and(|value| value <= limit),
             None => true,
         };
-        // The start defines what the limits are relative to; noise of a clock does not put it out.
+        // The limits are relative to the start; noise of the clock must not exclude it.
         let is_start = trial.trial == 0;
         trial.is_done()
             && (is_start || kept(trial.cost, self.cost) && kept(trial.bleed, self.bleed))
     }
 }
 
-/// The trial that the one-standard-error rule takes.
+/// Trial that the one-standard-error rule takes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Choice {
-    /// Its number.
+    /// Number of the chosen trial.
     pub trial: usize,
-    /// The number of the trial with the least loss.
+    /// Number of the trial with the least error.
     pub best: usize,
     /// Standard error of the best one's mean over scenes of log(error / error of the start).
     pub standard_error: f64,
 }
 
-/// Of the trials within limits, whose mean over the scenes that `counts` takes is no more than one standard error above the
-/// best one's, the one nearest to the start: what the scenes cannot tell apart is decided for what there was (Breiman,
-/// Friedman, Olshen and Stone, "Classification and Regression Trees", 1984, section 3.4.3). None where no scene counts.
-pub fn choose(
+/// Chooses among the trials that keep the limits, by their means over the scenes that `counts` takes: the trial nearest to the
+/// start of all within one standard error of the best. So the start wins where the scenes cannot tell (Breiman, Friedman, Olshen
+/// and Stone, "Classification and Regression Trees", 1984, section 3.4.3). None if no scene counts.
+pub fn choose_trial(
     trials: &[Trial],
     space: &Space,
-    limits: Limits,
+    limits: ChoiceLimits,
     counts: impl Fn(&str) -> bool,
 ) -> Option<Choice> {
     let start = &trials.first()?.scenes;
@@ -57,8 +59,8 @@ pub fn choose(
         .map(|trial| Some((trial, mean_log_ratio(&trial.scenes, start, &counts)?)))
         .collect::<Option<_>>()?;
     let (best, least) = (allowed.iter().copied()).min_by(|(_, a), (_, b)| a.total_cmp(b))?;
-    let standard_error = standard_error(best, start, &counts);
-    let distance = |trial: &Trial| space.distance(&settings(space, trial), &space.start);
+    let standard_error = standard_error_of_mean(best, start, &counts);
+    let distance = |trial: &Trial| space.distance(&trial_settings(space, trial), &space.start);
     let (chosen, _) = (allowed.iter())
         .filter(|(_, error)| *error <= least + standard_error)
         .min_by(|(a, a_error), (b, b_error)| {
@@ -72,15 +74,15 @@ pub fn choose(
     })
 }
 
-/// A trial's values with those that all share.
-pub fn settings(space: &Space, trial: &Trial) -> Settings {
+/// Adds the values that all trials share to those of one trial.
+pub fn trial_settings(space: &Space, trial: &Trial) -> Settings {
     let mut settings = space.start.clone();
     settings.values.extend(trial.values.clone());
     settings
 }
 
-/// 0 of a single scene, which says nothing about others.
-fn standard_error(
+/// Returns the standard error of a trial's mean log ratio; 0 for a single scene, which says nothing about others.
+fn standard_error_of_mean(
     trial: &Trial,
     start: &BTreeMap<String, SceneScore>,
     counts: &impl Fn(&str) -> bool,
@@ -98,29 +100,29 @@ fn standard_error(
     (squares / (count - 1.0) / count).sqrt()
 }
 
-/// How a choice that was made without one family of scenes does on it.
+/// Result on one family of scenes of a choice that was made without it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fold {
-    /// The family that was left out.
+    /// Family that was left out.
     pub family: String,
-    /// How many scenes it has.
+    /// Number of its scenes.
     pub scenes: usize,
-    /// The trial that the other families choose.
+    /// Trial that the other families choose.
     pub trial: usize,
-    /// Its mean log(error / error of the start) on the others.
+    /// The trial's mean log(error / error of the start) on the others.
     pub others: f64,
-    /// The same on the family that was left out.
+    /// The trial's mean on the family that was left out.
     pub held_out: f64,
-    /// `held_out - others`: above 0, the choice is worse where it was not chosen for.
+    /// `held_out - others`: above 0, the choice is worse on the family that it was not chosen for.
     pub gap: f64,
 }
 
-/// Leaves each family out of the choice in turn; nothing of a single family. The trials themselves were searched for on all
-/// scenes: what the folds tell is the overfit of the choice among them, and a sealed set tells that of the search as well.
-pub fn folds(
+/// Leaves each family out of the choice in turn; returns nothing for a single family. The trials themselves were searched for on
+/// all scenes: folds show how much the choice among them overfits, and held-out scenes show that of the search as well.
+pub fn cross_validate(
     trials: &[Trial],
     space: &Space,
-    limits: Limits,
+    limits: ChoiceLimits,
     families: &BTreeMap<&str, Vec<&str>>,
 ) -> Vec<Fold> {
     if families.len() < 2 {
@@ -128,7 +130,7 @@ pub fn folds(
     }
     let fold = |(family, scenes): (&&str, &Vec<&str>)| {
         let held: BTreeSet<&str> = scenes.iter().copied().collect();
-        let choice = choose(trials, space, limits, |scene| !held.contains(scene))?;
+        let choice = choose_trial(trials, space, limits, |scene| !held.contains(scene))?;
         let start = &trials[0].scenes;
         let chosen = &trials[choice.trial].scenes;
         let others = mean_log_ratio(chosen, start, |scene| !held.contains(scene))?;

@@ -3,109 +3,82 @@
 use std::collections::BTreeMap;
 
 use filters::Value;
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 use tracer::{Progress, TraceError, Watch};
 
+use super::evaluator::Evaluator;
 use super::loss::{FAILED, mean_log_ratio};
-use super::morris::{ElementaryEffects, morris};
 use super::sobol::{SobolIndices, sobol_indices};
-use super::{Evaluator, Space};
+use super::space::Space;
 use crate::Error;
 
 /// An axis whose total index is below this, its interval included, may become a constant: it causes less than a fiftieth of
 /// the variance.
 const CONSTANT_TOTAL: f64 = 0.02;
-/// The same by screening alone: its range changes the error by less than so much in the log, which is one percent.
-const CONSTANT_EFFECT: f64 = 0.01;
 /// Points of a slice along an axis.
 const SLICE: usize = 9;
 
-/// How much work goes into a study.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Effort {
-    /// Trajectories of the screening; 0 for none.
-    pub trajectories: usize,
-    /// Rows behind Sobol indices; 0 for none.
-    pub rows: usize,
-}
-
-/// What each parameter does to the error: `sensitivity.json`. The error is the mean over scenes of log(FLIP / FLIP of the
+/// Effect of each parameter on the error: `sensitivity.json`. The error is the mean over scenes of log(FLIP / FLIP of the
 /// start).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sensitivity {
-    /// How many candidates were scored.
+    /// Number of candidates that were scored.
     pub candidates: usize,
-    /// How many of them did not run; they count as very bad.
+    /// Number of candidates that did not run; they count as very bad.
     pub failed: usize,
-    /// Trajectories of the screening; 0 where there was none.
-    #[serde(default)]
-    pub trajectories: usize,
-    /// By parameter.
+    /// Results by parameter.
     pub parameters: BTreeMap<String, ParameterSensitivity>,
 }
 
-/// What one parameter does.
+/// Effect of one parameter.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ParameterSensitivity {
-    /// By screening.
-    pub effects: Option<ElementaryEffects>,
-    /// By variance.
-    pub indices: Option<SobolIndices>,
-    /// Whether it may become a constant.
+    /// Shares of the error's variance.
+    #[serde(deserialize_with = "read_indices")]
+    pub indices: SobolIndices,
+    /// True where the parameter may become a constant.
     pub constant: bool,
-    /// The error along its range, all others at the start.
+    /// The error along the parameter's range, all others at the start.
     pub slice: Vec<(Value, f64)>,
 }
 
-impl ParameterSensitivity {
-    /// How much it matters beside the others of the same study.
-    pub fn importance(&self) -> f64 {
-        match (self.indices, self.effects) {
-            (Some(indices), _) => indices.total.value,
-            (None, Some(effects)) => effects.mean_size,
-            (None, None) => 0.0,
-        }
-    }
+/// Refuses the files of versions that could write elementary effects and no indices.
+fn read_indices<'de, D: Deserializer<'de>>(deserializer: D) -> Result<SobolIndices, D::Error> {
+    Option::deserialize(deserializer)?.ok_or_else(|| {
+        D::Error::custom("a parameter has no Sobol indices: an older version made this study by Morris screening alone")
+    })
 }
 
-impl Effort {
-    /// How many candidates are scored, the slices among them.
-    fn candidates(self, axes: usize) -> usize {
-        self.trajectories * (axes + 1) + self.rows * (axes + 2) + axes * SLICE
-    }
-}
-
-/// Scores many candidates all over the space; `watch` hears of each.
-pub fn sensitivity(
+/// Scores candidates all over the space, `rows` x (axes + 2) for Sobol indices and some more for slices along each axis.
+/// `watch` hears of each.
+pub fn analyze_sensitivity(
     evaluator: &mut Evaluator,
     space: &Space,
-    effort: Effort,
+    rows: usize,
     seed: u64,
     watch: Watch,
 ) -> Result<Sensitivity, Error> {
-    if effort == Effort::default() || effort.trajectories == 1 || effort.rows == 1 {
-        return Err(Error::Usage(
-            "--morris and --sobol: allowed is 2 or more; one walk has no spread".to_owned(),
-        ));
-    }
     let all: Vec<usize> = (0..evaluator.targets.len()).collect();
     let names: Vec<String> = (evaluator.targets.iter())
-        .map(|target| target.shot.name.clone())
+        .map(|target| target.scene.name.clone())
         .collect();
-    let start = evaluator.scores(&space.start, &all, |_, _| true)?;
+    let start = evaluator.score_candidate(&space.start, &all, |_, _| true)?;
     let start: BTreeMap<_, _> = names.iter().cloned().zip(start).collect();
+    let axes = space.axes.len();
+    let planned = rows * (axes + 2) + axes * SLICE;
     let (mut candidates, mut failed) = (0, 0);
     let interrupted = evaluator.monitor.interrupted;
     let mut error = |point: &[f64]| -> Result<f64, Error> {
         let progress = Progress {
             done: candidates as u64,
-            total: effort.candidates(space.axes.len()) as u64,
+            total: planned as u64,
         };
         if watch(progress).is_break() {
             return Err(TraceError::Cancelled.into());
         }
         candidates += 1;
-        match evaluator.scores(&space.settings(point), &all, |_, _| !interrupted()) {
+        match evaluator.score_candidate(&space.settings(point), &all, |_, _| !interrupted()) {
             Ok(scores) if scores.len() == all.len() => {
                 let scores = names.iter().cloned().zip(scores).collect();
                 Ok(mean_log_ratio(&scores, &start, |_| true).expect("there are scenes"))
@@ -118,17 +91,9 @@ pub fn sensitivity(
             }
         }
     };
-    let axes = space.axes.len();
-    let effects = match effort.trajectories {
-        0 => None,
-        trajectories => Some(morris(axes, trajectories, seed, &mut error)?),
-    };
-    let indices = match effort.rows {
-        0 => None,
-        rows => Some(sobol_indices(axes, rows, seed, &mut error)?),
-    };
+    let indices = sobol_indices(axes, rows, seed, &mut error)?;
     let mut parameters = BTreeMap::new();
-    for (index, axis) in space.axes.iter().enumerate() {
+    for (index, (axis, indices)) in space.axes.iter().zip(indices).enumerate() {
         let mut slice: Vec<(Value, f64)> = Vec::new();
         for step in 0..SLICE {
             let mut point = space.point(&space.start);
@@ -138,17 +103,9 @@ pub fn sensitivity(
                 slice.push((value, error(&point)?));
             }
         }
-        let effects = effects.as_ref().map(|effects| effects[index]);
-        let indices = indices.as_ref().map(|indices| indices[index]);
-        let constant = match (indices, effects) {
-            (Some(indices), _) => indices.total.high < CONSTANT_TOTAL,
-            (None, Some(effects)) => effects.mean_size < CONSTANT_EFFECT,
-            (None, None) => false,
-        };
         let found = ParameterSensitivity {
-            effects,
             indices,
-            constant,
+            constant: indices.total.high < CONSTANT_TOTAL,
             slice,
         };
         parameters.insert(axis.name.clone(), found);
@@ -156,7 +113,35 @@ pub fn sensitivity(
     Ok(Sensitivity {
         candidates,
         failed,
-        trajectories: effort.trajectories,
         parameters,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PARAMETER: &str = r#"{"constant": false, "slice": [], "indices": "#;
+    const INDICES: &str = r#"{"first": {"value": 0.1, "low": 0, "high": 0.2}, "total": {"value": 0.3, "low": 0.2, "high": 0.4}}"#;
+
+    #[test]
+    fn effects_of_an_older_version_are_left_out_where_there_are_indices() {
+        let effects = r#""effects": {"mean": 0.1, "mean_size": 0.2, "deviation": 0.3}"#;
+        let text = format!(
+            r#"{{"candidates": 9, "failed": 0, "trajectories": 3, "parameters": {{"samples": {PARAMETER}{INDICES}, {effects}}}}}}}"#
+        );
+        let read: Sensitivity = serde_json::from_str(&text).unwrap();
+        assert_eq!(read.parameters["samples"].indices.total.value, 0.3);
+    }
+
+    #[test]
+    fn effects_of_an_older_version_alone_are_refused() {
+        let read: Result<ParameterSensitivity, _> =
+            serde_json::from_str(&format!("{PARAMETER}null}}"));
+        let error = read.unwrap_err().to_string();
+        assert!(
+            error.contains("no Sobol indices") && error.contains("Morris screening"),
+            "{error}"
+        );
+    }
 }

@@ -1,43 +1,43 @@
-//! Sobol indices: which part of a function's variance each parameter causes.
+//! Sobol indices: the share of a function's variance that each parameter causes.
 
 use serde::{Deserialize, Serialize};
 
 use super::random::Random;
-use super::search::sobol;
+use super::search::sobol_point;
 
-/// Samples of rows behind an interval.
+/// Bootstrap samples behind an interval.
 const SAMPLES: usize = 1000;
 
-/// What one axis causes.
+/// Shares of the variance that one axis causes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SobolIndices {
-    /// Part of the variance that it causes alone.
+    /// Share that it causes alone.
     pub first: Estimate,
-    /// Part that would be gone if it were constant: alone or together with others.
+    /// Share that would be gone if it were constant: caused alone or together with others.
     pub total: Estimate,
 }
 
-/// A value with its 95 % interval.
+/// A value with its 95 % confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
-    /// From all rows.
+    /// Value from all rows.
     pub value: f64,
-    /// Below it lie 2.5 % of what samples of the rows give.
+    /// Lower end: 2.5 % of the bootstrap samples of rows lie below it.
     pub low: f64,
-    /// Above it lie 2.5 %.
+    /// Upper end: 2.5 % lie above it.
     pub high: f64,
 }
 
-/// What a function is at one row of the two matrices, and with one coordinate at a time taken from the second.
+/// Values of the function at one row of the two matrices, and with one coordinate at a time taken from the second.
 struct Row {
     a: f64,
     b: f64,
     mixed: Vec<f64>,
 }
 
-/// Estimates after Jansen (1999), from `rows` rows of a Sobol sequence, which ask `rows` x (`axes` + 2) times (Saltelli and
-/// others, "Variance based sensitivity analysis of model output", Computer Physics Communications 181, 2010, table 2).
-/// All 0 where the function is constant.
+/// Estimates the indices after Jansen (1999), from `rows` rows of a Sobol sequence: calls the function `rows` x (`axes` + 2) times
+/// (Saltelli and others, "Variance based sensitivity analysis of model output", Computer Physics Communications 181, 2010,
+/// table 2). All indices of a constant function are 0.
 pub fn sobol_indices<E>(
     axes: usize,
     rows: usize,
@@ -47,7 +47,7 @@ pub fn sobol_indices<E>(
     assert!(rows >= 2, "one row has no variance");
     let mut asked = Vec::new();
     for index in 0..rows as u32 {
-        let point = sobol(index, 2 * axes, seed);
+        let point = sobol_point(index, 2 * axes, seed);
         let (a, b) = point.split_at(axes);
         let mut mixed = Vec::new();
         for axis in 0..axes {
@@ -78,27 +78,31 @@ pub fn sobol_indices<E>(
     };
     Ok((0..axes)
         .map(|axis| SobolIndices {
-            first: estimate(axis, first),
-            total: estimate(axis, total),
+            first: estimate(axis, first_index),
+            total: estimate(axis, total_index),
         })
         .collect())
 }
 
-fn first(rows: &[&Row], axis: usize) -> f64 {
-    part(
+fn first_index(rows: &[&Row], axis: usize) -> f64 {
+    share_of_variance(
         rows,
         |row| (row.b - row.mixed[axis]).powi(2),
         |left| 1.0 - left,
     )
 }
 
-fn total(rows: &[&Row], axis: usize) -> f64 {
-    part(rows, |row| (row.a - row.mixed[axis]).powi(2), |left| left)
+fn total_index(rows: &[&Row], axis: usize) -> f64 {
+    share_of_variance(rows, |row| (row.a - row.mixed[axis]).powi(2), |left| left)
 }
 
-/// Half of the mean of squares, as a part of the variance.
-fn part(rows: &[&Row], square: impl Fn(&Row) -> f64, index: impl Fn(f64) -> f64) -> f64 {
-    let variance = variance(rows);
+/// Divides half of the mean of squares by the variance.
+fn share_of_variance(
+    rows: &[&Row],
+    square: impl Fn(&Row) -> f64,
+    index: impl Fn(f64) -> f64,
+) -> f64 {
+    let variance = pooled_variance(rows);
     if variance <= 0.0 {
         return 0.0;
     }
@@ -106,7 +110,7 @@ fn part(rows: &[&Row], square: impl Fn(&Row) -> f64, index: impl Fn(f64) -> f64)
     index(squares / (2.0 * rows.len() as f64 * variance))
 }
 
-fn variance(rows: &[&Row]) -> f64 {
+fn pooled_variance(rows: &[&Row]) -> f64 {
     let values = || rows.iter().flat_map(|row| [row.a, row.b]);
     let count = 2.0 * rows.len() as f64;
     let mean = values().sum::<f64>() / count;

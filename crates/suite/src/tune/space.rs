@@ -1,4 +1,4 @@
-//! The parameters that a tuning may change, and the unit cube that an optimiser sees of them.
+//! Parameters that a tuning may change, and their mapping to the unit cube.
 
 use filters::{Filter, Kind, Parameter, Scale, Settings, Value};
 
@@ -7,14 +7,14 @@ use crate::Error;
 /// Some parameters of a filter with their ranges, around a set of values.
 #[derive(Clone, Debug)]
 pub struct Space {
-    /// What all other parameters stay at, and where the tuning starts.
+    /// Values to start from; all other parameters keep them.
     pub start: Settings,
-    /// What may change, each within its own range.
+    /// Parameters that may change, each within its own range.
     pub axes: Vec<Parameter>,
 }
 
 impl Space {
-    /// The axes that `vary` names, each as `name` or `name=low..high`; every tunable parameter where it names none.
+    /// Makes an axis of each parameter that `vary` names, as `name` or `name=low..high`; of every tunable one if it names none.
     pub fn new(filter: &Filter, start: Settings, vary: &[String]) -> Result<Self, Error> {
         let tunable = filter.parameters.iter().filter(|it| it.tunable);
         let tunable: Vec<&Parameter> = tunable.collect();
@@ -27,7 +27,7 @@ impl Space {
         }
         let mut axes: Vec<Parameter> = Vec::new();
         for word in vary {
-            let refuse = |reason: String| Error::Usage(format!("--vary {word}: {reason}"));
+            let refuse = |reason: String| Error::Usage(format!("parameter {word}: {reason}"));
             let (name, range) = match word.split_once('=') {
                 Some((name, range)) => (name, Some(range)),
                 None => (word.as_str(), None),
@@ -46,20 +46,20 @@ impl Space {
                 )));
             }
             if axes.iter().any(|axis| axis.name == name) {
-                return Err(refuse("is named twice".to_owned()));
+                return Err(refuse("it is named twice".to_owned()));
             }
             let mut axis = parameter.clone();
             if let Some(range) = range {
-                axis.kind = narrowed(&parameter.kind, range).map_err(refuse)?;
+                axis.kind = narrow(&parameter.kind, range).map_err(refuse)?;
             }
             axes.push(axis);
         }
         if vary.is_empty() {
             axes = tunable.into_iter().cloned().collect();
         }
-        match axes.iter().find(|axis| !has_a_choice(&axis.kind)) {
+        match axes.iter().find(|axis| !can_vary(&axis.kind)) {
             Some(axis) => Err(Error::Usage(format!(
-                "{}.{}: its range is {}, one value alone; leave it out of --vary",
+                "{}.{}: its range is {}, one value alone; leave it out",
                 filter.name,
                 axis.name,
                 axis.kind.allowed()
@@ -68,7 +68,7 @@ impl Space {
         }
     }
 
-    /// The values at a point of the unit cube.
+    /// Returns the values at a point of the unit cube.
     pub fn settings(&self, point: &[f64]) -> Settings {
         assert_eq!(
             point.len(),
@@ -83,14 +83,14 @@ impl Space {
         settings
     }
 
-    /// Where values lie in the unit cube; what lies outside of an axis's range is moved to its end.
+    /// Maps values to the unit cube; clamps those outside of an axis's range.
     pub fn point(&self, settings: &Settings) -> Vec<f64> {
         let axes = self.axes.iter();
         axes.map(|axis| coordinate_of(&axis.kind, &settings.values[&axis.name]))
             .collect()
     }
 
-    /// How far apart two sets of values are: root mean square over the axes, of which each is 1 long.
+    /// Returns the distance between two sets of values: root mean square over the axes, each of length 1.
     pub fn distance(&self, a: &Settings, b: &Settings) -> f64 {
         let (a, b) = (self.point(a), self.point(b));
         let squares: f64 = a.iter().zip(&b).map(|(a, b)| (a - b).powi(2)).sum();
@@ -98,8 +98,8 @@ impl Space {
     }
 }
 
-/// The part of a range that `low..high` names.
-fn narrowed(kind: &Kind, range: &str) -> Result<Kind, String> {
+/// Narrows a range to `low..high`.
+fn narrow(kind: &Kind, range: &str) -> Result<Kind, String> {
     let example = "allowed is a part of it, such as samples=4..16";
     let ends = range
         .split_once("..")
@@ -134,7 +134,7 @@ fn narrowed(kind: &Kind, range: &str) -> Result<Kind, String> {
     }
 }
 
-fn has_a_choice(kind: &Kind) -> bool {
+fn can_vary(kind: &Kind) -> bool {
     match kind {
         Kind::Integer { min, max, .. } => min < max,
         Kind::Real { min, max, .. } => min < max,
@@ -142,9 +142,9 @@ fn has_a_choice(kind: &Kind) -> bool {
     }
 }
 
-/// The ends between which a coordinate moves. A whole number owns half a step on either side, so that the first and the last
-/// are met as often as any.
-fn ends(kind: &Kind) -> (f64, f64, Scale) {
+/// Returns the ends and the scale of a coordinate's range. A whole number owns half a step on either side, so that the first and
+/// the last are met as often as any other.
+fn coordinate_range(kind: &Kind) -> (f64, f64, Scale) {
     match kind {
         Kind::Integer { min, max, scale } => (f64::from(*min) - 0.5, f64::from(*max) + 0.5, *scale),
         Kind::Real { min, max, scale } => (*min, *max, *scale),
@@ -153,7 +153,7 @@ fn ends(kind: &Kind) -> (f64, f64, Scale) {
 }
 
 fn value_at(kind: &Kind, coordinate: f64) -> Value {
-    let (low, high, scale) = ends(kind);
+    let (low, high, scale) = coordinate_range(kind);
     let coordinate = coordinate.clamp(0.0, 1.0);
     let number = match scale {
         Scale::Linear => low + coordinate * (high - low),
@@ -161,7 +161,7 @@ fn value_at(kind: &Kind, coordinate: f64) -> Value {
     };
     match kind {
         Kind::Integer { min, max, .. } => Value::Integer((number.round() as i32).clamp(*min, *max)),
-        Kind::Real { min, max, .. } => Value::Real(rounded(number).clamp(*min, *max)),
+        Kind::Real { min, max, .. } => Value::Real(round_to_four_digits(number).clamp(*min, *max)),
         Kind::Choice { choices } => {
             let index = (number.round().max(0.0) as usize).min(choices.len() - 1);
             Value::Choice(choices[index].clone())
@@ -170,7 +170,7 @@ fn value_at(kind: &Kind, coordinate: f64) -> Value {
 }
 
 fn coordinate_of(kind: &Kind, value: &Value) -> f64 {
-    let (low, high, scale) = ends(kind);
+    let (low, high, scale) = coordinate_range(kind);
     let number = match (kind, value) {
         (Kind::Choice { choices }, Value::Choice(name)) => {
             let index = choices.iter().position(|choice| choice == name);
@@ -187,8 +187,8 @@ fn coordinate_of(kind: &Kind, value: &Value) -> f64 {
     }
 }
 
-/// Four significant digits: what a person would write into a file, and what two candidates have to share to be one.
-fn rounded(number: f64) -> f64 {
+/// Rounds to four significant digits, as a person would write the value into a file; equal digits make equal candidates.
+fn round_to_four_digits(number: f64) -> f64 {
     format!("{number:.3e}")
         .parse()
         .expect("a number was written")

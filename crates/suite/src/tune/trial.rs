@@ -1,37 +1,38 @@
-//! One candidate, and what became of it.
+//! Trial of a tuning: one candidate and its scores.
 
 use std::collections::BTreeMap;
 
 use filters::Value;
 use serde::{Deserialize, Serialize};
 
-use super::{Header, SceneScore};
+use super::header::JournalHeader;
+use super::target::SceneScore;
 
 /// One line of the journal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
-    /// From 0.
+    /// Number of the trial, from 0.
     pub trial: usize,
-    /// The parameters that may change; all others are as in the journal's first line.
+    /// Values of the parameters that may change; all others are as in the journal's first line.
     pub values: BTreeMap<String, Value>,
-    /// What became of it.
+    /// Outcome of the trial.
     pub outcome: TrialOutcome,
-    /// What the search was told: mean over scenes of log(error / error of the start), plus penalties; lower is better.
+    /// Loss that the search minimises: mean over scenes of log(error / error of the start), plus penalties.
     pub loss: f64,
-    /// The same mean without penalties; none where nothing was measured.
+    /// Mean without penalties; none if nothing was measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<f64>,
-    /// Lateral bleed of the worst scene, in pixels; none where it was not asked for.
+    /// Lateral bleed of the worst scene, in pixels; none if it was not asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bleed: Option<f64>,
-    /// GPU time over that of the start, a median; none where it was not asked for.
+    /// GPU time relative to that of the start, a median; none if it was not asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cost: Option<f64>,
-    /// Of each scene that it ran on.
+    /// Scores on each scene that it ran on.
     pub scenes: BTreeMap<String, SceneScore>,
 }
 
-/// What became of a candidate.
+/// Outcome of a trial.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "is", rename_all = "snake_case")]
 pub enum TrialOutcome {
@@ -41,14 +42,14 @@ pub enum TrialOutcome {
     Dropped,
     /// It did not run.
     Failed {
-        /// What the filter had to say.
+        /// Error of the filter.
         reason: String,
     },
 }
 
 impl Trial {
-    /// Refuses what no tuning that began with `header` writes as its line `number`, from 0: the search counts on it.
-    pub fn check(&self, header: &Header, number: usize) -> Result<(), String> {
+    /// Refuses a trial that no tuning with this header writes as its trial `number`, from 0: the search relies on it.
+    pub fn check(&self, header: &JournalHeader, number: usize) -> Result<(), String> {
         if self.trial != number {
             return Err(format!("trial {}, expected {number}", self.trial));
         }
@@ -99,7 +100,7 @@ impl Trial {
         }
     }
 
-    /// Whether it ran on every scene.
+    /// Returns true if it ran on every scene.
     pub fn is_done(&self) -> bool {
         self.outcome == TrialOutcome::Done
     }

@@ -1,22 +1,27 @@
-//! The main loop: ask, try, write down, tell.
+//! Tuning of a filter's parameters, from the first trial to the result.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 use std::time::Instant;
 
-use filters::{Gpu, Settings, Value};
+use filters::{Gpu, Parameter, Settings, Value};
 use serde::{Deserialize, Serialize};
-use tracer::{Scene, TraceError};
+use tracer::TraceError;
 
-use super::compare::compare_paired;
-use super::journal::{Header, JOURNAL_FORMAT, Journal};
-use super::plan::{Objective, TunePlan};
-use super::sealed::{Opening, record};
-use super::selection::{Choice, Fold, choose, folds, settings};
-use super::trying::{limits, next};
-use super::{Evaluator, Search, Shot, Target, Trial, TrialOutcome, front};
-use crate::judge::bounds::SceneBounds;
-use crate::{Error, FilterChoice, Monitor, PROGRAM, RenderSettings};
+use super::comparison::compare_candidates;
+use super::evaluator::Evaluator;
+use super::header::{JOURNAL_FORMAT, JournalHeader};
+use super::held_out::{HeldOutResult, record_held_out_result};
+use super::journal::{Journal, journal_error};
+use super::next_trial::run_next_trial;
+use super::objective::Objective;
+use super::options::TuneOptions;
+use super::pareto::pareto_front;
+use super::rendered_scene::render_scenes;
+use super::search::Search;
+use super::selection::{Choice, Fold, choose_trial, cross_validate, trial_settings};
+use super::target::Target;
+use super::trial::{Trial, TrialOutcome};
+use crate::{Error, PROGRAM};
 
 /// Version of the layout of `tune.json`.
 pub const TUNE_FORMAT: u32 = 1;
@@ -26,176 +31,155 @@ pub const TUNE_FORMAT: u32 = 1;
 pub struct Tuning {
     /// [`TUNE_FORMAT`].
     pub format: u32,
-    /// What the trials depended on.
-    pub journal: Header,
-    /// How many there were.
+    /// First line of the journal: everything that the trials depend on.
+    pub journal: JournalHeader,
+    /// Number of trials.
     pub trials: usize,
-    /// How many of them were dropped.
+    /// Number of trials that were dropped early.
     pub dropped: usize,
-    /// Those that did not run, with the reason.
+    /// Trials that did not run, with the reason.
     pub failed: BTreeMap<usize, String>,
-    /// The start.
+    /// The first trial: the values to start from.
     pub start: Trial,
-    /// What no other trial beats in everything, by their error.
+    /// Pareto front of the trials, by their error.
     pub front: Vec<Trial>,
-    /// What became of it.
+    /// Choice among the trials.
     pub choice: Choice,
-    /// The choice.
+    /// The chosen trial.
     pub chosen: Trial,
-    /// The choice's value of every parameter: what `evaluate --params` reads.
+    /// The choice's value of every parameter, as the command `evaluate` reads them.
     pub values: BTreeMap<String, Value>,
-    /// How a choice without one family does on it.
+    /// Cross-validation over the families of scenes.
     pub folds: Vec<Fold>,
-    /// Looks at the sealed scenes, the last one at this choice; empty where there are none.
-    pub openings: Vec<Opening>,
+    /// Results on the held-out scenes, the last one of this choice; empty if there are no such scenes.
+    #[serde(rename = "openings")]
+    pub held_out: Vec<HeldOutResult>,
 }
 
-/// Tunes, and writes the journal; `told` hears every trial that is done.
+/// Tunes, and writes the journal; calls `on_trial` with every finished trial.
 pub fn tune(
-    plan: &TunePlan,
+    options: &TuneOptions,
     gpu: Option<&Gpu>,
-    mut told: impl FnMut(&Trial),
+    mut on_trial: impl FnMut(&Trial),
 ) -> Result<Tuning, Error> {
-    plan.check()?;
+    options.check()?;
     let began = Instant::now();
-    let shots = shots(
-        &plan.scenes,
-        &plan.choice,
-        &plan.render,
-        &plan.out,
-        plan.monitor,
-    )?;
-    let bleed = plan.measures(Objective::Bleed);
-    let mut evaluator = evaluator(&shots, &plan.choice, gpu, bleed, plan.monitor)?;
-    let search = search(plan)?;
-    let header = header(plan, &evaluator, &search);
-    let mut journal = Journal::open(&plan.out.join("journal.jsonl"), &header)?;
-    check_values(plan, &journal.trials)?;
-    recall(&mut evaluator, plan, &journal.trials);
-    while journal.trials.len() < plan.budget {
-        if (plan.monitor.interrupted)() {
+    let TuneOptions {
+        choice,
+        render,
+        out,
+        monitor,
+        ..
+    } = options;
+    let alignment = choice.filter.alignment;
+    let scenes = render_scenes(&options.scenes, alignment, render, out, *monitor)?;
+    let bleed = options.measures(Objective::Bleed);
+    let mut evaluator = Evaluator::new(gpu, choice, &scenes, bleed, *monitor)?;
+    let search = make_search(options)?;
+    let header = make_header(options, &evaluator, &search);
+    let mut journal = Journal::open(&out.join("journal.jsonl"), &header)?;
+    check_values(options, &journal.trials)?;
+    remember_trials(&mut evaluator, options, &journal.trials);
+    while journal.trials.len() < options.budget {
+        if (monitor.interrupted)() {
             return Err(TraceError::Cancelled.into());
         }
-        let over = plan.time.is_some_and(|time| began.elapsed() >= time);
+        let over = options.time.is_some_and(|time| began.elapsed() >= time);
         if over && !journal.trials.is_empty() {
             break;
         }
-        let trial = next(plan, &mut evaluator, &search, &journal.trials)?;
-        told(&trial);
+        let trial = run_next_trial(options, &mut evaluator, &search, &journal.trials)?;
+        on_trial(&trial);
         journal.append(trial)?;
     }
-    let mut tuning = conclude(plan, header, &journal.trials)?;
-    if !plan.sealed.is_empty() {
-        tuning.openings = open(plan, gpu, &tuning.values)?;
+    let mut tuning = conclude(options, header, &journal.trials)?;
+    if !options.held_out.is_empty() {
+        tuning.held_out = evaluate_held_out(options, gpu, &tuning.values)?;
     }
     Ok(tuning)
 }
 
 /// Refuses trials of a journal with values that the filter does not take.
-fn check_values(plan: &TunePlan, trials: &[Trial]) -> Result<(), Error> {
+fn check_values(options: &TuneOptions, trials: &[Trial]) -> Result<(), Error> {
     for trial in trials {
-        let mut settings = plan.choice.settings.clone();
+        let mut settings = options.choice.settings.clone();
         for (name, value) in &trial.values {
-            (settings.set_value(&plan.choice.filter, name, value.clone())).map_err(|error| {
+            (settings.set_value(&options.choice.filter, name, value.clone())).map_err(|error| {
                 // The header is the first line.
-                Error::Usage(format!(
-                    "{}:{}: {error}; choose another --out, or delete the file to begin anew",
-                    plan.out.join("journal.jsonl").display(),
-                    trial.trial + 2
-                ))
+                let line = trial.trial + 1;
+                journal_error(&options.out.join("journal.jsonl"), line, &error.to_string())
             })?;
         }
     }
     Ok(())
 }
 
-/// Frames and truths of scenes, for the filter's alignment.
-pub fn shots(
-    scenes: &[(Scene, SceneBounds)],
-    choice: &FilterChoice,
-    render: &RenderSettings,
-    out: &Path,
-    monitor: Monitor,
-) -> Result<Vec<Shot>, Error> {
-    let alignment = choice.filter.alignment;
-    (scenes.iter())
-        .map(|(scene, bounds)| Shot::new((scene, bounds.clone()), alignment, render, out, monitor))
-        .collect()
-}
-
-/// A filter on shots, nothing measured yet.
-pub fn evaluator<'a>(
-    shots: &'a [Shot],
-    choice: &FilterChoice,
-    gpu: Option<&'a Gpu>,
-    bleed: bool,
-    monitor: Monitor,
-) -> Result<Evaluator<'a>, Error> {
-    let targets = (shots.iter())
-        .map(|shot| Target::new(shot, &choice.filter.name, &choice.preset))
-        .collect::<Result<_, _>>()?;
-    Evaluator::new(gpu, choice.clone(), targets, bleed, monitor)
-}
-
-/// The start, the other presets, and what follows. What tuning itself has found is left out: a search that is done again finds
-/// it again, or not.
-fn search(plan: &TunePlan) -> Result<Search, Error> {
-    let mut points = vec![plan.space.point(&plan.space.start)];
-    let published = plan.choice.filter.presets.iter();
+/// Makes a search that begins with the start and the other presets. Presets that tuning itself has found are left out: another
+/// search has to find them again.
+fn make_search(options: &TuneOptions) -> Result<Search, Error> {
+    let space = &options.space;
+    let mut points = vec![space.point(&space.start)];
+    let published = options.choice.filter.presets.iter();
     for preset in published.filter(|preset| preset.tuned.is_none()) {
-        let point = plan
-            .space
-            .point(&plan.choice.preset_at(&preset.name, plan.render.width)?);
+        let settings = options
+            .choice
+            .preset_at(&preset.name, options.render.width)?;
+        let point = space.point(&settings);
         if !points.contains(&point) {
             points.push(point);
         }
     }
-    Ok(Search::new(points, plan.space.axes.len(), plan.seed))
+    Ok(Search::new(points, space.axes.len(), options.seed))
 }
 
-fn header(plan: &TunePlan, evaluator: &Evaluator, search: &Search) -> Header {
+fn make_header(options: &TuneOptions, evaluator: &Evaluator, search: &Search) -> JournalHeader {
     let scene = |target: &Target| {
-        let hash = &target.shot.truth.provenance.content_hash;
-        (target.shot.name.clone(), hash.clone())
+        let hash = &target.scene.truth.provenance.content_hash;
+        (target.scene.name.clone(), hash.clone())
     };
-    let axis = |axis: &filters::Parameter| (axis.name.clone(), axis.kind.allowed());
-    Header {
+    let axis = |axis: &Parameter| (axis.name.clone(), axis.kind.allowed());
+    JournalHeader {
         format: JOURNAL_FORMAT,
         program: PROGRAM.to_owned(),
-        filter: plan.choice.filter.name.clone(),
-        start: plan.choice.preset.clone(),
-        values: plan.space.start.values.clone(),
-        vary: plan.space.axes.iter().map(axis).collect(),
+        filter: options.choice.filter.name.clone(),
+        start: options.choice.preset.clone(),
+        values: options.space.start.values.clone(),
+        vary: options.space.axes.iter().map(axis).collect(),
         design: search.design.clone(),
         scenes: evaluator.targets.iter().map(scene).collect(),
-        objectives: (plan.objectives.iter())
+        objectives: (options.objectives.iter())
             .map(|objective| objective.name().to_owned())
             .collect(),
-        cost_at_most: plan.cost_at_most,
-        bleed_at_most: plan.bleed_at_most,
-        race: plan.race,
-        seed: plan.seed,
+        cost_at_most: options.cost_at_most,
+        bleed_at_most: options.bleed_at_most,
+        race: options.race,
+        seed: options.seed,
     }
 }
 
-/// What a journal knows need not be measured again.
-fn recall(evaluator: &mut Evaluator, plan: &TunePlan, trials: &[Trial]) {
+/// Hands the scores of a journal to the evaluator, which then need not measure them again.
+fn remember_trials(evaluator: &mut Evaluator, options: &TuneOptions, trials: &[Trial]) {
     for trial in trials {
-        let settings = settings(&plan.space, trial);
+        let settings = trial_settings(&options.space, trial);
         for (scene, score) in &trial.scenes {
             evaluator.remember(&settings, scene, *score);
         }
     }
 }
 
-/// What the trials come to.
-fn conclude(plan: &TunePlan, header: Header, trials: &[Trial]) -> Result<Tuning, Error> {
-    let limits = limits(plan, trials);
-    let choice = choose(trials, &plan.space, limits, |_| true)
+/// Chooses among the trials and sums them up.
+fn conclude(
+    options: &TuneOptions,
+    header: JournalHeader,
+    trials: &[Trial],
+) -> Result<Tuning, Error> {
+    let space = &options.space;
+    let limits = options.choice_limits(&trials[0]);
+    let choice = choose_trial(trials, space, limits, |_| true)
         .expect("the start is always allowed, and has scenes");
     let done: Vec<&Trial> = trials.iter().filter(|trial| trial.is_done()).collect();
-    let rows: Vec<Vec<f64>> = done.iter().map(|trial| objectives(trial)).collect();
-    let mut front: Vec<Trial> = (front(&rows).into_iter())
+    let rows: Vec<Vec<f64>> = done.iter().map(|trial| objective_values(trial)).collect();
+    let mut front: Vec<Trial> = (pareto_front(&rows).into_iter())
         .map(|index| done[index].clone())
         .collect();
     let error = |trial: &Trial| trial.error.expect("it is done");
@@ -216,40 +200,47 @@ fn conclude(plan: &TunePlan, header: Header, trials: &[Trial]) -> Result<Tuning,
         start: trials[0].clone(),
         front,
         choice,
-        values: settings(&plan.space, &chosen).values,
+        values: trial_settings(space, &chosen).values,
         chosen,
-        folds: folds(trials, &plan.space, limits, &plan.families()),
-        openings: Vec::new(),
+        folds: cross_validate(trials, space, limits, &options.families()),
+        held_out: Vec::new(),
     })
 }
 
-/// What is measured of a trial that is done, in the same order for all.
-fn objectives(trial: &Trial) -> Vec<f64> {
+/// Returns the measured objectives of a finished trial, in the same order for all trials.
+fn objective_values(trial: &Trial) -> Vec<f64> {
     let measured = [trial.error, trial.bleed, trial.cost];
     measured.into_iter().flatten().collect()
 }
 
-/// Compares start and choice on the sealed scenes, and counts the look.
-fn open(
-    plan: &TunePlan,
+/// Compares start and choice on the held-out scenes, and records the result.
+fn evaluate_held_out(
+    options: &TuneOptions,
     gpu: Option<&Gpu>,
     values: &BTreeMap<String, Value>,
-) -> Result<Vec<Opening>, Error> {
-    let render = &plan.sealed_render;
-    let out = plan.out.join("sealed");
-    let shots = shots(&plan.sealed, &plan.choice, render, &out, plan.monitor)?;
-    let mut evaluator = evaluator(&shots, &plan.choice, gpu, true, plan.monitor)?;
-    let start = plan.choice.preset_at(&plan.choice.preset, render.width)?;
+) -> Result<Vec<HeldOutResult>, Error> {
+    let TuneOptions {
+        choice,
+        held_out_render: render,
+        out,
+        monitor,
+        ..
+    } = options;
+    let alignment = choice.filter.alignment;
+    let folder = out.join("sealed");
+    let scenes = render_scenes(&options.held_out, alignment, render, &folder, *monitor)?;
+    let mut evaluator = Evaluator::new(gpu, choice, &scenes, true, *monitor)?;
+    let start = choice.preset_at(&choice.preset, render.width)?;
     // What was found on pictures of one width is scaled to those of another as the start is.
-    let start_width = plan.space.start.reference_width;
+    let start_width = options.space.start.reference_width;
     let chosen = Settings {
         values: values.clone(),
-        reference_width: start_width.map(|_| plan.render.width),
+        reference_width: start_width.map(|_| options.render.width),
         fixed: BTreeSet::new(),
         ..start.clone()
     };
-    let chosen = chosen.scaled_to(&plan.choice.filter, render.width);
-    let paired = compare_paired(&mut evaluator, &start, &chosen)?;
+    let chosen = chosen.scaled_to(&choice.filter, render.width);
+    let paired = compare_candidates(&mut evaluator, &start, &chosen)?;
     let size = [render.width, render.height, render.samples_per_pixel];
-    record(&plan.out.join("openings.jsonl"), values, size, paired)
+    record_held_out_result(&out.join("openings.jsonl"), values, size, paired)
 }

@@ -1,10 +1,11 @@
 //! Wilcoxon's signed-rank test.
 
-/// Probability that paired differences lean as far above 0 as these, or farther, if they were as likely below: exact, ranks
-/// of equal sizes shared, zeros left out (Wilcoxon, "Individual Comparisons by Ranking Methods", 1945). 1 of no differences.
+/// Returns the one-sided p-value of paired differences: the probability that their rank sum above 0 is this large or larger if
+/// each is as likely below 0. Exact; equal sizes share their ranks, and zeros are left out (Wilcoxon, "Individual Comparisons by
+/// Ranking Methods", 1945). 1 for no differences.
 ///
-/// All 2^n signs are counted by their doubled rank sums, which shared ranks leave whole.
-pub fn probability_not_above(differences: &[f64]) -> f64 {
+/// Counts all 2^n signs by their doubled rank sums, which are whole numbers even for shared ranks.
+pub fn signed_rank_p_value(differences: &[f64]) -> f64 {
     let mut sizes: Vec<f64> = differences
         .iter()
         .copied()

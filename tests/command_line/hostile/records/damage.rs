@@ -7,7 +7,7 @@ use std::path::Path;
 use cli::{compare_table, run_table};
 use report::{LARGEST_PAGE, compare_page, report};
 use serde_json::{Value, json};
-use suite::{Acceptance, Baseline, Error, Run, Side, accept, compare_runs};
+use suite::{Acceptance, Baseline, Error, Run, Side, accept_scores, compare_runs};
 
 use crate::bench::{Bench, assert_done, assert_refused};
 
@@ -56,7 +56,7 @@ fn read_everywhere(changed: &Path, whole: &Side) -> Result<(), Error> {
         reason: "it serves a test",
         forced: true,
     };
-    let _: Result<Baseline, Error> = accept(&side.run, None, &how);
+    let _: Result<Baseline, Error> = accept_scores(&side.run, None, &how);
     let page = folder.join("page.html");
     report(&side.run, &[], folder, &page, LARGEST_PAGE).map(drop)
 }

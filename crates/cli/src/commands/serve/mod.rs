@@ -7,11 +7,11 @@ mod reply;
 use std::collections::BTreeSet;
 
 use serde_json::json;
-use suite::{Error, Evaluator, Objective, SceneScore, Sharing, answer, evaluator};
+use suite::{Error, Evaluator, Objective, SceneScore, Sharing, evaluate_candidate};
 
 use self::inbox::{Inbox, ScoreRequest};
 use self::reply::print_reply;
-use super::candidate::{open_candidate_gpu, render_shots, select_candidate};
+use super::candidate::{claim_and_render, open_candidate_gpu, select_candidate};
 use super::evaluate::change_settings;
 use super::plan::load_scenes;
 use crate::arguments::ServeArgs;
@@ -24,23 +24,23 @@ pub fn execute(args: &ServeArgs) -> Result<(), Error> {
     let scenes = load_scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
     let gpu = open_candidate_gpu(&choice, candidate)?;
     // The claim on the folder ends here: all is read.
-    let (_, shots) = render_shots(&scenes, &choice, candidate, Sharing::Together)?;
+    let (_, rendered) = claim_and_render(&scenes, &choice, candidate, Sharing::Together)?;
     let bleed = candidate.objective.contains(&Objective::Bleed);
     let mut service = Service {
-        evaluator: evaluator(
-            &shots,
-            &choice,
+        evaluator: Evaluator::new(
             gpu.as_ref(),
+            &choice,
+            &rendered,
             bleed,
             make_monitor(candidate.scenes.quiet),
         )?,
         cost: candidate.objective.contains(&Objective::Cost),
         inbox: Inbox::open(),
     };
-    let names: Vec<&String> = shots.iter().map(|shot| &shot.name).collect();
+    let names: Vec<&String> = rendered.iter().map(|scene| &scene.name).collect();
     print_reply(json!({"ready": true, "filter": choice.filter.name, "scenes": names}))?;
     while let Some(request) = service.inbox.next()? {
-        service.answer(request)?;
+        service.answer_request(request)?;
     }
     Ok(())
 }
@@ -54,18 +54,18 @@ struct Service<'a> {
 
 impl Service<'_> {
     /// Scores one candidate scene by scene, and sums up. A request that cannot be answered gets an error and ends nothing.
-    fn answer(&mut self, request: ScoreRequest) -> Result<(), Error> {
+    fn answer_request(&mut self, request: ScoreRequest) -> Result<(), Error> {
         let id = request.id;
         if self.inbox.cancelled.remove(&id) {
             return print_reply(json!({"id": id, "cancelled": true}));
         }
         let known: Vec<String> = (self.evaluator.targets.iter())
-            .map(|target| target.shot.name.clone())
+            .map(|target| target.scene.name.clone())
             .collect();
         let found = scene_indices(&known, request.scenes).and_then(|scenes| {
             let settings = change_settings(&self.evaluator.choice, request.params)?;
             let inbox = &mut self.inbox;
-            answer(
+            evaluate_candidate(
                 &mut self.evaluator,
                 &settings,
                 &scenes,

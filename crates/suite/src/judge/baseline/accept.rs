@@ -1,4 +1,4 @@
-//! Making the scores of a run the ones to be compared with.
+//! Acceptance of a run's scores as the baseline.
 
 use std::collections::BTreeMap;
 
@@ -8,22 +8,22 @@ use metrics::Metric;
 use super::{BASELINE_FORMAT, Baseline};
 use crate::{Case, Error, Run};
 
-/// How a run is accepted.
+/// Options of accepting a run.
 pub struct Acceptance<'a> {
-    /// Of which cases, by `scene/filter:preset`; none for all.
+    /// Pattern of the cases to accept, by `scene/filter:preset`; none for all.
     pub only: Option<&'a Pattern>,
-    /// Why, in one line.
+    /// Reason, in one line.
     pub reason: &'a str,
-    /// Whether another class of adapter than the baseline's will do.
+    /// True to accept another class of adapter than the baseline's.
     pub forced: bool,
 }
 
-/// The baseline that a run makes of the one before, if there was one. Without `only` nothing is left of that.
-pub fn accept(run: &Run, old: Option<Baseline>, how: &Acceptance) -> Result<Baseline, Error> {
-    let reason = how.reason.trim();
-    if reason.is_empty() || reason.contains('\n') {
-        return refuse("--reason: needs one line on why these scores are right");
-    }
+/// Makes a baseline of a run, and of the old one if only some cases are accepted.
+pub fn accept_scores(
+    run: &Run,
+    old: Option<Baseline>,
+    how: &Acceptance,
+) -> Result<Baseline, Error> {
     if let Some(old) = &old
         && !how.forced
     {
@@ -38,7 +38,8 @@ pub fn accept(run: &Run, old: Option<Baseline>, how: &Acceptance) -> Result<Base
         let names = (run.cases.iter().filter(|case| !case.bar))
             .map(|case| format!("{}/{}", case.scene, case.name()));
         return refuse(&format!(
-            "--only matches no case of the run; it has {}",
+            "{} matches no case of the run; it has {}",
+            how.only.map_or("*", Pattern::as_str),
             names.collect::<Vec<_>>().join(", ")
         ));
     }
@@ -56,32 +57,36 @@ pub fn accept(run: &Run, old: Option<Baseline>, how: &Acceptance) -> Result<Base
             scores: BTreeMap::new(),
         })
     };
-    baseline.reasons.push(reason.to_owned());
+    baseline.reasons.push(how.reason.to_owned());
     for case in cases {
-        add(&mut baseline, case)?;
+        add_case(&mut baseline, case)?;
     }
     Ok(baseline)
 }
 
-fn add(baseline: &mut Baseline, case: &Case) -> Result<(), Error> {
+fn add_case(baseline: &mut Baseline, case: &Case) -> Result<(), Error> {
     let truths = baseline.truths.entry(case.scene.clone()).or_default();
     let old = truths.insert(case.alignment.clone(), case.truth_hash.clone());
     if old.is_some_and(|old| old != case.truth_hash) {
         return refuse(&format!(
-            "{} ({}): the truth is another than the baseline's, and --only would leave scores of both; accept the whole run, \
-             without --only",
+            "{} ({}): the truth is another than the baseline's, and accepting some cases alone would leave scores of both; accept \
+             the whole run",
             case.scene, case.alignment
         ));
     }
-    let scores = (Metric::all().into_iter())
-        .filter_map(|metric| Some((metric.name(), rounded(case.scores.get(metric).value()?))));
+    let scores = (Metric::all().into_iter()).filter_map(|metric| {
+        Some((
+            metric.name(),
+            round_to_six_digits(case.scores.get(metric).value()?),
+        ))
+    });
     let filters = baseline.scores.entry(case.scene.clone()).or_default();
     filters.insert(case.name(), scores.collect());
     Ok(())
 }
 
-/// To six significant digits: what a person can read, and finer than any margin.
-fn rounded(value: f64) -> f64 {
+/// Rounds to six significant digits: readable, and finer than any margin.
+fn round_to_six_digits(value: f64) -> f64 {
     (format!("{value:.5e}").parse()).expect("a number as text is a number")
 }
 
@@ -97,13 +102,13 @@ fn check_adapter(run: &Run, old: &Baseline, some: bool) -> Result<(), Error> {
     if !old.is_of_class(&run.adapter) {
         return refuse(&format!(
             "the run's adapter is {found}, the baseline's {allowed}: another class; run on one of that class, keep a baseline \
-             for each, or add --force"
+             for each, or force it"
         ));
     }
     if some && run.adapter != old.adapter {
         return refuse(&format!(
-            "the run's adapter is {found}, the baseline's {allowed}, and --only would mix their scores; accept the whole run, \
-             without --only, or add --force"
+            "the run's adapter is {found}, the baseline's {allowed}, and accepting some cases alone would mix their scores; accept \
+             the whole run, or force it"
         ));
     }
     Ok(())
@@ -119,8 +124,8 @@ mod tests {
 
     #[test]
     fn scores_keep_six_digits() {
-        assert_eq!(rounded(0.123_456_789), 0.123_457);
-        assert_eq!(rounded(-1_234.567_89), -1_234.57);
-        assert_eq!(rounded(0.0), 0.0);
+        assert_eq!(round_to_six_digits(0.123_456_789), 0.123_457);
+        assert_eq!(round_to_six_digits(-1_234.567_89), -1_234.57);
+        assert_eq!(round_to_six_digits(0.0), 0.0);
     }
 }

@@ -1,7 +1,7 @@
-//! Scores that were accepted, to be compared with: numbers in a file that a person reviews.
+//! Baseline: accepted scores in a file that a person reviews.
 
 mod accept;
-mod compare;
+mod comparison;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,27 +14,27 @@ use crate::Error;
 use crate::json::file::read_text;
 use crate::json::strings::check_strings;
 
-pub use accept::{Acceptance, accept};
-pub use compare::{Comparison, ComparisonKind, compare};
+pub use accept::{Acceptance, accept_scores};
+pub use comparison::{BaselineComparison, ComparisonKind, compare_with_baseline};
 
 /// Version of the layout of a baseline.
 pub const BASELINE_FORMAT: u32 = 1;
 
-/// Accepted scores, and where they come from. Its file has one number a line under sorted keys.
+/// Accepted scores and their origin. The file has one number per line under sorted keys.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Baseline {
     /// [`BASELINE_FORMAT`].
     pub format: u32,
-    /// Program name and version that made the last run.
+    /// Program name and version of the last run.
     pub program: String,
-    /// What its kernels ran on; none where every filter was a command.
+    /// Adapter of that run; none if every filter was a program.
     pub adapter: Option<AdapterDescription>,
-    /// Why the scores were accepted: the last time all were, and every time some were since.
+    /// Reasons for accepting the scores: the last time all were accepted, and every time some were since.
     pub reasons: Vec<String>,
-    /// Per scene and alignment the hash of the truth's inputs.
+    /// Hash of the truth's inputs, per scene and alignment.
     pub truths: BTreeMap<String, BTreeMap<String, String>>,
-    /// Per scene, filter (`jump_flood:paper`) and metric the score, to six digits.
+    /// Score to six digits, per scene, filter (`jump_flood:paper`) and metric.
     pub scores: BTreeMap<String, BTreeMap<String, BTreeMap<String, f64>>>,
 }
 
@@ -58,7 +58,7 @@ impl Baseline {
         }
     }
 
-    /// Whether an adapter is of the class (software, integrated, discrete ..) of that which made the baseline.
+    /// Returns true if an adapter has the class (software, integrated, discrete ..) of the baseline's.
     pub fn is_of_class(&self, adapter: &Option<AdapterDescription>) -> bool {
         let class =
             |adapter: &Option<AdapterDescription>| adapter.as_ref().map(|own| own.kind.clone());

@@ -1,4 +1,4 @@
-//! One bounds.toml.
+//! File of bounds, `bounds.toml`.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,32 +13,32 @@ use crate::json::file::read_text;
 use crate::printable::{printable, printable_path};
 use crate::{Error, SIDES};
 
-/// What a bounds.toml holds.
+/// Contents of a bounds.toml.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BoundsFile {
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
-    /// For every filter.
+    /// Bounds for every filter.
     pub default: Bounds,
-    /// For one filter, by its name, or one preset of it, by `filter:preset`.
+    /// Bounds for one filter, by its name, or one preset of it, by `filter:preset`.
     pub filters: BTreeMap<String, FilterBounds>,
-    /// By how much a score may be worse than the baseline's, per metric name.
+    /// Margins by metric name.
     pub margins: BTreeMap<String, Margin>,
 }
 
-/// The bounds of a filter, or of one preset of it.
+/// Bounds of a filter, or of one preset of it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilterBounds {
     /// File and line.
     pub place: String,
-    /// Its bounds.
+    /// Bounds by metric name.
     pub bounds: Bounds,
 }
 
-/// By how much a score may be worse than the baseline's, in its unit.
+/// Amount by which a score may be worse than the baseline's, in its unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Margin {
-    /// 0 or more.
+    /// Width of the margin, 0 or more.
     pub width: f64,
     /// File and line.
     pub place: String,
@@ -70,7 +70,7 @@ struct Entry {
     level: Level,
 }
 
-/// Reads a bounds.toml. Whether its filters exist is checked by [`check_names`](super::check_names).
+/// Reads a bounds.toml. [`check_names`](super::check_names) checks that its filters exist.
 pub fn read_bounds_file(path: &Path) -> Result<BoundsFile, Error> {
     let text = read_text(path)?;
     let source = Source { path, text: &text };
@@ -93,7 +93,7 @@ pub fn read_bounds_file(path: &Path) -> Result<BoundsFile, Error> {
     })
 }
 
-/// A file's text, to find the lines of what is wrong with it.
+/// Text of a file, to find the lines of mistakes.
 struct Source<'a> {
     path: &'a Path,
     text: &'a str,
@@ -182,7 +182,7 @@ impl Source<'_> {
         Error::Usage(format!("{}: {reason}", self.place(offset)))
     }
 
-    /// `scenes/bounds.toml:12`
+    /// Formats a place in the file: `scenes/bounds.toml:12`.
     fn place(&self, offset: Option<usize>) -> String {
         let path = printable_path(self.path);
         match offset {

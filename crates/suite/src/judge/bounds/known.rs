@@ -7,14 +7,14 @@ use filters::Filter;
 use super::{BOUNDS_FILE, BoundsFile, Level, SceneBounds, read_bounds_file};
 use crate::{Error, FilterChoice};
 
-/// Refuses bounds of a scene or a filter that does not exist, in any file below `root` and in those of `scenes`, which are
-/// the bounds of the scenes that take part.
+/// Refuses bounds of a scene or a filter that does not exist, in any file below `root` and in those of `scenes`, the bounds of the
+/// scenes that take part.
 pub fn check_names<'a>(
     root: &Path,
     scenes: impl Iterator<Item = &'a SceneBounds>,
     filters: &[FilterChoice],
 ) -> Result<(), Error> {
-    for file in files_of_scenes(root)? {
+    for file in read_bounds_of_scenes(root)? {
         check_filters(&file, filters)?;
     }
     for file in scenes.flat_map(|bounds| &bounds.files) {
@@ -23,9 +23,9 @@ pub fn check_names<'a>(
     Ok(())
 }
 
-/// Refuses a case without a bound, and bounds of which none is required: a check that cannot fail. `scenes` have their names
-/// with them, and `root` is the folder that they lie in.
-pub fn check_bounded<'a>(
+/// Refuses a case without a bound, and bounds of which none is required: such a check cannot fail. `scenes` are the names and the
+/// bounds of scenes in the folder `root`.
+pub fn require_bounds<'a>(
     root: &Path,
     scenes: impl Iterator<Item = (&'a str, &'a SceneBounds)>,
     filters: &[FilterChoice],
@@ -56,9 +56,9 @@ pub fn check_bounded<'a>(
     )))
 }
 
-/// The bounds of every scene below `root`, whether it is to be judged or not.
-fn files_of_scenes(root: &Path) -> Result<Vec<BoundsFile>, Error> {
-    // Where every scene is given by its path, `root` need not exist.
+/// Reads the bounds of every scene below `root`, judged or not.
+fn read_bounds_of_scenes(root: &Path) -> Result<Vec<BoundsFile>, Error> {
+    // `root` need not exist if every scene is given by its path.
     let Ok(entries) = std::fs::read_dir(root) else {
         return Ok(Vec::new());
     };
@@ -91,7 +91,7 @@ fn check_filters(file: &BoundsFile, choices: &[FilterChoice]) -> Result<(), Erro
     Ok(())
 }
 
-/// `filter` or `filter:preset`, of those that take part and of those built in.
+/// Refuses a key `filter` or `filter:preset` that is neither built in nor takes part.
 fn check_filter(key: &str, choices: &[FilterChoice]) -> Result<(), String> {
     let (name, preset) = match key.split_once(':') {
         Some((name, preset)) => (name, Some(preset)),
@@ -108,7 +108,7 @@ fn check_filter(key: &str, choices: &[FilterChoice]) -> Result<(), String> {
         names.sort();
         names.dedup();
         return Err(format!(
-            "no filter is called \"{name}\"; allowed: {}, and your own that --filter names",
+            "no filter is called \"{name}\"; allowed: {}, and filters of your own that take part",
             names.join(", ")
         ));
     }

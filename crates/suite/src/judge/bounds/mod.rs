@@ -1,4 +1,4 @@
-//! Limits on scores: what a filter must keep on a scene.
+//! Bounds: limits on the scores of a filter on a scene.
 
 mod file;
 mod known;
@@ -12,52 +12,51 @@ use serde::{Deserialize, Serialize};
 use crate::Error;
 
 pub use file::{BoundsFile, FilterBounds, Margin, read_bounds_file};
-pub use known::{check_bounded, check_names};
-pub use size::bounded_size;
+pub use known::{check_names, require_bounds};
+pub use size::size_for_bounds;
 
-/// Name of the files, beside the scenes and beside one scene.
+/// Name of the file of bounds, beside the scenes and beside one scene.
 pub const BOUNDS_FILE: &str = "bounds.toml";
 
-/// A bound per metric name.
+/// Bounds by metric name.
 pub type Bounds = BTreeMap<String, Bound>;
 
-/// What one score is held to.
+/// Limit on one score.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bound {
-    /// The highest value allowed; the lowest where higher is better; the largest distance from the ideal where that is a
-    /// value.
+    /// Highest value allowed; lowest if higher is better; largest distance from the ideal if that is a value.
     pub limit: f64,
-    /// Columns and rows of the pictures that it holds for; none where it holds for all.
+    /// Columns and rows of the pictures that it holds for; none if it holds for all.
     pub size: Option<(u32, u32)>,
-    /// One line: what was measured, and how the limit follows.
+    /// Reason in one line: what was measured, and how the limit follows.
     pub why: String,
-    /// What it means to break it.
+    /// Consequence of breaking it.
     pub level: Level,
     /// File and line.
     pub place: String,
 }
 
-/// What it means to break a bound.
+/// Consequence of breaking a bound.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Level {
     /// The check fails.
     #[default]
     Required,
-    /// It is said, and that is all.
+    /// The report says so.
     Report,
 }
 
-/// The bounds of one scene, for every filter.
+/// Bounds of one scene, for every filter.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneBounds {
-    /// Those of all scenes and those of this one; the latter override the former.
+    /// Bounds of all scenes, then those of this one, which override them.
     pub files: Vec<BoundsFile>,
 }
 
 impl SceneBounds {
-    /// What a filter preset is held to. A later one overrides an earlier one of the same metric: first the file beside the
-    /// scenes, then that beside the scene; in each the default, then what the filter has, then what its preset has.
+    /// Returns the bounds of a filter preset. A later bound overrides an earlier one of the same metric: first the file beside the
+    /// scenes, then the file beside the scene; in each the default, then the filter's, then its preset's.
     pub fn of(&self, filter: &str, preset: &str) -> Bounds {
         let own = format!("{filter}:{preset}");
         let mut bounds = Bounds::new();
@@ -71,7 +70,7 @@ impl SceneBounds {
         bounds
     }
 
-    /// Without limits that hold for other picture sizes only.
+    /// Removes limits that hold only for other picture sizes.
     pub fn at(mut self, size: (u32, u32)) -> Self {
         for file in &mut self.files {
             let filters = file.filters.values_mut().map(|table| &mut table.bounds);
@@ -83,7 +82,7 @@ impl SceneBounds {
     }
 }
 
-/// Reads `bounds.toml` beside the scenes and beside the scene, where they exist.
+/// Reads `bounds.toml` beside the scenes and beside the scene, if they exist.
 pub fn read_bounds(root: &Path, scene_folder: &Path) -> Result<SceneBounds, Error> {
     let read = |folder: &Path| -> Result<Option<BoundsFile>, Error> {
         let path = folder.join(BOUNDS_FILE);

@@ -1,11 +1,11 @@
-//! The picture size that a check is made at.
+//! Picture size that bounds hold for.
 
 use super::{Bound, SceneBounds};
 use crate::{Error, FilterChoice};
 
-/// The size that all limits on these filters hold for; `asked` where they hold for any, and none if nothing is asked either.
-/// Limits for another size than asked, or for two, are refused: growth, bleed and misplacement are in pixels.
-pub fn bounded_size<'a>(
+/// Returns the size that all limits on these filters hold for; `asked` if they hold for any size. Refuses limits for another size
+/// than `asked`, and limits for two sizes: growth, bleed and misplacement are in pixels.
+pub fn size_for_bounds<'a>(
     scenes: impl Iterator<Item = &'a SceneBounds>,
     filters: &[FilterChoice],
     asked: Option<(u32, u32)>,
@@ -24,15 +24,15 @@ pub fn bounded_size<'a>(
             );
             if let Some(asked) = asked.filter(|asked| *asked != size) {
                 return Err(Error::Usage(format!(
-                    "{holds}, and --size is {asked}; leave --size out, or measure limits for that size: `shuttertruth \
-                     calibrate --size {asked}`",
-                    asked = text(asked)
+                    "{holds}, and the pictures are to have {}; leave the size out, or measure limits for it: `shuttertruth \
+                     calibrate`",
+                    text(asked)
                 )));
             }
             let (other, common) = first.get_or_insert_with(|| (bound.clone(), size));
             if *common != size {
                 return Err(Error::Usage(format!(
-                    "{holds}, that of {} for {}; check them apart, with --scenes or --filters",
+                    "{holds}, that of {} for {}; check them apart, some of the scenes or filters at a time",
                     other.place,
                     text(*common)
                 )));

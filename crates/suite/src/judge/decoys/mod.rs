@@ -1,5 +1,4 @@
-//! Wrong blurs of a scene, made from the very frame, and which of them a picture is most like: what a person who looks for
-//! the mistake should think of first.
+//! Wrong blurs of a scene, made from its frame: the one that a picture resembles most is the first guess at its mistake.
 
 mod wrong;
 
@@ -7,24 +6,24 @@ use frame::{Frame, Ladder, Truth};
 use metrics::{Ideal, MeasureError, Metric, Reference, Scores};
 use serde::{Deserialize, Serialize};
 
-use wrong::wrong_pictures;
+use wrong::make_wrong_pictures;
 
-/// What a picture is most like.
+/// Wrong blur that a picture resembles most.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Resemblance {
-    /// The wrong blur, in a word.
+    /// Name of the wrong blur.
     pub decoy: String,
-    /// How far the scores are from the wrong blur's, as a part of how far those are from perfect: 0 is the same.
+    /// Distance between the scores and the wrong blur's, as a fraction of the distance between those and perfect: 0 is equal.
     pub distance: f64,
 }
 
-/// Farther than this, a picture is like none.
+/// Distance beyond which a picture resembles none.
 const FARTHEST: f64 = 0.5;
 
-/// By fewer scores, no likeness can be told.
+/// Fewer scores than this show no resemblance.
 const FEWEST_SCORES: usize = 4;
 
-/// The scores that tell wrong blurs apart: where mass lies, how long and how wide it is, and how it looks.
+/// Scores that tell wrong blurs apart, by position, length, width and looks.
 const TELLING: [&str; 14] = [
     "flip_moving",
     "label_tv",
@@ -42,14 +41,14 @@ const TELLING: [&str; 14] = [
     "energy",
 ];
 
-/// The scores of wrong blurs of one scene against one truth.
+/// Scores of wrong blurs of one scene against one truth.
 pub struct Decoys {
     decoys: Vec<(String, Deviations)>,
-    /// Per score, the largest deviation of any wrong blur: what it is measured in.
+    /// Largest deviation of any wrong blur per score, the unit of its deviations.
     scales: Vec<f64>,
 }
 
-/// Per telling score its signed distance from perfect; none where it does not apply.
+/// Signed distances from perfect of the scores in [`TELLING`]; none if a score does not apply.
 type Deviations = Vec<Option<f64>>;
 
 impl Decoys {
@@ -61,7 +60,7 @@ impl Decoys {
         reference: &Reference,
     ) -> Result<Self, MeasureError> {
         let mut decoys = Vec::new();
-        for (name, picture) in wrong_pictures(frame, truth, ladder) {
+        for (name, picture) in make_wrong_pictures(frame, truth, ladder) {
             let scores = reference.measure(&picture)?.scores;
             decoys.push((name, deviations(&scores)));
         }
@@ -75,7 +74,7 @@ impl Decoys {
         })
     }
 
-    /// The wrong blur that these scores are most like; none where they are far from all.
+    /// Finds the wrong blur that these scores resemble most; none if they are far from all.
     pub fn nearest(&self, scores: &Scores) -> Option<Resemblance> {
         let found = deviations(scores);
         let distances = self.decoys.iter().filter_map(|(name, decoy)| {
@@ -88,8 +87,8 @@ impl Decoys {
         distances.min_by(|a, b| a.distance.total_cmp(&b.distance))
     }
 
-    /// Distance over the scores that both have, as a part of the decoy's own distance from perfect; none where those are too
-    /// few, or the decoy is perfect in them.
+    /// Returns the distance over the scores that both have, as a fraction of the decoy's own distance from perfect; none if those
+    /// scores are too few, or the decoy is perfect in them.
     fn distance(&self, found: &Deviations, decoy: &Deviations) -> Option<f64> {
         let (mut apart, mut whole, mut count) = (0.0, 0.0, 0);
         for ((found, decoy), scale) in found.iter().zip(decoy).zip(&self.scales) {

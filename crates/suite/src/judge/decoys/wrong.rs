@@ -1,18 +1,22 @@
-//! The wrong blurs themselves.
+//! Pictures of wrong blurs.
 
 use frame::{Alignment, Frame, Ladder, Picture, Plane, Raster, Truth};
 
 use crate::scatter_oracle;
 
-/// Sub-frames whose mean shows bands.
+/// Number of sub-frames whose mean shows bands.
 const FEW_SUBFRAMES: u32 = 4;
-/// Pixels by which what moves is widened.
+/// Pixels by which moving objects are widened.
 const WIDENED: u32 = 2;
 
-/// Wrong blurs by their names, of a frame without guard band. Those that smear do so as the scatter oracle does, which is
-/// the best that the frame allows, so that nothing is wrong with them but what their name says.
-pub fn wrong_pictures(frame: &Frame, truth: &Truth, ladder: &Ladder) -> Vec<(String, Picture)> {
-    let smeared = |frame: &Frame, alignment: Alignment, length: f64| {
+/// Makes wrong blurs of a frame without guard band, with their names. They smear as the scatter oracle does, the best that the
+/// frame allows, so that each has the one mistake that its name says.
+pub fn make_wrong_pictures(
+    frame: &Frame,
+    truth: &Truth,
+    ladder: &Ladder,
+) -> Vec<(String, Picture)> {
+    let smear = |frame: &Frame, alignment: Alignment, length: f64| {
         let shutter = (alignment.shutter(length * frame.exposure))
             .expect("a part of an exposure is an exposure");
         scatter_oracle(frame, shutter, &truth.shutter_profile)
@@ -23,15 +27,15 @@ pub fn wrong_pictures(frame: &Frame, truth: &Truth, ladder: &Ladder) -> Vec<(Str
     };
     let own = truth.alignment;
     let mut pictures = vec![
-        ("half_length".to_owned(), smeared(frame, own, 0.5)),
-        ("half_as_long_again".to_owned(), smeared(frame, own, 1.5)),
-        ("widened".to_owned(), smeared(&widened(frame), own, 1.0)),
-        ("one_color".to_owned(), constant(&identity)),
+        ("half_length".to_owned(), smear(frame, own, 0.5)),
+        ("half_as_long_again".to_owned(), smear(frame, own, 1.5)),
+        ("widened".to_owned(), smear(&widen(frame), own, 1.0)),
+        ("one_color".to_owned(), one_color(&identity)),
         ("no_blur".to_owned(), identity),
     ];
     for other in Alignment::ALL {
         if other != own {
-            pictures.push((format!("{other}_shutter"), smeared(frame, other, 1.0)));
+            pictures.push((format!("{other}_shutter"), smear(frame, other, 1.0)));
         }
     }
     if let Some(rung) = (ladder.rungs.iter()).find(|rung| rung.subframes == FEW_SUBFRAMES) {
@@ -41,8 +45,8 @@ pub fn wrong_pictures(frame: &Frame, truth: &Truth, ladder: &Ladder) -> Vec<(Str
     pictures
 }
 
-/// The frame with everything that moves some pixels wider on all sides.
-fn widened(frame: &Frame) -> Frame {
+/// Widens everything that moves by some pixels on all sides.
+fn widen(frame: &Frame) -> Frame {
     let (width, height) = frame.size();
     let nearest = Raster::from_fn(width, height, |x, y| {
         let around = |middle: u32, size: u32| {
@@ -71,14 +75,14 @@ fn widened(frame: &Frame) -> Frame {
     }
 }
 
-/// The mean of a picture, everywhere.
-fn constant(picture: &Picture) -> Picture {
+/// Fills a picture with its mean.
+fn one_color(picture: &Picture) -> Picture {
     let count = picture.color.pixels.len() as f64;
     let color: [f32; 3] = std::array::from_fn(|c| {
         let sum: f64 = (picture.color.pixels.iter()).map(|p| f64::from(p[c])).sum();
         (sum / count) as f32
     });
-    let mean = |plane: &Plane| {
+    let average = |plane: &Plane| {
         let sum: f64 = plane.pixels.iter().map(|value| f64::from(*value)).sum();
         (sum / count) as f32
     };
@@ -86,7 +90,7 @@ fn constant(picture: &Picture) -> Picture {
         color: picture.color.map(|_| color),
         coverage: (picture.coverage.iter())
             .map(|plane| {
-                let mean = mean(plane);
+                let mean = average(plane);
                 plane.map(|_| mean)
             })
             .collect(),

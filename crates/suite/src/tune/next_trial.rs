@@ -1,4 +1,4 @@
-//! One candidate: asked for, run on scene after scene, judged.
+//! Next trial of a tuning: asks the search for a candidate, scores it and rates it.
 
 use std::collections::BTreeMap;
 
@@ -6,35 +6,38 @@ use filters::{FilterError, Settings};
 use tracer::TraceError;
 
 use super::cost::Stopwatch;
-use super::loss::{
-    FAILED, LEAST_BLEED, bounds_penalty, log_ratio, mean_log_ratio, penalty, worst_bleed,
-};
-use super::plan::{Objective, TunePlan};
-use super::selection::Limits;
-use super::wilcoxon::probability_not_above;
-use super::{Evaluator, SceneScore, Search, Trial, TrialOutcome};
+use super::evaluator::Evaluator;
+use super::loss::{FAILED, bounds_penalty, log_ratio, mean_log_ratio, penalty, worst_bleed};
+use super::objective::Objective;
+use super::options::TuneOptions;
+use super::search::Search;
+use super::selection::ChoiceLimits;
+use super::target::SceneScore;
+use super::trial::{Trial, TrialOutcome};
+use super::wilcoxon::signed_rank_p_value;
 use crate::Error;
 
 /// Scenes that a candidate runs on before it can be dropped.
 const RACE_FROM: usize = 6;
-/// How many more before it is looked at again: as many as are worked on at once.
+/// Scenes between later checks: as many as are worked on at once.
 const RACE_STEP: usize = 2;
-/// A candidate is dropped where it would lean this far to the worse side by chance less often than this.
+/// A candidate is dropped if chance alone would make it look this bad less often than this.
 const RACE_LEVEL: f64 = 0.1;
 
-/// Asks for the next candidate and tries it.
-pub fn next(
-    plan: &TunePlan,
+/// Asks the search for the next candidate and runs it. A candidate that the filter fails on is a failed trial, unless it is the
+/// start.
+pub fn run_next_trial(
+    options: &TuneOptions,
     evaluator: &mut Evaluator,
     search: &Search,
     trials: &[Trial],
 ) -> Result<Trial, Error> {
     let losses: Vec<f64> = trials.iter().map(|trial| trial.loss).collect();
     let settings = match trials.len() {
-        0 => plan.space.start.clone(),
-        _ => plan.space.settings(&search.ask(&losses)),
+        0 => options.space.start.clone(),
+        _ => options.space.settings(&search.ask(&losses)),
     };
-    let values = (plan.space.axes.iter())
+    let values = (options.space.axes.iter())
         .map(|axis| (axis.name.clone(), settings.values[&axis.name].clone()))
         .collect();
     let mut trial = Trial {
@@ -47,7 +50,7 @@ pub fn next(
         cost: None,
         scenes: BTreeMap::new(),
     };
-    match measure(plan, evaluator, trials, &settings, &mut trial) {
+    match measure_trial(options, evaluator, trials, &settings, &mut trial) {
         Ok(()) => Ok(trial),
         Err(error @ (Error::Trace(_) | Error::Filter(FilterError::Interrupted))) => Err(error),
         Err(error) if trials.is_empty() => Err(error),
@@ -62,9 +65,9 @@ pub fn next(
     }
 }
 
-/// Runs a candidate on scene after scene, and fills in what it comes to.
-fn measure(
-    plan: &TunePlan,
+/// Scores a candidate on scene after scene, and fills in the trial.
+fn measure_trial(
+    options: &TuneOptions,
     evaluator: &mut Evaluator,
     trials: &[Trial],
     settings: &Settings,
@@ -73,7 +76,7 @@ fn measure(
     let all: Vec<usize> = (0..evaluator.targets.len()).collect();
     let best = (trials.iter().filter(|trial| trial.is_done()))
         .min_by(|a, b| a.loss.total_cmp(&b.loss))
-        .filter(|_| plan.race);
+        .filter(|_| options.race);
     let mut met = 0;
     while met < all.len() {
         let until = match (best, met) {
@@ -81,14 +84,14 @@ fn measure(
             (Some(_), 0) => RACE_FROM.min(all.len()),
             (Some(_), _) => (met + RACE_STEP).min(all.len()),
         };
-        let scores = evaluator.scores(settings, &all[met..until], |_, _| {
-            !(plan.monitor.interrupted)()
+        let scores = evaluator.score_candidate(settings, &all[met..until], |_, _| {
+            !(options.monitor.interrupted)()
         })?;
         if scores.len() < until - met {
             return Err(TraceError::Cancelled.into());
         }
         for (target, score) in evaluator.targets[met..until].iter().zip(scores) {
-            trial.scenes.insert(target.shot.name.clone(), score);
+            trial.scenes.insert(target.scene.name.clone(), score);
         }
         met = until;
         if met < all.len() && best.is_some_and(|best| is_clearly_worse(&trial.scenes, &best.scenes))
@@ -101,19 +104,19 @@ fn measure(
     let error = mean_log_ratio(&trial.scenes, start, |_| true).expect("there are scenes");
     let excess: f64 = (evaluator.targets.iter())
         .filter_map(|target| {
-            let name = &target.shot.name;
+            let name = &target.scene.name;
             Some(target.excess(trial.scenes.get(name)?, &start[name]))
         })
         .sum::<f64>()
         / trial.scenes.len() as f64;
     trial.error = Some(error);
     trial.bleed = worst_bleed(&trial.scenes);
-    if plan.measures(Objective::Cost) && trial.is_done() {
-        trial.cost = Some(cost(evaluator, settings, trial, trials)?);
+    if options.measures(Objective::Cost) && trial.is_done() {
+        trial.cost = Some(measure_cost(evaluator, settings, trial, trials)?);
     }
     let limits = match trials.is_empty() {
-        true => Limits::default(),
-        false => limits(plan, trials),
+        true => ChoiceLimits::default(),
+        false => options.choice_limits(&trials[0]),
     };
     trial.loss = error
         + bounds_penalty(excess)
@@ -129,11 +132,11 @@ fn is_clearly_worse(
     let differences: Vec<f64> = (scores.iter())
         .map(|(scene, score)| log_ratio(score, &best[scene]))
         .collect();
-    probability_not_above(&differences) < RACE_LEVEL
+    signed_rank_p_value(&differences) < RACE_LEVEL
 }
 
-/// 1 of the start; what was measured before of values that were tried before.
-fn cost(
+/// Measures the cost relative to the start: 1 for the start itself, and the earlier result for values that were tried before.
+fn measure_cost(
     evaluator: &Evaluator,
     settings: &Settings,
     trial: &Trial,
@@ -149,16 +152,7 @@ fn cost(
     let stopwatch = Stopwatch {
         gpu: evaluator.gpu.expect("only kernels are timed"),
         choice: &evaluator.choice,
-        frame: &evaluator.targets[0].shot.frame,
+        frame: &evaluator.targets[0].scene.frame,
     };
-    Ok(stopwatch.ratio(settings)?)
-}
-
-/// The limits of a choice, from those that are relative to the start.
-pub fn limits(plan: &TunePlan, trials: &[Trial]) -> Limits {
-    Limits {
-        cost: plan.cost_at_most,
-        bleed: (plan.bleed_at_most.zip(trials[0].bleed))
-            .map(|(ratio, start)| ratio * start + LEAST_BLEED),
-    }
+    Ok(stopwatch.measure_ratio(settings)?)
 }

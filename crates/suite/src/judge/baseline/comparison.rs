@@ -1,4 +1,4 @@
-//! A run against accepted scores: no worse than they were?
+//! Comparison of a run with a baseline.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -9,47 +9,45 @@ use serde::Serialize;
 
 use super::Baseline;
 use crate::judge::bounds::Margin;
-use crate::judge::check::Decision;
-use crate::stats::scene_mean::plain_mean;
+use crate::judge::decision::Decision;
+use crate::stats::scene_mean::{ONE_SIDED, plain_mean};
 use crate::{Case, Error, Run};
 
-/// The mean over all such scenes lies beyond either bound with this probability.
-const TAIL: f64 = 0.05;
-
-/// One metric of one filter, over all scenes that it applies to.
+/// Change of one metric of one filter since the baseline, over all scenes that it applies to.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Comparison {
-    /// The verdict.
+pub struct BaselineComparison {
+    /// Verdict.
     pub kind: ComparisonKind,
     /// `jump_flood:paper`.
     pub filter: String,
     /// Name of the metric.
     pub metric: String,
-    /// How many scenes were compared.
+    /// Number of scenes that were compared.
     pub scenes: usize,
-    /// By how much the score is worse than the baseline's, mean over scenes, in the metric's unit; negative is better.
+    /// Amount by which the score is worse than the baseline's, mean over scenes, in the metric's unit; negative is better.
     pub worse: f64,
-    /// One-sided 95 % bounds of that mean, the lower and the upper one.
-    pub bounds: [f64; 2],
-    /// By how much it may be worse.
+    /// One-sided 95 % confidence limits of that mean, the lower and the upper one.
+    #[serde(rename = "bounds")]
+    pub interval: [f64; 2],
+    /// Amount by which it may be worse.
     pub margin: f64,
 }
 
-/// Whether a filter got worse.
+/// Verdict on a filter since the baseline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ComparisonKind {
-    /// The upper bound is not above the margin.
+    /// The interval does not reach above the margin.
     NoWorse,
-    /// The lower bound is above the margin.
+    /// The whole interval lies above the margin.
     Worse,
-    /// The margin lies between the bounds.
+    /// The interval holds the margin.
     Inconclusive,
 }
 
 impl ComparisonKind {
-    /// As a report says it.
-    pub fn words(self) -> &'static str {
+    /// Returns the words for it in a report.
+    pub fn label(self) -> &'static str {
         match self {
             Self::NoWorse => "no worse",
             Self::Worse => "WORSE",
@@ -58,8 +56,8 @@ impl ComparisonKind {
     }
 }
 
-impl Comparison {
-    /// What it alone comes to.
+impl BaselineComparison {
+    /// Returns the decision that follows from this comparison alone.
     pub fn decision(&self) -> Decision {
         match self.kind {
             ComparisonKind::NoWorse => Decision::Pass,
@@ -70,13 +68,14 @@ impl Comparison {
 }
 
 /// Compares every case of a run with the baseline, scene by scene against the same truth: per filter and per metric that has
-/// a margin. `path` is where the baseline was read, for messages.
-pub fn compare(
+/// a margin. Any number of scenes decides, and the interval of one scene has no width. `path` is the file of the baseline, for
+/// messages.
+pub fn compare_with_baseline(
     run: &Run,
     baseline: &Baseline,
     margins: &BTreeMap<String, Margin>,
     path: &Path,
-) -> Result<Vec<Comparison>, Error> {
+) -> Result<Vec<BaselineComparison>, Error> {
     let refuse = |reason: String| Error::Usage(format!("{}: {reason}", path.display()));
     if margins.is_empty() {
         return Err(refuse(
@@ -96,13 +95,13 @@ pub fn compare(
             let metric = Metric::from_str(name).expect("margins were checked when they were read");
             let own = cases.iter().filter(|case| case.name() == *filter);
             let differences: Result<Vec<Option<f64>>, String> =
-                own.map(|case| worse(case, metric, baseline)).collect();
+                own.map(|case| difference(case, metric, baseline)).collect();
             let differences: Vec<f64> = (differences.map_err(refuse)?)
                 .into_iter()
                 .flatten()
                 .collect();
             if !differences.is_empty() {
-                comparisons.push(comparison(filter, name, &differences, margin.width));
+                comparisons.push(compare_scores(filter, name, &differences, margin.width));
             }
         }
     }
@@ -114,9 +113,14 @@ pub fn compare(
     }
 }
 
-fn comparison(filter: &str, metric: &str, differences: &[f64], margin: f64) -> Comparison {
-    let found = plain_mean(differences, TAIL);
-    let [low, high] = found.bounds;
+fn compare_scores(
+    filter: &str,
+    metric: &str,
+    differences: &[f64],
+    margin: f64,
+) -> BaselineComparison {
+    let found = plain_mean(differences, ONE_SIDED);
+    let [low, high] = found.interval;
     let kind = if high <= margin {
         ComparisonKind::NoWorse
     } else if low > margin {
@@ -124,13 +128,13 @@ fn comparison(filter: &str, metric: &str, differences: &[f64], margin: f64) -> C
     } else {
         ComparisonKind::Inconclusive
     };
-    Comparison {
+    BaselineComparison {
         kind,
         filter: filter.to_owned(),
         metric: metric.to_owned(),
-        scenes: differences.len(),
+        scenes: found.scenes,
         worse: found.mean,
-        bounds: found.bounds,
+        interval: found.interval,
         margin,
     }
 }
@@ -152,16 +156,14 @@ fn check_truth(case: &Case, baseline: &Baseline) -> Result<(), String> {
     }
 }
 
-/// By how much a case is worse than it was; none where the metric did not apply.
-fn worse(case: &Case, metric: Metric, baseline: &Baseline) -> Result<Option<f64>, String> {
+/// Returns the amount by which a case is worse than in the baseline; none if the metric did not apply then.
+fn difference(case: &Case, metric: Metric, baseline: &Baseline) -> Result<Option<f64>, String> {
     let filters = baseline.scores.get(&case.scene);
     let Some(scores) = filters.and_then(|filters| filters.get(&case.name())) else {
         return Err(format!(
-            "has no scores of {} on {}; accept them: shuttertruth accept --only '{}/{}'",
+            "has no scores of {} on {}; accept a run with them: shuttertruth accept",
             case.name(),
-            case.scene,
-            case.scene,
-            case.name()
+            case.scene
         ));
     };
     let badness = |value: f64| metric.ideal().badness(value);

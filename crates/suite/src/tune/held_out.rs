@@ -1,4 +1,4 @@
-//! Scenes that no trial ran on: looked at when all is decided, and every look is counted.
+//! Results on held-out scenes, which no trial ran on: evaluated once at the end, and every evaluation is counted.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -7,25 +7,26 @@ use filters::Value;
 use frame::write_atomically;
 use serde::{Deserialize, Serialize};
 
-use super::Paired;
+use super::comparison::PairedComparison;
 use crate::Error;
 use crate::json::file::read_text;
 
-/// One look at the sealed scenes: a line of `openings.jsonl`.
+/// One comparison of start and choice on the held-out scenes: a line of `openings.jsonl`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Opening {
-    /// From 1. A set that was opened often is one that was tuned on.
-    pub opening: usize,
-    /// The values that were compared with the start.
+pub struct HeldOutResult {
+    /// Number of the evaluation, from 1. Scenes that are evaluated often are scenes that were tuned on.
+    #[serde(rename = "opening")]
+    pub number: usize,
+    /// Values that were compared with the start.
     pub values: BTreeMap<String, Value>,
     /// Pixels per row, rows, samples per pixel.
     pub render: [u32; 3],
-    /// Start and choice on the sealed scenes.
-    pub paired: Paired,
+    /// Start and choice on the held-out scenes.
+    pub paired: PairedComparison,
 }
 
-/// All looks so far.
-pub fn openings(path: &Path) -> Result<Vec<Opening>, Error> {
+/// Reads all results so far.
+pub fn read_held_out_results(path: &Path) -> Result<Vec<HeldOutResult>, Error> {
     if !path.exists() {
         return Ok(Vec::new());
     }
@@ -33,7 +34,7 @@ pub fn openings(path: &Path) -> Result<Vec<Opening>, Error> {
     let line = |(index, line): (usize, &str)| {
         serde_json::from_str(line).map_err(|error| {
             Error::Usage(format!(
-                "{}:{}: no opening of a sealed set: {error}; choose another --out",
+                "{}:{}: is no result on held-out scenes: {error}; choose another output folder",
                 path.display(),
                 index + 1
             ))
@@ -42,27 +43,27 @@ pub fn openings(path: &Path) -> Result<Vec<Opening>, Error> {
     text.lines().enumerate().map(line).collect()
 }
 
-/// Records a look. The same values on the same scenes say nothing new and count once.
-pub fn record(
+/// Adds a result to the file. The same values on the same scenes say nothing new and count once.
+pub fn record_held_out_result(
     path: &Path,
     values: &BTreeMap<String, Value>,
     render: [u32; 3],
-    paired: Paired,
-) -> Result<Vec<Opening>, Error> {
-    let mut all = openings(path)?;
+    paired: PairedComparison,
+) -> Result<Vec<HeldOutResult>, Error> {
+    let mut all = read_held_out_results(path)?;
     let known = all
         .iter()
         .any(|it| it.values == *values && it.render == render && it.paired.scenes == paired.scenes);
     if !known {
-        all.push(Opening {
-            opening: all.len() + 1,
+        all.push(HeldOutResult {
+            number: all.len() + 1,
             values: values.clone(),
             render,
             paired,
         });
         let lines = all
             .iter()
-            .map(|it| serde_json::to_string(it).expect("an opening is plain data") + "\n");
+            .map(|it| serde_json::to_string(it).expect("a result is plain data") + "\n");
         write_atomically(path, lines.collect::<String>().as_bytes())?;
     }
     Ok(all)

@@ -1,4 +1,4 @@
-//! Scores of a candidate, for a search that is driven from outside.
+//! Evaluation of one candidate, for a search that is driven from outside.
 
 use std::collections::BTreeMap;
 
@@ -6,37 +6,38 @@ use filters::{Settings, Value};
 use serde::{Deserialize, Serialize};
 
 use super::cost::Stopwatch;
+use super::evaluator::Evaluator;
 use super::loss::{mean_log_ratio, worst_bleed};
-use super::{Evaluator, SceneScore};
+use super::target::SceneScore;
 use crate::Error;
 
-/// Scores of one candidate beside the start, on the same scenes.
+/// Scores of one candidate relative to the start, on the same scenes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Answer {
-    /// Every parameter.
+pub struct Evaluation {
+    /// Value of every parameter.
     pub values: BTreeMap<String, Value>,
     /// Mean over scenes of log(error / error of the start): below 0 is better.
     pub error: f64,
     /// Lateral bleed of the worst scene, in pixels.
     pub bleed: Option<f64>,
-    /// GPU time over that of the start.
+    /// GPU time relative to that of the start.
     pub cost: Option<f64>,
-    /// Per scene.
+    /// Scores per scene.
     pub scenes: BTreeMap<String, SceneScore>,
 }
 
-/// Scores a candidate on scenes by their indices; `heard` as in [`Evaluator::scores`]. Refuses to sum up what was ended
-/// early.
-pub fn answer(
+/// Evaluates a candidate on scenes by their indices; `on_score` as in [`Evaluator::score_candidate`]. An evaluation that
+/// `on_score` ends early is an error.
+pub fn evaluate_candidate(
     evaluator: &mut Evaluator,
     settings: &Settings,
     scenes: &[usize],
     cost: bool,
-    heard: impl FnMut(usize, &SceneScore) -> bool,
-) -> Result<Answer, Error> {
+    on_score: impl FnMut(usize, &SceneScore) -> bool,
+) -> Result<Evaluation, Error> {
     let start = evaluator.choice.settings.clone();
-    let start = named(evaluator, &start, scenes, |_, _| true)?;
-    let scores = named(evaluator, settings, scenes, heard)?;
+    let start = score_by_name(evaluator, &start, scenes, |_, _| true)?;
+    let scores = score_by_name(evaluator, settings, scenes, on_score)?;
     if scores.len() < scenes.len() {
         return Err(tracer::TraceError::Cancelled.into());
     }
@@ -44,29 +45,29 @@ pub fn answer(
         (Some(gpu), [first, ..]) if cost => Some(Stopwatch {
             gpu,
             choice: &evaluator.choice,
-            frame: &evaluator.targets[*first].shot.frame,
+            frame: &evaluator.targets[*first].scene.frame,
         }),
         _ => None,
     };
-    Ok(Answer {
+    Ok(Evaluation {
         values: settings.values.clone(),
         error: mean_log_ratio(&scores, &start, |_| true)
             .ok_or_else(|| Error::Usage("scenes: none is named; name at least one".to_owned()))?,
         bleed: worst_bleed(&scores),
-        cost: stopwatch.map(|it| it.ratio(settings)).transpose()?,
+        cost: (stopwatch.map(|own| own.measure_ratio(settings))).transpose()?,
         scenes: scores,
     })
 }
 
-fn named(
+fn score_by_name(
     evaluator: &mut Evaluator,
     settings: &Settings,
     scenes: &[usize],
-    heard: impl FnMut(usize, &SceneScore) -> bool,
+    on_score: impl FnMut(usize, &SceneScore) -> bool,
 ) -> Result<BTreeMap<String, SceneScore>, Error> {
-    let scores = evaluator.scores(settings, scenes, heard)?;
+    let scores = evaluator.score_candidate(settings, scenes, on_score)?;
     let names = scenes
         .iter()
-        .map(|scene| &evaluator.targets[*scene].shot.name);
+        .map(|scene| &evaluator.targets[*scene].scene.name);
     Ok(names.cloned().zip(scores).collect())
 }

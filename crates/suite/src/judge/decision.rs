@@ -1,0 +1,17 @@
+//! Decision of a check.
+
+use serde::Serialize;
+
+/// Result of a check; a later one outweighs an earlier one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Decision {
+    /// Every required bound is kept.
+    Pass,
+    /// None is broken, but for some the truth is too noisy to tell.
+    Inconclusive,
+    /// A required bound is broken, or a case failed.
+    Broken,
+    /// A bound is stricter than the truth's noise can carry, or no bound applies to a case.
+    Misconfigured,
+}
