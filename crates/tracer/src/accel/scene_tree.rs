@@ -110,21 +110,65 @@ impl<'a> SceneTree<'a> {
     #[inline(always)]
     pub fn closest<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
         let time = poses.time();
-        let mut stack = poses.take_stack(self.stack_size);
         let mut best: Option<Hit> = None;
+        self.traverse::<L, true>(
+            lanes,
+            poses,
+            ray,
+            f64::INFINITY,
+            #[inline(always)]
+            |object, triangle, crossing| {
+                self.keep_nearer(&mut best, time, object, triangle, crossing);
+                best.map_or(f64::INFINITY, |hit| hit.t)
+            },
+        );
+        best
+    }
+
+    /// Returns true if anything lies at `0 < t < limit`.
+    #[inline(always)]
+    pub fn blocked<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
+        let mut blocked = false;
+        self.traverse::<L, false>(
+            lanes,
+            poses,
+            ray,
+            limit,
+            #[inline(always)]
+            |object, triangle, crossing| {
+                let opaque = self.opacities[object].is_opaque(self.scene, triangle, &crossing);
+                blocked |= crossing.t < limit && opaque;
+                if blocked { NOWHERE } else { limit }
+            },
+        );
+        blocked
+    }
+
+    /// Visits the crossings at `0 < t <= limit`: roughly from near to far where `SORTED`, else in any order. `visit` takes
+    /// the object and the triangle and returns the new limit; one below 0 ends the traversal.
+    #[inline(always)]
+    fn traverse<L: Lanes, const SORTED: bool>(
+        &self,
+        lanes: L,
+        poses: &mut Poses,
+        ray: &Ray,
+        mut limit: f64,
+        mut visit: impl FnMut(usize, u32, Crossing) -> f64,
+    ) {
+        let time = poses.time();
+        let mut stack = poses.take_stack(self.stack_size);
         let mut leaf_ray = LastLeafRay::default();
-        let limit = |best: &Option<Hit>| best.map_or(f64::INFINITY, |hit| hit.t);
-        self.world.traverse::<L, true>(
+        self.world.traverse::<L, SORTED>(
             lanes,
             &mut stack,
             (ray, time),
-            f64::INFINITY,
+            limit,
             #[inline(always)]
             |stack, Part { object, leaf }| {
-                let before = limit(&best);
+                let before = limit;
                 let visit = |triangle, crossing| {
-                    self.keep_nearer(&mut best, time, object, triangle, crossing);
-                    limit(&best)
+                    limit = visit(object, triangle, crossing);
+                    limit
                 };
                 match leaf {
                     Some(leaf) => {
@@ -137,58 +181,15 @@ impl<'a> SceneTree<'a> {
                     None => {
                         let local = ray.transformed(&poses.pose(object).to_object);
                         let mesh = self.mesh(object);
-                        mesh.traverse::<L, true>(lanes, stack, &local, time, before, visit);
+                        mesh.traverse::<L, SORTED>(lanes, stack, &local, time, before, visit);
                     }
                 }
-                limit(&best)
+                limit
             },
             #[inline(always)]
             |part| self.prefetch(part),
         );
         poses.stack = stack;
-        best
-    }
-
-    /// Returns true if anything lies at `0 < t < limit`.
-    #[inline(always)]
-    pub fn blocked<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
-        let time = poses.time();
-        let mut stack = poses.take_stack(self.stack_size);
-        let mut blocked = false;
-        let mut leaf_ray = LastLeafRay::default();
-        self.world.traverse::<L, false>(
-            lanes,
-            &mut stack,
-            (ray, time),
-            limit,
-            #[inline(always)]
-            |stack, Part { object, leaf }| {
-                let visit = |triangle, crossing: Crossing| {
-                    let opaque = self.opacities[object].is_opaque(self.scene, triangle, &crossing);
-                    blocked |= crossing.t < limit && opaque;
-                    if blocked { NOWHERE } else { limit }
-                };
-                match leaf {
-                    Some(leaf) => {
-                        let mesh = self.mesh(object).rigid();
-                        if let Some(ray) = leaf_ray.get(mesh, object, poses, ray) {
-                            mesh.intersect_leaf(lanes, leaf, ray, limit, visit);
-                        }
-                    }
-                    None if poses.is_missed(object, ray) => {}
-                    None => {
-                        let local = ray.transformed(&poses.pose(object).to_object);
-                        let mesh = self.mesh(object);
-                        mesh.traverse::<L, false>(lanes, stack, &local, time, limit, visit);
-                    }
-                }
-                if blocked { NOWHERE } else { limit }
-            },
-            #[inline(always)]
-            |part| self.prefetch(part),
-        );
-        poses.stack = stack;
-        blocked
     }
 
     /// Finds the hit of [`SceneTree::closest`] by testing every triangle: the reference for tests.

@@ -22,15 +22,15 @@ pub(crate) struct InstantView {
     unchanging: bool,
 }
 
-/// One sample, as it was at the instant.
+/// A visible point, as the instant's camera saw it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct InstantSample {
-    /// Radiance of the visible point at the instant, minus its radiance now; none where it was not asked for.
-    pub shift: Option<Vec3>,
-    /// Place of the point at the instant, in pixels from the picture's top left; none behind the camera.
+pub(crate) struct InstantPoint {
+    /// Place in pixels from the picture's top left; none behind the camera.
     pub place: Option<DVec2>,
     /// True if the frame shows the point.
     pub is_shown: bool,
+    /// Ray of the instant's camera to the point, and its hit; none at infinity.
+    ray: Option<(Ray, Hit)>,
 }
 
 /// Sums over the samples of a pixel.
@@ -56,15 +56,6 @@ pub(crate) struct InstantMeans {
     pub spread: DVec3,
 }
 
-/// The ray of the instant's camera to a visible point.
-struct InstantRay {
-    ray: Ray,
-    hit: Hit,
-    point: DVec3,
-    /// True if the camera saw the same side of the surface then.
-    same_side: bool,
-}
-
 impl InstantView {
     pub fn new(stage: &Stage, canvas: Canvas) -> Self {
         Self {
@@ -74,143 +65,88 @@ impl InstantView {
         }
     }
 
-    /// Looks back at a sample that `ray` found at the time of `poses`; `then` are the poses of the instant. `shade` asks for
-    /// the shading at the instant, which is the expensive part.
-    pub fn sample(
-        &self,
-        integrator: &Integrator,
-        (poses, then): (&mut Poses, &mut Poses),
-        ray: &Ray,
-        sample: &PathSample,
-        sampler: &Sampler,
-        shade: bool,
-    ) -> InstantSample {
-        let stage = integrator.stage;
-        let Some(hit) = &sample.hit else {
-            return self.sample_background(stage, then, ray.direction, shade);
-        };
-        let point = self.point(stage, then, hit);
-        let instant = self.ray_to(stage, (poses, then), ray, hit, point);
-        let place = self.view.project(point).map(DVec2::from);
-        let shift = shade.then(|| {
-            if self.unchanging || !sample.scattered {
-                return Vec3::ZERO;
-            }
-            let frozen = integrator.radiance_along(then, instant.ray, Some(instant.hit), sampler);
-            frozen - sample.radiance
-        });
-        InstantSample {
-            shift,
-            place,
-            is_shown: self.shows_point(stage, then, &instant, place),
-        }
-    }
-
-    /// Returns true if the frame shows the point that `ray` meets at the time of `poses`; `then` are the poses of the instant.
-    pub fn shows(
+    /// Looks back at the point that `ray` meets at the time of `poses`; `then` are the poses of the instant.
+    pub fn look_back(
         &self,
         stage: &Stage,
         (poses, then): (&mut Poses, &mut Poses),
         ray: &Ray,
         hit: Option<&Hit>,
-    ) -> bool {
+    ) -> InstantPoint {
         let Some(hit) = hit else {
-            return self
-                .sample_background(stage, then, ray.direction, false)
-                .is_shown;
+            return self.look_at_infinity(stage, then, ray.direction);
         };
-        let point = self.point(stage, then, hit);
-        let instant = self.ray_to(stage, (poses, then), ray, hit, point);
-        let place = self.view.project(point).map(DVec2::from);
-        self.shows_point(stage, then, &instant, place)
-    }
-
-    /// Returns true if the frame shows a point, which lay at `place` in it.
-    fn shows_point(
-        &self,
-        stage: &Stage,
-        then: &mut Poses,
-        instant: &InstantRay,
-        place: Option<DVec2>,
-    ) -> bool {
-        instant.same_side
-            && place.is_some_and(|place| self.contains(place))
-            && !self.is_hidden(stage, then, instant)
-    }
-
-    /// Looks back at a point at infinity, whose radiance never changes.
-    fn sample_background(
-        &self,
-        stage: &Stage,
-        then: &mut Poses,
-        direction: DVec3,
-        shade: bool,
-    ) -> InstantSample {
-        let place = self.view.project_direction(direction).map(DVec2::from);
-        let ray = Ray {
-            origin: self.view.to_world.translation,
-            direction,
-        };
-        InstantSample {
-            shift: shade.then_some(Vec3::ZERO),
-            place,
-            is_shown: place.is_some_and(|place| self.contains(place))
-                && !stage.blocked(then, &ray, f64::INFINITY),
-        }
-    }
-
-    /// The position of a hit's point in the world at the instant.
-    fn point(&self, stage: &Stage, then: &mut Poses, hit: &Hit) -> DVec3 {
         let mesh = &stage.scene.meshes[stage.scene.objects[hit.object].mesh];
-        let point = mesh.at(0.0).point(hit.triangle, hit.weights);
-        then.pose(hit.object).to_world.transform_point3(point)
-    }
-
-    /// The ray of the instant's camera to the point. Where that camera saw the surface's other side, the ray instead meets
-    /// the side that is seen now, in the same direction as now in the object's own space.
-    fn ray_to(
-        &self,
-        stage: &Stage,
-        (poses, then): (&mut Poses, &mut Poses),
-        ray: &Ray,
-        hit: &Hit,
-        point: DVec3,
-    ) -> InstantRay {
-        let mesh = &stage.scene.meshes[stage.scene.objects[hit.object].mesh];
+        let own = mesh.at(0.0).point(hit.triangle, hit.weights);
+        let point = then.pose(hit.object).to_world.transform_point3(own);
         let side = |poses: &mut Poses, time: f64, direction: DVec3| {
             let to_world = &poses.pose(hit.object).to_world;
             let normal = mesh.at(time).area_normal(hit.triangle, to_world);
             normal.dot(direction) > 0.0
         };
-        let eye = self.view.to_world.translation;
-        let way = point - eye;
+        let way = point - self.view.to_world.translation;
         let seen = side(poses, hit.time, ray.direction);
         let same_side = side(then, 0.0, way) == seen;
+        // Where the camera saw the other side then, this ray meets the side that is seen now, in the same direction as now
+        // in the object's own space.
         let direction = if same_side {
             way.normalize()
         } else {
-            let own = poses
-                .pose(hit.object)
-                .to_object
-                .transform_vector3(ray.direction);
-            then.pose(hit.object)
-                .to_world
-                .transform_vector3(own)
-                .normalize()
+            let to_object = poses.pose(hit.object).to_object;
+            let to_world = then.pose(hit.object).to_world;
+            let own = to_object.transform_vector3(ray.direction);
+            to_world.transform_vector3(own).normalize()
         };
         let distance = if same_side { way.length() } else { hit.t };
-        InstantRay {
-            ray: Ray {
-                origin: point - distance * direction,
-                direction,
-            },
-            hit: Hit {
-                t: distance,
-                time: 0.0,
-                ..*hit
-            },
-            point,
-            same_side,
+        let ray = Ray {
+            origin: point - distance * direction,
+            direction,
+        };
+        let hit = Hit {
+            t: distance,
+            time: 0.0,
+            ..*hit
+        };
+        let place = self.view.project(point).map(DVec2::from);
+        InstantPoint {
+            place,
+            is_shown: same_side
+                && place.is_some_and(|place| self.contains(place))
+                && !self.is_hidden(stage, then, &ray, &hit, point),
+            ray: Some((ray, hit)),
+        }
+    }
+
+    /// Looks back at a point at infinity.
+    fn look_at_infinity(&self, stage: &Stage, then: &mut Poses, direction: DVec3) -> InstantPoint {
+        let place = self.view.project_direction(direction).map(DVec2::from);
+        let ray = Ray {
+            origin: self.view.to_world.translation,
+            direction,
+        };
+        InstantPoint {
+            place,
+            is_shown: place.is_some_and(|place| self.contains(place))
+                && !stage.blocked(then, &ray, f64::INFINITY),
+            ray: None,
+        }
+    }
+
+    /// Shades a sample's point at the instant; returns the radiance then minus the radiance of the sample. `then` are the
+    /// poses of the instant.
+    pub fn shift(
+        &self,
+        integrator: &Integrator,
+        then: &mut Poses,
+        point: &InstantPoint,
+        sample: &PathSample,
+        sampler: &Sampler,
+    ) -> Vec3 {
+        match point.ray {
+            Some((ray, hit)) if sample.scattered && !self.unchanging => {
+                integrator.radiance_along(then, ray, Some(hit), sampler) - sample.radiance
+            }
+            _ => Vec3::ZERO,
         }
     }
 
@@ -221,10 +157,17 @@ impl InstantView {
     }
 
     /// Returns true if anything lies between the eye and the point. The ray leaves the surface as shadow rays do.
-    fn is_hidden(&self, stage: &Stage, then: &mut Poses, instant: &InstantRay) -> bool {
-        let facet = stage.facet(then, &instant.ray, &instant.hit);
-        let magnitude = instant.point.abs().max_element().max(instant.hit.t);
-        let start = instant.point + LIFT * magnitude * facet;
+    fn is_hidden(
+        &self,
+        stage: &Stage,
+        then: &mut Poses,
+        ray: &Ray,
+        hit: &Hit,
+        point: DVec3,
+    ) -> bool {
+        let facet = stage.facet(then, ray, hit);
+        let magnitude = point.abs().max_element().max(hit.t);
+        let start = point + LIFT * magnitude * facet;
         let way = self.view.to_world.translation - start;
         let back = Ray {
             origin: start,
@@ -235,15 +178,21 @@ impl InstantView {
 }
 
 impl InstantSums {
-    /// Adds a sample of this radiance, of the pixel with this centre.
-    pub fn add(&mut self, sample: &InstantSample, radiance: Vec3, centre: [f64; 2]) {
+    /// Adds a sample of the pixel with this centre: its point, its radiance, and the shift if it was shaded again.
+    pub fn add(
+        &mut self,
+        point: &InstantPoint,
+        radiance: Vec3,
+        shift: Option<Vec3>,
+        centre: [f64; 2],
+    ) {
         self.live += radiance.as_dvec3();
-        if let Some(shift) = sample.shift {
+        if let Some(shift) = shift {
             self.shift += shift.as_dvec3();
             self.shifts += 1;
         }
-        self.unknowable += f64::from(!sample.is_shown);
-        if let Some(place) = sample.place {
+        self.unknowable += f64::from(!point.is_shown);
+        if let Some(place) = point.place {
             let offset = place - DVec2::from(centre);
             self.placed += 1.0;
             self.offset += offset;

@@ -145,15 +145,14 @@ impl<'a> Film<'a> {
             seen[sample.object_id()] += 1;
             if let Some(instant) = &self.instant {
                 let poses = (&mut eye.poses, &mut eye.instant);
-                let at_instant = instant.sample(
-                    &self.integrator,
-                    poses,
-                    &ray,
-                    &sample,
-                    &sampler,
-                    index % SHADED_AGAIN == 0,
-                );
-                instant_sums.add(&at_instant, sample.radiance, [left + 0.5, top + 0.5]);
+                let point =
+                    instant.look_back(self.integrator.stage, poses, &ray, sample.hit.as_ref());
+                let shift = index.is_multiple_of(SHADED_AGAIN).then(|| {
+                    let then = &mut eye.instant;
+                    instant.shift(&self.integrator, then, &point, &sample, &sampler)
+                });
+                let centre = [left + 0.5, top + 0.5];
+                instant_sums.add(&point, sample.radiance, shift, centre);
             }
         }
         Estimate {

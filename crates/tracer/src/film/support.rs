@@ -78,7 +78,8 @@ fn probe_pixel(film: &Film, eye: &mut Eye, pixel: u32) -> PixelProbe {
         probe.seen[hit.map_or(0, |hit| hit.object + 1)] = true;
         if !probe.unknowable {
             let poses = (&mut eye.poses, &mut eye.instant);
-            probe.unknowable = !instant.shows(stage, poses, &ray, hit.as_ref());
+            let point = instant.look_back(stage, poses, &ray, hit.as_ref());
+            probe.unknowable = !point.is_shown;
         }
     }
     probe
