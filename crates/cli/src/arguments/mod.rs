@@ -18,7 +18,9 @@ pub use render::{MergeArgs, RenderArgs, Replicates};
 pub use report::{CompareArgs, ReportArgs};
 pub use tune::{CandidateArgs, EvaluateArgs, ServeArgs, TuneArgs};
 
-use crate::arguments::values::{degrees_per_frame, jitter_frames, pixels_per_frame, rounds, size};
+use crate::arguments::values::{
+    degrees_per_frame, jitter_frames, named, pixels_per_frame, rounds, size,
+};
 
 /// How good is a real-time motion blur? Renders the truth of moving scenes, runs filters on one frame of each, and
 /// measures how far they are from it.
@@ -115,13 +117,13 @@ pub struct MeasureArgs {
     #[arg(long, value_name = "N", default_value_t = 8)]
     pub replicates: u32,
     /// Forms of the velocity buffer, separated by commas, to be tried on every filter beside 32-bit floats.
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "FORMATS")]
+    #[arg(long, value_parser = named(VelocityFormat::ALL, VelocityFormat::name, VelocityFormat::help), value_delimiter = ',', value_name = "FORMATS")]
     pub velocity_format: Vec<VelocityFormat>,
     /// Forms of the depth buffer to be tried beside 32-bit floats.
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "FORMATS")]
+    #[arg(long, value_parser = named(DepthFormat::ALL, DepthFormat::name, DepthFormat::help), value_delimiter = ',', value_name = "FORMATS")]
     pub depth_format: Vec<DepthFormat>,
     /// What lies beyond the border, to be tried beside what each filter makes of it; see also --guard-band.
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "POLICIES")]
+    #[arg(long, value_parser = named(Border::ALL, Border::name, Border::help), value_delimiter = ',', value_name = "POLICIES")]
     pub border: Vec<Border>,
     /// Frames of its noise that a noisy filter is tried with, to tell its noise from its other errors; 0 for none.
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = jitter_frames)]
@@ -314,7 +316,7 @@ pub struct ImportArgs {
     #[arg(long, value_name = "SPEED", value_parser = degrees_per_frame, allow_hyphen_values = true)]
     pub orbit: Option<f64>,
     /// The model's axis that points up.
-    #[arg(long, value_enum, value_name = "AXIS", default_value = "y")]
+    #[arg(long, value_parser = named(Up::ALL, Up::name, Up::help), value_name = "AXIS", default_value = "y")]
     pub up: Up,
     /// Import the shape alone, in grey, without materials.
     #[arg(long)]

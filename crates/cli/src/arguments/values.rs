@@ -1,8 +1,25 @@
 //! Parsers of single words of the command line.
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use suite::{MOST_REPLICATES, SIDES};
 
 use crate::arguments::Replicates;
+
+/// One of the values of an enum, by its name.
+pub fn named<T: Copy + Send + Sync + 'static>(
+    all: &'static [T],
+    name: fn(T) -> &'static str,
+    help: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    let possible = (all.iter()).map(move |value| {
+        let help = help(*value).trim_end_matches('.');
+        PossibleValue::new(name(*value)).help(help)
+    });
+    PossibleValuesParser::new(possible).map(move |text| {
+        let value = all.iter().find(|value| name(**value) == text);
+        *value.expect("the parser knows these names alone")
+    })
+}
 
 /// `640x360` as (640, 360).
 pub fn size(text: &str) -> Result<(u32, u32), String> {

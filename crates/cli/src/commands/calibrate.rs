@@ -1,7 +1,8 @@
 //! `shuttertruth calibrate`
 
 use suite::{
-    Error, Plan, Run, calibrate, check_names, open_gpu, printable_path, refuse_failures, run,
+    Error, Run, RunPlan, calibrate, check_names, measure_scenes, open_gpu, printable_path,
+    refuse_failures,
 };
 use tracer::{Progress, Watch};
 
@@ -49,7 +50,7 @@ fn check_seeds(first: u64, runs: u32) -> Result<(), Error> {
 }
 
 /// One run per adapter and seed.
-fn all_runs(args: &CalibrateArgs, plan: &mut Plan, watch: Watch) -> Result<Vec<Run>, Error> {
+fn all_runs(args: &CalibrateArgs, plan: &mut RunPlan, watch: Watch) -> Result<Vec<Run>, Error> {
     let adapters = adapters(args);
     let total = adapters.len() as u64 * u64::from(args.runs);
     let first = plan.render.seed;
@@ -66,7 +67,7 @@ fn all_runs(args: &CalibrateArgs, plan: &mut Plan, watch: Watch) -> Result<Vec<R
             // The truths serve every adapter.
             plan.out = args.measure.scenes.out.join(format!("seed_{seed}"));
             let _claim = claim_out(plan)?;
-            let run = run(plan, gpu.as_ref(), std::env::args().collect())?;
+            let run = measure_scenes(plan, gpu.as_ref(), std::env::args().collect())?;
             write_run(&run, &plan.out)?;
             refuse_failures(&run.failures)?;
             runs.push(run);

@@ -1,7 +1,7 @@
 //! `shuttertruth catalogue`
 
 use report::catalogue;
-use suite::{Error, open_gpu, refuse_failures, run};
+use suite::{Error, measure_scenes, open_gpu, refuse_failures};
 
 use super::measure::{claim_out, plan};
 use super::say;
@@ -21,7 +21,7 @@ pub fn execute(args: &CatalogueArgs) -> Result<(), Error> {
     let (plan, _) = plan(&measure, measure.scenes.out.clone())?;
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref(), plan.monitor)?;
     let _claim = claim_out(&plan)?;
-    let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
+    let run = measure_scenes(&plan, gpu.as_ref(), std::env::args().collect())?;
     let page = plan.out.join("catalogue.md");
     frame::write_atomically(&page, catalogue(&run).as_bytes())?;
     say(&format!("written: {}\n", suite::printable_path(&page)))?;

@@ -10,8 +10,8 @@ use crate::tables::check::check_text;
 use frame::FileError;
 use suite::{
     BOUNDS_FILE, Baseline, Check, Error, Finding, Judgement, Margin, Run, RunBounds, add_evidence,
-    bounded_size, check, check_bounded, check_names, compare, judge, open_gpu, read_bounds,
-    read_bounds_file, refuse_tracked, run,
+    bounded_size, check, check_bounded, check_names, compare, judge, measure_scenes, open_gpu,
+    read_bounds, read_bounds_file, refuse_tracked,
 };
 
 use super::measure::{adapter_line, check_replicates, claim_out, plan, write_judged};
@@ -96,7 +96,7 @@ fn run_and_judge(args: &CheckArgs, compared: bool) -> Result<Judged, Error> {
     }
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref(), plan.monitor)?;
     let _claim = claim_out(&plan)?;
-    let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
+    let run = measure_scenes(&plan, gpu.as_ref(), std::env::args().collect())?;
     let mut findings = judge(&run, &bounds);
     add_evidence(&run, &mut findings, &plan.out)?;
     write_judged(&run, &findings, &plan.out)?;

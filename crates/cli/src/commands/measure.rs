@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use crate::selection::{select_filters, select_scenes};
 use filters::AdapterDescription;
 use suite::{
-    Claim, Error, FEWEST_REPLICATES, FilterChoice, Finding, InputFormat, Judgement, Plan,
-    RenderSettings, Run, RunBounds, SceneBounds, Sharing, claim, read_bounds,
+    Claim, Error, FEWEST_REPLICATES, FilterChoice, Finding, InputFormat, Judgement, RenderSettings,
+    Run, RunBounds, RunPlan, SceneBounds, Sharing, claim, read_bounds,
 };
 
 use tracer::Scene;
@@ -16,7 +16,7 @@ use crate::arguments::MeasureArgs;
 use crate::output::progress::monitor;
 
 /// Loads scenes with their bounds, and filters; renders nothing. Scores are to have no intervals.
-pub fn plan(args: &MeasureArgs, out: PathBuf) -> Result<(Plan, RunBounds), Error> {
+pub fn plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds), Error> {
     let scenes = scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
     let bounds = (scenes.iter())
         .map(|(scene, bounds)| (scene.name.clone(), bounds.clone()))
@@ -24,7 +24,7 @@ pub fn plan(args: &MeasureArgs, out: PathBuf) -> Result<(Plan, RunBounds), Error
     let filters = filters(args)?;
     let usual = RenderSettings::default();
     let size = args.size.unwrap_or((usual.width, usual.height));
-    let plan = Plan {
+    let plan = RunPlan {
         scenes: scenes.into_iter().map(|(scene, _)| scene).collect(),
         filters,
         inputs: InputFormat::one_by_one(&args.velocity_format, &args.depth_format, &args.border),
@@ -39,7 +39,7 @@ pub fn plan(args: &MeasureArgs, out: PathBuf) -> Result<(Plan, RunBounds), Error
 }
 
 /// Claims the folder of a run for this process alone.
-pub fn claim_out(plan: &Plan) -> Result<Claim, Error> {
+pub fn claim_out(plan: &RunPlan) -> Result<Claim, Error> {
     claim(&plan.out, &plan.scenes, Sharing::Alone)
 }
 

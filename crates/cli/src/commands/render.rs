@@ -3,8 +3,8 @@
 use crate::selection::{SceneChoice, select_scenes};
 use frame::Truth;
 use suite::{
-    Error, MOST_REPLICATES, RenderSettings, Sharing, claim, deciding_floor, frame_of, part_of,
-    printable_path, scene_folder, truth_of, truth_until,
+    Error, MOST_REPLICATES, RenderSettings, Sharing, claim, deciding_floor, printable_path,
+    render_frame, render_part, render_truth, render_truth_until, scene_folder,
 };
 use tracer::Scene;
 
@@ -31,10 +31,10 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
                 let (out, monitor) = (&args.scenes.out, monitor(args.scenes.quiet));
                 let _claim = claim(out, [&scene], Sharing::Together)?;
                 if indices.start == 0 {
-                    frame_of(&scene, &settings, out, monitor)?;
+                    render_frame(&scene, &settings, out, monitor)?;
                 }
                 for alignment in &args.alignments {
-                    part_of(&scene, &settings, *alignment, indices.clone(), out, monitor)?;
+                    render_part(&scene, &settings, *alignment, indices.clone(), out, monitor)?;
                 }
                 say(&format!("{}\n", printable_path(&scene_folder(out, &scene))))?;
             }
@@ -57,16 +57,16 @@ fn whole(args: &RenderArgs, scene: &Scene, count: u32) -> Result<Vec<String>, Er
     let settings = settings(args, scene, count)?;
     let (out, monitor) = (&args.scenes.out, monitor(args.scenes.quiet));
     let _claim = claim(out, [scene], Sharing::Together)?;
-    frame_of(scene, &settings, out, monitor)?;
+    render_frame(scene, &settings, out, monitor)?;
     let mut noisy = Vec::new();
     let mut report = format!("{}\n", printable_path(&scene_folder(out, scene)));
     for &alignment in &args.alignments {
         let truth = match args.noise {
-            None => truth_of(scene, &settings, alignment, out, monitor)?,
+            None => render_truth(scene, &settings, alignment, out, monitor)?,
             Some(target) => {
                 let most = args.most_replicates;
                 let (truth, reached) =
-                    truth_until(scene, &settings, alignment, (target, most), out, monitor)?;
+                    render_truth_until(scene, &settings, alignment, (target, most), out, monitor)?;
                 if !reached {
                     noisy.push(too_noisy(&truth, target, most));
                 }

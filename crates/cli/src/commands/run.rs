@@ -5,7 +5,9 @@ use std::path::Path;
 use crate::output::wrapped::push_wrapped;
 use crate::tables::cases::table;
 use crate::tables::failures::failures_text;
-use suite::{Error, Finding, Outcome, Run, judge, open_gpu, printable_path, refuse_failures, run};
+use suite::{
+    Error, Finding, Outcome, Run, judge, measure_scenes, open_gpu, printable_path, refuse_failures,
+};
 
 use super::measure::{adapter_line, claim_out, plan, write_judged};
 use super::report::write_report;
@@ -21,7 +23,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
     }
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref(), plan.monitor)?;
     let _claim = claim_out(&plan)?;
-    let run = run(&plan, gpu.as_ref(), std::env::args().collect())?;
+    let run = measure_scenes(&plan, gpu.as_ref(), std::env::args().collect())?;
     let findings = judge(&run, &bounds);
     let json = write_judged(&run, &findings, &plan.out)?;
     let page = (args.html.as_deref())

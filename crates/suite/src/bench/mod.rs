@@ -1,16 +1,16 @@
 //! Cost of filters: the time of every pass, its memory traffic, and the growth of both with the reach.
 
-mod measure;
 mod panels;
 mod spread;
+mod timing;
 
 use std::collections::BTreeMap;
 
 use filters::{AdapterDescription, Clock, Value};
 use serde::{Deserialize, Serialize};
 
-pub use measure::{BASELINE, BenchPlan, bench};
 pub use spread::Spread;
+pub use timing::{BASELINE, BenchPlan, bench};
 
 /// Version of the layout of `bench.json`.
 pub const BENCH_FORMAT: u32 = 1;

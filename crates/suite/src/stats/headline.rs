@@ -4,8 +4,7 @@ use metrics::{
     Ideal, ImageMetric, LabelMetric, Measured, Metric, ObjectMetric, Region, Scores, SkillMetric,
 };
 
-use crate::Case;
-use crate::case::{IDENTITY, SCATTER_ORACLE};
+use crate::run::case::{Case, IDENTITY, SCATTER_ORACLE};
 
 /// A score of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

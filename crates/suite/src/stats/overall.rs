@@ -1,43 +1,15 @@
-//! Means of filters over all scenes of a run.
-
-use metrics::Measured;
-use serde::{Deserialize, Serialize};
+//! Means of filters over the scenes of a run.
 
 use super::headline::Headline;
 use super::scene_mean::{Weighted, scene_mean};
-use crate::Case;
+use crate::run::case::Case;
+use crate::run::overall::Overall;
+use metrics::Measured;
 
-/// The mean over all such scenes lies beyond either end of its interval with this probability.
+/// Probability that the mean over all such scenes lies beyond one end of its interval.
 const TAIL: f64 = 0.025;
 
-/// One metric of one filter preset, or of one bar, over the scenes that it applies to.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Overall {
-    /// `jump_flood:paper`, and behind that the form of the input where that is not as usual.
-    pub filter: String,
-    /// Whether it is a bar, and no filter.
-    pub bar: bool,
-    /// The shutter alignment that it is scored against.
-    pub alignment: String,
-    /// Name of the metric, `bleed` or `flip_common`.
-    pub metric: String,
-    /// How many scenes, each variant of one counted.
-    pub scenes: usize,
-    /// Mean over the scenes, in the metric's unit; of a skill the ratio of means.
-    pub mean: f64,
-    /// The lower and the upper end of the mean's 95 % confidence interval over scenes.
-    pub interval: [f64; 2],
-}
-
-impl Overall {
-    /// Whether both are of one filter preset or bar.
-    pub fn is_of_same(&self, other: &Self) -> bool {
-        let key = |own: &Self| (own.bar, own.filter.clone(), own.alignment.clone());
-        key(self) == key(other)
-    }
-}
-
-/// Means over at least two scenes, in the order of the cases, with Student's intervals over scenes.
+/// Computes means over at least two scenes, in the order of the cases, with Student's intervals over scenes.
 pub fn overall(cases: &[Case]) -> Vec<Overall> {
     let mut subjects: Vec<&Case> = Vec::new();
     for case in cases {
@@ -55,8 +27,8 @@ pub fn overall(cases: &[Case]) -> Vec<Overall> {
     subjects.into_iter().flat_map(of_subject).collect()
 }
 
-/// The means of one score, the best first: those of filters of one shutter alignment beside the bars of that alignment. One
-/// group, of all alignments, of a score that compares across them.
+/// Sorts the means of one score, the best first, in one group per shutter alignment, reference pictures among the filters. A score
+/// that compares across alignments has one group for all.
 pub fn rank_filters(overall: &[Overall], headline: Headline) -> Vec<Vec<&Overall>> {
     let name = headline.name();
     let mut groups: Vec<Vec<&Overall>> = Vec::new();
@@ -75,7 +47,7 @@ pub fn rank_filters(overall: &[Overall], headline: Headline) -> Vec<Vec<&Overall
     groups
 }
 
-/// Whether both are of the same filter preset or bar.
+/// Tells whether both are of the same filter preset or reference picture.
 fn are_of_one(a: &Case, b: &Case) -> bool {
     let key = |case: &Case| (case.bar, case.name(), case.alignment.clone());
     key(a) == key(b)

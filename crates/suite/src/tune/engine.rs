@@ -4,7 +4,7 @@ use filters::{Blur, Filter, FilterError, Gpu, Input, Kernels, Resident, Settings
 use frame::{Image, Plane};
 
 use super::shot::Target;
-use crate::run::probe::{pack, unpack};
+use crate::measure::probes::{pack, unpack};
 use crate::{Monitor, Runner};
 
 /// What candidates of one filter run on.

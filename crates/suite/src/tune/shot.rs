@@ -8,8 +8,9 @@ use serde::{Deserialize, Serialize};
 use tracer::{Family, Scene};
 
 use crate::judge::bounds::{Bounds, SceneBounds};
-use crate::render::rendered::{frame_of, truth_of};
-use crate::run::viewing;
+use crate::measure::references::viewing;
+use crate::render::frames::render_frame;
+use crate::render::truths::render_truth;
 use crate::{Error, Monitor, RenderSettings};
 
 /// Frame and truth of one scene.
@@ -49,8 +50,8 @@ impl Shot {
         Ok(Self {
             name: scene.name.clone(),
             family: scene.family,
-            frame: frame_of(scene, render, out, monitor)?,
-            truth: truth_of(scene, render, alignment, out, monitor)?,
+            frame: render_frame(scene, render, out, monitor)?,
+            truth: render_truth(scene, render, alignment, out, monitor)?,
             viewing: viewing(scene),
             bounds,
         })

@@ -10,7 +10,7 @@ use super::{
     BENCH_FORMAT, Bench, CaseCost, CopyCost, EXPOSURE, GROWTH_FROM, PassCost, REACHES, ReachCost,
     ReachPoint, SPEED, Spread,
 };
-use crate::run::filter_choice::FilterChoice;
+use crate::filter::choice::FilterChoice;
 use crate::{Error, PROGRAM};
 
 /// Filter and preset that times are divided by.
