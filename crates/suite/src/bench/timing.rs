@@ -1,40 +1,36 @@
-//! Times filters in turn, round after round.
+//! Bench of filters: the work behind its tables.
 
 use std::cell::Cell;
 
-use filters::{Blur, BufferCopy, Filter, FilterError, Gpu, Input, Loaded, PassTime, Settings};
-use tracer::{Progress, TraceError, Watch};
+use filters::{Blur, BufferCopy, Filter, FilterError, Gpu, Input, Loaded, Settings};
+use tracer::Watch;
 
+use super::costs::{case_cost, copy_cost, growth, pass_costs, total_seconds};
 use super::panels::Panels;
+use super::turns::{Times, Turns};
 use super::{
-    BENCH_FORMAT, Bench, CaseCost, CopyCost, EXPOSURE, GROWTH_FROM, PassCost, REACHES, ReachCost,
-    ReachPoint, SPEED, Spread,
+    BASELINE, BENCH_FORMAT, Bench, CaseCost, CopyCost, EXPOSURE, REACHES, ReachCost, ReachPoint,
+    SPEED, Spread,
 };
 use crate::filter::choice::FilterChoice;
 use crate::{Error, PROGRAM};
 
-/// Filter and preset that times are divided by.
-pub const BASELINE: &str = "jump_flood:paper";
-
-/// What a bench is asked to do.
+/// Everything that a bench is told to do.
 pub struct BenchPlan {
-    /// What is timed, beside [`BASELINE`].
+    /// Filters to time, beside [`BASELINE`].
     pub filters: Vec<FilterChoice>,
     /// Pixels per row.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// How often each filter runs.
+    /// Runs of each filter.
     pub rounds: u32,
-    /// Whether values in pixels stay as the presets have them.
+    /// True if values in pixels stay as the presets have them.
     pub as_written: bool,
 }
 
-/// Every dispatch of one run of a filter.
-type Times = Vec<PassTime>;
-
 /// Times every filter. Those of one table take turns, one run each per round, so that whatever else the machine does
-/// falls on all of them alike; a round before the first is not counted.
+/// affects all of them alike.
 pub fn bench(mut plan: BenchPlan, gpu: &Gpu, watch: Watch) -> Result<Bench, Error> {
     if !plan.filters.iter().any(|choice| choice.name() == BASELINE) {
         let (filter, preset) = (BASELINE.split_once(':')).expect("the baseline has a preset");
@@ -51,11 +47,11 @@ pub fn bench(mut plan: BenchPlan, gpu: &Gpu, watch: Watch) -> Result<Bench, Erro
         done: Cell::new(0),
         total: u64::from(plan.rounds + 1) * (1 + plan.filters.len() as u64),
     };
-    let (copy, cases) = cases(&plan, gpu, &turns)?;
+    let (copy, cases) = time_presets(&plan, gpu, &turns)?;
     let reaches = plan
         .filters
         .iter()
-        .map(|choice| reach(&plan, gpu, choice, &turns))
+        .map(|choice| time_reaches(&plan, gpu, choice, &turns))
         .collect::<Result<_, _>>()?;
     Ok(Bench {
         format: BENCH_FORMAT,
@@ -73,53 +69,16 @@ pub fn bench(mut plan: BenchPlan, gpu: &Gpu, watch: Watch) -> Result<Bench, Erro
     })
 }
 
-/// Rounds, and how many of all are done.
-struct Turns<'a> {
-    rounds: u32,
-    watch: Watch<'a>,
-    done: Cell<u64>,
-    total: u64,
-}
-
-impl Turns<'_> {
-    /// One run of each blur, then `beside`, in every round: per blur, its runs.
-    fn take<T>(
-        &self,
-        blurs: &[Loaded],
-        beside: impl Fn() -> Result<T, FilterError>,
-    ) -> Result<(Vec<Vec<Times>>, Vec<T>), Error> {
-        let mut runs = vec![Vec::new(); blurs.len()];
-        let mut besides = Vec::new();
-        for round in 0..=self.rounds {
-            let counts = round > 0;
-            for (blur, runs) in blurs.iter().zip(&mut runs) {
-                let times = blur.time()?;
-                runs.extend(counts.then_some(times));
-            }
-            besides.extend(Some(beside()?).filter(|_| counts));
-            self.advance()?;
-        }
-        Ok((runs, besides))
-    }
-
-    fn advance(&self) -> Result<(), Error> {
-        self.done.set(self.done.get() + 1);
-        let progress = Progress {
-            done: self.done.get(),
-            total: self.total,
-        };
-        match (self.watch)(progress).is_break() {
-            true => Err(TraceError::Cancelled.into()),
-            false => Ok(()),
-        }
-    }
-}
-
-fn cases(plan: &BenchPlan, gpu: &Gpu, turns: &Turns) -> Result<(CopyCost, Vec<CaseCost>), Error> {
+/// Times every filter preset on the frame of [`SPEED`], and the memory copy beside them.
+fn time_presets(
+    plan: &BenchPlan,
+    gpu: &Gpu,
+    turns: &Turns,
+) -> Result<(CopyCost, Vec<CaseCost>), Error> {
     let panels = Panels::new(plan.width, plan.height, SPEED as f32);
     let mut blurs = Vec::new();
     for choice in &plan.filters {
-        blurs.push(blur(plan, gpu, choice, &choice.settings)?);
+        blurs.push(compile(plan, gpu, choice, &choice.settings)?);
     }
     let mut loaded = Vec::new();
     for blur in &mut blurs {
@@ -134,72 +93,17 @@ fn cases(plan: &BenchPlan, gpu: &Gpu, turns: &Turns) -> Result<(CopyCost, Vec<Ca
         .position(|choice| choice.name() == BASELINE);
     let baseline: Vec<f64> = runs[index.expect("the baseline takes part")]
         .iter()
-        .map(total)
+        .map(total_seconds)
         .collect();
     let costs = plan.filters.iter().zip(&runs);
-    let costs = costs.map(|(choice, runs)| case_cost(choice, runs, &baseline, pixels(plan), &copy));
+    let costs =
+        costs.map(|(choice, runs)| case_cost(choice, runs, &baseline, pixel_count(plan), &copy));
     let costs = costs.collect();
     Ok((copy, costs))
 }
 
-fn copy_cost(bytes: u64, seconds: Vec<f64>) -> CopyCost {
-    let seconds = Spread::of(seconds);
-    CopyCost {
-        bytes,
-        seconds,
-        bytes_per_second: bytes as f64 / seconds.median,
-    }
-}
-
-fn case_cost(
-    choice: &FilterChoice,
-    runs: &[Times],
-    baseline: &[f64],
-    pixels: f64,
-    copy: &CopyCost,
-) -> CaseCost {
-    let seconds = Spread::of(runs.iter().map(total));
-    let bytes: u64 = runs[0].iter().map(|pass| pass.bytes).sum();
-    let bytes_per_second = bytes as f64 / seconds.median;
-    CaseCost {
-        filter: choice.filter.name.clone(),
-        preset: choice.preset.clone(),
-        parameters: choice.settings.values.clone(),
-        reference_width: choice.settings.reference_width,
-        seconds,
-        ratio: Spread::of(
-            runs.iter()
-                .zip(baseline)
-                .map(|(run, base)| total(run) / base),
-        ),
-        bytes_per_pixel: bytes as f64 / pixels,
-        bytes_per_second,
-        part_of_copy: bytes_per_second / copy.bytes_per_second,
-        passes: pass_costs(runs, pixels),
-    }
-}
-
-/// The iterations of a pass follow one another.
-fn pass_costs(runs: &[Times], pixels: f64) -> Vec<PassCost> {
-    let mut start = 0;
-    let passes = runs[0].chunk_by(|a, b| a.entry == b.entry);
-    passes
-        .map(|iterations| {
-            let range = start..start + iterations.len();
-            start = range.end;
-            let bytes: u64 = iterations.iter().map(|pass| pass.bytes).sum();
-            PassCost {
-                entry: iterations[0].entry.clone(),
-                iterations: iterations.len(),
-                seconds: Spread::of(runs.iter().map(|run| seconds(&run[range.clone()]))),
-                bytes_per_pixel: bytes as f64 / pixels,
-            }
-        })
-        .collect()
-}
-
 /// Times one filter at every reach, in turns.
-fn reach(
+fn time_reaches(
     plan: &BenchPlan,
     gpu: &Gpu,
     choice: &FilterChoice,
@@ -210,7 +114,7 @@ fn reach(
     let (mut blurs, mut speeds) = (Vec::new(), Vec::new());
     for (settings, pixels) in settings.iter().zip(REACHES) {
         if let Some(settings) = settings {
-            blurs.push(blur(plan, gpu, choice, settings)?);
+            blurs.push(compile(plan, gpu, choice, settings)?);
             speeds.push(pixels as f32);
         }
     }
@@ -228,10 +132,10 @@ fn reach(
         let runs: Option<&Vec<Times>> = runs[index].as_ref();
         ReachPoint {
             pixels: REACHES[index],
-            seconds: runs.map(|runs| Spread::of(runs.iter().map(total))),
+            seconds: runs.map(|runs| Spread::of(runs.iter().map(total_seconds))),
             value: (settings[index].as_ref().zip(parameter))
                 .map(|(settings, name)| settings.values[name].clone()),
-            passes: runs.map_or(Vec::new(), |runs| pass_costs(runs, pixels(plan))),
+            passes: runs.map_or(Vec::new(), |runs| pass_costs(runs, pixel_count(plan))),
         }
     };
     Ok(ReachCost {
@@ -243,23 +147,11 @@ fn reach(
     })
 }
 
-/// Of the longest reach over [`GROWTH_FROM`], round by round.
-fn growth(runs: &[Option<Vec<Times>>; REACHES.len()]) -> Option<Spread> {
-    let from = REACHES.iter().position(|pixels| *pixels == GROWTH_FROM);
-    let from = runs[from.expect("growth starts at one of the reaches")].as_ref()?;
-    let to = runs.last().and_then(Option::as_ref)?;
-    Some(Spread::of(
-        to.iter()
-            .zip(from)
-            .map(|(to, from)| total(to) / total(from)),
-    ))
-}
-
-fn pixels(plan: &BenchPlan) -> f64 {
+fn pixel_count(plan: &BenchPlan) -> f64 {
     f64::from(plan.width) * f64::from(plan.height)
 }
 
-fn blur<'g>(
+fn compile<'g>(
     plan: &BenchPlan,
     gpu: &'g Gpu,
     choice: &FilterChoice,
@@ -277,12 +169,4 @@ fn load<'b, 'g>(blur: &'b mut Blur<'g>, panels: &Panels) -> Result<Loaded<'b, 'g
         exposure: EXPOSURE,
         frame_index: 0,
     })
-}
-
-fn seconds(passes: &[PassTime]) -> f64 {
-    passes.iter().map(|pass| pass.seconds).sum()
-}
-
-fn total(run: &Times) -> f64 {
-    seconds(run)
 }
