@@ -127,7 +127,8 @@ impl Bench {
     fn checks(&self, filters: Vec<FilterChoice>) -> Vec<Check> {
         let count = filters.len();
         let run = self.run(filters, CHECKED_WITH);
-        let cases: Vec<Case> = (run.cases.iter().filter(|case| !case.bar).cloned()).collect();
+        let cases: Vec<Case> =
+            (run.cases.iter().filter(|case| !case.is_reference).cloned()).collect();
         assert_eq!(cases.len(), count * NAMES.len());
         (0..count)
             .map(|filter| {

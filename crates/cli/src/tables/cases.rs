@@ -40,8 +40,12 @@ pub fn table(run: &Run) -> String {
             let _ = writeln!(text, "{}", paint::heading(&title));
             for case in of_scene().filter(|case| case.alignment == alignment) {
                 let more = [noise(case), Headline::CommonFlip.text(case)];
-                let line = line(&titled(&case.name(), case.bar), &case.scores, &more);
-                text += &behind(case.bar, &line);
+                let line = line(
+                    &titled(&case.name(), case.is_reference),
+                    &case.scores,
+                    &more,
+                );
+                text += &behind(case.is_reference, &line);
             }
         }
     }

@@ -89,7 +89,7 @@ fn mean(changes: &[&Change]) -> MeanChange {
     };
     let worse = mean(|change| change.worse);
     let of_kind = |kind| changes.iter().filter(|change| change.kind == kind).count();
-    let kind = match worse.bounds {
+    let kind = match worse.interval {
         _ if of_kind(ChangeKind::Same) == count => MeanKind::Same,
         _ if count < FEWEST_SCENES => MeanKind::TooFewScenes,
         [low, _] if low > 0.0 => MeanKind::Worse,
@@ -104,7 +104,7 @@ fn mean(changes: &[&Change]) -> MeanChange {
         first: mean(|change| change.first).mean,
         second: mean(|change| change.second).mean,
         worse: worse.mean,
-        interval: worse.bounds,
+        interval: worse.interval,
         kind,
     }
 }

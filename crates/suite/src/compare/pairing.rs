@@ -41,7 +41,7 @@ pub fn title(case: &Case) -> String {
 
 /// `jump_flood:paper`; bars are made anew for every alignment.
 pub fn subject(case: &Case) -> String {
-    match case.bar {
+    match case.is_reference {
         true => format!("{} ({})", case.name(), case.alignment),
         false => case.name(),
     }
@@ -66,7 +66,7 @@ pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(
                 side.run
                     .cases
                     .iter()
-                    .filter(|case| !case.bar)
+                    .filter(|case| !case.is_reference)
                     .map(|case| case.filter.as_str()),
             )
         };
@@ -97,7 +97,7 @@ pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(
 type Key<'a> = (&'a str, String, &'a str, bool);
 
 fn key(case: &Case) -> Key<'_> {
-    (&case.scene, case.name(), &case.alignment, case.bar)
+    (&case.scene, case.name(), &case.alignment, case.is_reference)
 }
 
 /// Each once, at most six.

@@ -62,7 +62,8 @@ pub fn check(run: &Run, findings: Vec<Finding>, comparisons: Vec<Comparison>) ->
     let baseline = comparisons.iter().map(Comparison::decision);
     let unchecked = match comparisons.is_empty() {
         true => (run.cases.iter()).any(|case| {
-            !case.bar && !(findings.iter()).any(|finding| applies(finding) && finding.is_of(case))
+            !case.is_reference
+                && !(findings.iter()).any(|finding| applies(finding) && finding.is_of(case))
         }),
         false => false,
     };

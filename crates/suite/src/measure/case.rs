@@ -176,7 +176,7 @@ impl CaseContext<'_> {
             exposure: self.frame.exposure,
             filter: planned.filter().to_owned(),
             preset: planned.preset(),
-            bar: planned.is_reference(),
+            is_reference: planned.is_reference(),
             input: planned.input(),
             parameters: choice.map_or_else(BTreeMap::new, |choice| choice.settings.values.clone()),
             reference_width: choice.and_then(|choice| choice.settings.reference_width),

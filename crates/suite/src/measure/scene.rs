@@ -209,7 +209,7 @@ impl SceneContext<'_> {
         if !self.plan.intervals {
             case.intervals.clear();
         }
-        let is_whole = case.bar || !self.plan.intervals || !case.intervals.is_empty();
+        let is_whole = case.is_reference || !self.plan.intervals || !case.intervals.is_empty();
         is_whole.then_some(case)
     }
 

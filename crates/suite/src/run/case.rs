@@ -29,7 +29,8 @@ pub struct Case {
     /// The preset that the parameters started from; of `accumulate` the number of sub-frames.
     pub preset: String,
     /// True for a reference picture that filters are compared with: no filter made it, and no bound limits it.
-    pub bar: bool,
+    #[serde(rename = "bar")]
+    pub is_reference: bool,
     /// Form in which the filter got the frame.
     pub input: InputFormat,
     /// Every parameter's value.

@@ -8,7 +8,8 @@ pub struct Overall {
     /// `jump_flood:paper`, and behind that the form of the input where that is not the default.
     pub filter: String,
     /// True for a reference picture, false for a filter.
-    pub bar: bool,
+    #[serde(rename = "bar")]
+    pub is_reference: bool,
     /// The shutter alignment that it is scored against.
     pub alignment: String,
     /// Name of the metric, `bleed` or `flip_common`.
@@ -24,7 +25,7 @@ pub struct Overall {
 impl Overall {
     /// Tells whether both are of one filter preset or reference picture.
     pub fn is_of_same(&self, other: &Self) -> bool {
-        let key = |own: &Self| (own.bar, own.filter.clone(), own.alignment.clone());
+        let key = |own: &Self| (own.is_reference, own.filter.clone(), own.alignment.clone());
         key(self) == key(other)
     }
 }

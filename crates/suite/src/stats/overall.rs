@@ -49,7 +49,7 @@ pub fn rank_filters(overall: &[Overall], headline: Headline) -> Vec<Vec<&Overall
 
 /// Tells whether both are of the same filter preset or reference picture.
 fn are_of_one(a: &Case, b: &Case) -> bool {
-    let key = |case: &Case| (case.bar, case.name(), case.alignment.clone());
+    let key = |case: &Case| (case.is_reference, case.name(), case.alignment.clone());
     key(a) == key(b)
 }
 
@@ -67,12 +67,12 @@ fn mean(own: &[&Case], headline: Headline, all: &[Case]) -> Option<Overall> {
         let found = scene_mean(&scores, TAIL);
         Overall {
             filter: own[0].name(),
-            bar: own[0].bar,
+            is_reference: own[0].is_reference,
             alignment: own[0].alignment.clone(),
             metric: headline.name(),
             scenes: scores.len(),
             mean: found.mean,
-            interval: found.bounds,
+            interval: found.interval,
         }
     })
 }

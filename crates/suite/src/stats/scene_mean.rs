@@ -1,18 +1,18 @@
-//! The mean of a score over scenes, and how far it may be off because other scenes could have been taken.
+//! Mean of a score over scenes, and its uncertainty from the choice of scenes.
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// A score on one scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weighted {
-    /// In the metric's unit.
+    /// Score in the metric's unit.
     pub value: f64,
-    /// How much the scene counts, above 0: 1, or for a ratio of means what its ratio is divided by.
+    /// Weight of the scene, above 0: 1, or for a ratio of means the denominator of the scene's ratio.
     pub weight: f64,
 }
 
 impl Weighted {
-    /// A score that counts as much as any other.
+    /// Gives a score the weight 1.
     pub fn plain(value: f64) -> Self {
         Self { value, weight: 1.0 }
     }
@@ -23,14 +23,14 @@ impl Weighted {
 pub struct SceneMean {
     /// Weighted mean.
     pub mean: f64,
-    /// The lower and the upper bound, beyond each of which the mean over all such scenes lies with the wanted probability.
-    pub bounds: [f64; 2],
+    /// Lower and upper end of the interval, beyond each of which the mean over all such scenes lies with the wanted probability.
+    pub interval: [f64; 2],
 }
 
-/// The weighted mean of at least one scene, with bounds beyond each of which the mean over all such scenes lies with a
+/// Computes the weighted mean of at least one scene, with an interval beyond each end of which the mean over all such scenes lies with a
 /// probability of `tail`: Student's t of the scenes' weighted deviations. For equal weights that is the textbook's interval of
-/// a mean. For others it is that of a ratio of means, linearised (Cochran, "Sampling Techniques", 1977, section 6.4). One
-/// scene is its own bounds.
+/// a mean. For others it is that of a ratio of means, linearised (Cochran, "Sampling Techniques", 1977, section 6.4). The
+/// interval of one scene has no width.
 ///
 /// The truths' noise is in it: it makes the scenes' scores deviate, beside what the scenes themselves do. A standard error of
 /// each score, added to that, would count it twice.
@@ -43,7 +43,7 @@ pub fn scene_mean(scores: &[Weighted], tail: f64) -> SceneMean {
     if scores.len() == 1 {
         return SceneMean {
             mean,
-            bounds: [mean; 2],
+            interval: [mean; 2],
         };
     }
     let deviation = |score: &Weighted| score.weight / weight * (score.value - mean);
@@ -53,11 +53,11 @@ pub fn scene_mean(scores: &[Weighted], tail: f64) -> SceneMean {
     let half_width = student.inverse_cdf(1.0 - tail) * standard_error;
     SceneMean {
         mean,
-        bounds: [mean - half_width, mean + half_width],
+        interval: [mean - half_width, mean + half_width],
     }
 }
 
-/// The same of scores that count alike.
+/// Computes the mean of scores of equal weight.
 pub fn plain_mean(values: &[f64], tail: f64) -> SceneMean {
     let scores: Vec<Weighted> = values.iter().copied().map(Weighted::plain).collect();
     scene_mean(&scores, tail)
@@ -70,8 +70,8 @@ mod tests {
 
     #[test]
     fn one_value_is_its_own_bounds() {
-        assert_eq!(plain_mean(&[0.25], 0.05).bounds, [0.25, 0.25]);
-        assert_eq!(plain_mean(&[0.25; 5], 0.05).bounds, [0.25, 0.25]);
+        assert_eq!(plain_mean(&[0.25], 0.05).interval, [0.25, 0.25]);
+        assert_eq!(plain_mean(&[0.25; 5], 0.05).interval, [0.25, 0.25]);
     }
 
     #[test]
@@ -81,7 +81,7 @@ mod tests {
         for (tail, quantile) in [(0.025, 3.182), (0.05, 2.353)] {
             let found = plain_mean(&[1.0, 2.0, 4.0, 7.0], tail);
             assert_eq!(found.mean, 3.5);
-            let [low, high] = found.bounds;
+            let [low, high] = found.interval;
             assert!((low - (3.5 - quantile * error)).abs() < 1e-3, "{found:?}");
             assert!((high - (3.5 + quantile * error)).abs() < 1e-3, "{found:?}");
         }
@@ -105,7 +105,7 @@ mod tests {
             .map(|(gained, way)| ((gained - ratio * way) / mean_way).powi(2))
             .sum();
         let half = 4.303 * (squares / 6.0).sqrt();
-        assert!((found.bounds[1] - ratio - half).abs() < 1e-3, "{found:?}");
+        assert!((found.interval[1] - ratio - half).abs() < 1e-3, "{found:?}");
     }
 
     /// FLIP of three filters on the 23 shipped scenes at 160x90, by 32 samples per pixel: skewed, and one of them far off.
@@ -147,7 +147,7 @@ mod tests {
         [0.025, 0.094],
         [0.022, 0.066],
     ];
-    /// How many intervals of so many scenes, drawn from a population, hold the population's mean.
+    /// Measures which part of the intervals of scenes drawn from a population hold the population's mean.
     fn coverage(
         population: &[Weighted],
         scenes: usize,
@@ -167,7 +167,7 @@ mod tests {
     }
 
     fn student(scores: &[Weighted]) -> [f64; 2] {
-        scene_mean(scores, 0.025).bounds
+        scene_mean(scores, 0.025).interval
     }
 
     /// Percentiles of the means of samples with replacement: the bootstrap that is too narrow for few scenes.
@@ -228,7 +228,7 @@ mod tests {
         let mut widths = 0.0;
         for _ in 0..2000 {
             let scores: Vec<f64> = (0..23).map(|_| normal() + normal()).collect();
-            let [low, high] = plain_mean(&scores, 0.025).bounds;
+            let [low, high] = plain_mean(&scores, 0.025).interval;
             widths += (high - low) / 2.0 / 2000.0;
         }
         let due = 2.074 * (2.0f64 / 23.0).sqrt();

@@ -61,7 +61,7 @@ impl Difference {
     /// Of at least one paired difference.
     pub fn of(differences: &[f64]) -> Self {
         let found = plain_mean(differences, TAIL);
-        let verdict = match found.bounds {
+        let verdict = match found.interval {
             _ if differences.len() < FEWEST_SCENES => Preference::Undecided,
             [low, _] if low > 0.0 => Preference::First,
             [_, high] if high < 0.0 => Preference::Second,
@@ -69,7 +69,7 @@ impl Difference {
         };
         Self {
             mean: found.mean,
-            bounds: found.bounds,
+            bounds: found.interval,
             scenes: differences.len(),
             verdict,
         }

@@ -85,7 +85,7 @@ pub fn compare(
                 .to_owned(),
         ));
     }
-    let cases: Vec<&Case> = run.cases.iter().filter(|case| !case.bar).collect();
+    let cases: Vec<&Case> = run.cases.iter().filter(|case| !case.is_reference).collect();
     for case in &cases {
         check_truth(case, baseline).map_err(refuse)?;
     }
@@ -116,7 +116,7 @@ pub fn compare(
 
 fn comparison(filter: &str, metric: &str, differences: &[f64], margin: f64) -> Comparison {
     let found = plain_mean(differences, TAIL);
-    let [low, high] = found.bounds;
+    let [low, high] = found.interval;
     let kind = if high <= margin {
         ComparisonKind::NoWorse
     } else if low > margin {
@@ -130,7 +130,7 @@ fn comparison(filter: &str, metric: &str, differences: &[f64], margin: f64) -> C
         metric: metric.to_owned(),
         scenes: differences.len(),
         worse: found.mean,
-        bounds: found.bounds,
+        bounds: found.interval,
         margin,
     }
 }
