@@ -139,7 +139,7 @@ impl Bench {
     /// The last run's cases that are filters.
     pub fn measured_filters(&self) -> Vec<suite::Case> {
         let cases = self.measured().cases.into_iter();
-        cases.filter(|case| !case.bar).collect()
+        cases.filter(|case| !case.is_reference).collect()
     }
 }
 

@@ -228,7 +228,7 @@ fn what_cannot_be_imported_is_refused_with_the_way_out() {
     assert_refused(
         &import(&bench, &[]),
         2,
-        &["nothing would move", "--spin 20deg/frame"],
+        &["nothing would move", "spin such as 20deg/frame"],
     );
     for wrong in ["40", "0px/frame", "40deg/frame", "fast"] {
         assert_refused(
@@ -287,7 +287,11 @@ fn what_cannot_be_imported_is_refused_with_the_way_out() {
     )
     .unwrap();
     // Refused before it is found to lie outside: faces with a texture need coordinates.
-    assert_refused(&import(&bench, &slide), 2, &["texture", "--plain"]);
+    assert_refused(
+        &import(&bench, &slide),
+        2,
+        &["texture", "import the model plain"],
+    );
     obj(&HOUSE.replace(
         "usemtl the roof\r\nf 3 8 9 4\r\nf 4 9 10 5",
         "vt 0 0\r\nusemtl the roof\r\nf 3/1 8/1 9/1 4/1\r\nf 4/1 9/1 10/1 5/1",
@@ -295,7 +299,11 @@ fn what_cannot_be_imported_is_refused_with_the_way_out() {
     assert_refused(
         &import(&bench, &slide),
         2,
-        &["dot.png", "outside of the model's folder", "--plain"],
+        &[
+            "dot.png",
+            "outside of the model's folder",
+            "import the model plain",
+        ],
     );
     assert!(
         !bench.path("scenes/house").exists(),
@@ -313,7 +321,7 @@ fn a_model_whose_materials_are_lost_comes_in_plain_if_asked() {
     assert_refused(
         &import(&bench, &slide),
         2,
-        &["the house.obj:2", "the house.mtl", "--plain"],
+        &["the house.obj:2", "the house.mtl", "import the model plain"],
     );
     assert_done(&import(&bench, &[&slide[..], &["--plain"]].concat()));
     assert!(!shown(&frame(&bench), "model").is_empty());

@@ -244,7 +244,11 @@ fn parts_that_make_no_whole_are_refused() {
         ),
         (
             &["start", "empty"],
-            &["empty", "holds no replicates", "--replicates A..B"],
+            &[
+                "empty",
+                "holds no replicates",
+                "a part A..B of the replicates",
+            ],
         ),
         (&["nowhere"], &["nowhere", "cannot read"]),
     ] {

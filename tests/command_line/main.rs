@@ -76,7 +76,7 @@ fn a_run_writes_scores_and_pictures_of_every_case() {
     let names: Vec<_> = run
         .cases
         .iter()
-        .map(|case| (case.bar, case.name()))
+        .map(|case| (case.is_reference, case.name()))
         .collect();
     let expected = [
         (true, "identity"),

@@ -25,7 +25,7 @@ fn run(bench: &Bench, more: &[&str]) -> suite::Run {
 
 /// The squared error over the whole picture.
 fn error(run: &suite::Run) -> f64 {
-    let filter = run.cases.iter().find(|case| !case.bar).unwrap();
+    let filter = run.cases.iter().find(|case| !case.is_reference).unwrap();
     let json = serde_json::to_value(&filter.scores).unwrap();
     json["full"]["mse"]["value"]
         .as_f64()

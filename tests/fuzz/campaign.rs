@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use crate::batch::{Ended, Failed, Terms, try_cases, try_file};
 use crate::failure::{Failure, How, save};
 use crate::fixture::Fixture;
-use crate::options::{CASES, Input, Plan};
+use crate::options::{CASES, Input, RunPlan};
 use crate::place::Place;
 use crate::seeds::seeds;
 use crate::self_test;
@@ -51,7 +51,7 @@ pub struct Found {
 pub type Batch = (&'static Target, Range<u64>);
 
 /// Tests that the fuzzer finds what it has to find; then fuzzes, and says what it found.
-pub fn execute(plan: &Plan) -> ExitCode {
+pub fn execute(plan: &RunPlan) -> ExitCode {
     self_test::check();
     let fixture = Fixture::make();
     let terms = Terms {
@@ -182,7 +182,7 @@ impl Found {
 }
 
 /// Every seed, and as many changed ones as a target's share is: those that take long first.
-fn once(plan: &Plan, fixture: &Path) -> Vec<Batch> {
+fn once(plan: &RunPlan, fixture: &Path) -> Vec<Batch> {
     let mut targets = plan.targets.clone();
     targets.sort_by_key(|target| target.batch);
     let count = |target: &Target| {
@@ -196,7 +196,7 @@ fn once(plan: &Plan, fixture: &Path) -> Vec<Batch> {
 }
 
 /// The next part of every target's cases.
-fn part(plan: &Plan, fixture: &Path, round: u64) -> Vec<Batch> {
+fn part(plan: &RunPlan, fixture: &Path, round: u64) -> Vec<Batch> {
     let batches = plan.targets.iter().flat_map(|target| {
         let seeds = seed_count(target, fixture);
         let part = target.share.div_ceil(PARTS);

@@ -14,7 +14,7 @@ pub enum Options {
     /// The words ask for other tests.
     Nothing,
     /// Fuzz.
-    Campaign(Plan),
+    Campaign(RunPlan),
     /// Try one input.
     Try(Input),
     /// Be the process that cases run in.
@@ -22,7 +22,7 @@ pub enum Options {
 }
 
 /// Settings of a campaign.
-pub struct Plan {
+pub struct RunPlan {
     /// Names of the targets.
     pub targets: Vec<&'static Target>,
     /// Cases of all targets together, were all of them chosen.
@@ -69,7 +69,7 @@ pub enum Inputs {
 impl Options {
     /// Reads the words; those that are for libtest's kind of test are passed over.
     pub fn parse(words: &[String]) -> Result<Self, String> {
-        let mut plan = Plan {
+        let mut plan = RunPlan {
             targets: Target::all(),
             cases: CASES,
             time: None,

@@ -24,9 +24,9 @@ fn judged(choice: &SceneChoice, out: &Path) -> [Vec<JudgedScore>; 2] {
         ..RenderSettings::default()
     };
     let scene = &choice.scene;
-    let frame = suite::frame_of(scene, &settings, out, Monitor::SILENT).unwrap();
+    let frame = suite::render_frame(scene, &settings, out, Monitor::SILENT).unwrap();
     let (truth, ladder) =
-        suite::truth_and_ladder_of(scene, &settings, Alignment::Trailing, out, Monitor::SILENT)
+        suite::render_truth_and_ladder(scene, &settings, Alignment::Trailing, out, Monitor::SILENT)
             .unwrap();
     let reference = Reference::new(&frame, &truth, None, &suite::viewing(scene)).unwrap();
     let bounds = suite::read_bounds(Path::new(SCENES), &choice.folder).unwrap();

@@ -5,8 +5,8 @@ use std::path::Path;
 use cli::{Programs, select_filters, select_scenes};
 use filters::Gpu;
 use suite::{
-    Check, Decision, Finding, InputFormat, Level, Monitor, Outcome, Plan, RenderSettings,
-    RunBounds, check, judge, read_bounds, run, size_for_bounds,
+    Check, Decision, Finding, InputFormat, Level, Monitor, Outcome, RenderSettings, RunBounds,
+    RunPlan, check, judge, measure_scenes, read_bounds, size_for_bounds,
 };
 
 use crate::kept_truths;
@@ -35,7 +35,7 @@ fn guarded_filters_keep_what_is_required_of_them_on_every_scene() {
         .collect();
     let (width, height) = (size_for_bounds(bounds.values(), &filters, None).unwrap()).unwrap();
     let (out, _own) = kept_truths();
-    let plan = Plan {
+    let plan = RunPlan {
         scenes: choices.into_iter().map(|choice| choice.scene).collect(),
         filters,
         inputs: vec![InputFormat::default()],
@@ -50,7 +50,7 @@ fn guarded_filters_keep_what_is_required_of_them_on_every_scene() {
         no_cache: false,
         monitor: Monitor::SILENT,
     };
-    let run = run(&plan, Some(&gpu), Vec::new()).unwrap();
+    let run = measure_scenes(&plan, Some(&gpu), Vec::new()).unwrap();
     let check = check(&run, judge(&run, &bounds), Vec::new());
     for scene in &plan.scenes {
         for filter in GUARDED {

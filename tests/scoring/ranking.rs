@@ -59,7 +59,7 @@ fn case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common): Ent
         exposure: 0.5,
         filter: filter.to_owned(),
         preset: preset.to_owned(),
-        bar,
+        is_reference: bar,
         input: InputFormat::default(),
         parameters: BTreeMap::new(),
         reference_width: None,

@@ -14,7 +14,7 @@ pub fn catalogue(run: &Run) -> String {
         run.samples_per_pixel,
         command(run),
     );
-    let of_filters: Vec<&Case> = run.cases.iter().filter(|case| !case.bar).collect();
+    let of_filters: Vec<&Case> = run.cases.iter().filter(|case| !case.is_reference).collect();
     for cases in of_filters.chunk_by(|a, b| a.scene == b.scene) {
         page += &section(cases);
     }

@@ -54,7 +54,7 @@ pub fn interval_chart(axis: &Axis, mean: &Overall, floor: Option<f64>) -> Markup
                     width=(format!("{:.1}", axis.place(floor) - axis.place(0.0))) {}
             }
             line.interval x1=(format!("{low:.1}")) x2=(format!("{high:.1}")) y1=(middle) y2=(middle) {}
-            @if mean.bar {
+            @if mean.is_reference {
                 circle.open cx=(format!("{place:.1}")) cy=(middle) r="4" {}
             } @else {
                 circle.full cx=(format!("{place:.1}")) cy=(middle) r="4" {}

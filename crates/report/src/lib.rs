@@ -74,7 +74,7 @@ pub fn report(
         let cases: Vec<&Case> = own().map(|(_, case)| case).collect();
         let mut files = SceneFiles::read(run, &cases, folder)?;
         for (index, case) in own() {
-            let about = |finding: &&Finding| !case.bar && finding.is_of(case);
+            let about = |finding: &&Finding| !case.is_reference && finding.is_of(case);
             let which = Which {
                 run,
                 index,

@@ -75,7 +75,7 @@ fn row(run: &Run, shown: &Shown, bench: Option<&Bench>, axis: &Axis, mean: &Over
     let subjects = subjects(run);
     let subject = subjects.iter().find(|subject| subject.is_of(mean));
     html! {
-        tr.bar[mean.bar] {
+        tr.bar[mean.is_reference] {
             th scope="row" {
                 (mean.filter)
                 @if shown.headline.spans_alignments() { " " span.note { "(" (mean.alignment) ")" } }

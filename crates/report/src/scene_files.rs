@@ -214,7 +214,7 @@ fn check_size(path: &Path, found: (u32, u32), due: (u32, u32)) -> Result<(), Err
 
 /// The accumulation that stands in every profile.
 fn is_bar_of_profiles(case: &Case) -> bool {
-    case.bar && case.filter == ACCUMULATE && case.preset == "16"
+    case.is_reference && case.filter == ACCUMULATE && case.preset == "16"
 }
 
 /// Beside, ahead and behind: the sum over moving objects of their matte where the truth never shows them.

@@ -21,7 +21,7 @@ impl Subject {
     pub fn of(case: &Case) -> Self {
         Self {
             name: case.name(),
-            bar: case.bar,
+            bar: case.is_reference,
             alignment: case.alignment.clone(),
         }
     }
@@ -37,7 +37,7 @@ impl Subject {
     /// Its mean over scenes.
     pub fn is_of(&self, overall: &Overall) -> bool {
         (self.bar, &self.name, &self.alignment)
-            == (overall.bar, &overall.filter, &overall.alignment)
+            == (overall.is_reference, &overall.filter, &overall.alignment)
     }
 }
 

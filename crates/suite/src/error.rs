@@ -1,6 +1,6 @@
-//! Errors that stop a command, and their exit codes.
+//! Errors that end the work.
 
-/// Why a command ended early. The text names the place, what was found, what is allowed and the way out.
+/// An error that ends the work. Its text names the place, what was found, what is allowed and the way out.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// A scene cannot be loaded.
@@ -24,13 +24,13 @@ pub enum Error {
     /// A truth that has more noise than was asked for; its files are written all the same.
     #[error("{0}")]
     TooNoisy(String),
-    /// Required bounds are broken, or scores are worse than the baseline's; the report says which.
+    /// Required bounds are broken, scores are worse than the baseline's, or cases failed; the report says which.
     #[error("{0}")]
     Broken(String),
-    /// The truth's noise does not tell whether required bounds are kept.
+    /// The truth is too noisy to decide whether required bounds are kept.
     #[error("{0}")]
     Inconclusive(String),
-    /// The words of the command line, or of a bounds file, do not fit.
+    /// A setting, or a file that a user wrote, is not allowed.
     #[error("{0}")]
     Usage(String),
 }

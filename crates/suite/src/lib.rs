@@ -2,17 +2,22 @@
 //! [`Monitor`].
 
 mod bench;
-mod case;
+mod cache;
+mod colors;
 mod compare;
 mod error;
+mod filter;
 mod folder;
 mod import;
 mod json;
 mod judge;
+mod measure;
 mod monitor;
+mod named;
 mod printable;
 mod render;
 mod run;
+mod score;
 mod stats;
 mod tune;
 
@@ -20,13 +25,19 @@ pub use bench::{
     BASELINE, BENCH_FORMAT, Bench, BenchPlan, CaseCost, GROWTH_FROM, REACHES, ReachCost,
     ReachPoint, Spread, bench,
 };
-pub use case::{ACCUMULATE, Case, IDENTITY, SCATTER_ORACLE};
 pub use compare::{
     Basis, COMPARE_FORMAT, Change, ChangeKind, MeanChange, MeanKind, Pair, RunComparison,
     SettingChange, Side, compare_runs, filter_label, pair_cases, rank_changes,
 };
 pub use error::Error;
+pub use filter::border::Border;
+pub use filter::choice::FilterChoice;
+pub use filter::depth_format::DepthFormat;
+pub use filter::input_format::InputFormat;
+pub use filter::runner::{Runner, open_adapter, open_gpu};
+pub use filter::velocity_format::VelocityFormat;
 pub use folder::claim::{Claim, Sharing, claim};
+pub use folder::scene_folder::scene_folder;
 pub use folder::tracked::refuse_tracked;
 pub use import::{ImportPlan, Imported, Motions, Up, import};
 pub use json::file::{MOST_JSON_BYTES, read_text};
@@ -46,27 +57,28 @@ pub use judge::{
     MOST_SAMPLES, Outcome, Resemblance, RunBounds, Worst, add_evidence, judge, judge_scores,
     limit_as_badness, number, worst_block,
 };
+pub use measure::plan::RunPlan;
+pub use measure::references::viewing;
+pub use measure::scenes::measure_scenes;
 pub use monitor::{Monitor, Step};
 pub use printable::{printable, printable_lines, printable_path, printable_table};
-pub use render::layers::write_layers;
+pub use render::frames::render_frame;
+pub use render::ladders::{LADDER, render_truth_and_ladder};
 pub use render::merge::{MOST_PART_BYTES, Merged, merge};
-pub use render::rendered::{
-    LADDER, RenderSettings, SIDES, deciding_floor, frame_of, part_of, scene_folder,
-    truth_and_ladder_of, truth_of, truth_until,
-};
-pub use render::replicates::MOST_REPLICATES;
 pub use render::scatter_oracle::scatter_oracle;
+pub use render::settings::{MOST_REPLICATES, RenderSettings, SIDES};
+pub use render::truths::{deciding_floor, render_part, render_truth, render_truth_until};
+pub use run::case::{ACCUMULATE, Case, IDENTITY, Intervals, SCATTER_ORACLE};
 pub use run::failure::{Failure, refuse_failures};
 pub use run::file::MOST_CASES;
-pub use run::filter_choice::FilterChoice;
-pub use run::finished::{Finished, read_finished};
-pub use run::input_format::{Border, DepthFormat, InputFormat, VelocityFormat};
-pub use run::intervals::{FEWEST_REPLICATES, Intervals, intervals, truths_without_pairs};
-pub use run::runner::{Runner, open_adapter, open_gpu};
-pub use run::score::{Scored, missing, score};
-pub use run::{FORMAT, Plan, Run, run, viewing};
+pub use run::layers::write_layers;
+pub use run::overall::Overall;
+pub use run::{FORMAT, Run};
+pub use score::finished_picture::{FinishedPicture, read_finished_picture};
+pub use score::scores::{Scored, missing_scores, score};
 pub use stats::headline::Headline;
-pub use stats::overall::{Overall, overall, rank_filters};
+pub use stats::intervals::{FEWEST_REPLICATES, intervals, truths_without_pairs};
+pub use stats::overall::{overall, rank_filters};
 pub use tune::{
     Choice, ChoiceLimits, Difference, Estimate, Evaluation, Evaluator, Fold, HeldOutResult,
     JOURNAL_FORMAT, Journal, JournalHeader, LEAST_BLEED, Objective, PairedComparison,

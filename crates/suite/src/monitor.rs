@@ -1,40 +1,40 @@
-//! The watch that a caller keeps over long work: what it shows of it, and whether it ends it.
+//! Monitor of long work, through which a caller shows progress and interrupts.
 
 use std::ops::ControlFlow;
 
 use tracer::{Progress, Watch};
 
-/// A step of long work that is under way; it is over when this is dropped.
+/// A step of long work that is under way. It ends when this is dropped.
 pub trait Step: Sync {
-    /// Takes note of how far the step is. Comes from any thread.
+    /// Notes how far the step is; called from any thread.
     fn advance(&self, progress: Progress);
 }
 
-/// How a caller watches long work.
+/// A caller's way to show and to interrupt long work.
 #[derive(Clone, Copy)]
 pub struct Monitor {
     /// Begins to show a step by this label; steps may lie within others.
     pub begin: fn(&str) -> Box<dyn Step>,
-    /// Asks whether the work is to end.
+    /// Returns true if the work is to end.
     pub interrupted: fn() -> bool,
 }
 
 impl Monitor {
-    /// Shows nothing and interrupts nothing.
+    /// A monitor that shows nothing and interrupts nothing.
     pub const SILENT: Self = Self {
-        begin: |_| Box::new(Unseen),
+        begin: |_| Box::new(HiddenStep),
         interrupted: || false,
     };
 
-    /// The same without anything shown.
-    pub fn unseen(self) -> Self {
+    /// Returns the same monitor without progress.
+    pub fn without_progress(self) -> Self {
         Self {
             begin: Self::SILENT.begin,
             ..self
         }
     }
 
-    /// Does a step of long work, which is shown by its label and told to stop where the caller interrupts it.
+    /// Does a step of long work, shows its progress by a label, and tells it to stop where the caller interrupts.
     pub fn watch<T>(&self, label: &str, work: impl FnOnce(Watch) -> T) -> T {
         let step = (self.begin)(label);
         work(&|progress| {
@@ -47,9 +47,9 @@ impl Monitor {
     }
 }
 
-/// A step that nobody sees.
-struct Unseen;
+/// A step that is not shown.
+struct HiddenStep;
 
-impl Step for Unseen {
+impl Step for HiddenStep {
     fn advance(&self, _: Progress) {}
 }

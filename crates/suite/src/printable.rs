@@ -1,4 +1,4 @@
-//! Text that others wrote, made fit for a terminal, a log and a summary.
+//! Escapes for text that others wrote, so that it is safe in a terminal, a log and a summary.
 
 use std::borrow::Cow;
 use std::fmt::Write;
@@ -6,11 +6,11 @@ use std::path::Path;
 
 use frame::is_hidden;
 
-/// Stands before every line of a message but the first, so that none begins with what a log takes for a command.
+/// Mark before every line of a message but the first, so that none begins with what a log takes for a command.
 const CONTINUED: &str = "  | ";
 
-/// The text on one line: control characters, line breaks among them, and characters that change the direction of writing
-/// become escapes such as `\n` and `\u001b`, which JSON has too. Other text stays as it is.
+/// Puts text on one line: control characters, line breaks among them, and characters that change the direction of writing
+/// become escapes such as `\n` and `\u001b`, as in JSON. Other text stays as it is.
 pub fn printable(text: &str) -> Cow<'_, str> {
     match text.chars().any(is_hidden) {
         false => Cow::Borrowed(text),
@@ -21,13 +21,13 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// A path as [`printable`] text.
+/// Writes a path as [`printable`] text.
 pub fn printable_path(path: &Path) -> String {
     printable(&path.to_string_lossy()).into_owned()
 }
 
-/// A message of several lines: each as [`printable`] has it, and all but the first behind a mark, whatever they begin with. The
-/// lines of a compiler, which quote a source behind a mark of their own, need none.
+/// Escapes each line of a message as [`printable`] does, and puts a mark before all but the first. Lines of a compiler, which quote
+/// a source behind a mark of their own, get none.
 pub fn printable_lines(text: &str) -> String {
     let mut lines = text.split('\n').map(printable);
     let mut message = lines.next().unwrap_or_default().into_owned();
@@ -41,13 +41,13 @@ pub fn printable_lines(text: &str) -> String {
     message
 }
 
-/// Whether a line is a compiler's: `11 │     let trail = ..`.
+/// Tells whether a line is a compiler's: `11 │     let trail = ..`.
 fn is_quoted(line: &str) -> bool {
     line.trim_start_matches(|letter: char| letter == ' ' || letter.is_ascii_digit())
         .starts_with(['┌', '│'])
 }
 
-/// A text with colours, as the tables have them: line breaks and colours stay, other control characters become escapes.
+/// Escapes the control characters of a table, but for line breaks and colours.
 pub fn printable_table(text: &str) -> String {
     let mut table = String::with_capacity(text.len());
     let mut rest = text;
@@ -70,7 +70,7 @@ pub fn printable_table(text: &str) -> String {
     table
 }
 
-/// Bytes of the colour that the text begins with: `ESC [ numbers m`.
+/// Counts the bytes of the colour that the text begins with: `ESC [ numbers m`.
 fn color(text: &str) -> Option<usize> {
     let numbers = text.strip_prefix("\u{1b}[")?;
     let end = numbers.find(|letter: char| !letter.is_ascii_digit() && letter != ';')?;

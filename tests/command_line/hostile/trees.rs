@@ -197,7 +197,7 @@ fn a_render_that_memory_does_not_hold_says_so_before_it_begins() {
         "scene plate: needs about 20.",
         "GiB for 4096x4096",
         "are free",
-        "smaller --size",
+        "smaller size",
     ];
     assert_refused(&limited("4096x4096"), 2, &parts);
     assert!(

@@ -18,7 +18,11 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
     assert_eq!(output.status.code(), Some(1), "{}", stdout(&output));
     let page = reported(&bench);
     let run = bench.measured();
-    let index = run.cases.iter().position(|case| !case.bar).unwrap();
+    let index = run
+        .cases
+        .iter()
+        .position(|case| !case.is_reference)
+        .unwrap();
     let case = &run.cases[index];
 
     assert!(page.contains("2 bounds: 1 kept, 1 broken, 0 inconclusive"));
@@ -74,7 +78,7 @@ fn a_run_that_looked_for_no_place_gets_one_in_its_report() {
             .measured()
             .cases
             .iter()
-            .position(|case| !case.bar)
+            .position(|case| !case.is_reference)
             .unwrap()
     };
     let checked = between(

@@ -11,8 +11,8 @@ use cli::{Programs, select_filters, select_scenes};
 use filters::Gpu;
 use metrics::Metric;
 use suite::{
-    Case, Check, Decision, FilterChoice, InputFormat, Monitor, Plan, RenderSettings, Run,
-    RunBounds, SceneBounds, calibrate, check, judge, open_gpu, read_bounds_file, run,
+    Case, Check, Decision, FilterChoice, InputFormat, Monitor, RenderSettings, Run, RunBounds,
+    RunPlan, SceneBounds, calibrate, check, judge, measure_scenes, open_gpu, read_bounds_file,
 };
 use tracer::Scene;
 
@@ -102,7 +102,7 @@ impl Bench {
             .into_iter()
             .map(|choice| choice.scene)
             .collect();
-        let plan = Plan {
+        let plan = RunPlan {
             scenes,
             filters,
             inputs: InputFormat::one_by_one(&[], &[], &[]),
@@ -120,14 +120,15 @@ impl Bench {
             no_cache: false,
             monitor: Monitor::SILENT,
         };
-        run(&plan, self.gpu.as_ref(), Vec::new()).unwrap()
+        measure_scenes(&plan, self.gpu.as_ref(), Vec::new()).unwrap()
     }
 
     /// Checks each of the filters, which all take part in one run.
     fn checks(&self, filters: Vec<FilterChoice>) -> Vec<Check> {
         let count = filters.len();
         let run = self.run(filters, CHECKED_WITH);
-        let cases: Vec<Case> = (run.cases.iter().filter(|case| !case.bar).cloned()).collect();
+        let cases: Vec<Case> =
+            (run.cases.iter().filter(|case| !case.is_reference).cloned()).collect();
         assert_eq!(cases.len(), count * NAMES.len());
         (0..count)
             .map(|filter| {

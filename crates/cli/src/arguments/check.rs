@@ -35,7 +35,7 @@ const MEASURING: [&str; 21] = [
 /// `shuttertruth check`
 #[derive(Debug, Args)]
 pub struct CheckArgs {
-    /// Finished run to judge: its run.json, or its folder. Renders nothing and opens no adapter [default: measure now].
+    /// FinishedPicture run to judge: its run.json, or its folder. Renders nothing and opens no adapter [default: measure now].
     #[arg(value_name = "RUN", conflicts_with_all = MEASURING)]
     pub run: Option<PathBuf>,
     /// For every broken bound of RUN, find the worst place and the known failure that the picture is most like. A check that

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use suite::Up;
 
-use super::parse::{parse_degrees_per_frame, parse_pixels_per_frame};
+use super::parse::{parse_degrees_per_frame, parse_named, parse_pixels_per_frame};
 
 /// `shuttertruth import`
 #[derive(Debug, Args)]
@@ -26,7 +26,7 @@ pub struct ImportArgs {
     #[arg(long, value_name = "SPEED", value_parser = parse_degrees_per_frame, allow_hyphen_values = true)]
     pub orbit: Option<f64>,
     /// Axis of the model that points up.
-    #[arg(long, value_enum, value_name = "AXIS", default_value = "y")]
+    #[arg(long, value_parser = parse_named(Up::ALL, Up::name, Up::help), value_name = "AXIS", default_value = "y")]
     pub up: Up,
     /// Import the shape alone, in grey, without materials.
     #[arg(long)]

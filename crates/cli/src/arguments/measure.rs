@@ -3,7 +3,7 @@
 use clap::Args;
 use suite::{Border, DepthFormat, VelocityFormat};
 
-use super::parse::{parse_jitter_frames, parse_size};
+use super::parse::{parse_jitter_frames, parse_named, parse_size};
 use super::programs::ProgramArgs;
 use super::scenes::SceneArgs;
 
@@ -35,13 +35,13 @@ pub struct MeasureArgs {
     #[arg(long, value_name = "N", default_value_t = 8)]
     pub replicates: u32,
     /// Formats of the velocity buffer to try on every filter beside 32-bit floats, separated by commas.
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "FORMATS")]
+    #[arg(long, value_parser = parse_named(VelocityFormat::ALL, VelocityFormat::name, VelocityFormat::help), value_delimiter = ',', value_name = "FORMATS")]
     pub velocity_format: Vec<VelocityFormat>,
     /// Formats of the depth buffer to try beside 32-bit floats, separated by commas.
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "FORMATS")]
+    #[arg(long, value_parser = parse_named(DepthFormat::ALL, DepthFormat::name, DepthFormat::help), value_delimiter = ',', value_name = "FORMATS")]
     pub depth_format: Vec<DepthFormat>,
     /// Content beyond the border to try beside each filter's own, separated by commas; see also --guard-band.
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "POLICIES")]
+    #[arg(long, value_parser = parse_named(Border::ALL, Border::name, Border::help), value_delimiter = ',', value_name = "POLICIES")]
     pub border: Vec<Border>,
     /// Frames to run a noisy filter on, to tell its noise from its other errors; 0 for none.
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = parse_jitter_frames)]

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use suite::{MOST_REPLICATES, Objective, SIDES};
 
 /// Number of replicates, or a part of them.
@@ -11,6 +12,22 @@ pub enum Replicates {
     All(u32),
     /// Some replicates, by their indices.
     Part(Range<u32>),
+}
+
+/// Parses a value of an enum by its name.
+pub fn parse_named<T: Copy + Send + Sync + 'static>(
+    all: &'static [T],
+    name: fn(T) -> &'static str,
+    help: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    let possible = (all.iter()).map(move |value| {
+        let help = help(*value).trim_end_matches('.');
+        PossibleValue::new(name(*value)).help(help)
+    });
+    PossibleValuesParser::new(possible).map(move |text| {
+        let value = all.iter().find(|value| name(**value) == text);
+        *value.expect("the parser knows these names alone")
+    })
 }
 
 /// Parses `640x360`.

@@ -1,7 +1,8 @@
 //! The command `calibrate`.
 
 use suite::{
-    Error, Plan, Run, calibrate, check_names, open_gpu, printable_path, refuse_failures, run,
+    Error, Run, RunPlan, calibrate, check_names, measure_scenes, open_gpu, printable_path,
+    refuse_failures,
 };
 use tracer::{Progress, Watch};
 
@@ -49,7 +50,7 @@ fn check_seeds(first: u64, runs: u32) -> Result<(), Error> {
 }
 
 /// Runs once per adapter and seed.
-fn run_all(args: &CalibrateArgs, plan: &mut Plan, watch: Watch) -> Result<Vec<Run>, Error> {
+fn run_all(args: &CalibrateArgs, plan: &mut RunPlan, watch: Watch) -> Result<Vec<Run>, Error> {
     let adapters = chosen_adapters(args);
     let total = adapters.len() as u64 * u64::from(args.runs);
     let first = plan.render.seed;
@@ -66,7 +67,7 @@ fn run_all(args: &CalibrateArgs, plan: &mut Plan, watch: Watch) -> Result<Vec<Ru
             // The truths serve every adapter.
             plan.out = args.measure.scenes.out.join(format!("seed_{seed}"));
             let _claim = claim_out(plan)?;
-            let finished = run(plan, gpu.as_ref(), std::env::args().collect())?;
+            let finished = measure_scenes(plan, gpu.as_ref(), std::env::args().collect())?;
             write_run(&finished, &plan.out)?;
             refuse_failures(&finished.failures)?;
             runs.push(finished);

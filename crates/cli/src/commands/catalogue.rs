@@ -1,7 +1,7 @@
 //! The command `catalogue`.
 
 use report::catalogue;
-use suite::{Error, open_gpu, printable_path, refuse_failures, run};
+use suite::{Error, measure_scenes, open_gpu, printable_path, refuse_failures};
 
 use super::plan::{claim_out, make_plan};
 use crate::arguments::CatalogueArgs;
@@ -21,7 +21,7 @@ pub fn execute(args: &CatalogueArgs) -> Result<(), Error> {
     let (plan, _) = make_plan(&measure, measure.scenes.out.clone())?;
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref(), plan.monitor)?;
     let _claim = claim_out(&plan)?;
-    let finished = run(&plan, gpu.as_ref(), std::env::args().collect())?;
+    let finished = measure_scenes(&plan, gpu.as_ref(), std::env::args().collect())?;
     let page = plan.out.join("catalogue.md");
     frame::write_atomically(&page, catalogue(&finished).as_bytes())?;
     print(&format!("written: {}\n", printable_path(&page)))?;

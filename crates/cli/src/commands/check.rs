@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use frame::FileError;
 use suite::{
     BOUNDS_FILE, Baseline, Error, Finding, Judgement, Margin, Run, RunBounds, add_evidence, check,
-    check_names, compare_with_baseline, judge, open_gpu, read_bounds, read_bounds_file,
-    refuse_tracked, require_bounds, run, size_for_bounds,
+    check_names, compare_with_baseline, judge, measure_scenes, open_gpu, read_bounds,
+    read_bounds_file, refuse_tracked, require_bounds, size_for_bounds,
 };
 
 use super::pages::{write_run_page, written_lines};
@@ -99,7 +99,7 @@ fn run_and_judge(args: &CheckArgs, compared: bool) -> Result<Judged, Error> {
     }
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref(), plan.monitor)?;
     let _claim = claim_out(&plan)?;
-    let finished = run(&plan, gpu.as_ref(), std::env::args().collect())?;
+    let finished = measure_scenes(&plan, gpu.as_ref(), std::env::args().collect())?;
     let mut findings = judge(&finished, &bounds);
     add_evidence(&finished, &mut findings, &plan.out)?;
     write_judged_run(&finished, &findings, &plan.out)?;

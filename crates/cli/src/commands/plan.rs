@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use suite::{
-    Claim, Error, FEWEST_REPLICATES, FilterChoice, InputFormat, Plan, RenderSettings, RunBounds,
+    Claim, Error, FEWEST_REPLICATES, FilterChoice, InputFormat, RenderSettings, RunBounds, RunPlan,
     SceneBounds, Sharing, claim, read_bounds,
 };
 use tracer::Scene;
@@ -15,7 +15,7 @@ use crate::output::progress::make_monitor;
 use crate::selection::{select_filters, select_scenes};
 
 /// Loads scenes with their bounds, and filters; renders nothing. Scores are to have no intervals.
-pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(Plan, RunBounds), Error> {
+pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds), Error> {
     let scenes = load_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
     let bounds = (scenes.iter())
         .map(|(scene, bounds)| (scene.name.clone(), bounds.clone()))
@@ -23,7 +23,7 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(Plan, RunBounds), 
     let filters = load_filters(args)?;
     let default = RenderSettings::default();
     let size = args.size.unwrap_or((default.width, default.height));
-    let plan = Plan {
+    let plan = RunPlan {
         scenes: scenes.into_iter().map(|(scene, _)| scene).collect(),
         filters,
         inputs: InputFormat::one_by_one(&args.velocity_format, &args.depth_format, &args.border),
@@ -38,7 +38,7 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(Plan, RunBounds), 
 }
 
 /// Claims the folder of a run for this process alone.
-pub fn claim_out(plan: &Plan) -> Result<Claim, Error> {
+pub fn claim_out(plan: &RunPlan) -> Result<Claim, Error> {
     claim(&plan.out, &plan.scenes, Sharing::Alone)
 }
 

@@ -2,8 +2,8 @@
 
 use frame::Truth;
 use suite::{
-    Error, MOST_REPLICATES, RenderSettings, Sharing, claim, deciding_floor, frame_of, part_of,
-    printable_path, scene_folder, truth_of, truth_until,
+    Error, MOST_REPLICATES, RenderSettings, Sharing, claim, deciding_floor, printable_path,
+    render_frame, render_part, render_truth, render_truth_until, scene_folder,
 };
 use tracer::Scene;
 
@@ -32,10 +32,10 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
                 let (out, monitor) = (&args.scenes.out, make_monitor(args.scenes.quiet));
                 let _claim = claim(out, [&scene], Sharing::Together)?;
                 if indices.start == 0 {
-                    frame_of(&scene, &settings, out, monitor)?;
+                    render_frame(&scene, &settings, out, monitor)?;
                 }
                 for alignment in &args.alignments {
-                    part_of(&scene, &settings, *alignment, indices.clone(), out, monitor)?;
+                    render_part(&scene, &settings, *alignment, indices.clone(), out, monitor)?;
                 }
                 print(&format!("{}\n", printable_path(&scene_folder(out, &scene))))?;
             }
@@ -58,16 +58,16 @@ fn render_whole(args: &RenderArgs, scene: &Scene, count: u32) -> Result<Vec<Stri
     let settings = scene_settings(args, scene, count)?;
     let (out, monitor) = (&args.scenes.out, make_monitor(args.scenes.quiet));
     let _claim = claim(out, [scene], Sharing::Together)?;
-    frame_of(scene, &settings, out, monitor)?;
+    render_frame(scene, &settings, out, monitor)?;
     let mut noisy = Vec::new();
     let mut report = format!("{}\n", printable_path(&scene_folder(out, scene)));
     for &alignment in &args.alignments {
         let truth = match args.noise {
-            None => truth_of(scene, &settings, alignment, out, monitor)?,
+            None => render_truth(scene, &settings, alignment, out, monitor)?,
             Some(target) => {
                 let most = args.most_replicates;
                 let (truth, reached) =
-                    truth_until(scene, &settings, alignment, (target, most), out, monitor)?;
+                    render_truth_until(scene, &settings, alignment, (target, most), out, monitor)?;
                 if !reached {
                     noisy.push(too_noisy_line(&truth, target, most));
                 }

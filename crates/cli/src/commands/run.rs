@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use suite::{Error, Finding, Outcome, Run, judge, open_gpu, printable_path, refuse_failures, run};
+use suite::{
+    Error, Finding, Outcome, Run, judge, measure_scenes, open_gpu, printable_path, refuse_failures,
+};
 
 use super::pages::{write_run_page, written_lines};
 use super::plan::{claim_out, make_plan};
@@ -23,7 +25,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
     }
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref(), plan.monitor)?;
     let _claim = claim_out(&plan)?;
-    let finished = run(&plan, gpu.as_ref(), std::env::args().collect())?;
+    let finished = measure_scenes(&plan, gpu.as_ref(), std::env::args().collect())?;
     let findings = judge(&finished, &bounds);
     let json = write_judged_run(&finished, &findings, &plan.out)?;
     let pages = (args.html.as_deref())

@@ -2,7 +2,7 @@
 
 use frame::{Frame, Ladder, Truth};
 use metrics::Metric;
-use suite::{Error, Scored, missing, printable, read_finished, score};
+use suite::{Error, Scored, missing_scores, printable, read_finished_picture, score};
 
 use crate::arguments::ScoreArgs;
 use crate::output::print::{print, print_json};
@@ -14,7 +14,7 @@ pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
     let frame = Frame::read(&args.frame)?;
     let ladder = args.ladder.as_deref().map(Ladder::read).transpose()?;
     check_scenes(args, &truth, &frame, ladder.as_ref())?;
-    let picture = read_finished(&args.image, &frame, &truth)?;
+    let picture = read_finished_picture(&args.image, &frame, &truth)?;
     let scored = score(&picture, &frame, &truth, ladder.as_ref())
         .map_err(|error| Error::Usage(format!("{}: {error}", args.image.display())))?;
     if args.json {
@@ -58,7 +58,7 @@ fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Score
     for note in notes {
         text += &format!("{name}: {note}\n");
     }
-    for (reason, metrics) in missing(scores) {
+    for (reason, metrics) in missing_scores(scores) {
         let names: Vec<String> = metrics.iter().map(|metric| metric.name()).collect();
         let way_out = match args.ladder {
             None if metrics.contains(&Metric::SUBFRAMES) => {

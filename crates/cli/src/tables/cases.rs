@@ -34,8 +34,12 @@ pub fn run_table(run: &Run) -> String {
             let _ = writeln!(text, "{}", colors::heading(&title));
             for case in of_scene().filter(|case| case.alignment == alignment) {
                 let more = [noise_cell(case), Headline::CommonFlip.text(case)];
-                let row = case_row(&bracket_name(&case.name(), case.bar), &case.scores, &more);
-                text += &dim_reference(case.bar, &row);
+                let row = case_row(
+                    &bracket_name(&case.name(), case.is_reference),
+                    &case.scores,
+                    &more,
+                );
+                text += &dim_reference(case.is_reference, &row);
             }
         }
     }

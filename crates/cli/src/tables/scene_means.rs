@@ -115,7 +115,7 @@ fn mean_line(
     shutter: &str,
 ) -> String {
     let [low, high] = row.interval.map(|end| by.number(end));
-    let mut line = name_cell(&bracket_name(&row.filter, row.bar));
+    let mut line = name_cell(&bracket_name(&row.filter, row.is_reference));
     let _ = write!(line, "{:>RANKED$}", by.number(row.mean));
     let _ = write!(line, "{:>INTERVAL$}", format!("{low} to {high}"));
     for (_, width, headline) in others {
@@ -127,5 +127,5 @@ fn mean_line(
     if !shutter.is_empty() {
         let _ = write!(line, "{shutter:>SHUTTER$}");
     }
-    dim_reference(row.bar, &(line + "\n"))
+    dim_reference(row.is_reference, &(line + "\n"))
 }

@@ -1,21 +1,26 @@
-//! Cost of filters: the time of every pass, its memory traffic, and the growth of both with the reach.
+//! Bench of filters: the time of every pass, its memory traffic, and the growth of both with the reach.
 
-mod measure;
+mod costs;
 mod panels;
 mod spread;
+mod timing;
+mod turns;
 
 use std::collections::BTreeMap;
 
 use filters::{AdapterDescription, Clock, Value};
 use serde::{Deserialize, Serialize};
 
-pub use measure::{BASELINE, BenchPlan, bench};
-pub use spread::Spread;
+pub use self::spread::Spread;
+pub use self::timing::{BenchPlan, bench};
 
 /// Version of the layout of `bench.json`.
 pub const BENCH_FORMAT: u32 = 1;
 
-/// The frames' exposure, in frames: trails are as long as the motion.
+/// Filter and preset that times are divided by.
+pub const BASELINE: &str = "jump_flood:paper";
+
+/// Exposure of the frames, in frames: trails are as long as the motion.
 pub const EXPOSURE: f64 = 1.0;
 
 /// Motion of the main table, in pixels per frame: where the published jump flood begins to cut trails.
@@ -34,34 +39,34 @@ pub struct Bench {
     pub format: u32,
     /// Program name and version.
     pub program: String,
-    /// What the filters ran on.
+    /// Adapter that the filters ran on.
     pub adapter: AdapterDescription,
-    /// How durations were taken.
+    /// Clock behind the durations.
     pub clock: Clock,
     /// Pixels per row.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// How often everything was timed.
+    /// Rounds of timing.
     pub rounds: u32,
-    /// In frames.
+    /// Exposure in frames.
     pub exposure: f64,
     /// Motion behind `cases`, in pixels per frame.
     pub speed: u32,
-    /// What the adapter's memory can do.
+    /// Speed of the adapter's memory.
     pub copy: CopyCost,
-    /// One per filter preset, with the preset's own parameters.
+    /// Costs of every filter preset, with the preset's own parameters.
     pub cases: Vec<CaseCost>,
-    /// One per filter preset: how the cost grows with the reach.
+    /// Costs of every filter preset by reach.
     pub reaches: Vec<ReachCost>,
 }
 
 /// A copy from one buffer to another, larger than caches.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct CopyCost {
-    /// Read and written.
+    /// Bytes read and written.
     pub bytes: u64,
-    /// Of one copy.
+    /// Time of one copy.
     pub seconds: Spread,
     /// Bytes over median time.
     pub bytes_per_second: f64,
@@ -80,17 +85,17 @@ pub struct CaseCost {
     /// names none, or values were left as written.
     #[serde(default)]
     pub reference_width: Option<u32>,
-    /// Of all passes.
+    /// Time of all passes.
     pub seconds: Spread,
-    /// To the time of [`BASELINE`] in the same round.
+    /// Ratio to the time of [`BASELINE`] in the same round.
     pub ratio: Spread,
-    /// Of all passes; see [`filters::PassTime::bytes`].
+    /// Memory traffic of all passes; see [`filters::PassTime::bytes`].
     pub bytes_per_pixel: f64,
     /// Bytes over median time.
     pub bytes_per_second: f64,
-    /// The same as a part of what the copy reached.
+    /// Bytes per second as a part of those of the copy.
     pub part_of_copy: f64,
-    /// In the order in which they run.
+    /// Passes in the order in which they run.
     pub passes: Vec<PassCost>,
 }
 
@@ -99,11 +104,11 @@ pub struct CaseCost {
 pub struct PassCost {
     /// Entry point of the kernel.
     pub entry: String,
-    /// How often it ran.
+    /// Runs of the pass.
     pub iterations: usize,
-    /// Of all iterations.
+    /// Time of all iterations.
     pub seconds: Spread,
-    /// Of all iterations.
+    /// Memory traffic of all iterations.
     pub bytes_per_pixel: f64,
 }
 
@@ -116,7 +121,7 @@ pub struct ReachCost {
     pub preset: String,
     /// The parameter that was set for each reach; none where nothing bounds the filter's reach.
     pub parameter: Option<String>,
-    /// One per value of [`REACHES`].
+    /// Costs at each of [`REACHES`].
     pub points: Vec<ReachPoint>,
     /// Time at the longest reach over that at [`GROWTH_FROM`] in the same round; none where either cannot be set.
     pub growth: Option<Spread>,
@@ -127,10 +132,10 @@ pub struct ReachCost {
 pub struct ReachPoint {
     /// Motion in pixels per frame, which the filter is set to cover.
     pub pixels: u32,
-    /// Of all passes; none where the parameter's range ends before.
+    /// Time of all passes; none where the parameter's range ends before.
     pub seconds: Option<Spread>,
     /// Value of the parameter that was set.
     pub value: Option<Value>,
-    /// In the order in which they run; empty where nothing was timed.
+    /// Passes in the order in which they run; empty where nothing was timed.
     pub passes: Vec<PassCost>,
 }

@@ -1,31 +1,32 @@
-//! The frame that filters are timed on, made by formula.
+//! Frame that filters are timed on, made by formula.
 
 use frame::{FAR_DEPTH, Image, Plane, Raster, Reprojection, Vectors};
 
-/// What a filter is given.
+/// Input of a filter: moving panels over a still ground.
 pub struct Panels {
-    /// Linear radiance.
+    /// Scene-linear radiance.
     pub color: Image,
-    /// Pixels per frame.
+    /// Motion in pixels per frame.
     pub velocity: Vectors,
-    /// Metres.
+    /// Depth in metres.
     pub depth: Plane,
-    /// For filters that look at the camera alone: it pans as fast.
+    /// Camera motion, for filters that know no other: a pan of the same speed.
     pub reprojection: Reprojection,
 }
 
+/// A panel of the frame.
 struct Panel {
-    /// In parts of the image's width and height.
+    /// Centre, in parts of the image's width and height.
     center: [f32; 2],
     /// Half sides, in parts of the image's height.
     half: [f32; 2],
     /// Direction of its motion, of length 1.
     direction: [f32; 2],
-    /// Metres.
+    /// Depth in metres.
     depth: f32,
 }
 
-/// Front to back. They cover about a quarter of the image, overlap, and leave it at no border.
+/// Panels from front to back. They cover about a quarter of the image, overlap, and leave it at no border.
 const PANELS: [Panel; 5] = [
     Panel {
         center: [0.30, 0.35],
@@ -59,12 +60,11 @@ const PANELS: [Panel; 5] = [
     },
 ];
 
-/// Each panel is this much slower or faster at the ends of its long side, as a turning one is: no two pixels of it move
-/// alike.
+/// Change of a panel's speed at the ends of its long side, as a turning one has it: no two of its pixels move alike.
 const SPREAD: f32 = 0.1;
 
 impl Panels {
-    /// Five panels that move `speed` pixels per frame, each its own way, over a still ground; all of it is textured.
+    /// Makes five panels that move `speed` pixels per frame, each in its own direction, over a still ground; all of it textured.
     pub fn new(width: u32, height: u32, speed: f32) -> Self {
         let at = |x, y| panel_at(width, height, x, y);
         Self {
@@ -94,7 +94,7 @@ impl Panels {
     }
 }
 
-/// The panel that a pixel shows, and where along its sides the pixel lies: -1 to 1.
+/// Finds the panel that a pixel shows, and the pixel's place along its sides: -1 to 1.
 fn panel_at(width: u32, height: u32, x: u32, y: u32) -> Option<(&'static Panel, f32)> {
     let point = [x as f32 + 0.5, y as f32 + 0.5];
     let size = [width as f32, height as f32];
@@ -107,7 +107,7 @@ fn panel_at(width: u32, height: u32, x: u32, y: u32) -> Option<(&'static Panel, 
     })
 }
 
-/// Contrast at every scale down to the pixel, so that no fetch may be left out unnoticed.
+/// Computes a texture with contrast at every scale down to the pixel, so that a fetch that is left out shows.
 fn texture(x: u32, y: u32) -> f32 {
     let checker = if (x / 16 + y / 16).is_multiple_of(2) {
         0.6

@@ -6,7 +6,7 @@ use statrs::statistics::{Data, OrderStatistics};
 /// Median and quartiles: one round in four lies below the lower one, and one above the upper one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
-    /// As many rounds took longer as took less.
+    /// Half of the rounds took longer, half took less.
     pub median: f64,
     /// A quarter of the rounds took less.
     pub lower_quartile: f64,
@@ -15,7 +15,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Of one value per round. Panics where there is none.
+    /// Computes median and quartiles of one value per round. Panics where there is none.
     pub fn of(rounds: impl IntoIterator<Item = f64>) -> Self {
         let values: Vec<f64> = rounds.into_iter().collect();
         assert!(!values.is_empty(), "a spread is of at least one round");

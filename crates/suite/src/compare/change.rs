@@ -108,7 +108,7 @@ impl Change {
         Some(Self {
             scene: pair.first.scene.clone(),
             filter: filter_label(pair.first),
-            bar: pair.first.bar,
+            bar: pair.first.is_reference,
             metric: metric.name(),
             first: first.value,
             second: second.value,

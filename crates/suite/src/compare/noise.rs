@@ -13,7 +13,7 @@ use super::change::{Change, Uncertainty};
 use super::pairing::Pair;
 use super::side::Side;
 use crate::render::replicates::replicates_folder;
-use crate::render::scatter_oracle::oracle_of;
+use crate::render::scatter_oracle::make_oracle;
 use crate::stats::headline::Headline;
 use crate::{Error, FEWEST_REPLICATES, truths_without_pairs};
 
@@ -122,7 +122,7 @@ impl TruthParts {
             (replicates.iter().map(|path| Replicate::read(path))).collect::<Result<_, _>>()?;
         let frame = Frame::read(&frame)?;
         Ok(Some(Self {
-            oracle: oracle_of(&frame, &whole),
+            oracle: make_oracle(&frame, &whole),
             frame: frame.cropped(),
             without: truths_without_pairs(&replicates)?,
             whole,

@@ -44,7 +44,7 @@ fn label(case: &Case) -> String {
 
 /// Formats a case's filter: `jump_flood:paper`; a bar with its alignment, as each alignment has its own.
 pub fn filter_label(case: &Case) -> String {
-    match case.bar {
+    match case.is_reference {
         true => format!("{} ({})", case.name(), case.alignment),
         false => case.name(),
     }
@@ -69,7 +69,7 @@ pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(
                 side.run
                     .cases
                     .iter()
-                    .filter(|case| !case.bar)
+                    .filter(|case| !case.is_reference)
                     .map(|case| case.filter.as_str()),
             )
         };
@@ -100,7 +100,7 @@ pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(
 type Key<'a> = (&'a str, String, &'a str, bool);
 
 fn key(case: &Case) -> Key<'_> {
-    (&case.scene, case.name(), &case.alignment, case.bar)
+    (&case.scene, case.name(), &case.alignment, case.is_reference)
 }
 
 /// Lists names, each once and six at most.

@@ -1,4 +1,4 @@
-//! The folder of `--out`, claimed by the process that writes there.
+//! Claim of a process on the output folder that it writes to.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::ErrorKind;
@@ -7,18 +7,18 @@ use std::path::Path;
 use frame::{FileError, remove_leftovers};
 use tracer::Scene;
 
+use super::scene_folder::{refuse_scene, scene_folder};
 use crate::Error;
-use crate::render::rendered::{refuse_scene, scene_folder};
 
-/// Lies in a folder that was claimed once, and stays there empty.
+/// Name of the empty file that is locked; it stays in a folder that was claimed once.
 const LOCK_FILE: &str = ".shuttertruth.lock";
 
-/// Who else may write to a folder.
+/// Other processes that may write to a folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sharing {
-    /// Nobody: run.json, a journal or cases are written.
+    /// None: run.json, a journal or cases are written.
     Alone,
-    /// Others that render frames and truths, each of which is whole and known by its content.
+    /// Those that render frames and truths, each of which is whole and known by its content.
     Together,
 }
 
@@ -29,8 +29,8 @@ pub struct Claim {
     _lock: Option<File>,
 }
 
-/// Claims `out`, which is made if it does not exist. Refuses a folder that holds one of the scenes, and one that another
-/// process has claimed. Whoever is alone removes what killed processes left half written.
+/// Claims `out`, and makes it if it does not exist. Refuses a folder that holds one of the scenes, and one that another
+/// process has claimed. A process that is alone removes what killed ones left half written.
 pub fn claim<'a>(
     out: &Path,
     scenes: impl IntoIterator<Item = &'a Scene>,
@@ -55,7 +55,7 @@ pub fn claim<'a>(
     Ok(claim)
 }
 
-/// None where the file system knows no locks.
+/// Locks the folder; none where the file system knows no locks.
 fn lock(out: &Path, sharing: Sharing) -> Result<Option<File>, Error> {
     let path = out.join(LOCK_FILE);
     let fail = |source| FileError::io(&path, "lock", source);
@@ -70,7 +70,7 @@ fn lock(out: &Path, sharing: Sharing) -> Result<Option<File>, Error> {
     match locked {
         Ok(()) => Ok(Some(file)),
         Err(TryLockError::WouldBlock) => Err(Error::Usage(format!(
-            "--out: another shuttertruth is writing to {}; wait until it has ended, or take another folder",
+            "another shuttertruth is writing to {}; wait until it has ended, or take another output folder",
             out.display()
         ))),
         Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => Ok(None),
@@ -78,7 +78,7 @@ fn lock(out: &Path, sharing: Sharing) -> Result<Option<File>, Error> {
     }
 }
 
-/// Those in a scene's folder and in the folders of its cases and replicates.
+/// Removes leftovers in a scene's folder and in the folders of its cases and replicates.
 fn remove_all_leftovers(folder: &Path) {
     remove_leftovers(folder);
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {

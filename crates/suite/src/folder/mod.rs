@@ -1,5 +1,5 @@
-//! The folder that a command writes to.
+//! Output folders: who writes there, and what must not lie there.
 
 pub mod claim;
-pub mod forget;
+pub mod scene_folder;
 pub mod tracked;

@@ -1,4 +1,4 @@
-//! Files below `--out` that came with a checkout.
+//! Files in an output folder that came with a checkout.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -15,8 +15,8 @@ const ELSEWHERE: [&str; 4] = [
     "GIT_CEILING_DIRECTORIES",
 ];
 
-/// Refuses a folder that holds files which git tracks: what a change brings along is no evidence for it. `way_out` says what to do
-/// instead.
+/// Refuses a folder that holds files which git tracks: what a change brings along is no evidence for it. The error ends with
+/// `way_out`, which tells the user what to do instead.
 ///
 /// A folder that does not exist, or lies in no work tree, holds none, and no git is needed to know that. Where git cannot
 /// tell, the folder is refused too.
@@ -27,7 +27,7 @@ pub fn refuse_tracked(out: &Path, way_out: &str) -> Result<(), Error> {
     let folder = out.display();
     let cannot_tell = |reason: String| {
         Error::Usage(format!(
-            "whether files in {folder} came with the checkout cannot be told: {reason}; {way_out}"
+            "{folder}: cannot tell whether files came with the checkout: {reason}; {way_out}"
         ))
     };
     let mut git = Command::new("git");

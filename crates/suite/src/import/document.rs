@@ -1,22 +1,22 @@
-//! The scene.toml of an imported model.
+//! Text of an imported scene's scene.toml.
 
-use super::ImportPlan;
 use super::model::{Model, Up};
+use super::plan::ImportPlan;
 use super::set::{STAND_HEIGHT, WALL_DISTANCE};
 
-/// Width and height of the picture that speeds are given for, in pixels.
+/// Width and height of the picture that speeds are in pixels of.
 const SIZE: [u32; 2] = [640, 360];
 
-/// Degrees.
+/// Vertical field of view, in degrees.
 const VERTICAL_FOV: f64 = 40.0;
 
-/// From the side and from above, in degrees.
+/// Angles of the camera to the side of the model and above it, in degrees.
 const VIEW: [f64; 2] = [25.0, 15.0];
 
-/// The model's ball takes this part of the picture's height.
+/// Part of the picture's height that the ball around the model takes.
 const FILLED: f64 = 0.75;
 
-/// The whole text. The world's origin lies below the model's middle, at the stand's upper face.
+/// Writes the whole text. The world's origin lies below the model's middle, at the stand's upper face.
 pub fn scene_toml(plan: &ImportPlan, model: &Model) -> String {
     let radius = model.radius();
     let half_fov = (0.5 * VERTICAL_FOV).to_radians();
@@ -68,10 +68,10 @@ pub fn scene_toml(plan: &ImportPlan, model: &Model) -> String {
         vector([behind[0], 0.0, behind[2]]),
         number(VIEW[0]),
     );
-    // At the model's middle a pixel is this long.
+    // Length of a pixel at the model's middle, in metres.
     let pixel = 2.0 * distance * half_fov.tan() / f64::from(SIZE[1]);
     text += &stand_motion(motions.spin, motions.slide.map(|speed| speed * pixel));
-    let [low, high] = model.bounds;
+    let [low, high] = model.corners;
     let below_middle = [
         -0.5 * (low[0] + high[0]),
         -low[1],
@@ -88,7 +88,7 @@ pub fn scene_toml(plan: &ImportPlan, model: &Model) -> String {
     text
 }
 
-/// Keys one frame before and after the instant; degrees and metres per frame.
+/// Writes keys one frame before and after the instant, from degrees and metres per frame.
 fn stand_motion(spin: Option<f64>, slide: Option<f64>) -> String {
     if spin.is_none() && slide.is_none() {
         return String::new();
@@ -97,8 +97,8 @@ fn stand_motion(spin: Option<f64>, slide: Option<f64>) -> String {
         let mut key = format!("    {{ time = {time:?}");
         if let Some(speed) = slide {
             let side = VIEW[0].to_radians();
-            let way = [side.cos(), 0.0, -side.sin()].map(|part| part * speed * time);
-            key += &format!(", translation = {}", vector(way));
+            let moved = [side.cos(), 0.0, -side.sin()].map(|part| part * speed * time);
+            key += &format!(", translation = {}", vector(moved));
         }
         if let Some(speed) = spin {
             let degrees = number(speed * time);
@@ -109,7 +109,7 @@ fn stand_motion(spin: Option<f64>, slide: Option<f64>) -> String {
     format!("keys = [\n{}{}]\n", key(-1.0), key(1.0))
 }
 
-/// A place at a distance from the model's middle towards the camera that has gone so many degrees around.
+/// Returns the place at a distance from the model's middle towards a camera that is `around` degrees to the side.
 fn from_camera(around: f64, distance: f64) -> [f64; 3] {
     let [around, above] = [around, VIEW[1]].map(f64::to_radians);
     [
@@ -124,7 +124,7 @@ fn vector(parts: [f64; 3]) -> String {
     format!("[{x}, {y}, {z}]")
 }
 
-/// Six digits that count, whatever the scale.
+/// Writes a number with six significant digits.
 fn number(value: f64) -> String {
     let rounded: f64 = format!("{value:.5e}")
         .parse()

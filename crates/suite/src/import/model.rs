@@ -1,30 +1,31 @@
-//! The model that is imported: its files in the scene's folder, and where its middle lies.
+//! The imported model: its files in the scene's folder, and its box.
 
 use std::fs;
 use std::ops::RangeInclusive;
 use std::path::{Component, Path, PathBuf};
 
-use clap::ValueEnum;
 use frame::{FileError, read_bounded};
 use tracer::limits::LARGEST_MESH_FILE;
 use tracer::{SceneError, load_scene_and_files};
 
-use super::create;
+use super::folder::create;
 use crate::Error;
+use crate::named::named;
 
-/// Folder of the model's files below the scene's.
+/// Name of the folder of the model's files, in the scene's folder.
 pub const FOLDER: &str = "model";
 
 /// Radii of models that can be imported, in metres.
 const RADII: RangeInclusive<f64> = 1e-6..=1e9;
 
-/// An axis that points up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Up {
-    /// As in scenes.
-    Y,
-    /// As in many CAD programs.
-    Z,
+named! {
+    /// An axis that points up.
+    pub enum Up {
+        /// As in scenes.
+        Y = "y",
+        /// As in many CAD programs.
+        Z = "z",
+    }
 }
 
 /// A model in a scene's folder.
@@ -32,32 +33,33 @@ pub struct Model {
     /// The OBJ file, below the scene's folder, with slashes.
     pub mesh: String,
     /// Smallest and largest x, y and z once `up` points up, in metres.
-    pub bounds: [[f64; 3]; 2],
+    pub corners: [[f64; 3]; 2],
     /// The axis of the file that points up.
     pub up: Up,
 }
 
 impl Model {
     /// Copies the OBJ file and what it names into the folder of a new scene.
-    pub fn copied(path: &Path, plain: bool, up: Up, scene: &Path) -> Result<Self, Error> {
+    pub fn copy(path: &Path, plain: bool, up: Up, scene: &Path) -> Result<Self, Error> {
         let folder = scene.join(FOLDER);
         create(&folder)?;
         let path = (path.canonicalize()).map_err(|source| FileError::io(path, "read", source))?;
         let name = path.file_name().unwrap_or_default();
         let copy = folder.join(name);
-        let read = match plain {
+        let loaded = match plain {
             true => {
                 write_plain(&path, &copy)?;
                 // Lines are where they were.
-                read(scene, &copy).map_err(|error| SceneError {
+                load(scene, &copy).map_err(|error| SceneError {
                     path: path.clone(),
                     ..error
                 })?
             }
             false => {
-                let read = read(scene, &path).map_err(|error| plainly(error, &path, scene))?;
-                copy_all(&read.files, &path, &folder)?;
-                read
+                let loaded =
+                    load(scene, &path).map_err(|error| suggest_plain(error, &path, scene))?;
+                copy_all(&loaded.files, &path, &folder)?;
+                loaded
             }
         };
         let name = name.to_str().ok_or_else(|| {
@@ -70,16 +72,16 @@ impl Model {
             Up::Y => p,
             Up::Z => [p[0], p[2], -p[1]],
         };
-        let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
-        for position in read.positions.into_iter().map(upright) {
+        let mut corners = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        for position in loaded.positions.into_iter().map(upright) {
             for axis in 0..3 {
-                bounds[0][axis] = bounds[0][axis].min(position[axis]);
-                bounds[1][axis] = bounds[1][axis].max(position[axis]);
+                corners[0][axis] = corners[0][axis].min(position[axis]);
+                corners[1][axis] = corners[1][axis].max(position[axis]);
             }
         }
         let model = Self {
             mesh: format!("{FOLDER}/{name}"),
-            bounds,
+            corners,
             up,
         };
         model.check_size(&path)?;
@@ -100,28 +102,29 @@ impl Model {
         )))
     }
 
-    /// Half of the size along each axis, in metres.
+    /// Returns half of the size along each axis, in metres.
     pub fn half_size(&self) -> [f64; 3] {
-        let [low, high] = self.bounds;
+        let [low, high] = self.corners;
         std::array::from_fn(|axis| 0.5 * (high[axis] - low[axis]))
     }
 
-    /// Of the ball around the box around it, in metres.
+    /// Returns the radius of the ball around the model's box, in metres.
     pub fn radius(&self) -> f64 {
         let [x, y, z] = self.half_size();
         x.hypot(y).hypot(z)
     }
 }
 
-/// What a scene with nothing but the model holds.
-struct Read {
-    /// Of the triangles' corners, in metres.
+/// Contents of a scene with nothing but the model.
+struct LoadedModel {
+    /// Positions of the triangles' corners, in metres.
     positions: Vec<[f64; 3]>,
     /// The OBJ file and what it names.
     files: Vec<PathBuf>,
 }
 
-fn read(scene: &Path, obj: &Path) -> Result<Read, SceneError> {
+/// Loads the model as a scene of its own.
+fn load(scene: &Path, obj: &Path) -> Result<LoadedModel, SceneError> {
     let document = scene.join("scene.toml");
     let text = format!(
         "exposes = \"the model\"\nfamily = \"limits\"\nexposure = 0.5\nsize = [1, 1]\n\
@@ -134,7 +137,7 @@ fn read(scene: &Path, obj: &Path) -> Result<Read, SceneError> {
         line: None,
         reason: format!("cannot be written: {error}"),
     })?;
-    let (loaded, files) =
+    let (scene, files) =
         load_scene_and_files(scene, None).map_err(|error| match error.path == document {
             // It names the model and nothing else that could be wrong.
             true => SceneError {
@@ -144,9 +147,9 @@ fn read(scene: &Path, obj: &Path) -> Result<Read, SceneError> {
             },
             false => error,
         })?;
-    let mesh = &loaded.meshes[0];
+    let mesh = &scene.meshes[0];
     let used = mesh.triangles.iter().flatten();
-    Ok(Read {
+    Ok(LoadedModel {
         positions: used
             .map(|index| mesh.positions[*index as usize].as_dvec3().to_array())
             .collect(),
@@ -154,15 +157,15 @@ fn read(scene: &Path, obj: &Path) -> Result<Read, SceneError> {
     })
 }
 
-/// Says whether leaving materials out would help.
-fn plainly(error: SceneError, path: &Path, scene: &Path) -> SceneError {
+/// Adds to an error that the model can be imported without materials, if it can.
+fn suggest_plain(error: SceneError, path: &Path, scene: &Path) -> SceneError {
     let copy = scene.join("plain.obj");
-    let helps = write_plain(path, &copy).is_ok() && read(scene, &copy).is_ok();
+    let helps = write_plain(path, &copy).is_ok() && load(scene, &copy).is_ok();
     let _ = fs::remove_file(&copy);
     match helps {
         true => SceneError {
             reason: format!(
-                "{}; or give --plain to import the shape alone, in grey",
+                "{}; or import the model plain: the shape alone, in grey",
                 error.reason
             ),
             ..error
@@ -171,7 +174,7 @@ fn plainly(error: SceneError, path: &Path, scene: &Path) -> SceneError {
     }
 }
 
-/// The same OBJ file, line by line, without its materials.
+/// Copies an OBJ file line by line, without its materials.
 fn write_plain(path: &Path, copy: &Path) -> Result<(), FileError> {
     let bytes = read_bounded(path, LARGEST_MESH_FILE)?;
     let text = String::from_utf8_lossy(&bytes);
@@ -186,7 +189,7 @@ fn write_plain(path: &Path, copy: &Path) -> Result<(), FileError> {
     fs::write(copy, plain).map_err(|source| FileError::io(copy, "write", source))
 }
 
-/// To the same places below `folder` as the files have below the model's.
+/// Copies files to the same places below `folder` that they have below the model's folder.
 fn copy_all(files: &[PathBuf], model: &Path, folder: &Path) -> Result<(), Error> {
     let home = model.parent().unwrap_or(Path::new(""));
     for file in files {
@@ -196,7 +199,7 @@ fn copy_all(files: &[PathBuf], model: &Path, folder: &Path) -> Result<(), Error>
         });
         let Some(below) = below else {
             return Err(Error::Usage(format!(
-                "{}: {} lies outside of the model's folder; move it there and mend the file that names it, or give --plain to import the shape alone, in grey",
+                "{}: {} lies outside of the model's folder; move it there and mend the file that names it, or import the model plain: the shape alone, in grey",
                 model.display(),
                 file.display()
             )));

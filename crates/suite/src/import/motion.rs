@@ -4,14 +4,14 @@ use tracer::Family;
 
 use crate::Error;
 
-/// Speeds; at least one is given.
+/// Speeds of model and camera, at least one of them given.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Motions {
-    /// The stand turns by so many degrees per frame.
+    /// Rotation of the stand, in degrees per frame.
     pub spin: Option<f64>,
-    /// The stand goes so many pixels per frame to the right, at the model's middle and 640x360.
+    /// Motion of the stand to the right, in pixels per frame at the model's middle and 640x360.
     pub slide: Option<f64>,
-    /// The camera goes so many degrees per frame around the model.
+    /// Motion of the camera around the model, in degrees per frame.
     pub orbit: Option<f64>,
 }
 
@@ -20,14 +20,15 @@ impl Motions {
     pub fn check(&self) -> Result<(), Error> {
         match (self.spin, self.slide, self.orbit) {
             (None, None, None) => Err(Error::Usage(
-                "nothing would move; give one or more of --spin 20deg/frame, --slide 40px/frame, --orbit 3deg/frame"
+                "nothing would move; give one or more of a spin such as 20deg/frame, a slide such as 40px/frame, an orbit such as \
+                 3deg/frame"
                     .to_owned(),
             )),
             _ => Ok(()),
         }
     }
 
-    /// What a scene that moves so belongs to.
+    /// Returns the family of a scene with this motion.
     pub fn family(&self) -> Family {
         match (self.spin, self.slide) {
             (Some(_), _) => Family::Rotation,
@@ -36,7 +37,7 @@ impl Motions {
         }
     }
 
-    /// `it turns 20 degrees per frame, and it slides 40 pixels per frame`
+    /// Describes the motion: `it turns 20 degrees per frame, and it slides 40 pixels per frame`.
     pub fn sentence(&self) -> String {
         let says = [
             self.spin

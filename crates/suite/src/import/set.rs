@@ -1,4 +1,4 @@
-//! Stand, floor and wall of an imported scene, all patterned, so that a blur over them shows.
+//! Set of an imported scene: stand, floor and wall, all patterned, so that a blur over them shows.
 
 use std::fmt::Write;
 use std::fs;
@@ -8,19 +8,19 @@ use frame::{FileError, Raster, write_png};
 
 use super::model::Model;
 
-/// Height of the stand, to the model's radius.
+/// Height of the stand, in radii of the model.
 pub const STAND_HEIGHT: f64 = 0.04;
 
-/// From the middle of the model to the wall, to its radius.
+/// Distance from the middle of the model to the wall, in its radii.
 pub const WALL_DISTANCE: f64 = 4.0;
 
-/// Half a side of the floor and of the wall, to the model's radius.
+/// Half a side of the floor and of the wall, in radii of the model.
 const EXTENT: f64 = 40.0;
 
-/// A side of the floor's and the wall's squares, to the model's radius.
+/// Side of the floor's and the wall's squares, in radii of the model.
 const SQUARE: f64 = 0.5;
 
-/// Corners of the stand's round.
+/// Corners of the stand's disc.
 const CORNERS: u32 = 96;
 
 const MATERIALS: &str = "\
@@ -34,8 +34,8 @@ newmtl dark
 Kd 0.25 0.24 0.23
 ";
 
-/// Writes its meshes, materials and textures.
-pub fn write(scene: &Path, model: &Model) -> Result<(), FileError> {
+/// Writes the set's meshes, materials and textures.
+pub fn write_set(scene: &Path, model: &Model) -> Result<(), FileError> {
     let radius = model.radius();
     for (name, text) in [
         ("set.mtl", MATERIALS.to_owned()),
@@ -56,7 +56,7 @@ pub fn write(scene: &Path, model: &Model) -> Result<(), FileError> {
     )
 }
 
-/// A square that faces +Z, its texture repeated every two squares.
+/// Writes a square that faces +Z, its texture repeated every two squares.
 fn plane(material: &str, half: f64, radius: f64) -> String {
     let repeats = half / (SQUARE * radius);
     format!(
@@ -68,15 +68,16 @@ fn plane(material: &str, half: f64, radius: f64) -> String {
     )
 }
 
-/// A round of alternating colours around the origin, its upper face at the height 0, wide enough for the model in any turn.
+/// Writes a disc of alternating colours around the origin, its upper face at the height 0, wide enough for the model in any
+/// rotation.
 fn stand(model: &Model) -> String {
     let [x, _, z] = model.half_size();
-    let round = 1.1 * x.hypot(z).max(0.25 * model.radius());
+    let disc = 1.1 * x.hypot(z).max(0.25 * model.radius());
     let height = STAND_HEIGHT * model.radius();
     let mut text = String::from("mtllib set.mtl\nv 0 0 0\n");
     for corner in 0..CORNERS {
         let angle = f64::from(corner) / f64::from(CORNERS) * std::f64::consts::TAU;
-        let (x, z) = (round * angle.cos(), round * angle.sin());
+        let (x, z) = (disc * angle.cos(), disc * angle.sin());
         for y in [0.0, -height] {
             writeln!(text, "v {x} {y} {z}").expect("text takes text");
         }
@@ -93,7 +94,7 @@ fn stand(model: &Model) -> String {
     text
 }
 
-/// Two by two squares as a display shows them, each with a frame.
+/// Paints two by two squares of display colours, each with a frame.
 fn squares(dark: [f32; 3], light: [f32; 3]) -> Raster<[f32; 3]> {
     const TEXELS: u32 = 64;
     Raster::from_fn(2 * TEXELS, 2 * TEXELS, |x, y| {

@@ -1,13 +1,13 @@
-//! Files of JSON and of its lines, which others may have written.
+//! Reader of JSON files that others may have written.
 
 use std::path::Path;
 
 use frame::{FileError, read_bounded};
 
-/// Bytes of run.json, of a baseline, of bench.json, of a journal and of the other files of numbers.
+/// Upper limit on the bytes of run.json, a baseline, bench.json, a journal and other files of numbers.
 pub const MOST_JSON_BYTES: u64 = 1 << 28;
 
-/// The text of a regular file of at most [`MOST_JSON_BYTES`].
+/// Reads the text of a regular file of at most [`MOST_JSON_BYTES`].
 ///
 /// # Errors
 /// The file cannot be read, is larger, or holds something else than UTF-8.

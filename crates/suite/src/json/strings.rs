@@ -1,4 +1,4 @@
-//! Strings of JSON that others wrote: names that hold control characters are no names of this program.
+//! Check of strings in JSON that others wrote.
 
 use std::fmt;
 

@@ -61,7 +61,7 @@ pub fn calibrate<'a>(
         ..Calibration::default()
     };
     for case in runs.iter().flat_map(|run| &run.cases) {
-        if case.bar || case.input.change().is_some() {
+        if case.is_reference || case.input.change().is_some() {
             continue;
         }
         let bounded = bounds(case).of(&case.filter, &case.preset);

@@ -36,7 +36,8 @@ pub fn check(run: &Run, findings: Vec<Finding>, comparisons: Vec<BaselineCompari
     let baseline = comparisons.iter().map(BaselineComparison::decision);
     let unchecked = match comparisons.is_empty() {
         true => (run.cases.iter()).any(|case| {
-            !case.bar && !(findings.iter()).any(|finding| applies(finding) && finding.is_of(case))
+            !case.is_reference
+                && !(findings.iter()).any(|finding| applies(finding) && finding.is_of(case))
         }),
         false => false,
     };

@@ -22,7 +22,7 @@ pub fn add_evidence(run: &Run, findings: &mut [Finding], folder: &Path) -> Resul
             Some((case, own)) if finding.is_of(case) => own.push(finding),
             _ => {
                 let mut cases = run.cases.iter();
-                let case = cases.find(|case| !case.bar && finding.is_of(case));
+                let case = cases.find(|case| !case.is_reference && finding.is_of(case));
                 notable.push((case.expect("a finding is about a case"), vec![finding]));
             }
         }

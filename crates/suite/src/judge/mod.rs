@@ -32,7 +32,7 @@ pub type RunBounds = BTreeMap<String, SceneBounds>;
 /// Compares every bounded score of a run with its limit: one finding per filter, scene and bound, in the order of the run's cases.
 /// Bars have no bounds. Pure: reads nothing, writes nothing.
 pub fn judge(run: &Run, bounds: &RunBounds) -> Vec<Finding> {
-    let filters = run.cases.iter().filter(|case| !case.bar);
+    let filters = run.cases.iter().filter(|case| !case.is_reference);
     filters
         .flat_map(|case| {
             let bounds = (bounds.get(&case.scene))

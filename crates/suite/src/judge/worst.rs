@@ -6,7 +6,7 @@ use frame::{FileError, Image, Plane, Raster, display_srgb, write_png};
 use metrics::{Metric, Regions};
 use serde::{Deserialize, Serialize};
 
-use crate::run::pictures::magma;
+use crate::colors::magma;
 
 /// Place of the largest error.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

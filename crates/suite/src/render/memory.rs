@@ -1,39 +1,42 @@
-//! The memory that a render takes, told before it begins.
+//! Estimate of the memory that a render takes, before it begins.
 
 use std::fs;
 
 use tracer::Scene;
 
-use crate::{Error, RenderSettings};
+use super::settings::RenderSettings;
+use crate::Error;
 
-/// What the program takes without any picture, bytes.
+/// Memory of the program without any picture, in bytes.
 const PROGRAM: u64 = 80 << 20;
-/// Bytes per pixel of a truth that is made and written, beside its replicates and its coverages. Measured, as those that follow, as
-/// slopes of the largest resident size of `render` and `run`, between 512x512 and 1024x1024 pixels and between 2 and 9 coverages.
+/// Bytes per pixel of a truth, beside its replicates and coverages. This number and the next ones are measured slopes of the largest
+/// resident size of `render` and `run`, between 512x512 and 1024x1024 pixels and between 2 and 9 coverages.
 const PER_PIXEL: u64 = 683;
-/// Per pixel and coverage.
+/// Bytes per pixel and coverage.
 const PER_COVERAGE: u64 = 43;
-/// Per pixel and replicate: its color, what it recalls of the instant, and its support.
+/// Bytes per pixel and replicate: its colour, its reference to the instant, and its support.
 const PER_REPLICATE: u64 = 54;
-/// Per pixel, replicate and coverage.
+/// Bytes per pixel, replicate and coverage.
 const PER_REPLICATE_COVERAGE: u64 = 5;
-/// Per pixel of a frame's guard band, and per such pixel and coverage.
+/// Bytes per pixel of a frame's guard band.
 const PER_BAND_PIXEL: u64 = 300;
+/// Bytes per pixel of the guard band and coverage.
 const PER_BAND_COVERAGE: u64 = 30;
-/// Per triangle of a scene while its trees are built.
+/// Bytes per triangle of a scene while its trees are built.
 const PER_TRIANGLE: u64 = 600;
-/// Per object and thread: its pose now and at the instant.
+/// Bytes per object and thread: its pose now and at the instant.
 const PER_POSE: u64 = 500;
 
-/// What `run` takes without any picture, bytes.
+/// Memory of measuring without any picture, in bytes.
 const MEASURING: u64 = 112 << 20;
-/// Per pixel of a frame, a truth and its ladder that filters are measured by, beside their coverages; however many replicates.
+/// Bytes per pixel of a frame, a truth and its ladder that filters are measured by, beside their coverages, for any number of
+/// replicates.
 const PER_MEASURED_PIXEL: u64 = 970;
-/// Per such pixel and coverage.
+/// Bytes per such pixel and coverage.
 const PER_MEASURED_COVERAGE: u64 = 200;
 
-/// Refuses a render for which memory does not suffice: of a frame, and of a truth with so many replicates. Where the system does not
-/// tell what is free, nothing is refused.
+/// Refuses to render a frame, and a truth of a number of replicates, where memory does not suffice. Refuses nothing where the
+/// system does not tell what is free.
 pub(crate) fn check_memory(
     scene: &Scene,
     settings: &RenderSettings,
@@ -42,7 +45,7 @@ pub(crate) fn check_memory(
     refuse_beyond_free(scene, settings, needed(scene, settings, replicates))
 }
 
-/// Refuses to measure filters on a scene where memory does not suffice to render it, or to measure them.
+/// Refuses to measure filters on a scene where memory does not suffice to render or to measure it.
 pub(crate) fn check_measuring_memory(
     scene: &Scene,
     settings: &RenderSettings,
@@ -57,8 +60,8 @@ pub(crate) fn check_measuring_memory(
 fn refuse_beyond_free(scene: &Scene, settings: &RenderSettings, needed: u64) -> Result<(), Error> {
     match free() {
         Some(free) if free < needed => Err(Error::Usage(format!(
-            "scene {}: needs about {} for {}x{} pixels of color and {} coverages, {} are free; choose a smaller --size, \
-             fewer --replicates or a scene of fewer objects, or free memory",
+            "scene {}: needs about {} for {}x{} pixels of color and {} coverages, {} are free; choose a smaller size, \
+             fewer replicates or a scene of fewer objects, or free memory",
             scene.name,
             gibibytes(needed),
             settings.width,
@@ -70,12 +73,12 @@ fn refuse_beyond_free(scene: &Scene, settings: &RenderSettings, needed: u64) -> 
     }
 }
 
-/// Channels of coverage: of the background and of every object.
+/// Counts channels of coverage: one for the background and one per object.
 fn coverages(scene: &Scene) -> u64 {
     scene.objects.len() as u64 + 1
 }
 
-/// About the largest resident size of a render, bytes.
+/// Estimates the largest resident size of a render, in bytes.
 fn needed(scene: &Scene, settings: &RenderSettings, replicates: u32) -> u64 {
     let area = |band: u32| {
         let side = |side: u32| u64::from(side) + 2 * u64::from(band);
@@ -105,24 +108,26 @@ fn gibibytes(bytes: u64) -> String {
     format!("{:.1} GiB", bytes as f64 / f64::from(1 << 30))
 }
 
-/// Bytes that this process may still take: the least of what the system has, its control group and its own limit allow.
+/// Returns the bytes that this process may still take: the least that the system, its control group and its own limit allow.
 fn free() -> Option<u64> {
     if !cfg!(target_os = "linux") {
         return None;
     }
-    [of_system(), of_group(), of_process()]
+    [free_in_system(), free_in_group(), free_in_process()]
         .into_iter()
         .flatten()
         .min()
 }
 
-fn of_system() -> Option<u64> {
+/// Reads the memory that the system has left.
+fn free_in_system() -> Option<u64> {
     let text = fs::read_to_string("/proc/meminfo").ok()?;
     Some(entry(&text, "MemAvailable:")? << 10)
 }
 
-/// Of the group that the process is in (cgroup v2), and where a container hides the path to it, of the topmost that is seen.
-fn of_group() -> Option<u64> {
+/// Reads what the control group of the process leaves (cgroup v2); where a container hides the path to it, what the topmost visible
+/// group leaves.
+fn free_in_group() -> Option<u64> {
     let groups = fs::read_to_string("/proc/self/cgroup").unwrap_or_default();
     let own = groups.lines().find_map(|line| line.strip_prefix("0::/"));
     let folders = [
@@ -140,15 +145,15 @@ fn of_group() -> Option<u64> {
     left.min()
 }
 
-/// What `ulimit -v` leaves.
-fn of_process() -> Option<u64> {
+/// Reads what `ulimit -v` leaves.
+fn free_in_process() -> Option<u64> {
     let limits = fs::read_to_string("/proc/self/limits").ok()?;
     let most = entry(&limits, "Max address space")?;
     let used = entry(&fs::read_to_string("/proc/self/status").ok()?, "VmSize:")? << 10;
     Some(most.saturating_sub(used))
 }
 
-/// The first number after a name at the beginning of a line; none where there is another word.
+/// Reads the first number after a name at the beginning of a line; none where there is another word.
 fn entry(text: &str, name: &str) -> Option<u64> {
     let rest = text.lines().find_map(|line| line.strip_prefix(name))?;
     rest.split_whitespace().next()?.parse().ok()

@@ -1,4 +1,4 @@
-//! Joins what several machines rendered to what one would have written.
+//! Merge of replicates that several machines rendered.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -8,21 +8,22 @@ use frame::{Alignment, FileError, Replicate, Truth, read_bounded, write_atomical
 
 use crate::Error;
 use crate::folder::claim::{Sharing, claim};
-use crate::render::replicates::{MOST_REPLICATES, replicates_folder};
+use crate::render::replicates::replicates_folder;
+use crate::render::settings::MOST_REPLICATES;
 
-/// Bytes of a frame or a replicate that is joined with others.
+/// Upper limit on the bytes of a frame or a replicate that is merged with others.
 pub const MOST_PART_BYTES: u64 = 1 << 32;
 
-/// A truth that was made whole.
+/// A truth that was merged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Merged {
-    /// Its file.
+    /// The truth's file.
     pub truth: PathBuf,
-    /// How many replicates it is the mean of.
+    /// Number of its replicates.
     pub replicates: usize,
 }
 
-/// Where each file of the parts comes from, by its path below them.
+/// The source of each file, by its path below the parts.
 type Files = BTreeMap<PathBuf, PathBuf>;
 
 /// Copies frames and replicates of all `parts` into `out` and makes their truths. The same file may stand in several
@@ -32,7 +33,7 @@ pub fn merge(parts: &[PathBuf], out: &Path) -> Result<Vec<Merged>, Error> {
     let folders = replicates_by_folder(&files);
     // One truth at a time is in memory, at first to see that all are whole.
     for (folder, files) in &folders {
-        truth(folder, files)?;
+        merge_replicates(folder, files)?;
     }
     let _claim = claim(out, [], Sharing::Together)?;
     for (below, file) in &files {
@@ -41,7 +42,7 @@ pub fn merge(parts: &[PathBuf], out: &Path) -> Result<Vec<Merged>, Error> {
     (folders.iter())
         .map(|(folder, files)| {
             let path = out.join(folder).with_extension("exr");
-            truth(folder, files)?.write(&path)?;
+            merge_replicates(folder, files)?.write(&path)?;
             Ok(Merged {
                 truth: path,
                 replicates: files.len(),
@@ -50,20 +51,20 @@ pub fn merge(parts: &[PathBuf], out: &Path) -> Result<Vec<Merged>, Error> {
         .collect()
 }
 
-/// Every frame and replicate of all parts.
+/// Lists every frame and replicate of all parts.
 fn gather(parts: &[PathBuf]) -> Result<Files, Error> {
     let mut files = Files::new();
     for (index, part) in parts.iter().enumerate() {
         if parts[..index].contains(part) {
             return Err(Error::Usage(format!(
-                "{}: is named twice; allowed: each part once",
+                "{} is named twice; allowed: each part once",
                 part.display()
             )));
         }
         let own = rendered_below(part)?;
         if own.is_empty() {
             return Err(Error::Usage(format!(
-                "{}: holds no replicates; allowed: folders that `shuttertruth render --replicates A..B --out` wrote",
+                "{} holds no replicates; allowed: folders into which `shuttertruth render` wrote a part A..B of the replicates",
                 part.display()
             )));
         }
@@ -85,7 +86,7 @@ fn gather(parts: &[PathBuf]) -> Result<Files, Error> {
     Ok(files)
 }
 
-/// Per folder of replicates, its files.
+/// Groups replicates by their folders.
 fn replicates_by_folder(files: &Files) -> BTreeMap<PathBuf, Vec<&Path>> {
     let mut folders: BTreeMap<PathBuf, Vec<&Path>> = BTreeMap::new();
     for (below, file) in files {
@@ -96,14 +97,14 @@ fn replicates_by_folder(files: &Files) -> BTreeMap<PathBuf, Vec<&Path>> {
     folders
 }
 
-/// The truth of a folder's replicates.
-fn truth(folder: &Path, files: &[&Path]) -> Result<Truth, Error> {
+/// Makes the truth of a folder's replicates.
+fn merge_replicates(folder: &Path, files: &[&Path]) -> Result<Truth, Error> {
     let mut replicates = Vec::new();
     for file in files {
         let replicate = Replicate::read(file)?;
         if replicate.index >= MOST_REPLICATES {
             return Err(Error::Usage(format!(
-                "{}: is replicate {}; allowed: 0 to {}",
+                "{} is replicate {}; allowed: 0 to {}",
                 file.display(),
                 replicate.index,
                 MOST_REPLICATES - 1
@@ -113,15 +114,15 @@ fn truth(folder: &Path, files: &[&Path]) -> Result<Truth, Error> {
     }
     // By name, replicate_1000 stands before replicate_999.
     replicates.sort_by_key(|replicate| replicate.index);
-    check(folder, &replicates)?;
+    check_replicates(folder, &replicates)?;
     Truth::of(&replicates).map_err(|error| Error::Usage(format!("{}: {error}", folder.display())))
 }
 
-/// Refuses replicates that leave a gap, are odd in number or have strayed into another folder.
-fn check(folder: &Path, replicates: &[Replicate]) -> Result<(), Error> {
+/// Refuses replicates that leave a gap, are odd in number or belong into another folder.
+fn check_replicates(folder: &Path, replicates: &[Replicate]) -> Result<(), Error> {
     if let Some(pair) = (replicates.windows(2)).find(|pair| pair[0].index == pair[1].index) {
         return Err(Error::Usage(format!(
-            "{}: two files hold replicate {}; leave names as `render` made them",
+            "{}: two files hold replicate {}; leave names as `shuttertruth render` made them",
             folder.display(),
             pair[0].index
         )));
@@ -137,8 +138,8 @@ fn check(folder: &Path, replicates: &[Replicate]) -> Result<(), Error> {
     if let [first, ..] = missing.as_slice() {
         let words: Vec<String> = missing.iter().map(u32::to_string).collect();
         return Err(Error::Usage(format!(
-            "{}: replicates {} are missing for a truth of {count}; render them with the options of the other parts and \
-             --replicates {first}..{}",
+            "{}: replicates {} are missing for a truth of {count}; render them with the settings of the other parts, as \
+             replicates {first}..{}",
             folder.display(),
             words.join(", "),
             first + 1
@@ -148,7 +149,7 @@ fn check(folder: &Path, replicates: &[Replicate]) -> Result<(), Error> {
     let home = replicates_folder(Path::new(&one.provenance.scene), one.alignment);
     if folder != home {
         return Err(Error::Usage(format!(
-            "{} holds replicates that belong into {}; leave folders as `render` made them",
+            "{} holds replicates that belong into {}; leave folders as `shuttertruth render` made them",
             folder.display(),
             home.display()
         )));
@@ -156,8 +157,8 @@ fn check(folder: &Path, replicates: &[Replicate]) -> Result<(), Error> {
     Ok(())
 }
 
-/// The frames and replicates of a part, by their paths below it: `<scene>/frame.exr` and
-/// `<scene>/truth_<alignment>/replicate_<index>.exr`. Looks nowhere else, so that no loop of links can be followed.
+/// Lists frames and replicates of a part, by their paths below it: `<scene>/frame.exr` and
+/// `<scene>/truth_<alignment>/replicate_<index>.exr`. Looks nowhere else, and so follows no loop of links.
 fn rendered_below(part: &Path) -> Result<Vec<PathBuf>, Error> {
     let mut found = Vec::new();
     for scene in entries(part)?.into_iter().map(PathBuf::from) {
@@ -190,7 +191,7 @@ fn is_replicate(path: &Path) -> bool {
     name.starts_with("replicate_") && name.ends_with(".exr")
 }
 
-/// The names in a folder.
+/// Lists the names in a folder.
 fn entries(folder: &Path) -> Result<Vec<std::ffi::OsString>, Error> {
     let fail = |source| FileError::io(folder, "read", source);
     (fs::read_dir(folder).map_err(fail)?)

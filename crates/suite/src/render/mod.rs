@@ -1,8 +1,11 @@
 //! Frames, truths and ladders of scenes, rendered once and kept as files.
 
-pub mod layers;
+pub mod cached_file;
+pub mod frames;
+pub mod ladders;
 pub mod memory;
 pub mod merge;
-pub mod rendered;
 pub mod replicates;
 pub mod scatter_oracle;
+pub mod settings;
+pub mod truths;

@@ -1,4 +1,4 @@
-//! The replicates of a truth on disk: rendered one by one, each kept as soon as it is whole, found again, joined.
+//! Files of the replicates of a truth.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -8,21 +8,18 @@ use tracer::{Scene, TruthSettings, TruthTracer};
 
 use crate::{Error, Monitor};
 
-/// Independent renders behind a truth.
-pub const MOST_REPLICATES: u32 = 4096;
-
-/// Where the replicates of one truth lie, and what they must have been made from.
-pub struct Shelf {
+/// The place of one truth's replicates, and the hash of their inputs.
+pub struct ReplicateFiles {
     /// Folder of the scene's files.
     pub folder: PathBuf,
-    /// Of the truth.
+    /// The truth's alignment.
     pub alignment: Alignment,
     /// Content hash that every replicate must have.
     pub hash: String,
 }
 
-impl Shelf {
-    /// The replicates of the truth that `settings` ask for, below a scene's folder.
+impl ReplicateFiles {
+    /// Names the files of the truth that `settings` ask for, below a scene's folder.
     pub fn new(folder: PathBuf, scene: &Scene, settings: &TruthSettings) -> Self {
         Self {
             folder,
@@ -31,19 +28,14 @@ impl Shelf {
         }
     }
 
-    /// Where the truth lies that is made of the replicates.
+    /// Names the file of the truth that is made of the replicates.
     pub fn truth_path(&self) -> PathBuf {
         self.folder.join(format!("truth_{}.exr", self.alignment))
     }
 
-    /// Where a replicate lies.
-    pub fn path(&self, index: u32) -> PathBuf {
-        replicates_folder(&self.folder, self.alignment).join(format!("replicate_{index:03}.exr"))
-    }
-
-    /// Replicates by their indices: those kept from before are read, the others rendered and kept, each as soon as it
-    /// is whole. A file that is broken, or was made from other inputs, is replaced.
-    pub fn obtain(
+    /// Returns replicates by their indices. Reads those that are there; renders the others and writes each as soon as it is
+    /// whole. Replaces a file that is broken or was made from other inputs.
+    pub fn read_or_render(
         &self,
         scene: &Scene,
         settings: &TruthSettings,
@@ -53,8 +45,8 @@ impl Shelf {
         let mut tracer = None;
         indices
             .map(|index| {
-                if let Some(kept) = self.kept(index) {
-                    return Ok(kept);
+                if let Some(found) = self.read(index) {
+                    return Ok(found);
                 }
                 let tracer = match &mut tracer {
                     Some(tracer) => tracer,
@@ -68,13 +60,17 @@ impl Shelf {
             .collect()
     }
 
-    fn kept(&self, index: u32) -> Option<Replicate> {
-        let kept = Replicate::read(&self.path(index)).ok()?;
-        (kept.provenance.content_hash == self.hash && kept.index == index).then_some(kept)
+    fn read(&self, index: u32) -> Option<Replicate> {
+        let found = Replicate::read(&self.path(index)).ok()?;
+        (found.provenance.content_hash == self.hash && found.index == index).then_some(found)
+    }
+
+    fn path(&self, index: u32) -> PathBuf {
+        replicates_folder(&self.folder, self.alignment).join(format!("replicate_{index:03}.exr"))
     }
 }
 
-/// Folder of the replicates behind `truth_<alignment>.exr`.
+/// Names the folder of the replicates behind `truth_<alignment>.exr`.
 pub fn replicates_folder(scene_folder: &Path, alignment: Alignment) -> PathBuf {
     scene_folder.join(format!("truth_{alignment}"))
 }

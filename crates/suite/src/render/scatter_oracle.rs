@@ -1,18 +1,20 @@
-//! The best picture that one frame with straight motion can give: a bar for filters, far too slow to be one.
+//! One-frame oracle: about the best picture that one frame with straight motion can give, far too slow for a filter.
 
 use frame::{Efficiency, Frame, Image, Picture, Plane, Raster, Shutter, ShutterProfile, Truth};
 use rayon::prelude::*;
 
-/// Instants are at least so many, and so many per pixel that the fastest pixel moves.
+/// Least number of instants.
 const FEWEST_INSTANTS: u32 = 64;
+/// Instants per pixel that the fastest pixel moves.
 const INSTANTS_PER_PIXEL: f64 = 4.0;
+/// Upper limit on the instants.
 const MOST_INSTANTS: u32 = 1024;
 /// Instants whose pictures are in memory together.
 const TOGETHER: usize = 16;
 
-/// For many instants of the shutter, moves every pixel of the frame along its velocity, lets the nearer hide the farther,
-/// and fills places that nothing came to from the farthest of what lies nearest to them in each of the four directions; then
-/// averages. As large as the frame, guard band included.
+/// Moves every pixel of the frame along its velocity for many instants of the shutter, lets the nearer hide the farther,
+/// fills places that nothing came to from the farthest of what lies nearest to them in each of the four directions, and
+/// averages. The picture is as large as the frame, guard band included.
 pub fn scatter_oracle(frame: &Frame, shutter: Shutter, profile: &ShutterProfile) -> Picture {
     let instants = instants(frame, shutter, &profile.efficiency);
     let height = frame.color.height - 2 * frame.guard_band;
@@ -25,7 +27,7 @@ pub fn scatter_oracle(frame: &Frame, shutter: Shutter, profile: &ShutterProfile)
                     let row = row.saturating_sub(frame.guard_band).min(height - 1);
                     profile.row_offset(row, height)
                 };
-                filled(frame, moved(frame, instant.time, row_delay))
+                fill_holes(frame, scatter(frame, instant.time, row_delay))
             })
             .collect();
         for (instant, seen) in together.iter().zip(&seen) {
@@ -35,8 +37,8 @@ pub fn scatter_oracle(frame: &Frame, shutter: Shutter, profile: &ShutterProfile)
     sums.picture(frame)
 }
 
-/// The same through the shutter of a truth, and without the frame's guard band.
-pub(crate) fn oracle_of(frame: &Frame, truth: &Truth) -> Picture {
+/// Makes the oracle's picture through the shutter of a truth, without the frame's guard band.
+pub(crate) fn make_oracle(frame: &Frame, truth: &Truth) -> Picture {
     scatter_oracle(frame, truth.shutter, &truth.shutter_profile).cropped(frame.guard_band)
 }
 
@@ -48,8 +50,8 @@ struct Instant {
 
 fn instants(frame: &Frame, shutter: Shutter, efficiency: &Efficiency) -> Vec<Instant> {
     let speeds = frame.velocity.pixels.iter().map(|v| v[0].hypot(v[1]));
-    let way = f64::from(speeds.fold(0.0, f32::max)) * shutter.exposure();
-    let wanted = (INSTANTS_PER_PIXEL * way).ceil() as u32;
+    let distance = f64::from(speeds.fold(0.0, f32::max)) * shutter.exposure();
+    let wanted = (INSTANTS_PER_PIXEL * distance).ceil() as u32;
     let count = wanted.clamp(FEWEST_INSTANTS, MOST_INSTANTS);
     let knots = efficiency.knots();
     let middles = (0..count).map(|index| (f64::from(index) + 0.5) / f64::from(count));
@@ -64,7 +66,7 @@ fn instants(frame: &Frame, shutter: Shutter, efficiency: &Efficiency) -> Vec<Ins
         .collect()
 }
 
-/// How much light passes at a part of the interval, by the points between which that is linear.
+/// Interpolates how much light passes at a part of the interval.
 fn light_at(knots: &[[f64; 2]], part: f64) -> f64 {
     let next = knots.partition_point(|[at, _]| *at <= part);
     let [from, to] = [knots[next - 1], knots[next.min(knots.len() - 1)]];
@@ -79,8 +81,8 @@ fn light_at(knots: &[[f64; 2]], part: f64) -> f64 {
 /// A place that nothing came to.
 const HOLE: u32 = u32::MAX;
 
-/// Per pixel, which pixel of the frame is there at a time: the nearest to the camera.
-fn moved(frame: &Frame, time: f64, row_delay: impl Fn(u32) -> f64) -> Vec<u32> {
+/// Finds, per pixel, which pixel of the frame is there at a time: the nearest to the camera.
+fn scatter(frame: &Frame, time: f64, row_delay: impl Fn(u32) -> f64) -> Vec<u32> {
     let (width, height) = frame.size();
     let mut seen = vec![HOLE; frame.color.pixels.len()];
     for row in 0..height {
@@ -103,20 +105,20 @@ fn moved(frame: &Frame, time: f64, row_delay: impl Fn(u32) -> f64) -> Vec<u32> {
     seen
 }
 
-/// The same without holes.
-fn filled(frame: &Frame, seen: Vec<u32>) -> Vec<u32> {
+/// Fills the places that nothing came to.
+fn fill_holes(frame: &Frame, seen: Vec<u32>) -> Vec<u32> {
     let (width, height) = frame.size();
     let [width, height] = [width as usize, height as usize];
     let mut fills: Vec<Option<Fill>> = vec![None; seen.len()];
     for row in 0..height {
         let along: Vec<usize> = (0..width).map(|column| row * width + column).collect();
-        offer(frame, &seen, along.iter().copied(), &mut fills);
-        offer(frame, &seen, along.iter().rev().copied(), &mut fills);
+        offer_fills(frame, &seen, along.iter().copied(), &mut fills);
+        offer_fills(frame, &seen, along.iter().rev().copied(), &mut fills);
     }
     for column in 0..width {
         let along: Vec<usize> = (0..height).map(|row| row * width + column).collect();
-        offer(frame, &seen, along.iter().copied(), &mut fills);
-        offer(frame, &seen, along.iter().rev().copied(), &mut fills);
+        offer_fills(frame, &seen, along.iter().copied(), &mut fills);
+        offer_fills(frame, &seen, along.iter().rev().copied(), &mut fills);
     }
     let own = |place: usize| place as u32;
     seen.iter()
@@ -130,7 +132,7 @@ fn filled(frame: &Frame, seen: Vec<u32>) -> Vec<u32> {
         .collect()
 }
 
-/// What may fill a hole.
+/// A pixel that may fill a hole.
 #[derive(Clone, Copy)]
 struct Fill {
     source: u32,
@@ -138,8 +140,8 @@ struct Fill {
     distance: u32,
 }
 
-/// Walks a line of places and offers each hole what was met last: the farther wins, then the nearer in the picture.
-fn offer(
+/// Goes along a line of places and offers each hole the pixel that was met last: the farther wins, then the nearer in the picture.
+fn offer_fills(
     frame: &Frame,
     seen: &[u32],
     line: impl Iterator<Item = usize>,

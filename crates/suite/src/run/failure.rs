@@ -1,42 +1,23 @@
-//! A case without scores, because its filter made no picture that can be measured.
+//! Cases without scores, because their filter made no picture that can be measured.
 
-use filters::FilterError;
 use serde::{Deserialize, Serialize};
-use tracer::Scene;
 
 use crate::Error;
-use crate::run::subject::Subject;
 
 /// One filter preset that failed on one scene.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Failure {
     /// Scene, with its variant.
     pub scene: String,
-    /// `filter:preset`, and behind that the form of its input where that is not as usual.
+    /// `filter:preset`, and behind that the form of its input where that is not the default.
     pub filter: String,
     /// The shutter alignment that the filter declares.
     pub alignment: String,
-    /// What went wrong, and where.
+    /// The error, and its place.
     pub reason: String,
 }
 
-impl Failure {
-    /// Takes an error that concerns one case for its failure. Any other error ends the run and comes back.
-    pub(crate) fn of(error: Error, subject: &Subject, scene: &Scene) -> Result<Self, Error> {
-        match &error {
-            Error::Filter(FilterError::Gpu { .. } | FilterError::Command { .. })
-            | Error::Measure(_) => Ok(Self {
-                scene: scene.name.clone(),
-                filter: subject.name(),
-                alignment: subject.alignment.name().to_owned(),
-                reason: error.to_string(),
-            }),
-            _ => Err(error),
-        }
-    }
-}
-
-/// The error that ends a command whose run has failures; none where it has none.
+/// Returns the error that ends a command whose run has failures.
 pub fn refuse_failures(failures: &[Failure]) -> Result<(), Error> {
     let cases = match failures.len() {
         0 => return Ok(()),

@@ -1,4 +1,4 @@
-//! Checks of a run.json, whoever wrote it, before anything of it is used.
+//! Reader of run.json, which checks it, whoever wrote it, before anything of it is used.
 
 use std::collections::HashSet;
 use std::path::{Component, Path};
@@ -6,16 +6,30 @@ use std::str::FromStr;
 
 use frame::{Alignment, VelocityKind};
 
+use super::case::Case;
+use super::{FORMAT, Run};
+use crate::Error;
+use crate::json::file::read_text;
 use crate::json::strings::check_strings;
-use crate::render::replicates::MOST_REPLICATES;
-use crate::run::FORMAT;
-use crate::{Case, Run, SIDES};
+use crate::render::settings::{MOST_REPLICATES, SIDES};
 
-/// Cases of a run.json.
+/// Upper limit on the cases of a run.json.
 pub const MOST_CASES: usize = 50_000;
 
-/// The run of a run.json; the error is what is wrong with it, and what is allowed.
-pub(crate) fn parse(text: &str) -> Result<Run, String> {
+impl Run {
+    /// Reads a `run.json` of this program.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        parse(&read_text(path)?).map_err(|reason| {
+            Error::Usage(format!(
+                "{}: {reason}; `shuttertruth run` or `check` writes one",
+                path.display()
+            ))
+        })
+    }
+}
+
+/// Parses a run.json; the error says what is wrong with it, and what is allowed.
+fn parse(text: &str) -> Result<Run, String> {
     let broken = |error: serde_json::Error| format!("no run of this program: {error}");
     check_strings(text).map_err(broken)?;
     let run: Run = serde_json::from_str(text).map_err(broken)?;
@@ -44,7 +58,7 @@ pub(crate) fn parse(text: &str) -> Result<Run, String> {
     Ok(run)
 }
 
-/// Sizes and counts of the whole run.
+/// Checks sizes and counts of the whole run.
 fn check_settings(run: &Run) -> Result<(), String> {
     let sides = [run.width, run.height];
     if !sides.iter().all(|side| SIDES.contains(side)) {
@@ -81,8 +95,7 @@ fn check_case(case: &Case) -> Result<(), String> {
     (alignment.shutter(case.exposure).map(drop)).map_err(|error| error.to_string())
 }
 
-/// Whether a path leads below the folder that it starts from: what names files elsewhere is not read, and nothing is written
-/// there.
+/// Tells whether a path leads below the folder that it starts from. Nothing is read or written elsewhere.
 pub(crate) fn is_below(path: &Path) -> bool {
     let mut parts = path.components().peekable();
     parts.peek().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))

@@ -1,40 +1,17 @@
-//! The main job: render every scene, run every filter on it, measure how far each picture is from the truth.
+//! A finished run: its data, and the files that hold it.
 
-pub mod dilated;
+pub mod case;
 pub mod failure;
 pub mod file;
-pub mod filter_choice;
-pub mod finished;
-pub mod input_format;
-pub mod inputs;
-pub mod intervals;
-pub mod kept;
-pub mod pictures;
-pub mod probe;
-pub mod runner;
-pub mod scene_run;
-pub mod score;
-pub mod subject;
-pub mod workbench;
+pub mod layers;
+pub mod overall;
 
-use std::path::{Path, PathBuf};
-
-use filters::{AdapterDescription, Gpu};
-use frame::Alignment;
-use metrics::Viewing;
+use filters::AdapterDescription;
 use serde::{Deserialize, Serialize};
-use tracer::{Progress, Scene, Watch};
 
+use self::case::Case;
 use self::failure::Failure;
-use self::file::parse;
-use self::filter_choice::FilterChoice;
-use self::inputs::SceneInputs;
-use self::kept::hash_of_program;
-use self::scene_run::SceneRun;
-use crate::case::Case;
-use crate::json::file::read_text;
-use crate::stats::overall::{Overall, overall};
-use crate::{Error, InputFormat, Monitor, PROGRAM, RenderSettings};
+use self::overall::Overall;
 
 /// Version of the layout of `run.json`; it rises when a reader of the old one would misread the new one.
 pub const FORMAT: u32 = 5;
@@ -46,9 +23,9 @@ pub struct Run {
     pub format: u32,
     /// Program name and version.
     pub program: String,
-    /// The words of the command line.
+    /// Words of the command line.
     pub command: Vec<String>,
-    /// What the kernels ran on; none where every filter is a command.
+    /// Adapter that the kernels ran on; none where every filter is a command.
     pub adapter: Option<AdapterDescription>,
     /// Pixels per row.
     pub width: u32,
@@ -60,18 +37,18 @@ pub struct Run {
     pub replicates: u32,
     /// Seed of all randomness.
     pub seed: u64,
-    /// What the velocity buffers held: `instantaneous`, `previous_frame` or `camera_only`.
+    /// Motion that the velocity buffers held: `instantaneous`, `previous_frame` or `camera_only`.
     pub velocity: String,
-    /// How the frames' colour was sampled: `antialiased` or `point`.
+    /// Sampling of the frames' colour: `antialiased` or `point`.
     pub color: String,
-    /// Whether the background had a velocity.
+    /// True if the background had a velocity.
     pub sky_velocity: bool,
     /// Pixels by which frames reached beyond the picture on every side.
     pub guard_band: u32,
     /// The shutter alignment that every case is compared with beside its own, so that filters of several alignments have one
     /// score in common: centred where a filter declares that, or else trailing, or else leading.
     pub common_alignment: String,
-    /// Per scene: the bars, then one per filter preset and form of the input, in the order they ran.
+    /// Per scene the reference pictures, then one case per filter preset and form of the input, in the order they ran.
     pub cases: Vec<Case>,
     /// Cases that failed, with their reasons; they have no scores.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -79,135 +56,4 @@ pub struct Run {
     /// Means over the scenes.
     #[serde(default)]
     pub overall: Vec<Overall>,
-}
-
-impl Run {
-    /// Reads a `run.json` of this program.
-    pub fn read(path: &Path) -> Result<Self, Error> {
-        let refuse = |reason: String| {
-            Error::Usage(format!(
-                "{}: {reason}; `shuttertruth run` or `check` writes one",
-                path.display()
-            ))
-        };
-        let text = read_text(path)?;
-        parse(&text).map_err(refuse)
-    }
-}
-
-/// What a run is to do.
-pub struct Plan {
-    /// Loaded scenes.
-    pub scenes: Vec<Scene>,
-    /// Loaded filters.
-    pub filters: Vec<FilterChoice>,
-    /// The forms in which every filter gets the frame.
-    pub inputs: Vec<InputFormat>,
-    /// Frames of noise that a noisy filter is tried with; fewer than 2 leave its noise alone.
-    pub jitter_frames: u32,
-    /// How scenes are rendered.
-    pub render: RenderSettings,
-    /// Where files go.
-    pub out: PathBuf,
-    /// Whether the scores of filters get intervals, by which bounds are judged. Takes a few more measurements of every
-    /// picture.
-    pub intervals: bool,
-    /// Whether frames, truths and cases that lie in `out` are removed and made anew.
-    pub no_cache: bool,
-    /// What is told of the progress, and what ends the work.
-    pub monitor: Monitor,
-}
-
-impl Plan {
-    /// The alignments that take part, each once.
-    pub(crate) fn alignments(&self) -> Vec<Alignment> {
-        let takes_part = |alignment: &Alignment| {
-            (self.filters.iter()).any(|choice| choice.filter.alignment == *alignment)
-        };
-        Alignment::ALL.into_iter().filter(takes_part).collect()
-    }
-}
-
-/// Renders, filters, measures and writes every case below `plan.out`, but not `run.json` itself; what was measured of the same
-/// inputs before, and lies there still, is read back. `gpu` is what [`open_gpu`](crate::open_gpu) opened for the plan's
-/// filters.
-pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, Error> {
-    let common = common_alignment(&plan.alignments());
-    // A single scene's own steps tell everything.
-    let monitor = match plan.scenes.len() {
-        1 => plan.monitor.unseen(),
-        _ => plan.monitor,
-    };
-    let label = format!("{} scenes in all", plan.scenes.len());
-    let (cases, failures) = monitor.watch(&label, |watch| all_cases(plan, gpu, common, watch))?;
-    Ok(Run {
-        format: FORMAT,
-        program: PROGRAM.to_owned(),
-        command,
-        adapter: gpu.map(|gpu| gpu.adapter.clone()),
-        width: plan.render.width,
-        height: plan.render.height,
-        samples_per_pixel: plan.render.samples_per_pixel,
-        replicates: plan.render.replicates,
-        seed: plan.render.seed,
-        velocity: plan.render.velocity.name().to_owned(),
-        color: plan.render.color.name().to_owned(),
-        sky_velocity: plan.render.sky_velocity,
-        guard_band: plan.render.guard_band,
-        common_alignment: common.name().to_owned(),
-        overall: overall(&cases),
-        failures,
-        cases,
-    })
-}
-
-/// Scene after scene.
-fn all_cases(
-    plan: &Plan,
-    gpu: Option<&Gpu>,
-    common: Alignment,
-    watch: Watch,
-) -> Result<(Vec<Case>, Vec<Failure>), Error> {
-    let program = hash_of_program();
-    let filters: Vec<FilterChoice> = (plan.filters.iter())
-        .map(|choice| choice.scaled_to(plan.render.width))
-        .collect();
-    let (mut cases, mut failures) = (Vec::new(), Vec::new());
-    for (done, scene) in plan.scenes.iter().enumerate() {
-        // A scene that is interrupted says so itself.
-        let _ = watch(Progress {
-            done: done as u64,
-            total: plan.scenes.len() as u64,
-        });
-        let inputs = (program.as_ref())
-            .map(|program| SceneInputs::new(program, scene, &plan.render, plan.alignments()));
-        let scene_run = SceneRun {
-            plan,
-            filters: &filters,
-            gpu,
-            scene,
-            common,
-            inputs,
-        };
-        for case in scene_run.cases()? {
-            match case {
-                Ok(case) => cases.push(case),
-                Err(failure) => failures.push(failure),
-            }
-        }
-    }
-    Ok((cases, failures))
-}
-
-/// Of the alignments that take part, the one that all are compared with; no truth is rendered for it alone.
-fn common_alignment(taking_part: &[Alignment]) -> Alignment {
-    [Alignment::Centred, Alignment::Trailing]
-        .into_iter()
-        .find(|alignment| taking_part.contains(alignment))
-        .unwrap_or(Alignment::Leading)
-}
-
-/// The photographic exposures that a scene is compared at.
-pub fn viewing(scene: &Scene) -> Viewing {
-    scene.display.into()
 }

@@ -1,11 +1,10 @@
-//! The scores that tables, means over scenes and pages show.
+//! Scores that tables, means over scenes and pages show.
 
 use metrics::{
     Ideal, ImageMetric, LabelMetric, Measured, Metric, ObjectMetric, Region, Scores, SkillMetric,
 };
 
-use crate::Case;
-use crate::case::{IDENTITY, SCATTER_ORACLE};
+use crate::run::case::{Case, IDENTITY, SCATTER_ORACLE};
 
 /// A score of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,7 +51,7 @@ impl Headline {
         Self::LABEL,
     ];
 
-    /// The word used in run.json.
+    /// Returns the name in run.json.
     pub fn name(self) -> String {
         match self {
             Self::Metric(metric) => metric.name(),
@@ -61,7 +60,7 @@ impl Headline {
         }
     }
 
-    /// Which way it is better.
+    /// Returns the direction in which it is better.
     pub fn ideal(self) -> Ideal {
         match self {
             Self::Metric(metric) => metric.ideal(),
@@ -69,12 +68,12 @@ impl Headline {
         }
     }
 
-    /// Whether scores of two shutter alignments compare.
+    /// Tells whether scores of two shutter alignments compare.
     pub fn spans_alignments(self) -> bool {
         matches!(self, Self::CommonFlip | Self::Metric(Metric::Skill(_)))
     }
 
-    /// The metric that a case's score is: of bleed that of the side with the most.
+    /// Returns the metric behind the score: for bleed that of the side with the most.
     pub fn metric(self, scores: &Scores) -> Option<Metric> {
         match self {
             Self::Metric(metric) => Some(metric),
@@ -87,7 +86,7 @@ impl Headline {
         }
     }
 
-    /// A case's score.
+    /// Returns a case's score.
     pub fn measured(self, case: &Case) -> Measured {
         match self {
             Self::CommonFlip => case.common.flip.clone(),
@@ -95,7 +94,7 @@ impl Headline {
         }
     }
 
-    /// A picture's score; that against the common shutter is none of them.
+    /// Returns a picture's score; not that against the common shutter, which no picture has alone.
     pub fn of_scores(self, scores: &Scores) -> Measured {
         match self.metric(scores) {
             Some(metric) => scores.get(metric),
@@ -103,17 +102,17 @@ impl Headline {
         }
     }
 
-    /// A case's score as text: `0.063`, `4.80>`, `<1`, `n/a`.
+    /// Writes a case's score: `0.063`, `4.80>`, `<1`, `n/a`.
     pub fn text(self, case: &Case) -> String {
-        self.written(&self.measured(case), &case.scores)
+        self.format(&self.measured(case), &case.scores)
     }
 
-    /// A picture's score as text.
+    /// Writes a picture's score.
     pub fn text_of_scores(self, scores: &Scores) -> String {
-        self.written(&self.of_scores(scores), scores)
+        self.format(&self.of_scores(scores), scores)
     }
 
-    fn written(self, measured: &Measured, scores: &Scores) -> String {
+    fn format(self, measured: &Measured, scores: &Scores) -> String {
         match (self, measured) {
             (Self::SUBFRAMES, _) => scores.equivalent_subframes.mse.to_string(),
             (_, Measured::NotApplicable { .. }) => "n/a".to_owned(),
@@ -122,7 +121,7 @@ impl Headline {
         }
     }
 
-    /// A score or a mean of scores in the digits that it deserves: lengths in at most three.
+    /// Writes a score or a mean of scores with as many digits as are useful: lengths with at most three.
     pub fn number(self, value: f64) -> String {
         let digits = match self {
             Self::PSNR | Self::SUBFRAMES => 1,
@@ -137,16 +136,15 @@ impl Headline {
         format!("{rounded:.*}", digits as usize)
     }
 
-    /// How much the case's scene counts in a mean over scenes: by as much as the one-frame oracle takes away from the error of
-    /// doing nothing, where the score is a skill; otherwise as much as any other. None where `cases`, those of its run, lack
-    /// the bars.
+    /// Returns the weight of the case's scene in a mean over scenes: for a skill what the one-frame oracle takes away from the
+    /// error of doing nothing, and 1 for any other score. None where `cases`, those of its run, lack the reference pictures.
     pub fn weight(self, case: &Case, cases: &[Case]) -> Option<f64> {
         let Self::Metric(Metric::Skill(skill)) = self else {
             return Some(1.0);
         };
-        let error = |bar: &str| {
+        let error = |reference: &str| {
             let own = cases.iter().find(|own| {
-                (own.bar && own.filter == bar)
+                (own.is_reference && own.filter == reference)
                     && (&own.scene, &own.alignment) == (&case.scene, &case.alignment)
             });
             own?.scores.get(skill.error()).value()
@@ -155,7 +153,7 @@ impl Headline {
     }
 }
 
-/// Stands behind the largest bleed: where it lies.
+/// Returns the mark that says where the largest bleed lies.
 fn bleed_mark(scores: &Scores) -> &'static str {
     match scores.largest_bleed() {
         Some((ObjectMetric::BleedLeading, _)) => ">",

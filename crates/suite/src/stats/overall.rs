@@ -1,40 +1,12 @@
-//! Means of filters over all scenes of a run.
-
-use metrics::Measured;
-use serde::{Deserialize, Serialize};
+//! Means of filters over the scenes of a run.
 
 use super::headline::Headline;
 use super::scene_mean::{TWO_SIDED, Weighted, scene_mean};
-use crate::Case;
+use crate::run::case::Case;
+use crate::run::overall::Overall;
+use metrics::Measured;
 
-/// One metric of one filter preset, or of one bar, over the scenes that it applies to.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Overall {
-    /// `jump_flood:paper`, and behind that the form of the input where that is not as usual.
-    pub filter: String,
-    /// Whether it is a bar, and no filter.
-    pub bar: bool,
-    /// The shutter alignment that it is scored against.
-    pub alignment: String,
-    /// Name of the metric, `bleed` or `flip_common`.
-    pub metric: String,
-    /// How many scenes, each variant of one counted.
-    pub scenes: usize,
-    /// Mean over the scenes, in the metric's unit; of a skill the ratio of means.
-    pub mean: f64,
-    /// The lower and the upper end of the mean's 95 % confidence interval over scenes.
-    pub interval: [f64; 2],
-}
-
-impl Overall {
-    /// Whether both are of one filter preset or bar.
-    pub fn is_of_same(&self, other: &Self) -> bool {
-        let key = |own: &Self| (own.bar, own.filter.clone(), own.alignment.clone());
-        key(self) == key(other)
-    }
-}
-
-/// Means over at least two scenes, in the order of the cases, with Student's intervals over scenes.
+/// Computes means over at least two scenes, in the order of the cases, with Student's intervals over scenes.
 pub fn overall(cases: &[Case]) -> Vec<Overall> {
     let mut subjects: Vec<&Case> = Vec::new();
     for case in cases {
@@ -52,8 +24,8 @@ pub fn overall(cases: &[Case]) -> Vec<Overall> {
     subjects.into_iter().flat_map(of_subject).collect()
 }
 
-/// The means of one score, the best first: those of filters of one shutter alignment beside the bars of that alignment. One
-/// group, of all alignments, of a score that compares across them.
+/// Sorts the means of one score, the best first, in one group per shutter alignment, reference pictures among the filters. A score
+/// that compares across alignments has one group for all.
 pub fn rank_filters(overall: &[Overall], headline: Headline) -> Vec<Vec<&Overall>> {
     let name = headline.name();
     let mut groups: Vec<Vec<&Overall>> = Vec::new();
@@ -72,9 +44,9 @@ pub fn rank_filters(overall: &[Overall], headline: Headline) -> Vec<Vec<&Overall
     groups
 }
 
-/// Whether both are of the same filter preset or bar.
+/// Tells whether both are of the same filter preset or reference picture.
 fn are_of_one(a: &Case, b: &Case) -> bool {
-    let key = |case: &Case| (case.bar, case.name(), case.alignment.clone());
+    let key = |case: &Case| (case.is_reference, case.name(), case.alignment.clone());
     key(a) == key(b)
 }
 
@@ -92,7 +64,7 @@ fn mean(own: &[&Case], headline: Headline, all: &[Case]) -> Option<Overall> {
         let found = scene_mean(&scores, TWO_SIDED);
         Overall {
             filter: own[0].name(),
-            bar: own[0].bar,
+            is_reference: own[0].is_reference,
             alignment: own[0].alignment.clone(),
             metric: headline.name(),
             scenes: scores.len(),

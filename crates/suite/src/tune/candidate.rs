@@ -4,7 +4,7 @@ use filters::{Blur, Filter, FilterError, Gpu, Input, Kernels, Settings, Uploaded
 use frame::{Image, Plane};
 
 use super::target::Target;
-use crate::run::probe::{pack, unpack};
+use crate::measure::probes::{pack, unpack};
 use crate::{Monitor, Runner};
 
 /// A filter's kernels and the inputs of all scenes, on the GPU: every candidate uses them, and so costs its blurs alone.

@@ -7,8 +7,9 @@ use metrics::Viewing;
 use tracer::{Family, Scene};
 
 use crate::judge::bounds::SceneBounds;
-use crate::render::rendered::{frame_of, truth_of};
-use crate::run::viewing;
+use crate::measure::references::viewing;
+use crate::render::frames::render_frame;
+use crate::render::truths::render_truth;
 use crate::{Error, Monitor, RenderSettings};
 
 /// A scene, rendered once and measured against hundreds of times.
@@ -39,8 +40,8 @@ pub fn render_scenes(
         Ok(RenderedScene {
             name: scene.name.clone(),
             family: scene.family,
-            frame: frame_of(scene, render, out, monitor)?,
-            truth: truth_of(scene, render, alignment, out, monitor)?,
+            frame: render_frame(scene, render, out, monitor)?,
+            truth: render_truth(scene, render, alignment, out, monitor)?,
             viewing: viewing(scene),
             bounds: bounds.clone(),
         })

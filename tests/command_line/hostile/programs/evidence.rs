@@ -90,7 +90,7 @@ fn a_check_refuses_a_folder_that_came_with_the_checkout() {
     let mut without_git = bench.command(&words);
     without_git.env("PATH", "/nowhere").env_remove("CI");
     let output = without_git.output().unwrap();
-    assert_refused(&output, 2, &["cannot be told: git: ", "--no-cache"]);
+    assert_refused(&output, 2, &["cannot tell", "git: ", "--no-cache"]);
     // Where no file lies, none is tracked.
     fs::remove_dir_all(bench.path("out")).unwrap();
     let output = without_git.output().unwrap();

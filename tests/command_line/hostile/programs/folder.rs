@@ -23,8 +23,8 @@ fn lock_file(bench: &Bench) -> File {
 fn two_runs_do_not_write_to_one_folder_at_a_time() {
     let bench = Bench::new();
     let parts = [
-        "--out: another shuttertruth is writing to out",
-        "another folder",
+        "another shuttertruth is writing to out",
+        "another output folder",
     ];
     bench.write(
         "bounds.toml",

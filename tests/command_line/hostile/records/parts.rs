@@ -117,7 +117,7 @@ fn replicates_that_do_not_belong_together_are_refused() {
     );
 
     whole.write(&path).unwrap();
-    assert_refused(&merge(&bench, &["a", "b", "a"]), 2, &["a: is named twice"]);
+    assert_refused(&merge(&bench, &["a", "b", "a"]), 2, &["a is named twice"]);
     assert_done(&merge(&bench, &["a", "b"]));
 }
 

@@ -31,11 +31,11 @@ pub fn accept_scores(
     }
     let wanted = |case: &&Case| {
         let name = format!("{}/{}", case.scene, case.name());
-        !case.bar && how.only.is_none_or(|only| only.matches(&name))
+        !case.is_reference && how.only.is_none_or(|only| only.matches(&name))
     };
     let cases: Vec<&Case> = run.cases.iter().filter(wanted).collect();
     if cases.is_empty() {
-        let names = (run.cases.iter().filter(|case| !case.bar))
+        let names = (run.cases.iter().filter(|case| !case.is_reference))
             .map(|case| format!("{}/{}", case.scene, case.name()));
         return refuse(&format!(
             "{} matches no case of the run; it has {}",

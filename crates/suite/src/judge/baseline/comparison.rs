@@ -84,7 +84,7 @@ pub fn compare_with_baseline(
                 .to_owned(),
         ));
     }
-    let cases: Vec<&Case> = run.cases.iter().filter(|case| !case.bar).collect();
+    let cases: Vec<&Case> = run.cases.iter().filter(|case| !case.is_reference).collect();
     for case in &cases {
         check_truth(case, baseline).map_err(refuse)?;
     }

@@ -1,17 +1,18 @@
-//! The pictures of a run: OpenEXR for programs, PNG for people.
+//! Picture files of a run: OpenEXR for programs, PNG for people.
 
 use std::path::Path;
 
 use frame::{
-    ExrFile, FileError, Frame, Image, Picture, Plane, Truth, Vectors, display_srgb, write_exr,
-    write_png,
+    ExrFile, FileError, Frame, Image, Picture, Truth, Vectors, display_srgb, write_exr, write_png,
 };
 use metrics::{ErrorMap, Measurement};
 use tracer::Scene;
 
+use crate::colors::{magma, velocity_wheel};
+
 /// Writes a frame's PNGs beside its EXR file; returns the names of all.
 pub fn write_frame(folder: &Path, scene: &Scene, frame: &Frame) -> Result<Vec<String>, FileError> {
-    write_shown(&folder.join("frame.png"), &frame.color, scene)?;
+    write_display_png(&folder.join("frame.png"), &frame.color, scene)?;
     write_png(&folder.join("velocity.png"), &velocity_wheel(frame))?;
     Ok(["frame.exr", "frame.png", "velocity.png"]
         .map(str::to_owned)
@@ -22,7 +23,7 @@ pub fn write_frame(folder: &Path, scene: &Scene, frame: &Frame) -> Result<Vec<St
 pub fn write_truth(folder: &Path, scene: &Scene, truth: &Truth) -> Result<Vec<String>, FileError> {
     let alignment = truth.alignment;
     let picture = format!("truth_{alignment}.png");
-    write_shown(&folder.join(&picture), &truth.mean().color, scene)?;
+    write_display_png(&folder.join(&picture), &truth.mean().color, scene)?;
     Ok(vec![
         picture,
         format!("truth_{alignment}.exr"),
@@ -30,16 +31,17 @@ pub fn write_truth(folder: &Path, scene: &Scene, truth: &Truth) -> Result<Vec<St
     ])
 }
 
-/// Writes a case: the filter's output, with what it dilated the velocities to, and the error maps; returns the names of the files.
+/// Writes a case: the output, with the dilated velocity of filters that have one, and the error maps; returns the names of the
+/// files.
 pub fn write_case(
     folder: &Path,
     scene: &Scene,
     objects: &[String],
-    (output, dilated): (&Picture, Option<&Vectors>),
+    (output, dilated_velocity): (&Picture, Option<&Vectors>),
     measurement: &Measurement,
 ) -> Result<Vec<String>, FileError> {
     let maps = &measurement.maps;
-    let shown = [
+    let displayed = [
         (
             "output.png",
             display_srgb(&output.color, scene.display.stops),
@@ -48,30 +50,34 @@ pub fn write_case(
         ("label_tv.png", magma(&maps.label_total_variation)),
         ("bleed.png", magma(&maps.bleed)),
     ];
-    for (name, picture) in &shown {
+    for (name, picture) in &displayed {
         write_png(&folder.join(name), picture)?;
     }
     let exact = [
-        ("output.exr", output_file(objects, output, dilated)),
+        ("output.exr", output_file(objects, output, dilated_velocity)),
         ("errors.exr", errors_file(measurement)),
     ];
     for (name, file) in &exact {
         write_exr(&folder.join(name), file)?;
     }
-    let names = shown.iter().map(|(name, _)| *name);
+    let names = displayed.iter().map(|(name, _)| *name);
     let names = names.chain(exact.iter().map(|(name, _)| *name));
     Ok(names.map(str::to_owned).collect())
 }
 
-fn output_file(objects: &[String], output: &Picture, dilated: Option<&Vectors>) -> ExrFile {
+fn output_file(
+    objects: &[String],
+    output: &Picture,
+    dilated_velocity: Option<&Vectors>,
+) -> ExrFile {
     let mut file = ExrFile::new(output.color.width, output.color.height);
     file.push_color("", &output.color);
     for (object, matte) in objects.iter().zip(&output.coverage) {
         file.push_plane(&format!("coverage.{object}"), matte);
     }
-    if let Some(dilated) = dilated {
+    if let Some(velocity) = dilated_velocity {
         for (axis, name) in ["dilated.X", "dilated.Y"].into_iter().enumerate() {
-            file.push_plane(name, &dilated.map(|motion| motion[axis]));
+            file.push_plane(name, &velocity.map(|motion| motion[axis]));
         }
     }
     file.set("kind", "output");
@@ -91,26 +97,6 @@ fn errors_file(measurement: &Measurement) -> ExrFile {
     file
 }
 
-fn write_shown(path: &Path, image: &Image, scene: &Scene) -> Result<(), FileError> {
+fn write_display_png(path: &Path, image: &Image, scene: &Scene) -> Result<(), FileError> {
     write_png(path, &display_srgb(image, scene.display.stops))
-}
-
-/// An error in [0, 1] as the magma colours: black is none.
-pub(crate) fn magma(error: &Plane) -> Image {
-    error.map(|value| {
-        let color = colorous::MAGMA.eval_continuous(f64::from(value.clamp(0.0, 1.0)));
-        color.as_array().map(|byte| f32::from(byte) / 255.0)
-    })
-}
-
-/// Direction as hue, speed as brightness: full at the frame's fastest pixel. Still pixels are black.
-fn velocity_wheel(frame: &Frame) -> Image {
-    let speed = |v: &[f32; 2]| v[0].hypot(v[1]);
-    let fastest = frame.velocity.pixels.iter().map(speed).fold(1e-6, f32::max);
-    frame.velocity.map(|v| {
-        let turn = f64::from(v[1].atan2(v[0])) / std::f64::consts::TAU;
-        let hue = colorous::SINEBOW.eval_continuous(turn.rem_euclid(1.0));
-        hue.as_array()
-            .map(|byte| f32::from(byte) / 255.0 * speed(v) / fastest)
-    })
 }

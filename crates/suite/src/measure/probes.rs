@@ -1,39 +1,42 @@
-//! Blurs of a frame: its colour and, with the same weights, pictures whose truth is exact.
+//! Runs of a filter on a frame: on its colour and, with the same weights, on probes whose truth is exact.
 
 use filters::{FilterError, Input};
 use frame::{Frame, Image, Picture, Plane, Raster};
 use metrics::Probes;
 
-use crate::Runner;
+use crate::filter::runner::Runner;
 
-/// What came out of a filter, without the frame's guard band.
-pub(crate) struct Blurred {
+/// The output of a filter, without the frame's guard band.
+pub(crate) struct FilterOutput {
     /// The colour, and the share of each pixel that the filter gives to each object.
     pub picture: Picture,
-    /// Of ones and coordinates.
+    /// Blurs of ones and of coordinates.
     pub probes: Probes,
-    /// How far the blur of a mixture is from the mixture of the blurs, relative to what the blur changes (root mean square):
-    /// 0 for a filter whose weights do not depend on colour.
+    /// Difference between the blur of a mixture and the mixture of the blurs, relative to what the blur changes (root mean
+    /// square): 0 for a filter whose weights do not depend on colour.
     pub nonlinearity: f64,
 }
 
 /// Runs the filter on the frame's colour and, each in the colour's place, on the instant's coverage of each object, on the
 /// probes, and on a mixture of colour and probe.
-pub(crate) fn blurred(filter: &mut Runner, frame: &Frame) -> Result<Blurred, FilterError> {
+pub(crate) fn blur_with_probes(
+    runner: &mut Runner,
+    frame: &Frame,
+) -> Result<FilterOutput, FilterError> {
     let mattes = pack(&frame.coverage);
     let (width, height) = frame.size();
     let probes = Probes::images(width, height);
-    let mixture = mixed(&frame.color, &probes[0]);
+    let mixture = mix(&frame.color, &probes[0]);
     let mut colors: Vec<&Image> = vec![&frame.color, &probes[0], &probes[1], &mixture];
     colors.extend(&mattes);
-    let outputs: Vec<Image> = (filter.run(&input(frame, &colors))?.iter())
+    let outputs: Vec<Image> = (runner.run(&input(frame, &colors))?.iter())
         .map(|output| output.cropped(frame.guard_band))
         .collect();
-    Ok(Blurred {
+    Ok(FilterOutput {
         nonlinearity: nonlinearity(
             &mixture.cropped(frame.guard_band),
             &outputs[3],
-            &mixed(&outputs[0], &outputs[1]),
+            &mix(&outputs[0], &outputs[1]),
         ),
         probes: Probes::of([&outputs[1], &outputs[2]]),
         picture: Picture {
@@ -43,15 +46,15 @@ pub(crate) fn blurred(filter: &mut Runner, frame: &Frame) -> Result<Blurred, Fil
     })
 }
 
-/// Half of one and a hundredth of the other, whose values are some hundred times as large.
-fn mixed(color: &Image, probe: &Image) -> Image {
+/// Mixes half of one and a hundredth of the other, whose values are some hundred times as large.
+fn mix(color: &Image, probe: &Image) -> Image {
     color.zip(probe, |color, probe| {
         std::array::from_fn(|c| 0.5 * color[c] + 0.01 * probe[c])
     })
 }
 
-/// The blur of a mixture against the mixture of the blurs. What a blur leaves alone counts as a thousandth of the picture at
-/// least, so that rounding is not taken for a dependence on colour.
+/// Compares the blur of a mixture with the mixture of the blurs. The change that a blur makes counts as a thousandth of the picture
+/// at least, so that rounding is not taken for a dependence on colour.
 fn nonlinearity(mixture: &Image, blurred: &Image, expected: &Image) -> f64 {
     const LEAST_CHANGE: f64 = 1e-3;
     let length = |a: &Image, b: &Image| {
@@ -65,13 +68,13 @@ fn nonlinearity(mixture: &Image, blurred: &Image, expected: &Image) -> f64 {
     length(blurred, expected) / change.max(f64::MIN_POSITIVE)
 }
 
-/// Runs the filter on the frame's colour with so many frames of its noise; none where it has no noise.
-pub(crate) fn noise(
-    filter: &mut Runner,
+/// Runs the filter on the frame's colour with a number of frames of its noise; none where it has no noise.
+pub(crate) fn blur_noise_frames(
+    runner: &mut Runner,
     frame: &Frame,
     frames: u32,
 ) -> Result<Option<Vec<Image>>, FilterError> {
-    let outputs = filter.run_noise(&input(frame, &[&frame.color]), 0..frames)?;
+    let outputs = runner.run_noise(&input(frame, &[&frame.color]), 0..frames)?;
     Ok(outputs.map(|outputs| {
         (outputs.iter())
             .map(|output| output.cropped(frame.guard_band))
@@ -90,7 +93,7 @@ fn input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
     }
 }
 
-/// Three planes to an image; the last is filled up with zeros.
+/// Packs three planes to an image; the last image is filled up with zeros.
 pub(crate) fn pack(planes: &[Plane]) -> Vec<Image> {
     planes
         .chunks(3)
@@ -109,6 +112,7 @@ pub(crate) fn pack(planes: &[Plane]) -> Vec<Image> {
         .collect()
 }
 
+/// Takes planes out of images again.
 pub(crate) fn unpack(images: &[Image], count: usize) -> Vec<Plane> {
     (0..count)
         .map(|plane| images[plane / 3].map(|pixel| pixel[plane % 3]))

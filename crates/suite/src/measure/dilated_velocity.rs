@@ -1,13 +1,13 @@
-//! Dilated velocity map of a filter, for looking at.
+//! Dilated velocity of a filter, kept for inspection.
 
 use filters::{Filter, FilterError, Holds};
 use frame::{Frame, Raster, Vectors};
 
-use crate::Runner;
+use crate::filter::runner::Runner;
 
-/// The velocity at the place that each pixel was given in the runner's last run, without the frame's guard band; none for
-/// filters without such places.
-pub(crate) fn dilated(
+/// Reads the velocity that the runner's last run gave to each pixel, without the frame's guard band; none for filters that give
+/// pixels no place to take a velocity from.
+pub(crate) fn read_dilated_velocity(
     filter: &Filter,
     runner: &Runner,
     frame: &Frame,
@@ -23,7 +23,7 @@ pub(crate) fn dilated(
     ))
 }
 
-/// Of the pixels that hold the places, which border pixels stand for beyond the frame.
+/// Looks up the velocity at each place; border pixels stand for places beyond the frame.
 fn velocities_at(places: &Raster<[f32; 4]>, frame: &Frame) -> Vectors {
     let (width, height) = frame.size();
     places.map(|[x, y, ..]| {

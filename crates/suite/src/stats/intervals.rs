@@ -1,38 +1,35 @@
-//! Jackknife intervals of scores, from the truth's replicates, left out two by two.
-
-use std::collections::BTreeMap;
+//! Jackknife intervals of scores, from truths without one pair of replicates each.
 
 use frame::{Replicate, Truth, TruthError};
-use metrics::{Interval, Measured, Metric, Scores, jackknife};
+use metrics::{Measured, Metric, Scores, jackknife};
 
-/// Intervals of scores by the names of their metrics.
-pub type Intervals = BTreeMap<String, Interval>;
+use crate::run::case::Intervals;
 
 /// Replicates that are left out together: one of either half, so that the halves stay equally large.
 const GROUP: usize = 2;
 
-/// The fewest replicates that have an interval: two groups.
+/// Least number of replicates that give an interval: two groups.
 pub const FEWEST_REPLICATES: u32 = 4;
 
-/// The truths that all of `replicates` but one pair each make. Replicates share one support, so that the pixels that scores are
+/// Makes one truth per pair of `replicates`, of all the others. Replicates share one support, so that the pixels that scores are
 /// pooled over stay the same.
 pub fn truths_without_pairs(replicates: &[Replicate]) -> Result<Vec<Truth>, TruthError> {
     (0..replicates.len() / GROUP)
         .map(|pair| {
-            let kept = (replicates.iter().enumerate()).filter(|(at, _)| at / GROUP != pair);
-            let kept: Vec<Replicate> = (kept.map(|(_, replicate)| replicate).zip(0..))
+            let others = (replicates.iter().enumerate()).filter(|(at, _)| at / GROUP != pair);
+            let others: Vec<Replicate> = (others.map(|(_, replicate)| replicate).zip(0..))
                 .map(|(replicate, index)| Replicate {
                     index,
                     ..replicate.clone()
                 })
                 .collect();
-            Truth::of(&kept)
+            Truth::of(&others)
         })
         .collect()
 }
 
-/// The intervals of those of `metrics` that have a score against the whole truth and against the truth without each of its
-/// pairs: [`jackknife`].
+/// Computes the interval, by [`jackknife`], of each of `metrics` that has a score against the whole truth and against the truth
+/// without each of its pairs.
 ///
 /// A percentile is no smooth function of the truth, and its jackknife is too narrow: its interval is wider by the score's
 /// floor at either end.

@@ -1,9 +1,9 @@
-//! A filter ready to run, whether it is made of kernels or a program.
+//! Runner of a filter, made of kernels or a program.
 
 use filters::{Blur, CommandBlur, Filter, FilterError, Gpu, Input, Limits, Settings};
 use frame::Image;
 
-use super::filter_choice::FilterChoice;
+use super::choice::FilterChoice;
 use crate::Monitor;
 
 /// A filter with its parameters, for images of one size.
@@ -14,8 +14,8 @@ pub enum Runner<'g> {
     Command(Box<CommandBlur>),
 }
 
-/// The adapter that the filters are to run on; none where all of them are commands and none was asked for by name. Refuses a
-/// filter with kernels that the adapter cannot hold, before anything is rendered.
+/// Opens the adapter that the filters are to run on; none where all of them are commands and none was asked for by name. Refuses
+/// a filter with kernels that the adapter cannot hold.
 pub fn open_gpu(
     choices: &[FilterChoice],
     adapter: Option<&str>,
@@ -33,7 +33,7 @@ pub fn open_gpu(
     Ok(Some(gpu))
 }
 
-/// An adapter whose work ends where the monitor interrupts it.
+/// Opens an adapter whose work ends where the monitor interrupts it.
 pub fn open_adapter(adapter: Option<&str>, monitor: Monitor) -> Result<Gpu, FilterError> {
     let mut gpu = Gpu::new(adapter)?;
     gpu.interrupted = monitor.interrupted;
@@ -71,8 +71,8 @@ impl<'g> Runner<'g> {
         Ok(Self::Command(Box::new(blur)))
     }
 
-    /// Blurs the first colour image of the input once per index of a frame; none where the index changes nothing, which a
-    /// program tells by its second picture.
+    /// Blurs the first colour image of the input once per frame index; none where the index changes nothing. A program shows that
+    /// by its second picture.
     pub fn run_noise(
         &mut self,
         input: &Input,

@@ -1,33 +1,37 @@
-//! Scores of one picture of a scene.
+//! A case: one picture of a scene, with its scores.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use filters::Value;
-use metrics::{ImageScores, Jitter, Scores};
+use metrics::{ImageScores, Interval, Jitter, Scores};
 use serde::{Deserialize, Serialize};
 use tracer::Family;
 
-use crate::{InputFormat, Intervals};
+use crate::InputFormat;
 
-/// One filter preset, or one bar, on one scene.
+/// Confidence intervals of scores, by the names of their metrics.
+pub type Intervals = BTreeMap<String, Interval>;
+
+/// One filter preset, or one reference picture, on one scene.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Case {
     /// Scene, with its variant: `sliding_panel@64px_45deg`.
     pub scene: String,
     /// The scene's family.
     pub family: Family,
-    /// What the scene exposes.
+    /// Weakness of filters that the scene exposes.
     pub exposes: String,
     /// Exposure in frames.
     pub exposure: f64,
-    /// Filter name; a bar's is `identity`, `scatter_oracle` or `accumulate`.
+    /// Filter name; of a reference picture [`IDENTITY`], [`SCATTER_ORACLE`] or [`ACCUMULATE`].
     pub filter: String,
     /// The preset that the parameters started from; of `accumulate` the number of sub-frames.
     pub preset: String,
-    /// Whether this is a bar to measure filters by: no filter, and not held to bounds.
-    pub bar: bool,
-    /// The form in which the filter got the frame.
+    /// True for a reference picture that filters are compared with: no filter made it, and no bound limits it.
+    #[serde(rename = "bar")]
+    pub is_reference: bool,
+    /// Form in which the filter got the frame.
     pub input: InputFormat,
     /// Every parameter's value.
     pub parameters: BTreeMap<String, Value>,
@@ -35,12 +39,11 @@ pub struct Case {
     /// the preset names none, or values were left as written.
     #[serde(default)]
     pub reference_width: Option<u32>,
-    /// Program and arguments of a filter that is a command, as filter.toml has them. What the program itself does is
-    /// recorded nowhere.
+    /// Program and arguments of a filter that is a command, as filter.toml has them. Nothing records what the program does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub command: Option<Vec<String>>,
-    /// How much the filter's weights depend on colour: how far the blur of a mixture is from the mixture of the blurs, relative to
-    /// what the blur changes; none for bars.
+    /// Dependence of the filter's weights on colour: the difference between the blur of a mixture and the mixture of the blurs,
+    /// relative to what the blur changes; none for reference pictures.
     pub nonlinearity: Option<f64>,
     /// The shutter alignment that the filter declares and is scored against.
     pub alignment: String,
@@ -48,19 +51,19 @@ pub struct Case {
     pub truth_hash: String,
     /// The measured scores, each with its noise floor.
     pub scores: Scores,
-    /// Where the scores that are bounded lie with a confidence of 95 %; empty where that was not asked for.
+    /// 95 % confidence intervals of the scores; empty where none were asked for.
     #[serde(default, skip_serializing_if = "Intervals::is_empty")]
     pub intervals: Intervals,
     /// Errors over what moves, against the truth of the run's common shutter.
     pub common: ImageScores,
-    /// What of the error is noise; none for filters without any, or where it was not asked for.
+    /// Part of the error that is the filter's noise; none for filters without noise, or where it was not asked for.
     pub jitter: Option<Jitter>,
     /// Folder of the case's pictures, relative to `run.json`.
     pub folder: PathBuf,
 }
 
 impl Case {
-    /// How tables and folders call it: `jump_flood:paper`, and behind that what is not as usual.
+    /// Names the case as tables and folders do: `jump_flood:paper`, and behind that what differs from the default input.
     pub fn name(&self) -> String {
         let mut name = match self.preset.as_str() {
             "" => self.filter.clone(),
@@ -73,9 +76,9 @@ impl Case {
     }
 }
 
-/// The bar that doing nothing sets.
+/// Name of the reference picture that is the frame itself.
 pub const IDENTITY: &str = "identity";
-/// The bar that [`crate::scatter_oracle`] sets.
+/// Name of the reference picture of [`crate::scatter_oracle`].
 pub const SCATTER_ORACLE: &str = "scatter_oracle";
-/// The bars that averages of sub-frames set.
+/// Name of the reference pictures that are means of sub-frames.
 pub const ACCUMULATE: &str = "accumulate";

@@ -1,4 +1,4 @@
-//! A finished picture that was made elsewhere.
+//! Finished pictures that were made elsewhere, and their reader.
 
 use std::path::Path;
 
@@ -6,27 +6,31 @@ use frame::{ExrFile, Frame, Image, Plane, Truth, read_exr, read_png, scene_linea
 
 use crate::Error;
 
-/// A picture as its file holds it, brought to the truth's size and to scene-linear radiance.
-pub struct Finished {
+/// A picture of a file, brought to the truth's size and to scene-linear radiance.
+pub struct FinishedPicture {
     /// Scene-linear radiance.
     pub color: Image,
-    /// Per object of the truth, the share of the pixel that the picture gives to it; none where the file has no mattes.
+    /// Mattes: per object of the truth, the share of the pixel that the picture gives to it; none where the file has none.
     pub mattes: Option<Vec<Plane>>,
-    /// Whether it was shown before it was kept, as in a PNG: nothing in it is brighter than display white.
-    pub shown: bool,
-    /// What was done to it, in words.
+    /// True for a picture of displayed colours, as a PNG has: nothing in it is brighter than display white.
+    pub display_referred: bool,
+    /// Changes that were made to the picture, each a sentence.
     pub notes: Vec<String>,
 }
 
 /// Reads a picture that was made from `frame`, to be scored against `truth`: OpenEXR or PNG, by the ending of its name.
 ///
-/// A PNG is decoded from sRGB, and the frame's display exposure undone. A picture with the frame's guard band is
-/// cropped. A file that says that it was made for another shutter is refused.
-pub fn read_finished(path: &Path, frame: &Frame, truth: &Truth) -> Result<Finished, Error> {
+/// Decodes a PNG from sRGB and undoes the frame's display exposure. Crops a picture that has the frame's guard band. Refuses a
+/// file that says that it was made for another shutter.
+pub fn read_finished_picture(
+    path: &Path,
+    frame: &Frame,
+    truth: &Truth,
+) -> Result<FinishedPicture, Error> {
     let ending = path.extension().and_then(|ending| ending.to_str());
     let finished = match ending.map(str::to_ascii_lowercase).as_deref() {
         Some("exr") => read_radiance(path, truth)?,
-        Some("png") => read_shown(path, frame.display.stops, truth)?,
+        Some("png") => read_display_referred(path, frame.display.stops, truth)?,
         _ => {
             return refuse(
                 path,
@@ -59,19 +63,19 @@ pub fn read_finished(path: &Path, frame: &Frame, truth: &Truth) -> Result<Finish
     }
 }
 
-fn read_radiance(path: &Path, truth: &Truth) -> Result<Finished, Error> {
+fn read_radiance(path: &Path, truth: &Truth) -> Result<FinishedPicture, Error> {
     let file = read_exr(path)?;
     file.expect_no_padding()?;
     check_shutter(&file, truth)?;
-    Ok(Finished {
+    Ok(FinishedPicture {
         color: file.color("")?,
         mattes: mattes(&file, truth)?,
-        shown: false,
+        display_referred: false,
         notes: Vec::new(),
     })
 }
 
-fn read_shown(path: &Path, stops: f32, truth: &Truth) -> Result<Finished, Error> {
+fn read_display_referred(path: &Path, stops: f32, truth: &Truth) -> Result<FinishedPicture, Error> {
     let mut notes = vec![format!(
         "decoded from sRGB, and the frame's display exposure of {stops} stops undone"
     )];
@@ -87,15 +91,15 @@ fn read_shown(path: &Path, stops: f32, truth: &Truth) -> Result<Finished, Error>
             100.0 * bright as f64 / truth.pixels.len() as f64
         ));
     }
-    Ok(Finished {
+    Ok(FinishedPicture {
         color: scene_linear(&read_png(path)?, stops),
         mattes: None,
-        shown: true,
+        display_referred: true,
         notes,
     })
 }
 
-/// Refuses what `blur` says to have blurred for another shutter than the truth's. In files of other programs the words
+/// Refuses a file of `shuttertruth blur` that names another shutter than the truth's. In files of other programs these attributes
 /// may mean something else.
 fn check_shutter(file: &ExrFile, truth: &Truth) -> Result<(), Error> {
     if !file.attributes.contains_key("kind") {
@@ -138,7 +142,7 @@ fn mattes(file: &ExrFile, truth: &Truth) -> Result<Option<Vec<Plane>>, Error> {
     Ok(Some(planes?))
 }
 
-impl Finished {
+impl FinishedPicture {
     fn cropped(mut self, band: u32) -> Self {
         self.color = self.color.cropped(band);
         self.mattes =

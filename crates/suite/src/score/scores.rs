@@ -1,47 +1,47 @@
-//! The scores of a finished picture: all that its file allows.
+//! Scores of a finished picture: all that its file allows.
 
 use frame::{Frame, Image, Ladder, Picture, Truth, display_srgb, scene_linear};
 use metrics::{ImageScores, MeasureError, Measured, Metric, Reference, Scores};
 
-use crate::render::scatter_oracle::oracle_of;
-use crate::run::finished::Finished;
+use super::finished_picture::FinishedPicture;
+use crate::render::scatter_oracle::make_oracle;
 
 const NO_MATTES: &str = "the picture has no mattes, channels coverage.<object> that say which share of a pixel it gives \
                          to each object";
-const SHOWN: &str = "a PNG holds nothing above display white";
+const DISPLAY_REFERRED: &str = "a PNG holds nothing above display white";
 
-/// A finished picture's scores, and what there is to know about them.
+/// A finished picture's scores, with notes about them.
 pub struct Scored {
-    /// What its file does not allow is not applicable, with the reason.
+    /// Scores; those that the file does not allow are not applicable, with the reason.
     pub scores: Scores,
-    /// In words.
+    /// Notes, each a sentence.
     pub notes: Vec<String>,
 }
 
 /// Scores a finished picture against the truth, at the exposures that the frame names.
 pub fn score(
-    finished: &Finished,
+    finished: &FinishedPicture,
     frame: &Frame,
     truth: &Truth,
     ladder: Option<&Ladder>,
 ) -> Result<Scored, MeasureError> {
-    let oracle = oracle_of(frame, truth);
+    let oracle = make_oracle(frame, truth);
     let frame = frame.cropped();
     let reference =
         Reference::new(&frame, truth, ladder, &frame.display.into())?.with_best(&oracle)?;
     // No colour's score looks at mattes, and those of mattes are taken out below.
     let mattes = finished.mattes.as_ref().unwrap_or(&frame.coverage);
-    let measured = |color: Image| {
+    let measure = |color: Image| {
         let coverage = mattes.clone();
         let measurement = reference.measure(&Picture { color, coverage })?;
         Ok(measurement.scores)
     };
-    let mut scores = measured(finished.color.clone())?;
+    let mut scores = measure(finished.color.clone())?;
     let mut notes = finished.notes.clone();
     if finished.mattes.is_none() {
         scores.take_out_mattes(NO_MATTES);
     }
-    if finished.shown {
+    if finished.display_referred {
         for region in [
             &mut scores.moving,
             &mut scores.support,
@@ -50,9 +50,9 @@ pub fn score(
             &mut scores.knowable,
             &mut scores.unknowable,
         ] {
-            take_out_brightness(region);
+            take_out_flip_hdr(region);
         }
-        let rounded = measured(rounded(&truth.mean().color, frame.display.stops))?;
+        let rounded = measure(round_to_8_bits(&truth.mean().color, frame.display.stops))?;
         if let Some(flip) = rounded.moving.flip.value() {
             notes.push(format!(
                 "the truth itself, as a PNG of 8 bits, would have a flip_moving of {flip:.3}"
@@ -62,15 +62,15 @@ pub fn score(
     Ok(Scored { scores, notes })
 }
 
-/// The image as a PNG of 8 bits keeps it.
-fn rounded(image: &Image, stops: f32) -> Image {
-    let shown = display_srgb(image, stops);
-    let steps = shown.map(|pixel| pixel.map(|value| (value * 255.0).round() / 255.0));
+/// Rounds the image as a PNG of 8 bits does.
+fn round_to_8_bits(image: &Image, stops: f32) -> Image {
+    let displayed = display_srgb(image, stops);
+    let steps = displayed.map(|pixel| pixel.map(|value| (value * 255.0).round() / 255.0));
     scene_linear(&steps, stops)
 }
 
-/// Which scores do not apply, by their reasons, each in the order of a report.
-pub fn missing(scores: &Scores) -> Vec<(String, Vec<Metric>)> {
+/// Lists the scores that do not apply, by their reasons, each in the order of a report.
+pub fn missing_scores(scores: &Scores) -> Vec<(String, Vec<Metric>)> {
     let mut missing: Vec<(String, Vec<Metric>)> = Vec::new();
     for metric in Metric::all() {
         let Measured::NotApplicable { reason } = scores.get(metric) else {
@@ -89,7 +89,7 @@ pub fn missing(scores: &Scores) -> Vec<(String, Vec<Metric>)> {
     missing
 }
 
-/// HDR-FLIP looks at exposures at which display white is dark.
-fn take_out_brightness(scores: &mut ImageScores) {
-    scores.flip_hdr = Measured::not_applicable(SHOWN);
+/// Takes out HDR-FLIP, which looks at exposures at which display white is dark.
+fn take_out_flip_hdr(scores: &mut ImageScores) {
+    scores.flip_hdr = Measured::not_applicable(DISPLAY_REFERRED);
 }

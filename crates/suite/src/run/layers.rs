@@ -6,7 +6,9 @@ use frame::{ExrFile, Frame, Truth, read_exr, write_exr};
 use metrics::ErrorMap;
 use tracer::{Progress, TraceError, Watch};
 
-use crate::{Case, Error, Run};
+use super::Run;
+use super::case::Case;
+use crate::Error;
 
 /// Single channels of errors.exr that become layers.
 const MAPS: [ErrorMap; 3] = [
@@ -15,8 +17,8 @@ const MAPS: [ErrorMap; 3] = [
     ErrorMap::Bleed,
 ];
 
-/// Writes one file a case below `out`, named as the case's folder below `folder`, that of run.json; returns them. `watch`
-/// hears of every case.
+/// Writes one file per case below `out`, named as the case's folder below `folder`, that of run.json; returns their paths.
+/// Tells `watch` of every case.
 pub fn write_layers(
     run: &Run,
     folder: &Path,
@@ -24,7 +26,7 @@ pub fn write_layers(
     watch: Watch,
 ) -> Result<Vec<PathBuf>, Error> {
     let mut written = Vec::new();
-    let mut scene: Option<Inputs> = None;
+    let mut last: Option<Inputs> = None;
     for (done, case) in run.cases.iter().enumerate() {
         let progress = Progress {
             done: done as u64,
@@ -34,19 +36,19 @@ pub fn write_layers(
             return Err(TraceError::Cancelled.into());
         }
         // Cases of one scene and alignment follow one another.
-        let inputs = match scene.take() {
+        let inputs = match last.take() {
             Some(inputs) if inputs.is_of(case) => inputs,
             _ => Inputs::read(case, folder)?,
         };
         let path = out.join(format!("{}.exr", case.folder.display()));
-        write_exr(&path, &layers(run, case, &inputs, folder)?)?;
+        write_exr(&path, &collect_layers(run, case, &inputs, folder)?)?;
         written.push(path);
-        scene = Some(inputs);
+        last = Some(inputs);
     }
     Ok(written)
 }
 
-/// What all cases of one scene and alignment share.
+/// Files that all cases of one scene and alignment share.
 struct Inputs {
     scene: String,
     alignment: String,
@@ -70,7 +72,12 @@ impl Inputs {
     }
 }
 
-fn layers(run: &Run, case: &Case, inputs: &Inputs, folder: &Path) -> Result<ExrFile, Error> {
+fn collect_layers(
+    run: &Run,
+    case: &Case,
+    inputs: &Inputs,
+    folder: &Path,
+) -> Result<ExrFile, Error> {
     let own = folder.join(&case.folder);
     let (output, errors) = (
         read_exr(&own.join("output.exr"))?,

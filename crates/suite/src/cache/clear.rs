@@ -1,16 +1,16 @@
-//! Removal of a scene's kept files.
+//! Removal of a scene's files, so that they are made anew.
 
 use std::fs::{DirEntry, FileType};
 use std::path::Path;
 
 use frame::FileError;
 
+use super::record::CASE_RECORD;
 use crate::Error;
-use crate::run::scene_run::CASE_RECORD;
 
-/// Removes frame, truths, replicates and ladders of a scene's folder, and the records of its cases, so that all of them are
-/// made anew. Refuses links to folders: nothing outside is removed.
-pub(crate) fn forget(folder: &Path) -> Result<(), Error> {
+/// Removes frame, truths, replicates and ladders of a scene's folder, and the records of its cases. Refuses links to folders:
+/// nothing outside is removed.
+pub(crate) fn clear_scene(folder: &Path) -> Result<(), Error> {
     if let Ok(found) = std::fs::symlink_metadata(folder) {
         refuse_link(folder, found.file_type())?;
     }
@@ -29,7 +29,7 @@ pub(crate) fn forget(folder: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-/// `frame.exr`, `truth_trailing.exr`, `ladder_trailing.exr`, and the records of the first two.
+/// Tells whether a name is one such as `frame.exr`, `truth_trailing.exr`, `ladder_trailing.exr`, or a record of the first two.
 fn is_rendered(name: &str) -> bool {
     let is_one =
         |stem: &str| stem == "frame" || stem.starts_with("truth_") || stem.starts_with("ladder_");
@@ -41,7 +41,7 @@ fn is_replicate_or_case(name: &str) -> bool {
     name == CASE_RECORD || (name.starts_with("replicate_") && name.ends_with(".exr"))
 }
 
-/// All of a folder; nothing where there is none.
+/// Lists a folder; nothing where there is none.
 fn entries(folder: &Path) -> Result<Vec<DirEntry>, FileError> {
     if !folder.exists() {
         return Ok(Vec::new());
@@ -62,7 +62,7 @@ fn refuse_link(path: &Path, kind: FileType) -> Result<(), Error> {
     match kind.is_symlink() {
         false => Ok(()),
         true => Err(Error::Usage(format!(
-            "{}: is a link, and --no-cache removes nothing behind one; remove the link, or take another --out",
+            "{} is a link, and nothing behind one is removed; remove the link, or take another output folder",
             path.display()
         ))),
     }
@@ -73,7 +73,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_would_be_read_back_is_removed_and_nothing_else() {
+    fn files_that_would_be_read_back_are_removed_and_no_others() {
         let out = tempfile::tempdir().unwrap();
         let folder = out.path().join("fan");
         let gone = [
@@ -91,14 +91,14 @@ mod tests {
             std::fs::create_dir_all(path.parent().unwrap()).unwrap();
             std::fs::write(path, "").unwrap();
         }
-        forget(&folder).unwrap();
+        clear_scene(&folder).unwrap();
         for name in gone {
             assert!(!folder.join(name).exists(), "{name}");
         }
         for name in kept {
             assert!(folder.join(name).exists(), "{name}");
         }
-        forget(&out.path().join("none")).unwrap();
+        clear_scene(&out.path().join("none")).unwrap();
     }
 
     #[cfg(unix)]
@@ -115,7 +115,7 @@ mod tests {
         std::fs::create_dir(&inner).unwrap();
         std::os::unix::fs::symlink(&mine, inner.join("identity_default")).unwrap();
         for folder in [linked, inner] {
-            let refusal = forget(&folder).unwrap_err().to_string();
+            let refusal = clear_scene(&folder).unwrap_err().to_string();
             assert!(refusal.contains("is a link"), "{refusal}");
         }
         assert!(mine.join("frame.exr").exists() && mine.join("case.json").exists());

@@ -2,21 +2,21 @@
 
 use filters::{Filter, FilterError, Settings};
 
-/// A filter with one set of parameters.
+/// A filter with one set of its parameters.
 #[derive(Clone)]
 pub struct FilterChoice {
     /// The filter.
     pub filter: Filter,
     /// The preset that the parameters started from.
     pub preset: String,
-    /// Its parameters.
+    /// The parameters.
     pub settings: Settings,
-    /// Whether values in pixels stay as the preset has them, whatever the picture's width.
+    /// True if values in pixels stay as the preset has them, whatever the picture's width.
     pub as_written: bool,
 }
 
 impl FilterChoice {
-    /// The parameters of a preset, as the filter has them.
+    /// Takes the parameters of a preset, as the filter has them.
     pub fn new(filter: Filter, preset: &str) -> Result<Self, FilterError> {
         Ok(Self {
             settings: filter.settings(Some(preset))?,
@@ -26,7 +26,7 @@ impl FilterChoice {
         })
     }
 
-    /// How tables and folders call it: `jump_flood:paper`.
+    /// Names filter and preset: `jump_flood:paper`.
     pub fn name(&self) -> String {
         format!("{}:{}", self.filter.name, self.preset)
     }
@@ -40,7 +40,7 @@ impl FilterChoice {
         self
     }
 
-    /// The same for pictures `width` pixels wide, guard band left out.
+    /// Scales values in pixels to pictures `width` pixels wide, guard band left out.
     pub fn scaled_to(&self, width: u32) -> Self {
         Self {
             settings: self.settings.scaled_to(&self.filter, width),
@@ -48,7 +48,7 @@ impl FilterChoice {
         }
     }
 
-    /// The parameters of any preset of the filter, for pictures `width` pixels wide.
+    /// Returns the parameters of any preset of the filter, for pictures `width` pixels wide.
     pub fn preset_at(&self, preset: &str, width: u32) -> Result<Settings, FilterError> {
         let settings = self.filter.settings(Some(preset))?;
         Ok(match self.as_written {

@@ -1,0 +1,177 @@
+//! Records of finished work with the hash of its inputs, read back while the inputs are the same and nothing has altered the
+//! files.
+
+use std::collections::BTreeMap;
+use std::fmt::Debug;
+use std::path::{Component, Path, PathBuf};
+
+use frame::{FileError, write_atomically};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+/// Name of a case's record, beside its pictures.
+pub(crate) const CASE_RECORD: &str = "case.json";
+
+/// A finished piece of work, as its file holds it.
+#[derive(Serialize, Deserialize)]
+struct Record<T> {
+    /// Hash of everything that determines it.
+    inputs: String,
+    /// Files that belong to it, by their names beside this one, each with the hash of its bytes.
+    files: BTreeMap<String, String>,
+    /// Result of the work.
+    made: T,
+    /// Hash of all of the above, which shows alterations.
+    seal: String,
+}
+
+/// Writes what was `made` of such inputs to `path`, after the `files` beside it have been written.
+pub(crate) fn write_record<T: Serialize>(
+    path: &Path,
+    inputs: String,
+    files: &[String],
+    made: &T,
+) -> Result<(), FileError> {
+    let files: BTreeMap<String, String> = (files.iter())
+        .map(|name| Ok((name.clone(), hash_file(&path.with_file_name(name))?)))
+        .collect::<std::io::Result<_>>()
+        .map_err(|source| FileError::io(path, "read what belongs to", source))?;
+    let record = Record {
+        seal: seal(&inputs, &files, made),
+        inputs,
+        files,
+        made,
+    };
+    let text = serde_json::to_string_pretty(&record).expect("a record is plain data") + "\n";
+    write_atomically(path, text.as_bytes())
+}
+
+/// Reads what was made of such inputs. None where there is no such record, where it is broken, or where any of its files is
+/// missing or altered.
+pub(crate) fn read_record<T: Serialize + DeserializeOwned>(path: &Path, inputs: &str) -> Option<T> {
+    let record = read_whole::<T>(path, inputs)?;
+    record.altered_files(path).is_empty().then_some(record.made)
+}
+
+/// Removes the files of such inputs that were altered: the hash that a file holds may no longer fit its content.
+pub(crate) fn remove_altered_files(path: &Path, inputs: &str) {
+    if let Some(record) = read_whole::<()>(path, inputs) {
+        for file in record.altered_files(path) {
+            // A missing file is as good as removed.
+            let _ = std::fs::remove_file(file);
+        }
+    }
+}
+
+/// Reads a whole record of such inputs. One that names a file outside its own folder is none: nothing out there is read or
+/// removed.
+fn read_whole<T: Serialize + DeserializeOwned>(path: &Path, inputs: &str) -> Option<Record<T>> {
+    let found: Record<T> = serde_json::from_slice(&std::fs::read(path).ok()?).ok()?;
+    let is_whole =
+        found.inputs == inputs && found.seal == seal(&found.inputs, &found.files, &found.made);
+    (is_whole && found.files.keys().all(|name| is_plain(name))).then_some(found)
+}
+
+/// Tells whether a name is that of a file in the same folder, and no path.
+fn is_plain(name: &str) -> bool {
+    let mut parts = Path::new(name).components();
+    let first = parts.next();
+    matches!(first, Some(Component::Normal(part)) if part == name) && parts.next().is_none()
+}
+
+impl<T> Record<T> {
+    /// Lists the files that are missing or altered.
+    fn altered_files(&self, path: &Path) -> Vec<PathBuf> {
+        let paths = (self.files.iter()).map(|(name, hash)| (path.with_file_name(name), hash));
+        paths
+            .filter(|(path, hash)| !hash_file(path).is_ok_and(|found| found == **hash))
+            .map(|(path, _)| path)
+            .collect()
+    }
+}
+
+/// Hashes inputs by their debug output, which holds every field, and numbers so that they read back equal: a new field cannot be
+/// forgotten.
+pub(crate) fn hash_inputs(inputs: &dyn Debug) -> String {
+    hex(format!("{inputs:?}").as_bytes())
+}
+
+/// Hashes the running program, whose bytes change with sources, dependencies, compiler and options: all that may change a number
+/// and is no other input. None where the bytes cannot be read.
+pub(crate) fn hash_program() -> Option<String> {
+    hash_file(&std::env::current_exe().ok()?).ok()
+}
+
+fn seal<T: Serialize>(inputs: &str, files: &BTreeMap<String, String>, made: &T) -> String {
+    hex(&serde_json::to_vec(&(inputs, files, made)).expect("a record is plain data"))
+}
+
+fn hash_file(path: &Path) -> std::io::Result<String> {
+    Ok(hex(&std::fs::read(path)?))
+}
+
+fn hex(bytes: &[u8]) -> String {
+    blake3::hash(bytes).to_hex().to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_record_that_names_a_file_elsewhere_is_no_record_and_removes_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let elsewhere = folder.path().join("mine.txt");
+        std::fs::write(&elsewhere, "mine").unwrap();
+        let record = folder.path().join("out/frame.json");
+        std::fs::create_dir(folder.path().join("out")).unwrap();
+        for name in [
+            "../mine.txt",
+            elsewhere.to_str().unwrap(),
+            "a/../../mine.txt",
+            "..",
+            "",
+        ] {
+            // Sealed as a record of the program's own would be.
+            let files = BTreeMap::from([(name.to_owned(), "0".repeat(64))]);
+            let inputs = "these".to_owned();
+            let (seal, made) = (seal(&inputs, &files, &()), ());
+            let forged = Record {
+                inputs,
+                files,
+                made,
+                seal,
+            };
+            std::fs::write(&record, serde_json::to_vec(&forged).unwrap()).unwrap();
+            remove_altered_files(&record, "these");
+            assert!(elsewhere.exists(), "{name}");
+            assert_eq!(read_record::<()>(&record, "these"), None, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_record_is_read_back_until_anything_about_it_changes() {
+        let folder = tempfile::tempdir().unwrap();
+        let (record, picture) = (folder.path().join("case.json"), folder.path().join("a.png"));
+        let read_back = || read_record::<f64>(&record, "these");
+        assert_eq!(read_back(), None, "nothing is there yet");
+        std::fs::write(&picture, "picture").unwrap();
+        let files = ["a.png".to_owned()];
+        write_record(&record, "these".to_owned(), &files, &0.1).unwrap();
+        assert_eq!(read_back(), Some(0.1));
+        assert_eq!(read_record::<f64>(&record, "others"), None);
+
+        std::fs::write(&picture, "picturE").unwrap();
+        assert_eq!(read_back(), None, "a picture was altered");
+        std::fs::remove_file(&picture).unwrap();
+        assert_eq!(read_back(), None, "a picture is missing");
+        std::fs::write(&picture, "picture").unwrap();
+        assert_eq!(read_back(), Some(0.1));
+
+        let text = std::fs::read_to_string(&record).unwrap();
+        std::fs::write(&record, text.replace("0.1", "0.2")).unwrap();
+        assert_eq!(read_back(), None, "the score was altered");
+        std::fs::write(&record, &text[..text.len() / 2]).unwrap();
+        assert_eq!(read_back(), None, "the record was cut short");
+    }
+}

@@ -1,0 +1,79 @@
+//! Formats of the depth buffer.
+
+use frame::{FAR_DEPTH, Plane};
+use half::f16;
+
+use super::unorm::unorm;
+use crate::named::named;
+
+/// Near plane that reversed depth is computed with, in metres.
+const NEAR: f64 = 0.1;
+
+named! {
+    /// A format of the depth buffer.
+    pub enum DepthFormat {
+        /// Metres as 32-bit floats.
+        Float32 = "float32",
+        /// Metres as 16-bit floats.
+        Float16 = "float16",
+        /// Near plane / depth in 24 bits; the near plane at 0.1 m.
+        Reversed24 = "reversed24",
+        /// Near plane / depth as 32-bit floats.
+        Reversed32 = "reversed32",
+    }
+}
+
+impl DepthFormat {
+    /// Returns depth as it comes out of this buffer.
+    pub(crate) fn apply(self, depth: &Plane) -> Plane {
+        depth.map(|&depth| match self {
+            Self::Float32 => depth,
+            // The background is told apart by being far, and stays so.
+            _ if depth == FAR_DEPTH => depth,
+            Self::Float16 => f16::from_f32(depth).to_f32().min(f16::MAX.to_f32()),
+            Self::Reversed24 => {
+                let stored = unorm(NEAR / f64::from(depth), 24);
+                if stored > 0.0 {
+                    (NEAR / stored) as f32
+                } else {
+                    FAR_DEPTH
+                }
+            }
+            Self::Reversed32 => {
+                let stored = (NEAR / f64::from(depth)) as f32;
+                (NEAR / f64::from(stored)) as f32
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use frame::Raster;
+
+    use super::*;
+
+    #[test]
+    fn reversed_depth_is_finest_near_and_background_stays_far() {
+        let depths = Raster {
+            width: 4,
+            height: 1,
+            pixels: vec![0.5_f32, 30.0, 900.0, FAR_DEPTH],
+        };
+        let errors = |format: DepthFormat| -> Vec<f32> {
+            let stored = format.apply(&depths);
+            assert_eq!(stored.pixels[3], FAR_DEPTH);
+            let pairs = stored.pixels.iter().zip(&depths.pixels);
+            pairs.map(|(a, b)| (a - b).abs()).collect()
+        };
+        // z^2 / near steps of 2^-24, half of one at most.
+        let reversed = errors(DepthFormat::Reversed24);
+        for (error, depth) in reversed.iter().zip(&depths.pixels).take(3) {
+            assert!(*error <= depth * depth / 0.1 * 0.51 / 16_777_215.0 + depth * 1e-7);
+        }
+        assert!(reversed[2] > 0.01);
+        // Ten bits after the leading one.
+        let half = errors(DepthFormat::Float16);
+        assert!(half[2] <= 900.0 / 2048.0 && errors(DepthFormat::Reversed32)[2] < 1e-3);
+    }
+}

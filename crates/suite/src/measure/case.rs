@@ -1,0 +1,234 @@
+//! Measurement of one case.
+
+use std::collections::BTreeMap;
+
+use filters::{Command, FilterError, Gpu};
+use frame::{Frame, Picture, Vectors};
+use metrics::{Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference};
+use tracer::Scene;
+
+use super::dilated_velocity::read_dilated_velocity;
+use super::pictures::write_case;
+use super::plan::RunPlan;
+use super::planned_case::{PictureSource, PlannedCase};
+use super::probes::{FilterOutput, blur_noise_frames, blur_with_probes};
+use super::references::TruthReferences;
+use crate::Error;
+use crate::filter::choice::FilterChoice;
+use crate::filter::input_format::InputFormat;
+use crate::filter::runner::Runner;
+use crate::run::case::{Case, Intervals};
+use crate::stats::intervals::intervals;
+
+/// Upper limit on the difference between the blur of a mixture and the mixture of the blurs, as a part of what the blur changes;
+/// far above rounding.
+const MOST_NONLINEARITY: f64 = 1e-3;
+
+/// Everything that cases of one scene and one shutter are measured with.
+pub(crate) struct CaseContext<'a> {
+    pub plan: &'a RunPlan,
+    pub gpu: Option<&'a Gpu>,
+    pub scene: &'a Scene,
+    pub frame: &'a Frame,
+    /// The frame in the forms in which filters get it.
+    pub stored_frames: &'a [(InputFormat, Frame)],
+    pub references: &'a TruthReferences<'a>,
+    /// The truth that every case is compared with, unless it is that of `references`.
+    pub common: Option<&'a Reference<'a>>,
+}
+
+/// A picture, and everything that was measured of it.
+struct MeasuredPicture {
+    picture: Picture,
+    measurement: Measurement,
+    nonlinearity: Option<f64>,
+    jitter: Option<Jitter>,
+    intervals: Intervals,
+    dilated_velocity: Option<Vectors>,
+}
+
+impl CaseContext<'_> {
+    /// Makes the picture, measures it, and writes it with its error maps; returns the names of the files as well.
+    pub fn measure(&self, planned: &PlannedCase) -> Result<(Case, Vec<String>), Error> {
+        let measured = match planned.source {
+            PictureSource::Identity => self.measure_reference(self.identity())?,
+            PictureSource::ScatterOracle => {
+                self.measure_reference(self.references.oracle.clone())?
+            }
+            PictureSource::Accumulation(subframes) => {
+                self.measure_reference(self.accumulation(subframes))?
+            }
+            PictureSource::Filter(choice, input) => self.measure_filter(choice, input)?,
+        };
+        self.write(planned, measured)
+    }
+
+    /// Returns the frame as it is.
+    fn identity(&self) -> Picture {
+        let frame = self.frame.cropped();
+        Picture {
+            color: frame.color,
+            coverage: frame.coverage,
+        }
+    }
+
+    fn accumulation(&self, subframes: u32) -> Picture {
+        let mut rungs = self.references.ladder.rungs.iter();
+        let rung = rungs.find(|rung| rung.subframes == subframes);
+        Picture::mean(&rung.expect("accumulations are rungs of the ladder").halves)
+    }
+
+    fn measure_reference(&self, picture: Picture) -> Result<MeasuredPicture, Error> {
+        Ok(MeasuredPicture {
+            measurement: self.references.reference.measure(&picture)?,
+            picture,
+            nonlinearity: None,
+            jitter: None,
+            intervals: Intervals::new(),
+            dilated_velocity: None,
+        })
+    }
+
+    fn measure_filter(
+        &self,
+        choice: &FilterChoice,
+        input: InputFormat,
+    ) -> Result<MeasuredPicture, Error> {
+        let mut stored = self.stored_frames.iter();
+        let frame = stored.find(|(format, _)| *format == input);
+        let (_, frame) = frame.expect("the frame was stored in every form of the plan");
+        let mut runner = Runner::new(self.gpu, choice, frame.size(), self.plan.monitor)?;
+        let output =
+            blur_with_probes(&mut runner, frame).map_err(|error| name_scene(error, self.scene))?;
+        let dilated_velocity = read_dilated_velocity(&choice.filter, &runner, frame)?;
+        let jitter = self.measure_jitter(&mut runner, frame)?;
+        let measurement = measure_output(&self.references.reference, &output)?;
+        Ok(MeasuredPicture {
+            intervals: self.measure_intervals(&output, &measurement)?,
+            nonlinearity: Some(output.nonlinearity),
+            picture: output.picture,
+            measurement,
+            jitter,
+            dilated_velocity,
+        })
+    }
+
+    /// Measures the intervals of the scores; empty where none are asked for.
+    fn measure_intervals(
+        &self,
+        output: &FilterOutput,
+        measurement: &Measurement,
+    ) -> Result<Intervals, MeasureError> {
+        let without_pairs = (self.references.without_pairs.iter())
+            .map(|reference| Ok(measure_output(reference, output)?.scores))
+            .collect::<Result<Vec<_>, MeasureError>>()?;
+        Ok(match without_pairs.as_slice() {
+            [] => Intervals::new(),
+            without_pairs => intervals(&measurement.scores, without_pairs, Metric::all()),
+        })
+    }
+
+    /// Separates the filter's noise from its other errors; none where it has no noise, or too few frames are asked for.
+    fn measure_jitter(&self, runner: &mut Runner, frame: &Frame) -> Result<Option<Jitter>, Error> {
+        if self.plan.jitter_frames < 2 {
+            return Ok(None);
+        }
+        let outputs = blur_noise_frames(runner, frame, self.plan.jitter_frames)
+            .map_err(|error| name_scene(error, self.scene))?;
+        Ok(outputs
+            .filter(|outputs| outputs[1..].iter().any(|output| *output != outputs[0]))
+            .and_then(|outputs| self.references.reference.jitter(&outputs)))
+    }
+
+    /// Writes the pictures of a case, and gathers its data.
+    fn write(
+        &self,
+        planned: &PlannedCase,
+        measured: MeasuredPicture,
+    ) -> Result<(Case, Vec<String>), Error> {
+        let MeasuredPicture {
+            picture,
+            measurement,
+            ..
+        } = &measured;
+        let common = match self.common {
+            Some(reference) => reference.measure_moving(picture)?,
+            None => measurement.scores.moving.clone(),
+        };
+        let folder = planned.folder(self.scene);
+        let files = write_case(
+            &self.plan.out.join(&folder),
+            self.scene,
+            &self.frame.objects,
+            (picture, measured.dilated_velocity.as_ref()),
+            measurement,
+        )?;
+        let choice = match planned.source {
+            PictureSource::Filter(choice, _) => Some(choice),
+            _ => None,
+        };
+        let command = choice.and_then(|choice| choice.filter.command.as_ref());
+        let truth = self.references.truth;
+        let case = Case {
+            scene: self.scene.name.clone(),
+            family: self.scene.family,
+            exposes: self.scene.exposes.clone(),
+            exposure: self.frame.exposure,
+            filter: planned.filter().to_owned(),
+            preset: planned.preset(),
+            is_reference: planned.is_reference(),
+            input: planned.input(),
+            parameters: choice.map_or_else(BTreeMap::new, |choice| choice.settings.values.clone()),
+            reference_width: choice.and_then(|choice| choice.settings.reference_width),
+            command: command.map(Command::words),
+            nonlinearity: measured.nonlinearity,
+            alignment: truth.alignment.name().to_owned(),
+            truth_hash: truth.provenance.content_hash.clone(),
+            common,
+            jitter: measured.jitter,
+            intervals: measured.intervals,
+            scores: measured.measurement.scores,
+            folder,
+        };
+        Ok((case, files))
+    }
+}
+
+/// Measures the output of a filter, by its picture and its probes.
+fn measure_output(
+    reference: &Reference,
+    output: &FilterOutput,
+) -> Result<Measurement, MeasureError> {
+    let mut measurement = reference.measure(&output.picture)?;
+    add_probes(reference, output, &mut measurement);
+    Ok(measurement)
+}
+
+/// Adds the scores of probes, or takes out all that need a filter whose weights do not depend on colour.
+fn add_probes(reference: &Reference, output: &FilterOutput, measurement: &mut Measurement) {
+    let scores = &mut measurement.scores;
+    if output.nonlinearity > MOST_NONLINEARITY {
+        let reason = format!(
+            "the filter's weights depend on colour: the blur of a mixture differs from the mixture of the blurs by {:.4} \
+             of what the blur changes, {MOST_NONLINEARITY} at most allow to tell what it gathers",
+            output.nonlinearity
+        );
+        scores.take_out_mattes(&reason);
+        scores.probes = ProbeScores::not_applicable(&reason);
+        return;
+    }
+    let probed = reference.measure_probes(&output.probes);
+    scores.probes = probed.scores;
+    measurement.probes = Some(probed.maps);
+}
+
+/// Adds the scene to the error of a program, which may fail on one scene and not on another.
+fn name_scene(error: FilterError, scene: &Scene) -> FilterError {
+    match error {
+        FilterError::Command { filter, reason } => FilterError::Command {
+            filter: format!("{filter} on {}", scene.name),
+            reason,
+        },
+        other => other,
+    }
+}

@@ -1,0 +1,11 @@
+//! The main job: renders every scene, runs every filter on it, measures how far each picture is from the truth.
+
+pub mod case;
+pub mod dilated_velocity;
+pub mod pictures;
+pub mod plan;
+pub mod planned_case;
+pub mod probes;
+pub mod references;
+pub mod scene;
+pub mod scenes;

@@ -1,0 +1,52 @@
+//! Plan of a run.
+
+use std::path::PathBuf;
+
+use frame::Alignment;
+use tracer::Scene;
+
+use crate::filter::choice::FilterChoice;
+use crate::filter::input_format::InputFormat;
+use crate::{Monitor, RenderSettings};
+
+/// Everything that a run is told to do.
+pub struct RunPlan {
+    /// Loaded scenes.
+    pub scenes: Vec<Scene>,
+    /// Loaded filters.
+    pub filters: Vec<FilterChoice>,
+    /// Forms in which every filter gets the frame.
+    pub inputs: Vec<InputFormat>,
+    /// Frames of noise that a noisy filter is tried with; fewer than 2 leave its noise alone.
+    pub jitter_frames: u32,
+    /// Settings of frames and truths.
+    pub render: RenderSettings,
+    /// Folder for all files.
+    pub out: PathBuf,
+    /// True if the scores of filters get intervals, by which bounds are judged. Takes a few more measurements of every picture.
+    pub intervals: bool,
+    /// True if frames, truths and cases that lie in `out` are removed and made anew.
+    pub no_cache: bool,
+    /// Listener to the progress, which may end the work.
+    pub monitor: Monitor,
+}
+
+impl RunPlan {
+    /// Lists the alignments that filters declare, each once.
+    pub(crate) fn alignments(&self) -> Vec<Alignment> {
+        let is_declared = |alignment: &Alignment| {
+            (self.filters.iter()).any(|choice| choice.filter.alignment == *alignment)
+        };
+        Alignment::ALL.into_iter().filter(is_declared).collect()
+    }
+
+    /// Chooses the alignment that all cases are compared with, among those that filters declare: no truth is rendered for it
+    /// alone.
+    pub(crate) fn common_alignment(&self) -> Alignment {
+        let declared = self.alignments();
+        [Alignment::Centred, Alignment::Trailing]
+            .into_iter()
+            .find(|alignment| declared.contains(alignment))
+            .unwrap_or(Alignment::Leading)
+    }
+}

@@ -1,0 +1,248 @@
+//! Cases of one scene: read back where their inputs are the same, measured where not.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
+
+use filters::{FilterError, Gpu};
+use frame::{Alignment, Frame, Ladder, Truth};
+use metrics::Reference;
+use tracer::{Progress, Scene, Watch};
+
+use super::case::CaseContext;
+use super::pictures::{write_frame, write_truth};
+use super::plan::RunPlan;
+use super::planned_case::PlannedCase;
+use super::references::{TruthReferences, viewing};
+use crate::Error;
+use crate::cache::clear::clear_scene;
+use crate::cache::record::{CASE_RECORD, read_record, remove_altered_files, write_record};
+use crate::cache::scene_keys::SceneKeys;
+use crate::filter::choice::FilterChoice;
+use crate::filter::input_format::InputFormat;
+use crate::folder::scene_folder::scene_folder;
+use crate::render::frames::render_frame;
+use crate::render::ladders::render_truth_and_ladder;
+use crate::render::memory::check_measuring_memory;
+use crate::render::truths::render_replicates;
+use crate::run::case::Case;
+use crate::run::failure::Failure;
+use crate::stats::intervals::truths_without_pairs;
+
+/// One scene of a run.
+pub(crate) struct SceneContext<'a> {
+    pub plan: &'a RunPlan,
+    /// The plan's filters, for pictures of its width.
+    pub filters: &'a [FilterChoice],
+    pub gpu: Option<&'a Gpu>,
+    pub scene: &'a Scene,
+    /// Hashes that records are known by; none where the program cannot be hashed, and nothing is read back.
+    pub keys: Option<SceneKeys>,
+}
+
+type Truths = BTreeMap<Alignment, (Truth, Ladder)>;
+
+impl SceneContext<'_> {
+    /// Returns the reference pictures of each alignment, then one case per filter preset and form of the input; a failure where a
+    /// filter made no picture that can be measured.
+    pub fn measure_cases(&self) -> Result<Vec<Result<Case, Failure>>, Error> {
+        if self.plan.no_cache {
+            clear_scene(&scene_folder(&self.plan.out, self.scene))?;
+        }
+        let planned = PlannedCase::all(self.plan, self.filters);
+        let found: Vec<Option<Case>> = planned.iter().map(|case| self.read_case(case)).collect();
+        if found.iter().all(Option::is_some) && self.has_its_files() {
+            return Ok(found.into_iter().flatten().map(Ok).collect());
+        }
+        self.plan.render.for_frame(self.scene).check(self.scene)?;
+        check_measuring_memory(self.scene, &self.plan.render)?;
+        let (frame, truths) = self.render()?;
+        let due = (planned.iter().zip(&found)).filter(|(_, found)| found.is_none());
+        let due: Vec<&PlannedCase> = due.map(|(case, _)| case).collect();
+        let label = format!("{} blurs and scores", self.scene.name);
+        let monitor = self.plan.monitor;
+        let measured = monitor.watch(&label, |watch| self.measure(&due, &frame, &truths, watch))?;
+        let mut measured = measured.into_iter();
+        let cases = found.into_iter().map(|found| match found {
+            Some(case) => Ok(case),
+            None => measured.next().expect("every case that is due was tried"),
+        });
+        Ok(cases.collect())
+    }
+
+    /// Measures the cases that are due, and writes the record of each as soon as it is whole.
+    fn measure(
+        &self,
+        due: &[&PlannedCase],
+        frame: &Frame,
+        truths: &Truths,
+        watch: Watch,
+    ) -> Result<Vec<Result<Case, Failure>>, Error> {
+        if due.is_empty() {
+            return Ok(Vec::new());
+        }
+        let viewing = viewing(self.scene);
+        let without_pairs = self.truths_without_pairs(due)?;
+        let alignments: BTreeSet<Alignment> = due.iter().map(|case| case.alignment).collect();
+        let references = (alignments.into_iter())
+            .map(|alignment| {
+                let without = without_pairs.get(&alignment).map_or(&[][..], Vec::as_slice);
+                let truth = &truths[&alignment];
+                let references = TruthReferences::new(frame, truth, without, &viewing)?;
+                Ok((alignment, references))
+            })
+            .collect::<Result<BTreeMap<_, _>, Error>>()?;
+        let common_alignment = self.plan.common_alignment();
+        let common_alone = match references.contains_key(&common_alignment) {
+            true => None,
+            false => {
+                let (truth, ladder) = &truths[&common_alignment];
+                // Only FLIP is measured against it, which needs no oracle.
+                let frame = frame.cropped();
+                Some(Reference::new(&frame, truth, Some(ladder), &viewing)?)
+            }
+        };
+        let common = match &common_alone {
+            Some(reference) => reference,
+            None => &references[&common_alignment].reference,
+        };
+        let stored_frames: Vec<(InputFormat, Frame)> = (self.plan.inputs.iter())
+            .map(|format| (*format, format.apply(frame)))
+            .collect();
+        let mut cases = Vec::with_capacity(due.len());
+        for (done, planned) in due.iter().enumerate() {
+            let progress = Progress {
+                done: done as u64,
+                total: due.len() as u64,
+            };
+            if watch(progress).is_break() {
+                return Err(tracer::TraceError::Cancelled.into());
+            }
+            let context = CaseContext {
+                plan: self.plan,
+                gpu: self.gpu,
+                scene: self.scene,
+                frame,
+                stored_frames: &stored_frames,
+                references: &references[&planned.alignment],
+                common: (planned.alignment != common_alignment).then_some(common),
+            };
+            cases.push(match context.measure(planned) {
+                Ok((case, files)) => {
+                    if let Some(key) = self.case_key(planned) {
+                        write_record(&self.case_record(planned), key, &files, &case)?;
+                    }
+                    Ok(case)
+                }
+                Err(error) => Err(self.failure(error, planned)?),
+            });
+        }
+        Ok(cases)
+    }
+
+    /// Turns an error that concerns one case into its failure. Any other error ends the run and comes back.
+    fn failure(&self, error: Error, planned: &PlannedCase) -> Result<Failure, Error> {
+        match &error {
+            Error::Filter(FilterError::Gpu { .. } | FilterError::Command { .. })
+            | Error::Measure(_) => Ok(Failure {
+                scene: self.scene.name.clone(),
+                filter: planned.name(),
+                alignment: planned.alignment.name().to_owned(),
+                reason: error.to_string(),
+            }),
+            _ => Err(error),
+        }
+    }
+
+    /// Renders the scene's frame and one truth per alignment that a filter of the plan declares, and writes their pictures.
+    fn render(&self) -> Result<(Frame, Truths), Error> {
+        let RunPlan {
+            render,
+            out,
+            monitor,
+            ..
+        } = self.plan;
+        for (record, key) in self.render_records() {
+            remove_altered_files(&record, &key);
+        }
+        let folder = scene_folder(out, self.scene);
+        let frame = render_frame(self.scene, render, out, *monitor)?;
+        let mut files = vec![write_frame(&folder, self.scene, &frame)?];
+        let mut truths = Truths::new();
+        for alignment in self.plan.alignments() {
+            let rendered = render_truth_and_ladder(self.scene, render, alignment, out, *monitor)?;
+            files.push(write_truth(&folder, self.scene, &rendered.0)?);
+            truths.insert(alignment, rendered);
+        }
+        for ((record, key), files) in self.render_records().into_iter().zip(files) {
+            write_record(&record, key, &files, &())?;
+        }
+        Ok((frame, truths))
+    }
+
+    /// Makes, per alignment of the filters that are due, the truths without one pair of replicates each; none where the plan asks
+    /// for no intervals.
+    fn truths_without_pairs(
+        &self,
+        due: &[&PlannedCase],
+    ) -> Result<BTreeMap<Alignment, Vec<Truth>>, Error> {
+        let RunPlan {
+            render,
+            out,
+            monitor,
+            ..
+        } = self.plan;
+        let filters = due.iter().filter(|case| !case.is_reference());
+        let alignments: BTreeSet<Alignment> = filters.map(|case| case.alignment).collect();
+        (alignments.into_iter())
+            .filter(|_| self.plan.intervals)
+            .map(|alignment| {
+                let replicates = render_replicates(self.scene, render, alignment, out, *monitor)?;
+                Ok((alignment, truths_without_pairs(&replicates)?))
+            })
+            .collect()
+    }
+
+    /// Reads a case that was measured before, without its intervals where the plan asks for none. One that lacks intervals is no
+    /// case for a plan that asks for them.
+    fn read_case(&self, planned: &PlannedCase) -> Option<Case> {
+        let mut case: Case = read_record(&self.case_record(planned), &self.case_key(planned)?)?;
+        if !self.plan.intervals {
+            case.intervals.clear();
+        }
+        let is_whole = case.is_reference || !self.plan.intervals || !case.intervals.is_empty();
+        is_whole.then_some(case)
+    }
+
+    fn case_key(&self, planned: &PlannedCase) -> Option<String> {
+        let adapter = self.gpu.map(|gpu| &gpu.adapter);
+        let own = planned.inputs(self.plan, adapter)?;
+        let keys = self.keys.as_ref()?;
+        Some(keys.case(&own, planned.alignment, self.plan.common_alignment()))
+    }
+
+    fn case_record(&self, planned: &PlannedCase) -> PathBuf {
+        let folder = self.plan.out.join(planned.folder(self.scene));
+        folder.join(CASE_RECORD)
+    }
+
+    /// Tells whether frame, truths and their pictures are there and unaltered.
+    fn has_its_files(&self) -> bool {
+        let mut records = self.render_records().into_iter();
+        self.keys.is_some()
+            && records.all(|(record, key)| read_record::<()>(&record, &key).is_some())
+    }
+
+    /// Lists the records of the frame and of every truth, in this order, with their keys; none where nothing is read back.
+    fn render_records(&self) -> Vec<(PathBuf, String)> {
+        let Some(keys) = &self.keys else {
+            return Vec::new();
+        };
+        let folder = scene_folder(&self.plan.out, self.scene);
+        let mut records = vec![(folder.join("frame.json"), keys.frame())];
+        records.extend(self.plan.alignments().into_iter().map(|alignment| {
+            let record = folder.join(format!("truth_{alignment}.json"));
+            (record, keys.truth(alignment))
+        }));
+        records
+    }
+}

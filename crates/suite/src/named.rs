@@ -1,0 +1,45 @@
+//! Enums whose values have names for people: those of run.json and of the command line.
+
+/// Defines an enum with `ALL` its values, their `name()` and their `help()`, which is their documentation. The first value is
+/// the default.
+macro_rules! named {
+    (
+        $(#[$about:meta])*
+        pub enum $kind:ident {
+            $($(#[doc = $help:literal])+ $value:ident = $name:literal,)+
+        }
+    ) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+        pub enum $kind {
+            $($(#[doc = $help])+ #[serde(rename = $name)] $value,)+
+        }
+
+        impl Default for $kind {
+            fn default() -> Self {
+                Self::ALL[0]
+            }
+        }
+
+        impl $kind {
+            /// Every value.
+            pub const ALL: &[Self] = &[$(Self::$value),+];
+
+            /// Returns the value's name.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$value => $name,)+
+                }
+            }
+
+            /// Returns what the value stands for, in a sentence.
+            pub fn help(self) -> &'static str {
+                match self {
+                    $(Self::$value => concat!($($help),+).trim_ascii(),)+
+                }
+            }
+        }
+    };
+}
+
+pub(crate) use named;

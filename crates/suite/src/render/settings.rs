@@ -1,0 +1,97 @@
+//! Settings of frames and truths.
+
+use std::ops::RangeInclusive;
+
+use frame::{Alignment, ColorSampling, VelocityKind};
+use tracer::{FrameSettings, Scene, TruthSettings};
+
+/// Columns and rows that a picture may have.
+pub const SIDES: RangeInclusive<u32> = 16..=16384;
+
+/// Upper limit on the replicates of a truth.
+pub const MOST_REPLICATES: u32 = 4096;
+
+/// Replicates of a truth that have as many samples as a frame, whatever number the truth has.
+const FRAME_REPLICATES: u32 = 8;
+
+/// Settings of every scene's frame and truths.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RenderSettings {
+    /// Pixels per row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Exposure in frames; none takes the scene's.
+    pub exposure: Option<f64>,
+    /// Motion that the velocity buffer holds.
+    pub velocity: VelocityKind,
+    /// Sampling of the frame's colour.
+    pub color: ColorSampling,
+    /// True if the background has its velocity, false if it has none.
+    pub sky_velocity: bool,
+    /// Pixels by which the frame reaches beyond the picture on every side.
+    pub guard_band: u32,
+    /// Samples per pixel of a truth, over all its replicates.
+    pub samples_per_pixel: u32,
+    /// Independent, complete renders behind a truth; an even number.
+    pub replicates: u32,
+    /// Seed of all randomness.
+    pub seed: u64,
+}
+
+impl Default for RenderSettings {
+    fn default() -> Self {
+        Self {
+            width: 320,
+            height: 180,
+            exposure: None,
+            velocity: VelocityKind::Instantaneous,
+            color: ColorSampling::Antialiased,
+            sky_velocity: true,
+            guard_band: 0,
+            samples_per_pixel: 256,
+            replicates: 8,
+            seed: 1,
+        }
+    }
+}
+
+impl RenderSettings {
+    /// Takes another number of replicates, each with as many samples as before.
+    pub fn with_replicates(&self, replicates: u32) -> Self {
+        let each = self.samples_per_pixel / self.replicates;
+        Self {
+            samples_per_pixel: each.saturating_mul(replicates),
+            replicates,
+            ..self.clone()
+        }
+    }
+
+    /// Selects what the tracer needs for a scene's frame.
+    pub(crate) fn for_frame(&self, scene: &Scene) -> FrameSettings {
+        FrameSettings {
+            width: self.width,
+            height: self.height,
+            exposure: self.exposure.unwrap_or(scene.exposure),
+            velocity: self.velocity,
+            color: self.color,
+            sky_velocity: self.sky_velocity,
+            guard_band: self.guard_band,
+            samples_per_pixel: FRAME_REPLICATES * self.samples_per_pixel / self.replicates,
+            seed: self.seed,
+        }
+    }
+
+    /// Selects what the tracer needs for one of a scene's truths.
+    pub(crate) fn for_truth(&self, scene: &Scene, alignment: Alignment) -> TruthSettings {
+        TruthSettings {
+            width: self.width,
+            height: self.height,
+            exposure: self.exposure.unwrap_or(scene.exposure),
+            alignment,
+            samples_per_pixel: self.samples_per_pixel,
+            replicates: self.replicates,
+            seed: self.seed,
+        }
+    }
+}

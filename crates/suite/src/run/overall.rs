@@ -1,0 +1,31 @@
+//! Means over the scenes, as a run records them.
+
+use serde::{Deserialize, Serialize};
+
+/// One metric of one filter preset, or of one reference picture, over the scenes that it applies to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Overall {
+    /// `jump_flood:paper`, and behind that the form of the input where that is not the default.
+    pub filter: String,
+    /// True for a reference picture, false for a filter.
+    #[serde(rename = "bar")]
+    pub is_reference: bool,
+    /// The shutter alignment that it is scored against.
+    pub alignment: String,
+    /// Name of the metric, `bleed` or `flip_common`.
+    pub metric: String,
+    /// Number of scenes, each variant of one counted.
+    pub scenes: usize,
+    /// Mean over the scenes, in the metric's unit; of a skill the ratio of means.
+    pub mean: f64,
+    /// Lower and upper end of the mean's 95 % confidence interval over scenes.
+    pub interval: [f64; 2],
+}
+
+impl Overall {
+    /// Tells whether both are of one filter preset or reference picture.
+    pub fn is_of_same(&self, other: &Self) -> bool {
+        let key = |own: &Self| (own.is_reference, own.filter.clone(), own.alignment.clone());
+        key(self) == key(other)
+    }
+}

@@ -1,0 +1,4 @@
+//! Scores of pictures that were made elsewhere.
+
+pub mod finished_picture;
+pub mod scores;
