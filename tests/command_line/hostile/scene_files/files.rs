@@ -5,7 +5,7 @@ use std::path::Path;
 
 use tests::text::assert_contains;
 
-use super::{refused, render, with_sky, with_texture};
+use super::{assert_render_refused, render, with_sky, with_texture};
 use crate::bench::{Bench, SCENE, assert_done, assert_refused};
 
 #[cfg(unix)]
@@ -58,7 +58,7 @@ fn a_file_that_is_too_large_is_refused_before_it_is_read() {
     let file = fs::File::create(bench.path("scenes/plate/plate.obj")).unwrap();
     file.set_len(tracer::limits::LARGEST_MESH_FILE + 1).unwrap();
     let found = "holds 2147483649 bytes, and at most 2147483648 are read";
-    refused(&bench, &["scene.toml:15: mesh", "plate.obj", found]);
+    assert_render_refused(&bench, &["scene.toml:15: mesh", "plate.obj", found]);
 }
 
 #[test]
