@@ -35,9 +35,7 @@ fn smaller_run_into(bench: &Bench, out: &str, more: &[&str]) -> std::process::Ou
 }
 
 fn compare(bench: &Bench) -> Value {
-    let output = bench.shuttertruth(&["compare", "out/run.json", "other", "--json"]);
-    assert_done(&output);
-    serde_json::from_slice(&output.stdout).unwrap()
+    serde_json::from_str(&bench.done(&["compare", "out/run.json", "other", "--json"])).unwrap()
 }
 
 fn changes<'a>(compared: &'a Value, filter: &str) -> Vec<&'a Value> {

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use tests::filter_folder::one_kernel_without_parameters;
 
-use crate::bench::{Bench, assert_done, quick};
+use crate::bench::{Bench, assert_done, press_ctrl_c, quick};
 
 /// Passes that take minutes together.
 const MANIFEST: &str = r#"
@@ -49,10 +49,7 @@ fn ctrl_c_ends_work_on_the_gpu_within_two_seconds() {
             "it ended by itself: {words:?}"
         );
         let pressed = Instant::now();
-        let interrupt = Command::new("kill")
-            .args(["-INT", &child.id().to_string()])
-            .status();
-        assert!(interrupt.unwrap().success());
+        press_ctrl_c(&child);
         let status = child.wait().unwrap();
         assert_eq!(status.code(), Some(130), "{words:?}");
         assert!(

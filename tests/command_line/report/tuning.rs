@@ -56,8 +56,7 @@ fn a_tuning_is_shown_with_its_trials_its_choice_and_its_folds() {
         ],
     );
     let page = make_page(&bench);
-    let tuning: Tuning =
-        serde_json::from_slice(&fs::read(bench.path("tuned/tune.json")).unwrap()).unwrap();
+    let tuning: Tuning = bench.read_json("tuned/tune.json");
     assert!(page.contains("from paper, 14 trials on 2 scenes"));
     let convergence = find_section(&page, "Convergence");
     assert_eq!(
@@ -114,8 +113,7 @@ fn a_study_of_sensitivity_is_shown_with_intervals_and_slices() {
     let bench = set_up();
     tune(&bench, &["--morris", "3", "--sobol", "4"]);
     let page = make_page(&bench);
-    let found: Sensitivity =
-        serde_json::from_slice(&fs::read(bench.path("tuned/sensitivity.json")).unwrap()).unwrap();
+    let found: Sensitivity = bench.read_json("tuned/sensitivity.json");
     assert_eq!(found.trajectories, 3);
     let table = find_section(&page, "Which parameters can become constants");
     for (name, own) in &found.parameters {

@@ -71,9 +71,8 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
     let words = split("evaluate --quiet --filter jump_flood --from paper --params");
     let scene = split("--scenes a --size 64x32 --samples-per-pixel 16 --out out");
     let params = [params.to_str().unwrap(), "--objective", "flip,bleed"];
-    let output = bench.shuttertruth(&[&words[..], &params, &scene].concat());
-    assert_done(&output);
-    let answer: suite::Answer = serde_json::from_str(&stdout(&output)).unwrap();
+    let answer: suite::Answer =
+        serde_json::from_str(&bench.done(&[&words[..], &params, &scene].concat())).unwrap();
     assert_eq!(answer.scenes["a"], tuning.chosen.scenes["a"]);
     assert_eq!(answer.values, tuning.values);
     // And as the preset of a filter.

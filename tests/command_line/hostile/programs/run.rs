@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use frame::{ExrFile, Raster, write_exr};
 use tests::filter_folder::write_program;
 
-use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
+use crate::bench::{Bench, assert_done, assert_refused, press_ctrl_c, split, stdout};
 
 /// Writes a filter `mine` that is a shell script with the files as $1 and $2.
 fn write_mine(bench: &Bench, lines: &str, more: &str) {
@@ -159,10 +159,7 @@ fn a_session_of_its_own_ends_at_ctrl_c() {
         std::thread::sleep(Duration::from_millis(10));
     }
     let pressed = Instant::now();
-    let interrupt = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(interrupt.unwrap().success());
+    press_ctrl_c(&child);
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert!(pressed.elapsed() < Duration::from_secs(2));
     assert!(has_ended(&bench));

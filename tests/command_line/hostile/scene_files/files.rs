@@ -6,21 +6,17 @@ use std::path::Path;
 use tests::text::assert_contains;
 
 use super::{assert_render_refused, render, with_sky, with_texture};
-use crate::bench::{Bench, SCENE, assert_done, assert_refused};
+use crate::bench::{Bench, SCENE, assert_done, assert_refused, make_fifo};
 
 #[cfg(unix)]
 #[test]
 fn what_is_no_regular_file_is_refused_before_it_is_opened() {
-    let fifo = |path: &Path| {
-        let made = std::process::Command::new("mkfifo").arg(path).status();
-        assert!(made.unwrap().success());
-    };
     let zero = |path: &Path| std::os::unix::fs::symlink("/dev/zero", path).unwrap();
     let socket = |path: &Path| drop(std::os::unix::net::UnixListener::bind(path).unwrap());
     let folder = |path: &Path| fs::create_dir(path).unwrap();
     type Make<'a> = &'a dyn Fn(&Path);
     let kinds: [(Make, &str); 4] = [
-        (&fifo, "it is a FIFO"),
+        (&make_fifo, "it is a FIFO"),
         (&zero, "it is a device"),
         (&socket, "it is a socket"),
         (&folder, "it is a folder"),
