@@ -1,6 +1,5 @@
 //! Ctrl-C: every command ends within two seconds, whatever the GPU is doing.
 
-use std::process::Command;
 use std::time::{Duration, Instant};
 
 use tests::filter_folder::one_kernel_without_parameters;

@@ -1,7 +1,6 @@
 //! Refused command lines: their words, their exit codes, and nothing left behind.
 
 use std::fs;
-use std::process::Command;
 
 use crate::bench::{Bench, OBJ, SCENE, assert_done, assert_refused, files_below, press_ctrl_c};
 
