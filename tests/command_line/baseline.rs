@@ -39,7 +39,7 @@ fn check(bench: &Bench, more: &[&str]) -> Output {
 }
 
 fn baseline(bench: &Bench) -> serde_json::Value {
-    serde_json::from_slice(&fs::read(bench.path("base.json")).unwrap()).unwrap()
+    bench.read_json("base.json")
 }
 
 #[test]

@@ -7,7 +7,7 @@ use std::time::Duration;
 use frame::{ExrFile, Frame, Raster, Reprojection, read_exr, write_exr};
 use tests::filter_folder::{write_manifest, write_program, write_script};
 
-use crate::bench::{Bench, assert_done, assert_refused, stderr, stdout};
+use crate::bench::{Bench, assert_done, assert_refused, press_ctrl_c, stderr, stdout};
 
 fn write_lines(bench: &Bench, name: &str, more: &str) {
     write_manifest(&bench.path(name), name, more);
@@ -300,10 +300,7 @@ fn ctrl_c_stops_a_program() {
         assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
         std::thread::sleep(Duration::from_millis(10));
     }
-    let interrupt = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(interrupt.unwrap().success());
+    press_ctrl_c(&child);
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert_ended(&bench);
     assert!(!bench.path("b.exr").exists());

@@ -34,10 +34,8 @@ fn smaller_run_into(bench: &Bench, out: &str, more: &[&str]) -> std::process::Ou
     bench.shuttertruth(&[&words, more].concat())
 }
 
-fn compared(bench: &Bench) -> Value {
-    let output = bench.shuttertruth(&["compare", "out/run.json", "other", "--json"]);
-    assert_done(&output);
-    serde_json::from_slice(&output.stdout).unwrap()
+fn compare(bench: &Bench) -> Value {
+    serde_json::from_str(&bench.done(&["compare", "out/run.json", "other", "--json"])).unwrap()
 }
 
 fn changes<'a>(compared: &'a Value, filter: &str) -> Vec<&'a Value> {
@@ -50,7 +48,7 @@ fn changes<'a>(compared: &'a Value, filter: &str) -> Vec<&'a Value> {
 #[test]
 fn a_run_compared_with_itself_did_not_change() {
     let bench = two_runs(&[]);
-    let compared = compared(&bench);
+    let compared = compare(&bench);
     let all = compared["changes"].as_array().unwrap();
     // Six bars and two filters, each with at least FLIP, PSNR and label TV.
     assert!(all.len() >= 24, "{}", all.len());
@@ -75,7 +73,7 @@ fn a_run_compared_with_itself_did_not_change() {
 #[test]
 fn a_changed_parameter_is_named_and_its_changes_have_intervals() {
     let bench = two_runs(&["--set", "velocity_gather.samples=2"]);
-    let compared = compared(&bench);
+    let compared = compare(&bench);
     let settings = compared["settings"].as_array().unwrap();
     assert_eq!(settings.len(), 1, "{settings:?}");
     assert_eq!(settings[0]["name"], "velocity_gather:fine.samples");
@@ -137,7 +135,7 @@ fn without_replicates_the_floors_decide_and_the_output_says_so() {
     for out in ["out", "other"] {
         fs::remove_dir_all(bench.path(out).join("plate/truth_trailing")).unwrap();
     }
-    let compared = compared(&bench);
+    let compared = compare(&bench);
     let own = changes(&compared, "velocity_gather:fine");
     let flip = own
         .iter()
@@ -157,7 +155,7 @@ fn cases_of_one_run_alone_are_named() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "identity"]));
     assert_done(&run_into(&bench, "other", "16", &GATHER));
-    let compared = compared(&bench);
+    let compared = compare(&bench);
     assert_eq!(compared["only_in_first"].as_array().unwrap().len(), 0);
     assert_eq!(
         compared["only_in_second"],

@@ -38,7 +38,7 @@ f 4 9 10 5\r
 const MATERIALS: &str = "newmtl the wall\r\nKd 0.8 0.7 0.6\r\nNs 12\r\nnewmtl the roof\r\nKd 0.6 0.2 0.1\r\nmap_Bump none.png\r\n";
 
 /// A folder with the house and its materials.
-fn bench() -> Bench {
+fn set_up() -> Bench {
     let bench = Bench::new();
     fs::create_dir(bench.path("my models")).unwrap();
     fs::write(bench.path("my models/the house.obj"), HOUSE).unwrap();
@@ -97,7 +97,7 @@ fn shown(frame: &Frame, object: &str) -> Vec<([f64; 2], [f64; 2])> {
 
 #[test]
 fn an_imported_model_stands_in_the_middle_and_slides_as_fast_as_asked() {
-    let bench = bench();
+    let bench = set_up();
     let output = import(&bench, &["--slide", "40px/frame"]);
     assert_done(&output);
     assert!(
@@ -143,7 +143,7 @@ fn an_imported_model_stands_in_the_middle_and_slides_as_fast_as_asked() {
 
 #[test]
 fn an_imported_model_turns_about_its_own_middle() {
-    let bench = bench();
+    let bench = set_up();
     assert_done(&import(&bench, &["--spin", "20deg/frame"]));
     let frame = frame(&bench);
     let house = shown(&frame, "model");
@@ -172,7 +172,7 @@ fn an_imported_model_turns_about_its_own_middle() {
 
 #[test]
 fn a_camera_that_goes_around_a_model_keeps_it_in_the_middle() {
-    let bench = bench();
+    let bench = set_up();
     assert_done(&import(
         &bench,
         &["--orbit", "3deg/frame", "--exposure", "1"],
@@ -198,7 +198,7 @@ fn a_camera_that_goes_around_a_model_keeps_it_in_the_middle() {
 
 #[test]
 fn a_model_with_z_up_stands_upright() {
-    let bench = bench();
+    let bench = set_up();
     // The house on its back: y was up, now z is.
     let lying: String = HOUSE
         .lines()
@@ -223,7 +223,7 @@ fn a_model_with_z_up_stands_upright() {
 
 #[test]
 fn what_cannot_be_imported_is_refused_with_the_way_out() {
-    let bench = bench();
+    let bench = set_up();
     let slide = ["--slide", "40px/frame"];
     assert_refused(
         &import(&bench, &[]),
@@ -315,7 +315,7 @@ fn what_cannot_be_imported_is_refused_with_the_way_out() {
 
 #[test]
 fn a_model_whose_materials_are_lost_comes_in_plain_if_asked() {
-    let bench = bench();
+    let bench = set_up();
     fs::remove_file(bench.path("my models/the house.mtl")).unwrap();
     let slide = ["--slide", "40px/frame"];
     assert_refused(
@@ -335,7 +335,7 @@ fn a_model_whose_materials_are_lost_comes_in_plain_if_asked() {
 
 #[test]
 fn a_model_of_a_quarter_of_a_million_triangles_is_imported() {
-    let bench = bench();
+    let bench = set_up();
     const STEPS: usize = 360;
     let mut text = String::from("o ball\n");
     for row in 0..=STEPS {

@@ -1,11 +1,10 @@
 //! Ctrl-C: every command ends within two seconds, whatever the GPU is doing.
 
-use std::process::Command;
 use std::time::{Duration, Instant};
 
 use tests::filter_folder::one_kernel_without_parameters;
 
-use crate::bench::{Bench, assert_done, quick};
+use crate::bench::{Bench, assert_done, press_ctrl_c, quick};
 
 /// Passes that take minutes together.
 const MANIFEST: &str = r#"
@@ -49,10 +48,7 @@ fn ctrl_c_ends_work_on_the_gpu_within_two_seconds() {
             "it ended by itself: {words:?}"
         );
         let pressed = Instant::now();
-        let interrupt = Command::new("kill")
-            .args(["-INT", &child.id().to_string()])
-            .status();
-        assert!(interrupt.unwrap().success());
+        press_ctrl_c(&child);
         let status = child.wait().unwrap();
         assert_eq!(status.code(), Some(130), "{words:?}");
         assert!(

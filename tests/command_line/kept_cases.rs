@@ -25,7 +25,7 @@ const OF_FILTERS: [&str; 4] = [
 ];
 
 /// A bench whose filter `mine` is a copy of one that is built in.
-fn bench() -> Bench {
+fn set_up() -> Bench {
     let bench = Bench::new();
     copy_shipped_filter("velocity_gather", &bench.path("mine"));
     bench
@@ -70,7 +70,7 @@ fn change(bench: &Bench, file: &str, from: &str, to: &str) {
 
 #[test]
 fn a_second_run_touches_no_file_and_says_the_same() {
-    let bench = bench();
+    let bench = set_up();
     run(&bench, &[]);
     let first = fs::read(bench.path("out/run.json")).unwrap();
     let before = times(&bench);
@@ -93,7 +93,7 @@ fn times_of_measured(bench: &Bench) -> BTreeMap<String, SystemTime> {
 
 #[test]
 fn a_check_is_kept_with_its_intervals() {
-    let bench = bench();
+    let bench = set_up();
     bench.write("bounds.toml", NONE_KEEPS_IT);
     let check = || bench.check(&FILTERS);
     let first = stdout(&check());
@@ -112,7 +112,7 @@ fn a_check_is_kept_with_its_intervals() {
 
 #[test]
 fn another_bound_measures_nothing_again() {
-    let bench = bench();
+    let bench = set_up();
     bench.write("bounds.toml", &NONE_KEEPS_IT.replace("0.0001", "0.1"));
     let broken = bench.check(&FILTERS);
     assert_eq!(broken.status.code(), Some(1), "{}", stdout(&broken));
@@ -128,7 +128,7 @@ fn another_bound_measures_nothing_again() {
 
 #[test]
 fn a_run_takes_what_a_check_left() {
-    let bench = bench();
+    let bench = set_up();
     bench.write("bounds.toml", NONE_KEEPS_IT);
     bench.check(&FILTERS);
     let before = times_of_measured(&bench);
@@ -151,7 +151,7 @@ fn a_run_takes_what_a_check_left() {
 
 #[test]
 fn what_changes_one_case_measures_that_one_again() {
-    let bench = bench();
+    let bench = set_up();
     run(&bench, &[]);
     let mine = names([&OF_FILTERS[1..]]);
 
@@ -174,7 +174,7 @@ fn what_changes_one_case_measures_that_one_again() {
 
 #[test]
 fn what_changes_the_truth_or_the_frame_measures_all_again() {
-    let bench = bench();
+    let bench = set_up();
     run(&bench, &[]);
     let all = names([&BARS[..], &OF_FILTERS]);
     for more in [["--seed", "2"], ["--velocity", "previous_frame"]] {
@@ -196,7 +196,7 @@ fn what_changes_the_truth_or_the_frame_measures_all_again() {
 
 #[test]
 fn another_common_shutter_measures_again_what_is_compared_with_it() {
-    let bench = bench();
+    let bench = set_up();
     run(&bench, &[]);
     let centred = bench.run(&["--filters", "identity,bevy:default", "--filter", "mine"]);
     assert_done(&centred);
@@ -207,7 +207,7 @@ fn another_common_shutter_measures_again_what_is_compared_with_it() {
 
 #[test]
 fn what_is_missing_cut_short_or_altered_is_made_anew() {
-    let bench = bench();
+    let bench = set_up();
     run(&bench, &[]);
     let contents = |name: &str| fs::read(bench.path("out/plate").join(name)).unwrap();
     let run_json = fs::read(bench.path("out/run.json")).unwrap();

@@ -11,7 +11,7 @@ fn root() -> PathBuf {
 }
 
 /// Every page below a folder.
-fn pages(folder: &Path) -> Vec<PathBuf> {
+fn find_pages(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder)
         .unwrap()
@@ -19,7 +19,7 @@ fn pages(folder: &Path) -> Vec<PathBuf> {
     {
         let name = entry.file_name().unwrap().to_string_lossy().into_owned();
         if entry.is_dir() && !FOREIGN.contains(&name.as_str()) {
-            found.extend(pages(&entry));
+            found.extend(find_pages(&entry));
         } else if name.ends_with(".md") {
             found.push(entry);
         }
@@ -38,7 +38,7 @@ fn prose(text: &str) -> String {
 }
 
 /// The targets of `[words](target)`.
-fn links(text: &str) -> Vec<String> {
+fn find_links(text: &str) -> Vec<String> {
     let rests = text.split("](").skip(1);
     let targets = rests.filter_map(|rest| rest.split_once(')'));
     targets.map(|(target, _)| target.to_owned()).collect()
@@ -82,11 +82,11 @@ fn broken(page: &Path, target: &str) -> Option<String> {
 
 #[test]
 fn every_link_between_the_pages_leads_somewhere() {
-    let pages = pages(&root());
+    let pages = find_pages(&root());
     let mut count = 0;
     let mut all = Vec::new();
     for page in &pages {
-        let links = links(&prose(&fs::read_to_string(page).unwrap()));
+        let links = find_links(&prose(&fs::read_to_string(page).unwrap()));
         count += links.len();
         all.extend(links.iter().filter_map(|target| broken(page, target)));
     }
@@ -104,10 +104,10 @@ fn every_link_between_the_pages_leads_somewhere() {
 
 #[test]
 fn the_readme_leads_to_every_guide() {
-    let links = links(&prose(
+    let links = find_links(&prose(
         &fs::read_to_string(root().join("README.md")).unwrap(),
     ));
-    for guide in pages(&root().join("docs")) {
+    for guide in find_pages(&root().join("docs")) {
         let name = format!("docs/{}", guide.file_name().unwrap().to_string_lossy());
         let named = links
             .iter()

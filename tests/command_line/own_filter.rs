@@ -42,7 +42,7 @@ struct Mistake {
 }
 
 /// The items ``- .., `from` written `to` in file:``, each with a block of code.
-fn mistakes() -> Vec<Mistake> {
+fn read_mistakes() -> Vec<Mistake> {
     (section().split("\n- ").skip(1))
         .map(|item| {
             let (head, code) = item.split_once(":\n\n").unwrap();
@@ -81,7 +81,7 @@ fn the_filter_of_the_guide_runs_and_is_better_than_none() {
 #[test]
 fn each_mistake_says_what_the_readme_says() {
     let bench = Bench::new();
-    let mistakes = mistakes();
+    let mistakes = read_mistakes();
     assert_eq!(
         mistakes.len(),
         4,

@@ -39,7 +39,7 @@ const BODY: &str = "
     textureStore(output, pixel, sum / f32(parameters.radius));
 ";
 
-fn bench() -> Bench {
+fn set_up() -> Bench {
     let bench = Bench::new();
     bench.write_filter("mine", MANIFEST, &one_kernel("radius: i32", BODY));
     bench
@@ -54,7 +54,7 @@ fn case(bench: &Bench, more: &[&str]) -> Case {
 
 #[test]
 fn a_run_scales_a_preset_to_its_width_and_says_so() {
-    let bench = bench();
+    let bench = set_up();
     let scaled = case(&bench, &[]);
     assert_eq!(scaled.parameters["radius"], Value::Integer(4));
     assert_eq!(scaled.reference_width, Some(256));
@@ -75,7 +75,7 @@ fn a_run_scales_a_preset_to_its_width_and_says_so() {
 
 #[test]
 fn a_guard_band_is_not_part_of_the_width() {
-    let bench = bench();
+    let bench = set_up();
     let case = case(&bench, &["--guard-band", "32"]);
     assert_eq!(case.parameters["radius"], Value::Integer(4));
 
@@ -102,7 +102,7 @@ fn a_guard_band_is_not_part_of_the_width() {
 
 #[test]
 fn every_command_that_runs_filters_scales_and_can_be_told_not_to() {
-    let bench = bench();
+    let bench = set_up();
     let json =
         |words: &[&str]| -> serde_json::Value { serde_json::from_str(&bench.done(words)).unwrap() };
     let bench_words = [
@@ -158,7 +158,7 @@ fn every_command_that_runs_filters_scales_and_can_be_told_not_to() {
 
 #[test]
 fn what_tuning_finds_is_meant_for_the_width_it_was_found_at() {
-    let bench = bench();
+    let bench = set_up();
     let words = [
         "tune",
         "--quiet",

@@ -1,9 +1,8 @@
 //! Refused command lines: their words, their exit codes, and nothing left behind.
 
 use std::fs;
-use std::process::Command;
 
-use crate::bench::{Bench, OBJ, SCENE, assert_done, assert_refused, files_below};
+use crate::bench::{Bench, OBJ, SCENE, assert_done, assert_refused, files_below, press_ctrl_c};
 
 #[test]
 fn no_adapter_is_exit_code_3_and_names_the_way_out() {
@@ -194,11 +193,7 @@ fn ctrl_c_leaves_no_broken_file() {
         .spawn()
         .unwrap();
     std::thread::sleep(std::time::Duration::from_millis(500));
-    let interrupt = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .unwrap();
-    assert!(interrupt.success());
+    press_ctrl_c(&child);
     assert_eq!(child.wait().unwrap().code(), Some(130));
     let out = bench.path("out");
     let mut left = if out.exists() {

@@ -70,7 +70,7 @@ fn load_changed(from: &str, to: &str) -> Result<Filter, FilterError> {
     load(&MANIFEST.replacen(from, to, 1))
 }
 
-fn filter() -> Filter {
+fn load_unchanged() -> Filter {
     load_changed("", "").unwrap()
 }
 
@@ -89,7 +89,7 @@ fn values(tile_size: i32, threshold: f64, samples: i32) -> [Value; 3] {
 
 #[test]
 fn a_source_names_repository_commit_files_and_differences() {
-    let filter = filter();
+    let filter = load_unchanged();
     let source = filter.presets[0].source.as_ref().unwrap();
     let code = source.code.as_ref().unwrap();
     assert_eq!(code.repository, "https://example.org/engine");
@@ -154,7 +154,7 @@ fn only_what_has_pixels_can_be_scaled() {
 
 #[test]
 fn lengths_grow_with_the_width_are_rounded_and_stay_in_range() {
-    let filter = filter();
+    let filter = load_unchanged();
     let engine = filter.settings(Some("engine")).unwrap();
     assert_eq!(scaled(&filter, &engine, 1920), values(20, 1.5, 9));
     assert_eq!(scaled(&filter, &engine, 960), values(10, 0.75, 9));
@@ -170,7 +170,7 @@ fn lengths_grow_with_the_width_are_rounded_and_stay_in_range() {
 
 #[test]
 fn what_a_person_sets_is_not_scaled_nor_anything_twice() {
-    let filter = filter();
+    let filter = load_unchanged();
     let mut settings = filter.settings(Some("engine")).unwrap();
     settings.set(&filter, "tile_size", "20").unwrap();
     assert_eq!(scaled(&filter, &settings, 960), values(20, 0.75, 9));
@@ -183,7 +183,7 @@ fn what_a_person_sets_is_not_scaled_nor_anything_twice() {
 
 #[test]
 fn as_written_nothing_is_scaled() {
-    let filter = filter();
+    let filter = load_unchanged();
     let settings = filter.settings(Some("engine")).unwrap().as_written();
     assert_eq!(settings.reference_width, None);
     assert_eq!(scaled(&filter, &settings, 160), values(20, 1.5, 9));

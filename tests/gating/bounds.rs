@@ -17,7 +17,7 @@ const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
 const HARDLY_MOVING: [&str; 1] = ["creep"];
 
 /// Judges the instant itself, and the mean of 64 sub-frames.
-fn judged(choice: &SceneChoice, out: &Path) -> [Vec<JudgedScore>; 2] {
+fn judge_bars(choice: &SceneChoice, out: &Path) -> [Vec<JudgedScore>; 2] {
     let settings = RenderSettings {
         width: 160,
         height: 90,
@@ -69,7 +69,7 @@ fn the_identity_breaks_a_bound_in_every_moving_scene_and_64_subframes_break_none
     let mut failures = Vec::new();
     let (out, _own) = kept_truths();
     for choice in &scenes {
-        let [identity, accumulation] = judged(choice, &out);
+        let [identity, accumulation] = judge_bars(choice, &out);
         let broken =
             |judged: &[JudgedScore]| judged.iter().any(|one| one.outcome == Outcome::Broken);
         let noisy =

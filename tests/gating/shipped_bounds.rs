@@ -50,21 +50,21 @@ fn guarded_filters_keep_what_is_required_of_them_on_every_scene() {
         no_cache: false,
         monitor: Monitor::SILENT,
     };
-    let run = measure_scenes(&plan, Some(&gpu), Vec::new()).unwrap();
-    let check = check(&run, judge(&run, &bounds), Vec::new());
+    let finished = measure_scenes(&plan, Some(&gpu), Vec::new()).unwrap();
+    let checked = check(&finished, judge(&finished, &bounds), Vec::new());
     for scene in &plan.scenes {
         for filter in GUARDED {
             for metric in ["flip_moving", "bleed_lateral"] {
-                assert_required(&check, &scene.name, filter, metric);
+                assert_required(&checked, &scene.name, filter, metric);
             }
         }
     }
-    let not_kept: Vec<String> = (check.findings.iter())
+    let not_kept: Vec<String> = (checked.findings.iter())
         .filter(|finding| finding.level == Level::Required)
         .filter(|finding| !matches!(finding.outcome, Outcome::Kept | Outcome::NotApplicable))
-        .map(described)
+        .map(describe)
         .collect();
-    assert_eq!(check.decision, Decision::Pass, "{}", not_kept.join("\n"));
+    assert_eq!(checked.decision, Decision::Pass, "{}", not_kept.join("\n"));
 }
 
 fn assert_required(check: &Check, scene: &str, filter: &str, metric: &str) {
@@ -79,7 +79,7 @@ fn assert_required(check: &Check, scene: &str, filter: &str, metric: &str) {
     );
 }
 
-fn described(finding: &Finding) -> String {
+fn describe(finding: &Finding) -> String {
     format!(
         "{} {} {} is {:?}: {:?} within {:?}, limit {}",
         finding.scene,

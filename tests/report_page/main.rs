@@ -16,11 +16,11 @@ use browser::{Browser, address_of};
 use numbers::read_out;
 
 /// Makes the page of the bench's last run; returns its path.
-fn reported(bench: &Bench) -> PathBuf {
-    reported_within(bench, LARGEST_PAGE)
+fn make_page(bench: &Bench) -> PathBuf {
+    make_page_within(bench, LARGEST_PAGE)
 }
 
-fn reported_within(bench: &Bench, largest: usize) -> PathBuf {
+fn make_page_within(bench: &Bench, largest: usize) -> PathBuf {
     let html = bench.path("page/a report.html");
     let (run, findings) = (bench.measured(), bench.findings());
     let report = report(&run, &findings, &bench.path("out"), &html, largest).unwrap();
@@ -55,7 +55,7 @@ fn a_page_opens_without_complaint_and_asks_for_nothing_else() {
     let bench = Bench::new();
     bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
     assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     let mut browser = Browser::new(1280, 900);
     browser.open(&page, "");
     for case in 0..bench.measured().cases.len() {
@@ -81,7 +81,7 @@ fn divider_and_keys_change_what_is_seen() {
     const STAGE: &str = ".stage";
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "identity"]));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     let mut browser = Browser::new(1280, 900);
     open_case(&mut browser, &page, number_of(&bench, "identity:default"));
     let first = browser.picture(STAGE);
@@ -136,7 +136,7 @@ fn headings_sort_both_ways() {
         "--filters",
         "identity,velocity_gather:fine,jump_flood:paper",
     ]));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     let mut browser = Browser::new(1280, 900);
     browser.open(&page, "");
     let column = |browser: &mut Browser, press: bool| -> Vec<f64> {
@@ -168,7 +168,7 @@ fn headings_sort_both_ways() {
 fn rows_of_one_shutter_stay_together_when_headings_sort() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "velocity_gather:fine,bevy:high"]));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     let mut browser = Browser::new(1280, 900);
     browser.open(&page, "");
     let names = |browser: &mut Browser| {
@@ -199,7 +199,7 @@ fn a_broken_bound_is_seen_with_its_place_and_its_pictures() {
     );
     let output = bench.check(&["--filters", "identity"]);
     assert_eq!(output.status.code(), Some(1));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     let number = number_of(&bench, "identity:default");
     let mut browser = Browser::new(1280, 900);
     browser.open(&page, "");
@@ -252,7 +252,7 @@ fn a_scene_called_script_is_shown_and_not_run() {
         text.replace("nothing: it serves", "<img src=x onerror=alert(2)> & it's")
     });
     assert_done(&bench.run(&["--filters", "identity", "--scenes", NAME]));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     let number = number_of(&bench, "identity:default");
     let mut browser = Browser::new(1280, 900);
     open_case(&mut browser, &page, number);
@@ -272,7 +272,7 @@ fn a_scene_called_script_is_shown_and_not_run() {
 fn everything_fits_a_narrow_screen() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "identity"]));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     let mut browser = Browser::new(360, 800);
     for part in [
         "".to_owned(),

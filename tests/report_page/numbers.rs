@@ -9,7 +9,7 @@ use suite::Case;
 
 use crate::bench::{Bench, assert_done};
 use crate::browser::{Browser, address_of};
-use crate::{number_of, open_case, reported, reported_within};
+use crate::{make_page, make_page_within, number_of, open_case};
 
 /// The read-out's rows by the layer, each with its texts.
 pub fn read_out(browser: &mut Browser, x: u32, y: u32) -> serde_json::Value {
@@ -55,7 +55,7 @@ fn files_of(bench: &Bench, case: &Case) -> [ExrFile; 4] {
 fn the_read_out_is_the_value_of_the_openexr_files() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     let number = number_of(&bench, "velocity_gather:fine");
     let case = &bench.measured().cases[number];
     let files = files_of(&bench, case);
@@ -135,7 +135,7 @@ struct Digits {
 fn numbers_beside_the_page_are_found_and_have_three_digits() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
-    let page = reported_within(&bench, 0);
+    let page = make_page_within(&bench, 0);
     let beside = bench.path("page/a report_files/scene_0.js");
     assert!(beside.is_file());
     let mut browser = Browser::new(1280, 900);
@@ -163,14 +163,14 @@ fn a_page_that_holds_no_halves_holds_what_a_screen_shows() {
     let mut room = [0, LARGEST_PAGE];
     while room[1] - room[0] > 64 {
         let middle = (room[0] + room[1]) / 2;
-        reported_within(&bench, middle);
+        make_page_within(&bench, middle);
         let fits = !beside.exists();
         room[usize::from(fits)] = middle;
         if !fits {
             fs::remove_dir_all(&beside).unwrap();
         }
     }
-    let page = reported_within(&bench, room[1]);
+    let page = make_page_within(&bench, room[1]);
     let text = fs::read_to_string(&page).unwrap();
     assert!(text.contains("data-precision=\"screen\""));
     assert!(!beside.exists());

@@ -61,7 +61,6 @@ pub fn copy_shipped_filter(name: &str, copy: &Path) {
 }
 
 /// Writes a filter that is a shell script with the files as $1 and $2: `lines` is the script, `more` follows in filter.toml.
-#[cfg(unix)]
 pub fn write_program(folder: &Path, name: &str, lines: &str, more: &str) {
     let command = "command = [\"./blur.sh\", \"{frame}\", \"{out}\"]";
     write_manifest(folder, name, &format!("{command}\n{more}"));
@@ -77,9 +76,11 @@ pub fn write_manifest(folder: &Path, name: &str, more: &str) {
 }
 
 /// Writes a shell script that can be started.
-#[cfg(unix)]
 pub fn write_script(path: &Path, lines: &str) {
-    use std::os::unix::fs::PermissionsExt;
     fs::write(path, format!("#!/bin/sh\n{lines}\n")).unwrap();
-    fs::set_permissions(path, fs::Permissions::from_mode(0o755)).unwrap();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        fs::set_permissions(path, fs::Permissions::from_mode(0o755)).unwrap();
+    }
 }

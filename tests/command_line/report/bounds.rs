@@ -2,7 +2,7 @@
 
 use tests::text::assert_contains;
 
-use super::{article, between, reported};
+use super::{find_article, find_between, make_page};
 use crate::bench::{Bench, quick, stdout};
 
 #[test]
@@ -16,7 +16,7 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
     );
     let output = bench.check(&["--filters", "identity"]);
     assert_eq!(output.status.code(), Some(1), "{}", stdout(&output));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     let run = bench.measured();
     let index = run
         .cases
@@ -35,10 +35,10 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
          <span class=\"unseen\">, broken, required limit 0.2000</span></a>"
     );
     assert!(page.contains(&cell), "{cell}");
-    let failures = between(&page, "<details class=\"failures\"", "</details>")[0];
+    let failures = find_between(&page, "<details class=\"failures\"", "</details>")[0];
     assert!(failures.contains("plate / identity:default"));
 
-    let article = article(&page, index);
+    let article = find_article(&page, index);
     let findings = bench.findings();
     let worst = findings[0].worst.as_ref().unwrap();
     assert_contains(
@@ -72,7 +72,7 @@ fn a_run_that_looked_for_no_place_gets_one_in_its_report() {
     );
     let output = bench.check(&["--filters", "identity"]);
     assert_eq!(output.status.code(), Some(1));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     let case = |bench: &Bench| {
         bench
             .measured()
@@ -81,18 +81,18 @@ fn a_run_that_looked_for_no_place_gets_one_in_its_report() {
             .position(|case| !case.is_reference)
             .unwrap()
     };
-    let checked = between(
-        article(&page, case(&bench)),
+    let checked = find_between(
+        find_article(&page, case(&bench)),
         "<figure class=\"crop\" ",
         " data-map",
     )[0]
     .to_owned();
     let words = [&quick("run", "64")[..], &["--filters", "identity"]].concat();
     bench.done(&words);
-    let page = reported(&bench);
-    let article = article(&page, case(&bench));
+    let page = make_page(&bench);
+    let article = find_article(&page, case(&bench));
     assert_eq!(
-        between(article, "<figure class=\"crop\" ", " data-map")[0],
+        find_between(article, "<figure class=\"crop\" ", " data-map")[0],
         checked
     );
     assert!(article.contains("No known failure pattern matched (only <code>check</code> looks"));

@@ -4,7 +4,7 @@ use std::fs;
 
 use tests::text::assert_contains;
 
-use super::{WORDS, between, reported};
+use super::{WORDS, find_between, make_page};
 use crate::bench::{Bench, assert_done, assert_refused, split};
 
 #[test]
@@ -12,12 +12,12 @@ fn costs_are_those_of_the_bench_beside_the_run() {
     let bench = Bench::new();
     let words = "--filters identity,mcguire:paper --set mcguire.samples=7";
     assert_done(&bench.run(&split(words)));
-    let without = reported(&bench);
+    let without = make_page(&bench);
     assert!(without.contains("Nothing was timed beside this run."));
     let words =
         "bench --quiet --filters identity,jump_flood:paper,mcguire:paper --size 64x32 --out out";
     bench.done(&split(words));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     let text = fs::read_to_string(bench.path("out/bench.json")).unwrap();
     let timed: suite::Bench = serde_json::from_str(&text).unwrap();
     let seconds = timed
@@ -31,7 +31,7 @@ fn costs_are_those_of_the_bench_beside_the_run() {
     let cell = format!("<td class=\"cost\" data-value=\"{}\">", seconds.median);
     assert_eq!(page.matches(&cell).count(), 9);
     assert_eq!(page.matches("<td class=\"cost\" data-value").count(), 9);
-    let costs = between(&page, "<section class=\"costs\">", "</section>")[0];
+    let costs = find_between(&page, "<section class=\"costs\">", "</section>")[0];
     assert_contains(
         &costs,
         &[

@@ -14,7 +14,7 @@ use crate::bench::{Bench, assert_done, stdout};
 const WORDS: [&str; 4] = ["report", "out/run.json", "--html", "page/report.html"];
 
 /// Makes the page of the bench's last run.
-fn reported(bench: &Bench) -> String {
+fn make_page(bench: &Bench) -> String {
     let output = bench.shuttertruth(&WORDS);
     assert_done(&output);
     assert!(stdout(&output).contains("written: page/report.html ("));
@@ -22,7 +22,7 @@ fn reported(bench: &Bench) -> String {
 }
 
 /// Returns every text between `before` and `after`.
-fn between<'a>(page: &'a str, before: &str, after: &str) -> Vec<&'a str> {
+fn find_between<'a>(page: &'a str, before: &str, after: &str) -> Vec<&'a str> {
     let rests = page.split(before).skip(1);
     rests
         .map(|rest| rest.split_once(after).expect("an end").0)
@@ -30,8 +30,8 @@ fn between<'a>(page: &'a str, before: &str, after: &str) -> Vec<&'a str> {
 }
 
 /// The part of a page that shows a case, by the case's number.
-fn article(page: &str, case: usize) -> &str {
-    between(
+fn find_article(page: &str, case: usize) -> &str {
+    find_between(
         page,
         &format!("<article class=\"case\" id=\"case-{case}\""),
         "</article>",

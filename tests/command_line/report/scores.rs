@@ -2,12 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use super::{article, between, reported};
+use super::{find_article, find_between, make_page};
 use crate::bench::{Bench, assert_done};
 
 /// The numbers of a page's scenes, as JSON.
-fn shelves(page: &str) -> Vec<serde_json::Value> {
-    let texts = between(
+fn read_shelves(page: &str) -> Vec<serde_json::Value> {
+    let texts = find_between(
         page,
         "<script type=\"application/json\" data-scene=\"",
         "</script>",
@@ -18,7 +18,7 @@ fn shelves(page: &str) -> Vec<serde_json::Value> {
 }
 
 /// The part of a page that shows one score of all cases.
-fn panel<'a>(page: &'a str, metric: &str) -> &'a str {
+fn find_panel<'a>(page: &'a str, metric: &str) -> &'a str {
     let (_, rest) = page
         .split_once(&format!("data-metric=\"{metric}\""))
         .unwrap();
@@ -30,14 +30,14 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
     let bench = Bench::new();
     bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
     assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     let run = bench.measured();
     for (index, case) in run.cases.iter().enumerate() {
         for (metric, digits) in [("flip_moving", 3), ("row_loss", 2), ("psnr_moving", 1)] {
             let value = case.scores.get(metric.parse().unwrap()).value().unwrap();
             let cell = format!("href=\"#case-{index}\">{value:.digits$}</a>");
             assert_eq!(
-                panel(&page, metric).matches(&cell).count(),
+                find_panel(&page, metric).matches(&cell).count(),
                 1,
                 "{metric}: {cell}"
             );
@@ -45,13 +45,13 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
         let count = &case.scores.equivalent_subframes.mse;
         let count = count.to_string().replace('<', "&lt;").replace('>', "&gt;");
         let cell = format!("href=\"#case-{index}\">{count}</a>");
-        assert!(panel(&page, "n_eq").contains(&cell), "{cell}");
-        let article = article(&page, index);
+        assert!(find_panel(&page, "n_eq").contains(&cell), "{cell}");
+        let article = find_article(&page, index);
         assert!(article.contains(&format!("{} / {}", case.scene, case.name())));
         assert!(article.contains("nothing: it serves the tests"));
         assert!(article.contains(&case.truth_hash));
     }
-    let ranking = between(&page, "aria-label=\"Ranking by FLIP\"", "</table>")[0];
+    let ranking = find_between(&page, "aria-label=\"Ranking by FLIP\"", "</table>")[0];
     let mut means: Vec<_> = (run.overall.iter())
         .filter(|mean| mean.metric == "flip_moving")
         .collect();
@@ -75,10 +75,10 @@ fn a_ranking_by_flip_has_a_group_per_shutter_and_one_by_skill_has_all_in_one() {
     // A slow scene of few samples has no skill: what the oracle gains there is noise.
     bench.copy_scene("fast", |text| text.replace("-1.6, 0, 0", "-3.2, 0, 0"));
     assert_done(&bench.run(&["--filters", "velocity_gather:fine,bevy:high"]));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     let ranking = |title: &str| {
         let label = format!("aria-label=\"Ranking by {title}\"");
-        between(&page, &label, "</table>")[0]
+        find_between(&page, &label, "</table>")[0]
     };
     let by_flip = ranking("FLIP");
     let (trailing, centred) = by_flip.split_once("centred shutter").unwrap();
@@ -107,8 +107,8 @@ fn a_page_holds_every_plane_once_and_fetches_nothing() {
     let bench = Bench::new();
     bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
     assert_done(&bench.run(&["--filters", "identity,jump_flood:paper"]));
-    let page = reported(&bench);
-    let shelves = shelves(&page);
+    let page = make_page(&bench);
+    let shelves = read_shelves(&page);
     assert_eq!(shelves.len(), 2, "one per scene");
     for shelf in &shelves {
         let planes: Vec<&str> = (shelf["planes"].as_array().unwrap().iter())
@@ -121,9 +121,11 @@ fn a_page_holds_every_plane_once_and_fetches_nothing() {
         assert_eq!(once.len(), planes.len(), "a plane stands there twice");
     }
     for (index, case) in bench.measured().cases.iter().enumerate() {
-        let article = article(&page, index);
-        let layers = between(article, "data-layers=\"", "\"")[0];
-        let scene: usize = between(article, "data-scene=\"", "\"")[0].parse().unwrap();
+        let article = find_article(&page, index);
+        let layers = find_between(article, "data-layers=\"", "\"")[0];
+        let scene: usize = find_between(article, "data-scene=\"", "\"")[0]
+            .parse()
+            .unwrap();
         let mut names = Vec::new();
         for pair in layers.split(' ') {
             let (name, planes) = pair.split_once(':').unwrap();
@@ -154,7 +156,7 @@ fn a_page_holds_every_plane_once_and_fetches_nothing() {
 
     assert!(page.contains("content=\"default-src 'none'; img-src data:;"));
     for attribute in [" src=\"", " href=\""] {
-        for address in between(&page, attribute, "\"") {
+        for address in find_between(&page, attribute, "\"") {
             assert!(
                 address.starts_with('#') || address.starts_with("data:"),
                 "{address}"
@@ -170,7 +172,7 @@ fn a_page_holds_every_plane_once_and_fetches_nothing() {
 fn the_same_run_makes_the_same_page() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "identity"]));
-    assert!(reported(&bench) == reported(&bench));
+    assert!(make_page(&bench) == make_page(&bench));
 }
 
 #[cfg(unix)] // Elsewhere no folder has such a name.
@@ -183,7 +185,7 @@ fn a_scene_called_script_is_shown_and_not_run() {
     });
     let words = ["--filters", "identity", "--scenes", NAME];
     assert_done(&bench.run(&words));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     assert!(page.contains("<h2 tabindex=\"-1\">&lt;script&gt;alert(1) / identity:default</h2>"));
     assert!(page.contains("This scene exposes: &lt;img src=x onerror=alert(2)&gt; &amp; it"));
     assert!(!page.contains("<script>alert") && !page.contains("<img src=x"));

@@ -9,7 +9,7 @@ use crate::bench::{Bench, assert_refused};
 const TUNE: &str = "tune --quiet --filter jump_flood --from paper --vary samples=2..16,jitter,foreground_extent --objective flip,bleed \
                     --scenes plate,slow --size 64x32 --samples-per-pixel 16 --out tuned";
 
-fn bench() -> Bench {
+fn set_up() -> Bench {
     let bench = Bench::new();
     bench.copy_scene("slow", |text| {
         text.replace("-1.6", "-0.8")
@@ -24,14 +24,14 @@ fn tune(bench: &Bench, more: &[&str]) {
     bench.done(&[&words[..], more].concat());
 }
 
-fn page(bench: &Bench) -> String {
+fn make_page(bench: &Bench) -> String {
     bench.done(&["report", "tuned", "--html", "page.html"]);
     fs::read_to_string(bench.path("page.html")).unwrap()
 }
 
 /// The part of a page behind a heading, up to the next one.
 #[track_caller]
-fn section<'a>(page: &'a str, heading: &str) -> &'a str {
+fn find_section<'a>(page: &'a str, heading: &str) -> &'a str {
     let start = format!("<h2>{heading}</h2>");
     let (_, rest) = page
         .split_once(&start)
@@ -41,7 +41,7 @@ fn section<'a>(page: &'a str, heading: &str) -> &'a str {
 
 #[test]
 fn a_tuning_is_shown_with_its_trials_its_choice_and_its_folds() {
-    let bench = bench();
+    let bench = set_up();
     tune(
         &bench,
         &[
@@ -55,17 +55,16 @@ fn a_tuning_is_shown_with_its_trials_its_choice_and_its_folds() {
             "16",
         ],
     );
-    let page = page(&bench);
-    let tuning: Tuning =
-        serde_json::from_slice(&fs::read(bench.path("tuned/tune.json")).unwrap()).unwrap();
+    let page = make_page(&bench);
+    let tuning: Tuning = bench.read_json("tuned/tune.json");
     assert!(page.contains("from paper, 14 trials on 2 scenes"));
-    let convergence = section(&page, "Convergence");
+    let convergence = find_section(&page, "Convergence");
     assert_eq!(
         convergence.matches("<circle").count(),
         14,
         "one mark a trial"
     );
-    let front = section(&page, "Trials that ran on every scene");
+    let front = find_section(&page, "Trials that ran on every scene");
     for trial in &tuning.front {
         assert!(
             front.contains(&format!("<th scope=\"row\">{}", trial.trial)),
@@ -73,7 +72,7 @@ fn a_tuning_is_shown_with_its_trials_its_choice_and_its_folds() {
             trial.trial
         );
     }
-    let folds = section(&page, "Cross-validation");
+    let folds = find_section(&page, "Cross-validation");
     assert_eq!(tuning.folds.len(), 2, "two families");
     for fold in &tuning.folds {
         assert!(
@@ -81,12 +80,12 @@ fn a_tuning_is_shown_with_its_trials_its_choice_and_its_folds() {
             "{fold:?}"
         );
     }
-    let sealed = section(&page, "Choice against start on held-out scenes");
+    let sealed = find_section(&page, "Choice against start on held-out scenes");
     let [start, chosen] = &tuning.held_out[0].paired.scenes["sealed"];
     for score in [start, chosen] {
         assert!(sealed.contains(&format!("<td>{:.4}</td>", score.flip)));
     }
-    let values = section(&page, "Values");
+    let values = find_section(&page, "Values");
     for (name, value) in &tuning.chosen.values {
         assert!(
             values.contains(name.as_str()) && values.contains(&format!("{value}")),
@@ -95,13 +94,13 @@ fn a_tuning_is_shown_with_its_trials_its_choice_and_its_folds() {
     }
     // One chart a parameter that was varied.
     assert_eq!(
-        section(&page, "Error along each parameter")
+        find_section(&page, "Error along each parameter")
             .matches("<svg")
             .count(),
         3
     );
     for (_, hash) in &tuning.journal.scenes {
-        assert!(section(&page, "Provenance").contains(hash.as_str()));
+        assert!(find_section(&page, "Provenance").contains(hash.as_str()));
     }
     assert!(
         !page.contains("http:") && !page.contains("https:"),
@@ -111,12 +110,12 @@ fn a_tuning_is_shown_with_its_trials_its_choice_and_its_folds() {
 
 #[test]
 fn a_study_of_sensitivity_is_shown_with_intervals_and_slices() {
-    let bench = bench();
+    let bench = set_up();
     tune(&bench, &["--sobol", "4"]);
-    let page = page(&bench);
+    let page = make_page(&bench);
     let found: Sensitivity =
         serde_json::from_slice(&fs::read(bench.path("tuned/sensitivity.json")).unwrap()).unwrap();
-    let table = section(&page, "Which parameters can become constants");
+    let table = find_section(&page, "Which parameters can become constants");
     for (name, own) in &found.parameters {
         let total = own.indices.total;
         assert!(
@@ -124,7 +123,7 @@ fn a_study_of_sensitivity_is_shown_with_intervals_and_slices() {
             "{name}"
         );
     }
-    let slices = section(&page, "Error along each parameter");
+    let slices = find_section(&page, "Error along each parameter");
     assert_eq!(slices.matches("<polyline").count(), found.parameters.len());
     // A study of a version that could do without Sobol indices.
     let mut old: serde_json::Value = serde_json::to_value(&found).unwrap();
@@ -145,7 +144,7 @@ fn a_study_of_sensitivity_is_shown_with_intervals_and_slices() {
 
 #[test]
 fn a_tuning_under_way_has_a_page_and_a_folder_without_any_is_refused() {
-    let bench = bench();
+    let bench = set_up();
     tune(&bench, &["--budget", "3"]);
     fs::remove_file(bench.path("tuned/tune.json")).unwrap();
     let journal = bench.path("tuned/journal.jsonl");
@@ -153,7 +152,7 @@ fn a_tuning_under_way_has_a_page_and_a_folder_without_any_is_refused() {
     // A fourth trial is being written.
     fs::write(&journal, format!("{text}{{\"trial\": 3, \"val")).unwrap();
     assert_eq!(
-        section(&page(&bench), "Convergence")
+        find_section(&make_page(&bench), "Convergence")
             .matches("<circle")
             .count(),
         3
@@ -181,7 +180,7 @@ fn a_tuning_under_way_has_a_page_and_a_folder_without_any_is_refused() {
 
 #[test]
 fn what_a_filter_says_is_shown_and_not_run() {
-    let bench = bench();
+    let bench = set_up();
     tune(&bench, &["--budget", "3"]);
     let path = bench.path("tuned/tune.json");
     let mut tuning: Tuning = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
@@ -189,7 +188,7 @@ fn what_a_filter_says_is_shown_and_not_run() {
         .failed
         .insert(2, "<script>alert(1)</script>".to_owned());
     fs::write(&path, serde_json::to_string(&tuning).unwrap()).unwrap();
-    let page = page(&bench);
+    let page = make_page(&bench);
     assert!(
         page.contains("&lt;script&gt;alert(1)"),
         "the reason is not shown"

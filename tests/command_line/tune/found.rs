@@ -8,12 +8,12 @@ use suite::TrialOutcome;
 use tests::filter_folder::copy_shipped_filter;
 use tests::text::assert_contains;
 
-use super::{bench, journal, trials, tuning, tuning_words};
+use super::{parse_trials, read_journal, read_tuning, set_up, tuning_words};
 use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
 
 #[test]
 fn a_tuning_beats_the_start_and_writes_down_how() {
-    let bench = bench();
+    let bench = set_up();
     let table = bench.done(&tuning_words("out", "40", &["--sealed", "plate"]));
     assert_contains(
         &table,
@@ -26,8 +26,8 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
             "FLIP of chosen against start",
         ],
     );
-    let journal = journal(&bench, "out");
-    let trials = trials(&journal);
+    let journal = read_journal(&bench, "out");
+    let trials = parse_trials(&journal);
     assert_eq!(trials.len(), 40);
     // It begins with what was published and not with what another tuning found.
     let begun = |preset: &str| {
@@ -41,7 +41,7 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
     assert!(["paper", "july_2024", "corrected"].map(begun) == [true; 3]);
     assert!(!begun("tuned"), "{journal}");
     // The published demo scales each trail by noise; another jitter alone takes some percent off, on these small plates.
-    let tuning = tuning(&bench, "out");
+    let tuning = read_tuning(&bench, "out");
     assert!(tuning.chosen.error.unwrap() < -0.01, "{table}");
     assert_eq!(tuning.start.error, Some(0.0));
     assert_eq!(tuning.start.values["samples"], filters::Value::Integer(8));
@@ -97,7 +97,7 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
 
     // Another look at the same is no second opening; one at something else is.
     bench.done(&tuning_words("out", "40", &["--sealed", "plate"]));
-    assert_eq!(self::tuning(&bench, "out").held_out.len(), 1);
+    assert_eq!(read_tuning(&bench, "out").held_out.len(), 1);
     let other = ["--sealed", "plate", "--sealed-size", "64x32"];
     let output = bench.shuttertruth(&tuning_words("out", "40", &other));
     assert!(
@@ -105,15 +105,15 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
         "{}",
         stdout(&output)
     );
-    assert_eq!(self::journal(&bench, "out"), journal, "no trial was added");
+    assert_eq!(read_journal(&bench, "out"), journal, "no trial was added");
 }
 
 #[test]
 fn a_score_of_a_trial_is_that_of_a_run() {
-    let bench = bench();
+    let bench = set_up();
     bench.done(&tuning_words("out", "1", &[]));
     assert_done(&bench.run(&["--filters", "jump_flood:paper", "--scenes", "a,b,c,d,e,f,g"]));
-    let trial = &trials(&journal(&bench, "out"))[0];
+    let trial = &parse_trials(&read_journal(&bench, "out"))[0];
     for case in bench.measured_filters() {
         let score = trial.scenes[&case.scene];
         assert_eq!(
@@ -143,7 +143,7 @@ fn with_preset(bench: &Bench, preset: &str) -> Filter {
 
 #[test]
 fn two_presets_are_compared_scene_by_scene() {
-    let bench = bench();
+    let bench = set_up();
     let words = split("tune --quiet --filter jump_flood --compare paper,corrected");
     let more = split("--scenes a,b,c,d,e,f,g --size 64x32 --samples-per-pixel 16 --out out");
     let output = bench.shuttertruth(&[&words[..], &more].concat());
@@ -175,7 +175,7 @@ fn two_presets_are_compared_scene_by_scene() {
 
 #[test]
 fn a_study_tells_what_matters() {
-    let bench = bench();
+    let bench = set_up();
     let words = split("tune --quiet --filter jump_flood --from corrected --sobol 4");
     let more = split("--vary samples,behind_extent --scenes a,b --size 64x32");
     let few = ["--samples-per-pixel", "16", "--out", "out"];
@@ -205,11 +205,11 @@ fn a_study_tells_what_matters() {
 
 #[test]
 fn a_cost_is_a_ratio_to_the_start() {
-    let bench = bench();
+    let bench = set_up();
     let words = split("tune --quiet --filter jump_flood --vary samples --scenes a");
     let more = split("--size 64x32 --samples-per-pixel 16 --budget 6 --out out");
     bench.done(&[&words[..], &more].concat());
-    let trials = trials(&journal(&bench, "out"));
+    let trials = parse_trials(&read_journal(&bench, "out"));
     assert_eq!(trials[0].cost, Some(1.0));
     assert!(
         trials

@@ -4,12 +4,12 @@ use std::fs;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use super::{bench, journal, tuning_words};
+use super::{read_journal, set_up, tuning_words};
 use crate::bench::assert_refused;
 
 #[test]
 fn a_killed_tuning_goes_on_where_it_was_and_ends_with_the_same_bytes() {
-    let bench = bench();
+    let bench = set_up();
     bench.done(&tuning_words("whole", "30", &[]));
     let mut child = bench
         .command(&tuning_words("killed", "30", &[]))
@@ -27,17 +27,20 @@ fn a_killed_tuning_goes_on_where_it_was_and_ends_with_the_same_bytes() {
     }
     child.kill().unwrap();
     child.wait().unwrap();
-    let left = journal(&bench, "killed");
+    let left = read_journal(&bench, "killed");
     assert!(left.lines().count() < 31, "it was killed on its way");
     // A line that was half written when the power failed.
     fs::write(&path, format!("{left}{{\"trial\":7")).unwrap();
     bench.done(&tuning_words("killed", "30", &[]));
-    assert_eq!(journal(&bench, "killed"), journal(&bench, "whole"));
+    assert_eq!(
+        read_journal(&bench, "killed"),
+        read_journal(&bench, "whole")
+    );
 }
 
 #[test]
 fn a_file_that_is_no_journal_of_this_tuning_is_left_as_it_was() {
-    let bench = bench();
+    let bench = set_up();
     let path = bench.path("out/journal.jsonl");
     fs::create_dir_all(bench.path("out")).unwrap();
     for foreign in [
@@ -54,11 +57,11 @@ fn a_file_that_is_no_journal_of_this_tuning_is_left_as_it_was() {
 
 #[test]
 fn a_smaller_budget_is_the_beginning_of_a_larger_one_and_another_seed_is_another_search() {
-    let bench = bench();
+    let bench = set_up();
     bench.done(&tuning_words("out", "12", &[]));
-    let first = journal(&bench, "out");
+    let first = read_journal(&bench, "out");
     bench.done(&tuning_words("out", "16", &[]));
-    let second = journal(&bench, "out");
+    let second = read_journal(&bench, "out");
     assert!(second.starts_with(&first) && second.lines().count() == 17);
     let other = tuning_words("out", "16", &["--search-seed", "2"]);
     assert_refused(
@@ -69,16 +72,16 @@ fn a_smaller_budget_is_the_beginning_of_a_larger_one_and_another_seed_is_another
             "another output folder",
         ],
     );
-    assert_eq!(journal(&bench, "out"), second, "nothing is lost");
+    assert_eq!(read_journal(&bench, "out"), second, "nothing is lost");
 }
 
 /// A limit on the size of files stands for a disk that is full: either way, a write comes back with an error.
 #[cfg(unix)]
 #[test]
 fn a_full_disk_loses_nothing() {
-    let bench = bench();
+    let bench = set_up();
     bench.done(&tuning_words("out", "1", &[]));
-    let begun = journal(&bench, "out");
+    let begun = read_journal(&bench, "out");
     // Blocks of 512 bytes: room for some trials more.
     let blocks = (begun.len() + 2000).div_ceil(512).to_string();
     let program = env!("CARGO_BIN_EXE_shuttertruth");
@@ -95,9 +98,9 @@ fn a_full_disk_loses_nothing() {
             "run the same command again",
         ],
     );
-    let left = journal(&bench, "out");
+    let left = read_journal(&bench, "out");
     assert!(left.starts_with(&begun) && left.len() > begun.len());
     bench.done(&tuning_words("out", "20", &[]));
     bench.done(&tuning_words("whole", "20", &[]));
-    assert_eq!(journal(&bench, "out"), journal(&bench, "whole"));
+    assert_eq!(read_journal(&bench, "out"), read_journal(&bench, "whole"));
 }

@@ -22,7 +22,7 @@ const SCENES: [(&str, &str, &str); 7] = [
 ];
 
 /// A bench with scenes a to g.
-fn bench() -> Bench {
+fn set_up() -> Bench {
     let bench = Bench::new();
     for (name, way, family) in SCENES {
         let scene = SCENE
@@ -66,17 +66,17 @@ fn tuning_words<'w>(out: &'w str, budget: &'w str, more: &[&'w str]) -> Vec<&'w 
     [&TUNE[..], &[budget, "--out", out], more].concat()
 }
 
-fn journal(bench: &Bench, out: &str) -> String {
+fn read_journal(bench: &Bench, out: &str) -> String {
     fs::read_to_string(bench.path(out).join("journal.jsonl")).unwrap()
 }
 
-fn trials(journal: &str) -> Vec<Trial> {
+fn parse_trials(journal: &str) -> Vec<Trial> {
     let lines = journal.lines().skip(1);
     lines
         .map(|line| serde_json::from_str(line).unwrap())
         .collect()
 }
 
-fn tuning(bench: &Bench, out: &str) -> Tuning {
+fn read_tuning(bench: &Bench, out: &str) -> Tuning {
     bench.read_json(&format!("{out}/tune.json"))
 }

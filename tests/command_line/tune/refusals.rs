@@ -4,12 +4,12 @@ use std::fs;
 
 use tests::filter_folder::{write_manifest, write_script};
 
-use super::{bench, tuning};
+use super::{read_tuning, set_up};
 use crate::bench::{Bench, SCENE, assert_done, assert_refused, split, stderr, stdout};
 
 #[test]
 fn what_cannot_be_tuned_is_refused_and_leaves_nothing_behind() {
-    let bench = bench();
+    let bench = set_up();
     fs::write(
         bench.path("scenes/g/scene.toml"),
         SCENE.replace("translation = [-1.6,", "translation = [0,"),
@@ -89,7 +89,7 @@ fn fails_above_a_half(bench: &Bench, name: &str, default: &str) {
 #[cfg(unix)]
 #[test]
 fn a_candidate_that_fails_is_told_of_and_the_others_go_on() {
-    let bench = bench();
+    let bench = set_up();
     fails_above_a_half(&bench, "fragile", "0.25");
     let tune = |filter| {
         let words = [
@@ -108,7 +108,7 @@ fn a_candidate_that_fails_is_told_of_and_the_others_go_on() {
     };
     let output = tune("./fragile");
     assert_done(&output);
-    let tuning = tuning(&bench, "out");
+    let tuning = read_tuning(&bench, "out");
     assert_eq!(tuning.trials, 8);
     assert!((1..8).contains(&tuning.failed.len()), "{:?}", tuning.failed);
     let text = stdout(&output);

@@ -3,11 +3,11 @@
 use frame::{Image, Raster, Reprojection};
 use tests::presets::{every_preset, preset_name};
 
-use super::{Field, HEIGHT, WIDTH, gpu};
+use super::{Field, HEIGHT, WIDTH, open_gpu};
 
 #[test]
 fn a_still_frame_comes_out_unchanged() {
-    let gpu = gpu();
+    let gpu = open_gpu();
     let mut field = Field::random(1);
     field.velocity = Raster::filled(WIDTH, HEIGHT, [0.0, 0.0]);
     field.reprojection = Reprojection::STILL;
@@ -20,7 +20,7 @@ fn a_still_frame_comes_out_unchanged() {
 
 #[test]
 fn a_constant_colour_comes_out_constant() {
-    let gpu = gpu();
+    let gpu = open_gpu();
     for color in [[0.2, 0.7, 0.0], [1e4, 3.3e-5, 1.0]] {
         let mut field = Field::random(2);
         field.color = Raster::filled(WIDTH, HEIGHT, color);
@@ -34,7 +34,7 @@ fn a_constant_colour_comes_out_constant() {
 
 #[test]
 fn output_stays_finite_and_within_the_colours_of_the_frame() {
-    let gpu = gpu();
+    let gpu = open_gpu();
     for seed in 3..6 {
         let field = Field::random(seed);
         for (filter, settings) in every_preset() {
@@ -60,7 +60,7 @@ fn output_stays_finite_and_within_the_colours_of_the_frame() {
 
 #[test]
 fn every_colour_goes_through_the_same_weights() {
-    let gpu = gpu();
+    let gpu = open_gpu();
     let field = Field::random(8);
     let matte = field
         .color
@@ -84,7 +84,7 @@ fn every_colour_goes_through_the_same_weights() {
 
 #[test]
 fn a_mixture_of_images_comes_out_as_the_mixture_of_their_blurs() {
-    let gpu = gpu();
+    let gpu = open_gpu();
     let [field, other] = [Field::random(11), Field::random(12)];
     let mix = |a: &Image, b: &Image| a.zip(b, |a, b| [0, 1, 2].map(|c| 0.25 * a[c] + 0.75 * b[c]));
     let mixture = mix(&field.color, &other.color);

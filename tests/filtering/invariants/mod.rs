@@ -9,7 +9,7 @@ use filters::{Blur, Filter, Gpu, Input, Settings};
 use frame::{FAR_DEPTH, Image, Plane, Raster, Reprojection, Vectors};
 use tests::random::Random;
 
-fn gpu() -> Gpu {
+fn open_gpu() -> Gpu {
     Gpu::new(None).expect("these tests run filters")
 }
 

@@ -4,11 +4,11 @@ use filters::{Blur, Filter, Input, Kernels};
 use frame::Image;
 use tests::presets::{every_preset, preset_name};
 
-use super::{Field, HEIGHT, WIDTH, gpu};
+use super::{Field, HEIGHT, WIDTH, open_gpu};
 
 #[test]
 fn two_runs_give_the_same_bytes_whatever_ran_before() {
-    let gpu = gpu();
+    let gpu = open_gpu();
     let (field, other) = (Field::random(6), Field::random(7));
     for (filter, settings) in every_preset() {
         let mut blur = Blur::new(&gpu, &filter, &settings, WIDTH, HEIGHT).unwrap();
@@ -30,7 +30,7 @@ fn bits(image: &Image) -> Vec<u32> {
 
 #[test]
 fn inputs_and_kernels_that_stay_on_the_gpu_give_the_bytes_of_fresh_ones() {
-    let gpu = gpu();
+    let gpu = open_gpu();
     let (field, other) = (Field::random(6), Field::random(7));
     let matte = field.color.map(|[r, ..]| [*r, 0.0, 0.5]);
     let mut filter_before: Option<(Filter, Kernels)> = None;
@@ -65,7 +65,7 @@ fn inputs_and_kernels_that_stay_on_the_gpu_give_the_bytes_of_fresh_ones() {
 
 #[test]
 fn frames_of_noise_made_together_are_those_made_one_by_one() {
-    let gpu = gpu();
+    let gpu = open_gpu();
     let field = Field::random(21);
     let mut noisy = 0;
     for (filter, settings) in every_preset() {

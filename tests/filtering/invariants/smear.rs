@@ -6,7 +6,7 @@ use tests::kernels::{Steady, expected_ramp};
 use tests::presets::{every_preset, preset_name};
 use tests::ramp::Ramp;
 
-use super::{Field, gpu};
+use super::{Field, open_gpu};
 
 const EDGE: u32 = 120;
 
@@ -51,7 +51,7 @@ fn ramp(output: &Image) -> Ramp {
 
 #[test]
 fn an_edge_in_steady_motion_smears_to_the_right_side_and_length() {
-    let gpu = gpu();
+    let gpu = open_gpu();
     // Two presets smear farther than this wall is wide; tests of their own measure them.
     let longer = |(filter, settings): &(Filter, Settings)| {
         filter.name == "jimenez" && ["o3de", "wicked"].contains(&settings.preset.as_str())
@@ -97,7 +97,7 @@ fn light_beside_a_wall(gpu: &Gpu, filter: &Filter, settings: &Settings, left: bo
 
 #[test]
 fn no_trailing_filter_smears_ahead_of_a_mover() {
-    let gpu = gpu();
+    let gpu = open_gpu();
     for (filter, settings) in every_preset() {
         if filter.alignment == Alignment::Trailing {
             let light = light_beside_a_wall(&gpu, &filter, &settings, true);
@@ -109,7 +109,7 @@ fn no_trailing_filter_smears_ahead_of_a_mover() {
 
 #[test]
 fn filters_that_carry_motion_smear_over_what_lies_beside_a_mover() {
-    let gpu = gpu();
+    let gpu = open_gpu();
     for (filter, settings) in every_preset() {
         let light = |left: bool| light_beside_a_wall(&gpu, &filter, &settings, left);
         let name = preset_name(&filter, &settings);
@@ -137,7 +137,7 @@ fn filters_that_carry_motion_smear_over_what_lies_beside_a_mover() {
 
 #[test]
 fn the_corrected_jump_flood_makes_whole_trails_where_the_paper_cuts_them() {
-    let gpu = gpu();
+    let gpu = open_gpu();
     let filter = Filter::builtin("jump_flood").unwrap();
     let trail_behind = |preset: &str, speed: f32| {
         let settings = filter.settings(Some(preset)).unwrap();

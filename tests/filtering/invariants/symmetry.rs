@@ -5,7 +5,7 @@ use frame::{Raster, Reprojection};
 use tests::presets::{every_preset, preset_name};
 use tests::random::Random;
 
-use super::{Field, gpu};
+use super::{Field, open_gpu};
 
 fn mirrored(field: &Field, horizontal: bool) -> Field {
     fn turn<T: Copy>(raster: &Raster<T>, horizontal: bool) -> Raster<T> {
@@ -74,7 +74,7 @@ fn distinct_depths(seed: u64) -> Field {
 
 #[test]
 fn a_mirrored_frame_gives_the_mirrored_output() {
-    let gpu = gpu();
+    let gpu = open_gpu();
     let field = distinct_depths(9);
     let symmetric = every_preset()
         .into_iter()
@@ -93,7 +93,7 @@ fn a_mirrored_frame_gives_the_mirrored_output() {
 
 #[test]
 fn the_jump_flood_is_symmetric_but_for_noise_equal_depths_and_rounded_places() {
-    let gpu = gpu();
+    let gpu = open_gpu();
     let filter = Filter::builtin("jump_flood").unwrap();
     for preset in &filter.presets {
         let mut settings = filter.settings(Some(&preset.name)).unwrap();

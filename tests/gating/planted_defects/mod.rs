@@ -14,12 +14,12 @@ use suite::{
     Case, Check, Decision, FilterChoice, InputFormat, Monitor, RenderSettings, Run, RunBounds,
     RunPlan, SceneBounds, calibrate, check, judge, measure_scenes, open_gpu, read_bounds_file,
 };
+use tests::filter_folder::copy_shipped_filter;
 use tracer::Scene;
 
 use defects::{DEFECTS, Defect};
 
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
-const SHADERS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shaders");
 
 /// One thing that slides, far and aslant, two that pass one another, many that turn, fly and hide one another, many that
 /// cross, some that leave the picture, and thin ones.
@@ -145,11 +145,7 @@ impl Bench {
     /// A copy of a shipped filter with one defect.
     fn planted(&self, defect: &Defect) -> PathBuf {
         let copy = self.folder.path().join("planted").join(defect.name);
-        fs::create_dir_all(&copy).unwrap();
-        let shipped = Path::new(SHADERS).join(defect.filter);
-        for entry in fs::read_dir(shipped).unwrap().map(Result::unwrap) {
-            fs::copy(entry.path(), copy.join(entry.file_name())).unwrap();
-        }
+        copy_shipped_filter(defect.filter, &copy);
         let kernels = copy.join(defect.filter).with_extension("wgsl");
         let text = fs::read_to_string(&kernels).unwrap();
         assert_eq!(

@@ -67,7 +67,7 @@ fn the_front_holds_what_nothing_beats() {
 }
 
 /// A start with samples = 8, and trials with other numbers of samples and the given FLIP on scenes a, b, c, d.
-fn trials(rows: &[(i32, [f64; 4])]) -> Vec<Trial> {
+fn make_trials(rows: &[(i32, [f64; 4])]) -> Vec<Trial> {
     (rows.iter().enumerate())
         .map(|(trial, (samples, flips))| Trial {
             trial,
@@ -109,7 +109,13 @@ fn of_what_the_scenes_cannot_tell_apart_the_nearest_to_the_start_is_chosen() {
         // Nearer still, and clearly worse.
         (10, [0.08, 0.08, 0.08, 0.08]),
     ];
-    let choice = choose_trial(&trials(&rows), &space(), ChoiceLimits::default(), |_| true).unwrap();
+    let choice = choose_trial(
+        &make_trials(&rows),
+        &space(),
+        ChoiceLimits::default(),
+        |_| true,
+    )
+    .unwrap();
     assert_eq!((choice.best, choice.trial), (1, 2));
     // Logs of 0.5, 0.4, 0.6 and 0.5: standard deviation 0.1659, of the mean 0.0830.
     assert!(
@@ -122,7 +128,13 @@ fn of_what_the_scenes_cannot_tell_apart_the_nearest_to_the_start_is_chosen() {
 #[test]
 fn a_start_that_nothing_clearly_beats_stays() {
     let rows = [(8, [0.1; 4]), (9, [0.05, 0.16, 0.09, 0.11])];
-    let choice = choose_trial(&trials(&rows), &space(), ChoiceLimits::default(), |_| true).unwrap();
+    let choice = choose_trial(
+        &make_trials(&rows),
+        &space(),
+        ChoiceLimits::default(),
+        |_| true,
+    )
+    .unwrap();
     assert_eq!((choice.best, choice.trial), (1, 0));
 }
 
@@ -134,7 +146,7 @@ fn limits_and_failures_keep_trials_out_of_the_choice() {
         (12, [0.05; 4]),
         (4, [0.06; 4]),
     ];
-    let mut trials = trials(&rows);
+    let mut trials = make_trials(&rows);
     let chosen = |trials: &[Trial], limits| {
         choose_trial(trials, &space(), limits, |_| true)
             .unwrap()
@@ -168,7 +180,12 @@ fn a_choice_that_suits_one_family_alone_shows_its_gap() {
         (9, [0.05, 0.05, 0.2, 0.2]),
         (10, [0.2, 0.2, 0.05, 0.05]),
     ];
-    let folds = cross_validate(&trials(&rows), &space(), ChoiceLimits::default(), &families);
+    let folds = cross_validate(
+        &make_trials(&rows),
+        &space(),
+        ChoiceLimits::default(),
+        &families,
+    );
     let two = 2f64.ln();
     for (fold, (family, trial)) in folds.iter().zip([("camera", 2), ("thin", 1)]) {
         assert_eq!(
@@ -181,7 +198,15 @@ fn a_choice_that_suits_one_family_alone_shows_its_gap() {
     }
     assert_eq!(folds.len(), 2);
     let alone = BTreeMap::from([("camera", vec!["a", "b", "c", "d"])]);
-    assert!(cross_validate(&trials(&rows), &space(), ChoiceLimits::default(), &alone).is_empty());
+    assert!(
+        cross_validate(
+            &make_trials(&rows),
+            &space(),
+            ChoiceLimits::default(),
+            &alone
+        )
+        .is_empty()
+    );
 }
 
 fn paired(rows: &[(f64, f64)]) -> PairedComparison {

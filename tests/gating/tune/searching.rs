@@ -10,7 +10,7 @@ fn jump_flood() -> Filter {
     Filter::builtin("jump_flood").unwrap()
 }
 
-fn space(vary: &[&str]) -> Result<Space, String> {
+fn make_space(vary: &[&str]) -> Result<Space, String> {
     let filter = jump_flood();
     let words: Vec<String> = vary.iter().map(|word| word.to_string()).collect();
     let start = filter.settings(Some("paper")).unwrap();
@@ -19,7 +19,7 @@ fn space(vary: &[&str]) -> Result<Space, String> {
 
 #[test]
 fn every_tunable_parameter_is_an_axis_and_no_other() {
-    let names: Vec<String> = (space(&[]).unwrap().axes.iter())
+    let names: Vec<String> = (make_space(&[]).unwrap().axes.iter())
         .map(|axis| axis.name.clone())
         .collect();
     assert!(names.contains(&"samples".to_owned()));
@@ -45,14 +45,14 @@ fn the_values_of_every_preset_come_back_from_their_points() {
 
 #[test]
 fn the_middle_of_a_logarithmic_range_is_its_geometric_mean() {
-    let space = space(&["foreground_extent=0.01..1"]).unwrap();
+    let space = make_space(&["foreground_extent=0.01..1"]).unwrap();
     let middle = space.settings(&[0.5]).values["foreground_extent"].clone();
     assert_eq!(middle, Value::Real(0.1));
 }
 
 #[test]
 fn every_whole_number_and_every_choice_is_met_and_none_beyond() {
-    let space = space(&["passes=2..5", "jitter"]).unwrap();
+    let space = make_space(&["passes=2..5", "jitter"]).unwrap();
     let mut met: BTreeMap<String, usize> = BTreeMap::new();
     for step in 0..=400 {
         let at = f64::from(step) / 400.0;
@@ -99,12 +99,12 @@ fn what_cannot_be_varied_is_refused_with_what_can() {
         ("samples=4", vec!["no range within"]),
         ("jitter=a..b", vec!["a choice has no range"]),
     ] {
-        let text = space(&[word]).unwrap_err();
+        let text = make_space(&[word]).unwrap_err();
         assert!(text.contains(&format!("parameter {word}:")), "{text}");
         assert_contains(&text, &parts);
     }
     assert!(
-        space(&["samples", "samples"])
+        make_space(&["samples", "samples"])
             .unwrap_err()
             .contains("named twice")
     );
@@ -122,7 +122,7 @@ fn valley(point: &[f64]) -> f64 {
     off.iter().map(|it| it * it).sum::<f64>() + 10.0 * across * across
 }
 
-fn searched(search: &Search, count: usize) -> (Vec<Vec<f64>>, Vec<f64>) {
+fn search_valley(search: &Search, count: usize) -> (Vec<Vec<f64>>, Vec<f64>) {
     let (mut points, mut losses) = (Vec::new(), Vec::new());
     for _ in 0..count {
         let point = search.ask(&losses);
@@ -140,7 +140,7 @@ fn least(losses: &[f64]) -> f64 {
 fn the_search_finds_the_lowest_point_of_a_valley() {
     for seed in [1, 2, 3] {
         let search = Search::new(vec![vec![0.9, 0.1, 0.9, 0.1]], 4, seed);
-        let (points, losses) = searched(&search, 400);
+        let (points, losses) = search_valley(&search, 400);
         assert!(points.iter().flatten().all(|at| (0.0..=1.0).contains(at)));
         assert_eq!(
             points[0],
@@ -159,8 +159,14 @@ fn the_search_finds_the_lowest_point_of_a_valley() {
 #[test]
 fn the_same_seed_asks_the_same_and_another_one_does_not() {
     let search = |seed| Search::new(vec![vec![0.5; 4]], 4, seed);
-    assert_eq!(searched(&search(1), 60).0, searched(&search(1), 60).0);
-    let (one, other) = (searched(&search(1), 60).0, searched(&search(2), 60).0);
+    assert_eq!(
+        search_valley(&search(1), 60).0,
+        search_valley(&search(1), 60).0
+    );
+    let (one, other) = (
+        search_valley(&search(1), 60).0,
+        search_valley(&search(2), 60).0,
+    );
     assert_ne!(one[1], other[1], "the design has its own seed");
     assert_ne!(one[59], other[59]);
 }
@@ -168,7 +174,7 @@ fn the_same_seed_asks_the_same_and_another_one_does_not() {
 #[test]
 fn what_is_asked_next_depends_on_nothing_but_the_losses() {
     let search = Search::new(vec![vec![0.5; 4]], 4, 7);
-    let (points, losses) = searched(&search, 80);
+    let (points, losses) = search_valley(&search, 80);
     for count in [0, 5, 9, 10, 41, 79] {
         assert_eq!(
             search.ask(&losses[..count]),

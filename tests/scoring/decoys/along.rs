@@ -3,7 +3,7 @@
 use metrics::{Ideal, ImageMetric, Measured, Metric, Score};
 use tests::synthetic::Blur;
 
-use super::{DISCS, NOTHING, RADIUS, ROW_MASS, ROWS, TRAVEL, assert_near, discs, get};
+use super::{DISCS, NOTHING, RADIUS, ROW_MASS, ROWS, TRAVEL, assert_near, discs, read_score};
 
 /// Standard deviation along the motion, within rows, of a disc smeared over `travel` pixels.
 fn spread_of_disc(travel: f64) -> f64 {
@@ -44,13 +44,13 @@ fn blurs_that_only_err_along_the_motion_neither_grow_nor_gain_nor_lose() {
         for (scores, blur) in disc.score_blurs(blurs).iter().zip(blurs) {
             let what = |name: &str| format!("{name} of {blur:?} at {degrees} degrees");
             for name in ROW_MASS {
-                assert_near(&what(name), get(scores, name), 0.0, ROWS);
+                assert_near(&what(name), read_score(scores, name), 0.0, ROWS);
             }
             for name in ["bleed_lateral", "bleed_leading", "bleed_trailing"] {
-                assert_near(&what(name), get(scores, name), 0.0, NOTHING);
+                assert_near(&what(name), read_score(scores, name), 0.0, NOTHING);
             }
             // Sampling of 512 per pixel, over thousands of pixels.
-            assert_near(&what("energy"), get(scores, "energy"), 1.0, 1e-3);
+            assert_near(&what("energy"), read_score(scores, "energy"), 1.0, 1e-3);
         }
     }
 }
@@ -82,15 +82,20 @@ fn a_blur_of_the_wrong_length_is_misplaced_by_half_of_what_is_missing() {
             let what = |name: &str| format!("{name} of length {length} at {degrees} degrees");
             let ahead = TRAVEL * (1.0 - length) / 2.0;
             // Mattes sampled 512 times, and rows one pixel wide at an angle: hundredths of a pixel.
-            assert_near(&what("centroid"), get(scores, "centroid"), ahead, 0.05);
+            assert_near(
+                &what("centroid"),
+                read_score(scores, "centroid"),
+                ahead,
+                0.05,
+            );
             assert_near(
                 &what("misplacement"),
-                get(scores, "misplacement"),
+                read_score(scores, "misplacement"),
                 ahead.abs(),
                 0.05,
             );
             let extent = spread_of_disc(TRAVEL * length) / spread_of_disc(TRAVEL);
-            assert_near(&what("extent"), get(scores, "extent"), extent, 0.01);
+            assert_near(&what("extent"), read_score(scores, "extent"), extent, 0.01);
         }
     }
 }
@@ -103,9 +108,17 @@ fn too_long_a_blur_bleeds_behind_only() {
             ..Blur::TRUE
         };
         let [scores] = disc.score_blurs([long]);
-        assert!(get(&scores, "bleed_trailing") > 1.0, "{degrees} degrees");
-        assert_near("leading", get(&scores, "bleed_leading"), 0.0, NOTHING);
-        assert_near("growth", get(&scores, "lateral_growth"), 0.0, ROWS);
+        assert!(
+            read_score(&scores, "bleed_trailing") > 1.0,
+            "{degrees} degrees"
+        );
+        assert_near(
+            "leading",
+            read_score(&scores, "bleed_leading"),
+            0.0,
+            NOTHING,
+        );
+        assert_near("growth", read_score(&scores, "lateral_growth"), 0.0, ROWS);
     }
 }
 
@@ -118,11 +131,24 @@ fn a_centred_shutter_against_a_trailing_truth_bleeds_ahead_and_lies_half_the_way
             ..Blur::TRUE
         };
         let [scores] = disc.score_blurs([centred]);
-        assert!(get(&scores, "bleed_leading") > 1.0, "{degrees} degrees");
-        assert_near("trailing", get(&scores, "bleed_trailing"), 0.0, NOTHING);
-        assert_near("centroid", get(&scores, "centroid"), TRAVEL / 2.0, 0.05);
-        assert_near("extent", get(&scores, "extent"), 1.0, 0.01);
-        assert_near("growth", get(&scores, "lateral_growth"), 0.0, ROWS);
+        assert!(
+            read_score(&scores, "bleed_leading") > 1.0,
+            "{degrees} degrees"
+        );
+        assert_near(
+            "trailing",
+            read_score(&scores, "bleed_trailing"),
+            0.0,
+            NOTHING,
+        );
+        assert_near(
+            "centroid",
+            read_score(&scores, "centroid"),
+            TRAVEL / 2.0,
+            0.05,
+        );
+        assert_near("extent", read_score(&scores, "extent"), 1.0, 0.01);
+        assert_near("growth", read_score(&scores, "lateral_growth"), 0.0, ROWS);
     }
 }
 
@@ -135,9 +161,14 @@ fn a_shift_along_the_motion_is_its_centroid_with_its_sign() {
             ..Blur::TRUE
         });
         for (scores, shift) in disc.score_blurs(blurs).iter().zip(shifts) {
-            assert_near("centroid", get(scores, "centroid"), shift, 0.05);
-            assert_near("misplacement", get(scores, "misplacement"), 3.0, 0.05);
-            assert_near("growth", get(scores, "lateral_growth"), 0.0, ROWS);
+            assert_near("centroid", read_score(scores, "centroid"), shift, 0.05);
+            assert_near(
+                "misplacement",
+                read_score(scores, "misplacement"),
+                3.0,
+                0.05,
+            );
+            assert_near("growth", read_score(scores, "lateral_growth"), 0.0, ROWS);
         }
     }
 }

@@ -3,7 +3,7 @@
 use frame::{Picture, Plane, Raster};
 use tests::synthetic::{Blur, Sampling, Shape};
 
-use super::{ANGLES, Case, RADIUS, ROW_MASS, ROWS, assert_near, discs, get, slide};
+use super::{ANGLES, Case, RADIUS, ROW_MASS, ROWS, assert_near, discs, read_score, slide};
 
 #[test]
 fn lateral_growth_reads_the_dilation_in_pixels() {
@@ -26,9 +26,14 @@ fn lateral_growth_reads_the_dilation_in_pixels() {
                     "disc" => (0.01 + 0.02 * dilation).min(0.1),
                     _ => 0.04 * dilation,
                 };
-                assert_near(&what, get(scores, "lateral_growth"), dilation, tolerance);
-                assert_near(&what, get(scores, "row_gain"), 0.0, ROWS);
-                assert_near(&what, get(scores, "row_loss"), 0.0, ROWS);
+                assert_near(
+                    &what,
+                    read_score(scores, "lateral_growth"),
+                    dilation,
+                    tolerance,
+                );
+                assert_near(&what, read_score(scores, "row_gain"), 0.0, ROWS);
+                assert_near(&what, read_score(scores, "row_loss"), 0.0, ROWS);
             }
         }
     }
@@ -49,7 +54,7 @@ fn a_slanted_outline_that_is_dilated_grows_beside_its_rows_and_gains_within() {
         for (scores, dilation) in
             (Case::new(slide(bar, degrees)).score_blurs(blurs).iter()).zip(dilations)
         {
-            let [growth, gain, loss] = ROW_MASS.map(|name| get(scores, name));
+            let [growth, gain, loss] = ROW_MASS.map(|name| read_score(scores, name));
             let what = format!("dilation of a slanted bar at {degrees} degrees");
             assert_near(&what, growth + gain, dilation, 0.1);
             assert!(
@@ -71,7 +76,7 @@ fn a_sharp_mover_over_its_own_smear_makes_rows_heavier_and_does_not_grow() {
         let gained: f64 = (truth.coverage[1].pixels.iter().zip(&core.pixels))
             .map(|(truth, core)| f64::from(core * (1.0 - truth)))
             .sum();
-        let [growth, gain, loss] = ROW_MASS.map(|name| get(scores, name));
+        let [growth, gain, loss] = ROW_MASS.map(|name| read_score(scores, name));
         let expected = gained / (4.0 * RADIUS);
         assert!(expected > 6.0, "{expected} px make a heavy core");
         // Each lateral silhouette is as long as the disc is wide, to the 2 % of its gradients.
@@ -92,14 +97,14 @@ fn hard_bleed_sees_a_wide_dilation_beside_the_support_and_nowhere_else() {
         };
         let [scores] = disc.score_blurs([wide]);
         // One pixel is granted at the border, and the faint ends of the smear hide more of six.
-        let lateral = get(&scores, "bleed_lateral");
+        let lateral = read_score(&scores, "bleed_lateral");
         assert!(
             (1.0..4.0).contains(&lateral),
             "{lateral} at {degrees} degrees"
         );
         // The rounded ends: a few pixels at the limit of 45 degrees.
-        assert_near("leading", get(&scores, "bleed_leading"), 0.0, 0.1);
-        assert_near("trailing", get(&scores, "bleed_trailing"), 0.0, 0.1);
+        assert_near("leading", read_score(&scores, "bleed_leading"), 0.0, 0.1);
+        assert_near("trailing", read_score(&scores, "bleed_trailing"), 0.0, 0.1);
     }
 }
 
@@ -112,11 +117,11 @@ fn a_shift_across_the_motion_grows_on_one_side_and_loses_on_the_other() {
         };
         let [scores] = disc.score_blurs([aside]);
         for name in ["lateral_growth", "row_loss"] {
-            assert_near(name, get(&scores, name), 1.5, 0.05);
+            assert_near(name, read_score(&scores, name), 1.5, 0.05);
         }
-        assert_near("gain", get(&scores, "row_gain"), 0.0, ROWS);
-        assert_near("centroid", get(&scores, "centroid"), 0.0, 0.05);
-        assert_near("energy", get(&scores, "energy"), 1.0, 1e-3);
+        assert_near("gain", read_score(&scores, "row_gain"), 0.0, ROWS);
+        assert_near("centroid", read_score(&scores, "centroid"), 0.0, 0.05);
+        assert_near("energy", read_score(&scores, "energy"), 1.0, 1e-3);
     }
 }
 
@@ -130,14 +135,17 @@ fn an_isotropic_blur_bleeds_to_all_sides_though_its_extent_looks_right() {
             ..instant
         };
         let [scores] = &disc.score_pictures([blurred]);
-        assert_near("extent", get(scores, "extent"), 1.0, 0.1);
+        assert_near("extent", read_score(scores, "extent"), 1.0, 0.1);
         for name in [
             "bleed_lateral",
             "bleed_leading",
             "lateral_growth",
             "row_loss",
         ] {
-            assert!(get(scores, name) > 1.0, "{name} at {degrees} degrees");
+            assert!(
+                read_score(scores, name) > 1.0,
+                "{name} at {degrees} degrees"
+            );
         }
     }
 }

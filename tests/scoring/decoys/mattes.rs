@@ -2,14 +2,14 @@
 
 use tests::synthetic::{Blur, Object, Shape, constant};
 
-use super::{Case, DISCS, NOTHING, RADIUS, assert_near, get, slide};
+use super::{Case, DISCS, NOTHING, RADIUS, assert_near, read_score, slide};
 
 #[test]
 fn a_constant_picture_keeps_the_energy_and_fails_everything_else() {
     let [_, disc, ..] = &*DISCS;
     let [scores] = &disc.score_pictures([constant(&disc.truth.mean())]);
     // The mean matte times the pixels, rounded to 32 bits.
-    assert_near("energy", get(scores, "energy"), 1.0, 1e-4);
+    assert_near("energy", read_score(scores, "energy"), 1.0, 1e-4);
     for (name, least) in [
         ("bleed_lateral", 1.0),
         ("bleed_leading", 1.0),
@@ -21,7 +21,11 @@ fn a_constant_picture_keeps_the_energy_and_fails_everything_else() {
         ("label_tv", 0.1),
         ("flip_moving", 0.1),
     ] {
-        assert!(get(scores, name) > least, "{name}: {}", get(scores, name));
+        assert!(
+            read_score(scores, name) > least,
+            "{name}: {}",
+            read_score(scores, name)
+        );
     }
 }
 
@@ -40,7 +44,7 @@ fn a_half_erased_bar_has_half_its_energy_and_half_a_hole() {
     let [scores] = &case.score_pictures([faint]);
     // Halves of 32-bit numbers are exact.
     for (name, expected) in [("energy", 0.5), ("deficit", 0.5), ("hole", 0.5)] {
-        assert_near(name, get(scores, name), expected, 1e-9);
+        assert_near(name, read_score(scores, name), expected, 1e-9);
     }
 }
 
@@ -64,7 +68,7 @@ fn label_total_variation_is_the_time_given_to_the_wrong_object() {
     // 512 samples per pixel.
     assert_near(
         "label_tv",
-        get(&scores, "label_tv"),
+        read_score(&scores, "label_tv"),
         wrong / region,
         2e-3 * wrong / region,
     );
@@ -93,13 +97,13 @@ fn a_filter_that_smears_a_still_bar_contaminates_the_occluder() {
     let scores = case.score_pictures([clean, smeared]);
     assert_near(
         "clean",
-        get(&scores[0], "occluder_contamination"),
+        read_score(&scores[0], "occluder_contamination"),
         0.0,
         NOTHING,
     );
     assert_near(
         "smeared",
-        get(&scores[1], "occluder_contamination"),
+        read_score(&scores[1], "occluder_contamination"),
         0.25,
         NOTHING,
     );

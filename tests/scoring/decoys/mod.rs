@@ -88,7 +88,7 @@ fn discs() -> impl Iterator<Item = (f64, &'static Case)> {
     ANGLES.into_iter().zip(DISCS.iter())
 }
 
-fn get(scores: &Scores, name: &str) -> f64 {
+fn read_score(scores: &Scores, name: &str) -> f64 {
     let metric: Metric = name.parse().expect("a metric's name");
     match scores.get(metric) {
         Measured::Score(Score { value, .. }) => value,

@@ -35,19 +35,19 @@ fn clean_truth(scene: &Scene) -> Truth {
     scene.truth([Sampling::CLEAN; 2])
 }
 
-fn measured(scene: &Scene, blur: Blur) -> Measurement {
+fn measure_blur(scene: &Scene, blur: Blur) -> Measurement {
     let output = scene.render(&blur, Sampling::CLEAN);
     measure(&output, &scene.frame(), &clean_truth(scene), None, &VIEWING).expect("they agree")
 }
 
-fn reason(scores: &Scores, metric: &str) -> String {
+fn find_reason(scores: &Scores, metric: &str) -> String {
     match scores.get(metric.parse().expect("a metric's name")) {
         Measured::NotApplicable { reason } => reason,
         Measured::Score(score) => panic!("{metric} scores {} where it means nothing", score.value),
     }
 }
 
-fn value(scores: &Scores, metric: &str) -> f64 {
+fn find_value(scores: &Scores, metric: &str) -> f64 {
     let measured = scores.get(metric.parse().expect("a metric's name"));
     measured
         .value()

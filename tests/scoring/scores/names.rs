@@ -3,7 +3,7 @@
 use metrics::{Group, Ideal, ImageMetric, Metric, ObjectMetric, Region, Scores};
 use tests::synthetic::Blur;
 
-use super::{BEFORE, measured, small_scene};
+use super::{BEFORE, measure_blur, small_scene};
 
 #[test]
 fn every_metric_has_one_name_that_finds_it() {
@@ -58,7 +58,7 @@ fn the_documentation_names_every_metric() {
 
 #[test]
 fn scores_survive_being_written_as_json() {
-    let scores = measured(&small_scene(BEFORE), Blur::IDENTITY).scores;
+    let scores = measure_blur(&small_scene(BEFORE), Blur::IDENTITY).scores;
     let text = serde_json::to_string(&scores).expect("scores are plain data");
     let back: Scores = serde_json::from_str(&text).expect("as written");
     assert_eq!(back, scores);

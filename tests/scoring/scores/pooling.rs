@@ -4,7 +4,7 @@ use frame::Raster;
 use metrics::{Measured, Metric, ObjectMetric, Viewing, measure, regions};
 use tests::synthetic::{Blur, Object, Shape, VIEWING};
 
-use super::{BESIDE, clean_truth, measured, small_scene, value};
+use super::{BESIDE, clean_truth, find_value, measure_blur, small_scene};
 
 #[test]
 fn the_moving_region_reaches_a_fifteenth_of_the_height_beyond_what_moves() {
@@ -35,10 +35,10 @@ fn an_error_in_a_still_pixel_counts_as_static_and_not_as_moving() {
         .iter()
         .filter(|still| **still)
         .count() as f64;
-    assert_eq!(value(&scores, "mse_moving"), 0.0);
+    assert_eq!(find_value(&scores, "mse_moving"), 0.0);
     // 32-bit rounding of the sum with 0.25.
-    assert!((value(&scores, "mse_static") - 0.0625 / still).abs() < 1e-8 / still);
-    assert!((value(&scores, "mse_full") - 0.0625 / 4800.0).abs() < 1e-8 / 4800.0);
+    assert!((find_value(&scores, "mse_static") - 0.0625 / still).abs() < 1e-8 / still);
+    assert!((find_value(&scores, "mse_full") - 0.0625 / 4800.0).abs() < 1e-8 / 4800.0);
 }
 
 #[test]
@@ -55,8 +55,8 @@ fn errors_of_colour_are_those_of_the_viewing_exposure() {
         .expect("they agree")
         .scores;
     // An offset of 1/8, two stops up: 1/2, squared 1/4, which is 6.02 dB below 1. Rounding of 32-bit sums.
-    assert!((value(&scores, "mse_full") - 0.25).abs() < 1e-5);
-    assert!((value(&scores, "psnr_full") - 6.0206).abs() < 1e-3);
+    assert!((find_value(&scores, "mse_full") - 0.25).abs() < 1e-5);
+    assert!((find_value(&scores, "psnr_full") - 6.0206).abs() < 1e-3);
     let mean = truth.mean();
     let expected: f64 = mean
         .color
@@ -66,12 +66,12 @@ fn errors_of_colour_are_those_of_the_viewing_exposure() {
         .map(|value| 0.25 / ((4.0 * f64::from(*value)).powi(2) + 0.01))
         .sum::<f64>()
         / (3.0 * 4800.0);
-    assert!((value(&scores, "relmse_full") / expected - 1.0).abs() < 1e-4);
+    assert!((find_value(&scores, "relmse_full") / expected - 1.0).abs() < 1e-4);
 }
 
 #[test]
 fn scores_are_pooled_from_the_maps_that_their_rows_name() {
-    let measurement = measured(&small_scene(BESIDE), Blur::accumulation(2));
+    let measurement = measure_blur(&small_scene(BESIDE), Blur::accumulation(2));
     let regions = regions(&clean_truth(&small_scene(BESIDE)));
     for name in [
         "mse_moving",
@@ -90,7 +90,7 @@ fn scores_are_pooled_from_the_maps_that_their_rows_name() {
         let mean = values.iter().map(|value| f64::from(*value)).sum::<f64>() / values.len() as f64;
         assert!(mean > 0.0, "{name} has an error to show");
         // Maps are stored in 32 bits.
-        let score = value(&measurement.scores, name);
+        let score = find_value(&measurement.scores, name);
         assert!((score / mean - 1.0).abs() < 1e-6, "{name}");
     }
 }
@@ -102,7 +102,7 @@ fn the_bleed_map_holds_what_lies_outside_the_support() {
         ..Blur::TRUE
     };
     let scene = small_scene([10.0, 10.0]);
-    let measurement = measured(&scene, long);
+    let measurement = measure_blur(&scene, long);
     let total: f64 = measurement
         .maps
         .bleed
@@ -111,7 +111,7 @@ fn the_bleed_map_holds_what_lies_outside_the_support() {
         .map(|value| f64::from(*value))
         .sum();
     let scores = &measurement.scores;
-    let [beside, behind] = ["bleed_lateral", "bleed_trailing"].map(|name| value(scores, name));
+    let [beside, behind] = ["bleed_lateral", "bleed_trailing"].map(|name| find_value(scores, name));
     // The disc's silhouette is 16 px wide across the motion and twice 16 px along it, to the 2 % of its gradients.
     let expected = 32.0 * beside + 16.0 * behind;
     assert!(
@@ -127,12 +127,12 @@ fn the_worst_object_speaks_for_all() {
     scene
         .objects
         .push(Object::sliding(Shape::Disc(4.0), [50.0, 52.0], [12.0, 0.0]));
-    let mut scores = measured(&scene, Blur::IDENTITY).scores;
+    let mut scores = measure_blur(&scene, Blur::IDENTITY).scores;
     scores.objects[1].extent = Measured::score(0.9, 0.0);
     scores.objects[2].extent = Measured::score(1.3, 0.0);
-    assert_eq!(value(&scores, "extent"), 1.3);
+    assert_eq!(find_value(&scores, "extent"), 1.3);
     scores.objects[1].extent = Measured::score(0.5, 0.0);
-    assert_eq!(value(&scores, "extent"), 0.5);
+    assert_eq!(find_value(&scores, "extent"), 0.5);
     let extent = Metric::Object(ObjectMetric::Extent);
     assert_eq!(
         scores.worst_object(extent).map(|(name, _)| name),
@@ -142,7 +142,7 @@ fn the_worst_object_speaks_for_all() {
 
 #[test]
 fn the_largest_bleed_is_found_on_whichever_side_it_is() {
-    let mut scores = measured(&small_scene(BESIDE), Blur::IDENTITY).scores;
+    let mut scores = measure_blur(&small_scene(BESIDE), Blur::IDENTITY).scores;
     let mut largest = |values: [f64; 3]| {
         let [lateral, leading, trailing] = values.map(|value| Measured::score(value, 0.0));
         scores.objects[1].bleed_lateral = lateral;

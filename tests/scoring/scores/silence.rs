@@ -4,7 +4,7 @@ use frame::Raster;
 use metrics::{Measured, ObjectMetric, measure};
 use tests::synthetic::{Blur, Object, Shape, VIEWING};
 
-use super::{BEFORE, BESIDE, clean_truth, measured, reason, small_scene, value};
+use super::{BEFORE, BESIDE, clean_truth, find_reason, find_value, measure_blur, small_scene};
 
 /// Scores that need rows along a translation.
 const ROW_SCORES: [&str; 6] = [
@@ -20,11 +20,11 @@ const ROW_SCORES: [&str; 6] = [
 fn an_object_cut_off_by_the_border_has_no_row_scores_but_bleeds() {
     let mut scene = small_scene(BESIDE);
     scene.objects[1].center = [75.0, 30.0];
-    let scores = measured(&scene, Blur::IDENTITY).scores;
+    let scores = measure_blur(&scene, Blur::IDENTITY).scores;
     for metric in ROW_SCORES.iter().chain(&["energy"]) {
-        assert!(reason(&scores, metric).contains("border"), "{metric}");
+        assert!(find_reason(&scores, metric).contains("border"), "{metric}");
     }
-    assert_eq!(value(&scores, "bleed_trailing"), 0.0);
+    assert_eq!(find_value(&scores, "bleed_trailing"), 0.0);
 }
 
 #[test]
@@ -40,13 +40,13 @@ fn a_rotation_has_no_row_scores_but_bleeds() {
             turn: 0.8,
             ..Object::sliding(arm, [46.0, 30.0], [travel, 0.0])
         };
-        let scores = measured(&scene, Blur::IDENTITY).scores;
+        let scores = measure_blur(&scene, Blur::IDENTITY).scores;
         for metric in ROW_SCORES {
-            let reason = reason(&scores, metric);
+            let reason = find_reason(&scores, metric);
             assert!(reason.contains("does not translate"), "{metric}: {reason}");
         }
-        assert_eq!(value(&scores, "bleed_lateral"), 0.0);
-        assert!(value(&scores, "label_tv") > 0.1);
+        assert_eq!(find_value(&scores, "bleed_lateral"), 0.0);
+        assert!(find_value(&scores, "label_tv") > 0.1);
     }
 }
 
@@ -65,11 +65,11 @@ fn turning_too_far_bleeds_ahead_of_the_local_motion() {
         to: 0.6,
         ..Blur::TRUE
     };
-    let scores = measured(&scene, ahead).scores;
-    let leading = value(&scores, "bleed_leading");
+    let scores = measure_blur(&scene, ahead).scores;
+    let leading = find_value(&scores, "bleed_leading");
     assert!(leading > 0.2, "{leading}");
     // The two ends of the arm swing towards opposite sides; judged by one direction, half of this would be trailing.
-    let trailing = value(&scores, "bleed_trailing");
+    let trailing = find_value(&scores, "bleed_trailing");
     assert!(
         trailing < 0.1 * leading,
         "{trailing} trailing, {leading} leading"
@@ -78,10 +78,10 @@ fn turning_too_far_bleeds_ahead_of_the_local_motion() {
 
 #[test]
 fn an_object_behind_another_cannot_tell_growth_from_occlusion() {
-    let scores = measured(&small_scene(BEFORE), Blur::IDENTITY).scores;
-    assert!(reason(&scores, "lateral_growth").contains("rows do not keep their mass"));
+    let scores = measure_blur(&small_scene(BEFORE), Blur::IDENTITY).scores;
+    assert!(find_reason(&scores, "lateral_growth").contains("rows do not keep their mass"));
     // Rows are normalised there: half of the way of 12 px, and what the bar hides of it.
-    assert!((value(&scores, "misplacement") - 6.0).abs() < 1.5);
+    assert!((find_value(&scores, "misplacement") - 6.0).abs() < 1.5);
 }
 
 #[test]
@@ -89,7 +89,7 @@ fn objects_that_stand_still_or_are_not_seen_say_so() {
     let mut scene = small_scene(BESIDE);
     let hidden = Object::sliding(Shape::Disc(1.0), BESIDE, [5.0, 0.0]);
     scene.objects.push(hidden);
-    let scores = measured(&scene, Blur::IDENTITY).scores;
+    let scores = measure_blur(&scene, Blur::IDENTITY).scores;
     let of = |object: usize| match scores.objects[object].get(ObjectMetric::BleedLateral) {
         Measured::NotApplicable { reason } => reason.clone(),
         Measured::Score(_) => "a score".to_owned(),
@@ -111,7 +111,7 @@ fn an_object_with_an_id_but_no_coverage_has_no_outline_to_measure_by() {
         .scores;
     for metric in ["lateral_growth", "bleed_lateral"] {
         assert!(
-            reason(&scores, metric).contains("no silhouette"),
+            find_reason(&scores, metric).contains("no silhouette"),
             "{metric}"
         );
     }
@@ -121,21 +121,24 @@ fn an_object_with_an_id_but_no_coverage_has_no_outline_to_measure_by() {
 fn a_scene_without_motion_has_nothing_to_score_but_stillness() {
     let mut scene = small_scene(BESIDE);
     scene.objects.truncate(1);
-    let scores = measured(&scene, Blur::IDENTITY).scores;
-    assert_eq!(reason(&scores, "flip_moving"), "nothing moves on screen");
-    assert_eq!(reason(&scores, "label_tv"), "nothing moves on screen");
+    let scores = measure_blur(&scene, Blur::IDENTITY).scores;
     assert_eq!(
-        reason(&scores, "lateral_growth"),
+        find_reason(&scores, "flip_moving"),
+        "nothing moves on screen"
+    );
+    assert_eq!(find_reason(&scores, "label_tv"), "nothing moves on screen");
+    assert_eq!(
+        find_reason(&scores, "lateral_growth"),
         "no object moves on screen"
     );
-    assert_eq!(value(&scores, "flip_static"), 0.0);
+    assert_eq!(find_value(&scores, "flip_static"), 0.0);
 }
 
 #[test]
 fn without_a_ladder_there_is_no_count_of_sub_frames() {
-    let scores = measured(&small_scene(BESIDE), Blur::IDENTITY).scores;
+    let scores = measure_blur(&small_scene(BESIDE), Blur::IDENTITY).scores;
     assert_eq!(
-        reason(&scores, "n_eq"),
+        find_reason(&scores, "n_eq"),
         "no ladder of accumulations was given"
     );
 }
@@ -144,6 +147,6 @@ fn without_a_ladder_there_is_no_count_of_sub_frames() {
 fn a_hole_needs_a_pixel_that_is_covered_throughout() {
     let mut scene = small_scene(BESIDE);
     scene.objects[1].displacement = [30.0, 0.0];
-    let scores = measured(&scene, Blur::IDENTITY).scores;
-    assert!(reason(&scores, "hole").contains("covers no pixel throughout"));
+    let scores = measure_blur(&scene, Blur::IDENTITY).scores;
+    assert!(find_reason(&scores, "hole").contains("covers no pixel throughout"));
 }

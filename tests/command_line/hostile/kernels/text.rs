@@ -4,7 +4,7 @@ use std::fs;
 use std::time::{Duration, Instant};
 
 use super::{list, load, mine};
-use crate::bench::{assert_done, assert_refused, stderr};
+use crate::bench::{assert_done, assert_refused, make_fifo, stderr};
 
 #[test]
 fn deep_kernels_are_read_or_refused_with_their_line() {
@@ -67,8 +67,7 @@ fn only_regular_files_of_bounded_size_are_read() {
             std::os::unix::fs::symlink("/dev/zero", &path).unwrap();
             assert_refused(&list(&bench), 2, &[file, "is a device"]);
             fs::remove_file(&path).unwrap();
-            let made = std::process::Command::new("mkfifo").arg(&path).status();
-            assert!(made.unwrap().success());
+            make_fifo(&path);
             assert_refused(&list(&bench), 2, &[file, "is a FIFO"]);
             fs::remove_file(&path).unwrap();
         }

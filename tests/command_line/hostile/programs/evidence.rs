@@ -23,7 +23,7 @@ struct Record {
 }
 
 /// A bench whose scene holds the identity to a limit that it breaks.
-fn bench() -> Bench {
+fn set_up() -> Bench {
     let bench = Bench::new();
     bench.write(
         "bounds.toml",
@@ -53,7 +53,7 @@ fn git(bench: &Bench, words: &[&str]) {
 
 #[test]
 fn a_forged_record_does_not_pass_a_check_that_uses_no_cache() {
-    let bench = bench();
+    let bench = set_up();
     let first = bench.check(&IDENTITY);
     assert_eq!(first.status.code(), Some(1));
     forge(&bench);
@@ -73,7 +73,7 @@ fn a_forged_record_does_not_pass_a_check_that_uses_no_cache() {
 
 #[test]
 fn a_check_refuses_a_folder_that_came_with_the_checkout() {
-    let bench = bench();
+    let bench = set_up();
     let first = bench.check(&IDENTITY);
     git(&bench, &["init", "-q"]);
     // Below a work tree, but no part of it.
@@ -101,7 +101,7 @@ fn a_check_refuses_a_folder_that_came_with_the_checkout() {
 #[cfg(unix)]
 #[test]
 fn a_repository_within_the_checkout_runs_nothing() {
-    let bench = bench();
+    let bench = set_up();
     git(&bench, &["init", "-q"]);
     git(&bench, &["init", "-q", "--bare", "out"]);
     let hook = format!("touch {}", bench.path("ran").display());

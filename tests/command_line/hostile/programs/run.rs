@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use frame::{ExrFile, Raster, write_exr};
 use tests::filter_folder::write_program;
 
-use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
+use crate::bench::{Bench, assert_done, assert_refused, press_ctrl_c, split, stdout};
 
 /// Writes a filter `mine` that is a shell script with the files as $1 and $2.
 fn write_mine(bench: &Bench, lines: &str, more: &str) {
@@ -16,7 +16,7 @@ fn write_mine(bench: &Bench, lines: &str, more: &str) {
 }
 
 /// A bench with a frame of 16 x 16 pixels, which takes no time.
-fn bench() -> Bench {
+fn set_up() -> Bench {
     let bench = Bench::new();
     let mut file = ExrFile::new(16, 16);
     file.push_color("", &Raster::filled(16, 16, [0.5; 3]));
@@ -40,7 +40,7 @@ fn blur(bench: &Bench) -> Command {
 
 #[test]
 fn no_command_runs_a_program_that_was_not_allowed() {
-    let bench = bench();
+    let bench = set_up();
     write_mine(&bench, "touch ran; cp $1 $2", "");
     for words in [
         "run --out out --filter mine",
@@ -70,7 +70,7 @@ fn no_command_runs_a_program_that_was_not_allowed() {
 
 #[test]
 fn a_program_sees_no_secret() {
-    let bench = bench();
+    let bench = set_up();
     let named = "environment = [\"CUDA_VISIBLE_DEVICES\", \"NOT_SET\"]";
     write_mine(&bench, "env > seen; cp $1 $2", named);
     let mut command = blur(&bench);
@@ -138,7 +138,7 @@ fn a_session_of_its_own_ends_with_the_program() {
         ("exit 7", "", 2, "ended with exit status: 7"),
         ("sleep 300", "time_limit = 2", 2, "took longer than 2 s"),
     ] {
-        let bench = bench();
+        let bench = set_up();
         write_mine(&bench, &format!("{LEAVES_ONE}\n{rest}"), more);
         let output = blur(&bench).output().unwrap();
         assert_eq!(output.status.code(), Some(code), "{rest}");
@@ -151,7 +151,7 @@ fn a_session_of_its_own_ends_with_the_program() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_session_of_its_own_ends_at_ctrl_c() {
-    let bench = bench();
+    let bench = set_up();
     write_mine(&bench, &format!("{LEAVES_ONE}\nsleep 300"), "");
     let mut child = bench.command(&split(BLUR)).spawn().unwrap();
     while !bench.path("mine/pid").exists() {
@@ -159,10 +159,7 @@ fn a_session_of_its_own_ends_at_ctrl_c() {
         std::thread::sleep(Duration::from_millis(10));
     }
     let pressed = Instant::now();
-    let interrupt = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(interrupt.unwrap().success());
+    press_ctrl_c(&child);
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert!(pressed.elapsed() < Duration::from_secs(2));
     assert!(has_ended(&bench));
@@ -170,7 +167,7 @@ fn a_session_of_its_own_ends_at_ctrl_c() {
 
 #[test]
 fn what_is_no_file_in_the_place_of_out_is_refused_at_once() {
-    let bench = bench();
+    let bench = set_up();
     for (lines, part) in [
         ("mkfifo $2", "left a pipe or a device in the place of {out}"),
         ("ln -s /dev/zero $2", "left a link in the place of {out}"),
@@ -190,7 +187,7 @@ fn what_is_no_file_in_the_place_of_out_is_refused_at_once() {
 
 #[test]
 fn what_a_program_writes_is_bounded() {
-    let bench = bench();
+    let bench = set_up();
     // 16 x 16 pixels of 256 bytes, and 1 MiB.
     let parts = ["wrote an {out} of more than 1114112 bytes", "16x16 pixels"];
     for lines in [
@@ -221,7 +218,7 @@ fn what_a_program_writes_is_bounded() {
 
 #[test]
 fn a_program_that_closes_its_pipes_and_lives_on_is_stopped() {
-    let bench = bench();
+    let bench = set_up();
     write_mine(&bench, "exec >&- 2>&-; sleep 300", "time_limit = 1");
     let output = blur(&bench).output().unwrap();
     assert_refused(&output, 2, &["took longer than 1 s", "printed nothing"]);

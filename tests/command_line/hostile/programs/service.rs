@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-use crate::bench::{Bench, split};
+use crate::bench::{Bench, press_ctrl_c, split};
 
 const SERVE: &str = "serve --quiet --filter jump_flood --objective flip --size 64x32 --samples-per-pixel 16 --out out";
 
@@ -84,9 +84,7 @@ fn ctrl_c_ends_a_service_that_nobody_talks_to() {
         .read_exact(&mut ready)
         .unwrap();
     let pressed = Instant::now();
-    let mut interrupt = std::process::Command::new("kill");
-    let interrupt = interrupt.args(["-INT", &child.id().to_string()]).status();
-    assert!(interrupt.unwrap().success());
+    press_ctrl_c(&child);
     let status = child.wait().unwrap();
     assert!(
         pressed.elapsed() < Duration::from_secs(2),

@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::{Value, json};
 
-use crate::bench::{Bench, assert_refused, split};
+use crate::bench::{Bench, assert_refused, make_fifo, split};
 
 const TUNE: &str = "tune --quiet --filter jump_flood --vary samples --objective flip --size 64x32 \
                     --samples-per-pixel 16 --out tuned --budget 3";
@@ -106,8 +106,7 @@ fn a_journal_with_an_impossible_trial_is_refused_with_its_line_and_kept() {
     #[cfg(unix)]
     {
         fs::remove_file(&path).unwrap();
-        let made = std::process::Command::new("mkfifo").arg(&path).status();
-        assert!(made.unwrap().success());
+        make_fifo(&path);
         assert_refused(
             &bench.shuttertruth(&split(&words)),
             2,

@@ -6,7 +6,7 @@ use std::process::Output;
 
 use frame::{AtInstant, Raster, Replicate, Support};
 
-use crate::bench::{Bench, assert_done, assert_refused, split};
+use crate::bench::{Bench, assert_done, assert_refused, make_fifo, split};
 
 const SECOND: &str = "b/plate/truth_trailing/replicate_001.exr";
 
@@ -143,8 +143,7 @@ fn links_that_lead_in_circles_and_pipes_are_no_parts() {
             &["replicate_001.exr", found],
         )
     };
-    let made = std::process::Command::new("mkfifo").arg(&path).status();
-    assert!(made.unwrap().success());
+    make_fifo(&path);
     refused("a regular file is expected");
     fs::remove_file(&path).unwrap();
     symlink("/dev/zero", &path).unwrap();

@@ -5,22 +5,18 @@ use std::path::Path;
 
 use tests::text::assert_contains;
 
-use super::{refused, render, with_sky, with_texture};
-use crate::bench::{Bench, SCENE, assert_done, assert_refused};
+use super::{assert_render_refused, render, with_sky, with_texture};
+use crate::bench::{Bench, SCENE, assert_done, assert_refused, make_fifo};
 
 #[cfg(unix)]
 #[test]
 fn what_is_no_regular_file_is_refused_before_it_is_opened() {
-    let fifo = |path: &Path| {
-        let made = std::process::Command::new("mkfifo").arg(path).status();
-        assert!(made.unwrap().success());
-    };
     let zero = |path: &Path| std::os::unix::fs::symlink("/dev/zero", path).unwrap();
     let socket = |path: &Path| drop(std::os::unix::net::UnixListener::bind(path).unwrap());
     let folder = |path: &Path| fs::create_dir(path).unwrap();
     type Make<'a> = &'a dyn Fn(&Path);
     let kinds: [(Make, &str); 4] = [
-        (&fifo, "it is a FIFO"),
+        (&make_fifo, "it is a FIFO"),
         (&zero, "it is a device"),
         (&socket, "it is a socket"),
         (&folder, "it is a folder"),
@@ -58,7 +54,7 @@ fn a_file_that_is_too_large_is_refused_before_it_is_read() {
     let file = fs::File::create(bench.path("scenes/plate/plate.obj")).unwrap();
     file.set_len(tracer::limits::LARGEST_MESH_FILE + 1).unwrap();
     let found = "holds 2147483649 bytes, and at most 2147483648 are read";
-    refused(&bench, &["scene.toml:15: mesh", "plate.obj", found]);
+    assert_render_refused(&bench, &["scene.toml:15: mesh", "plate.obj", found]);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::fs;
 use std::io::Write as _;
 
-use super::{refused, with_sky, with_texture};
+use super::{assert_render_refused, with_sky, with_texture};
 use crate::bench::Bench;
 
 /// A grey PNG of one bit per pixel, all black: a few kilobytes, whatever the size.
@@ -72,7 +72,7 @@ fn a_small_png_that_is_huge_once_decoded_is_refused_from_its_header() {
     assert!(png.len() < 50_000, "{} bytes", png.len());
     fs::write(bench.path("scenes/plate/black.png"), png).unwrap();
     let found = "is 16384 x 8192, 134217728 texels; allowed: 1 to 67108864; scale it down";
-    refused(&bench, &["plate.mtl:3: texture", "black.png", found]);
+    assert_render_refused(&bench, &["plate.mtl:3: texture", "black.png", found]);
 }
 
 #[test]
@@ -103,6 +103,6 @@ fn environments_that_are_huge_once_decoded_are_refused_from_their_headers() {
         let bench = Bench::new();
         with_sky(&bench, name);
         fs::write(bench.path("scenes/plate").join(name), file).unwrap();
-        refused(&bench, &["scene.toml:12: the background's image", found]);
+        assert_render_refused(&bench, &["scene.toml:12: the background's image", found]);
     }
 }

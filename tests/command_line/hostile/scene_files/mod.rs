@@ -9,7 +9,7 @@ use crate::bench::{Bench, SCENE, assert_refused};
 
 /// Loads the plate's scene in a process of its own, which renders as little as it can.
 #[track_caller]
-fn refused(bench: &Bench, parts: &[&str]) {
+fn assert_render_refused(bench: &Bench, parts: &[&str]) {
     assert_refused(&render(bench), 2, parts);
 }
 

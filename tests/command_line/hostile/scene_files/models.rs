@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::refused;
+use super::assert_render_refused;
 use crate::bench::{Bench, MTL, OBJ};
 
 #[test]
@@ -14,7 +14,7 @@ fn a_face_of_too_many_corners_is_refused() {
     }
     bench.write("plate.obj", &obj);
     let found = "f has 40000 corners; allowed: 3 to 4096; cut the face into triangles";
-    refused(&bench, &["plate.obj:4:", found]);
+    assert_render_refused(&bench, &["plate.obj:4:", found]);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
-use super::{refused, render};
+use super::{assert_render_refused, render};
 use crate::bench::{Bench, OBJ, SCENE, assert_refused, stderr};
 
 /// A scene of the plate and a text behind it.
@@ -84,7 +84,7 @@ fn a_chain_of_too_many_parents_is_refused_without_recursion() {
         });
     });
     let found = "object \"o257\" has 257 parents above it; allowed: 256; attach it to one nearer to the world";
-    refused(&bench, &["scene.toml:791:", found]);
+    assert_render_refused(&bench, &["scene.toml:791:", found]);
 
     // All in one circle.
     with_more(&bench, |scene| {
@@ -93,7 +93,7 @@ fn a_chain_of_too_many_parents_is_refused_without_recursion() {
         });
     });
     let found = "the parents of objects form a cycle: o0 -> o1 -> o2 -> o3 -> o4 -> o5 -> o6 -> o7 -> ... -> o9993";
-    refused(&bench, &["scene.toml:22:", found]);
+    assert_render_refused(&bench, &["scene.toml:22:", found]);
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn too_many_of_anything_are_refused() {
     let bench = Bench::new();
     with_more(&bench, |scene| objects(scene, 16_384, |_| String::new()));
     let found = "the scene has 16385 objects; allowed: 16384";
-    refused(&bench, &["scene.toml:", found]);
+    assert_render_refused(&bench, &["scene.toml:", found]);
 
     with_more(&bench, |scene| {
         for variant in 0..4_097 {
@@ -109,7 +109,7 @@ fn too_many_of_anything_are_refused() {
         }
     });
     let found = "the scene has 4097 variants; allowed: 4096; move some to a folder of their own";
-    refused(&bench, &["scene.toml:", found]);
+    assert_render_refused(&bench, &["scene.toml:", found]);
 
     let mut keys = String::new();
     for key in 0..16_385 {
@@ -119,7 +119,7 @@ fn too_many_of_anything_are_refused() {
         objects(scene, 1, |_| format!("keys = [{keys}]"));
     });
     let found = "object \"o0\" has 16385 keys; allowed: 1 to 16384";
-    refused(&bench, &["scene.toml:22:", found]);
+    assert_render_refused(&bench, &["scene.toml:22:", found]);
 }
 
 #[test]
@@ -144,7 +144,7 @@ fn a_text_that_nests_without_end_is_refused() {
         format!("{}a = 1\n", "a.".repeat(200_000)),
     ] {
         bench.write("scene.toml", &text);
-        refused(
+        assert_render_refused(
             &bench,
             &["scene.toml:", "nested too deeply; allowed: up to 80"],
         );
