@@ -454,7 +454,6 @@ pub const WORDS: &[&str] = &[
     "tune",
     "evaluate",
     "serve",
-    "catalogue",
     "import",
     "list",
     "16x16",

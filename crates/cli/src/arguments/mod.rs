@@ -64,8 +64,6 @@ pub enum Command {
     Evaluate(EvaluateArgs),
     /// Score sets of parameters as they come: JSON lines on standard input and output.
     Serve(ServeArgs),
-    /// Show every scene in pictures: the instant, the truth, the velocity, a filter's error. Writes catalogue.md.
-    Catalogue(CatalogueArgs),
     /// Make a scene folder of an OBJ file: camera, floor, wall, and motion as asked.
     Import(ImportArgs),
     /// List scenes, filters, parameters and presets.
@@ -284,15 +282,6 @@ pub struct BenchArgs {
     /// No progress bar.
     #[arg(long)]
     pub quiet: bool,
-}
-
-/// `shuttertruth catalogue`
-#[derive(Debug, Args)]
-pub struct CatalogueArgs {
-    #[command(flatten)]
-    pub measure: MeasureArgs,
-    #[command(flatten)]
-    pub adapter: AdapterArgs,
 }
 
 /// `shuttertruth import`

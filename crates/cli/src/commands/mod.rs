@@ -4,7 +4,6 @@ mod accept;
 mod bench;
 mod blur;
 mod calibrate;
-mod catalogue;
 mod check;
 mod compare;
 mod evaluate;
@@ -61,9 +60,6 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         }
         Some(Command::Serve(args)) => {
             with_threads(args.candidate.scenes.threads, || serve::execute(&args))
-        }
-        Some(Command::Catalogue(args)) => {
-            with_threads(args.measure.scenes.threads, || catalogue::execute(&args))
         }
         Some(Command::Import(args)) => import::execute(&args),
         Some(Command::List(args)) => list::execute(&args),

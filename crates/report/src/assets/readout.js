@@ -3,24 +3,13 @@
 {
   const table = document.querySelector("#viewer .readout");
   const spoken = document.querySelector("#viewer .spoken");
-  const { planes, precision, FAR } = window.shuttertruth;
+  const { planes, FAR } = window.shuttertruth;
   const width = Number(document.getElementById("viewer").dataset.width);
   // Counts what was asked for: what arrives late is not shown over what came after.
   let asked = 0;
 
-  // The shortest text that means this float.
-  const exact = (value) => {
-    if (!Number.isFinite(value)) return String(value);
-    for (let digits = 1; digits < 9; digits++) {
-      const text = value.toPrecision(digits);
-      if (Math.fround(Number(text)) === value) return String(Number(text));
-    }
-    return String(Number(value.toPrecision(9)));
-  };
-  // A half has three digits that count, what is kept for the screen has two.
-  const digits = precision === "half" ? 3 : 2;
-  const rounded = (value) => (Number.isFinite(value) ? String(Number(value.toPrecision(digits))) : String(value));
-  const written = precision === "float" ? exact : rounded;
+  // A half has three digits that count.
+  const written = (value) => (Number.isFinite(value) ? String(Number(value.toPrecision(3))) : String(value));
 
   const numbers = (row, own, at) => {
     if (row.dataset.layer === "signed") return [0, 1, 2].map((c) => Math.fround(own[c][at] - own[c + 3][at]));

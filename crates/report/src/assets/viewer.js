@@ -256,7 +256,7 @@
     mark = null;
     if (!open) return;
     const home = open.querySelector(".viewer_place");
-    window.shuttertruth.open(Number(home.dataset.scene));
+    window.shuttertruth.openScene(Number(home.dataset.scene));
     layers = Object.fromEntries(
       home.dataset.layers.split(" ").map((pair) => {
         const [word, numbers] = pair.split(":");

@@ -1,9 +1,8 @@
 //! The page of two runs side by side.
 
-mod chart;
 mod page;
 mod pictures;
-mod provenance;
+mod runs;
 
 pub use page::compare_page;
 

@@ -2,11 +2,11 @@
 
 use maud::{Markup, html};
 
-use super::chart::chart;
 use super::pictures::Pictures;
-use super::provenance::provenance;
+use super::runs::both_runs;
 use super::signed;
-use crate::shell::shell;
+use crate::charts::strip::Strip;
+use crate::document::Document;
 use suite::Error;
 use suite::number;
 use suite::{Basis, Change, ChangeKind, rank_changes};
@@ -19,11 +19,11 @@ const SHOWN: usize = 12;
 
 /// Reads the pictures of what changed most and writes nothing; the same runs make the same bytes.
 pub fn compare_page(compared: &Compared, first: &Side, second: &Side) -> Result<String, Error> {
-    let rank_changes = rank_changes(&compared.changes);
-    let pairs = pairs(&first.run, &second.run);
+    let ranked = rank_changes(&compared.changes);
+    let both = pairs(&first.run, &second.run);
     let mut shown = Vec::new();
-    for (scene, filter) in rank_changes.iter().take(SHOWN) {
-        let pair = pairs
+    for (scene, filter) in ranked.iter().take(SHOWN) {
+        let pair = both
             .iter()
             .find(|pair| pair.first.scene == *scene && subject(pair.first) == *filter);
         let pair = pair.expect("a change is of a pair");
@@ -44,16 +44,18 @@ pub fn compare_page(compared: &Compared, first: &Side, second: &Side) -> Result<
             }
         }
         (all_changes(&compared.changes))
-        (provenance(first, second))
+        (both_runs(first, second))
     };
     let subtitle = compared.runs.join(" → ");
-    let page = shell(
-        "Shuttertruth: two runs",
-        &subtitle,
-        &body,
-        &[include_str!("../assets/split.js")],
-    );
-    Ok(page.into_string())
+    let document = Document {
+        title: "Shuttertruth: two runs",
+        heading: html! { "Shuttertruth: two runs" },
+        subtitle: &subtitle,
+        body: html! { main { (body) } },
+        scripts: &[include_str!("../assets/split.js")],
+        loads_siblings: false,
+    };
+    Ok(document.render())
 }
 
 fn summary(compared: &Compared) -> String {
@@ -164,7 +166,7 @@ fn metric_means(metric: &str, means: &[&MeanChange]) -> Markup {
                             td { (number(mean.first)) }
                             td { (number(mean.second)) }
                             td { (mean.scenes) ": " (mean.better_worse[0]) " ▼ " (mean.better_worse[1]) " ▲" }
-                            td.chart { (chart(mean.worse, mean.interval, most)) }
+                            td.chart { (change_strip(mean, most)) }
                         }
                     }
                 }
@@ -278,4 +280,15 @@ fn change_row(change: &Change, named: bool) -> Markup {
             td { (number(change.second)) }
         }
     }
+}
+
+/// Draws a mean change with its interval, no change in the middle.
+fn change_strip(mean: &MeanChange, most: f64) -> Markup {
+    let strip = Strip::about_zero(most);
+    let class = if mean.worse > 0.0 { "worse" } else { "" };
+    strip.draw(&html! {
+        (strip.tick(0.0))
+        (strip.interval(mean.interval))
+        (strip.mark(mean.worse, class))
+    })
 }

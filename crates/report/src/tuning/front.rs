@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::folder::TuneFolder;
 use super::percent;
-use super::plot::{Axis, Plot};
+use crate::charts::plot::{Axis, Plot};
 use suite::Trial;
 
 /// A measure that stands against the error.
@@ -55,13 +55,13 @@ fn chart(done: &[&Trial], front: &[usize], chosen: Option<usize>, against: &Agai
     if points.is_empty() {
         return html! {};
     }
-    let plot = Plot {
-        x: Axis::linear(
+    let plot = Plot::small(
+        Axis::linear(
             "change of the error, %",
             points.iter().map(|(_, error, _)| *error),
         ),
-        y: Axis::linear(against.title, points.iter().map(|(_, _, other)| *other)),
-    };
+        Axis::linear(against.title, points.iter().map(|(_, _, other)| *other)),
+    );
     let marks = html! {
         @for (trial, error, other) in &points {
             @let words = format!("trial {}: {error:+.1} %, {other:.3}", trial.trial);

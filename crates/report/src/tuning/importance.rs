@@ -2,13 +2,10 @@
 
 use maud::{Markup, html};
 
+use crate::charts::strip::Strip;
 use suite::{ParameterSensitivity, Sensitivity};
 
-/// Sides of a bar, in its own units.
-const WIDTH: f64 = 240.0;
-const HEIGHT: f64 = 14.0;
-
-/// Those that matter most first.
+/// Lists the parameters, those that matter most first.
 pub fn importance(found: &Sensitivity) -> Markup {
     let mut rows: Vec<(&String, &ParameterSensitivity)> = found.parameters.iter().collect();
     rows.sort_by(|(_, a), (_, b)| b.importance().total_cmp(&a.importance()));
@@ -82,15 +79,9 @@ fn index(own: &ParameterSensitivity) -> Markup {
 }
 
 fn bar(value: f64, interval: [f64; 2], most: f64) -> Markup {
-    let place = |value: f64| match most > 0.0 {
-        true => (value / most).clamp(0.0, 1.0) * WIDTH,
-        false => 0.0,
+    let strip = Strip {
+        low: 0.0,
+        high: most,
     };
-    let [low, high] = interval.map(place);
-    html! {
-        svg.drawing viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) aria-hidden="true" focusable="false" {
-            rect.bar x="0" width=(format!("{:.1}", place(value))) y="3" height=(HEIGHT - 6.0) {}
-            line.interval x1=(format!("{low:.1}")) x2=(format!("{high:.1}")) y1=(HEIGHT / 2.0) y2=(HEIGHT / 2.0) {}
-        }
-    }
+    strip.draw(&html! { (strip.bar(0.0, value, "")) (strip.interval(interval)) })
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use maud::{Markup, html};
 
-use super::folds::bar;
+use super::folds::change_bar;
 use super::percent;
 use suite::log_ratio;
 use suite::{Opening, SceneScore, Tuning};
@@ -76,7 +76,7 @@ fn table(caption: &str, pairs: &BTreeMap<String, [SceneScore; 2]>) -> Markup {
                             td { (format!("{:.4}", start.flip)) }
                             td { (format!("{:.4}", chosen.flip)) }
                             td { (percent(*log)) }
-                            td.chart { (bar(*log, most)) }
+                            td.chart { (change_bar(*log, most)) }
                             td { (bleed(start)) }
                             td { (bleed(chosen)) }
                         }
