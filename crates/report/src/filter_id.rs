@@ -34,6 +34,19 @@ impl FilterId {
         }
     }
 
+    /// Writes the title as a part of an address: `bevy:high`, `identity@trailing`.
+    pub fn anchor(&self) -> String {
+        match self.is_reference {
+            true => format!("{}@{}", escape(&self.name), self.alignment),
+            false => escape(&self.name),
+        }
+    }
+
+    /// Writes the address of the filter's own section: `filter:bevy:high`.
+    pub fn section_anchor(&self) -> String {
+        format!("filter:{}", self.anchor())
+    }
+
     /// Tells whether a mean over scenes is this filter's.
     pub fn is_of(&self, overall: &Overall) -> bool {
         (self.is_reference, &self.name, &self.alignment)
@@ -52,6 +65,20 @@ impl FilterId {
         own.find(|(_, case)| case.scene == scene)
             .map(|(index, _)| index)
     }
+}
+
+/// Writes the address of a case: `railing/bevy:high`.
+pub fn case_anchor(case: &Case) -> String {
+    format!("{}/{}", escape(&case.scene), FilterId::of(case).anchor())
+}
+
+/// Replaces what an address may not hold, or what ends a name in it: a space becomes `~20`.
+fn escape(name: &str) -> String {
+    let escaped = name.chars().map(|letter| match letter {
+        'a'..='z' | 'A'..='Z' | '0'..='9' | '_' | '-' | '.' | ':' | '@' => letter.to_string(),
+        other => format!("~{:x}", u32::from(other)),
+    });
+    escaped.collect()
 }
 
 /// Lists the filters of a run, in the order they ran.
@@ -94,4 +121,15 @@ fn drop_repetitions<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
         }
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_in_addresses_are_plain() {
+        assert_eq!(escape("panel@64px_45deg"), "panel@64px_45deg");
+        assert_eq!(escape("bevy:high a/b&c"), "bevy:high~20a~2fb~26c");
+    }
 }

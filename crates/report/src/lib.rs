@@ -5,6 +5,7 @@ mod charts;
 mod comparison;
 mod document;
 mod filter_id;
+mod filter_page;
 mod finding_text;
 mod overview;
 mod pixels;
@@ -19,7 +20,8 @@ use suite::{Case, Error, Run};
 
 use case::case_section;
 use case::case_view::{CaseInput, CaseView};
-use filter_id::list_scenes;
+use filter_id::{list_filters, list_scenes};
+use filter_page::filter_section;
 use overview::costs::read_bench;
 use overview::overview;
 use pixels::report_files::SceneNumbers;
@@ -47,6 +49,7 @@ pub fn report(
     let bench = read_bench(folder)?;
     let mut texts = Vec::new();
     let mut views = Vec::new();
+    let mut thumbnails = Vec::new();
     for (scene, name) in list_scenes(run).into_iter().enumerate() {
         let own = || {
             let all = run.cases.iter().enumerate();
@@ -65,10 +68,15 @@ pub fn report(
             views.push(CaseView::read(input, folder, &mut files)?);
         }
         texts.push(files.planes.json());
+        thumbnails.push(files.thumbnail()?);
     }
     views.sort_by_key(|view| view.index);
-    let sections: Vec<_> = views.iter().map(case_section).collect();
-    let first = overview(run, &views, bench.as_ref());
+    let filters = list_filters(run).into_iter();
+    let filters = filters.filter(|filter| !filter.is_reference);
+    let sections: Vec<_> = (views.iter().map(case_section))
+        .chain(filters.map(|filter| filter_section(run, &filter, &thumbnails, bench.as_ref())))
+        .collect();
+    let first = overview(run, &views, &thumbnails, bench.as_ref());
     let text = sections
         .iter()
         .map(|section| section.0.len())

@@ -9,13 +9,15 @@ use crate::pixels::report_files::SceneNumbers;
 use suite::Run;
 
 /// Scripts in the order in which they run.
-const SCRIPTS: [&str; 6] = [
-    include_str!("assets/sorting.js"),
+const SCRIPTS: [&str; 8] = [
     include_str!("assets/planes.js"),
     include_str!("assets/paint.js"),
+    include_str!("assets/pictures.js"),
     include_str!("assets/viewer.js"),
     include_str!("assets/readout.js"),
     include_str!("assets/keys.js"),
+    include_str!("assets/overview.js"),
+    include_str!("assets/address.js"),
 ];
 
 /// Writes the whole page.

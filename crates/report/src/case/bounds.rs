@@ -5,6 +5,7 @@ use metrics::Metric;
 
 use super::case_view::CaseView;
 use super::evidence::Evidence;
+use crate::filter_id::case_anchor;
 use crate::finding_text::{Status, finding_line, way_out};
 use suite::Level;
 use suite::{CROP, Finding, Outcome, number};
@@ -22,7 +23,7 @@ pub fn broken_bounds(pages: &[CaseView]) -> Markup {
                 ul {
                     @for (page, finding) in broken {
                         li {
-                            a href=(format!("#case-{}", page.index)) {
+                            a href=(format!("#{}", case_anchor(page.case))) {
                                 (finding.scene) " / " (finding.filter)
                             }
                             ": " (finding_line(finding))

@@ -1,73 +1,74 @@
-//! The controls that pictures are looked at with: one set, which the script moves to the case that is open.
+//! Viewer of pictures: one set of controls, which the script moves to the case that is open.
 
-use maud::{Markup, html};
+use maud::{Markup, PreEscaped, html};
 
 use super::legend::legends;
 use crate::pixels::layer::Layer;
 use suite::BLOCK;
 use suite::Run;
 
-/// How pictures are set against each other: the script's word, what a reader calls it, and its key.
-const WAYS: [(&str, &str, &str); 4] = [
+/// Modes in which two pictures are compared: the script's word, the name, and the key.
+const MODES: [(&str, &str, &str); 5] = [
     ("slide", "Slide", "1"),
     ("blink", "Blink", "2"),
     ("onion", "Onion skin", "3"),
     ("side", "Side by side", "4"),
+    ("difference", "Difference", "5"),
 ];
-
-/// What may lie on the left.
-const LEFT: [Layer; 3] = [Layer::Truth, Layer::Instant, Layer::Output];
 
 /// Exposures beside the scene's own, in stops.
 const EXPOSURES: [(i32, &str); 3] = [(-2, "−2 EV"), (0, "0 EV"), (2, "+2 EV")];
 
-/// What each key does.
-const KEYS: [(&str, &str); 11] = [
-    ("1 2 3 4", "slide, blink, onion skin, side by side"),
-    ("b", "blink: swap the pictures"),
-    ("a", "next picture on the left"),
+/// Keys and their actions.
+const KEYS: [(&str, &str); 14] = [
+    (
+        "1 to 5",
+        "slide, blink, onion skin, side by side, difference",
+    ),
+    ("b", "blink; stop; then change the picture"),
+    ("a, A", "next or last picture on the left"),
     ("m, M", "next or last picture on the right"),
+    ("x", "exchange left and right"),
+    ("w", "zoom to the worst place"),
+    ("+, -, 0, wheel", "zoom in, out, fit"),
     ("e", "next exposure"),
     ("[, ]", "move the divider"),
-    ("+, -, 0", "zoom in, out, fit"),
     (
         "arrows",
-        "on the picture: read the next pixel, with shift the tenth; the view follows. Page up and down zoom",
+        "on the picture: read the next pixel, with shift the tenth; page up and down zoom",
     ),
     ("j, k", "next or last filter of the scene"),
     ("l, h", "the same filter in the next or last scene"),
     ("o, t", "overview; light or dark"),
+    ("?", "these keys"),
 ];
 
-/// Hidden until a case is open.
+/// Writes the viewer, hidden until a case is open.
 pub fn viewer(run: &Run) -> Markup {
     html! {
         div #viewer hidden data-width=(run.width) data-height=(run.height) data-block=(BLOCK) {
             div.controls {
-                fieldset.choice {
-                    legend { "Compare" }
-                    @for (index, (word, title, key)) in WAYS.iter().enumerate() {
-                        label title=(format!("Key {key}")) {
-                            input type="radio" name="way" value=(word) checked[index == 0];
-                            span { (title) }
+                div.toolbar {
+                    label.menu { "Left " select name="left" {} }
+                    button type="button" data-do="exchange" aria-label="Exchange left and right" title="Key x" { "⇄" }
+                    label.menu { "Right " select name="right" {} }
+                    fieldset.choice {
+                        legend.unseen { "Compare" }
+                        @for (index, (word, title, key)) in MODES.iter().enumerate() {
+                            label title=(format!("Key {key}")) {
+                                input type="radio" name="mode" value=(word) checked[index == 0];
+                                span { (title) }
+                            }
                         }
                     }
-                }
-                (choice("Left", "over", &LEFT, Layer::Truth))
-                (choice("Right", "under", &Layer::ALL, Layer::Output))
-                fieldset.choice {
-                    legend { "Exposure" }
-                    @for (stops, title) in EXPOSURES {
-                        label {
-                            input type="radio" name="exposure" value=(stops) checked[stops == 0];
-                            span { (title) }
-                        }
+                    div.choice role="group" aria-label="Zoom" {
+                        button type="button" data-do="out" aria-label="Zoom out" { "−" }
+                        output.zoom aria-label="Zoom" { "1×" }
+                        button type="button" data-do="in" aria-label="Zoom in" { "+" }
+                        button type="button" data-do="fit" { "Fit" }
+                        button type="button" data-do="worst" title="Key w" { "Worst place" }
                     }
-                }
-                div.choice role="group" aria-label="Zoom" {
-                    button type="button" data-zoom="out" aria-label="Zoom out" { "−" }
-                    button type="button" data-zoom="fit" { "Fit" }
-                    button type="button" data-zoom="in" aria-label="Zoom in" { "+" }
+                    button.help type="button" aria-label="Keys" { "?" }
                 }
             }
             div.stage style=(format!("--ratio:{}/{}", run.width, run.height)) {
@@ -80,7 +81,7 @@ pub fn viewer(run: &Run) -> Markup {
                     p.tag.right data-tag="under" {}
                     p.tag.left data-tag="over" {}
                 }
-                @for place in ["instant", "truth", "output", "map"] {
+                @for place in ["left", "right"] {
                     div.pane.single tabindex="0" role="group"
                         aria-label="One picture; arrows read pixels, plus and minus zoom" hidden {
                         (layer(run, place))
@@ -89,47 +90,57 @@ pub fn viewer(run: &Run) -> Markup {
                     }
                 }
             }
-            label.split {
-                span { "Divider" }
-                input type="range" name="split" min="0" max="100" step="0.5" value="50";
-            }
             p.hint aria-live="polite" {}
             (legends())
-            (readout())
+            details.more {
+                summary { "Exposure, divider and the numbers of a pixel" }
+                fieldset.choice {
+                    legend { "Exposure" }
+                    @for (stops, title) in EXPOSURES {
+                        label {
+                            input type="radio" name="exposure" value=(stops) checked[stops == 0];
+                            span { (title) }
+                        }
+                    }
+                }
+                label.split {
+                    span { "Divider" }
+                    input type="range" name="split" min="0" max="100" step="0.5" value="50";
+                }
+                (readout())
+            }
             p.spoken.unseen aria-live="polite" {}
-            details.keys {
-                summary { "Keys" }
-                dl {
-                    @for (keys, what) in KEYS { div { dt { kbd { (keys) } } dd { (what) } } }
-                }
-            }
+            p.tip hidden aria-hidden="true" {}
+            script #layers type="application/json" { (PreEscaped(layers())) }
+        }
+        dialog #keys aria-label="Keys" {
+            form method="dialog" { button { "Close" } }
+            dl { @for (keys, action) in KEYS { div { dt { kbd { (keys) } } dd { (action) } } } }
         }
     }
 }
 
-fn choice(legend: &str, name: &str, layers: &[Layer], first: Layer) -> Markup {
-    html! {
-        fieldset.choice {
-            legend { (legend) }
-            @for layer in layers {
-                label {
-                    input type="radio" name=(name) value=(layer.name()) data-hint=(layer.hint())
-                        data-painter=(layer.painter().name()) checked[*layer == first];
-                    span { (layer.title()) }
-                }
-            }
-        }
-    }
+/// Describes every kind of picture for the script: JSON of our own words, which holds nothing that HTML escapes.
+fn layers() -> String {
+    let all = Layer::ALL.map(|layer| {
+        let facts = serde_json::json!({
+            "title": layer.title(),
+            "hint": layer.hint(),
+            "painter": layer.painter().name(),
+        });
+        (layer.name().to_owned(), facts)
+    });
+    serde_json::Value::Object(all.into_iter().collect()).to_string()
 }
 
-/// A picture that zooms and moves with all others.
+/// Makes a picture that zooms and moves with all others.
 fn layer(run: &Run, place: &str) -> Markup {
     html! {
         div.layer data-place=(place) { canvas width=(run.width) height=(run.height) role="img" {} }
     }
 }
 
-/// The line of the profile, the worst place of a bound, and the pixel that is read.
+/// Marks the line of the profile, the worst place of a bound, and the pixel that is read.
 fn marks(run: &Run) -> Markup {
     html! {
         div.layer aria-hidden="true" {

@@ -1,75 +1,91 @@
-//! One score in a table, against its bound.
+//! Cell of the overview: one score of one case, which leads to the case.
 
 use maud::{Markup, html};
-use metrics::{Measured, Metric};
+use metrics::{Ideal, Measured};
 
-use super::score_tables::ScoreTable;
 use crate::case::case_view::CaseView;
+use crate::filter_id::case_anchor;
 use crate::finding_text::Status;
-use suite::Level;
-use suite::{Finding, Outcome, limit_as_badness, number};
+use suite::{Finding, Headline, Level, Outcome, number};
 
-/// How far a value is from its limit as a part of that: -1 is perfect, 0 at the limit, 1 twice as bad as allowed, or worse.
-pub fn distance(metric: Metric, value: f64, limit: f64) -> f64 {
-    let ideal = metric.ideal();
-    let limit = limit_as_badness(ideal, limit);
-    let beyond = ideal.badness(value) - limit;
-    match limit == 0.0 {
-        true => beyond.signum() * f64::from(beyond != 0.0),
-        false => (beyond / limit.abs()).clamp(-1.0, 1.0),
+/// Least badness that a colour tells from another one, where scores have a logarithmic scale.
+const LEAST: f64 = 1e-3;
+/// Part of the scores, at either end, that have the strongest colour and no share in the scale.
+const OUTLIERS: f64 = 0.05;
+
+/// Colours of a table: from blue, good, over the paper's colour to orange, bad.
+pub struct Colors {
+    ideal: Ideal,
+    ends: Option<[f64; 2]>,
+}
+
+impl Colors {
+    /// Spreads the colours over some scores, but for the outliers among them.
+    pub fn over(ideal: Ideal, scores: impl Iterator<Item = f64>) -> Self {
+        let mut all: Vec<f64> = scores.map(|score| scale(ideal, score)).collect();
+        all.sort_by(f64::total_cmp);
+        let last = all.len().saturating_sub(1);
+        let skipped = (OUTLIERS * last as f64).round() as usize;
+        let ends = (!all.is_empty()).then(|| [all[skipped], all[last - skipped]]);
+        Self { ideal, ends }
+    }
+
+    /// Finds class and strength, in percent, of a score's colour.
+    fn of(&self, score: f64) -> Option<(&'static str, f64)> {
+        let [low, high] = self.ends.filter(|[low, high]| high > low)?;
+        let part = (scale(self.ideal, score) - low) / (high - low);
+        let from_middle = 200.0 * (part.clamp(0.0, 1.0) - 0.5);
+        let class = if from_middle < 0.0 { "good" } else { "bad" };
+        Some((class, from_middle.abs()))
     }
 }
 
-/// The cell of the overview that leads to a case.
-pub fn cell(table: &ScoreTable, page: &CaseView) -> Markup {
-    let measured = table.headline.measured(page.case);
-    let judged = judged(table, page);
+/// Scales badness: equal steps are equal factors where 0 is perfect.
+fn scale(ideal: Ideal, score: f64) -> f64 {
+    match ideal {
+        Ideal::Lowest | Ideal::Target(_) => ideal.badness(score).max(LEAST).ln(),
+        Ideal::Highest => ideal.badness(score),
+    }
+}
+
+/// Writes the cell of a case.
+pub fn cell(headline: Headline, colors: &Colors, view: &CaseView) -> Markup {
+    let measured = headline.measured(view.case);
+    let judged = find_judged(headline, view);
+    let color = (measured.value().filter(|_| !view.case.bar)).and_then(|score| colors.of(score));
+    let fails = judged.is_some_and(|(finding, _)| {
+        finding.level == Level::Required && finding.outcome == Outcome::Broken
+    });
     html! {
-        td class=[judged.map(|(_, finding, status)| class(finding, status))]
-            style=[judged.and_then(|(metric, finding, _)| strength(metric, &measured, finding))]
+        td class=(format!("{} {}", color.map_or("", |own| own.0), if fails { "required" } else { "" }).trim())
+            style=[color.map(|(_, strength)| format!("--strength:{strength:.0}%"))]
             data-value=[measured.value()]
             title=[reason(&measured)] {
-            a href=(format!("#case-{}", page.index)) {
-                @if let Some((_, _, status)) = judged {
+            a.case href=(format!("#{}", case_anchor(view.case))) {
+                @if let Some((_, status)) = judged {
                     span.sign aria-hidden="true" { (status.sign) }
                 }
-                (table.headline.text(page.case))
-                @if let Some((_, finding, status)) = judged {
-                    span.unseen { ", " (status.word) ", " (level(finding)) " limit " (number(finding.limit)) }
+                (headline.text(view.case))
+                @if let Some((finding, status)) = judged {
+                    span.unseen { ", " (status.word) ", " (level(finding)) " " (number(finding.limit)) }
                 }
             }
         }
     }
 }
 
-/// The bound on a case's score, and how the score stands to it; none where it has no bound, or does not apply.
-fn judged<'a>(table: &ScoreTable, page: &'a CaseView) -> Option<(Metric, &'a Finding, Status)> {
-    let metric = table.headline.metric(&page.case.scores)?;
-    let name = metric.name();
-    let finding = (page.findings.iter()).find(|finding| finding.metric == name)?;
-    Some((metric, finding, Status::of(finding.outcome)?))
-}
-
-/// What fails a check stands out.
-fn class(finding: &Finding, status: Status) -> String {
-    let fails = finding.level == Level::Required && finding.outcome == Outcome::Broken;
-    match fails {
-        true => format!("{} required", status.word),
-        false => status.word.to_owned(),
-    }
+/// Finds the bound on a case's score, and the score's status; none where it has no bound, or does not apply.
+fn find_judged<'a>(headline: Headline, view: &'a CaseView) -> Option<(&'a Finding, Status)> {
+    let name = headline.metric(&view.case.scores)?.name();
+    let finding = (view.findings.iter()).find(|finding| finding.metric == name)?;
+    Some((finding, Status::of(finding.outcome)?))
 }
 
 fn level(finding: &Finding) -> &'static str {
     match finding.level {
-        Level::Required => "required",
-        Level::Report => "reported",
+        Level::Required => "required limit",
+        Level::Report => "target",
     }
-}
-
-/// How strong the colour is, in percent.
-fn strength(metric: Metric, measured: &Measured, finding: &Finding) -> Option<String> {
-    let far = distance(metric, measured.value()?, finding.limit).abs();
-    Some(format!("--strength:{:.0}%", 100.0 * far))
 }
 
 fn reason(measured: &Measured) -> Option<&str> {
@@ -84,21 +100,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_distance_is_a_part_of_the_limit_whichever_way_is_better() {
-        for (metric, value, limit, expected) in [
-            ("flip_moving", 0.0, 0.05, -1.0),
-            ("flip_moving", 0.025, 0.05, -0.5),
-            ("flip_moving", 0.05, 0.05, 0.0),
-            ("flip_moving", 0.2, 0.05, 1.0),
-            ("n_eq", 4.0, 8.0, 0.5),
-            ("n_eq", 12.0, 8.0, -0.5),
-            ("extent", 0.75, 0.5, -0.5),
-            ("extent", 1.75, 0.5, 0.5),
-            ("hole", 0.0, 0.0, 0.0),
-            ("hole", 0.1, 0.0, 1.0),
-        ] {
-            let metric: Metric = metric.parse().unwrap();
-            assert_eq!(distance(metric, value, limit), expected, "{metric} {value}");
-        }
+    fn colours_tell_005_from_012_beside_an_outlier() {
+        let scores = [
+            0.02, 0.04, 0.05, 0.06, 0.08, 0.1, 0.12, 0.15, 0.2, 0.25, 9.0,
+        ];
+        let colors = Colors::over(Ideal::Lowest, scores.into_iter());
+        let (good, strong) = colors.of(0.05).unwrap();
+        let (bad, weak) = colors.of(0.12).unwrap();
+        assert_eq!([good, bad], ["good", "bad"]);
+        assert!(strong + weak > 40.0, "{strong} {weak}");
+        assert_eq!(colors.of(9.0), Some(("bad", 100.0)));
+        assert_eq!(
+            Colors::over(Ideal::Highest, [3.0].into_iter()).of(3.0),
+            None
+        );
     }
 }

@@ -2,5 +2,6 @@
 
 pub mod layer;
 pub mod planes;
+pub mod png;
 pub mod report_files;
 pub mod scene_files;

@@ -10,6 +10,7 @@ use metrics::{Side, object_sides};
 
 use super::layer::Layer;
 use super::planes::Planes;
+use super::png::{embed_picture, thumbnail};
 use suite::ACCUMULATE;
 use suite::{Case, Error, Run};
 
@@ -89,6 +90,13 @@ impl SceneFiles {
             frame,
             planes,
         })
+    }
+
+    /// Draws a small truth, that of any alignment, as an address that holds the picture itself.
+    pub fn thumbnail(&self) -> Result<String, Error> {
+        let truth = self.truths.values().next();
+        let image = truth.map_or(&self.frame.color, |truth| &truth.mean.color);
+        embed_picture(&thumbnail(image, self.frame.display.stops))
     }
 
     /// The truth that a case is scored against, read once.

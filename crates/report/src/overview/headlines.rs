@@ -1,11 +1,11 @@
-//! Scores that the overview has a table of.
+//! Scores that the overview has a table of, with their words.
 
 use metrics::Ideal;
 
 use suite::Headline;
 
 /// A score that has a table of its own.
-pub struct ScoreTable {
+pub struct TableScore {
     /// Score.
     pub headline: Headline,
     /// Name of the table.
@@ -13,46 +13,46 @@ pub struct ScoreTable {
 }
 
 /// Tables in the order of the page.
-pub const SCORE_TABLES: [ScoreTable; 9] = [
-    ScoreTable {
+pub const TABLE_SCORES: [TableScore; 9] = [
+    TableScore {
         headline: Headline::FLIP,
         title: "FLIP",
     },
-    ScoreTable {
+    TableScore {
         headline: Headline::SKILL,
         title: "Skill",
     },
-    ScoreTable {
+    TableScore {
         headline: Headline::CommonFlip,
         title: "FLIP*",
     },
-    ScoreTable {
+    TableScore {
         headline: Headline::SUBFRAMES,
         title: "N_eq",
     },
-    ScoreTable {
+    TableScore {
         headline: Headline::GROWTH,
         title: "Growth",
     },
-    ScoreTable {
+    TableScore {
         headline: Headline::LOSS,
         title: "Loss",
     },
-    ScoreTable {
+    TableScore {
         headline: Headline::Bleed,
         title: "Bleed",
     },
-    ScoreTable {
+    TableScore {
         headline: Headline::LABEL,
         title: "Label TV",
     },
-    ScoreTable {
+    TableScore {
         headline: Headline::PSNR,
         title: "PSNR",
     },
 ];
 
-impl ScoreTable {
+impl TableScore {
     /// Explains the score in one line.
     pub fn meaning(&self) -> String {
         match self.headline {
