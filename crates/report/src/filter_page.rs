@@ -44,13 +44,13 @@ pub fn filter_section(
             }
             @if let Some(own) = &own { (about(own, first)) }
             (weakest(run, &cases, thumbnails))
+            (parameters(own.as_ref(), first))
             dl.facts {
                 div { dt { "shutter" } dd { (filter.alignment) } }
                 @if bench.is_some() { div { dt { "cost" } dd { (cost_text(cost_of(run, bench, filter))) " ms" } } }
                 @if let Some(change) = first.input.change() { div { dt { "input" } dd { (change) } } }
                 @if let Some(command) = &first.command { div { dt { "command" } dd { code { (command.join(" ")) } } } }
             }
-            (parameters(own.as_ref(), first))
         }
     }
 }

@@ -25,7 +25,7 @@
     0: () => pictures.fit(),
   };
   document.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.altKey || event.metaKey || event.target.matches("input[type=search]")) return;
+    if (dialog.open || event.ctrlKey || event.altKey || event.metaKey || event.target.matches("input[type=search]")) return;
     if (event.key === "t") document.getElementById("theme").click();
     if (event.key === "?") dialog.showModal();
     if (!pictures.isOpen()) return;

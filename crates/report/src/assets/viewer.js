@@ -60,7 +60,8 @@
         return group;
       });
       menu.replaceChildren(...groups);
-      menu.value = pictures.find(wanted[side]) ? wanted[side] : "output";
+      menu.value = wanted[side];
+      if (menu.selectedIndex < 0) menu.value = "output";
     }
   };
 

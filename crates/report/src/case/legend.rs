@@ -42,7 +42,7 @@ pub fn legends() -> Markup {
             "0 " (strip(MAGMA, false)) " 1"
         }))
         (legend(Painter::Signed, html! {
-            "darker than the truth " (strip(PURPLE_ORANGE, false)) " brighter; the ends are the way from display black to white, half as strong a quarter of it"
+            "darker " (strip(PURPLE_ORANGE, false)) " brighter; the ends differ as display black and white do, half the strength is a quarter of that"
         }))
         (legend(Painter::Sides, html! {
             @for (color, side) in SIDES {
