@@ -1,4 +1,4 @@
-//! The page of two runs side by side.
+//! Comparison of two runs as a page.
 
 mod page;
 mod pictures;
@@ -6,7 +6,7 @@ mod runs;
 
 pub use page::compare_page;
 
-/// `+0.0123`, in three digits.
+/// Writes a change in three digits: `+0.0123`.
 pub fn signed(value: f64) -> String {
     match value {
         0.0 => "0".to_owned(),

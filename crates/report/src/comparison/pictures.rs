@@ -1,4 +1,4 @@
-//! The pictures of a case in two runs.
+//! Pictures of a case in two runs.
 
 use frame::{Plane, read_exr};
 
@@ -7,7 +7,7 @@ use suite::Error;
 use suite::Pair;
 use suite::Side;
 
-/// Of one case, each as an address that holds the picture itself.
+/// Pictures of one case, each as an address that holds the picture itself.
 pub struct Pictures {
     /// What the filter made in the first run.
     pub first: String,

@@ -21,7 +21,7 @@ pub fn folds(folds: &[Fold]) -> Markup {
             h2 { "Cross-validation" }
             p {
                 "Each family of scenes is left out of the choice in turn. A gap above 0 means: worse where it was not chosen for. The \
-                 trials themselves were searched for on all scenes; only sealed scenes tell the overfit of the search."
+                 trials themselves were searched for on all scenes; only held-out scenes tell the overfit of the search."
             }
             div.scroll tabindex="0" role="region" aria-label="Cross-validation" {
                 table {

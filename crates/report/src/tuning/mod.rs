@@ -23,13 +23,13 @@ pub fn tuning_page(folder: &TuneFolder) -> Result<String, Error> {
         @if let Some(tuning) = &folder.tuning { (choice::summary(tuning)) }
         @if let Some(tuning) = &folder.tuning { (choice::values(tuning)) }
         @if !folder.trials.is_empty() {
-            (front::front(folder))
+            (front::front_section(folder))
             (convergence::convergence(&folder.trials))
         }
         @if let Some(tuning) = &folder.tuning {
             (folds::folds(&tuning.folds))
             (scenes::tuned_on(tuning))
-            (scenes::sealed(&tuning.openings))
+            (scenes::held_out(&tuning.openings))
         }
         @if let Some(found) = &folder.sensitivity { (importance::importance(found)) }
         (slices::slices(folder))

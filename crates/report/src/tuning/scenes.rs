@@ -1,4 +1,4 @@
-//! Start and choice, scene by scene.
+//! Scenes of a tuning: start and choice.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use super::percent;
 use suite::log_ratio;
 use suite::{Opening, SceneScore, Tuning};
 
-/// The scenes that were tuned on, those with the largest error of the start first.
+/// Lists the scenes that were tuned on, those with the largest error of the start first.
 pub fn tuned_on(tuning: &Tuning) -> Markup {
     let pairs: BTreeMap<String, [SceneScore; 2]> = (tuning.start.scenes.iter())
         .filter_map(|(scene, start)| {
@@ -24,21 +24,21 @@ pub fn tuned_on(tuning: &Tuning) -> Markup {
     }
 }
 
-/// The last look at the sealed scenes.
-pub fn sealed(openings: &[Opening]) -> Markup {
+/// Lists the held-out scenes as they were measured last.
+pub fn held_out(openings: &[Opening]) -> Markup {
     let Some(last) = openings.last() else {
         return html! {};
     };
     let [width, height, samples] = last.render;
     html! {
         section {
-            h2 { "Choice against start on sealed scenes" }
+            h2 { "Choice against start on held-out scenes" }
             p {
-                "No trial ran on these. They were opened " (openings.len())
+                "No trial ran on these. They were measured " (openings.len())
                 @if openings.len() == 1 { " time" } @else { " times" }
-                "; a set that is opened often is one that is tuned on. " (width) "x" (height) ", " (samples) " samples per pixel."
+                "; a set that is measured often becomes one that is tuned on. " (width) "x" (height) ", " (samples) " samples per pixel."
             }
-            (table("Sealed scenes, the worst of the start first", &last.paired.scenes))
+            (table("Held-out scenes, the worst of the start first", &last.paired.scenes))
         }
     }
 }
