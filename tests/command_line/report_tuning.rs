@@ -81,7 +81,7 @@ fn a_tuning_is_shown_with_its_trials_its_choice_and_its_folds() {
             "{fold:?}"
         );
     }
-    let sealed = section(&page, "Choice against start on sealed scenes");
+    let sealed = section(&page, "Choice against start on held-out scenes");
     let [start, chosen] = &tuning.openings[0].paired.scenes["sealed"];
     for score in [start, chosen] {
         assert!(sealed.contains(&format!("<td>{:.4}</td>", score.flip)));
