@@ -2,7 +2,6 @@
 
 mod baseline;
 mod bench;
-mod catalogue;
 mod check;
 #[cfg(unix)]
 mod command_filter;

@@ -67,13 +67,11 @@ impl Browser {
         for domain in ["Page", "Runtime", "Network", "Log"] {
             browser.call(&format!("{domain}.enable"), json!({}));
         }
-        let screen =
-            json!({"width": width, "height": height, "deviceScaleFactor": 1, "mobile": false});
-        browser.call("Emulation.setDeviceMetricsOverride", screen);
+        browser.resize(width, height);
         browser
     }
 
-    /// Opens a file, at a part of it such as `#case-3`.
+    /// Opens a file, at a part of it such as `#railing/bevy:high`.
     pub fn open(&mut self, page: &Path, part: &str) {
         let url = format!("{}{part}", address_of(page));
         self.call("Page.navigate", json!({"url": url}));
@@ -136,6 +134,24 @@ impl Browser {
         let pressed = u32::from(kind != "mouseReleased");
         let words = json!({"type": kind, "x": x, "y": y, "button": "left", "buttons": pressed, "clickCount": 1});
         self.call("Input.dispatchMouseEvent", words);
+    }
+
+    /// Turns the wheel over a place: up is below 0.
+    pub fn turn_wheel(&mut self, x: f64, y: f64, down: f64) {
+        let words = json!({"type": "mouseWheel", "x": x, "y": y, "deltaX": 0, "deltaY": down});
+        self.call("Input.dispatchMouseEvent", words);
+    }
+
+    /// Makes the window as large as a screen of so many pixels.
+    pub fn resize(&mut self, width: u32, height: u32) {
+        let screen =
+            json!({"width": width, "height": height, "deviceScaleFactor": 1, "mobile": false});
+        self.call("Emulation.setDeviceMetricsOverride", screen);
+    }
+
+    /// Shows pages as on paper.
+    pub fn print(&mut self) {
+        self.call("Emulation.setEmulatedMedia", json!({"media": "print"}));
     }
 
     /// Left, top, width and height of the first element that a selector finds, in the window.

@@ -1,15 +1,13 @@
-//! Numbers behind the pictures: the page's readout of a pixel is what the files hold.
+//! Numbers behind the pictures: the read-out of a pixel against the files.
 
 use std::fs;
-use std::path::Path;
 
 use frame::{ExrFile, read_exr};
-use report::LARGEST_PAGE;
 use suite::Case;
 
 use crate::bench::{Bench, assert_done};
 use crate::browser::{Browser, address_of};
-use crate::{make_page, make_page_within, number_of, open_case};
+use crate::{case_of, make_page, make_page_within, open_case};
 
 /// The read-out's rows by the layer, each with its texts.
 pub fn read_out(browser: &mut Browser, x: u32, y: u32) -> serde_json::Value {
@@ -51,31 +49,44 @@ fn files_of(bench: &Bench, case: &Case) -> [ExrFile; 4] {
     .map(|path| read_exr(&path).unwrap())
 }
 
+/// Largest error of a number, as a part of it: half a step of a half is 1/2048, and three digits round by 1/200 at most.
+const PART: f32 = 0.006;
+
+/// Compares a read-out with the files; a half below 6e-5 has fewer digits, and no picture shows so little.
+#[track_caller]
+fn assert_near(shown: &serde_json::Value, files: &[ExrFile; 4], x: u32, y: u32) {
+    for (layer, file, names) in channels(files) {
+        for (index, name) in names.into_iter().enumerate() {
+            let text = shown[layer][index].as_str().unwrap();
+            let value: f32 = text.parse().unwrap();
+            let due = *file.plane(name).unwrap().at(x, y);
+            // Differences have the error of both colours, which are below 1 here.
+            let allowed = match layer {
+                "signed" => 2.0 * PART,
+                _ => PART * due.abs() + 1e-6,
+            };
+            assert!(
+                (value - due).abs() <= allowed,
+                "{layer} {name} at ({x}, {y}): {text}, the file has {due:?}"
+            );
+        }
+    }
+}
+
 #[test]
-fn the_read_out_is_the_value_of_the_openexr_files() {
+fn the_read_out_is_the_value_of_the_openexr_files_in_three_digits() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
     let page = make_page(&bench);
-    let number = number_of(&bench, "velocity_gather:fine");
-    let case = &bench.measured().cases[number];
-    let files = files_of(&bench, case);
+    let case = case_of(&bench, "velocity_gather:fine");
+    let files = files_of(&bench, &case);
     let mut browser = Browser::new(1280, 900);
-    open_case(&mut browser, &page, number);
+    open_case(&mut browser, &page, "plate/velocity_gather:fine");
     let [left, top, width, _] = browser.place(".stack");
     let scale = width / 64.0;
     let check = |browser: &mut Browser, x: u32, y: u32| {
         let shown = read_out(browser, x, y);
-        for (layer, file, names) in channels(&files) {
-            for (index, name) in names.into_iter().enumerate() {
-                let text = shown[layer][index].as_str().unwrap();
-                let value: f32 = text.parse().unwrap();
-                let due = *file.plane(name).unwrap().at(x, y);
-                assert!(
-                    value == due,
-                    "{layer} {name} at ({x}, {y}): {text}, the file has {due:?}"
-                );
-            }
-        }
+        assert_near(&shown, &files, x, y);
         let depth = &shown["depth"][0];
         assert!(
             depth == "4" || depth == "no surface",
@@ -98,88 +109,25 @@ fn the_read_out_is_the_value_of_the_openexr_files() {
     );
 }
 
-/// Reads out a pixel of a page with rounded numbers, and compares them with the files.
-fn assert_near(bench: &Bench, page: &Path, browser: &mut Browser, digits: &Digits) {
-    let number = number_of(bench, "velocity_gather:fine");
-    let files = files_of(bench, &bench.measured().cases[number]);
-    open_case(browser, page, number);
-    let [left, top, width, _] = browser.place(".stack");
-    browser.point(left + 20.5 * width / 64.0, top + 15.5 * width / 64.0);
-    let shown = read_out(browser, 20, 15);
-    for (layer, file, names) in channels(&files) {
-        let allowed = |due: f32| match layer {
-            "flip" | "label_tv" | "unknowable" => 0.5 * digits.step + digits.part * due.abs(),
-            // Differences have the error of both colours, which are below 1 here.
-            "signed" => 2.0 * digits.part,
-            _ => digits.part * due.abs(),
-        };
-        for (index, name) in names.into_iter().enumerate() {
-            let value: f32 = shown[layer][index].as_str().unwrap().parse().unwrap();
-            let due = *file.plane(name).unwrap().at(20, 15);
-            assert!(
-                (value - due).abs() <= allowed(due),
-                "{layer} {name}: {value}, the file has {due}"
-            );
-        }
-    }
-    assert_eq!(browser.complaints(), [""; 0]);
-}
-
-/// Returns how far a number may be from the file's: in parts of it, and for shares half a step more.
-struct Digits {
-    part: f32,
-    step: f32,
-}
-
 #[test]
-fn numbers_beside_the_page_are_found_and_have_three_digits() {
+fn numbers_beside_the_page_are_found() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
     let page = make_page_within(&bench, 0);
     let beside = bench.path("page/a report_files/scene_0.js");
     assert!(beside.is_file());
     let mut browser = Browser::new(1280, 900);
-    // Half a step of a half is 1/2048 of the number, and three digits round by 1/200 at most.
-    let digits = Digits {
-        part: 0.006,
-        step: 1.0 / 256.0,
-    };
-    assert_near(&bench, &page, &mut browser, &digits);
+    open_case(&mut browser, &page, "plate/velocity_gather:fine");
+    let [left, top, width, _] = browser.place(".stack");
+    browser.point(left + 20.5 * width / 64.0, top + 15.5 * width / 64.0);
+    let shown = read_out(&mut browser, 20, 15);
+    let files = files_of(&bench, &case_of(&bench, "velocity_gather:fine"));
+    assert_near(&shown, &files, 20, 15);
+    assert_eq!(browser.complaints(), [""; 0]);
     assert_eq!(browser.requests(), [address_of(&page), address_of(&beside)]);
 
     fs::remove_file(&beside).unwrap();
-    let number = number_of(&bench, "velocity_gather:fine");
     browser.open(&page, "");
-    browser.open(&page, &format!("#case-{number}"));
+    browser.open(&page, "#plate/velocity_gather:fine");
     browser.until("document.querySelector('.hint').textContent.includes('scene_0.js is missing')");
-}
-
-#[test]
-fn a_page_that_holds_no_halves_holds_what_a_screen_shows() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
-    // The least room in which the page holds its numbers: that of the fewest digits.
-    let beside = bench.path("page/a report_files");
-    let mut room = [0, LARGEST_PAGE];
-    while room[1] - room[0] > 64 {
-        let middle = (room[0] + room[1]) / 2;
-        make_page_within(&bench, middle);
-        let fits = !beside.exists();
-        room[usize::from(fits)] = middle;
-        if !fits {
-            fs::remove_dir_all(&beside).unwrap();
-        }
-    }
-    let page = make_page_within(&bench, room[1]);
-    let text = fs::read_to_string(&page).unwrap();
-    assert!(text.contains("data-precision=\"screen\""));
-    assert!(!beside.exists());
-    let mut browser = Browser::new(1280, 900);
-    // A part in 128, and two digits round by 1/20 at most.
-    let digits = Digits {
-        part: 0.06,
-        step: 1.0 / 64.0,
-    };
-    assert_near(&bench, &page, &mut browser, &digits);
-    assert_eq!(browser.requests(), [address_of(&page)]);
 }

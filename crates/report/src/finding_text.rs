@@ -2,12 +2,35 @@
 
 use suite::{Finding, Level, MOST_SAMPLES, Outcome, number};
 
-/// `BROKEN flip_moving 0.0921 (95 % CI 0.0893 to 0.0950); limit 0.0500, floor 0.0021`
+/// Status of a score against its bound, told by colour, sign and word: never by the colour alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Status {
+    /// Class in the style sheet, and word for a reader.
+    pub word: &'static str,
+    /// Sign before the number.
+    pub sign: &'static str,
+}
+
+impl Status {
+    /// Names the status of an outcome; none where the metric does not apply.
+    pub fn of(outcome: Outcome) -> Option<Self> {
+        let (word, sign) = match outcome {
+            Outcome::Kept => ("kept", "✓"),
+            Outcome::Broken => ("broken", "✗"),
+            Outcome::Inconclusive => ("inconclusive", "?"),
+            Outcome::TooNoisy => ("undecided", "~"),
+            Outcome::NotApplicable => return None,
+        };
+        Some(Self { word, sign })
+    }
+}
+
+/// Writes a finding in one line: `BROKEN flip_moving 0.0921 (95 % CI 0.0893 to 0.0950); limit 0.0500, floor 0.0021`
 pub fn finding_line(finding: &Finding) -> String {
     format!("{} {}", finding_status(finding), finding_score(finding))
 }
 
-/// What became of the bound: `BROKEN`.
+/// Names the outcome: `BROKEN`.
 pub fn finding_status(finding: &Finding) -> &'static str {
     match (finding.outcome, finding.level) {
         (Outcome::Broken, Level::Required) => "BROKEN",
@@ -20,7 +43,7 @@ pub fn finding_status(finding: &Finding) -> &'static str {
     }
 }
 
-/// The score beside its limit: `flip_moving 0.0921 (95 % CI 0.0893 to 0.0950); limit 0.0500, floor 0.0021`.
+/// Writes the score beside its limit: `flip_moving 0.0921 (95 % CI 0.0893 to 0.0950); limit 0.0500, floor 0.0021`.
 pub fn finding_score(finding: &Finding) -> String {
     let mut text = finding.metric.clone();
     if let Some(value) = finding.value {
@@ -37,7 +60,7 @@ pub fn finding_score(finding: &Finding) -> String {
     text
 }
 
-/// What to do about a score that was not judged.
+/// Tells what to do about a score that was not judged.
 pub fn way_out(finding: &Finding) -> Option<String> {
     match finding.outcome {
         Outcome::TooNoisy => Some(format!(

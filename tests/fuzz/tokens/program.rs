@@ -96,7 +96,6 @@ pub const WORDS: &[&str] = &[
     "tune",
     "evaluate",
     "serve",
-    "catalogue",
     "import",
     "list",
     "16x16",

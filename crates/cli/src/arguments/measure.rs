@@ -1,4 +1,4 @@
-//! Arguments of commands that measure scenes: `run`, `check`, `calibrate` and `catalogue`.
+//! Arguments of commands that measure scenes: `run`, `check` and `calibrate`.
 
 use clap::Args;
 use suite::{Border, DepthFormat, VelocityFormat};

@@ -6,7 +6,6 @@ mod bench;
 mod blur;
 mod calibrate;
 mod candidate;
-mod catalogue;
 mod check;
 #[cfg(test)]
 mod commands_page;
@@ -35,7 +34,6 @@ pub use bench::BenchArgs;
 pub use blur::BlurArgs;
 pub use calibrate::CalibrateArgs;
 pub use candidate::CandidateArgs;
-pub use catalogue::CatalogueArgs;
 pub use check::CheckArgs;
 pub use compare::CompareArgs;
 pub use evaluate::EvaluateArgs;
@@ -96,8 +94,6 @@ pub enum Command {
     Evaluate(EvaluateArgs),
     /// Score sets of parameters on request: JSON lines on standard input and output.
     Serve(ServeArgs),
-    /// Write a page with pictures of every scene: instant, truth, velocity, a filter's error.
-    Catalogue(CatalogueArgs),
     /// Make a scene of an OBJ file, with camera, floor, wall and motion.
     Import(ImportArgs),
     /// List scenes, filters, parameters and presets.

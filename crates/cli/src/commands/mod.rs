@@ -5,7 +5,6 @@ mod bench;
 mod blur;
 mod calibrate;
 mod candidate;
-mod catalogue;
 mod check;
 mod compare;
 mod evaluate;
@@ -63,9 +62,6 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         }
         Some(Command::Serve(args)) => {
             work_on_threads(args.candidate.scenes.threads, || serve::execute(&args))
-        }
-        Some(Command::Catalogue(args)) => {
-            work_on_threads(args.measure.scenes.threads, || catalogue::execute(&args))
         }
         Some(Command::Import(args)) => import::execute(&args),
         Some(Command::List(args)) => list::execute(&args),

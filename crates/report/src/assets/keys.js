@@ -2,16 +2,21 @@
 // Everything by the keyboard.
 {
   const pictures = window.shuttertruth;
-  const ways = {
-    1: () => pictures.way("slide"),
-    2: () => pictures.way("blink"),
-    3: () => pictures.way("onion"),
-    4: () => pictures.way("side"),
-    b: () => pictures.swap(),
-    a: () => pictures.next("over", 1),
-    m: () => pictures.next("under", 1),
-    M: () => pictures.next("under", -1),
-    e: () => pictures.next("exposure", 1),
+  const dialog = document.getElementById("keys");
+  const actions = {
+    1: () => pictures.setMode("slide"),
+    2: () => pictures.setMode("blink"),
+    3: () => pictures.setMode("onion"),
+    4: () => pictures.setMode("side"),
+    5: () => pictures.setMode("difference"),
+    b: () => pictures.blink(),
+    x: () => pictures.exchange(),
+    a: () => pictures.next("left", 1),
+    A: () => pictures.next("left", -1),
+    m: () => pictures.next("right", 1),
+    M: () => pictures.next("right", -1),
+    e: () => pictures.nextExposure(),
+    w: () => pictures.showWorst(),
     "[": () => pictures.slide(-2),
     "]": () => pictures.slide(2),
     "+": () => pictures.zoom(2),
@@ -20,16 +25,15 @@
     0: () => pictures.fit(),
   };
   document.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.altKey || event.metaKey) return;
-    if (event.key === "t") {
-      document.getElementById("theme").click();
-      return;
-    }
+    if (dialog.open || event.ctrlKey || event.altKey || event.metaKey || event.target.matches("input[type=search]")) return;
+    if (event.key === "t") document.getElementById("theme").click();
+    if (event.key === "?") dialog.showModal();
     if (!pictures.isOpen()) return;
-    const link = pictures.case().querySelector(`a[data-key="${CSS.escape(event.key)}"]`);
+    const link = pictures.section().querySelector(`a[data-key="${CSS.escape(event.key)}"]`);
     if (link) link.click();
-    else if (ways[event.key]) ways[event.key]();
+    else if (actions[event.key]) actions[event.key]();
     else return;
     event.preventDefault();
   });
+  for (const button of document.querySelectorAll("button.help")) button.addEventListener("click", () => dialog.showModal());
 }

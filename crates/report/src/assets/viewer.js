@@ -1,99 +1,126 @@
 "use strict";
-// The pictures of the case that is open. All of them zoom and move together.
+// Two pictures of the case that is open. They zoom and move together.
 {
-  // Largest magnification.
+  // Largest magnification, and the one of a place that is shown.
   const MOST = 32;
-  const { paint, painters, planes, motion, speedOf } = window.shuttertruth;
+  const NEAR = 6;
+  // Time that either picture is seen while they blink, in milliseconds.
+  const BLINK = 700;
+  const pictures = window.shuttertruth;
+  const { paint, painters, planes, motion, speedOf } = pictures;
   const viewer = document.getElementById("viewer");
   const [width, height, block] = ["width", "height", "block"].map((name) => Number(viewer.dataset[name]));
   const stack = viewer.querySelector(".stack");
   const panes = [...viewer.querySelectorAll(".pane")];
   const singles = [...viewer.querySelectorAll(".single")];
   const split = viewer.querySelector("[name=split]");
+  const menus = { left: viewer.querySelector("[name=left]"), right: viewer.querySelector("[name=right]") };
+  // What the menus were set to: it outlives a case that lacks the picture.
+  const wanted = { left: "truth", right: "output" };
 
-  // What is in view: `x` and `y` of the upper left corner in pixels of the picture.
+  // The part in view: `x` and `y` of the upper left corner in pixels of the picture.
   const view = { zoom: 1, x: 0, y: 0 };
   // The place of a bound that is not kept, and the pixel whose numbers are read.
   let mark = null;
   let pixel = null;
   let open = null;
-  let layers = {};
-  let stops = 0;
-  // Counts what was asked for: what arrives late is not drawn over what came after.
+  let blinking = null;
+  // Counts requests: what arrives late is not drawn over what came after.
   let asked = 0;
 
   const input = (name, value) => viewer.querySelector(`[name=${name}][value="${value}"]`);
-  const chosen = (name) => viewer.querySelector(`[name=${name}]:checked`);
-  const titled = (word) => input("under", word).parentElement.textContent.trim();
-  const isMap = (word) => input("under", word).dataset.painter !== "radiance";
+  const chosen = (name) => viewer.querySelector(`[name=${name}]:checked`).value;
+  const picked = () => ({ left: pictures.find(menus.left.value), right: pictures.find(menus.right.value) });
+  const stops = () => Number(open.querySelector(".viewer_place").dataset.stops) + Number(chosen("exposure"));
 
-  // Which picture lies where.
-  const placed = () => {
-    const under = chosen("under").value;
-    return {
-      over: chosen("over").value,
-      under,
-      instant: "instant",
-      truth: "truth",
-      output: "output",
-      map: isMap(under) ? under : "flip",
-    };
-  };
-
-  // A function from a pixel's index to the color of a layer.
-  const painter = async (word) => {
-    const own = await planes(layers[word]);
-    const { painter } = input("under", word).dataset;
-    const motions = painter === "motion" ? await planes(layers.velocity) : null;
-    return painters[painter](own, { stops, fastest: motions && speedOf(motions) });
-  };
-
-  const failed = (error) => {
+  const fail = (error) => {
     viewer.querySelector(".hint").textContent = error.message;
   };
 
   const draw = async (mine, places) => {
-    const words = [...new Set(Object.values(places))];
-    const colors = Object.fromEntries(await Promise.all(words.map(async (word) => [word, await painter(word)])));
-    if (mine !== asked) return;
-    for (const [place, word] of Object.entries(places)) {
+    const canvases = [];
+    for (const [place, [key, load]] of Object.entries(places)) {
       const canvas = viewer.querySelector(`[data-place=${place}] canvas`);
-      const key = `${open.id} ${word} ${stops}`;
-      if (canvas.dataset.shows !== key) paint(canvas, colors[word], width);
+      if (canvas.dataset.shows !== key) canvases.push([canvas, key, await load()]);
+      if (mine !== asked) return;
+    }
+    for (const [canvas, key, color] of canvases) {
+      paint(canvas, color, width);
       canvas.dataset.shows = key;
     }
     viewer.dataset.drawn = mine;
   };
 
-  const fill = () => {
+  // Lists the pictures that the case offers; falls back where it lacks the one that was wanted.
+  const fillMenus = () => {
+    for (const [side, menu] of Object.entries(menus)) {
+      const groups = pictures.groups().map(([title, words]) => {
+        const group = Object.assign(document.createElement("optgroup"), { label: title });
+        group.append(...words.map((word) => new Option(pictures.find(word).title, word)));
+        return group;
+      });
+      menu.replaceChildren(...groups);
+      menu.value = wanted[side];
+      if (menu.selectedIndex < 0) menu.value = "output";
+    }
+  };
+
+  const show = () => {
     if (!open) return;
-    const way = chosen("way").value;
-    viewer.dataset.way = way;
-    stack.hidden = way === "side";
-    for (const single of singles) single.hidden = way !== "side";
-    stops = Number(open.querySelector(".viewer_place").dataset.stops) + Number(chosen("exposure").value);
-    const places = placed();
-    for (const [place, word] of Object.entries(places)) {
-      const canvas = viewer.querySelector(`[data-place=${place}] canvas`);
-      canvas.setAttribute("aria-label", `${titled(word)}, ${open.dataset.title}`);
-      viewer.querySelector(`[data-tag=${place}]`).textContent = titled(word);
-    }
+    const mode = chosen("mode");
+    viewer.dataset.mode = mode;
+    stack.hidden = mode === "side";
+    for (const single of singles) single.hidden = mode !== "side";
+    const { left, right } = picked();
+    const at = stops();
+    const drawing = (picture) => [`${open.id} ${picture.word} ${at}`, () => pictures.painterOf(picture, at)];
+    const isLight = left.painter === "radiance" && right.painter === "radiance";
+    const differs = mode === "difference" && isLight;
+    const below = differs
+      ? [`${open.id} ${left.word} ${right.word} ${at}`, () => pictures.differenceOf(left, right, at)]
+      : drawing(right);
     const swapped = "swapped" in viewer.dataset;
-    if (way === "blink") {
-      viewer.querySelector("[data-tag=over]").textContent = titled(swapped ? places.under : places.over);
+    const shown = differs ? "signed" : mode === "blink" && !swapped ? left.word : right.word;
+    const titles = { over: left.title, under: right.title, left: left.title, right: right.title };
+    if (mode === "blink") titles.over = swapped ? right.title : left.title;
+    if (differs) titles.under = `${right.title} minus ${left.title}`;
+    for (const [place, title] of Object.entries(titles)) {
+      viewer.querySelector(`[data-place=${place}] canvas`).setAttribute("aria-label", `${title}, ${open.dataset.title}`);
+      viewer.querySelector(`[data-tag=${place}]`).textContent = title;
     }
-    const shown = way === "side" ? places.map : way === "blink" && !swapped ? places.over : places.under;
-    viewer.querySelector(".hint").textContent = `${titled(shown)}: ${input("under", shown).dataset.hint}.`;
+    const { title, hint } = differs ? { title: titles.under, hint: "brightness of the right picture minus the left one" } : pictures.find(shown);
+    viewer.querySelector(".hint").textContent =
+      mode === "difference" && !isLight ? "A difference needs two pictures of light." : `${title}: ${hint}.`;
     for (const legend of viewer.querySelectorAll("[data-legend]")) {
       legend.hidden = !legend.dataset.legend.split(" ").includes(shown);
     }
     asked += 1;
     viewer.dataset.asked = asked;
-    draw(asked, places).catch(failed);
+    draw(asked, { over: drawing(left), under: below, left: drawing(left), right: drawing(right) }).catch(fail);
     place();
+    pictures.note();
   };
 
-  // Where everything lies.
+  const runBlink = () => {
+    clearInterval(blinking);
+    const runs = open && chosen("mode") === "blink" && !matchMedia("(prefers-reduced-motion: reduce)").matches;
+    blinking = runs ? setInterval(swap, BLINK) : null;
+  };
+
+  const swap = () => {
+    viewer.toggleAttribute("data-swapped");
+    show();
+  };
+
+  // Starts to blink, stops, and once it stands changes the picture.
+  const blink = () => {
+    if (chosen("mode") !== "blink") return setMode("blink");
+    if (blinking === null) return swap();
+    clearInterval(blinking);
+    blinking = null;
+  };
+
+  // Lays out pictures and marks.
   const place = () => {
     stack.style.setProperty("--split", `${split.value}%`);
     for (const pane of panes) {
@@ -112,9 +139,10 @@
       pane.querySelector(".line").style.strokeWidth = `${1.5 / scale}px`;
     }
     viewer.classList.toggle("zoomed", view.zoom > 1);
+    viewer.querySelector(".zoom").textContent = `${Number(view.zoom.toPrecision(2))}×`;
   };
 
-  // The pixel `(x, y)` stays where it is.
+  // Zooms about the pixel `(x, y)`, which stays where it is.
   const zoom = (factor, x = view.x + width / view.zoom / 2, y = view.y + height / view.zoom / 2) => {
     const next = Math.min(MOST, Math.max(1, view.zoom * factor));
     const part = view.zoom / next;
@@ -125,9 +153,20 @@
     const within = (value, size) => Math.min(size - size / zoomed, Math.max(0, value));
     Object.assign(view, { zoom: zoomed, x: within(x, width), y: within(y, height) });
     place();
+    pictures.note();
   };
 
-  const pointed = (pane, event) => {
+  const lookAt = (zoomed, x, y) => look(zoomed, x - width / zoomed / 2, y - height / zoomed / 2);
+
+  const fit = () => look(1, 0, 0);
+
+  const showWorst = () => {
+    const [x, y] = open.querySelector(".viewer_place").dataset.worst.split(",").map(Number);
+    lookAt(NEAR, x + 0.5, y + 0.5);
+    choose(x, y, true);
+  };
+
+  const locate = (pane, event) => {
     const box = pane.getBoundingClientRect();
     const scale = (box.width / width) * view.zoom;
     return [view.x + (event.clientX - box.left) / scale, view.y + (event.clientY - box.top) / scale];
@@ -151,7 +190,7 @@
       const follow = (at, start, size) => Math.min(at - size * 0.1, Math.max(start, at + 1 - size * 0.9));
       look(view.zoom, follow(pixel.x, view.x, width / view.zoom), follow(pixel.y, view.y, height / view.zoom));
     } else place();
-    window.shuttertruth.read(pixel, layers, aloud);
+    pictures.read(pixel, picked(), aloud);
   };
 
   const step = (columns, rows) => {
@@ -164,14 +203,15 @@
     pane.addEventListener("pointerdown", (event) => {
       const box = pane.getBoundingClientRect();
       const away = Math.abs(event.clientX - box.left - (box.width * split.value) / 100);
-      const divides = viewer.dataset.way === "slide" && (view.zoom === 1 || away < 16);
-      drag = { divides, from: pointed(pane, event) };
+      const divides = viewer.dataset.mode === "slide" && (view.zoom === 1 || away < 16);
+      drag = { divides, from: locate(pane, event) };
       pane.setPointerCapture(event.pointerId);
       if (divides) slideTo(pane, event);
       choose(...drag.from, false);
     });
     pane.addEventListener("pointermove", (event) => {
-      const [x, y] = pointed(pane, event);
+      const [x, y] = locate(pane, event);
+      pictures.floatTip(event);
       if (!drag) choose(x, y, false);
       else if (drag.divides) slideTo(pane, event);
       else look(view.zoom, view.x + drag.from[0] - x, view.y + drag.from[1] - y);
@@ -179,13 +219,14 @@
     const drop = () => (drag = null);
     pane.addEventListener("pointerup", drop);
     pane.addEventListener("pointercancel", drop);
+    pane.addEventListener("pointerleave", () => pictures.floatTip(null));
     pane.addEventListener(
       "wheel",
       (event) => {
-        // The page scrolls, unless the picture was chosen.
-        if (!event.ctrlKey && document.activeElement !== pane) return;
+        // A whole picture lets the page scroll on.
+        if (view.zoom === 1 && event.deltaY > 0) return;
         event.preventDefault();
-        zoom(event.deltaY < 0 ? 1.25 : 0.8, ...pointed(pane, event));
+        zoom(event.deltaY < 0 ? 1.25 : 0.8, ...locate(pane, event));
       },
       { passive: false },
     );
@@ -201,27 +242,45 @@
     });
   }
 
-  const swap = () => {
-    if (chosen("way").value !== "blink") input("way", "blink").checked = true;
-    viewer.toggleAttribute("data-swapped");
-    fill();
+  const setMode = (mode) => {
+    input("mode", mode).checked = true;
+    viewer.removeAttribute("data-swapped");
+    show();
+    runBlink();
   };
 
-  const next = (name, step) => {
-    const all = [...viewer.querySelectorAll(`[name=${name}]:not(:disabled)`)];
-    const now = all.indexOf(chosen(name));
-    all[(now + step + all.length) % all.length].checked = true;
-    fill();
+  const setSide = (side, word) => {
+    wanted[side] = word;
+    menus[side].value = word;
+    show();
   };
 
-  // The worst place of a bound: truth, output and the error that was searched, the last as bright as it is there.
+  const next = (side, step) => {
+    const all = [...menus[side].options].map((option) => option.value);
+    setSide(side, all[(all.indexOf(menus[side].value) + step + all.length) % all.length]);
+  };
+
+  const nextExposure = () => {
+    const all = [...viewer.querySelectorAll("[name=exposure]")];
+    all[(all.findIndex((one) => one.checked) + 1) % all.length].checked = true;
+    show();
+  };
+
+  const exchange = () => {
+    [wanted.left, wanted.right] = [menus.right.value, menus.left.value];
+    [menus.left.value, menus.right.value] = [wanted.left, wanted.right];
+    show();
+  };
+
+  // Truth, output and error around the worst place of a bound, the error as bright as it is there.
   const crop = async (figure) => {
     const { x, y, map } = figure.dataset;
     const canvases = [...figure.querySelectorAll("canvas")];
     const [columns, rows] = [canvases[0].width, canvases[0].height];
     const start = (middle, size, all) => Math.min(all - size, Math.max(0, middle - Math.floor(size / 2)));
     const [left, top] = [start(Number(x), columns, width), start(Number(y), rows, height)];
-    const [truth, output, error] = await Promise.all([painter("truth"), painter("output"), planes([Number(map)])]);
+    const light = ["truth", "output"].map((word) => pictures.painterOf(pictures.find(word), stops()));
+    const [truth, output, error] = await Promise.all([...light, planes([Number(map)])]);
     let most = Number.MIN_VALUE;
     for (let row = top; row < top + rows; row++) {
       for (let column = left; column < left + columns; column++) most = Math.max(most, error[0][row * width + column]);
@@ -229,7 +288,7 @@
     [truth, output, painters.share(error, { most })].forEach((color, at) => paint(canvases[at], color, width, left, top));
   };
 
-  const legend = async () => {
+  const fillLegends = async () => {
     const canvas = viewer.querySelector(".wheel");
     const middle = (canvas.width - 1) / 2;
     const color = (at) => {
@@ -239,76 +298,78 @@
       return speed > 1 ? motion(0, 0, 1) : motion(x * speed, y * speed, 1);
     };
     paint(canvas, color, canvas.width);
-    const fastest = speedOf(await planes(layers.velocity));
+    const fastest = speedOf(await planes(pictures.own().velocity));
     viewer.querySelector(".fastest").textContent = fastest.toPrecision(3);
-    const [depth] = await planes(layers.depth);
-    const [near, far] = window.shuttertruth.reachOf(depth);
+    const [depth] = await planes(pictures.own().depth);
+    const [near, far] = pictures.reachOf(depth);
     viewer.querySelector(".nearest").textContent = near.toPrecision(3);
     viewer.querySelector(".farthest").textContent = far.toPrecision(3);
   };
 
-  const route = () => {
-    // While the page loads, no element is the target yet.
-    const named = document.getElementById(location.hash.slice(1));
-    open = named?.matches("article.case") ? named : null;
+  // Opens a case with the settings that an address names; none closes the viewer.
+  const openCase = (section, { left, right, mode, zoom: zoomed, at } = {}) => {
+    open = section;
     viewer.hidden = !open;
-    document.title = open ? `${open.dataset.title} - Shuttertruth` : "Shuttertruth report";
     mark = null;
-    if (!open) return;
+    if (!open) return runBlink();
     const home = open.querySelector(".viewer_place");
-    window.shuttertruth.open(Number(home.dataset.scene));
-    layers = Object.fromEntries(
-      home.dataset.layers.split(" ").map((pair) => {
-        const [word, numbers] = pair.split(":");
-        return [word, numbers.split(",").map(Number)];
-      }),
-    );
-    for (const choice of viewer.querySelectorAll("[name=under]")) {
-      choice.disabled = !(choice.value in layers);
-      choice.parentElement.hidden = choice.disabled;
-      if (choice.disabled && choice.checked) input("under", "output").checked = true;
-    }
+    pictures.openScene(Number(home.dataset.scene));
+    pictures.openCase(open);
+    if (left) wanted.left = left;
+    if (right) wanted.right = right;
+    if (mode && input("mode", mode)) input("mode", mode).checked = true;
+    runBlink();
+    fillMenus();
     for (const line of viewer.querySelectorAll(".line")) line.setAttribute("d", home.dataset.line);
     home.append(viewer);
-    fill();
-    legend().catch(failed);
-    for (const figure of open.querySelectorAll(".crop")) crop(figure).catch(failed);
-    if (pixel) window.shuttertruth.read(pixel, layers, false);
+    if (at) lookAt(Math.min(MOST, Math.max(1, Number(zoomed) || 1)), ...at.split(",").map(Number));
+    show();
+    fillLegends().catch(fail);
+    for (const figure of open.querySelectorAll(".crop")) crop(figure).catch(fail);
+    if (pixel) pictures.read(pixel, picked(), false);
   };
 
-  viewer.addEventListener("change", fill);
+  // Settings that an address names; those that are as usual are left out.
+  const settings = () => {
+    const { left, right } = picked();
+    const middle = [view.x + width / view.zoom / 2, view.y + height / view.zoom / 2].map(Math.round);
+    return [
+      ["left", left.word, "truth"],
+      ["right", right.word, "output"],
+      ["mode", chosen("mode"), "slide"],
+      ["zoom", String(Number(view.zoom.toPrecision(3))), "1"],
+      ["at", view.zoom > 1 ? middle.join(",") : "", ""],
+    ].filter(([, value, usual]) => value !== usual);
+  };
+
+  for (const side of Object.keys(menus)) menus[side].addEventListener("change", () => setSide(side, menus[side].value));
+  for (const one of viewer.querySelectorAll("[name=mode]")) one.addEventListener("change", () => setMode(one.value));
+  for (const one of viewer.querySelectorAll("[name=exposure]")) one.addEventListener("change", show);
   split.addEventListener("input", place);
-  viewer.querySelector("[data-zoom=in]").addEventListener("click", () => zoom(2));
-  viewer.querySelector("[data-zoom=out]").addEventListener("click", () => zoom(0.5));
-  viewer.querySelector("[data-zoom=fit]").addEventListener("click", () => look(1, 0, 0));
+  const actions = { in: () => zoom(2), out: () => zoom(0.5), fit, worst: showWorst, exchange };
+  for (const button of viewer.querySelectorAll("[data-do]")) button.addEventListener("click", actions[button.dataset.do]);
   for (const button of document.querySelectorAll("button.place")) {
     button.addEventListener("click", () => {
       mark = { x: Number(button.dataset.x), y: Number(button.dataset.y) };
-      look(5, mark.x - width / 10, mark.y - height / 10);
+      lookAt(NEAR, mark.x, mark.y);
       choose(mark.x, mark.y, true);
       viewer.scrollIntoView({ block: "start" });
     });
   }
   new ResizeObserver(place).observe(viewer);
-  window.addEventListener("hashchange", () => {
-    route();
-    if (open) open.querySelector("h2").focus({ preventScroll: true });
-    window.scrollTo(0, 0);
-  });
 
-  // What keys do while a case is open.
-  Object.assign(window.shuttertruth, {
+  Object.assign(pictures, {
     isOpen: () => open !== null,
-    case: () => open,
-    way: (word) => {
-      input("way", word).checked = true;
-      fill();
-    },
-    swap,
+    show: openCase,
+    settings,
+    setMode,
     next,
+    nextExposure,
+    exchange,
+    blink,
     zoom,
+    fit,
+    showWorst,
     slide: (percent) => slide(Number(split.value) + percent),
-    fit: () => look(1, 0, 0),
-    route,
   });
 }

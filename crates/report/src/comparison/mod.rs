@@ -1,13 +1,12 @@
-//! The page of two runs side by side.
+//! Comparison of two runs as a page.
 
-mod chart;
 mod page;
 mod pictures;
-mod provenance;
+mod runs;
 
 pub use page::compare_page;
 
-/// `+0.0123`, in three digits.
+/// Writes a change in three digits: `+0.0123`.
 pub fn signed(value: f64) -> String {
     match value {
         0.0 => "0".to_owned(),

@@ -1,12 +1,13 @@
-//! A comparison as one page.
+//! Page of a comparison.
 
 use maud::{Markup, html};
+use metrics::{Ideal, Metric};
 
-use super::chart::chart;
 use super::pictures::Pictures;
-use super::provenance::provenance;
+use super::runs::both_runs;
 use super::signed;
-use crate::shell::shell;
+use crate::charts::strip::Strip;
+use crate::document::Document;
 use suite::Error;
 use suite::number;
 use suite::{Basis, Change, ChangeKind, rank_changes};
@@ -14,20 +15,20 @@ use suite::{MeanChange, MeanKind};
 use suite::{Pair, filter_label, pair_cases};
 use suite::{RunComparison, Side};
 
-/// So many cases are shown in pictures, those that changed most.
+/// Number of cases that are shown in pictures, those that changed most.
 const SHOWN: usize = 12;
 
-/// Reads the pictures of what changed most and writes nothing; the same runs make the same bytes.
+/// Makes the page of a comparison. Reads the pictures of what changed most and writes no file; the same runs make the same bytes.
 pub fn compare_page(
     compared: &RunComparison,
     first: &Side,
     second: &Side,
 ) -> Result<String, Error> {
-    let rank_changes = rank_changes(&compared.changes);
-    let pairs = pair_cases(&first.run, &second.run);
+    let ranked = rank_changes(&compared.changes);
+    let both = pair_cases(&first.run, &second.run);
     let mut shown = Vec::new();
-    for (scene, filter) in rank_changes.iter().take(SHOWN) {
-        let pair = pairs
+    for (scene, filter) in ranked.iter().take(SHOWN) {
+        let pair = both
             .iter()
             .find(|pair| pair.first.scene == *scene && filter_label(pair.first) == *filter);
         let pair = pair.expect("a change is of a pair");
@@ -36,28 +37,30 @@ pub fn compare_page(
     let body = html! {
         p.lead { (summary(compared)) }
         p.key {
-            span.better { "▼ better" } " " span.worse { "▲ worse" } " ≈ within noise or undecided, = the same. "
-            "\"Worse by\" is how much farther from perfect the second run is; below 0 it is better."
+            "Change: the second run less the first. " span.better { "better" } " " span.worse { "worse" } " beyond noise. "
+            "Of a score whose ideal is a number, such as extent, the change is that of its distance from the ideal."
         }
-        (differences(compared))
-        (means(&compared.means))
         @if !shown.is_empty() {
             section {
                 h2 { "What changed most" }
                 @for case in &shown { (case) }
             }
         }
+        (means(&compared.means))
+        (differences(compared))
         (all_changes(&compared.changes))
-        (provenance(first, second))
+        (both_runs(first, second))
     };
     let subtitle = compared.runs.join(" → ");
-    let page = shell(
-        "Shuttertruth: two runs",
-        &subtitle,
-        &body,
-        &[include_str!("../assets/split.js")],
-    );
-    Ok(page.into_string())
+    let document = Document {
+        title: "Shuttertruth: two runs",
+        heading: html! { "Shuttertruth: two runs" },
+        subtitle: &subtitle,
+        body: html! { main { (body) } },
+        scripts: &[include_str!("../assets/split.js")],
+        loads_siblings: false,
+    };
+    Ok(document.render())
 }
 
 fn summary(compared: &RunComparison) -> String {
@@ -69,7 +72,7 @@ fn summary(compared: &RunComparison) -> String {
             .count()
     };
     format!(
-        "{} scores of cases that both runs have: {} better and {} worse by more than noise, {} within noise, {} the same.",
+        "{} scores of cases that both runs have: {} better, {} worse, {} within noise, {} the same.",
         compared.changes.len(),
         count(ChangeKind::Better),
         count(ChangeKind::Worse),
@@ -78,7 +81,7 @@ fn summary(compared: &RunComparison) -> String {
     )
 }
 
-/// Settings, and cases of one run alone.
+/// Lists settings that differ, and cases of one run alone.
 fn differences(compared: &RunComparison) -> Markup {
     let sides = [
         (&compared.only_in_first, &compared.runs[0]),
@@ -111,7 +114,7 @@ fn differences(compared: &RunComparison) -> Markup {
     }
 }
 
-/// One table per metric that anything changed of.
+/// Writes a table per metric that anything changed of.
 fn means(means: &[MeanChange]) -> Markup {
     let mut metrics: Vec<&str> = Vec::new();
     for mean in means.iter().filter(|mean| mean.kind != MeanKind::Same) {
@@ -142,18 +145,17 @@ fn metric_means(metric: &str, means: &[&MeanChange]) -> Markup {
         .count();
     html! {
         h3 { (metric) }
-        p.note { (metric.parse().map_or_else(|_| String::new(), metrics::Metric::meaning)) }
+        p.note { (metric.parse().map_or_else(|_| String::new(), Metric::meaning)) }
         div.scroll tabindex="0" role="region" aria-label=(format!("Means of {metric}")) {
             table {
                 caption { "95 % CI: over scenes, by Student's t; " (same) " filters did not change" }
                 thead {
                     tr {
                         th scope="col" { "filter" }
-                        th.text scope="col" { "verdict" }
-                        th scope="col" { "worse by" }
-                        th scope="col" { "95 % CI" }
                         th scope="col" { "first" }
                         th scope="col" { "second" }
+                        th.text scope="col" { "change" }
+                        th scope="col" { "95 % CI" }
                         th scope="col" { "scenes" }
                         th.chart scope="col" { "← better, worse →" }
                     }
@@ -162,13 +164,12 @@ fn metric_means(metric: &str, means: &[&MeanChange]) -> Markup {
                     @for mean in means.iter().filter(|mean| mean.kind != MeanKind::Same) {
                         tr {
                             th scope="row" { (mean.filter) }
-                            (mean_verdict(mean.kind))
-                            td { (signed(mean.worse)) }
-                            td { (signed(mean.interval[0])) " to " (signed(mean.interval[1])) }
                             td { (number(mean.first)) }
                             td { (number(mean.second)) }
-                            td { (mean.scenes) ": " (mean.better_worse[0]) " ▼ " (mean.better_worse[1]) " ▲" }
-                            td.chart { (chart(mean.worse, mean.interval, most)) }
+                            (mean_change(mean))
+                            td { (change_interval(metric, mean.interval)) }
+                            td { (mean.better_worse[0]) " better, " (mean.better_worse[1]) " worse of " (mean.scenes) }
+                            td.chart { (change_strip(mean, most)) }
                         }
                     }
                 }
@@ -177,17 +178,32 @@ fn metric_means(metric: &str, means: &[&MeanChange]) -> Markup {
     }
 }
 
-fn mean_verdict(kind: MeanKind) -> Markup {
-    let (class, sign) = match kind {
-        MeanKind::Better => ("text better", "▼ "),
-        MeanKind::Worse => ("text worse", "▲ "),
-        MeanKind::Same => ("text", "= "),
-        MeanKind::Undecided | MeanKind::TooFewScenes => ("text", "≈ "),
+/// Writes `-0.0123 better`.
+fn mean_change(mean: &MeanChange) -> Markup {
+    let class = match mean.kind {
+        MeanKind::Better => "text better",
+        MeanKind::Worse => "text worse",
+        MeanKind::Same | MeanKind::Undecided | MeanKind::TooFewScenes => "text",
     };
-    html! { td class=(class) { (sign) (kind.label()) } }
+    html! { td class=(class) { (signed(change_of(&mean.metric, mean.worse))) " " (mean.kind.label()) } }
 }
 
-/// Both pictures under a divider, the truth, where it changed, and the scores.
+/// Turns a change for the worse into the change of the value: more of a score that ought to be high is better.
+fn change_of(metric: &str, worse: f64) -> f64 {
+    let ideal = metric.parse().map(Metric::ideal);
+    match ideal {
+        Ok(Ideal::Highest) => -worse,
+        _ => worse,
+    }
+}
+
+/// Writes the interval of a change, its lower end first.
+fn change_interval(metric: &str, worse: [f64; 2]) -> String {
+    let [a, b] = worse.map(|end| change_of(metric, end));
+    format!("{} to {}", signed(a.min(b)), signed(a.max(b)))
+}
+
+/// Shows both pictures under a divider, the truth, the change of the error, and the scores.
 fn case(compared: &RunComparison, pair: &Pair, pictures: Option<Pictures>) -> Markup {
     let filter = filter_label(pair.first);
     let changes = (compared.changes.iter())
@@ -248,38 +264,46 @@ fn change_heading(named: bool) -> Markup {
             tr {
                 @if named { th scope="col" { "scene / filter" } }
                 th.text scope="col" { "metric" }
-                th.text scope="col" { "verdict" }
-                th scope="col" { "worse by" }
-                th scope="col" { "95 % CI" }
                 th scope="col" { "first" }
                 th scope="col" { "second" }
+                th.text scope="col" { "change" }
+                th scope="col" { "95 % CI" }
             }
         }
     }
 }
 
 fn change_row(change: &Change, named: bool) -> Markup {
-    let (class, sign) = match change.kind {
-        ChangeKind::Better => ("text better", "▼ "),
-        ChangeKind::Worse => ("text worse", "▲ "),
-        ChangeKind::WithinNoise => ("text", "≈ "),
-        ChangeKind::Same => ("text", "= "),
+    let class = match change.kind {
+        ChangeKind::Better => "text better",
+        ChangeKind::Worse => "text worse",
+        ChangeKind::WithinNoise | ChangeKind::Same => "text",
     };
     html! {
         tr {
             @if named { th scope="row" { (change.scene) " / " (change.filter) } }
             th.text scope="row" { (change.metric) }
-            td class=(class) { (sign) (change.kind.label()) }
-            td { (signed(change.worse)) }
-            td {
-                @match (change.interval, change.basis) {
-                    (Some([low, high]), _) => { (signed(low)) " to " (signed(high)) }
-                    (None, _) if change.kind == ChangeKind::Same => "",
-                    (None, Basis::Floor | Basis::Replicates) => "by the floor",
-                }
-            }
             td { (number(change.first)) }
             td { (number(change.second)) }
+            td class=(class) { (signed(change_of(&change.metric, change.worse))) " " (change.kind.label()) }
+            td {
+                @match (change.interval, change.basis) {
+                    (Some(interval), _) => { (change_interval(&change.metric, interval)) }
+                    (None, _) if change.kind == ChangeKind::Same => "",
+                    (None, Basis::Floor | Basis::Replicates) => "by the noise floor",
+                }
+            }
         }
     }
+}
+
+/// Draws a mean change with its interval, no change in the middle.
+fn change_strip(mean: &MeanChange, most: f64) -> Markup {
+    let strip = Strip::about_zero(most);
+    let class = if mean.worse > 0.0 { "worse" } else { "" };
+    strip.draw(&html! {
+        (strip.tick(0.0))
+        (strip.interval(mean.interval))
+        (strip.mark(mean.worse, class))
+    })
 }

@@ -1,16 +1,13 @@
-//! The pictures of a case in two runs.
+//! Pictures of a case in two runs.
 
-use std::path::Path;
+use frame::{Plane, read_exr};
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-use frame::{FileError, Plane, read_bounded, read_exr, write_png};
-
+use crate::pixels::png::{embed_file, embed_picture};
 use suite::Error;
 use suite::Pair;
 use suite::Side;
 
-/// Of one case, each as an address that holds the picture itself.
+/// Pictures of one case, each as an address that holds the picture itself.
 pub struct Pictures {
     /// What the filter made in the first run.
     pub first: String,
@@ -30,7 +27,8 @@ impl Pictures {
             first.file(pair.first, "output.png"),
             second.file(pair.second, "output.png"),
         ];
-        let (Some(of_first), Some(of_second)) = (address(&outputs[0])?, address(&outputs[1])?)
+        let (Some(of_first), Some(of_second)) =
+            (embed_file(&outputs[0])?, embed_file(&outputs[1])?)
         else {
             return Ok(None);
         };
@@ -38,25 +36,10 @@ impl Pictures {
         Ok(Some(Self {
             first: of_first,
             second: of_second,
-            truth: address(&first.folder().join(&pair.first.scene).join(truth))?,
+            truth: embed_file(&first.folder().join(&pair.first.scene).join(truth))?,
             change: change(sides, pair)?,
         }))
     }
-}
-
-/// Bytes of a picture that a page shows.
-const MOST_PICTURE_BYTES: u64 = 1 << 28;
-
-/// None where there is no such file.
-fn address(path: &Path) -> Result<Option<String>, Error> {
-    if !path.is_file() {
-        return Ok(None);
-    }
-    let bytes = read_bounded(path, MOST_PICTURE_BYTES)?;
-    Ok(Some(format!(
-        "data:image/png;base64,{}",
-        STANDARD.encode(bytes)
-    )))
 }
 
 fn change(sides: [&Side; 2], pair: &Pair) -> Result<Option<String>, Error> {
@@ -72,12 +55,8 @@ fn change(sides: [&Side; 2], pair: &Pair) -> Result<Option<String>, Error> {
     if !first.same_size(&second) {
         return Ok(None);
     }
-    let folder = tempfile::tempdir()
-        .map_err(|source| FileError::io(Path::new("a temporary folder"), "write", source))?;
-    let path = folder.path().join("change.png");
     let worse: Plane = first.zip(&second, |first, second| second - first);
-    write_png(&path, &worse.map(|worse| color(*worse)))?;
-    address(&path)
+    Ok(Some(embed_picture(&worse.map(|worse| color(*worse)))?))
 }
 
 /// Orange is worse and blue better, as elsewhere on the page; black is no change, full colour one of a half or more.

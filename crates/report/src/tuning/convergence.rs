@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::plot::{Axis, Plot};
+use crate::charts::plot::{Axis, Plot};
 use suite::{Trial, TrialOutcome};
 
 /// What a failed trial, or one far off, need not be shown beyond.
@@ -23,16 +23,16 @@ pub fn convergence(trials: &[Trial]) -> Markup {
     if let (Some((_, last)), Some(end)) = (best.last().copied(), trials.last()) {
         best.push((end.trial as f64, last));
     }
-    let plot = Plot {
-        x: Axis::linear("trial", trials.iter().map(|trial| trial.trial as f64)),
-        y: Axis::linear("loss", trials.iter().map(loss)),
-    };
+    let plot = Plot::small(
+        Axis::linear("trial", trials.iter().map(|trial| trial.trial as f64)),
+        Axis::linear("loss", trials.iter().map(loss)),
+    );
     let marks = html! {
         @for trial in trials {
             @let class = if trial.is_done() { "" } else { "faint" };
             (plot.mark((trial.trial as f64, loss(trial)), class, 2.5, &words(trial)))
         }
-        (plot.line(&best))
+        (plot.line("", &best))
     };
     let label = format!("Loss of {} trials in their order", trials.len());
     html! {

@@ -1,8 +1,9 @@
-//! Cross-validation: how a choice that was made without a family of scenes does on it.
+//! Cross-validation: the choice that was made without a family of scenes, on that family.
 
 use maud::{Markup, html};
 
 use super::percent;
+use crate::charts::strip::Strip;
 use suite::Fold;
 
 /// Nothing where there were no two families.
@@ -14,7 +15,7 @@ pub fn folds(folds: &[Fold]) -> Markup {
         .iter()
         .flat_map(|fold| [fold.others.abs(), fold.held_out.abs()]);
     let most = sizes.fold(0.0, f64::max);
-    let bar = |value: f64| bar(value, most);
+    let bar = |value: f64| change_bar(value, most);
     html! {
         section {
             h2 { "Cross-validation" }
@@ -54,21 +55,9 @@ pub fn folds(folds: &[Fold]) -> Markup {
     }
 }
 
-/// A bar from the middle: to the left is better than the start, to the right worse.
-pub fn bar(log: f64, most: f64) -> Markup {
-    const WIDTH: f64 = 200.0;
-    let length = match most > 0.0 {
-        true => (log.abs() / most).min(1.0) * WIDTH / 2.0,
-        false => 0.0,
-    };
-    let (left, class) = match log > 0.0 {
-        true => (WIDTH / 2.0, "bar worse"),
-        false => (WIDTH / 2.0 - length, "bar"),
-    };
-    html! {
-        svg.drawing viewBox=(format!("0 0 {WIDTH} 10")) aria-hidden="true" focusable="false" {
-            rect class=(class) x=(format!("{left:.1}")) width=(format!("{length:.1}")) y="1" height="8" {}
-            line.zero x1=(WIDTH / 2.0) x2=(WIDTH / 2.0) y1="0" y2="10" {}
-        }
-    }
+/// Draws a bar from the middle: to the left is better than the start, to the right worse.
+pub fn change_bar(log: f64, most: f64) -> Markup {
+    let strip = Strip::about_zero(most);
+    let class = if log > 0.0 { "worse" } else { "" };
+    strip.draw(&html! { (strip.bar(0.0, log, class)) (strip.tick(0.0)) })
 }

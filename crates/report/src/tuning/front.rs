@@ -1,13 +1,13 @@
-//! Pareto front of a tuning: trials that no other one beats in everything.
+//! Pareto front of a tuning: trials that no other one beats.
 
 use maud::{Markup, html};
 
 use super::folder::TuneFolder;
 use super::percent;
-use super::plot::{Axis, Plot};
+use crate::charts::plot::{Axis, Plot};
 use suite::Trial;
 
-/// A measure that stands against the error.
+/// A measure that a chart shows against the error.
 struct Against {
     title: &'static str,
     value: fn(&Trial) -> Option<f64>,
@@ -24,54 +24,50 @@ const AGAINST: [Against; 2] = [
     },
 ];
 
-/// Charts of all trials, and the table of those that matter.
-pub fn front(folder: &TuneFolder) -> Markup {
+/// Draws all trials, and lists those that no other one beats.
+pub fn front_section(folder: &TuneFolder) -> Markup {
     let done: Vec<&Trial> = folder
         .trials
         .iter()
         .filter(|trial| trial.is_done())
         .collect();
-    let on_front: Vec<usize> = match &folder.tuning {
-        Some(tuning) => tuning.front.iter().map(|trial| trial.trial).collect(),
-        None => Vec::new(),
-    };
     let chosen = folder.tuning.as_ref().map(|tuning| tuning.choice.trial);
     html! {
         section {
             h2 { "Trials that ran on every scene" }
-            p.key { "Filled: not beaten in everything (the Pareto set); grey: beaten; ring: the start; the largest: the choice. Down and left is good." }
+            p.key { "Blue: no other trial is as good in both axes of the chart; grey: beaten; ring: the start; the largest: the choice. Down and left is good." }
             div.drawings {
-                @for against in &AGAINST { (chart(&done, &on_front, chosen, against)) }
+                @for against in &AGAINST { (chart(&done, chosen, against)) }
             }
             @if let Some(tuning) = &folder.tuning { (table(&tuning.front, &tuning.start, tuning.choice.trial)) }
         }
     }
 }
 
-fn chart(done: &[&Trial], front: &[usize], chosen: Option<usize>, against: &Against) -> Markup {
+fn chart(done: &[&Trial], chosen: Option<usize>, against: &Against) -> Markup {
     let points: Vec<(&Trial, f64, f64)> = (done.iter())
         .filter_map(|trial| Some((*trial, change(trial)?, (against.value)(trial)?)))
         .collect();
     if points.is_empty() {
         return html! {};
     }
-    let plot = Plot {
-        x: Axis::linear(
+    let plot = Plot::small(
+        Axis::linear(
             "change of the error, %",
             points.iter().map(|(_, error, _)| *error),
         ),
-        y: Axis::linear(against.title, points.iter().map(|(_, _, other)| *other)),
-    };
+        Axis::linear(against.title, points.iter().map(|(_, _, other)| *other)),
+    );
+    let rows: Vec<[f64; 2]> = (points.iter())
+        .map(|(_, error, other)| [*error, *other])
+        .collect();
     let marks = html! {
         @for (trial, error, other) in &points {
             @let words = format!("trial {}: {error:+.1} %, {other:.3}", trial.trial);
-            @let (class, radius) = match trial.trial {
-                own if Some(own) == chosen => ("", 6.0),
-                own if front.contains(&own) => ("", 3.5),
-                _ => ("faint", 2.5),
-            };
+            @let class = if is_undominated([*error, *other], &rows) { "" } else { "faint" };
+            @let radius = if Some(trial.trial) == chosen { 6.0 } else { 3.0 };
             (plot.mark((*error, *other), class, radius, &words))
-            @if trial.trial == 0 { (plot.mark((*error, *other), "open", 5.0, "the start")) }
+            @if trial.trial == 0 { (plot.mark((*error, *other), "ring", 5.0, "the start")) }
         }
     };
     let label = format!(
@@ -82,7 +78,13 @@ fn chart(done: &[&Trial], front: &[usize], chosen: Option<usize>, against: &Agai
     html! { figure { (plot.draw(&label, &marks)) } }
 }
 
-/// In percent.
+/// Tells whether no row is as low in both columns and lower in one.
+fn is_undominated(own: [f64; 2], all: &[[f64; 2]]) -> bool {
+    let beats = |other: &[f64; 2]| other[0] <= own[0] && other[1] <= own[1] && *other != own;
+    !all.iter().any(beats)
+}
+
+/// Writes the change of the error in percent.
 fn change(trial: &Trial) -> Option<f64> {
     Some(100.0 * trial.error?.exp_m1())
 }
@@ -91,9 +93,9 @@ fn table(front: &[Trial], start: &Trial, chosen: usize) -> Markup {
     let number =
         |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"));
     html! {
-        div.scroll tabindex="0" role="region" aria-label="Pareto set" {
+        div.scroll tabindex="0" role="region" aria-label="Undominated trials" {
             table {
-                caption { "The Pareto set, by error" }
+                caption { "Undominated in error, bleed and time together, by error" }
                 thead {
                     tr {
                         th scope="col" { "trial" }
@@ -119,7 +121,7 @@ fn table(front: &[Trial], start: &Trial, chosen: usize) -> Markup {
     }
 }
 
-/// `samples 16, jitter start_offset`
+/// Writes `samples 16, jitter start_offset`.
 fn differing(trial: &Trial, start: &Trial) -> String {
     let differ = trial
         .values
@@ -129,4 +131,16 @@ fn differing(trial: &Trial, start: &Trial) -> String {
         .map(|(name, value)| format!("{name} {value}"))
         .collect();
     words.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_trial_that_another_one_beats_in_both_axes_is_dominated() {
+        let all = [[0.0, 1.0], [-2.0, 1.0], [-2.0, 0.9], [-3.0, 1.4]];
+        let found = all.map(|own| is_undominated(own, &all));
+        assert_eq!(found, [false, false, true, true]);
+    }
 }

@@ -2,13 +2,10 @@
 
 use maud::{Markup, html};
 
+use crate::charts::strip::Strip;
 use suite::{ParameterSensitivity, Sensitivity};
 
-/// Sides of a bar, in its own units.
-const WIDTH: f64 = 240.0;
-const HEIGHT: f64 = 14.0;
-
-/// Those that matter most first.
+/// Lists the parameters, those that matter most first.
 pub fn importance(found: &Sensitivity) -> Markup {
     let mut rows: Vec<(&String, &ParameterSensitivity)> = found.parameters.iter().collect();
     rows.sort_by(|(_, a), (_, b)| b.indices.total.value.total_cmp(&a.indices.total.value));
@@ -51,14 +48,11 @@ fn row(name: &str, own: &ParameterSensitivity) -> Markup {
     }
 }
 
-/// A share with its interval, from 0 to 1.
+/// Draws a share with its interval, from 0 to 1.
 fn bar(value: f64, interval: [f64; 2]) -> Markup {
-    let place = |share: f64| share.clamp(0.0, 1.0) * WIDTH;
-    let [low, high] = interval.map(place);
-    html! {
-        svg.drawing viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) aria-hidden="true" focusable="false" {
-            rect.bar x="0" width=(format!("{:.1}", place(value))) y="3" height=(HEIGHT - 6.0) {}
-            line.interval x1=(format!("{low:.1}")) x2=(format!("{high:.1}")) y1=(HEIGHT / 2.0) y2=(HEIGHT / 2.0) {}
-        }
-    }
+    let strip = Strip {
+        low: 0.0,
+        high: 1.0,
+    };
+    strip.draw(&html! { (strip.bar(0.0, value, "")) (strip.interval(interval)) })
 }

@@ -1,4 +1,4 @@
-//! A tuning as one page: what was tried, what came of it, and how far to trust it.
+//! Page of a tuning: its choice, its trials, and how far to trust them.
 
 mod choice;
 mod convergence;
@@ -6,25 +6,24 @@ mod folder;
 mod folds;
 mod front;
 mod importance;
-mod plot;
-mod provenance;
 mod scenes;
+mod settings;
 mod slices;
 
 use maud::{Markup, html};
 
-use super::shell::shell;
+use crate::document::Document;
 use suite::Error;
 
 pub use folder::TuneFolder;
 
-/// The page of what `tune` wrote; the same folder makes the same bytes.
+/// Writes the page of a folder that `tune` made. The same folder makes the same bytes.
 pub fn tuning_page(folder: &TuneFolder) -> Result<String, Error> {
     let body = html! {
         @if let Some(tuning) = &folder.tuning { (choice::summary(tuning)) }
         @if let Some(tuning) = &folder.tuning { (choice::values(tuning)) }
         @if !folder.trials.is_empty() {
-            (front::front(folder))
+            (front::front_section(folder))
             (convergence::convergence(&folder.trials))
         }
         @if let Some(tuning) = &folder.tuning {
@@ -35,7 +34,7 @@ pub fn tuning_page(folder: &TuneFolder) -> Result<String, Error> {
         @if let Some(found) = &folder.sensitivity { (importance::importance(found)) }
         (slices::slices(folder))
         @if let Some(tuning) = &folder.tuning { (failures(tuning)) }
-        @if let Some(header) = &folder.header { (provenance::provenance(header)) }
+        @if let Some(header) = &folder.header { (settings::settings(header)) }
     };
     let (title, subtitle) = match &folder.header {
         Some(header) => (
@@ -52,10 +51,18 @@ pub fn tuning_page(folder: &TuneFolder) -> Result<String, Error> {
             folder.path.display().to_string(),
         ),
     };
-    Ok(shell(&title, &subtitle, &body, &[]).into_string())
+    let document = Document {
+        title: &title,
+        heading: html! { (title) },
+        subtitle: &subtitle,
+        body: html! { main { (body) } },
+        scripts: &[],
+        loads_siblings: false,
+    };
+    Ok(document.render())
 }
 
-/// A mean of logs of errors as a change of the error: `-18.6 %`.
+/// Writes a mean log of errors as a change of the error: `-18.6 %`.
 fn percent(log: f64) -> String {
     format!("{:+.1} %", 100.0 * log.exp_m1())
 }

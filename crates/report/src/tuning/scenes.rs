@@ -1,15 +1,15 @@
-//! Start and choice, scene by scene.
+//! Scenes of a tuning: start and choice.
 
 use std::collections::BTreeMap;
 
 use maud::{Markup, html};
 
-use super::folds::bar;
+use super::folds::change_bar;
 use super::percent;
 use suite::log_ratio;
 use suite::{HeldOutResult, SceneScore, Tuning};
 
-/// The scenes that were tuned on, those with the largest error of the start first.
+/// Lists the scenes that were tuned on, those with the largest error of the start first.
 pub fn tuned_on(tuning: &Tuning) -> Markup {
     let pairs: BTreeMap<String, [SceneScore; 2]> = (tuning.start.scenes.iter())
         .filter_map(|(scene, start)| {
@@ -24,9 +24,9 @@ pub fn tuned_on(tuning: &Tuning) -> Markup {
     }
 }
 
-/// The last result on the held-out scenes.
-pub fn held_out(results: &[HeldOutResult]) -> Markup {
-    let Some(last) = results.last() else {
+/// Lists the held-out scenes as they were measured last.
+pub fn held_out(openings: &[HeldOutResult]) -> Markup {
+    let Some(last) = openings.last() else {
         return html! {};
     };
     let [width, height, samples] = last.render;
@@ -34,9 +34,9 @@ pub fn held_out(results: &[HeldOutResult]) -> Markup {
         section {
             h2 { "Choice against start on held-out scenes" }
             p {
-                "No trial ran on these. They were evaluated " (results.len())
-                @if results.len() == 1 { " time" } @else { " times" }
-                "; scenes that are evaluated often are scenes that are tuned on. " (width) "x" (height) ", " (samples) " samples per pixel."
+                "No trial ran on these. They were measured " (openings.len())
+                @if openings.len() == 1 { " time" } @else { " times" }
+                "; a set that is measured often becomes one that is tuned on. " (width) "x" (height) ", " (samples) " samples per pixel."
             }
             (table("Held-out scenes, the worst of the start first", &last.paired.scenes))
         }
@@ -76,7 +76,7 @@ fn table(caption: &str, pairs: &BTreeMap<String, [SceneScore; 2]>) -> Markup {
                             td { (format!("{:.4}", start.flip)) }
                             td { (format!("{:.4}", chosen.flip)) }
                             td { (percent(*log)) }
-                            td.chart { (bar(*log, most)) }
+                            td.chart { (change_bar(*log, most)) }
                             td { (bleed(start)) }
                             td { (bleed(chosen)) }
                         }

@@ -6,7 +6,7 @@ use filters::Value;
 use maud::{Markup, html};
 
 use super::folder::TuneFolder;
-use super::plot::{Axis, Plot};
+use crate::charts::plot::{Axis, Plot};
 use suite::Trial;
 
 /// Ranges of more than this factor have an axis of equal factors.
@@ -73,10 +73,7 @@ fn slice(folder: &TuneFolder, trials: &[&Trial], name: &str) -> Markup {
         .map(|(_, error, _)| *error)
         .chain(line.iter().map(|(_, error)| *error));
     let words = words(&values);
-    let plot = Plot {
-        x: axis(name, &values, &words),
-        y: Axis::linear("error", errors),
-    };
+    let plot = Plot::small(axis(name, &values, &words), Axis::linear("error", errors));
     let at = |value: &Value| place(value, &words);
     let marks = html! {
         @for (value, error, done) in &points {
@@ -84,7 +81,7 @@ fn slice(folder: &TuneFolder, trials: &[&Trial], name: &str) -> Markup {
             (plot.mark((at(value), *error), class, 2.5, &format!("{value}: {error:.4}")))
         }
         @if line.len() > 1 {
-            (plot.line(&line.iter().map(|(value, error)| (at(value), *error)).collect::<Vec<_>>()))
+            (plot.line("", &line.iter().map(|(value, error)| (at(value), *error)).collect::<Vec<_>>()))
         }
     };
     html! { figure { (plot.draw(&format!("Error against {name}"), &marks)) } }

@@ -37,7 +37,6 @@ fn two_runs_do_not_write_to_one_folder_at_a_time() {
         RENDER,
         "check --quiet --filters identity --out out",
         "calibrate --quiet --filters identity --out out",
-        "catalogue --quiet --filters identity --out out",
         "tune --quiet --filter jump_flood --objective flip --out out",
         "serve --quiet --filter jump_flood --out out",
     ] {

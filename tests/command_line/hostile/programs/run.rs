@@ -46,7 +46,6 @@ fn no_command_runs_a_program_that_was_not_allowed() {
         "run --out out --filter mine",
         "check --out out --filter mine",
         "calibrate --out out --filter mine",
-        "catalogue --out out --filter mine",
         "blur --filter ./mine --frame frame.exr --out b.exr",
         "tune --out out --filter ./mine",
         "evaluate --out out --filter ./mine --params p.json",

@@ -1,0 +1,92 @@
+"use strict";
+// The overview: one score at a time, rows that are searched for, sorting, and a look at the worst place of a case.
+{
+  const value = (row, column) => {
+    const cell = row.cells[column];
+    return column === 0 ? cell.textContent.trim() : parseFloat(cell.dataset.value);
+  };
+  const compare = (a, b, sign) => {
+    if (typeof a === "string") return sign * a.localeCompare(b);
+    if (Number.isNaN(a) || Number.isNaN(b)) return Number.isNaN(a) - Number.isNaN(b);
+    return sign * (a - b);
+  };
+  // Each group of rows sorts by itself; a second press turns the order around. A row without a number comes last.
+  for (const table of document.querySelectorAll("table.sortable")) {
+    const headings = [...table.tHead.rows[0].cells];
+    headings.forEach((heading, column) => {
+      heading.querySelector("button")?.addEventListener("click", () => {
+        const first = column === 0 ? "ascending" : table.dataset.first;
+        const other = first === "ascending" ? "descending" : "ascending";
+        const order = heading.ariaSort === first ? other : first;
+        for (const one of headings) one.ariaSort = null;
+        heading.ariaSort = order;
+        const sign = order === "ascending" ? 1 : -1;
+        for (const group of table.tBodies) {
+          if (group.classList.contains("group")) continue;
+          const rows = [...group.rows];
+          rows.sort((a, b) => compare(value(a, column), value(b, column), sign));
+          group.append(...rows);
+        }
+      });
+    });
+  }
+
+  // The page holds every thumbnail once.
+  const panels = [...document.querySelectorAll(".panel")];
+  const thumbnails = [...panels[0].querySelectorAll("th.scene img")].map((image) => image.src);
+  for (const panel of panels) panel.querySelectorAll("th.scene img").forEach((image, at) => (image.src = thumbnails[at]));
+  for (const image of document.querySelectorAll("[data-thumbnail]")) image.src = thumbnails[image.dataset.thumbnail];
+
+  const tools = document.getElementById("tables");
+  const tool = (name) => tools.querySelector(`[name=${name}]`);
+  const show = () => {
+    const metric = tools.querySelector("[name=metric]:checked").value;
+    const words = tool("search").value.toLowerCase();
+    const isHidden = (row) =>
+      (row.classList.contains("reference") && !tool("references").checked) ||
+      (tool("failing")?.checked && !("failing" in row.dataset)) ||
+      !row.cells[0].textContent.toLowerCase().includes(words);
+    for (const panel of panels) {
+      panel.hidden = panel.dataset.metric !== metric;
+      for (const row of panel.querySelectorAll("tbody:not(.group) tr")) row.hidden = isHidden(row);
+    }
+  };
+  tools.addEventListener("input", show);
+  show();
+
+  // Truth, output and error around the worst place of the case that is pointed at.
+  const pictures = window.shuttertruth;
+  const peek = document.querySelector(".peek");
+  const width = Number(document.getElementById("viewer").dataset.width);
+  const height = Number(document.getElementById("viewer").dataset.height);
+  let asked = 0;
+  const look = async (link) => {
+    asked += 1;
+    const mine = asked;
+    const { scene, stops, worst } = document.getElementById(link.hash.slice(1)).querySelector(".viewer_place").dataset;
+    pictures.openScene(Number(scene));
+    pictures.openCase(document.getElementById(link.hash.slice(1)));
+    const canvases = [...peek.querySelectorAll("canvas")];
+    const [x, y] = worst.split(",").map(Number);
+    const start = (middle, size, all) => Math.max(0, Math.min(all - size, middle - size / 2));
+    for (const canvas of canvases) Object.assign(canvas, { width: Math.min(48, width), height: Math.min(48, height) });
+    const [left, top] = [start(x, canvases[0].width, width), start(y, canvases[0].height, height)];
+    const colors = await Promise.all(
+      ["truth", "output", "flip"].map((word) => pictures.painterOf(pictures.find(word), Number(stops))),
+    );
+    if (mine !== asked) return;
+    colors.forEach((color, at) => pictures.paint(canvases[at], color, width, left, top));
+    peek.hidden = false;
+    const [own, box] = [link.getBoundingClientRect(), peek.getBoundingClientRect()];
+    peek.style.left = `${Math.max(0, Math.min(own.left, innerWidth - box.width - 8))}px`;
+    peek.style.top = `${own.bottom + box.height + 8 < innerHeight ? own.bottom + 4 : own.top - box.height - 4}px`;
+  };
+  const leave = () => {
+    asked += 1;
+    peek.hidden = true;
+  };
+  for (const link of document.querySelectorAll("a.case")) {
+    for (const kind of ["pointerenter", "focus"]) link.addEventListener(kind, () => look(link).catch(leave));
+    for (const kind of ["pointerleave", "blur", "click"]) link.addEventListener(kind, leave);
+  }
+}

@@ -1,0 +1,122 @@
+//! Bounds of a case, with evidence for those that are not kept.
+
+use maud::{Markup, html};
+use metrics::Metric;
+
+use super::case_view::CaseView;
+use super::evidence::Evidence;
+use crate::filter_id::case_anchor;
+use crate::finding_text::{Status, finding_line, way_out};
+use suite::Level;
+use suite::{CROP, Finding, Outcome, number};
+
+/// Lists the required bounds of a run that are not kept, each with a link to its case.
+pub fn broken_bounds(pages: &[CaseView]) -> Markup {
+    let broken: Vec<(&CaseView, &Finding)> = (pages.iter())
+        .flat_map(|page| page.findings.iter().map(move |finding| (page, finding)))
+        .filter(|(_, finding)| finding.level == Level::Required && finding.outcome.is_notable())
+        .collect();
+    html! {
+        @if !broken.is_empty() {
+            details.failures {
+                summary { "Required bounds that are not kept: " (broken.len()) }
+                ul {
+                    @for (page, finding) in broken {
+                        li {
+                            a href=(format!("#{}", case_anchor(page.case))) {
+                                (finding.scene) " / " (finding.filter)
+                            }
+                            ": " (finding_line(finding))
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Shows every bound of a case: those that are not kept with evidence, the others as a count.
+pub fn bounds(page: &CaseView) -> Markup {
+    let kept = (page.findings.iter()).filter(|finding| finding.outcome == Outcome::Kept);
+    let kept = kept.count();
+    let notable = || page.findings.iter().zip(&page.evidence);
+    let explained = page.evidence.iter().any(Option::is_some);
+    let broken = (page.findings.iter()).any(|finding| finding.outcome == Outcome::Broken);
+    html! {
+        section.verdicts {
+            h3 { @if broken { "Why it failed" } @else { "Bounds" } }
+            @match page.findings.len() {
+                0 => p { "This picture is held to no bound." },
+                all => p { (kept) " of " (all) " kept." },
+            }
+            @if explained { (failure_pattern(page)) }
+            @for (finding, evidence) in notable() {
+                @if let Some(evidence) = evidence { (finding_section(page, finding, evidence)) }
+            }
+        }
+    }
+}
+
+/// Names the failure pattern that all scores together are most like.
+fn failure_pattern(page: &CaseView) -> Markup {
+    html! {
+        p.alike {
+            @match page.findings.iter().find_map(|finding| finding.resembles.as_ref()) {
+                Some(alike) => {
+                    "The scores are most like those of the wrong blur " strong { (alike.decoy) } ", "
+                    (format!("{:.0}", 100.0 * alike.distance))
+                    " % off: the distance over the scores that tell wrong blurs apart, as a part of how far that blur's own \
+                     are from perfect."
+                }
+                None => {
+                    "No known failure pattern matched (only " code { "check" } " looks for them)."
+                }
+            }
+        }
+    }
+}
+
+fn finding_section(page: &CaseView, finding: &Finding, evidence: &Evidence) -> Markup {
+    let class = Status::of(finding.outcome).map(|status| status.word);
+    let [x, y] = evidence.place;
+    html! {
+        div class=(format!("verdict {}", class.unwrap_or_default())) {
+            p { strong { (finding_line(finding)) } }
+            (facts(finding))
+            @if let Some(way_out) = way_out(finding) { p.note { (way_out) } }
+            p {
+                "Worst at (" (x) ", " (y) ") of " (evidence.map) ". "
+                button.place type="button" data-x=(x) data-y=(y) { "Show it above" }
+            }
+            figure.crop data-x=(x) data-y=(y) data-map=(evidence.plane) {
+                div.panels {
+                    @for what in ["truth", "output", "error"] {
+                        canvas width=(CROP.min(page.run.width)) height=(CROP.min(page.run.height)) role="img"
+                            aria-label=(format!("{what} around ({x}, {y})")) {}
+                    }
+                }
+                figcaption { "truth, output, " (evidence.map) " (as bright as it is here)" }
+            }
+        }
+    }
+}
+
+/// Lists metric, limit, value and interval.
+fn facts(finding: &Finding) -> Markup {
+    let metric: Option<Metric> = finding.metric.parse().ok();
+    html! {
+        dl {
+            div { dt { "metric" } dd { (finding.metric) @if let Some(metric) = metric { ": " (metric.meaning()) } } }
+            @if let Some(value) = finding.value {
+                div { dt { "value" } dd { (finding.with_unit(value)) } }
+            }
+            @if let Some(own) = &finding.interval {
+                div { dt { "95 % CI" } dd { (number(own.low)) " to " (number(own.high)) } }
+            }
+            div { dt { "limit" } dd { (number(finding.limit)) ", " (finding.place) ": " (finding.why) } }
+            @if let Some(floor) = finding.floor {
+                div { dt { "noise floor" } dd { (number(floor)) } }
+            }
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! Data of a case's section, read from the files of the run.
+
+use std::path::Path;
+
+use super::evidence::{Evidence, find_evidence};
+use super::profile::{Profile, trace_profile, worst_pixel};
+use crate::pixels::layer::Layer;
+use crate::pixels::scene_files::SceneFiles;
+use suite::{BLOCK, Finding, worst_block};
+use suite::{Case, Error, Run};
+
+/// A case with all that a page shows of its files.
+pub struct CaseView<'a> {
+    /// Run that holds the case.
+    pub run: &'a Run,
+    /// Number of the case in the run.
+    pub index: usize,
+    /// Its scores.
+    pub case: &'a Case,
+    /// Findings, one per bound; none where the run was not judged.
+    pub findings: Vec<Finding>,
+    /// Place to look at, per finding; none where it needs no explanation.
+    pub evidence: Vec<Option<Evidence>>,
+    /// Number of the scene in the run.
+    pub scene: usize,
+    /// Every picture that there is, with the numbers of its planes.
+    pub layers: Vec<(Layer, Vec<usize>)>,
+    /// Plane of the objects' indices.
+    pub objects: usize,
+    /// Names of the objects.
+    pub names: Vec<String>,
+    /// Display exposure of the scene, in stops.
+    pub stops: f32,
+    /// Brightness along the motion through the worst place.
+    pub profile: Profile,
+}
+
+/// Case to read, and what is known of it.
+pub struct CaseInput<'a> {
+    /// Run that holds the case.
+    pub run: &'a Run,
+    /// Its number in the run.
+    pub index: usize,
+    /// Findings, one per bound.
+    pub findings: Vec<Finding>,
+    /// Number of the scene in the run.
+    pub scene: usize,
+}
+
+impl<'a> CaseView<'a> {
+    /// Reads a case's files below `folder`.
+    pub fn read(
+        input: CaseInput<'a>,
+        folder: &Path,
+        files: &mut SceneFiles,
+    ) -> Result<Self, Error> {
+        let CaseInput {
+            run,
+            index,
+            findings,
+            scene,
+        } = input;
+        let case = &run.cases[index];
+        let own = files.read_case(case, folder)?;
+        let evidence: Vec<Option<Evidence>> = (findings.iter())
+            .map(|finding| find_evidence(finding, case, &own, files))
+            .collect::<Result<_, _>>()?;
+        let flip = own.errors.plane("flip")?;
+        let place = match evidence.iter().flatten().next() {
+            Some(first) => worst_pixel(&own.errors.plane(&first.map)?, first.place, BLOCK),
+            None => {
+                let metric = "flip_moving".parse().expect("a metric's name");
+                let (x, y) = worst_block(metric, &flip, &files.truths[&case.alignment].regions);
+                worst_pixel(&flip, [x, y], BLOCK)
+            }
+        };
+        Ok(Self {
+            profile: trace_profile(place, case, files, &own),
+            names: files.frame.objects.clone(),
+            stops: files.frame.display.stops,
+            layers: own.layers,
+            objects: own.objects,
+            run,
+            index,
+            case,
+            findings,
+            evidence,
+            scene,
+        })
+    }
+}

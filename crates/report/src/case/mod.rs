@@ -1,0 +1,190 @@
+//! Section of a case: one filter on one scene.
+
+pub mod bounds;
+pub mod case_view;
+mod evidence;
+pub mod legend;
+mod profile;
+mod profile_chart;
+mod scores;
+pub mod viewer;
+
+use maud::{Markup, html};
+
+use crate::filter_id::{FilterId, case_anchor, list_scenes};
+use crate::run_facts::provenance_line;
+use bounds::bounds;
+use case_view::CaseView;
+use profile::Profile;
+use profile_chart::profile_chart;
+use scores::score_rows;
+use suite::{Case, Headline, Outcome, Run};
+
+/// Writes a case; it is seen while it is open, and the script brings the viewer.
+pub fn case_section(view: &CaseView) -> Markup {
+    let case = view.case;
+    let filter = FilterId::of(case);
+    let title = format!("{} / {}", case.scene, filter.title());
+    let [x, y] = view.profile.place;
+    html! {
+        article.case id=(case_anchor(case)) data-title=(title) data-name=(filter.anchor())
+            data-filter=(filter.title()) data-reference[filter.is_reference] {
+            div.case_head {
+                h2 tabindex="-1" {
+                    (case.scene) " / "
+                    @if filter.is_reference { (filter.title()) }
+                    @else { a href=(format!("#{}", filter.section_anchor())) { (filter.title()) } }
+                }
+                (neighbours(view))
+            }
+            (score_line(view))
+            div.viewer_place data-scene=(view.scene) data-layers=(layers(view)) data-stops=(view.stops)
+                data-names=(serde_json::json!(view.names)) data-line=(line(&view.profile)) data-worst=(format!("{x},{y}")) {}
+            p { (case.exposes) }
+            section {
+                h3 { "Along the motion, through the worst place" }
+                (profile_chart(&view.profile))
+            }
+            div.columns {
+                (bounds(view))
+                (facts(case))
+            }
+            (score_rows(view))
+            p.note { (provenance_line(view.run)) }
+        }
+    }
+}
+
+/// Writes the scores that a reader looks for first, and the rank among the filters of one shutter.
+fn score_line(view: &CaseView) -> Markup {
+    let case = view.case;
+    let (rank, of) = rank_on_scene(view.run, case);
+    let bounded = view.findings.len();
+    let broken = (view.findings.iter()).filter(|finding| finding.outcome == Outcome::Broken);
+    let broken = broken.count();
+    html! {
+        p.score {
+            @for headline in [Headline::FLIP, Headline::SKILL, Headline::PSNR] {
+                @if let Some(value) = headline.measured(case).value() {
+                    span { (short_name(headline)) " " strong { (headline.number(value)) } (interval(case, headline)) }
+                }
+            }
+            @if let (false, Some(rank)) = (case.is_reference, rank) {
+                span { "rank " strong { (rank) } " of " (of) " with a " (case.alignment) " shutter" }
+            }
+            @if bounded > 0 {
+                span class=(if broken > 0 { "broken" } else { "kept" }) { (broken) " of " (bounded) " bounds broken" }
+            }
+        }
+    }
+}
+
+fn short_name(headline: Headline) -> &'static str {
+    match headline {
+        Headline::FLIP => "FLIP",
+        Headline::SKILL => "skill",
+        _ => "PSNR",
+    }
+}
+
+/// ` (95 % CI 0.052 to 0.061)`
+fn interval(case: &Case, headline: Headline) -> String {
+    let interval = case.intervals.get(&headline.name());
+    interval.map_or_else(String::new, |own| {
+        let [low, high] = [own.low, own.high].map(|end| headline.number(end));
+        format!(" (95 % CI {low} to {high})")
+    })
+}
+
+/// Counts the filters of the scene with the same shutter: those that are better by FLIP, and all.
+fn rank_on_scene(run: &Run, case: &Case) -> (Option<usize>, usize) {
+    let flip = |case: &Case| Headline::FLIP.measured(case).value();
+    let rivals = (run.cases.iter()).filter(|own| {
+        !own.is_reference && own.scene == case.scene && own.alignment == case.alignment
+    });
+    let errors: Vec<f64> = rivals.filter_map(flip).collect();
+    let rank = flip(case).map(|own| 1 + errors.iter().filter(|error| **error < own).count());
+    (rank, errors.len())
+}
+
+/// `truth:3,4,5 .. objects:17`: the numbers of the planes.
+fn layers(view: &CaseView) -> String {
+    let word = |name: &str, planes: &[usize]| {
+        let planes: Vec<String> = planes.iter().map(usize::to_string).collect();
+        format!("{name}:{}", planes.join(","))
+    };
+    let mut words: Vec<String> = (view.layers.iter())
+        .map(|(layer, planes)| word(layer.name(), planes))
+        .collect();
+    words.push(word("objects", &[view.objects]));
+    words.join(" ")
+}
+
+/// The profile's line as a path over the picture, with a ring around its place.
+fn line(profile: &Profile) -> String {
+    let [x, y] = profile.place.map(|axis| axis as f32 + 0.5);
+    let end = |distance: Option<&f32>| {
+        let distance = distance.copied().unwrap_or(0.0);
+        let [right, down] = profile.direction.map(|axis| axis * distance);
+        format!("{:.1} {:.1}", x + right, y + down)
+    };
+    format!(
+        "M{} L{} M{:.1} {y:.1} a3 3 0 1 0 6 0 a3 3 0 1 0 -6 0",
+        end(profile.distances.first()),
+        end(profile.distances.last()),
+        x - 3.0
+    )
+}
+
+/// The ways to the overview, to other filters of the scene, and to the same filter in other scenes.
+fn neighbours(view: &CaseView) -> Markup {
+    let (run, index) = (view.run, view.index);
+    let scene = |index: usize| run.cases[index].scene.as_str();
+    let scenes = list_scenes(run);
+    let place = (scenes.iter()).position(|own| *own == scene(index));
+    let place = place.expect("a case's scene is one of the run's");
+    let filter = FilterId::of(view.case);
+    let in_scene = |at: Option<usize>| filter.case_on(run, scenes.get(at?)?);
+    let of_scene =
+        |at: Option<usize>| at.filter(|at| *at < run.cases.len() && scene(*at) == scene(index));
+    let ways = [
+        ("h", "← scene", in_scene(place.checked_sub(1))),
+        ("l", "scene →", in_scene(Some(place + 1))),
+        ("k", "↑ filter", of_scene(index.checked_sub(1))),
+        ("j", "↓ filter", of_scene(Some(index + 1))),
+    ];
+    html! {
+        nav.neighbours aria-label="Cases" {
+            a data-key="o" href="#overview" { "Overview" }
+            @for (key, words, to) in ways {
+                @match to {
+                    Some(to) => a data-key=(key) href=(format!("#{}", case_anchor(&run.cases[to]))) { (words) },
+                    None => span.none aria-hidden="true" { (words) },
+                }
+            }
+        }
+    }
+}
+
+fn facts(case: &Case) -> Markup {
+    html! {
+        section.facts {
+            h3 { "Case" }
+            dl {
+                div { dt { "family" } dd { (case.family.name()) } }
+                div { dt { "exposure" } dd { (case.exposure) " frames, " (case.alignment) } }
+                div { dt { "truth" } dd { code { (case.truth_hash) } } }
+                @if let Some(change) = case.input.change() { div { dt { "input" } dd { (change) } } }
+                @if let Some(command) = &case.command {
+                    div { dt { "command" } dd { code { (command.join(" ")) } } }
+                }
+                @if let Some(width) = case.reference_width {
+                    div { dt { "values in pixels" } dd { "scaled from pictures " (width) " pixels wide" } }
+                }
+                @for (name, value) in &case.parameters {
+                    div { dt { (name) } dd { (value) } }
+                }
+            }
+        }
+    }
+}

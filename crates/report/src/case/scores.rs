@@ -1,0 +1,98 @@
+//! Table of a case's scores, each with its noise floor and its meaning.
+
+use maud::{Markup, html};
+use metrics::{Group, Measured, Metric};
+
+use super::case_view::CaseView;
+use crate::finding_text::Status;
+use suite::Case;
+use suite::number;
+
+/// Lists the scores of all groups.
+pub fn score_rows(page: &CaseView) -> Markup {
+    let case = page.case;
+    let all = Metric::all();
+    html! {
+        table.scores {
+            caption {
+                "Scores; small: the 95 % CI, and the object that the score is about. run.json holds more."
+            }
+            thead {
+                tr {
+                    th scope="col" { "score" }
+                    th scope="col" { "value" }
+                    th scope="col" { "floor" }
+                    th scope="col" { "limit" }
+                    th scope="col" { "what it says" }
+                }
+            }
+            @for group in Group::SHOWN {
+                tbody {
+                    tr.group { th scope="rowgroup" colspan="5" { (group.title()) } }
+                    @for metric in all.iter().filter(|metric| metric.group() == group) { (row(page, *metric)) }
+                }
+            }
+            @if let Some(jitter) = &case.jitter {
+                tbody {
+                    tr.group { th scope="rowgroup" colspan="5" { "The filter's own noise" } }
+                    tr {
+                        th scope="row" { "noise" }
+                        td { (format!("{:.0} %", 100.0 * jitter.noise_share())) }
+                        td {}
+                        td {}
+                        td.meaning {
+                            "part of the squared error that averaging takes away, by " (jitter.frames) " frames"
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn row(page: &CaseView, metric: Metric) -> Markup {
+    let case = page.case;
+    let name = metric.name();
+    let finding = (page.findings.iter()).find(|finding| finding.metric == name);
+    let status = finding.and_then(|finding| Status::of(finding.outcome));
+    html! {
+        tr {
+            th scope="row" { (name) }
+            @match case.scores.get(metric) {
+                Measured::NotApplicable { reason } => td.reason colspan="3" { "n/a: " (reason) },
+                Measured::Score(score) => {
+                    td {
+                        (value(case, metric, score.value))
+                        @if let Some(interval) = case.intervals.get(&name) {
+                            span.note { " " (number(interval.low)) " to " (number(interval.high)) }
+                        }
+                        @if let Some((object, _)) = case.scores.worst_object(metric) {
+                            span.note { " " (object) }
+                        }
+                    }
+                    td data-label="floor" { (number(score.floor)) }
+                    td class=[status.map(|status| status.word)]
+                        data-label=[status.map(|_| "limit")] {
+                        @if let (Some(finding), Some(status)) = (finding, status) {
+                            span.sign aria-hidden="true" { (status.sign) }
+                            (number(finding.limit))
+                            span.unseen { ", " (status.word) }
+                        }
+                    }
+                }
+            }
+            td.meaning { (metric.meaning()) }
+        }
+    }
+}
+
+/// Writes a value with its unit; counts of sub-frames with the end of the ladder that they lie beyond.
+fn value(case: &Case, metric: Metric, value: f64) -> String {
+    match metric {
+        Metric::Equivalent(metric) => case.scores.equivalent_subframes.get(metric).to_string(),
+        _ => match metric.unit() {
+            "" => number(value),
+            unit => format!("{} {unit}", number(value)),
+        },
+    }
+}

@@ -1,0 +1,4 @@
+//! Charts as inline SVG.
+
+pub mod plot;
+pub mod strip;

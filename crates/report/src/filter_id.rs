@@ -1,0 +1,135 @@
+//! Identity of filters: what a row of every table stands for.
+
+use metrics::Measured;
+
+use suite::Headline;
+use suite::{Case, Overall, Run};
+
+/// A filter preset with one form of its input, or a reference with one shutter.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FilterId {
+    /// `jump_flood:paper`.
+    pub name: String,
+    /// True of a reference: `identity`, `scatter_oracle`, `accumulate:N`.
+    pub is_reference: bool,
+    /// The shutter alignment that it is scored against.
+    pub alignment: String,
+}
+
+impl FilterId {
+    /// Reads the filter of a case.
+    pub fn of(case: &Case) -> Self {
+        Self {
+            name: case.name(),
+            is_reference: case.is_reference,
+            alignment: case.alignment.clone(),
+        }
+    }
+
+    /// Writes a name that no other filter shares: references are made anew for every alignment.
+    pub fn title(&self) -> String {
+        match self.is_reference {
+            true => format!("{} ({})", self.name, self.alignment),
+            false => self.name.clone(),
+        }
+    }
+
+    /// Writes the title as a part of an address: `bevy:high`, `identity@trailing`.
+    pub fn anchor(&self) -> String {
+        match self.is_reference {
+            true => format!("{}@{}", escape(&self.name), self.alignment),
+            false => escape(&self.name),
+        }
+    }
+
+    /// Writes the address of the filter's own section: `filter:bevy:high`.
+    pub fn section_anchor(&self) -> String {
+        format!("filter:{}", self.anchor())
+    }
+
+    /// Tells whether a mean over scenes is this filter's.
+    pub fn is_of(&self, overall: &Overall) -> bool {
+        (self.is_reference, &self.name, &self.alignment)
+            == (overall.is_reference, &overall.filter, &overall.alignment)
+    }
+
+    /// Lists its cases, one per scene.
+    pub fn cases<'a>(&'a self, run: &'a Run) -> impl Iterator<Item = (usize, &'a Case)> {
+        let all = run.cases.iter().enumerate();
+        all.filter(|(_, case)| FilterId::of(case) == *self)
+    }
+
+    /// Finds the number of its case of one scene.
+    pub fn case_on(&self, run: &Run, scene: &str) -> Option<usize> {
+        let mut own = self.cases(run);
+        own.find(|(_, case)| case.scene == scene)
+            .map(|(index, _)| index)
+    }
+}
+
+/// Writes the address of a case: `railing/bevy:high`.
+pub fn case_anchor(case: &Case) -> String {
+    format!("{}/{}", escape(&case.scene), FilterId::of(case).anchor())
+}
+
+/// Replaces what an address may not hold, or what ends a name in it: a space becomes `~20`.
+fn escape(name: &str) -> String {
+    let escaped = name.chars().map(|letter| match letter {
+        'a'..='z' | 'A'..='Z' | '0'..='9' | '_' | '-' | '.' | ':' | '@' => letter.to_string(),
+        other => format!("~{:x}", u32::from(other)),
+    });
+    escaped.collect()
+}
+
+/// Lists the filters of a run, in the order they ran.
+pub fn list_filters(run: &Run) -> Vec<FilterId> {
+    drop_repetitions(run.cases.iter().map(FilterId::of))
+}
+
+/// Lists the scenes of a run, in the order they ran.
+pub fn list_scenes(run: &Run) -> Vec<&str> {
+    drop_repetitions(run.cases.iter().map(|case| case.scene.as_str()))
+}
+
+/// Lists the shutter alignments of some filters.
+pub fn list_alignments(filters: &[FilterId]) -> Vec<&str> {
+    drop_repetitions(filters.iter().map(|filter| filter.alignment.as_str()))
+}
+
+/// Averages a score's noise floor over a filter's scenes; none where the score applies to none.
+pub fn mean_floor(run: &Run, filter: &FilterId, headline: Headline) -> Option<f64> {
+    let floors = filter
+        .cases(run)
+        .filter_map(|(_, case)| match headline.measured(case) {
+            Measured::Score(score) => Some(score.floor),
+            Measured::NotApplicable { .. } => None,
+        });
+    mean(floors)
+}
+
+/// Averages numbers; none of none.
+pub fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let (count, sum) = values.fold((0, 0.0), |(count, sum), value| (count + 1, sum + value));
+    (count > 0).then(|| sum / f64::from(count))
+}
+
+fn drop_repetitions<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
+    let mut found = Vec::new();
+    for one in all {
+        if !found.contains(&one) {
+            found.push(one);
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_in_addresses_are_plain() {
+        assert_eq!(escape("panel@64px_45deg"), "panel@64px_45deg");
+        assert_eq!(escape("bevy:high a/b&c"), "bevy:high~20a~2fb~26c");
+    }
+}

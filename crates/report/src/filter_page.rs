@@ -1,0 +1,141 @@
+//! Section of a filter: what it is, its source, its cost, its parameters, and the scenes that it is weakest on.
+
+use filters::{Filter, Source};
+use maud::{Markup, html};
+use metrics::Ideal;
+
+use crate::filter_id::{FilterId, case_anchor, list_scenes};
+use crate::overview::costs::{cost_of, cost_text};
+use suite::{Bench, Case, Headline, Run};
+
+/// Scores beside the error in the table of scenes.
+const SCORES: [(Headline, &str); 6] = [
+    (Headline::FLIP, "FLIP"),
+    (Headline::SKILL, "skill"),
+    (Headline::GROWTH, "growth"),
+    (Headline::LOSS, "loss"),
+    (Headline::Bleed, "bleed"),
+    (Headline::PSNR, "PSNR"),
+];
+
+/// Writes the section of a filter; `thumbnails` are addresses of the scenes' truths.
+pub fn filter_section(
+    run: &Run,
+    filter: &FilterId,
+    thumbnails: &[String],
+    bench: Option<&Bench>,
+) -> Markup {
+    let cases: Vec<&Case> = filter.cases(run).map(|(_, case)| case).collect();
+    let Some(first) = cases.first() else {
+        return html! {};
+    };
+    // A folder of the same name and other parameters is not the built-in filter.
+    let own = Filter::builtin(&first.filter).ok();
+    let own = own.filter(|own| {
+        own.parameters
+            .iter()
+            .all(|parameter| first.parameters.contains_key(&parameter.name))
+    });
+    html! {
+        article.filter id=(filter.section_anchor()) data-title=(filter.name) {
+            div.case_head {
+                h2 tabindex="-1" { (filter.name) }
+                nav.neighbours { a href="#overview" { "Overview" } }
+            }
+            @if let Some(own) = &own { (about(own, first)) }
+            (weakest(run, &cases, thumbnails))
+            (parameters(own.as_ref(), first))
+            dl.facts {
+                div { dt { "shutter" } dd { (filter.alignment) } }
+                @if bench.is_some() { div { dt { "cost" } dd { (cost_text(cost_of(run, bench, filter))) " ms" } } }
+                @if let Some(change) = first.input.change() { div { dt { "input" } dd { (change) } } }
+                @if let Some(command) = &first.command { div { dt { "command" } dd { code { (command.join(" ")) } } } }
+            }
+        }
+    }
+}
+
+/// Describes a built-in filter and the preset of a case.
+fn about(filter: &Filter, case: &Case) -> Markup {
+    let preset = filter.presets.iter().find(|own| own.name == case.preset);
+    html! {
+        p.lead { (filter.summary) }
+        dl.facts {
+            @if let Some(preset) = preset { div { dt { "preset" } dd { (preset.doc) } } }
+            div { dt { "published" } dd { (filter.source) } }
+            @if let Some(source) = preset.and_then(|own| own.source.as_ref()) { (source_rows(source)) }
+            div { dt { "reach" } dd { (filter.reach) } }
+            div { dt { "cannot" } dd { (filter.cannot) } }
+        }
+    }
+}
+
+fn source_rows(source: &Source) -> Markup {
+    html! {
+        @if let Some(publication) = &source.publication { div { dt { "follows" } dd { (publication) } } }
+        @if let Some(code) = &source.code { div { dt { "code" } dd { (code.repository) " at " code { (code.commit) } } } }
+        @if !source.differs.is_empty() { div { dt { "differs" } dd { (source.differs.join(" ")) } } }
+    }
+}
+
+/// Lists the scenes, largest error first, each with a link to its case.
+fn weakest(run: &Run, cases: &[&Case], thumbnails: &[String]) -> Markup {
+    let scenes = list_scenes(run);
+    let error = |case: &Case| {
+        let value = Headline::FLIP.measured(case).value();
+        value.map_or(f64::NEG_INFINITY, |own| Ideal::Lowest.badness(own))
+    };
+    let mut sorted = cases.to_vec();
+    sorted.sort_by(|a, b| error(b).total_cmp(&error(a)));
+    html! {
+        div.scroll tabindex="0" role="region" aria-label="Scenes" {
+            table {
+                caption { "Scenes, the weakest first" }
+                thead {
+                    tr {
+                        th scope="col" { "scene" }
+                        @for (_, title) in SCORES { th scope="col" { (title) } }
+                        th.text scope="col" { "what the scene exposes" }
+                    }
+                }
+                tbody {
+                    @for case in sorted {
+                        @let place = scenes.iter().position(|scene| *scene == case.scene);
+                        tr {
+                            th scope="row" {
+                                a.scene href=(format!("#{}", case_anchor(case))) {
+                                    img data-thumbnail=[place.filter(|at| *at < thumbnails.len())] alt="";
+                                    (case.scene)
+                                }
+                            }
+                            @for (headline, _) in SCORES { td { (headline.text(case)) } }
+                            td.text { (case.exposes) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn parameters(filter: Option<&Filter>, case: &Case) -> Markup {
+    let doc = |name: &str| {
+        let mut all = filter?.parameters.iter();
+        all.find(|own| own.name == name).map(|own| own.doc.as_str())
+    };
+    html! {
+        @if !case.parameters.is_empty() {
+            div.scroll tabindex="0" role="region" aria-label="Parameters" {
+                table {
+                    caption { "Parameters" }
+                    thead { tr { th scope="col" { "parameter" } th scope="col" { "value" } th.text scope="col" { "meaning" } } }
+                    tbody {
+                        @for (name, value) in &case.parameters {
+                            tr { th scope="row" { (name) } td { (value) } td.text { (doc(name).unwrap_or_default()) } }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

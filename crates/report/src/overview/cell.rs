@@ -1,0 +1,119 @@
+//! Cell of the overview: one score of one case, which leads to the case.
+
+use maud::{Markup, html};
+use metrics::{Ideal, Measured};
+
+use crate::case::case_view::CaseView;
+use crate::filter_id::case_anchor;
+use crate::finding_text::Status;
+use suite::{Finding, Headline, Level, Outcome, number};
+
+/// Least badness that a colour tells from another one, where scores have a logarithmic scale.
+const LEAST: f64 = 1e-3;
+/// Part of the scores, at either end, that have the strongest colour and no share in the scale.
+const OUTLIERS: f64 = 0.05;
+
+/// Colours of a table: from blue, good, over the paper's colour to orange, bad.
+pub struct Colors {
+    ideal: Ideal,
+    ends: Option<[f64; 2]>,
+}
+
+impl Colors {
+    /// Spreads the colours over some scores, but for the outliers among them.
+    pub fn over(ideal: Ideal, scores: impl Iterator<Item = f64>) -> Self {
+        let mut all: Vec<f64> = scores.map(|score| scale(ideal, score)).collect();
+        all.sort_by(f64::total_cmp);
+        let last = all.len().saturating_sub(1);
+        let skipped = (OUTLIERS * last as f64).round() as usize;
+        let ends = (!all.is_empty()).then(|| [all[skipped], all[last - skipped]]);
+        Self { ideal, ends }
+    }
+
+    /// Finds class and strength, in percent, of a score's colour.
+    fn of(&self, score: f64) -> Option<(&'static str, f64)> {
+        let [low, high] = self.ends.filter(|[low, high]| high > low)?;
+        let part = (scale(self.ideal, score) - low) / (high - low);
+        let from_middle = 200.0 * (part.clamp(0.0, 1.0) - 0.5);
+        let class = if from_middle < 0.0 { "good" } else { "bad" };
+        Some((class, from_middle.abs()))
+    }
+}
+
+/// Scales badness: equal steps are equal factors where 0 is perfect.
+fn scale(ideal: Ideal, score: f64) -> f64 {
+    match ideal {
+        Ideal::Lowest | Ideal::Target(_) => ideal.badness(score).max(LEAST).ln(),
+        Ideal::Highest => ideal.badness(score),
+    }
+}
+
+/// Writes the cell of a case.
+pub fn cell(headline: Headline, colors: &Colors, view: &CaseView) -> Markup {
+    let measured = headline.measured(view.case);
+    let judged = find_judged(headline, view);
+    let color =
+        (measured.value().filter(|_| !view.case.is_reference)).and_then(|score| colors.of(score));
+    let fails = judged.is_some_and(|(finding, _)| {
+        finding.level == Level::Required && finding.outcome == Outcome::Broken
+    });
+    html! {
+        td class=(format!("{} {}", color.map_or("", |own| own.0), if fails { "required" } else { "" }).trim())
+            style=[color.map(|(_, strength)| format!("--strength:{strength:.0}%"))]
+            data-value=[measured.value()]
+            title=[reason(&measured)] {
+            a.case href=(format!("#{}", case_anchor(view.case))) {
+                @if let Some((_, status)) = judged {
+                    span.sign aria-hidden="true" { (status.sign) }
+                }
+                (headline.text(view.case))
+                @if let Some((finding, status)) = judged {
+                    span.unseen { ", " (status.word) ", " (level(finding)) " " (number(finding.limit)) }
+                }
+            }
+        }
+    }
+}
+
+/// Finds the bound on a case's score, and the score's status; none where it has no bound, or does not apply.
+fn find_judged<'a>(headline: Headline, view: &'a CaseView) -> Option<(&'a Finding, Status)> {
+    let name = headline.metric(&view.case.scores)?.name();
+    let finding = (view.findings.iter()).find(|finding| finding.metric == name)?;
+    Some((finding, Status::of(finding.outcome)?))
+}
+
+fn level(finding: &Finding) -> &'static str {
+    match finding.level {
+        Level::Required => "required limit",
+        Level::Report => "target",
+    }
+}
+
+fn reason(measured: &Measured) -> Option<&str> {
+    match measured {
+        Measured::Score(_) => None,
+        Measured::NotApplicable { reason } => Some(reason),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_tell_005_from_012_beside_an_outlier() {
+        let scores = [
+            0.02, 0.04, 0.05, 0.06, 0.08, 0.1, 0.12, 0.15, 0.2, 0.25, 9.0,
+        ];
+        let colors = Colors::over(Ideal::Lowest, scores.into_iter());
+        let (good, strong) = colors.of(0.05).unwrap();
+        let (bad, weak) = colors.of(0.12).unwrap();
+        assert_eq!([good, bad], ["good", "bad"]);
+        assert!(strong + weak > 40.0, "{strong} {weak}");
+        assert_eq!(colors.of(9.0), Some(("bad", 100.0)));
+        assert_eq!(
+            Colors::over(Ideal::Highest, [3.0].into_iter()).of(3.0),
+            None
+        );
+    }
+}

@@ -1,0 +1,220 @@
+//! Table of one score: filters, best mean first, against scenes.
+
+use maud::{Markup, html};
+use metrics::Ideal;
+
+use super::cell::{Colors, cell};
+use super::costs::{cost_of, cost_text};
+use super::headlines::TableScore;
+use crate::case::case_view::CaseView;
+use crate::charts::strip::Strip;
+use crate::filter_id::{FilterId, list_alignments, list_filters, list_scenes, mean, mean_floor};
+use suite::{Bench, Headline, Outcome, Overall, Run};
+
+/// Lengths of the middle half of the means that the scale goes on beyond it; what lies farther is drawn as an arrow.
+const WHISKERS: f64 = 1.5;
+
+/// A row before it is drawn.
+pub struct Row<'a> {
+    /// Filter or reference.
+    pub filter: FilterId,
+    /// Mean over scenes with its interval; none with a single scene.
+    pub overall: Option<&'a Overall>,
+    /// Mean, or the only score.
+    pub mean: Option<f64>,
+}
+
+/// Groups the filters of a run by shutter, unless the score compares across shutters; the best mean comes first.
+pub fn rank_rows(run: &Run, headline: Headline) -> Vec<Vec<Row<'_>>> {
+    let filters = list_filters(run);
+    let row = |filter: &FilterId| {
+        let mut means = run.overall.iter();
+        let overall = means.find(|own| own.metric == headline.name() && filter.is_of(own));
+        let scores = filter.cases(run);
+        let only = mean(scores.filter_map(|(_, case)| headline.measured(case).value()));
+        Row {
+            overall,
+            mean: overall.map(|own| own.mean).or(only),
+            filter: filter.clone(),
+        }
+    };
+    let mut groups: Vec<Vec<Row>> = match headline.spans_alignments() {
+        true => vec![filters.iter().map(row).collect()],
+        false => (list_alignments(&filters).into_iter())
+            .map(|own| {
+                filters
+                    .iter()
+                    .filter(|filter| filter.alignment == own)
+                    .map(row)
+                    .collect()
+            })
+            .collect(),
+    };
+    let badness = |row: &Row| {
+        row.mean
+            .map_or(f64::INFINITY, |own| headline.ideal().badness(own))
+    };
+    for group in &mut groups {
+        group.sort_by(|a, b| badness(a).total_cmp(&badness(b)));
+    }
+    groups
+}
+
+/// Writes the table; a table without means, that of a single scene, has no column for them.
+pub fn score_table(
+    run: &Run,
+    views: &[CaseView],
+    thumbnails: &[String],
+    score: &TableScore,
+    bench: Option<&Bench>,
+) -> Markup {
+    let headline = score.headline;
+    let scenes = list_scenes(run);
+    let groups = rank_rows(run, headline);
+    let rows = || groups.iter().flatten();
+    let own = views.iter().filter(|view| !view.case.is_reference);
+    let colors = Colors::over(
+        headline.ideal(),
+        own.filter_map(|view| headline.measured(view.case).value()),
+    );
+    let has_means = rows().any(|row| row.overall.is_some());
+    let strip = strip_over(
+        rows().filter(|row| !row.filter.is_reference),
+        headline.ideal(),
+    );
+    let columns = 1 + scenes.len() + 3 * usize::from(has_means) + usize::from(bench.is_some());
+    // What a reader looks for comes first.
+    let order = match headline.ideal() {
+        Ideal::Highest => "descending",
+        Ideal::Lowest | Ideal::Target(_) => "ascending",
+    };
+    html! {
+        div.scroll tabindex="0" role="region" aria-label=(format!("{} of every case", score.title)) {
+            table.sortable data-first=(order) {
+                caption { (caption(headline, has_means)) }
+                thead {
+                    tr {
+                        th scope="col" { button { "filter" } }
+                        @if has_means {
+                            th scope="col" { button { "mean" } }
+                            th scope="col" { "95 % CI" }
+                            th.chart scope="col" {
+                                div.ends { span { (headline.number(strip.low)) } span.unseen { " to " } span { (headline.number(strip.high)) } }
+                            }
+                        }
+                        @for (scene, picture) in scenes.iter().zip(thumbnails) {
+                            th.scene scope="col" {
+                                img src=[Some(picture).filter(|own| !own.is_empty())] alt="";
+                                button { (scene) }
+                            }
+                        }
+                        @if bench.is_some() { th scope="col" { button { "cost, ms" } } }
+                    }
+                }
+                @for group in &groups {
+                    @if !headline.spans_alignments() {
+                        tbody.group {
+                            tr { th scope="rowgroup" colspan=(columns) { (group[0].filter.alignment) " shutter" } }
+                        }
+                    }
+                    tbody {
+                        @for row in group {
+                            tr.reference[row.filter.is_reference] data-failing[is_failing(run, views, &row.filter)] {
+                                th scope="row" { (name(headline, &row.filter)) }
+                                @if has_means { (mean_cells(run, headline, &strip, row)) }
+                                @for scene in &scenes {
+                                    @match row.filter.case_on(run, scene) {
+                                        Some(index) => (cell(headline, &colors, &views[index])),
+                                        None => td { "-" },
+                                    }
+                                }
+                                @if bench.is_some() { (cost(run, bench, &row.filter)) }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn caption(headline: Headline, has_means: bool) -> &'static str {
+    match (has_means, headline.spans_alignments()) {
+        (false, _) => "Scores of a single scene have no mean",
+        (true, true) => {
+            "Best mean over scenes first, filters of all shutters. Line: 95 % CI over scenes; grey: noise floor of the truth"
+        }
+        (true, false) => {
+            "Best mean over scenes first. Line: 95 % CI over scenes; grey: noise floor of the truth. Compare filters of one shutter only"
+        }
+    }
+}
+
+/// Tells whether any bound on a filter's scores is broken.
+fn is_failing(run: &Run, views: &[CaseView], filter: &FilterId) -> bool {
+    let mut findings = filter
+        .cases(run)
+        .flat_map(|(index, _)| &views[index].findings);
+    findings.any(|finding| finding.outcome == Outcome::Broken)
+}
+
+/// Links a filter to its section.
+fn name(headline: Headline, filter: &FilterId) -> Markup {
+    html! {
+        @if filter.is_reference { (filter.name) }
+        @else { a href=(format!("#{}", filter.section_anchor())) { (filter.name) } }
+        @if headline.spans_alignments() { " " span.note { "(" (filter.alignment) ")" } }
+    }
+}
+
+fn mean_cells(run: &Run, headline: Headline, strip: &Strip, row: &Row) -> Markup {
+    let Some(own) = row.overall else {
+        return html! { td { "-" } td {} td {} };
+    };
+    let class = if own.is_reference { "open" } else { "" };
+    // Only where less is better does a floor lie between perfect and the score.
+    let floor = match headline.ideal() {
+        Ideal::Lowest => mean_floor(run, &row.filter, headline),
+        Ideal::Highest | Ideal::Target(_) => None,
+    };
+    let [low, high] = own.interval.map(|end| headline.number(end));
+    html! {
+        td.mean data-value=(own.mean) { (headline.number(own.mean)) }
+        td.note { (low) " to " (high) }
+        td.chart {
+            (strip.draw(&html! {
+                @if let Some(floor) = floor { (strip.bar(0.0, floor, "floor")) }
+                (strip.interval(own.interval))
+                (strip.mark(own.mean, class))
+            }))
+        }
+    }
+}
+
+/// Makes a scale from perfect, where that is known, over all means but outliers.
+fn strip_over<'a>(rows: impl Iterator<Item = &'a Row<'a>>, ideal: Ideal) -> Strip {
+    let mut means: Vec<f64> = rows
+        .filter_map(|row| row.mean)
+        .filter(|own| own.is_finite())
+        .collect();
+    means.sort_by(f64::total_cmp);
+    let perfect = match ideal {
+        Ideal::Lowest => Some(0.0),
+        Ideal::Target(target) => Some(target),
+        Ideal::Highest => None,
+    };
+    let last = means.len().saturating_sub(1);
+    let quartiles = match means.is_empty() {
+        true => [0.0, 1.0],
+        false => [means[last / 4], means[last - last / 4]],
+    };
+    let room = WHISKERS * (quartiles[1] - quartiles[0]);
+    let within = |own: &f64| (quartiles[0] - room..=quartiles[1] + room).contains(own);
+    Strip::over(means.into_iter().filter(within).chain(perfect))
+}
+
+/// Writes the cost of a filter, which sorts as the scores do.
+fn cost(run: &Run, bench: Option<&Bench>, filter: &FilterId) -> Markup {
+    let cost = cost_of(run, bench, filter);
+    html! { td.cost data-value=[cost.map(|own| own.seconds.median)] { (cost_text(cost)) } }
+}

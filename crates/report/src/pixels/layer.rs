@@ -1,0 +1,156 @@
+//! Pictures of a case, which the page draws from their numbers.
+
+/// One picture of a case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Layer {
+    /// What the open shutter saw.
+    Truth,
+    /// What the filter made.
+    Output,
+    /// What the filter got.
+    Instant,
+    /// Where the difference is seen.
+    Flip,
+    /// Output minus truth.
+    SignedError,
+    /// Where a mover is that never was there, by the side of it.
+    Bleed,
+    /// Where the shutter's time went to the wrong object.
+    LabelTotalVariation,
+    /// Where the instant hides what the shutter saw.
+    Knowability,
+    /// How the instant moves.
+    Velocity,
+    /// How far away what moves is.
+    Depth,
+    /// What a filter spread the velocities to before it gathered.
+    Dilated,
+}
+
+/// How numbers become colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Painter {
+    /// Radiance, as a display shows it at the chosen exposure.
+    Radiance,
+    /// The brightness of a difference of radiance, about grey.
+    Signed,
+    /// A number from 0 to 1, from dark to bright.
+    Share,
+    /// One number per side of a mover, each in a colour of its own.
+    Sides,
+    /// A direction as a hue, a speed as its strength.
+    Motion,
+    /// A distance, near to far.
+    Distance,
+}
+
+impl Layer {
+    /// Every picture, in the order of a page.
+    pub const ALL: [Layer; 11] = [
+        Layer::Truth,
+        Layer::Output,
+        Layer::Instant,
+        Layer::Flip,
+        Layer::SignedError,
+        Layer::Bleed,
+        Layer::LabelTotalVariation,
+        Layer::Knowability,
+        Layer::Velocity,
+        Layer::Depth,
+        Layer::Dilated,
+    ];
+
+    /// The word in attributes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Layer::Truth => "truth",
+            Layer::Output => "output",
+            Layer::Instant => "instant",
+            Layer::Flip => "flip",
+            Layer::SignedError => "signed",
+            Layer::Bleed => "bleed",
+            Layer::LabelTotalVariation => "label_tv",
+            Layer::Knowability => "unknowable",
+            Layer::Velocity => "velocity",
+            Layer::Depth => "depth",
+            Layer::Dilated => "dilated",
+        }
+    }
+
+    /// What a reader calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Layer::Truth => "Truth",
+            Layer::Output => "Output",
+            Layer::Instant => "Instant",
+            Layer::Flip => "FLIP",
+            Layer::SignedError => "Signed error",
+            Layer::Bleed => "Bleed",
+            Layer::LabelTotalVariation => "Label TV",
+            Layer::Knowability => "Knowability",
+            Layer::Velocity => "Velocity",
+            Layer::Depth => "Depth",
+            Layer::Dilated => "Dilated map",
+        }
+    }
+
+    /// What there is to see.
+    pub fn hint(self) -> &'static str {
+        match self {
+            Layer::Truth => "what the open shutter saw, path traced",
+            Layer::Output => "what the filter made of the instant",
+            Layer::Instant => "the frame that the filter got: sharp, at one instant",
+            Layer::Flip => "visible difference from the truth",
+            Layer::SignedError => "brightness of the output minus that of the truth",
+            Layer::Bleed => {
+                "mover where the truth never shows it, by the side as seen along its motion"
+            }
+            Layer::LabelTotalVariation => "share of the shutter that went to the wrong object",
+            Layer::Knowability => {
+                "share of the shutter that saw what the instant's frame does not show"
+            }
+            Layer::Velocity => "motion of the instant, in pixels per frame",
+            Layer::Depth => "distance along the view axis at the instant, in metres",
+            Layer::Dilated => {
+                "the velocity that the filter carried to each pixel before it gathered"
+            }
+        }
+    }
+
+    /// How it is drawn.
+    pub fn painter(self) -> Painter {
+        match self {
+            Layer::Truth | Layer::Output | Layer::Instant => Painter::Radiance,
+            Layer::SignedError => Painter::Signed,
+            Layer::Flip | Layer::LabelTotalVariation | Layer::Knowability => Painter::Share,
+            Layer::Bleed => Painter::Sides,
+            Layer::Velocity | Layer::Dilated => Painter::Motion,
+            Layer::Depth => Painter::Distance,
+        }
+    }
+
+    /// What its numbers are called in the read-out, in the order of its planes.
+    pub fn components(self) -> &'static str {
+        match self.painter() {
+            Painter::Radiance | Painter::Signed => "R G B",
+            Painter::Share => "",
+            Painter::Sides => "beside ahead behind",
+            Painter::Motion => "x y",
+            Painter::Distance => "m",
+        }
+    }
+}
+
+impl Painter {
+    /// The word that the script reads.
+    pub fn name(self) -> &'static str {
+        match self {
+            Painter::Radiance => "radiance",
+            Painter::Signed => "signed",
+            Painter::Share => "share",
+            Painter::Sides => "sides",
+            Painter::Motion => "motion",
+            Painter::Distance => "distance",
+        }
+    }
+}

@@ -1,0 +1,239 @@
+//! Files that a run left of one scene.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use frame::{
+    Alignment, ExrFile, FileError, Frame, Image, Picture, Plane, Regions, Truth, read_exr, regions,
+};
+use metrics::{Side, object_sides};
+
+use super::layer::Layer;
+use super::planes::Planes;
+use super::png::{embed_picture, thumbnail};
+use suite::ACCUMULATE;
+use suite::{Case, Error, Run};
+
+/// The frame of a scene, its truths, and the planes of all its pictures.
+pub struct SceneFiles {
+    /// Without its guard band.
+    pub frame: Frame,
+    /// By the name of the alignment.
+    pub truths: BTreeMap<String, TruthFile>,
+    /// The planes of all its cases.
+    pub planes: Planes,
+    /// By the name of the alignment, the accumulation that stands in every profile, and what a reader calls it.
+    pub accumulations: BTreeMap<String, (String, Image)>,
+    folder: PathBuf,
+    /// Those that every case of the scene shows.
+    shared: Vec<(Layer, Vec<usize>)>,
+    /// Of the object that each pixel's centre sees.
+    objects: usize,
+}
+
+/// One truth.
+pub struct TruthFile {
+    /// Mean of all replicates.
+    pub mean: Picture,
+    /// From each pixel to where what it shows was at the instant, in pixels: mean over the shutter.
+    pub offset: frame::Vectors,
+    /// What scores are pooled over.
+    pub regions: Regions,
+    /// Per object that moves, with its index: where its bleed belongs.
+    sides: Vec<(usize, frame::Raster<Side>)>,
+    /// Truth and knowability.
+    layers: Vec<(Layer, Vec<usize>)>,
+}
+
+/// What a run left of one case.
+pub struct CaseFiles {
+    /// What the filter made.
+    pub output: Image,
+    /// The error maps.
+    pub errors: ExrFile,
+    /// Every picture that there is, with the numbers of its planes.
+    pub layers: Vec<(Layer, Vec<usize>)>,
+    /// The plane of the objects' indices.
+    pub objects: usize,
+}
+
+impl SceneFiles {
+    /// Reads the frame of a scene and the accumulations of its profiles; `cases` are all of the scene, `folder` is the run's.
+    pub fn read(run: &Run, cases: &[&Case], folder: &Path) -> Result<Self, Error> {
+        let own = folder.join(&cases[0].scene);
+        let path = own.join("frame.exr");
+        let frame = Frame::read(&path)?.cropped();
+        check_size(&path, frame.size(), (run.width, run.height))?;
+        let mut accumulations = BTreeMap::new();
+        for case in cases.iter().filter(|case| is_in_profiles(case)) {
+            let path = folder.join(&case.folder).join("output.exr");
+            let file = read_exr(&path)?;
+            check_size(&path, (file.width, file.height), frame.size())?;
+            let named = (format!("{} sub-frames", case.preset), file.color("")?);
+            accumulations.insert(case.alignment.clone(), named);
+        }
+        let mut planes = Planes::default();
+        let velocity = [0, 1].map(|axis| frame.velocity.map(|motion| motion[axis]));
+        let velocity = velocity.map(|plane| planes.add(&plane));
+        let depth = planes.add(&frame.depth);
+        let ids = frame.object_id.map(|id| *id as f32);
+        Ok(Self {
+            shared: vec![
+                (Layer::Instant, planes.add_image(&frame.color)),
+                (Layer::Velocity, velocity.to_vec()),
+                (Layer::Depth, vec![depth]),
+            ],
+            objects: planes.add(&ids),
+            truths: BTreeMap::new(),
+            accumulations,
+            folder: own,
+            frame,
+            planes,
+        })
+    }
+
+    /// Draws a small truth, that of any alignment, as an address that holds the picture itself.
+    pub fn thumbnail(&self) -> Result<String, Error> {
+        let truth = self.truths.values().next();
+        let image = truth.map_or(&self.frame.color, |truth| &truth.mean.color);
+        embed_picture(&thumbnail(image, self.frame.display.stops))
+    }
+
+    /// The truth that a case is scored against, read once.
+    fn truth(&mut self, case: &Case) -> Result<&TruthFile, Error> {
+        if !self.truths.contains_key(&case.alignment) {
+            let truth = self.read_truth(&case.alignment)?;
+            self.truths.insert(case.alignment.clone(), truth);
+        }
+        Ok(&self.truths[&case.alignment])
+    }
+
+    fn read_truth(&mut self, alignment: &str) -> Result<TruthFile, Error> {
+        let alignment: Alignment = alignment.parse().map_err(Error::Usage)?;
+        let path = self.folder.join(format!("truth_{alignment}.exr"));
+        let truth = Truth::read(&path)?;
+        check_size(&path, truth.size(), self.frame.size())?;
+        if truth.objects != self.frame.objects {
+            return Err(Error::Usage(format!(
+                "{}: its objects are {}, those of the scene's frame {}; run the scene again",
+                path.display(),
+                truth.objects.join(", "),
+                self.frame.objects.join(", ")
+            )));
+        }
+        let mean = truth.mean();
+        let at_instant = truth.at_instant_mean();
+        let placed = &at_instant.placed;
+        let objects = 1..truth.objects.len();
+        let unknowable = &at_instant.unknowable;
+        Ok(TruthFile {
+            offset: at_instant.offset.zip(placed, |offset, placed| {
+                offset.map(|sum| if *placed > 0.0 { sum / placed } else { 0.0 })
+            }),
+            regions: regions(&truth),
+            sides: objects
+                .filter_map(|id| Some((id, object_sides(&self.frame, &truth.support, id as u32)?)))
+                .collect(),
+            layers: vec![
+                (Layer::Truth, self.planes.add_image(&mean.color)),
+                (Layer::Knowability, vec![self.planes.add(unknowable)]),
+            ],
+            mean,
+        })
+    }
+
+    /// What a run left of a case below `folder`, that of its run.json.
+    pub fn read_case(&mut self, case: &Case, folder: &Path) -> Result<CaseFiles, Error> {
+        let own = folder.join(&case.folder);
+        let file = read_exr(&own.join("output.exr"))?;
+        file.expect_finite()?;
+        let errors = read_exr(&own.join("errors.exr"))?;
+        let output = file.color("")?;
+        let size = (output.width, output.height);
+        if size != self.frame.size() || (errors.width, errors.height) != size {
+            let (width, height) = self.frame.size();
+            return Err(Error::Usage(format!(
+                "{}: output.exr has {}x{} pixels, errors.exr {}x{}, the scene's frame {width}x{height}; run the case again",
+                own.display(),
+                size.0,
+                size.1,
+                errors.width,
+                errors.height
+            )));
+        }
+        self.truth(case)?;
+        let truth = &self.truths[&case.alignment];
+        let bleeds = bleeds(&file, &self.frame.objects, truth)?;
+        let colors = self.planes.add_image(&output);
+        let truths = truth.layers[0].1.clone();
+        let mut layers = [self.shared.clone(), truth.layers.clone()].concat();
+        layers.push((Layer::SignedError, [colors.clone(), truths].concat()));
+        layers.push((Layer::Output, colors));
+        let bleeds = bleeds.map(|plane| self.planes.add(&plane));
+        layers.push((Layer::Bleed, bleeds.to_vec()));
+        for (layer, name) in [
+            (Layer::Flip, "flip"),
+            (Layer::LabelTotalVariation, "label_tv"),
+        ] {
+            let plane = self.planes.add(&errors.plane(name)?);
+            layers.push((layer, vec![plane]));
+        }
+        if file
+            .channels
+            .iter()
+            .any(|channel| channel.name == "dilated.X")
+        {
+            let planes =
+                ["dilated.X", "dilated.Y"].map(|name| Ok(self.planes.add(&file.plane(name)?)));
+            let planes: Result<_, FileError> = planes.into_iter().collect();
+            layers.push((Layer::Dilated, planes?));
+        }
+        layers.sort();
+        Ok(CaseFiles {
+            output,
+            errors,
+            layers,
+            objects: self.objects,
+        })
+    }
+}
+
+/// Refuses a file of other pictures than the run's.
+fn check_size(path: &Path, found: (u32, u32), due: (u32, u32)) -> Result<(), Error> {
+    match found == due {
+        true => Ok(()),
+        false => Err(Error::Usage(format!(
+            "{}: has {}x{} pixels, the run's pictures have {}x{}; run the scene again",
+            path.display(),
+            found.0,
+            found.1,
+            due.0,
+            due.1
+        ))),
+    }
+}
+
+/// The accumulation that stands in every profile.
+fn is_in_profiles(case: &Case) -> bool {
+    case.is_reference && case.filter == ACCUMULATE && case.preset == "16"
+}
+
+/// Beside, ahead and behind: the sum over moving objects of their matte where the truth never shows them.
+fn bleeds(file: &ExrFile, objects: &[String], truth: &TruthFile) -> Result<[Plane; 3], Error> {
+    let nothing: Plane = truth.regions.moving.map(|_| 0.0);
+    let mut bleeds = [(); 3].map(|()| nothing.clone());
+    for (object, sides) in &truth.sides {
+        let matte = file.plane(&format!("coverage.{}", objects[*object]))?;
+        for (bleed, wanted) in bleeds
+            .iter_mut()
+            .zip([Side::Lateral, Side::Leading, Side::Trailing])
+        {
+            let own = matte.zip(
+                sides,
+                |matte, side| if *side == wanted { *matte } else { 0.0 },
+            );
+            *bleed = bleed.zip(&own, |sum, own| sum + own);
+        }
+    }
+    Ok(bleeds)
+}

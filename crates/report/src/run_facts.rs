@@ -1,0 +1,119 @@
+//! Provenance of a run.
+
+use maud::{Markup, html};
+
+use crate::filter_id::list_scenes;
+use suite::Run;
+
+/// Command, program, adapter, settings, and per scene the hashes of its truths.
+pub fn provenance(run: &Run) -> Markup {
+    html! {
+        section.provenance {
+            h2 { "Provenance" }
+            dl {
+                @for (term, text) in facts(run) {
+                    div { dt { (term) } dd { (text) } }
+                }
+            }
+            div.scroll tabindex="0" role="region" aria-label="Truths" {
+                table {
+                    caption { "Truths; a hash covers scene, meshes, textures, settings and the tracer" }
+                    thead {
+                        tr {
+                            th scope="col" { "scene" }
+                            th scope="col" { "family" }
+                            th scope="col" { "exposure, frames" }
+                            th scope="col" { "shutter" }
+                            th scope="col" { "hash of the truth" }
+                        }
+                    }
+                    tbody { @for truth in truths(run) { (truth) } }
+                }
+            }
+        }
+    }
+}
+
+/// Term and text of all that a run's scores depend on.
+pub fn facts(run: &Run) -> Vec<(&'static str, String)> {
+    let adapter = match &run.adapter {
+        Some(own) => format!(
+            "{} ({}, {}, driver {})",
+            own.name, own.kind, own.backend, own.driver
+        ),
+        None => "none: every filter is a program".to_owned(),
+    };
+    let sky = match run.sky_velocity {
+        true => "with a velocity",
+        false => "without velocity",
+    };
+    vec![
+        ("command", command(run)),
+        ("program", run.program.clone()),
+        ("adapter", adapter),
+        ("pictures", format!("{}x{} pixels", run.width, run.height)),
+        (
+            "truth",
+            format!(
+                "{} samples per pixel in {} replicates, seed {}",
+                run.samples_per_pixel, run.replicates, run.seed
+            ),
+        ),
+        (
+            "frame",
+            format!(
+                "velocity {}, colour {}, background {sky}, guard band of {} pixels",
+                run.velocity, run.color, run.guard_band
+            ),
+        ),
+        ("shutter in common", run.common_alignment.clone()),
+    ]
+}
+
+/// The same in one line, for every case.
+pub fn provenance_line(run: &Run) -> String {
+    let adapter = match &run.adapter {
+        Some(own) => format!("{}, driver {}", own.name, own.driver),
+        None => "no adapter".to_owned(),
+    };
+    format!(
+        "{}, {adapter}; {}x{}, {} samples per pixel, seed {}; made by: {}",
+        run.program,
+        run.width,
+        run.height,
+        run.samples_per_pixel,
+        run.seed,
+        command(run)
+    )
+}
+
+/// The words of the command line, the program's by its name alone.
+fn command(run: &Run) -> String {
+    let words = run.command.iter().skip(1).map(String::as_str);
+    let words: Vec<&str> = std::iter::once("shuttertruth").chain(words).collect();
+    words.join(" ")
+}
+
+/// One row per scene and shutter.
+fn truths(run: &Run) -> Vec<Markup> {
+    let mut rows = Vec::new();
+    for scene in list_scenes(run) {
+        let mut alignments: Vec<&str> = Vec::new();
+        for case in run.cases.iter().filter(|case| case.scene == scene) {
+            if alignments.contains(&case.alignment.as_str()) {
+                continue;
+            }
+            alignments.push(&case.alignment);
+            rows.push(html! {
+                tr {
+                    th scope="row" { (scene) }
+                    td { (case.family.name()) }
+                    td { (case.exposure) }
+                    td { (case.alignment) }
+                    td { code { (case.truth_hash) } }
+                }
+            });
+        }
+    }
+    rows
+}

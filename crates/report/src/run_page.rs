@@ -1,0 +1,75 @@
+//! Page of a run: overview, cases, viewer and their numbers.
+
+use maud::{Markup, PreEscaped, html};
+
+use crate::case::legend::colors;
+use crate::case::viewer::viewer;
+use crate::document::Document;
+use crate::pixels::report_files::SceneNumbers;
+use suite::Run;
+
+/// Scripts in the order in which they run.
+const SCRIPTS: [&str; 8] = [
+    include_str!("assets/planes.js"),
+    include_str!("assets/paint.js"),
+    include_str!("assets/pictures.js"),
+    include_str!("assets/viewer.js"),
+    include_str!("assets/readout.js"),
+    include_str!("assets/keys.js"),
+    include_str!("assets/overview.js"),
+    include_str!("assets/address.js"),
+];
+
+/// Writes the whole page.
+pub fn run_page(run: &Run, overview: &Markup, cases: &[Markup], numbers: &SceneNumbers) -> String {
+    let document = Document {
+        title: "Shuttertruth report",
+        heading: html! { a href="#overview" { "Shuttertruth" } },
+        subtitle: &format!("{}, {}x{}", run.program, run.width, run.height),
+        body: html! {
+            main {
+                noscript {
+                    p { "The numbers need no script; pictures, sorting and keys do." }
+                }
+                (failures(run))
+                (overview)
+                @for case in cases { (case) }
+            }
+            (viewer(run))
+            (scene_numbers(numbers))
+            script #colors type="application/json" { (PreEscaped(colors())) }
+        },
+        scripts: &SCRIPTS,
+        loads_siblings: numbers.folder.is_some(),
+    };
+    document.render()
+}
+
+/// Lists the cases that failed.
+fn failures(run: &Run) -> Markup {
+    html! {
+        @if !run.failures.is_empty() {
+            section #failed {
+                h2 { "Failed" }
+                ul {
+                    @for failure in &run.failures {
+                        li { strong { (failure.scene) " / " (failure.filter) } ": " (failure.reason) }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Embeds the numbers: base64 holds no character that HTML escapes.
+fn scene_numbers(numbers: &SceneNumbers) -> Markup {
+    html! {
+        div #numbers hidden data-folder=[numbers.folder.as_ref()] {
+            @if numbers.folder.is_none() {
+                @for (scene, text) in numbers.texts.iter().enumerate() {
+                    script type="application/json" data-scene=(scene) { (PreEscaped(text)) }
+                }
+            }
+        }
+    }
+}

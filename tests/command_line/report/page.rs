@@ -1,0 +1,418 @@
+//! The page of a finished run.
+
+use std::collections::BTreeSet;
+use std::fs;
+
+use crate::bench::{Bench, assert_done, assert_refused, quick, split, stdout};
+
+const WORDS: [&str; 4] = ["report", "out/run.json", "--html", "page/report.html"];
+
+/// Makes the page of the bench's last run.
+fn reported(bench: &Bench) -> String {
+    let output = bench.shuttertruth(&WORDS);
+    assert_done(&output);
+    assert!(stdout(&output).contains("written: page/report.html ("));
+    fs::read_to_string(bench.path("page/report.html")).unwrap()
+}
+
+/// What stands between two texts, each time.
+fn between<'a>(page: &'a str, before: &str, after: &str) -> Vec<&'a str> {
+    let rests = page.split(before).skip(1);
+    rests
+        .map(|rest| rest.split_once(after).expect("an end").0)
+        .collect()
+}
+
+/// The planes of a page's scenes.
+fn planes(page: &str) -> Vec<Vec<String>> {
+    let texts = between(
+        page,
+        "<script type=\"application/json\" data-scene=\"",
+        "</script>",
+    );
+    (texts.into_iter())
+        .map(|text| serde_json::from_str(text.split_once('>').unwrap().1).unwrap())
+        .collect()
+}
+
+/// The part of a page that shows one score of all cases.
+fn panel<'a>(page: &'a str, metric: &str) -> &'a str {
+    let (_, rest) = page
+        .split_once(&format!("data-metric=\"{metric}\""))
+        .unwrap();
+    rest.split("data-metric=").next().unwrap()
+}
+
+/// The address of a case: `plate/bevy:high`, `plate/identity@trailing`.
+fn address(case: &suite::Case) -> String {
+    let reference = match case.is_reference {
+        true => format!("@{}", case.alignment),
+        false => String::new(),
+    };
+    format!("{}/{}{reference}", case.scene, case.name())
+}
+
+/// The part of a page that shows a case.
+fn article<'a>(page: &'a str, case: &suite::Case) -> &'a str {
+    let start = format!("<article class=\"case\" id=\"{}\"", address(case));
+    between(page, &start, "</article>")[0]
+}
+
+/// The only case of a filter.
+fn filter_case(bench: &Bench) -> suite::Case {
+    bench.measured_filters().remove(0)
+}
+
+#[test]
+fn a_page_shows_the_scores_and_means_of_the_run() {
+    let bench = Bench::new();
+    bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
+    assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
+    let page = reported(&bench);
+    let run = bench.measured();
+    for case in &run.cases {
+        let link = format!("href=\"#{}\"", address(case));
+        for (metric, digits) in [("flip_moving", 3), ("row_loss", 2), ("psnr_moving", 1)] {
+            let value = case.scores.get(metric.parse().unwrap()).value().unwrap();
+            let cell = format!("{link}>{value:.digits$}</a>");
+            assert_eq!(
+                panel(&page, metric).matches(&cell).count(),
+                1,
+                "{metric}: {cell}"
+            );
+        }
+        let count = &case.scores.equivalent_subframes.mse;
+        let count = count.to_string().replace('<', "&lt;").replace('>', "&gt;");
+        let cell = format!("{link}>{count}</a>");
+        assert!(panel(&page, "n_eq").contains(&cell), "{cell}");
+        let article = article(&page, case);
+        assert!(article.contains(&format!("{} / {}", case.scene, case.name())));
+        assert!(article.contains("nothing: it serves the tests"));
+        assert!(article.contains(&case.truth_hash));
+    }
+    let ranking = between(&page, "aria-label=\"FLIP of every case\"", "</table>")[0];
+    let mut means: Vec<_> = (run.overall.iter())
+        .filter(|mean| mean.metric == "flip_moving")
+        .collect();
+    means.sort_by(|a, b| a.mean.total_cmp(&b.mean));
+    assert_eq!(means.len(), 8, "six references and two filters");
+    let mut rest = ranking;
+    for mean in means {
+        let [low, high] = mean.interval;
+        let cells = format!(
+            "data-value=\"{}\">{:.3}</td><td class=\"note\">{low:.3} to {high:.3}</td>",
+            mean.mean, mean.mean
+        );
+        // Each behind the one before.
+        rest = rest.split_once(&cells).expect(&cells).1;
+    }
+    for words in [&run.program, "--samples-per-pixel 16", "seed 1"] {
+        assert!(page.contains(words), "{words}");
+    }
+}
+
+#[test]
+fn a_ranking_by_flip_has_a_group_per_shutter_and_one_by_skill_has_all_in_one() {
+    let bench = Bench::new();
+    // A slow scene of few samples has no skill: what the oracle gains there is noise.
+    bench.copy_scene("fast", |text| text.replace("-1.6, 0, 0", "-3.2, 0, 0"));
+    assert_done(&bench.run(&["--filters", "velocity_gather:fine,bevy:high"]));
+    let page = reported(&bench);
+    let ranking = |title: &str| {
+        let label = format!("aria-label=\"{title} of every case\"");
+        between(&page, &label, "</table>")[0]
+    };
+    let by_flip = ranking("FLIP");
+    let (trailing, centred) = by_flip.split_once("centred shutter").unwrap();
+    assert!(trailing.contains("trailing shutter"));
+    for (group, own, other) in [
+        (trailing, "velocity_gather:fine", "bevy:high"),
+        (centred, "bevy:high", "velocity_gather:fine"),
+    ] {
+        assert!(group.contains(own) && !group.contains(other), "{group}");
+        for bar in [">identity<", ">scatter_oracle<"] {
+            assert_eq!(group.matches(bar).count(), 1, "{bar}: {group}");
+        }
+    }
+    for title in ["Skill", "FLIP*"] {
+        let across = ranking(title);
+        assert!(!across.contains("shutter</th>"), "{across}");
+        for name in ["velocity_gather:fine", "bevy:high"] {
+            assert!(across.contains(name), "{name}: {across}");
+        }
+        assert_eq!(across.matches(">identity <").count(), 2, "{across}");
+    }
+}
+
+#[test]
+fn a_page_holds_every_plane_once_and_fetches_nothing() {
+    let bench = Bench::new();
+    bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
+    assert_done(&bench.run(&["--filters", "identity,jump_flood:paper"]));
+    let page = reported(&bench);
+    let scenes = planes(&page);
+    assert_eq!(scenes.len(), 2, "one list per scene");
+    for own in &scenes {
+        let once: BTreeSet<&String> = own.iter().collect();
+        assert_eq!(once.len(), own.len(), "a plane stands there twice");
+    }
+    for case in bench.measured().cases {
+        let article = article(&page, &case);
+        let layers = between(article, "data-layers=\"", "\"")[0];
+        let scene: usize = between(article, "data-scene=\"", "\"")[0].parse().unwrap();
+        let mut names = Vec::new();
+        for pair in layers.split(' ') {
+            let (name, planes) = pair.split_once(':').unwrap();
+            names.push(name);
+            for plane in planes.split(',') {
+                let plane: usize = plane.parse().unwrap();
+                assert!(plane < scenes[scene].len(), "{pair}");
+            }
+        }
+        let mut due = vec![
+            "truth",
+            "output",
+            "instant",
+            "flip",
+            "signed",
+            "bleed",
+            "label_tv",
+            "unknowable",
+            "velocity",
+            "depth",
+        ];
+        if case.filter == "jump_flood" {
+            due.push("dilated");
+        }
+        due.push("objects");
+        assert_eq!(names, due, "{}", case.name());
+    }
+
+    assert!(page.contains("content=\"default-src 'none'; img-src data:;"));
+    for attribute in [" src=\"", " href=\""] {
+        for address in between(&page, attribute, "\"") {
+            assert!(
+                address.starts_with('#') || address.starts_with("data:"),
+                "{address}"
+            );
+        }
+    }
+    for words in ["@import", "url(", "fetch("] {
+        assert!(!page.contains(words), "{words}");
+    }
+}
+
+#[test]
+fn the_same_run_makes_the_same_page() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&["--filters", "identity"]));
+    assert!(reported(&bench) == reported(&bench));
+}
+
+#[cfg(unix)] // Elsewhere no folder has such a name.
+#[test]
+fn a_scene_called_script_is_shown_and_not_run() {
+    const NAME: &str = "<script>alert(1)";
+    let bench = Bench::new();
+    bench.copy_scene(NAME, |text| {
+        text.replace("nothing: it serves", "<img src=x onerror=alert(2)> & it's")
+    });
+    let words = ["--filters", "identity", "--scenes", NAME];
+    assert_done(&bench.run(&words));
+    let page = reported(&bench);
+    assert!(page.contains("<h2 tabindex=\"-1\">&lt;script&gt;alert(1) / <a href="));
+    assert!(page.contains("&lt;img src=x onerror=alert(2)&gt; &amp; it"));
+    assert!(!page.contains("<script>alert") && !page.contains("<img src=x"));
+    // Nine scripts, the colours, the kinds of pictures and the numbers of one scene are the page's own.
+    assert_eq!(page.matches("<script").count(), 12);
+}
+
+#[test]
+fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
+    let bench = Bench::new();
+    bench.write(
+        "bounds.toml",
+        "[default]\n\
+         flip_moving = { limit = 0.2, why = \"it <i>serves</i> a test\" }\n\
+         label_tv = { limit = 0.9, why = \"it serves a test, too\" }\n",
+    );
+    let output = bench.check(&["--filters", "identity"]);
+    assert_eq!(output.status.code(), Some(1), "{}", stdout(&output));
+    let page = reported(&bench);
+    let case = filter_case(&bench);
+
+    assert!(page.contains("2 required bounds: 1 broken, 0 too noisy to decide."));
+    let flip = case.scores.moving.flip.value().unwrap();
+    let cell = format!(
+        "<td class=\"required\" data-value=\"{flip}\"><a class=\"case\" href=\"#plate/identity:default\">\
+         <span class=\"sign\" aria-hidden=\"true\">✗</span>{flip:.3}\
+         <span class=\"unseen\">, broken, required limit 0.2000</span></a>"
+    );
+    assert!(page.contains(&cell), "{cell}");
+    let failures = between(&page, "<details class=\"failures\"", "</details>")[0];
+    assert!(failures.contains("plate / identity:default"));
+
+    let article = article(&page, &case);
+    let findings = bench.findings();
+    let worst = findings[0].worst.as_ref().unwrap();
+    for words in [
+        "1 of 2 kept.",
+        "BROKEN flip_moving 0.2",
+        "scenes/plate/bounds.toml:2: it &lt;i&gt;serves&lt;/i&gt; a test",
+        "the wrong blur <strong>no_blur</strong>, 0 % off",
+        &format!("Worst at ({}, {}) of flip.", worst.x, worst.y),
+    ] {
+        assert!(
+            article.contains(words),
+            "\"{words}\" is missing from:\n{article}"
+        );
+    }
+    let crop = format!(
+        "<figure class=\"crop\" data-x=\"{}\" data-y=\"{}\"",
+        worst.x, worst.y
+    );
+    assert_eq!(article.matches(&crop).count(), 1);
+    assert_eq!(
+        article.matches("<figure class=\"crop\"").count(),
+        1,
+        "what is kept needs no picture"
+    );
+}
+
+#[test]
+fn a_run_that_looked_for_no_place_gets_one_in_its_report() {
+    let bench = Bench::new();
+    bench.write(
+        "bounds.toml",
+        "[default]\nflip_moving = { limit = 0.2, why = \"it serves a test\" }\n",
+    );
+    let output = bench.check(&["--filters", "identity"]);
+    assert_eq!(output.status.code(), Some(1));
+    let page = reported(&bench);
+    let checked = between(
+        article(&page, &filter_case(&bench)),
+        "<figure class=\"crop\" ",
+        " data-map",
+    )[0]
+    .to_owned();
+    let words = [&quick("run", "64")[..], &["--filters", "identity"]].concat();
+    assert_done(&bench.shuttertruth(&words));
+    let page = reported(&bench);
+    let article = article(&page, &filter_case(&bench));
+    assert_eq!(
+        between(article, "<figure class=\"crop\" ", " data-map")[0],
+        checked
+    );
+    assert!(article.contains("No known failure pattern matched (only <code>check</code> looks"));
+}
+
+#[test]
+fn costs_are_those_of_the_bench_beside_the_run() {
+    let bench = Bench::new();
+    let words = "--filters identity,mcguire:paper --set mcguire.samples=7";
+    assert_done(&bench.run(&split(words)));
+    let without = reported(&bench);
+    assert!(without.contains("Nothing was timed beside this run."));
+    let words =
+        "bench --quiet --filters identity,jump_flood:paper,mcguire:paper --size 64x32 --out out";
+    assert_done(&bench.shuttertruth(&split(words)));
+    let page = reported(&bench);
+    let text = fs::read_to_string(bench.path("out/bench.json")).unwrap();
+    let timed: suite::Bench = serde_json::from_str(&text).unwrap();
+    let seconds = timed
+        .cases
+        .iter()
+        .find(|cost| cost.filter == "identity")
+        .unwrap()
+        .seconds;
+    // In every table of scores one cell of the filter that was run and timed, and none of those that were only timed, or run with
+    // other parameters.
+    let cell = format!("<td class=\"cost\" data-value=\"{}\">", seconds.median);
+    assert_eq!(page.matches(&cell).count(), 9);
+    assert_eq!(page.matches("<td class=\"cost\" data-value").count(), 9);
+    let costs = between(&page, "<section class=\"costs\">", "</section>")[0];
+    for words in [
+        "identity:default",
+        "copy",
+        "256 px",
+        "accumulate:64 (trailing)",
+        timed.adapter.name.as_str(),
+    ] {
+        assert!(
+            costs.contains(words),
+            "\"{words}\" is missing from:\n{costs}"
+        );
+    }
+    fs::write(
+        bench.path("out/bench.json"),
+        text.replace("\"format\": 1", "\"format\": 0"),
+    )
+    .unwrap();
+    let parts = [
+        "out/bench.json: has format 0; allowed: 1",
+        "`shuttertruth bench`",
+    ];
+    assert_refused(&bench.shuttertruth(&WORDS), 2, &parts);
+}
+
+#[test]
+fn a_run_keeps_what_the_jump_flood_dilated() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&["--filters", "jump_flood:corrected"]));
+    let case = &bench.measured_filters()[0];
+    let output = frame::read_exr(&bench.path("out").join(&case.folder).join("output.exr")).unwrap();
+    let frame = frame::Frame::read(&bench.path("out/plate/frame.exr")).unwrap();
+    let [x, y] = ["dilated.X", "dilated.Y"].map(|name| output.plane(name).unwrap());
+    let motion = *frame.velocity.at(32, 16);
+    assert!(motion[0] > 5.0, "the plate moves to the right: {motion:?}");
+    // On the plate and a pixel behind it the plate's own velocity; nothing far ahead, and none above it.
+    let behind = (0..32).find(|x| *frame.object_id.at(*x, 16) == 1).unwrap() - 1;
+    for (column, row, due) in [
+        (32, 16, motion),
+        (behind, 16, motion),
+        (60, 16, [0.0; 2]),
+        (32, 2, [0.0; 2]),
+    ] {
+        assert_eq!(
+            [*x.at(column, row), *y.at(column, row)],
+            due,
+            "({column}, {row})"
+        );
+    }
+}
+
+#[test]
+fn what_is_no_run_or_lacks_its_pictures_is_refused() {
+    let bench = Bench::new();
+    fs::create_dir(bench.path("out")).unwrap();
+    let refused = |parts: &[&str]| {
+        assert_refused(&bench.shuttertruth(&WORDS), 2, parts);
+        assert!(!bench.path("page").exists());
+    };
+    refused(&["out/run.json", "read"]);
+    fs::write(bench.path("out/run.json"), "{}").unwrap();
+    refused(&["out/run.json: no run of this program", "`shuttertruth run`"]);
+    assert_done(&bench.run(&["--filters", "identity"]));
+    let picture = bench.path("out/plate/identity_default/output.exr");
+    let other = bench.path("out/other.exr");
+    fs::copy(&picture, &other).unwrap();
+    fs::write(&picture, "no picture").unwrap();
+    refused(&["out/plate/identity_default/output.exr"]);
+    fs::remove_file(&picture).unwrap();
+    refused(&["out/plate/identity_default/output.exr", "read"]);
+    let mut small = frame::ExrFile::new(16, 16);
+    small.push_color("", &frame::Raster::filled(16, 16, [0.0; 3]));
+    frame::write_exr(&picture, &small).unwrap();
+    refused(&[
+        "out/plate/identity_default: output.exr has 16x16 pixels, errors.exr 64x32, the scene's frame 64x32",
+        "run the case again",
+    ]);
+    fs::rename(&other, &picture).unwrap();
+
+    let text = fs::read_to_string(bench.path("out/run.json")).unwrap();
+    let mut run: serde_json::Value = serde_json::from_str(&text).unwrap();
+    fs::remove_file(bench.path("out/judgement.json")).unwrap();
+    run["cases"] = serde_json::json!([]);
+    fs::write(bench.path("out/run.json"), run.to_string()).unwrap();
+    refused(&["the run has no cases"]);
+}

@@ -1,0 +1,68 @@
+//! Pages of a comparison and of a tuning in a browser.
+
+use crate::bench::{Bench, assert_done, quick};
+use crate::browser::{Browser, address_of};
+
+const GATHER: [&str; 2] = ["--filters", "velocity_gather:fine"];
+
+#[test]
+fn a_comparison_shows_pictures_first_and_a_change_with_sign_and_word() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&GATHER));
+    let mut words = quick("run", "16").to_vec();
+    let out = words.iter().position(|word| *word == "out").unwrap();
+    words[out] = "other";
+    words.extend(GATHER);
+    words.extend(["--set", "velocity_gather.samples=2"]);
+    assert_done(&bench.shuttertruth(&words));
+    assert_done(&bench.shuttertruth(&["compare", "out", "other", "--html", "page.html"]));
+    let page = bench.path("page.html");
+    let mut browser = Browser::new(1280, 900);
+    browser.open(&page, "");
+    let heading = browser.text("document.querySelector('main h2').textContent");
+    assert_eq!(heading, "What changed most");
+    let [_, top, _, height] = browser.place(".pair");
+    assert!(top + height < 900.0, "the pictures are on the first screen");
+    let before = browser.picture(".pair");
+    browser.value(
+        "(() => { const own = document.querySelector('.trio input'); own.value = 5; own.dispatchEvent(new Event('input')); })()",
+    );
+    assert!(browser.picture(".pair") != before, "the divider moves");
+    let changes = browser.text(
+        "[...document.querySelectorAll('td.worse')].map(cell => cell.textContent).join('; ')",
+    );
+    assert!(
+        changes.starts_with('+') && changes.contains(" worse"),
+        "{changes}"
+    );
+    // More of a score that ought to be high is better: less of it has a minus.
+    let psnr = browser.text(
+        "[...document.querySelectorAll('.trio ~ .scroll tr')].find(row => row.textContent.startsWith('psnr_moving')).cells[3].textContent",
+    );
+    assert!(psnr.starts_with('-') && psnr.ends_with("worse"), "{psnr}");
+    assert_eq!(browser.complaints(), [""; 0]);
+    assert_eq!(browser.requests(), [address_of(&page)]);
+}
+
+#[test]
+fn a_tuning_fits_the_screen_and_marks_what_nothing_beats() {
+    let bench = Bench::new();
+    bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
+    let words = "tune --quiet --filter jump_flood --from paper --vary samples=2..16,jitter --objective flip,bleed --scenes plate,slow \
+                 --size 64x32 --samples-per-pixel 16 --budget 8 --out tuned";
+    assert_done(&bench.shuttertruth(&words.split_whitespace().collect::<Vec<_>>()));
+    assert_done(&bench.shuttertruth(&["report", "tuned", "--html", "page.html"]));
+    let page = bench.path("page.html");
+    let mut browser = Browser::new(390, 844);
+    browser.open(&page, "");
+    assert_eq!(browser.value("document.documentElement.scrollWidth"), 390);
+    // No blue mark of the chart has another mark left of it and below, or beside it.
+    let beaten = "(() => { const marks = [...document.querySelectorAll('.drawings svg')[0].querySelectorAll('circle:not(.ring)')]; \
+                  const at = mark => [mark.cx.baseVal.value, -mark.cy.baseVal.value]; \
+                  const blue = marks.filter(mark => !mark.classList.contains('faint')); \
+                  return [blue.length, blue.filter(own => marks.some(other => at(other)[0] < at(own)[0] - 0.05 && at(other)[1] < at(own)[1] - 0.05)).length]; })()";
+    let counts = browser.value(beaten);
+    assert!(counts[0].as_u64().unwrap() > 0, "{counts}");
+    assert_eq!(counts[1], 0);
+    assert_eq!(browser.complaints(), [""; 0]);
+}

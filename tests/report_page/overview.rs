@@ -1,0 +1,96 @@
+//! The overview in a browser: rows that are searched for, the look at a worst place, and sections of filters.
+
+use crate::bench::{Bench, assert_done};
+use crate::browser::Browser;
+use crate::make_page;
+
+/// The names in the rows that are seen.
+fn rows(browser: &mut Browser) -> String {
+    browser.text(
+        "[...document.querySelectorAll('.panel:not([hidden]) tbody:not(.group) tr:not([hidden])')].map(row => \
+         row.cells[0].textContent).join()",
+    )
+}
+
+#[test]
+fn rows_are_searched_for_and_references_come_when_asked_for() {
+    let bench = Bench::new();
+    bench.write(
+        "bounds.toml",
+        "[default]\nflip_moving = { limit = 0.2, why = \"it serves a test\" }\n",
+    );
+    bench.check(&["--filters", "identity,velocity_gather:fine"]);
+    let page = make_page(&bench);
+    let mut browser = Browser::new(1280, 900);
+    browser.open(&page, "");
+    assert_eq!(rows(&mut browser), "velocity_gather:fine,identity:default");
+    let set = |browser: &mut Browser, change: &str| {
+        browser.value(&format!(
+            "(() => {{ const tools = document.getElementById('tables'); {change}; tools.dispatchEvent(new Event('input')); }})()"
+        ));
+    };
+    set(
+        &mut browser,
+        "tools.querySelector('[name=failing]').checked = true",
+    );
+    assert_eq!(rows(&mut browser), "identity:default");
+    set(
+        &mut browser,
+        "tools.querySelector('[name=failing]').checked = false",
+    );
+    set(
+        &mut browser,
+        "tools.querySelector('[name=search]').value = 'Gather'",
+    );
+    assert_eq!(rows(&mut browser), "velocity_gather:fine");
+    set(
+        &mut browser,
+        "tools.querySelector('[name=search]').value = ''; tools.querySelector('[name=references]').checked = true",
+    );
+    assert_eq!(rows(&mut browser).split(',').count(), 8, "six references");
+    set(
+        &mut browser,
+        "tools.querySelector('[value=psnr_moving]').checked = true",
+    );
+    let title = browser.text("document.querySelector('.panel:not([hidden])').dataset.metric");
+    assert_eq!(title, "psnr_moving");
+    // The thumbnail of the truth stands above its column, whichever score is seen.
+    browser
+        .until("document.querySelector('.panel:not([hidden]) th.scene img').naturalWidth === 64");
+    assert_eq!(browser.complaints(), [""; 0]);
+}
+
+#[test]
+fn a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
+    let page = make_page(&bench);
+    let mut browser = Browser::new(1280, 900);
+    browser.open(&page, "");
+    let [x, y, width, height] = browser.place(".panel tbody:not(.group) tr:not([hidden]) a.case");
+    browser.point(x + width / 2.0, y + height / 2.0);
+    browser.until("!document.querySelector('.peek').hidden");
+    let different = "new Set([...document.querySelectorAll('.peek canvas')].map(canvas => canvas.toDataURL())).size";
+    assert_eq!(browser.value(different), 3);
+    browser.value("document.querySelector('.winners a').click()");
+    browser.until("location.hash === '#filter:velocity_gather:fine'");
+    assert_eq!(
+        browser.value("document.getElementById('overview').checkVisibility()"),
+        false
+    );
+    let text = browser.text("document.querySelector('article.open').innerText");
+    for words in [
+        "velocity_gather:fine",
+        "published",
+        "cannot",
+        "Parameters",
+        "Scenes, the weakest first",
+        "plate",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    browser.value("document.querySelector('article.open a.scene').click()");
+    browser.until("location.hash.startsWith('#plate/velocity_gather:fine')");
+    browser.until("document.getElementById('viewer').checkVisibility()");
+    assert_eq!(browser.complaints(), [""; 0]);
+}
