@@ -113,7 +113,7 @@ mod tests {
     fn a_change_that_the_scenes_cannot_tell_from_nothing_is_not_offered() {
         let difference = |mean, verdict| Difference {
             mean,
-            bounds: [mean - 0.01, mean + 0.01],
+            interval: [mean - 0.01, mean + 0.01],
             scenes: 5,
             verdict,
         };
