@@ -9,6 +9,7 @@ mod compare;
 mod comparison;
 mod failures;
 mod fidelity;
+mod gallery;
 mod hostile;
 mod import;
 #[cfg(unix)]

@@ -97,6 +97,7 @@ pub const WORDS: &[&str] = &[
     "evaluate",
     "serve",
     "import",
+    "gallery",
     "list",
     "16x16",
     "0x0",

@@ -1,0 +1,156 @@
+//! The gallery of a run: each scene with its best and its worst filter, and a contact sheet of all truths.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use frame::{Raster, read_png, write_atomically, write_png};
+use suite::{Case, Error, Headline, IDENTITY, Run};
+
+/// File name of the contact sheet.
+const SHEET: &str = "truths.png";
+/// Truths in a row of the contact sheet.
+const COLUMNS: u32 = 6;
+/// Pixels between two pictures.
+const GAP: u32 = 2;
+
+/// Display values in [0, 1].
+type Picture = Raster<[f32; 3]>;
+
+/// A scene with the two cases that the gallery shows.
+struct Entry<'a> {
+    best: &'a Case,
+    worst: &'a Case,
+}
+
+/// Writes `README.md`, the contact sheet and a strip of pictures per scene below `out`, from the files of a run in `folder`.
+pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<(), Error> {
+    let entries = find_entries(run);
+    if entries.is_empty() {
+        return Err(Error::Usage(
+            "the run has no filter with a skill, so a gallery has no best and no worst one; run filters on scenes that move"
+                .to_owned(),
+        ));
+    }
+    let mut truths = Vec::new();
+    let mut page = introduction(run);
+    for entry in &entries {
+        let scene = &entry.best.scene;
+        let instant = read_png(&folder.join(scene).join("frame.png"))?;
+        let truth = read_truth(folder, entry.best)?;
+        let strip = [
+            instant,
+            truth.clone(),
+            read_output(folder, entry.best)?,
+            read_truth(folder, entry.worst)?,
+            read_output(folder, entry.worst)?,
+        ];
+        write_png(&out.join(strip_name(scene)), &tile(&strip, 5))?;
+        truths.push(truth);
+        page += &section(entry);
+    }
+    write_png(&out.join(SHEET), &tile(&truths, COLUMNS))?;
+    write_atomically(&out.join("README.md"), page.as_bytes())?;
+    Ok(())
+}
+
+/// Finds the filters of the highest and the lowest skill, scene by scene, in the order of the run.
+fn find_entries(run: &Run) -> Vec<Entry<'_>> {
+    let cases: Vec<&Case> = (run.cases.iter())
+        .filter(|case| !case.is_reference && case.filter != IDENTITY && skill(case).is_some())
+        .collect();
+    let by_skill = |a: &&&Case, b: &&&Case| skill(a).partial_cmp(&skill(b)).expect("finite");
+    cases
+        .chunk_by(|a, b| a.scene == b.scene)
+        .filter_map(|own| {
+            Some(Entry {
+                best: own.iter().max_by(by_skill)?,
+                worst: own.iter().min_by(by_skill)?,
+            })
+        })
+        .collect()
+}
+
+fn skill(case: &Case) -> Option<f64> {
+    Headline::SKILL.measured(case).value()
+}
+
+fn introduction(run: &Run) -> String {
+    let words = run.command.iter().skip(1).map(String::as_str);
+    let command: Vec<&str> = std::iter::once("shuttertruth").chain(words).collect();
+    format!(
+        "# Gallery\n\n![The truths of all scenes]({SHEET})\n\nBelow, each scene has five pictures: the frame of one instant; the truth and the \
+         output of the best filter; the truth and the output of the worst filter. Two truths differ where the filters declare two \
+         shutters. Best and worst are by skill, the share of the way from doing nothing (0) to the one-frame oracle (1). The filter \
+         that does nothing takes no part.\n\n{}x{} pixels, {} samples per pixel. Made from\n\n    {}\n\nby `shuttertruth gallery`.\n",
+        run.width,
+        run.height,
+        run.samples_per_pixel,
+        command.join(" "),
+    )
+}
+
+fn section(entry: &Entry) -> String {
+    let Entry { best, worst } = entry;
+    let mut text = format!("\n## {}\n\n{}\n\n", best.scene, best.exposes);
+    let _ = writeln!(
+        text,
+        "![{}: instant; truth and best filter; truth and worst filter]({})\n\n| | filter | shutter | skill | FLIP |\n|---|---|---|---|---|",
+        best.scene,
+        strip_name(&best.scene)
+    );
+    for (label, case) in [("best", best), ("worst", worst)] {
+        let [skill, flip] = [Headline::SKILL, Headline::FLIP].map(|score| score.text(case));
+        let name = case.name();
+        let _ = writeln!(
+            text,
+            "| {label} | `{name}` | {} | {skill} | {flip} |",
+            case.alignment
+        );
+    }
+    text
+}
+
+fn strip_name(scene: &str) -> String {
+    format!("{scene}.png")
+}
+
+fn read_truth(folder: &Path, case: &Case) -> Result<Picture, Error> {
+    let name = format!("truth_{}.png", case.alignment);
+    Ok(read_png(&folder.join(&case.scene).join(name))?)
+}
+
+fn read_output(folder: &Path, case: &Case) -> Result<Picture, Error> {
+    Ok(read_png(&folder.join(&case.folder).join("output.png"))?)
+}
+
+/// Places pictures of one size side by side, `columns` in a row, on white.
+fn tile(pictures: &[Picture], columns: u32) -> Picture {
+    let (width, height) = (pictures[0].width + GAP, pictures[0].height + GAP);
+    let columns = columns.min(pictures.len() as u32);
+    let rows = (pictures.len() as u32).div_ceil(columns);
+    Raster::from_fn(columns * width - GAP, rows * height - GAP, |x, y| {
+        let index = (y / height) * columns + x / width;
+        let picture = pictures.get(index as usize);
+        let inside = picture.filter(|it| x % width < it.width && y % height < it.height);
+        inside.map_or([1.0; 3], |picture| *picture.at(x % width, y % height))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiles_stand_in_rows_with_gaps_between() {
+        let pictures: Vec<Picture> = (0..3)
+            .map(|index| Raster::filled(2, 1, [0.25 * index as f32; 3]))
+            .collect();
+        let sheet = tile(&pictures, 2);
+        assert_eq!((sheet.width, sheet.height), (2 * 4 - 2, 2 * 3 - 2));
+        assert_eq!(*sheet.at(0, 0), [0.0; 3]);
+        assert_eq!(*sheet.at(2, 0), [1.0; 3]);
+        assert_eq!(*sheet.at(4, 0), [0.25; 3]);
+        assert_eq!(*sheet.at(1, 3), [0.5; 3]);
+        assert_eq!(*sheet.at(5, 3), [1.0; 3], "no third column");
+    }
+}
