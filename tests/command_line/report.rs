@@ -416,3 +416,30 @@ fn what_is_no_run_or_lacks_its_pictures_is_refused() {
     fs::write(bench.path("out/run.json"), run.to_string()).unwrap();
     refused(&["the run has no cases"]);
 }
+
+#[test]
+fn a_gallery_shows_every_scene_and_all_its_pictures_are_there() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
+    let output = bench.shuttertruth(&["report", "out", "--gallery", "gallery"]);
+    assert_done(&output);
+    assert!(stdout(&output).contains("written: gallery/README.md"));
+    let page = fs::read_to_string(bench.path("gallery/README.md")).unwrap();
+    for words in [
+        "## plate\n\nnothing: it serves the tests of the command line",
+        "best: velocity_gather:fine, FLIP 0.",
+        "worst: identity:default, FLIP 0.",
+    ] {
+        assert!(page.contains(words), "{words}: {page}");
+    }
+    let pictures = between(&page, "](", ")");
+    assert_eq!(
+        pictures.len(),
+        5,
+        "the truth stands there twice: {pictures:?}"
+    );
+    for picture in pictures {
+        let bytes = fs::read(bench.path("gallery").join(picture)).unwrap();
+        assert!(bytes.starts_with(b"\x89PNG"), "{picture}");
+    }
+}

@@ -7,6 +7,7 @@ mod document;
 mod filter_id;
 mod filter_page;
 mod finding_text;
+mod gallery;
 mod overview;
 mod pixels;
 mod run_facts;
@@ -30,6 +31,7 @@ use run_page::run_page;
 
 pub use comparison::{compare_page, signed};
 pub use finding_text::{finding_line, finding_score, finding_status, way_out};
+pub use gallery::{Gallery, gallery};
 pub use pixels::report_files::{LARGEST_PAGE, Report};
 pub use tuning::{TuneFolder, tuning_page};
 

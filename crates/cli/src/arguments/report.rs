@@ -11,11 +11,14 @@ pub struct ReportArgs {
     #[arg(value_name = "RUN")]
     pub run: PathBuf,
     /// The page to write.
-    #[arg(long, value_name = "FILE", required_unless_present = "exr")]
+    #[arg(long, value_name = "FILE", required_unless_present_any = ["exr", "gallery"])]
     pub html: Option<PathBuf>,
     /// Folder for one multi-layer OpenEXR file per case: truth, output, instant, flip, velocity, coverage and more.
     #[arg(long, value_name = "DIR")]
     pub exr: Option<PathBuf>,
+    /// Folder for a page of Markdown with instant, truth, best and worst filter of every scene.
+    #[arg(long, value_name = "DIR")]
+    pub gallery: Option<PathBuf>,
     /// Print what was written as JSON.
     #[arg(long)]
     pub json: bool,

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::output::progress::monitor;
-use report::{LARGEST_PAGE, TuneFolder, report, tuning_page};
+use report::{LARGEST_PAGE, TuneFolder, gallery, report, tuning_page};
 use suite::{Error, Finding, Judgement, Run, printable_path, write_layers};
 
 use super::say;
@@ -58,7 +58,7 @@ fn subject(path: &Path) -> Subject {
 fn of_run(args: &ReportArgs, path: &Path) -> Result<(Vec<Written>, Vec<Written>), Error> {
     let run = Run::read(path)?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let pages = match &args.html {
+    let mut pages = match &args.html {
         Some(html) => {
             let judgement = Judgement::read(&run, folder)?;
             let findings = judgement.map_or_else(Vec::new, |judgement| judgement.findings);
@@ -66,6 +66,9 @@ fn of_run(args: &ReportArgs, path: &Path) -> Result<(Vec<Written>, Vec<Written>)
         }
         None => Vec::new(),
     };
+    if let Some(own) = &args.gallery {
+        pages.push(Written::of(gallery(&run, folder).write(own)?)?);
+    }
     let layers = match &args.exr {
         Some(out) => {
             monitor(args.quiet).watch("layers", |watch| write_layers(&run, folder, out, watch))?
@@ -77,9 +80,13 @@ fn of_run(args: &ReportArgs, path: &Path) -> Result<(Vec<Written>, Vec<Written>)
 }
 
 fn of_tuning(args: &ReportArgs, folder: &Path) -> Result<Vec<Written>, Error> {
-    if args.exr.is_some() {
+    let option = [
+        ("--exr", args.exr.is_some()),
+        ("--gallery", args.gallery.is_some()),
+    ];
+    if let Some((option, _)) = option.iter().find(|(_, given)| *given) {
         return Err(Error::Usage(format!(
-            "--exr: {} is a tuning, which keeps no pictures; give the folder of a run",
+            "{option}: {} is a tuning, which keeps no pictures; give the folder of a run",
             folder.display()
         )));
     }
