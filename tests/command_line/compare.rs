@@ -220,7 +220,7 @@ fn the_page_holds_both_pictures_and_says_what_each_run_was() {
     ] {
         assert_eq!(text.matches(&address(out, name)).count(), 1, "{out} {name}");
     }
-    for words in ["plate / velocity_gather:fine", "--out other", "▲ worse"] {
+    for words in ["plate / velocity_gather:fine", "--out other", " worse</td>"] {
         assert!(text.contains(words), "{words}");
     }
     assert!(

@@ -12,7 +12,7 @@ fn a_gallery_shows_each_scene_with_its_best_and_its_worst_filter() {
     let bench = Bench::new();
     bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
     assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine,bevy:default"]));
-    assert_done(&bench.shuttertruth(&["gallery", "out", "--out", "shown"]));
+    assert_done(&bench.shuttertruth(&["report", "out", "--gallery", "shown"]));
     let page = fs::read_to_string(bench.path("shown/README.md")).unwrap();
     let parts = ["](truths.png)", "## plate", "](slow.png)", "64x32 pixels"];
     assert_contains(&page, &parts);
@@ -30,6 +30,6 @@ fn a_gallery_shows_each_scene_with_its_best_and_its_worst_filter() {
 fn a_run_of_references_alone_makes_no_gallery() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "identity"]));
-    let output = bench.shuttertruth(&["gallery", "out", "--out", "shown"]);
+    let output = bench.shuttertruth(&["report", "out", "--gallery", "shown"]);
     assert_refused(&output, 2, &["no best and no worst", "run filters"]);
 }

@@ -194,18 +194,15 @@ impl Browser {
             .collect()
     }
 
-    /// The addresses of everything that was asked for.
+    /// The addresses of everything that was asked for, but for pictures that the page holds itself.
     pub fn requests(&mut self) -> Vec<String> {
         self.value("0");
         let sent =
             (self.events.iter()).filter(|event| event["method"] == "Network.requestWillBeSent");
-        sent.map(|event| {
-            event["params"]["request"]["url"]
-                .as_str()
-                .unwrap()
-                .to_owned()
-        })
-        .collect()
+        sent.filter_map(|event| event["params"]["request"]["url"].as_str())
+            .filter(|url| !url.starts_with("data:"))
+            .map(str::to_owned)
+            .collect()
     }
 
     fn call(&mut self, method: &str, params: Value) -> Value {

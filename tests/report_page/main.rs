@@ -104,7 +104,6 @@ fn divider_and_keys_change_what_is_seen() {
         "90"
     );
     let mut seen = vec![first, browser.picture(STAGE)];
-    browser.value("document.querySelector('.stack').focus()");
     for key in [
         "3",
         "4",
@@ -120,6 +119,9 @@ fn divider_and_keys_change_what_is_seen() {
         "ArrowRight",
         "x",
     ] {
+        if key == "ArrowRight" {
+            browser.value("document.querySelector('.stack').focus()");
+        }
         press(&mut browser, key);
         let now = browser.picture(STAGE);
         assert!(seen.last() != Some(&now), "{key} changes nothing");

@@ -15,9 +15,22 @@ fn rows(browser: &mut Browser) -> String {
 #[test]
 fn rows_are_searched_for_and_references_come_when_asked_for() {
     let bench = Bench::new();
+    const FILTERS: [&str; 2] = ["--filters", "identity,velocity_gather:fine"];
+    assert_done(&bench.run(&FILTERS));
+    let errors = bench.measured_filters();
+    let errors = errors
+        .iter()
+        .map(|case| case.scores.moving.flip.value().unwrap());
+    let limit = errors.sum::<f64>() / 2.0;
     bench.write(
         "bounds.toml",
-        "[default]\nflip_moving = { limit = 0.2, why = \"it serves a test\" }\n",
+        &format!("[default]\nflip_moving = {{ limit = {limit}, why = \"it serves a test\" }}\n"),
+    );
+    let output = bench.check(&FILTERS);
+    assert_eq!(
+        output.status.code(),
+        Some(1),
+        "one of both is beyond the mean"
     );
     bench.check(&["--filters", "identity,velocity_gather:fine"]);
     let page = make_page(&bench);

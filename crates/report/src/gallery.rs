@@ -1,7 +1,7 @@
 //! The gallery of a run: each scene with its best and its worst filter, and a contact sheet of all truths.
 
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use frame::{Raster, read_png, write_atomically, write_png};
 use suite::{Case, Error, Headline, IDENTITY, Run};
@@ -22,8 +22,9 @@ struct Entry<'a> {
     worst: &'a Case,
 }
 
-/// Writes `README.md`, the contact sheet and a strip of pictures per scene below `out`, from the files of a run in `folder`.
-pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<(), Error> {
+/// Writes `README.md`, the contact sheet and a strip of pictures per scene below `out`, from the files of a run in `folder`. Returns
+/// the path of the page.
+pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<PathBuf, Error> {
     let entries = find_entries(run);
     if entries.is_empty() {
         return Err(Error::Usage(
@@ -49,8 +50,9 @@ pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<(), Error> 
         page += &section(entry);
     }
     write_png(&out.join(SHEET), &tile(&truths, COLUMNS))?;
-    write_atomically(&out.join("README.md"), page.as_bytes())?;
-    Ok(())
+    let path = out.join("README.md");
+    write_atomically(&path, page.as_bytes())?;
+    Ok(path)
 }
 
 /// Finds the filters of the highest and the lowest skill, scene by scene, in the order of the run.
@@ -81,7 +83,7 @@ fn introduction(run: &Run) -> String {
         "# Gallery\n\n![The truths of all scenes]({SHEET})\n\nBelow, each scene has five pictures: the frame of one instant; the truth and the \
          output of the best filter; the truth and the output of the worst filter. Two truths differ where the filters declare two \
          shutters. Best and worst are by skill, the share of the way from doing nothing (0) to the one-frame oracle (1). The filter \
-         that does nothing takes no part.\n\n{}x{} pixels, {} samples per pixel. Made from\n\n    {}\n\nby `shuttertruth gallery`.\n",
+         that does nothing takes no part.\n\n{}x{} pixels, {} samples per pixel. Made from\n\n    {}\n\nby `shuttertruth report --gallery`.\n",
         run.width,
         run.height,
         run.samples_per_pixel,

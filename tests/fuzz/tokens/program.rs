@@ -97,7 +97,6 @@ pub const WORDS: &[&str] = &[
     "evaluate",
     "serve",
     "import",
-    "gallery",
     "list",
     "16x16",
     "0x0",

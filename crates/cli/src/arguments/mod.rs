@@ -11,7 +11,6 @@ mod check;
 mod commands_page;
 mod compare;
 mod evaluate;
-mod gallery;
 #[cfg(test)]
 mod guides;
 mod import;
@@ -38,7 +37,6 @@ pub use candidate::CandidateArgs;
 pub use check::CheckArgs;
 pub use compare::CompareArgs;
 pub use evaluate::EvaluateArgs;
-pub use gallery::GalleryArgs;
 pub use import::ImportArgs;
 pub use list::ListArgs;
 pub use measure::MeasureArgs;
@@ -86,8 +84,6 @@ pub enum Command {
     Score(ScoreArgs),
     /// Write a finished run or tuning as one HTML page that needs no network.
     Report(ReportArgs),
-    /// Make a gallery of a finished run: the truths, and each scene with its best and its worst filter.
-    Gallery(GalleryArgs),
     /// Compare two finished runs: which scores changed by more than noise.
     Compare(CompareArgs),
     /// Time filters pass by pass, and against their blur length. Prints tables; writes bench.json.

@@ -11,11 +11,14 @@ pub struct ReportArgs {
     #[arg(value_name = "RUN")]
     pub run: PathBuf,
     /// HTML page to write.
-    #[arg(long, value_name = "FILE", required_unless_present = "exr")]
+    #[arg(long, value_name = "FILE", required_unless_present_any = ["exr", "gallery"])]
     pub html: Option<PathBuf>,
     /// Folder for one multi-layer OpenEXR file per case: truth, output, instant, flip, velocity, coverage and more.
     #[arg(long, value_name = "DIR")]
     pub exr: Option<PathBuf>,
+    /// Folder for a gallery: a page of Markdown, a contact sheet of the truths, each scene with its best and its worst filter.
+    #[arg(long, value_name = "DIR")]
+    pub gallery: Option<PathBuf>,
     /// Print the list of written files as JSON.
     #[arg(long)]
     pub json: bool,

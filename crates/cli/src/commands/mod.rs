@@ -8,7 +8,6 @@ mod candidate;
 mod check;
 mod compare;
 mod evaluate;
-mod gallery;
 mod import;
 mod list;
 mod merge;
@@ -64,7 +63,6 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         Some(Command::Serve(args)) => {
             work_on_threads(args.candidate.scenes.threads, || serve::execute(&args))
         }
-        Some(Command::Gallery(args)) => gallery::execute(&args),
         Some(Command::Import(args)) => import::execute(&args),
         Some(Command::List(args)) => list::execute(&args),
         None => Err(Error::Usage(format!(

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use report::{TuneFolder, tuning_page};
+use report::{TuneFolder, tuning_page, write_gallery};
 use suite::{Error, Judgement, Run, printable_path, write_layers};
 
 use super::pages::{WrittenFile, write_page, write_run_page, written_lines};
@@ -62,7 +62,7 @@ fn write_run_report(
 ) -> Result<(Vec<WrittenFile>, Vec<WrittenFile>), Error> {
     let run = Run::read(path)?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let pages = match &args.html {
+    let mut pages = match &args.html {
         Some(html) => {
             let judgement = Judgement::read(&run, folder)?;
             let findings = judgement.map_or_else(Vec::new, |judgement| judgement.findings);
@@ -70,6 +70,9 @@ fn write_run_report(
         }
         None => Vec::new(),
     };
+    if let Some(out) = &args.gallery {
+        pages.push(WrittenFile::new(write_gallery(&run, folder, out)?)?);
+    }
     let layers = match &args.exr {
         Some(out) => make_monitor(args.quiet)
             .watch("layers", |watch| write_layers(&run, folder, out, watch))?,
@@ -80,13 +83,17 @@ fn write_run_report(
 }
 
 fn write_tuning_report(args: &ReportArgs, folder: &Path) -> Result<Vec<WrittenFile>, Error> {
-    if args.exr.is_some() {
+    let options = [
+        ("--exr", args.exr.is_some()),
+        ("--gallery", args.gallery.is_some()),
+    ];
+    if let Some((option, _)) = options.iter().find(|(_, given)| *given) {
         return Err(Error::Usage(format!(
-            "--exr: {} is a tuning, which keeps no pictures; give the folder of a run",
+            "{option}: {} is a tuning, which keeps no pictures; give the folder of a run",
             folder.display()
         )));
     }
     let page = tuning_page(&TuneFolder::read(folder)?)?;
-    let html = (args.html.as_deref()).expect("clap requires a page where there are no layers");
+    let html = (args.html.as_deref()).expect("clap requires a page where nothing else is written");
     Ok(vec![write_page(&page, html)?])
 }

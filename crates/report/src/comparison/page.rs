@@ -114,64 +114,65 @@ fn differences(compared: &RunComparison) -> Markup {
     }
 }
 
-/// Writes a table per metric that anything changed of.
+/// Lists the mean changes of every metric that anything changed of.
 fn means(means: &[MeanChange]) -> Markup {
-    let mut metrics: Vec<&str> = Vec::new();
-    for mean in means.iter().filter(|mean| mean.kind != MeanKind::Same) {
-        if !metrics.contains(&mean.metric.as_str()) {
-            metrics.push(&mean.metric);
-        }
-    }
+    let changed: Vec<&MeanChange> = means
+        .iter()
+        .filter(|mean| mean.kind != MeanKind::Same)
+        .collect();
     html! {
         section {
             h2 { "Means over scenes" }
-            @if metrics.is_empty() { p { "No filter changed." } }
-            @for metric in metrics {
-                (metric_means(metric, &means.iter().filter(|mean| mean.metric == metric).collect::<Vec<_>>()))
+            @if changed.is_empty() { p { "No filter changed." } }
+            @else {
+                div.scroll tabindex="0" role="region" aria-label="Means over scenes" {
+                    table {
+                        caption { "Filters that changed. 95 % CI: over scenes, by Student's t" }
+                        thead {
+                            tr {
+                                th scope="col" { "filter" }
+                                th scope="col" { "first" }
+                                th scope="col" { "second" }
+                                th.text scope="col" { "change" }
+                                th scope="col" { "95 % CI" }
+                                th scope="col" { "scenes" }
+                                th.chart scope="col" { "← better, worse →" }
+                            }
+                        }
+                        @for own in changed.chunk_by(|a, b| a.metric == b.metric) { (metric_means(own)) }
+                    }
+                }
             }
         }
     }
 }
 
-fn metric_means(metric: &str, means: &[&MeanChange]) -> Markup {
+/// Writes the rows of one metric, all with one scale.
+fn metric_means(means: &[&MeanChange]) -> Markup {
+    let metric = means[0].metric.as_str();
     let ends = means
         .iter()
         .flat_map(|mean| mean.interval)
         .chain(means.iter().map(|mean| mean.worse));
     let most = ends.map(f64::abs).fold(0.0, f64::max);
-    let same = means
-        .iter()
-        .filter(|mean| mean.kind == MeanKind::Same)
-        .count();
     html! {
-        h3 { (metric) }
-        p.note { (metric.parse().map_or_else(|_| String::new(), Metric::meaning)) }
-        div.scroll tabindex="0" role="region" aria-label=(format!("Means of {metric}")) {
-            table {
-                caption { "95 % CI: over scenes, by Student's t; " (same) " filters did not change" }
-                thead {
-                    tr {
-                        th scope="col" { "filter" }
-                        th scope="col" { "first" }
-                        th scope="col" { "second" }
-                        th.text scope="col" { "change" }
-                        th scope="col" { "95 % CI" }
-                        th scope="col" { "scenes" }
-                        th.chart scope="col" { "← better, worse →" }
-                    }
+        tbody.group {
+            tr {
+                th scope="rowgroup" colspan="7" {
+                    (metric) " " span.note { (metric.parse().map_or_else(|_| String::new(), Metric::meaning)) }
                 }
-                tbody {
-                    @for mean in means.iter().filter(|mean| mean.kind != MeanKind::Same) {
-                        tr {
-                            th scope="row" { (mean.filter) }
-                            td { (number(mean.first)) }
-                            td { (number(mean.second)) }
-                            (mean_change(mean))
-                            td { (change_interval(metric, mean.interval)) }
-                            td { (mean.better_worse[0]) " better, " (mean.better_worse[1]) " worse of " (mean.scenes) }
-                            td.chart { (change_strip(mean, most)) }
-                        }
-                    }
+            }
+        }
+        tbody {
+            @for mean in means {
+                tr {
+                    th scope="row" { (mean.filter) }
+                    td { (number(mean.first)) }
+                    td { (number(mean.second)) }
+                    (mean_change(mean))
+                    td { (change_interval(metric, mean.interval)) }
+                    td { (mean.better_worse[0]) " better, " (mean.better_worse[1]) " worse of " (mean.scenes) }
+                    td.chart { (change_strip(mean, most)) }
                 }
             }
         }

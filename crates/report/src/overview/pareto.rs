@@ -50,6 +50,12 @@ pub fn pareto_chart(points: &[Point], references: &[(String, f64)]) -> Markup {
     let places: Vec<(f64, f64)> = (sorted.iter())
         .map(|point| plot.place(point.milliseconds, point.error))
         .collect();
+    let bars: Vec<[f64; 4]> = (sorted.iter())
+        .map(|point| {
+            let [(left, y), (right, _)] = point.quartiles.map(|time| plot.place(time, point.error));
+            [left, y - 2.0, right, y + 2.0]
+        })
+        .collect();
     let marks = html! {
         @for (title, error) in named_levels(references, 0.05 * plot.y.high) {
             @let (_, y) = plot.place(plot.x.low, error);
@@ -61,7 +67,7 @@ pub fn pareto_chart(points: &[Point], references: &[(String, f64)]) -> Markup {
             (plot.line("quartiles", &point.quartiles.map(|time| (time, point.error))))
             (plot.mark((point.milliseconds, point.error), class, 4.5, &words(point)))
         }
-        @for (point, label) in sorted.iter().zip(place_labels(&sorted, &places, plot.size[0])) {
+        @for (point, label) in sorted.iter().zip(place_labels(&sorted, &places, &bars, plot.size[0])) {
             @if let Some([left, top]) = label {
                 text.name x=(format!("{left:.1}")) y=(format!("{:.1}", top + LINE - 2.0)) { (point.title) }
             }
@@ -139,11 +145,18 @@ pub fn three_digits(value: f64) -> String {
     format!("{value:.digits$}")
 }
 
-/// Finds the upper left corner of every label: beside its point, where it covers no point and no other label; none where there
-/// is no room.
-fn place_labels(points: &[Point], places: &[(f64, f64)], width: f64) -> Vec<Option<[f64; 2]>> {
-    let mut taken: Vec<[f64; 4]> = (places.iter())
+/// Finds the upper left corner of every label: beside its point, where it covers no point, no bar and no other label; none where
+/// there is no room.
+fn place_labels(
+    points: &[Point],
+    places: &[(f64, f64)],
+    bars: &[[f64; 4]],
+    width: f64,
+) -> Vec<Option<[f64; 2]>> {
+    let discs = places.iter();
+    let mut taken: Vec<[f64; 4]> = discs
         .map(|(x, y)| [x - 5.0, y - 5.0, x + 5.0, y + 5.0])
+        .chain(bars.iter().copied())
         .collect();
     let free = |own: &[f64; 4], taken: &[[f64; 4]]| {
         let apart = |other: &[f64; 4]| {
@@ -233,6 +246,7 @@ mod tests {
         let labels = place_labels(
             &points,
             &[(200.0, 100.0), (208.0, 100.0), (204.0, 102.0)],
+            &[],
             640.0,
         );
         assert!(labels[0].is_some());
@@ -240,7 +254,10 @@ mod tests {
             labels[0] != labels[1] && labels[1] != labels[2],
             "{labels:?}"
         );
-        assert_eq!(place_labels(&points[..1], &[(70.0, -20.0)], 90.0), [None]);
+        assert_eq!(
+            place_labels(&points[..1], &[(70.0, -20.0)], &[], 90.0),
+            [None]
+        );
     }
 
     #[test]

@@ -67,7 +67,8 @@ pub fn summary(tuning: &Tuning) -> Markup {
 
 /// Lists start and choice, parameter by parameter.
 pub fn values(tuning: &Tuning) -> Markup {
-    let is_offered = compare_with_start(tuning).is_none_or(|own| is_better(&own));
+    let difference = compare_with_start(tuning);
+    let is_offered = tuning.choice.trial == 0 || difference.is_none_or(|own| is_better(&own));
     let trial = match is_offered {
         true => "chosen".to_owned(),
         false => format!("trial {}", tuning.choice.trial),

@@ -19,7 +19,7 @@ const AGAINST: [Against; 2] = [
         value: |trial| trial.cost,
     },
     Against {
-        title: "lateral bleed on the worst scene, px",
+        title: "lateral bleed, worst scene, px",
         value: |trial| trial.bleed,
     },
 ];
