@@ -235,7 +235,7 @@ fn parts_that_make_no_whole_are_refused() {
     for (parts, complaint) in [
         (
             &["start", "gap"][..],
-            &["3, 4", "--replicates 3..4", "plate/truth_trailing"][..],
+            &["3, 4", "replicates 3..4", "plate/truth_trailing"][..],
         ),
         (&["start"], &["replicates 3 are missing", "truth of 4"]),
         (
