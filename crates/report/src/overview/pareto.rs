@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use crate::charts::plot::{Axis, Plot};
+use crate::numbers::three_digits;
 
 /// Width of a letter of a label, and height of its line, in the chart's units.
 const LETTER: f64 = 5.8;
@@ -136,15 +137,6 @@ fn words(point: &Point) -> String {
     format!("{}: {time} ms, FLIP* {error}", point.title)
 }
 
-/// Writes a number with three digits that count.
-pub fn three_digits(value: f64) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    let digits = (2.0 - value.abs().log10().floor()).clamp(0.0, 9.0) as usize;
-    format!("{value:.digits$}")
-}
-
 /// Finds the upper left corner of every label: beside its point, where it covers no point, no bar and no other label; none where
 /// there is no room.
 fn place_labels(
@@ -258,11 +250,5 @@ mod tests {
             place_labels(&points[..1], &[(70.0, -20.0)], &[], 90.0),
             [None]
         );
-    }
-
-    #[test]
-    fn numbers_have_three_digits() {
-        let words = [12.345, 0.012_345, 1234.5, 0.0].map(three_digits);
-        assert_eq!(words, ["12.3", "0.0123", "1234", "0"]);
     }
 }
