@@ -65,10 +65,9 @@ fn section(run: &Run, scene: &str, folder: &Path, pictures: &mut Vec<(String, Pa
         return String::new();
     };
     // Two shutters do not compare.
-    let rivals = filters
-        .iter()
-        .filter(|own| own.0.alignment == best.alignment);
-    let worst = rivals.last().filter(|own| own.0.name() != best.name());
+    let is_rival = |own: &&(&Case, f64)| own.0.alignment == best.alignment;
+    let worst = filters.iter().rfind(is_rival);
+    let worst = worst.filter(|own| own.0.name() != best.name());
     let own = folder.join(scene);
     let truth = own.join(format!("truth_{}.png", best.alignment));
     let output = |case: &Case| folder.join(&case.folder).join("output.png");

@@ -157,16 +157,19 @@ fn place_labels(
         own[0] >= 60.0 && own[2] <= width && own[1] >= 0.0 && taken.iter().all(apart)
     };
     let mut labels = Vec::new();
-    for (point, (x, y)) in points.iter().zip(places) {
+    for (index, (point, (x, y))) in points.iter().zip(places).enumerate() {
         let length = LETTER * point.title.chars().count() as f64;
-        let middle = y - LINE / 2.0;
+        let [start, _, end, _] = bars.get(index).copied().unwrap_or([*x, *y, *x, *y]);
+        let (middle, above, below) = (y - LINE / 2.0, y - 7.0 - LINE, y + 6.0);
         let corners = [
-            [x + 7.0, middle],
-            [x - 7.0 - length, middle],
-            [x - length / 2.0, y - 7.0 - LINE],
-            [x - length / 2.0, y + 6.0],
-            [x + 6.0, y - 6.0 - LINE],
-            [x + 6.0, y + 5.0],
+            [end.max(x + 3.0) + 4.0, middle],
+            [start.min(x - 3.0) - 4.0 - length, middle],
+            [x - length / 2.0, above],
+            [x - length / 2.0, below],
+            [x + 4.0, above],
+            [x + 4.0, below],
+            [x - length + 4.0, above],
+            [x - length + 4.0, below],
         ];
         let found = corners
             .map(|[left, top]| [left, top, left + length, top + LINE])
