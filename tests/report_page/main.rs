@@ -89,10 +89,10 @@ fn a_page_opens_without_complaint_and_asks_for_nothing_else() {
 fn divider_and_keys_change_what_is_seen() {
     const STAGE: &str = ".stage";
     let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "identity"]));
+    assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
     let page = make_page(&bench);
     let mut browser = Browser::new(1280, 900);
-    open_case(&mut browser, &page, "plate/identity:default");
+    open_case(&mut browser, &page, "plate/velocity_gather:fine");
     let first = browser.picture(STAGE);
     assert!(first == browser.picture(STAGE), "nothing was pressed");
 
@@ -109,7 +109,8 @@ fn divider_and_keys_change_what_is_seen() {
         "4",
         "1",
         "a",
-        "M",
+        "m",
+        "m",
         "e",
         "5",
         "1",

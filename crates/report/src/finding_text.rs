@@ -1,5 +1,6 @@
 //! A finding in words: its status, its score and the way out.
 
+use metrics::Interval;
 use suite::{Finding, Level, MOST_SAMPLES, Outcome, number};
 
 /// Status of a score against its bound, told by colour, sign and word: never by the colour alone.
@@ -47,17 +48,31 @@ pub fn finding_status(finding: &Finding) -> &'static str {
 pub fn finding_score(finding: &Finding) -> String {
     let mut text = finding.metric.clone();
     if let Some(value) = finding.value {
-        text += &format!(" {}", finding.with_unit(value));
+        let without_noise = estimate(value, finding.interval.as_ref());
+        text += &format!(" {}", finding.with_unit(without_noise));
     }
     if let Some(interval) = &finding.interval {
         let [low, high] = [interval.low, interval.high].map(number);
         text += &format!(" (95 % CI {low} to {high})");
+        if let Some(measured) = finding.value.filter(|value| !holds(interval, *value)) {
+            text += &format!(", measured {}", finding.with_unit(measured));
+        }
     }
     text += &format!("; limit {}", number(finding.limit));
     if let Some(floor) = finding.floor {
         text += &format!(", floor {}", number(floor));
     }
     text
+}
+
+/// Estimates the score against a truth without noise: the middle of its interval, or the measured value without one.
+pub fn estimate(value: f64, interval: Option<&Interval>) -> f64 {
+    interval.map_or(value, |own| f64::midpoint(own.low, own.high))
+}
+
+/// Tells whether an interval holds the measured value. The truth's noise moves a score, and the interval is about a truth without.
+pub fn holds(interval: &Interval, value: f64) -> bool {
+    (interval.low..=interval.high).contains(&value)
 }
 
 /// Tells what to do about a score that was not judged.
@@ -78,5 +93,22 @@ pub fn way_out(finding: &Finding) -> Option<String> {
             Some(samples) => format!("--samples-per-pixel {samples} would settle it"),
         }),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_estimate_lies_in_its_interval() {
+        let interval = Interval {
+            low: 0.051_98,
+            high: 0.053_32,
+            standard_error: 0.0003,
+        };
+        let without_noise = estimate(0.053_64, Some(&interval));
+        assert!(holds(&interval, without_noise) && !holds(&interval, 0.053_64));
+        assert_eq!(estimate(0.053_64, None), 0.053_64);
     }
 }

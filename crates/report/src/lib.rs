@@ -8,6 +8,7 @@ mod filter_id;
 mod filter_page;
 mod finding_text;
 mod gallery;
+mod numbers;
 mod overview;
 mod pixels;
 mod run_facts;
@@ -29,9 +30,10 @@ use pixels::report_files::SceneNumbers;
 use pixels::scene_files::SceneFiles;
 use run_page::run_page;
 
-pub use comparison::{compare_page, signed};
+pub use comparison::compare_page;
 pub use finding_text::{finding_line, finding_score, finding_status, way_out};
 pub use gallery::write_gallery;
+pub use numbers::signed;
 pub use pixels::report_files::{LARGEST_PAGE, Report};
 pub use tuning::{TuneFolder, tuning_page};
 

@@ -1,11 +1,11 @@
-//! Provenance of a run.
+//! Settings that a run's scores depend on.
 
 use maud::{Markup, html};
 
 use crate::filter_id::list_scenes;
 use suite::Run;
 
-/// Command, program, adapter, settings, and per scene the hashes of its truths.
+/// Lists command, program, adapter, settings, and per scene the hashes of its truths.
 pub fn provenance(run: &Run) -> Markup {
     html! {
         section.provenance {
@@ -34,7 +34,7 @@ pub fn provenance(run: &Run) -> Markup {
     }
 }
 
-/// Term and text of all that a run's scores depend on.
+/// Lists term and text of all that a run's scores depend on.
 pub fn facts(run: &Run) -> Vec<(&'static str, String)> {
     let adapter = match &run.adapter {
         Some(own) => format!(
@@ -70,7 +70,7 @@ pub fn facts(run: &Run) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// The same in one line, for every case.
+/// Writes the same in one line, for every case.
 pub fn provenance_line(run: &Run) -> String {
     let adapter = match &run.adapter {
         Some(own) => format!("{}, driver {}", own.name, own.driver),
@@ -87,14 +87,14 @@ pub fn provenance_line(run: &Run) -> String {
     )
 }
 
-/// The words of the command line, the program's by its name alone.
+/// Writes the words of the command line, the program's by its name alone.
 fn command(run: &Run) -> String {
     let words = run.command.iter().skip(1).map(String::as_str);
     let words: Vec<&str> = std::iter::once("shuttertruth").chain(words).collect();
     words.join(" ")
 }
 
-/// One row per scene and shutter.
+/// Writes a row per scene and shutter.
 fn truths(run: &Run) -> Vec<Markup> {
     let mut rows = Vec::new();
     for scene in list_scenes(run) {

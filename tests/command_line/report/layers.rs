@@ -16,9 +16,9 @@ fn run_and_check_write_the_page_that_report_writes() {
         "bounds.toml",
         "[default]\nflip_moving = { limit = 0.2, why = \"it is broken\" }\n",
     );
-    let reported = || {
-        bench.done(&["report", "out", "--html", "reported.html"]);
-        fs::read(bench.path("reported.html")).unwrap()
+    let make_page = || {
+        bench.done(&["report", "out", "--html", "make_page.html"]);
+        fs::read(bench.path("make_page.html")).unwrap()
     };
     let output = bench.run(&[&IDENTITY[..], &["--html", "own.html"]].concat());
     assert_done(&output);
@@ -28,7 +28,7 @@ fn run_and_check_write_the_page_that_report_writes() {
         stdout(&output)
     );
     assert!(
-        fs::read(bench.path("own.html")).unwrap() == reported(),
+        fs::read(bench.path("own.html")).unwrap() == make_page(),
         "run writes another page"
     );
     let output = bench.check(&[&IDENTITY[..], &["--html", "own.html"]].concat());
@@ -39,7 +39,7 @@ fn run_and_check_write_the_page_that_report_writes() {
         stdout(&output)
     );
     assert!(
-        fs::read(bench.path("own.html")).unwrap() == reported(),
+        fs::read(bench.path("own.html")).unwrap() == make_page(),
         "check writes another page"
     );
 }

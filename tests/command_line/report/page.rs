@@ -8,7 +8,7 @@ use crate::bench::{Bench, assert_done, assert_refused, quick, split, stdout};
 const WORDS: [&str; 4] = ["report", "out/run.json", "--html", "page/report.html"];
 
 /// Makes the page of the bench's last run.
-fn reported(bench: &Bench) -> String {
+fn make_page(bench: &Bench) -> String {
     let output = bench.shuttertruth(&WORDS);
     assert_done(&output);
     assert!(stdout(&output).contains("written: page/report.html ("));
@@ -68,7 +68,7 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
     let bench = Bench::new();
     bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
     assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     let run = bench.measured();
     for case in &run.cases {
         let link = format!("href=\"#{}\"", address(case));
@@ -117,7 +117,7 @@ fn a_ranking_by_flip_has_a_group_per_shutter_and_one_by_skill_has_all_in_one() {
     // A slow scene of few samples has no skill: what the oracle gains there is noise.
     bench.copy_scene("fast", |text| text.replace("-1.6, 0, 0", "-3.2, 0, 0"));
     assert_done(&bench.run(&["--filters", "velocity_gather:fine,bevy:high"]));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     let ranking = |title: &str| {
         let label = format!("aria-label=\"{title} of every case\"");
         between(&page, &label, "</table>")[0]
@@ -149,7 +149,7 @@ fn a_page_holds_every_plane_once_and_fetches_nothing() {
     let bench = Bench::new();
     bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
     assert_done(&bench.run(&["--filters", "identity,jump_flood:paper"]));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     let scenes = planes(&page);
     assert_eq!(scenes.len(), 2, "one list per scene");
     for own in &scenes {
@@ -206,7 +206,7 @@ fn a_page_holds_every_plane_once_and_fetches_nothing() {
 fn the_same_run_makes_the_same_page() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "identity"]));
-    assert!(reported(&bench) == reported(&bench));
+    assert!(make_page(&bench) == make_page(&bench));
 }
 
 #[cfg(unix)] // Elsewhere no folder has such a name.
@@ -219,7 +219,7 @@ fn a_scene_called_script_is_shown_and_not_run() {
     });
     let words = ["--filters", "identity", "--scenes", NAME];
     assert_done(&bench.run(&words));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     assert!(page.contains("<h2 tabindex=\"-1\">&lt;script&gt;alert(1) / <a href="));
     assert!(page.contains("&lt;img src=x onerror=alert(2)&gt; &amp; it"));
     assert!(!page.contains("<script>alert") && !page.contains("<img src=x"));
@@ -238,7 +238,7 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
     );
     let output = bench.check(&["--filters", "identity"]);
     assert_eq!(output.status.code(), Some(1), "{}", stdout(&output));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     let case = filter_case(&bench);
 
     assert!(page.contains("2 required bounds: 1 broken, 0 too noisy to decide."));
@@ -288,7 +288,7 @@ fn a_run_that_looked_for_no_place_gets_one_in_its_report() {
     );
     let output = bench.check(&["--filters", "identity"]);
     assert_eq!(output.status.code(), Some(1));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     let checked = between(
         article(&page, &filter_case(&bench)),
         "<figure class=\"crop\" ",
@@ -297,7 +297,7 @@ fn a_run_that_looked_for_no_place_gets_one_in_its_report() {
     .to_owned();
     let words = [&quick("run", "64")[..], &["--filters", "identity"]].concat();
     assert_done(&bench.shuttertruth(&words));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     let article = article(&page, &filter_case(&bench));
     assert_eq!(
         between(article, "<figure class=\"crop\" ", " data-map")[0],
@@ -311,12 +311,12 @@ fn costs_are_those_of_the_bench_beside_the_run() {
     let bench = Bench::new();
     let words = "--filters identity,mcguire:paper --set mcguire.samples=7";
     assert_done(&bench.run(&split(words)));
-    let without = reported(&bench);
+    let without = make_page(&bench);
     assert!(without.contains("Nothing was timed beside this run."));
     let words =
         "bench --quiet --filters identity,jump_flood:paper,mcguire:paper --size 64x32 --out out";
     assert_done(&bench.shuttertruth(&split(words)));
-    let page = reported(&bench);
+    let page = make_page(&bench);
     let text = fs::read_to_string(bench.path("out/bench.json")).unwrap();
     let timed: suite::Bench = serde_json::from_str(&text).unwrap();
     let seconds = timed

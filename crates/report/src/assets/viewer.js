@@ -6,6 +6,8 @@
   const NEAR = 6;
   // Time that either picture is seen while they blink, in milliseconds.
   const BLINK = 700;
+  // Settings that an address need not name.
+  const USUAL = [["left", "truth"], ["right", "output"], ["mode", "slide"], ["zoom", "1"], ["at", ""]];
   const pictures = window.shuttertruth;
   const { paint, painters, planes, motion, speedOf } = pictures;
   const viewer = document.getElementById("viewer");
@@ -28,7 +30,7 @@
   // Counts requests: what arrives late is not drawn over what came after.
   let asked = 0;
 
-  const input = (name, value) => viewer.querySelector(`[name=${name}][value="${value}"]`);
+  const input = (name, value) => viewer.querySelector(`[name=${name}][value="${CSS.escape(value)}"]`);
   const chosen = (name) => viewer.querySelector(`[name=${name}]:checked`).value;
   const picked = () => ({ left: pictures.find(menus.left.value), right: pictures.find(menus.right.value) });
   const stops = () => Number(open.querySelector(".viewer_place").dataset.stops) + Number(chosen("exposure"));
@@ -306,8 +308,9 @@
     viewer.querySelector(".farthest").textContent = far.toPrecision(3);
   };
 
-  // Opens a case with the settings that an address names; none closes the viewer.
-  const openCase = (section, { left, right, mode, zoom: zoomed, at } = {}) => {
+  // Opens a case with the settings that an address names, the others as usual; an address without any keeps what there is. None
+  // closes the viewer.
+  const openCase = (section, settings = {}) => {
     open = section;
     viewer.hidden = !open;
     mark = null;
@@ -315,14 +318,16 @@
     const home = open.querySelector(".viewer_place");
     pictures.openScene(Number(home.dataset.scene));
     pictures.openCase(open);
-    if (left) wanted.left = left;
-    if (right) wanted.right = right;
-    if (mode && input("mode", mode)) input("mode", mode).checked = true;
+    if (Object.keys(settings).length > 0) {
+      const { left, right, mode, zoom: zoomed, at } = { ...Object.fromEntries(USUAL), at: `${width / 2},${height / 2}`, ...settings };
+      Object.assign(wanted, { left, right });
+      (input("mode", mode) ?? input("mode", "slide")).checked = true;
+      lookAt(Math.min(MOST, Math.max(1, Number(zoomed) || 1)), ...at.split(",").map(Number));
+    }
     runBlink();
     fillMenus();
     for (const line of viewer.querySelectorAll(".line")) line.setAttribute("d", home.dataset.line);
     home.append(viewer);
-    if (at) lookAt(Math.min(MOST, Math.max(1, Number(zoomed) || 1)), ...at.split(",").map(Number));
     show();
     fillLegends().catch(fail);
     for (const figure of open.querySelectorAll(".crop")) crop(figure).catch(fail);
@@ -333,13 +338,14 @@
   const settings = () => {
     const { left, right } = picked();
     const middle = [view.x + width / view.zoom / 2, view.y + height / view.zoom / 2].map(Math.round);
-    return [
-      ["left", left.word, "truth"],
-      ["right", right.word, "output"],
-      ["mode", chosen("mode"), "slide"],
-      ["zoom", String(Number(view.zoom.toPrecision(3))), "1"],
-      ["at", view.zoom > 1 ? middle.join(",") : "", ""],
-    ].filter(([, value, usual]) => value !== usual);
+    const now = {
+      left: left.word,
+      right: right.word,
+      mode: chosen("mode"),
+      zoom: String(Number(view.zoom.toPrecision(3))),
+      at: view.zoom > 1 ? middle.join(",") : "",
+    };
+    return USUAL.map(([name, usual]) => [name, now[name], usual]).filter(([, value, usual]) => value !== usual);
   };
 
   for (const side of Object.keys(menus)) menus[side].addEventListener("change", () => setSide(side, menus[side].value));

@@ -108,10 +108,10 @@ fn facts(finding: &Finding) -> Markup {
         dl {
             div { dt { "metric" } dd { (finding.metric) @if let Some(metric) = metric { ": " (metric.meaning()) } } }
             @if let Some(value) = finding.value {
-                div { dt { "value" } dd { (finding.with_unit(value)) } }
+                div { dt { "measured" } dd { (finding.with_unit(value)) } }
             }
             @if let Some(own) = &finding.interval {
-                div { dt { "95 % CI" } dd { (number(own.low)) " to " (number(own.high)) } }
+                div { dt { "95 % CI" } dd { (number(own.low)) " to " (number(own.high)) ", against a truth without noise" } }
             }
             div { dt { "limit" } dd { (number(finding.limit)) ", " (finding.place) ": " (finding.why) } }
             @if let Some(floor) = finding.floor {

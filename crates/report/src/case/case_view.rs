@@ -15,7 +15,7 @@ pub struct CaseView<'a> {
     pub run: &'a Run,
     /// Number of the case in the run.
     pub index: usize,
-    /// Its scores.
+    /// Scores of the case.
     pub case: &'a Case,
     /// Findings, one per bound; none where the run was not judged.
     pub findings: Vec<Finding>,
@@ -39,7 +39,7 @@ pub struct CaseView<'a> {
 pub struct CaseInput<'a> {
     /// Run that holds the case.
     pub run: &'a Run,
-    /// Its number in the run.
+    /// Number of the case in the run.
     pub index: usize,
     /// Findings, one per bound.
     pub findings: Vec<Finding>,

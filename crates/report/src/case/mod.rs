@@ -12,6 +12,7 @@ pub mod viewer;
 use maud::{Markup, html};
 
 use crate::filter_id::{FilterId, case_anchor, list_scenes};
+use crate::finding_text::estimate;
 use crate::run_facts::provenance_line;
 use bounds::bounds;
 use case_view::CaseView;
@@ -66,7 +67,7 @@ fn score_line(view: &CaseView) -> Markup {
         p.score {
             @for headline in [Headline::FLIP, Headline::SKILL, Headline::PSNR] {
                 @if let Some(value) = headline.measured(case).value() {
-                    span { (short_name(headline)) " " strong { (headline.number(value)) } (interval(case, headline)) }
+                    span { (short_name(headline)) " " strong { (headline.number(estimate(value, case.intervals.get(&headline.name())))) } (interval(case, headline)) }
                 }
             }
             @if let (false, Some(rank)) = (case.is_reference, rank) {

@@ -5,9 +5,9 @@ use metrics::{Ideal, Metric};
 
 use super::pictures::Pictures;
 use super::runs::both_runs;
-use super::signed;
 use crate::charts::strip::Strip;
 use crate::document::Document;
+use crate::numbers::signed;
 use suite::Error;
 use suite::number;
 use suite::{Basis, Change, ChangeKind, rank_changes};

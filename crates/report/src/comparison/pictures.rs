@@ -9,18 +9,18 @@ use suite::Side;
 
 /// Pictures of one case, each as an address that holds the picture itself.
 pub struct Pictures {
-    /// What the filter made in the first run.
+    /// Output of the filter in the first run.
     pub first: String,
-    /// And in the second.
+    /// Output of the filter in the second run.
     pub second: String,
-    /// What an open shutter sees.
+    /// Truth.
     pub truth: Option<String>,
-    /// Where the visible difference from the truth became larger, and where smaller.
+    /// Change of the visible difference from the truth.
     pub change: Option<String>,
 }
 
 impl Pictures {
-    /// None where one of the runs has no picture of the case.
+    /// Reads the pictures; none where one of the runs has no picture of the case.
     pub fn read(sides: [&Side; 2], pair: &Pair) -> Result<Option<Self>, Error> {
         let [first, second] = sides;
         let outputs = [

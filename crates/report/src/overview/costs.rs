@@ -12,10 +12,10 @@ use suite::read_text;
 use suite::{BASELINE, BENCH_FORMAT, CaseCost, GROWTH_FROM, REACHES, Spread};
 use suite::{Bench, Error, Run, SIDES};
 
-/// What `shuttertruth bench` calls its file.
+/// Name of the file that `shuttertruth bench` writes.
 const BENCH_FILE: &str = "bench.json";
 
-/// The bench that was written into the folder of a run; none where there is no such file.
+/// Reads the bench that was written into the folder of a run; none where there is no such file.
 pub fn read_bench(folder: &Path) -> Result<Option<Bench>, Error> {
     let path = folder.join(BENCH_FILE);
     if !path.exists() {
@@ -99,7 +99,7 @@ pub fn cost_of<'a>(run: &Run, bench: Option<&'a Bench>, filter: &FilterId) -> Op
     })
 }
 
-/// Whether a value in pixels is another one for pictures `ratio` times as wide, but for what rounding may do to the
+/// Tells whether a value in pixels is another one for pictures `ratio` times as wide, but for what rounding may do to the
 /// smaller of both.
 fn is_scaled(first: &Value, second: &Value, ratio: f64) -> bool {
     let number = |value: &Value| match value {
@@ -113,12 +113,12 @@ fn is_scaled(first: &Value, second: &Value, ratio: f64) -> bool {
     }
 }
 
-/// `1.23`, in milliseconds; `-` where nothing was timed.
+/// Writes `1.23`, in milliseconds; `-` where nothing was timed.
 pub fn cost_text(cost: Option<&CaseCost>) -> String {
     cost.map_or("-".to_owned(), |cost| milliseconds(cost.seconds.median))
 }
 
-/// Quality against time, passes, and cost against reach.
+/// Shows quality against time, passes, and cost against reach.
 pub fn costs(run: &Run, bench: Option<&Bench>) -> Markup {
     html! {
         section.costs {
@@ -158,8 +158,8 @@ fn provenance(bench: &Bench) -> String {
     )
 }
 
-/// FLIP of every filter that was timed, against its time. Filters of all shutters stand in one picture, and so does FLIP
-/// against one shutter for all.
+/// Measures FLIP and time of every filter that was timed. Filters of all shutters stand in one picture, so FLIP is against one
+/// shutter for all.
 fn points(run: &Run, bench: &Bench) -> Vec<Point> {
     let timed = list_filters(run).into_iter().filter_map(|filter| {
         let cost = cost_of(run, Some(bench), &filter)?;
@@ -188,7 +188,7 @@ fn mean_error(run: &Run, filter: &FilterId) -> Option<f64> {
     mean(cases.filter_map(|(_, case)| Headline::CommonFlip.measured(case).value()))
 }
 
-/// The run's filters that were timed.
+/// Lists the run's filters that were timed.
 fn timed<'a>(run: &Run, bench: &'a Bench) -> Vec<(String, &'a CaseCost)> {
     let timed = list_filters(run).into_iter();
     timed

@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use crate::charts::plot::{Axis, Plot};
+use crate::numbers::three_digits;
 
 /// Width of a letter of a label, and height of its line, in the chart's units.
 const LETTER: f64 = 5.8;
@@ -136,15 +137,6 @@ fn words(point: &Point) -> String {
     format!("{}: {time} ms, FLIP* {error}", point.title)
 }
 
-/// Writes a number with three digits that count.
-pub fn three_digits(value: f64) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    let digits = (2.0 - value.abs().log10().floor()).clamp(0.0, 9.0) as usize;
-    format!("{value:.digits$}")
-}
-
 /// Finds the upper left corner of every label: beside its point, where it covers no point, no bar and no other label; none where
 /// there is no room.
 fn place_labels(
@@ -165,16 +157,19 @@ fn place_labels(
         own[0] >= 60.0 && own[2] <= width && own[1] >= 0.0 && taken.iter().all(apart)
     };
     let mut labels = Vec::new();
-    for (point, (x, y)) in points.iter().zip(places) {
+    for (index, (point, (x, y))) in points.iter().zip(places).enumerate() {
         let length = LETTER * point.title.chars().count() as f64;
-        let middle = y - LINE / 2.0;
+        let [start, _, end, _] = bars.get(index).copied().unwrap_or([*x, *y, *x, *y]);
+        let (middle, above, below) = (y - LINE / 2.0, y - 7.0 - LINE, y + 6.0);
         let corners = [
-            [x + 7.0, middle],
-            [x - 7.0 - length, middle],
-            [x - length / 2.0, y - 7.0 - LINE],
-            [x - length / 2.0, y + 6.0],
-            [x + 6.0, y - 6.0 - LINE],
-            [x + 6.0, y + 5.0],
+            [end.max(x + 3.0) + 4.0, middle],
+            [start.min(x - 3.0) - 4.0 - length, middle],
+            [x - length / 2.0, above],
+            [x - length / 2.0, below],
+            [x + 4.0, above],
+            [x + 4.0, below],
+            [x - length + 4.0, above],
+            [x - length + 4.0, below],
         ];
         let found = corners
             .map(|[left, top]| [left, top, left + length, top + LINE])
@@ -258,11 +253,5 @@ mod tests {
             place_labels(&points[..1], &[(70.0, -20.0)], &[], 90.0),
             [None]
         );
-    }
-
-    #[test]
-    fn numbers_have_three_digits() {
-        let words = [12.345, 0.012_345, 1234.5, 0.0].map(three_digits);
-        assert_eq!(words, ["12.3", "0.0123", "1234", "0"]);
     }
 }

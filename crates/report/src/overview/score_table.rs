@@ -97,7 +97,7 @@ pub fn score_table(
                         th scope="col" { button { "filter" } }
                         @if has_means {
                             th scope="col" { button { "mean" } }
-                            th scope="col" { "95 % CI" }
+                            th.note scope="col" { "95 % CI" }
                             th.chart scope="col" {
                                 div.ends { span { (headline.number(strip.low)) } span.unseen { " to " } span { (headline.number(strip.high)) } }
                             }

@@ -3,31 +3,31 @@
 /// One picture of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Layer {
-    /// What the open shutter saw.
+    /// Picture through the open shutter.
     Truth,
-    /// What the filter made.
+    /// Output of the filter.
     Output,
-    /// What the filter got.
+    /// Frame that the filter got.
     Instant,
-    /// Where the difference is seen.
+    /// Visible difference.
     Flip,
     /// Output minus truth.
     SignedError,
-    /// Where a mover is that never was there, by the side of it.
+    /// Mover where it never was, by the side of it.
     Bleed,
-    /// Where the shutter's time went to the wrong object.
+    /// Share of the shutter given to the wrong object.
     LabelTotalVariation,
-    /// Where the instant hides what the shutter saw.
+    /// Share of the shutter that the instant hides.
     Knowability,
-    /// How the instant moves.
+    /// Motion of the instant.
     Velocity,
-    /// How far away what moves is.
+    /// Distance along the view axis.
     Depth,
-    /// What a filter spread the velocities to before it gathered.
+    /// Velocity that a filter carried to each pixel before it gathered.
     Dilated,
 }
 
-/// How numbers become colours.
+/// Ways to turn numbers into colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Painter {
     /// Radiance, as a display shows it at the chosen exposure.
@@ -77,7 +77,7 @@ impl Layer {
         }
     }
 
-    /// What a reader calls it.
+    /// Names the picture for a reader.
     pub fn title(self) -> &'static str {
         match self {
             Layer::Truth => "Truth",
@@ -94,7 +94,7 @@ impl Layer {
         }
     }
 
-    /// What there is to see.
+    /// Explains the picture.
     pub fn hint(self) -> &'static str {
         match self {
             Layer::Truth => "what the open shutter saw, path traced",
@@ -117,7 +117,7 @@ impl Layer {
         }
     }
 
-    /// How it is drawn.
+    /// Chooses how it is drawn.
     pub fn painter(self) -> Painter {
         match self {
             Layer::Truth | Layer::Output | Layer::Instant => Painter::Radiance,
@@ -129,7 +129,7 @@ impl Layer {
         }
     }
 
-    /// What its numbers are called in the read-out, in the order of its planes.
+    /// Names its numbers in the read-out, in the order of its planes.
     pub fn components(self) -> &'static str {
         match self.painter() {
             Painter::Radiance | Painter::Signed => "R G B",

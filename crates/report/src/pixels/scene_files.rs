@@ -18,16 +18,16 @@ use suite::{Case, Error, Run};
 pub struct SceneFiles {
     /// Without its guard band.
     pub frame: Frame,
-    /// By the name of the alignment.
+    /// Truths by the name of the alignment.
     pub truths: BTreeMap<String, TruthFile>,
     /// The planes of all its cases.
     pub planes: Planes,
-    /// By the name of the alignment, the accumulation that stands in every profile, and what a reader calls it.
+    /// Accumulation that stands in every profile, with its title, by the name of the alignment.
     pub accumulations: BTreeMap<String, (String, Image)>,
     folder: PathBuf,
     /// Those that every case of the scene shows.
     shared: Vec<(Layer, Vec<usize>)>,
-    /// Of the object that each pixel's centre sees.
+    /// Plane of the object that each pixel's centre sees.
     objects: usize,
 }
 
@@ -37,7 +37,7 @@ pub struct TruthFile {
     pub mean: Picture,
     /// From each pixel to where what it shows was at the instant, in pixels: mean over the shutter.
     pub offset: frame::Vectors,
-    /// What scores are pooled over.
+    /// Regions that scores are pooled over.
     pub regions: Regions,
     /// Per object that moves, with its index: where its bleed belongs.
     sides: Vec<(usize, frame::Raster<Side>)>,
@@ -45,9 +45,9 @@ pub struct TruthFile {
     layers: Vec<(Layer, Vec<usize>)>,
 }
 
-/// What a run left of one case.
+/// Files that a run left of one case.
 pub struct CaseFiles {
-    /// What the filter made.
+    /// Output of the filter.
     pub output: Image,
     /// The error maps.
     pub errors: ExrFile,
@@ -142,7 +142,7 @@ impl SceneFiles {
         })
     }
 
-    /// What a run left of a case below `folder`, that of its run.json.
+    /// Reads the files that a run left of a case below `folder`, that of its run.json.
     pub fn read_case(&mut self, case: &Case, folder: &Path) -> Result<CaseFiles, Error> {
         let own = folder.join(&case.folder);
         let file = read_exr(&own.join("output.exr"))?;

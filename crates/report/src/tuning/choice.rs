@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use maud::{Markup, html};
 
-use super::percent;
+use crate::numbers::percent;
 use suite::{Difference, PairedComparison, Preference, SceneScore, Tuning};
 
 /// Least change of the error, in the log, that is worth another value: half of what the page's last digit shows.

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use crate::charts::plot::{Axis, Plot};
 use suite::{Trial, TrialOutcome};
 
-/// What a failed trial, or one far off, need not be shown beyond.
+/// Largest loss that is drawn: failed trials, and those far off, are drawn here.
 const MOST_LOSS: f64 = 1.0;
 
 /// Loss of every trial in its order, and the least so far of those that ran everywhere.

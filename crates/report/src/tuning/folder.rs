@@ -7,18 +7,18 @@ use serde::de::DeserializeOwned;
 use suite::read_text;
 use suite::{Error, JOURNAL_FORMAT, JournalHeader, Sensitivity, TUNE_FORMAT, Trial, Tuning};
 
-/// What is there of tune.json, journal.jsonl and sensitivity.json; at least one is.
+/// Contents of tune.json, journal.jsonl and sensitivity.json; at least one is there.
 #[derive(Clone, Debug)]
 pub struct TuneFolder {
     /// The folder.
     pub path: PathBuf,
-    /// None of a tuning that is not finished, or of a study of sensitivity alone.
+    /// Outcome; none of a tuning that is not finished, or of a study of sensitivity alone.
     pub tuning: Option<Tuning>,
     /// The journal's first line.
     pub header: Option<JournalHeader>,
     /// All whole lines of the journal behind it.
     pub trials: Vec<Trial>,
-    /// Of `tune --sobol`.
+    /// Study of sensitivity.
     pub sensitivity: Option<Sensitivity>,
 }
 
@@ -48,7 +48,7 @@ impl TuneFolder {
     }
 }
 
-/// None where there is no such file.
+/// Reads a text; none where there is no such file.
 fn text(path: &Path) -> Result<Option<String>, Error> {
     if !path.exists() {
         return Ok(None);
@@ -69,7 +69,7 @@ fn parse<T: DeserializeOwned>(text: &str, place: &str) -> Result<T, Error> {
     })
 }
 
-/// The whole lines: the last one may be half written while a tuning goes on.
+/// Reads the whole lines: the last one may be half written while a tuning goes on.
 fn journal(path: &Path) -> Result<(Option<JournalHeader>, Vec<Trial>), Error> {
     let Some(text) = text(path)? else {
         return Ok((None, Vec::new()));

@@ -2,8 +2,8 @@
 
 use maud::{Markup, html};
 
-use super::percent;
 use crate::charts::strip::Strip;
+use crate::numbers::percent;
 use suite::Fold;
 
 /// Nothing where there were no two families.

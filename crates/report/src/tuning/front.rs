@@ -3,8 +3,8 @@
 use maud::{Markup, html};
 
 use super::folder::TuneFolder;
-use super::percent;
 use crate::charts::plot::{Axis, Plot};
+use crate::numbers::percent;
 use suite::Trial;
 
 /// A measure that a chart shows against the error.

@@ -62,11 +62,6 @@ pub fn tuning_page(folder: &TuneFolder) -> Result<String, Error> {
     Ok(document.render())
 }
 
-/// Writes a mean log of errors as a change of the error: `-18.6 %`.
-fn percent(log: f64) -> String {
-    format!("{:+.1} %", 100.0 * log.exp_m1())
-}
-
 fn failures(tuning: &suite::Tuning) -> Markup {
     html! {
         @if !tuning.failed.is_empty() {

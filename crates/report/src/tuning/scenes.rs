@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use maud::{Markup, html};
 
 use super::folds::change_bar;
-use super::percent;
+use crate::numbers::percent;
 use suite::log_ratio;
 use suite::{HeldOutResult, SceneScore, Tuning};
 

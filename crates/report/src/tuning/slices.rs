@@ -11,7 +11,7 @@ use suite::Trial;
 
 /// Ranges of more than this factor have an axis of equal factors.
 const LOG_FROM: f64 = 30.0;
-/// What is worse than this is drawn here.
+/// Largest error that is drawn; what is worse is drawn here.
 const MOST_ERROR: f64 = 1.0;
 
 /// One chart per parameter: every trial, and the line along which all others stay at the start, where there is one.

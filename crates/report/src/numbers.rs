@@ -1,0 +1,38 @@
+//! Numbers as text.
+
+/// Writes a change in three digits: `+0.0123`.
+pub fn signed(value: f64) -> String {
+    match value {
+        0.0 => "0".to_owned(),
+        value if value.abs() < 1e-4 => format!("{value:+.0e}"),
+        value => {
+            let digits = (2.0 - value.abs().log10().floor()).clamp(0.0, 4.0) as usize;
+            format!("{value:+.digits$}")
+        }
+    }
+}
+
+/// Writes a mean log of errors as a change of the error: `-18.6 %`.
+pub fn percent(log: f64) -> String {
+    format!("{:+.1} %", 100.0 * log.exp_m1())
+}
+
+/// Writes a number with three digits that count.
+pub fn three_digits(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let digits = (2.0 - value.abs().log10().floor()).clamp(0.0, 9.0) as usize;
+    format!("{value:.digits$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_three_digits() {
+        let words = [12.345, 0.012_345, 1234.5, 0.0].map(three_digits);
+        assert_eq!(words, ["12.3", "0.0123", "1234", "0"]);
+    }
+}
