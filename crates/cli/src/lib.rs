@@ -14,13 +14,14 @@ use suite::{Error, printable, printable_lines};
 
 use output::print::print_error;
 use output::progress::{INTERRUPTED_CODE, catch_interrupts};
+use output::verbosity::set_output;
 
 pub use output::annotations::{annotations, summary};
 pub use output::junit::junit;
 pub use selection::{Programs, SceneChoice, select_filters, select_scenes};
 pub use tables::bench::bench_table;
 pub use tables::cases::{run_table, score_table};
-pub use tables::check::check_text;
+pub use tables::check::{check_text, verdict_text};
 pub use tables::comparison::compare_table;
 pub use tables::tuning::{paired_table, tuning_table};
 
@@ -28,10 +29,11 @@ pub use tables::tuning::{paired_table, tuning_table};
 pub fn run_program() -> ExitCode {
     catch_interrupts();
     let arguments = arguments::Cli::try_parse().unwrap_or_else(|error| refuse_arguments(&error));
+    set_output(arguments.output);
     match commands::execute(arguments) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            print_error(&printable_lines(&format!("shuttertruth: {error}")));
+            print_error(&printable_lines(&format!("error: {error}")));
             ExitCode::from(exit_code(&error))
         }
     }

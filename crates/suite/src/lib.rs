@@ -54,6 +54,7 @@ pub use render::rendered::{
 };
 pub use render::replicates::MOST_REPLICATES;
 pub use render::scatter_oracle::scatter_oracle;
+pub use run::earlier::EarlierCases;
 pub use run::failure::{Failure, refuse_failures};
 pub use run::file::MOST_CASES;
 pub use run::filter_choice::FilterChoice;
@@ -65,6 +66,7 @@ pub use run::score::{Scored, missing, score};
 pub use run::{FORMAT, Plan, Run, run, viewing};
 pub use stats::headline::Headline;
 pub use stats::overall::{Overall, overall, rank_filters};
+pub use stats::ranking::{RankedFilter, rank_by_flip};
 pub use tune::{
     Answer, Choice, Difference, Effort, ElementaryEffects, Estimate, Evaluator, Fold, Header,
     JOURNAL_FORMAT, Journal, LEAST_BLEED, Limits, Objective, Opening, Paired, ParameterSensitivity,

@@ -130,7 +130,7 @@ fn write_page(run: &Run, findings: &[Finding], folder: &Path) {
 
 fn show(run: &Run, findings: Vec<Finding>, comparisons: Vec<suite::Comparison>, out: &Path) {
     let check = check(run, findings, comparisons);
-    drop(check_text(&check, out));
+    drop(check_text(&check, out, true));
     drop(junit(&check));
     drop(summary(&check));
     drop(annotations(&check));

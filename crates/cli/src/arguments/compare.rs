@@ -19,7 +19,4 @@ pub struct CompareArgs {
     /// Print all changes as JSON instead of the table.
     #[arg(long)]
     pub json: bool,
-    /// Show no progress.
-    #[arg(long)]
-    pub quiet: bool,
 }

@@ -16,11 +16,11 @@ pub fn execute(args: &BenchArgs) -> Result<(), Error> {
     let filters = select_filters(&args.filters, None, &[], Programs::Allowed)?;
     if let Some(choice) = filters.iter().find(|it| it.filter.command.is_some()) {
         return Err(Error::Usage(format!(
-            "filter {} is a program, which has no passes to time; leave it out of --filters",
+            "filter {} is a program, which has no passes to time; leave it out of --filter",
             choice.filter.name
         )));
     }
-    let gpu = open_adapter(args.adapter.adapter.as_deref(), make_monitor(args.quiet))?;
+    let gpu = open_adapter(args.adapter.adapter.as_deref(), make_monitor())?;
     let (width, height) = args.size.unwrap_or(match gpu.adapter.kind.as_str() {
         "software" => (320, 180),
         _ => (1920, 1080),
@@ -32,7 +32,7 @@ pub fn execute(args: &BenchArgs) -> Result<(), Error> {
         rounds: args.rounds,
         as_written: args.as_written,
     };
-    let done = make_monitor(args.quiet).watch("bench", |watch| bench(plan, &gpu, watch))?;
+    let done = make_monitor().watch("bench", |watch| bench(plan, &gpu, watch))?;
     let json = write_bench(&done, args)?;
     if args.json {
         return print(&format!("{json}\n"));

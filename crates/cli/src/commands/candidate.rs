@@ -37,7 +37,7 @@ pub fn open_candidate_gpu(
     Ok(open_gpu(
         std::slice::from_ref(choice),
         adapter,
-        make_monitor(args.scenes.quiet),
+        make_monitor(),
     )?)
 }
 
@@ -48,9 +48,9 @@ pub fn render_shots(
     args: &CandidateArgs,
     sharing: Sharing,
 ) -> Result<(Claim, Vec<Shot>), Error> {
-    let SceneArgs { out, quiet, .. } = &args.scenes;
+    let SceneArgs { out, .. } = &args.scenes;
     let settings = candidate_render_settings(args)?;
     let claimed = claim(out, scenes.iter().map(|(scene, _)| scene), sharing)?;
-    let rendered = shots(scenes, choice, &settings, out, make_monitor(*quiet))?;
+    let rendered = shots(scenes, choice, &settings, out, make_monitor())?;
     Ok((claimed, rendered))
 }

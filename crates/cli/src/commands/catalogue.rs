@@ -13,7 +13,7 @@ const DEFAULT_FILTER: &str = "jump_flood:paper";
 /// Runs one filter, or those that are named, and writes the page beside their pictures.
 pub fn execute(args: &CatalogueArgs) -> Result<(), Error> {
     let mut measure = args.measure.clone();
-    if measure.filters.is_empty() && measure.filter.is_empty() {
+    if measure.filters.is_empty() {
         measure.filters = vec![DEFAULT_FILTER.to_owned()];
     }
     // The page shows no noise.

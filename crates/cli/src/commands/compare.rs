@@ -12,11 +12,11 @@ use crate::tables::comparison::compare_table;
 /// Reads two finished runs, prints what changed, and writes the page.
 pub fn execute(args: &CompareArgs) -> Result<(), Error> {
     let (first, second) = (Side::read(&args.first)?, Side::read(&args.second)?);
-    let compared = make_monitor(args.quiet).watch("cases that changed", |watch| {
+    let compared = make_monitor().watch("cases that changed", |watch| {
         compare_runs(&first, &second, watch)
     })?;
     let written = match &args.html {
-        Some(html) => write_page(&compare_page(&compared, &first, &second)?, html)?.line(),
+        Some(html) => write_page(&compare_page(&compared, &first, &second)?, html)?.line("written"),
         None => String::new(),
     };
     if args.json {

@@ -22,13 +22,7 @@ pub fn execute(args: &EvaluateArgs) -> Result<(), Error> {
     let gpu = open_candidate_gpu(&choice, candidate)?;
     let (_, shots) = render_shots(&scenes, &choice, candidate, Sharing::Together)?;
     let bleed = candidate.objective.contains(&Objective::Bleed);
-    let mut scorer = evaluator(
-        &shots,
-        &choice,
-        gpu.as_ref(),
-        bleed,
-        make_monitor(candidate.scenes.quiet),
-    )?;
+    let mut scorer = evaluator(&shots, &choice, gpu.as_ref(), bleed, make_monitor())?;
     let cost = candidate.objective.contains(&Objective::Cost);
     let all: Vec<usize> = (0..shots.len()).collect();
     let scores = answer(&mut scorer, &settings, &all, cost, |_, _| true)?;

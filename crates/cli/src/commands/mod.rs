@@ -8,23 +8,27 @@ mod candidate;
 mod catalogue;
 mod check;
 mod compare;
+mod compare_presets;
 mod evaluate;
 mod import;
 mod list;
+mod measured_run;
 mod merge;
 mod pages;
 mod plan;
 mod render;
 mod render_settings;
 mod report;
+mod result;
 mod run;
 mod run_files;
 mod score;
+mod sensitivity;
 mod serve;
 mod threads;
+mod try_filters;
 mod tune;
 
-use clap::CommandFactory;
 use suite::Error;
 
 use self::threads::work_on_threads;
@@ -58,6 +62,14 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         Some(Command::Tune(args)) => {
             work_on_threads(args.candidate.scenes.threads, || tune::execute(&args))
         }
+        Some(Command::Sensitivity(args)) => work_on_threads(args.candidate.scenes.threads, || {
+            sensitivity::execute(&args)
+        }),
+        Some(Command::ComparePresets(args)) => {
+            work_on_threads(args.candidate.scenes.threads, || {
+                compare_presets::execute(&args)
+            })
+        }
         Some(Command::Evaluate(args)) => {
             work_on_threads(args.candidate.scenes.threads, || evaluate::execute(&args))
         }
@@ -69,18 +81,8 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         }
         Some(Command::Import(args)) => import::execute(&args),
         Some(Command::List(args)) => list::execute(&args),
-        None => Err(Error::Usage(format!(
-            "no command given; allowed: {} (see --help)",
-            command_names().join(", ")
-        ))),
+        None => Err(Error::Usage(
+            "no command given; shuttertruth --help lists all commands".to_owned(),
+        )),
     }
-}
-
-/// Lists the names of all commands, in the order of the help.
-fn command_names() -> Vec<String> {
-    let program = Cli::command();
-    let names = program
-        .get_subcommands()
-        .map(|command| command.get_name().to_owned());
-    names.collect()
 }

@@ -62,17 +62,20 @@ fn write_run_report(
 ) -> Result<(Vec<WrittenFile>, Vec<WrittenFile>), Error> {
     let run = Run::read(path)?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let pages = match &args.html {
-        Some(html) => {
+    let pages = match (&args.html, &args.exr) {
+        // Layers alone were asked for.
+        (None, Some(_)) => Vec::new(),
+        (html, _) => {
+            let html = html.clone().unwrap_or_else(|| folder.join("report.html"));
             let judgement = Judgement::read(&run, folder)?;
             let findings = judgement.map_or_else(Vec::new, |judgement| judgement.findings);
-            write_run_page(&run, &findings, folder, html)?
+            write_run_page(&run, &findings, folder, &html)?
         }
-        None => Vec::new(),
     };
     let layers = match &args.exr {
-        Some(out) => make_monitor(args.quiet)
-            .watch("layers", |watch| write_layers(&run, folder, out, watch))?,
+        Some(out) => {
+            make_monitor().watch("layers", |watch| write_layers(&run, folder, out, watch))?
+        }
         None => Vec::new(),
     };
     let layers = layers.into_iter().map(WrittenFile::new);
@@ -87,6 +90,9 @@ fn write_tuning_report(args: &ReportArgs, folder: &Path) -> Result<Vec<WrittenFi
         )));
     }
     let page = tuning_page(&TuneFolder::read(folder)?)?;
-    let html = (args.html.as_deref()).expect("clap requires a page where there are no layers");
-    Ok(vec![write_page(&page, html)?])
+    let html = args
+        .html
+        .clone()
+        .unwrap_or_else(|| folder.join("report.html"));
+    Ok(vec![write_page(&page, &html)?])
 }

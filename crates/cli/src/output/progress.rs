@@ -12,6 +12,7 @@ use tracer::Progress;
 use suite::{Monitor, Step, printable};
 
 use super::print::print_error;
+use super::verbosity::{Verbosity, verbosity};
 
 /// Time between two lines of a log, where no terminal shows a bar.
 const BETWEEN_LINES: Duration = Duration::from_secs(30);
@@ -34,7 +35,7 @@ pub fn catch_interrupts() {
     let _ = ctrlc::set_handler(|| {
         INTERRUPTED.store(true, Ordering::Relaxed);
         std::thread::sleep(GRACE);
-        print_error("shuttertruth: interrupted");
+        print_error("interrupted");
         std::process::exit(INTERRUPTED_CODE.into());
     });
 }
@@ -44,16 +45,24 @@ pub fn was_interrupted() -> bool {
     INTERRUPTED.load(Ordering::Relaxed)
 }
 
-/// Makes the monitor of a command: a bar on a terminal, lines in a log, nothing where `quiet`. It ends work after Ctrl-C.
-pub fn make_monitor(quiet: bool) -> Monitor {
+/// Makes the monitor of a command: a bar on a terminal, lines in a log, nothing with --quiet. It ends work after Ctrl-C.
+pub fn make_monitor() -> Monitor {
     Monitor {
-        begin: match (quiet, std::io::stderr().is_terminal()) {
+        begin: match (
+            verbosity() == Verbosity::Quiet,
+            std::io::stderr().is_terminal(),
+        ) {
             (true, _) => Monitor::SILENT.begin,
             (false, true) => |label| Box::new(Bar::new(label)),
             (false, false) => |label| Box::new(Lines::new(label, Instant::now())),
         },
         interrupted: was_interrupted,
     }
+}
+
+/// Makes a monitor that shows nothing, for work that takes no time. It ends work after Ctrl-C.
+pub fn make_silent_monitor() -> Monitor {
+    make_monitor().unseen()
 }
 
 /// Progress as a bar on a terminal, beside others.
@@ -94,7 +103,7 @@ impl Drop for Bar {
 }
 
 /// Formats minutes and seconds: `1:30`.
-fn clock_text(time: Duration) -> String {
+pub fn clock_text(time: Duration) -> String {
     let seconds = time.as_secs_f64().round() as u64;
     format!("{}:{:02}", seconds / 60, seconds % 60)
 }

@@ -1,6 +1,6 @@
 //! Pairs of cases of two runs.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 use super::side::Side;
 use crate::{Case, Error, Run};
@@ -16,21 +16,21 @@ pub struct Pair<'a> {
 
 /// The cases that both runs have, in the order of the first.
 pub fn pairs<'a>(first: &'a Run, second: &'a Run) -> Vec<Pair<'a>> {
-    let mut known: HashMap<Key, &Case> = HashMap::new();
-    for case in &second.cases {
-        known.entry(key(case)).or_insert(case);
-    }
-    let pair = |first: &'a Case| {
-        let second = known.get(&key(first))?;
-        Some(Pair { first, second })
+    let partners = Partners::new(first, second);
+    let pair = |case: &'a Case| {
+        let second = partners.find(case)?;
+        Some(Pair {
+            first: case,
+            second,
+        })
     };
     first.cases.iter().filter_map(pair).collect()
 }
 
 /// The cases of `run` that `other` lacks.
 pub fn only_in(run: &Run, other: &Run) -> Vec<String> {
-    let known: HashSet<Key> = other.cases.iter().map(key).collect();
-    let lacks = |case: &&Case| !known.contains(&key(case));
+    let partners = Partners::new(run, other);
+    let lacks = |case: &&Case| partners.find(case).is_none();
     run.cases.iter().filter(lacks).map(title).collect()
 }
 
@@ -93,11 +93,77 @@ pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(
     }
 }
 
-/// What tells cases of one run apart.
+/// Identity of a case within a run.
 type Key<'a> = (&'a str, String, &'a str, bool);
 
 fn key(case: &Case) -> Key<'_> {
     (&case.scene, case.name(), &case.alignment, case.bar)
+}
+
+/// Identity of a case within a run, whatever values `--set` gave to its parameters.
+fn preset_key(case: &Case) -> Key<'_> {
+    (&case.scene, case.preset_name(), &case.alignment, case.bar)
+}
+
+/// The cases of one run that belong to those of another: the same case, or else the only one of its preset, with parameters of
+/// its own.
+struct Partners<'a> {
+    exact: HashMap<Key<'a>, &'a Case>,
+    /// By preset, the cases that are in one run alone; none where there are several.
+    own: HashMap<Key<'a>, Option<&'a Case>>,
+    other: HashMap<Key<'a>, Option<&'a Case>>,
+}
+
+impl<'a> Partners<'a> {
+    fn new(run: &'a Run, other: &'a Run) -> Self {
+        let exact = index(&other.cases);
+        let known = index(&run.cases);
+        Self {
+            own: single_presets(
+                run.cases
+                    .iter()
+                    .filter(|case| !exact.contains_key(&key(case))),
+            ),
+            other: single_presets(
+                other
+                    .cases
+                    .iter()
+                    .filter(|case| !known.contains_key(&key(case))),
+            ),
+            exact,
+        }
+    }
+
+    fn find(&self, case: &'a Case) -> Option<&'a Case> {
+        if let Some(exact) = self.exact.get(&key(case)) {
+            return Some(exact);
+        }
+        let preset = preset_key(case);
+        let is_single = self.own.get(&preset).is_some_and(Option::is_some);
+        self.other
+            .get(&preset)
+            .copied()
+            .flatten()
+            .filter(|_| is_single)
+    }
+}
+
+fn index(cases: &[Case]) -> HashMap<Key<'_>, &Case> {
+    let mut index = HashMap::new();
+    for case in cases {
+        index.entry(key(case)).or_insert(case);
+    }
+    index
+}
+
+fn single_presets<'a>(cases: impl Iterator<Item = &'a Case>) -> HashMap<Key<'a>, Option<&'a Case>> {
+    let mut single = HashMap::new();
+    for case in cases {
+        (single.entry(preset_key(case)))
+            .and_modify(|known| *known = None)
+            .or_insert(Some(case));
+    }
+    single
 }
 
 /// Each once, at most six.

@@ -1,6 +1,7 @@
 //! The main job: render every scene, run every filter on it, measure how far each picture is from the truth.
 
 pub mod dilated;
+pub mod earlier;
 pub mod failure;
 pub mod file;
 pub mod filter_choice;
@@ -79,6 +80,9 @@ pub struct Run {
     /// Means over the scenes.
     #[serde(default)]
     pub overall: Vec<Overall>,
+    /// Number of cases that were measured before and read back; not in run.json.
+    #[serde(skip)]
+    pub read_back: usize,
 }
 
 impl Run {
@@ -114,6 +118,8 @@ pub struct Plan {
     pub intervals: bool,
     /// Whether frames, truths and cases that lie in `out` are removed and made anew.
     pub no_cache: bool,
+    /// The shutter alignment that every case is compared with; none for that of [`Run::common_alignment`].
+    pub common: Option<Alignment>,
     /// What is told of the progress, and what ends the work.
     pub monitor: Monitor,
 }
@@ -122,7 +128,8 @@ impl Plan {
     /// The alignments that take part, each once.
     pub(crate) fn alignments(&self) -> Vec<Alignment> {
         let takes_part = |alignment: &Alignment| {
-            (self.filters.iter()).any(|choice| choice.filter.alignment == *alignment)
+            Some(*alignment) == self.common
+                || (self.filters.iter()).any(|choice| choice.filter.alignment == *alignment)
         };
         Alignment::ALL.into_iter().filter(takes_part).collect()
     }
@@ -132,14 +139,15 @@ impl Plan {
 /// inputs before, and lies there still, is read back. `gpu` is what [`open_gpu`](crate::open_gpu) opened for the plan's
 /// filters.
 pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, Error> {
-    let common = common_alignment(&plan.alignments());
+    let common = (plan.common).unwrap_or_else(|| common_alignment(&plan.alignments()));
     // A single scene's own steps tell everything.
     let monitor = match plan.scenes.len() {
         1 => plan.monitor.unseen(),
         _ => plan.monitor,
     };
     let label = format!("{} scenes in all", plan.scenes.len());
-    let (cases, failures) = monitor.watch(&label, |watch| all_cases(plan, gpu, common, watch))?;
+    let (cases, failures, read_back) =
+        monitor.watch(&label, |watch| all_cases(plan, gpu, common, watch))?;
     Ok(Run {
         format: FORMAT,
         program: PROGRAM.to_owned(),
@@ -158,6 +166,7 @@ pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, 
         overall: overall(&cases),
         failures,
         cases,
+        read_back,
     })
 }
 
@@ -167,12 +176,12 @@ fn all_cases(
     gpu: Option<&Gpu>,
     common: Alignment,
     watch: Watch,
-) -> Result<(Vec<Case>, Vec<Failure>), Error> {
+) -> Result<(Vec<Case>, Vec<Failure>, usize), Error> {
     let program = hash_of_program();
     let filters: Vec<FilterChoice> = (plan.filters.iter())
         .map(|choice| choice.scaled_to(plan.render.width))
         .collect();
-    let (mut cases, mut failures) = (Vec::new(), Vec::new());
+    let (mut cases, mut failures, mut read_back) = (Vec::new(), Vec::new(), 0);
     for (done, scene) in plan.scenes.iter().enumerate() {
         // A scene that is interrupted says so itself.
         let _ = watch(Progress {
@@ -189,14 +198,16 @@ fn all_cases(
             common,
             inputs,
         };
-        for case in scene_run.cases()? {
+        let (all, kept) = scene_run.cases()?;
+        read_back += kept;
+        for case in all {
             match case {
                 Ok(case) => cases.push(case),
                 Err(failure) => failures.push(failure),
             }
         }
     }
-    Ok((cases, failures))
+    Ok((cases, failures, read_back))
 }
 
 /// Of the alignments that take part, the one that all are compared with; no truth is rendered for it alone.

@@ -45,15 +45,16 @@ type Truths = BTreeMap<Alignment, (Truth, Ladder)>;
 
 impl SceneRun<'_> {
     /// Per alignment the bars, then one case per filter preset and form of the input; a failure where one made no picture that
-    /// can be measured.
-    pub fn cases(&self) -> Result<Vec<Result<Case, Failure>>, Error> {
+    /// can be measured. Then the number of cases that were read back.
+    pub fn cases(&self) -> Result<(Vec<Result<Case, Failure>>, usize), Error> {
         if self.plan.no_cache {
             forget(&scene_folder(&self.plan.out, self.scene))?;
         }
         let subjects = Subject::all(self.plan, self.filters);
         let kept: Vec<Option<Case>> = subjects.iter().map(|subject| self.kept(subject)).collect();
-        if kept.iter().all(Option::is_some) && self.has_its_files() {
-            return Ok(kept.into_iter().flatten().map(Ok).collect());
+        let read_back = kept.iter().flatten().count();
+        if read_back == kept.len() && self.has_its_files() {
+            return Ok((kept.into_iter().flatten().map(Ok).collect(), read_back));
         }
         frame_settings(self.scene, &self.plan.render).check(self.scene)?;
         check_measuring_memory(self.scene, &self.plan.render)?;
@@ -70,7 +71,7 @@ impl SceneRun<'_> {
             Some(case) => Ok(case),
             None => made.next().expect("every case that is due was tried"),
         });
-        Ok(cases.collect())
+        Ok((cases.collect(), read_back))
     }
 
     /// Measures some of the cases, each of which is kept as soon as it is whole.

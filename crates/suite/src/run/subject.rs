@@ -81,7 +81,13 @@ impl<'a> Subject<'a> {
 
     /// How messages call it: `jump_flood:paper`, and behind that what is not as usual.
     pub fn name(&self) -> String {
-        let mut name = format!("{}:{}", self.filter(), self.preset());
+        let mut name = match self.preset().as_str() {
+            "" => self.filter().to_owned(),
+            preset => format!("{}:{preset}", self.filter()),
+        };
+        if let Maker::Filter(choice, _) = self.maker {
+            name += &choice.overrides_text();
+        }
         name.extend(self.input().change().map(|change| format!(" {change}")));
         name
     }
@@ -99,6 +105,10 @@ impl<'a> Subject<'a> {
         let mut parts = vec![self.filter().to_owned(), self.preset()];
         if self.is_bar() {
             parts.push(self.alignment.name().to_owned());
+        }
+        if let Maker::Filter(choice, _) = self.maker {
+            let changes = choice.overrides.iter();
+            parts.extend(changes.map(|(parameter, value)| format!("{parameter}_{value}")));
         }
         parts.extend(self.input().change().map(|change| change.replace('=', "_")));
         parts.retain(|part| !part.is_empty());

@@ -177,6 +177,7 @@ impl Workbench<'_> {
             bar: subject.is_bar(),
             input: subject.input(),
             parameters: choice.map_or_else(BTreeMap::new, |choice| choice.settings.values.clone()),
+            overrides: choice.map_or_else(BTreeMap::new, |choice| choice.overrides.clone()),
             reference_width: choice.and_then(|choice| choice.settings.reference_width),
             command: command.map(Command::words),
             nonlinearity: found.nonlinearity,

@@ -2,4 +2,5 @@
 
 pub mod headline;
 pub mod overall;
+pub mod ranking;
 pub mod scene_mean;

@@ -27,13 +27,7 @@ pub fn execute(args: &ServeArgs) -> Result<(), Error> {
     let (_, shots) = render_shots(&scenes, &choice, candidate, Sharing::Together)?;
     let bleed = candidate.objective.contains(&Objective::Bleed);
     let mut service = Service {
-        evaluator: evaluator(
-            &shots,
-            &choice,
-            gpu.as_ref(),
-            bleed,
-            make_monitor(candidate.scenes.quiet),
-        )?,
+        evaluator: evaluator(&shots, &choice, gpu.as_ref(), bleed, make_monitor())?,
         cost: candidate.objective.contains(&Objective::Cost),
         inbox: Inbox::open(),
     };

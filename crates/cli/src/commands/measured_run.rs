@@ -1,0 +1,51 @@
+//! A run that is measured now, beside the cases of an earlier run in the same folder.
+
+use filters::Gpu;
+use suite::{Claim, EarlierCases, Error, Plan, Run, run};
+
+use super::plan::claim_out;
+use crate::output::print::print_note;
+
+/// A finished run.
+pub struct MeasuredRun {
+    /// The cases that were asked for.
+    pub run: Run,
+    /// These, and the cases of an earlier run that run.json keeps.
+    pub whole: Run,
+    /// Claim on the folder, until all files are written.
+    pub claim: Claim,
+}
+
+/// Runs every case of a plan. Cases of an earlier run in the same folder are kept beside them.
+pub fn measure(plan: &mut Plan, gpu: Option<&Gpu>) -> Result<MeasuredRun, Error> {
+    let claim = claim_out(plan)?;
+    let earlier = EarlierCases::find(plan, gpu.map(|gpu| &gpu.adapter))?;
+    let finished = run(plan, gpu, std::env::args().collect())?;
+    let whole = match earlier {
+        None => finished.clone(),
+        Some(earlier) => {
+            print_note(&kept_text(&earlier));
+            earlier.add_to(&finished)
+        }
+    };
+    Ok(MeasuredRun {
+        run: finished,
+        whole,
+        claim,
+    })
+}
+
+/// `run.json keeps 24 cases of an earlier run; --no-cache would drop them`
+fn kept_text(earlier: &EarlierCases) -> String {
+    let mut text = format!(
+        "run.json keeps {} cases of an earlier run beside those of this one; --no-cache would drop them",
+        earlier.count()
+    );
+    if earlier.outdated > 0 {
+        text += &format!(
+            "; {} others were dropped, since their scenes have changed",
+            earlier.outdated
+        );
+    }
+    text
+}
