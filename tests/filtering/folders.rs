@@ -387,7 +387,7 @@ fn a_wrong_folder_says_where_and_what() {
         ("kernels", "    spacing: u32,", "    spacing: u32,\n    more: f32,", &["\"more\"", "does not declare"]),
         ("filter.toml", "[[preset]]", "[[parameter]]\nname = \"bias\"\nkind = \"real\"\ndefault = 0\nrange = [0, 1]\ndoc = \"\"\n[[preset]]", &["filter.toml:27", "\"bias\" is not a member", "centre_blur.wgsl", "`bias: f32,`"]),
         ("kernels", "var color:", "var colour:", &["centre_blur.wgsl:", "color"]),
-        ("kernels", "var velocity: texture_2d<f32>;", "var velocity: texture_2d<f32>;\n@group(0) @binding(9) var normals: texture_2d<f32>;", &["centre_blur.wgsl:10:", "\"normals\" is declared by no one", "tile_motion"]),
+        ("kernels", "var velocity: texture_2d<f32>;", "var velocity: texture_2d<f32>;\n@group(0) @binding(9) var normals: texture_2d<f32>;", &["centre_blur.wgsl:10:", "\"normals\" is unknown", "tile_motion"]),
         ("kernels", "@group(0) @binding(2)", "@group(1) @binding(2)", &["centre_blur.wgsl:8:", "only @group(0)"]),
         ("kernels", "var color: texture_2d<f32>", "var color: texture_depth_2d", &["centre_blur.wgsl"]),
         ("kernels", "let tile = vec2<i32>(id.xy);", "let tile = vec2<i32>(id.xy)", &["centre_blur.wgsl:", "expected `;`"]),

@@ -169,7 +169,7 @@ impl Check<'_> {
         let textures = &self.filter.textures;
         let names: Vec<&str> = textures.iter().map(|texture| &texture.name[..]).collect();
         format!(
-            "is declared by no one; uniforms: parameters, frame; read: color, velocity, depth or a [[texture]] by its \
+            "is unknown; uniforms: parameters, frame; read: color, velocity, depth or a [[texture]] by its \
              name; written: output or a [[texture]] as <name>_out; textures of {}: {}",
             self.lines.path.display(),
             if names.is_empty() {

@@ -1,8 +1,9 @@
 //! The command `catalogue`.
 
 use report::catalogue;
-use suite::{Error, open_gpu, printable_path, refuse_failures, run};
+use suite::{Error, estimate_run, open_gpu, printable_path, refuse_failures, run};
 
+use super::expected::print_expected;
 use super::plan::{claim_out, make_plan};
 use crate::arguments::CatalogueArgs;
 use crate::output::print::print;
@@ -21,6 +22,7 @@ pub fn execute(args: &CatalogueArgs) -> Result<(), Error> {
     let (plan, _) = make_plan(&measure, measure.scenes.out.clone())?;
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref(), plan.monitor)?;
     let _claim = claim_out(&plan)?;
+    print_expected(&estimate_run(&plan, gpu.as_ref()), &plan.out);
     let finished = run(&plan, gpu.as_ref(), std::env::args().collect())?;
     let page = plan.out.join("catalogue.md");
     frame::write_atomically(&page, catalogue(&finished).as_bytes())?;

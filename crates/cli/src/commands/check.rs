@@ -1,16 +1,16 @@
 //! The command `check`.
 
-use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use frame::FileError;
 use suite::{
-    BOUNDS_FILE, Baseline, Error, Finding, Judgement, Margin, Run, RunBounds, add_evidence,
-    bounded_size, check, check_bounded, check_names, compare, judge, open_gpu, read_bounds,
-    read_bounds_file, refuse_tracked,
+    BOUNDS_FILE, Baseline, Error, Finding, Judgement, Run, RunBounds, add_evidence, bounded_size,
+    check, check_bounded, check_names, compare, judge, open_gpu, read_bounds, refuse_tracked,
 };
 
+use super::ending::Ending;
+use super::margins::read_margins;
 use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, write_run_page};
 use super::plan::{check_replicates_for_intervals, make_plan};
@@ -25,7 +25,7 @@ use crate::tables::check::{check_text, verdict_text};
 
 /// Judges a run, made now or finished before, and reports in every form that is asked for. Refuses wrong arguments, bounds and
 /// baselines before anything is rendered.
-pub fn execute(args: &CheckArgs) -> Result<(), Error> {
+pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
     let baseline = args.baseline.as_deref().map(Baseline::read).transpose()?;
     let margins = read_margins(&args.measure.scenes.scenes_dir)?;
     let summary_file = args.github.then(find_summary_file).transpose()?;
@@ -69,7 +69,12 @@ pub fn execute(args: &CheckArgs) -> Result<(), Error> {
     if args.github {
         print(&annotations(&checked))?;
     }
-    checked.verdict()
+    match checked.verdict() {
+        Ok(()) => Ok(Ending::Done),
+        // Nothing but the exit code and standard error tells it beside JSON.
+        Err(error) if args.json => Err(error),
+        Err(error) => Ok(Ending::Failed(error)),
+    }
 }
 
 /// A run, the findings about it, its pages, and the folder of its files.
@@ -181,15 +186,6 @@ fn read_run_bounds(run: &Run, root: &Path) -> Result<RunBounds, Error> {
         found.insert(case.scene.clone(), bounds);
     }
     Ok(found)
-}
-
-/// Reads the margins by which scores may be worse than the baseline's.
-fn read_margins(root: &Path) -> Result<BTreeMap<String, Margin>, Error> {
-    let path = root.join(BOUNDS_FILE);
-    match path.exists() {
-        true => Ok(read_bounds_file(&path)?.margins),
-        false => Ok(BTreeMap::new()),
-    }
 }
 
 fn find_summary_file() -> Result<PathBuf, Error> {

@@ -1,7 +1,9 @@
 //! A run that is measured now, beside the cases of an earlier run in the same folder.
 
 use filters::Gpu;
-use suite::{Claim, EarlierCases, Error, Plan, Run, run};
+use suite::{Claim, EarlierCases, Error, Plan, Run, estimate_run, run};
+
+use super::expected::print_expected;
 
 use super::plan::claim_out;
 use crate::output::print::print_note;
@@ -20,6 +22,7 @@ pub struct MeasuredRun {
 pub fn measure(plan: &mut Plan, gpu: Option<&Gpu>) -> Result<MeasuredRun, Error> {
     let claim = claim_out(plan)?;
     let earlier = EarlierCases::find(plan, gpu.map(|gpu| &gpu.adapter))?;
+    print_expected(&estimate_run(plan, gpu), &plan.out);
     let finished = run(plan, gpu, std::env::args().collect())?;
     let whole = match earlier {
         None => finished.clone(),

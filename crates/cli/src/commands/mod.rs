@@ -9,9 +9,12 @@ mod catalogue;
 mod check;
 mod compare;
 mod compare_presets;
+mod ending;
 mod evaluate;
+mod expected;
 mod import;
 mod list;
+mod margins;
 mod measured_run;
 mod merge;
 mod pages;
@@ -31,20 +34,21 @@ mod tune;
 
 use suite::Error;
 
+pub use self::ending::Ending;
 use self::threads::work_on_threads;
 use crate::arguments::{Cli, Command};
 
 /// Executes the command.
-pub fn execute(cli: Cli) -> Result<(), Error> {
+pub fn execute(cli: Cli) -> Result<Ending, Error> {
     if cli.list_adapters {
-        return list::print_adapters();
+        return list::print_adapters().map(|()| Ending::Done);
     }
-    match cli.command {
+    let done = match cli.command {
         Some(Command::Run(args)) => {
             work_on_threads(args.measure.scenes.threads, || run::execute(&args))
         }
         Some(Command::Check(args)) => {
-            work_on_threads(args.measure.scenes.threads, || check::execute(&args))
+            return work_on_threads(args.measure.scenes.threads, || check::execute(&args));
         }
         Some(Command::Accept(args)) => accept::execute(&args),
         Some(Command::Calibrate(args)) => {
@@ -84,5 +88,6 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         None => Err(Error::Usage(
             "no command given; shuttertruth --help lists all commands".to_owned(),
         )),
-    }
+    };
+    done.map(|()| Ending::Done)
 }

@@ -65,8 +65,45 @@ pub fn make_silent_monitor() -> Monitor {
     make_monitor().unseen()
 }
 
+/// Label of the step whose bar follows the steps within it.
+const WHOLE: &str = "scenes in all";
+/// Parts of a step of that bar.
+const PARTS: u64 = 1000;
+
+/// The bar of all scenes, while it is shown.
+static WHOLE_BAR: Mutex<Option<WholeBar>> = Mutex::new(None);
+
+/// A bar that moves with the steps within it, each of which counts as one.
+struct WholeBar {
+    bar: ProgressBar,
+    done: u64,
+    /// Steps within that have ended since.
+    ended: u64,
+}
+
+impl WholeBar {
+    /// Moves the bar to the steps that are done and a part of the one under way. It never moves back.
+    fn advance(&self, part: f64) {
+        let parts = PARTS as f64 * (self.ended as f64 + part.clamp(0.0, 1.0));
+        let position = self.done * PARTS + parts as u64;
+        self.bar.set_position(position.max(self.bar.position()));
+    }
+}
+
+/// Does something to the bar of all scenes, if it is shown.
+fn with_whole_bar(change: impl FnOnce(&mut WholeBar)) {
+    if let Ok(mut whole) = WHOLE_BAR.lock()
+        && let Some(whole) = whole.as_mut()
+    {
+        change(whole);
+    }
+}
+
 /// Progress as a bar on a terminal, beside others.
-struct Bar(ProgressBar);
+struct Bar {
+    bar: ProgressBar,
+    is_whole: bool,
+}
 
 impl Bar {
     fn new(label: &str) -> Self {
@@ -84,21 +121,47 @@ impl Bar {
             );
         bar.set_style(style);
         bar.set_message(printable(label).into_owned());
-        Self(bar)
+        let is_whole = label.ends_with(WHOLE);
+        if is_whole && let Ok(mut whole) = WHOLE_BAR.lock() {
+            *whole = Some(WholeBar {
+                bar: bar.clone(),
+                done: 0,
+                ended: 0,
+            });
+        }
+        Self { bar, is_whole }
     }
 }
 
 impl Step for Bar {
     fn advance(&self, progress: Progress) {
-        self.0.set_length(progress.total);
-        self.0.set_position(progress.done);
+        let Progress { done, total } = progress;
+        if self.is_whole {
+            self.bar.set_length(total * PARTS);
+            with_whole_bar(|whole| {
+                (whole.done, whole.ended) = (done, 0);
+                whole.advance(0.0);
+            });
+        } else {
+            self.bar.set_length(total);
+            self.bar.set_position(done);
+            with_whole_bar(|whole| whole.advance(done as f64 / total.max(1) as f64));
+        }
     }
 }
 
 impl Drop for Bar {
     fn drop(&mut self) {
-        self.0.finish_and_clear();
-        BARS.remove(&self.0);
+        match self.is_whole {
+            true => {
+                if let Ok(mut whole) = WHOLE_BAR.lock() {
+                    *whole = None;
+                }
+            }
+            false => with_whole_bar(|whole| whole.ended += 1),
+        }
+        self.bar.finish_and_clear();
+        BARS.remove(&self.bar);
     }
 }
 

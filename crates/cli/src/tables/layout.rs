@@ -3,8 +3,8 @@
 use crate::output::colors::{heading, width};
 use crate::output::wrap::terminal_columns;
 
-/// Columns between two cells.
-const GAP: usize = 2;
+/// Columns between two cells: the more that fit.
+const GAPS: [usize; 2] = [2, 1];
 /// Indent of a row, below the headings.
 const INDENT: usize = 2;
 
@@ -76,19 +76,28 @@ impl Table {
         let widths: Vec<usize> = (0..self.columns.len())
             .map(|column| self.width_of(column))
             .collect();
-        let others: usize = widths[1..].iter().map(|width| width + GAP).sum();
-        // At least the titles' own width, so that rows stand below them.
-        let name = widths[0].min(columns.saturating_sub(INDENT + others));
+        let room = |gap: usize| {
+            let others: usize = widths[1..].iter().map(|width| width + gap).sum();
+            columns.saturating_sub(INDENT + others)
+        };
+        let gap = if room(GAPS[0]) >= widths[0] {
+            GAPS[0]
+        } else {
+            GAPS[1]
+        };
+        let name = widths[0].min(room(gap));
+        let row_text =
+            |cells: &[String], name, indent| self.row_text(cells, (name, indent, gap), &widths);
         let mut text = String::new();
         for line in &self.lines {
             match line {
                 TableLine::Text(line) => text += line,
                 TableLine::Titles(titles) => {
-                    let line = self.row_text(titles, INDENT + name, &widths, 0);
+                    let line = row_text(titles, INDENT + name, 0);
                     text += &heading(&line);
                 }
                 TableLine::Row(cells, style) => {
-                    text += &style(&self.row_text(cells, name, &widths, INDENT));
+                    text += &style(&row_text(cells, name, INDENT));
                 }
             }
             text += "\n";
@@ -108,7 +117,13 @@ impl Table {
         cells.max().unwrap_or(0)
     }
 
-    fn row_text(&self, cells: &[String], name: usize, widths: &[usize], indent: usize) -> String {
+    /// Lays out cells: the first in a width of its own behind an indent, the others behind gaps.
+    fn row_text(
+        &self,
+        cells: &[String],
+        (name, indent, gap): (usize, usize, usize),
+        widths: &[usize],
+    ) -> String {
         let mut text = " ".repeat(indent) + &cells[0];
         let own = width(&cells[0]);
         match own <= name {
@@ -117,7 +132,7 @@ impl Table {
         }
         for (column, cell) in cells.iter().enumerate().skip(1) {
             let space = " ".repeat(widths[column].saturating_sub(width(cell)));
-            text += &" ".repeat(GAP);
+            text += &" ".repeat(gap);
             match self.columns[column] {
                 Align::Left => text += &(cell.clone() + &space),
                 Align::Right => text += &(space + cell),

@@ -65,10 +65,11 @@ fn summary(compared: &Compared) -> String {
             .count()
     };
     format!(
-        "{} scores of cases that both runs have: {} better and {} worse by more than noise, {} within noise, {} the same.",
+        "{} scores of cases that both runs have: {} better and {} worse, {} below the margins, {} within noise, {} the same.",
         compared.changes.len(),
         count(ChangeKind::Better),
         count(ChangeKind::Worse),
+        count(ChangeKind::BelowMargin),
         count(ChangeKind::WithinNoise),
         count(ChangeKind::Same)
     )
@@ -178,7 +179,7 @@ fn mean_verdict(kind: MeanKind) -> Markup {
         MeanKind::Better => ("text better", "▼ "),
         MeanKind::Worse => ("text worse", "▲ "),
         MeanKind::Same => ("text", "= "),
-        MeanKind::Undecided | MeanKind::TooFewScenes => ("text", "≈ "),
+        MeanKind::BelowMargin | MeanKind::Undecided | MeanKind::TooFewScenes => ("text", "≈ "),
     };
     html! { td class=(class) { (sign) (kind.words()) } }
 }
@@ -258,7 +259,7 @@ fn change_row(change: &Change, named: bool) -> Markup {
     let (class, sign) = match change.kind {
         ChangeKind::Better => ("text better", "▼ "),
         ChangeKind::Worse => ("text worse", "▲ "),
-        ChangeKind::WithinNoise => ("text", "≈ "),
+        ChangeKind::WithinNoise | ChangeKind::BelowMargin => ("text", "≈ "),
         ChangeKind::Same => ("text", "= "),
     };
     html! {

@@ -30,6 +30,13 @@ pub struct BenchPlan {
     pub as_written: bool,
 }
 
+impl BenchPlan {
+    /// Counts the runs of filters: in every round each of them once among the others, and once at each reach.
+    pub fn count_runs(&self) -> u64 {
+        u64::from(self.rounds + 1) * self.filters.len() as u64 * (1 + REACHES.len() as u64)
+    }
+}
+
 /// Every dispatch of one run of a filter.
 type Times = Vec<PassTime>;
 

@@ -1,6 +1,7 @@
 //! Two finished runs of the same cases: what changed, and whether it is more than noise.
 
 mod change;
+mod margin;
 mod mean;
 mod noise;
 mod pairing;

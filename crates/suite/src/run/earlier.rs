@@ -45,7 +45,7 @@ impl EarlierCases {
         let is_left_out =
             |scene: &str, name: &str| !planned.contains(&(scene.to_owned(), name.to_owned()));
         let left_out = (run.cases.iter())
-            .filter(|case| !case.bar && is_left_out(&case.scene, &case.name()))
+            .filter(|case| !case.bar && is_left_out(&case.scene, &case.preset_name()))
             .count();
         if left_out == 0 {
             return Ok(None);
@@ -103,13 +103,13 @@ impl EarlierCases {
     }
 }
 
-/// Identity of a case within a run.
+/// Identity of a case in a folder of runs, whatever values `--set` gave to its parameters: a run with other values replaces it.
 type Key = (String, String, String, bool);
 
 fn key(case: &Case) -> Key {
     (
         case.scene.clone(),
-        case.name(),
+        case.preset_name(),
         case.alignment.clone(),
         case.bar,
     )
@@ -128,7 +128,7 @@ fn planned_keys(plan: &Plan) -> HashSet<Key> {
             let alignment = subject.alignment.name().to_owned();
             (
                 scene.name.clone(),
-                subject.name(),
+                subject.preset_name(),
                 alignment,
                 subject.is_bar(),
             )

@@ -50,6 +50,14 @@ pub(crate) fn recall<T: Serialize + DeserializeOwned>(record: &Path, inputs: &st
     kept.altered(record).is_empty().then_some(kept.made)
 }
 
+/// What was made of such inputs, whether or not its files are still there.
+pub(crate) fn read_record<T: Serialize + DeserializeOwned>(
+    record: &Path,
+    inputs: &str,
+) -> Option<T> {
+    read::<T>(record, inputs).map(|kept| kept.made)
+}
+
 /// Removes the files of such inputs that are not as they were written: what a file says of itself may have outlived its
 /// content.
 pub(crate) fn discard_altered(record: &Path, inputs: &str) {

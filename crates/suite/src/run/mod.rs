@@ -2,6 +2,7 @@
 
 pub mod dilated;
 pub mod earlier;
+pub mod estimate;
 pub mod failure;
 pub mod file;
 pub mod filter_choice;
@@ -133,13 +134,18 @@ impl Plan {
         };
         Alignment::ALL.into_iter().filter(takes_part).collect()
     }
+
+    /// The alignment that every case is compared with.
+    fn common_alignment(&self) -> Alignment {
+        (self.common).unwrap_or_else(|| common_alignment(&self.alignments()))
+    }
 }
 
 /// Renders, filters, measures and writes every case below `plan.out`, but not `run.json` itself; what was measured of the same
 /// inputs before, and lies there still, is read back. `gpu` is what [`open_gpu`](crate::open_gpu) opened for the plan's
 /// filters.
 pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, Error> {
-    let common = (plan.common).unwrap_or_else(|| common_alignment(&plan.alignments()));
+    let common = plan.common_alignment();
     // A single scene's own steps tell everything.
     let monitor = match plan.scenes.len() {
         1 => plan.monitor.unseen(),
@@ -147,7 +153,7 @@ pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, 
     };
     let label = format!("{} scenes in all", plan.scenes.len());
     let (cases, failures, read_back) =
-        monitor.watch(&label, |watch| all_cases(plan, gpu, common, watch))?;
+        monitor.watch(&label, |watch| all_cases(plan, gpu, watch))?;
     Ok(Run {
         format: FORMAT,
         program: PROGRAM.to_owned(),
@@ -170,35 +176,25 @@ pub fn run(plan: &Plan, gpu: Option<&Gpu>, command: Vec<String>) -> Result<Run, 
     })
 }
 
-/// Scene after scene.
+/// Measures scene after scene; counts the cases that were read back.
 fn all_cases(
     plan: &Plan,
     gpu: Option<&Gpu>,
-    common: Alignment,
     watch: Watch,
 ) -> Result<(Vec<Case>, Vec<Failure>, usize), Error> {
-    let program = hash_of_program();
-    let filters: Vec<FilterChoice> = (plan.filters.iter())
-        .map(|choice| choice.scaled_to(plan.render.width))
-        .collect();
+    let filters = scale_filters(plan);
     let (mut cases, mut failures, mut read_back) = (Vec::new(), Vec::new(), 0);
-    for (done, scene) in plan.scenes.iter().enumerate() {
-        // A scene that is interrupted says so itself.
-        let _ = watch(Progress {
-            done: done as u64,
-            total: plan.scenes.len() as u64,
-        });
-        let inputs = (program.as_ref())
-            .map(|program| SceneInputs::new(program, scene, &plan.render, plan.alignments()));
-        let scene_run = SceneRun {
-            plan,
-            filters: &filters,
-            gpu,
-            scene,
-            common,
-            inputs,
+    for (scene, scene_run) in (0..).zip(scene_runs(plan, &filters, gpu)) {
+        let steps = scene_run.steps();
+        let advance = |done: u64| {
+            // A scene that is interrupted says so itself.
+            let _ = watch(Progress {
+                done: scene * steps + done.min(steps),
+                total: plan.scenes.len() as u64 * steps,
+            });
         };
-        let (all, kept) = scene_run.cases()?;
+        advance(0);
+        let (all, kept) = scene_run.cases(&advance)?;
         read_back += kept;
         for case in all {
             match case {
@@ -208,6 +204,33 @@ fn all_cases(
         }
     }
     Ok((cases, failures, read_back))
+}
+
+/// Scales the filters of a plan to its pictures.
+fn scale_filters(plan: &Plan) -> Vec<FilterChoice> {
+    let width = plan.render.width;
+    (plan.filters.iter())
+        .map(|choice| choice.scaled_to(width))
+        .collect()
+}
+
+/// Makes the runs of all scenes of a plan, ready to begin.
+fn scene_runs<'a>(
+    plan: &'a Plan,
+    filters: &'a [FilterChoice],
+    gpu: Option<&'a Gpu>,
+) -> Vec<SceneRun<'a>> {
+    let program = hash_of_program();
+    let scene_run = |scene: &'a Scene| SceneRun {
+        plan,
+        filters,
+        gpu,
+        scene,
+        common: plan.common_alignment(),
+        inputs: (program.as_ref())
+            .map(|program| SceneInputs::new(program, scene, &plan.render, plan.alignments())),
+    };
+    plan.scenes.iter().map(scene_run).collect()
 }
 
 /// Of the alignments that take part, the one that all are compared with; no truth is rendered for it alone.

@@ -18,7 +18,7 @@ use crate::render::scatter_oracle::oracle_of;
 use crate::run::failure::Failure;
 use crate::run::filter_choice::FilterChoice;
 use crate::run::inputs::SceneInputs;
-use crate::run::kept::{discard_altered, keep, recall};
+use crate::run::kept::{discard_altered, keep, read_record, recall};
 use crate::run::pictures::{write_frame, write_truth};
 use crate::run::subject::Subject;
 use crate::run::workbench::Workbench;
@@ -38,6 +38,9 @@ pub(crate) struct SceneRun<'a> {
     pub inputs: Option<SceneInputs>,
 }
 
+/// Steps that progress shows for measuring the cases of a scene.
+const MEASURING_STEPS: u64 = 12;
+
 /// Beside a case's pictures.
 pub(crate) const CASE_RECORD: &str = "case.json";
 
@@ -46,7 +49,10 @@ type Truths = BTreeMap<Alignment, (Truth, Ladder)>;
 impl SceneRun<'_> {
     /// Per alignment the bars, then one case per filter preset and form of the input; a failure where one made no picture that
     /// can be measured. Then the number of cases that were read back.
-    pub fn cases(&self) -> Result<(Vec<Result<Case, Failure>>, usize), Error> {
+    pub fn cases(
+        &self,
+        advance: &dyn Fn(u64),
+    ) -> Result<(Vec<Result<Case, Failure>>, usize), Error> {
         if self.plan.no_cache {
             forget(&scene_folder(&self.plan.out, self.scene))?;
         }
@@ -58,14 +64,13 @@ impl SceneRun<'_> {
         }
         frame_settings(self.scene, &self.plan.render).check(self.scene)?;
         check_measuring_memory(self.scene, &self.plan.render)?;
-        let (frame, truths) = self.render()?;
+        let (frame, truths) = self.render(advance)?;
         let due = (subjects.iter().zip(&kept)).filter(|(_, kept)| kept.is_none());
         let due: Vec<&Subject> = due.map(|(subject, _)| subject).collect();
         let label = format!("{} blurs and scores", self.scene.name);
-        let made = self
-            .plan
-            .monitor
-            .watch(&label, |watch| self.measured(&due, &frame, &truths, watch))?;
+        let made = self.plan.monitor.watch(&label, |watch| {
+            self.measured(&due, &frame, &truths, advance, watch)
+        })?;
         let mut made = made.into_iter();
         let cases = kept.into_iter().map(|kept| match kept {
             Some(case) => Ok(case),
@@ -80,6 +85,7 @@ impl SceneRun<'_> {
         due: &[&Subject],
         frame: &Frame,
         truths: &Truths,
+        advance: &dyn Fn(u64),
         watch: Watch,
     ) -> Result<Vec<Result<Case, Failure>>, Error> {
         if due.is_empty() {
@@ -128,6 +134,7 @@ impl SceneRun<'_> {
             if watch(progress).is_break() {
                 return Err(tracer::TraceError::Cancelled.into());
             }
+            advance(self.render_steps() + MEASURING_STEPS * done as u64 / due.len() as u64);
             let alignment = subject.alignment;
             let (truth, ladder) = &truths[&alignment];
             let workbench = Workbench {
@@ -157,7 +164,7 @@ impl SceneRun<'_> {
     }
 
     /// The scene's frame and one truth per alignment that a filter of the plan declares, with their pictures.
-    fn render(&self) -> Result<(Frame, Truths), Error> {
+    fn render(&self, advance: &dyn Fn(u64)) -> Result<(Frame, Truths), Error> {
         let Plan {
             render,
             out,
@@ -171,7 +178,8 @@ impl SceneRun<'_> {
         let frame = frame_of(self.scene, render, out, *monitor)?;
         let mut files = vec![write_frame(&folder, self.scene, &frame)?];
         let mut truths = Truths::new();
-        for alignment in self.plan.alignments() {
+        for (alignment, done) in self.plan.alignments().into_iter().zip(0..) {
+            advance(1 + done * self.truth_steps());
             let made = truth_and_ladder_of(self.scene, render, alignment, out, *monitor)?;
             files.push(write_truth(&folder, self.scene, &made.0)?);
             truths.insert(alignment, made);
@@ -180,6 +188,50 @@ impl SceneRun<'_> {
             keep(&record, inputs, &files, &())?;
         }
         Ok((frame, truths))
+    }
+
+    /// Counts the steps of the whole scene, as progress shows them: those of rendering, each of which is watched, and those of
+    /// measuring.
+    pub fn steps(&self) -> u64 {
+        self.render_steps() + MEASURING_STEPS
+    }
+
+    /// Counts a frame and the truths.
+    fn render_steps(&self) -> u64 {
+        1 + self.plan.alignments().len() as u64 * self.truth_steps()
+    }
+
+    /// Counts the replicates of a truth, and its ladder.
+    fn truth_steps(&self) -> u64 {
+        u64::from(self.plan.render.replicates) + 1
+    }
+
+    /// Tells whether a case was measured before, without looking at its pictures.
+    pub fn has_record(&self, subject: &Subject) -> bool {
+        let Some(inputs) = self.inputs_of(subject) else {
+            return false;
+        };
+        let case = read_record::<Case>(&self.record(subject), &inputs);
+        case.is_some_and(|case| self.is_whole(&case))
+    }
+
+    /// Tells whether the frame is missing, and counts missing truths, without looking at their pictures.
+    pub fn count_missing(&self) -> (bool, usize) {
+        let records = self.records();
+        let missing =
+            |(record, inputs): &(PathBuf, String)| read_record::<()>(record, inputs).is_none();
+        match records.split_first() {
+            None => (true, self.plan.alignments().len()),
+            Some((frame, truths)) => (
+                missing(frame),
+                truths.iter().filter(|truth| missing(truth)).count(),
+            ),
+        }
+    }
+
+    /// Tells whether a kept case has the intervals that the plan asks for.
+    fn is_whole(&self, case: &Case) -> bool {
+        case.bar || !self.plan.intervals || !case.intervals.is_empty()
     }
 
     /// Per alignment that filters are judged by, the truths that all replicates but a pair each make.
@@ -207,8 +259,7 @@ impl SceneRun<'_> {
         if !self.plan.intervals {
             case.intervals.clear();
         }
-        let is_whole = case.bar || !self.plan.intervals || !case.intervals.is_empty();
-        is_whole.then_some(case)
+        self.is_whole(&case).then_some(case)
     }
 
     fn inputs_of(&self, subject: &Subject) -> Option<String> {

@@ -81,13 +81,24 @@ impl<'a> Subject<'a> {
 
     /// How messages call it: `jump_flood:paper`, and behind that what is not as usual.
     pub fn name(&self) -> String {
+        let overrides = match self.maker {
+            Maker::Filter(choice, _) => choice.overrides_text(),
+            _ => String::new(),
+        };
+        self.name_with(&overrides)
+    }
+
+    /// The same without its overrides.
+    pub fn preset_name(&self) -> String {
+        self.name_with("")
+    }
+
+    fn name_with(&self, overrides: &str) -> String {
         let mut name = match self.preset().as_str() {
             "" => self.filter().to_owned(),
             preset => format!("{}:{preset}", self.filter()),
         };
-        if let Maker::Filter(choice, _) = self.maker {
-            name += &choice.overrides_text();
-        }
+        name += overrides;
         name.extend(self.input().change().map(|change| format!(" {change}")));
         name
     }
