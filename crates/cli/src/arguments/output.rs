@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 #[command(next_help_heading = "Output")]
 pub struct OutputArgs {
     /// Show no progress.
-    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    #[arg(short, long, global = true)]
     pub quiet: bool,
     /// Show more: targets that are missed, and messages of the graphics driver.
     #[arg(short, long, global = true)]

@@ -42,6 +42,8 @@ pub struct TuneArgs {
     #[arg(long, value_name = "N", default_value_t = 256)]
     pub sealed_samples_per_pixel: u32,
     #[arg(long, hide = true, num_args = 0..=1, value_parser = refuse_sobol)]
+    morris: Option<String>,
+    #[arg(long, hide = true, num_args = 0..=1, value_parser = refuse_sobol)]
     sobol: Option<String>,
     #[arg(long, hide = true, num_args = 0..=1, value_parser = refuse_compare)]
     compare: Option<String>,

@@ -19,7 +19,7 @@ use crate::arguments::CheckArgs;
 use crate::output::annotations::{annotations, summary};
 use crate::output::junit::junit;
 use crate::output::print::{print, print_json};
-use crate::output::verbosity::{Verbosity, verbosity};
+use crate::output::verbosity::is_verbose;
 use crate::tables::adapter::adapter_text;
 use crate::tables::check::{check_text, verdict_text};
 
@@ -53,7 +53,7 @@ pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
     if args.json {
         print_json(&checked)?;
     } else {
-        let text = check_text(&checked, &folder, verbosity() == Verbosity::Verbose);
+        let text = check_text(&checked, &folder, is_verbose());
         let adapter = adapter_text(&run.adapter);
         let pages: String = pages.iter().map(|page| page.line("report")).collect();
         let other = (baseline.iter()).find(|baseline| !baseline.is_of_class(&run.adapter));

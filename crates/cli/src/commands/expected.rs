@@ -6,7 +6,7 @@ use std::time::Duration;
 use suite::{RunEstimate, printable_path};
 
 use crate::output::print::print_error;
-use crate::output::verbosity::{Verbosity, verbosity};
+use crate::output::verbosity::is_quiet;
 
 /// Time from which work is announced, in seconds.
 const LONG: f64 = 5.0;
@@ -28,7 +28,7 @@ pub fn print_expected(estimate: &RunEstimate, out: &Path) {
 
 /// Prints the expected time of work, with more about it, if it takes long.
 pub fn print_expected_time(seconds: f64, more: &str) {
-    if seconds < LONG || verbosity() == Verbosity::Quiet {
+    if seconds < LONG || is_quiet() {
         return;
     }
     let cores = rayon::current_num_threads();

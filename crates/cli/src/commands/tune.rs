@@ -15,7 +15,7 @@ use super::result::CommandResult;
 use crate::arguments::TuneArgs;
 use crate::output::print::print_error;
 use crate::output::progress::make_monitor;
-use crate::output::verbosity::{Verbosity, verbosity};
+use crate::output::verbosity::is_quiet;
 use crate::tables::tuning::tuning_table;
 
 /// Tunes, writes `journal.jsonl`, `tune.json` and the choice's values, prints the table.
@@ -37,7 +37,7 @@ pub fn execute(args: &TuneArgs) -> Result<(), Error> {
             });
         })
     })?;
-    if verbosity() != Verbosity::Quiet {
+    if !is_quiet() {
         let seconds = began.elapsed().as_secs_f64();
         print_error(&format!("{} trials in {seconds:.1} s", tuning.trials));
     }

@@ -12,7 +12,7 @@ use tracer::Progress;
 use suite::{Monitor, Step, printable};
 
 use super::print::print_error;
-use super::verbosity::{Verbosity, verbosity};
+use super::verbosity::is_quiet;
 
 /// Time between two lines of a log, where no terminal shows a bar.
 const BETWEEN_LINES: Duration = Duration::from_secs(30);
@@ -48,10 +48,7 @@ pub fn was_interrupted() -> bool {
 /// Makes the monitor of a command: a bar on a terminal, lines in a log, nothing with --quiet. It ends work after Ctrl-C.
 pub fn make_monitor() -> Monitor {
     Monitor {
-        begin: match (
-            verbosity() == Verbosity::Quiet,
-            std::io::stderr().is_terminal(),
-        ) {
+        begin: match (is_quiet(), std::io::stderr().is_terminal()) {
             (true, _) => Monitor::SILENT.begin,
             (false, true) => |label| Box::new(Bar::new(label)),
             (false, false) => |label| Box::new(Lines::new(label, Instant::now())),
@@ -218,6 +215,35 @@ impl Lines {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_bar_of_all_scenes_moves_with_the_steps_within_and_never_back() {
+        let mut whole = WholeBar {
+            bar: ProgressBar::hidden(),
+            done: 3,
+            ended: 0,
+        };
+        whole.bar.set_length(10 * PARTS);
+        let mut last = 0;
+        for (ended, part) in [(0, 0.0), (0, 0.25), (0, 1.0), (1, 0.5), (2, 0.1)] {
+            whole.ended = ended;
+            whole.advance(part);
+            let position = whole.bar.position();
+            assert_eq!(
+                position,
+                3 * PARTS + (PARTS as f64 * (ended as f64 + part)) as u64
+            );
+            assert!(position >= last);
+            last = position;
+        }
+        (whole.done, whole.ended) = (4, 0);
+        whole.advance(0.0);
+        assert_eq!(
+            whole.bar.position(),
+            last,
+            "a step that took longer does not move it back"
+        );
+    }
 
     #[test]
     fn lines_come_at_long_intervals_and_tell_the_remaining_time() {

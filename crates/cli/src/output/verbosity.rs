@@ -6,27 +6,11 @@ use anstream::ColorChoice;
 
 use crate::arguments::{Color, OutputArgs};
 
-/// Amount of output.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verbosity {
-    /// Results alone, without progress.
-    Quiet,
-    /// Results and progress.
-    Usual,
-    /// More details than usual.
-    Verbose,
-}
-
-static VERBOSITY: OnceLock<Verbosity> = OnceLock::new();
+static OUTPUT: OnceLock<OutputArgs> = OnceLock::new();
 
 /// Sets the amount and the colours of output.
 pub fn set_output(args: OutputArgs) {
-    let verbosity = match (args.quiet, args.verbose) {
-        (true, _) => Verbosity::Quiet,
-        (false, true) => Verbosity::Verbose,
-        (false, false) => Verbosity::Usual,
-    };
-    let _ = VERBOSITY.set(verbosity);
+    let _ = OUTPUT.set(args);
     match args.color {
         Color::Auto => ColorChoice::Auto,
         Color::Always => ColorChoice::AlwaysAnsi,
@@ -35,7 +19,12 @@ pub fn set_output(args: OutputArgs) {
     .write_global();
 }
 
-/// Looks up the amount of output; the usual one where none was set.
-pub fn verbosity() -> Verbosity {
-    VERBOSITY.get().copied().unwrap_or(Verbosity::Usual)
+/// Tells whether progress is not to be shown.
+pub fn is_quiet() -> bool {
+    OUTPUT.get().is_some_and(|output| output.quiet)
+}
+
+/// Tells whether more is to be shown than usual.
+pub fn is_verbose() -> bool {
+    OUTPUT.get().is_some_and(|output| output.verbose)
 }

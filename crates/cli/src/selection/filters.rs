@@ -73,7 +73,7 @@ pub fn load_filters(name: &str) -> Result<Vec<Filter>, Error> {
                 .collect::<Result<_, _>>()?);
         }
     }
-    if Path::new(name).join("filter.toml").is_file() {
+    if Path::new(name).is_dir() {
         return Ok(vec![Filter::load(&Path::new(".").join(name))?]);
     }
     Err(Error::Usage(format!(

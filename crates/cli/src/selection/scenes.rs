@@ -65,7 +65,7 @@ fn find_folders(root: &Path, name: &str, known: &[String]) -> Result<Vec<PathBuf
             return Ok(matched.iter().map(below_root).collect());
         }
     }
-    if Path::new(name).join("scene.toml").is_file() {
+    if Path::new(name).is_dir() {
         return Ok(vec![PathBuf::from(name)]);
     }
     Err(Error::Usage(format!(

@@ -35,3 +35,63 @@ impl Compared {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compare::change::{Basis, Change};
+    use crate::{COMPARE_FORMAT, PROGRAM};
+
+    fn change(metric: &str, worse: f64, kind: ChangeKind) -> Change {
+        Change {
+            scene: "fan".to_owned(),
+            filter: "one:paper".to_owned(),
+            bar: false,
+            metric: metric.to_owned(),
+            first: 30.0,
+            second: 30.0 + worse,
+            worse,
+            weight: 1.0,
+            interval: None,
+            standard_error: None,
+            basis: Basis::Floor,
+            kind,
+        }
+    }
+
+    #[test]
+    fn a_change_counts_from_its_margin_on() {
+        let psnr = Headline::PSNR.name();
+        let changes = vec![
+            change(&psnr, -4e-7, ChangeKind::Better),
+            change(&psnr, -0.2, ChangeKind::Better),
+            change("flip_moving", 0.004, ChangeKind::Worse),
+            change("flip_moving", 0.006, ChangeKind::Worse),
+            change("flip_moving", 0.001, ChangeKind::WithinNoise),
+        ];
+        let margin = Margin {
+            width: 0.005,
+            place: "bounds.toml:3".to_owned(),
+        };
+        let mut compared = Compared {
+            format: COMPARE_FORMAT,
+            program: PROGRAM,
+            runs: ["a".to_owned(), "b".to_owned()],
+            settings: Vec::new(),
+            only_in_first: Vec::new(),
+            only_in_second: Vec::new(),
+            means: super::super::mean::means(&changes),
+            changes,
+        };
+        compared.apply_margins(&BTreeMap::from([("flip_moving".to_owned(), margin)]));
+        let kinds: Vec<ChangeKind> = compared.changes.iter().map(|change| change.kind).collect();
+        let expected = [
+            ChangeKind::BelowMargin,
+            ChangeKind::Better,
+            ChangeKind::BelowMargin,
+            ChangeKind::Worse,
+            ChangeKind::WithinNoise,
+        ];
+        assert_eq!(kinds, expected);
+    }
+}
