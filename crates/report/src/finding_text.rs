@@ -1,5 +1,6 @@
 //! A finding in words: its status, its score and the way out.
 
+use metrics::Interval;
 use suite::{Finding, Level, MOST_SAMPLES, Outcome, number};
 
 /// Status of a score against its bound, told by colour, sign and word: never by the colour alone.
@@ -34,9 +35,9 @@ pub fn finding_line(finding: &Finding) -> String {
 pub fn finding_status(finding: &Finding) -> &'static str {
     match (finding.outcome, finding.level) {
         (Outcome::Broken, Level::Required) => "BROKEN",
-        (Outcome::Broken, Level::Report) => "broken (report)",
-        (Outcome::Inconclusive, Level::Required) => "INCONCLUSIVE",
-        (Outcome::Inconclusive, Level::Report) => "inconclusive (report)",
+        (Outcome::Broken, Level::Report) => "target missed",
+        (Outcome::Inconclusive, Level::Required) => "UNDECIDED",
+        (Outcome::Inconclusive, Level::Report) => "target undecided",
         (Outcome::TooNoisy, _) => "TOO STRICT",
         (Outcome::Kept, _) => "kept",
         (Outcome::NotApplicable, _) => "not applicable",
@@ -46,12 +47,19 @@ pub fn finding_status(finding: &Finding) -> &'static str {
 /// Writes the score beside its limit: `flip_moving 0.0921 (95 % CI 0.0893 to 0.0950); limit 0.0500, floor 0.0021`.
 pub fn finding_score(finding: &Finding) -> String {
     let mut text = finding.metric.clone();
-    if let Some(value) = finding.value {
-        text += &format!(" {}", finding.with_unit(value));
-    }
-    if let Some(interval) = &finding.interval {
-        let [low, high] = [interval.low, interval.high].map(number);
-        text += &format!(" (95 % CI {low} to {high})");
+    match (finding.value, &finding.interval) {
+        (Some(value), Some(interval)) => {
+            let Interval { low, high, .. } = *interval;
+            // The truth's noise is taken out of the middle, and is in the score itself.
+            let estimate = finding.with_unit((low + high) / 2.0);
+            text += &format!(" {estimate} (95 % CI {} to {}", number(low), number(high));
+            text += &match (low..=high).contains(&value) {
+                true => ")".to_owned(),
+                false => format!("; with noise {})", number(value)),
+            };
+        }
+        (Some(value), None) => text += &format!(" {}", finding.with_unit(value)),
+        (None, _) => {}
     }
     text += &format!("; limit {}", number(finding.limit));
     if let Some(floor) = finding.floor {
