@@ -228,11 +228,7 @@ fn programs_that_fail_say_how_and_leave_no_picture() {
     for (lines, parts) in rows {
         write_blur(&bench, "mine", lines, "");
         let output = bench.shuttertruth(&blur("./mine"));
-        assert_refused(
-            &output,
-            2,
-            &[&["shuttertruth: filter mine: "][..], parts].concat(),
-        );
+        assert_refused(&output, 2, &[&["error: filter mine: "][..], parts].concat());
         assert!(!bench.path("b.exr").exists(), "{lines}");
         assert!(!stderr(&output).contains("line 2\n"), "ten lines are shown");
     }

@@ -155,8 +155,8 @@ fn json_is_all_that_a_machine_gets() {
     let run = [&run[..], &IDENTITY, &["--html", "page.html"]].concat();
     let check = quick("check", "64");
     let check = [&check[..], &IDENTITY, &["--html", "page.html"]].concat();
-    let tune = "tune --quiet --filter jump_flood --objective flip --size 64x32 --samples-per-pixel 16 --out tuned";
-    let tune: Vec<&str> = tune.split(' ').collect();
+    let candidate = "--quiet --filter jump_flood --objective flip --size 64x32 --samples-per-pixel 16 --out tuned";
+    let candidate: Vec<&str> = candidate.split(' ').collect();
     for (words, key) in [
         (run, "cases"),
         (check, "findings"),
@@ -164,15 +164,25 @@ fn json_is_all_that_a_machine_gets() {
         (vec!["report", "out", "--html", "page.html"], ""),
         (vec!["list"], "scenes"),
         (
-            [&tune[..], &["--vary", "samples", "--budget", "2"]].concat(),
+            [
+                &["tune"],
+                &candidate[..],
+                &["--vary", "samples", "--budget", "2"],
+            ]
+            .concat(),
             "front",
         ),
         (
-            [&tune[..], &["--vary", "samples", "--sobol", "2"]].concat(),
+            [
+                &["sensitivity"],
+                &candidate[..],
+                &["--vary", "samples", "--rows", "2"],
+            ]
+            .concat(),
             "parameters",
         ),
         (
-            [&tune[..], &["--compare", "paper,corrected"]].concat(),
+            [&["compare-presets", "paper", "corrected"], &candidate[..]].concat(),
             "flip",
         ),
     ] {

@@ -54,7 +54,7 @@ fn a_run_says_what_its_frames_were() {
     let words = [
         "--velocity",
         "camera_only",
-        "--color",
+        "--frame-sampling",
         "point",
         "--sky-velocity",
         "off",
@@ -77,7 +77,11 @@ fn a_run_says_what_its_frames_were() {
 fn frames_that_cannot_be_are_refused() {
     let bench = Bench::new();
     for (more, parts) in [
-        (["--color", "sharp"], ["sharp", "antialiased, point"]),
+        (
+            ["--frame-sampling", "sharp"],
+            ["sharp", "antialiased, point"],
+        ),
+        (["--color", "point"], ["--color", "--frame-sampling point"]),
         (["--sky-velocity", "maybe"], ["maybe", "off"]),
         (["--guard-band", "wide"], ["--guard-band", "wide"]),
         (["--guard-band", "99999"], ["200062x200030", "16384"]),

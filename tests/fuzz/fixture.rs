@@ -69,8 +69,8 @@ impl Fixture {
         let candidate = ["--filter", "velocity_gather", "--objective", "flip"];
         let tune = [&candidate[..], &["--out", "tuned", "--budget", "4"]].concat();
         fixture.render("tune", &tune);
-        let study = [&candidate[..], &["--out", "study", "--sobol", "2"]].concat();
-        fixture.render("tune", &study);
+        let study = [&candidate[..], &["--out", "study", "--rows", "2"]].concat();
+        fixture.render("sensitivity", &study);
         fixture
     }
 

@@ -48,6 +48,7 @@ fn guarded_filters_keep_what_is_required_of_them_on_every_scene() {
         out,
         intervals: true,
         no_cache: false,
+        common: None,
         monitor: Monitor::SILENT,
     };
     let finished = measure_scenes(&plan, Some(&gpu), Vec::new()).unwrap();

@@ -62,6 +62,7 @@ fn case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common): Ent
         is_reference: bar,
         input: InputFormat::default(),
         parameters: BTreeMap::new(),
+        overrides: BTreeMap::new(),
         reference_width: None,
         command: None,
         nonlinearity: None,
@@ -96,6 +97,7 @@ fn run() -> Run {
         guard_band: 0,
         common_alignment: "centred".to_owned(),
         overall: overall(&cases),
+        read_back: 0,
         failures: Vec::new(),
         cases,
     }

@@ -3,6 +3,7 @@
 mod arguments;
 mod commands;
 mod output;
+mod quiet_driver;
 mod selection;
 mod tables;
 
@@ -12,26 +13,34 @@ use clap::Parser;
 use filters::FilterError;
 use suite::{Error, printable, printable_lines};
 
+use commands::Ending;
 use output::print::print_error;
 use output::progress::{INTERRUPTED_CODE, catch_interrupts};
+use output::verbosity::set_output;
+use quiet_driver::quiet_driver;
 
 pub use output::annotations::{annotations, summary};
 pub use output::junit::junit;
 pub use selection::{Programs, SceneChoice, select_filters, select_scenes};
 pub use tables::bench::bench_table;
 pub use tables::cases::{run_table, score_table};
-pub use tables::check::check_text;
+pub use tables::check::{check_text, verdict_text};
 pub use tables::comparison::compare_table;
 pub use tables::tuning::{paired_table, tuning_table};
 
 /// Runs the command of the command line and returns its exit code.
 pub fn run_program() -> ExitCode {
+    if !std::env::args_os().any(|argument| argument == "-v" || argument == "--verbose") {
+        quiet_driver();
+    }
     catch_interrupts();
     let arguments = arguments::Cli::try_parse().unwrap_or_else(|error| refuse_arguments(&error));
+    set_output(arguments.output);
     match commands::execute(arguments) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(Ending::Done) => ExitCode::SUCCESS,
+        Ok(Ending::Failed(error)) => ExitCode::from(exit_code(&error)),
         Err(error) => {
-            print_error(&printable_lines(&format!("shuttertruth: {error}")));
+            print_error(&printable_lines(&format!("error: {error}")));
             ExitCode::from(exit_code(&error))
         }
     }

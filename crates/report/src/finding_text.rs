@@ -35,9 +35,9 @@ pub fn finding_line(finding: &Finding) -> String {
 pub fn finding_status(finding: &Finding) -> &'static str {
     match (finding.outcome, finding.level) {
         (Outcome::Broken, Level::Required) => "BROKEN",
-        (Outcome::Broken, Level::Report) => "broken (report)",
-        (Outcome::Inconclusive, Level::Required) => "INCONCLUSIVE",
-        (Outcome::Inconclusive, Level::Report) => "inconclusive (report)",
+        (Outcome::Broken, Level::Report) => "target missed",
+        (Outcome::Inconclusive, Level::Required) => "UNDECIDED",
+        (Outcome::Inconclusive, Level::Report) => "target undecided",
         (Outcome::TooNoisy, _) => "TOO STRICT",
         (Outcome::Kept, _) => "kept",
         (Outcome::NotApplicable, _) => "not applicable",

@@ -57,6 +57,7 @@ pub use judge::{
     MOST_SAMPLES, Outcome, Resemblance, RunBounds, Worst, add_evidence, judge, judge_scores,
     limit_as_badness, number, worst_block,
 };
+pub use measure::estimate::{RunEstimate, estimate_run};
 pub use measure::plan::RunPlan;
 pub use measure::references::viewing;
 pub use measure::scenes::measure_scenes;
@@ -69,6 +70,7 @@ pub use render::scatter_oracle::scatter_oracle;
 pub use render::settings::{MOST_REPLICATES, RenderSettings, SIDES};
 pub use render::truths::{deciding_floor, render_part, render_truth, render_truth_until};
 pub use run::case::{ACCUMULATE, Case, IDENTITY, Intervals, SCATTER_ORACLE};
+pub use run::earlier::EarlierCases;
 pub use run::failure::{Failure, refuse_failures};
 pub use run::file::MOST_CASES;
 pub use run::layers::write_layers;
@@ -79,6 +81,7 @@ pub use score::scores::{Scored, missing_scores, score};
 pub use stats::headline::Headline;
 pub use stats::intervals::{FEWEST_REPLICATES, intervals, truths_without_pairs};
 pub use stats::overall::{overall, rank_filters};
+pub use stats::ranking::{RankedFilter, rank_by_flip};
 pub use tune::{
     Choice, ChoiceLimits, Difference, Estimate, Evaluation, Evaluator, Fold, HeldOutResult,
     JOURNAL_FORMAT, Journal, JournalHeader, LEAST_BLEED, Objective, PairedComparison,

@@ -37,6 +37,15 @@ fn assert_ends(output: &Output, code: i32, parts: &[&str]) -> String {
     text
 }
 
+/// Returns the last lines of a check, on one line.
+fn verdict(output: &Output) -> String {
+    let text = stdout(output);
+    let start = ["PASS", "FAIL", "UNDECIDED:"].map(|word| text.rfind(&format!("\n{word}")));
+    let start = (start.into_iter().flatten().max()).expect("a verdict ends the check");
+    let words: Vec<&str> = text[start..].split_whitespace().collect();
+    words.join(" ")
+}
+
 fn json(bench: &Bench, more: &[&str]) -> serde_json::Value {
     let output = bench.check(&[&IDENTITY[..], &["--json"], more].concat());
     serde_json::from_slice(&output.stdout).unwrap()

@@ -2,8 +2,8 @@
 
 use std::fs;
 
-use super::{IDENTITY, assert_ends, bound, bounded, json};
-use crate::bench::{Bench, SCENE, assert_refused, stderr};
+use super::{IDENTITY, assert_ends, bound, bounded, json, verdict};
+use crate::bench::{Bench, SCENE, assert_refused};
 
 #[test]
 fn scores_that_keep_their_bounds_pass() {
@@ -45,7 +45,7 @@ fn a_broken_bound_is_exit_code_1_with_all_that_helps() {
             "1 bounds: 0 kept, 1 broken",
         ],
     );
-    assert!(stderr(&output).contains("a required bound is broken"));
+    assert!(verdict(&output).contains("a required bound is broken"));
     assert!(
         text.lines().all(|line| line.chars().count() <= 80),
         "{text}"
@@ -83,9 +83,9 @@ fn what_is_only_reported_fails_nothing() {
     let required = "label_tv = { limit = 0.9, why = \"it serves a test\" }\n";
     bench.write("bounds.toml", &(text + required));
     assert_ends(
-        &bench.check(&IDENTITY),
+        &bench.check(&[&IDENTITY[..], &["-v"]].concat()),
         0,
-        &["broken (report) flip_moving", "1 of them required"],
+        &["target missed flip_moving", "1 required bounds: 1 kept"],
     );
 }
 
@@ -103,11 +103,11 @@ fn a_limit_inside_the_interval_is_exit_code_4_and_says_what_would_settle_it() {
         &output,
         4,
         &[
-            "INCONCLUSIVE flip_moving",
+            "UNDECIDED flip_moving",
             "--samples-per-pixel 1024 would settle it",
         ],
     );
-    assert!(stderr(&output).contains("raise the samples per pixel"));
+    assert!(verdict(&output).contains("raise --samples-per-pixel"));
     let value = found["findings"][0]["value"].as_f64().unwrap();
     bench.write(
         "bounds.toml",
@@ -117,9 +117,9 @@ fn a_limit_inside_the_interval_is_exit_code_4_and_says_what_would_settle_it() {
     let text = fs::read_to_string(bench.path("scenes/plate/bounds.toml")).unwrap();
     bench.write("bounds.toml", &(text + required));
     assert_ends(
-        &bench.check(&IDENTITY),
+        &bench.check(&[&IDENTITY[..], &["-v"]].concat()),
         0,
-        &["inconclusive (report) flip_moving"],
+        &["target undecided flip_moving"],
     );
 }
 
@@ -144,7 +144,7 @@ fn a_bound_within_three_floors_is_exit_code_2_and_names_the_strictest() {
         2,
         &["TOO STRICT flip_moving", &allowed[..20], "at the strictest"],
     );
-    assert!(stderr(&output).contains("stricter than three noise floors"));
+    assert!(verdict(&output).contains("stricter than three noise floors"));
 }
 
 #[test]
@@ -153,7 +153,7 @@ fn a_case_of_which_no_bound_applies_is_no_success() {
     bench.write("scene.toml", &SCENE.replace("[-1.6, 0, 0]", "[0, 0, 0]"));
     let output = bench.check(&IDENTITY);
     assert_ends(&output, 2, &["1 not applicable"]);
-    assert!(stderr(&output).contains("no bound that applies"));
+    assert!(verdict(&output).contains("no bound that applies"));
 }
 
 #[test]

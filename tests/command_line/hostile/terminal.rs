@@ -143,7 +143,7 @@ fn annotations_and_summaries_quote_what_fails_on_one_line() {
         lines.starts_with("::error title=a%0A%3A%3Aerror%3A%3Ab"),
         "{lines}"
     );
-    let failures = printable_table(&check_text(&check, Path::new("out")));
+    let failures = printable_table(&check_text(&check, Path::new("out"), true));
     for text in [&lines, &failures] {
         assert!(
             !text.contains("\u{1b}[2J") && !text.contains('\r'),

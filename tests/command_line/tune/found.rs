@@ -144,7 +144,7 @@ fn with_preset(bench: &Bench, preset: &str) -> Filter {
 #[test]
 fn two_presets_are_compared_scene_by_scene() {
     let bench = set_up();
-    let words = split("tune --quiet --filter jump_flood --compare paper,corrected");
+    let words = split("compare-presets paper corrected --quiet --filter jump_flood");
     let more = split("--scenes a,b,c,d,e,f,g --size 64x32 --samples-per-pixel 16 --out out");
     let output = bench.shuttertruth(&[&words[..], &more].concat());
     assert_done(&output);
@@ -161,22 +161,22 @@ fn two_presets_are_compared_scene_by_scene() {
         text.contains("over 7 scenes: corrected is better"),
         "{text}"
     );
-    let same = split("tune --quiet --filter jump_flood --compare paper,paper");
+    let same = split("compare-presets paper paper --quiet --filter jump_flood");
     let output = bench.shuttertruth(&[&same[..], &more].concat());
     let text = stdout(&output);
     assert!(
         text.contains("+0.0 % (+0.0 % to +0.0 %) over 7 scenes: undecided"),
         "{text}"
     );
-    let one = split("tune --quiet --filter jump_flood --compare paper");
-    let output = bench.shuttertruth(&[&one[..], &more].concat());
-    assert_refused(&output, 2, &["--compare paper", "allowed are two presets"]);
+    let old = split("tune --quiet --filter jump_flood --compare paper,tuned");
+    let output = bench.shuttertruth(&[&old[..], &more].concat());
+    assert_refused(&output, 2, &["--compare", "shuttertruth compare-presets"]);
 }
 
 #[test]
 fn a_study_tells_what_matters() {
     let bench = set_up();
-    let words = split("tune --quiet --filter jump_flood --from corrected --sobol 4");
+    let words = split("sensitivity --quiet --filter jump_flood --from corrected --rows 4");
     let more = split("--vary samples,behind_extent --scenes a,b --size 64x32");
     let few = ["--samples-per-pixel", "16", "--out", "out"];
     let output = bench.shuttertruth(&[&words[..], &more, &few].concat());
@@ -199,8 +199,8 @@ fn a_study_tells_what_matters() {
         row("samples") < row("behind_extent"),
         "what matters comes first:\n{table}"
     );
-    let output = bench.shuttertruth(&[&words[..7], &["1"], &more, &few].concat());
-    assert_refused(&output, 2, &["--sobol 1", "2 or more"]);
+    let output = bench.shuttertruth(&[&words[..words.len() - 1], &["1"], &more, &few].concat());
+    assert_refused(&output, 2, &["--rows 1", "2 or more"]);
 }
 
 #[test]

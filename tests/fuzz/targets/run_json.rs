@@ -135,7 +135,7 @@ fn show(
     out: &Path,
 ) {
     let check = check(run, findings, comparisons);
-    drop(check_text(&check, out));
+    drop(check_text(&check, out, true));
     drop(junit(&check));
     drop(summary(&check));
     drop(annotations(&check));

@@ -45,6 +45,7 @@ pub const WORDS: &[&str] = &[
     "--adapter",
     "--velocity",
     "--color",
+    "--frame-sampling",
     "--sky-velocity",
     "--guard-band",
     "--jitter-frames",

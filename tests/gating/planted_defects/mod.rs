@@ -118,6 +118,7 @@ impl Bench {
             out: self.folder.path().join(format!("seed_{seed}")),
             intervals: true,
             no_cache: false,
+            common: None,
             monitor: Monitor::SILENT,
         };
         measure_scenes(&plan, self.gpu.as_ref(), Vec::new()).unwrap()

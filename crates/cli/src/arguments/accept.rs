@@ -10,7 +10,7 @@ use super::parse::parse_glob;
 #[derive(Debug, Args)]
 pub struct AcceptArgs {
     /// Folder of the finished run: --out of `run` or `check`.
-    #[arg(long, value_name = "DIR")]
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
     /// Reason why these scores are right, in one line.
     #[arg(long, value_name = "TEXT")]

@@ -10,8 +10,14 @@ use super::parse::{parse_rounds, parse_size};
 /// `shuttertruth bench`
 #[derive(Debug, Args)]
 pub struct BenchArgs {
-    /// Filters: names or folders, each with an optional :preset, separated by commas [default: all built-in ones].
-    #[arg(long, value_delimiter = ',', value_name = "FILTERS")]
+    /// Filters: names, folders or patterns such as 'jump*', each with an optional :preset; repeatable, or separated by commas
+    /// [default: all built-in ones]. jump_flood:paper, which times are relative to, is timed as well.
+    #[arg(
+        long = "filter",
+        visible_alias = "filters",
+        value_delimiter = ',',
+        value_name = "FILTERS"
+    )]
     pub filters: Vec<String>,
     /// Picture size in pixels [default: 1920x1080, or 320x180 on a software adapter].
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
@@ -26,12 +32,9 @@ pub struct BenchArgs {
     #[command(flatten)]
     pub adapter: AdapterArgs,
     /// Folder for bench.json.
-    #[arg(long, value_name = "DIR", default_value = "out")]
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
     /// Print bench.json to standard output instead of the tables.
     #[arg(long)]
     pub json: bool,
-    /// Show no progress.
-    #[arg(long)]
-    pub quiet: bool,
 }

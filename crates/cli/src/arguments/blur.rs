@@ -33,7 +33,7 @@ pub struct BlurArgs {
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub frame_index: u32,
     /// OpenEXR file to write.
-    #[arg(long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", default_value = "out/blurred.exr")]
     pub out: PathBuf,
     #[command(flatten)]
     pub programs: ProgramArgs,

@@ -10,6 +10,7 @@ use super::scenes::SceneArgs;
 
 /// Choice of a filter, and of the scenes that it is scored on.
 #[derive(Debug, Args)]
+#[command(next_help_heading = "Filter")]
 pub struct CandidateArgs {
     /// Filter: a name or a folder.
     #[arg(long, value_name = "FILTER")]

@@ -8,18 +8,17 @@ use super::adapter::AdapterArgs;
 use super::measure::MeasureArgs;
 
 /// Arguments that only a check that measures may have.
-const MEASURING: [&str; 21] = [
+const MEASURING: [&str; 20] = [
     "scenes",
     "samples_per_pixel",
     "exposure",
     "velocity",
-    "color",
+    "frame_sampling",
     "sky_velocity",
     "guard_band",
     "seed",
     "out",
     "filters",
-    "filter",
     "preset",
     "set",
     "as_written",
@@ -35,7 +34,7 @@ const MEASURING: [&str; 21] = [
 /// `shuttertruth check`
 #[derive(Debug, Args)]
 pub struct CheckArgs {
-    /// FinishedPicture run to judge: its run.json, or its folder. Renders nothing and opens no adapter [default: measure now].
+    /// Finished run to judge: its run.json, or its folder. Renders nothing and opens no adapter [default: measure now].
     #[arg(value_name = "RUN", conflicts_with_all = MEASURING)]
     pub run: Option<PathBuf>,
     /// For every broken bound of RUN, find the worst place and the known failure that the picture is most like. A check that
@@ -49,7 +48,7 @@ pub struct CheckArgs {
     /// Also compare with the scores that `accept` wrote there, by the margins in bounds.toml.
     #[arg(long, value_name = "FILE")]
     pub baseline: Option<PathBuf>,
-    /// Write the run as one HTML page, whether the check passes or not.
+    /// HTML page to write [default: report.html in --out; for a finished RUN none].
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
     /// Write the result as JUnit XML.

@@ -19,7 +19,7 @@ const INTRODUCTION: &str = "\
 |---|---|
 | 0 | done; `check`: every required bound is kept |
 | 1 | `check`: a required bound is broken, a score is worse than the baseline's by more than its margin, or a case failed |
-| 2 | usage or bad input; bounds that are wrong, missing_scores, or stricter than the noise of the truth can carry |
+| 2 | usage or bad input; bounds that are wrong, missing, or stricter than the noise of the truth can carry |
 | 3 | no adapter |
 | 4 | too noisy: `check` cannot decide, or `render` did not reach `--noise` |
 | 130 | interrupted |

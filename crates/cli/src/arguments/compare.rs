@@ -16,10 +16,10 @@ pub struct CompareArgs {
     /// Write the comparison as an HTML page with the pictures that changed.
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
+    /// Folder that holds the scenes, and bounds.toml with the margins from which a change counts.
+    #[arg(long, value_name = "FOLDER", default_value = "scenes")]
+    pub scenes_dir: PathBuf,
     /// Print all changes as JSON instead of the table.
     #[arg(long)]
     pub json: bool,
-    /// Show no progress.
-    #[arg(long)]
-    pub quiet: bool,
 }

@@ -13,9 +13,9 @@ pub struct ImportArgs {
     /// OBJ file. It is copied, with the MTL and PNG files that it names.
     #[arg(value_name = "MODEL.OBJ")]
     pub model: PathBuf,
-    /// New folder for the scene, which gives the scene its name.
-    #[arg(long, value_name = "DIR")]
-    pub out: PathBuf,
+    /// New folder for the scene, which gives the scene its name [default: out/<name of the OBJ file>].
+    #[arg(short, long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
     /// Turn the model around its vertical axis.
     #[arg(long, value_name = "SPEED", value_parser = parse_degrees_per_frame, allow_hyphen_values = true)]
     pub spin: Option<f64>,

@@ -9,15 +9,19 @@ use super::scenes::SceneArgs;
 
 /// Choice of scenes, filters and inputs to measure.
 #[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "Filters")]
 pub struct MeasureArgs {
     #[command(flatten)]
     pub scenes: SceneArgs,
-    /// Filters: names or folders, each with an optional :preset, separated by commas [default: all built-in ones].
-    #[arg(long, value_delimiter = ',', value_name = "FILTERS")]
+    /// Filters: names, folders or patterns such as 'jump*', each with an optional :preset; repeatable, or separated by commas
+    /// [default: all built-in ones].
+    #[arg(
+        long = "filter",
+        visible_alias = "filters",
+        value_delimiter = ',',
+        value_name = "FILTERS"
+    )]
     pub filters: Vec<String>,
-    /// A filter folder of your own, beside those of --filters; repeatable.
-    #[arg(long, value_name = "FOLDER")]
-    pub filter: Vec<String>,
     /// Preset of every filter [default: all presets].
     #[arg(long, value_name = "NAME")]
     pub preset: Option<String>,

@@ -11,6 +11,6 @@ pub struct MergeArgs {
     #[arg(required = true, value_name = "FOLDER")]
     pub parts: Vec<PathBuf>,
     /// Folder for the whole, as one machine would have written it.
-    #[arg(long, value_name = "DIR")]
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
 }

@@ -10,6 +10,7 @@ mod check;
 #[cfg(test)]
 mod commands_page;
 mod compare;
+mod compare_presets;
 mod evaluate;
 #[cfg(test)]
 mod guides;
@@ -17,6 +18,7 @@ mod import;
 mod list;
 mod measure;
 mod merge;
+mod output;
 mod parse;
 mod programs;
 mod render;
@@ -24,6 +26,7 @@ mod report;
 mod run;
 mod scenes;
 mod score;
+mod sensitivity;
 mod serve;
 mod tune;
 
@@ -36,24 +39,32 @@ pub use calibrate::CalibrateArgs;
 pub use candidate::CandidateArgs;
 pub use check::CheckArgs;
 pub use compare::CompareArgs;
+pub use compare_presets::ComparePresetsArgs;
 pub use evaluate::EvaluateArgs;
 pub use import::ImportArgs;
 pub use list::ListArgs;
 pub use measure::MeasureArgs;
 pub use merge::MergeArgs;
+pub use output::{Color, OutputArgs};
 pub use parse::Replicates;
 pub use render::RenderArgs;
 pub use report::ReportArgs;
 pub use run::RunArgs;
 pub use scenes::{SceneArgs, Switch};
 pub use score::ScoreArgs;
+pub use sensitivity::SensitivityArgs;
 pub use serve::ServeArgs;
 pub use tune::TuneArgs;
 
 /// Measures real-time motion blur against true shutter blur: renders the truth of moving scenes, runs filters on one frame
 /// of each, and measures how far their pictures are from the truth.
 #[derive(Debug, Parser)]
-#[command(name = "shuttertruth", version, max_term_width = 100)]
+#[command(
+    name = "shuttertruth",
+    version,
+    max_term_width = 100,
+    arg_required_else_help = true
+)]
 pub struct Cli {
     /// The command.
     #[command(subcommand)]
@@ -61,6 +72,8 @@ pub struct Cli {
     /// List the adapters that filters can run on.
     #[arg(long)]
     pub list_adapters: bool,
+    #[command(flatten)]
+    pub output: OutputArgs,
 }
 
 /// The commands.
@@ -90,6 +103,10 @@ pub enum Command {
     Bench(BenchArgs),
     /// Search parameters that bring a filter nearer to the truth. Writes journal.jsonl and tune.json.
     Tune(TuneArgs),
+    /// Tell which parameters of a filter matter, by Sobol indices. Writes sensitivity.json.
+    Sensitivity(SensitivityArgs),
+    /// Compare two presets of a filter, scene by scene. Writes compare.json.
+    ComparePresets(ComparePresetsArgs),
     /// Score one set of parameters. Prints JSON.
     Evaluate(EvaluateArgs),
     /// Score sets of parameters on request: JSON lines on standard input and output.

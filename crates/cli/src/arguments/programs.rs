@@ -6,6 +6,7 @@ use crate::selection::Programs;
 
 /// Permission to run filters that are programs.
 #[derive(Clone, Copy, Debug, Args)]
+#[command(next_help_heading = "Filters")]
 pub struct ProgramArgs {
     /// Run filters that are programs. They have all rights that you have: read their filter.toml first.
     #[arg(long)]

@@ -8,10 +8,10 @@ use clap::Args;
 #[derive(Debug, Args)]
 pub struct ReportArgs {
     /// run.json of a finished `run` or `check`, or its folder; or the folder of a `tune`.
-    #[arg(value_name = "RUN")]
+    #[arg(value_name = "RUN", default_value = "out")]
     pub run: PathBuf,
-    /// HTML page to write.
-    #[arg(long, value_name = "FILE", required_unless_present_any = ["exr", "gallery"])]
+    /// HTML page to write [default: report.html beside run.json, unless --exr or --gallery is given].
+    #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
     /// Folder for one multi-layer OpenEXR file per case: truth, output, instant, flip, velocity, coverage and more.
     #[arg(long, value_name = "DIR")]
@@ -22,7 +22,4 @@ pub struct ReportArgs {
     /// Print the list of written files as JSON.
     #[arg(long)]
     pub json: bool,
-    /// Show no progress.
-    #[arg(long)]
-    pub quiet: bool,
 }

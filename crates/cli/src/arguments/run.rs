@@ -14,10 +14,13 @@ pub struct RunArgs {
     pub measure: MeasureArgs,
     #[command(flatten)]
     pub adapter: AdapterArgs,
-    /// Write the run as one HTML page.
+    /// HTML page to write [default: report.html in --out].
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
-    /// Print run.json to standard output instead of the table.
+    /// Print every case and all means, instead of the ranking.
+    #[arg(long, conflicts_with = "json")]
+    pub table: bool,
+    /// Print run.json to standard output instead of the ranking.
     #[arg(long)]
     pub json: bool,
 }

@@ -16,9 +16,16 @@ pub enum Switch {
 
 /// Choice of scenes, and how they are rendered.
 #[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "Scenes and files")]
 pub struct SceneArgs {
-    /// Scenes: names or folders, each with an optional @variant or @all, separated by commas [default: all].
-    #[arg(long, value_delimiter = ',', value_name = "SCENES")]
+    /// Scenes: names, folders or patterns such as 'rail*', each with an optional @variant or @all; repeatable, or separated by
+    /// commas [default: all].
+    #[arg(
+        long,
+        visible_alias = "scene",
+        value_delimiter = ',',
+        value_name = "SCENES"
+    )]
     pub scenes: Vec<String>,
     /// Folder that holds the scenes.
     #[arg(long, value_name = "FOLDER", default_value = "scenes")]
@@ -35,7 +42,7 @@ pub struct SceneArgs {
     pub velocity: VelocityKind,
     /// Sampling of the frame's colour: antialiased, or point (at pixel centres).
     #[arg(long, value_name = "SAMPLING", default_value_t = ColorSampling::Antialiased)]
-    pub color: ColorSampling,
+    pub frame_sampling: ColorSampling,
     /// Velocity of the background: on, or off for zero.
     #[arg(long, value_enum, value_name = "SWITCH", default_value_t = Switch::On)]
     pub sky_velocity: Switch,
@@ -49,9 +56,6 @@ pub struct SceneArgs {
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
     /// Folder for all files. Truths and cases that lie there are used again if their inputs have not changed.
-    #[arg(long, value_name = "DIR", default_value = "out")]
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
-    /// Show no progress.
-    #[arg(long)]
-    pub quiet: bool,
 }

@@ -41,14 +41,27 @@ pub struct TuneArgs {
     /// Samples per pixel of the held-out scenes' truths.
     #[arg(long, value_name = "N", default_value_t = 256)]
     pub sealed_samples_per_pixel: u32,
-    /// Tune nothing: tell which parameters matter, by Sobol indices from so many rows; 64 to 256 will do. A row scores
-    /// two candidates, and one more for each parameter.
-    #[arg(long, value_name = "ROWS", value_parser = parse_effort, conflicts_with_all = ["sealed", "minutes", "compare"])]
-    pub sobol: Option<usize>,
-    /// Tune nothing: compare two presets over the scenes.
-    #[arg(long, value_delimiter = ',', num_args = 1, value_name = "PRESET,PRESET", conflicts_with_all = ["vary", "sealed", "minutes"])]
-    pub compare: Vec<String>,
-    /// Print tune.json, sensitivity.json or compare.json instead of the table.
+    #[arg(long, hide = true, num_args = 0..=1, value_parser = refuse_sobol)]
+    morris: Option<String>,
+    #[arg(long, hide = true, num_args = 0..=1, value_parser = refuse_sobol)]
+    sobol: Option<String>,
+    #[arg(long, hide = true, num_args = 0..=1, value_parser = refuse_compare)]
+    compare: Option<String>,
+    /// Print tune.json instead of the table.
     #[arg(long)]
     pub json: bool,
+}
+
+fn refuse_sobol(_: &str) -> Result<String, String> {
+    Err(
+        "it is a command of its own now: shuttertruth sensitivity --filter FILTER --rows N"
+            .to_owned(),
+    )
+}
+
+fn refuse_compare(_: &str) -> Result<String, String> {
+    Err(
+        "it is a command of its own now: shuttertruth compare-presets --filter FILTER PRESET PRESET"
+            .to_owned(),
+    )
 }

@@ -9,7 +9,7 @@ use suite::{Error, FilterChoice, Runner, open_gpu, printable_path};
 use super::render_settings::check_exposure;
 use crate::arguments::BlurArgs;
 use crate::output::print::print;
-use crate::output::progress::make_monitor;
+use crate::output::progress::make_silent_monitor;
 use crate::selection::select_filters;
 
 /// Runs one filter on one frame file and writes its colour.
@@ -20,10 +20,15 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     let gpu = open_gpu(
         std::slice::from_ref(&choice),
         args.adapter.adapter.as_deref(),
-        make_monitor(true),
+        make_silent_monitor(),
     )?;
     let (width, height) = (buffers.color.width, buffers.color.height);
-    let mut runner = Runner::new(gpu.as_ref(), &choice, (width, height), make_monitor(true))?;
+    let mut runner = Runner::new(
+        gpu.as_ref(),
+        &choice,
+        (width, height),
+        make_silent_monitor(),
+    )?;
     let input = Input {
         color: &[&buffers.color],
         velocity: &buffers.velocity,

@@ -1,11 +1,12 @@
 //! The command `calibrate`.
 
 use suite::{
-    Error, Run, RunPlan, calibrate, check_names, measure_scenes, open_gpu, printable_path,
-    refuse_failures,
+    Error, Run, RunPlan, calibrate, check_names, estimate_run, measure_scenes, open_gpu,
+    printable_path, refuse_failures,
 };
 use tracer::{Progress, Watch};
 
+use super::expected::print_expected_time;
 use super::plan::{check_replicates_for_intervals, claim_out, make_plan};
 use super::run_files::write_run;
 use crate::arguments::CalibrateArgs;
@@ -27,6 +28,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     check_seeds(plan.render.seed, args.runs)?;
     let _claim = claim_out(&plan)?;
     let monitor = plan.monitor;
+    print_expected_runs(args, &plan);
     let runs = monitor.watch("runs in all", |watch| run_all(args, &mut plan, watch))?;
     let calibration = calibrate(&runs, |case| &bounds[&case.scene], &args.metrics);
     for scene in calibration.scores.keys() {
@@ -36,6 +38,14 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
         print(&format!("# {}\n\n{text}", printable_path(&path)))?;
     }
     Ok(())
+}
+
+/// Prints the expected time of all runs, none of which was made before.
+fn print_expected_runs(args: &CalibrateArgs, plan: &RunPlan) {
+    let runs = chosen_adapters(args).len() * args.runs as usize;
+    let one = estimate_run(plan, None);
+    let more = format!("{runs} runs of {} cases", one.cases);
+    print_expected_time(one.seconds * runs as f64, &more);
 }
 
 /// Refuses a first seed that leaves none for the last run.

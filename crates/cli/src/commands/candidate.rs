@@ -38,7 +38,7 @@ pub fn open_candidate_gpu(
     Ok(open_gpu(
         std::slice::from_ref(choice),
         adapter,
-        make_monitor(args.scenes.quiet),
+        make_monitor(),
     )?)
 }
 
@@ -49,10 +49,10 @@ pub fn claim_and_render(
     args: &CandidateArgs,
     sharing: Sharing,
 ) -> Result<(Claim, Vec<RenderedScene>), Error> {
-    let SceneArgs { out, quiet, .. } = &args.scenes;
+    let SceneArgs { out, .. } = &args.scenes;
     let settings = candidate_render_settings(args)?;
     let claimed = claim(out, scenes.iter().map(|(scene, _)| scene), sharing)?;
     let alignment = choice.filter.alignment;
-    let rendered = render_scenes(scenes, alignment, &settings, out, make_monitor(*quiet))?;
+    let rendered = render_scenes(scenes, alignment, &settings, out, make_monitor())?;
     Ok((claimed, rendered))
 }

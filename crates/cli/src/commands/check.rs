@@ -1,35 +1,39 @@
 //! The command `check`.
 
-use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use frame::FileError;
 use suite::{
-    BOUNDS_FILE, Baseline, Error, Finding, Judgement, Margin, Run, RunBounds, add_evidence, check,
-    check_names, compare_with_baseline, judge, measure_scenes, open_gpu, read_bounds,
-    read_bounds_file, refuse_tracked, require_bounds, size_for_bounds,
+    BOUNDS_FILE, Baseline, Error, Finding, Judgement, Run, RunBounds, add_evidence, check,
+    check_names, compare_with_baseline, judge, open_gpu, read_bounds, refuse_tracked,
+    require_bounds, size_for_bounds,
 };
 
-use super::pages::{write_run_page, written_lines};
-use super::plan::{check_replicates_for_intervals, claim_out, make_plan};
+use super::ending::Ending;
+use super::margins::read_margins;
+use super::measured_run::{MeasuredRun, measure};
+use super::pages::{WrittenFile, write_run_page};
+use super::plan::{check_replicates_for_intervals, make_plan};
 use super::run_files::write_judged_run;
 use crate::arguments::CheckArgs;
 use crate::output::annotations::{annotations, summary};
 use crate::output::junit::junit;
 use crate::output::print::{print, print_json};
+use crate::output::verbosity::is_verbose;
 use crate::tables::adapter::adapter_text;
-use crate::tables::check::check_text;
+use crate::tables::check::{check_text, verdict_text};
 
 /// Judges a run, made now or finished before, and reports in every form that is asked for. Refuses wrong arguments, bounds and
 /// baselines before anything is rendered.
-pub fn execute(args: &CheckArgs) -> Result<(), Error> {
+pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
     let baseline = args.baseline.as_deref().map(Baseline::read).transpose()?;
     let margins = read_margins(&args.measure.scenes.scenes_dir)?;
     let summary_file = args.github.then(find_summary_file).transpose()?;
     let Judged {
         run,
         findings,
+        pages,
         folder,
     } = match &args.run {
         Some(path) => judge_finished(args, path, baseline.is_some())?,
@@ -39,10 +43,6 @@ pub fn execute(args: &CheckArgs) -> Result<(), Error> {
         (Some(baseline), Some(path)) => compare_with_baseline(&run, baseline, &margins, path)?,
         _ => Vec::new(),
     };
-    let pages = (args.html.as_deref())
-        .map(|html| write_run_page(&run, &findings, &folder, html))
-        .transpose()?
-        .unwrap_or_default();
     let checked = check(&run, findings, comparisons);
 
     if let Some(path) = &args.junit {
@@ -54,25 +54,35 @@ pub fn execute(args: &CheckArgs) -> Result<(), Error> {
     if args.json {
         print_json(&checked)?;
     } else {
-        let text = check_text(&checked, &folder);
-        let (adapter, pages) = (adapter_text(&run.adapter), written_lines(&pages));
+        let text = check_text(&checked, &folder, is_verbose());
+        let adapter = adapter_text(&run.adapter);
+        let pages: String = pages.iter().map(|page| page.line("report")).collect();
         let other = (baseline.iter()).find(|baseline| !baseline.is_of_class(&run.adapter));
         let note = other.map_or(String::new(), |baseline| {
             let theirs = adapter_text(&baseline.adapter);
             format!("the baseline is of another class of adapter: {theirs}\n")
         });
-        print(&format!("{text}adapter: {adapter}\n{note}{pages}"))?;
+        print(&format!(
+            "{text}{note}{pages}adapter: {adapter}\n{}",
+            verdict_text(&checked)
+        ))?;
     }
     if args.github {
         print(&annotations(&checked))?;
     }
-    checked.verdict()
+    match checked.verdict() {
+        Ok(()) => Ok(Ending::Done),
+        // Nothing but the exit code and standard error tells it beside JSON.
+        Err(error) if args.json => Err(error),
+        Err(error) => Ok(Ending::Failed(error)),
+    }
 }
 
-/// A run, the findings about it, and the folder of its files.
+/// A run, the findings about it, its pages, and the folder of its files.
 struct Judged {
     run: Run,
     findings: Vec<Finding>,
+    pages: Vec<WrittenFile>,
     folder: PathBuf,
 }
 
@@ -98,14 +108,24 @@ fn run_and_judge(args: &CheckArgs, compared: bool) -> Result<Judged, Error> {
         refuse_tracked(&plan.out, way_out)?;
     }
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref(), plan.monitor)?;
-    let _claim = claim_out(&plan)?;
-    let finished = measure_scenes(&plan, gpu.as_ref(), std::env::args().collect())?;
-    let mut findings = judge(&finished, &bounds);
-    add_evidence(&finished, &mut findings, &plan.out)?;
-    write_judged_run(&finished, &findings, &plan.out)?;
+    let MeasuredRun {
+        run,
+        whole,
+        claim: _claim,
+    } = measure(&mut plan, gpu.as_ref())?;
+    let mut findings = judge(&whole, &bounds);
+    add_evidence(&whole, &mut findings, &plan.out)?;
+    write_judged_run(&whole, &findings, &plan.out)?;
+    let html = args
+        .html
+        .clone()
+        .unwrap_or_else(|| plan.out.join("report.html"));
+    let pages = write_run_page(&whole, &findings, &plan.out, &html)?;
+    findings.retain(|finding| run.cases.iter().any(|case| finding.is_of(case)));
     Ok(Judged {
-        run: finished,
+        run,
         findings,
+        pages,
         folder: plan.out,
     })
 }
@@ -137,9 +157,14 @@ fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judge
         add_evidence(&run, &mut findings, &folder)?;
     }
     Judgement::new(&folder, findings.clone())?.write(&folder)?;
+    let pages = match &args.html {
+        Some(html) => write_run_page(&run, &findings, &folder, html)?,
+        None => Vec::new(),
+    };
     Ok(Judged {
         run,
         findings,
+        pages,
         folder,
     })
 }
@@ -163,15 +188,6 @@ fn read_run_bounds(run: &Run, root: &Path) -> Result<RunBounds, Error> {
         found.insert(case.scene.clone(), bounds);
     }
     Ok(found)
-}
-
-/// Reads the margins by which scores may be worse than the baseline's.
-fn read_margins(root: &Path) -> Result<BTreeMap<String, Margin>, Error> {
-    let path = root.join(BOUNDS_FILE);
-    match path.exists() {
-        true => Ok(read_bounds_file(&path)?.margins),
-        false => Ok(BTreeMap::new()),
-    }
 }
 
 fn find_summary_file() -> Result<PathBuf, Error> {

@@ -3,6 +3,7 @@
 use report::compare_page;
 use suite::{Error, Side, compare_runs};
 
+use super::margins::read_margins;
 use super::pages::write_page;
 use crate::arguments::CompareArgs;
 use crate::output::print::{print, print_json};
@@ -12,11 +13,12 @@ use crate::tables::comparison::compare_table;
 /// Reads two finished runs, prints what changed, and writes the page.
 pub fn execute(args: &CompareArgs) -> Result<(), Error> {
     let (first, second) = (Side::read(&args.first)?, Side::read(&args.second)?);
-    let compared = make_monitor(args.quiet).watch("cases that changed", |watch| {
+    let mut compared = make_monitor().watch("cases that changed", |watch| {
         compare_runs(&first, &second, watch)
     })?;
+    compared.apply_margins(&read_margins(&args.scenes_dir)?);
     let written = match &args.html {
-        Some(html) => write_page(&compare_page(&compared, &first, &second)?, html)?.line(),
+        Some(html) => write_page(&compare_page(&compared, &first, &second)?, html)?.line("written"),
         None => String::new(),
     };
     if args.json {

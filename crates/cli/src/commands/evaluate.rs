@@ -24,13 +24,7 @@ pub fn execute(args: &EvaluateArgs) -> Result<(), Error> {
     let gpu = open_candidate_gpu(&choice, candidate)?;
     let (_, rendered) = claim_and_render(&scenes, &choice, candidate, Sharing::Together)?;
     let bleed = candidate.objective.contains(&Objective::Bleed);
-    let mut scorer = Evaluator::new(
-        gpu.as_ref(),
-        &choice,
-        &rendered,
-        bleed,
-        make_monitor(candidate.scenes.quiet),
-    )?;
+    let mut scorer = Evaluator::new(gpu.as_ref(), &choice, &rendered, bleed, make_monitor())?;
     let cost = candidate.objective.contains(&Objective::Cost);
     let all: Vec<usize> = (0..rendered.len()).collect();
     let scores = evaluate_candidate(&mut scorer, &settings, &all, cost, |_, _| true)?;

@@ -1,5 +1,7 @@
 //! The command `import`.
 
+use std::path::Path;
+
 use suite::{Error, ImportPlan, Imported, Motions, import, printable_path};
 
 use super::render_settings::check_exposure;
@@ -9,9 +11,13 @@ use crate::output::print::print;
 /// Makes the scene folder and prints what it holds.
 pub fn execute(args: &ImportArgs) -> Result<(), Error> {
     check_exposure(args.exposure)?;
+    let out = match &args.out {
+        Some(out) => out.clone(),
+        None => Path::new("out").join(args.model.file_stem().unwrap_or(args.model.as_os_str())),
+    };
     let plan = ImportPlan {
         model: args.model.clone(),
-        out: args.out.clone(),
+        out: out.clone(),
         up: args.up,
         plain: args.plain,
         motions: Motions {
@@ -22,9 +28,9 @@ pub fn execute(args: &ImportArgs) -> Result<(), Error> {
         exposure: args.exposure,
     };
     let Imported { exposes, triangles } = import(&plan)?;
-    let folder = printable_path(&args.out);
+    let folder = printable_path(&out);
     print(&format!(
-        "{exposes}\n{triangles} triangles, the set's among them\nwritten: {folder}\nnext: shuttertruth run --scenes {}{folder} --out out\n",
-        if args.out.is_relative() { "./" } else { "" },
+        "{exposes}\n{triangles} triangles, the set's among them\nwritten: {folder}\nnext: shuttertruth run --scenes {}{folder}\n",
+        if out.is_relative() { "./" } else { "" },
     ))
 }

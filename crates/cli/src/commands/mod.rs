@@ -7,39 +7,47 @@ mod calibrate;
 mod candidate;
 mod check;
 mod compare;
+mod compare_presets;
+mod ending;
 mod evaluate;
+mod expected;
 mod import;
 mod list;
+mod margins;
+mod measured_run;
 mod merge;
 mod pages;
 mod plan;
 mod render;
 mod render_settings;
 mod report;
+mod result;
 mod run;
 mod run_files;
 mod score;
+mod sensitivity;
 mod serve;
 mod threads;
+mod try_filters;
 mod tune;
 
-use clap::CommandFactory;
 use suite::Error;
 
+pub use self::ending::Ending;
 use self::threads::work_on_threads;
 use crate::arguments::{Cli, Command};
 
 /// Executes the command.
-pub fn execute(cli: Cli) -> Result<(), Error> {
+pub fn execute(cli: Cli) -> Result<Ending, Error> {
     if cli.list_adapters {
-        return list::print_adapters();
+        return list::print_adapters().map(|()| Ending::Done);
     }
-    match cli.command {
+    let done = match cli.command {
         Some(Command::Run(args)) => {
             work_on_threads(args.measure.scenes.threads, || run::execute(&args))
         }
         Some(Command::Check(args)) => {
-            work_on_threads(args.measure.scenes.threads, || check::execute(&args))
+            return work_on_threads(args.measure.scenes.threads, || check::execute(&args));
         }
         Some(Command::Accept(args)) => accept::execute(&args),
         Some(Command::Calibrate(args)) => {
@@ -57,6 +65,14 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         Some(Command::Tune(args)) => {
             work_on_threads(args.candidate.scenes.threads, || tune::execute(&args))
         }
+        Some(Command::Sensitivity(args)) => work_on_threads(args.candidate.scenes.threads, || {
+            sensitivity::execute(&args)
+        }),
+        Some(Command::ComparePresets(args)) => {
+            work_on_threads(args.candidate.scenes.threads, || {
+                compare_presets::execute(&args)
+            })
+        }
         Some(Command::Evaluate(args)) => {
             work_on_threads(args.candidate.scenes.threads, || evaluate::execute(&args))
         }
@@ -65,18 +81,9 @@ pub fn execute(cli: Cli) -> Result<(), Error> {
         }
         Some(Command::Import(args)) => import::execute(&args),
         Some(Command::List(args)) => list::execute(&args),
-        None => Err(Error::Usage(format!(
-            "no command given; allowed: {} (see --help)",
-            command_names().join(", ")
-        ))),
-    }
-}
-
-/// Lists the names of all commands, in the order of the help.
-fn command_names() -> Vec<String> {
-    let program = Cli::command();
-    let names = program
-        .get_subcommands()
-        .map(|command| command.get_name().to_owned());
-    names.collect()
+        None => Err(Error::Usage(
+            "no command given; shuttertruth --help lists all commands".to_owned(),
+        )),
+    };
+    done.map(|()| Ending::Done)
 }

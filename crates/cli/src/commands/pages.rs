@@ -26,9 +26,9 @@ impl WrittenFile {
     }
 
     /// Makes a line: `written: report.html (4.5 MB)`.
-    pub fn line(&self) -> String {
+    pub fn line(&self, label: &str) -> String {
         format!(
-            "written: {} ({:.1} MB)\n",
+            "{label}: {} ({:.1} MB)\n",
             printable_path(&self.path),
             self.bytes as f64 / 1e6
         )
@@ -58,5 +58,5 @@ pub fn write_page(page: &str, html: &Path) -> Result<WrittenFile, Error> {
 
 /// Makes one line per file.
 pub fn written_lines(files: &[WrittenFile]) -> String {
-    files.iter().map(WrittenFile::line).collect()
+    files.iter().map(|file| file.line("written")).collect()
 }

@@ -32,7 +32,8 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
         out,
         intervals: false,
         no_cache: args.no_cache,
-        monitor: make_monitor(args.scenes.quiet),
+        common: None,
+        monitor: make_monitor(),
     };
     Ok((plan, bounds))
 }
@@ -55,12 +56,8 @@ pub fn load_scenes(root: &Path, names: &[String]) -> Result<Vec<(Scene, SceneBou
 }
 
 fn load_filters(args: &MeasureArgs) -> Result<Vec<FilterChoice>, Error> {
-    let folders = args.filter.iter().map(|folder| Path::new(".").join(folder));
-    let names: Vec<String> = (args.filters.iter().cloned())
-        .chain(folders.map(|folder| folder.display().to_string()))
-        .collect();
     let filters = select_filters(
-        &names,
+        &args.filters,
         args.preset.as_deref(),
         &args.set,
         args.programs.programs(),

@@ -29,7 +29,7 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
             Replicates::All(count) => noisy.extend(render_whole(args, &scene, *count)?),
             Replicates::Part(indices) if args.noise.is_none() => {
                 let settings = scene_settings(args, &scene, RenderSettings::default().replicates)?;
-                let (out, monitor) = (&args.scenes.out, make_monitor(args.scenes.quiet));
+                let (out, monitor) = (&args.scenes.out, make_monitor());
                 let _claim = claim(out, [&scene], Sharing::Together)?;
                 if indices.start == 0 {
                     render_frame(&scene, &settings, out, monitor)?;
@@ -56,7 +56,7 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
 /// Renders a scene's frame and truths; returns a line for each truth that stayed noisier than asked for.
 fn render_whole(args: &RenderArgs, scene: &Scene, count: u32) -> Result<Vec<String>, Error> {
     let settings = scene_settings(args, scene, count)?;
-    let (out, monitor) = (&args.scenes.out, make_monitor(args.scenes.quiet));
+    let (out, monitor) = (&args.scenes.out, make_monitor());
     let _claim = claim(out, [scene], Sharing::Together)?;
     render_frame(scene, &settings, out, monitor)?;
     let mut noisy = Vec::new();

@@ -21,7 +21,7 @@ pub fn make_render_settings(
         height,
         exposure: args.exposure,
         velocity: args.velocity,
-        color: args.color,
+        color: args.frame_sampling,
         sky_velocity: args.sky_velocity == Switch::On,
         guard_band: args.guard_band,
         samples_per_pixel: args.samples_per_pixel,

@@ -62,20 +62,23 @@ fn write_run_report(
 ) -> Result<(Vec<WrittenFile>, Vec<WrittenFile>), Error> {
     let run = Run::read(path)?;
     let folder = path.parent().unwrap_or(Path::new(""));
+    let is_other_asked = args.exr.is_some() || args.gallery.is_some();
     let mut pages = match &args.html {
-        Some(html) => {
+        None if is_other_asked => Vec::new(),
+        html => {
+            let html = html.clone().unwrap_or_else(|| folder.join("report.html"));
             let judgement = Judgement::read(&run, folder)?;
             let findings = judgement.map_or_else(Vec::new, |judgement| judgement.findings);
-            write_run_page(&run, &findings, folder, html)?
+            write_run_page(&run, &findings, folder, &html)?
         }
-        None => Vec::new(),
     };
     if let Some(out) = &args.gallery {
         pages.push(WrittenFile::new(write_gallery(&run, folder, out)?)?);
     }
     let layers = match &args.exr {
-        Some(out) => make_monitor(args.quiet)
-            .watch("layers", |watch| write_layers(&run, folder, out, watch))?,
+        Some(out) => {
+            make_monitor().watch("layers", |watch| write_layers(&run, folder, out, watch))?
+        }
         None => Vec::new(),
     };
     let layers = layers.into_iter().map(WrittenFile::new);
@@ -94,6 +97,9 @@ fn write_tuning_report(args: &ReportArgs, folder: &Path) -> Result<Vec<WrittenFi
         )));
     }
     let page = tuning_page(&TuneFolder::read(folder)?)?;
-    let html = (args.html.as_deref()).expect("clap requires a page where nothing else is written");
-    Ok(vec![write_page(&page, html)?])
+    let html = args
+        .html
+        .clone()
+        .unwrap_or_else(|| folder.join("report.html"));
+    Ok(vec![write_page(&page, &html)?])
 }

@@ -1,67 +1,69 @@
 //! The command `run`.
 
 use std::path::Path;
+use std::time::{Duration, Instant};
 
-use suite::{
-    Error, Finding, Outcome, Run, judge, measure_scenes, open_gpu, printable_path, refuse_failures,
-};
+use suite::{Error, Run, judge, open_gpu, printable_path, refuse_failures};
 
-use super::pages::{write_run_page, written_lines};
-use super::plan::{claim_out, make_plan};
+use super::measured_run::{MeasuredRun, measure};
+use super::pages::{WrittenFile, write_run_page};
+use super::plan::make_plan;
 use super::run_files::write_judged_run;
 use crate::arguments::RunArgs;
 use crate::output::print::print;
-use crate::output::wrap::push_wrapped;
+use crate::output::progress::clock_text;
 use crate::tables::adapter::adapter_text;
 use crate::tables::cases::run_table;
 use crate::tables::failures::failures_text;
+use crate::tables::ranking::ranking_text;
 
-/// Runs every case, writes `run.json` and the page, prints the table.
+/// Runs every case, writes `run.json` and the page, prints the ranking or the table.
 pub fn execute(args: &RunArgs) -> Result<(), Error> {
-    let (plan, mut bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
+    let began = Instant::now();
+    let (mut plan, mut bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
     let size = (plan.render.width, plan.render.height);
     for bounds in bounds.values_mut() {
         *bounds = std::mem::take(bounds).at(size);
     }
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref(), plan.monitor)?;
-    let _claim = claim_out(&plan)?;
-    let finished = measure_scenes(&plan, gpu.as_ref(), std::env::args().collect())?;
-    let findings = judge(&finished, &bounds);
-    let json = write_judged_run(&finished, &findings, &plan.out)?;
-    let pages = (args.html.as_deref())
-        .map(|html| write_run_page(&finished, &findings, &plan.out, html))
-        .transpose()?
-        .unwrap_or_default();
+    let MeasuredRun {
+        run,
+        whole,
+        claim: _claim,
+    } = measure(&mut plan, gpu.as_ref())?;
+    let findings = judge(&whole, &bounds);
+    let json = write_judged_run(&whole, &findings, &plan.out)?;
+    let html = args
+        .html
+        .clone()
+        .unwrap_or_else(|| plan.out.join("report.html"));
+    let pages = write_run_page(&whole, &findings, &plan.out, &html)?;
     if args.json {
         print(&format!("{json}\n"))?;
     } else {
-        let scores = run_table(&finished) + &failures_text(&finished.failures);
-        print(&(scores + &closing_text(&finished, &findings, &plan.out) + &written_lines(&pages)))?;
+        let scores = match args.table {
+            true => run_table(&run),
+            false => ranking_text(&run.cases),
+        };
+        let text = scores + &failures_text(&run.failures);
+        print(&(text + &closing_text(&run, &pages, &plan.out, began.elapsed())))?;
     }
-    refuse_failures(&finished.failures)
+    refuse_failures(&run.failures)
 }
 
-/// Counts the bounds, and names the adapter and run.json.
-fn closing_text(run: &Run, findings: &[Finding], out: &Path) -> String {
-    let count = |outcome| {
-        (findings.iter())
-            .filter(|finding| finding.outcome == outcome)
-            .count()
-    };
-    let (broken, noisy) = (count(Outcome::Broken), count(Outcome::TooNoisy));
-    let mut bounds = format!("{broken} of {} bounds broken", findings.len());
-    if noisy > 0 {
-        bounds += &format!(
-            "; {noisy} narrower than 3 noise floors: raise --samples-per-pixel or --replicates (now {} samples per pixel in all)",
-            run.samples_per_pixel
-        );
-    }
+/// Names the report, run.json and the adapter, and counts cases and time.
+fn closing_text(run: &Run, pages: &[WrittenFile], out: &Path, time: Duration) -> String {
     let mut text = "\n".to_owned();
-    push_wrapped(&mut text, 0, &bounds);
+    for page in pages {
+        text += &page.line("report");
+    }
+    text += &format!("written: {}\n", printable_path(&out.join("run.json")));
+    text += &format!("adapter: {}\n", adapter_text(&run.adapter));
     text += &format!(
-        "adapter: {}\nwritten: {}\n",
-        adapter_text(&run.adapter),
-        printable_path(&out.join("run.json"))
+        "cases: {}, {} of them read back; took {}\n",
+        run.cases.len() + run.failures.len(),
+        run.read_back,
+        clock_text(time)
     );
     text
 }

@@ -6,10 +6,10 @@ use suite::Error;
 const MOST_THREADS: usize = 1024;
 
 /// Works on a pool of its own: one thread per core, or as many as are asked for.
-pub fn work_on_threads(
+pub fn work_on_threads<T: Send>(
     threads: Option<usize>,
-    work: impl FnOnce() -> Result<(), Error> + Send,
-) -> Result<(), Error> {
+    work: impl FnOnce() -> Result<T, Error> + Send,
+) -> Result<T, Error> {
     if let Some(threads) = threads
         && !(1..=MOST_THREADS).contains(&threads)
     {

@@ -1,50 +1,26 @@
 //! The command `tune`.
 
-use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use suite::{
-    Error, Evaluator, FilterChoice, Objective, RenderSettings, Sharing, Space, TuneOptions, Tuning,
-    analyze_sensitivity, claim, compare_candidates, interleave_families, printable_path, tune,
-    tuned_preset_toml,
+    Error, FilterChoice, RenderSettings, Sharing, Space, TuneOptions, Tuning, claim,
+    interleave_families, tune, tuned_preset_toml,
 };
 use tracer::Progress;
 
-use super::candidate::{
-    candidate_render_settings, claim_and_render, open_candidate_gpu, select_candidate,
-};
+use super::candidate::{candidate_render_settings, open_candidate_gpu, select_candidate};
 use super::plan::load_scenes;
 use super::render_settings::make_render_settings;
+use super::result::CommandResult;
 use crate::arguments::TuneArgs;
-use crate::output::print::{print, print_error};
+use crate::output::print::print_error;
 use crate::output::progress::make_monitor;
-use crate::tables::sensitivity::sensitivity_table;
-use crate::tables::tuning::{paired_table, tuning_table};
+use crate::output::verbosity::is_quiet;
+use crate::tables::tuning::tuning_table;
 
-/// Tunes, writes `journal.jsonl`, `tune.json` and the choice's values; or compares two presets.
+/// Tunes, writes `journal.jsonl`, `tune.json` and the choice's values, prints the table.
 pub fn execute(args: &TuneArgs) -> Result<(), Error> {
-    let candidate = &args.candidate;
-    let choice = select_candidate(candidate)?;
-    match args.sobol {
-        None => (),
-        Some(rows @ (0 | 1)) => {
-            return Err(Error::Usage(format!(
-                "--sobol {rows}: allowed is 2 or more; a single row has no variance"
-            )));
-        }
-        Some(rows) => return study_parameters(args, choice, rows),
-    }
-    match args.compare.as_slice() {
-        [] => tune_filter(args, choice),
-        [first, second] => compare_presets(args, choice, [first, second]),
-        other => Err(Error::Usage(format!(
-            "--compare {}: allowed are two presets, such as --compare paper,tuned",
-            other.join(",")
-        ))),
-    }
-}
-
-fn tune_filter(args: &TuneArgs, choice: FilterChoice) -> Result<(), Error> {
+    let choice = select_candidate(&args.candidate)?;
     if args.budget == 0 {
         return Err(Error::Usage(
             "--budget 0: allowed is 1 or more; the first trial is the start itself".to_owned(),
@@ -66,11 +42,11 @@ fn tune_filter(args: &TuneArgs, choice: FilterChoice) -> Result<(), Error> {
             });
         })
     })?;
-    if !args.candidate.scenes.quiet {
+    if !is_quiet() {
         let seconds = began.elapsed().as_secs_f64();
         print_error(&format!("{} trials in {seconds:.1} s", tuning.trials));
     }
-    print_result(args, &write_tuning(&tuning, &options)?)
+    write_tuning(&tuning, &options)?.print(args.json)
 }
 
 fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Error> {
@@ -107,23 +83,8 @@ fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Er
         race: !args.no_race,
         seed: args.search_seed,
         out: scene_args.out.clone(),
-        monitor: make_monitor(scene_args.quiet),
+        monitor: make_monitor(),
     })
-}
-
-/// A result, for people and for machines.
-struct CommandResult {
-    table: String,
-    json: String,
-    path: PathBuf,
-}
-
-fn print_result(args: &TuneArgs, found: &CommandResult) -> Result<(), Error> {
-    let CommandResult { table, json, path } = found;
-    match args.json {
-        true => print(&format!("{json}\n")),
-        false => print(&format!("{table}\nwritten: {}\n", printable_path(path))),
-    }
 }
 
 /// Writes tune.json, params.json and preset.toml.
@@ -144,57 +105,4 @@ fn write_tuning(tuning: &Tuning, options: &TuneOptions) -> Result<CommandResult,
         json,
         path: options.out.join("tune.json"),
     })
-}
-
-fn compare_presets(
-    tune: &TuneArgs,
-    choice: FilterChoice,
-    presets: [&String; 2],
-) -> Result<(), Error> {
-    let args = &tune.candidate;
-    let [first, second] = presets.map(|preset| choice.preset_at(preset, args.size.0));
-    let (first, second) = (first?, second?);
-    let scenes = load_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
-    let gpu = open_candidate_gpu(&choice, args)?;
-    let (_claim, rendered) = claim_and_render(&scenes, &choice, args, Sharing::Alone)?;
-    let bleed = args.objective.contains(&Objective::Bleed);
-    let mut evaluator = Evaluator::new(
-        gpu.as_ref(),
-        &choice,
-        &rendered,
-        bleed,
-        make_monitor(args.scenes.quiet),
-    )?;
-    let paired = compare_candidates(&mut evaluator, &first, &second)?;
-    let names = presets.map(|preset| preset.as_str());
-    let json = serde_json::to_string_pretty(&paired).expect("a comparison is plain data");
-    let path = args.scenes.out.join("compare.json");
-    frame::write_atomically(&path, json.as_bytes())?;
-    let table = paired_table(&paired, names);
-    print_result(tune, &CommandResult { table, json, path })
-}
-
-fn study_parameters(args: &TuneArgs, choice: FilterChoice, rows: usize) -> Result<(), Error> {
-    let candidate = &args.candidate;
-    let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;
-    let scenes = load_scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
-    let gpu = open_candidate_gpu(&choice, candidate)?;
-    let out = &candidate.scenes.out;
-    let (_claim, rendered) = claim_and_render(&scenes, &choice, candidate, Sharing::Alone)?;
-    let mut evaluator = Evaluator::new(
-        gpu.as_ref(),
-        &choice,
-        &rendered,
-        false,
-        make_monitor(candidate.scenes.quiet),
-    )?;
-    let label = format!("parameters of {}", choice.filter.name);
-    let found = make_monitor(candidate.scenes.quiet).watch(&label, |watch| {
-        analyze_sensitivity(&mut evaluator, &space, rows, args.search_seed, watch)
-    })?;
-    let json = serde_json::to_string_pretty(&found).expect("a study is plain data");
-    let path = out.join("sensitivity.json");
-    frame::write_atomically(&path, json.as_bytes())?;
-    let table = sensitivity_table(&found);
-    print_result(args, &CommandResult { table, json, path })
 }

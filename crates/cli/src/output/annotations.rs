@@ -5,7 +5,7 @@ use std::fmt::Write;
 use report::{finding_line, way_out};
 use suite::{Check, Decision, Finding, Outcome, number, printable};
 
-use crate::tables::check::comparison_line;
+use crate::tables::check::{comparison_line, count_lines, verdict_word};
 
 /// Upper limit that GitHub sets on the annotations of a step.
 const MOST_ANNOTATIONS: usize = 10;
@@ -50,20 +50,11 @@ pub fn annotations(check: &Check) -> String {
 
 /// Makes the summary of the step, as Markdown.
 pub fn summary(check: &Check) -> String {
-    let mut text = format!("## Shuttertruth: {}\n\n", decision_word(check.decision));
+    let mut text = format!("## Shuttertruth: {}\n\n", verdict_word(check.decision));
     let notable: Vec<&Finding> = (check.findings.iter())
         .filter(|finding| !matches!(finding.outcome, Outcome::Kept | Outcome::NotApplicable))
         .collect();
-    let _ = writeln!(
-        text,
-        "{} bounds, {} kept, {} broken, {} inconclusive, {} too strict, {} not applicable\n",
-        check.findings.len(),
-        check.count(Outcome::Kept),
-        check.count(Outcome::Broken),
-        check.count(Outcome::Inconclusive),
-        check.count(Outcome::TooNoisy),
-        check.count(Outcome::NotApplicable),
-    );
+    let _ = writeln!(text, "{}\n", count_lines(check).join("\n\n"));
     for failure in &check.failures {
         let (scene, filter) = (escape_cell(&failure.scene), escape_cell(&failure.filter));
         let _ = writeln!(
@@ -107,7 +98,7 @@ fn summary_row(finding: &Finding) -> String {
         or_none((finding.worst.as_ref()).map(|worst| format!("({}, {})", worst.x, worst.y))),
         or_none((finding.resembles.as_ref()).map(|alike| alike.decoy.clone())),
         match finding.decision() {
-            Decision::Pass => "reported".to_owned(),
+            Decision::Pass => "target".to_owned(),
             decision => decision_word(decision).to_owned(),
         },
     ];
@@ -117,7 +108,7 @@ fn summary_row(finding: &Finding) -> String {
 fn decision_word(decision: Decision) -> &'static str {
     match decision {
         Decision::Pass => "pass",
-        Decision::Inconclusive => "inconclusive",
+        Decision::Inconclusive => "undecided",
         Decision::Broken => "broken",
         Decision::Misconfigured => "misconfigured",
     }

@@ -5,4 +5,5 @@ pub mod colors;
 pub mod junit;
 pub mod print;
 pub mod progress;
+pub mod verbosity;
 pub mod wrap;

@@ -32,7 +32,7 @@ pub fn print_error(line: &str) {
 
 /// Writes a note to standard error: something is worth knowing, and nothing is wrong.
 pub fn print_note(text: &str) {
-    print_error(&format!("shuttertruth: note: {}", printable(text)));
+    print_error(&format!("note: {}", printable(text)));
 }
 
 /// Writes what the loader left out of scenes, each note once.

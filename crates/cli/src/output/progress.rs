@@ -12,6 +12,7 @@ use tracer::Progress;
 use suite::{Monitor, Step, printable};
 
 use super::print::print_error;
+use super::verbosity::is_quiet;
 
 /// Time between two lines of a log, where no terminal shows a bar.
 const BETWEEN_LINES: Duration = Duration::from_secs(30);
@@ -34,7 +35,7 @@ pub fn catch_interrupts() {
     let _ = ctrlc::set_handler(|| {
         INTERRUPTED.store(true, Ordering::Relaxed);
         std::thread::sleep(GRACE);
-        print_error("shuttertruth: interrupted");
+        print_error("interrupted");
         std::process::exit(INTERRUPTED_CODE.into());
     });
 }
@@ -44,10 +45,10 @@ pub fn was_interrupted() -> bool {
     INTERRUPTED.load(Ordering::Relaxed)
 }
 
-/// Makes the monitor of a command: a bar on a terminal, lines in a log, nothing where `quiet`. It ends work after Ctrl-C.
-pub fn make_monitor(quiet: bool) -> Monitor {
+/// Makes the monitor of a command: a bar on a terminal, lines in a log, nothing with --quiet. It ends work after Ctrl-C.
+pub fn make_monitor() -> Monitor {
     Monitor {
-        begin: match (quiet, std::io::stderr().is_terminal()) {
+        begin: match (is_quiet(), std::io::stderr().is_terminal()) {
             (true, _) => Monitor::SILENT.begin,
             (false, true) => |label| Box::new(Bar::new(label)),
             (false, false) => |label| Box::new(Lines::new(label, Instant::now())),
@@ -56,8 +57,50 @@ pub fn make_monitor(quiet: bool) -> Monitor {
     }
 }
 
+/// Makes a monitor that shows nothing, for work that takes no time. It ends work after Ctrl-C.
+pub fn make_silent_monitor() -> Monitor {
+    make_monitor().without_progress()
+}
+
+/// Label of the step whose bar follows the steps within it.
+const WHOLE: &str = "scenes in all";
+/// Parts of a step of that bar.
+const PARTS: u64 = 1000;
+
+/// The bar of all scenes, while it is shown.
+static WHOLE_BAR: Mutex<Option<WholeBar>> = Mutex::new(None);
+
+/// A bar that moves with the steps within it, each of which counts as one.
+struct WholeBar {
+    bar: ProgressBar,
+    done: u64,
+    /// Steps within that have ended since.
+    ended: u64,
+}
+
+impl WholeBar {
+    /// Moves the bar to the steps that are done and a part of the one under way. It never moves back.
+    fn advance(&self, part: f64) {
+        let parts = PARTS as f64 * (self.ended as f64 + part.clamp(0.0, 1.0));
+        let position = self.done * PARTS + parts as u64;
+        self.bar.set_position(position.max(self.bar.position()));
+    }
+}
+
+/// Does something to the bar of all scenes, if it is shown.
+fn with_whole_bar(change: impl FnOnce(&mut WholeBar)) {
+    if let Ok(mut whole) = WHOLE_BAR.lock()
+        && let Some(whole) = whole.as_mut()
+    {
+        change(whole);
+    }
+}
+
 /// Progress as a bar on a terminal, beside others.
-struct Bar(ProgressBar);
+struct Bar {
+    bar: ProgressBar,
+    is_whole: bool,
+}
 
 impl Bar {
     fn new(label: &str) -> Self {
@@ -75,26 +118,52 @@ impl Bar {
             );
         bar.set_style(style);
         bar.set_message(printable(label).into_owned());
-        Self(bar)
+        let is_whole = label.ends_with(WHOLE);
+        if is_whole && let Ok(mut whole) = WHOLE_BAR.lock() {
+            *whole = Some(WholeBar {
+                bar: bar.clone(),
+                done: 0,
+                ended: 0,
+            });
+        }
+        Self { bar, is_whole }
     }
 }
 
 impl Step for Bar {
     fn advance(&self, progress: Progress) {
-        self.0.set_length(progress.total);
-        self.0.set_position(progress.done);
+        let Progress { done, total } = progress;
+        if self.is_whole {
+            self.bar.set_length(total * PARTS);
+            with_whole_bar(|whole| {
+                (whole.done, whole.ended) = (done, 0);
+                whole.advance(0.0);
+            });
+        } else {
+            self.bar.set_length(total);
+            self.bar.set_position(done);
+            with_whole_bar(|whole| whole.advance(done as f64 / total.max(1) as f64));
+        }
     }
 }
 
 impl Drop for Bar {
     fn drop(&mut self) {
-        self.0.finish_and_clear();
-        BARS.remove(&self.0);
+        match self.is_whole {
+            true => {
+                if let Ok(mut whole) = WHOLE_BAR.lock() {
+                    *whole = None;
+                }
+            }
+            false => with_whole_bar(|whole| whole.ended += 1),
+        }
+        self.bar.finish_and_clear();
+        BARS.remove(&self.bar);
     }
 }
 
 /// Formats minutes and seconds: `1:30`.
-fn clock_text(time: Duration) -> String {
+pub fn clock_text(time: Duration) -> String {
     let seconds = time.as_secs_f64().round() as u64;
     format!("{}:{:02}", seconds / 60, seconds % 60)
 }
@@ -146,6 +215,35 @@ impl Lines {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_bar_of_all_scenes_moves_with_the_steps_within_and_never_back() {
+        let mut whole = WholeBar {
+            bar: ProgressBar::hidden(),
+            done: 3,
+            ended: 0,
+        };
+        whole.bar.set_length(10 * PARTS);
+        let mut last = 0;
+        for (ended, part) in [(0, 0.0), (0, 0.25), (0, 1.0), (1, 0.5), (2, 0.1)] {
+            whole.ended = ended;
+            whole.advance(part);
+            let position = whole.bar.position();
+            assert_eq!(
+                position,
+                3 * PARTS + (PARTS as f64 * (ended as f64 + part)) as u64
+            );
+            assert!(position >= last);
+            last = position;
+        }
+        (whole.done, whole.ended) = (4, 0);
+        whole.advance(0.0);
+        assert_eq!(
+            whole.bar.position(),
+            last,
+            "a step that took longer does not move it back"
+        );
+    }
 
     #[test]
     fn lines_come_at_long_intervals_and_tell_the_remaining_time() {

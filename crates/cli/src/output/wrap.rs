@@ -1,9 +1,25 @@
 //! Lines that fit a terminal.
 
+use std::ops::RangeInclusive;
+use std::sync::OnceLock;
+
+use terminal_size::{Width, terminal_size_of};
+
 use crate::output::colors::width;
 
-/// Columns of all printed text.
-pub const WIDTH: usize = 80;
+/// Columns of printed text where no terminal tells its own.
+const USUAL_COLUMNS: usize = 80;
+/// Range of columns that text is wrapped to: narrower lines hold no table, longer ones are hard to read.
+const COLUMNS: RangeInclusive<usize> = 60..=120;
+
+/// Looks up the columns of the terminal that standard output goes to.
+pub fn terminal_columns() -> usize {
+    static FOUND: OnceLock<usize> = OnceLock::new();
+    *FOUND.get_or_init(|| match terminal_size_of(std::io::stdout()) {
+        Some((Width(columns), _)) => usize::from(columns).clamp(*COLUMNS.start(), *COLUMNS.end()),
+        None => USUAL_COLUMNS,
+    })
+}
 
 /// Adds a line and breaks it between words where it is too long; later lines are indented further.
 pub fn push_wrapped(text: &mut String, indent: usize, line: &str) {
@@ -11,7 +27,7 @@ pub fn push_wrapped(text: &mut String, indent: usize, line: &str) {
     *text += &" ".repeat(indent);
     for (index, word) in line.split(' ').enumerate() {
         let length = width(word);
-        if index > 0 && column + 1 + length > WIDTH {
+        if index > 0 && column + 1 + length > terminal_columns() {
             *text += &format!("\n{}", " ".repeat(indent + 4));
             column = indent + 4;
         } else if index > 0 {
@@ -35,7 +51,7 @@ mod tests {
         push_wrapped(&mut text, 2, &"x".repeat(100));
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(lines.len(), 3);
-        assert!(lines[0].chars().count() <= WIDTH && lines[0].starts_with("  word"));
+        assert!(lines[0].chars().count() <= USUAL_COLUMNS && lines[0].starts_with("  word"));
         assert!(lines[1].starts_with("      word"));
         assert_eq!(lines[2].trim(), "x".repeat(100));
     }

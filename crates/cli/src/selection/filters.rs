@@ -5,6 +5,7 @@ use std::path::Path;
 use filters::Filter;
 use suite::{Error, FilterChoice};
 
+use super::names::{is_pattern, match_names, suggest_names};
 use super::path::is_path;
 
 /// Permission to select filters that are programs.
@@ -18,7 +19,8 @@ pub enum Programs {
 
 /// Loads the named filters; every built-in one where none is named.
 ///
-/// A name is that of a built-in filter or the path of a filter folder, then optionally `:preset`. Without a preset, in
+/// A name is that of a built-in filter, a pattern of such names, or a filter folder, then optionally `:preset`, which may be a
+/// pattern as well. Without a preset, in
 /// the name or for all, each preset of the filter is taken. `overrides` are `filter.parameter=value`. Filters that are
 /// programs are refused unless `programs` allows them.
 pub fn select_filters(
@@ -38,20 +40,10 @@ pub fn select_filters(
             Some((name, preset)) if !preset.contains(['/', '\\']) => (name, Some(preset)),
             _ => (text.as_str(), None),
         };
-        let load = || match is_path(name) {
-            true => Filter::load(Path::new(name)),
-            false => Filter::builtin(name),
-        };
-        let presets = match own_preset.or(preset) {
-            Some(preset) => vec![preset.to_owned()],
-            None => load()?
-                .presets
-                .into_iter()
-                .map(|preset| preset.name)
-                .collect(),
-        };
-        for preset in presets {
-            choices.push(FilterChoice::new(load()?, &preset)?);
+        for filter in load_filters(name)? {
+            for preset in find_presets(&filter, own_preset.or(preset))? {
+                choices.push(FilterChoice::new(filter.clone(), &preset)?);
+            }
         }
     }
     if programs == Programs::Refused {
@@ -62,6 +54,54 @@ pub fn select_filters(
     }
     refuse_duplicates(&choices)?;
     Ok(choices)
+}
+
+/// Loads the filters of a name, a pattern or a path. A built-in filter goes before a folder of the same name.
+pub fn load_filters(name: &str) -> Result<Vec<Filter>, Error> {
+    if is_path(name) {
+        return Ok(vec![Filter::load(Path::new(name))?]);
+    }
+    let known = Filter::builtin_names();
+    if known.iter().any(|own| own == name) {
+        return Ok(vec![Filter::builtin(name)?]);
+    }
+    if is_pattern(name) {
+        let matched = match_names("--filter", name, &known)?;
+        if !matched.is_empty() {
+            return Ok((matched.iter())
+                .map(|name| Filter::builtin(name))
+                .collect::<Result<_, _>>()?);
+        }
+    }
+    if Path::new(name).is_dir() {
+        return Ok(vec![Filter::load(&Path::new(".").join(name))?]);
+    }
+    Err(Error::Usage(format!(
+        "--filter: no built-in filter is called \"{name}\"; {} A filter of your own is named by its folder, such as ./{name}",
+        suggest_names(name, &known)
+    )))
+}
+
+/// Lists the presets of a filter by a name or a pattern; all where there is none.
+fn find_presets(filter: &Filter, text: Option<&str>) -> Result<Vec<String>, Error> {
+    let known: Vec<String> = (filter.presets.iter())
+        .map(|preset| preset.name.clone())
+        .collect();
+    match text {
+        None => Ok(known),
+        Some(text) if is_pattern(text) => {
+            let matched = match_names("--filter", text, &known)?;
+            match matched.is_empty() {
+                true => Err(Error::Usage(format!(
+                    "--filter: no preset of {} matches '{text}'; allowed: {}",
+                    filter.name,
+                    known.join(", ")
+                ))),
+                false => Ok(matched),
+            }
+        }
+        Some(text) => Ok(vec![text.to_owned()]),
+    }
 }
 
 fn refuse_programs(choices: &[FilterChoice]) -> Result<(), Error> {
@@ -82,7 +122,7 @@ fn refuse_duplicates(choices: &[FilterChoice]) -> Result<(), Error> {
         let name = choice.name();
         if choices[..index].iter().any(|other| other.name() == name) {
             return Err(Error::Usage(format!(
-                "--filters: {name} is named twice; allowed: each filter and preset once; give a folder of your own \
+                "--filter: {name} is named twice; allowed: each filter and preset once; give a folder of your own \
                  another name in its filter.toml"
             )));
         }
@@ -106,7 +146,7 @@ fn apply_override(choices: &mut [FilterChoice], text: &str) -> Result<(), Error>
         .iter_mut()
         .filter(|choice| choice.filter.name == name)
     {
-        choice.settings.set(&choice.filter, parameter, value)?;
+        choice.set(parameter, value)?;
         found = true;
     }
     if found {

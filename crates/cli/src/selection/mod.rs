@@ -1,8 +1,10 @@
 //! Selection of scenes and filters by their names, as the command line has them.
 
 mod filters;
+mod names;
 mod path;
 mod scenes;
 
-pub use self::filters::{Programs, select_filters};
+pub use self::filters::{Programs, load_filters, select_filters};
+pub use self::names::{is_pattern, match_names, suggest_names};
 pub use self::scenes::{SceneChoice, select_scenes};

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use suite::Error;
 use tracer::{Scene, list_scene, list_scenes, load_scene};
 
+use super::names::{is_pattern, match_names, suggest_names};
 use super::path::is_path;
 
 /// A loaded scene and the folder that it came from.
@@ -17,8 +18,8 @@ pub struct SceneChoice {
 
 /// Loads the named scenes; all of `root`, each in its default variant, where none is named.
 ///
-/// A name is that of a folder under `root` or the path of any scene folder, then optionally `@variant`; `@all` takes
-/// every variant.
+/// A name is that of a folder under `root`, a pattern of such names, or the path of any scene folder, then optionally
+/// `@variant`; `@all` takes every variant.
 pub fn select_scenes(root: &Path, names: &[String]) -> Result<Vec<SceneChoice>, Error> {
     // Where every scene is given by its path, `root` need not exist.
     let listings = match !names.is_empty() && names.iter().all(|name| is_path(name)) {
@@ -31,32 +32,47 @@ pub fn select_scenes(root: &Path, names: &[String]) -> Result<Vec<SceneChoice>, 
             .map(|listing| load_choice(&listing.folder, None))
             .collect();
     }
+    let known: Vec<String> = listings
+        .iter()
+        .map(|listing| listing.name.clone())
+        .collect();
     let mut scenes: Vec<SceneChoice> = Vec::new();
     for text in names {
         let (name, variant) = split_variant(text);
-        let listed = listings.iter().find(|listing| listing.name == name);
-        let folder = match listed {
-            Some(listing) => listing.folder.clone(),
-            None if is_path(name) => PathBuf::from(name),
-            None => {
-                let known: Vec<&str> = listings
-                    .iter()
-                    .map(|listing| listing.name.as_str())
-                    .collect();
-                return Err(Error::Usage(format!(
-                    "--scenes: no scene \"{name}\" in {}; allowed: {}, or the path of a scene folder, such as ./{name}",
-                    root.display(),
-                    known.join(", ")
-                )));
+        for folder in find_folders(root, name, &known)? {
+            match variant {
+                Some("all") => scenes.extend(load_all_variants(&folder)?),
+                _ => scenes.push(load_choice(&folder, variant)?),
             }
-        };
-        match variant {
-            Some("all") => scenes.extend(load_all_variants(&folder)?),
-            _ => scenes.push(load_choice(&folder, variant)?),
         }
     }
     refuse_duplicates(&scenes)?;
     Ok(scenes)
+}
+
+/// Finds the folders of a name, a pattern or a path. A scene of `root` goes before a folder of the same name elsewhere.
+fn find_folders(root: &Path, name: &str, known: &[String]) -> Result<Vec<PathBuf>, Error> {
+    let below_root = |name: &String| root.join(name);
+    if is_path(name) {
+        return Ok(vec![PathBuf::from(name)]);
+    }
+    if known.iter().any(|own| own == name) {
+        return Ok(vec![root.join(name)]);
+    }
+    if is_pattern(name) {
+        let matched = match_names("--scenes", name, known)?;
+        if !matched.is_empty() {
+            return Ok(matched.iter().map(below_root).collect());
+        }
+    }
+    if Path::new(name).is_dir() {
+        return Ok(vec![PathBuf::from(name)]);
+    }
+    Err(Error::Usage(format!(
+        "--scenes: no scene \"{name}\" in {}; {} A scene elsewhere is named by its path, such as ./{name}",
+        root.display(),
+        suggest_names(name, known)
+    )))
 }
 
 /// Splits a text into a scene and its variant. Folders above the scene's own may have an @ in their names.

@@ -1,11 +1,12 @@
 //! Tables of a bench.
 
-use std::fmt::Write;
-
 use filters::Clock;
 
-use crate::output::wrap::push_wrapped;
 use suite::{BASELINE, Bench, CaseCost, GROWTH_FROM, REACHES, ReachCost, Spread};
+
+use super::columns::number_table;
+use super::layout::Table;
+use crate::output::wrap::push_wrapped;
 
 /// Makes the tables: cost per filter and pass, then cost against reach.
 pub fn bench_table(bench: &Bench) -> String {
@@ -26,78 +27,76 @@ pub fn bench_table(bench: &Bench) -> String {
 }
 
 fn push_costs(text: &mut String, bench: &Bench) {
-    let _ = writeln!(
-        text,
-        "panels that move {} pixels\n{:<28}{:>20}{:>18}{:>6}{:>8}",
-        bench.speed, "filter / pass", "ms", "x baseline", "B/px", "of copy"
-    );
+    *text += &format!("panels that move {} pixels\n", bench.speed);
+    let mut table = number_table(&["filter / pass", "ms", "x baseline", "B/px", "of copy"]);
     for case in &bench.cases {
-        let _ = writeln!(
-            text,
-            "{:<28}{:>20}{:>18}{:>6.0}{:>7.0}%",
+        table.push(vec![
             filter_name(&case.filter, &case.preset),
             spread_text(&case.seconds, 1e3),
             spread_text(&case.ratio, 1.0),
-            case.bytes_per_pixel,
-            100.0 * case.part_of_copy
-        );
-        push_passes(text, case);
+            format!("{:.0}", case.bytes_per_pixel),
+            format!("{:.0}%", 100.0 * case.part_of_copy),
+        ]);
+        push_passes(&mut table, case);
     }
-    let _ = writeln!(
-        text,
-        "{:<28}{:>20}{:>18}{:>9.1} GB/s\n\nbaseline: {BASELINE}. B/px: every texture that a pass reads or writes, \
-         counted once\nper pass. of copy: those bytes per second, as a part of what copying a buffer\nreached.\n",
-        "copy of a buffer",
+    table.push(vec![
+        "copy of a buffer".to_owned(),
         spread_text(&bench.copy.seconds, 1e3),
-        "",
-        bench.copy.bytes_per_second * 1e-9
+        String::new(),
+        String::new(),
+        format!("{:.1} GB/s", bench.copy.bytes_per_second * 1e-9),
+    ]);
+    *text += &table.text();
+    *text += "\n";
+    let legend = format!(
+        "baseline: {BASELINE}. B/px: every texture that a pass reads or writes, counted once per pass. of copy: those bytes per \
+         second, as a part of what copying a buffer reached."
     );
+    push_wrapped(text, 0, &legend);
+    *text += "\n";
 }
 
-fn push_passes(text: &mut String, case: &CaseCost) {
+fn push_passes(table: &mut Table, case: &CaseCost) {
     for pass in &case.passes {
         let times = match pass.iterations {
             1 => String::new(),
             iterations => format!(" x {iterations}"),
         };
-        let _ = writeln!(
-            text,
-            "{:<28}{:>20}{:>18}{:>6.0}",
+        table.push(vec![
             format!("  {}{times}", pass.entry),
             spread_text(&pass.seconds, 1e3),
-            "",
-            pass.bytes_per_pixel
-        );
+            String::new(),
+            format!("{:.0}", pass.bytes_per_pixel),
+            String::new(),
+        ]);
     }
 }
 
 fn push_reaches(text: &mut String, bench: &Bench) {
-    let _ = write!(text, "{:<27}", "ms at a reach of (pixels)");
-    for pixels in REACHES {
-        let _ = write!(text, "{pixels:>6}");
-    }
     let last = REACHES[REACHES.len() - 1];
-    let _ = writeln!(text, "{:>17}", format!("{last} / {GROWTH_FROM}"));
+    let mut titles = vec!["ms at a reach of (pixels)".to_owned()];
+    titles.extend(REACHES.iter().map(u32::to_string));
+    titles.push(format!("{last} / {GROWTH_FROM}"));
+    let titles: Vec<&str> = titles.iter().map(String::as_str).collect();
+    let mut table = number_table(&titles);
     for cost in &bench.reaches {
-        push_reach(text, cost);
+        table.push(reach_cells(cost));
     }
+    *text += &table.text();
 }
 
-fn push_reach(text: &mut String, cost: &ReachCost) {
-    let _ = write!(text, "{:<27}", filter_name(&cost.filter, &cost.preset));
-    for point in &cost.points {
-        let cell = match &point.seconds {
-            Some(seconds) if seconds.median < 0.1 => format!("{:.2}", 1e3 * seconds.median),
-            Some(seconds) => format!("{:.0}", 1e3 * seconds.median),
-            None => "n/a".to_owned(),
-        };
-        let _ = write!(text, "{cell:>6}");
-    }
-    let growth = match &cost.growth {
+fn reach_cells(cost: &ReachCost) -> Vec<String> {
+    let mut cells = vec![filter_name(&cost.filter, &cost.preset)];
+    cells.extend(cost.points.iter().map(|point| match &point.seconds {
+        Some(seconds) if seconds.median < 0.1 => format!("{:.2}", 1e3 * seconds.median),
+        Some(seconds) => format!("{:.0}", 1e3 * seconds.median),
+        None => "n/a".to_owned(),
+    }));
+    cells.push(match &cost.growth {
         Some(growth) => spread_text(growth, 1.0),
         None => "n/a".to_owned(),
-    };
-    let _ = writeln!(text, "{growth:>17}");
+    });
+    cells
 }
 
 fn filter_name(filter: &str, preset: &str) -> String {

@@ -1,20 +1,22 @@
 //! Text of a check: every score that does not keep its bound.
 
 use std::fmt::Write;
+use std::path::Path;
 
 use crate::output::colors::{bad, doubtful, good, heading};
 use crate::output::wrap::push_wrapped;
 use crate::tables::failures::failures_text;
 use report::{finding_score, finding_status, way_out};
-use suite::{BaselineComparison, Check, Finding, Level, Outcome, number, printable_path};
+use suite::{BaselineComparison, Check, Decision, Finding, Level, Outcome, number, printable_path};
 
-/// Lists scores that are broken, inconclusive or too noisy, by scene and filter; then comparisons, then counts. `out` is the
-/// folder of the run's pictures.
-pub fn check_text(check: &Check, out: &std::path::Path) -> String {
+/// Lists scores that are broken, undecided or too noisy, by scene and filter; then comparisons, then counts. Targets, which
+/// fail nothing, are listed where `targets` asks for them. `out` is the folder of the run's pictures.
+pub fn check_text(check: &Check, out: &Path, targets: bool) -> String {
     let mut text = failures_text(&check.failures);
     let mut case = (String::new(), String::new());
     for finding in &check.findings {
-        if matches!(finding.outcome, Outcome::Kept | Outcome::NotApplicable) {
+        let is_listed = targets || finding.decision() != Decision::Pass;
+        if !finding.outcome.is_notable() || !is_listed {
             continue;
         }
         let own = (finding.scene.clone(), finding.filter.clone());
@@ -32,10 +34,40 @@ pub fn check_text(check: &Check, out: &std::path::Path) -> String {
             push_wrapped(&mut text, 2, &comparison_line(comparison));
         }
     }
-    text + &counts_text(check)
+    for line in count_lines(check) {
+        push_wrapped(&mut text, 0, &line);
+    }
+    text
 }
 
-fn finding_lines(finding: &Finding, out: &std::path::Path) -> Vec<(usize, String)> {
+/// Names a decision as a verdict.
+pub fn verdict_word(decision: Decision) -> &'static str {
+    match decision {
+        Decision::Pass => "PASS",
+        Decision::Broken => "FAIL",
+        Decision::Inconclusive | Decision::Misconfigured => "UNDECIDED",
+    }
+}
+
+/// Ends a check with its verdict, and the way out of one that is undecided.
+pub fn verdict_text(check: &Check) -> String {
+    let word = verdict_word(check.decision);
+    let verdict = match check.decision {
+        Decision::Pass => good(word),
+        Decision::Broken => bad(word),
+        Decision::Inconclusive | Decision::Misconfigured => doubtful(word),
+    };
+    match check.verdict() {
+        Ok(()) => format!("{verdict}\n"),
+        Err(error) => {
+            let mut text = String::new();
+            push_wrapped(&mut text, 0, &format!("{verdict}: {error}"));
+            text
+        }
+    }
+}
+
+fn finding_lines(finding: &Finding, out: &Path) -> Vec<(usize, String)> {
     let status = match finding.outcome {
         Outcome::Broken => bad(finding_status(finding)),
         Outcome::Kept => good(finding_status(finding)),
@@ -102,19 +134,48 @@ pub fn comparison_line(comparison: &BaselineComparison) -> String {
     )
 }
 
-fn counts_text(check: &Check) -> String {
-    let mut text = format!(
-        "{} bounds: {} kept, {} broken, {} inconclusive, {} too strict, {} not applicable\n",
-        check.findings.len(),
-        check.count(Outcome::Kept),
-        check.count(Outcome::Broken),
-        check.count(Outcome::Inconclusive),
-        check.count(Outcome::TooNoisy),
-        check.count(Outcome::NotApplicable)
-    );
-    if !check.findings.is_empty() {
-        let required = (check.findings.iter()).filter(|finding| finding.level == Level::Required);
-        text += &format!("{} of them required\n", required.count());
+/// Counts required bounds, and apart from them targets.
+pub fn count_lines(check: &Check) -> Vec<String> {
+    let of_level = |level: Level| {
+        check
+            .findings
+            .iter()
+            .filter(move |finding| finding.level == level)
+    };
+    let count = |level: Level, outcome: Outcome| {
+        of_level(level)
+            .filter(|finding| finding.outcome == outcome)
+            .count()
+    };
+    let counts = |level: Level, kept: &str, broken: &str| {
+        let words = [
+            (Outcome::Kept, kept),
+            (Outcome::Broken, broken),
+            (Outcome::Inconclusive, "undecided"),
+            (Outcome::TooNoisy, "too strict for the noise"),
+            (Outcome::NotApplicable, "not applicable"),
+        ];
+        let words = words.map(|(outcome, word)| (count(level, outcome), word));
+        let words = words.iter().filter(|(count, _)| *count > 0);
+        let words: Vec<String> = words
+            .map(|(count, word)| format!("{count} {word}"))
+            .collect();
+        words.join(", ")
+    };
+    let mut lines = Vec::new();
+    if of_level(Level::Required).next().is_some() {
+        lines.push(format!(
+            "{} required bounds: {}",
+            of_level(Level::Required).count(),
+            counts(Level::Required, "kept", "broken")
+        ));
     }
-    text
+    if of_level(Level::Report).next().is_some() {
+        lines.push(format!(
+            "{} targets: {} (a missed target fails nothing; -v lists them)",
+            of_level(Level::Report).count(),
+            counts(Level::Report, "met", "missed")
+        ));
+    }
+    lines
 }

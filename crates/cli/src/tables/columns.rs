@@ -2,18 +2,16 @@
 
 use suite::Headline;
 
+use super::layout::{Align, Table};
 use crate::output::colors;
 use crate::output::wrap::push_wrapped;
 
-/// Width of the column of names.
-pub const NAMES: usize = 29;
-
-/// A column: title, width and score.
-pub type Column = (&'static str, usize, Headline);
+/// A column: its title and its score.
+pub type Column = (&'static str, Headline);
 
 /// Puts the names of references into brackets: they are no filters.
-pub fn bracket_name(name: &str, bar: bool) -> String {
-    match bar {
+pub fn bracket_name(name: &str, is_reference: bool) -> String {
+    match is_reference {
         true => format!("[{name}]"),
         false => name.to_owned(),
     }
@@ -26,20 +24,19 @@ pub fn legend_text(text: &str) -> String {
     colors::faint(&lines)
 }
 
-/// Dims the rows of references.
-pub fn dim_reference(bar: bool, lines: &str) -> String {
-    match bar {
-        true => colors::faint(lines),
-        false => lines.to_owned(),
+/// Chooses the style of a row: references are dimmed.
+pub fn row_style(is_reference: bool) -> fn(&str) -> String {
+    match is_reference {
+        true => colors::faint,
+        false => str::to_owned,
     }
 }
 
-/// Makes the cell of a name; a long name has a line of its own.
-pub fn name_cell(name: &str) -> String {
-    match name.chars().count() > NAMES - 2 {
-        true => format!("  {name}\n{:<NAMES$}", ""),
-        false => format!("  {name:<0$}", NAMES - 2),
-    }
+/// Begins a table: names, then numbers.
+pub fn number_table(titles: &[&str]) -> Table {
+    let mut align = vec![Align::Right; titles.len()];
+    align[0] = Align::Left;
+    Table::new(titles, &align)
 }
 
 /// Lists each text once, in order.

@@ -1,6 +1,7 @@
 //! Tables of a comparison of two runs.
 
-use crate::output::colors::{bad, doubtful, faint, good, heading};
+use super::layout::{Align, Table};
+use crate::output::colors::{bad, doubtful, faint, good};
 use crate::output::wrap::push_wrapped;
 use report::signed;
 use suite::{
@@ -49,34 +50,31 @@ fn setting_line(setting: &SettingChange) -> String {
 
 /// Makes the table of means; one line names the filters of which no scene changed.
 fn means_table(means: &[MeanChange]) -> String {
-    let mut text = String::new();
+    let mut table = change_table("mean over scenes");
     let mut filter = "";
     for mean in means.iter().filter(|mean| mean.kind != MeanKind::Same) {
-        if text.is_empty() {
-            text += &heading(&format!("{:<19}", "mean over scenes"));
-            text += &columns("95 % CI");
-        }
         if filter != mean.filter {
             filter = &mean.filter;
-            text += &format!("{filter}, {} scenes\n", mean.scenes);
+            table.push_text(&format!("{filter}, {} scenes", mean.scenes));
         }
-        let interval = format!(
-            "{} to {}",
-            signed(mean.interval[0]),
-            signed(mean.interval[1])
-        );
+        let [low, high] = mean.interval.map(signed);
         let verdict = match mean.kind {
             MeanKind::Better => good(mean.kind.label()),
             MeanKind::Worse => bad(mean.kind.label()),
             _ => doubtful(mean.kind.label()),
         };
-        text += &row(
+        let values = [mean.first, mean.second, mean.worse];
+        table.push(change_cells(
             &mean.metric,
-            [mean.first, mean.second, mean.worse],
-            &interval,
-            &verdict,
-        );
+            values,
+            format!("{low} to {high}"),
+            verdict,
+        ));
     }
+    let mut text = match filter {
+        "" => String::new(),
+        _ => table.text(),
+    };
     let mut same: Vec<&str> = Vec::new();
     for mean in means {
         let all = means.iter().filter(|own| own.filter == mean.filter);
@@ -102,20 +100,17 @@ fn changes_table(changes: &[Change]) -> String {
     if ranked.is_empty() {
         return String::new();
     }
-    let mut text = format!(
-        "\n{}{}",
-        heading(&format!("{:<19}", "scene / filter")),
-        columns("95 % CI")
-    );
+    let mut table = change_table("scene / filter");
     for (scene, filter) in ranked.iter().take(CASES) {
-        text += &format!("{scene} / {filter}\n");
+        table.push_text(&format!("{scene} / {filter}"));
         let own = changes
             .iter()
             .filter(|change| change.scene == *scene && change.filter == *filter);
         for change in own.filter(|change| change.is_beyond_noise()) {
-            text += &change_row(change);
+            push_change(&mut table, change);
         }
     }
+    let mut text = "\n".to_owned() + &table.text();
     if ranked.len() > CASES {
         let more = ranked.len() - CASES;
         text += &faint(&format!(
@@ -125,37 +120,50 @@ fn changes_table(changes: &[Change]) -> String {
     text
 }
 
-fn change_row(change: &Change) -> String {
+fn push_change(table: &mut Table, change: &Change) {
     let interval = match (change.interval, change.basis) {
-        (Some([low, high]), Basis::Replicates) => format!("{} to {}", signed(low), signed(high)),
+        (Some(interval), Basis::Replicates) => {
+            let [low, high] = interval.map(signed);
+            format!("{low} to {high}")
+        }
         _ => "beyond the floor".to_owned(),
     };
     let verdict = match change.kind {
         ChangeKind::Better => good(change.kind.label()),
         _ => bad(change.kind.label()),
     };
-    row(
-        &change.metric,
-        [change.first, change.second, change.worse],
-        &interval,
-        &verdict,
+    let values = [change.first, change.second, change.worse];
+    table.push(change_cells(&change.metric, values, interval, verdict));
+}
+
+fn change_table(title: &str) -> Table {
+    Table::new(
+        &[title, "first", "second", "worse by", "95 % CI", "verdict"],
+        &[
+            Align::Left,
+            Align::Right,
+            Align::Right,
+            Align::Right,
+            Align::Right,
+            Align::Left,
+        ],
     )
 }
 
-fn columns(interval: &str) -> String {
-    heading(&format!(
-        "{:>8} {:>8} {:>9}  {interval:^20}  verdict",
-        "first", "second", "worse by"
-    )) + "\n"
-}
-
-fn row(metric: &str, [first, second, worse]: [f64; 3], interval: &str, verdict: &str) -> String {
-    format!(
-        "  {metric:<17}{:>8} {:>8} {:>9}  {interval:>20}  {verdict}\n",
+fn change_cells(
+    metric: &str,
+    [first, second, worse]: [f64; 3],
+    interval: String,
+    verdict: String,
+) -> Vec<String> {
+    vec![
+        metric.to_owned(),
         number(first),
         number(second),
-        signed(worse)
-    )
+        signed(worse),
+        interval,
+        verdict,
+    ]
 }
 
 fn counts(changes: &[Change]) -> String {

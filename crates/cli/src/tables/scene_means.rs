@@ -1,66 +1,54 @@
 //! Tables of means over scenes.
 
-use std::fmt::Write;
-
 use suite::{Headline, Overall, rank_filters};
 
-use super::columns::{
-    Column, NAMES, bracket_name, dim_reference, legend_text, list_once, name_cell,
-};
+use super::columns::{Column, bracket_name, legend_text, list_once, number_table, row_style};
+use super::layout::Table;
 use crate::output::colors;
 
 /// Columns behind FLIP, which ranks filters of one alignment.
 const MEAN_COLUMNS: [Column; 5] = [
-    ("PSNR", 6, Headline::PSNR),
-    ("grow", 5, Headline::GROWTH),
-    ("loss", 5, Headline::LOSS),
-    ("bleed", 6, Headline::Bleed),
-    ("TV", 6, Headline::LABEL),
+    ("PSNR", Headline::PSNR),
+    ("grow", Headline::GROWTH),
+    ("loss", Headline::LOSS),
+    ("bleed", Headline::Bleed),
+    ("TV", Headline::LABEL),
 ];
 /// Columns behind skill, which ranks filters of all alignments.
 const SKILL_COLUMNS: [Column; 3] = [
-    ("MSE", 6, Headline::SKILL_MSE),
-    ("TV", 6, Headline::SKILL_LABEL),
-    ("FLIP*", 6, Headline::CommonFlip),
+    ("MSE", Headline::SKILL_MSE),
+    ("TV", Headline::SKILL_LABEL),
+    ("FLIP*", Headline::CommonFlip),
 ];
-/// Width of the score that ranks.
-const RANKED: usize = 6;
-/// Width of its interval.
-const INTERVAL: usize = 16;
-/// Width of the shutter.
-const SHUTTER: usize = 10;
-
 /// Makes the tables of means, best first: by FLIP among filters of one shutter alignment, by skill among all. Empty for a single
 /// scene.
-pub(crate) fn means_table(overall: &[Overall]) -> String {
-    let mut text = String::new();
-    for group in rank_filters(overall, Headline::FLIP) {
-        let first = group[0];
-        if text.is_empty() {
-            text += "\n";
-            text += &means_heading(overall, "FLIP", &MEAN_COLUMNS, "");
-        }
-        let _ = writeln!(
-            text,
-            "{}",
-            colors::heading(&format!("{} shutter", first.alignment))
-        );
-        for row in group {
-            text += &mean_line(overall, row, Headline::FLIP, &MEAN_COLUMNS, "");
-        }
+pub fn means_table(overall: &[Overall]) -> String {
+    let groups = rank_filters(overall, Headline::FLIP);
+    if groups.is_empty() {
+        return String::new();
     }
-    for group in rank_filters(overall, Headline::SKILL) {
-        text += "\n";
-        text += &means_heading(overall, "skill", &SKILL_COLUMNS, "shutter");
+    let mut by_flip = means_heading(overall, "FLIP", &MEAN_COLUMNS, None);
+    for group in groups {
+        by_flip.push_text(&colors::heading(&format!("{} shutter", group[0].alignment)));
         for row in group {
-            text += &mean_line(
+            push_mean(
+                &mut by_flip,
                 overall,
                 row,
-                Headline::SKILL,
-                &SKILL_COLUMNS,
-                &row.alignment,
+                (Headline::FLIP, &MEAN_COLUMNS),
+                None,
             );
         }
+    }
+    let mut text = "\n".to_owned() + &by_flip.text();
+    for group in rank_filters(overall, Headline::SKILL) {
+        let mut by_skill = means_heading(overall, "skill", &SKILL_COLUMNS, Some("shutter"));
+        for row in group {
+            let columns = (Headline::SKILL, &SKILL_COLUMNS[..]);
+            push_mean(&mut by_skill, overall, row, columns, Some(&row.alignment));
+        }
+        text += "\n";
+        text += &by_skill.text();
         text += &legend_text(
             "Skill is by FLIP, by MSE and by label TV: the share of the way from [identity], 0, to [scatter_oracle], 1; below 0 \
              is worse than doing nothing.",
@@ -94,38 +82,34 @@ fn fewer_scenes_note(overall: &[Overall]) -> String {
     }
 }
 
-fn means_heading(overall: &[Overall], by: &str, others: &[Column], shutter: &str) -> String {
+fn means_heading(overall: &[Overall], by: &str, others: &[Column], last: Option<&str>) -> Table {
     let scenes = overall.iter().map(|mean| mean.scenes).max().unwrap_or(0);
-    let mut text = format!("{:<NAMES$}", format!("mean over {scenes} scenes"));
-    let _ = write!(text, "{by:>RANKED$}{:>INTERVAL$}", "95 % CI");
-    for (title, width, _) in others {
-        let _ = write!(text, "{title:>width$}");
-    }
-    if !shutter.is_empty() {
-        let _ = write!(text, "{shutter:>SHUTTER$}");
-    }
-    colors::heading(&text) + "\n"
+    let title = format!("mean over {scenes} scenes");
+    let mut titles = vec![title.as_str(), by, "95 % CI"];
+    titles.extend(others.iter().map(|(title, _)| *title));
+    titles.extend(last);
+    number_table(&titles)
 }
 
-fn mean_line(
+/// Adds a row: the mean that ranks with its interval, other means, and a last cell.
+fn push_mean(
+    table: &mut Table,
     overall: &[Overall],
     row: &Overall,
-    by: Headline,
-    others: &[Column],
-    shutter: &str,
-) -> String {
+    (by, others): (Headline, &[Column]),
+    last: Option<&str>,
+) {
     let [low, high] = row.interval.map(|end| by.number(end));
-    let mut line = name_cell(&bracket_name(&row.filter, row.is_reference));
-    let _ = write!(line, "{:>RANKED$}", by.number(row.mean));
-    let _ = write!(line, "{:>INTERVAL$}", format!("{low} to {high}"));
-    for (_, width, headline) in others {
+    let mut cells = vec![
+        bracket_name(&row.filter, row.is_reference),
+        by.number(row.mean),
+        format!("{low} to {high}"),
+    ];
+    for (_, headline) in others {
         let name = headline.name();
         let own = (overall.iter()).find(|mean| mean.metric == name && mean.is_of_same(row));
-        let cell = own.map_or("n/a".to_owned(), |own| headline.number(own.mean));
-        let _ = write!(line, "{cell:>width$}");
+        cells.push(own.map_or("n/a".to_owned(), |own| headline.number(own.mean)));
     }
-    if !shutter.is_empty() {
-        let _ = write!(line, "{shutter:>SHUTTER$}");
-    }
-    dim_reference(row.is_reference, &(line + "\n"))
+    cells.extend(last.map(str::to_owned));
+    table.push_styled(cells, row_style(row.is_reference));
 }

@@ -1,5 +1,6 @@
 //! Tables of a finished tuning, and of two presets.
 
+use super::columns::number_table;
 use crate::output::colors::heading;
 use crate::output::wrap::push_wrapped;
 use suite::{Difference, LEAST_BLEED, PairedComparison, Preference, Trial, Tuning};
@@ -111,31 +112,25 @@ fn trial_row(trial: &Trial, start: &Trial, chosen: usize) -> String {
 
 /// Compares two candidates scene by scene.
 pub fn paired_table(paired: &PairedComparison, names: [&str; 2]) -> String {
-    let width = paired
-        .scenes
-        .keys()
-        .map(String::len)
-        .max()
-        .unwrap_or(0)
-        .max(5);
-    let mut text = format!(
-        "{:width$} {:>13} {:>13} {:>13} {:>13}\n",
-        "scene",
+    let titles = [
+        "scene".to_owned(),
         format!("FLIP {}", names[0]),
-        format!("{}", names[1]),
+        names[1].to_owned(),
         format!("bleed {}", names[0]),
-        format!("{}", names[1])
-    );
+        names[1].to_owned(),
+    ];
+    let mut table = number_table(&titles.each_ref().map(String::as_str));
     let bleed = |bleed: Option<f64>| bleed.map_or("n/a".to_owned(), |bleed| format!("{bleed:.3}"));
     for (scene, [first, second]) in &paired.scenes {
-        text += &format!(
-            "{scene:width$} {:13.4} {:13.4} {:>13} {:>13}\n",
-            first.flip,
-            second.flip,
+        table.push(vec![
+            scene.clone(),
+            format!("{:.4}", first.flip),
+            format!("{:.4}", second.flip),
             bleed(first.bleed),
-            bleed(second.bleed)
-        );
+            bleed(second.bleed),
+        ]);
     }
+    let mut text = table.text();
     let Difference {
         mean,
         interval,

@@ -72,10 +72,11 @@ fn summary(compared: &RunComparison) -> String {
             .count()
     };
     format!(
-        "{} scores of cases that both runs have: {} better, {} worse, {} within noise, {} the same.",
+        "{} scores of cases that both runs have: {} better and {} worse, {} below the margins, {} within noise, {} the same.",
         compared.changes.len(),
         count(ChangeKind::Better),
         count(ChangeKind::Worse),
+        count(ChangeKind::BelowMargin),
         count(ChangeKind::WithinNoise),
         count(ChangeKind::Same)
     )
@@ -184,7 +185,9 @@ fn mean_change(mean: &MeanChange) -> Markup {
     let class = match mean.kind {
         MeanKind::Better => "text better",
         MeanKind::Worse => "text worse",
-        MeanKind::Same | MeanKind::Undecided | MeanKind::TooFewScenes => "text",
+        MeanKind::Same | MeanKind::BelowMargin | MeanKind::Undecided | MeanKind::TooFewScenes => {
+            "text"
+        }
     };
     html! { td class=(class) { (signed(change_of(&mean.metric, mean.worse))) " " (mean.kind.label()) } }
 }
@@ -278,7 +281,7 @@ fn change_row(change: &Change, named: bool) -> Markup {
     let class = match change.kind {
         ChangeKind::Better => "text better",
         ChangeKind::Worse => "text worse",
-        ChangeKind::WithinNoise | ChangeKind::Same => "text",
+        ChangeKind::BelowMargin | ChangeKind::WithinNoise | ChangeKind::Same => "text",
     };
     html! {
         tr {

@@ -18,7 +18,7 @@ pub struct TuneFolder {
     pub header: Option<JournalHeader>,
     /// All whole lines of the journal behind it.
     pub trials: Vec<Trial>,
-    /// Study of sensitivity.
+    /// Result of `sensitivity`.
     pub sensitivity: Option<Sensitivity>,
 }
 

@@ -29,6 +29,13 @@ pub struct BenchPlan {
     pub as_written: bool,
 }
 
+impl BenchPlan {
+    /// Counts the runs of filters: in every round each of them once among the others, and once at each reach.
+    pub fn count_runs(&self) -> u64 {
+        u64::from(self.rounds + 1) * self.filters.len() as u64 * (1 + REACHES.len() as u64)
+    }
+}
+
 /// Times every filter. Those of one table take turns, one run each per round, so that whatever else the machine does
 /// affects all of them alike.
 pub fn bench(mut plan: BenchPlan, gpu: &Gpu, watch: Watch) -> Result<Bench, Error> {

@@ -53,6 +53,14 @@ pub(crate) fn read_record<T: Serialize + DeserializeOwned>(path: &Path, inputs: 
     record.altered_files(path).is_empty().then_some(record.made)
 }
 
+/// Reads what was made of such inputs, whether or not its files are still there.
+pub(crate) fn read_record_alone<T: Serialize + DeserializeOwned>(
+    path: &Path,
+    inputs: &str,
+) -> Option<T> {
+    read_whole::<T>(path, inputs).map(|record| record.made)
+}
+
 /// Removes the files of such inputs that were altered: the hash that a file holds may no longer fit its content.
 pub(crate) fn remove_altered_files(path: &Path, inputs: &str) {
     if let Some(record) = read_whole::<()>(path, inputs) {

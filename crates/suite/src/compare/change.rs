@@ -52,6 +52,8 @@ pub enum ChangeKind {
     Same,
     /// No more than the truth's noise could make.
     WithinNoise,
+    /// By more than noise, and less than matters.
+    BelowMargin,
     /// The second is better.
     Better,
     /// The second is worse.
@@ -60,9 +62,10 @@ pub enum ChangeKind {
 
 impl ChangeKind {
     /// Every kind, the worst first.
-    pub const ALL: [ChangeKind; 4] = [
+    pub const ALL: [ChangeKind; 5] = [
         ChangeKind::Worse,
         ChangeKind::Better,
+        ChangeKind::BelowMargin,
         ChangeKind::WithinNoise,
         ChangeKind::Same,
     ];
@@ -72,6 +75,7 @@ impl ChangeKind {
         match self {
             Self::Same => "same",
             Self::WithinNoise => "within noise",
+            Self::BelowMargin => "below the margin",
             Self::Better => "better",
             Self::Worse => "worse",
         }

@@ -40,6 +40,8 @@ pub enum MeanKind {
     Better,
     /// The second run is worse.
     Worse,
+    /// Told from 0, and smaller than matters.
+    BelowMargin,
     /// The interval holds 0.
     Undecided,
     /// The scenes are fewer than an interval can be trusted for.
@@ -53,6 +55,7 @@ impl MeanKind {
             Self::Same => "same",
             Self::Better => "better",
             Self::Worse => "worse",
+            Self::BelowMargin => "small",
             Self::Undecided => "undecided",
             Self::TooFewScenes => "few scenes",
         }

@@ -1,6 +1,7 @@
 //! Comparison of two finished runs: what changed, by more than noise or not.
 
 mod change;
+mod margin;
 mod mean;
 mod noise;
 mod pairing;

@@ -1,6 +1,6 @@
 //! Pairs of cases of two runs.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 use super::side::Side;
 use crate::{Case, Error, Run};
@@ -16,24 +16,21 @@ pub struct Pair<'a> {
 
 /// Pairs the cases that both runs have, in the order of the first.
 pub fn pair_cases<'a>(first: &'a Run, second: &'a Run) -> Vec<Pair<'a>> {
-    let mut known: HashMap<Key, &Case> = HashMap::new();
-    for case in &second.cases {
-        known.entry(key(case)).or_insert(case);
-    }
-    let pair = |first: &'a Case| {
-        let second = known.get(&key(first))?;
-        Some(Pair { first, second })
+    let partners = Partners::new(first, second);
+    let pair = |case: &'a Case| {
+        let second = partners.find(case)?;
+        Some(Pair {
+            first: case,
+            second,
+        })
     };
     first.cases.iter().filter_map(pair).collect()
 }
 
 /// Lists the cases that `run` lacks and `other` has.
 pub fn cases_missing_from(run: &Run, other: &Run) -> Vec<String> {
-    let known: HashSet<Key> = run.cases.iter().map(key).collect();
-    let missing = other
-        .cases
-        .iter()
-        .filter(|case| !known.contains(&key(case)));
+    let partners = Partners::new(other, run);
+    let missing = (other.cases.iter()).filter(|case| partners.find(case).is_none());
     missing.map(label).collect()
 }
 
@@ -101,6 +98,74 @@ type Key<'a> = (&'a str, String, &'a str, bool);
 
 fn key(case: &Case) -> Key<'_> {
     (&case.scene, case.name(), &case.alignment, case.is_reference)
+}
+
+/// Key of a case within a run, whatever values `--set` gave to its parameters.
+fn preset_key(case: &Case) -> Key<'_> {
+    (
+        &case.scene,
+        case.preset_name(),
+        &case.alignment,
+        case.is_reference,
+    )
+}
+
+/// The cases of one run that belong to those of another: the same case, or else the only one of its preset, with parameters of
+/// its own.
+struct Partners<'a> {
+    exact: HashMap<Key<'a>, &'a Case>,
+    /// By preset, the cases that are in one run alone; none where there are several.
+    own: HashMap<Key<'a>, Option<&'a Case>>,
+    other: HashMap<Key<'a>, Option<&'a Case>>,
+}
+
+impl<'a> Partners<'a> {
+    fn new(run: &'a Run, other: &'a Run) -> Self {
+        let exact = index(&other.cases);
+        let known = index(&run.cases);
+        Self {
+            own: single_presets(&run.cases, &exact),
+            other: single_presets(&other.cases, &known),
+            exact,
+        }
+    }
+
+    /// Finds the partner of a case of the first run.
+    fn find(&self, case: &'a Case) -> Option<&'a Case> {
+        if let Some(exact) = self.exact.get(&key(case)) {
+            return Some(exact);
+        }
+        let preset = preset_key(case);
+        let is_single = self.own.get(&preset).is_some_and(Option::is_some);
+        self.other
+            .get(&preset)
+            .copied()
+            .flatten()
+            .filter(|_| is_single)
+    }
+}
+
+/// Indexes cases by their keys.
+fn index(cases: &[Case]) -> HashMap<Key<'_>, &Case> {
+    let mut index = HashMap::new();
+    for case in cases {
+        index.entry(key(case)).or_insert(case);
+    }
+    index
+}
+
+/// Finds the only case of each preset among those that are not in an index; none where there are several.
+fn single_presets<'a>(
+    cases: &'a [Case],
+    index: &HashMap<Key, &Case>,
+) -> HashMap<Key<'a>, Option<&'a Case>> {
+    let mut single = HashMap::new();
+    for case in cases.iter().filter(|case| !index.contains_key(&key(case))) {
+        (single.entry(preset_key(case)))
+            .and_modify(|known| *known = None)
+            .or_insert(Some(case));
+    }
+    single
 }
 
 /// Lists names, each once and six at most.

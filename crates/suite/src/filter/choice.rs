@@ -1,6 +1,8 @@
 //! A filter with one set of its parameters.
 
-use filters::{Filter, FilterError, Settings};
+use std::collections::BTreeMap;
+
+use filters::{Filter, FilterError, Settings, Value};
 
 /// A filter with one set of its parameters.
 #[derive(Clone)]
@@ -11,6 +13,8 @@ pub struct FilterChoice {
     pub preset: String,
     /// The parameters.
     pub settings: Settings,
+    /// Parameters that were set to a value of their own, in place of the preset's.
+    pub overrides: BTreeMap<String, Value>,
     /// True if values in pixels stay as the preset has them, whatever the picture's width.
     pub as_written: bool,
 }
@@ -22,13 +26,27 @@ impl FilterChoice {
             settings: filter.settings(Some(preset))?,
             filter,
             preset: preset.to_owned(),
+            overrides: BTreeMap::new(),
             as_written: false,
         })
     }
 
-    /// Names filter and preset: `jump_flood:paper`.
+    /// Sets a parameter to a value of its own, which the name shows.
+    pub fn set(&mut self, parameter: &str, text: &str) -> Result<(), FilterError> {
+        self.settings.set(&self.filter, parameter, text)?;
+        let value = self.settings.values[parameter].clone();
+        self.overrides.insert(parameter.to_owned(), value);
+        Ok(())
+    }
+
+    /// Lists the overrides as names show them: ` samples=8`.
+    pub fn overrides_text(&self) -> String {
+        overrides_text(&self.overrides)
+    }
+
+    /// Names filter, preset and overrides: `jump_flood:paper samples=8`.
     pub fn name(&self) -> String {
-        format!("{}:{}", self.filter.name, self.preset)
+        format!("{}:{}", self.filter.name, self.preset) + &self.overrides_text()
     }
 
     /// Keeps values in pixels as the presets have them, if that is asked for.
@@ -56,4 +74,12 @@ impl FilterChoice {
             false => settings.scaled_to(&self.filter, width),
         })
     }
+}
+
+/// Lists parameters with values of their own as names show them: ` samples=8 spread=0.5`.
+pub(crate) fn overrides_text(overrides: &BTreeMap<String, Value>) -> String {
+    let texts = overrides
+        .iter()
+        .map(|(parameter, value)| format!(" {parameter}={value}"));
+    texts.collect()
 }

@@ -179,6 +179,7 @@ impl CaseContext<'_> {
             is_reference: planned.is_reference(),
             input: planned.input(),
             parameters: choice.map_or_else(BTreeMap::new, |choice| choice.settings.values.clone()),
+            overrides: choice.map_or_else(BTreeMap::new, |choice| choice.overrides.clone()),
             reference_width: choice.and_then(|choice| choice.settings.reference_width),
             command: command.map(Command::words),
             nonlinearity: measured.nonlinearity,

@@ -2,6 +2,7 @@
 
 pub mod case;
 pub mod dilated_velocity;
+pub mod estimate;
 pub mod pictures;
 pub mod plan;
 pub mod planned_case;

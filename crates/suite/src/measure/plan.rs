@@ -27,22 +27,29 @@ pub struct RunPlan {
     pub intervals: bool,
     /// True if frames, truths and cases that lie in `out` are removed and made anew.
     pub no_cache: bool,
+    /// Shutter alignment that every case is compared with; none for that of
+    /// [`Run::common_alignment`](crate::Run::common_alignment).
+    pub common: Option<Alignment>,
     /// Listener to the progress, which may end the work.
     pub monitor: Monitor,
 }
 
 impl RunPlan {
-    /// Lists the alignments that filters declare, each once.
+    /// Lists the alignments that filters declare and that of all cases, each once.
     pub(crate) fn alignments(&self) -> Vec<Alignment> {
-        let is_declared = |alignment: &Alignment| {
-            (self.filters.iter()).any(|choice| choice.filter.alignment == *alignment)
+        let takes_part = |alignment: &Alignment| {
+            Some(*alignment) == self.common
+                || (self.filters.iter()).any(|choice| choice.filter.alignment == *alignment)
         };
-        Alignment::ALL.into_iter().filter(is_declared).collect()
+        Alignment::ALL.into_iter().filter(takes_part).collect()
     }
 
-    /// Chooses the alignment that all cases are compared with, among those that filters declare: no truth is rendered for it
-    /// alone.
+    /// Chooses the alignment that all cases are compared with: the plan's own, or one that filters declare, so that no truth is
+    /// rendered for it alone.
     pub(crate) fn common_alignment(&self) -> Alignment {
+        if let Some(common) = self.common {
+            return common;
+        }
         let declared = self.alignments();
         [Alignment::Centred, Alignment::Trailing]
             .into_iter()

@@ -80,9 +80,26 @@ impl<'a> PlannedCase<'a> {
         }
     }
 
-    /// Names the case as messages do: `jump_flood:paper`, and behind that what differs from the default input.
+    /// Names the case as messages do: `jump_flood:paper`, followed by what is not as usual.
     pub fn name(&self) -> String {
-        let mut name = format!("{}:{}", self.filter(), self.preset());
+        let overrides = match self.source {
+            PictureSource::Filter(choice, _) => choice.overrides_text(),
+            _ => String::new(),
+        };
+        self.name_with(&overrides)
+    }
+
+    /// Names the case without its overrides.
+    pub fn preset_name(&self) -> String {
+        self.name_with("")
+    }
+
+    fn name_with(&self, overrides: &str) -> String {
+        let mut name = match self.preset().as_str() {
+            "" => self.filter().to_owned(),
+            preset => format!("{}:{preset}", self.filter()),
+        };
+        name += overrides;
         name.extend(self.input().change().map(|change| format!(" {change}")));
         name
     }
@@ -100,6 +117,10 @@ impl<'a> PlannedCase<'a> {
         let mut parts = vec![self.filter().to_owned(), self.preset()];
         if self.is_reference() {
             parts.push(self.alignment.name().to_owned());
+        }
+        if let PictureSource::Filter(choice, _) = self.source {
+            let overrides = choice.overrides.iter();
+            parts.extend(overrides.map(|(parameter, value)| format!("{parameter}_{value}")));
         }
         parts.extend(self.input().change().map(|change| change.replace('=', "_")));
         parts.retain(|part| !part.is_empty());

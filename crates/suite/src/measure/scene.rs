@@ -15,7 +15,9 @@ use super::planned_case::PlannedCase;
 use super::references::{TruthReferences, viewing};
 use crate::Error;
 use crate::cache::clear::clear_scene;
-use crate::cache::record::{CASE_RECORD, read_record, remove_altered_files, write_record};
+use crate::cache::record::{
+    CASE_RECORD, read_record, read_record_alone, remove_altered_files, write_record,
+};
 use crate::cache::scene_keys::SceneKeys;
 use crate::filter::choice::FilterChoice;
 use crate::filter::input_format::InputFormat;
@@ -39,34 +41,44 @@ pub(crate) struct SceneContext<'a> {
     pub keys: Option<SceneKeys>,
 }
 
+/// Steps that progress shows for measuring the cases of a scene.
+const MEASURING_STEPS: u64 = 12;
+
 type Truths = BTreeMap<Alignment, (Truth, Ladder)>;
 
 impl SceneContext<'_> {
     /// Returns the reference pictures of each alignment, then one case per filter preset and form of the input; a failure where a
-    /// filter made no picture that can be measured.
-    pub fn measure_cases(&self) -> Result<Vec<Result<Case, Failure>>, Error> {
+    /// filter made no picture that can be measured. Counts the cases that were read back as well. `advance` gets the number of
+    /// steps that are done.
+    pub fn measure_cases(
+        &self,
+        advance: &dyn Fn(u64),
+    ) -> Result<(Vec<Result<Case, Failure>>, usize), Error> {
         if self.plan.no_cache {
             clear_scene(&scene_folder(&self.plan.out, self.scene))?;
         }
         let planned = PlannedCase::all(self.plan, self.filters);
         let found: Vec<Option<Case>> = planned.iter().map(|case| self.read_case(case)).collect();
-        if found.iter().all(Option::is_some) && self.has_its_files() {
-            return Ok(found.into_iter().flatten().map(Ok).collect());
+        let read_back = found.iter().flatten().count();
+        if read_back == found.len() && self.has_its_files() {
+            return Ok((found.into_iter().flatten().map(Ok).collect(), read_back));
         }
         self.plan.render.for_frame(self.scene).check(self.scene)?;
         check_measuring_memory(self.scene, &self.plan.render)?;
-        let (frame, truths) = self.render()?;
+        let (frame, truths) = self.render(advance)?;
         let due = (planned.iter().zip(&found)).filter(|(_, found)| found.is_none());
         let due: Vec<&PlannedCase> = due.map(|(case, _)| case).collect();
         let label = format!("{} blurs and scores", self.scene.name);
         let monitor = self.plan.monitor;
-        let measured = monitor.watch(&label, |watch| self.measure(&due, &frame, &truths, watch))?;
+        let measured = monitor.watch(&label, |watch| {
+            self.measure(&due, &frame, &truths, advance, watch)
+        })?;
         let mut measured = measured.into_iter();
         let cases = found.into_iter().map(|found| match found {
             Some(case) => Ok(case),
             None => measured.next().expect("every case that is due was tried"),
         });
-        Ok(cases.collect())
+        Ok((cases.collect(), read_back))
     }
 
     /// Measures the cases that are due, and writes the record of each as soon as it is whole.
@@ -75,6 +87,7 @@ impl SceneContext<'_> {
         due: &[&PlannedCase],
         frame: &Frame,
         truths: &Truths,
+        advance: &dyn Fn(u64),
         watch: Watch,
     ) -> Result<Vec<Result<Case, Failure>>, Error> {
         if due.is_empty() {
@@ -117,6 +130,7 @@ impl SceneContext<'_> {
             if watch(progress).is_break() {
                 return Err(tracer::TraceError::Cancelled.into());
             }
+            advance(self.render_steps() + MEASURING_STEPS * done as u64 / due.len() as u64);
             let context = CaseContext {
                 plan: self.plan,
                 gpu: self.gpu,
@@ -154,7 +168,7 @@ impl SceneContext<'_> {
     }
 
     /// Renders the scene's frame and one truth per alignment that a filter of the plan declares, and writes their pictures.
-    fn render(&self) -> Result<(Frame, Truths), Error> {
+    fn render(&self, advance: &dyn Fn(u64)) -> Result<(Frame, Truths), Error> {
         let RunPlan {
             render,
             out,
@@ -168,7 +182,8 @@ impl SceneContext<'_> {
         let frame = render_frame(self.scene, render, out, *monitor)?;
         let mut files = vec![write_frame(&folder, self.scene, &frame)?];
         let mut truths = Truths::new();
-        for alignment in self.plan.alignments() {
+        for (alignment, done) in self.plan.alignments().into_iter().zip(0..) {
+            advance(1 + done * self.truth_steps());
             let rendered = render_truth_and_ladder(self.scene, render, alignment, out, *monitor)?;
             files.push(write_truth(&folder, self.scene, &rendered.0)?);
             truths.insert(alignment, rendered);
@@ -177,6 +192,21 @@ impl SceneContext<'_> {
             write_record(&record, key, &files, &())?;
         }
         Ok((frame, truths))
+    }
+
+    /// Counts the steps of the whole scene, as progress shows them: those of rendering, and those of measuring.
+    pub fn steps(&self) -> u64 {
+        self.render_steps() + MEASURING_STEPS
+    }
+
+    /// Counts a frame and the truths.
+    fn render_steps(&self) -> u64 {
+        1 + self.plan.alignments().len() as u64 * self.truth_steps()
+    }
+
+    /// Counts the replicates of a truth, and its ladder.
+    fn truth_steps(&self) -> u64 {
+        u64::from(self.plan.render.replicates) + 1
     }
 
     /// Makes, per alignment of the filters that are due, the truths without one pair of replicates each; none where the plan asks
@@ -209,8 +239,35 @@ impl SceneContext<'_> {
         if !self.plan.intervals {
             case.intervals.clear();
         }
-        let is_whole = case.is_reference || !self.plan.intervals || !case.intervals.is_empty();
-        is_whole.then_some(case)
+        self.is_whole(&case).then_some(case)
+    }
+
+    /// Tells whether a case that was read has the intervals that the plan asks for.
+    fn is_whole(&self, case: &Case) -> bool {
+        case.is_reference || !self.plan.intervals || !case.intervals.is_empty()
+    }
+
+    /// Tells whether a case was measured before, without looking at its pictures.
+    pub fn has_record(&self, planned: &PlannedCase) -> bool {
+        let Some(key) = self.case_key(planned) else {
+            return false;
+        };
+        let case = read_record_alone::<Case>(&self.case_record(planned), &key);
+        case.is_some_and(|case| self.is_whole(&case))
+    }
+
+    /// Tells whether the frame is missing, and counts missing truths, without looking at their pictures.
+    pub fn count_missing(&self) -> (bool, usize) {
+        let records = self.render_records();
+        let is_missing =
+            |(record, key): &(PathBuf, String)| read_record_alone::<()>(record, key).is_none();
+        match records.split_first() {
+            None => (true, self.plan.alignments().len()),
+            Some((frame, truths)) => (
+                is_missing(frame),
+                truths.iter().filter(|truth| is_missing(truth)).count(),
+            ),
+        }
     }
 
     fn case_key(&self, planned: &PlannedCase) -> Option<String> {

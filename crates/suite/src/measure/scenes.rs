@@ -1,7 +1,7 @@
 //! Runs: scene after scene, measured by one plan.
 
 use filters::Gpu;
-use tracer::{Progress, Watch};
+use tracer::{Progress, Scene, Watch};
 
 use super::plan::RunPlan;
 use super::scene::SceneContext;
@@ -27,7 +27,8 @@ pub fn measure_scenes(
         _ => plan.monitor,
     };
     let label = format!("{} scenes in all", plan.scenes.len());
-    let (cases, failures) = monitor.watch(&label, |watch| measure_all(plan, gpu, watch))?;
+    let (cases, failures, read_back) =
+        monitor.watch(&label, |watch| measure_all(plan, gpu, watch))?;
     Ok(Run {
         format: FORMAT,
         program: PROGRAM.to_owned(),
@@ -46,40 +47,62 @@ pub fn measure_scenes(
         overall: overall(&cases),
         failures,
         cases,
+        read_back,
     })
 }
 
+/// Measures scene after scene, and counts the cases that were read back.
 fn measure_all(
     plan: &RunPlan,
     gpu: Option<&Gpu>,
     watch: Watch,
-) -> Result<(Vec<Case>, Vec<Failure>), Error> {
-    let program = hash_program();
-    let filters: Vec<FilterChoice> = (plan.filters.iter())
-        .map(|choice| choice.scaled_to(plan.render.width))
-        .collect();
-    let (mut cases, mut failures) = (Vec::new(), Vec::new());
-    for (done, scene) in plan.scenes.iter().enumerate() {
-        // A scene that is interrupted returns the error itself.
-        let _ = watch(Progress {
-            done: done as u64,
-            total: plan.scenes.len() as u64,
-        });
-        let keys = (program.as_ref())
-            .map(|program| SceneKeys::new(program, scene, &plan.render, plan.alignments()));
-        let context = SceneContext {
-            plan,
-            filters: &filters,
-            gpu,
-            scene,
-            keys,
+) -> Result<(Vec<Case>, Vec<Failure>, usize), Error> {
+    let filters = scale_filters(plan);
+    let (mut cases, mut failures, mut read_back) = (Vec::new(), Vec::new(), 0);
+    for (number, scene) in (0..).zip(scene_contexts(plan, &filters, gpu)) {
+        let steps = scene.steps();
+        let advance = |done: u64| {
+            // A scene that is interrupted returns the error itself.
+            let _ = watch(Progress {
+                done: number * steps + done.min(steps),
+                total: plan.scenes.len() as u64 * steps,
+            });
         };
-        for case in context.measure_cases()? {
+        advance(0);
+        let (measured, found) = scene.measure_cases(&advance)?;
+        read_back += found;
+        for case in measured {
             match case {
                 Ok(case) => cases.push(case),
                 Err(failure) => failures.push(failure),
             }
         }
     }
-    Ok((cases, failures))
+    Ok((cases, failures, read_back))
+}
+
+/// Scales the filters of a plan to its pictures.
+pub(super) fn scale_filters(plan: &RunPlan) -> Vec<FilterChoice> {
+    let width = plan.render.width;
+    (plan.filters.iter())
+        .map(|choice| choice.scaled_to(width))
+        .collect()
+}
+
+/// Prepares every scene of a plan for measuring.
+pub(super) fn scene_contexts<'a>(
+    plan: &'a RunPlan,
+    filters: &'a [FilterChoice],
+    gpu: Option<&'a Gpu>,
+) -> Vec<SceneContext<'a>> {
+    let program = hash_program();
+    let context = |scene: &'a Scene| SceneContext {
+        plan,
+        filters,
+        gpu,
+        scene,
+        keys: (program.as_ref())
+            .map(|program| SceneKeys::new(program, scene, &plan.render, plan.alignments())),
+    };
+    plan.scenes.iter().map(context).collect()
 }

@@ -50,11 +50,15 @@ pub(crate) fn check_measuring_memory(
     scene: &Scene,
     settings: &RenderSettings,
 ) -> Result<(), Error> {
+    refuse_beyond_free(scene, settings, measuring_memory(scene, settings))
+}
+
+/// Estimates the bytes that it takes to render a scene and to measure filters on it.
+pub(crate) fn measuring_memory(scene: &Scene, settings: &RenderSettings) -> u64 {
     let pixels = u64::from(settings.width) * u64::from(settings.height);
     let pixel = PER_MEASURED_PIXEL + PER_MEASURED_COVERAGE * coverages(scene);
     let measuring = MEASURING.saturating_add(pixels.saturating_mul(pixel));
-    let rendering = needed(scene, settings, settings.replicates);
-    refuse_beyond_free(scene, settings, measuring.max(rendering))
+    measuring.max(needed(scene, settings, settings.replicates))
 }
 
 fn refuse_beyond_free(scene: &Scene, settings: &RenderSettings, needed: u64) -> Result<(), Error> {

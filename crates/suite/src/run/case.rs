@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use tracer::Family;
 
 use crate::InputFormat;
+use crate::filter::choice::overrides_text;
 
 /// Confidence intervals of scores, by the names of their metrics.
 pub type Intervals = BTreeMap<String, Interval>;
@@ -35,6 +36,9 @@ pub struct Case {
     pub input: InputFormat,
     /// Every parameter's value.
     pub parameters: BTreeMap<String, Value>,
+    /// Parameters that `--set` gave a value of their own.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub overrides: BTreeMap<String, Value>,
     /// Width of the pictures that the preset was made for, from which values in pixels were scaled to this run's; none where
     /// the preset names none, or values were left as written.
     #[serde(default)]
@@ -63,12 +67,22 @@ pub struct Case {
 }
 
 impl Case {
-    /// Names the case as tables and folders do: `jump_flood:paper`, and behind that what differs from the default input.
+    /// Names the case as tables and folders do: `jump_flood:paper`, followed by what is not as usual.
     pub fn name(&self) -> String {
+        self.name_with(&overrides_text(&self.overrides))
+    }
+
+    /// Names the case without its overrides, so that runs with and without them compare.
+    pub fn preset_name(&self) -> String {
+        self.name_with("")
+    }
+
+    fn name_with(&self, overrides: &str) -> String {
         let mut name = match self.preset.as_str() {
             "" => self.filter.clone(),
             preset => format!("{}:{preset}", self.filter),
         };
+        name += overrides;
         if let Some(change) = self.input.change() {
             name += &format!(" {change}");
         }

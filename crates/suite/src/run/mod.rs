@@ -1,6 +1,7 @@
 //! A finished run: its data, and the files that hold it.
 
 pub mod case;
+pub mod earlier;
 pub mod failure;
 pub mod file;
 pub mod layers;
@@ -56,4 +57,7 @@ pub struct Run {
     /// Means over the scenes.
     #[serde(default)]
     pub overall: Vec<Overall>,
+    /// Number of cases that were measured before and read back; not in run.json.
+    #[serde(skip)]
+    pub read_back: usize,
 }

@@ -3,4 +3,5 @@
 pub mod headline;
 pub mod intervals;
 pub mod overall;
+pub mod ranking;
 pub mod scene_mean;

@@ -53,8 +53,8 @@ fn numbers_beyond_what_can_be_done_are_refused_with_what_is_allowed() {
             &["--budget", "0 to 1000000"],
         ),
         (
-            "tune --filter jump_flood --sobol 10000000000000",
-            &["--sobol", "0 to 1000000"],
+            "sensitivity --filter jump_flood --rows 10000000000000",
+            &["--rows", "0 to 1000000"],
         ),
     ] {
         let (command, more) = words.split_once(' ').unwrap();

@@ -27,13 +27,7 @@ pub fn execute(args: &ServeArgs) -> Result<(), Error> {
     let (_, rendered) = claim_and_render(&scenes, &choice, candidate, Sharing::Together)?;
     let bleed = candidate.objective.contains(&Objective::Bleed);
     let mut service = Service {
-        evaluator: Evaluator::new(
-            gpu.as_ref(),
-            &choice,
-            &rendered,
-            bleed,
-            make_monitor(candidate.scenes.quiet),
-        )?,
+        evaluator: Evaluator::new(gpu.as_ref(), &choice, &rendered, bleed, make_monitor())?,
         cost: candidate.objective.contains(&Objective::Cost),
         inbox: Inbox::open(),
     };

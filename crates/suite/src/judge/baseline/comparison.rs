@@ -159,7 +159,10 @@ fn check_truth(case: &Case, baseline: &Baseline) -> Result<(), String> {
 /// Returns the amount by which a case is worse than in the baseline; none if the metric did not apply then.
 fn difference(case: &Case, metric: Metric, baseline: &Baseline) -> Result<Option<f64>, String> {
     let filters = baseline.scores.get(&case.scene);
-    let Some(scores) = filters.and_then(|filters| filters.get(&case.name())) else {
+    let Some(scores) = filters.and_then(|filters| {
+        // A parameter with a value of its own is judged by its preset.
+        (filters.get(&case.name())).or_else(|| filters.get(&case.preset_name()))
+    }) else {
         return Err(format!(
             "has no scores of {} on {}; accept a run with them: shuttertruth accept",
             case.name(),

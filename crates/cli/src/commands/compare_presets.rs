@@ -1,0 +1,30 @@
+//! The command `compare-presets`.
+
+use suite::{Error, Evaluator, Objective, Sharing, compare_candidates};
+
+use super::candidate::{claim_and_render, open_candidate_gpu, select_candidate};
+use super::plan::load_scenes;
+use super::result::CommandResult;
+use crate::arguments::ComparePresetsArgs;
+use crate::output::progress::make_monitor;
+use crate::tables::tuning::paired_table;
+
+/// Scores two presets on every scene, writes `compare.json`, prints the table.
+pub fn execute(args: &ComparePresetsArgs) -> Result<(), Error> {
+    let candidate = &args.candidate;
+    let choice = select_candidate(candidate)?;
+    let presets = [&args.first, &args.second];
+    let [first, second] = presets.map(|preset| choice.preset_at(preset, candidate.size.0));
+    let (first, second) = (first?, second?);
+    let scenes = load_scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
+    let gpu = open_candidate_gpu(&choice, candidate)?;
+    let (_claim, rendered) = claim_and_render(&scenes, &choice, candidate, Sharing::Alone)?;
+    let bleed = candidate.objective.contains(&Objective::Bleed);
+    let mut scorer = Evaluator::new(gpu.as_ref(), &choice, &rendered, bleed, make_monitor())?;
+    let paired = compare_candidates(&mut scorer, &first, &second)?;
+    let json = serde_json::to_string_pretty(&paired).expect("a comparison is plain data");
+    let path = candidate.scenes.out.join("compare.json");
+    frame::write_atomically(&path, json.as_bytes())?;
+    let table = paired_table(&paired, presets.map(String::as_str));
+    CommandResult { table, json, path }.print(args.json)
+}

@@ -1,0 +1,37 @@
+//! The command `sensitivity`.
+
+use suite::{Error, Evaluator, Sharing, Space, analyze_sensitivity};
+
+use super::candidate::{claim_and_render, open_candidate_gpu, select_candidate};
+use super::plan::load_scenes;
+use super::result::CommandResult;
+use crate::arguments::SensitivityArgs;
+use crate::output::progress::make_monitor;
+use crate::tables::sensitivity::sensitivity_table;
+
+/// Studies the parameters of a filter, writes `sensitivity.json`, prints the table.
+pub fn execute(args: &SensitivityArgs) -> Result<(), Error> {
+    let candidate = &args.candidate;
+    let choice = select_candidate(candidate)?;
+    if args.rows < 2 {
+        return Err(Error::Usage(format!(
+            "--rows {}: allowed is 2 or more; a single row has no variance",
+            args.rows
+        )));
+    }
+    let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;
+    let scenes = load_scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
+    let gpu = open_candidate_gpu(&choice, candidate)?;
+    let (_claim, rendered) = claim_and_render(&scenes, &choice, candidate, Sharing::Alone)?;
+    let monitor = make_monitor();
+    let mut scorer = Evaluator::new(gpu.as_ref(), &choice, &rendered, false, monitor)?;
+    let label = format!("parameters of {}", choice.filter.name);
+    let found = monitor.watch(&label, |watch| {
+        analyze_sensitivity(&mut scorer, &space, args.rows, args.search_seed, watch)
+    })?;
+    let json = serde_json::to_string_pretty(&found).expect("a study is plain data");
+    let path = candidate.scenes.out.join("sensitivity.json");
+    frame::write_atomically(&path, json.as_bytes())?;
+    let table = sensitivity_table(&found);
+    CommandResult { table, json, path }.print(args.json)
+}

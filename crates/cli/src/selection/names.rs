@@ -1,0 +1,52 @@
+//! Names on the command line: patterns, and suggestions for misspelt ones.
+
+use glob::Pattern;
+use suite::Error;
+
+/// Similarity from which a known name is suggested for a misspelt one; 1 is equal.
+const SIMILAR: f64 = 0.75;
+
+/// Tells whether a text is a pattern, such as `rail*`, and no name.
+pub fn is_pattern(text: &str) -> bool {
+    text.contains(['*', '?', '['])
+}
+
+/// Lists the known names that a pattern matches.
+///
+/// # Errors
+/// The pattern is malformed.
+pub fn match_names(option: &str, text: &str, known: &[String]) -> Result<Vec<String>, Error> {
+    let pattern = Pattern::new(text)
+        .map_err(|error| Error::Usage(format!("{option}: the pattern '{text}': {error}")))?;
+    let matched = known.iter().filter(|name| pattern.matches(name));
+    Ok(matched.cloned().collect())
+}
+
+/// Says which names are meant or allowed: `did you mean railing?`, or all of them where none is similar.
+pub fn suggest_names(text: &str, known: &[String]) -> String {
+    let similarity = |name: &&String| strsim::jaro_winkler(text, name);
+    let best = known
+        .iter()
+        .max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
+    match best.filter(|name| similarity(name) >= SIMILAR) {
+        Some(name) => format!("did you mean {name}?"),
+        None => format!("allowed: {}", known.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_misspelt_name_gets_a_suggestion_and_another_one_the_list() {
+        let known = ["railing", "fan", "two_spheres"].map(str::to_owned);
+        for misspelt in ["raling", "Railing", "railings", "rialing"] {
+            assert_eq!(suggest_names(misspelt, &known), "did you mean railing?");
+        }
+        assert_eq!(
+            suggest_names("my_scene", &known),
+            "allowed: railing, fan, two_spheres"
+        );
+    }
+}

@@ -1,0 +1,152 @@
+//! Summary of a run: the ranking of its filters, and the references beside them.
+
+use metrics::Measured;
+use suite::{Case, Headline, RankedFilter, rank_by_flip};
+
+use super::columns::{legend_text, list_once};
+use super::layout::{Align, Table};
+use crate::output::colors::faint;
+
+/// Upper limit on rows of filters, so that the summary of a run fits 40 lines.
+const MOST_ROWS: usize = 16;
+
+/// Makes the summary of cases: filters ranked within each shutter, then references. Where the presets are too many for a
+/// summary, the best preset of each filter stands for it.
+pub fn ranking_text(cases: &[Case]) -> String {
+    let presets = rank_by_flip(cases, false);
+    let count: usize = presets.iter().map(Vec::len).sum();
+    let (mut groups, best_presets) = match count > MOST_ROWS {
+        true => (rank_by_flip(cases, true), true),
+        false => (presets, false),
+    };
+    if groups.is_empty() {
+        return "no filter has a FLIP score: nothing moves in these scenes\n".to_owned();
+    }
+    let shown_presets: usize = groups.iter().flatten().map(|ranked| ranked.presets).sum();
+    let rows: usize = groups.iter().map(Vec::len).sum();
+    let hidden = limit_rows(&mut groups, rows);
+    let mut text = ranking_table(cases, &groups).text();
+    text += &references_text(cases, &groups);
+    text += "\n";
+    text += &legend_text(&notes(&groups));
+    if best_presets && shown_presets > rows {
+        text += &legend_text(&format!(
+            "Each filter by its best preset; --table shows all {shown_presets}."
+        ));
+    }
+    if hidden > 0 {
+        text += &legend_text(&format!("And {hidden} more: --table shows all."));
+    }
+    text
+}
+
+/// Keeps the best of every group; returns the number of rows left out.
+fn limit_rows(groups: &mut [Vec<RankedFilter>], rows: usize) -> usize {
+    if rows <= MOST_ROWS {
+        return 0;
+    }
+    let each = (MOST_ROWS / groups.len()).max(1);
+    for group in groups.iter_mut() {
+        group.truncate(each);
+    }
+    rows - groups.iter().map(Vec::len).sum::<usize>()
+}
+
+fn ranking_table(cases: &[Case], groups: &[Vec<RankedFilter>]) -> Table {
+    let scenes = list_once(cases.iter().map(|case| case.scene.as_str()));
+    let (title, columns) = match scenes.as_slice() {
+        [scene] => ((*scene).to_owned(), 2),
+        scenes => (format!("mean over {} scenes", scenes.len()), 4),
+    };
+    let titles = [title.as_str(), "FLIP", "95 % CI", "worst scene"];
+    let align = [Align::Left, Align::Right, Align::Right, Align::Left];
+    let mut table = Table::new(&titles[..columns], &align[..columns]);
+    for group in groups {
+        table.push_text(&format!("{} shutter", group[0].alignment));
+        for ranked in group {
+            let mut cells = ranking_cells(ranked, scenes.len());
+            cells.truncate(columns);
+            table.push(cells);
+        }
+    }
+    table
+}
+
+/// ` 2= jimenez:hdrp`, its FLIP, the interval, and the worst scene.
+fn ranking_cells(ranked: &RankedFilter, scenes: usize) -> Vec<String> {
+    let number = |value: f64| Headline::FLIP.number(value);
+    let rank = match ranked.is_tied {
+        true => format!("{}=", ranked.rank),
+        false => ranked.rank.to_string(),
+    };
+    let interval = match ranked.interval {
+        Some([low, high]) => format!("{} to {}", number(low), number(high)),
+        None => "-".to_owned(),
+    };
+    let (scene, worst) = &ranked.worst;
+    let mut worst = format!("{scene} {}", number(*worst));
+    if ranked.scenes < scenes {
+        worst += &format!(" ({} of {scenes} scenes)", ranked.scenes);
+    }
+    vec![
+        format!("{rank:>3} {}", ranked.name),
+        number(ranked.flip),
+        interval,
+        worst,
+    ]
+}
+
+/// Makes the table of references: one row each, one column per shutter.
+fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
+    let references = || cases.iter().filter(|case| case.is_reference);
+    let names: Vec<String> = references().map(Case::name).collect();
+    let names = list_once(names.iter().map(String::as_str));
+    if names.is_empty() {
+        return String::new();
+    }
+    let alignments: Vec<&str> = groups
+        .iter()
+        .map(|group| group[0].alignment.as_str())
+        .collect();
+    let titles: Vec<&str> = std::iter::once("references")
+        .chain(alignments.iter().copied())
+        .collect();
+    let align: Vec<Align> = std::iter::once(Align::Left)
+        .chain(alignments.iter().map(|_| Align::Right))
+        .collect();
+    let mut table = Table::new(&titles, &align);
+    for name in names {
+        let mean = |alignment: &&str| {
+            let own =
+                references().filter(|case| case.name() == name && case.alignment == **alignment);
+            mean_flip(own)
+        };
+        let cells = std::iter::once(format!("    {name}")).chain(alignments.iter().map(mean));
+        table.push_styled(cells.collect(), faint);
+    }
+    table.text()
+}
+
+fn mean_flip<'a>(cases: impl Iterator<Item = &'a Case>) -> String {
+    let values: Vec<f64> = cases
+        .filter_map(|case| match Headline::FLIP.measured(case) {
+            Measured::Score(score) => Some(score.value),
+            Measured::NotApplicable { .. } => None,
+        })
+        .collect();
+    match values.len() {
+        0 => "n/a".to_owned(),
+        count => Headline::FLIP.number(values.iter().sum::<f64>() / count as f64),
+    }
+}
+
+fn notes(groups: &[Vec<RankedFilter>]) -> String {
+    let mut notes = "FLIP where anything moves; lower is better.".to_owned();
+    if groups.iter().flatten().any(|ranked| ranked.is_tied) {
+        notes += " Filters with one rank (=) are too close to tell apart.";
+    }
+    if groups.len() > 1 {
+        notes += " Compare filters of one shutter only; --table has skill, which compares all.";
+    }
+    notes
+}

@@ -1,0 +1,208 @@
+//! Cases of an earlier run in the same folder, which a narrower run keeps.
+
+use std::collections::HashSet;
+
+use filters::AdapterDescription;
+use frame::Alignment;
+
+use super::Run;
+use super::case::Case;
+use super::failure::Failure;
+use crate::measure::plan::RunPlan;
+use crate::measure::planned_case::PlannedCase;
+use crate::stats::overall::overall;
+use crate::{Error, PROGRAM};
+
+/// The cases and failures of an earlier run that a plan does not measure again.
+pub struct EarlierCases {
+    cases: Vec<Case>,
+    failures: Vec<Failure>,
+    /// Cases of the earlier run that are out of date: their scene has changed since.
+    pub outdated: usize,
+}
+
+impl EarlierCases {
+    /// Finds the cases of `run.json` in the plan's folder that the plan leaves out, and lets the plan compare its own cases with
+    /// the same common shutter. None where there is nothing to keep: no run, one that cannot be read, or one whose cases are
+    /// all measured again.
+    ///
+    /// # Errors
+    /// The earlier run has other settings, so that its cases cannot stand beside those of the plan.
+    pub fn find(
+        plan: &mut RunPlan,
+        adapter: Option<&AdapterDescription>,
+    ) -> Result<Option<Self>, Error> {
+        let path = plan.out.join("run.json");
+        if plan.no_cache || !path.is_file() {
+            return Ok(None);
+        }
+        // A run that cannot be read is replaced.
+        let Ok(run) = Run::read(&path) else {
+            return Ok(None);
+        };
+        let common: Alignment = run.common_alignment.parse().map_err(Error::Usage)?;
+        let planned = planned_names(plan);
+        let is_left_out =
+            |scene: &str, name: &str| !planned.contains(&(scene.to_owned(), name.to_owned()));
+        let left_out = (run.cases.iter())
+            .filter(|case| !case.is_reference && is_left_out(&case.scene, &case.preset_name()))
+            .count();
+        if left_out == 0 {
+            return Ok(None);
+        }
+        if let Some((setting, earlier, now)) = find_difference(&run, plan, adapter) {
+            return Err(Error::Usage(format!(
+                "{}: this run would drop {left_out} cases of an earlier one, and cannot keep them: {setting} was {earlier}, now \
+                 {now}",
+                path.display()
+            )));
+        }
+        plan.common = Some(common);
+        let planned = planned_keys(plan);
+        let kept = (run.cases.into_iter()).filter(|case| !planned.contains(&key(case)));
+        let (cases, outdated): (Vec<Case>, Vec<Case>) =
+            kept.partition(|case| !is_outdated(plan, case));
+        let failures = (run.failures.into_iter())
+            .filter(|failure| is_left_out(&failure.scene, &failure.filter))
+            .collect();
+        Ok(Some(Self {
+            cases,
+            failures,
+            outdated: outdated.iter().filter(|case| !case.is_reference).count(),
+        }))
+    }
+
+    /// Number of filter cases that are kept.
+    pub fn count(&self) -> usize {
+        self.cases.iter().filter(|case| !case.is_reference).count()
+    }
+
+    /// Adds the kept cases to a finished run: behind its own cases of each scene, references first.
+    pub fn add_to(self, run: &Run) -> Run {
+        let mut scenes: Vec<&str> = Vec::new();
+        for case in run.cases.iter().chain(&self.cases) {
+            if !scenes.contains(&case.scene.as_str()) {
+                scenes.push(&case.scene);
+            }
+        }
+        let all = || run.cases.iter().chain(&self.cases);
+        let cases: Vec<Case> = (scenes.iter())
+            .flat_map(|scene| {
+                let of_scene = move |is_reference| {
+                    all().filter(move |case| {
+                        case.scene == *scene && case.is_reference == is_reference
+                    })
+                };
+                of_scene(true).chain(of_scene(false)).cloned()
+            })
+            .collect();
+        let failures = run.failures.iter().chain(&self.failures).cloned().collect();
+        Run {
+            overall: overall(&cases),
+            cases,
+            failures,
+            ..run.clone()
+        }
+    }
+}
+
+/// Identity of a case in a folder of runs, whatever values `--set` gave to its parameters: a run with other values replaces it.
+type Key = (String, String, String, bool);
+
+fn key(case: &Case) -> Key {
+    (
+        case.scene.clone(),
+        case.preset_name(),
+        case.alignment.clone(),
+        case.is_reference,
+    )
+}
+
+/// Names the filters of the plan on each of its scenes.
+fn planned_names(plan: &RunPlan) -> HashSet<(String, String)> {
+    let keys = planned_keys(plan).into_iter().filter(|key| !key.3);
+    keys.map(|(scene, name, ..)| (scene, name)).collect()
+}
+
+fn planned_keys(plan: &RunPlan) -> HashSet<Key> {
+    let planned = PlannedCase::all(plan, &plan.filters);
+    let of_scene = |scene: &tracer::Scene| {
+        let keys = planned.iter().map(|case| {
+            let alignment = case.alignment.name().to_owned();
+            (
+                scene.name.clone(),
+                case.preset_name(),
+                alignment,
+                case.is_reference(),
+            )
+        });
+        keys.collect::<Vec<_>>()
+    };
+    plan.scenes.iter().flat_map(of_scene).collect()
+}
+
+/// Tells whether a scene of the plan has changed since the case was measured.
+fn is_outdated(plan: &RunPlan, case: &Case) -> bool {
+    let scene = plan.scenes.iter().find(|scene| scene.name == case.scene);
+    let (Some(scene), Ok(alignment)) = (scene, case.alignment.parse()) else {
+        return false;
+    };
+    let settings = plan.render.for_truth(scene, alignment);
+    tracer::truth_hash(scene, &settings) != case.truth_hash
+}
+
+/// Finds the first setting in which an earlier run and the plan differ, with both values.
+fn find_difference(
+    run: &Run,
+    plan: &RunPlan,
+    adapter: Option<&AdapterDescription>,
+) -> Option<(&'static str, String, String)> {
+    let render = &plan.render;
+    let name = |adapter: Option<&AdapterDescription>| {
+        adapter.map_or("none".to_owned(), |adapter| adapter.name.clone())
+    };
+    let size = |width: u32, height: u32| format!("{width}x{height}");
+    let pairs = [
+        ("program", run.program.clone(), PROGRAM.to_owned()),
+        (
+            "picture size",
+            size(run.width, run.height),
+            size(render.width, render.height),
+        ),
+        (
+            "number of samples per pixel",
+            run.samples_per_pixel.to_string(),
+            render.samples_per_pixel.to_string(),
+        ),
+        (
+            "number of replicates",
+            run.replicates.to_string(),
+            render.replicates.to_string(),
+        ),
+        ("seed", run.seed.to_string(), render.seed.to_string()),
+        (
+            "kind of velocity",
+            run.velocity.clone(),
+            render.velocity.name().to_owned(),
+        ),
+        (
+            "sampling of the frame",
+            run.color.clone(),
+            render.color.name().to_owned(),
+        ),
+        (
+            "velocity of the sky",
+            run.sky_velocity.to_string(),
+            render.sky_velocity.to_string(),
+        ),
+        (
+            "guard band",
+            run.guard_band.to_string(),
+            render.guard_band.to_string(),
+        ),
+    ];
+    let adapters = ("the adapter", name(run.adapter.as_ref()), name(adapter));
+    // A run of programs alone has no adapter, and can stand beside any.
+    let both = run.adapter.is_some() && adapter.is_some();
+    (pairs.into_iter().chain(both.then_some(adapters))).find(|(_, earlier, now)| earlier != now)
+}

@@ -1,0 +1,158 @@
+//! Ranking of a run's filters by FLIP, with ties.
+
+use metrics::Measured;
+
+use super::headline::Headline;
+use super::scene_mean::{TWO_SIDED, plain_mean};
+use crate::Case;
+
+/// A filter preset in the ranking of its shutter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RankedFilter {
+    /// `jump_flood:paper`, followed by what is not as usual.
+    pub name: String,
+    /// Name of the filter alone.
+    pub filter: String,
+    /// Shutter alignment that it is scored against.
+    pub alignment: String,
+    /// Rank among the filters of its shutter, from 1; filters that are too close to tell apart share one.
+    pub rank: usize,
+    /// True if another filter shares the rank.
+    pub is_tied: bool,
+    /// Mean FLIP over the scenes.
+    pub flip: f64,
+    /// 95 % CI of the mean over scenes; none on a single scene.
+    pub interval: Option<[f64; 2]>,
+    /// Number of scenes that have a score.
+    pub scenes: usize,
+    /// Scene with the largest FLIP, and that FLIP.
+    pub worst: (String, f64),
+    /// Number of ranked presets of the filter, this one included.
+    pub presets: usize,
+}
+
+/// FLIP of one filter on one scene.
+struct SceneScore {
+    scene: String,
+    flip: f64,
+    floor: f64,
+}
+
+struct Entry {
+    ranked: RankedFilter,
+    scores: Vec<SceneScore>,
+}
+
+/// Ranks filters of one shutter among each other, the best first: one group per shutter. References are left out. With
+/// `best_presets`, the best preset stands for its filter.
+///
+/// Two filters tie where the mean difference over their common scenes is not told from 0: its 95 % CI holds 0. On a single
+/// scene they tie within the noise floor.
+pub fn rank_by_flip(cases: &[Case], best_presets: bool) -> Vec<Vec<RankedFilter>> {
+    let mut groups: Vec<Vec<Entry>> = Vec::new();
+    for case in cases.iter().filter(|case| !case.is_reference) {
+        let Measured::Score(score) = Headline::FLIP.measured(case) else {
+            continue;
+        };
+        let score = SceneScore {
+            scene: case.scene.clone(),
+            flip: score.value,
+            floor: score.floor,
+        };
+        let group = (groups.iter()).position(|group| group[0].ranked.alignment == case.alignment);
+        let group = group.unwrap_or_else(|| {
+            groups.push(Vec::new());
+            groups.len() - 1
+        });
+        let name = case.name();
+        let entry = (groups[group].iter_mut()).find(|entry| entry.ranked.name == name);
+        match entry {
+            Some(entry) => entry.scores.push(score),
+            None => groups[group].push(new_entry(case, name, score)),
+        }
+    }
+    (groups.into_iter())
+        .map(|group| rank_group(group, best_presets))
+        .collect()
+}
+
+fn new_entry(case: &Case, name: String, score: SceneScore) -> Entry {
+    Entry {
+        ranked: RankedFilter {
+            name,
+            filter: case.filter.clone(),
+            alignment: case.alignment.clone(),
+            rank: 0,
+            is_tied: false,
+            flip: 0.0,
+            interval: None,
+            scenes: 0,
+            worst: (String::new(), 0.0),
+            presets: 1,
+        },
+        scores: vec![score],
+    }
+}
+
+fn rank_group(mut group: Vec<Entry>, best_presets: bool) -> Vec<RankedFilter> {
+    for entry in &mut group {
+        summarize(entry);
+    }
+    group.sort_by(|a, b| a.ranked.flip.total_cmp(&b.ranked.flip));
+    if best_presets {
+        group = keep_best_presets(group);
+    }
+    // The first of the entries that share the current rank.
+    let mut leader = 0;
+    for index in 0..group.len() {
+        if index > 0 && are_tied(&group[leader], &group[index]) {
+            group[leader].ranked.is_tied = true;
+            group[index].ranked.is_tied = true;
+        } else {
+            leader = index;
+        }
+        group[index].ranked.rank = leader + 1;
+    }
+    group.into_iter().map(|entry| entry.ranked).collect()
+}
+
+fn summarize(entry: &mut Entry) {
+    let values: Vec<f64> = entry.scores.iter().map(|score| score.flip).collect();
+    let mean = plain_mean(&values, TWO_SIDED);
+    let worst = (entry.scores.iter())
+        .max_by(|a, b| a.flip.total_cmp(&b.flip))
+        .expect("an entry has a score");
+    entry.ranked.flip = mean.mean;
+    entry.ranked.interval = (values.len() > 1).then_some(mean.interval);
+    entry.ranked.scenes = values.len();
+    entry.ranked.worst = (worst.scene.clone(), worst.flip);
+}
+
+/// Keeps the first preset of every filter of a sorted group.
+fn keep_best_presets(group: Vec<Entry>) -> Vec<Entry> {
+    let mut best: Vec<Entry> = Vec::new();
+    for entry in group {
+        let known = (best.iter_mut()).find(|other| other.ranked.filter == entry.ranked.filter);
+        match known {
+            Some(other) => other.ranked.presets += 1,
+            None => best.push(entry),
+        }
+    }
+    best
+}
+
+fn are_tied(a: &Entry, b: &Entry) -> bool {
+    let pairs = a.scores.iter().filter_map(|score| {
+        let other = b.scores.iter().find(|other| other.scene == score.scene)?;
+        Some((other.flip - score.flip, score.floor.max(other.floor)))
+    });
+    let (differences, floors): (Vec<f64>, Vec<f64>) = pairs.unzip();
+    match differences.as_slice() {
+        [] => false,
+        [difference] => difference.abs() <= floors[0],
+        _ => {
+            let [low, high] = plain_mean(&differences, TWO_SIDED).interval;
+            (low..=high).contains(&0.0)
+        }
+    }
+}
