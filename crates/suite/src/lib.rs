@@ -55,7 +55,9 @@ pub use render::rendered::{
 pub use render::replicates::MOST_REPLICATES;
 pub use render::scatter_oracle::scatter_oracle;
 pub use run::earlier::EarlierCases;
-pub use run::estimate::{RunEstimate, estimate_run};
+pub use run::estimate::{
+    RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run,
+};
 pub use run::failure::{Failure, refuse_failures};
 pub use run::file::MOST_CASES;
 pub use run::filter_choice::FilterChoice;

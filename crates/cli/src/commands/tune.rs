@@ -3,12 +3,13 @@
 use std::time::{Duration, Instant};
 
 use suite::{
-    Error, FilterChoice, RenderSettings, Sharing, Space, TunePlan, Tuning, claim, interleaved,
-    preset_text, tune,
+    Error, FilterChoice, RenderSettings, Sharing, Space, TunePlan, Tuning, claim,
+    estimate_case_seconds, estimate_render_seconds, interleaved, preset_text, tune,
 };
 use tracer::Progress;
 
 use super::candidate::{candidate_render_settings, open_candidate_gpu, select_candidate};
+use super::expected::print_expected_time;
 use super::plan::load_scenes;
 use super::render_settings::make_render_settings;
 use super::result::CommandResult;
@@ -26,6 +27,7 @@ pub fn execute(args: &TuneArgs) -> Result<(), Error> {
     let gpu = open_candidate_gpu(&plan.choice, &args.candidate)?;
     let scenes = plan.scenes.iter().chain(&plan.sealed);
     let _claim = claim(&plan.out, scenes.map(|(scene, _)| scene), Sharing::Alone)?;
+    print_expected_tuning(&plan);
     let began = Instant::now();
     let label = format!("tuning {}", plan.choice.filter.name);
     let tuning = plan.monitor.watch(&label, |watch| {
@@ -42,6 +44,16 @@ pub fn execute(args: &TuneArgs) -> Result<(), Error> {
         print_error(&format!("{} trials in {seconds:.1} s", tuning.trials));
     }
     write_tuning(&tuning, &plan)?.print(args.json)
+}
+
+/// Prints the expected time of a tuning whose scenes are not rendered yet. A race drops many candidates early.
+fn print_expected_tuning(plan: &TunePlan) {
+    let scenes = plan.scenes.len() as f64;
+    let rendering = scenes * estimate_render_seconds(&plan.render, 1);
+    let trials = plan.budget as f64 * scenes * estimate_case_seconds(&plan.render);
+    let limit = plan.time.map_or(f64::INFINITY, |time| time.as_secs_f64());
+    let more = format!("{} candidates on {} scenes", plan.budget, plan.scenes.len());
+    print_expected_time(rendering + trials.min(limit), &more);
 }
 
 fn make_plan(args: &TuneArgs, choice: FilterChoice) -> Result<TunePlan, Error> {
