@@ -226,6 +226,10 @@ fn list_shows_what_is_asked_for() {
     );
     let one = list(&["mcguire"]);
     assert!(one.contains(":paper") && !one.contains("jimenez"), "{one}");
+    let elsewhere = ["--scenes-dir", "nowhere"];
+    for what in ["filters", "bevy"] {
+        assert!(list(&[&[what], &elsewhere[..]].concat()).contains("bevy"));
+    }
     assert!(list(&["adapters"]).starts_with("0: "));
     assert!(list(&[]).lines().count() < 80);
 }
@@ -287,12 +291,14 @@ fn a_check_ends_with_its_verdict_and_counts_targets_apart() {
         (output.status.code(), stdout(&output))
     };
     let target = "flip_moving = { limit = 0.2, why = \"it serves a test\", level = \"report\" }\n";
-    let (code, text) = verdict(&format!("[default]\n{target}"), &[]);
+    let kept = "label_tv = { limit = 0.9, why = \"it serves a test\" }\n";
+    let both = format!("[default]\n{target}{kept}");
+    let (code, text) = verdict(&both, &[]);
     assert_eq!(code, Some(0), "{text}");
     assert!(text.ends_with("\nPASS\n"), "{text}");
     assert!(text.contains("1 targets: 1 missed"), "{text}");
     assert!(!text.contains("target missed flip_moving"), "{text}");
-    let (_, text) = verdict(&format!("[default]\n{target}"), &["-v"]);
+    let (_, text) = verdict(&both, &["-v"]);
     assert!(text.contains("target missed flip_moving"), "{text}");
     let (code, text) = verdict(
         &format!("[default]\n{}", target.replace(", level = \"report\"", "")),
@@ -321,7 +327,7 @@ fn long_work_is_announced() {
     child.kill().unwrap();
     child.wait().unwrap();
     let expected = expected.expect("the time is announced before anything is rendered");
-    for words in ["min on", "MB in out", "GB of memory", "cases"] {
+    for words in [" h on ", "MB in out", "GB of memory", "cases"] {
         assert!(expected.contains(words), "{expected}");
     }
 }

@@ -14,7 +14,7 @@ use filters::FilterError;
 use suite::{Error, printable, printable_lines};
 
 use commands::Ending;
-use output::print::print_error;
+use output::print::{print_error, print_failure};
 use output::progress::{INTERRUPTED_CODE, catch_interrupts};
 use output::verbosity::set_output;
 use quiet_driver::quiet_driver;
@@ -40,7 +40,7 @@ pub fn run_program() -> ExitCode {
         Ok(Ending::Done) => ExitCode::SUCCESS,
         Ok(Ending::Failed(error)) => ExitCode::from(exit_code(&error)),
         Err(error) => {
-            print_error(&printable_lines(&format!("error: {error}")));
+            print_failure(&error);
             ExitCode::from(exit_code(&error))
         }
     }

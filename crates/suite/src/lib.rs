@@ -57,7 +57,9 @@ pub use judge::{
     MOST_SAMPLES, Outcome, Resemblance, RunBounds, Worst, add_evidence, judge, judge_scores,
     limit_as_badness, number, worst_block,
 };
-pub use measure::estimate::{RunEstimate, estimate_run};
+pub use measure::estimate::{
+    RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run,
+};
 pub use measure::plan::RunPlan;
 pub use measure::references::viewing;
 pub use measure::scenes::measure_scenes;

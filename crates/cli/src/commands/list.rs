@@ -66,7 +66,9 @@ fn list_all(args: &ListArgs) -> Result<Listing, Error> {
 
 /// Lists the scenes and filters that are named. Tries out filters of the user's own.
 fn list_named(args: &ListArgs) -> Result<Listing, Error> {
-    let scenes = match args.what.is_empty() {
+    let builtin = Filter::builtin_names();
+    // Built-in filters can be listed where there are no scenes.
+    let scenes = match args.what.iter().all(|what| builtin.contains(what)) {
         true => Vec::new(),
         false => list_scenes(&args.scenes_dir)?,
     };
@@ -77,7 +79,6 @@ fn list_named(args: &ListArgs) -> Result<Listing, Error> {
     for name in &args.filters {
         listing.filters.extend(load_filters(name)?);
     }
-    let builtin = Filter::builtin_names();
     let own: Vec<Filter> = (listing.filters.iter())
         .filter(|filter| !builtin.contains(&filter.name))
         .cloned()

@@ -2,11 +2,13 @@
 
 use frame::Truth;
 use suite::{
-    Error, MOST_REPLICATES, RenderSettings, Sharing, claim, deciding_floor, printable_path,
-    render_frame, render_part, render_truth, render_truth_until, scene_folder,
+    Error, MOST_REPLICATES, RenderSettings, Sharing, claim, deciding_floor,
+    estimate_render_seconds, printable_path, render_frame, render_part, render_truth,
+    render_truth_until, scene_folder,
 };
 use tracer::Scene;
 
+use super::expected::print_expected_time;
 use super::render_settings::make_render_settings;
 use crate::arguments::{RenderArgs, Replicates};
 use crate::output::print::{print, print_scene_notes};
@@ -24,6 +26,7 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
     let mut noisy = Vec::new();
     let choices = select_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
     print_scene_notes(choices.iter().map(|choice| &choice.scene));
+    print_expected_renders(args, &choices)?;
     for SceneChoice { scene, .. } in choices {
         match &args.replicates {
             Replicates::All(count) => noisy.extend(render_whole(args, &scene, *count)?),
@@ -51,6 +54,21 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
         [] => Ok(()),
         _ => Err(Error::TooNoisy(noisy.join("\n"))),
     }
+}
+
+/// Prints the expected time of all scenes, none of which is rendered yet.
+fn print_expected_renders(args: &RenderArgs, choices: &[SceneChoice]) -> Result<(), Error> {
+    let count = match &args.replicates {
+        Replicates::All(count) => *count,
+        Replicates::Part(indices) => (indices.len() as u32).next_multiple_of(2),
+    };
+    let mut seconds = 0.0;
+    for choice in choices {
+        let settings = scene_settings(args, &choice.scene, count)?;
+        seconds += estimate_render_seconds(&settings, args.alignments.len());
+    }
+    print_expected_time(seconds, &format!("{} scenes", choices.len()));
+    Ok(())
 }
 
 /// Renders a scene's frame and truths; returns a line for each truth that stayed noisier than asked for.

@@ -4,11 +4,12 @@ use std::time::{Duration, Instant};
 
 use suite::{
     Error, FilterChoice, RenderSettings, Sharing, Space, TuneOptions, Tuning, claim,
-    interleave_families, tune, tuned_preset_toml,
+    estimate_case_seconds, estimate_render_seconds, interleave_families, tune, tuned_preset_toml,
 };
 use tracer::Progress;
 
 use super::candidate::{candidate_render_settings, open_candidate_gpu, select_candidate};
+use super::expected::print_expected_time;
 use super::plan::load_scenes;
 use super::render_settings::make_render_settings;
 use super::result::CommandResult;
@@ -31,6 +32,7 @@ pub fn execute(args: &TuneArgs) -> Result<(), Error> {
     let gpu = open_candidate_gpu(&options.choice, &args.candidate)?;
     let scenes = options.scenes.iter().chain(&options.held_out);
     let _claim = claim(&options.out, scenes.map(|(scene, _)| scene), Sharing::Alone)?;
+    print_expected_tuning(&options);
     let began = Instant::now();
     let label = format!("tuning {}", options.choice.filter.name);
     let tuning = options.monitor.watch(&label, |watch| {
@@ -47,6 +49,22 @@ pub fn execute(args: &TuneArgs) -> Result<(), Error> {
         print_error(&format!("{} trials in {seconds:.1} s", tuning.trials));
     }
     write_tuning(&tuning, &options)?.print(args.json)
+}
+
+/// Prints the expected time of a tuning whose scenes are not rendered yet. A race drops many candidates early.
+fn print_expected_tuning(options: &TuneOptions) {
+    let scenes = options.scenes.len() as f64;
+    let rendering = scenes * estimate_render_seconds(&options.render, 1);
+    let trials = options.budget as f64 * scenes * estimate_case_seconds(&options.render);
+    let limit = options
+        .time
+        .map_or(f64::INFINITY, |time| time.as_secs_f64());
+    let more = format!(
+        "{} candidates on {} scenes",
+        options.budget,
+        options.scenes.len()
+    );
+    print_expected_time(rendering + trials.min(limit), &more);
 }
 
 fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Error> {

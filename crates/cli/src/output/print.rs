@@ -1,10 +1,12 @@
 //! Printing to standard output and to standard error.
 
 use std::collections::BTreeSet;
-use std::io::{ErrorKind, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
 
-use suite::{Error, printable, printable_table};
+use suite::{Error, printable, printable_lines, printable_table};
 use tracer::Scene;
+
+use super::wrap::push_wrapped;
 
 /// Prints to standard output, in colours where that is a terminal that shows them; other control characters become escapes. A
 /// reader that has read enough, such as `head`, is no error.
@@ -28,6 +30,25 @@ pub fn print_json(value: &impl serde::Serialize) -> Result<(), Error> {
 /// Writes a line to standard error. Nobody need read it: errors are ignored.
 pub fn print_error(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+/// Writes the error that ends a command to standard error, wrapped where that is a terminal.
+pub fn print_failure(error: &Error) {
+    let text = printable_lines(&format!("error: {error}"));
+    if !std::io::stderr().is_terminal() {
+        return print_error(&text);
+    }
+    for line in text.lines() {
+        // Lines of a compiler stand below one another.
+        match line.contains(['┌', '│']) {
+            true => print_error(line),
+            false => {
+                let mut wrapped = String::new();
+                push_wrapped(&mut wrapped, 0, line);
+                print_error(wrapped.trim_end());
+            }
+        }
+    }
 }
 
 /// Writes a note to standard error: something is worth knowing, and nothing is wrong.

@@ -92,6 +92,8 @@ fn finding_lines(finding: &Finding, out: &Path) -> Vec<(usize, String)> {
     if let Some(alike) = &finding.resembles {
         let distance = (100.0 * alike.distance).round();
         lines.push((6, format!("most like {}, {distance} % off", alike.decoy)));
+    } else if finding.worst.is_some() {
+        lines.push((6, "no known failure pattern matched".to_owned()));
     }
     if let Some(way_out) = way_out(finding) {
         lines.push((6, way_out));

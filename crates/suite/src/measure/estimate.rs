@@ -6,6 +6,7 @@ use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use super::scene::SceneContext;
 use super::scenes::{scale_filters, scene_contexts};
+use crate::RenderSettings;
 use crate::render::memory::measuring_memory;
 
 /// CPU time per sample of a pixel, in seconds. This constant and those below were measured on two cores of a server, with
@@ -66,11 +67,26 @@ pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
     estimate
 }
 
+/// Estimates the seconds that it takes to render the frame of a scene and some of its truths, where nothing is kept.
+pub fn estimate_render_seconds(render: &RenderSettings, truths: usize) -> f64 {
+    let samples = count_pixels(render) as f64 * f64::from(render.samples_per_pixel);
+    (1 + truths) as f64 * samples * SECONDS_PER_SAMPLE / rayon::current_num_threads() as f64
+}
+
+/// Estimates the seconds that it takes to run a filter once and to measure its picture.
+pub fn estimate_case_seconds(render: &RenderSettings) -> f64 {
+    count_pixels(render) as f64 * SECONDS_PER_CASE / rayon::current_num_threads() as f64
+}
+
+fn count_pixels(render: &RenderSettings) -> u64 {
+    u64::from(render.width) * u64::from(render.height)
+}
+
 /// Estimates the CPU time and the disk of one scene with some cases to measure.
 fn estimate_scene(scene: &SceneContext, due: usize) -> (f64, u64) {
     let plan = scene.plan;
     let render = &plan.render;
-    let pixels = u64::from(render.width) * u64::from(render.height);
+    let pixels = count_pixels(render);
     let samples = pixels as f64 * f64::from(render.samples_per_pixel);
     let (frame, truths) = match plan.no_cache {
         true => (true, plan.alignments().len()),
