@@ -168,7 +168,7 @@ fn limits_hold_for_the_size_that_they_were_measured_at() {
     let refused = size(&[&small], Some((320, 180))).unwrap_err();
     for part in [
         "fan/bounds.toml:2: the limit on flip_moving holds for 160x90, and the pictures are to have 320x180",
-        "calibrate --size 320x180",
+        "`shuttertruth calibrate`",
     ] {
         assert!(refused.contains(part), "{refused}");
     }
