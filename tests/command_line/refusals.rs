@@ -23,7 +23,7 @@ fn words_that_do_not_fit_are_refused_with_what_is_allowed() {
     let rows: &[(&[&str], &[&str])] = &[
         (
             &["--scenes", "plates"],
-            &["no scene \"plates\"", "allowed: plate"],
+            &["no scene \"plates\"", "did you mean plate?"],
         ),
         (&["--scenes", "plate@fast"], &["fast"]),
         (

@@ -32,7 +32,7 @@ fn calibrated_limits_are_kept_and_nothing_much_worse_is() {
     bench.write("bounds.toml", &proposed);
     // Another seed than either run's.
     let fine = ["--filters", "velocity_gather:fine", "--seed", "9"];
-    assert_ends(&bench.check(&fine), 0, &["5 bounds: 5 kept"]);
+    assert_ends(&bench.check(&fine), 0, &["5 required bounds: 5 kept"]);
     let worse = [&fine[..], &["--set", "velocity_gather.samples=2"]].concat();
     assert_ends(&bench.check(&worse), 1, &["BROKEN flip_moving"]);
 }

@@ -97,7 +97,7 @@ fn github_gets_ten_annotations_at_most_and_a_summary_of_all() {
     );
     let summary = fs::read_to_string(bench.path("summary.md")).unwrap();
     assert!(
-        summary.starts_with("before\n## Shuttertruth: broken\n"),
+        summary.starts_with("before\n## Shuttertruth: FAIL\n"),
         "{summary}"
     );
     let rows = summary.lines().filter(|line| line.starts_with("| plate |"));

@@ -111,7 +111,8 @@ fn a_tuning_is_shown_with_its_trials_its_choice_and_its_folds() {
 #[test]
 fn a_study_of_sensitivity_is_shown_with_intervals_and_slices() {
     let bench = set_up();
-    tune(&bench, &["--sobol", "4"]);
+    let words: Vec<&str> = TUNE.split_whitespace().skip(1).collect();
+    bench.done(&[&["sensitivity", "--rows", "4"], &words[..]].concat());
     let page = make_page(&bench);
     let found: Sensitivity =
         serde_json::from_slice(&fs::read(bench.path("tuned/sensitivity.json")).unwrap()).unwrap();

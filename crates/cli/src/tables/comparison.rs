@@ -173,11 +173,9 @@ fn counts(changes: &[Change]) -> String {
             format!("{count} {}", kind.label())
         })
         .collect();
-    let mut text = format!(
-        "\n{} scores compared: {}\n",
-        changes.len(),
-        words.join(", ")
-    );
+    let mut text = "\n".to_owned();
+    let line = format!("{} scores compared: {}", changes.len(), words.join(", "));
+    push_wrapped(&mut text, 0, &line);
     let by_floor = (changes.iter())
         .filter(|change| change.basis == Basis::Floor && change.kind != ChangeKind::Same)
         .count();

@@ -52,7 +52,7 @@ pub enum ChangeKind {
     Same,
     /// No more than the truth's noise could make.
     WithinNoise,
-    /// By more than noise, and less than matters.
+    /// More than noise, and less than the margin.
     BelowMargin,
     /// The second is better.
     Better,
