@@ -56,7 +56,7 @@ pub fn bench(mut plan: BenchPlan, gpu: &Gpu, watch: Watch) -> Result<Bench, Erro
         rounds: plan.rounds,
         watch,
         done: Cell::new(0),
-        total: u64::from(plan.rounds + 1) * (1 + plan.filters.len() as u64),
+        total: plan.count_runs(),
     };
     let (copy, cases) = cases(&plan, gpu, &turns)?;
     let reaches = plan
@@ -80,7 +80,7 @@ pub fn bench(mut plan: BenchPlan, gpu: &Gpu, watch: Watch) -> Result<Bench, Erro
     })
 }
 
-/// Rounds, and how many of all are done.
+/// Rounds, and the runs of filters that are done.
 struct Turns<'a> {
     rounds: u32,
     watch: Watch<'a>,
@@ -102,15 +102,16 @@ impl Turns<'_> {
             for (blur, runs) in blurs.iter().zip(&mut runs) {
                 let times = blur.time()?;
                 runs.extend(counts.then_some(times));
+                self.advance(1)?;
             }
             besides.extend(Some(beside()?).filter(|_| counts));
-            self.advance()?;
         }
         Ok((runs, besides))
     }
 
-    fn advance(&self) -> Result<(), Error> {
-        self.done.set(self.done.get() + 1);
+    /// Shows that some runs are done, or left out.
+    fn advance(&self, runs: u64) -> Result<(), Error> {
+        self.done.set(self.done.get() + runs);
         let progress = Progress {
             done: self.done.get(),
             total: self.total,
@@ -226,6 +227,8 @@ fn reach(
         loaded.push(load(blur, &Panels::new(plan.width, plan.height, speed))?);
     }
     let (runs, _) = turns.take(&loaded, || Ok(()))?;
+    let gaps = (REACHES.len() - loaded.len()) as u64;
+    turns.advance(gaps * u64::from(turns.rounds + 1))?;
     let mut runs = runs.into_iter();
     let runs = settings
         .each_ref()
