@@ -102,7 +102,7 @@ fn a_narrower_run_keeps_the_cases_of_a_wider_one() {
     let parts = [
         "out/run.json",
         "5 cases",
-        "--seed was 1, now 2",
+        "seed was 1, now 2",
         "--out",
         "--no-cache",
     ];

@@ -107,7 +107,7 @@ fn a_limit_inside_the_interval_is_exit_code_4_and_says_what_would_settle_it() {
             "--samples-per-pixel 1024 would settle it",
         ],
     );
-    assert!(verdict(&output).contains("raise --samples-per-pixel"));
+    assert!(verdict(&output).contains("raise the samples per pixel"));
     let value = found["findings"][0]["value"].as_f64().unwrap();
     bench.write(
         "bounds.toml",
