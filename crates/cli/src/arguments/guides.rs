@@ -32,11 +32,16 @@ fn read_pages() -> Vec<String> {
 /// variables are left out.
 fn find_commands(page: &str) -> Vec<Vec<String>> {
     let joined = page.replace("\\\n", " ");
-    let is_command = |text: &&str| text.starts_with("shuttertruth ") && !text.contains('$');
+    let is_command = |text: &&str| {
+        let is_help = text.starts_with("shuttertruth help");
+        text.starts_with("shuttertruth ") && !is_help && !text.contains('$')
+    };
     let lines = joined.lines().filter_map(|line| line.strip_prefix("    "));
     let quoted = joined
         .lines()
-        .flat_map(|line| line.split('`').skip(1).step_by(2));
+        .flat_map(|line| line.split('`').skip(1).step_by(2))
+        // A command by its name alone is spoken of, and not shown.
+        .filter(|text| text.split_whitespace().count() > 2);
     (lines.chain(quoted))
         .filter(is_command)
         .map(split_words)
