@@ -177,13 +177,13 @@ fn runs_that_say_different_things_are_refused() {
         assert_refused(&bench.shuttertruth(&["compare", "out", "other"]), 2, parts);
     };
     assert_done(&smaller_run_into(&bench, "other", &identity));
-    refused(&["other/run.json", "32x16", "64x32", "size"]);
+    refused(&["other/run.json", "32x16", "64x32", "at the other's size"]);
     fs::remove_dir_all(bench.path("other")).unwrap();
     assert_done(&run_into(&bench, "other", "32", &identity));
     refused(&[
         "other/run.json",
         "truth of plate (trailing)",
-        "samples per pixel",
+        "same samples per pixel",
     ]);
     fs::remove_dir_all(bench.path("other")).unwrap();
     bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));

@@ -8,7 +8,7 @@ use crate::bench::{Bench, SCENE, assert_refused};
 #[test]
 fn scores_that_keep_their_bounds_pass() {
     let bench = bounded(0.9, "required");
-    let text = assert_ends(&bench.check(&IDENTITY), 0, &["1 required bounds: 1 kept"]);
+    let text = assert_ends(&bench.check(&IDENTITY), 0, &["1 required bound: 1 kept"]);
     assert!(
         !text.contains("plate /"),
         "what is kept is not listed: {text}"
@@ -42,7 +42,7 @@ fn a_broken_bound_is_exit_code_1_with_all_that_helps() {
             "worst at (24, 8): out/plate/identity_default/worst_flip_moving.png",
             "most like no_blur, 0 % off",
             "pictures: out/plate/identity_default",
-            "1 required bounds: 1 broken",
+            "1 required bound: 1 broken",
         ],
     );
     assert!(verdict(&output).contains("a required bound is broken"));
@@ -85,7 +85,7 @@ fn what_is_only_reported_fails_nothing() {
     assert_ends(
         &bench.check(&[&IDENTITY[..], &["-v"]].concat()),
         0,
-        &["target missed flip_moving", "1 required bounds: 1 kept"],
+        &["target missed flip_moving", "1 required bound: 1 kept"],
     );
 }
 
@@ -107,7 +107,7 @@ fn a_limit_inside_the_interval_is_exit_code_4_and_says_what_would_settle_it() {
             "--samples-per-pixel 1024 would settle it",
         ],
     );
-    assert!(verdict(&output).contains("raise --samples-per-pixel"));
+    assert!(verdict(&output).contains("raise the samples per pixel"));
     let value = found["findings"][0]["value"].as_f64().unwrap();
     bench.write(
         "bounds.toml",

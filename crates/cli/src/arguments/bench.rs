@@ -32,9 +32,15 @@ pub struct BenchArgs {
     #[command(flatten)]
     pub adapter: AdapterArgs,
     /// Folder for bench.json.
-    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    #[arg(
+        help_heading = "Output",
+        short,
+        long,
+        value_name = "DIR",
+        default_value = "out"
+    )]
     pub out: PathBuf,
     /// Print bench.json to standard output instead of the tables.
-    #[arg(long)]
+    #[arg(help_heading = "Output", long)]
     pub json: bool,
 }

@@ -14,12 +14,17 @@ pub struct CalibrateArgs {
     #[command(flatten)]
     pub measure: MeasureArgs,
     /// Number of runs, each with a truth of its own seed: --seed, --seed + 1, and so on.
-    #[arg(long, value_name = "K", default_value_t = 3, value_parser = parse_runs)]
+    #[arg(help_heading = "Calibration", long, value_name = "K", default_value_t = 3, value_parser = parse_runs)]
     pub runs: u32,
     /// Adapters, by their numbers in --list-adapters or parts of their names, separated by commas [default: the fastest].
-    #[arg(long, value_delimiter = ',', value_name = "ADAPTERS")]
+    #[arg(
+        help_heading = "Calibration",
+        long,
+        value_delimiter = ',',
+        value_name = "ADAPTERS"
+    )]
     pub adapters: Vec<String>,
     /// Metrics to propose bounds for, separated by commas [default: those that have bounds].
-    #[arg(long, value_delimiter = ',', value_name = "METRICS", value_parser = Metric::from_str)]
+    #[arg(help_heading = "Calibration", long, value_delimiter = ',', value_name = "METRICS", value_parser = Metric::from_str)]
     pub metrics: Vec<Metric>,
 }

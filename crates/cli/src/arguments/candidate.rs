@@ -10,23 +10,22 @@ use super::scenes::SceneArgs;
 
 /// Choice of a filter, and of the scenes that it is scored on.
 #[derive(Debug, Args)]
-#[command(next_help_heading = "Filter")]
 pub struct CandidateArgs {
     /// Filter: a name or a folder.
-    #[arg(long, value_name = "FILTER")]
+    #[arg(help_heading = "Filters", long, value_name = "FILTER")]
     pub filter: String,
     /// Preset to start from [default: the filter's first].
-    #[arg(long, value_name = "PRESET")]
+    #[arg(help_heading = "Filters", long, value_name = "PRESET")]
     pub from: Option<String>,
     /// Keep lengths in pixels as the preset has them [default: scale them from the width that the preset was made for to the
     /// picture's].
-    #[arg(long)]
+    #[arg(help_heading = "Filters", long)]
     pub as_written: bool,
     /// Objectives, separated by commas: flip (always), bleed (`bleed_lateral`, neither ahead nor behind), cost.
-    #[arg(long, value_delimiter = ',', default_value = "flip,bleed,cost", value_name = "OBJECTIVES", value_parser = parse_objective)]
+    #[arg(help_heading = "Filters", long, value_delimiter = ',', default_value = "flip,bleed,cost", value_name = "OBJECTIVES", value_parser = parse_objective)]
     pub objective: Vec<Objective>,
     /// Picture size in pixels.
-    #[arg(long, value_name = "WxH", default_value = "320x180", value_parser = parse_size)]
+    #[arg(help_heading = "Scenes and files", long, value_name = "WxH", default_value = "320x180", value_parser = parse_size)]
     pub size: (u32, u32),
     #[command(flatten)]
     pub scenes: SceneArgs,

@@ -39,25 +39,25 @@ pub struct CheckArgs {
     pub run: Option<PathBuf>,
     /// For every broken bound of RUN, find the worst place and the known failure that the picture is most like. A check that
     /// measures always does.
-    #[arg(long, requires = "run")]
+    #[arg(help_heading = "Judging", long, requires = "run")]
     pub evidence: bool,
     #[command(flatten)]
     pub measure: MeasureArgs,
     #[command(flatten)]
     pub adapter: AdapterArgs,
     /// Also compare with the scores that `accept` wrote there, by the margins in bounds.toml.
-    #[arg(long, value_name = "FILE")]
+    #[arg(help_heading = "Judging", long, value_name = "FILE")]
     pub baseline: Option<PathBuf>,
     /// HTML page to write [default: report.html in --out; for a finished RUN none].
-    #[arg(long, value_name = "FILE")]
+    #[arg(help_heading = "Output", long, value_name = "FILE")]
     pub html: Option<PathBuf>,
     /// Write the result as JUnit XML.
-    #[arg(long, value_name = "FILE")]
+    #[arg(help_heading = "Output", long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
     /// Write GitHub's step summary ($GITHUB_STEP_SUMMARY) and print at most ten annotations.
-    #[arg(long, conflicts_with = "json")]
+    #[arg(help_heading = "Output", long, conflicts_with = "json")]
     pub github: bool,
     /// Print the result as JSON instead of text.
-    #[arg(long)]
+    #[arg(help_heading = "Output", long)]
     pub json: bool,
 }

@@ -20,6 +20,6 @@ pub struct CompareArgs {
     #[arg(long, value_name = "FOLDER", default_value = "scenes")]
     pub scenes_dir: PathBuf,
     /// Print all changes as JSON instead of the table.
-    #[arg(long)]
+    #[arg(help_heading = "Output", long)]
     pub json: bool,
 }

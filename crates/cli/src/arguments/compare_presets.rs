@@ -16,6 +16,6 @@ pub struct ComparePresetsArgs {
     #[command(flatten)]
     pub candidate: CandidateArgs,
     /// Print compare.json instead of the table.
-    #[arg(long)]
+    #[arg(help_heading = "Output", long)]
     pub json: bool,
 }

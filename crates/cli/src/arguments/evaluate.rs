@@ -12,6 +12,6 @@ pub struct EvaluateArgs {
     #[command(flatten)]
     pub candidate: CandidateArgs,
     /// JSON file with the parameters that differ from the preset: {"samples": 12}
-    #[arg(long, value_name = "FILE")]
+    #[arg(help_heading = "Filters", long, value_name = "FILE")]
     pub params: PathBuf,
 }

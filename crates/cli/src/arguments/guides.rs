@@ -28,17 +28,21 @@ fn read_pages() -> Vec<String> {
     pages.collect()
 }
 
-/// Lists the commands of a page, each split into words: lines of their own, and those in the cells of tables. Commands with shell
+/// Lists the commands of a page, each split into words: lines of their own, and those in backquotes. Commands with shell
 /// variables are left out.
 fn find_commands(page: &str) -> Vec<Vec<String>> {
     let joined = page.replace("\\\n", " ");
-    let is_command = |text: &&str| text.starts_with("shuttertruth ") && !text.contains('$');
+    let is_command = |text: &&str| {
+        let is_help = text.starts_with("shuttertruth help");
+        text.starts_with("shuttertruth ") && !is_help && !text.contains('$')
+    };
     let lines = joined.lines().filter_map(|line| line.strip_prefix("    "));
-    let cells = joined
+    let quoted = joined
         .lines()
-        .filter(|line| line.starts_with('|'))
-        .flat_map(|row| row.split('`').skip(1).step_by(2));
-    (lines.chain(cells))
+        .flat_map(|line| line.split('`').skip(1).step_by(2))
+        // A command by its name alone is spoken of, and not shown.
+        .filter(|text| text.split_whitespace().count() > 2);
+    (lines.chain(quoted))
         .filter(is_command)
         .map(split_words)
         .collect()

@@ -28,6 +28,6 @@ pub struct ListArgs {
     #[command(flatten)]
     pub adapter: AdapterArgs,
     /// Print JSON.
-    #[arg(long)]
+    #[arg(help_heading = "Output", long)]
     pub json: bool,
 }

@@ -9,13 +9,13 @@ use super::scenes::SceneArgs;
 
 /// Choice of scenes, filters and inputs to measure.
 #[derive(Clone, Debug, Args)]
-#[command(next_help_heading = "Filters")]
 pub struct MeasureArgs {
     #[command(flatten)]
     pub scenes: SceneArgs,
     /// Filters: names, folders or patterns such as 'jump*', each with an optional :preset; repeatable, or separated by commas
     /// [default: all built-in ones].
     #[arg(
+        help_heading = "Filters",
         long = "filter",
         visible_alias = "filters",
         value_delimiter = ',',
@@ -23,35 +23,40 @@ pub struct MeasureArgs {
     )]
     pub filters: Vec<String>,
     /// Preset of every filter [default: all presets].
-    #[arg(long, value_name = "NAME")]
+    #[arg(help_heading = "Filters", long, value_name = "NAME")]
     pub preset: Option<String>,
     /// Override a parameter; repeatable.
-    #[arg(long, value_name = "FILTER.PARAMETER=VALUE")]
+    #[arg(help_heading = "Filters", long, value_name = "FILTER.PARAMETER=VALUE")]
     pub set: Vec<String>,
     /// Keep lengths in pixels as the preset has them [default: scale them from the width that the preset was made for to the
     /// picture's].
-    #[arg(long)]
+    #[arg(help_heading = "Filters", long)]
     pub as_written: bool,
     /// Picture size in pixels [default: 320x180; for `check`, the size that the bounds hold at].
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    #[arg(help_heading = "Scenes and files", long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
     /// Independent renders per truth, an even number; each has an eighth of --samples-per-pixel.
-    #[arg(long, value_name = "N", default_value_t = 8)]
+    #[arg(
+        help_heading = "Scenes and files",
+        long,
+        value_name = "N",
+        default_value_t = 8
+    )]
     pub replicates: u32,
     /// Formats of the velocity buffer to try on every filter beside 32-bit floats, separated by commas.
-    #[arg(long, value_parser = parse_named(VelocityFormat::ALL, VelocityFormat::name, VelocityFormat::help), value_delimiter = ',', value_name = "FORMATS")]
+    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(VelocityFormat::ALL, VelocityFormat::name, VelocityFormat::help), value_delimiter = ',', value_name = "FORMATS")]
     pub velocity_format: Vec<VelocityFormat>,
     /// Formats of the depth buffer to try beside 32-bit floats, separated by commas.
-    #[arg(long, value_parser = parse_named(DepthFormat::ALL, DepthFormat::name, DepthFormat::help), value_delimiter = ',', value_name = "FORMATS")]
+    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(DepthFormat::ALL, DepthFormat::name, DepthFormat::help), value_delimiter = ',', value_name = "FORMATS")]
     pub depth_format: Vec<DepthFormat>,
     /// Content beyond the border to try beside each filter's own, separated by commas; see also --guard-band.
-    #[arg(long, value_parser = parse_named(Border::ALL, Border::name, Border::help), value_delimiter = ',', value_name = "POLICIES")]
+    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(Border::ALL, Border::name, Border::help), value_delimiter = ',', value_name = "POLICIES")]
     pub border: Vec<Border>,
     /// Frames to run a noisy filter on, to tell its noise from its other errors; 0 for none.
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = parse_jitter_frames)]
+    #[arg(help_heading = "Filters", long, value_name = "N", default_value_t = 16, value_parser = parse_jitter_frames)]
     pub jitter_frames: u32,
     /// Remove the truths and cases in --out, and make all anew.
-    #[arg(long)]
+    #[arg(help_heading = "Scenes and files", long)]
     pub no_cache: bool,
     #[command(flatten)]
     pub programs: ProgramArgs,

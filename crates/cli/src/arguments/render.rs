@@ -12,10 +12,11 @@ pub struct RenderArgs {
     #[command(flatten)]
     pub scenes: SceneArgs,
     /// Picture size in pixels [default: each scene's own].
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    #[arg(help_heading = "Scenes and files", long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
     /// Shutter alignments of the truths, separated by commas.
     #[arg(
+        help_heading = "Truths",
         long,
         value_delimiter = ',',
         default_value = "trailing",
@@ -24,13 +25,19 @@ pub struct RenderArgs {
     pub alignments: Vec<Alignment>,
     /// Independent renders per truth: an even number, or a part A..B (A to B-1) that `merge` joins with others. Each has an
     /// eighth of --samples-per-pixel. The part with replicate 0 renders the frame too.
-    #[arg(long, value_name = "N|A..B", default_value = "8", value_parser = parse_replicates)]
+    #[arg(help_heading = "Truths", long, value_name = "N|A..B", default_value = "8", value_parser = parse_replicates)]
     pub replicates: Replicates,
     /// Render more replicates until the noise of each truth (root mean square radiance, where anything moves) is at most
     /// this. Exit code 4 if --most-replicates do not suffice.
-    #[arg(long, value_name = "TARGET", value_parser = parse_noise)]
+    #[arg(help_heading = "Truths", long, value_name = "TARGET", value_parser = parse_noise)]
     pub noise: Option<f64>,
     /// Upper limit on replicates for --noise.
-    #[arg(long, value_name = "N", default_value_t = 64, requires = "noise")]
+    #[arg(
+        help_heading = "Truths",
+        long,
+        value_name = "N",
+        default_value_t = 64,
+        requires = "noise"
+    )]
     pub most_replicates: u32,
 }

@@ -20,6 +20,6 @@ pub struct ReportArgs {
     #[arg(long, value_name = "DIR")]
     pub gallery: Option<PathBuf>,
     /// Print the list of written files as JSON.
-    #[arg(long)]
+    #[arg(help_heading = "Output", long)]
     pub json: bool,
 }

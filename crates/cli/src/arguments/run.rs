@@ -15,12 +15,12 @@ pub struct RunArgs {
     #[command(flatten)]
     pub adapter: AdapterArgs,
     /// HTML page to write [default: report.html in --out].
-    #[arg(long, value_name = "FILE")]
+    #[arg(help_heading = "Output", long, value_name = "FILE")]
     pub html: Option<PathBuf>,
     /// Print every case and all means, instead of the ranking.
-    #[arg(long, conflicts_with = "json")]
+    #[arg(help_heading = "Output", long, conflicts_with = "json")]
     pub table: bool,
     /// Print run.json to standard output instead of the ranking.
-    #[arg(long)]
+    #[arg(help_heading = "Output", long)]
     pub json: bool,
 }

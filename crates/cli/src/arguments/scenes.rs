@@ -8,9 +8,9 @@ use frame::{ColorSampling, VelocityKind};
 /// On or off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Switch {
-    /// On.
+    /// The background moves as the camera turns.
     On,
-    /// Off.
+    /// The background has no velocity.
     Off,
 }
 
@@ -43,7 +43,7 @@ pub struct SceneArgs {
     /// Sampling of the frame's colour: antialiased, or point (at pixel centres).
     #[arg(long, value_name = "SAMPLING", default_value_t = ColorSampling::Antialiased)]
     pub frame_sampling: ColorSampling,
-    /// Velocity of the background: on, or off for zero.
+    /// Velocity of the background.
     #[arg(long, value_enum, value_name = "SWITCH", default_value_t = Switch::On)]
     pub sky_velocity: Switch,
     /// Pixels of the frame beyond the picture on every side. Filters see them; their output there is cropped.

@@ -20,6 +20,6 @@ pub struct ScoreArgs {
     #[arg(long, value_name = "FILE")]
     pub ladder: Option<PathBuf>,
     /// Print all scores as JSON instead of the table.
-    #[arg(long)]
+    #[arg(help_heading = "Output", long)]
     pub json: bool,
 }

@@ -12,34 +12,49 @@ pub struct TuneArgs {
     pub candidate: CandidateArgs,
     /// Parameters to change, separated by commas, each with an optional narrower range: samples=4..16 [default: all that
     /// filter.toml allows].
-    #[arg(long, value_delimiter = ',', value_name = "PARAMETERS")]
+    #[arg(
+        help_heading = "Search",
+        long,
+        value_delimiter = ',',
+        value_name = "PARAMETERS"
+    )]
     pub vary: Vec<String>,
     /// Candidates to try, including those of an interrupted run.
-    #[arg(long, value_name = "N", default_value_t = 400, value_parser = parse_effort)]
+    #[arg(help_heading = "Search", long, value_name = "N", default_value_t = 400, value_parser = parse_effort)]
     pub budget: usize,
     /// Minutes after which no candidate begins.
-    #[arg(long, value_name = "M", value_parser = parse_minutes)]
+    #[arg(help_heading = "Search", long, value_name = "M", value_parser = parse_minutes)]
     pub minutes: Option<f64>,
     /// Upper limit on GPU time, relative to the start's.
-    #[arg(long, value_name = "RATIO", value_parser = parse_ratio)]
+    #[arg(help_heading = "Search", long, value_name = "RATIO", value_parser = parse_ratio)]
     pub cost_at_most: Option<f64>,
     /// Upper limit on lateral bleed of the worst scene, relative to the start's; 0.01 px is always allowed.
-    #[arg(long, value_name = "RATIO", value_parser = parse_ratio)]
+    #[arg(help_heading = "Search", long, value_name = "RATIO", value_parser = parse_ratio)]
     pub bleed_at_most: Option<f64>,
     /// Run every candidate on every scene, even a bad one.
-    #[arg(long)]
+    #[arg(help_heading = "Search", long)]
     pub no_race: bool,
     /// Seed of the search; --seed is for renders.
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(help_heading = "Search", long, value_name = "S", default_value_t = 1)]
     pub search_seed: u64,
     /// Held-out scenes, evaluated once at the end; every evaluation is recorded.
-    #[arg(long, value_delimiter = ',', value_name = "SCENES")]
+    #[arg(
+        help_heading = "Held-out scenes",
+        long,
+        value_delimiter = ',',
+        value_name = "SCENES"
+    )]
     pub sealed: Vec<String>,
     /// Picture size of the held-out scenes.
-    #[arg(long, value_name = "WxH", default_value = "320x180", value_parser = parse_size)]
+    #[arg(help_heading = "Held-out scenes", long, value_name = "WxH", default_value = "320x180", value_parser = parse_size)]
     pub sealed_size: (u32, u32),
     /// Samples per pixel of the held-out scenes' truths.
-    #[arg(long, value_name = "N", default_value_t = 256)]
+    #[arg(
+        help_heading = "Held-out scenes",
+        long,
+        value_name = "N",
+        default_value_t = 256
+    )]
     pub sealed_samples_per_pixel: u32,
     #[arg(long, hide = true, num_args = 0..=1, value_parser = refuse_sobol)]
     morris: Option<String>,
@@ -48,7 +63,7 @@ pub struct TuneArgs {
     #[arg(long, hide = true, num_args = 0..=1, value_parser = refuse_compare)]
     compare: Option<String>,
     /// Print tune.json instead of the table.
-    #[arg(long)]
+    #[arg(help_heading = "Output", long)]
     pub json: bool,
 }
 

@@ -5,6 +5,7 @@ use suite::{Claim, EarlierCases, Error, Run, RunPlan, estimate_run, measure_scen
 
 use super::expected::print_expected;
 use super::plan::claim_out;
+use crate::output::count::count_text;
 use crate::output::print::print_note;
 
 /// A finished run.
@@ -49,15 +50,13 @@ fn find_earlier(plan: &mut RunPlan, gpu: Option<&Gpu>) -> Result<Option<EarlierC
 
 /// `run.json keeps 24 cases of an earlier run; --no-cache would drop them`
 fn kept_text(earlier: &EarlierCases) -> String {
+    let kept = count_text(earlier.count(), "case", "cases");
     let mut text = format!(
-        "run.json keeps {} cases of an earlier run beside those of this one; --no-cache would drop them",
-        earlier.count()
+        "run.json keeps {kept} of an earlier run beside those of this one; --no-cache would drop them"
     );
     if earlier.outdated > 0 {
-        text += &format!(
-            "; {} others were dropped, since their scenes have changed",
-            earlier.outdated
-        );
+        let dropped = count_text(earlier.outdated, "other was", "others were");
+        text += &format!("; {dropped} dropped, since the scene has changed");
     }
     text
 }

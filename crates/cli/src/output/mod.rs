@@ -2,6 +2,7 @@
 
 pub mod annotations;
 pub mod colors;
+pub mod count;
 pub mod junit;
 pub mod print;
 pub mod progress;

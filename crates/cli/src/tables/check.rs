@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use crate::output::colors::{bad, doubtful, good, heading};
+use crate::output::count::count_text;
 use crate::output::wrap::push_wrapped;
 use crate::tables::failures::failures_text;
 use report::{finding_score, finding_status, way_out};
@@ -167,15 +168,19 @@ pub fn count_lines(check: &Check) -> Vec<String> {
     let mut lines = Vec::new();
     if of_level(Level::Required).next().is_some() {
         lines.push(format!(
-            "{} required bounds: {}",
-            of_level(Level::Required).count(),
+            "{}: {}",
+            count_text(
+                of_level(Level::Required).count(),
+                "required bound",
+                "required bounds"
+            ),
             counts(Level::Required, "kept", "broken")
         ));
     }
     if of_level(Level::Report).next().is_some() {
         lines.push(format!(
-            "{} targets: {} (a missed target fails nothing; -v lists them)",
-            of_level(Level::Report).count(),
+            "{}: {} (a missed target fails nothing; -v lists them)",
+            count_text(of_level(Level::Report).count(), "target", "targets"),
             counts(Level::Report, "met", "missed")
         ));
     }

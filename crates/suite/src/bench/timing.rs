@@ -52,7 +52,7 @@ pub fn bench(mut plan: BenchPlan, gpu: &Gpu, watch: Watch) -> Result<Bench, Erro
         rounds: plan.rounds,
         watch,
         done: Cell::new(0),
-        total: u64::from(plan.rounds + 1) * (1 + plan.filters.len() as u64),
+        total: plan.count_runs(),
     };
     let (copy, cases) = time_presets(&plan, gpu, &turns)?;
     let reaches = plan
@@ -130,6 +130,8 @@ fn time_reaches(
         loaded.push(load(blur, &Panels::new(plan.width, plan.height, speed))?);
     }
     let (runs, _) = turns.take(&loaded, || Ok(()))?;
+    let gaps = (REACHES.len() - loaded.len()) as u64;
+    turns.advance(gaps * u64::from(turns.rounds + 1))?;
     let mut runs = runs.into_iter();
     let runs = settings
         .each_ref()

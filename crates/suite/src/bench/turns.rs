@@ -10,11 +10,11 @@ use crate::Error;
 /// Times of every dispatch of one run of a filter.
 pub type Times = Vec<PassTime>;
 
-/// Rounds of a bench, and the progress over all of them.
+/// Rounds of a bench, and the progress over the runs of filters.
 pub struct Turns<'a> {
     pub rounds: u32,
     pub watch: Watch<'a>,
-    /// Rounds that are done, of all tables.
+    /// Runs that are done, of all tables.
     pub done: Cell<u64>,
     pub total: u64,
 }
@@ -33,15 +33,16 @@ impl Turns<'_> {
             for (blur, runs) in blurs.iter().zip(&mut runs) {
                 let times = blur.time()?;
                 runs.extend(counts.then_some(times));
+                self.advance(1)?;
             }
             besides.extend(Some(beside()?).filter(|_| counts));
-            self.advance()?;
         }
         Ok((runs, besides))
     }
 
-    fn advance(&self) -> Result<(), Error> {
-        self.done.set(self.done.get() + 1);
+    /// Shows that some runs are done, or left out.
+    pub fn advance(&self, runs: u64) -> Result<(), Error> {
+        self.done.set(self.done.get() + runs);
         let progress = Progress {
             done: self.done.get(),
             total: self.total,

@@ -51,8 +51,12 @@ impl EarlierCases {
             return Ok(None);
         }
         if let Some((setting, earlier, now)) = find_difference(&run, plan, adapter) {
+            let (dropped, them) = match left_out {
+                1 => ("1 case".to_owned(), "it"),
+                count => (format!("{count} cases"), "them"),
+            };
             return Err(Error::Usage(format!(
-                "{}: this run would drop {left_out} cases of an earlier one, and cannot keep them: {setting} was {earlier}, now \
+                "{}: this run would drop {dropped} of an earlier one, and cannot keep {them}: {setting} was {earlier}, now \
                  {now}",
                 path.display()
             )));
