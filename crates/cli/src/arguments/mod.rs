@@ -79,7 +79,7 @@ pub struct Cli {
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Render scenes, run filters, measure them. Prints a table; writes run.json, EXR and PNG.
+    /// Render scenes, run filters, measure them. Prints a ranking; writes report.html, run.json, EXR and PNG.
     Run(RunArgs),
     /// Run, and hold every score to its bound. The exit code tells pass or fail.
     Check(CheckArgs),
@@ -97,7 +97,7 @@ pub enum Command {
     Score(ScoreArgs),
     /// Write a finished run or tuning as one HTML page that needs no network.
     Report(ReportArgs),
-    /// Compare two finished runs: which scores changed by more than noise.
+    /// Compare two finished runs: which scores changed by more than noise, and by enough to matter.
     Compare(CompareArgs),
     /// Time filters pass by pass, and against their blur length. Prints tables; writes bench.json.
     Bench(BenchArgs),
