@@ -28,7 +28,7 @@ pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<PathBuf, Er
     let entries = find_entries(run);
     if entries.is_empty() {
         return Err(Error::Usage(
-            "the run has no filter with a skill, so a gallery has no best and no worst one; run filters on scenes that move"
+            "the run has no filter but identity on a scene that moves, so a gallery has no best and no worst one; run filters"
                 .to_owned(),
         ));
     }
@@ -55,25 +55,36 @@ pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<PathBuf, Er
     Ok(path)
 }
 
-/// Finds the filters of the highest and the lowest skill, scene by scene, in the order of the run.
+/// Finds the best and the worst filter, scene by scene, in the order of the run.
 fn find_entries(run: &Run) -> Vec<Entry<'_>> {
     let cases: Vec<&Case> = (run.cases.iter())
-        .filter(|case| !case.is_reference && case.filter != IDENTITY && skill(case).is_some())
+        .filter(|case| !case.is_reference && case.filter != IDENTITY)
         .collect();
-    let by_skill = |a: &&&Case, b: &&&Case| skill(a).partial_cmp(&skill(b)).expect("finite");
     cases
         .chunk_by(|a, b| a.scene == b.scene)
-        .filter_map(|own| {
-            Some(Entry {
-                best: own.iter().max_by(by_skill)?,
-                worst: own.iter().min_by(by_skill)?,
-            })
-        })
+        .filter_map(find_entry)
         .collect()
 }
 
-fn skill(case: &Case) -> Option<f64> {
-    Headline::SKILL.measured(case).value()
+/// Ranks the filters of one scene by skill; by FLIP against the common shutter where the oracle is no better than doing nothing,
+/// so that there is no skill. None where nothing moves.
+fn find_entry<'a>(cases: &[&'a Case]) -> Option<Entry<'a>> {
+    let skills = cases
+        .iter()
+        .map(|case| Headline::SKILL.measured(case).value());
+    let errors = cases.iter().map(|case| {
+        Headline::CommonFlip
+            .measured(case)
+            .value()
+            .map(|flip| -flip)
+    });
+    let keys: Vec<f64> = (skills.collect::<Option<_>>()).or_else(|| errors.collect())?;
+    let place = |index: usize| cases[index];
+    let by_key = |a: &usize, b: &usize| keys[*a].total_cmp(&keys[*b]);
+    Some(Entry {
+        best: (0..cases.len()).max_by(by_key).map(place)?,
+        worst: (0..cases.len()).min_by(by_key).map(place)?,
+    })
 }
 
 fn introduction(run: &Run) -> String {
@@ -82,8 +93,8 @@ fn introduction(run: &Run) -> String {
     format!(
         "# Gallery\n\n![The truths of all scenes]({SHEET})\n\nBelow, each scene has five pictures: the frame of one instant; the truth and the \
          output of the best filter; the truth and the output of the worst filter. Two truths differ where the filters declare two \
-         shutters. Best and worst are by skill, the share of the way from doing nothing (0) to the one-frame oracle (1). The filter \
-         that does nothing takes no part.\n\n{}x{} pixels, {} samples per pixel. Made from\n\n    {}\n\nby `shuttertruth report --gallery`.\n",
+         shutters. Best and worst are by skill, the share of the way from doing nothing (0) to the one-frame oracle (1). Where no skill \
+         applies, FLIP* decides: FLIP against one shutter for all filters. The filter that does nothing takes no part.\n\n{}x{} pixels, {} samples per pixel. Made from\n\n    {}\n\nby `shuttertruth report --gallery`.\n",
         run.width,
         run.height,
         run.samples_per_pixel,
@@ -96,16 +107,17 @@ fn section(entry: &Entry) -> String {
     let mut text = format!("\n## {}\n\n{}\n\n", best.scene, best.exposes);
     let _ = writeln!(
         text,
-        "![{}: instant; truth and best filter; truth and worst filter]({})\n\n| | filter | shutter | skill | FLIP |\n|---|---|---|---|---|",
+        "![{}: instant; truth and best filter; truth and worst filter]({})\n\n| | filter | shutter | skill | FLIP | FLIP* |\n|---|---|---|---|---|---|",
         best.scene,
         strip_name(&best.scene)
     );
     for (label, case) in [("best", best), ("worst", worst)] {
-        let [skill, flip] = [Headline::SKILL, Headline::FLIP].map(|score| score.text(case));
+        let [skill, flip, common] =
+            [Headline::SKILL, Headline::FLIP, Headline::CommonFlip].map(|score| score.text(case));
         let name = case.name();
         let _ = writeln!(
             text,
-            "| {label} | `{name}` | {} | {skill} | {flip} |",
+            "| {label} | `{name}` | {} | {skill} | {flip} | {common} |",
             case.alignment
         );
     }

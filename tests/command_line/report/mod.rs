@@ -1,5 +1,68 @@
 //! The page of a finished run, and the pages and layers beside it.
 
+mod bounds;
 mod layers;
 mod page;
 mod tuning;
+
+use std::fs;
+
+use crate::bench::{Bench, assert_done, stdout};
+
+const WORDS: [&str; 4] = ["report", "out/run.json", "--html", "page/report.html"];
+
+/// Makes the page of the bench's last run.
+fn make_page(bench: &Bench) -> String {
+    let output = bench.shuttertruth(&WORDS);
+    assert_done(&output);
+    assert!(stdout(&output).contains("written: page/report.html ("));
+    fs::read_to_string(bench.path("page/report.html")).unwrap()
+}
+
+/// What stands between two texts, each time.
+fn between<'a>(page: &'a str, before: &str, after: &str) -> Vec<&'a str> {
+    let rests = page.split(before).skip(1);
+    rests
+        .map(|rest| rest.split_once(after).expect("an end").0)
+        .collect()
+}
+
+/// The planes of a page's scenes.
+fn planes(page: &str) -> Vec<Vec<String>> {
+    let texts = between(
+        page,
+        "<script type=\"application/json\" data-scene=\"",
+        "</script>",
+    );
+    (texts.into_iter())
+        .map(|text| serde_json::from_str(text.split_once('>').unwrap().1).unwrap())
+        .collect()
+}
+
+/// The part of a page that shows one score of all cases.
+fn panel<'a>(page: &'a str, metric: &str) -> &'a str {
+    let (_, rest) = page
+        .split_once(&format!("data-metric=\"{metric}\""))
+        .unwrap();
+    rest.split("data-metric=").next().unwrap()
+}
+
+/// The address of a case: `plate/bevy:high`, `plate/identity@trailing`.
+fn address(case: &suite::Case) -> String {
+    let reference = match case.is_reference {
+        true => format!("@{}", case.alignment),
+        false => String::new(),
+    };
+    format!("{}/{}{reference}", case.scene, case.name())
+}
+
+/// The part of a page that shows a case.
+fn article<'a>(page: &'a str, case: &suite::Case) -> &'a str {
+    let start = format!("<article class=\"case\" id=\"{}\"", address(case));
+    between(page, &start, "</article>")[0]
+}
+
+/// The only case of a filter.
+fn filter_case(bench: &Bench) -> suite::Case {
+    bench.measured_filters().remove(0)
+}

@@ -3,65 +3,8 @@
 use std::collections::BTreeSet;
 use std::fs;
 
-use crate::bench::{Bench, assert_done, assert_refused, quick, split, stdout};
-
-const WORDS: [&str; 4] = ["report", "out/run.json", "--html", "page/report.html"];
-
-/// Makes the page of the bench's last run.
-fn make_page(bench: &Bench) -> String {
-    let output = bench.shuttertruth(&WORDS);
-    assert_done(&output);
-    assert!(stdout(&output).contains("written: page/report.html ("));
-    fs::read_to_string(bench.path("page/report.html")).unwrap()
-}
-
-/// What stands between two texts, each time.
-fn between<'a>(page: &'a str, before: &str, after: &str) -> Vec<&'a str> {
-    let rests = page.split(before).skip(1);
-    rests
-        .map(|rest| rest.split_once(after).expect("an end").0)
-        .collect()
-}
-
-/// The planes of a page's scenes.
-fn planes(page: &str) -> Vec<Vec<String>> {
-    let texts = between(
-        page,
-        "<script type=\"application/json\" data-scene=\"",
-        "</script>",
-    );
-    (texts.into_iter())
-        .map(|text| serde_json::from_str(text.split_once('>').unwrap().1).unwrap())
-        .collect()
-}
-
-/// The part of a page that shows one score of all cases.
-fn panel<'a>(page: &'a str, metric: &str) -> &'a str {
-    let (_, rest) = page
-        .split_once(&format!("data-metric=\"{metric}\""))
-        .unwrap();
-    rest.split("data-metric=").next().unwrap()
-}
-
-/// The address of a case: `plate/bevy:high`, `plate/identity@trailing`.
-fn address(case: &suite::Case) -> String {
-    let reference = match case.is_reference {
-        true => format!("@{}", case.alignment),
-        false => String::new(),
-    };
-    format!("{}/{}{reference}", case.scene, case.name())
-}
-
-/// The part of a page that shows a case.
-fn article<'a>(page: &'a str, case: &suite::Case) -> &'a str {
-    let start = format!("<article class=\"case\" id=\"{}\"", address(case));
-    between(page, &start, "</article>")[0]
-}
-
-/// The only case of a filter.
-fn filter_case(bench: &Bench) -> suite::Case {
-    bench.measured_filters().remove(0)
-}
+use super::{WORDS, address, article, between, make_page, panel, planes};
+use crate::bench::{Bench, assert_done, assert_refused, split};
 
 #[test]
 fn a_page_shows_the_scores_and_means_of_the_run() {
@@ -225,85 +168,6 @@ fn a_scene_called_script_is_shown_and_not_run() {
     assert!(!page.contains("<script>alert") && !page.contains("<img src=x"));
     // Nine scripts, the colours, the kinds of pictures and the numbers of one scene are the page's own.
     assert_eq!(page.matches("<script").count(), 12);
-}
-
-#[test]
-fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
-    let bench = Bench::new();
-    bench.write(
-        "bounds.toml",
-        "[default]\n\
-         flip_moving = { limit = 0.2, why = \"it <i>serves</i> a test\" }\n\
-         label_tv = { limit = 0.9, why = \"it serves a test, too\" }\n",
-    );
-    let output = bench.check(&["--filters", "identity"]);
-    assert_eq!(output.status.code(), Some(1), "{}", stdout(&output));
-    let page = make_page(&bench);
-    let case = filter_case(&bench);
-
-    assert!(page.contains("2 required bounds: 1 broken, 0 too noisy to decide."));
-    let flip = case.scores.moving.flip.value().unwrap();
-    let cell = format!(
-        "<td class=\"required\" data-value=\"{flip}\"><a class=\"case\" href=\"#plate/identity:default\">\
-         <span class=\"sign\" aria-hidden=\"true\">✗</span>{flip:.3}\
-         <span class=\"unseen\">, broken, required limit 0.2000</span></a>"
-    );
-    assert!(page.contains(&cell), "{cell}");
-    let failures = between(&page, "<details class=\"failures\"", "</details>")[0];
-    assert!(failures.contains("plate / identity:default"));
-
-    let article = article(&page, &case);
-    let findings = bench.findings();
-    let worst = findings[0].worst.as_ref().unwrap();
-    for words in [
-        "1 of 2 kept.",
-        "BROKEN flip_moving 0.2",
-        "scenes/plate/bounds.toml:2: it &lt;i&gt;serves&lt;/i&gt; a test",
-        "the wrong blur <strong>no_blur</strong>, 0 % off",
-        &format!("Worst at ({}, {}) of flip.", worst.x, worst.y),
-    ] {
-        assert!(
-            article.contains(words),
-            "\"{words}\" is missing from:\n{article}"
-        );
-    }
-    let crop = format!(
-        "<figure class=\"crop\" data-x=\"{}\" data-y=\"{}\"",
-        worst.x, worst.y
-    );
-    assert_eq!(article.matches(&crop).count(), 1);
-    assert_eq!(
-        article.matches("<figure class=\"crop\"").count(),
-        1,
-        "what is kept needs no picture"
-    );
-}
-
-#[test]
-fn a_run_that_looked_for_no_place_gets_one_in_its_report() {
-    let bench = Bench::new();
-    bench.write(
-        "bounds.toml",
-        "[default]\nflip_moving = { limit = 0.2, why = \"it serves a test\" }\n",
-    );
-    let output = bench.check(&["--filters", "identity"]);
-    assert_eq!(output.status.code(), Some(1));
-    let page = make_page(&bench);
-    let checked = between(
-        article(&page, &filter_case(&bench)),
-        "<figure class=\"crop\" ",
-        " data-map",
-    )[0]
-    .to_owned();
-    let words = [&quick("run", "64")[..], &["--filters", "identity"]].concat();
-    assert_done(&bench.shuttertruth(&words));
-    let page = make_page(&bench);
-    let article = article(&page, &filter_case(&bench));
-    assert_eq!(
-        between(article, "<figure class=\"crop\" ", " data-map")[0],
-        checked
-    );
-    assert!(article.contains("No known failure pattern matched (only <code>check</code> looks"));
 }
 
 #[test]

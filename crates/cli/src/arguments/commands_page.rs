@@ -13,7 +13,7 @@ const WIDTH: usize = 100;
 const INTRODUCTION: &str = "\
 # Commands
 
-`shuttertruth help run` prints the same for one command. Results go to standard output, progress and errors to standard error.
+`shuttertruth run -h` prints the same for one command, and `shuttertruth help run` says more. Results go to standard output, progress and errors to standard error.
 
 | exit code | meaning |
 |---|---|
@@ -35,7 +35,7 @@ fn page() -> String {
             .clone()
             .term_width(WIDTH)
             .bin_name(format!("shuttertruth {name}"));
-        let help = command.render_long_help().to_string();
+        let help = command.render_help().to_string();
         let lines = help.lines().map(str::trim_end).collect::<Vec<_>>();
         let _ = write!(text, "\n## {name}\n\n```text\n{}\n```\n", lines.join("\n"));
     }

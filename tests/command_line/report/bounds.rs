@@ -1,0 +1,83 @@
+//! Bounds on the page of a finished run.
+
+use super::{article, between, filter_case, make_page};
+use crate::bench::{Bench, assert_done, quick, stdout};
+
+#[test]
+fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
+    let bench = Bench::new();
+    bench.write(
+        "bounds.toml",
+        "[default]\n\
+         flip_moving = { limit = 0.2, why = \"it <i>serves</i> a test\" }\n\
+         label_tv = { limit = 0.9, why = \"it serves a test, too\" }\n",
+    );
+    let output = bench.check(&["--filters", "identity"]);
+    assert_eq!(output.status.code(), Some(1), "{}", stdout(&output));
+    let page = make_page(&bench);
+    let case = filter_case(&bench);
+
+    assert!(page.contains("2 required bounds: 1 broken, 0 too noisy to decide."));
+    let flip = case.scores.moving.flip.value().unwrap();
+    let cell = format!(
+        "<td class=\"required\" data-value=\"{flip}\"><a class=\"case\" href=\"#plate/identity:default\">\
+         <span class=\"sign\" aria-hidden=\"true\">✗</span>{flip:.3}\
+         <span class=\"unseen\">, broken, required limit 0.2000</span></a>"
+    );
+    assert!(page.contains(&cell), "{cell}");
+    let failures = between(&page, "<details class=\"failures\"", "</details>")[0];
+    assert!(failures.contains("plate / identity:default"));
+
+    let article = article(&page, &case);
+    let findings = bench.findings();
+    let worst = findings[0].worst.as_ref().unwrap();
+    for words in [
+        "1 of 2 kept.",
+        "BROKEN flip_moving 0.2",
+        "scenes/plate/bounds.toml:2: it &lt;i&gt;serves&lt;/i&gt; a test",
+        "the wrong blur <strong>no_blur</strong>, 0 % off",
+        &format!("Worst at ({}, {}) of flip.", worst.x, worst.y),
+    ] {
+        assert!(
+            article.contains(words),
+            "\"{words}\" is missing from:\n{article}"
+        );
+    }
+    let crop = format!(
+        "<figure class=\"crop\" data-x=\"{}\" data-y=\"{}\"",
+        worst.x, worst.y
+    );
+    assert_eq!(article.matches(&crop).count(), 1);
+    assert_eq!(
+        article.matches("<figure class=\"crop\"").count(),
+        1,
+        "what is kept needs no picture"
+    );
+}
+
+#[test]
+fn a_run_that_looked_for_no_place_gets_one_in_its_report() {
+    let bench = Bench::new();
+    bench.write(
+        "bounds.toml",
+        "[default]\nflip_moving = { limit = 0.2, why = \"it serves a test\" }\n",
+    );
+    let output = bench.check(&["--filters", "identity"]);
+    assert_eq!(output.status.code(), Some(1));
+    let page = make_page(&bench);
+    let checked = between(
+        article(&page, &filter_case(&bench)),
+        "<figure class=\"crop\" ",
+        " data-map",
+    )[0]
+    .to_owned();
+    let words = [&quick("run", "64")[..], &["--filters", "identity"]].concat();
+    assert_done(&bench.shuttertruth(&words));
+    let page = make_page(&bench);
+    let article = article(&page, &filter_case(&bench));
+    assert_eq!(
+        between(article, "<figure class=\"crop\" ", " data-map")[0],
+        checked
+    );
+    assert!(article.contains("No known failure pattern matched (only <code>check</code> looks"));
+}
