@@ -286,7 +286,7 @@ fn bounds_that_mean_nothing_are_refused_with_file_and_line() {
     ];
     for (beside_scenes, beside_scene, parts) in rows {
         let message = read(beside_scenes, beside_scene).unwrap_err();
-        assert_contains(&message, &parts);
+        assert_contains(&message, parts);
     }
 }
 
