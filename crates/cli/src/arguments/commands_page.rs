@@ -13,7 +13,7 @@ const WIDTH: usize = 100;
 const INTRODUCTION: &str = "\
 # Commands
 
-`shuttertruth run -h` prints the same for one command, and `shuttertruth help run` says more. Results go to standard output, progress and errors to standard error.
+`-h` behind a command prints the same, and `shuttertruth help run` says more. Results go to standard output, progress and errors to standard error.
 
 | exit code | meaning |
 |---|---|
