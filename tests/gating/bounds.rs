@@ -28,7 +28,7 @@ fn judge_bars(choice: &SceneChoice, out: &Path) -> [Vec<JudgedScore>; 2] {
     let (truth, ladder) =
         suite::render_truth_and_ladder(scene, &settings, Alignment::Trailing, out, Monitor::SILENT)
             .unwrap();
-    let reference = Reference::new(&frame, &truth, None, &suite::viewing(scene)).unwrap();
+    let reference = Reference::new(&frame, &truth, None, &suite::scene_viewing(scene)).unwrap();
     let bounds = suite::read_bounds(Path::new(SCENES), &choice.folder).unwrap();
     // What is asked of every filter, required or not.
     let bounds = bounds.of("identity", "default");

@@ -41,7 +41,8 @@ fn n_subframes_are_worth_n() {
     .unwrap();
     let truth = trace_truth(&scene, &settings, watch).unwrap();
     let ladder = trace_ladder(&scene, &settings, &truth, &suite::LADDER, watch).unwrap();
-    let reference = Reference::new(&frame, &truth, Some(&ladder), &suite::viewing(&scene)).unwrap();
+    let reference =
+        Reference::new(&frame, &truth, Some(&ladder), &suite::scene_viewing(&scene)).unwrap();
     // Other random numbers than those of the reference.
     let again = TruthSettings {
         seed: 2,

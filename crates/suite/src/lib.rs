@@ -61,7 +61,7 @@ pub use measure::estimate::{
     RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run,
 };
 pub use measure::plan::RunPlan;
-pub use measure::references::viewing;
+pub use measure::references::scene_viewing;
 pub use measure::scenes::measure_scenes;
 pub use monitor::{Monitor, Step};
 pub use printable::{printable, printable_lines, printable_path, printable_table};

@@ -141,7 +141,7 @@ impl RenderedScene {
             &frame,
             self.truth(alignment),
             None,
-            &suite::viewing(&self.scene),
+            &suite::scene_viewing(&self.scene),
         )
         .unwrap();
         reference.measure(picture).unwrap().scores

@@ -21,8 +21,8 @@ pub fn parse_named<T: Copy + Send + Sync + 'static>(
     help: fn(T) -> &'static str,
 ) -> impl TypedValueParser<Value = T> {
     let possible = (all.iter()).map(move |value| {
-        let help = help(*value).trim_end_matches('.');
-        PossibleValue::new(name(*value)).help(help)
+        let text = help(*value).trim_end_matches('.');
+        PossibleValue::new(name(*value)).help(text)
     });
     PossibleValuesParser::new(possible).map(move |text| {
         let value = all.iter().find(|value| name(**value) == text);

@@ -147,7 +147,7 @@ impl Table {
 mod tests {
     use super::*;
 
-    fn table() -> Table {
+    fn make_table() -> Table {
         let mut table = Table::new(
             &["filter", "FLIP", "scene"],
             &[Align::Left, Align::Right, Align::Left],
@@ -160,7 +160,7 @@ mod tests {
     #[test]
     fn columns_never_touch() {
         assert_eq!(
-            table()
+            make_table()
                 .text_in(80)
                 .replace("\u{1b}[1m", "")
                 .replace("\u{1b}[0m", ""),
@@ -170,7 +170,7 @@ mod tests {
 
     #[test]
     fn a_name_that_does_not_fit_has_a_line_of_its_own() {
-        let mut table = table();
+        let mut table = make_table();
         table.push(vec!["x".repeat(60), "0.1".into(), "fan".into()]);
         let text = table.text_in(40);
         let lines: Vec<&str> = text.lines().collect();

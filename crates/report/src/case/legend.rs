@@ -36,7 +36,7 @@ pub fn colors() -> String {
 }
 
 /// Explains every way of drawing; the script shows the key of the picture.
-pub fn legends() -> Markup {
+pub fn draw_legends() -> Markup {
     html! {
         (legend(Painter::Share, html! {
             "0 " (strip(MAGMA, false)) " 1"
@@ -88,7 +88,7 @@ mod tests {
 
     #[test]
     fn every_way_of_drawing_but_radiance_has_a_key() {
-        let legends = legends().into_string();
+        let legends = draw_legends().into_string();
         for layer in Layer::ALL {
             let named = (legends.split("data-legend=\"").skip(1))
                 .filter_map(|rest| rest.split('"').next())

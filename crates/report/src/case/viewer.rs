@@ -2,7 +2,7 @@
 
 use maud::{Markup, PreEscaped, html};
 
-use super::legend::legends;
+use super::legend::draw_legends;
 use crate::pixels::layer::Layer;
 use suite::BLOCK;
 use suite::Run;
@@ -91,7 +91,7 @@ pub fn viewer(run: &Run) -> Markup {
                 }
             }
             p.hint aria-live="polite" {}
-            (legends())
+            (draw_legends())
             details.more {
                 summary { "Exposure, divider and the numbers of a pixel" }
                 fieldset.choice {

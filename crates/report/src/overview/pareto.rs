@@ -47,7 +47,7 @@ pub fn pareto_chart(points: &[Point], references: &[(String, f64)]) -> Markup {
             .partial_cmp(&(beaten(b), b.milliseconds))
             .expect("times are numbers")
     });
-    let plot = plot(points, references);
+    let plot = make_plot(points, references);
     let places: Vec<(f64, f64)> = (sorted.iter())
         .map(|point| plot.place(point.milliseconds, point.error))
         .collect();
@@ -118,7 +118,7 @@ pub fn pareto_chart(points: &[Point], references: &[(String, f64)]) -> Markup {
     }
 }
 
-fn plot(points: &[Point], references: &[(String, f64)]) -> Plot {
+fn make_plot(points: &[Point], references: &[(String, f64)]) -> Plot {
     let times =
         (points.iter()).flat_map(|point| point.quartiles.into_iter().chain([point.milliseconds]));
     let errors = (points.iter().map(|point| point.error)).chain(references.iter().map(|own| own.1));

@@ -163,7 +163,7 @@ impl SceneFiles {
         }
         self.truth(case)?;
         let truth = &self.truths[&case.alignment];
-        let bleeds = bleeds(&file, &self.frame.objects, truth)?;
+        let bleeds = read_bleeds(&file, &self.frame.objects, truth)?;
         let colors = self.planes.add_image(&output);
         let truths = truth.layers[0].1.clone();
         let mut layers = [self.shared.clone(), truth.layers.clone()].concat();
@@ -219,7 +219,7 @@ fn is_in_profiles(case: &Case) -> bool {
 }
 
 /// Beside, ahead and behind: the sum over moving objects of their matte where the truth never shows them.
-fn bleeds(file: &ExrFile, objects: &[String], truth: &TruthFile) -> Result<[Plane; 3], Error> {
+fn read_bleeds(file: &ExrFile, objects: &[String], truth: &TruthFile) -> Result<[Plane; 3], Error> {
     let nothing: Plane = truth.regions.moving.map(|_| 0.0);
     let mut bleeds = [(); 3].map(|()| nothing.clone());
     for (object, sides) in &truth.sides {

@@ -72,7 +72,7 @@ fn slice(folder: &TuneFolder, trials: &[&Trial], name: &str) -> Markup {
         .iter()
         .map(|(_, error, _)| *error)
         .chain(line.iter().map(|(_, error)| *error));
-    let words = words(&values);
+    let words = distinct_words(&values);
     let plot = Plot::small(axis(name, &values, &words), Axis::linear("error", errors));
     let at = |value: &Value| place(value, &words);
     let marks = html! {
@@ -88,7 +88,7 @@ fn slice(folder: &TuneFolder, trials: &[&Trial], name: &str) -> Markup {
 }
 
 /// The words of a choice, each once, in the order in which they are met; none of numbers.
-fn words(values: &[&Value]) -> Vec<String> {
+fn distinct_words(values: &[&Value]) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     for value in values {
         if let Value::Choice(word) = value

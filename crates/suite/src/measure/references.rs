@@ -44,6 +44,6 @@ impl<'a> TruthReferences<'a> {
 }
 
 /// Returns the photographic exposures that a scene is compared at.
-pub fn viewing(scene: &Scene) -> Viewing {
+pub fn scene_viewing(scene: &Scene) -> Viewing {
     scene.display.into()
 }

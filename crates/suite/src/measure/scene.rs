@@ -12,7 +12,7 @@ use super::case::CaseContext;
 use super::pictures::{write_frame, write_truth};
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
-use super::references::{TruthReferences, viewing};
+use super::references::{TruthReferences, scene_viewing};
 use crate::Error;
 use crate::cache::clear::clear_scene;
 use crate::cache::record::{
@@ -93,7 +93,7 @@ impl SceneContext<'_> {
         if due.is_empty() {
             return Ok(Vec::new());
         }
-        let viewing = viewing(self.scene);
+        let viewing = scene_viewing(self.scene);
         let without_pairs = self.truths_without_pairs(due)?;
         let alignments: BTreeSet<Alignment> = due.iter().map(|case| case.alignment).collect();
         let references = (alignments.into_iter())

@@ -56,7 +56,7 @@ pub(crate) fn check_measuring_memory(
 /// Estimates the bytes that it takes to render a scene and to measure filters on it.
 pub(crate) fn measuring_memory(scene: &Scene, settings: &RenderSettings) -> u64 {
     let pixels = u64::from(settings.width) * u64::from(settings.height);
-    let pixel = PER_MEASURED_PIXEL + PER_MEASURED_COVERAGE * coverages(scene);
+    let pixel = PER_MEASURED_PIXEL + PER_MEASURED_COVERAGE * count_coverages(scene);
     let measuring = MEASURING.saturating_add(pixels.saturating_mul(pixel));
     measuring.max(needed(scene, settings, settings.replicates))
 }
@@ -70,7 +70,7 @@ fn refuse_beyond_free(scene: &Scene, settings: &RenderSettings, needed: u64) -> 
             gibibytes(needed),
             settings.width,
             settings.height,
-            coverages(scene),
+            count_coverages(scene),
             gibibytes(free),
         ))),
         _ => Ok(()),
@@ -78,7 +78,7 @@ fn refuse_beyond_free(scene: &Scene, settings: &RenderSettings, needed: u64) -> 
 }
 
 /// Counts channels of coverage: one for the background and one per object.
-fn coverages(scene: &Scene) -> u64 {
+fn count_coverages(scene: &Scene) -> u64 {
     scene.objects.len() as u64 + 1
 }
 
@@ -90,7 +90,7 @@ fn needed(scene: &Scene, settings: &RenderSettings, replicates: u32) -> u64 {
     };
     let pixels = area(0);
     let band = area(settings.guard_band) - pixels;
-    let coverages = coverages(scene);
+    let coverages = count_coverages(scene);
     let replicate = PER_REPLICATE + PER_REPLICATE_COVERAGE * coverages;
     let pixel =
         PER_PIXEL + PER_COVERAGE * coverages + u64::from(replicates).saturating_mul(replicate);

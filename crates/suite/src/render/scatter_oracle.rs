@@ -16,7 +16,7 @@ const TOGETHER: usize = 16;
 /// fills places that nothing came to from the farthest of what lies nearest to them in each of the four directions, and
 /// averages. The picture is as large as the frame, guard band included.
 pub fn scatter_oracle(frame: &Frame, shutter: Shutter, profile: &ShutterProfile) -> Picture {
-    let instants = instants(frame, shutter, &profile.efficiency);
+    let instants = place_instants(frame, shutter, &profile.efficiency);
     let height = frame.color.height - 2 * frame.guard_band;
     let mut sums = Sums::new(frame);
     for together in instants.chunks(TOGETHER) {
@@ -48,7 +48,7 @@ struct Instant {
     weight: f64,
 }
 
-fn instants(frame: &Frame, shutter: Shutter, efficiency: &Efficiency) -> Vec<Instant> {
+fn place_instants(frame: &Frame, shutter: Shutter, efficiency: &Efficiency) -> Vec<Instant> {
     let speeds = frame.velocity.pixels.iter().map(|v| v[0].hypot(v[1]));
     let distance = f64::from(speeds.fold(0.0, f32::max)) * shutter.exposure();
     let wanted = (INSTANTS_PER_PIXEL * distance).ceil() as u32;

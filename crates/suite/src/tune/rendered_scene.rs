@@ -7,7 +7,7 @@ use metrics::Viewing;
 use tracer::{Family, Scene};
 
 use crate::judge::bounds::SceneBounds;
-use crate::measure::references::viewing;
+use crate::measure::references::scene_viewing;
 use crate::render::frames::render_frame;
 use crate::render::truths::render_truth;
 use crate::{Error, Monitor, RenderSettings};
@@ -42,7 +42,7 @@ pub fn render_scenes(
             family: scene.family,
             frame: render_frame(scene, render, out, monitor)?,
             truth: render_truth(scene, render, alignment, out, monitor)?,
-            viewing: viewing(scene),
+            viewing: scene_viewing(scene),
             bounds: bounds.clone(),
         })
     };

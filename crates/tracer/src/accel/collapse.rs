@@ -184,12 +184,12 @@ mod tests {
     }
 
     /// The items of every leaf at or below the wide node for `top`.
-    fn leaves(collapse: &Collapse, top: usize) -> Vec<Vec<u32>> {
+    fn collect_leaves(collapse: &Collapse, top: usize) -> Vec<Vec<u32>> {
         let children = collapse.children(top);
         assert!((1..=WIDTH).contains(&children.len()));
         let below = children.into_iter().map(|child| {
             if !collapse.is_leaf(child) {
-                return leaves(collapse, child);
+                return collect_leaves(collapse, child);
             }
             vec![collapse.items(child)]
         });
@@ -205,7 +205,7 @@ mod tests {
                     max_items,
                     item_cost: 0.5,
                 };
-                let leaves = leaves(&Collapse::new(&binary, rules), 0);
+                let leaves = collect_leaves(&Collapse::new(&binary, rules), 0);
                 assert!(leaves.iter().all(|items| items.len() <= max_items as usize));
                 let mut items = leaves.concat();
                 items.sort_unstable();
@@ -222,7 +222,7 @@ mod tests {
                 max_items: 8,
                 item_cost,
             };
-            leaves(&Collapse::new(&binary, rules), 0).len()
+            collect_leaves(&Collapse::new(&binary, rules), 0).len()
         };
         // 64 boxes in leaves of eight, in one node; apart, they take five nodes.
         assert_eq!(count(0.0), 8);

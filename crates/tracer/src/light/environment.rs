@@ -74,7 +74,7 @@ impl EnvironmentSampler {
     /// Prepares a map; none where it is black.
     pub fn new(map: &EnvironmentMap) -> Option<Self> {
         let [width, height] = [map.width as usize, map.height as usize];
-        let weights = weights(map);
+        let weights = compute_weights(map);
         let area = |row: usize| (map.border(row) - map.border(row + 1)) * TAU / width as f64;
         let mut columns = Vec::with_capacity(width * height);
         let mut rows = Vec::with_capacity(height);
@@ -129,7 +129,7 @@ impl EnvironmentSampler {
 }
 
 /// The mean strength of each texel and its eight neighbours.
-fn weights(map: &EnvironmentMap) -> Vec<f64> {
+fn compute_weights(map: &EnvironmentMap) -> Vec<f64> {
     let [width, height] = [i64::from(map.width), i64::from(map.height)];
     let strength = |column, row| f64::from(map.texel(column, row).max_element());
     let mean_of_three = |column: i64, row: i64| {

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use glam::{DVec3, Vec3};
 
 use crate::light::light_sample::{LightSample, density_per_steradian};
-use crate::material::surface::{emission, material};
+use crate::material::surface::{emission, find_material};
 use crate::motion::poses::Poses;
 use crate::scene::{Scene, Sun};
 
@@ -27,7 +27,9 @@ impl Emitters {
         for (object, shown) in scene.objects.iter().enumerate() {
             let mesh = &scene.meshes[shown.mesh];
             for triangle in 0..mesh.triangles.len() as u32 {
-                let strength = material(scene, object, triangle).emission.max_element();
+                let strength = find_material(scene, object, triangle)
+                    .emission
+                    .max_element();
                 let weight = f64::from(strength) * world_area(scene, poses, object, triangle);
                 if weight > 0.0 {
                     triangles.push((object, triangle));

@@ -66,7 +66,7 @@ impl Surface {
         let mesh = &scene.meshes[scene.objects[hit.object].mesh];
         let scaled = mesh.at(hit.time).area_normal(hit.triangle, &pose.to_world);
         let facet = face_towards(scaled.normalize_or_zero(), -ray.direction);
-        let texcoord = texcoord(mesh, hit.triangle, hit.weights);
+        let texcoord = interpolate_texcoord(mesh, hit.triangle, hit.weights);
         let index = material_index(scene, hit.object, hit.triangle);
         let material = &scene.materials[index];
         Surface {
@@ -93,7 +93,7 @@ impl Surface {
 }
 
 /// The material of a triangle.
-pub(crate) fn material(scene: &Scene, object: usize, triangle: u32) -> &Material {
+pub(crate) fn find_material(scene: &Scene, object: usize, triangle: u32) -> &Material {
     &scene.materials[material_index(scene, object, triangle)]
 }
 
@@ -109,8 +109,8 @@ pub(crate) fn emission(scene: &Scene, object: usize, triangle: u32, weights: [f6
         return Vec3::ZERO;
     }
     let mesh = &scene.meshes[scene.objects[object].mesh];
-    let material = material(scene, object, triangle);
-    let texcoord = texcoord(mesh, triangle, weights);
+    let material = find_material(scene, object, triangle);
+    let texcoord = interpolate_texcoord(mesh, triangle, weights);
     apply_texture(
         scene,
         material.emission,
@@ -122,11 +122,11 @@ pub(crate) fn emission(scene: &Scene, object: usize, triangle: u32, weights: [f6
 /// The opacity at a point of a triangle; in a texture it is the texels' alpha.
 fn opacity(scene: &Scene, object: usize, triangle: u32, weights: [f64; 2]) -> f32 {
     let mesh = &scene.meshes[scene.objects[object].mesh];
-    let material = material(scene, object, triangle);
+    let material = find_material(scene, object, triangle);
     let texel = sample_texture(
         scene,
         material.opacity_texture,
-        texcoord(mesh, triangle, weights),
+        interpolate_texcoord(mesh, triangle, weights),
     );
     material.opacity * texel.w
 }
@@ -144,7 +144,7 @@ fn sample_texture(scene: &Scene, texture: Option<usize>, texcoord: Vec2) -> Vec4
     })
 }
 
-fn texcoord(mesh: &Mesh, triangle: u32, weights: [f64; 2]) -> Vec2 {
+fn interpolate_texcoord(mesh: &Mesh, triangle: u32, weights: [f64; 2]) -> Vec2 {
     if mesh.texcoords.is_empty() {
         return Vec2::ZERO;
     }

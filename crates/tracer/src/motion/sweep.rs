@@ -179,25 +179,26 @@ mod tests {
         }
     }
 
-    fn scene(
+    fn random_scene(
         numbers: &mut Numbers,
         interpolation: Interpolation,
         turn: f64,
         deforms: bool,
     ) -> Scene {
-        let mut corners = || -> Vec<Vec3> { (0..8).map(|_| numbers.vector().as_vec3()).collect() };
+        let mut random_corners =
+            || -> Vec<Vec3> { (0..8).map(|_| numbers.vector().as_vec3()).collect() };
         let shapes: Vec<Shape> = if deforms {
             [-0.5, 0.0, 0.2]
                 .map(|time| Shape {
                     time,
-                    positions: corners(),
+                    positions: random_corners(),
                     normals: Vec::new(),
                 })
                 .into()
         } else {
             Vec::new()
         };
-        let corners = corners();
+        let corners = random_corners();
         let object = |numbers: &mut Numbers, parent| Object {
             name: "thing".into(),
             mesh: 0,
@@ -245,7 +246,7 @@ mod tests {
         for interpolation in [Interpolation::Linear, Interpolation::Cubic] {
             for turn in [0.0, 0.3, 179.0_f64.to_radians(), 6.0 * PI] {
                 for deforms in [false, true] {
-                    scenes.push(scene(numbers, interpolation, turn, deforms));
+                    scenes.push(random_scene(numbers, interpolation, turn, deforms));
                 }
             }
         }
@@ -307,7 +308,7 @@ mod tests {
     #[test]
     fn the_box_of_a_translation_is_tight() {
         let mut numbers = Numbers(2);
-        let mut scene = scene(&mut numbers, Interpolation::Linear, 0.0, false);
+        let mut scene = random_scene(&mut numbers, Interpolation::Linear, 0.0, false);
         for key in &mut scene.objects[0].motion.keys {
             key.scale = DVec3::ONE;
         }
