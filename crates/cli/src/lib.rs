@@ -22,11 +22,10 @@ use quiet_driver::quiet_driver;
 pub use output::annotations::{annotations, summary};
 pub use output::junit::junit;
 pub use selection::{Programs, SceneChoice, select_filters, select_scenes};
-pub use tables::bench::bench_table;
 pub use tables::cases::{run_table, score_table};
-pub use tables::check::{check_text, verdict_text};
+pub use tables::check::check_text;
 pub use tables::comparison::compare_table;
-pub use tables::tuning::{paired_table, tuning_table};
+pub use tables::tuning::paired_table;
 
 /// Runs the command of the command line and returns its exit code.
 pub fn run_program() -> ExitCode {

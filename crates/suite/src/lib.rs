@@ -55,7 +55,7 @@ pub use judge::decision::Decision;
 pub use judge::{
     BLOCK, CROP, Decoys, Finding, JUDGEMENT_FILE, JUDGEMENT_FORMAT, JudgedScore, Judgement,
     MOST_SAMPLES, Outcome, Resemblance, RunBounds, Worst, add_evidence, judge, judge_scores,
-    limit_as_badness, number, worst_block,
+    number, worst_block,
 };
 pub use measure::estimate::{
     RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run,
@@ -71,7 +71,7 @@ pub use render::merge::{MOST_PART_BYTES, Merged, merge};
 pub use render::scatter_oracle::scatter_oracle;
 pub use render::settings::{MOST_REPLICATES, RenderSettings, SIDES};
 pub use render::truths::{deciding_floor, render_part, render_truth, render_truth_until};
-pub use run::case::{ACCUMULATE, Case, IDENTITY, Intervals, SCATTER_ORACLE};
+pub use run::case::{ACCUMULATE, Case, IDENTITY, Intervals};
 pub use run::earlier::EarlierCases;
 pub use run::failure::{Failure, refuse_failures};
 pub use run::file::MOST_CASES;

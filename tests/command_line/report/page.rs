@@ -143,6 +143,17 @@ fn a_page_holds_every_plane_once_and_fetches_nothing() {
     for words in ["@import", "url(", "fetch("] {
         assert!(!page.contains(words), "{words}");
     }
+    // An address is text for the reader: none begins an attribute or a string of a script.
+    for scheme in ["http://", "https://"] {
+        for (place, _) in page.match_indices(scheme) {
+            let before = &page[..place];
+            assert!(
+                !before.ends_with(['"', '\'', '=', '(', '`']),
+                "{}",
+                &before[before.len() - 60..]
+            );
+        }
+    }
 }
 
 #[test]

@@ -23,7 +23,7 @@ pub use evidence::add_evidence;
 pub use finding::{Finding, MOST_SAMPLES, number};
 pub use judged_score::{JudgedScore, judge_scores};
 pub use judgement::{JUDGEMENT_FILE, JUDGEMENT_FORMAT, Judgement};
-pub use outcome::{Outcome, limit_as_badness};
+pub use outcome::Outcome;
 pub use worst::{BLOCK, CROP, Worst, worst_block};
 
 /// The bounds of a run's scenes, by the names that its cases give them.

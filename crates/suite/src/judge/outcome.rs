@@ -60,7 +60,7 @@ pub fn judge_score(
 }
 
 /// Converts a limit to badness. A limit on a distance from an ideal is one already.
-pub fn limit_as_badness(ideal: Ideal, limit: f64) -> f64 {
+pub(crate) fn limit_as_badness(ideal: Ideal, limit: f64) -> f64 {
     match ideal {
         Ideal::Highest => -limit,
         Ideal::Lowest | Ideal::Target(_) => limit,
