@@ -71,7 +71,12 @@ fn a_run_writes_scores_and_pictures_of_every_case() {
 
     let run = bench.measured();
     assert_eq!(
-        (run.format, run.width, run.height, run.samples_per_pixel),
+        (
+            run.format,
+            run.render.width,
+            run.render.height,
+            run.render.samples_per_pixel
+        ),
         (suite::FORMAT, 64, 32, 16)
     );
     let names: Vec<_> = run
