@@ -78,20 +78,16 @@ impl VelocityKind {
         VelocityKind::PreviousFrame,
         VelocityKind::CameraOnly,
     ];
+}
 
-    /// Returns the word used in files and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
+/// The word used in files and on the command line.
+impl fmt::Display for VelocityKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
             VelocityKind::Instantaneous => "instantaneous",
             VelocityKind::PreviousFrame => "previous_frame",
             VelocityKind::CameraOnly => "camera_only",
-        }
-    }
-}
-
-impl fmt::Display for VelocityKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
+        })
     }
 }
 
@@ -101,29 +97,20 @@ impl FromStr for VelocityKind {
     fn from_str(text: &str) -> Result<Self, String> {
         Self::ALL
             .into_iter()
-            .find(|kind| kind.name() == text)
+            .find(|kind| kind.to_string() == text)
             .ok_or_else(|| {
                 format!("velocity \"{text}\" is unknown; allowed: instantaneous, previous_frame, camera_only")
             })
     }
 }
 
-impl ColorSampling {
-    /// Every kind.
-    pub const ALL: [ColorSampling; 2] = [ColorSampling::Antialiased, ColorSampling::Point];
-
-    /// Returns the word used in files and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            ColorSampling::Antialiased => "antialiased",
-            ColorSampling::Point => "point",
-        }
-    }
-}
-
+/// The word used in files and on the command line.
 impl fmt::Display for ColorSampling {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
+        f.pad(match self {
+            ColorSampling::Antialiased => "antialiased",
+            ColorSampling::Point => "point",
+        })
     }
 }
 
@@ -131,9 +118,9 @@ impl FromStr for ColorSampling {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        Self::ALL
+        [Self::Antialiased, Self::Point]
             .into_iter()
-            .find(|kind| kind.name() == text)
+            .find(|kind| kind.to_string() == text)
             .ok_or_else(|| format!("color \"{text}\" is unknown; allowed: antialiased, point"))
     }
 }

@@ -66,11 +66,6 @@ impl RenderSettings {
 
     /// Lists name and value of every setting that all cases of a run share.
     pub(crate) fn list(&self) -> [(&'static str, String); 8] {
-        let FrameOptions {
-            velocity,
-            color,
-            sky_velocity,
-        } = self.options;
         [
             ("picture size", format!("{}x{}", self.width, self.height)),
             (
@@ -79,9 +74,9 @@ impl RenderSettings {
             ),
             ("number of replicates", self.replicates.to_string()),
             ("seed", self.seed.to_string()),
-            ("velocity", velocity.to_string()),
-            ("color", color.to_string()),
-            ("sky velocity", sky_velocity.to_string()),
+            ("velocity", self.options.velocity.to_string()),
+            ("color", self.options.color.to_string()),
+            ("sky velocity", self.options.sky_velocity.to_string()),
             ("guard band", format!("{} px", self.guard_band)),
         ]
     }
