@@ -30,14 +30,14 @@ impl Default for FrameOptions {
 
 impl FrameOptions {
     /// Writes an attribute per option.
-    pub fn set(&self, file: &mut ExrFile) {
+    pub(crate) fn set(&self, file: &mut ExrFile) {
         file.set("velocity", self.velocity);
         file.set("color", self.color);
         file.set("sky_velocity", self.sky_velocity);
     }
 
     /// Reads the attributes that [`FrameOptions::set`] wrote.
-    pub fn from_exr(file: &ExrFile) -> Result<Self, FileError> {
+    pub(crate) fn from_exr(file: &ExrFile) -> Result<Self, FileError> {
         Ok(Self {
             velocity: file.get("velocity")?,
             color: file.get("color")?,
