@@ -21,7 +21,7 @@ test: vulkan python chromium
 
 # Prints each command with its time.
 guides: vulkan python
-	cargo test --package cli --test command_line --locked -- --ignored --nocapture guides
+	cargo test --package cli --test command_line --locked -- --ignored --nocapture --test-threads 1 guides
 
 # How long to fuzz, what, and from which numbers on; `make fuzz MINUTES=1 TARGETS=scene,obj SEED=7`. See docs/fuzzing.md.
 MINUTES ?= 10
