@@ -29,6 +29,11 @@ pub fn find_steps(page: &str) -> Vec<Step> {
         if line.starts_with("```") {
             let block = lines.by_ref().take_while(|line| *line != "```");
             let text: String = block.map(|line| format!("{line}\n")).collect();
+            // A workflow is a command of its own, known by its first line.
+            if line == "```yaml" {
+                let first = text.lines().next().unwrap_or_default();
+                steps.push(Step::Run(first.to_owned()));
+            }
             steps.extend(find_file_name(&prose).map(|path| Step::Write { path, text }));
         } else if let Some(code) = line.strip_prefix("    ") {
             let mut command = code.to_owned();
