@@ -145,6 +145,10 @@ fn every_exception_is_a_command_of_a_page() {
         let shown = commands.iter().any(|(_, command)| *command == left_out);
         assert!(shown, "no page shows the exception \"{left_out}\"");
     }
+    for (beginning, _) in quick::REPLACED {
+        let shown = (commands.iter()).any(|(_, command)| command.starts_with(beginning));
+        assert!(shown, "no page shows a command \"{beginning} ..\"");
+    }
     for (page, beginning, _) in PREPARED {
         let shown =
             (commands.iter()).any(|(of, command)| *of == page && command.starts_with(beginning));
@@ -153,7 +157,7 @@ fn every_exception_is_a_command_of_a_page() {
 }
 
 /// Runs a command; returns what is wrong with its end.
-fn fail(reader: &Reader, page: &str, command: &str) -> Option<String> {
+fn find_failure(reader: &Reader, page: &str, command: &str) -> Option<String> {
     let start = Instant::now();
     let output = reader.run(command);
     let seconds = start.elapsed().as_secs_f64();
@@ -181,9 +185,9 @@ fn every_command_of_the_pages_ends_with_exit_code_0() {
                 Step::Run(command) if is_left_out(&command) => {}
                 Step::Run(command) => {
                     if let Some(line) = find_prepared(&page, &command) {
-                        failed.extend(fail(&reader, &page, line));
+                        failed.extend(find_failure(&reader, &page, line));
                     }
-                    failed.extend(fail(&reader, &page, &shorten(&command)));
+                    failed.extend(find_failure(&reader, &page, &shorten(&command)));
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! Commands of the pages in a form that takes no time.
 
 /// Beginnings of commands that build, or that need what a test has not, and what is run instead.
-const REPLACED: [(&str, &str); 3] = [
+pub const REPLACED: [(&str, &str); 3] = [
     (
         "cargo run --release --bin shuttertruth -- ",
         "shuttertruth ",
