@@ -15,7 +15,7 @@ use suite::{Error, printable, printable_lines};
 
 use commands::Ending;
 use output::print::{print_error, print_failure};
-use output::progress::{INTERRUPTED_CODE, catch_interrupts};
+use output::progress::{INTERRUPTED_CODE, INTERRUPTED_TEXT, catch_interrupts};
 use output::verbosity::set_output;
 use quiet_driver::quiet_driver;
 
@@ -39,7 +39,10 @@ pub fn run_program() -> ExitCode {
         Ok(Ending::Done) => ExitCode::SUCCESS,
         Ok(Ending::Failed(error)) => ExitCode::from(exit_code(&error)),
         Err(error) => {
-            print_failure(&error);
+            match error.is_interruption() {
+                true => print_error(INTERRUPTED_TEXT),
+                false => print_failure(&error),
+            }
             ExitCode::from(exit_code(&error))
         }
     }

@@ -54,12 +54,23 @@ const DESCRIPTIONS: usize = 19;
 pub fn command_line() -> Command {
     let program = Cli::command();
     let groups = groups_text(&program);
-    (program.mut_subcommands(|command| command.hide(true)))
+    (program.mut_subcommands(|command| allow_negative_numbers(command).hide(true)))
         .override_usage("shuttertruth [OPTIONS] <COMMAND>")
         .help_template(format!(
             "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{groups}{{all-args}}\n\n\
              shuttertruth help <COMMAND> says more about a command."
         ))
+}
+
+/// Takes a number below 0 for the value of an option, which then says what is allowed.
+fn allow_negative_numbers(command: Command) -> Command {
+    command.mut_args(|arg| {
+        let has_value = arg.get_action().takes_values() && !arg.is_positional();
+        match has_value && !arg.is_allow_hyphen_values_set() {
+            true => arg.allow_negative_numbers(true),
+            false => arg,
+        }
+    })
 }
 
 /// Lists the commands of each group, wrapped to the terminal.

@@ -3,7 +3,7 @@
 use clap::Args;
 use suite::{Border, DepthFormat, VelocityFormat};
 
-use super::parse::{parse_jitter_frames, parse_named, parse_size};
+use super::parse::{parse_jitter_frames, parse_named, parse_size, parse_whole};
 use super::programs::ProgramArgs;
 use super::scenes::SceneArgs;
 
@@ -41,7 +41,8 @@ pub struct MeasureArgs {
         help_heading = "Scenes and files",
         long,
         value_name = "N",
-        default_value_t = 8
+        default_value_t = 8,
+        value_parser = parse_whole::<u32>
     )]
     pub replicates: u32,
     /// Formats of the velocity buffer to try on every filter beside 32-bit floats, separated by commas.

@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::candidate::CandidateArgs;
-use super::parse::{parse_effort, parse_minutes, parse_ratio, parse_size};
+use super::parse::{parse_effort, parse_minutes, parse_ratio, parse_size, parse_whole};
 
 /// `shuttertruth tune`
 #[derive(Debug, Args)]
@@ -35,7 +35,7 @@ pub struct TuneArgs {
     #[arg(help_heading = "Search", long)]
     pub no_race: bool,
     /// Seed of the search; --seed is for renders.
-    #[arg(help_heading = "Search", long, value_name = "S", default_value_t = 1)]
+    #[arg(help_heading = "Search", long, value_name = "S", default_value_t = 1, value_parser = parse_whole::<u64>)]
     pub search_seed: u64,
     /// Held-out scenes, evaluated once at the end; every evaluation is recorded.
     #[arg(
@@ -53,7 +53,8 @@ pub struct TuneArgs {
         help_heading = "Held-out scenes",
         long,
         value_name = "N",
-        default_value_t = 256
+        default_value_t = 256,
+        value_parser = parse_whole::<u32>
     )]
     pub held_out_samples_per_pixel: u32,
     #[arg(long, hide = true, num_args = 0..=1, value_parser = refuse_sealed)]

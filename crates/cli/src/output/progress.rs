@@ -7,6 +7,7 @@ use std::sync::{LazyLock, Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 use indicatif::{MultiProgress, ProgressBar, ProgressState, ProgressStyle};
+use terminal_size::{Width, terminal_size_of};
 use tracer::Progress;
 
 use suite::{Monitor, Step, printable};
@@ -28,6 +29,10 @@ const GRACE: Duration = Duration::from_millis(1500);
 /// Exit code after Ctrl-C.
 pub const INTERRUPTED_CODE: u8 = 130;
 
+/// Words after Ctrl-C.
+pub const INTERRUPTED_TEXT: &str =
+    "interrupted; files that are whole stay, and the same command goes on from there";
+
 /// Makes Ctrl-C end the work under way. Work that does not ask ends with the process a moment later. No file is left half
 /// written: files are renamed into place when they are whole.
 pub fn catch_interrupts() {
@@ -35,7 +40,7 @@ pub fn catch_interrupts() {
     let _ = ctrlc::set_handler(|| {
         INTERRUPTED.store(true, Ordering::Relaxed);
         std::thread::sleep(GRACE);
-        print_error("interrupted");
+        print_error(INTERRUPTED_TEXT);
         std::process::exit(INTERRUPTED_CODE.into());
     });
 }
@@ -164,16 +169,22 @@ impl Bar {
 fn bar_style(
     left: impl Fn(&ProgressState) -> Option<Duration> + Clone + Send + Sync + 'static,
 ) -> ProgressStyle {
-    ProgressStyle::with_template("{msg:36} {bar:20} {percent:>3} % {left}")
-        .expect("the template is a constant")
-        .with_key(
-            "left",
-            move |state: &ProgressState, text: &mut dyn fmt::Write| {
-                if let Some(left) = left(state) {
-                    let _ = write!(text, "{} left", clock_text(left));
-                }
-            },
-        )
+    let (label, bar) = match terminal_size_of(std::io::stderr()) {
+        Some((Width(columns), _)) if columns < 80 => (28, 10),
+        _ => (36, 20),
+    };
+    ProgressStyle::with_template(&format!(
+        "{{msg:{label}!}} {{bar:{bar}}} {{percent:>3}} % {{left}}"
+    ))
+    .expect("the template is valid")
+    .with_key(
+        "left",
+        move |state: &ProgressState, text: &mut dyn fmt::Write| {
+            if let Some(left) = left(state) {
+                let _ = write!(text, "{} left", clock_text(left));
+            }
+        },
+    )
 }
 
 impl Step for Bar {

@@ -42,6 +42,7 @@ pub fn claim<'a>(
     for folder in &folders {
         refuse_scene(folder)?;
     }
+    refuse_file(out)?;
     std::fs::create_dir_all(out).map_err(|source| FileError::io(out, "write", source))?;
     let claim = Claim {
         _lock: lock(out, sharing)?,
@@ -53,6 +54,17 @@ pub fn claim<'a>(
         }
     }
     Ok(claim)
+}
+
+/// Refuses an output folder that is a file, or lies below one.
+fn refuse_file(out: &Path) -> Result<(), Error> {
+    match out.ancestors().find(|path| path.is_file()) {
+        None => Ok(()),
+        Some(file) => Err(Error::Usage(format!(
+            "{}: is a file, where the output folder is to be; name another output folder",
+            file.display()
+        ))),
+    }
 }
 
 /// Locks the folder; none where the file system knows no locks.

@@ -1,7 +1,7 @@
 //! Estimates of the time, disk and memory that a run takes, before it begins.
 
 use filters::Gpu;
-use tracer::Scene;
+use tracer::{Progress, Scene};
 
 use super::first_slice::{RenderCosts, count_small_pixels, measure_first_cases};
 use super::plan::RunPlan;
@@ -61,16 +61,24 @@ pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
         return rough;
     }
     let mut speed = None;
-    estimate_with(plan, gpu, |scene, renders| {
-        let slice = match renders {
-            true => RenderCosts::measure(scene.scene, &plan.render),
-            false => None,
-        };
-        let speed = *speed.get_or_insert_with(|| measure_case_speed(scene).unwrap_or(1.0));
-        SceneCosts {
-            render: slice.unwrap_or_else(RenderCosts::usual),
-            case: speed * usual_case_seconds(count_pixels(&plan.render)),
-        }
+    let mut done = 0;
+    let label = "first slices, to estimate the time";
+    plan.monitor.watch(label, |watch| {
+        estimate_with(plan, gpu, |scene, renders| {
+            let total = plan.scenes.len() as u64;
+            // What is interrupted here ends in the first scene.
+            let _ = watch(Progress { done, total });
+            done += 1;
+            let slice = match renders {
+                true => RenderCosts::measure(scene.scene, &plan.render),
+                false => None,
+            };
+            let speed = *speed.get_or_insert_with(|| measure_case_speed(scene).unwrap_or(1.0));
+            SceneCosts {
+                render: slice.unwrap_or_else(RenderCosts::usual),
+                case: speed * usual_case_seconds(count_pixels(&plan.render)),
+            }
+        })
     })
 }
 
