@@ -70,7 +70,15 @@ fn refuse_file(out: &Path) -> Result<(), Error> {
 /// Locks the folder; none where the file system knows no locks.
 fn lock(out: &Path, sharing: Sharing) -> Result<Option<File>, Error> {
     let path = out.join(LOCK_FILE);
-    let fail = |source| FileError::io(&path, "lock", source);
+    let fail = |source: std::io::Error| -> Error {
+        match source.kind() {
+            ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => Error::Usage(format!(
+                "{}: cannot write to this folder: {source}; name another output folder",
+                out.display()
+            )),
+            _ => FileError::io(&path, "lock", source).into(),
+        }
+    };
     let mut options = OpenOptions::new();
     let file = (options.read(true).write(true).create(true).truncate(false))
         .open(&path)
@@ -86,7 +94,7 @@ fn lock(out: &Path, sharing: Sharing) -> Result<Option<File>, Error> {
             out.display()
         ))),
         Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => Ok(None),
-        Err(TryLockError::Error(error)) => Err(fail(error).into()),
+        Err(TryLockError::Error(error)) => Err(fail(error)),
     }
 }
 
