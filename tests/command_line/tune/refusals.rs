@@ -88,7 +88,7 @@ fn a_choice_that_the_scenes_cannot_tell_from_the_start_gets_no_preset() {
         0 => "no trial beats it".to_owned(),
         trial => format!("2 scenes cannot tell trial {trial} from it, and 5 or more may"),
     };
-    let sentence = format!("no preset.toml is written, keep the start: {reason}");
+    let sentence = format!("keep the start, no preset.toml is written: {reason}");
     assert!(text.contains(&sentence), "{text}");
     assert!(!bench.path("out/preset.toml").exists());
     assert!(bench.path("out/params.json").is_file());

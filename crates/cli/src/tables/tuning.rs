@@ -109,7 +109,7 @@ pub fn advice_text(tuning: &Tuning) -> String {
         ),
     };
     let mut text = String::new();
-    let sentence = format!("no preset.toml is written, keep the start: {reason}");
+    let sentence = format!("keep the start, no preset.toml is written: {reason}");
     push_wrapped(&mut text, 0, &sentence);
     text
 }
