@@ -72,8 +72,10 @@ impl RenderCosts {
 }
 
 /// Measures the references and the first filter on the small picture of a scene; returns the seconds and the number of cases. None
-/// where they cannot be measured, or every filter is a program.
+/// where they cannot be measured, no adapter is open, or every filter is a program.
 pub(super) fn measure_first_cases(scene: &SceneContext) -> Option<(f64, usize)> {
+    // Kernels need the adapter.
+    scene.gpu?;
     let mut filters = scene.plan.filters.iter();
     let first = filters.find(|choice| choice.filter.command.is_none())?;
     let folder = tempfile::tempdir().ok()?;
