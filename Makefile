@@ -1,9 +1,11 @@
-# `make run` does the main job; `make test` passes the tests. Both check for a Vulkan driver first and, on Debian and
-# Ubuntu, install the software one where none is found; the tests want a Python with Optuna, which drives the tuning service, and
-# with numpy and OpenEXR, which presets are compared with their originals in; and Chromium, which reports are looked at with. `make fuzz` tries hostile input for ten minutes. On macOS and Windows plain cargo
-# commands work.
+# `make run` does the main job; `make test` passes the tests. Two longer tests stand apart: `make guides` runs every command of every
+# page, and `make fuzz` tries hostile input for ten minutes.
+#
+# All look for a Vulkan driver first and, on Debian and Ubuntu, install the software one where there is none. The tests need Python:
+# Optuna drives the tuning service, and numpy and OpenEXR compare presets with their originals. They need Chromium to open reports.
+# On macOS and Windows plain cargo commands work.
 
-.PHONY: run test fuzz vulkan python chromium
+.PHONY: run test guides fuzz vulkan python chromium
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -16,6 +18,10 @@ run: vulkan
 
 test: vulkan python chromium
 	cargo test --workspace --locked
+
+# Prints each command with its time.
+guides: vulkan python
+	cargo test --package cli --test command_line --locked -- --ignored --nocapture --test-threads 1 guides
 
 # How long to fuzz, what, and from which numbers on; `make fuzz MINUTES=1 TARGETS=scene,obj SEED=7`. See docs/fuzzing.md.
 MINUTES ?= 10

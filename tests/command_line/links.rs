@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 /// Folders that hold no page of the project's own.
 const FOREIGN: [&str; 4] = ["target", "out", "node_modules", ".git"];
 
-fn root() -> PathBuf {
+pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
 /// Every page below a folder.
-fn find_pages(folder: &Path) -> Vec<PathBuf> {
+pub fn find_pages(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder)
         .unwrap()

@@ -10,6 +10,8 @@ mod comparison;
 mod failures;
 mod fidelity;
 mod gallery;
+#[cfg(unix)]
+mod guides;
 mod hostile;
 mod import;
 #[cfg(unix)]

@@ -64,6 +64,23 @@ fn words_that_do_not_fit_are_refused_with_what_is_allowed() {
             &["backwards", "instantaneous, previous_frame, camera_only"],
         ),
         (&["--size", "10"], &["WIDTHxHEIGHT"]),
+        (&["--size", "-1"], &["'-1'", "WIDTHxHEIGHT"]),
+        (
+            &["--samples-per-pixel", "-8"],
+            &["'-8'", "allowed is a whole number"],
+        ),
+        (&["--seed", "1e9"], &["'1e9'", "allowed is a whole number"]),
+        (&["--exposure", "half"], &["allowed is a number above 0"]),
+        (
+            &["--guard-band", "1000000000"],
+            &["2000000320", "allowed: 1 to 16384"],
+        ),
+        (
+            &["--scenes", "plate,"],
+            &["--scenes: one of its names is empty"],
+        ),
+        (&["--filter", ""], &["--filter: one of its names is empty"]),
+        (&["--html", "scenes"], &["--html: scenes is a folder"]),
         (&["--scenes-dir", "nowhere"], &["nowhere"]),
     ];
     for (more, parts) in rows {
@@ -73,6 +90,12 @@ fn words_that_do_not_fit_are_refused_with_what_is_allowed() {
             !bench.path("out").exists(),
             "{more:?} left something behind"
         );
+    }
+    fs::write(bench.path("file"), "no folder").unwrap();
+    for out in ["file", "file/below"] {
+        let words = ["run", "--quiet", "--filter", "identity", "--out", out];
+        let parts = ["file: is a file, where the output folder is to be"];
+        assert_refused(&bench.shuttertruth(&words), 2, &parts);
     }
     for command in ["run", "render"] {
         let before = files_below(&bench.path("scenes"));
@@ -87,7 +110,7 @@ fn words_that_do_not_fit_are_refused_with_what_is_allowed() {
     assert_refused(
         &bench.shuttertruth(&[]),
         2,
-        &["Usage: shuttertruth [OPTIONS] [COMMAND]"],
+        &["Usage: shuttertruth [OPTIONS] <COMMAND>"],
     );
 }
 

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{BufRead, BufReader};
 use std::process::Stdio;
 
-use crate::bench::{Bench, assert_done, assert_refused, quick, stderr, stdout};
+use crate::bench::{Bench, assert_done, assert_refused, files_below, quick, stderr, stdout};
 
 /// A bench with a second scene, which moves at half the speed.
 fn two_scenes() -> Bench {
@@ -110,6 +110,60 @@ fn a_narrower_run_keeps_the_cases_of_a_wider_one() {
     assert_eq!(names(&bench).len(), 6);
     assert_done(&bench.run(&[&more[..], &["--no-cache"]].concat()));
     assert_eq!(names(&bench), ["slow identity:default"]);
+}
+
+#[test]
+fn runs_of_two_sizes_lie_side_by_side() {
+    let bench = Bench::new();
+    bench.write(
+        "bounds.toml",
+        "[default]\nflip_moving = { limit = 0.9, size = [48, 24], why = \"it serves a test\" }\n",
+    );
+    let filters = ["--filters", "identity"];
+    assert_done(&bench.run(&filters));
+    let contents = || {
+        let files = files_below(&bench.path("out")).into_iter();
+        let kept = files.filter(|path| !path.starts_with(bench.path("out/48x24")));
+        let contents = kept.map(|path| (fs::read(&path).unwrap(), path));
+        contents.collect::<Vec<_>>()
+    };
+    let before = contents();
+    // A check makes pictures of the size that its bounds hold at.
+    let few = ["check", "--samples-per-pixel", "64", "--out", "out"];
+    let check = bench.outside_ci(&[&few[..], &filters].concat());
+    assert_done(&check);
+    let note = "out holds a run of another picture size; this one, at 48x24, goes to out/48x24";
+    assert!(stderr(&check).contains(note), "{}", stderr(&check));
+    assert!(stdout(&check).contains("report: out/48x24/report.html"));
+    assert!(contents() == before, "the run was changed");
+    let run: suite::Run = bench.read_json("out/48x24/run.json");
+    assert_eq!((run.width, run.height), (48, 24));
+    // Both are read back.
+    let again = bench.outside_ci(&[&few[..], &filters].concat());
+    assert_eq!(stdout(&again), stdout(&check));
+    assert!(stdout(&bench.run(&filters)).contains("cases: 7, 7 of them read back"));
+}
+
+#[test]
+fn an_earlier_run_that_cannot_be_read_is_not_replaced() {
+    let bench = Bench::new();
+    let filters = ["--filters", "identity"];
+    assert_done(&bench.run(&filters));
+    let run = bench.path("out/run.json");
+    let whole = fs::read(&run).unwrap();
+    fs::write(&run, &whole[..whole.len() / 2]).unwrap();
+    let refused = bench.run(&filters);
+    let parts = [
+        "out/run.json: no run of this program",
+        "EOF",
+        "repair or remove it",
+        "--out",
+        "--no-cache",
+    ];
+    assert_refused(&refused, 2, &parts);
+    assert_eq!(fs::read(&run).unwrap().len(), whole.len() / 2);
+    assert_done(&bench.run(&["--no-cache", "--filters", "identity"]));
+    assert_eq!(names(&bench), ["plate identity:default"]);
 }
 
 #[test]
@@ -239,7 +293,13 @@ fn the_program_alone_prints_its_help_and_fails() {
     let bench = Bench::new();
     let output = bench.shuttertruth(&[]);
     assert_eq!(output.status.code(), Some(2));
-    for words in ["Usage: shuttertruth", "run", "check", "--list-adapters"] {
+    for words in [
+        "Usage: shuttertruth",
+        "Measure:\n  run  ",
+        "Judge:\n  check  ",
+        "Tune:\n  tune  ",
+        "--list-adapters",
+    ] {
         assert!(stderr(&output).contains(words), "{}", stderr(&output));
     }
     let help = stdout(&bench.shuttertruth(&["run", "--help"]));
@@ -268,6 +328,14 @@ fn old_words_name_the_new_ones() {
         (
             &["tune", "--filter", "jump_flood", "--compare", "a,b"],
             "shuttertruth compare-presets",
+        ),
+        (
+            &["tune", "--filter", "jump_flood", "--sealed", "fan"],
+            "--held-out fan",
+        ),
+        (
+            &["tune", "--filter", "jump_flood", "--sealed-size", "9x9"],
+            "--held-out-size 9x9",
         ),
     ] {
         assert_refused(&bench.shuttertruth(words), 2, &[part]);

@@ -9,13 +9,13 @@ mod tables;
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::FromArgMatches;
 use filters::FilterError;
 use suite::{Error, printable, printable_lines};
 
 use commands::Ending;
 use output::print::{print_error, print_failure};
-use output::progress::{INTERRUPTED_CODE, catch_interrupts};
+use output::progress::{INTERRUPTED_CODE, INTERRUPTED_TEXT, catch_interrupts};
 use output::verbosity::set_output;
 use quiet_driver::quiet_driver;
 
@@ -33,16 +33,26 @@ pub fn run_program() -> ExitCode {
         quiet_driver();
     }
     catch_interrupts();
-    let arguments = arguments::Cli::try_parse().unwrap_or_else(|error| refuse_arguments(&error));
+    let arguments = parse_arguments().unwrap_or_else(|error| refuse_arguments(&error));
     set_output(arguments.output);
     match commands::execute(arguments) {
         Ok(Ending::Done) => ExitCode::SUCCESS,
         Ok(Ending::Failed(error)) => ExitCode::from(exit_code(&error)),
         Err(error) => {
-            print_failure(&error);
+            match error.is_interruption() {
+                true => print_error(INTERRUPTED_TEXT),
+                false => print_failure(&error),
+            }
             ExitCode::from(exit_code(&error))
         }
     }
+}
+
+/// Parses the command line.
+fn parse_arguments() -> Result<arguments::Cli, clap::Error> {
+    let mut program = arguments::command_line();
+    let matches = program.try_get_matches_from_mut(std::env::args_os())?;
+    arguments::Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut program))
 }
 
 /// Chooses the exit code: 1 where a check fails, 2 for usage and bad input, 3 where there is no adapter, 4 where a truth stayed noisier than asked for

@@ -38,7 +38,7 @@ pub fn finding_status(finding: &Finding) -> &'static str {
         (Outcome::Broken, Level::Report) => "target missed",
         (Outcome::Inconclusive, Level::Required) => "UNDECIDED",
         (Outcome::Inconclusive, Level::Report) => "target undecided",
-        (Outcome::TooNoisy, _) => "TOO STRICT",
+        (Outcome::TooNoisy, _) => "LIMIT WITHIN NOISE",
         (Outcome::Kept, _) => "kept",
         (Outcome::NotApplicable, _) => "not applicable",
     }

@@ -58,11 +58,11 @@ pub use judge::{
     number, worst_block,
 };
 pub use measure::estimate::{
-    RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run,
+    RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run, estimate_run_roughly,
 };
 pub use measure::plan::RunPlan;
 pub use measure::references::scene_viewing;
-pub use measure::scenes::measure_scenes;
+pub use measure::scenes::{measure_scenes, measure_scenes_as_expected};
 pub use monitor::{Monitor, Step};
 pub use printable::{printable, printable_lines, printable_path, printable_table};
 pub use render::frames::render_frame;
@@ -72,7 +72,7 @@ pub use render::scatter_oracle::scatter_oracle;
 pub use render::settings::{MOST_REPLICATES, RenderSettings, SIDES};
 pub use render::truths::{deciding_floor, render_part, render_truth, render_truth_until};
 pub use run::case::{ACCUMULATE, Case, IDENTITY, Intervals};
-pub use run::earlier::EarlierCases;
+pub use run::earlier::{EarlierCases, folder_for_size};
 pub use run::failure::{Failure, refuse_failures};
 pub use run::file::MOST_CASES;
 pub use run::layers::write_layers;
@@ -84,8 +84,9 @@ pub use stats::headline::Headline;
 pub use stats::intervals::{FEWEST_REPLICATES, intervals, truths_without_pairs};
 pub use stats::overall::{overall, rank_filters};
 pub use stats::ranking::{RankedFilter, rank_by_flip};
+pub use stats::scene_mean::FEWEST_SCENES;
 pub use tune::{
-    Choice, ChoiceLimits, Difference, Estimate, Evaluation, Evaluator, Fold, HeldOutResult,
+    Advice, Choice, ChoiceLimits, Difference, Estimate, Evaluation, Evaluator, Fold, HeldOutResult,
     JOURNAL_FORMAT, Journal, JournalHeader, LEAST_BLEED, Objective, PairedComparison,
     ParameterSensitivity, Preference, RenderedScene, SceneScore, Search, Sensitivity, SobolIndices,
     Space, TUNE_FORMAT, Target, Trial, TrialOutcome, TuneOptions, Tuning, analyze_sensitivity,

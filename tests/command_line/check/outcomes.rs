@@ -142,7 +142,11 @@ fn a_bound_within_three_floors_is_exit_code_2_and_names_the_strictest() {
     assert_ends(
         &output,
         2,
-        &["TOO STRICT flip_moving", &allowed[..20], "at the strictest"],
+        &[
+            "LIMIT WITHIN NOISE flip_moving",
+            &allowed[..20],
+            "at the strictest",
+        ],
     );
     assert!(verdict(&output).contains("stricter than three noise floors"));
 }

@@ -15,7 +15,7 @@ fn set_up() -> Bench {
         text.replace("-1.6", "-0.8")
             .replace("\"translation\"", "\"camera\"")
     });
-    bench.copy_scene("sealed", |text| text.replace("-1.6", "-1.2"));
+    bench.copy_scene("held_out", |text| text.replace("-1.6", "-1.2"));
     bench
 }
 
@@ -47,11 +47,11 @@ fn a_tuning_is_shown_with_its_trials_its_choice_and_its_folds() {
         &[
             "--budget",
             "14",
-            "--sealed",
-            "sealed",
-            "--sealed-size",
+            "--held-out",
+            "held_out",
+            "--held-out-size",
             "64x32",
-            "--sealed-samples-per-pixel",
+            "--held-out-samples-per-pixel",
             "16",
         ],
     );
@@ -80,10 +80,10 @@ fn a_tuning_is_shown_with_its_trials_its_choice_and_its_folds() {
             "{fold:?}"
         );
     }
-    let sealed = find_section(&page, "Choice against start on held-out scenes");
-    let [start, chosen] = &tuning.held_out[0].paired.scenes["sealed"];
+    let held_out = find_section(&page, "Choice against start on held-out scenes");
+    let [start, chosen] = &tuning.held_out[0].paired.scenes["held_out"];
     for score in [start, chosen] {
-        assert!(sealed.contains(&format!("<td>{:.4}</td>", score.flip)));
+        assert!(held_out.contains(&format!("<td>{:.4}</td>", score.flip)));
     }
     let values = find_section(&page, "Values");
     for (name, value) in &tuning.chosen.values {

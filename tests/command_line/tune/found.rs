@@ -14,7 +14,7 @@ use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
 #[test]
 fn a_tuning_beats_the_start_and_writes_down_how() {
     let bench = set_up();
-    let table = bench.done(&tuning_words("out", "40", &["--sealed", "plate"]));
+    let table = bench.done(&tuning_words("out", "40", &["--held-out", "plate"]));
     assert_contains(
         &table,
         &[
@@ -96,9 +96,9 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
     assert_eq!(tuned.scenes.iter().collect::<Vec<_>>(), scenes);
 
     // Another look at the same is no second opening; one at something else is.
-    bench.done(&tuning_words("out", "40", &["--sealed", "plate"]));
+    bench.done(&tuning_words("out", "40", &["--held-out", "plate"]));
     assert_eq!(read_tuning(&bench, "out").held_out.len(), 1);
-    let other = ["--sealed", "plate", "--sealed-size", "64x32"];
+    let other = ["--held-out", "plate", "--held-out-size", "64x32"];
     let output = bench.shuttertruth(&tuning_words("out", "40", &other));
     assert!(
         stdout(&output).contains("evaluated 2 times"),

@@ -30,7 +30,7 @@ fn what_cannot_be_tuned_is_refused_and_leaves_nothing_behind() {
             &["no scene \"nowhere\"", "allowed: a, b"],
         ),
         (&["--scenes", "a,a"], &["a is named twice"]),
-        (&["--sealed", "b"], &["scene b", "proves nothing"]),
+        (&["--held-out", "b"], &["scene b", "proves nothing"]),
         (
             &["--cost-at-most", "1x"],
             &["cost has a limit", "objectives: flip,cost"],
@@ -52,7 +52,7 @@ fn what_cannot_be_tuned_is_refused_and_leaves_nothing_behind() {
         for (name, value) in usual.iter().filter(|(name, _)| *name != more[0]) {
             words.extend([name, value]);
         }
-        if more[0] == "--sealed" {
+        if more[0] == "--held-out" {
             words.extend(["--vary", "samples"]);
             let at = words.iter().position(|word| *word == "a").unwrap();
             words[at] = "a,b";
@@ -71,6 +71,27 @@ fn what_cannot_be_tuned_is_refused_and_leaves_nothing_behind() {
         2,
         &["scene g: nothing moves", "leave the scene out"],
     );
+}
+
+#[test]
+fn a_choice_that_the_scenes_cannot_tell_from_the_start_gets_no_preset() {
+    let bench = set_up();
+    let words = split("tune --quiet --filter jump_flood --from paper --vary samples=2..16,jitter");
+    let few = split("--objective flip --scenes a,b --size 64x32 --samples-per-pixel 16 --out out");
+    fs::create_dir(bench.path("out")).unwrap();
+    fs::write(bench.path("out/preset.toml"), "of an earlier tuning").unwrap();
+    let text = bench.done(&[&words[..], &few, &["--budget", "12"]].concat());
+    let text: Vec<&str> = text.split_whitespace().collect();
+    let text = text.join(" ");
+    let trial = read_tuning(&bench, "out").choice.trial;
+    let reason = match trial {
+        0 => "no trial beats it".to_owned(),
+        trial => format!("2 scenes cannot tell trial {trial} from it, and 5 or more may"),
+    };
+    let sentence = format!("keep the start, no preset.toml is written: {reason}");
+    assert!(text.contains(&sentence), "{text}");
+    assert!(!bench.path("out/preset.toml").exists());
+    assert!(bench.path("out/params.json").is_file());
 }
 
 /// A filter that is a program: it copies, and fails where its one parameter is above a half.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::adapter::AdapterArgs;
+use super::parse::{parse_exposure, parse_whole};
 use super::programs::ProgramArgs;
 
 /// `shuttertruth blur`
@@ -27,10 +28,10 @@ pub struct BlurArgs {
     #[arg(long, value_name = "FILE")]
     pub frame: PathBuf,
     /// Exposure in frames [default: the file's attribute "exposure"].
-    #[arg(long, value_name = "E")]
+    #[arg(long, value_name = "E", value_parser = parse_exposure)]
     pub exposure: Option<f64>,
     /// Frame number, which seeds the filter's noise.
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_whole::<u32>)]
     pub frame_index: u32,
     /// OpenEXR file to write.
     #[arg(short, long, value_name = "FILE", default_value = "out/blurred.exr")]

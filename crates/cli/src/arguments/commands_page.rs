@@ -6,6 +6,7 @@ use std::path::Path;
 use clap::CommandFactory;
 
 use super::Cli;
+use super::groups::{GROUPS, Group};
 
 /// Columns of the help on the page.
 const WIDTH: usize = 100;
@@ -17,7 +18,7 @@ const INTRODUCTION: &str = "\
 
 | exit code | meaning |
 |---|---|
-| 0 | done; `check`: every required bound is kept |
+| 0 | done; `check`: every required bound is kept; `tune`: also where it advises to keep the start, and writes no preset.toml |
 | 1 | `check`: a required bound is broken, a score is worse than the baseline's by more than its margin, or a case failed |
 | 2 | usage or bad input; bounds that are wrong, missing, or stricter than the noise of the truth can carry |
 | 3 | no adapter |
@@ -29,15 +30,20 @@ const INTRODUCTION: &str = "\
 fn page() -> String {
     let mut text = INTRODUCTION.to_owned();
     let program = Cli::command().term_width(WIDTH);
-    for command in program.get_subcommands() {
-        let name = command.get_name();
-        let mut command = command
-            .clone()
-            .term_width(WIDTH)
-            .bin_name(format!("shuttertruth {name}"));
-        let help = command.render_help().to_string();
-        let lines = help.lines().map(str::trim_end).collect::<Vec<_>>();
-        let _ = write!(text, "\n## {name}\n\n```text\n{}\n```\n", lines.join("\n"));
+    for Group { heading, commands } in &GROUPS {
+        let _ = write!(text, "\n## {heading}\n");
+        for name in *commands {
+            let command = program
+                .find_subcommand(name)
+                .expect("a group lists commands");
+            let mut command = command
+                .clone()
+                .term_width(WIDTH)
+                .bin_name(format!("shuttertruth {name}"));
+            let help = command.render_help().to_string();
+            let lines = help.lines().map(str::trim_end).collect::<Vec<_>>();
+            let _ = write!(text, "\n### {name}\n\n```text\n{}\n```\n", lines.join("\n"));
+        }
     }
     text
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use suite::Up;
 
-use super::parse::{parse_degrees_per_frame, parse_named, parse_pixels_per_frame};
+use super::parse::{parse_degrees_per_frame, parse_exposure, parse_named, parse_pixels_per_frame};
 
 /// `shuttertruth import`
 #[derive(Debug, Args)]
@@ -32,6 +32,6 @@ pub struct ImportArgs {
     #[arg(long)]
     pub plain: bool,
     /// Exposure in frames; 0.5 is a shutter of 180 degrees.
-    #[arg(long, value_name = "E", default_value_t = 0.5)]
+    #[arg(long, value_name = "E", default_value_t = 0.5, value_parser = parse_exposure)]
     pub exposure: f64,
 }

@@ -3,7 +3,7 @@
 use clap::Args;
 use suite::{Border, DepthFormat, VelocityFormat};
 
-use super::parse::{parse_jitter_frames, parse_named, parse_size};
+use super::parse::{parse_jitter_frames, parse_named, parse_size, parse_whole};
 use super::programs::ProgramArgs;
 use super::scenes::SceneArgs;
 
@@ -32,7 +32,8 @@ pub struct MeasureArgs {
     /// picture's].
     #[arg(help_heading = "Filters", long)]
     pub as_written: bool,
-    /// Picture size in pixels [default: 320x180; for `check`, the size that the bounds hold at].
+    /// Picture size in pixels. Where --out holds a run of another size, this one goes to a folder below it, such as out/160x90
+    /// [default: 320x180; for `check`, the size that the bounds hold at].
     #[arg(help_heading = "Scenes and files", long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
     /// Independent renders per truth, an even number; each has an eighth of --samples-per-pixel.
@@ -40,7 +41,8 @@ pub struct MeasureArgs {
         help_heading = "Scenes and files",
         long,
         value_name = "N",
-        default_value_t = 8
+        default_value_t = 8,
+        value_parser = parse_whole::<u32>
     )]
     pub replicates: u32,
     /// Formats of the velocity buffer to try on every filter beside 32-bit floats, separated by commas.

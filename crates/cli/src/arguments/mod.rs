@@ -12,6 +12,7 @@ mod commands_page;
 mod compare;
 mod compare_presets;
 mod evaluate;
+mod groups;
 #[cfg(test)]
 mod guides;
 mod import;
@@ -41,6 +42,7 @@ pub use check::CheckArgs;
 pub use compare::CompareArgs;
 pub use compare_presets::ComparePresetsArgs;
 pub use evaluate::EvaluateArgs;
+pub use groups::command_line;
 pub use import::ImportArgs;
 pub use list::ListArgs;
 pub use measure::MeasureArgs;

@@ -1,6 +1,7 @@
 //! Parsers of single values on the command line.
 
 use std::ops::Range;
+use std::str::FromStr;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use suite::{MOST_REPLICATES, Objective, SIDES};
@@ -28,6 +29,18 @@ pub fn parse_named<T: Copy + Send + Sync + 'static>(
         let value = all.iter().find(|value| name(**value) == text);
         *value.expect("the parser knows these names alone")
     })
+}
+
+/// Parses a whole number.
+pub fn parse_whole<T: FromStr>(text: &str) -> Result<T, String> {
+    text.parse()
+        .map_err(|_| "allowed is a whole number, 0 or more, and not too large".to_owned())
+}
+
+/// Parses an exposure; whoever uses it checks its range.
+pub fn parse_exposure(text: &str) -> Result<f64, String> {
+    text.parse()
+        .map_err(|_| "allowed is a number above 0, such as 0.5".to_owned())
 }
 
 /// Parses `640x360`.

@@ -3,7 +3,7 @@
 use clap::Args;
 use frame::Alignment;
 
-use super::parse::{Replicates, parse_noise, parse_replicates, parse_size};
+use super::parse::{Replicates, parse_noise, parse_replicates, parse_size, parse_whole};
 use super::scenes::SceneArgs;
 
 /// `shuttertruth render`
@@ -37,6 +37,7 @@ pub struct RenderArgs {
         long,
         value_name = "N",
         default_value_t = 64,
+        value_parser = parse_whole::<u32>,
         requires = "noise"
     )]
     pub most_replicates: u32,

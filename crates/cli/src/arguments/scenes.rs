@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use frame::{ColorSampling, FrameOptions, VelocityKind};
 
+use super::parse::{parse_exposure, parse_whole};
+
 /// On or off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Switch {
@@ -31,10 +33,10 @@ pub struct SceneArgs {
     #[arg(long, value_name = "FOLDER", default_value = "scenes")]
     pub scenes_dir: PathBuf,
     /// Samples per pixel of a truth with 8 replicates: 8 times a power of two.
-    #[arg(long, value_name = "N", default_value_t = 256)]
+    #[arg(long, value_name = "N", default_value_t = 256, value_parser = parse_whole::<u32>)]
     pub samples_per_pixel: u32,
     /// Exposure in frames; 0.5 is a shutter of 180 degrees [default: each scene's own].
-    #[arg(long, value_name = "E")]
+    #[arg(long, value_name = "E", value_parser = parse_exposure)]
     pub exposure: Option<f64>,
     /// Content of the velocity buffer: instantaneous, previous_frame, or camera_only (rebuilt from depth and the last frame's
     /// camera).
@@ -47,13 +49,13 @@ pub struct SceneArgs {
     #[arg(long, value_enum, value_name = "SWITCH", default_value_t = Switch::On)]
     pub sky_velocity: Switch,
     /// Pixels of the frame beyond the picture on every side. Filters see them; their output there is cropped.
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_whole::<u32>)]
     pub guard_band: u32,
     /// Threads that render [default: one per core].
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = parse_whole::<usize>)]
     pub threads: Option<usize>,
     /// Seed of all random numbers.
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, value_parser = parse_whole::<u64>)]
     pub seed: u64,
     /// Folder for all files. Truths and cases that lie there are used again if their inputs have not changed.
     #[arg(short, long, value_name = "DIR", default_value = "out")]

@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::candidate::CandidateArgs;
-use super::parse::parse_effort;
+use super::parse::{parse_effort, parse_whole};
 
 /// `shuttertruth sensitivity`
 #[derive(Debug, Args)]
@@ -23,7 +23,7 @@ pub struct SensitivityArgs {
     #[arg(help_heading = "Study", long, value_name = "N", default_value_t = 64, value_parser = parse_effort)]
     pub rows: usize,
     /// Seed of the design; --seed is for renders.
-    #[arg(help_heading = "Study", long, value_name = "S", default_value_t = 1)]
+    #[arg(help_heading = "Study", long, value_name = "S", default_value_t = 1, value_parser = parse_whole::<u64>)]
     pub search_seed: u64,
     /// Print sensitivity.json instead of the table.
     #[arg(help_heading = "Output", long)]

@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::candidate::CandidateArgs;
-use super::parse::{parse_effort, parse_minutes, parse_ratio, parse_size};
+use super::parse::{parse_effort, parse_minutes, parse_ratio, parse_size, parse_whole};
 
 /// `shuttertruth tune`
 #[derive(Debug, Args)]
@@ -35,7 +35,7 @@ pub struct TuneArgs {
     #[arg(help_heading = "Search", long)]
     pub no_race: bool,
     /// Seed of the search; --seed is for renders.
-    #[arg(help_heading = "Search", long, value_name = "S", default_value_t = 1)]
+    #[arg(help_heading = "Search", long, value_name = "S", default_value_t = 1, value_parser = parse_whole::<u64>)]
     pub search_seed: u64,
     /// Held-out scenes, evaluated once at the end; every evaluation is recorded.
     #[arg(
@@ -44,18 +44,25 @@ pub struct TuneArgs {
         value_delimiter = ',',
         value_name = "SCENES"
     )]
-    pub sealed: Vec<String>,
+    pub held_out: Vec<String>,
     /// Picture size of the held-out scenes.
     #[arg(help_heading = "Held-out scenes", long, value_name = "WxH", default_value = "320x180", value_parser = parse_size)]
-    pub sealed_size: (u32, u32),
+    pub held_out_size: (u32, u32),
     /// Samples per pixel of the held-out scenes' truths.
     #[arg(
         help_heading = "Held-out scenes",
         long,
         value_name = "N",
-        default_value_t = 256
+        default_value_t = 256,
+        value_parser = parse_whole::<u32>
     )]
-    pub sealed_samples_per_pixel: u32,
+    pub held_out_samples_per_pixel: u32,
+    #[arg(long, hide = true, num_args = 0..=1, value_parser = refuse_sealed)]
+    sealed: Option<String>,
+    #[arg(long, hide = true, num_args = 0..=1, value_parser = refuse_sealed_size)]
+    sealed_size: Option<String>,
+    #[arg(long, hide = true, num_args = 0..=1, value_parser = refuse_sealed_samples)]
+    sealed_samples_per_pixel: Option<String>,
     #[arg(long, hide = true, num_args = 0..=1, value_parser = refuse_sobol)]
     morris: Option<String>,
     #[arg(long, hide = true, num_args = 0..=1, value_parser = refuse_sobol)]
@@ -65,6 +72,22 @@ pub struct TuneArgs {
     /// Print tune.json instead of the table.
     #[arg(help_heading = "Output", long)]
     pub json: bool,
+}
+
+fn refuse_sealed(scenes: &str) -> Result<String, String> {
+    Err(format!("it is called --held-out now: --held-out {scenes}"))
+}
+
+fn refuse_sealed_size(size: &str) -> Result<String, String> {
+    Err(format!(
+        "it is called --held-out-size now: --held-out-size {size}"
+    ))
+}
+
+fn refuse_sealed_samples(samples: &str) -> Result<String, String> {
+    Err(format!(
+        "it is called --held-out-samples-per-pixel now: --held-out-samples-per-pixel {samples}"
+    ))
 }
 
 fn refuse_sobol(_: &str) -> Result<String, String> {

@@ -13,7 +13,7 @@ use suite::{
 use super::ending::Ending;
 use super::margins::read_margins;
 use super::measured_run::{MeasuredRun, measure};
-use super::pages::{WrittenFile, write_run_page};
+use super::pages::{WrittenFile, refuse_folder, write_run_page};
 use super::plan::{check_replicates_for_intervals, make_plan};
 use super::run_files::write_judged_run;
 use crate::arguments::CheckArgs;
@@ -27,6 +27,8 @@ use crate::tables::check::{check_text, verdict_text};
 /// Judges a run, made now or finished before, and reports in every form that is asked for. Refuses wrong arguments, bounds and
 /// baselines before anything is rendered.
 pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
+    refuse_folder("--html", args.html.as_ref())?;
+    refuse_folder("--junit", args.junit.as_ref())?;
     let baseline = args.baseline.as_deref().map(Baseline::read).transpose()?;
     let margins = read_margins(&args.measure.scenes.scenes_dir)?;
     let summary_file = args.github.then(find_summary_file).transpose()?;

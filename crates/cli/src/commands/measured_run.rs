@@ -1,12 +1,16 @@
 //! A run that is measured now, beside the cases of an earlier run in the same folder.
 
 use filters::Gpu;
-use suite::{Claim, EarlierCases, Error, Run, RunPlan, estimate_run, measure_scenes};
+use suite::{
+    Claim, EarlierCases, Error, Run, RunPlan, estimate_run, estimate_run_roughly, folder_for_size,
+    measure_scenes_as_expected,
+};
 
 use super::expected::print_expected;
 use super::plan::claim_out;
 use crate::output::count::count_text;
 use crate::output::print::print_note;
+use crate::output::verbosity::is_quiet;
 
 /// A finished run.
 pub struct MeasuredRun {
@@ -18,12 +22,19 @@ pub struct MeasuredRun {
     pub claim: Claim,
 }
 
-/// Runs every case of a plan. Cases of an earlier run in the same folder are kept beside them.
+/// Runs every case of a plan. Cases of an earlier run in the same folder are kept beside them; a run of another picture size is
+/// left alone, and the plan gets a folder below it.
 pub fn measure(plan: &mut RunPlan, gpu: Option<&Gpu>) -> Result<MeasuredRun, Error> {
+    choose_folder(plan)?;
     let claim = claim_out(plan)?;
     let earlier = find_earlier(plan, gpu)?;
-    print_expected(&estimate_run(plan, gpu), &plan.out);
-    let finished = measure_scenes(plan, gpu, std::env::args().collect())?;
+    let estimate = match is_quiet() {
+        true => estimate_run_roughly(plan, gpu),
+        false => estimate_run(plan, gpu),
+    };
+    print_expected(&estimate, &plan.out);
+    let command = std::env::args().collect();
+    let finished = measure_scenes_as_expected(plan, gpu, command, &estimate)?;
     let whole = match earlier {
         None => finished.clone(),
         Some(earlier) => {
@@ -38,14 +49,39 @@ pub fn measure(plan: &mut RunPlan, gpu: Option<&Gpu>) -> Result<MeasuredRun, Err
     })
 }
 
-/// Finds the cases of an earlier run; names the options for it where they cannot be kept.
+/// Leaves a run of another picture size alone, and says where this one goes.
+fn choose_folder(plan: &mut RunPlan) -> Result<(), Error> {
+    let size = (plan.render.width, plan.render.height);
+    let folder = match folder_for_size(&plan.out, size) {
+        Err(_) if plan.no_cache => return Ok(()),
+        found => found.map_err(name_options)?,
+    };
+    if folder != plan.out {
+        print_note(&format!(
+            "{} holds a run of another picture size; this one, at {}x{}, goes to {}",
+            plan.out.display(),
+            size.0,
+            size.1,
+            folder.display()
+        ));
+        plan.out = folder;
+    }
+    Ok(())
+}
+
+/// Finds the cases of an earlier run.
 fn find_earlier(plan: &mut RunPlan, gpu: Option<&Gpu>) -> Result<Option<EarlierCases>, Error> {
-    EarlierCases::find(plan, gpu.map(|gpu| &gpu.adapter)).map_err(|error| match error {
+    EarlierCases::find(plan, gpu.map(|gpu| &gpu.adapter)).map_err(name_options)
+}
+
+/// Names the options for an earlier run that cannot be kept.
+fn name_options(error: Error) -> Error {
+    match error {
         Error::Usage(reason) => Error::Usage(format!(
             "{reason}; choose another folder with --out, or replace the earlier run with --no-cache"
         )),
         other => other,
-    })
+    }
 }
 
 /// `run.json keeps 24 cases of an earlier run; --no-cache would drop them`

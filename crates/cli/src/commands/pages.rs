@@ -35,6 +35,17 @@ impl WrittenFile {
     }
 }
 
+/// Refuses a folder where a file is to be written, before the work that the file is about.
+pub fn refuse_folder(option: &str, path: Option<&PathBuf>) -> Result<(), Error> {
+    match path.filter(|path| path.is_dir()) {
+        None => Ok(()),
+        Some(path) => Err(Error::Usage(format!(
+            "{option}: {} is a folder; name the file to write",
+            path.display()
+        ))),
+    }
+}
+
 /// Writes the page of a run whose pictures lie below `folder`, and the files beside the page.
 pub fn write_run_page(
     run: &Run,

@@ -35,6 +35,7 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
         common: None,
         monitor: make_monitor(),
     };
+    plan.check()?;
     Ok((plan, bounds))
 }
 

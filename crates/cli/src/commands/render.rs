@@ -11,6 +11,7 @@ use tracer::Scene;
 use super::expected::print_expected_time;
 use super::render_settings::make_render_settings;
 use crate::arguments::{RenderArgs, Replicates};
+use crate::output::count::count_text;
 use crate::output::print::{print, print_scene_notes};
 use crate::output::progress::make_monitor;
 use crate::selection::{SceneChoice, select_scenes};
@@ -62,12 +63,12 @@ fn print_expected_renders(args: &RenderArgs, choices: &[SceneChoice]) -> Result<
         Replicates::All(count) => *count,
         Replicates::Part(indices) => (indices.len() as u32).next_multiple_of(2),
     };
-    let mut seconds = 0.0;
-    for choice in choices {
-        let settings = scene_settings(args, &choice.scene, count)?;
-        seconds += estimate_render_seconds(&settings, args.alignments.len());
-    }
-    print_expected_time(seconds, &format!("{} scenes", choices.len()));
+    let renders = (choices.iter())
+        .map(|choice| Ok((&choice.scene, scene_settings(args, &choice.scene, count)?)))
+        .collect::<Result<Vec<_>, Error>>()?;
+    let seconds = estimate_render_seconds(&renders, args.alignments.len());
+    let scenes = count_text(choices.len(), "scene", "scenes");
+    print_expected_time(seconds, &scenes);
     Ok(())
 }
 

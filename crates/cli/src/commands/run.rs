@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use suite::{Error, Run, judge, open_gpu, printable_path, refuse_failures};
 
 use super::measured_run::{MeasuredRun, measure};
-use super::pages::{WrittenFile, write_run_page};
+use super::pages::{WrittenFile, refuse_folder, write_run_page};
 use super::plan::make_plan;
 use super::run_files::write_judged_run;
 use crate::arguments::RunArgs;
@@ -20,6 +20,7 @@ use crate::tables::ranking::ranking_text;
 /// Runs every case, writes `run.json` and the page, prints the ranking or the table.
 pub fn execute(args: &RunArgs) -> Result<(), Error> {
     let began = Instant::now();
+    refuse_folder("--html", args.html.as_ref())?;
     let (mut plan, mut bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
     let size = (plan.render.width, plan.render.height);
     for bounds in bounds.values_mut() {

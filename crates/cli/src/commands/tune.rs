@@ -1,9 +1,12 @@
 //! The command `tune`.
 
+use std::io::ErrorKind;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
+use frame::FileError;
 use suite::{
-    Error, FilterChoice, RenderSettings, Sharing, Space, TuneOptions, Tuning, claim,
+    Advice, Error, FilterChoice, RenderSettings, Sharing, Space, TuneOptions, Tuning, claim,
     estimate_case_seconds, estimate_render_seconds, interleave_families, tune, tuned_preset_toml,
 };
 use tracer::Progress;
@@ -17,7 +20,7 @@ use crate::arguments::TuneArgs;
 use crate::output::print::print_error;
 use crate::output::progress::make_monitor;
 use crate::output::verbosity::is_quiet;
-use crate::tables::tuning::tuning_table;
+use crate::tables::tuning::{advice_text, tuning_table};
 
 /// Tunes, writes `journal.jsonl`, `tune.json` and the choice's values, prints the table.
 pub fn execute(args: &TuneArgs) -> Result<(), Error> {
@@ -54,7 +57,8 @@ pub fn execute(args: &TuneArgs) -> Result<(), Error> {
 /// Prints the expected time of a tuning whose scenes are not rendered yet. A race drops many candidates early.
 fn print_expected_tuning(options: &TuneOptions) {
     let scenes = options.scenes.len() as f64;
-    let rendering = scenes * estimate_render_seconds(&options.render, 1);
+    let open = (options.scenes.iter()).map(|(scene, _)| (scene, options.render.clone()));
+    let rendering = estimate_render_seconds(&open.collect::<Vec<_>>(), 1);
     let trials = options.budget as f64 * scenes * estimate_case_seconds(&options.render);
     let limit = options
         .time
@@ -71,7 +75,7 @@ fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Er
     let candidate = &args.candidate;
     let scene_args = &candidate.scenes;
     let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;
-    let held_out = match args.sealed.as_slice() {
+    let held_out = match args.held_out.as_slice() {
         [] => Vec::new(),
         words => load_scenes(&scene_args.scenes_dir, words)?,
     };
@@ -81,7 +85,7 @@ fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Er
         open.retain(|(scene, _)| held_out.iter().all(|(other, _)| other.name != scene.name));
     }
     let mut held_out_args = scene_args.clone();
-    held_out_args.samples_per_pixel = args.sealed_samples_per_pixel;
+    held_out_args.samples_per_pixel = args.held_out_samples_per_pixel;
     Ok(TuneOptions {
         choice,
         space,
@@ -90,7 +94,7 @@ fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Er
         render: candidate_render_settings(candidate)?,
         held_out_render: make_render_settings(
             &held_out_args,
-            args.sealed_size,
+            args.held_out_size,
             RenderSettings::default().replicates,
         )?,
         objectives: candidate.objective.clone(),
@@ -105,7 +109,7 @@ fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Er
     })
 }
 
-/// Writes tune.json, params.json and preset.toml.
+/// Writes tune.json, params.json and, where the choice is worth taking, preset.toml; else removes that of an earlier tuning.
 fn write_tuning(tuning: &Tuning, options: &TuneOptions) -> Result<CommandResult, Error> {
     let pretty = |json: Result<String, serde_json::Error>| json.expect("a tuning is plain data");
     let write = |name: &str, text: &str| {
@@ -117,10 +121,23 @@ fn write_tuning(tuning: &Tuning, options: &TuneOptions) -> Result<CommandResult,
         "params.json",
         &pretty(serde_json::to_string_pretty(&tuning.values)),
     )?;
-    write("preset.toml", &tuned_preset_toml(tuning, options))?;
+    match tuning.advice() {
+        Advice::Take => write("preset.toml", &tuned_preset_toml(tuning, options))?,
+        _ => remove_file(&options.out.join("preset.toml"))?,
+    }
     Ok(CommandResult {
-        table: tuning_table(tuning) + "\nthe choice: params.json and preset.toml beside tune.json",
+        table: tuning_table(tuning) + "\n" + advice_text(tuning).trim_end(),
         json,
         path: options.out.join("tune.json"),
     })
+}
+
+/// Removes a file, if there is one.
+fn remove_file(path: &Path) -> Result<(), Error> {
+    match std::fs::remove_file(path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => {
+            Err(FileError::io(path, "remove", error).into())
+        }
+        _ => Ok(()),
+    }
 }

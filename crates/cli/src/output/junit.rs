@@ -7,7 +7,7 @@ use suite::{Check, Decision, Finding, Level, Outcome};
 
 use crate::tables::check::comparison_line;
 
-/// Makes the document. A case that failed and a broken required bound are failures; an inconclusive one and one that is too strict are
+/// Makes the document. A case that failed and a broken required bound are failures; an inconclusive one and one whose limit lies within the noise are
 /// errors; what does not apply, and what is broken but only reported, is skipped.
 pub fn junit(check: &Check) -> String {
     let mut report = Report::new("shuttertruth check");
@@ -70,7 +70,9 @@ fn status(finding: &Finding) -> TestCaseStatus {
         (Outcome::Inconclusive, Level::Required) => {
             with_message(NonSuccessKind::Error, "inconclusive", message)
         }
-        (Outcome::TooNoisy, _) => with_message(NonSuccessKind::Error, "too_strict", message),
+        (Outcome::TooNoisy, _) => {
+            with_message(NonSuccessKind::Error, "limit_within_noise", message)
+        }
         (Outcome::Broken | Outcome::Inconclusive, Level::Report) => skipped(message),
         (Outcome::NotApplicable, _) => skipped(finding.reason.clone().unwrap_or_default()),
     }

@@ -3,10 +3,11 @@
 use std::fmt;
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{LazyLock, Mutex};
+use std::sync::{LazyLock, Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 use indicatif::{MultiProgress, ProgressBar, ProgressState, ProgressStyle};
+use terminal_size::{Width, terminal_size_of};
 use tracer::Progress;
 
 use suite::{Monitor, Step, printable};
@@ -28,6 +29,10 @@ const GRACE: Duration = Duration::from_millis(1500);
 /// Exit code after Ctrl-C.
 pub const INTERRUPTED_CODE: u8 = 130;
 
+/// Words after Ctrl-C.
+pub const INTERRUPTED_TEXT: &str =
+    "interrupted; files that are whole stay, and the same command goes on from there";
+
 /// Makes Ctrl-C end the work under way. Work that does not ask ends with the process a moment later. No file is left half
 /// written: files are renamed into place when they are whole.
 pub fn catch_interrupts() {
@@ -35,7 +40,7 @@ pub fn catch_interrupts() {
     let _ = ctrlc::set_handler(|| {
         INTERRUPTED.store(true, Ordering::Relaxed);
         std::thread::sleep(GRACE);
-        print_error("interrupted");
+        print_error(INTERRUPTED_TEXT);
         std::process::exit(INTERRUPTED_CODE.into());
     });
 }
@@ -62,32 +67,71 @@ pub fn make_silent_monitor() -> Monitor {
     make_monitor().without_progress()
 }
 
-/// Label of the step whose bar follows the steps within it.
-const WHOLE: &str = "scenes in all";
-/// Parts of a step of that bar.
-const PARTS: u64 = 1000;
+/// Positions of a full bar.
+const FULL: f64 = 1e6;
+/// Weight of the time that was expected, against the time that work has taken so far, for the time left.
+const EXPECTATION: f64 = 0.1;
 
-/// The bar of all scenes, while it is shown.
+/// The bar of all steps, while it is shown.
 static WHOLE_BAR: Mutex<Option<WholeBar>> = Mutex::new(None);
 
-/// A bar that moves with the steps within it, each of which counts as one.
+/// A bar that moves with the steps within it, by their expected times.
 struct WholeBar {
     bar: ProgressBar,
-    done: u64,
+    steps: Steps,
+    done: usize,
     /// Steps within that have ended since.
-    ended: u64,
+    ended: usize,
 }
 
 impl WholeBar {
     /// Moves the bar to the steps that are done and a part of the one under way. It never moves back.
     fn advance(&self, part: f64) {
-        let parts = PARTS as f64 * (self.ended as f64 + part.clamp(0.0, 1.0));
-        let position = self.done * PARTS + parts as u64;
+        let position = (FULL * self.steps.part(self.done + self.ended, part)) as u64;
         self.bar.set_position(position.max(self.bar.position()));
     }
 }
 
-/// Does something to the bar of all scenes, if it is shown.
+/// Steps of long work, with their expected times.
+#[derive(Clone)]
+struct Steps {
+    /// Expected seconds until the beginning of each step, and until the end of the last one.
+    begins: Vec<f64>,
+}
+
+impl Steps {
+    fn new(seconds: &[f64]) -> Self {
+        let mut begins = vec![0.0];
+        for seconds in seconds {
+            begins.push(begins[begins.len() - 1] + seconds);
+        }
+        Self { begins }
+    }
+
+    /// Returns the expected time of all steps, in seconds.
+    fn whole(&self) -> f64 {
+        self.begins[self.begins.len() - 1]
+    }
+
+    /// Returns the part of the expected time that is over after some steps and a part of the next.
+    fn part(&self, done: usize, part: f64) -> f64 {
+        let last = self.begins.len() - 1;
+        let [begin, end] = [done, done + 1].map(|step| self.begins[step.min(last)]);
+        let over = begin + (end - begin) * part.clamp(0.0, 1.0);
+        match self.whole() {
+            0.0 => 1.0,
+            whole => over / whole,
+        }
+    }
+
+    /// Estimates the time left: at first from the expected time alone, later from the time that the work has taken.
+    fn left(&self, elapsed: Duration, part: f64) -> Duration {
+        let weighed = elapsed.as_secs_f64() + EXPECTATION * self.whole();
+        Duration::from_secs_f64((1.0 - part).max(0.0) * weighed / (part + EXPECTATION))
+    }
+}
+
+/// Does something to the bar of all steps, if it is shown.
 fn with_whole_bar(change: impl FnOnce(&mut WholeBar)) {
     if let Ok(mut whole) = WHOLE_BAR.lock()
         && let Some(whole) = whole.as_mut()
@@ -99,44 +143,80 @@ fn with_whole_bar(change: impl FnOnce(&mut WholeBar)) {
 /// Progress as a bar on a terminal, beside others.
 struct Bar {
     bar: ProgressBar,
-    is_whole: bool,
+    is_whole: AtomicBool,
 }
 
 impl Bar {
     fn new(label: &str) -> Self {
         let bar = BARS.add(ProgressBar::no_length());
-        let style = ProgressStyle::with_template("{msg:36} {bar:20} {percent:>3} % {left}")
-            .expect("the template is a constant")
-            .with_key(
-                "left",
-                |state: &ProgressState, text: &mut dyn fmt::Write| {
-                    // Nothing done says nothing about the rest.
-                    if state.pos() > 0 {
-                        let _ = write!(text, "{} left", clock_text(state.eta()));
-                    }
-                },
-            );
-        bar.set_style(style);
+        bar.set_style(bar_style(|state| {
+            // Nothing done says nothing about the rest.
+            (state.pos() > 0).then(|| state.eta())
+        }));
         bar.set_message(printable(label).into_owned());
-        let is_whole = label.ends_with(WHOLE);
-        if is_whole && let Ok(mut whole) = WHOLE_BAR.lock() {
+        Self {
+            bar,
+            is_whole: AtomicBool::new(false),
+        }
+    }
+
+    fn is_whole(&self) -> bool {
+        self.is_whole.load(Ordering::Relaxed)
+    }
+}
+
+/// Makes the look of a bar, which ends with the time left.
+fn bar_style(
+    left: impl Fn(&ProgressState) -> Option<Duration> + Clone + Send + Sync + 'static,
+) -> ProgressStyle {
+    let (label, bar) = match terminal_size_of(std::io::stderr()) {
+        Some((Width(columns), _)) if columns < 80 => (28, 10),
+        _ => (36, 20),
+    };
+    ProgressStyle::with_template(&format!(
+        "{{msg:{label}!}} {{bar:{bar}}} {{percent:>3}} % {{left}}"
+    ))
+    .expect("the template is valid")
+    .with_key(
+        "left",
+        move |state: &ProgressState, text: &mut dyn fmt::Write| {
+            if let Some(left) = left(state) {
+                let _ = write!(text, "{} left", clock_text(left));
+            }
+        },
+    )
+}
+
+impl Step for Bar {
+    fn expect(&self, seconds: &[f64]) {
+        if seconds.is_empty() {
+            return;
+        }
+        let steps = Steps::new(seconds);
+        let of_left = steps.clone();
+        let bar = self.bar.clone();
+        bar.set_length(FULL as u64);
+        bar.set_style(bar_style(move |state| {
+            Some(of_left.left(state.elapsed(), f64::from(state.fraction())))
+        }));
+        // The time left falls while a step says nothing.
+        bar.enable_steady_tick(Duration::from_secs(1));
+        if let Ok(mut whole) = WHOLE_BAR.lock() {
+            self.is_whole.store(true, Ordering::Relaxed);
             *whole = Some(WholeBar {
-                bar: bar.clone(),
+                bar,
+                steps,
                 done: 0,
                 ended: 0,
             });
         }
-        Self { bar, is_whole }
     }
-}
 
-impl Step for Bar {
     fn advance(&self, progress: Progress) {
         let Progress { done, total } = progress;
-        if self.is_whole {
-            self.bar.set_length(total * PARTS);
+        if self.is_whole() {
             with_whole_bar(|whole| {
-                (whole.done, whole.ended) = (done, 0);
+                (whole.done, whole.ended) = (done as usize, 0);
                 whole.advance(0.0);
             });
         } else {
@@ -149,7 +229,7 @@ impl Step for Bar {
 
 impl Drop for Bar {
     fn drop(&mut self) {
-        match self.is_whole {
+        match self.is_whole() {
             true => {
                 if let Ok(mut whole) = WHOLE_BAR.lock() {
                     *whole = None;
@@ -173,9 +253,17 @@ struct Lines {
     label: String,
     began: Instant,
     last: Mutex<Instant>,
+    /// Steps within, where their times are expected.
+    steps: OnceLock<Steps>,
 }
 
 impl Step for Lines {
+    fn expect(&self, seconds: &[f64]) {
+        if !seconds.is_empty() {
+            let _ = self.steps.set(Steps::new(seconds));
+        }
+    }
+
     fn advance(&self, progress: Progress) {
         if let Some(line) = self.line(progress, Instant::now()) {
             print_error(&line);
@@ -189,6 +277,7 @@ impl Lines {
             label: printable(label).into_owned(),
             began: now,
             last: Mutex::new(now),
+            steps: OnceLock::new(),
         }
     }
 
@@ -199,15 +288,19 @@ impl Lines {
             return None;
         }
         *last = now;
-        let part = progress.done as f64 / progress.total as f64;
-        let left = match part > 0.0 {
-            true => {
-                let elapsed = now.duration_since(self.began).as_secs_f64();
-                let left = Duration::from_secs_f64(elapsed * (1.0 - part) / part);
-                format!(", {} left", clock_text(left))
+        let elapsed = now.duration_since(self.began);
+        let (part, left) = match self.steps.get() {
+            Some(steps) => {
+                let part = steps.part(progress.done as usize, 0.0);
+                (part, Some(steps.left(elapsed, part)))
             }
-            false => String::new(),
+            None => {
+                let part = progress.done as f64 / progress.total as f64;
+                let left = (part > 0.0).then(|| elapsed.mul_f64((1.0 - part) / part));
+                (part, left)
+            }
         };
+        let left = left.map_or(String::new(), |left| format!(", {} left", clock_text(left)));
         Some(format!("{}: {:.0} %{left}", self.label, 100.0 * part))
     }
 }
@@ -217,32 +310,42 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_bar_of_all_scenes_moves_with_the_steps_within_and_never_back() {
+    fn the_bar_of_all_steps_moves_with_their_expected_times_and_never_back() {
         let mut whole = WholeBar {
             bar: ProgressBar::hidden(),
-            done: 3,
+            steps: Steps::new(&[1.0, 6.0, 2.0, 1.0]),
+            done: 0,
             ended: 0,
         };
-        whole.bar.set_length(10 * PARTS);
-        let mut last = 0;
-        for (ended, part) in [(0, 0.0), (0, 0.25), (0, 1.0), (1, 0.5), (2, 0.1)] {
-            whole.ended = ended;
+        whole.bar.set_length(FULL as u64);
+        for (done, ended, part, expected) in [
+            (0, 0, 0.5, 0.05),
+            (0, 1, 0.5, 0.4),
+            (1, 0, 0.0, 0.4),
+            (2, 0, 0.5, 0.8),
+            (2, 1, 1.0, 1.0),
+            (4, 0, 0.0, 1.0),
+        ] {
+            (whole.done, whole.ended) = (done, ended);
             whole.advance(part);
-            let position = whole.bar.position();
-            assert_eq!(
-                position,
-                3 * PARTS + (PARTS as f64 * (ended as f64 + part)) as u64
-            );
-            assert!(position >= last);
-            last = position;
+            let position = whole.bar.position() as f64 / FULL;
+            assert!((position - expected).abs() < 1e-5, "{position} {expected}");
         }
-        (whole.done, whole.ended) = (4, 0);
-        whole.advance(0.0);
-        assert_eq!(
-            whole.bar.position(),
-            last,
-            "a step that took longer does not move it back"
-        );
+    }
+
+    #[test]
+    fn the_time_left_is_at_first_what_was_expected_and_later_what_was_seen() {
+        let steps = Steps::new(&[60.0, 40.0]);
+        let left = |elapsed, part| {
+            let left = steps.left(Duration::from_secs(elapsed), part);
+            left.as_secs_f64()
+        };
+        assert_eq!(left(0, 0.0), 100.0);
+        // Work that takes twice the expected time.
+        assert!(left(10, 0.05) > 100.0);
+        assert!((left(180, 0.9) - 20.0).abs() < 2.0, "{}", left(180, 0.9));
+        assert_eq!(left(200, 1.0), 0.0);
+        assert_eq!(Steps::new(&[0.0]).part(0, 0.0), 1.0);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::path::Path;
 use filters::Filter;
 use suite::{Error, FilterChoice};
 
-use super::names::{is_pattern, match_names, suggest_names};
+use super::names::{is_pattern, match_names, refuse_empty_names, suggest_names};
 use super::path::is_path;
 
 /// Permission to select filters that are programs.
@@ -29,6 +29,7 @@ pub fn select_filters(
     overrides: &[String],
     programs: Programs,
 ) -> Result<Vec<FilterChoice>, Error> {
+    refuse_empty_names("--filter", names)?;
     let names = if names.is_empty() {
         Filter::builtin_names()
     } else {

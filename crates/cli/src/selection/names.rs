@@ -22,6 +22,16 @@ pub fn match_names(option: &str, text: &str, known: &[String]) -> Result<Vec<Str
     Ok(matched.cloned().collect())
 }
 
+/// Refuses a list with an empty name, which a comma too many makes.
+pub fn refuse_empty_names(option: &str, names: &[String]) -> Result<(), Error> {
+    match names.iter().any(String::is_empty) {
+        false => Ok(()),
+        true => Err(Error::Usage(format!(
+            "{option}: one of its names is empty; leave out a comma too many, or leave the option out to take all"
+        ))),
+    }
+}
+
 /// Says which names are meant or allowed: `did you mean railing?`, or all of them where none is similar.
 pub fn suggest_names(text: &str, known: &[String]) -> String {
     let similarity = |name: &&String| strsim::jaro_winkler(text, name);
@@ -30,7 +40,7 @@ pub fn suggest_names(text: &str, known: &[String]) -> String {
         .max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
     match best.filter(|name| similarity(name) >= SIMILAR) {
         Some(name) => format!("did you mean {name}?"),
-        None => format!("allowed: {}", known.join(", ")),
+        None => format!("allowed: {}.", known.join(", ")),
     }
 }
 
@@ -46,7 +56,7 @@ mod tests {
         }
         assert_eq!(
             suggest_names("my_scene", &known),
-            "allowed: railing, fan, two_spheres"
+            "allowed: railing, fan, two_spheres."
         );
     }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use suite::Error;
 use tracer::{Scene, list_scene, list_scenes, load_scene};
 
-use super::names::{is_pattern, match_names, suggest_names};
+use super::names::{is_pattern, match_names, refuse_empty_names, suggest_names};
 use super::path::is_path;
 
 /// A loaded scene and the folder that it came from.
@@ -21,6 +21,7 @@ pub struct SceneChoice {
 /// A name is that of a folder under `root`, a pattern of such names, or the path of any scene folder, then optionally
 /// `@variant`; `@all` takes every variant.
 pub fn select_scenes(root: &Path, names: &[String]) -> Result<Vec<SceneChoice>, Error> {
+    refuse_empty_names("--scenes", names)?;
     // Where every scene is given by its path, `root` need not exist.
     let listings = match !names.is_empty() && names.iter().all(|name| is_path(name)) {
         true => Vec::new(),

@@ -10,7 +10,7 @@ use crate::tables::failures::failures_text;
 use report::{finding_score, finding_status, way_out};
 use suite::{BaselineComparison, Check, Decision, Finding, Level, Outcome, number, printable_path};
 
-/// Lists scores that are broken, undecided or too noisy, by scene and filter; then comparisons, then counts. Targets, which
+/// Lists scores that are broken, undecided or limited within the noise, by scene and filter; then comparisons, then counts. Targets, which
 /// fail nothing, are listed where `targets` asks for them. `out` is the folder of the run's pictures.
 pub fn check_text(check: &Check, out: &Path, targets: bool) -> String {
     let mut text = failures_text(&check.failures);
@@ -155,7 +155,7 @@ pub fn count_lines(check: &Check) -> Vec<String> {
             (Outcome::Kept, kept),
             (Outcome::Broken, broken),
             (Outcome::Inconclusive, "undecided"),
-            (Outcome::TooNoisy, "too strict for the noise"),
+            (Outcome::TooNoisy, "with a limit within the noise"),
             (Outcome::NotApplicable, "not applicable"),
         ];
         let words = words.map(|(outcome, word)| (count(level, outcome), word));

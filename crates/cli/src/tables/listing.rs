@@ -27,9 +27,9 @@ pub fn filters_text(filters: &[Filter]) -> String {
             .map(|preset| preset.name.as_str())
             .collect();
         let line = format!(
-            "{}: {}; {} shutter; presets: {}",
+            "{}: {}. Shutter: {}; presets: {}",
             filter.name,
-            printable(&filter.summary),
+            printable(filter.summary.trim_end_matches('.')),
             filter.alignment,
             presets.join(", ")
         );

@@ -2,8 +2,11 @@
 
 use super::columns::number_table;
 use crate::output::colors::heading;
+use crate::output::count::count_text;
 use crate::output::wrap::push_wrapped;
-use suite::{Difference, LEAST_BLEED, PairedComparison, Preference, Trial, Tuning};
+use suite::{
+    Advice, Difference, FEWEST_SCENES, LEAST_BLEED, PairedComparison, Preference, Trial, Tuning,
+};
 
 /// Upper limit on rows of the front; `tune.json` has all.
 const ROWS: usize = 12;
@@ -51,9 +54,6 @@ pub fn tuning_table(tuning: &Tuning) -> String {
     );
     text += "\n";
     push_wrapped(&mut text, 0, &chosen);
-    if tuning.choice.trial == 0 {
-        text += "no trial beats the start by more than the scenes can tell\n";
-    }
     if !tuning.folds.is_empty() {
         text += "\n";
         text += &heading("family left out  scenes  trial  on the others  on the family    gap\n");
@@ -80,6 +80,37 @@ pub fn tuning_table(tuning: &Tuning) -> String {
     for (trial, reason) in &tuning.failed {
         push_wrapped(&mut text, 0, &format!("failed: trial {trial}: {reason}"));
     }
+    text
+}
+
+/// Advises to take the choice, which lies in files beside tune.json, or says why there is no preset of it.
+pub fn advice_text(tuning: &Tuning) -> String {
+    let trial = tuning.choice.trial;
+    let reason = match tuning.advice() {
+        Advice::Take => {
+            return "the choice: params.json and preset.toml beside tune.json\n".to_owned();
+        }
+        Advice::NoneIsBetter => "no trial beats it by more than the scenes can tell".to_owned(),
+        Advice::CannotTell(own) if own.scenes < FEWEST_SCENES => format!(
+            "{} cannot tell trial {trial} from it, and {FEWEST_SCENES} or more may",
+            count_text(own.scenes, "scene", "scenes")
+        ),
+        Advice::CannotTell(own) => format!(
+            "the {} scenes cannot tell trial {trial} from it ({}, one-sided 95 % bounds {} and {})",
+            own.scenes,
+            percent(own.mean),
+            percent(own.interval[0]),
+            percent(own.interval[1])
+        ),
+        Advice::StartIsBetter(flip) => format!(
+            "on the {} held-out scenes trial {trial} is worse ({})",
+            flip.scenes,
+            percent(flip.mean)
+        ),
+    };
+    let mut text = String::new();
+    let sentence = format!("keep the start, no preset.toml is written: {reason}");
+    push_wrapped(&mut text, 0, &sentence);
     text
 }
 

@@ -25,8 +25,8 @@ pub fn tuned_on(tuning: &Tuning) -> Markup {
 }
 
 /// Lists the held-out scenes as they were measured last.
-pub fn held_out(openings: &[HeldOutResult]) -> Markup {
-    let Some(last) = openings.last() else {
+pub fn held_out(results: &[HeldOutResult]) -> Markup {
+    let Some(last) = results.last() else {
         return html! {};
     };
     let [width, height, samples] = last.render;
@@ -34,8 +34,8 @@ pub fn held_out(openings: &[HeldOutResult]) -> Markup {
         section {
             h2 { "Choice against start on held-out scenes" }
             p {
-                "No trial ran on these. They were measured " (openings.len())
-                @if openings.len() == 1 { " time" } @else { " times" }
+                "No trial ran on these. They were measured " (results.len())
+                @if results.len() == 1 { " time" } @else { " times" }
                 "; a set that is measured often becomes one that is tuned on. " (width) "x" (height) ", " (samples) " samples per pixel."
             }
             (table("Held-out scenes, the worst of the start first", &last.paired.scenes))

@@ -42,6 +42,7 @@ pub fn claim<'a>(
     for folder in &folders {
         refuse_scene(folder)?;
     }
+    refuse_file(out)?;
     std::fs::create_dir_all(out).map_err(|source| FileError::io(out, "write", source))?;
     let claim = Claim {
         _lock: lock(out, sharing)?,
@@ -55,10 +56,29 @@ pub fn claim<'a>(
     Ok(claim)
 }
 
+/// Refuses an output folder that is a file, or lies below one.
+fn refuse_file(out: &Path) -> Result<(), Error> {
+    match out.ancestors().find(|path| path.is_file()) {
+        None => Ok(()),
+        Some(file) => Err(Error::Usage(format!(
+            "{}: is a file, where the output folder is to be; name another output folder",
+            file.display()
+        ))),
+    }
+}
+
 /// Locks the folder; none where the file system knows no locks.
 fn lock(out: &Path, sharing: Sharing) -> Result<Option<File>, Error> {
     let path = out.join(LOCK_FILE);
-    let fail = |source| FileError::io(&path, "lock", source);
+    let fail = |source: std::io::Error| -> Error {
+        match source.kind() {
+            ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => Error::Usage(format!(
+                "{}: cannot write to this folder: {source}; name another output folder",
+                out.display()
+            )),
+            _ => FileError::io(&path, "lock", source).into(),
+        }
+    };
     let mut options = OpenOptions::new();
     let file = (options.read(true).write(true).create(true).truncate(false))
         .open(&path)
@@ -74,7 +94,7 @@ fn lock(out: &Path, sharing: Sharing) -> Result<Option<File>, Error> {
             out.display()
         ))),
         Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => Ok(None),
-        Err(TryLockError::Error(error)) => Err(fail(error).into()),
+        Err(TryLockError::Error(error)) => Err(fail(error)),
     }
 }
 

@@ -1,7 +1,9 @@
 //! Estimates of the time, disk and memory that a run takes, before it begins.
 
 use filters::Gpu;
+use tracer::{Progress, Scene};
 
+use super::first_slice::{RenderCosts, count_small_pixels, measure_first_cases};
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use super::scene::SceneContext;
@@ -9,23 +11,28 @@ use super::scenes::{scale_filters, scene_contexts};
 use crate::RenderSettings;
 use crate::render::memory::measuring_memory;
 
-/// CPU time per sample of a pixel, in seconds. This constant and those below were measured on two cores of a server, with
-/// llvmpipe, on the scenes railing and fan at 160x90; other scenes and machines differ by a factor of two or three.
-const SECONDS_PER_SAMPLE: f64 = 0.9e-6;
-/// Samples of a truth and its ladder, relative to those of the truth.
-const LADDER: f64 = 1.4;
-/// CPU time per pixel to run a filter and measure its picture, in seconds.
-const SECONDS_PER_CASE: f64 = 18e-6;
+/// Time in seconds from which a first slice is measured; shorter work is over before that pays.
+const WORTH_A_SLICE: f64 = 3.0;
+/// Time of a ladder, relative to its truth's samples: the mean of five scenes. It is about the pixels near motion alone.
+const LADDER: f64 = 0.4;
+/// Time to run a filter and measure its picture, whatever its size, in seconds. This number and the next ones were measured with
+/// llvmpipe on two cores of a server.
+const SECONDS_PER_CASE: f64 = 0.035;
+/// Time per pixel to run a filter and measure its picture, in seconds.
+const SECONDS_PER_CASE_PIXEL: f64 = 6e-6;
+/// Time per pixel and case to write the report, in seconds.
+const SECONDS_PER_REPORT_PIXEL: f64 = 0.45e-6;
 /// Time of a case with intervals, relative to one without.
 const INTERVALS: f64 = 2.0;
-/// Bytes on disk per pixel: of a frame, of a truth with its ladder, of each replicate, and of a case.
-const FRAME_BYTES: u64 = 100;
+/// Bytes on disk per pixel: of a frame, of a truth with its ladder, of each replicate, and of a case with its part of the report.
+/// Between the means over five scenes at 320x180 and those over 23 scenes at 160x90, which are a tenth lower and higher.
+const FRAME_BYTES: u64 = 25;
 const TRUTH_BYTES: u64 = 220;
-const REPLICATE_BYTES: u64 = 52;
-const CASE_BYTES: u64 = 76;
+const REPLICATE_BYTES: u64 = 50;
+const CASE_BYTES: u64 = 58;
 
 /// Work that a run has to do.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct RunEstimate {
     /// Time in seconds, on the threads of this process.
     pub seconds: f64,
@@ -37,14 +44,63 @@ pub struct RunEstimate {
     pub cases: usize,
     /// Number of cases that were measured before, with the same inputs.
     pub kept: usize,
+    /// Seconds of every step of each scene: its frame; per truth its replicates and its ladder; its cases.
+    pub steps: Vec<Vec<f64>>,
 }
 
-/// Estimates a run: cases and truths that lie in the folder take no time. Does not read their pictures.
+/// Costs of a scene's pictures and cases, in seconds on the threads of this process.
+struct SceneCosts {
+    render: RenderCosts,
+    case: f64,
+}
+
+/// Estimates a run: cases and truths that lie in the folder take no time. Does not read their pictures. A run that takes long is
+/// estimated from a measured first slice: a few samples of a small picture of every scene, and the first cases of one.
 pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
+    let rough = estimate_run_roughly(plan, gpu);
+    if rough.seconds < WORTH_A_SLICE {
+        return rough;
+    }
+    let mut speed = None;
+    let mut done = 0;
+    let label = "first slices, to estimate the time";
+    plan.monitor.watch(label, |watch| {
+        estimate_with(plan, gpu, |scene, renders| {
+            let total = plan.scenes.len() as u64;
+            // What is interrupted here ends in the first scene.
+            let _ = watch(Progress { done, total });
+            done += 1;
+            let slice = match renders {
+                true => RenderCosts::measure(scene.scene, &plan.render),
+                false => None,
+            };
+            let speed = *speed.get_or_insert_with(|| measure_case_speed(scene).unwrap_or(1.0));
+            SceneCosts {
+                render: slice.unwrap_or_else(RenderCosts::usual),
+                case: speed * usual_case_seconds(count_pixels(&plan.render)),
+            }
+        })
+    })
+}
+
+/// Estimates a run without measuring anything; off by a factor of two or three.
+pub fn estimate_run_roughly(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
+    estimate_with(plan, gpu, |_, _| SceneCosts {
+        render: RenderCosts::usual(),
+        case: usual_case_seconds(count_pixels(&plan.render)),
+    })
+}
+
+/// Estimates a run with the costs of each scene that has work to do, and has pictures to render or none.
+fn estimate_with(
+    plan: &RunPlan,
+    gpu: Option<&Gpu>,
+    mut costs: impl FnMut(&SceneContext, bool) -> SceneCosts,
+) -> RunEstimate {
     let filters = scale_filters(plan);
     let planned = PlannedCase::all(plan, &filters);
     let mut estimate = RunEstimate::default();
-    let mut cpu = 0.0;
+    let pixels = count_pixels(&plan.render);
     for scene in scene_contexts(plan, &filters, gpu) {
         let kept = match plan.no_cache {
             true => 0,
@@ -55,50 +111,114 @@ pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
         estimate.cases += planned.len();
         estimate.kept += kept;
         let due = planned.len() - kept;
+        let (frame, truths) = match (due, plan.no_cache) {
+            (0, _) => (false, vec![false; plan.alignments().len()]),
+            (_, true) => (true, vec![true; plan.alignments().len()]),
+            (_, false) => scene.find_missing(),
+        };
+        let renders = frame || truths.contains(&true);
+        let costs = match due {
+            0 => None,
+            _ => Some(costs(&scene, renders)),
+        };
+        estimate
+            .steps
+            .push(step_seconds(plan, costs.as_ref(), (frame, &truths), due));
         if due > 0 {
-            let (seconds, bytes) = estimate_scene(&scene, due);
-            cpu += seconds;
-            estimate.disk += bytes;
+            let truths = truths.iter().filter(|missing| **missing).count();
+            estimate.disk += count_bytes(&plan.render, (frame, truths), due);
             let memory = measuring_memory(scene.scene, &plan.render);
             estimate.memory = estimate.memory.max(memory);
         }
     }
-    estimate.seconds = cpu / rayon::current_num_threads() as f64;
+    let report = planned.len() as f64 * plan.scenes.len() as f64 * pixels;
+    let steps: f64 = estimate.steps.iter().flatten().sum();
+    estimate.seconds = steps + report * SECONDS_PER_REPORT_PIXEL;
     estimate
 }
 
-/// Estimates the seconds that it takes to render the frame of a scene and some of its truths, where nothing is kept.
-pub fn estimate_render_seconds(render: &RenderSettings, truths: usize) -> f64 {
-    let samples = count_pixels(render) as f64 * f64::from(render.samples_per_pixel);
-    (1 + truths) as f64 * samples * SECONDS_PER_SAMPLE / rayon::current_num_threads() as f64
+/// Estimates the seconds that it takes to render frames of scenes and some truths of each, where nothing is kept; measures a first
+/// slice where that is long.
+pub fn estimate_render_seconds(renders: &[(&Scene, RenderSettings)], truths: usize) -> f64 {
+    let estimate = |costs: &dyn Fn(&Scene, &RenderSettings) -> RenderCosts| -> f64 {
+        let seconds = renders.iter().map(|(scene, render)| {
+            let costs = costs(scene, render);
+            frame_seconds(render, &costs) + truths as f64 * truth_seconds(render, &costs)
+        });
+        seconds.sum()
+    };
+    let rough = estimate(&|_, _| RenderCosts::usual());
+    match rough < WORTH_A_SLICE {
+        true => rough,
+        false => estimate(&|scene, render| {
+            RenderCosts::measure(scene, render).unwrap_or_else(RenderCosts::usual)
+        }),
+    }
 }
 
 /// Estimates the seconds that it takes to run a filter once and to measure its picture.
 pub fn estimate_case_seconds(render: &RenderSettings) -> f64 {
-    count_pixels(render) as f64 * SECONDS_PER_CASE / rayon::current_num_threads() as f64
+    usual_case_seconds(count_pixels(render))
 }
 
-fn count_pixels(render: &RenderSettings) -> u64 {
-    u64::from(render.width) * u64::from(render.height)
+fn usual_case_seconds(pixels: f64) -> f64 {
+    SECONDS_PER_CASE + pixels * SECONDS_PER_CASE_PIXEL
 }
 
-/// Estimates the CPU time and the disk of one scene with some cases to measure.
-fn estimate_scene(scene: &SceneContext, due: usize) -> (f64, u64) {
-    let plan = scene.plan;
+/// Measures the first cases of a scene, relative to the usual time.
+fn measure_case_speed(scene: &SceneContext) -> Option<f64> {
+    let (seconds, cases) = measure_first_cases(scene)?;
+    let usual = usual_case_seconds(count_small_pixels(&scene.plan.render));
+    Some(seconds / (cases as f64 * usual))
+}
+
+fn count_pixels(render: &RenderSettings) -> f64 {
+    f64::from(render.width) * f64::from(render.height)
+}
+
+fn count_samples(render: &RenderSettings) -> f64 {
+    count_pixels(render) * f64::from(render.samples_per_pixel)
+}
+
+fn frame_seconds(render: &RenderSettings, costs: &RenderCosts) -> f64 {
+    costs.scene + count_samples(render) * costs.frame
+}
+
+fn truth_seconds(render: &RenderSettings, costs: &RenderCosts) -> f64 {
+    costs.scene + count_pixels(render) * costs.support + count_samples(render) * costs.truth
+}
+
+/// Estimates every step of a scene, in the order of [`SceneContext::measure_cases`]; no time for those that are not due.
+fn step_seconds(
+    plan: &RunPlan,
+    costs: Option<&SceneCosts>,
+    (frame, truths): (bool, &[bool]),
+    due: usize,
+) -> Vec<f64> {
     let render = &plan.render;
-    let pixels = count_pixels(render);
-    let samples = pixels as f64 * f64::from(render.samples_per_pixel);
-    let (frame, truths) = match plan.no_cache {
-        true => (true, plan.alignments().len()),
-        false => scene.count_missing(),
+    let of_costs = |is_due: bool, seconds: fn(&RenderSettings, &RenderCosts) -> f64| {
+        let costs = costs.filter(|_| is_due);
+        costs.map_or(0.0, |costs| seconds(render, &costs.render))
     };
-    let case = match plan.intervals {
-        true => SECONDS_PER_CASE * INTERVALS,
-        false => SECONDS_PER_CASE,
+    let mut steps = vec![of_costs(frame, frame_seconds)];
+    for missing in truths {
+        let replicate = of_costs(*missing, truth_seconds) / f64::from(render.replicates);
+        steps.extend((0..render.replicates).map(|_| replicate));
+        steps.push(of_costs(*missing, |render, costs| {
+            costs.scene + LADDER * count_samples(render) * costs.truth
+        }));
+    }
+    let intervals = match plan.intervals {
+        true => INTERVALS,
+        false => 1.0,
     };
-    let traced = f64::from(u8::from(frame)) + LADDER * truths as f64;
-    let seconds = traced * samples * SECONDS_PER_SAMPLE + due as f64 * pixels as f64 * case;
+    steps.push(costs.map_or(0.0, |costs| due as f64 * intervals * costs.case));
+    steps
+}
+
+/// Counts the bytes on disk of a scene's frame, some truths and some cases.
+fn count_bytes(render: &RenderSettings, (frame, truths): (bool, usize), due: usize) -> u64 {
     let truth = TRUTH_BYTES + u64::from(render.replicates) * REPLICATE_BYTES;
     let bytes = u64::from(frame) * FRAME_BYTES + truths as u64 * truth + due as u64 * CASE_BYTES;
-    (seconds, pixels.saturating_mul(bytes))
+    (u64::from(render.width) * u64::from(render.height)).saturating_mul(bytes)
 }

@@ -3,6 +3,7 @@
 pub mod case;
 pub mod dilated_velocity;
 pub mod estimate;
+mod first_slice;
 pub mod pictures;
 pub mod plan;
 pub mod planned_case;

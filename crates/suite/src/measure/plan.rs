@@ -7,7 +7,7 @@ use tracer::Scene;
 
 use crate::filter::choice::FilterChoice;
 use crate::filter::input_format::InputFormat;
-use crate::{Monitor, RenderSettings};
+use crate::{Error, Monitor, RenderSettings};
 
 /// Everything that a run is told to do.
 pub struct RunPlan {
@@ -35,6 +35,17 @@ pub struct RunPlan {
 }
 
 impl RunPlan {
+    /// Refuses settings with which a scene cannot be rendered, before anything is.
+    pub fn check(&self) -> Result<(), Error> {
+        for scene in &self.scenes {
+            self.render.for_frame(scene).check(scene)?;
+            for alignment in self.alignments() {
+                self.render.for_truth(scene, alignment).check(scene)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Lists the alignments that filters declare and that of all cases, each once.
     pub(crate) fn alignments(&self) -> Vec<Alignment> {
         let takes_part = |alignment: &Alignment| {

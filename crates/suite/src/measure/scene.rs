@@ -31,6 +31,7 @@ use crate::run::failure::Failure;
 use crate::stats::intervals::truths_without_pairs;
 
 /// One scene of a run.
+#[derive(Clone)]
 pub(crate) struct SceneContext<'a> {
     pub plan: &'a RunPlan,
     /// The plan's filters, for pictures of its width.
@@ -41,10 +42,7 @@ pub(crate) struct SceneContext<'a> {
     pub keys: Option<SceneKeys>,
 }
 
-/// Steps that progress shows for measuring the cases of a scene.
-const MEASURING_STEPS: u64 = 12;
-
-type Truths = BTreeMap<Alignment, (Truth, Ladder)>;
+pub(super) type Truths = BTreeMap<Alignment, (Truth, Ladder)>;
 
 impl SceneContext<'_> {
     /// Returns the reference pictures of each alignment, then one case per filter preset and form of the input; a failure where a
@@ -82,7 +80,7 @@ impl SceneContext<'_> {
     }
 
     /// Measures the cases that are due, and writes the record of each as soon as it is whole.
-    fn measure(
+    pub(super) fn measure(
         &self,
         due: &[&PlannedCase],
         frame: &Frame,
@@ -90,6 +88,7 @@ impl SceneContext<'_> {
         advance: &dyn Fn(u64),
         watch: Watch,
     ) -> Result<Vec<Result<Case, Failure>>, Error> {
+        advance(self.render_steps());
         if due.is_empty() {
             return Ok(Vec::new());
         }
@@ -130,7 +129,6 @@ impl SceneContext<'_> {
             if watch(progress).is_break() {
                 return Err(tracer::TraceError::Cancelled.into());
             }
-            advance(self.render_steps() + MEASURING_STEPS * done as u64 / due.len() as u64);
             let context = CaseContext {
                 plan: self.plan,
                 gpu: self.gpu,
@@ -168,7 +166,7 @@ impl SceneContext<'_> {
     }
 
     /// Renders the scene's frame and one truth per alignment that a filter of the plan declares, and writes their pictures.
-    fn render(&self, advance: &dyn Fn(u64)) -> Result<(Frame, Truths), Error> {
+    pub(super) fn render(&self, advance: &dyn Fn(u64)) -> Result<(Frame, Truths), Error> {
         let RunPlan {
             render,
             out,
@@ -194,9 +192,9 @@ impl SceneContext<'_> {
         Ok((frame, truths))
     }
 
-    /// Counts the steps of the whole scene, as progress shows them: those of rendering, and those of measuring.
+    /// Counts the steps of the whole scene, as progress shows them: those of rendering, and the measuring.
     pub fn steps(&self) -> u64 {
-        self.render_steps() + MEASURING_STEPS
+        self.render_steps() + 1
     }
 
     /// Counts a frame and the truths.
@@ -256,17 +254,14 @@ impl SceneContext<'_> {
         case.is_some_and(|case| self.is_whole(&case))
     }
 
-    /// Tells whether the frame is missing, and counts missing truths, without looking at their pictures.
-    pub fn count_missing(&self) -> (bool, usize) {
+    /// Tells whether the frame is missing, and each truth, without looking at their pictures.
+    pub fn find_missing(&self) -> (bool, Vec<bool>) {
         let records = self.render_records();
         let is_missing =
             |(record, key): &(PathBuf, String)| read_record_alone::<()>(record, key).is_none();
         match records.split_first() {
-            None => (true, self.plan.alignments().len()),
-            Some((frame, truths)) => (
-                is_missing(frame),
-                truths.iter().filter(|truth| is_missing(truth)).count(),
-            ),
+            None => (true, vec![true; self.plan.alignments().len()]),
+            Some((frame, truths)) => (is_missing(frame), truths.iter().map(is_missing).collect()),
         }
     }
 

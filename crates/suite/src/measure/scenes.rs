@@ -3,6 +3,7 @@
 use filters::Gpu;
 use tracer::{Progress, Scene, Watch};
 
+use super::estimate::{RunEstimate, estimate_run_roughly};
 use super::plan::RunPlan;
 use super::scene::SceneContext;
 use crate::cache::record::hash_program;
@@ -14,12 +15,23 @@ use crate::run::{FORMAT, Run};
 use crate::stats::overall::overall;
 use crate::{Error, PROGRAM};
 
-/// Renders, filters, measures and writes every case below `plan.out`, but not `run.json` itself. Reads back what an earlier run
-/// measured of the same inputs and left there. `gpu` is what [`open_gpu`](crate::open_gpu) opened for the plan's filters.
+/// Measures as [`measure_scenes_as_expected`] does, without an estimate made before.
 pub fn measure_scenes(
     plan: &RunPlan,
     gpu: Option<&Gpu>,
     command: Vec<String>,
+) -> Result<Run, Error> {
+    measure_scenes_as_expected(plan, gpu, command, &estimate_run_roughly(plan, gpu))
+}
+
+/// Renders, filters, measures and writes every case below `plan.out`, but not `run.json` itself. Reads back what an earlier run
+/// measured of the same inputs and left there. `gpu` is what [`open_gpu`](crate::open_gpu) opened for the plan's filters. The progress
+/// of all scenes follows the estimate.
+pub fn measure_scenes_as_expected(
+    plan: &RunPlan,
+    gpu: Option<&Gpu>,
+    command: Vec<String>,
+    estimate: &RunEstimate,
 ) -> Result<Run, Error> {
     // The steps of a single scene show all of the progress.
     let monitor = match plan.scenes.len() {
@@ -28,7 +40,9 @@ pub fn measure_scenes(
     };
     let label = format!("{} scenes in all", plan.scenes.len());
     let (cases, failures, read_back) =
-        monitor.watch(&label, |watch| measure_all(plan, gpu, watch))?;
+        monitor.watch_steps(&label, &estimate.steps.concat(), |watch| {
+            measure_all(plan, gpu, watch)
+        })?;
     Ok(Run {
         format: FORMAT,
         program: PROGRAM.to_owned(),

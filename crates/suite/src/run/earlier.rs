@@ -1,6 +1,7 @@
 //! Cases of an earlier run in the same folder, which a narrower run keeps.
 
 use std::collections::HashSet;
+use std::path::{Path, PathBuf};
 
 use filters::AdapterDescription;
 use frame::Alignment;
@@ -23,21 +24,19 @@ pub struct EarlierCases {
 
 impl EarlierCases {
     /// Finds the cases of `run.json` in the plan's folder that the plan leaves out, and lets the plan compare its own cases with
-    /// the same common shutter. None where there is nothing to keep: no run, one that cannot be read, or one whose cases are
-    /// all measured again.
+    /// the same common shutter. None where there is nothing to keep: no run, or one whose cases are all measured again.
     ///
     /// # Errors
-    /// The earlier run has other settings, so that its cases cannot stand beside those of the plan.
+    /// The earlier run cannot be read, or has other settings, so that its cases cannot stand beside those of the plan.
     pub fn find(
         plan: &mut RunPlan,
         adapter: Option<&AdapterDescription>,
     ) -> Result<Option<Self>, Error> {
-        let path = plan.out.join("run.json");
-        if plan.no_cache || !path.is_file() {
+        if plan.no_cache {
             return Ok(None);
         }
-        // A run that cannot be read is replaced.
-        let Ok(run) = Run::read(&path) else {
+        let path = plan.out.join("run.json");
+        let Some(run) = read_earlier_run(&path)? else {
             return Ok(None);
         };
         let common: Alignment = run.common_alignment.parse().map_err(Error::Usage)?;
@@ -108,6 +107,33 @@ impl EarlierCases {
             ..run.clone()
         }
     }
+}
+
+/// Names the folder for a run with pictures of one size: `out` itself, or `160x90` below it where `out` holds a run of another
+/// size, whose pictures have the same names.
+///
+/// # Errors
+/// The run in `out` cannot be read.
+pub fn folder_for_size(out: &Path, (width, height): (u32, u32)) -> Result<PathBuf, Error> {
+    let earlier = read_earlier_run(&out.join("run.json"))?;
+    Ok(match earlier {
+        Some(run) if (run.width, run.height) != (width, height) => {
+            out.join(format!("{width}x{height}"))
+        }
+        _ => out.to_owned(),
+    })
+}
+
+/// Reads the run that a new one would replace; none where there is no such file.
+fn read_earlier_run(path: &Path) -> Result<Option<Run>, Error> {
+    if !path.exists() {
+        return Ok(None);
+    }
+    Run::read(path).map(Some).map_err(|error| {
+        Error::Usage(format!(
+            "{error}; a new run would replace it and lose what it holds; repair or remove it"
+        ))
+    })
 }
 
 /// Identity of a case in a folder of runs, whatever values `--set` gave to its parameters: a run with other values replaces it.

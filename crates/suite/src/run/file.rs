@@ -19,6 +19,12 @@ pub const MOST_CASES: usize = 50_000;
 impl Run {
     /// Reads a `run.json` of this program.
     pub fn read(path: &Path) -> Result<Self, Error> {
+        if !path.exists() {
+            return Err(Error::Usage(format!(
+                "{}: cannot read: there is no such file; `shuttertruth run` or `check` writes one",
+                path.display()
+            )));
+        }
         parse(&read_text(path)?).map_err(|reason| {
             Error::Usage(format!(
                 "{}: {reason}; `shuttertruth run` or `check` writes one",

@@ -1,5 +1,6 @@
 //! Tuning of a filter's parameters towards the truth, and its proof on held-out scenes.
 
+mod advice;
 mod candidate;
 mod comparison;
 mod cost;
@@ -26,6 +27,7 @@ mod trial;
 mod tuning;
 mod wilcoxon;
 
+pub use advice::Advice;
 pub use comparison::{Difference, PairedComparison, Preference, compare_candidates};
 pub use evaluation::{Evaluation, evaluate_candidate};
 pub use evaluator::Evaluator;

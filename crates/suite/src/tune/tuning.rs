@@ -227,7 +227,7 @@ fn evaluate_held_out(
         ..
     } = options;
     let alignment = choice.filter.alignment;
-    let folder = out.join("sealed");
+    let folder = out.join("held_out");
     let scenes = render_scenes(&options.held_out, alignment, render, &folder, *monitor)?;
     let mut evaluator = Evaluator::new(gpu, choice, &scenes, true, *monitor)?;
     let start = choice.preset_at(&choice.preset, render.width)?;

@@ -1,0 +1,196 @@
+//! Every command of every page, run in the order of the page. `make guides` runs these tests.
+
+mod page;
+mod quick;
+mod reader;
+mod tables;
+
+use std::fs;
+use std::time::Instant;
+
+use crate::bench::{stderr, stdout};
+use crate::links::{find_pages, root};
+use page::{Step, find_steps};
+use quick::shorten;
+use reader::Reader;
+
+/// Commands that are not run, and why.
+const NOT_RUN: [(&str, &str); 13] = [
+    ("cargo test --workspace", "runs this test and all others"),
+    (
+        "cargo install --path crates/cli",
+        "compiles the program again",
+    ),
+    (
+        "cargo install --locked --path crates/cli",
+        "compiles the program again",
+    ),
+    (
+        "cargo test -p tests --test rendering furnace",
+        "a part of `make test`",
+    ),
+    (
+        "cargo test -p cli --test command_line check",
+        "a part of `make test`",
+    ),
+    (
+        "cargo test --locked -p cli --test fuzz",
+        "a part of `make test`",
+    ),
+    (
+        "cargo test -p tests --test scoring decoy_matrix -- --nocapture",
+        "a part of `make test`",
+    ),
+    ("cargo bench -p tracer", "compiles in release mode"),
+    ("cargo bench -p tracer -- none", "compiles in release mode"),
+    (
+        "cargo run -p generator",
+        "writes the scenes of the checkout",
+    ),
+    ("pip install numpy OpenEXR", "installs packages"),
+    ("name: motion blur", "a workflow, which GitHub runs"),
+    (
+        "shuttertruth report --gallery",
+        "names an option, and is not complete",
+    ),
+];
+
+/// What the reader of a page has when he comes to a command: the page, the beginning of the command, and a line of shell that
+/// makes it.
+const PREPARED: [(&str, &str, &str); 10] = [
+    (
+        "README.md",
+        "shuttertruth import",
+        "cp scenes/fan/fan.mtl . && cp scenes/fan/fan.obj my_model.obj",
+    ),
+    ("README.md", "shuttertruth compare", "cp -r out before"),
+    (
+        "README.md",
+        "shuttertruth score",
+        "cp out/fan/truth_trailing.exr truth.exr && cp out/fan/frame.exr . && cp out/fan/identity_default/output.png mine.png",
+    ),
+    (
+        "docs/add-a-filter.md",
+        "shuttertruth score",
+        "cp out/fan/my_blur_default/output.exr mine.exr",
+    ),
+    (
+        "docs/ci.md",
+        "shuttertruth accept --out out",
+        "cp -r checked out",
+    ),
+    (
+        "docs/ci.md",
+        "shuttertruth compare",
+        "cp -r checked before && cp -r checked after",
+    ),
+    (
+        "docs/truths.md",
+        "shuttertruth merge",
+        "shuttertruth render --scenes fan --replicates 1..2 --size 96x54 --samples-per-pixel 16 --out part1",
+    ),
+    (
+        "crates/suite/README.md",
+        "shuttertruth check",
+        "shuttertruth check --filter mcguire:paper --scenes fan",
+    ),
+    (
+        "scenes/README.md",
+        "shuttertruth report",
+        "shuttertruth run --scenes fan --size 96x54 --samples-per-pixel 16",
+    ),
+    (
+        "scenes/README.md",
+        "shuttertruth import",
+        "cp scenes/fan/fan.mtl . && cp scenes/fan/fan.obj my_model.obj",
+    ),
+];
+
+/// Lists the pages, by their paths in the repository, with what their readers do.
+fn read_pages() -> Vec<(String, Vec<Step>)> {
+    let pages = find_pages(&root()).into_iter().map(|path| {
+        let name = path.strip_prefix(root()).unwrap().display().to_string();
+        (name, find_steps(&fs::read_to_string(path).unwrap()))
+    });
+    pages.filter(|(_, steps)| !steps.is_empty()).collect()
+}
+
+/// Finds the line of shell that makes what a command needs.
+fn find_prepared(page: &str, command: &str) -> Option<&'static str> {
+    let mut all = PREPARED.iter();
+    let found = all.find(|(of, beginning, _)| *of == page && command.starts_with(beginning));
+    found.map(|(_, _, line)| *line)
+}
+
+fn is_left_out(command: &str) -> bool {
+    NOT_RUN.iter().any(|(left_out, _)| *left_out == command)
+}
+
+#[test]
+fn every_exception_is_a_command_of_a_page() {
+    let pages = read_pages();
+    let commands: Vec<(&str, &str)> = (pages.iter())
+        .flat_map(|(page, steps)| steps.iter().map(move |step| (page.as_str(), step)))
+        .filter_map(|(page, step)| match step {
+            Step::Run(command) => Some((page, command.as_str())),
+            Step::Write { .. } => None,
+        })
+        .collect();
+    assert!(
+        commands.len() > 60,
+        "only {} commands were found",
+        commands.len()
+    );
+    for (left_out, _) in NOT_RUN {
+        let shown = commands.iter().any(|(_, command)| *command == left_out);
+        assert!(shown, "no page shows the exception \"{left_out}\"");
+    }
+    for (beginning, _) in quick::REPLACED {
+        let shown = (commands.iter()).any(|(_, command)| command.starts_with(beginning));
+        assert!(shown, "no page shows a command \"{beginning} ..\"");
+    }
+    for (page, beginning, _) in PREPARED {
+        let shown =
+            (commands.iter()).any(|(of, command)| *of == page && command.starts_with(beginning));
+        assert!(shown, "{page} has no command \"{beginning} ..\"");
+    }
+}
+
+/// Runs a command; returns what is wrong with its end.
+fn find_failure(reader: &Reader, page: &str, command: &str) -> Option<String> {
+    let start = Instant::now();
+    let output = reader.run(command);
+    let seconds = start.elapsed().as_secs_f64();
+    eprintln!("{seconds:6.1} s  {page}: {command}");
+    let said = || format!("{}{}", stdout(&output), stderr(&output));
+    let ended = || {
+        format!(
+            "{page}: {command}\nends with {}:\n{}",
+            output.status,
+            said()
+        )
+    };
+    (!output.status.success()).then(ended)
+}
+
+#[test]
+#[ignore = "takes many minutes: `make guides` runs it"]
+fn every_command_of_the_pages_ends_with_exit_code_0() {
+    let mut failed = Vec::new();
+    for (page, steps) in read_pages() {
+        let reader = Reader::new();
+        for step in steps {
+            match step {
+                Step::Write { path, text } => reader.write(&path, &text),
+                Step::Run(command) if is_left_out(&command) => {}
+                Step::Run(command) => {
+                    if let Some(line) = find_prepared(&page, &command) {
+                        failed.extend(find_failure(&reader, &page, line));
+                    }
+                    failed.extend(find_failure(&reader, &page, &shorten(&command)));
+                }
+            }
+        }
+    }
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+}

@@ -1,0 +1,110 @@
+//! The commands and files that a page shows.
+
+/// Programs that a command of a page begins with.
+const PROGRAMS: [&str; 7] = [
+    "shuttertruth",
+    "cargo",
+    "cat",
+    "make",
+    "cp",
+    "pip",
+    "python3",
+];
+
+/// One thing that the reader of a page does.
+#[derive(Debug, PartialEq)]
+pub enum Step {
+    /// Writes a file, which the page names before a block of code.
+    Write { path: String, text: String },
+    /// Runs a command.
+    Run(String),
+}
+
+/// Lists what the reader of a page does, from top to bottom.
+pub fn find_steps(page: &str) -> Vec<Step> {
+    let mut steps = Vec::new();
+    let mut prose = String::new();
+    let mut lines = page.lines();
+    while let Some(line) = lines.next() {
+        if line.starts_with("```") {
+            let block = lines.by_ref().take_while(|line| *line != "```");
+            let text: String = block.map(|line| format!("{line}\n")).collect();
+            // A workflow is a command of its own, known by its first line.
+            if line == "```yaml" {
+                let first = text.lines().next().unwrap_or_default();
+                steps.push(Step::Run(first.to_owned()));
+            }
+            steps.extend(find_file_name(&prose).map(|path| Step::Write { path, text }));
+        } else if let Some(code) = line.strip_prefix("    ") {
+            let mut command = code.to_owned();
+            while let Some(head) = command.strip_suffix('\\') {
+                command = head.to_owned() + lines.next().unwrap_or_default().trim_start();
+            }
+            steps.extend(find_command(&command));
+        } else if line.is_empty() {
+            // The name of a file stands in the paragraph above its block.
+            continue;
+        } else {
+            prose = read_paragraph(line, &mut lines);
+            // A command by its name alone is spoken of, and not shown.
+            let quoted = prose.split('`').skip(1).step_by(2);
+            let shown = quoted.filter(|text| text.split_whitespace().count() > 2);
+            steps.extend(shown.filter_map(find_command));
+        }
+    }
+    steps
+}
+
+/// Joins the lines up to the next empty one.
+fn read_paragraph<'a>(first: &str, lines: &mut impl Iterator<Item = &'a str>) -> String {
+    let rest = lines.take_while(|line| !line.is_empty());
+    rest.fold(first.to_owned(), |text, line| text + " " + line.trim())
+}
+
+/// Reads a line as a command without its comment, if it is one.
+fn find_command(line: &str) -> Option<Step> {
+    let command = line.split(" #").next()?.trim_end();
+    let program = command.split(' ').next()?;
+    (PROGRAMS.contains(&program)).then(|| Step::Run(command.to_owned()))
+}
+
+/// Finds the path in a paragraph such as "`my_blur/filter.toml` says what it is:".
+fn find_file_name(paragraph: &str) -> Option<String> {
+    let path = paragraph.strip_prefix('`')?.split('`').next()?;
+    let is_file = path.contains('/') && path.contains('.') && !path.contains(' ');
+    (is_file && paragraph.ends_with(':')).then(|| path.to_owned())
+}
+
+#[test]
+fn a_page_shows_files_and_commands() {
+    let page = "\
+# Title
+
+`a/b.toml` says it:
+
+```toml
+x = 1
+```
+
+Then `shuttertruth report out
+--html x.html` and `shuttertruth run` work:
+
+    shuttertruth run --scenes a \\
+        --out b    # quick
+    it prints this
+
+| a | `cargo test -p b` |
+";
+    let run = |text: &str| Step::Run(text.to_owned());
+    let write = Step::Write {
+        path: "a/b.toml".to_owned(),
+        text: "x = 1\n".to_owned(),
+    };
+    let steps = [
+        write,
+        run("shuttertruth report out --html x.html"),
+        run("shuttertruth run --scenes a --out b"),
+        run("cargo test -p b"),
+    ];
+    assert_eq!(find_steps(page), steps);
+}

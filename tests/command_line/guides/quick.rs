@@ -1,0 +1,95 @@
+//! Commands of the pages in a form that takes no time.
+
+/// Beginnings of commands that build, or that need what a test has not, and what is run instead.
+pub const REPLACED: [(&str, &str); 3] = [
+    (
+        "cargo run --release --bin shuttertruth -- ",
+        "shuttertruth ",
+    ),
+    ("make ", "make --dry-run "),
+    ("python3 ", "\"${PYTHON:-python3}\" -B "),
+];
+
+/// Options that make a command quick, whatever value the page gives them; each is added to the commands that are named.
+///
+/// `check` and `calibrate` are as the page has them: bounds hold for one size, and few samples decide nothing.
+const QUICK: [(&str, &str, &[&str]); 5] = [
+    (
+        "--size",
+        "96x54",
+        &["run", "render", "bench", "tune", "compare-presets"],
+    ),
+    (
+        "--samples-per-pixel",
+        "16",
+        &["run", "render", "tune", "compare-presets"],
+    ),
+    ("--budget", "6", &["tune"]),
+    ("--rows", "2", &[]),
+    ("--noise", "0.05", &[]),
+];
+
+/// Options that are added to a command where the page leaves them out, and means all scenes or filters.
+const NARROWED: [(&str, &str, &[&str]); 2] = [
+    ("--scenes", "fan", &["run", "check", "tune"]),
+    ("--filter", "mcguire:paper", &["bench"]),
+];
+
+/// Makes a command of a page quick.
+pub fn shorten(command: &str) -> String {
+    let mut line = command.to_owned();
+    for (beginning, other) in REPLACED {
+        if let Some(rest) = line.strip_prefix(beginning) {
+            line = format!("{other}{rest}");
+        }
+    }
+    let Some(words) = line.strip_prefix("shuttertruth ") else {
+        return line;
+    };
+    let mut words: Vec<String> = words.split(' ').map(str::to_owned).collect();
+    let command = words[0].clone();
+    let named = |commands: &[&str]| commands.contains(&command.as_str());
+    for (option, value, commands) in QUICK {
+        match words.iter().position(|word| word == option) {
+            Some(at) if !named(&["check", "calibrate"]) => words[at + 1] = value.to_owned(),
+            None if named(commands) => words.extend([option, value].map(str::to_owned)),
+            _ => {}
+        }
+    }
+    // Held-out scenes have a size of their own.
+    let mut held_out = ["--sealed", "--held-out"].into_iter();
+    if let Some(option) = held_out.find(|option| words.iter().any(|word| word == option)) {
+        words.extend([format!("{option}-size"), "96x54".to_owned()]);
+        words.extend([format!("{option}-samples-per-pixel"), "16".to_owned()]);
+    }
+    // A finished run has its scenes.
+    let finished = words.iter().any(|word| word.ends_with("run.json"));
+    for (option, value, commands) in NARROWED {
+        if named(commands) && !finished && !words.iter().any(|word| word == option) {
+            words.extend([option, value].map(str::to_owned));
+        }
+    }
+    format!("shuttertruth {}", words.join(" "))
+}
+
+#[test]
+fn a_long_command_becomes_quick() {
+    let shorter = [
+        (
+            "shuttertruth run --table",
+            "shuttertruth run --table --size 96x54 --samples-per-pixel 16 --scenes fan",
+        ),
+        (
+            "shuttertruth calibrate --size 160x90",
+            "shuttertruth calibrate --size 160x90",
+        ),
+        (
+            "shuttertruth check out/run.json",
+            "shuttertruth check out/run.json",
+        ),
+        ("make run SCENES=fan", "make --dry-run run SCENES=fan"),
+    ];
+    for (command, quick) in shorter {
+        assert_eq!(shorten(command), quick);
+    }
+}

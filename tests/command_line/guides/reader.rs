@@ -1,0 +1,69 @@
+//! A reader of a page, who writes its files and runs its commands in a folder.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use super::page::{Step, find_steps};
+use crate::bench::files_below;
+use crate::links::root;
+
+/// A copy of what the commands of the guides need of the repository.
+pub struct Reader {
+    folder: tempfile::TempDir,
+}
+
+impl Reader {
+    /// Makes the folder, with the program on the PATH and the guide's filter in `my_blur`.
+    pub fn new() -> Self {
+        let reader = Self {
+            folder: tempfile::tempdir().unwrap(),
+        };
+        for folder in ["scenes", "examples"] {
+            reader.copy(&root().join(folder), folder);
+        }
+        for name in ["Makefile", "Cargo.toml"] {
+            fs::copy(root().join(name), reader.path(name)).unwrap();
+        }
+        fs::create_dir(reader.path("bin")).unwrap();
+        let program = env!("CARGO_BIN_EXE_shuttertruth");
+        std::os::unix::fs::symlink(program, reader.path("bin/shuttertruth")).unwrap();
+        for step in find_steps(include_str!("../../../docs/add-a-filter.md")) {
+            if let Step::Write { path, text } = step {
+                reader.write(&path, &text);
+            }
+        }
+        reader
+    }
+
+    fn path(&self, below: &str) -> PathBuf {
+        self.folder.path().join(below)
+    }
+
+    fn copy(&self, from: &Path, to: &str) {
+        for file in files_below(from) {
+            let name = Path::new(to).join(file.strip_prefix(from).unwrap());
+            self.write(name.to_str().unwrap(), fs::read(&file).unwrap());
+        }
+    }
+
+    /// Writes a file, with the folders that hold it.
+    pub fn write(&self, path: &str, bytes: impl AsRef<[u8]>) {
+        let path = self.path(path);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, bytes).unwrap();
+    }
+
+    /// Runs a line of shell.
+    pub fn run(&self, line: &str) -> Output {
+        let path = std::env::var("PATH").unwrap();
+        let path = format!("{}:{path}", self.path("bin").display());
+        let mut command = Command::new("sh");
+        command.args(["-c", line]).current_dir(self.folder.path());
+        // `accept` refuses to work in CI.
+        command.env("PATH", path).env_remove("CI");
+        // The first machine of an array.
+        command.env("SLURM_ARRAY_TASK_ID", "0");
+        command.output().unwrap()
+    }
+}
