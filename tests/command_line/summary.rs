@@ -137,7 +137,7 @@ fn runs_of_two_sizes_lie_side_by_side() {
     assert!(stdout(&check).contains("report: out/48x24/report.html"));
     assert!(contents() == before, "the run was changed");
     let run: suite::Run = bench.read_json("out/48x24/run.json");
-    assert_eq!((run.width, run.height), (48, 24));
+    assert_eq!((run.render.width, run.render.height), (48, 24));
     // Both are read back.
     let again = bench.outside_ci(&[&few[..], &filters].concat());
     assert_eq!(stdout(&again), stdout(&check));

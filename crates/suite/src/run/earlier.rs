@@ -117,7 +117,7 @@ impl EarlierCases {
 pub fn folder_for_size(out: &Path, (width, height): (u32, u32)) -> Result<PathBuf, Error> {
     let earlier = read_earlier_run(&out.join("run.json"))?;
     Ok(match earlier {
-        Some(run) if (run.width, run.height) != (width, height) => {
+        Some(run) if (run.render.width, run.render.height) != (width, height) => {
             out.join(format!("{width}x{height}"))
         }
         _ => out.to_owned(),
