@@ -9,7 +9,7 @@ const FINE: [&str; 2] = ["--filters", "velocity_gather:fine"];
 const COARSER: [&str; 2] = ["--set", "velocity_gather.samples=2"];
 const BASELINE: [&str; 2] = ["--baseline", "base.json"];
 
-/// A bench with a margin, whose fine gather was measured and accepted.
+/// Makes a bench with a margin, measures the fine gather and accepts it.
 fn accepted() -> Bench {
     let bench = Bench::new();
     fs::write(
@@ -22,7 +22,7 @@ fn accepted() -> Bench {
     bench
 }
 
-/// `run` with the samples of a check.
+/// Runs `run` with the samples of a check.
 fn run(bench: &Bench, more: &[&str]) -> Output {
     let size = ["--size", "64x32", "--samples-per-pixel", "64"];
     let words = ["run", "--quiet", "--out", "out"];
@@ -43,7 +43,7 @@ fn baseline(bench: &Bench) -> serde_json::Value {
 }
 
 #[test]
-fn the_same_scores_are_no_worse_and_others_are_told() {
+fn equal_scores_pass_and_worse_scores_are_reported() {
     let bench = accepted();
     let same = check(&bench, &[]);
     assert_done(&same);
@@ -65,7 +65,7 @@ fn the_same_scores_are_no_worse_and_others_are_told() {
 }
 
 #[test]
-fn a_baseline_has_a_number_a_line_under_sorted_keys() {
+fn a_baseline_has_one_number_per_line_under_sorted_keys() {
     let bench = accepted();
     let text = fs::read_to_string(bench.path("base.json")).unwrap();
     let numbers: Vec<&str> = (text.lines().map(str::trim))
@@ -88,7 +88,7 @@ fn a_baseline_has_a_number_a_line_under_sorted_keys() {
 }
 
 #[test]
-fn only_what_is_named_is_accepted() {
+fn accept_changes_only_the_named_cases() {
     let bench = accepted();
     let flip = |filter: &str| baseline(&bench)["scores"]["plate"][filter]["flip_moving"].clone();
     let before = flip("velocity_gather:fine");
@@ -108,7 +108,7 @@ fn only_what_is_named_is_accepted() {
 }
 
 #[test]
-fn what_must_not_be_accepted_is_refused() {
+fn accept_refuses_bad_requests_and_incomparable_runs() {
     let bench = accepted();
     let before = fs::read(bench.path("base.json")).unwrap();
     let in_ci = |more: &[&str]| {
@@ -129,14 +129,14 @@ fn what_must_not_be_accepted_is_refused() {
         assert_refused(&accept(&bench, more), 2, parts);
     }
     assert_eq!(fs::read(bench.path("base.json")).unwrap(), before);
-    // Another truth for one case of a scene would leave the others with the old one.
+    // A new truth for one case of a scene would leave the other cases with the old truth.
     assert_done(&bench.run(&FINE));
     assert_refused(
         &accept(&bench, &["--reason", "r", "--only", "plate/*"]),
         2,
         &["the truth is another", "accept the whole run"],
     );
-    // As if it had been made on a graphics card.
+    // Pretends that a graphics card made it.
     let text = String::from_utf8(before).unwrap();
     let kind = bench.measured().adapter.unwrap().kind;
     let other = text.replace(&format!("\"kind\": \"{kind}\""), "\"kind\": \"quantum\"");
@@ -156,7 +156,7 @@ fn what_must_not_be_accepted_is_refused() {
 }
 
 #[test]
-fn another_truth_is_not_compared() {
+fn a_case_with_another_truth_is_not_compared() {
     let bench = accepted();
     let output = check(&bench, &["--seed", "9"]);
     assert_refused(

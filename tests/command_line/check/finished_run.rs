@@ -10,14 +10,14 @@ fn a_finished_run_is_judged_without_an_adapter() {
     let bench = bounded(0.2, "required");
     let made = assert_ends(&bench.check(&IDENTITY), 1, &["BROKEN flip_moving"]);
     let judge = |words: &[&str]| bench.without_adapter(&[&["check"], words].concat());
-    // The page was written with the run.
+    // The run wrote the page already.
     let page = made.lines().find(|line| line.starts_with("report: "));
     let made = made.replace(&format!("{}\n", page.unwrap()), "");
     assert_eq!(
         assert_ends(&judge(&["out/run.json", "--evidence"]), 1, &[]),
         made
     );
-    // Evidence takes a while, and is made only for who asks.
+    // Evidence takes a while, so only who asks for it gets it.
     let plain = assert_ends(&judge(&["out"]), 1, &["BROKEN flip_moving"]);
     assert!(!plain.contains("worst at"), "{plain}");
 

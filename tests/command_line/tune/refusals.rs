@@ -8,7 +8,7 @@ use super::{read_tuning, set_up};
 use crate::bench::{Bench, SCENE, assert_done, assert_refused, split, stderr, stdout};
 
 #[test]
-fn what_cannot_be_tuned_is_refused_and_leaves_nothing_behind() {
+fn bad_tunings_are_refused_and_leave_no_files() {
     let bench = set_up();
     fs::write(
         bench.path("scenes/g/scene.toml"),
@@ -73,7 +73,7 @@ fn what_cannot_be_tuned_is_refused_and_leaves_nothing_behind() {
     );
 }
 
-/// A filter that is a program: it copies, and fails where its one parameter is above a half.
+/// Writes a filter that is a program: it copies its input, and fails if its one parameter is above a half.
 #[cfg(unix)]
 fn fails_above_a_half(bench: &Bench, name: &str, default: &str) {
     let parameter = format!(
@@ -88,7 +88,7 @@ fn fails_above_a_half(bench: &Bench, name: &str, default: &str) {
 
 #[cfg(unix)]
 #[test]
-fn a_candidate_that_fails_is_told_of_and_the_others_go_on() {
+fn a_failing_candidate_is_reported_and_the_tuning_goes_on() {
     let bench = set_up();
     fails_above_a_half(&bench, "fragile", "0.25");
     let tune = |filter| {

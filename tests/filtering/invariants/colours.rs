@@ -1,4 +1,4 @@
-//! Colours that come out: unchanged, constant, bounded, and linear.
+//! Output colours: unchanged, constant, bounded, and linear.
 
 use frame::{Image, Raster, Reprojection};
 use tests::presets::{every_preset, preset_name};
@@ -26,7 +26,7 @@ fn a_constant_colour_comes_out_constant() {
         field.color = Raster::filled(WIDTH, HEIGHT, color);
         for (filter, settings) in every_preset() {
             let output = field.blurred(&gpu, &filter, &settings);
-            // Bit for bit: a running mean of equal values adds nothing.
+            // Bit for bit: a running mean of equal values changes nothing.
             assert!(output == field.color, "{}", preset_name(&filter, &settings));
         }
     }
@@ -45,7 +45,8 @@ fn output_stays_finite_and_within_the_colours_of_the_frame() {
                 };
                 let brightest = values(&field.color).into_iter().fold(0.0, f32::max);
                 for value in values(&output) {
-                    // Weights are not negative; rounding of a mean of 20 taps may pass the ends by a few parts in 1e6.
+                    // Weights are not negative. Rounding of a mean of 20 taps may exceed the limits by a few parts in
+                    // 1e6.
                     let slack = 1e-5 * brightest;
                     assert!(
                         value.is_finite() && value >= -slack && value <= brightest + slack,

@@ -52,7 +52,7 @@ fn name(file: &ExrFile, random: &mut Random) -> String {
     }
 }
 
-/// A text that the format holds.
+/// Makes a text that the format can hold.
 fn text(random: &mut Random) -> String {
     let text = random.pick(&TEXTS);
     text.chars()
@@ -60,7 +60,7 @@ fn text(random: &mut Random) -> String {
         .collect()
 }
 
-/// Another size, with as many samples as that takes.
+/// Changes the size, with the right number of samples.
 fn size(file: &mut ExrFile, random: &mut Random) {
     (file.width, file.height) = (1 + random.below(20) as u32, 1 + random.below(20) as u32);
     let count = (file.width * file.height) as usize;
@@ -72,7 +72,7 @@ fn size(file: &mut ExrFile, random: &mut Random) {
     }
 }
 
-/// Some samples of a channel, or its kind.
+/// Changes some samples of a channel, or its kind.
 fn values(file: &mut ExrFile, random: &mut Random) {
     const FLOATS: [f32; 10] = [
         0.0,

@@ -12,7 +12,7 @@ type Chunk = ([u8; 4], Vec<u8>);
 
 /// Changes, doubles, moves or removes a chunk.
 pub fn change(input: &mut Vec<u8>, random: &mut Random) {
-    let mut chunks = chunks(input);
+    let mut chunks = read_chunks(input);
     if chunks.is_empty() {
         return;
     }
@@ -47,7 +47,7 @@ pub fn push(file: &mut Vec<u8>, name: [u8; 4], content: &[u8]) {
     file.extend(crc.sum().to_be_bytes());
 }
 
-/// Another size, depth, kind of colour or interlacing.
+/// Changes the size, depth, kind of colour or interlacing.
 fn header(content: &mut [u8], random: &mut Random) {
     if content.len() < 13 {
         return;
@@ -62,7 +62,7 @@ fn header(content: &mut [u8], random: &mut Random) {
     }
 }
 
-fn chunks(input: &[u8]) -> Vec<Chunk> {
+fn read_chunks(input: &[u8]) -> Vec<Chunk> {
     let mut chunks = Vec::new();
     let mut rest = input.get(SIGNATURE..).unwrap_or_default();
     while let [a, b, c, d, name @ ..] = rest {

@@ -117,12 +117,12 @@ pub static MERGE: Target = Target {
     },
 };
 
-/// Frame, truth and ladder of a scene's folder.
+/// Returns the frame, truth and ladder of a scene's folder.
 fn rendered(scene: &Path) -> [PathBuf; 3] {
     ["frame.exr", "truth_trailing.exr", "ladder_trailing.exr"].map(|name| scene.join(name))
 }
 
-/// Scores as `score` does, with one file of another origin; some picture of the run is scored.
+/// Scores a picture of the run as `score` does; one of the files is foreign.
 fn score_picture(frame: &Path, truth: &Path, ladder: Option<&Path>, scene: &Path) {
     let (Ok(frame), Ok(truth)) = (Frame::read(frame), Truth::read(truth)) else {
         return;

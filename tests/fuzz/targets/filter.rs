@@ -1,4 +1,4 @@
-//! Filter folders, read and checked; nothing runs.
+//! Filter folders, read and checked but not run.
 
 use std::path::PathBuf;
 
@@ -59,7 +59,7 @@ pub static WGSL: Target = Target {
     run: |place, input| drop(Filter::load(&write(place, input))),
 };
 
-/// Kernels of all built-in filters, each with a line that says whose they are.
+/// Returns the kernels of all built-in filters, each with a line that names its filter.
 pub fn sources() -> Vec<Seed> {
     let names = Filter::builtin_names();
     let sources = names.iter().map(|name| {
@@ -69,7 +69,7 @@ pub fn sources() -> Vec<Seed> {
     sources.collect()
 }
 
-/// Kernels that are deeper than a stack, for the identity.
+/// Returns kernels for the identity that are deeper than a stack.
 pub fn hostile() -> [Seed; 6] {
     [
         Seed::Made(huge::long_sum),
@@ -83,7 +83,7 @@ pub fn hostile() -> [Seed; 6] {
 
 const MARK: &str = "// filter: ";
 
-/// Makes a filter folder of kernels: with the manifest of the filter that their first line names, or the identity's.
+/// Makes a filter folder of kernels, with the manifest of the filter that their first line names, or the identity's.
 pub fn write(place: &Place, input: &[u8]) -> PathBuf {
     let line = input
         .split(|byte| *byte == b'\n')
@@ -101,7 +101,7 @@ pub fn write(place: &Place, input: &[u8]) -> PathBuf {
     let manifest = String::from_utf8_lossy(manifest);
     place.write(
         &format!("{name}/filter.toml"),
-        // A pass that runs takes no longer.
+        // No pass may run longer.
         format!("time_limit = 5\n{manifest}"),
     );
     place.folder.join(name)

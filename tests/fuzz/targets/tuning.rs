@@ -1,4 +1,4 @@
-//! Files that `tune` wrote and reads again.
+//! Files that `tune` writes and reads again.
 
 use std::fs;
 
@@ -28,7 +28,7 @@ pub static JOURNAL: Target = Target {
         let folder = place.copied("tuned");
         place.write("tuned/journal.jsonl", input);
         show(&folder);
-        // The same command again, which goes on with the journal.
+        // The same command again, which continues the journal.
         let header = TuneFolder::read(&place.fixture.join("tuned"))
             .unwrap()
             .header

@@ -2,14 +2,15 @@
 
 use std::time::Instant;
 
-use filters::{Filter, Gpu, Limits, try_out};
+use filters::{Filter, Limits, try_out};
+use tests::open_gpu;
 use tests::text::assert_contains;
 
 use super::{change, list, load, mine};
 use crate::bench::{assert_done, assert_refused, stderr};
 
 #[test]
-fn list_tries_a_filter_that_holds_and_says_so_by_listing_it() {
+fn list_tries_a_filter_and_lists_it_if_it_works() {
     let bench = mine(&[]);
     let output = list(&bench);
     assert_done(&output);
@@ -17,7 +18,7 @@ fn list_tries_a_filter_that_holds_and_says_so_by_listing_it() {
 }
 
 #[test]
-fn what_the_device_refuses_is_refused_by_list_with_file_and_pass() {
+fn list_refuses_a_filter_that_the_device_refuses_with_file_and_pass() {
     #[rustfmt::skip]
     let wrong: &[(&str, &str, &[&str])] = &[
         ("(8, 8)", "(64, 64)", &["mine/mine.wgsl:10: pass \"work\"", "@workgroup_size(64, 64, 1): 4096 invocations", "allowed: at most", "smaller"]),
@@ -33,14 +34,14 @@ fn what_the_device_refuses_is_refused_by_list_with_file_and_pass() {
             false => mine(&[(from, to)]),
         };
         assert_refused(&list(&bench), 2, parts);
-        // Before anything is rendered.
+        // Nothing was rendered before.
         assert_refused(&bench.run(&["--filter", "mine"]), 2, parts);
         assert!(!bench.path("out").exists());
     }
 }
 
 #[test]
-fn without_an_adapter_the_lowest_common_limits_hold() {
+fn the_lowest_common_limits_hold_if_no_adapter_is_there() {
     let written = |names: &[&str]| {
         let declared: String = (names.iter().enumerate())
             .map(|(index, name)| {
@@ -94,7 +95,7 @@ fn without_an_adapter_the_lowest_common_limits_hold() {
 }
 
 #[test]
-fn variables_and_calls_that_no_device_holds_are_refused_when_loaded() {
+fn variables_and_calls_too_large_for_any_device_are_refused_on_load() {
     let bench = mine(&[
         (
             "// declarations",
@@ -111,7 +112,7 @@ fn variables_and_calls_that_no_device_holds_are_refused_when_loaded() {
         "allowed: at most 16384",
     ];
     assert_contains(&load(&bench).unwrap_err(), &parts);
-    // Each function calls the one before it twice: 2^60 calls.
+    // Each function calls the previous one twice, which makes 2^60 calls.
     let twice: String = (1..=60)
         .map(|level| {
             let before = level - 1;
@@ -135,7 +136,7 @@ fn variables_and_calls_that_no_device_holds_are_refused_when_loaded() {
 }
 
 #[test]
-fn a_range_that_makes_a_kernel_fail_is_found_by_list() {
+fn list_finds_a_range_in_which_a_kernel_fails() {
     #[rustfmt::skip]
     let wrong: &[(&str, &str, &[&str])] = &[
         ("[1, 64]", "[0, 64]", &["mine/filter.toml:5: parameter \"samples\" = 0, the lower end of its range, with preset \"plain\"", "pass work", "NaN", "pixel (0, 0)", "narrow the range"]),
@@ -150,7 +151,7 @@ fn a_range_that_makes_a_kernel_fail_is_found_by_list() {
         }
         assert_refused(&list(&mine(&changes)), 2, parts);
     }
-    let gpu = Gpu::new(None).expect("this test runs filters");
+    let gpu = open_gpu();
     if gpu.loop_limit.is_some() {
         let bench = mine(&[("[1, 64]", "[1, 100000]")]);
         let parts = ["parameter \"samples\" = 100000", "ends all loops"];
@@ -159,8 +160,8 @@ fn a_range_that_makes_a_kernel_fail_is_found_by_list() {
 }
 
 #[test]
-fn every_built_in_filter_holds_at_the_ends_of_its_ranges() {
-    let gpu = Gpu::new(None).expect("this test runs filters");
+fn every_built_in_filter_works_at_the_ends_of_its_ranges() {
+    let gpu = open_gpu();
     for name in Filter::builtin_names() {
         let filter = Filter::builtin(&name).unwrap();
         let start = Instant::now();

@@ -1,4 +1,4 @@
-//! Texts, numbers and files that are too deep, too large or no text.
+//! Text that is too deep, too large or not text, and numbers out of range.
 
 use std::fs;
 use std::time::{Duration, Instant};
@@ -7,7 +7,7 @@ use super::{list, load, mine};
 use crate::bench::{assert_done, assert_refused, make_fifo, stderr};
 
 #[test]
-fn deep_kernels_are_read_or_refused_with_their_line() {
+fn deep_kernels_load_or_are_refused_with_their_line() {
     let sum = |terms: usize| format!("value.x = here.x{};", " + here.x".repeat(terms - 1));
     let choices = |count: usize| {
         let branches: String = (0..count)
@@ -17,7 +17,7 @@ fn deep_kernels_are_read_or_refused_with_their_line() {
     };
     let brackets =
         |count: usize| format!("value.x = {}1.0{};", "(".repeat(count), ")".repeat(count));
-    // Each term counts two: a sum and a member.
+    // Each term counts twice: as a sum and as a member.
     for statements in [sum(490), choices(300), brackets(150)] {
         let bench = mine(&[("// statements", &statements)]);
         assert_done(&list(&bench));
@@ -37,7 +37,7 @@ fn deep_kernels_are_read_or_refused_with_their_line() {
         ];
         assert_refused(&list(&bench), 2, &parts);
     }
-    // Naga's own limits have a place too.
+    // Errors from Naga's own limits name their place too.
     let bench = mine(&[("// statements", &brackets(400))]);
     assert_refused(&list(&bench), 2, &["mine.wgsl"]);
     // Many declarations that refer to one another, and many statements.
@@ -49,7 +49,7 @@ fn deep_kernels_are_read_or_refused_with_their_line() {
 }
 
 #[test]
-fn only_regular_files_of_bounded_size_are_read() {
+fn irregular_and_large_files_are_refused() {
     let bench = mine(&[]);
     for (file, limit) in [("filter.toml", 1 << 20), ("mine.wgsl", 256 << 10)] {
         let path = bench.path("mine").join(file);
@@ -80,7 +80,7 @@ fn only_regular_files_of_bounded_size_are_read() {
 }
 
 #[test]
-fn numbers_and_texts_that_nothing_can_hold_are_refused_with_their_line() {
+fn extreme_numbers_and_texts_are_refused_with_their_line() {
     #[rustfmt::skip]
     let wrong: &[(&str, &str, &[&str])] = &[
         ("[0.5, 2.0]", "[0.5, 1e39]", &["filter.toml:12", "gain", "1e39", "no f32 holds"]),
@@ -120,7 +120,7 @@ fn numbers_and_texts_that_nothing_can_hold_are_refused_with_their_line() {
 }
 
 #[test]
-fn thousands_of_presets_and_parameters_are_refused_in_no_time() {
+fn thousands_of_presets_and_parameters_are_refused_quickly() {
     let start = Instant::now();
     let presets: String = (0..8_000)
         .map(|index| {
@@ -138,7 +138,7 @@ fn thousands_of_presets_and_parameters_are_refused_in_no_time() {
 }
 
 #[test]
-fn values_out_of_range_are_refused_before_anything_runs() {
+fn values_out_of_range_are_refused_before_a_run() {
     let bench = mine(&[]);
     for (value, parts) in [
         (

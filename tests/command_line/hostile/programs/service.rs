@@ -7,10 +7,9 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 
 use crate::bench::{Bench, press_ctrl_c, split};
+use crate::serve::SERVE;
 
-const SERVE: &str = "serve --quiet --filter jump_flood --objective flip --size 64x32 --samples-per-pixel 16 --out out";
-
-/// Says bytes and hears all answers until the service ends, which has to be well.
+/// Sends bytes, reads answers until the service ends, and checks that it ends well.
 fn conversation(bench: &Bench, said: &[u8]) -> Vec<Value> {
     let mut command = bench.command(&split(SERVE));
     command.stdin(Stdio::piped()).stdout(Stdio::piped());
@@ -30,7 +29,7 @@ fn conversation(bench: &Bench, said: &[u8]) -> Vec<Value> {
 }
 
 #[test]
-fn each_line_that_cannot_be_answered_gets_an_error_and_the_next_one_an_answer() {
+fn a_bad_line_gets_an_error_and_the_next_line_an_answer() {
     let bench = Bench::new();
     let request = b"{\"id\": 1, \"params\": {}, \"scenes\": [\"plate\", \"plate\"]}\n";
     let long = vec![b'['; 3 << 20];
@@ -70,7 +69,7 @@ fn each_line_that_cannot_be_answered_gets_an_error_and_the_next_one_an_answer() 
 
 #[cfg(unix)]
 #[test]
-fn ctrl_c_ends_a_service_that_nobody_talks_to() {
+fn ctrl_c_ends_an_idle_service() {
     let bench = Bench::new();
     let mut command = bench.command(&split(SERVE));
     command.stdin(Stdio::piped()).stdout(Stdio::piped());

@@ -1,4 +1,4 @@
-//! Names of scenes: in every script, with an @, without any sense.
+//! Names of scenes: in every script, with an @, with odd characters.
 
 use std::fs;
 
@@ -15,7 +15,7 @@ const RENDER: [&str; 6] = [
     "16",
 ];
 
-/// The plate in a folder of another name.
+/// Renames the plate's folder.
 fn renamed(bench: &Bench, folder: &str) {
     let target = bench.path(folder);
     fs::create_dir_all(target.parent().unwrap()).unwrap();
@@ -23,7 +23,7 @@ fn renamed(bench: &Bench, folder: &str) {
 }
 
 #[test]
-fn names_of_every_script_stand_in_files_as_utf_8() {
+fn names_in_every_script_are_written_as_utf_8() {
     for name in ["\u{e9}ventail", "\u{6247}\u{98a8}\u{6a5f}_\u{1f300}"] {
         let bench = Bench::new();
         renamed(&bench, &format!("scenes/{name}"));
@@ -37,7 +37,7 @@ fn names_of_every_script_stand_in_files_as_utf_8() {
 }
 
 #[test]
-fn a_folder_above_a_scene_may_have_an_at_in_its_name_and_the_scene_may_not() {
+fn a_folder_above_a_scene_may_contain_an_at_and_the_scene_may_not() {
     let bench = Bench::new();
     renamed(&bench, "me@home/plate");
     let scene = |path: &str| bench.shuttertruth(&[&RENDER[..], &["--scenes", path]].concat());
@@ -61,7 +61,7 @@ fn a_folder_above_a_scene_may_have_an_at_in_its_name_and_the_scene_may_not() {
 }
 
 #[test]
-fn all_variants_of_a_scene_are_taken_by_its_path_too() {
+fn a_path_with_at_all_selects_every_variant() {
     let bench = Bench::new();
     let text = fs::read_to_string(bench.path("scenes/plate/scene.toml")).unwrap();
     bench.write(

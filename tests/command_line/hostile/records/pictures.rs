@@ -1,4 +1,4 @@
-//! Pictures, truths and frames that claim too much, hold no numbers or are of another shape.
+//! Pictures, truths and frames with huge claims, missing numbers or another shape.
 
 use std::fs;
 use std::io::Write;
@@ -52,7 +52,7 @@ impl Default for Claim {
 }
 
 impl Claim {
-    /// A file of uncompressed rows of zeros, or with nothing but `rest` bytes behind the header.
+    /// Writes a file of uncompressed zeros, or only `rest` bytes after the header.
     fn write(&self, bench: &Bench, name: &str, rest: Option<usize>) {
         let mut bytes = vec![0x76, 0x2f, 0x31, 0x01];
         bytes.extend((2 | self.flags).to_le_bytes());
@@ -105,7 +105,7 @@ impl Claim {
     }
 }
 
-/// A PNG whose header claims so many pixels, and whose rows are missing.
+/// Makes a PNG whose header claims this many pixels, and whose rows are missing.
 fn png(width: u32, height: u32) -> Vec<u8> {
     let mut bytes = b"\x89PNG\r\n\x1a\n".to_vec();
     let mut chunk = |kind: &[u8], data: &[u8]| {
@@ -128,7 +128,7 @@ fn png(width: u32, height: u32) -> Vec<u8> {
 }
 
 #[test]
-fn headers_that_claim_too_much_are_refused_before_anything_is_allocated() {
+fn headers_with_huge_claims_are_refused_before_allocation() {
     let bench = finished();
     let whole = Claim::default;
     whole().write(&bench, "whole.exr", None);
@@ -201,14 +201,14 @@ fn headers_that_claim_too_much_are_refused_before_anything_is_allocated() {
     }
 }
 
-/// Writes what `change` makes of a file of the run, with a checksum that fits.
+/// Applies `change` to a file of the run, and writes it with a valid checksum.
 fn altered(bench: &Bench, path: &str, change: impl FnOnce(&mut ExrFile)) {
     let mut file = read_exr(&bench.path(path)).unwrap();
     change(&mut file);
     write_exr(&bench.path(path), &file).unwrap();
 }
 
-/// Both commands that read pictures of a run refuse it, with such words.
+/// Asserts that both commands that read pictures of a run refuse it with these words.
 fn refused(bench: &Bench, found: &str) {
     assert_refused(&score(bench, OUTPUT), 2, &[found]);
     let report = bench.shuttertruth(&["report", "out", "--html", "page.html"]);
@@ -217,7 +217,7 @@ fn refused(bench: &Bench, found: &str) {
 }
 
 #[test]
-fn a_truth_or_a_frame_that_holds_no_numbers_or_lacks_some_is_refused() {
+fn a_truth_or_frame_with_missing_or_invalid_numbers_is_refused() {
     let bench = finished();
     for path in [TRUTH, FRAME] {
         let whole = fs::read(bench.path(path)).unwrap();
@@ -225,7 +225,7 @@ fn a_truth_or_a_frame_that_holds_no_numbers_or_lacks_some_is_refused() {
             .filter(|channel| matches!(channel.samples, Samples::F32(_)))
             .map(|channel| channel.name.clone())
             .collect();
-        // Each layer is checked alike; a few of each file stand for all.
+        // All layers pass through the same check, so a few of each file are enough.
         for name in names.iter().step_by(7) {
             altered(&bench, path, |file| {
                 let channel = file
@@ -279,7 +279,7 @@ fn a_truth_or_a_frame_that_holds_no_numbers_or_lacks_some_is_refused() {
     }
 }
 
-/// The file with two more pixels on every side.
+/// Adds two pixels to every side of the file.
 fn padded(file: &mut ExrFile) {
     let (width, height) = (file.width as usize, file.height as usize);
     fn grown<T: Copy>(samples: &[T], width: usize, height: usize) -> Vec<T> {
@@ -327,7 +327,7 @@ fn files_of_another_size_or_of_other_objects_are_refused() {
 }
 
 #[test]
-fn pictures_of_a_run_that_hold_no_numbers_are_refused_or_shown() {
+fn pictures_with_invalid_numbers_are_refused_or_shown() {
     let bench = finished();
     for (name, is_refused) in [("errors.exr", false), ("output.exr", true)] {
         altered(
@@ -350,7 +350,7 @@ fn pictures_of_a_run_that_hold_no_numbers_are_refused_or_shown() {
 }
 
 #[test]
-fn radiance_that_no_tone_curve_can_square_is_refused_where_it_is() {
+fn radiance_whose_square_overflows_is_refused_with_its_place() {
     let bench = finished();
     altered(&bench, OUTPUT, |file| {
         let red = file.channels.iter_mut().find(|channel| channel.name == "R");
