@@ -10,7 +10,7 @@ const COARSER: [&str; 2] = ["--set", "velocity_gather.samples=2"];
 const BASELINE: [&str; 2] = ["--baseline", "base.json"];
 
 /// Makes a bench with a margin, measures the fine gather and accepts it.
-fn accepted() -> Bench {
+fn set_up() -> Bench {
     let bench = Bench::new();
     fs::write(
         bench.path("scenes/bounds.toml"),
@@ -44,7 +44,7 @@ fn baseline(bench: &Bench) -> serde_json::Value {
 
 #[test]
 fn equal_scores_pass_and_worse_scores_are_reported() {
-    let bench = accepted();
+    let bench = set_up();
     let same = check(&bench, &[]);
     assert_done(&same);
     assert!(
@@ -66,7 +66,7 @@ fn equal_scores_pass_and_worse_scores_are_reported() {
 
 #[test]
 fn a_baseline_has_one_number_per_line_under_sorted_keys() {
-    let bench = accepted();
+    let bench = set_up();
     let text = fs::read_to_string(bench.path("base.json")).unwrap();
     let numbers: Vec<&str> = (text.lines().map(str::trim))
         .filter(|line| line.starts_with('"') && line.contains("\": ") && !line.ends_with('{'))
@@ -76,7 +76,7 @@ fn a_baseline_has_one_number_per_line_under_sorted_keys() {
     assert!(numbers.is_sorted(), "{numbers:#?}");
     let found = baseline(&bench);
     assert_eq!(found["reasons"][0], "the first");
-    let run = bench.measured();
+    let run = bench.read_run();
     assert_eq!(found["adapter"]["name"], run.adapter.unwrap().name);
     assert_eq!(
         found["truths"]["plate"]["trailing"],
@@ -89,7 +89,7 @@ fn a_baseline_has_one_number_per_line_under_sorted_keys() {
 
 #[test]
 fn accept_changes_only_the_named_cases() {
-    let bench = accepted();
+    let bench = set_up();
     let flip = |filter: &str| baseline(&bench)["scores"]["plate"][filter]["flip_moving"].clone();
     let before = flip("velocity_gather:fine");
     let both = ["--filters", "velocity_gather:fine,identity"];
@@ -109,7 +109,7 @@ fn accept_changes_only_the_named_cases() {
 
 #[test]
 fn accept_refuses_bad_requests_and_incomparable_runs() {
-    let bench = accepted();
+    let bench = set_up();
     let before = fs::read(bench.path("base.json")).unwrap();
     let in_ci = |more: &[&str]| {
         let words = [&["accept", "--out", "out", "--reason", "r"], more].concat();
@@ -138,7 +138,7 @@ fn accept_refuses_bad_requests_and_incomparable_runs() {
     );
     // Pretends that a graphics card made it.
     let text = String::from_utf8(before).unwrap();
-    let kind = bench.measured().adapter.unwrap().kind;
+    let kind = bench.read_run().adapter.unwrap().kind;
     let other = text.replace(&format!("\"kind\": \"{kind}\""), "\"kind\": \"quantum\"");
     assert_ne!(other, text);
     fs::write(bench.path("base.json"), other).unwrap();
@@ -157,7 +157,7 @@ fn accept_refuses_bad_requests_and_incomparable_runs() {
 
 #[test]
 fn a_case_with_another_truth_is_not_compared() {
-    let bench = accepted();
+    let bench = set_up();
     let output = check(&bench, &["--seed", "9"]);
     assert_refused(
         &output,

@@ -94,7 +94,7 @@ impl Bench {
 
     /// Runs a command that must succeed; returns what it prints.
     #[track_caller]
-    pub fn done(&self, words: &[&str]) -> String {
+    pub fn execute(&self, words: &[&str]) -> String {
         let output = self.shuttertruth(words);
         assert_done(&output);
         stdout(&output)
@@ -135,7 +135,7 @@ impl Bench {
     }
 
     /// Reads run.json of the last run.
-    pub fn measured(&self) -> suite::Run {
+    pub fn read_run(&self) -> suite::Run {
         self.read_json("out/run.json")
     }
 
@@ -145,14 +145,14 @@ impl Bench {
     }
 
     /// Reads the findings about the last run.
-    pub fn findings(&self) -> Vec<suite::Finding> {
-        let judgement = suite::Judgement::read(&self.measured(), &self.path("out")).unwrap();
+    pub fn read_findings(&self) -> Vec<suite::Finding> {
+        let judgement = suite::Judgement::read(&self.read_run(), &self.path("out")).unwrap();
         judgement.expect("the run was judged").findings
     }
 
     /// Returns the last run's cases without the references.
-    pub fn measured_filters(&self) -> Vec<suite::Case> {
-        let cases = self.measured().cases.into_iter();
+    pub fn read_filter_cases(&self) -> Vec<suite::Case> {
+        let cases = self.read_run().cases.into_iter();
         cases.filter(|case| !case.is_reference).collect()
     }
 }

@@ -19,7 +19,7 @@ fn write_blur(bench: &Bench, name: &str, lines: &str, more: &str) {
 
 fn render(bench: &Bench) {
     let words = ["render", "--quiet", "--out", "r", "--samples-per-pixel"];
-    bench.done(&[&words[..], &["16"]].concat());
+    bench.execute(&[&words[..], &["16"]].concat());
 }
 
 fn blur(filter: &str) -> [&str; 8] {
@@ -49,7 +49,7 @@ fn a_program_that_blurs_like_a_kernel_gets_its_scores() {
     write_lines(&bench, "outside", &command);
     let filters = "velocity_gather:coarse,./outside:coarse";
     assert_done(&bench.run(&["--filters", filters, "--allow-commands"]));
-    let cases = bench.measured_filters();
+    let cases = bench.read_filter_cases();
     let [kernels, program] = &cases[..] else {
         panic!("two filters on one scene");
     };
@@ -77,7 +77,7 @@ fn a_program_needs_no_adapter() {
         "{}",
         stdout(&output)
     );
-    assert_eq!(bench.measured().adapter, None);
+    assert_eq!(bench.read_run().adapter, None);
     // An adapter that the user asked for must still be there.
     let output = command.args(["--adapter", "0"]).output().unwrap();
     assert_refused(&output, 3, &["mesa-vulkan-drivers"]);
@@ -107,7 +107,7 @@ fn the_program_of_the_guide_runs() {
     let mut command = bench.command(&blur("./my_engine"));
     assert_done(&command.env("PATH", path).output().unwrap());
     let outside = read_exr(&bench.path("b.exr")).unwrap().color("").unwrap();
-    bench.done(&blur("velocity_gather"));
+    bench.execute(&blur("velocity_gather"));
     let inside = read_exr(&bench.path("b.exr")).unwrap().color("").unwrap();
     assert_eq!(outside, inside);
 }
@@ -163,7 +163,7 @@ fn an_edited_program_runs_again() {
     write_script(&bench.path("copy/blur.sh"), "exit 3");
     let failed = bench.run(&["--filter", "copy", "--allow-commands"]);
     assert_eq!(failed.status.code(), Some(1));
-    let failures = bench.measured().failures;
+    let failures = bench.read_run().failures;
     let reason = &failures[0].reason;
     for part in ["filter copy on plate: ", "ended with exit status: 3"] {
         assert!(reason.contains(part), "{reason}");

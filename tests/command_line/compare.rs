@@ -35,7 +35,7 @@ fn smaller_run_into(bench: &Bench, out: &str, more: &[&str]) -> std::process::Ou
 }
 
 fn compare(bench: &Bench) -> Value {
-    serde_json::from_str(&bench.done(&["compare", "out/run.json", "other", "--json"])).unwrap()
+    serde_json::from_str(&bench.execute(&["compare", "out/run.json", "other", "--json"])).unwrap()
 }
 
 fn changes<'a>(compared: &'a Value, filter: &str) -> Vec<&'a Value> {
@@ -228,7 +228,7 @@ fn the_page_shows_both_pictures_and_both_runs() {
         "something is fetched"
     );
     assert!(text.contains("default-src 'none'"));
-    bench.done(&words);
+    bench.execute(&words);
     assert_eq!(
         fs::read_to_string(&page).unwrap(),
         text,
@@ -243,7 +243,7 @@ fn a_scene_name_with_a_script_is_shown_as_text() {
     assert_done(&bench.run(&GATHER));
     let more = [&GATHER[..], &["--set", "velocity_gather.samples=2"]].concat();
     assert_done(&run_into(&bench, "other", "16", &more));
-    bench.done(&["compare", "out", "other", "--html", "page.html"]);
+    bench.execute(&["compare", "out", "other", "--html", "page.html"]);
     let page = fs::read_to_string(bench.path("page.html")).unwrap();
     assert!(
         page.contains("&lt;script&gt;alert(1)"),

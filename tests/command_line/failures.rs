@@ -23,7 +23,7 @@ const BODY: &str = "
 ";
 
 /// Makes two scenes, on one of which the filter `torn` fails.
-fn torn() -> Bench {
+fn set_up() -> Bench {
     let bench = Bench::new();
     bench.copy_scene("dim", |scene| {
         scene.replace("exposure = 0.5", "exposure = 0.25")
@@ -34,11 +34,11 @@ fn torn() -> Bench {
 
 #[test]
 fn a_run_names_the_failed_case_and_goes_on() {
-    let bench = torn();
+    let bench = set_up();
     let words = ["--filters", "identity,./torn", "--html", "page.html"];
     let output = bench.run(&words);
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-    let run = bench.measured();
+    let run = bench.read_run();
     let [failure] = &run.failures[..] else {
         panic!("one case fails: {:?}", run.failures);
     };
@@ -56,7 +56,7 @@ fn a_run_names_the_failed_case_and_goes_on() {
         "{}",
         failure.reason
     );
-    let measured: Vec<_> = (bench.measured_filters().iter())
+    let measured: Vec<_> = (bench.read_filter_cases().iter())
         .map(|case| (case.scene.clone(), case.name()))
         .collect();
     let expected = [
@@ -83,7 +83,7 @@ fn a_run_names_the_failed_case_and_goes_on() {
     // Measured cases are kept, and the failed one is tried again.
     let again = bench.run(&words);
     assert_eq!(again.status.code(), Some(1));
-    assert_eq!(bench.measured().failures, run.failures);
+    assert_eq!(bench.read_run().failures, run.failures);
     // A run with failures cannot become a baseline.
     let accept = split("accept --out out --baseline base.json --reason none");
     let refused = bench.outside_ci(&accept);
@@ -93,7 +93,7 @@ fn a_run_names_the_failed_case_and_goes_on() {
 
 #[test]
 fn a_check_with_a_failed_case_is_broken() {
-    let bench = torn();
+    let bench = set_up();
     let bounds = "[default]\nflip_moving = { limit = 0.99, why = \"it serves a test\" }\n";
     fs::write(bench.path("scenes/bounds.toml"), bounds).unwrap();
     let words = ["--filters", "./torn", "--junit", "junit.xml"];

@@ -53,7 +53,7 @@ fn import(bench: &Bench, more: &[&str]) -> Output {
 
 /// Renders the imported scene's frame at half the size that its speeds are meant for.
 fn render_frame(bench: &Bench) -> Frame {
-    bench.done(&split("render --scenes house --size 320x180 --samples-per-pixel 8 --replicates 2 --quiet --out out"));
+    bench.execute(&split("render --scenes house --size 320x180 --samples-per-pixel 8 --replicates 2 --quiet --out out"));
     Frame::read(&bench.path("out/house/frame.exr")).unwrap()
 }
 

@@ -47,7 +47,7 @@ fn read_times(bench: &Bench) -> BTreeMap<String, SystemTime> {
 }
 
 /// Returns the folders of the cases that a run measures although it could have kept them.
-fn measured_again(bench: &Bench, more: &[&str]) -> BTreeSet<String> {
+fn find_measured_again(bench: &Bench, more: &[&str]) -> BTreeSet<String> {
     let before = read_times(bench);
     run(bench, more);
     (read_times(bench).into_iter())
@@ -98,11 +98,11 @@ fn a_kept_check_keeps_its_intervals() {
     let check = || bench.check(&FILTERS);
     let first = stdout(&check());
     assert!(first.contains("flip_moving"), "{first}");
-    let (run, before) = (bench.measured(), read_measured_times(&bench));
+    let (run, before) = (bench.read_run(), read_measured_times(&bench));
     assert_eq!(stdout(&check()), first);
     assert_eq!(read_measured_times(&bench), before);
     let text = |run: &suite::Run| serde_json::to_string(run).unwrap();
-    assert_eq!(text(&bench.measured()), text(&run));
+    assert_eq!(text(&bench.read_run()), text(&run));
 
     let evidence = bench.path("out/plate").join(WORST);
     fs::remove_file(&evidence).unwrap();
@@ -133,19 +133,19 @@ fn a_run_reuses_the_cases_of_a_check() {
     bench.check(&FILTERS);
     let before = read_measured_times(&bench);
     let words = [&quick_command("run", "64")[..], &FILTERS].concat();
-    bench.done(&words);
+    bench.execute(&words);
     assert_eq!(read_measured_times(&bench), before);
     // The output does not depend on which command measured.
     let kept = fs::read_to_string(bench.path("out/run.json")).unwrap();
     assert!(
         bench
-            .measured()
+            .read_run()
             .cases
             .iter()
             .all(|case| case.intervals.is_empty())
     );
     fs::remove_dir_all(bench.path("out")).unwrap();
-    bench.done(&words);
+    bench.execute(&words);
     assert!(fs::read_to_string(bench.path("out/run.json")).unwrap() == kept);
 }
 
@@ -158,22 +158,26 @@ fn a_change_to_one_case_measures_only_that_case_again() {
     let kernels = "mine/velocity_gather.wgsl";
     let text = fs::read_to_string(bench.path(kernels)).unwrap();
     fs::write(bench.path(kernels), format!(" {text}")).unwrap();
-    assert_eq!(measured_again(&bench, &[]), mine, "a byte of WGSL");
+    assert_eq!(find_measured_again(&bench, &[]), mine, "a byte of WGSL");
 
     change(&bench, "mine/filter.toml", "samples = 8 ", "samples = 7 ");
-    assert_eq!(measured_again(&bench, &[]), mine, "a preset's value");
+    assert_eq!(find_measured_again(&bench, &[]), mine, "a preset's value");
 
     let set = ["--set", "velocity_gather.samples=9"];
     let changed: BTreeSet<String> = mine
         .iter()
         .map(|name| format!("{name}_samples_9"))
         .collect();
-    assert_eq!(measured_again(&bench, &set), changed, "a parameter");
-    assert_eq!(measured_again(&bench, &set), BTreeSet::new());
+    assert_eq!(find_measured_again(&bench, &set), changed, "a parameter");
+    assert_eq!(find_measured_again(&bench, &set), BTreeSet::new());
 
     let filters = names([&OF_FILTERS[..]]);
     let more = ["--jitter-frames", "3"];
-    assert_eq!(measured_again(&bench, &more), filters, "frames of noise");
+    assert_eq!(
+        find_measured_again(&bench, &more),
+        filters,
+        "frames of noise"
+    );
 }
 
 #[test]
@@ -182,7 +186,7 @@ fn a_change_to_the_truth_or_the_frame_measures_all_cases_again() {
     run(&bench, &[]);
     let all = names([&BARS[..], &OF_FILTERS]);
     for more in [["--seed", "2"], ["--velocity", "previous_frame"]] {
-        assert_eq!(measured_again(&bench, &more), all, "{more:?}");
+        assert_eq!(find_measured_again(&bench, &more), all, "{more:?}");
     }
     change(
         &bench,
@@ -191,7 +195,7 @@ fn a_change_to_the_truth_or_the_frame_measures_all_cases_again() {
         "nothing. It serves",
     );
     run(&bench, &[]);
-    let said = bench.measured().cases.into_iter().map(|case| case.exposes);
+    let said = bench.read_run().cases.into_iter().map(|case| case.exposes);
     assert_eq!(
         said.collect::<BTreeSet<_>>(),
         names([&["nothing. It serves the tests of the command line"][..]])
@@ -202,14 +206,14 @@ fn a_change_to_the_truth_or_the_frame_measures_all_cases_again() {
 fn another_common_shutter_measures_the_compared_cases_again() {
     let bench = set_up();
     run(&bench, &[]);
-    assert_eq!(bench.measured().common_alignment, "trailing");
-    let again = measured_again(&bench, &["--filter", "bevy:default"]);
-    assert_eq!(bench.measured().common_alignment, "centred");
+    assert_eq!(bench.read_run().common_alignment, "trailing");
+    let again = find_measured_again(&bench, &["--filter", "bevy:default"]);
+    assert_eq!(bench.read_run().common_alignment, "centred");
     let all = names([&BARS[..], &OF_FILTERS]);
     assert!(again.is_superset(&all), "{again:?}");
     // A narrower run keeps the wider run's shutter.
-    assert_eq!(measured_again(&bench, &[]), BTreeSet::new());
-    assert_eq!(bench.measured().common_alignment, "centred");
+    assert_eq!(find_measured_again(&bench, &[]), BTreeSet::new());
+    assert_eq!(bench.read_run().common_alignment, "centred");
 }
 
 #[test]
@@ -246,7 +250,7 @@ fn missing_truncated_and_altered_files_are_made_again() {
                 None => fs::remove_file(&path).unwrap(),
                 Some(bytes) => fs::write(&path, bytes).unwrap(),
             }
-            assert_eq!(measured_again(&bench, &[]), *expected, "{name}");
+            assert_eq!(find_measured_again(&bench, &[]), *expected, "{name}");
             assert!(contents(name) == whole, "{name} is not as it was");
             assert!(fs::read(bench.path("out/run.json")).unwrap() == run_json);
         }

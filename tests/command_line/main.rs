@@ -69,7 +69,7 @@ fn a_run_writes_scores_and_pictures_of_every_case() {
         "{table}"
     );
 
-    let run = bench.measured();
+    let run = bench.read_run();
     assert_eq!(
         (run.format, run.width, run.height, run.samples_per_pixel),
         (suite::FORMAT, 64, 32, 16)
@@ -190,7 +190,7 @@ fn the_number_of_threads_changes_no_byte() {
 #[test]
 fn any_filter_can_blur_a_rendered_frame() {
     let bench = Bench::new();
-    bench.done(&split("render --quiet --out r --scenes plate --samples-per-pixel 16 --alignments trailing,centred"));
+    bench.execute(&split("render --quiet --out r --scenes plate --samples-per-pixel 16 --alignments trailing,centred"));
     assert_eq!(
         frame::Truth::read(&bench.path("r/plate/truth_centred.exr"))
             .unwrap()
@@ -212,7 +212,7 @@ fn any_filter_can_blur_a_rendered_frame() {
             "--out",
             "blurred.exr",
         ];
-        bench.done(&words);
+        bench.execute(&words);
         let blurred = frame::read_exr(&bench.path("blurred.exr")).unwrap();
         assert_eq!(
             blurred.color("").unwrap() != frame.color,
@@ -242,7 +242,7 @@ fn an_engine_s_exr_needs_only_the_channels_and_an_exposure() {
         &file,
         &["engine.exr: has no attribute \"exposure\"", "--exposure"],
     );
-    bench.done(&[&words[..], &["--exposure", "0.5"]].concat());
+    bench.execute(&[&words[..], &["--exposure", "0.5"]].concat());
     fs::remove_file(bench.path("blurred.exr")).unwrap();
     let mut nan = ones.clone();
     nan.pixels[5 * 16 + 3] = f32::NAN;

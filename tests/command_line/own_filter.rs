@@ -71,7 +71,7 @@ fn the_guide_s_filter_runs_and_beats_the_identity() {
     write(&bench, None);
     assert!(block("wgsl").lines().count() <= 20);
     assert_done(&bench.run(&["--filters", "identity", "--filter", "my_blur"]));
-    let cases = bench.measured_filters();
+    let cases = bench.read_filter_cases();
     let flip = |case: usize| cases[case].scores.moving.flip.value().unwrap();
     assert_eq!(cases[1].filter, "my_blur");
     // A gather along the pixel's own velocity blurs the inside of the plate correctly, but not the smear outside it:
@@ -114,7 +114,7 @@ fn weights_that_depend_on_colour_give_no_matte_scores_and_say_why() {
         );
     bench.write_filter("bright", toml, &wgsl);
     assert_done(&bench.run(&["--filters", "identity", "--filter", "bright"]));
-    let [identity, bright] = &bench.measured_filters()[..] else {
+    let [identity, bright] = &bench.read_filter_cases()[..] else {
         panic!("two filters on one scene");
     };
     assert_eq!(identity.nonlinearity, Some(0.0));

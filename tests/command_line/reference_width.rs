@@ -48,7 +48,7 @@ fn set_up() -> Bench {
 /// Runs the filter and returns its case.
 fn measure_case(bench: &Bench, more: &[&str]) -> Case {
     assert_done(&bench.run(&[&["--filter", "mine"], more].concat()));
-    let mut cases = bench.measured().cases.into_iter();
+    let mut cases = bench.read_run().cases.into_iter();
     cases.find(|case| case.filter == "mine").unwrap()
 }
 
@@ -81,7 +81,7 @@ fn a_guard_band_is_not_part_of_the_width() {
 
     let words = split("blur --filter ./mine --frame out/plate/frame.exr --out");
     let blur = |out: &str, more: &[&str]| {
-        bench.done(&[&words[..], &[out], more].concat());
+        bench.execute(&[&words[..], &[out], more].concat());
         let file = frame::read_exr(&bench.path(out)).unwrap();
         file.color("").unwrap()
     };
@@ -96,8 +96,9 @@ fn a_guard_band_is_not_part_of_the_width() {
 #[test]
 fn every_command_that_runs_filters_scales_presets_unless_told_not_to() {
     let bench = set_up();
-    let json =
-        |words: &[&str]| -> serde_json::Value { serde_json::from_str(&bench.done(words)).unwrap() };
+    let json = |words: &[&str]| -> serde_json::Value {
+        serde_json::from_str(&bench.execute(words)).unwrap()
+    };
     let bench_words = split("bench --filters ./mine --size 64x32 --json --quiet");
     let radius = |more: &[&str]| {
         let done = json(&[&bench_words[..], more].concat());
@@ -137,7 +138,7 @@ fn a_tuned_preset_records_the_width_of_its_tuning() {
     );
     let preset = |more: &[&str]| {
         let _ = fs::remove_dir_all(bench.path("tuned"));
-        bench.done(&[&words[..], more].concat());
+        bench.execute(&[&words[..], more].concat());
         fs::read_to_string(bench.path("tuned/preset.toml")).unwrap()
     };
     let scaled = preset(&[]);

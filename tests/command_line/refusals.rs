@@ -157,7 +157,7 @@ fn bounds_of_an_unknown_metric_are_refused() {
     let bench = Bench::new();
     bench.write_bound(0.0001);
     assert_done(&bench.run(&["--filters", "identity"]));
-    assert_eq!(bench.findings().len(), 1);
+    assert_eq!(bench.read_findings().len(), 1);
     bench.write(
         "bounds.toml",
         "[default]\nflip = { limit = 0.1, why = \"it serves a test\" }\n",

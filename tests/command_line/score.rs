@@ -29,7 +29,7 @@ fn scores(bench: &Bench, image: &str, more: &[&str]) -> Scores {
 /// Runs one filter on the plate. Returns its scores without those of probes, which a picture cannot have.
 fn run(bench: &Bench, more: &[&str]) -> Scores {
     assert_done(&bench.run(&[&["--filters", "velocity_gather:fine"], more].concat()));
-    let mut scores = bench.measured_filters()[0].scores.clone();
+    let mut scores = bench.read_filter_cases()[0].scores.clone();
     scores.probes = ProbeScores::not_applicable("no probes were run through the filter");
     scores
 }
@@ -145,7 +145,7 @@ fn a_guard_band_is_cropped_from_the_picture() {
     let bench = Bench::new();
     let expected = run(&bench, &["--guard-band", "8"]);
     let words = ["blur", "--filter", "velocity_gather:fine", "--out", "b.exr"];
-    bench.done(&[&words[..], &FRAME].concat());
+    bench.execute(&[&words[..], &FRAME].concat());
     let found = scores(&bench, "b.exr", &[]);
     assert_eq!(found.moving, expected.moving);
     assert_eq!(found.full, expected.full);
@@ -161,7 +161,7 @@ fn mismatched_files_are_refused() {
     let bench = Bench::new();
     let words = ["--quiet", "--samples-per-pixel", "16", "--out"];
     let render = |more: &[&str]| {
-        bench.done(&[&["render"][..], &words, more].concat());
+        bench.execute(&[&["render"][..], &words, more].concat());
     };
     render(&["out", "--alignments", "trailing,centred"]);
     render(&["short", "--exposure", "0.25"]);
@@ -170,7 +170,7 @@ fn mismatched_files_are_refused() {
     render(&["out"]);
     let blur = |more: &[&str]| {
         let words = ["blur", "--filter", "velocity_gather", "--out", "b.exr"];
-        bench.done(&[&words[..], &FRAME, more].concat());
+        bench.execute(&[&words[..], &FRAME, more].concat());
     };
     let refused = |words: [&str; 6], parts: &[&str]| {
         assert_refused(

@@ -12,7 +12,7 @@ use crate::bench::{Bench, assert_refused, split, stderr, stdout};
 pub const SERVE: &str = "serve --quiet --filter jump_flood --objective flip --size 64x32 --samples-per-pixel 16 --out out";
 
 /// Sends the lines one by one and reads all answers.
-fn conversation(bench: &Bench, more: &[&str], lines: &[Value]) -> Vec<Value> {
+fn converse(bench: &Bench, more: &[&str], lines: &[Value]) -> Vec<Value> {
     let mut child = bench
         .command(&[&split(SERVE)[..], more].concat())
         .stdin(Stdio::piped())
@@ -39,7 +39,7 @@ fn conversation(bench: &Bench, more: &[&str], lines: &[Value]) -> Vec<Value> {
 #[test]
 fn a_request_gets_one_answer_per_scene_and_then_a_summary() {
     let bench = Bench::new();
-    let heard = conversation(&bench, &[], &[json!({"id": 7, "params": {"samples": 12}})]);
+    let heard = converse(&bench, &[], &[json!({"id": 7, "params": {"samples": 12}})]);
     assert_eq!(heard[0]["ready"], true);
     assert_eq!(heard[0]["scenes"], json!(["plate"]));
     assert_eq!(
@@ -59,7 +59,7 @@ fn a_request_gets_one_answer_per_scene_and_then_a_summary() {
 #[test]
 fn a_bad_request_gets_an_error_and_the_service_goes_on() {
     let bench = Bench::new();
-    let heard = conversation(
+    let heard = converse(
         &bench,
         &[],
         &[
@@ -96,7 +96,7 @@ fn a_bad_request_gets_an_error_and_the_service_goes_on() {
 #[test]
 fn a_cancelled_request_gets_no_summary() {
     let bench = Bench::new();
-    let heard = conversation(
+    let heard = converse(
         &bench,
         &[],
         &[

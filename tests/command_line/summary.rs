@@ -14,7 +14,7 @@ fn two_scenes() -> Bench {
 }
 
 fn names(bench: &Bench) -> Vec<String> {
-    let cases = bench.measured_filters();
+    let cases = bench.read_filter_cases();
     let names = cases
         .iter()
         .map(|case| format!("{} {}", case.scene, case.name()));
@@ -47,7 +47,7 @@ fn a_run_ranks_filters_in_at_most_40_lines_and_names_the_report() {
     assert!(page.contains("jump_flood"));
     let again = stdout(&bench.run(&["--jitter-frames", "0", "--table"]));
     assert!(again.lines().count() > 60, "{again}");
-    let cases = bench.measured().cases.len();
+    let cases = bench.read_run().cases.len();
     assert!(
         again.contains(&format!("cases: {cases}, {cases} of them read back")),
         "{again}"
@@ -89,7 +89,7 @@ fn a_narrower_run_keeps_the_cases_of_a_wider_one() {
     let mut sorted = before.clone();
     sorted.sort();
     assert_eq!(after, sorted);
-    assert_eq!(bench.measured().common_alignment, "centred");
+    assert_eq!(bench.read_run().common_alignment, "centred");
     // The report shows all of them.
     assert!(
         fs::read_to_string(bench.path("out/report.html"))
@@ -150,7 +150,7 @@ fn an_override_shows_in_the_name_the_folder_and_the_tables() {
     assert!(stdout(&output).contains(name), "{}", stdout(&output));
     let table = stdout(&bench.run(&[&words[..], &["--table"]].concat()));
     assert!(table.contains(name), "{table}");
-    let case = &bench.measured_filters()[0];
+    let case = &bench.read_filter_cases()[0];
     assert_eq!(case.name(), name);
     assert_eq!(
         case.folder.to_str(),

@@ -8,7 +8,7 @@ use crate::bench::{Bench, IDENTITY, assert_done, quick_command, stderr, stdout};
 const ESCAPE: char = '\u{1b}';
 
 /// Makes a bench whose scenes have a limit that the identity breaks.
-fn bounded() -> Bench {
+fn make_bounded() -> Bench {
     let bench = Bench::new();
     fs::write(
         bench.path("scenes/bounds.toml"),
@@ -33,7 +33,7 @@ fn assert_fits(text: &str) {
 
 #[test]
 fn output_fits_80_columns() {
-    let bench = bounded();
+    let bench = make_bounded();
     bench.copy_scene("a_scene_with_a_rather_long_name", |text| {
         text.replace("-1.6", "-0.8")
     });
@@ -58,7 +58,7 @@ fn output_fits_80_columns() {
 
 #[test]
 fn only_terminals_get_colours_and_no_color_disables_them() {
-    let bench = bounded();
+    let bench = make_bounded();
     let with = |variables: &[(&str, &str)], more: &[&str]| {
         let words = quick_command("check", "64");
         let mut command = bench.command(&[&words[..], &IDENTITY, more].concat());
@@ -85,7 +85,7 @@ fn only_terminals_get_colours_and_no_color_disables_them() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_terminal_shows_progress_and_respects_no_color() {
-    let bench = bounded();
+    let bench = make_bounded();
     bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
     // One replicate takes longer than the interval at which progress bars are redrawn.
     let words = quick_command("check", "2048");
@@ -148,7 +148,7 @@ fn a_short_run_prints_nothing_on_standard_error_without_a_terminal() {
 
 #[test]
 fn json_output_has_no_other_text() {
-    let bench = bounded();
+    let bench = make_bounded();
     let run = quick_command("run", "16");
     let run = [&run[..], &IDENTITY, &["--html", "page.html"]].concat();
     let check = quick_command("check", "64");

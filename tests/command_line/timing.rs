@@ -8,7 +8,7 @@ use crate::bench::{Bench, assert_refused, split};
 #[test]
 fn a_bench_prints_and_writes_the_same_times() {
     let bench = Bench::new();
-    let table = bench.done(&split(
+    let table = bench.execute(&split(
         "bench --quiet --as-written --size 32x16 --filters jump_flood_packed:paper,identity",
     ));
     assert_contains(

@@ -20,7 +20,7 @@ const PAINTS: &str = "newmtl paint\nKd 0 0 0\nKe 0.7 0.4 0.2\nnewmtl other\nKd 0
 
 fn measure(bench: &Bench, more: &[&str]) -> suite::Run {
     assert_done(&bench.run(&[&["--filters", "velocity_gather:fine"], more].concat()));
-    bench.measured()
+    bench.read_run()
 }
 
 /// Returns the filter's squared error over the whole picture.

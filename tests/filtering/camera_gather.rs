@@ -57,7 +57,7 @@ fn render_frame(guard_band: u32) -> Frame {
     trace_frame(&flight(), &settings, &unwatched).expect("settings are allowed")
 }
 
-fn blurred(gpu: &Gpu, filter: &str, preset: &str, frame: &Frame) -> Image {
+fn blur_frame(gpu: &Gpu, filter: &str, preset: &str, frame: &Frame) -> Image {
     let filter = Filter::builtin(filter).unwrap();
     let settings = filter.settings(Some(preset)).unwrap();
     let (width, height) = frame.size();
@@ -85,8 +85,8 @@ fn depth_and_the_previous_camera_give_the_camera_s_velocity() {
             "the camera moves: {fastest} pixels per frame"
         );
         // Both take the same eight taps.
-        let rebuilt = blurred(&gpu, "camera_gather", "default", &frame);
-        let given = blurred(&gpu, "velocity_gather", "coarse", &frame);
+        let rebuilt = blur_frame(&gpu, "camera_gather", "default", &frame);
+        let given = blur_frame(&gpu, "velocity_gather", "coarse", &frame);
         let differences = rebuilt.pixels.iter().zip(&given.pixels);
         let worst = differences
             .map(|(a, b)| (a[0] - b[0]).abs())

@@ -15,7 +15,7 @@ pub struct Field {
 
 impl Field {
     /// Runs a filter on the field; returns its picture.
-    pub fn blurred(&self, blur: &mut Blur, exposure: f64, frame_index: u32) -> Image {
+    pub fn blur(&self, blur: &mut Blur, exposure: f64, frame_index: u32) -> Image {
         let input = Input {
             color: &[&self.color],
             velocity: &self.velocity,

@@ -106,16 +106,10 @@ struct Painted {
     reached: Option<(usize, usize)>,
 }
 
-fn painted(
-    gpu: &Gpu,
-    filter: &Filter,
-    settings: &Settings,
-    field: &Field,
-    exposure: f64,
-) -> Painted {
+fn paint(gpu: &Gpu, filter: &Filter, settings: &Settings, field: &Field, exposure: f64) -> Painted {
     let (width, height) = (field.color.width, field.color.height);
     let mut blur = Blur::new(gpu, filter, settings, width, height).unwrap();
-    let output = field.blurred(&mut blur, exposure, 5);
+    let output = field.blur(&mut blur, exposure, 5);
     let seeds = blur.read_texture("seeds").unwrap().pixels;
     let packed = filter.name == "jump_flood_packed";
     // A map of 16 bits gives the position that it stores instead.
@@ -176,8 +170,8 @@ fn seeds_and_pixels_equal_the_jump_flood_s() {
             });
             for (name, field, exposure) in frames() {
                 let said = format!("{} {changes:?} on {name}", preset.name);
-                let expected = painted(&gpu, &plain, &plain_settings, &field, exposure);
-                let found = painted(&gpu, &packed, &packed_settings, &field, exposure);
+                let expected = paint(&gpu, &plain, &plain_settings, &field, exposure);
+                let found = paint(&gpu, &packed, &packed_settings, &field, exposure);
                 let pairs = || expected.seeds.iter().zip(&found.seeds);
                 let other_seeds = pairs().filter(|(a, b)| a != b).count();
                 let pixels = expected.output.pixels.iter().zip(&found.output.pixels);
@@ -218,7 +212,7 @@ fn tiles_that_no_trail_reaches_are_skipped() {
     for preset in &packed.presets {
         let settings = packed.settings(Some(&preset.name)).unwrap();
         let field = sparse(200, 120);
-        let (reached, tiles) = painted(&gpu, &packed, &settings, &field, 1.0)
+        let (reached, tiles) = paint(&gpu, &packed, &settings, &field, 1.0)
             .reached
             .unwrap();
         assert_eq!(tiles, 13 * 8);

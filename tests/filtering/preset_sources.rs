@@ -74,7 +74,7 @@ fn load_unchanged() -> Filter {
     load_changed("", "").unwrap()
 }
 
-fn scaled(filter: &Filter, settings: &Settings, width: u32) -> [Value; 3] {
+fn scale(filter: &Filter, settings: &Settings, width: u32) -> [Value; 3] {
     let values = settings.scaled_to(filter, width).values;
     ["tile_size", "threshold", "samples"].map(|name| values[name].clone())
 }
@@ -156,16 +156,16 @@ fn only_parameters_in_pixels_can_be_scaled() {
 fn lengths_scale_with_the_width_and_are_rounded_within_their_range() {
     let filter = load_unchanged();
     let engine = filter.settings(Some("engine")).unwrap();
-    assert_eq!(scaled(&filter, &engine, 1920), values(20, 1.5, 9));
-    assert_eq!(scaled(&filter, &engine, 960), values(10, 0.75, 9));
+    assert_eq!(scale(&filter, &engine, 1920), values(20, 1.5, 9));
+    assert_eq!(scale(&filter, &engine, 960), values(10, 0.75, 9));
     // 20 x 600 / 1920 = 6.25 and 20 x 1000 / 1920 = 10.42.
-    assert_eq!(scaled(&filter, &engine, 600)[0], Value::Integer(6));
-    assert_eq!(scaled(&filter, &engine, 1000)[0], Value::Integer(10));
+    assert_eq!(scale(&filter, &engine, 600)[0], Value::Integer(6));
+    assert_eq!(scale(&filter, &engine, 1000)[0], Value::Integer(10));
     // 1.67 tiles and 0.125 pixels lie below the ranges; 400 and 30 lie above.
-    assert_eq!(scaled(&filter, &engine, 160), values(2, 0.25, 9));
-    assert_eq!(scaled(&filter, &engine, 38_400), values(256, 4.0, 9));
+    assert_eq!(scale(&filter, &engine, 160), values(2, 0.25, 9));
+    assert_eq!(scale(&filter, &engine, 38_400), values(256, 4.0, 9));
     let anywhere = filter.settings(Some("anywhere")).unwrap();
-    assert_eq!(scaled(&filter, &anywhere, 160), values(20, 1.5, 8));
+    assert_eq!(scale(&filter, &anywhere, 160), values(20, 1.5, 8));
 }
 
 #[test]
@@ -173,12 +173,12 @@ fn a_user_s_value_is_not_scaled_and_no_value_is_scaled_twice() {
     let filter = load_unchanged();
     let mut settings = filter.settings(Some("engine")).unwrap();
     settings.set(&filter, "tile_size", "20").unwrap();
-    assert_eq!(scaled(&filter, &settings, 960), values(20, 0.75, 9));
+    assert_eq!(scale(&filter, &settings, 960), values(20, 0.75, 9));
     let once = settings.scaled_to(&filter, 960);
     assert_eq!(once.scaled_to(&filter, 480), once);
     let value = Value::Real(1.5);
     settings.set_value(&filter, "threshold", value).unwrap();
-    assert_eq!(scaled(&filter, &settings, 960), values(20, 1.5, 9));
+    assert_eq!(scale(&filter, &settings, 960), values(20, 1.5, 9));
 }
 
 #[test]
@@ -186,5 +186,5 @@ fn nothing_is_scaled_as_written() {
     let filter = load_unchanged();
     let settings = filter.settings(Some("engine")).unwrap().as_written();
     assert_eq!(settings.reference_width, None);
-    assert_eq!(scaled(&filter, &settings, 160), values(20, 1.5, 9));
+    assert_eq!(scale(&filter, &settings, 160), values(20, 1.5, 9));
 }

@@ -97,7 +97,7 @@ fn observe(target: &Target, words: &[String], input: &Path, terms: &Terms) -> En
     let failed = match (panic, status.success()) {
         (Some(text), _) => failed(How::Panic(text), case),
         (None, true) => None,
-        (None, false) => failed(How::Ended(said(&status, stderr.path())), case),
+        (None, false) => failed(How::Ended(describe_end(&status, stderr.path())), case),
     };
     Ended { failed, slowest }
 }
@@ -149,7 +149,7 @@ fn end(child: &mut Child) {
 }
 
 /// Describes the end: `signal 6: memory allocation of 5368709120 bytes failed`.
-fn said(status: &ExitStatus, stderr: &Path) -> String {
+fn describe_end(status: &ExitStatus, stderr: &Path) -> String {
     let text = std::fs::read(stderr).unwrap_or_default();
     let text = String::from_utf8_lossy(&text);
     let lines: Vec<&str> = text

@@ -61,7 +61,7 @@ impl Place {
     }
 
     /// Copies a folder of the fixture to `name` below the cases' folder, once.
-    pub fn copied(&self, name: &str) -> PathBuf {
+    pub fn copy(&self, name: &str) -> PathBuf {
         let own = self.folder.join(name);
         if !own.exists() {
             fixture::copy(&self.fixture.join(name), &own);
@@ -70,9 +70,9 @@ impl Place {
     }
 
     /// Copies a folder of the fixture again.
-    pub fn copied_anew(&self, name: &str) -> PathBuf {
+    pub fn copy_again(&self, name: &str) -> PathBuf {
         let _ = fs::remove_dir_all(self.folder.join(name));
-        self.copied(name)
+        self.copy(name)
     }
 
     /// Panics if a case changed a file beside its folder.

@@ -43,7 +43,7 @@ pub fn in_repository(path: &str) -> PathBuf {
 }
 
 /// Reads as seeds the files below a folder of the repository whose names end this way.
-pub fn shipped(folder: &str, end: &str) -> Vec<Seed> {
+pub fn read_shipped(folder: &str, end: &str) -> Vec<Seed> {
     let folders = files(&in_repository(folder)).flat_map(|path| match path.is_dir() {
         true => files(&path).collect(),
         false => vec![path],

@@ -10,7 +10,7 @@ use suite::{JudgedScore, Level, Monitor, Outcome, RenderSettings, SceneBounds};
 use tests::scenes;
 use tests::text::assert_contains;
 
-use crate::kept_truths;
+use crate::lock_truths;
 
 /// Scenes in which nothing moves farther than the bounds allow. The tests of the catalogue show by changed pixels what
 /// these scenes expose.
@@ -67,7 +67,7 @@ fn the_identity_breaks_a_bound_in_every_moving_scene_and_64_subframes_break_none
     let choices = cli::select_scenes(&scenes(), &[]).unwrap();
     assert!(choices.len() >= 5, "the shipped scenes are missing");
     let mut failures = Vec::new();
-    let (out, _own) = kept_truths();
+    let (out, _own) = lock_truths();
     for choice in &choices {
         let [identity, accumulation] = judge_bars(choice, &out);
         let broken =

@@ -11,7 +11,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Locks and returns the folder of truths, which stay from one run of the tests to the next: two tests that need the
 /// same truths render them once.
-fn kept_truths() -> (PathBuf, MutexGuard<'static, ()>) {
+fn lock_truths() -> (PathBuf, MutexGuard<'static, ()>) {
     static IN_USE: Mutex<()> = Mutex::new(());
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("truths");
     (

@@ -7,7 +7,7 @@ use suite::{
 };
 use tests::open_gpu;
 
-use crate::kept_truths;
+use crate::lock_truths;
 
 /// Filters with required bounds.
 const GUARDED: [&str; 4] = [
@@ -32,7 +32,7 @@ fn guarded_filters_keep_their_required_bounds_on_every_scene() {
         })
         .collect();
     let (width, height) = (size_for_bounds(bounds.values(), &filters, None).unwrap()).unwrap();
-    let (out, _own) = kept_truths();
+    let (out, _own) = lock_truths();
     let plan = RunPlan {
         scenes: choices.into_iter().map(|choice| choice.scene).collect(),
         filters,

@@ -171,7 +171,7 @@ fn trailing_mirrored_in_time_is_leading() {
         motion.clone(),
     );
     let mut back = scene.clone();
-    back.objects[0].motion = mirrored_in_time(&motion);
+    back.objects[0].motion = mirror_in_time(&motion);
     let trailing = render_truth(&scene, 0.7, Alignment::Trailing);
     let leading = render_truth(&back, 0.7, Alignment::Leading);
     let mut between = coverage_estimates(&trailing, |x, y| {
@@ -186,7 +186,7 @@ fn trailing_mirrored_in_time_is_leading() {
 }
 
 /// Returns the motion whose pose at `t` is the given one's at `-t`; keys at 0 and 1.
-fn mirrored_in_time(motion: &Motion) -> Motion {
+fn mirror_in_time(motion: &Motion) -> Motion {
     let [start, end] = [&motion.keys[0], &motion.keys[1]];
     let mut back = motion.clone();
     back.keys[1].translation = 2.0 * start.translation - end.translation;

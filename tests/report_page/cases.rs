@@ -5,7 +5,7 @@ use crate::browser::Browser;
 use crate::{make_page, open_case, press, settle};
 
 /// Makes a run of two filters with one shutter, and its page.
-fn bench() -> (Bench, std::path::PathBuf) {
+fn set_up() -> (Bench, std::path::PathBuf) {
     let bench = Bench::new();
     assert_done(&bench.run(&[
         "--filters",
@@ -32,7 +32,7 @@ fn pick(browser: &mut Browser, side: &str, picture: &str) {
 
 #[test]
 fn any_filter_can_be_compared_with_any_other() {
-    let (_bench, page) = bench();
+    let (_bench, page) = set_up();
     let mut browser = Browser::new(1280, 900);
     open_case(&mut browser, &page, "plate/identity:default");
     let own = canvas(&mut browser, "under");
@@ -73,7 +73,7 @@ fn any_filter_can_be_compared_with_any_other() {
 
 #[test]
 fn a_link_opens_the_same_view() {
-    let (_bench, page) = bench();
+    let (_bench, page) = set_up();
     let mut browser = Browser::new(1280, 900);
     open_case(&mut browser, &page, "plate/velocity_gather:fine");
     pick(&mut browser, "left", "identity:default");
@@ -109,7 +109,7 @@ fn a_link_opens_the_same_view() {
 
 #[test]
 fn blink_goes_on_until_it_is_stopped() {
-    let (_bench, page) = bench();
+    let (_bench, page) = set_up();
     let mut browser = Browser::new(1280, 900);
     open_case(&mut browser, &page, "plate/velocity_gather:fine");
     let swapped = "document.getElementById('viewer').hasAttribute('data-swapped')";
@@ -132,7 +132,7 @@ fn blink_goes_on_until_it_is_stopped() {
 
 #[test]
 fn wheel_and_worst_place_zoom_and_the_zoom_is_shown() {
-    let (_bench, page) = bench();
+    let (_bench, page) = set_up();
     let mut browser = Browser::new(1280, 900);
     open_case(&mut browser, &page, "plate/identity:default");
     let zoom = "document.querySelector('.zoom').textContent";
@@ -161,7 +161,7 @@ fn wheel_and_worst_place_zoom_and_the_zoom_is_shown() {
 
 #[test]
 fn score_and_picture_are_on_the_first_screen() {
-    let (_bench, page) = bench();
+    let (_bench, page) = set_up();
     let mut browser = Browser::new(1440, 900);
     for (width, height) in [(1440, 900), (800, 600), (390, 844)] {
         browser.resize(width, height);
@@ -184,7 +184,7 @@ fn score_and_picture_are_on_the_first_screen() {
 
 #[test]
 fn printed_pages_show_both_pictures_whole() {
-    let (_bench, page) = bench();
+    let (_bench, page) = set_up();
     let mut browser = Browser::new(1000, 900);
     open_case(
         &mut browser,

@@ -24,7 +24,7 @@ fn make_page(bench: &Bench) -> PathBuf {
 
 fn make_page_within(bench: &Bench, largest: usize) -> PathBuf {
     let html = bench.path("page/a report.html");
-    let (run, findings) = (bench.measured(), bench.findings());
+    let (run, findings) = (bench.read_run(), bench.read_findings());
     let page = report(&run, &findings, &bench.path("out"), &html, largest).unwrap();
     page.write().unwrap();
     html
@@ -32,7 +32,7 @@ fn make_page_within(bench: &Bench, largest: usize) -> PathBuf {
 
 /// Returns the case of a filter on the only scene.
 fn case_of(bench: &Bench, name: &str) -> suite::Case {
-    let mut cases = bench.measured().cases.into_iter();
+    let mut cases = bench.read_run().cases.into_iter();
     cases
         .find(|case| case.name() == name && !case.is_reference)
         .unwrap()
@@ -62,7 +62,7 @@ fn a_page_opens_without_complaint_and_asks_for_nothing_else() {
     let page = make_page(&bench);
     let mut browser = Browser::new(1280, 900);
     browser.open(&page, "");
-    for case in bench.measured().cases {
+    for case in bench.read_run().cases {
         let reference = if case.is_reference { "@trailing" } else { "" };
         let address = format!("{}/{}{reference}", case.scene, case.name());
         browser.value(&format!("location.hash = '#{address}'"));
@@ -241,7 +241,7 @@ fn a_broken_bound_is_seen_with_its_place_and_its_pictures() {
         canvas(1),
         canvas(2)
     ));
-    let worst = bench.findings()[0].worst.clone().unwrap();
+    let worst = bench.read_findings()[0].worst.clone().unwrap();
     browser.value("document.querySelector('article.open button.place').click()");
     read_out(&mut browser, worst.x, worst.y);
     assert_eq!(

@@ -17,7 +17,7 @@ fn the_search_filters_rows_and_references_show_on_request() {
     let bench = Bench::new();
     const FILTERS: [&str; 2] = ["--filters", "identity,velocity_gather:fine"];
     assert_done(&bench.run(&FILTERS));
-    let errors = bench.measured_filters();
+    let errors = bench.read_filter_cases();
     let errors = errors
         .iter()
         .map(|case| case.scores.moving.flip.value().unwrap());

@@ -18,7 +18,7 @@ const REPLICATES: u64 = 8;
 /// Number of noisy truths that are traced.
 const TRACED_SEEDS: u64 = 48;
 
-fn scores(picture: &Picture, frame: &Frame, truth: &Truth) -> Scores {
+fn measure_scores(picture: &Picture, frame: &Frame, truth: &Truth) -> Scores {
     let reference = Reference::new(frame, truth, None, &frame.display.into()).unwrap();
     reference.measure(picture).unwrap().scores
 }
@@ -29,11 +29,15 @@ type Found = (Vec<Intervals>, Scores);
 /// Computes the intervals of a picture's scores from the replicates of one noisy truth.
 fn intervals_of(picture: &Picture, frame: &Frame, replicates: &[Replicate]) -> Intervals {
     let without: Vec<Scores> = (truths_without_pairs(replicates).unwrap().iter())
-        .map(|part| scores(picture, frame, part))
+        .map(|part| measure_scores(picture, frame, part))
         .collect();
     assert_eq!(without.len() as u64, REPLICATES / 2);
     let truth = Truth::of(replicates).unwrap();
-    intervals(&scores(picture, frame, &truth), &without, Metric::all())
+    intervals(
+        &measure_scores(picture, frame, &truth),
+        &without,
+        Metric::all(),
+    )
 }
 
 fn measure_intervals(blur: &Blur) -> Found {
@@ -48,7 +52,7 @@ fn measure_intervals(blur: &Blur) -> Found {
             intervals_of(&picture, &frame, &scene.replicates(samplings))
         })
         .collect();
-    (found, scores(&picture, &frame, &converged))
+    (found, measure_scores(&picture, &frame, &converged))
 }
 
 /// Does the same for a scene of perspective, light and shadow, whose truths are traced as a user's are. The picture is
@@ -74,7 +78,7 @@ fn trace_intervals() -> Found {
     let converged = settings(2048, 1000);
     let truth = trace_truth(&scene, &converged, &unwatched).unwrap();
     let ladder = trace_ladder(&scene, &converged, &truth, &[8], &unwatched).unwrap();
-    let picture = moved(&Picture::mean(&ladder.rungs[0].halves));
+    let picture = shift(&Picture::mean(&ladder.rungs[0].halves));
     let found = (0..TRACED_SEEDS)
         .into_par_iter()
         .map(|seed| {
@@ -85,19 +89,19 @@ fn trace_intervals() -> Found {
             intervals_of(&picture, &frame, &replicates)
         })
         .collect();
-    (found, scores(&picture, &frame, &truth))
+    (found, measure_scores(&picture, &frame, &truth))
 }
 
 /// Moves a picture one pixel right and three down.
-fn moved(picture: &Picture) -> Picture {
-    fn moved<T: Clone>(raster: &Raster<T>) -> Raster<T> {
+fn shift(picture: &Picture) -> Picture {
+    fn shift_raster<T: Clone>(raster: &Raster<T>) -> Raster<T> {
         Raster::from_fn(raster.width, raster.height, |x, y| {
             raster.at(x.saturating_sub(1), y.saturating_sub(3)).clone()
         })
     }
     Picture {
-        color: moved(&picture.color),
-        coverage: picture.coverage.iter().map(moved).collect(),
+        color: shift_raster(&picture.color),
+        coverage: picture.coverage.iter().map(shift_raster).collect(),
     }
 }
 

@@ -37,7 +37,7 @@ fn varied_scene() -> (Scene, Blur) {
 
 /// Remaps frame, truth and output pixel by pixel: `source` gives the pixel that each new one is taken from, `turn`
 /// changes screen vectors.
-fn remapped(
+fn remap(
     width: u32,
     height: u32,
     source: impl Fn(u32, u32) -> [u32; 2],
@@ -128,11 +128,11 @@ fn assert_same_scores(found: &Scores, expected: &Scores, metrics: &[Metric], tol
 
 #[test]
 fn a_mirrored_or_turned_scene_has_the_same_scores() {
-    let same = remapped(80, 60, |x, y| [x, y], |v| v);
-    let mirrored = remapped(80, 60, |x, y| [79 - x, y], |[x, y]| [-x, y]);
-    let flipped = remapped(80, 60, |x, y| [x, 59 - y], |[x, y]| [x, -y]);
+    let same = remap(80, 60, |x, y| [x, y], |v| v);
+    let mirrored = remap(80, 60, |x, y| [79 - x, y], |[x, y]| [-x, y]);
+    let flipped = remap(80, 60, |x, y| [x, 59 - y], |[x, y]| [x, -y]);
     // The new pixel (x, y) is the old (y, 59 - x): a quarter turn clockwise, +x becomes +y.
-    let turned = remapped(60, 80, |x, y| [y, 59 - x], |[x, y]| [-y, x]);
+    let turned = remap(60, 80, |x, y| [y, 59 - x], |[x, y]| [-y, x]);
     // Regions follow the height, which a turn changes, so only scores of mattes can be compared.
     let mattes = ObjectMetric::ALL[..11].iter().copied().map(Metric::Object);
     let mattes: Vec<Metric> = mattes.collect();

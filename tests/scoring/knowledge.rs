@@ -20,7 +20,7 @@ fn measure_scores(frame: &Frame, truth: &Truth, output: &Picture) -> Scores {
     measured.expect("a finite picture").scores
 }
 
-fn brighter(image: &Image, by: f32, where_: impl Fn(u32, u32) -> bool) -> Image {
+fn brighten(image: &Image, by: f32, where_: impl Fn(u32, u32) -> bool) -> Image {
     Raster::from_fn(image.width, image.height, |x, y| {
         let add = if where_(x, y) { by } else { 0.0 };
         image.at(x, y).map(|c| c + add)
@@ -41,7 +41,7 @@ fn errors_are_split_into_knowable_and_unknowable() {
     assert!(count(&pools.knowable) > 100 && count(&pools.unknowable) > 100);
     let mean = truth.mean();
     let guessed = Picture {
-        color: brighter(&mean.color, 0.1, |x, _| x >= 36),
+        color: brighten(&mean.color, 0.1, |x, _| x >= 36),
         ..mean.clone()
     };
     let scores = measure_scores(&frame, &truth, &guessed);
@@ -90,7 +90,7 @@ fn a_change_at_still_pixels_is_contamination() {
     let moving = regions(&truth).moving;
     let mean = truth.mean();
     let changed = |by: f32, what: bool| Picture {
-        color: brighter(&mean.color, by, |x, y| *moving.at(x, y) == what),
+        color: brighten(&mean.color, by, |x, y| *moving.at(x, y) == what),
         ..mean.clone()
     };
     for (picture, expected) in [(changed(0.05, false), 0.05), (changed(0.5, true), 0.0)] {
@@ -115,7 +115,7 @@ fn instant(frame: &Frame) -> Picture {
 }
 
 /// Mixes two pictures, `part` of the way to the second.
-fn between(first: &Picture, second: &Picture, part: f32) -> Picture {
+fn mix(first: &Picture, second: &Picture, part: f32) -> Picture {
     let mixed = |a: f32, b: f32| (1.0 - part) * a + part * b;
     Picture {
         color: first.color.zip(&second.color, |a, b| {
@@ -131,7 +131,7 @@ fn between(first: &Picture, second: &Picture, part: f32) -> Picture {
 fn skill_is_the_share_of_the_way_from_doing_nothing_to_the_one_frame_oracle() {
     let (frame, truth) = frame_and_truth();
     let nothing = instant(&frame);
-    let oracle = between(&nothing, &truth.mean(), 0.75);
+    let oracle = mix(&nothing, &truth.mean(), 0.75);
     let reference = make_reference(&frame, &truth).with_best(&oracle).unwrap();
     let scores_of = |picture: &Picture| reference.measure(picture).unwrap().scores;
     for (picture, expected) in [(&nothing, 0.0), (&oracle, 1.0)] {
@@ -145,7 +145,7 @@ fn skill_is_the_share_of_the_way_from_doing_nothing_to_the_one_frame_oracle() {
     }
     // Half of the way to the truth leaves half of the pixels' time with the wrong object, and the oracle leaves a
     // quarter. Squared errors leave the squares of both.
-    let half = scores_of(&between(&nothing, &truth.mean(), 0.5));
+    let half = scores_of(&mix(&nothing, &truth.mean(), 0.5));
     assert!((find_value(&half, "skill_label_tv") - 0.5 / 0.75).abs() < 1e-5);
     assert!((find_value(&half, "skill_mse") - 0.75 / (1.0 - 1.0 / 16.0)).abs() < 1e-5);
     // The truth is better than any one-frame oracle. A negative with mover and background exchanged is worse than doing
@@ -178,7 +178,7 @@ fn skill_needs_an_oracle_that_beats_doing_nothing() {
 }
 
 /// Returns the probes after a gather that takes `taps` (offset in whole pixels, weight) at every pixel.
-fn gathered(taps: &[([i32; 2], f32)]) -> Probes {
+fn gather_probes(taps: &[([i32; 2], f32)]) -> Probes {
     // Far enough from the border that all taps stay in the picture.
     let images = Probes::images(72, 48);
     let outputs = images.each_ref().map(|image| -> Image {
@@ -208,7 +208,7 @@ fn probes_locate_a_filter_s_taps() {
             .map(|_| [9.0 + 1.0 + 1.0 / 12.0, 0.0, 1.0 / 12.0]);
     }
     let reference = make_reference(&frame, &truth);
-    let measured = |taps: &[([i32; 2], f32)]| reference.measure_probes(&gathered(taps)).scores;
+    let measured = |taps: &[([i32; 2], f32)]| reference.measure_probes(&gather_probes(taps)).scores;
     let number = |measured: &Measured| measured.value().unwrap();
 
     let right = measured(&[([2, 0], 0.5), ([4, 0], 0.5)]);

@@ -37,7 +37,7 @@ fn any_scores() -> Scores {
     reference.measure(&truth.mean()).unwrap().scores
 }
 
-fn case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common): Entry) -> Case {
+fn make_case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common): Entry) -> Case {
     let of = |name: &str| {
         let own = ENTRIES
             .iter()
@@ -79,7 +79,7 @@ fn case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common): Ent
 fn make_run() -> Run {
     let scores = any_scores();
     let cases: Vec<Case> = (0..SCENES.len())
-        .flat_map(|scene| ENTRIES.map(|entry| case(scene, &scores, entry)))
+        .flat_map(|scene| ENTRIES.map(|entry| make_case(scene, &scores, entry)))
         .collect();
     Run {
         format: FORMAT,
@@ -119,7 +119,7 @@ fn rows(text: &str, from: &str, to: &str) -> Vec<String> {
 }
 
 /// Prints the run's table without colour codes.
-fn printed(run: &Run) -> String {
+fn print_table(run: &Run) -> String {
     let mut text = String::new();
     for (index, part) in run_table(run).split('\u{1b}').enumerate() {
         text += match index {
@@ -142,7 +142,7 @@ fn a_trailing_filter_of_more_skill_ranks_above_a_centred_one_of_less_flip() {
         (skill[0] - 0.6545).abs() < 1e-3 && (skill[1] - 0.5154).abs() < 1e-3,
         "{skill:?}"
     );
-    let text = printed(&run);
+    let text = print_table(&run);
     let (_, ranking) = text.rsplit_once("mean over 5 scenes").unwrap();
     let place = |name: &str| ranking.find(name).expect(name);
     assert!(
@@ -162,7 +162,7 @@ fn a_filter_worse_than_doing_nothing_ranks_below_it() {
     assert!(skill.interval[1] < 0.0);
     // Its FLIP is nevertheless smaller than the identity's against the trailing truth.
     assert!(mean(&run, "jimenez:wicked", "flip_moving").mean < 0.270);
-    let text = printed(&run);
+    let text = print_table(&run);
     let (_, ranking) = text.rsplit_once("mean over 5 scenes").unwrap();
     let (ranking, _) = ranking.split_once("Skill is by").unwrap();
     let last = ranking.rfind("[identity]").unwrap();
@@ -171,7 +171,7 @@ fn a_filter_worse_than_doing_nothing_ranks_below_it() {
 
 #[test]
 fn a_ranking_by_flip_stays_within_a_shutter_and_shows_its_references() {
-    let text = printed(&make_run());
+    let text = print_table(&make_run());
     let (_, means) = text.split_once("mean over 5 scenes").unwrap();
     let (means, _) = means.split_once("mean over 5 scenes").unwrap();
     assert_eq!(
@@ -197,7 +197,7 @@ fn a_ranking_by_flip_stays_within_a_shutter_and_shows_its_references() {
 fn skill_over_scenes_is_a_ratio_of_means() {
     let scores = any_scores();
     let mut cases: Vec<Case> = (0..2)
-        .flat_map(|scene| ENTRIES.map(|entry| case(scene, &scores, entry)))
+        .flat_map(|scene| ENTRIES.map(|entry| make_case(scene, &scores, entry)))
         .collect();
     // On the second scene nothing can be gained, and the filter's gain there is noise: ten times nearly nothing.
     for case in cases.iter_mut().filter(|case| case.scene == "scene_1") {
@@ -222,13 +222,13 @@ fn skill_over_scenes_is_a_ratio_of_means() {
 #[test]
 fn scenes_without_skill_are_counted() {
     let mut run = make_run();
-    assert!(!printed(&run).contains("Scenes that skill applies to"));
+    assert!(!print_table(&run).contains("Scenes that skill applies to"));
     let centred = run.cases.iter_mut();
     for case in centred.filter(|case| case.scene == "scene_2" && case.alignment == "centred") {
         case.scores.skill.flip = Measured::not_applicable("it serves a test");
     }
     run.overall = overall(&run.cases);
-    let text = printed(&run);
+    let text = print_table(&run);
     assert!(
         text.contains("Scenes that skill applies to: 4 of 5 centred."),
         "{text}"
@@ -259,7 +259,7 @@ fn bleed_is_the_largest_of_three_and_names_its_side() {
     for (side, pixels) in sides.into_iter().zip([0.0, 4.8, 4.7]) {
         *side = Measured::score(pixels, 0.0);
     }
-    let ahead = printed(&run);
+    let ahead = print_table(&run);
     let line = |text: &str| {
         let mut lines = text.lines();
         lines
@@ -271,12 +271,16 @@ fn bleed_is_the_largest_of_three_and_names_its_side() {
     let mover = &mut run.cases[6].scores.objects[0];
     mover.bleed_trailing = Measured::score(14.72, 0.0);
     assert!(
-        line(&printed(&run)).contains(" 14.7< "),
+        line(&print_table(&run)).contains(" 14.7< "),
         "{}",
-        printed(&run)
+        print_table(&run)
     );
     let mover = &mut run.cases[6].scores.objects[0];
     mover.bleed_lateral = Measured::score(15.0, 0.0);
-    assert!(line(&printed(&run)).contains(" 15.0 "), "{}", printed(&run));
+    assert!(
+        line(&print_table(&run)).contains(" 15.0 "),
+        "{}",
+        print_table(&run)
+    );
     assert!(ahead.contains("ahead (>)"), "{ahead}");
 }

@@ -83,7 +83,7 @@ impl Picture {
     }
 
     /// Runs a filter with parameters set as on the command line, and returns its output.
-    pub fn blurred(&self, filter: &str, preset: &str, overrides: &[(&str, &str)]) -> Image {
+    pub fn blur(&self, filter: &str, preset: &str, overrides: &[(&str, &str)]) -> Image {
         let (filter, settings) = settings(filter, preset, overrides);
         let (width, height) = (self.color.width, self.color.height);
         let gpu = open_gpu();

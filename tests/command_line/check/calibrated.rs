@@ -2,12 +2,12 @@
 
 use std::fs;
 
-use super::{assert_ends, bounded};
+use super::{assert_ends, make_bounded};
 use crate::bench::{assert_done, split, stdout};
 
 #[test]
 fn calibrated_limits_pass_the_filter_and_fail_a_worse_one() {
-    let bench = bounded(0.9, "required");
+    let bench = make_bounded(0.9, "required");
     let words = split(
         "calibrate --quiet --out calibrated --size 64x32 --samples-per-pixel 64 --runs 2 --filters \
          velocity_gather:fine --metrics flip_moving,misplacement,bleed_leading,extent,psnr_moving",

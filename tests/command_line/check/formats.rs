@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Output;
 
-use super::{IDENTITY, assert_ends, bounded, json};
+use super::{IDENTITY, assert_ends, json, make_bounded};
 use crate::bench::{Bench, quick_command};
 
 #[test]
@@ -106,7 +106,7 @@ fn github_gets_at_most_ten_annotations_and_a_full_summary() {
 
 #[test]
 fn json_holds_the_same_verdict() {
-    let bench = bounded(0.2, "required");
+    let bench = make_bounded(0.2, "required");
     let found = json(&bench, &[]);
     assert_eq!(found["format"], suite::CHECK_FORMAT);
     assert_eq!(found["decision"], "broken");

@@ -10,7 +10,7 @@ use std::process::Output;
 use crate::bench::{Bench, IDENTITY, stderr, stdout};
 
 /// Makes a bench whose scene bounds the identity's `flip_moving`; the identity scores about 0.3.
-fn bounded(limit: f64, level: &str) -> Bench {
+fn make_bounded(limit: f64, level: &str) -> Bench {
     let bench = Bench::new();
     bench.write("bounds.toml", &bound("flip_moving", limit, level));
     bench

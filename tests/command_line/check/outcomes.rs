@@ -2,18 +2,18 @@
 
 use std::fs;
 
-use super::{IDENTITY, assert_ends, bound, bounded, json, verdict};
+use super::{IDENTITY, assert_ends, bound, json, make_bounded, verdict};
 use crate::bench::{Bench, SCENE, assert_refused};
 
 #[test]
 fn scores_within_their_bounds_pass() {
-    let bench = bounded(0.9, "required");
+    let bench = make_bounded(0.9, "required");
     let text = assert_ends(&bench.check(&IDENTITY), 0, &["1 required bound: 1 kept"]);
     assert!(
         !text.contains("plate /"),
         "what is kept is not listed: {text}"
     );
-    let case = &bench.measured_filters()[0];
+    let case = &bench.read_filter_cases()[0];
     let interval = case.intervals["flip_moving"];
     let value = case
         .scores
@@ -28,7 +28,7 @@ fn scores_within_their_bounds_pass() {
 
 #[test]
 fn a_broken_bound_gives_exit_code_1_and_its_evidence() {
-    let bench = bounded(0.2, "required");
+    let bench = make_bounded(0.2, "required");
     let output = bench.check(&IDENTITY);
     let text = assert_ends(
         &output,
@@ -59,7 +59,7 @@ fn a_broken_bound_gives_exit_code_1_and_its_evidence() {
 
 #[test]
 fn a_blur_unlike_every_decoy_is_reported_as_such() {
-    let bench = bounded(0.04, "required");
+    let bench = make_bounded(0.04, "required");
     // A box over whatever moves, with front and back swapped: wrong in a way that no decoy is. Scaled to 64 pixels, its
     // tiles would be too small to blur anything.
     let output = bench.check(&[
@@ -91,7 +91,7 @@ fn a_bound_of_level_report_fails_nothing() {
 
 #[test]
 fn a_limit_inside_the_interval_gives_exit_code_4_and_the_samples_to_decide() {
-    let bench = bounded(0.9, "required");
+    let bench = make_bounded(0.9, "required");
     let found = json(&bench, &[]);
     let interval = &found["findings"][0]["interval"];
     let [low, high] = ["low", "high"].map(|end| interval[end].as_f64().unwrap());
@@ -126,7 +126,7 @@ fn a_limit_inside_the_interval_gives_exit_code_4_and_the_samples_to_decide() {
 
 #[test]
 fn a_bound_within_three_floors_gives_exit_code_2_and_the_strictest_bound() {
-    let bench = bounded(0.9, "required");
+    let bench = make_bounded(0.9, "required");
     let found = json(&bench, &[]);
     let floor = found["findings"][0]["floor"].as_f64().unwrap();
     let strictest = found["findings"][0]["strictest"].as_f64().unwrap();
@@ -150,7 +150,7 @@ fn a_bound_within_three_floors_gives_exit_code_2_and_the_strictest_bound() {
 
 #[test]
 fn a_case_without_an_applicable_bound_does_not_pass() {
-    let bench = bounded(0.9, "required");
+    let bench = make_bounded(0.9, "required");
     bench.write("scene.toml", &SCENE.replace("[-1.6, 0, 0]", "[0, 0, 0]"));
     let output = bench.check(&IDENTITY);
     assert_ends(&output, 2, &["1 not applicable"]);
@@ -205,7 +205,7 @@ fn check_refuses_bad_input_before_it_renders() {
             "{more:?} left something behind"
         );
     }
-    let bench = bounded(0.9, "required");
+    let bench = make_bounded(0.9, "required");
     fs::create_dir(bench.path("scenes/plates")).unwrap();
     fs::write(bench.path("scenes/plates/bounds.toml"), "").unwrap();
     assert_refused(
@@ -217,7 +217,7 @@ fn check_refuses_bad_input_before_it_renders() {
 
 #[test]
 fn a_missing_adapter_gives_exit_code_3() {
-    let bench = bounded(0.9, "required");
+    let bench = make_bounded(0.9, "required");
     let output = bench.without_adapter(&["check", "--out", "out", "--filters", "identity"]);
     assert_refused(&output, 3, &["mesa-vulkan-drivers"]);
 }

@@ -11,11 +11,11 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// Renders the plate with these faces after its own two.
 fn render(bench: &Bench, more_faces: &str) -> Output {
     bench.write("plate.obj", &format!("{OBJ}{more_faces}"));
-    rendered(bench, &[])
+    render_soon(bench, &[])
 }
 
 /// Renders the scene, and fails if that takes long.
-fn rendered(bench: &Bench, more: &[&str]) -> Output {
+fn render_soon(bench: &Bench, more: &[&str]) -> Output {
     let words = ["render", "--quiet", "--out", "out", "--size", "16x16"];
     let samples = ["--scenes", "plate", "--samples-per-pixel", "16"];
     let began = Instant::now();
@@ -87,7 +87,7 @@ fn many_different_faces_in_one_place_are_refused() {
         "allowed: 256",
         "delete all but one",
     ];
-    assert_refused(&rendered(&bench, &[]), 2, &parts);
+    assert_refused(&render_soon(&bench, &[]), 2, &parts);
 }
 
 #[test]
@@ -96,7 +96,7 @@ fn a_few_faces_in_one_place_render_the_same_every_time() {
     assert_done(&render(&bench, "f 3 2 1\nf 2 3 1\nf 1 3 2\n"));
     let first = pictures(&bench);
     std::fs::remove_dir_all(bench.path("out")).unwrap();
-    assert_done(&rendered(&bench, &["--threads", "1"]));
+    assert_done(&render_soon(&bench, &["--threads", "1"]));
     assert!(first == pictures(&bench));
 }
 
@@ -130,7 +130,7 @@ fn many_objects_in_one_place_render() {
         .map(|index| format!("[object.plate_{index}]{object}"))
         .collect();
     bench.write("scene.toml", &format!("{head}{objects}"));
-    assert_done(&rendered(&bench, &[]));
+    assert_done(&render_soon(&bench, &[]));
 }
 
 #[test]
@@ -151,7 +151,7 @@ fn a_picture_that_is_not_finite_is_refused_before_it_is_written() {
         "plate.mtl",
         "newmtl paint\nKd 0.5 0.5 0.5\nKe 3e38 3e38 3e38\n",
     );
-    assert_refused(&rendered(&bench, &[]), 2, &["plate"]);
+    assert_refused(&render_soon(&bench, &[]), 2, &["plate"]);
     assert!(!bench.path("out/plate/frame.exr").exists());
 }
 

@@ -29,7 +29,7 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
     assert!(failures.contains("plate / identity:default"));
 
     let article = find_article(&page, &case);
-    let findings = bench.findings();
+    let findings = bench.read_findings();
     let worst = findings[0].worst.as_ref().unwrap();
     for words in [
         "1 of 2 kept.",

@@ -12,8 +12,8 @@ fn run_and_check_write_the_page_that_report_writes() {
     let bench = Bench::new();
     bench.write_bound(0.2);
     let make_page = || {
-        bench.done(&["report", "out", "--html", "make_page.html"]);
-        fs::read(bench.path("make_page.html")).unwrap()
+        bench.execute(&["report", "out", "--html", "page.html"]);
+        fs::read(bench.path("page.html")).unwrap()
     };
     let output = bench.run(&[&IDENTITY[..], &["--html", "own.html"]].concat());
     assert_done(&output);
@@ -44,8 +44,8 @@ fn layers_equal_the_files_of_the_case() {
     let bench = Bench::new();
     let words = ["--filters", "velocity_gather:fine", "--guard-band", "4"];
     assert_done(&bench.run(&words));
-    bench.done(&["report", "out", "--exr", "layers", "--quiet"]);
-    let run = bench.measured();
+    bench.execute(&["report", "out", "--exr", "layers", "--quiet"]);
+    let run = bench.read_run();
     assert_eq!(
         files_below(&bench.path("layers")).len(),
         run.cases.len(),

@@ -64,5 +64,5 @@ fn find_article<'a>(page: &'a str, case: &suite::Case) -> &'a str {
 
 /// Returns the only case of a filter.
 fn filter_case(bench: &Bench) -> suite::Case {
-    bench.measured_filters().remove(0)
+    bench.read_filter_cases().remove(0)
 }

@@ -12,7 +12,7 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
     bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
     assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
     let page = make_page(&bench);
-    let run = bench.measured();
+    let run = bench.read_run();
     for case in &run.cases {
         let link = format!("href=\"#{}\"", address(case));
         for (metric, digits) in [("flip_moving", 3), ("row_loss", 2), ("psnr_moving", 1)] {
@@ -99,7 +99,7 @@ fn a_page_holds_every_plane_once_and_fetches_nothing() {
         let once: BTreeSet<&String> = own.iter().collect();
         assert_eq!(once.len(), own.len(), "a plane stands there twice");
     }
-    for case in bench.measured().cases {
+    for case in bench.read_run().cases {
         let article = find_article(&page, &case);
         let layers = between(article, "data-layers=\"", "\"")[0];
         let scene: usize = between(article, "data-scene=\"", "\"")[0].parse().unwrap();
@@ -234,7 +234,7 @@ fn costs_come_from_the_bench_beside_the_run() {
 fn a_run_keeps_the_jump_flood_s_dilated_map() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "jump_flood:corrected"]));
-    let case = &bench.measured_filters()[0];
+    let case = &bench.read_filter_cases()[0];
     let output = frame::read_exr(&bench.path("out").join(&case.folder).join("output.exr")).unwrap();
     let frame = frame::Frame::read(&bench.path("out/plate/frame.exr")).unwrap();
     let [x, y] = ["dilated.X", "dilated.Y"].map(|name| output.plane(name).unwrap());

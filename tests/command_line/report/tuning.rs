@@ -20,11 +20,11 @@ fn set_up() -> Bench {
 }
 
 fn tune(bench: &Bench, more: &[&str]) {
-    bench.done(&[&split(TUNE)[..], more].concat());
+    bench.execute(&[&split(TUNE)[..], more].concat());
 }
 
 fn make_page(bench: &Bench) -> String {
-    bench.done(&["report", "tuned", "--html", "page.html"]);
+    bench.execute(&["report", "tuned", "--html", "page.html"]);
     fs::read_to_string(bench.path("page.html")).unwrap()
 }
 
@@ -102,7 +102,7 @@ fn the_page_of_a_tuning_shows_trials_choice_and_folds() {
 fn the_page_of_a_sensitivity_study_shows_intervals_and_slices() {
     let bench = set_up();
     let words: Vec<&str> = TUNE.split_whitespace().skip(1).collect();
-    bench.done(&[&["sensitivity", "--rows", "4"], &words[..]].concat());
+    bench.execute(&[&["sensitivity", "--rows", "4"], &words[..]].concat());
     let page = make_page(&bench);
     let found: Sensitivity =
         serde_json::from_slice(&fs::read(bench.path("tuned/sensitivity.json")).unwrap()).unwrap();

@@ -14,7 +14,7 @@ use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
 #[test]
 fn a_tuning_beats_its_start_and_records_the_way() {
     let bench = set_up();
-    let table = bench.done(&tuning_words("out", "40", &["--sealed", "plate"]));
+    let table = bench.execute(&tuning_words("out", "40", &["--sealed", "plate"]));
     assert_contains(
         &table,
         &[
@@ -97,7 +97,7 @@ fn a_tuning_beats_its_start_and_records_the_way() {
     assert_eq!(tuned.scenes.iter().collect::<Vec<_>>(), scenes);
 
     // Reading the same scenes again does not count as a second opening; reading others does.
-    bench.done(&tuning_words("out", "40", &["--sealed", "plate"]));
+    bench.execute(&tuning_words("out", "40", &["--sealed", "plate"]));
     assert_eq!(read_tuning(&bench, "out").held_out.len(), 1);
     let other = ["--sealed", "plate", "--sealed-size", "64x32"];
     let output = bench.shuttertruth(&tuning_words("out", "40", &other));
@@ -112,10 +112,10 @@ fn a_tuning_beats_its_start_and_records_the_way() {
 #[test]
 fn a_trial_scores_like_a_run() {
     let bench = set_up();
-    bench.done(&tuning_words("out", "1", &[]));
+    bench.execute(&tuning_words("out", "1", &[]));
     assert_done(&bench.run(&["--filters", "jump_flood:paper", "--scenes", "a,b,c,d,e,f,g"]));
     let trial = &parse_trials(&read_journal(&bench, "out"))[0];
-    for case in bench.measured_filters() {
+    for case in bench.read_filter_cases() {
         let score = trial.scenes[&case.scene];
         assert_eq!(
             Some(score.flip),
@@ -209,7 +209,7 @@ fn cost_is_relative_to_the_start() {
     let bench = set_up();
     let words = split("tune --quiet --filter jump_flood --vary samples --scenes a");
     let more = split("--size 64x32 --samples-per-pixel 16 --budget 6 --out out");
-    bench.done(&[&words[..], &more].concat());
+    bench.execute(&[&words[..], &more].concat());
     let trials = parse_trials(&read_journal(&bench, "out"));
     assert_eq!(trials[0].cost, Some(1.0));
     assert!(

@@ -10,7 +10,7 @@ use crate::bench::assert_refused;
 #[test]
 fn a_killed_tuning_resumes_and_ends_with_the_same_bytes() {
     let bench = set_up();
-    bench.done(&tuning_words("whole", "30", &[]));
+    bench.execute(&tuning_words("whole", "30", &[]));
     let mut child = bench
         .command(&tuning_words("killed", "30", &[]))
         .spawn()
@@ -31,7 +31,7 @@ fn a_killed_tuning_resumes_and_ends_with_the_same_bytes() {
     assert!(left.lines().count() < 31, "it was killed on its way");
     // A power failure left this line half written.
     fs::write(&path, format!("{left}{{\"trial\":7")).unwrap();
-    bench.done(&tuning_words("killed", "30", &[]));
+    bench.execute(&tuning_words("killed", "30", &[]));
     assert_eq!(
         read_journal(&bench, "killed"),
         read_journal(&bench, "whole")
@@ -58,9 +58,9 @@ fn a_foreign_journal_is_left_unchanged() {
 #[test]
 fn a_larger_budget_extends_a_smaller_one_and_another_seed_searches_differently() {
     let bench = set_up();
-    bench.done(&tuning_words("out", "12", &[]));
+    bench.execute(&tuning_words("out", "12", &[]));
     let first = read_journal(&bench, "out");
-    bench.done(&tuning_words("out", "16", &[]));
+    bench.execute(&tuning_words("out", "16", &[]));
     let second = read_journal(&bench, "out");
     assert!(second.starts_with(&first) && second.lines().count() == 17);
     let other = tuning_words("out", "16", &["--search-seed", "2"]);
@@ -80,7 +80,7 @@ fn a_larger_budget_extends_a_smaller_one_and_another_seed_searches_differently()
 #[test]
 fn a_full_disk_loses_nothing() {
     let bench = set_up();
-    bench.done(&tuning_words("out", "1", &[]));
+    bench.execute(&tuning_words("out", "1", &[]));
     let begun = read_journal(&bench, "out");
     // Blocks of 512 bytes, with room for a few more trials.
     let blocks = (begun.len() + 2000).div_ceil(512).to_string();
@@ -100,7 +100,7 @@ fn a_full_disk_loses_nothing() {
     );
     let left = read_journal(&bench, "out");
     assert!(left.starts_with(&begun) && left.len() > begun.len());
-    bench.done(&tuning_words("out", "20", &[]));
-    bench.done(&tuning_words("whole", "20", &[]));
+    bench.execute(&tuning_words("out", "20", &[]));
+    bench.execute(&tuning_words("whole", "20", &[]));
     assert_eq!(read_journal(&bench, "out"), read_journal(&bench, "whole"));
 }

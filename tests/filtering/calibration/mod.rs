@@ -9,7 +9,7 @@ mod silhouette;
 use frame::Alignment;
 use outcome::{ANGLES, OUTCOMES, Outcome, SHOTS};
 use panel::{HALF_PANEL, TRUTHS};
-use promised::{promised, stated_lengths};
+use promised::{promised_smear, stated_lengths};
 use tests::kernels::{along_motion, expected_ramp, place_taps};
 use tests::ramp::Ramp;
 
@@ -94,7 +94,7 @@ fn measure_ramp(outcome: &Outcome) -> Option<Ramp> {
 }
 
 fn promised_length(outcome: &Outcome) -> f64 {
-    promised(&outcome.filter, &outcome.preset, &outcome.shot().steady())
+    promised_smear(&outcome.filter, &outcome.preset, &outcome.shot().steady())
 }
 
 #[test]
@@ -118,7 +118,7 @@ fn an_edge_on_the_panel_smears_as_far_as_each_filter_s_taps_predict() {
             _ => 0.2 + 0.01 * outcome.shot().speed,
         };
         if off.iter().any(|off| off.abs() > tolerance) {
-            let said = outcome.said();
+            let said = outcome.describe();
             wrong.push(format!("{said}: {found:?} instead of {expected:?}"));
         }
         compared += 1;
@@ -144,7 +144,7 @@ fn smears_are_as_long_as_each_filter_s_text_says() {
             let promise = promised_length(outcome);
             if promise == 0.0 {
                 if found.length > 0.01 {
-                    wrong.push(format!("{}: {found:?} instead of none", outcome.said()));
+                    wrong.push(format!("{}: {found:?} instead of none", outcome.describe()));
                 }
                 return "none".to_owned();
             }
@@ -152,7 +152,7 @@ fn smears_are_as_long_as_each_filter_s_text_says() {
             let stated = stated_lengths(&outcome.filter, &outcome.preset);
             // At lower speeds, interpolation and the pixel grid weigh more.
             if speed >= 8.0 && !stated.contains(&part) {
-                wrong.push(format!("{}: {part}, stated {stated:?}", outcome.said()));
+                wrong.push(format!("{}: {part}, stated {stated:?}", outcome.describe()));
             }
             format!("{part:.2} ({:.2})", promise / speed)
         });

@@ -66,7 +66,7 @@ impl Outcome {
         &SHOTS[self.shot]
     }
 
-    pub fn said(&self) -> String {
+    pub fn describe(&self) -> String {
         let shot = self.shot();
         format!(
             "{} {} at {} px and {} degrees",

@@ -8,7 +8,7 @@ use super::panel::HEIGHT;
 
 /// Returns the promised length of the smear in pixels. Unless a preset says otherwise, it is the exposure's, times the
 /// preset's factor, cut at its reach.
-pub fn promised(filter: &str, preset: &str, steady: &Steady) -> f64 {
+pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
     let [x, y] = steady.trail();
     let trail = x.hypot(y);
     match (filter, preset) {

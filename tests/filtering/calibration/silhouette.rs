@@ -20,7 +20,7 @@ struct Light {
 }
 
 impl Light {
-    fn measured(outcome: &Outcome) -> Self {
+    fn measure(outcome: &Outcome) -> Self {
         Self::of(outcome.shot(), &outcome.matte)
     }
 
@@ -81,7 +81,7 @@ fn on_picture(shot: &Shot, smear: f64) -> bool {
 
 /// Returns the expected light behind, lost at the back, lost at the front, and ahead; none where only the filter's own
 /// references know it.
-fn expected(outcome: &Outcome) -> [Option<f64>; 4] {
+fn expected_light(outcome: &Outcome) -> [Option<f64>; 4] {
     let [forward, backward] = average_reach(outcome);
     match (outcome.filter.as_str(), outcome.preset.as_str()) {
         ("identity" | "camera_gather", _) => [Some(0.0); 4],
@@ -131,7 +131,7 @@ fn light_lies_where_each_filter_s_taps_put_it() {
     for row in OUTCOMES.chunks(ANGLES.len()) {
         let mut cells = Vec::new();
         for outcome in row {
-            let (shot, found) = (outcome.shot(), Light::measured(outcome).all());
+            let (shot, found) = (outcome.shot(), Light::measure(outcome).all());
             let steady = shot.steady();
             let smear = expected_ramp(&outcome.filter, &outcome.preset, &steady).length;
             if !fits(outcome) || !on_picture(shot, smear) {
@@ -140,13 +140,16 @@ fn light_lies_where_each_filter_s_taps_put_it() {
             }
             let shares = found.map(|light| format!("{:.2}", light / shot.speed));
             cells.push(shares.join(" "));
-            for (found, expected) in found.into_iter().zip(expected(outcome)) {
+            for (found, expected) in found.into_iter().zip(expected_light(outcome)) {
                 let Some(expected) = expected else { continue };
                 // The panel's edge lies within a pixel, and the tent is 2 wide. The steps of some filters are a
                 // sixteenth.
                 let tolerance = 0.5 + 0.02 * shot.speed;
                 if (found - expected).abs() > tolerance {
-                    wrong.push(format!("{}: {found} instead of {expected}", outcome.said()));
+                    wrong.push(format!(
+                        "{}: {found} instead of {expected}",
+                        outcome.describe()
+                    ));
                 }
                 compared += 1;
             }
@@ -167,7 +170,7 @@ fn a_mover_stays_opaque_and_grows_under_cones_and_cylinders() {
         longest_of_the_uncut && ["mcguire", "guertin"].contains(&outcome.filter.as_str())
     });
     for outcome in tile_filters {
-        let light = Light::measured(outcome);
+        let light = Light::measure(outcome);
         let share = |light: f64| light / outcome.shot().speed;
         // The truth has an eighth in all four places: its smear takes as much from the panel as it gives to the wall.
         let grown = match outcome.preset.as_str() {
@@ -177,12 +180,12 @@ fn a_mover_stays_opaque_and_grows_under_cones_and_cylinders() {
         assert!(
             grown.contains(&share(light.behind)),
             "{}: {light:?}",
-            outcome.said()
+            outcome.describe()
         );
         assert!(
             share(light.lost_at_back) < 0.02,
             "{}: {light:?}",
-            outcome.said()
+            outcome.describe()
         );
     }
 }
@@ -196,9 +199,9 @@ fn the_published_flood_leaves_no_trail_behind_slow_movers() {
     });
     let mut tried = 0;
     for outcome in slow {
-        let light = Light::measured(outcome);
+        let light = Light::measure(outcome);
         // The tent spreads this much.
-        assert!(light.behind < 0.1, "{}: {light:?}", outcome.said());
+        assert!(light.behind < 0.1, "{}: {light:?}", outcome.describe());
         tried += 1;
     }
     assert_eq!(tried, 4 * ANGLES.len());

@@ -6,7 +6,7 @@ use tests::picture::{BLACK_WALL, Picture, Surface, column, moving_edge, white};
 fn each_sample_is_two_taps_and_none_is_the_pixel_itself() {
     for samples in [1, 3] {
         let picture = moving_edge(160, 64, [64.0, 0.0]);
-        let output = picture.blurred("bevy", "default", &[("samples", &samples.to_string())]);
+        let output = picture.blur("bevy", "default", &[("samples", &samples.to_string())]);
         let on_ramp: Vec<f32> = output
             .pixels
             .iter()
@@ -39,7 +39,7 @@ fn nothing_blurs_outside_a_movers_silhouette() {
             if x < 60 { BLACK_WALL } else { white(24.0) }
         },
     );
-    let output = picture.blurred("bevy", "high", &[]);
+    let output = picture.blur("bevy", "high", &[]);
     for x in 0..60 {
         assert_eq!(column(&output, x), 0.0, "column {x}");
     }
@@ -64,7 +64,7 @@ fn a_surface_in_front_counts_by_its_motion_over_a_whole_frame() {
         let mut picture = in_front_of_motion(speed);
         // The background's taps reach 5 pixels to each side.
         picture.exposure = 0.25;
-        picture.blurred("bevy", "high", &[])
+        picture.blur("bevy", "high", &[])
     };
     // Something that moves 20 pixels in a frame moves 2.5 to each side while the shutter is open. Yet at 2.5 pixels
     // from it, all of the trail that it covers counts: a quarter.
@@ -79,7 +79,7 @@ fn motion_below_a_pixel_stays_sharp_at_every_exposure() {
     for (speed, blurs) in [(0.99, false), (1.01, true)] {
         let mut picture = moving_edge(40, 16, [speed, 0.0]);
         picture.exposure = 4.0;
-        let output = picture.blurred("bevy", "high", &[]);
+        let output = picture.blur("bevy", "high", &[]);
         assert_eq!(output != picture.color, blurs, "{speed} pixels per frame");
     }
 }
@@ -98,7 +98,7 @@ fn a_wide_picture_skews_weights_on_diagonals() {
         })
     };
     let light = |picture: &Picture, metric: &str| -> f64 {
-        let output = picture.blurred("bevy", "high", &[("metric", metric)]);
+        let output = picture.blur("bevy", "high", &[("metric", metric)]);
         (0..60).map(|x| column(&output, x)).sum()
     };
     let square = crossing(120, 120);
@@ -120,7 +120,7 @@ fn the_sky_counts_at_any_motion() {
             velocity: [if x < 60 { 24.0 } else { 0.0 }, 0.0],
             depth,
         });
-        column(&picture.blurred("bevy", "high", &[]), 56)
+        column(&picture.blur("bevy", "high", &[]), 56)
     };
     // 8.5 of the trail's 24 pixels lie beyond the edge; one tap of 16 more or less.
     let expected = 8.5 / 24.0;
@@ -143,6 +143,6 @@ fn taps_off_the_picture_are_skipped() {
     });
     // 12 pixels of the trail lie to the left of 4.5, and 16.5 pixels of it are on the picture, of which the white
     // column is one. Clamped taps would make it 8.5 of 24.
-    let found = column(&picture.blurred("bevy", "high", &[]), 4);
+    let found = column(&picture.blur("bevy", "high", &[]), 4);
     assert!((found - 1.0 / 16.5).abs() < 0.03, "{found}");
 }

@@ -11,7 +11,7 @@ fn an_intensity_of_one_is_a_shutter_of_180_degrees() {
     let picture = moving_edge(160, 64, [24.0, 0.0]);
     let length = |intensity: &str| {
         let overrides = [("strength", intensity)];
-        ramp_length(&picture.blurred("jimenez", "hdrp", &overrides))
+        ramp_length(&picture.blur("jimenez", "hdrp", &overrides))
     };
     // A quarter of the motion to each side. Nearest fetches round by half a pixel.
     assert!((length("1") - 12.0).abs() < 0.5, "{}", length("1"));
@@ -25,7 +25,7 @@ fn the_noise_of_hdrp_shifts_all_taps_of_a_pixel_to_one_side() {
         gray: x as f32,
         ..white(24.0)
     });
-    let output = picture.blurred("jimenez", "hdrp", &[]);
+    let output = picture.blur("jimenez", "hdrp", &[]);
     let pixels = (50..150).flat_map(|x| (0..48).map(move |y| (x, y)));
     let shifts: Vec<f32> = pixels.map(|(x, y)| output.at(x, y)[0] - x as f32).collect();
     let mean = shifts.iter().map(|shift| shift.abs()).sum::<f32>() / shifts.len() as f32;
@@ -40,7 +40,7 @@ fn hdrp_reads_the_nearest_pixels() {
         gray: (x % 2) as f32,
         ..white(25.0)
     });
-    let output = picture.blurred("jimenez", "hdrp", &[]);
+    let output = picture.blur("jimenez", "hdrp", &[]);
     // All taps have equal weight: a mean of eight zeros and ones.
     for pixel in &output.pixels {
         let ones = 8.0 * pixel[0];
@@ -56,7 +56,7 @@ fn short_trails_of_hdrp_have_fewer_taps() {
         gray: (x % 2) as f32,
         ..white(2.4)
     });
-    let output = picture.blurred("jimenez", "hdrp", &[]);
+    let output = picture.blur("jimenez", "hdrp", &[]);
     for pixel in &output.pixels {
         let ones = 6.0 * pixel[0];
         assert!((ones - ones.round()).abs() < 1e-5, "{ones} of 6");
@@ -75,7 +75,7 @@ fn a_tap_that_moves_half_as_far_as_the_trail_counts_whole() {
     });
     let output = |direction: &str| {
         let overrides = [("direction", direction), ("plain_tiles", "never")];
-        picture.blurred("jimenez", "hdrp", &overrides)
+        picture.blur("jimenez", "hdrp", &overrides)
     };
     let (weighted, ignored) = (output("weighted"), output("ignored"));
     let pairs = weighted.pixels.iter().zip(&ignored.pixels);
@@ -101,7 +101,7 @@ fn directions_count_only_where_the_pixel_itself_moves() {
                 ..BLACK_WALL
             },
         });
-        let output = picture.blurred("jimenez", "hdrp", &[("plain_tiles", "never")]);
+        let output = picture.blur("jimenez", "hdrp", &[("plain_tiles", "never")]);
         (32..38).map(|y| output.at(76, y)[0]).fold(0.0, f32::max)
     };
     // 4 of the 12 pixels that trails reach.
@@ -120,7 +120,7 @@ fn a_pixel_that_moves_like_the_fastest_shows_only_its_taps() {
             ..BLACK_WALL
         },
     });
-    let seen = |rest: &str| column(&picture.blurred("jimenez", "hdrp", &[("rest", rest)]), 80);
+    let seen = |rest: &str| column(&picture.blur("jimenez", "hdrp", &[("rest", rest)]), 80);
     // The white thing keeps half of itself beside the wall's black.
     assert!(seen("own") > 0.5, "{}", seen("own"));
     // One of about four taps may read the pixel itself.
@@ -148,7 +148,7 @@ fn still_in_front() -> Picture {
 fn hdrp_leaves_moving_background_sharp_beside_a_still_foreground() {
     let picture = still_in_front();
     let change = |mirror: &str| {
-        let output = picture.blurred("jimenez", "hdrp_mirrored", &[("mirror", mirror)]);
+        let output = picture.blur("jimenez", "hdrp_mirrored", &[("mirror", mirror)]);
         let changes = (0..64).map(|y| output.at(80, y)[0] - picture.color.at(80, y)[0]);
         changes.map(|change| f64::from(change.abs())).sum::<f64>() / 64.0
     };
@@ -177,7 +177,7 @@ fn steps_that_end_late_keep_still_things_out_of_the_trail_at_its_start() {
             ("spread", spread),
             ("direction", "ignored"),
         ];
-        column(&picture.blurred("jimenez", "hdrp", &overrides), 80)
+        column(&picture.blur("jimenez", "hdrp", &overrides), 80)
     };
     // One of eight taps lies less than a step to the left, and counts for the remaining part of the step.
     assert!(seen("steps") > 0.03, "{}", seen("steps"));
@@ -193,7 +193,7 @@ fn late_steps_equal_normal_steps_after_the_first() {
             ("spread", spread),
             ("noise", "none"),
         ];
-        picture.blurred("jimenez", "hdrp", &overrides)
+        picture.blur("jimenez", "hdrp", &overrides)
     };
     // Taps at the ends of steps lie one step away or more.
     assert!(output("with_centre", "late_steps") == output("with_centre", "steps"));
@@ -219,7 +219,7 @@ fn weighted_directions_exclude_motion_across_the_trail() {
             ("plain_tiles", "never"),
             ("mirror", "off"),
         ];
-        column(&picture.blurred("jimenez", "hdrp", &overrides), 76)
+        column(&picture.blur("jimenez", "hdrp", &overrides), 76)
     };
     // A third of the right half of the taps lies beyond 4 of 12 pixels.
     assert!(seen("ignored") > 0.2, "{}", seen("ignored"));
@@ -230,10 +230,10 @@ fn weighted_directions_exclude_motion_across_the_trail() {
 fn a_still_foreground_stays_sharp() {
     let picture = still_in_front();
     for preset in ["slides_2014", "hdrp", "hdrp_mirrored"] {
-        let output = picture.blurred("jimenez", preset, &[]);
+        let output = picture.blur("jimenez", preset, &[]);
         // Up to one step, 12 / pairs pixels, where a still pixel's spread ends.
         assert_eq!(light(&output, 0..76), 0.0, "{preset}");
     }
-    let output = picture.blurred("jimenez", "hdrp", &[]);
+    let output = picture.blur("jimenez", "hdrp", &[]);
     assert!(light(&output, 0..80) < 0.01, "late steps end at once");
 }

@@ -15,7 +15,7 @@ fn plain_tiles_forget_depth_where_motions_are_alike() {
     });
     let seen = |plain: &str| {
         let overrides = [("plain_tiles", plain), ("mirror", "off")];
-        column(&picture.blurred("jimenez", "hdrp", &overrides), 72)
+        column(&picture.blur("jimenez", "hdrp", &overrides), 72)
     };
     // It moves 4 pixels to each side; a distance of 8 is more than a step of 3 beyond that.
     assert!(seen("never") < 0.01, "{}", seen("never"));
@@ -38,7 +38,7 @@ fn neighbouring_tiles_cut_long_smears_and_tiles_along_the_motion_do_not() {
         },
     );
     let reach = |preset: &str| {
-        let output = picture.blurred("jimenez", preset, &[("tile_dither", "0")]);
+        let output = picture.blur("jimenez", preset, &[("tile_dither", "0")]);
         (0..160).filter(|x| column(&output, *x) > 0.0).count()
     };
     // One tile of 20 pixels beside the mover's.

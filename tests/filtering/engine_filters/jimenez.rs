@@ -18,7 +18,7 @@ fn presets_scaled_to_the_exposure_smear_as_far_as_the_exposure() {
     for preset in HONEST_LENGTHS {
         for speed in [24.0, 40.0] {
             let picture = moving_edge(200, 64, [speed, 0.0]);
-            let found = ramp_length(&picture.blurred("jimenez", preset, &[]));
+            let found = ramp_length(&picture.blur("jimenez", preset, &[]));
             // O3DE's outermost taps lie half a step, a 48th, before the ends. Cutting to whole pixels brings half of
             // them one pixel nearer.
             let least = if preset == "o3de_scaled" { 0.90 } else { 0.98 };
@@ -38,7 +38,7 @@ fn a_mover_smears_half_its_motion_over_the_background() {
         },
     );
     for preset in HONEST_LENGTHS {
-        let output = picture.blurred("jimenez", preset, &[]);
+        let output = picture.blur("jimenez", preset, &[]);
         // A ramp from a half to zero over 12 pixels holds 3 pixels of light. Half a step less, and half a pixel less
         // for whole pixels, give 2.6.
         let expected = if preset == "o3de_scaled" { 2.6 } else { 3.0 };
@@ -62,7 +62,7 @@ fn mirrored_weights_show_background_from_the_other_side() {
         },
     });
     let seen = |mirror: &str| {
-        let output = picture.blurred("jimenez", "slides_2014", &[("mirror", mirror)]);
+        let output = picture.blur("jimenez", "slides_2014", &[("mirror", mirror)]);
         column(&output, 79)
     };
     // In all pairs the right tap reaches the mover. 8.5 of 12 pixels on the left are white, and half of the taps are on

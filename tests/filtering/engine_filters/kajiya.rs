@@ -10,7 +10,7 @@ use tests::picture::{
 #[test]
 fn kajiya_smears_seven_sixteenths_of_the_motion() {
     let picture = moving_edge(160, 64, [48.0, 0.0]);
-    let length = |preset: &str| ramp_length(&picture.blurred("jimenez", preset, &[]));
+    let length = |preset: &str| ramp_length(&picture.blur("jimenez", preset, &[]));
     // Seven steps of a sixteenth; half a pixel for 32 shifts in 64 rows.
     assert!(
         (length("kajiya") - 21.0).abs() < 0.5,
@@ -30,7 +30,7 @@ fn kajiya_lets_things_smear_twice_as_far_as_they_move() {
     let picture = slow_above_fast(12.0, 48.0);
     let smear = |spread: &str| {
         let overrides = [("pairs", "16"), ("spread", spread)];
-        picture.blurred("jimenez", "kajiya", &overrides)
+        picture.blur("jimenez", "kajiya", &overrides)
     };
     // Three of 33 taps, half of which count.
     assert!(light_above(&smear("pixels"), 3..5) > 0.2);
@@ -47,7 +47,7 @@ fn kajiya_shifts_taps_by_one_of_32_numbers() {
         gray: x as f32,
         ..white(-48.0)
     });
-    let output = picture.blurred("jimenez", "kajiya", &[]);
+    let output = picture.blur("jimenez", "kajiya", &[]);
     let mut shifts: Vec<i32> = (64..192)
         .flat_map(|x| (0..64).map(move |y| (x, y)))
         // Taps lie 3 pixels apart; the centre, one of seven, reads whole pixels.
@@ -80,7 +80,7 @@ fn kajiya_displaces_still_pixels_near_a_mover() {
         },
     });
     let changed = |preset: &str, overrides: &[(&str, &str)]| {
-        let output = picture.blurred("jimenez", preset, overrides);
+        let output = picture.blur("jimenez", preset, overrides);
         let wall = (0..38).flat_map(|y| (0..160).map(move |x| (x, y)));
         wall.filter(|(x, y)| (output.at(*x, *y)[0] - picture.color.at(*x, *y)[0]).abs() > 0.05)
             .count()
@@ -101,7 +101,7 @@ fn taps_off_the_picture_are_dropped_or_read_its_border() {
         depth: 2.0,
     });
     let seen = |border: &str| {
-        let output = picture.blurred("jimenez", "kajiya", &[("border", border)]);
+        let output = picture.blur("jimenez", "kajiya", &[("border", border)]);
         column(&output, 4)
     };
     // Two of seven taps, 3 pixels apart around 4.5, lie off the picture; one is in the first three columns.

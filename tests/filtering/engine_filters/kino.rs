@@ -6,7 +6,7 @@ use tests::picture::{BLACK_WALL, Picture, Surface, column, moving_edge, ramp_len
 fn falling_weights_make_the_smear_shorter_than_the_exposure() {
     // 5 % of 480 rows are 24 pixels, so half of 24 is not cut.
     let picture = moving_edge(120, 480, [24.0, 0.0]);
-    let found = ramp_length(&picture.blurred("kino", "default", &[])) / 24.0;
+    let found = ramp_length(&picture.blur("kino", "default", &[])) / 24.0;
     // Four taps on each side, spread evenly over a quarter of the half trail each, with falling weights.
     let taps: Vec<(f64, f64)> = (0..4)
         .map(|pair| 1.0 - (f64::from(pair) + 0.5) / 4.0)
@@ -49,8 +49,8 @@ fn the_order_of_taps_makes_a_mover_s_two_sides_differ() {
         ("radius_percent", "40"),
     ];
     // The still pixels beside the bar: 1 to 18 of the 20 that its smear covers.
-    let right = bar(true).blurred("kino", "default", &overrides);
-    let left = bar(false).blurred("kino", "default", &overrides);
+    let right = bar(true).blur("kino", "default", &overrides);
+    let left = bar(false).blur("kino", "default", &overrides);
     let light = |distances: [f64; 18]| distances.iter().sum::<f64>();
     let behind = light(std::array::from_fn(|i| column(&right, 79 - i as u32)));
     let ahead = light(std::array::from_fn(|i| column(&left, 80 + i as u32)));
@@ -117,7 +117,7 @@ fn a_tile_is_the_radius_rounded_up_to_eight() {
 fn half_motion_under_two_pixels_stays_sharp() {
     for (speed, blurs) in [(3.9, false), (4.1, true)] {
         let picture = moving_edge(60, 360, [speed, 0.0]);
-        let output = picture.blurred("kino", "default", &[("storage", "exact")]);
+        let output = picture.blur("kino", "default", &[("storage", "exact")]);
         assert_eq!(output != picture.color, blurs, "{speed} pixels per frame");
     }
 }

@@ -8,7 +8,7 @@ use tests::picture::{Picture, Surface, white};
 use super::example;
 
 /// Blurs a bar that moves right, at the middle of a wide image. Returns the middle row.
-fn blurred_row(filter: &Filter, settings: &Settings) -> Vec<f32> {
+fn blur_row(filter: &Filter, settings: &Settings) -> Vec<f32> {
     let gpu = open_gpu();
     let bar = Picture {
         exposure: 0.5,
@@ -28,7 +28,7 @@ fn the_documented_example_loads_from_a_folder_and_blurs() {
     assert_eq!(filter.alignment, frame::Alignment::Centred);
     let settings = filter.settings(None).unwrap();
     assert_eq!(settings.preset, "fast");
-    let row = blurred_row(&filter, &settings);
+    let row = blur_row(&filter, &settings);
     // Ten pixels of motion on ten pixels of bar give a triangle from 35 to 55.
     let energy: f32 = row.iter().sum();
     assert!(

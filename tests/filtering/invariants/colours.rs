@@ -12,7 +12,7 @@ fn a_still_frame_comes_out_unchanged() {
     field.velocity = Raster::filled(WIDTH, HEIGHT, [0.0, 0.0]);
     field.reprojection = Reprojection::STILL;
     for (filter, settings) in every_preset() {
-        let output = field.blurred(&gpu, &filter, &settings);
+        let output = field.blur(&gpu, &filter, &settings);
         // Bit for bit: a pixel that does not move has nothing to average.
         assert!(output == field.color, "{}", preset_name(&filter, &settings));
     }
@@ -25,7 +25,7 @@ fn a_constant_colour_comes_out_constant() {
         let mut field = Field::random(2);
         field.color = Raster::filled(WIDTH, HEIGHT, color);
         for (filter, settings) in every_preset() {
-            let output = field.blurred(&gpu, &filter, &settings);
+            let output = field.blur(&gpu, &filter, &settings);
             // Bit for bit: a running mean of equal values changes nothing.
             assert!(output == field.color, "{}", preset_name(&filter, &settings));
         }
@@ -38,7 +38,7 @@ fn output_stays_finite_and_within_the_colours_of_the_frame() {
     for seed in 3..6 {
         let field = Field::random(seed);
         for (filter, settings) in every_preset() {
-            let output = field.blurred(&gpu, &filter, &settings);
+            let output = field.blur(&gpu, &filter, &settings);
             for channel in 0..3 {
                 let values = |image: &Image| -> Vec<f32> {
                     image.pixels.iter().map(|pixel| pixel[channel]).collect()
@@ -68,8 +68,8 @@ fn every_colour_goes_through_the_same_weights() {
         .map(|[r, ..]| if *r > 0.5 { [1.0, 0.0, 0.5] } else { [0.0; 3] });
     for (filter, settings) in every_preset() {
         let colors = [&field.color, &matte, &field.color];
-        let together = field.blurred_colors(&gpu, &filter, &settings, &colors);
-        let alone = field.blurred_colors(&gpu, &filter, &settings, &[&matte]);
+        let together = field.blur_colors(&gpu, &filter, &settings, &colors);
+        let alone = field.blur_colors(&gpu, &filter, &settings, &[&matte]);
         assert!(
             together[1] == alone[0],
             "{}",
@@ -98,7 +98,7 @@ fn a_mixture_of_images_comes_out_as_the_mixture_of_their_blurs() {
         .fold(0.0, f32::max);
     for (filter, settings) in every_preset() {
         let colors = [&field.color, &other.color, &mixture];
-        let outputs = field.blurred_colors(&gpu, &filter, &settings, &colors);
+        let outputs = field.blur_colors(&gpu, &filter, &settings, &colors);
         let expected = mix(&outputs[0], &outputs[1]);
         let deviation = expected
             .zip(&outputs[2], |a, b| [0, 1, 2].map(|c| (a[c] - b[c]).abs()))

@@ -58,12 +58,12 @@ impl Field {
         }
     }
 
-    fn blurred(&self, gpu: &Gpu, filter: &Filter, settings: &Settings) -> Image {
-        let mut outputs = self.blurred_colors(gpu, filter, settings, &[&self.color]);
+    fn blur(&self, gpu: &Gpu, filter: &Filter, settings: &Settings) -> Image {
+        let mut outputs = self.blur_colors(gpu, filter, settings, &[&self.color]);
         outputs.remove(0)
     }
 
-    fn blurred_colors(
+    fn blur_colors(
         &self,
         gpu: &Gpu,
         filter: &Filter,

@@ -15,7 +15,7 @@ fn two_runs_give_the_same_bytes_after_any_other_run() {
         let first = blur.run(&field.input(&[&field.color])).unwrap();
         blur.run(&other.input(&[&other.color])).unwrap();
         let again = blur.run(&field.input(&[&field.color])).unwrap();
-        let fresh = field.blurred(&gpu, &filter, &settings);
+        let fresh = field.blur(&gpu, &filter, &settings);
         let name = preset_name(&filter, &settings);
         assert_eq!(bits(&first[0]), bits(&again[0]), "{name}");
         assert_eq!(bits(&first[0]), bits(&fresh), "{name}");
@@ -50,7 +50,7 @@ fn inputs_and_kernels_kept_on_the_gpu_give_the_same_bytes() {
         let mut blur = Blur::with_kernels(kernels, &settings, WIDTH, HEIGHT).unwrap();
         blur.run_uploaded(&between).unwrap();
         let kept = blur.run_uploaded(&input).unwrap();
-        let fresh = field.blurred_colors(&gpu, &filter, &settings, &colors);
+        let fresh = field.blur_colors(&gpu, &filter, &settings, &colors);
         for (kept, fresh) in kept.iter().zip(&fresh) {
             assert_eq!(
                 bits(kept),

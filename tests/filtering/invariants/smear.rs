@@ -60,7 +60,7 @@ fn an_edge_in_steady_motion_smears_to_the_right_side_and_length() {
         // Trails of 24 and 12 pixels are below the jump flood's cut of 32, and their halves are below most tiles.
         for (speed, exposure) in [(24.0, 1.0), (24.0, 0.5), (-24.0, 1.0)] {
             let field = wall(true, true, speed, exposure);
-            let found = ramp(&field.blurred(&gpu, &filter, &settings));
+            let found = ramp(&field.blur(&gpu, &filter, &settings));
             let steady = Steady {
                 velocity: [speed.into(), 0.0],
                 exposure,
@@ -91,7 +91,7 @@ fn an_edge_in_steady_motion_smears_to_the_right_side_and_length() {
 /// Measures the light that a white wall, with its edge at the left or right and moving right over black, leaves on the
 /// black.
 fn light_beside_a_wall(gpu: &Gpu, filter: &Filter, settings: &Settings, left: bool) -> f32 {
-    let output = wall(left, false, 24.0, 1.0).blurred(gpu, filter, settings);
+    let output = wall(left, false, 24.0, 1.0).blur(gpu, filter, settings);
     let black = if left { EDGE..output.width } else { 0..EDGE };
     black.map(|x| output.at(x, 15)[0]).sum()
 }
@@ -144,7 +144,7 @@ fn the_corrected_jump_flood_keeps_trails_that_the_paper_cuts() {
     let trail_behind = |preset: &str, speed: f32| {
         let settings = filter.settings(Some(preset)).unwrap();
         let field = wall(false, false, speed, 1.0);
-        ramp(&field.blurred(&gpu, &filter, &settings)).length
+        ramp(&field.blur(&gpu, &filter, &settings)).length
     };
     for speed in [3.0f32, 8.0, 24.0, 48.0, 90.0] {
         let found = trail_behind("corrected", speed);

@@ -7,7 +7,7 @@ use tests::random::Random;
 
 use super::{Field, open_gpu};
 
-fn mirrored(field: &Field, horizontal: bool) -> Field {
+fn mirror(field: &Field, horizontal: bool) -> Field {
     fn turn<T: Copy>(raster: &Raster<T>, horizontal: bool) -> Raster<T> {
         Raster::from_fn(raster.width, raster.height, |x, y| match horizontal {
             true => *raster.at(raster.width - 1 - x, y),
@@ -19,13 +19,13 @@ fn mirrored(field: &Field, horizontal: bool) -> Field {
         color: turn(&field.color, horizontal),
         velocity: velocity.map(|[x, y]| if horizontal { [-x, *y] } else { [*x, -y] }),
         depth: turn(&field.depth, horizontal),
-        reprojection: mirrored_camera(field, usize::from(!horizontal)),
+        reprojection: mirror_camera(field, usize::from(!horizontal)),
         exposure: field.exposure,
     }
 }
 
 /// Mirrors the reprojection: x = side - x' on both sides, along one axis.
-fn mirrored_camera(field: &Field, axis: usize) -> Reprojection {
+fn mirror_camera(field: &Field, axis: usize) -> Reprojection {
     let side = f64::from([field.color.width, field.color.height][axis]);
     let mut rows = field.reprojection.rows.map(|mut row| {
         row[2] += side * row[axis];
@@ -42,13 +42,13 @@ fn mirrored_camera(field: &Field, axis: usize) -> Reprojection {
 /// Counts pixels that differ by more than 1e-3 of the brightest tap. That is many times the rounding of positions (1e-5
 /// pixels) times the contrast of neighbours, and far below the weight of one tap of twenty.
 fn asymmetric_pixels(gpu: &Gpu, field: &Field, filter: &Filter, settings: &Settings) -> usize {
-    let output = field.blurred(gpu, filter, settings);
+    let output = field.blur(gpu, filter, settings);
     let mut count = 0;
     for horizontal in [true, false] {
-        let turned = mirrored(field, horizontal);
-        let back = mirrored(
+        let turned = mirror(field, horizontal);
+        let back = mirror(
             &Field {
-                color: turned.blurred(gpu, filter, settings),
+                color: turned.blur(gpu, filter, settings),
                 ..turned.clone()
             },
             horizontal,

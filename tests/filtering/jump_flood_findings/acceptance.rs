@@ -33,7 +33,7 @@ fn is_better(candidate: Candidate, best: Candidate) -> bool {
 }
 
 /// Returns the index that the listing ends with, if any.
-fn published(candidates: &[Candidate]) -> Option<usize> {
+fn choose_as_published(candidates: &[Candidate]) -> Option<usize> {
     let mut best = (NOTHING, None);
     for (index, candidate) in candidates.iter().enumerate() {
         if is_better(*candidate, best.0) {
@@ -69,7 +69,7 @@ fn the_published_comparison_keeps_the_nearest_valid_candidate_and_the_first_of_e
             })
             .collect();
         let kept = nearest_valid(&candidates);
-        assert_eq!(published(&candidates), kept, "{candidates:?}");
+        assert_eq!(choose_as_published(&candidates), kept, "{candidates:?}");
         let as_near = |candidate: &&Candidate| {
             candidate.valid && kept.is_some_and(|kept| candidates[kept].depth == candidate.depth)
         };
@@ -164,7 +164,7 @@ fn the_kernel_keeps_the_candidate_of_the_published_comparison() {
                     valid: square > 0.0 && (along - 0.5).abs() <= 0.5 && beside <= 0.3017,
                 }
             });
-            let expected = published(&candidates).map_or([x, y], |index| {
+            let expected = choose_as_published(&candidates).map_or([x, y], |index| {
                 let [right, down] = NEIGHBOURS[index];
                 [x + right * STEP, y + down * STEP]
             });

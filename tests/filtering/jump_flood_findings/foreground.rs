@@ -19,7 +19,7 @@ fn weight_in_front(preset: &str, other: f32) -> f64 {
         ("passes", "1"),
         ("step_multiplier", "64"),
     ];
-    let output = picture.blurred("jump_flood", preset, &overrides);
+    let output = picture.blur("jump_flood", preset, &overrides);
     // Only the seventh tap lies beyond. All others weigh 1, so it gets w / (7 + w).
     let share = f64::from(output.at(80 - 21, 12)[0]);
     7.0 * share / (1.0 - share)
@@ -77,7 +77,7 @@ fn a_still_surface_in_front_neither_blurs_nor_is_smeared() {
     };
     // Taps 3 pixels apart lie on pixel centres; between them, half a pixel at the post's edge would mix.
     let light = |depth: f32| {
-        let output = post(depth).blurred("jump_flood", "paper", &[("jitter", "none")]);
+        let output = post(depth).blur("jump_flood", "paper", &[("jitter", "none")]);
         [
             column(&output, 80),
             (90..110).map(|x| column(&output, x)).fold(1.0, f64::min),

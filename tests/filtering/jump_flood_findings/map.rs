@@ -11,7 +11,7 @@ fn beside_a_mover(map: &str) -> f64 {
         _ => wall(1.0),
     });
     let overrides = [("jitter", "none"), ("map", map)];
-    column(&picture.blurred("jump_flood", "july_2024", &overrides), 80)
+    column(&picture.blur("jump_flood", "july_2024", &overrides), 80)
 }
 
 #[test]

@@ -13,7 +13,7 @@ fn slope(speed: f32) -> Picture {
 
 /// Measures how far ahead the mean of each pixel's taps lies, in pixels, away from the border. Returns them sorted.
 fn displacements(preset: &str, jitter: &str, speed: f32) -> Vec<f32> {
-    let output = slope(speed).blurred("jump_flood", preset, &[("jitter", jitter)]);
+    let output = slope(speed).blur("jump_flood", preset, &[("jitter", jitter)]);
     let inner = (0..120).flat_map(|x| (0..32).map(move |y| (x, y)));
     let mut found: Vec<f32> = inner.map(|(x, y)| output.at(x, y)[0] - x as f32).collect();
     found.sort_by(f32::total_cmp);
@@ -34,7 +34,7 @@ fn noise_scales_whole_trails_evenly_by_a_half_to_one_and_a_half() {
 
 /// Returns the brightness this many pixels behind an edge from black to white. Everything moves right by 24 pixels.
 fn behind_an_edge(preset: &str, distance: u32) -> f64 {
-    let output = moving_edge(240, 64, [24.0, 0.0]).blurred("jump_flood", preset, &[]);
+    let output = moving_edge(240, 64, [24.0, 0.0]).blur("jump_flood", preset, &[]);
     column(&output, 120 - distance)
 }
 
@@ -77,7 +77,7 @@ fn reach(preset: &str, vertical: bool, speed: f32, exposure: f64) -> u32 {
         }
     });
     picture.exposure = exposure;
-    let output = picture.blurred("jump_flood", preset, &[("jitter", "none")]);
+    let output = picture.blur("jump_flood", preset, &[("jitter", "none")]);
     let lit = |distance: &u32| {
         let pixel = match vertical {
             true => output.at(20, 72 - distance),

@@ -28,8 +28,8 @@ impl Reference<'_> {
         if v == [0.0, 0.0] {
             return (0.0, Answer::No);
         }
-        let u = self.measured([-v[0], -v[1]]);
-        let o = self.measured(minus(s, p));
+        let u = self.to_path_space([-v[0], -v[1]]);
+        let o = self.to_path_space(minus(s, p));
         let tau = dot(u, o) / dot(u, u);
         let half = self.paper.m / 2.0;
         if o == [0.0, 0.0] {
@@ -48,7 +48,7 @@ impl Reference<'_> {
     }
 
     /// Computes the dilated map: per pixel, every source that a correct run may hold after the last pass.
-    pub fn dilated(&self) -> Vec<Vec<Chosen>> {
+    pub fn dilate(&self) -> Vec<Vec<Chosen>> {
         let [width, height] = self.size;
         let pixels = || (0..height).flat_map(move |y| (0..width).map(move |x| [x, y]));
         let mut map: Vec<Vec<Chosen>> = pixels()
@@ -73,7 +73,7 @@ impl Reference<'_> {
     pub fn place(&self, pixel: [i64; 2], iteration: u32) -> Vec2 {
         match iteration {
             0 => self.uv(pixel),
-            _ => self.stored(self.uv(pixel)),
+            _ => self.round_as_stored(self.uv(pixel)),
         }
     }
 

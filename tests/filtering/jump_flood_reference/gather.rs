@@ -13,7 +13,7 @@ struct Share {
 impl Reference<'_> {
     /// Blurs one pixel with a given map of sources, in pixels. Returns the colour and its error from 32-bit noise; none
     /// where a tap lies too near an edge to tell its texel.
-    pub fn blurred(
+    pub fn blur(
         &self,
         pixel: [i64; 2],
         sources: &dyn Fn([i64; 2]) -> Vec2,
@@ -79,7 +79,7 @@ impl Reference<'_> {
     fn color(&self, uv: Vec2) -> [f64; 3] {
         [0, 1, 2].map(|c| {
             self.sample(uv, false, |x, y| {
-                f64::from(self.clamped(&self.field.color, x, y)[c])
+                f64::from(self.read_clamped(&self.field.color, x, y)[c])
             })
         })
     }
@@ -109,8 +109,8 @@ impl Reference<'_> {
 
     /// Computes w = 1 - fg * D^0.1; none where the root would amplify rounding noise in D and the weight matters.
     fn weight(&self, own: Vec2, other: Vec2) -> Option<f64> {
-        let v = self.measured(self.velocity(own));
-        let w = self.measured(self.velocity(other));
+        let v = self.to_path_space(self.velocity(own));
+        let w = self.to_path_space(self.velocity(other));
         let d = dot(minus(v, w), v) / dot(v, v);
         let ahead = (self.depth(other) - self.depth(own)) / self.paper.foreground_extent;
         let fg = (1.0 - ahead).clamp(0.0, 1.0);

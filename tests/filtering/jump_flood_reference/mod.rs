@@ -113,7 +113,7 @@ impl Case {
     fn blur<'g>(&self, gpu: &'g Gpu, filter: &Filter) -> (Blur<'g>, frame::Image) {
         let (width, height) = (self.field.color.width, self.field.color.height);
         let mut blur = Blur::new(gpu, filter, &self.settings, width, height).unwrap();
-        let output = self.field.blurred(&mut blur, self.exposure, FRAME_INDEX);
+        let output = self.field.blur(&mut blur, self.exposure, FRAME_INDEX);
         (blur, output)
     }
 
@@ -177,7 +177,7 @@ fn the_dilation_agrees_with_a_64_bit_reference() {
         let mut ties = 0;
         for ((pixel, texel), outcomes) in pixels(&case.field)
             .zip(&seeds.pixels)
-            .zip(case.reference().dilated())
+            .zip(case.reference().dilate())
         {
             let chosen = Chosen {
                 pixel: [texel[0].floor() as i64, texel[1].floor() as i64],
@@ -213,13 +213,13 @@ fn rejection_and_the_way_back_agree_with_the_reference() {
         let mut ties = 0;
         for ((pixel, texel), dilated) in pixels(&case.field)
             .zip(&sources.pixels)
-            .zip(reference.dilated())
+            .zip(reference.dilate())
         {
             let [chosen] = dilated[..] else {
                 ties += 1;
                 continue;
             };
-            let outcomes = reference.backtracked(pixel, chosen);
+            let outcomes = reference.backtrack(pixel, chosen);
             let near = |outcome: &&Source| {
                 // Positions up to 100 pixels after three products in 32-bit floats.
                 let distance = (0..2).map(|axis| outcome.position[axis] - f64::from(texel[axis]));
@@ -257,7 +257,7 @@ fn the_gather_weights_taps_like_the_reference() {
         let reference = case.reference();
         let mut compared = 0;
         for (pixel, found) in pixels(&case.field).zip(&output.pixels) {
-            let Some((expected, misplaced)) = reference.blurred(pixel, &source) else {
+            let Some((expected, misplaced)) = reference.blur(pixel, &source) else {
                 continue;
             };
             for (expected, found) in expected.iter().zip(found) {

@@ -112,7 +112,7 @@ impl<'f> Reference<'f> {
         (0..2).all(|axis| (0..self.size[axis]).contains(&pixel[axis]))
     }
 
-    pub fn clamped<T: Copy>(&self, raster: &frame::Raster<T>, x: i64, y: i64) -> T {
+    pub fn read_clamped<T: Copy>(&self, raster: &frame::Raster<T>, x: i64, y: i64) -> T {
         let x = x.clamp(0, self.size[0] - 1);
         let y = y.clamp(0, self.size[1] - 1);
         *raster.at(x as u32, y as u32)
@@ -144,7 +144,7 @@ impl<'f> Reference<'f> {
     pub fn velocity(&self, uv: Vec2) -> Vec2 {
         [0, 1].map(|axis| {
             let motion = self.sample(uv, self.paper.nearest, |x, y| {
-                f64::from(self.clamped(&self.field.velocity, x, y)[axis])
+                f64::from(self.read_clamped(&self.field.velocity, x, y)[axis])
             });
             -motion / self.size[axis] as f64
         })
@@ -153,13 +153,13 @@ impl<'f> Reference<'f> {
     /// Computes z = near plane / reverse depth, with the demo's near plane of 0.05 m.
     pub fn depth(&self, uv: Vec2) -> f64 {
         let reverse = self.sample(uv, self.paper.nearest, |x, y| {
-            0.05 / f64::from(self.clamped(&self.field.depth, x, y))
+            0.05 / f64::from(self.read_clamped(&self.field.depth, x, y))
         });
         0.05 / reverse
     }
 
     /// Converts UV to the space in which paths are measured.
-    pub fn measured(&self, uv: Vec2) -> Vec2 {
+    pub fn to_path_space(&self, uv: Vec2) -> Vec2 {
         match self.paper.pixel_metric {
             true => self.pixels(uv),
             false => uv,
@@ -167,7 +167,7 @@ impl<'f> Reference<'f> {
     }
 
     /// Rounds a UV as the map does: 11 binary digits, towards zero.
-    pub fn stored(&self, uv: Vec2) -> Vec2 {
+    pub fn round_as_stored(&self, uv: Vec2) -> Vec2 {
         match self.paper.half_map {
             true => uv.map(|c| f64::from_bits(c.to_bits() & !((1 << 42) - 1))),
             false => uv,
@@ -185,7 +185,7 @@ impl<'f> Reference<'f> {
             false => self.size[0].max(self.size[1]),
         };
         let r = factor * largest as f64 / side as f64;
-        let v = self.measured(v);
+        let v = self.to_path_space(v);
         r / (dot(v, v).sqrt() * self.paper.m)
     }
 

@@ -24,10 +24,10 @@ struct Row {
 impl Reference<'_> {
     /// Applies rejection and the way back to a pixel whose dilated source is certain. Returns every result that a
     /// correct run may store.
-    pub fn backtracked(&self, pixel: [i64; 2], chosen: Chosen) -> Vec<Source> {
+    pub fn backtrack(&self, pixel: [i64; 2], chosen: Chosen) -> Vec<Source> {
         let p = self.uv(pixel);
         let own = |flag| Source {
-            position: self.pixels(self.stored(p)),
+            position: self.pixels(self.round_as_stored(p)),
             flag,
         };
         if !chosen.valid {
@@ -109,7 +109,7 @@ impl Reference<'_> {
                 ],
                 false => uv,
             };
-            let position = self.pixels(self.stored(near));
+            let position = self.pixels(self.round_as_stored(near));
             if sources.iter().all(|source| source.position != position) {
                 sources.push(Source {
                     position,
@@ -165,7 +165,7 @@ impl Reference<'_> {
     }
 
     fn difference(&self, v: Vec2, w: Vec2) -> f64 {
-        let (v, w) = (self.measured(v), self.measured(w));
+        let (v, w) = (self.to_path_space(v), self.to_path_space(w));
         let parallel = dot(minus(v, w), v).abs() / dot(v, v);
         let perpendicular = cross(minus(v, w), v).abs() / dot(v, v);
         let weighted = self.paper.parallel_sensitivity * parallel

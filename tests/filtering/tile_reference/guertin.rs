@@ -9,7 +9,7 @@ use super::tiles::{Vec2, direction, dot, length, scaled};
 use super::{Expected, FRAME_INDEX, Run};
 
 /// Computes a pixel from the GPU's neighbourhoods; none where rounding decides which texel is read.
-pub fn reconstructed(run: &Run, pixel: [i64; 2]) -> Option<Expected> {
+pub fn reconstruct(run: &Run, pixel: [i64; 2]) -> Option<Expected> {
     let tile = asked_tile(run, pixel)?;
     let noise = match run.real("jitter") {
         0.0 => {
@@ -58,7 +58,7 @@ fn color(run: &Run, pixel: [i64; 2], tile: [i64; 2], noise: f64) -> Option<[f64;
             largest
         };
         let misplaced = 1e-4 + 2.0 * NOISE * eta_phi / samples * step * length(along);
-        let tap = on_image(run, pixel, truncated(scaled(along, t), misplaced)?);
+        let tap = on_image(run, pixel, truncate_clearly(scaled(along, t), misplaced)?);
         let distance = t.abs() * length(largest);
         let other = run.motion(tap);
         let f = z_compare(1.0 / run.depth(pixel), 1.0 / run.depth(tap));
@@ -128,7 +128,7 @@ fn center_direction(largest: Vec2, own: Vec2, gamma: f64) -> Vec2 {
 }
 
 /// Truncates towards zero; none where `margin` decides.
-fn truncated(offset: Vec2, margin: f64) -> Option<[i64; 2]> {
+fn truncate_clearly(offset: Vec2, margin: f64) -> Option<[i64; 2]> {
     let clear = offset
         .iter()
         .all(|component| component.abs() < 0.5 || (component - component.round()).abs() > margin);

@@ -8,7 +8,7 @@ use super::{Expected, FRAME_INDEX, Run};
 const EPSILON: f64 = 1e-4;
 
 /// Computes a pixel from the GPU's neighbourhoods; none where rounding decides which texel a tap reads.
-pub fn reconstructed(run: &Run, pixel: [i64; 2]) -> Option<Expected> {
+pub fn reconstruct(run: &Run, pixel: [i64; 2]) -> Option<Expected> {
     // Distances are between pixels, so noise cannot change a weight.
     color(run, pixel).map(|color| Expected {
         color,
@@ -41,7 +41,7 @@ fn color(run: &Run, pixel: [i64; 2]) -> Option<[f64; 3]> {
         let step = 2.0 / (samples as f64 + 1.0);
         let t = -1.0 + step * (i as f64 + jitter + 1.0);
         let misplaced = 1e-4 + uncertainty * step * length(largest);
-        let offset = rounded(scaled(largest, t), misplaced)?;
+        let offset = round_clearly(scaled(largest, t), misplaced)?;
         let distance = length(offset.map(|component| component as f64));
         let tap = on_image(run, pixel, offset);
         let f = soft_depth_compare(z(pixel), z(tap), run.real("soft_extent"));
@@ -57,7 +57,7 @@ fn color(run: &Run, pixel: [i64; 2]) -> Option<[f64; 3]> {
 }
 
 /// Rounds to the nearest whole pixel; none where `margin` decides.
-fn rounded(offset: Vec2, margin: f64) -> Option<[i64; 2]> {
+fn round_clearly(offset: Vec2, margin: f64) -> Option<[i64; 2]> {
     let clear = offset
         .iter()
         .all(|component| (component - component.floor() - 0.5).abs() > margin);

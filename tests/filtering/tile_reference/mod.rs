@@ -92,7 +92,7 @@ fn runs(filter: &str) -> Vec<Run> {
             }
             let (width, height) = (field.color.width, field.color.height);
             let mut blur = Blur::new(&gpu, &filter, &settings, width, height).unwrap();
-            let output = field.blurred(&mut blur, *exposure, FRAME_INDEX);
+            let output = field.blur(&mut blur, *exposure, FRAME_INDEX);
             runs.push(Run {
                 name: format!("{name} {changes:?} at {exposure} on {field_name}"),
                 motion: blur.read_texture("motion").unwrap(),
@@ -315,12 +315,12 @@ fn tile_variance_follows_the_directions_of_neighbouring_tiles() {
 
 #[test]
 fn mcguire_s_reconstruction_equals_the_paper() {
-    expect_pictures("mcguire", mcguire::reconstructed);
+    expect_pictures("mcguire", mcguire::reconstruct);
 }
 
 #[test]
 fn guertin_s_reconstruction_equals_the_paper() {
-    expect_pictures("guertin", guertin::reconstructed);
+    expect_pictures("guertin", guertin::reconstruct);
 }
 
 fn expect_pictures(filter: &str, reference: fn(&Run, [i64; 2]) -> Option<Expected>) {

@@ -40,7 +40,7 @@ fn mover_beside_still(mover_depth: f32, still_depth: f32) -> Picture {
 
 /// Runs the preset `motion_blur_demo` with changes.
 fn motion_blur_demo(picture: &Picture, changes: Changes) -> Image {
-    picture.blurred("mcguire", "motion_blur_demo", changes)
+    picture.blur("mcguire", "motion_blur_demo", changes)
 }
 
 /// Returns the part that a pixel takes of the tap -7 to 7 pixels from it.
@@ -240,7 +240,7 @@ fn guertin_s_rule_for_diagonal_tiles_misses_motion_away_from_the_tile() {
             ("tile_blend", "0"),
             ("neighbor_rule", rule),
         ];
-        let output = picture.blurred("guertin", "paper", &changes);
+        let output = picture.blur("guertin", "paper", &changes);
         let diagonal = (20..40).flat_map(|y| (20..40).map(move |x| (x, y)));
         diagonal.map(|(x, y)| output.at(x, y)[0]).sum::<f32>()
     };

@@ -7,7 +7,16 @@ use crate::random::Random;
 
 type Change = fn(&mut Vec<u8>, &Source, &mut Random);
 
-const CHANGES: [Change; 8] = [flip, replace, word, insert, remove, repeat, cut, splice];
+const CHANGES: [Change; 8] = [
+    flip,
+    replace,
+    write_number,
+    insert,
+    remove,
+    repeat,
+    cut,
+    splice,
+];
 
 /// Applies a random change.
 pub fn change(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
@@ -41,7 +50,7 @@ fn replace(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
 }
 
 /// Writes two or four bytes that are a length or a number at a limit.
-fn word(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
+fn write_number(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
     const NUMBERS: [u32; 12] = [
         0,
         1,

@@ -21,7 +21,7 @@ pub fn change(input: &mut Vec<u8>, random: &mut Random) {
         0 => drop(chunks.remove(at)),
         1 => chunks.insert(at, chunks[at].clone()),
         2 => chunks.swap(at, 0),
-        3 => header(&mut chunks[0].1, random),
+        3 => change_header(&mut chunks[0].1, random),
         _ => {
             let none = Source {
                 tokens: &[],
@@ -48,7 +48,7 @@ pub fn push(file: &mut Vec<u8>, name: [u8; 4], content: &[u8]) {
 }
 
 /// Changes the size, depth, kind of colour or interlacing.
-fn header(content: &mut [u8], random: &mut Random) {
+fn change_header(content: &mut [u8], random: &mut Random) {
     if content.len() < 13 {
         return;
     }

@@ -10,22 +10,22 @@ type Change = fn(&mut Vec<u8>, &Source, &mut Random);
 
 /// Changes. Numbers, texts and words of the format stand in the list more often.
 const CHANGES: [Change; 16] = [
-    number,
-    number,
-    number,
-    quoted,
-    quoted,
-    token,
-    token,
-    line_token,
-    word,
-    word,
+    change_number,
+    change_number,
+    change_number,
+    change_quoted,
+    change_quoted,
+    insert_token,
+    insert_token,
+    insert_line_token,
+    change_word,
+    change_word,
     repeat_line,
     remove_line,
     swap_lines,
     borrow_line,
     nest,
-    bracket,
+    change_bracket,
 ];
 
 /// Brackets that can be nested.
@@ -45,13 +45,13 @@ pub fn change(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
 }
 
 /// Replaces a number.
-fn number(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
+fn change_number(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
     let is_number = |word: &[u8]| matches!(word.first(), Some(b'0'..=b'9' | b'-' | b'.'));
     let numbers: Vec<Range<usize>> = (find_words(input).into_iter())
         .filter(|range| is_number(&input[range.clone()]))
         .collect();
     if numbers.is_empty() {
-        return token(input, source, random);
+        return insert_token(input, source, random);
     }
     let range = random.pick(&numbers).clone();
     let new = match random.below(4) {
@@ -63,10 +63,10 @@ fn number(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
 }
 
 /// Replaces a text between quotes.
-fn quoted(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
+fn change_quoted(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
     let quotes: Vec<usize> = (0..input.len()).filter(|at| input[*at] == b'"').collect();
     if quotes.len() < 2 {
-        return word(input, source, random);
+        return change_word(input, source, random);
     }
     let first = random.below(quotes.len() - 1);
     let range = quotes[first] + 1..quotes[first + 1];
@@ -83,7 +83,7 @@ fn quoted(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
 }
 
 /// Inserts a word of the format anywhere.
-fn token(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
+fn insert_token(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
     let at = match random.once_in(2) {
         true => random.below(input.len() + 1),
         false => random.pick(&find_words(input)).start,
@@ -93,14 +93,14 @@ fn token(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
 }
 
 /// Inserts a word of the format before a line.
-fn line_token(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
+fn insert_line_token(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
     let at = random.pick(&find_lines(input)).start;
     let token = some_token(source, random);
     input.splice(at..at, token.bytes());
 }
 
 /// Replaces a word.
-fn word(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
+fn change_word(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
     let words = find_words(input);
     let range = random.pick(&words).clone();
     let new = match random.once_in(2) {
@@ -150,7 +150,7 @@ fn nest(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
 }
 
 /// Removes or doubles a bracket or comma.
-fn bracket(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
+fn change_bracket(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
     let marks = b"[]{}(),:=\"'\n";
     let places: Vec<usize> = (0..input.len())
         .filter(|at| marks.contains(&input[*at]))

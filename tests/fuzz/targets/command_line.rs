@@ -33,7 +33,7 @@ pub static TARGET: Target = Target {
     },
     run: |place, input| {
         for name in ["scenes", "out", "tuned", "study", "base.json"] {
-            place.copied(name);
+            place.copy(name);
         }
         let words: Vec<&OsStr> = (input.split(|byte| *byte == b'\n'))
             .filter(|word| !word.contains(&0) && *word != b"/")

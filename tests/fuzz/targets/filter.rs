@@ -7,7 +7,7 @@ use filters::Filter;
 
 use crate::huge;
 use crate::place::Place;
-use crate::seeds::{Seed, shipped};
+use crate::seeds::{Seed, read_shipped};
 use crate::target::{Shape, Target};
 use crate::tokens;
 
@@ -19,7 +19,7 @@ pub static MANIFEST: Target = Target {
     shape: Shape::Text,
     tokens: tokens::FILTER,
     seeds: |_| {
-        let mut seeds = shipped("shaders", "filter.toml");
+        let mut seeds = read_shipped("shaders", "filter.toml");
         seeds.extend([Seed::Made(huge::deep_toml), Seed::Made(huge::long_key)]);
         seeds
     },
@@ -94,7 +94,7 @@ pub fn write(place: &Place, input: &[u8]) -> PathBuf {
     let names = Filter::builtin_names();
     let name = (names.iter().find(|known| *known == name)).map_or("identity", String::as_str);
     place.write(&format!("{name}/{name}.wgsl"), input);
-    let manifest = shipped(&format!("shaders/{name}"), "filter.toml");
+    let manifest = read_shipped(&format!("shaders/{name}"), "filter.toml");
     let [Seed::Bytes(manifest)] = manifest.as_slice() else {
         panic!("{name} has a filter.toml");
     };
@@ -108,7 +108,7 @@ pub fn write(place: &Place, input: &[u8]) -> PathBuf {
 }
 
 fn kernels(name: &str) -> String {
-    let found = shipped(&format!("shaders/{name}"), ".wgsl");
+    let found = read_shipped(&format!("shaders/{name}"), ".wgsl");
     let [Seed::Bytes(kernels)] = found.as_slice() else {
         panic!("{name} has one file of kernels");
     };

@@ -31,9 +31,9 @@ pub static TARGET: Target = Target {
         seeds.collect()
     },
     run: |place, input| {
-        place.copied("scenes");
-        place.copied_anew("out");
-        fs::write(record(place, input), sealed(input)).unwrap();
+        place.copy("scenes");
+        place.copy_again("out");
+        fs::write(record(place, input), add_seal(input)).unwrap();
         let filters = ["--filters", "velocity_gather:departure,mcguire:paper"];
         let words = [&["run"], &RENDER[..], &filters, &["--out", "out"]].concat();
         shuttertruth(place, &words);
@@ -52,7 +52,7 @@ fn record(place: &Place, input: &[u8]) -> PathBuf {
 }
 
 /// Gives a record a valid seal; leaves anything else unchanged.
-fn sealed(input: &[u8]) -> Vec<u8> {
+fn add_seal(input: &[u8]) -> Vec<u8> {
     let Ok(mut record) = serde_json::from_slice::<Value>(input) else {
         return input.to_vec();
     };

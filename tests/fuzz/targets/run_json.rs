@@ -27,7 +27,7 @@ pub static RUN: Target = Target {
     tokens: tokens::JSON,
     seeds: |place| vec![of(place, "out/run.json"), Seed::Made(huge::deep_json)],
     run: |place, input| {
-        let folder = place.copied("out");
+        let folder = place.copy("out");
         let path = place.write("out/run.json", input);
         let Ok(run) = Run::read(&path) else {
             return;
@@ -71,7 +71,7 @@ pub static BENCH: Target = Target {
     tokens: tokens::JSON,
     seeds: |place| vec![of(place, "out/bench.json"), Seed::Made(huge::deep_json)],
     run: |place, input| {
-        let folder = place.copied("out");
+        let folder = place.copy("out");
         place.write("out/bench.json", input);
         let run = Run::read(&folder.join("run.json")).unwrap();
         write_page(&run, &[], &folder);
@@ -87,7 +87,7 @@ pub static JUDGEMENT: Target = Target {
     tokens: tokens::JSON,
     seeds: |place| vec![of(place, "out/judgement.json"), Seed::Made(huge::deep_json)],
     run: |place, input| {
-        let folder = place.copied("out");
+        let folder = place.copy("out");
         place.write("out/judgement.json", input);
         let run = Run::read(&folder.join("run.json")).unwrap();
         if let Ok(Some(judgement)) = Judgement::read(&run, &folder) {

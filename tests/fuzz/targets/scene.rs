@@ -13,7 +13,7 @@ use tracer::{
 use super::none;
 use crate::huge;
 use crate::place::Place;
-use crate::seeds::{Seed, shipped};
+use crate::seeds::{Seed, read_shipped};
 use crate::target::{Shape, Target};
 use crate::tokens;
 
@@ -25,7 +25,7 @@ pub static SCENE: Target = Target {
     shape: Shape::Text,
     tokens: tokens::SCENE,
     seeds: |_| {
-        let mut seeds: Vec<Seed> = shipped("scenes", "scene.toml")
+        let mut seeds: Vec<Seed> = read_shipped("scenes", "scene.toml")
             .iter()
             .map(at_home)
             .collect();
@@ -92,7 +92,7 @@ pub static IMPORT: Target = Target {
     batch: 250,
     shape: Shape::Text,
     tokens: tokens::MODEL,
-    seeds: |_| shipped("tests/fuzz/corpus/obj", ""),
+    seeds: |_| read_shipped("tests/fuzz/corpus/obj", ""),
     run: |place, input| {
         let folder = write(place, "mesh.obj", input);
         let out = place.folder.join("imported");

@@ -39,8 +39,8 @@ pub struct Service {
 
 impl Service {
     fn start(place: &Place) -> Self {
-        place.copied("scenes");
-        place.copied("out");
+        place.copy("scenes");
+        place.copy("out");
         let mut child = Command::new(PROGRAM)
             .current_dir(&place.folder)
             .arg("serve")

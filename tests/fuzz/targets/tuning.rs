@@ -25,7 +25,7 @@ pub static JOURNAL: Target = Target {
         ]
     },
     run: |place, input| {
-        let folder = place.copied("tuned");
+        let folder = place.copy("tuned");
         place.write("tuned/journal.jsonl", input);
         show(&folder);
         // The same command again, which continues the journal.
@@ -53,8 +53,8 @@ pub static TUNE: Target = Target {
         ]
     },
     run: |place, input| {
-        let folder = place.copied("tuned");
-        let study = place.copied("study");
+        let folder = place.copy("tuned");
+        let study = place.copy("study");
         place.write("tuned/tune.json", input);
         show(&folder);
         place.write("study/sensitivity.json", input);

@@ -143,7 +143,7 @@ impl Bench {
     }
 
     /// Copies a shipped filter and plants a defect.
-    fn planted(&self, defect: &Defect) -> PathBuf {
+    fn plant(&self, defect: &Defect) -> PathBuf {
         let copy = self.folder.path().join("planted").join(defect.name);
         copy_shipped_filter(defect.filter, &copy);
         let kernels = copy.join(defect.filter).with_extension("wgsl");
@@ -189,7 +189,7 @@ fn broken_bounds(check: &Check) -> Vec<String> {
 fn every_planted_defect_breaks_a_bound_and_sound_filters_pass() {
     let bench = Bench::new(&SOUND);
     let planted = DEFECTS.iter().map(|defect| {
-        let copy = bench.planted(defect);
+        let copy = bench.plant(defect);
         format!("{}:{}", copy.display(), defect.preset)
     });
     let words = SOUND.iter().map(|name| (*name).to_owned());

@@ -209,7 +209,7 @@ fn a_choice_that_suits_only_one_family_shows_its_gap() {
     );
 }
 
-fn paired(rows: &[(f64, f64)]) -> PairedComparison {
+fn compare_pairs(rows: &[(f64, f64)]) -> PairedComparison {
     let score = |flip| SceneScore {
         flip,
         bleed: Some(10.0 * flip),
@@ -224,7 +224,7 @@ fn paired(rows: &[(f64, f64)]) -> PairedComparison {
 
 #[test]
 fn lower_error_on_every_scene_is_better_and_on_half_of_them_undecided() {
-    let better = paired(&[
+    let better = compare_pairs(&[
         (0.2, 0.1),
         (0.3, 0.2),
         (0.1, 0.08),
@@ -235,7 +235,7 @@ fn lower_error_on_every_scene_is_better_and_on_half_of_them_undecided() {
     assert_eq!(better.bleed.as_ref().unwrap().verdict, Preference::Second);
     // Mean of -1, -1, -0.2, -0.5 and -0.3 pixels.
     assert!((better.bleed.unwrap().mean + 0.6).abs() < 1e-9);
-    let worse = paired(&[
+    let worse = compare_pairs(&[
         (0.1, 0.2),
         (0.2, 0.3),
         (0.08, 0.1),
@@ -243,9 +243,9 @@ fn lower_error_on_every_scene_is_better_and_on_half_of_them_undecided() {
         (0.07, 0.1),
     ]);
     assert_eq!(worse.flip.verdict, Preference::First);
-    let even = paired(&[(0.1, 0.2), (0.2, 0.1), (0.1, 0.2), (0.2, 0.1), (0.1, 0.1)]);
+    let even = compare_pairs(&[(0.1, 0.2), (0.2, 0.1), (0.1, 0.2), (0.2, 0.1), (0.1, 0.1)]);
     assert_eq!(even.flip.verdict, Preference::Undecided);
-    let few = paired(&[(0.2, 0.1), (0.3, 0.2), (0.1, 0.08), (0.2, 0.15)]);
+    let few = compare_pairs(&[(0.2, 0.1), (0.3, 0.2), (0.1, 0.08), (0.2, 0.15)]);
     assert_eq!(
         few.flip.verdict,
         Preference::Undecided,

@@ -21,7 +21,7 @@ fn shared_bounds() -> Bounds {
 }
 
 /// Scores every decoy, and the right blurs, on one scene.
-fn scored(scene: &Scene) -> Vec<(&'static str, Scores)> {
+fn score_decoys(scene: &Scene) -> Vec<(&'static str, Scores)> {
     let frame = scene.frame();
     let truth = scene.truth([noisy(1024, 1), noisy(1024, 2)]);
     let reference = Reference::new(&frame, &truth, None, &VIEWING).unwrap();
@@ -99,7 +99,7 @@ fn every_wrong_blur_breaks_a_bound_and_the_right_blurs_break_none() {
     let mut failures = Vec::new();
     for (scene, made) in scenes() {
         let mut rows = Vec::new();
-        for (decoy, scores) in scored(&made) {
+        for (decoy, scores) in score_decoys(&made) {
             let broken = broken_bounds(&scores, &bounds);
             let seen_by = SEEN_BY.iter().find(|(name, _)| *name == decoy);
             match seen_by {

@@ -6,12 +6,12 @@ use filters::{Filter, Limits, try_out};
 use tests::open_gpu;
 use tests::text::assert_contains;
 
-use super::{change, list, load, mine};
+use super::{change, list, load, write_mine};
 use crate::bench::{assert_done, assert_refused, stderr};
 
 #[test]
 fn list_tries_a_filter_and_lists_it_if_it_works() {
-    let bench = mine(&[]);
+    let bench = write_mine(&[]);
     let output = list(&bench);
     assert_done(&output);
     assert_eq!(stderr(&output), "");
@@ -30,8 +30,8 @@ fn list_refuses_a_filter_that_the_device_refuses_with_file_and_pass() {
     for (from, to, parts) in wrong {
         let table = "var<workgroup> table: array<vec4<f32>, 100000>;";
         let bench = match to.starts_with("table") {
-            true => mine(&[(from, to), ("// declarations", table)]),
-            false => mine(&[(from, to)]),
+            true => write_mine(&[(from, to), ("// declarations", table)]),
+            false => write_mine(&[(from, to)]),
         };
         assert_refused(&list(&bench), 2, parts);
         // Nothing was rendered before.
@@ -58,7 +58,7 @@ fn the_lowest_common_limits_hold_if_no_adapter_is_there() {
             .map(|name| format!("[[texture]]\nname = \"{name}\"\nformat = \"rgba32float\"\n"))
             .collect();
         let pass = format!("{textures}\n[[pass]]");
-        let bench = mine(&[
+        let bench = write_mine(&[
             ("// declarations", &declared),
             ("// statements", &stored),
             ("[[pass]]", &pass),
@@ -79,7 +79,7 @@ fn the_lowest_common_limits_hold_if_no_adapter_is_there() {
         ],
     );
     let lowest = |from, to| {
-        let filter = load(&mine(&[(from, to)])).unwrap();
+        let filter = load(&write_mine(&[(from, to)])).unwrap();
         Limits::lowest()
             .check(&filter)
             .map_err(|error| error.to_string())
@@ -96,7 +96,7 @@ fn the_lowest_common_limits_hold_if_no_adapter_is_there() {
 
 #[test]
 fn variables_and_calls_too_large_for_any_device_are_refused_on_load() {
-    let bench = mine(&[
+    let bench = write_mine(&[
         (
             "// declarations",
             "var<private> much: array<f32, 10000000>;",
@@ -149,11 +149,11 @@ fn list_finds_a_range_in_which_a_kernel_fails() {
         if to.contains("dark") {
             changes.push(("[1, 64]", "[0, 64]"));
         }
-        assert_refused(&list(&mine(&changes)), 2, parts);
+        assert_refused(&list(&write_mine(&changes)), 2, parts);
     }
     let gpu = open_gpu();
     if gpu.loop_limit.is_some() {
-        let bench = mine(&[("[1, 64]", "[1, 100000]")]);
+        let bench = write_mine(&[("[1, 64]", "[1, 100000]")]);
         let parts = ["parameter \"samples\" = 100000", "ends all loops"];
         assert_refused(&list(&bench), 2, &parts);
     }

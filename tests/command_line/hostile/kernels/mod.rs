@@ -58,7 +58,7 @@ fn work(@builtin(global_invocation_id) id: vec3<u32>) {
 ";
 
 /// Makes a bench with the filter `mine`, after these replacements in its files.
-fn mine(changes: &[(&str, &str)]) -> Bench {
+fn write_mine(changes: &[(&str, &str)]) -> Bench {
     let bench = Bench::new();
     change(&bench, changes);
     bench

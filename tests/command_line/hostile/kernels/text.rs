@@ -3,7 +3,7 @@
 use std::fs;
 use std::time::{Duration, Instant};
 
-use super::{list, load, mine};
+use super::{list, load, write_mine};
 use crate::bench::{assert_done, assert_refused, make_fifo, stderr};
 
 #[test]
@@ -19,7 +19,7 @@ fn deep_kernels_load_or_are_refused_with_their_line() {
         |count: usize| format!("value.x = {}1.0{};", "(".repeat(count), ")".repeat(count));
     // Each term counts twice: as a sum and as a member.
     for statements in [sum(490), choices(300), brackets(150)] {
-        let bench = mine(&[("// statements", &statements)]);
+        let bench = write_mine(&[("// statements", &statements)]);
         assert_done(&list(&bench));
     }
     for statements in [
@@ -30,7 +30,7 @@ fn deep_kernels_load_or_are_refused_with_their_line() {
         choices(3_000),
         brackets(100_000),
     ] {
-        let bench = mine(&[("// statements", &statements)]);
+        let bench = write_mine(&[("// statements", &statements)]);
         let parts = [
             "mine.wgsl:18: more than 1000 operators",
             "allowed: at most 1000",
@@ -38,19 +38,19 @@ fn deep_kernels_load_or_are_refused_with_their_line() {
         assert_refused(&list(&bench), 2, &parts);
     }
     // Errors from Naga's own limits name their place too.
-    let bench = mine(&[("// statements", &brackets(400))]);
+    let bench = write_mine(&[("// statements", &brackets(400))]);
     assert_refused(&list(&bench), 2, &["mine.wgsl"]);
     // Many declarations that refer to one another, and many statements.
     let mut constants = "const c0 = 1;\n".to_owned();
     for index in 1..10_000 {
         constants.insert_str(0, &format!("const c{index} = c{};\n", index - 1));
     }
-    load(&mine(&[("// declarations", &constants)])).unwrap();
+    load(&write_mine(&[("// declarations", &constants)])).unwrap();
 }
 
 #[test]
 fn irregular_and_large_files_are_refused() {
-    let bench = mine(&[]);
+    let bench = write_mine(&[]);
     for (file, limit) in [("filter.toml", 1 << 20), ("mine.wgsl", 256 << 10)] {
         let path = bench.path("mine").join(file);
         let whole = fs::read(&path).unwrap();
@@ -107,7 +107,7 @@ fn extreme_numbers_and_texts_are_refused_with_their_line() {
         ("// statements", "value.x = \u{7}\u{1b}[31m;", &["mine.wgsl:18"]),
     ];
     for (from, to, parts) in wrong {
-        let output = list(&mine(&[(from, to)]));
+        let output = list(&write_mine(&[(from, to)]));
         assert_refused(&output, 2, parts);
         let message = stderr(&output);
         let raw = message.chars().find(|c| c.is_control() && *c != '\n');
@@ -127,19 +127,19 @@ fn thousands_of_presets_and_parameters_are_refused_quickly() {
             format!("[[preset]]\nname = \"p{index}\"\ndoc = \"d\"\nvalues = {{ samples = 2 }}\n")
         })
         .collect();
-    let bench = mine(&[("[[pass]]", &format!("{presets}[[pass]]"))]);
+    let bench = write_mine(&[("[[pass]]", &format!("{presets}[[pass]]"))]);
     assert_refused(&list(&bench), 2, &["8001 [[preset]]", "at most 256"]);
     let parameters: String = (0..8_000)
         .map(|index| format!("[[parameter]]\nname = \"p{index}\"\nkind = \"integer\"\ndefault = 1\nrange = [0, 2]\ndoc = \"d\"\n"))
         .collect();
-    let bench = mine(&[("[[pass]]", &format!("{parameters}[[pass]]"))]);
+    let bench = write_mine(&[("[[pass]]", &format!("{parameters}[[pass]]"))]);
     assert_refused(&list(&bench), 2, &["8002 [[parameter]]", "at most 256"]);
     assert!(start.elapsed() < Duration::from_secs(60));
 }
 
 #[test]
 fn values_out_of_range_are_refused_before_a_run() {
-    let bench = mine(&[]);
+    let bench = write_mine(&[]);
     for (value, parts) in [
         (
             "gain=nan",

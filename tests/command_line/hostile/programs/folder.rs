@@ -44,12 +44,12 @@ fn two_runs_cannot_share_a_folder_at_the_same_time() {
     // Renders share a folder with each other and with no other command.
     other.unlock().unwrap();
     other.try_lock_shared().unwrap();
-    bench.done(&split(RENDER));
+    bench.execute(&split(RENDER));
     assert_refused(&bench.shuttertruth(&split(RUN)), 2, &parts);
     // A process that ends releases its lock.
     drop(other);
-    bench.done(&split(RUN));
-    bench.done(&split(RUN));
+    bench.execute(&split(RUN));
+    bench.execute(&split(RUN));
 }
 
 #[test]
@@ -67,7 +67,7 @@ fn the_next_run_removes_files_of_a_killed_process() {
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         fs::write(path, "half").unwrap();
     }
-    bench.done(&split(RUN));
+    bench.execute(&split(RUN));
     for name in gone {
         assert!(!bench.path(name).exists(), "{name}");
     }

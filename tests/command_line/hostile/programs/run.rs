@@ -63,7 +63,7 @@ fn no_command_runs_a_program_without_permission() {
     assert_done(&output);
     assert!(stdout(&output).contains("runs: ./blur.sh {frame} {out}"));
     assert!(!bench.path("mine/ran").exists(), "it ran");
-    bench.done(&split(BLUR));
+    bench.execute(&split(BLUR));
     assert!(bench.path("mine/ran").exists());
 }
 

@@ -10,7 +10,7 @@ use crate::bench::{Bench, press_ctrl_c, split};
 use crate::serve::SERVE;
 
 /// Sends bytes, reads answers until the service ends, and checks that it ends well.
-fn conversation(bench: &Bench, said: &[u8]) -> Vec<Value> {
+fn converse(bench: &Bench, said: &[u8]) -> Vec<Value> {
     let mut command = bench.command(&split(SERVE));
     command.stdin(Stdio::piped()).stdout(Stdio::piped());
     let mut child = command.spawn().unwrap();
@@ -43,7 +43,7 @@ fn a_bad_line_gets_an_error_and_the_next_line_an_answer() {
         &wrong,
         last,
     ];
-    let heard = conversation(&bench, &said.concat());
+    let heard = converse(&bench, &said.concat());
     let errors: Vec<&str> = heard
         .iter()
         .filter_map(|line| line["error"].as_str())

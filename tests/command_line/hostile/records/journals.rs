@@ -13,7 +13,7 @@ const TUNE: &str = "tune --quiet --filter jump_flood --vary samples --objective 
 fn a_journal_with_an_impossible_trial_is_refused_with_its_line_and_left_unchanged() {
     let bench = Bench::new();
     let words = TUNE.to_owned();
-    bench.done(&split(&words));
+    bench.execute(&split(&words));
     let path = bench.path("tuned/journal.jsonl");
     let whole = fs::read_to_string(&path).unwrap();
     let lines: Vec<&str> = whole.lines().collect();

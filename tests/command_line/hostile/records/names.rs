@@ -16,7 +16,7 @@ const RENDER: [&str; 6] = [
 ];
 
 /// Renames the plate's folder.
-fn renamed(bench: &Bench, folder: &str) {
+fn rename_scene(bench: &Bench, folder: &str) {
     let target = bench.path(folder);
     fs::create_dir_all(target.parent().unwrap()).unwrap();
     fs::rename(bench.path("scenes/plate"), target).unwrap();
@@ -26,8 +26,8 @@ fn renamed(bench: &Bench, folder: &str) {
 fn names_in_every_script_are_written_as_utf_8() {
     for name in ["\u{e9}ventail", "\u{6247}\u{98a8}\u{6a5f}_\u{1f300}"] {
         let bench = Bench::new();
-        renamed(&bench, &format!("scenes/{name}"));
-        bench.done(&RENDER);
+        rename_scene(&bench, &format!("scenes/{name}"));
+        bench.execute(&RENDER);
         let path = bench.path("r").join(name).join("frame.exr");
         assert_eq!(Frame::read(&path).unwrap().provenance.scene, name);
         let bytes = fs::read(&path).unwrap();
@@ -39,7 +39,7 @@ fn names_in_every_script_are_written_as_utf_8() {
 #[test]
 fn a_folder_above_a_scene_may_contain_an_at_and_the_scene_may_not() {
     let bench = Bench::new();
-    renamed(&bench, "me@home/plate");
+    rename_scene(&bench, "me@home/plate");
     let scene = |path: &str| bench.shuttertruth(&[&RENDER[..], &["--scenes", path]].concat());
     assert_done(&scene("./me@home/plate"));
     assert_refused(
@@ -69,7 +69,7 @@ fn a_path_with_at_all_selects_every_variant() {
         &format!("{text}\n[variant.short]\nexposure = 0.25\n[variant.long]\nexposure = 1.0\n"),
     );
     let words = [&RENDER[..], &["--scenes", "./scenes/plate@all"]].concat();
-    bench.done(&words);
+    bench.execute(&words);
     for variant in ["plate@short", "plate@long"] {
         assert!(bench.path("r").join(variant).join("frame.exr").is_file());
     }

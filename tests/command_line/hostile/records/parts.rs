@@ -16,7 +16,7 @@ fn parts() -> Bench {
     for (out, part) in [("a", "0..1"), ("b", "1..2")] {
         let words =
             format!("render --quiet --samples-per-pixel 16 --replicates {part} --out {out}");
-        bench.done(&split(&words));
+        bench.execute(&split(&words));
     }
     bench
 }
