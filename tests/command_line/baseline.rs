@@ -9,8 +9,8 @@ const FINE: [&str; 2] = ["--filters", "velocity_gather:fine"];
 const COARSER: [&str; 2] = ["--set", "velocity_gather.samples=2"];
 const BASELINE: [&str; 2] = ["--baseline", "base.json"];
 
-/// A bench with a margin, whose fine gather was measured and accepted.
-fn accepted() -> Bench {
+/// Makes a bench with a margin, measures the fine gather and accepts it.
+fn set_up() -> Bench {
     let bench = Bench::new();
     fs::write(
         bench.path("scenes/bounds.toml"),
@@ -22,7 +22,7 @@ fn accepted() -> Bench {
     bench
 }
 
-/// `run` with the samples of a check.
+/// Runs `run` with the samples of a check.
 fn run(bench: &Bench, more: &[&str]) -> Output {
     let size = ["--size", "64x32", "--samples-per-pixel", "64"];
     let words = ["run", "--quiet", "--out", "out"];
@@ -43,8 +43,8 @@ fn baseline(bench: &Bench) -> serde_json::Value {
 }
 
 #[test]
-fn the_same_scores_are_no_worse_and_others_are_told() {
-    let bench = accepted();
+fn equal_scores_pass_and_worse_scores_are_reported() {
+    let bench = set_up();
     let same = check(&bench, &[]);
     assert_done(&same);
     assert!(
@@ -65,8 +65,8 @@ fn the_same_scores_are_no_worse_and_others_are_told() {
 }
 
 #[test]
-fn a_baseline_has_a_number_a_line_under_sorted_keys() {
-    let bench = accepted();
+fn a_baseline_has_one_number_per_line_under_sorted_keys() {
+    let bench = set_up();
     let text = fs::read_to_string(bench.path("base.json")).unwrap();
     let numbers: Vec<&str> = (text.lines().map(str::trim))
         .filter(|line| line.starts_with('"') && line.contains("\": ") && !line.ends_with('{'))
@@ -76,7 +76,7 @@ fn a_baseline_has_a_number_a_line_under_sorted_keys() {
     assert!(numbers.is_sorted(), "{numbers:#?}");
     let found = baseline(&bench);
     assert_eq!(found["reasons"][0], "the first");
-    let run = bench.measured();
+    let run = bench.read_run();
     assert_eq!(found["adapter"]["name"], run.adapter.unwrap().name);
     assert_eq!(
         found["truths"]["plate"]["trailing"],
@@ -88,8 +88,8 @@ fn a_baseline_has_a_number_a_line_under_sorted_keys() {
 }
 
 #[test]
-fn only_what_is_named_is_accepted() {
-    let bench = accepted();
+fn accept_changes_only_the_named_cases() {
+    let bench = set_up();
     let flip = |filter: &str| baseline(&bench)["scores"]["plate"][filter]["flip_moving"].clone();
     let before = flip("velocity_gather:fine");
     let both = ["--filters", "velocity_gather:fine,identity"];
@@ -108,8 +108,8 @@ fn only_what_is_named_is_accepted() {
 }
 
 #[test]
-fn what_must_not_be_accepted_is_refused() {
-    let bench = accepted();
+fn accept_refuses_bad_requests_and_incomparable_runs() {
+    let bench = set_up();
     let before = fs::read(bench.path("base.json")).unwrap();
     let in_ci = |more: &[&str]| {
         let words = [&["accept", "--out", "out", "--reason", "r"], more].concat();
@@ -129,16 +129,16 @@ fn what_must_not_be_accepted_is_refused() {
         assert_refused(&accept(&bench, more), 2, parts);
     }
     assert_eq!(fs::read(bench.path("base.json")).unwrap(), before);
-    // Another truth for one case of a scene would leave the others with the old one.
+    // A new truth for one case of a scene would leave the other cases with the old truth.
     assert_done(&bench.run(&FINE));
     assert_refused(
         &accept(&bench, &["--reason", "r", "--only", "plate/*"]),
         2,
         &["the truth is another", "accept the whole run"],
     );
-    // As if it had been made on a graphics card.
+    // Pretends that a graphics card made it.
     let text = String::from_utf8(before).unwrap();
-    let kind = bench.measured().adapter.unwrap().kind;
+    let kind = bench.read_run().adapter.unwrap().kind;
     let other = text.replace(&format!("\"kind\": \"{kind}\""), "\"kind\": \"quantum\"");
     assert_ne!(other, text);
     fs::write(bench.path("base.json"), other).unwrap();
@@ -156,8 +156,8 @@ fn what_must_not_be_accepted_is_refused() {
 }
 
 #[test]
-fn another_truth_is_not_compared() {
-    let bench = accepted();
+fn a_case_with_another_truth_is_not_compared() {
+    let bench = set_up();
     let output = check(&bench, &["--seed", "9"]);
     assert_refused(
         &output,

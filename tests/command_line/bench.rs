@@ -9,7 +9,8 @@ use tests::filter_folder;
 pub use tests::plate::{MTL, OBJ};
 use tests::text::assert_contains;
 
-/// 60 degrees of vertical field of view seen from 4 m: 0.4 m is about 2.7 px of 32 px rows.
+/// Scene of a plate. The vertical field of view is 60 degrees from 4 m away, so that 0.4 m is about 2.7 px of 32 px
+/// rows.
 pub const SCENE: &str = "\
 exposes = \"nothing: it serves the tests of the command line\"
 family = \"translation\"
@@ -32,7 +33,10 @@ keys = [
 ]
 ";
 
-/// A folder of scenes with one scene `plate`, and an `out` that does not exist yet.
+/// Words that choose the identity alone.
+pub const IDENTITY: [&str; 2] = ["--filters", "identity"];
+
+/// Temporary folder with one scene, `plate`, and an `out` that does not exist yet.
 pub struct Bench {
     folder: tempfile::TempDir,
 }
@@ -57,7 +61,7 @@ impl Bench {
         fs::write(self.path("scenes/plate").join(name), text).unwrap();
     }
 
-    /// Another scene, which is the plate's but for its scene.toml.
+    /// Adds a scene that differs from the plate's only in its scene.toml.
     pub fn copy_scene(&self, name: &str, changed: impl FnOnce(&str) -> String) {
         let copy = self.path("scenes").join(name);
         fs::create_dir(&copy).unwrap();
@@ -67,6 +71,16 @@ impl Bench {
         let text = changed(SCENE);
         assert_ne!(text, SCENE, "a scene that is no other");
         fs::write(copy.join("scene.toml"), text).unwrap();
+    }
+
+    /// Bounds `flip_moving` on the plate for every filter. The identity scores about 0.3.
+    pub fn write_bound(&self, limit: f64) {
+        self.write(
+            "bounds.toml",
+            &format!(
+                "[default]\nflip_moving = {{ limit = {limit:?}, why = \"it serves a test\" }}\n"
+            ),
+        );
     }
 
     /// Writes the filter `name`, with one file of kernels, to a folder of that name.
@@ -80,20 +94,20 @@ impl Bench {
 
     /// Runs a command that must succeed; returns what it prints.
     #[track_caller]
-    pub fn done(&self, words: &[&str]) -> String {
+    pub fn execute(&self, words: &[&str]) -> String {
         let output = self.shuttertruth(words);
         assert_done(&output);
         stdout(&output)
     }
 
-    /// Runs a command outside of any CI.
+    /// Runs a command as if no CI were there.
     pub fn outside_ci(&self, words: &[&str]) -> Output {
         let mut command = self.command(words);
         command.env_remove("CI").env_remove("GITHUB_STEP_SUMMARY");
         command.output().unwrap()
     }
 
-    /// Runs a command where no Vulkan driver is found.
+    /// Runs a command as if no Vulkan driver were there.
     pub fn without_adapter(&self, words: &[&str]) -> Output {
         let mut command = self.command(words);
         for name in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
@@ -108,20 +122,20 @@ impl Bench {
         command
     }
 
-    /// `run` with few samples; the table is on standard output.
+    /// Runs `run` with few samples; the table is on standard output.
     pub fn run(&self, more: &[&str]) -> Output {
-        let words = quick("run", "16");
+        let words = quick_command("run", "16");
         self.shuttertruth(&[&words, more].concat())
     }
 
-    /// `check` with few samples, outside of any CI; the report is on standard output.
+    /// Runs `check` with few samples and no CI; the report is on standard output.
     pub fn check(&self, more: &[&str]) -> Output {
-        let words = quick("check", "64");
+        let words = quick_command("check", "64");
         self.outside_ci(&[&words, more].concat())
     }
 
-    /// run.json of the last run.
-    pub fn measured(&self) -> suite::Run {
+    /// Reads run.json of the last run.
+    pub fn read_run(&self) -> suite::Run {
         self.read_json("out/run.json")
     }
 
@@ -130,15 +144,15 @@ impl Bench {
         serde_json::from_slice(&fs::read(self.path(below)).unwrap()).unwrap()
     }
 
-    /// The findings about the last run.
-    pub fn findings(&self) -> Vec<suite::Finding> {
-        let judgement = suite::Judgement::read(&self.measured(), &self.path("out")).unwrap();
+    /// Reads the findings about the last run.
+    pub fn read_findings(&self) -> Vec<suite::Finding> {
+        let judgement = suite::Judgement::read(&self.read_run(), &self.path("out")).unwrap();
         judgement.expect("the run was judged").findings
     }
 
-    /// The last run's cases that are filters.
-    pub fn measured_filters(&self) -> Vec<suite::Case> {
-        let cases = self.measured().cases.into_iter();
+    /// Returns the last run's cases without the references.
+    pub fn read_filter_cases(&self) -> Vec<suite::Case> {
+        let cases = self.read_run().cases.into_iter();
         cases.filter(|case| !case.is_reference).collect()
     }
 }
@@ -200,13 +214,13 @@ pub fn make_fifo(path: &Path) {
     assert!(status.unwrap().success());
 }
 
-/// A command line without quotes, word by word.
+/// Splits a command line without quotes into words.
 pub fn split(line: &str) -> Vec<&str> {
     line.split_whitespace().collect()
 }
 
-/// Words of a command that renders and measures, at a size that takes no time.
-pub fn quick<'a>(command: &'a str, samples_per_pixel: &'a str) -> [&'a str; 8] {
+/// Returns the words of a command that renders and measures in next to no time.
+pub fn quick_command<'a>(command: &'a str, samples_per_pixel: &'a str) -> [&'a str; 8] {
     [
         command,
         "--quiet",

@@ -7,7 +7,7 @@ use std::time::Duration;
 use frame::{ExrFile, Frame, Raster, Reprojection, read_exr, write_exr};
 use tests::filter_folder::{write_manifest, write_program, write_script};
 
-use crate::bench::{Bench, assert_done, assert_refused, press_ctrl_c, stderr, stdout};
+use crate::bench::{Bench, assert_done, assert_refused, press_ctrl_c, split, stderr, stdout};
 
 fn write_lines(bench: &Bench, name: &str, more: &str) {
     write_manifest(&bench.path(name), name, more);
@@ -19,7 +19,7 @@ fn write_blur(bench: &Bench, name: &str, lines: &str, more: &str) {
 
 fn render(bench: &Bench) {
     let words = ["render", "--quiet", "--out", "r", "--samples-per-pixel"];
-    bench.done(&[&words[..], &["16"]].concat());
+    bench.execute(&[&words[..], &["16"]].concat());
 }
 
 fn blur(filter: &str) -> [&str; 8] {
@@ -37,7 +37,7 @@ fn blur(filter: &str) -> [&str; 8] {
 }
 
 #[test]
-fn a_program_that_blurs_as_kernels_do_scores_as_they_do() {
+fn a_program_that_blurs_like_a_kernel_gets_its_scores() {
     let bench = Bench::new();
     let program = env!("CARGO_BIN_EXE_shuttertruth");
     let command = format!(
@@ -49,11 +49,11 @@ fn a_program_that_blurs_as_kernels_do_scores_as_they_do() {
     write_lines(&bench, "outside", &command);
     let filters = "velocity_gather:coarse,./outside:coarse";
     assert_done(&bench.run(&["--filters", filters, "--allow-commands"]));
-    let cases = bench.measured_filters();
+    let cases = bench.read_filter_cases();
     let [kernels, program] = &cases[..] else {
         panic!("two filters on one scene");
     };
-    // Colours and mattes travel as 32-bit floats: nothing is lost on the way.
+    // Colours and mattes travel as 32-bit floats, so nothing is lost.
     assert_eq!(kernels.scores, program.scores);
     assert_eq!(program.parameters["samples"], filters::Value::Integer(8));
     assert_eq!(kernels.command, None);
@@ -64,15 +64,9 @@ fn a_program_that_blurs_as_kernels_do_scores_as_they_do() {
 fn a_program_needs_no_adapter() {
     let bench = Bench::new();
     write_blur(&bench, "copy", "cp $1 $2", "");
-    let mut command = bench.command(&[
-        "run",
-        "--quiet",
-        "--out",
-        "out",
-        "--filter",
-        "copy",
-        "--allow-commands",
-    ]);
+    let mut command = bench.command(&split(
+        "run --quiet --out out --filter copy --allow-commands",
+    ));
     command.args(["--size", "64x32", "--samples-per-pixel", "16"]);
     command.env("VK_DRIVER_FILES", "/no/driver.json");
     command.env("VK_ICD_FILENAMES", "/no/driver.json");
@@ -83,14 +77,14 @@ fn a_program_needs_no_adapter() {
         "{}",
         stdout(&output)
     );
-    assert_eq!(bench.measured().adapter, None);
-    // One that was asked for must be there all the same.
+    assert_eq!(bench.read_run().adapter, None);
+    // An adapter that the user asked for must still be there.
     let output = command.args(["--adapter", "0"]).output().unwrap();
     assert_refused(&output, 3, &["mesa-vulkan-drivers"]);
 }
 
 #[test]
-fn the_program_of_the_guide_takes_part() {
+fn the_program_of_the_guide_runs() {
     let guide = include_str!("../../docs/add-a-filter.md");
     let start = guide.split("```toml\nname = \"my_engine\"").nth(1).unwrap();
     let manifest = format!("name = \"my_engine\"{}", start.split("```").next().unwrap());
@@ -113,13 +107,13 @@ fn the_program_of_the_guide_takes_part() {
     let mut command = bench.command(&blur("./my_engine"));
     assert_done(&command.env("PATH", path).output().unwrap());
     let outside = read_exr(&bench.path("b.exr")).unwrap().color("").unwrap();
-    bench.done(&blur("velocity_gather"));
+    bench.execute(&blur("velocity_gather"));
     let inside = read_exr(&bench.path("b.exr")).unwrap().color("").unwrap();
     assert_eq!(outside, inside);
 }
 
 #[test]
-fn a_program_knows_what_kernels_know_and_no_more() {
+fn a_program_gets_the_same_inputs_as_a_kernel() {
     let bench = Bench::new();
     render(&bench);
     let more = "[[parameter]]\nname = \"gain\"\nkind = \"real\"\nrange = [0, 2]\ndefault = 0.25\ndoc = \"\"";
@@ -162,14 +156,14 @@ fn a_program_knows_what_kernels_know_and_no_more() {
 }
 
 #[test]
-fn an_edited_program_is_run_anew() {
+fn an_edited_program_runs_again() {
     let bench = Bench::new();
     write_blur(&bench, "copy", "cp $1 $2", "");
     assert_done(&bench.run(&["--filter", "copy", "--allow-commands"]));
     write_script(&bench.path("copy/blur.sh"), "exit 3");
     let failed = bench.run(&["--filter", "copy", "--allow-commands"]);
     assert_eq!(failed.status.code(), Some(1));
-    let failures = bench.measured().failures;
+    let failures = bench.read_run().failures;
     let reason = &failures[0].reason;
     for part in ["filter copy on plate: ", "ended with exit status: 3"] {
         assert!(reason.contains(part), "{reason}");
@@ -177,7 +171,7 @@ fn an_edited_program_is_run_anew() {
 }
 
 #[test]
-fn programs_that_fail_say_how_and_leave_no_picture() {
+fn failing_programs_name_their_error_and_leave_no_picture() {
     let bench = Bench::new();
     render(&bench);
     let mut odd = ExrFile::new(5, 4);
@@ -246,7 +240,7 @@ fn programs_that_fail_say_how_and_leave_no_picture() {
     }
 }
 
-/// Starts a program of two processes that would go on for minutes; `pid` names the second.
+/// Shell lines that start two processes, which would run for minutes; `pid` names the second.
 const SLEEPERS: &str = "sleep 300 & echo $! > pid.new; mv pid.new pid; sleep 300";
 
 #[track_caller]
@@ -257,7 +251,7 @@ fn assert_ended(bench: &Bench) {
         let output = ps.args(["-o", "stat=", "-p", pid.trim_end()]).output();
         stdout(&output.unwrap())
     };
-    // The kill has been sent; the system may take a moment. A zombie has ended, and nobody has asked for it yet.
+    // The kill was sent, and the system may need a moment. A zombie counts as ended: nobody has collected it yet.
     for _ in 0..500 {
         if state().is_empty() || state().starts_with('Z') {
             return;
@@ -268,10 +262,10 @@ fn assert_ended(bench: &Bench) {
 }
 
 #[test]
-fn a_program_that_takes_too_long_is_stopped_with_all_that_it_started() {
+fn a_program_past_its_time_limit_is_stopped_with_its_children() {
     let bench = Bench::new();
     render(&bench);
-    // Long enough for a shell to write a line on a busy machine.
+    // Enough time for a shell to write a line on a busy machine.
     write_blur(&bench, "slow", SLEEPERS, "time_limit = 5");
     let output = bench.shuttertruth(&blur("./slow"));
     assert_refused(
@@ -303,7 +297,7 @@ fn ctrl_c_stops_a_program() {
 }
 
 #[test]
-fn folders_of_programs_that_cannot_be_are_refused_with_the_line() {
+fn bad_folders_of_programs_are_refused_with_the_line() {
     let bench = Bench::new();
     let parameter = |name: &str| {
         format!(

@@ -4,11 +4,11 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::bench::{Bench, assert_done, assert_refused, quick, stdout};
+use crate::bench::{Bench, assert_done, assert_refused, quick_command, stdout};
 
 const GATHER: [&str; 2] = ["--filters", "identity,velocity_gather:fine"];
 
-/// A run into `out`, and the same with `more` into `other`.
+/// Makes a bench with a run in `out`, and the same run with `more` in `other`.
 fn two_runs(more: &[&str]) -> Bench {
     let bench = Bench::new();
     assert_done(&bench.run(&GATHER));
@@ -22,20 +22,20 @@ fn run_into(
     samples_per_pixel: &str,
     more: &[&str],
 ) -> std::process::Output {
-    let mut words = quick("run", samples_per_pixel);
+    let mut words = quick_command("run", samples_per_pixel);
     words[3] = out;
     bench.shuttertruth(&[&words, more].concat())
 }
 
-/// The same at half the size.
+/// Does the same at half the size.
 fn smaller_run_into(bench: &Bench, out: &str, more: &[&str]) -> std::process::Output {
-    let mut words = quick("run", "16");
+    let mut words = quick_command("run", "16");
     (words[3], words[5]) = (out, "32x16");
     bench.shuttertruth(&[&words, more].concat())
 }
 
 fn compare(bench: &Bench) -> Value {
-    serde_json::from_str(&bench.done(&["compare", "out/run.json", "other", "--json"])).unwrap()
+    serde_json::from_str(&bench.execute(&["compare", "out/run.json", "other", "--json"])).unwrap()
 }
 
 fn changes<'a>(compared: &'a Value, filter: &str) -> Vec<&'a Value> {
@@ -46,11 +46,11 @@ fn changes<'a>(compared: &'a Value, filter: &str) -> Vec<&'a Value> {
 }
 
 #[test]
-fn a_run_compared_with_itself_did_not_change() {
+fn a_run_compared_with_itself_shows_no_change() {
     let bench = two_runs(&[]);
     let compared = compare(&bench);
     let all = compared["changes"].as_array().unwrap();
-    // Six bars and two filters, each with at least FLIP, PSNR and label TV.
+    // Six references and two filters, each with at least FLIP, PSNR and label TV.
     assert!(all.len() >= 24, "{}", all.len());
     for change in all {
         assert_eq!(change["kind"], "same", "{change}");
@@ -71,7 +71,7 @@ fn a_run_compared_with_itself_did_not_change() {
 }
 
 #[test]
-fn a_changed_parameter_is_named_and_its_changes_have_intervals() {
+fn compare_names_a_changed_parameter_and_gives_intervals() {
     let bench = two_runs(&["--set", "velocity_gather.samples=2"]);
     let compared = compare(&bench);
     let settings = compared["settings"].as_array().unwrap();
@@ -104,7 +104,7 @@ fn a_changed_parameter_is_named_and_its_changes_have_intervals() {
     assert_eq!(flip["first"], first);
     assert_eq!(flip["second"], second);
     assert_eq!(flip["worse"], second - first);
-    // Two taps instead of many leave gaps that no noise of a truth explains.
+    // Two taps instead of many leave gaps that noise cannot explain.
     assert_eq!(flip["kind"], "worse", "{flip}");
     assert_eq!(flip["basis"], "replicates");
     let ends = flip["interval"].as_array().unwrap();
@@ -113,7 +113,7 @@ fn a_changed_parameter_is_named_and_its_changes_have_intervals() {
         0.0 < low && low < second - first && second - first < high,
         "{flip}"
     );
-    // What both scores share falls out: the floor of either is wider than the interval of their difference.
+    // Noise that both scores share cancels: each score's floor is wider than the interval of the difference.
     let case = run("out")
         .cases
         .into_iter()
@@ -130,7 +130,7 @@ fn a_changed_parameter_is_named_and_its_changes_have_intervals() {
 }
 
 #[test]
-fn without_replicates_the_floors_decide_and_the_output_says_so() {
+fn floors_decide_if_replicates_are_missing_and_the_output_says_so() {
     let bench = two_runs(&["--set", "velocity_gather.samples=2"]);
     for out in ["out", "other"] {
         fs::remove_dir_all(bench.path(out).join("plate/truth_trailing")).unwrap();
@@ -151,7 +151,7 @@ fn without_replicates_the_floors_decide_and_the_output_says_so() {
 }
 
 #[test]
-fn cases_of_one_run_alone_are_named() {
+fn cases_of_only_one_run_are_named() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "identity"]));
     assert_done(&run_into(&bench, "other", "16", &GATHER));
@@ -169,7 +169,7 @@ fn cases_of_one_run_alone_are_named() {
 }
 
 #[test]
-fn runs_that_say_different_things_are_refused() {
+fn runs_without_a_common_ground_are_refused() {
     let bench = Bench::new();
     let identity = ["--filters", "identity"];
     assert_done(&bench.run(&identity));
@@ -201,7 +201,7 @@ fn runs_that_say_different_things_are_refused() {
 }
 
 #[test]
-fn the_page_holds_both_pictures_and_says_what_each_run_was() {
+fn the_page_shows_both_pictures_and_both_runs() {
     let bench = two_runs(&["--set", "velocity_gather.samples=2"]);
     let page = bench.path("page.html");
     let words = ["compare", "out", "other", "--html", "page.html"];
@@ -228,7 +228,7 @@ fn the_page_holds_both_pictures_and_says_what_each_run_was() {
         "something is fetched"
     );
     assert!(text.contains("default-src 'none'"));
-    bench.done(&words);
+    bench.execute(&words);
     assert_eq!(
         fs::read_to_string(&page).unwrap(),
         text,
@@ -237,13 +237,13 @@ fn the_page_holds_both_pictures_and_says_what_each_run_was() {
 }
 
 #[test]
-fn a_scene_called_script_is_shown_and_not_run() {
+fn a_scene_name_with_a_script_is_shown_as_text() {
     let bench = Bench::new();
     bench.copy_scene("<script>alert(1)", |text| text.replace("-1.6", "-0.8"));
     assert_done(&bench.run(&GATHER));
     let more = [&GATHER[..], &["--set", "velocity_gather.samples=2"]].concat();
     assert_done(&run_into(&bench, "other", "16", &more));
-    bench.done(&["compare", "out", "other", "--html", "page.html"]);
+    bench.execute(&["compare", "out", "other", "--html", "page.html"]);
     let page = fs::read_to_string(bench.path("page.html")).unwrap();
     assert!(
         page.contains("&lt;script&gt;alert(1)"),

@@ -1,10 +1,10 @@
-//! Measurements beside the filters' own scores: bars, a common shutter, noise apart, coarser frames.
+//! Measurements beside the filters' own scores: references, a common shutter, noise, coarser frames.
 
 use suite::{Case, DepthFormat, Overall, Run, VelocityFormat};
 
-use crate::bench::{Bench, assert_done, assert_refused, stdout};
+use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
 
-fn named<'a>(cases: &'a [Case], name: &str) -> &'a Case {
+fn find_case<'a>(cases: &'a [Case], name: &str) -> &'a Case {
     let found = cases.iter().find(|case| case.name() == name);
     found.unwrap_or_else(|| {
         let names: Vec<String> = cases.iter().map(Case::name).collect();
@@ -17,23 +17,23 @@ fn flip(case: &Case) -> f64 {
 }
 
 #[test]
-fn filters_of_two_alignments_have_a_shutter_in_common() {
+fn filters_of_two_alignments_share_a_common_shutter() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "velocity_gather:fine,bevy"]));
-    let run = bench.measured();
+    let run = bench.read_run();
     assert_eq!(run.common_alignment, "centred");
     for case in &run.cases {
         let own = case.common == case.scores.moving;
         assert_eq!(own, case.alignment == "centred", "{}", case.name());
     }
-    // The mean of many sub-frames of half an exposure earlier is not of the common interval.
+    // The mean of many sub-frames, half an exposure early, does not match the common interval.
     let bars = run.cases.iter().filter(|case| case.preset == "64");
     let many: Vec<&Case> = bars.collect();
     assert_eq!(many.len(), 2, "64 sub-frames of each alignment");
     assert_eq!(many[0].alignment, "trailing");
     let late = many[0].common.flip.value().unwrap();
     assert!(late > 4.0 * flip(many[0]), "{late}");
-    // Doing nothing and the one-frame oracle are there for every alignment, and are the ends of skill.
+    // The identity and the one-frame oracle exist for every alignment: skill is measured between them.
     for alignment in ["trailing", "centred"] {
         for (bar, expected) in [("identity", 0.0), ("scatter_oracle", 1.0)] {
             let mut found = run.cases.iter();
@@ -43,32 +43,29 @@ fn filters_of_two_alignments_have_a_shutter_in_common() {
         }
     }
 
-    // A narrower run keeps the cases of the wider one, and so the shutter that they are compared with.
+    // A narrower run keeps the cases of the wider one, and so their common shutter.
     assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
-    assert_eq!(bench.measured().common_alignment, "centred");
+    assert_eq!(bench.read_run().common_alignment, "centred");
     assert_done(&bench.run(&["--filters", "velocity_gather:fine", "--no-cache"]));
-    assert_eq!(bench.measured().common_alignment, "trailing");
+    assert_eq!(bench.read_run().common_alignment, "trailing");
 }
 
 #[test]
-fn bars_are_better_than_filters_and_are_held_to_no_bound() {
+fn references_beat_filters_and_have_no_bounds() {
     let bench = Bench::new();
-    bench.write(
-        "bounds.toml",
-        "[default]\nflip_moving = { limit = 0.0001, why = \"it serves a test\" }\n",
-    );
+    bench.write_bound(0.0001);
     assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
-    let cases = bench.measured().cases;
-    let oracle = flip(named(&cases, "scatter_oracle"));
-    let many = flip(named(&cases, "accumulate:64"));
-    let gather = flip(named(&cases, "velocity_gather:fine"));
-    // The plate moves evenly before a background of one colour: nothing is hidden that matters, and what is left to the
-    // oracle is the frame's antialiasing, of a plate that is five pixels wide.
+    let cases = bench.read_run().cases;
+    let oracle = flip(find_case(&cases, "scatter_oracle"));
+    let many = flip(find_case(&cases, "accumulate:64"));
+    let gather = flip(find_case(&cases, "velocity_gather:fine"));
+    // The plate moves evenly before one colour, so it hides nothing that matters. The oracle's only error is the
+    // frame's antialiasing of a plate five pixels wide.
     assert!(
         many < oracle && oracle < 0.75 * gather,
         "{many} {oracle} {gather}"
     );
-    let findings = bench.findings();
+    let findings = bench.read_findings();
     for case in &cases {
         let judged = findings.iter().any(|finding| finding.is_of(case));
         assert_ne!(case.is_reference, judged, "{}", case.name());
@@ -76,14 +73,14 @@ fn bars_are_better_than_filters_and_are_held_to_no_bound() {
 }
 
 #[test]
-fn noise_is_told_apart_in_filters_that_have_any() {
+fn variance_is_measured_for_filters_with_noise() {
     let bench = Bench::new();
     let filters = "velocity_gather:fine,jump_flood:paper";
     let output = bench.run(&["--filters", filters, "--jitter-frames", "4", "--table"]);
     assert_done(&output);
-    let cases = bench.measured_filters();
-    assert_eq!(named(&cases, "velocity_gather:fine").jitter, None);
-    let jitter = named(&cases, "jump_flood:paper").jitter.unwrap();
+    let cases = bench.read_filter_cases();
+    assert_eq!(find_case(&cases, "velocity_gather:fine").jitter, None);
+    let jitter = find_case(&cases, "jump_flood:paper").jitter.unwrap();
     assert_eq!(jitter.frames, 4);
     assert!(jitter.variance > 0.0 && jitter.bias > 0.0);
     let noisy = stdout(&output);
@@ -93,7 +90,7 @@ fn noise_is_told_apart_in_filters_that_have_any() {
     assert_done(&bench.run(&["--filters", filters, "--jitter-frames", "0"]));
     assert!(
         bench
-            .measured()
+            .read_run()
             .cases
             .iter()
             .all(|case| case.jitter.is_none())
@@ -101,30 +98,26 @@ fn noise_is_told_apart_in_filters_that_have_any() {
 }
 
 #[test]
-fn coarser_buffers_cost_what_they_lose() {
+fn coarser_buffers_raise_the_error() {
     let bench = Bench::new();
-    let output = bench.run(&[
-        "--filters",
-        "identity,velocity_gather:fine",
-        "--velocity-format",
-        "float16,linear8,kino10,tile_clamped",
-        "--depth-format",
-        "float16",
-    ]);
+    let output = bench.run(&split(
+        "--filters identity,velocity_gather:fine --velocity-format float16,linear8,kino10,tile_clamped \
+         --depth-format float16",
+    ));
     assert_done(&output);
-    let cases = bench.measured_filters();
+    let cases = bench.read_filter_cases();
     assert_eq!(cases.len(), 2 * 6);
-    let identity = flip(named(&cases, "identity:default"));
+    let identity = flip(find_case(&cases, "identity:default"));
     for case in &cases[..6] {
-        // What reads neither velocity nor depth does not see how they are stored.
+        // A filter that reads neither velocity nor depth does not depend on how they are stored.
         assert_eq!(flip(case), identity, "{}", case.name());
     }
-    let whole = flip(named(&cases, "velocity_gather:fine"));
-    let changed = |change: &str| flip(named(&cases, &format!("velocity_gather:fine {change}")));
+    let whole = flip(find_case(&cases, "velocity_gather:fine"));
+    let changed = |change: &str| flip(find_case(&cases, &format!("velocity_gather:fine {change}")));
     assert_eq!(changed("depth=float16"), whole);
-    // A gather of 20 fetches; a 16-bit float is right to a 2048th.
+    // A gather of 20 fetches; a 16-bit float is accurate to 1 part in 2048.
     assert!((changed("velocity=float16") - whole).abs() < 0.002);
-    // Kino's half smear ends at 5 % of 32 rows, 1.6 of the plate's 2.8 pixels. Half a tile is longer than all of it.
+    // Kino's half smear ends at 5 % of 32 rows: 1.6 of the plate's 2.8 pixels. Half a tile is longer than all of it.
     let cut = changed("velocity=kino10");
     assert!((cut - whole).abs() > 0.01, "{cut} {whole}");
     assert!((changed("velocity=tile_clamped") - whole).abs() < 0.002);
@@ -133,7 +126,7 @@ fn coarser_buffers_cost_what_they_lose() {
         table.contains("velocity_gather:fine velocity=linear8"),
         "{table}"
     );
-    let case = named(&cases, "velocity_gather:fine velocity=linear8");
+    let case = find_case(&cases, "velocity_gather:fine velocity=linear8");
     assert_eq!(case.input.velocity, VelocityFormat::Linear8);
     assert_eq!(case.input.depth, DepthFormat::Float32);
     assert!(
@@ -143,14 +136,14 @@ fn coarser_buffers_cost_what_they_lose() {
 }
 
 #[test]
-fn a_clamped_border_is_cropped_before_anything_is_measured() {
+fn a_clamped_border_is_cropped_before_scoring() {
     let bench = Bench::new();
     let words = ["--filters", "velocity_gather:fine", "--border", "clamp"];
     assert_done(&bench.run(&words));
-    let cases = bench.measured_filters();
-    let clamped = named(&cases, "velocity_gather:fine border=clamp");
-    // The plate stays clear of the border, so that nothing there can matter.
-    let whole = named(&cases, "velocity_gather:fine");
+    let cases = bench.read_filter_cases();
+    let clamped = find_case(&cases, "velocity_gather:fine border=clamp");
+    // The plate stays clear of the border, so nothing there can change its score.
+    let whole = find_case(&cases, "velocity_gather:fine");
     assert_eq!(clamped.scores.full, whole.scores.full);
     assert_eq!(clamped.scores.objects, whole.scores.objects);
     let output = bench.run(&["--border", "mirror"]);
@@ -158,10 +151,10 @@ fn a_clamped_border_is_cropped_before_anything_is_measured() {
 }
 
 #[test]
-fn means_over_scenes_come_with_students_interval() {
+fn means_over_scenes_have_a_student_interval() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "identity"]));
-    assert!(bench.measured().overall.is_empty(), "one scene is no mean");
+    assert!(bench.read_run().overall.is_empty(), "one scene is no mean");
     assert!(!stdout(&bench.run(&["--filters", "identity"])).contains("mean over"));
 
     bench.copy_scene("farther", |text| text.replace("-1.6, 0, 0", "-3.2, 0, 0"));
@@ -172,10 +165,10 @@ fn means_over_scenes_come_with_students_interval() {
     let filters = ["--filters", "identity,velocity_gather:fine"];
     let output = bench.run(&[&filters[..], &["--table"]].concat());
     assert_done(&output);
-    let (scores, mean) = identity_overall(&bench.measured());
+    let (scores, mean) = identity_overall(&bench.read_run());
     assert_eq!(mean.scenes, 2);
     assert!((mean.mean - 0.5 * (scores[0] + scores[1])).abs() < 1e-12);
-    // Of two scores the standard error is half of what is between them, and t for one degree of freedom is 12.706.
+    // The standard error of two scores is half of their difference, and t for one degree of freedom is 12.706.
     let half = 12.706 * 0.5 * (scores[1] - scores[0]);
     let [low, high] = mean.interval;
     assert!((0.5 * (high - low) / half - 1.0).abs() < 1e-4, "{mean:?}");
@@ -198,14 +191,14 @@ fn means_over_scenes_come_with_students_interval() {
     );
 
     assert_done(&bench.check(&filters));
-    // The noise of each truth is in the scores already: a check, which knows it, says the same.
-    let (scores, mean) = identity_overall(&bench.measured());
+    // The scores contain each truth's noise already: a check, which knows the noise, gives the same mean.
+    let (scores, mean) = identity_overall(&bench.read_run());
     let half = 12.706 * 0.5 * (scores[1] - scores[0]);
     let [low, high] = mean.interval;
     assert!((0.5 * (high - low) / half - 1.0).abs() < 1e-4, "{mean:?}");
 }
 
-/// FLIP of the identity, on both scenes and over both; the better one first.
+/// Returns the identity's FLIP on both scenes, the better one first, and its mean.
 fn identity_overall(run: &Run) -> ([f64; 2], Overall) {
     let mut scores: Vec<f64> = (run.cases.iter())
         .filter(|case| case.name() == "identity:default")

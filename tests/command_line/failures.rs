@@ -1,10 +1,10 @@
-//! Filters that fail on a scene: the case is lost, the run is not, and every output says so.
+//! Filters that fail on a scene: the run goes on, and every output names the lost case.
 
 use std::fs;
 
 use tests::filter_folder::one_kernel_without_parameters;
 
-use crate::bench::{Bench, assert_done, assert_refused, stderr, stdout};
+use crate::bench::{Bench, assert_done, assert_refused, split, stderr, stdout};
 
 const MANIFEST: &str = r#"
 name = "torn"
@@ -15,15 +15,15 @@ alignment = "trailing"
 entry = "work"
 "#;
 
-/// Not finite at one pixel where the exposure is that of the scene `dim`.
+/// Kernel whose output is not finite at one pixel, where the exposure is that of the scene `dim`.
 const BODY: &str = "
     var value = textureLoad(color, pixel, 0);
     if pixel.x == 9 && pixel.y == 4 { value /= frame.exposure - 0.25; }
     textureStore(output, pixel, value);
 ";
 
-/// Two scenes, on one of which the filter `torn` fails.
-fn torn() -> Bench {
+/// Makes two scenes, on one of which the filter `torn` fails.
+fn set_up() -> Bench {
     let bench = Bench::new();
     bench.copy_scene("dim", |scene| {
         scene.replace("exposure = 0.5", "exposure = 0.25")
@@ -33,12 +33,12 @@ fn torn() -> Bench {
 }
 
 #[test]
-fn a_run_names_the_case_that_failed_and_goes_on() {
-    let bench = torn();
+fn a_run_names_the_failed_case_and_goes_on() {
+    let bench = set_up();
     let words = ["--filters", "identity,./torn", "--html", "page.html"];
     let output = bench.run(&words);
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-    let run = bench.measured();
+    let run = bench.read_run();
     let [failure] = &run.failures[..] else {
         panic!("one case fails: {:?}", run.failures);
     };
@@ -56,7 +56,7 @@ fn a_run_names_the_case_that_failed_and_goes_on() {
         "{}",
         failure.reason
     );
-    let measured: Vec<_> = (bench.measured_filters().iter())
+    let measured: Vec<_> = (bench.read_filter_cases().iter())
         .map(|case| (case.scene.clone(), case.name()))
         .collect();
     let expected = [
@@ -80,20 +80,12 @@ fn a_run_names_the_case_that_failed_and_goes_on() {
     );
     let page = fs::read_to_string(bench.path("page.html")).unwrap();
     assert!(page.contains("<strong>dim / torn:default</strong>"));
-    // What was measured is kept; what failed is tried again.
+    // Measured cases are kept, and the failed one is tried again.
     let again = bench.run(&words);
     assert_eq!(again.status.code(), Some(1));
-    assert_eq!(bench.measured().failures, run.failures);
-    // A run with failures is no baseline.
-    let accept = [
-        "accept",
-        "--out",
-        "out",
-        "--baseline",
-        "base.json",
-        "--reason",
-        "none",
-    ];
+    assert_eq!(bench.read_run().failures, run.failures);
+    // A run with failures cannot become a baseline.
+    let accept = split("accept --out out --baseline base.json --reason none");
     let refused = bench.outside_ci(&accept);
     assert_refused(&refused, 1, &["1 case failed", "torn:default on dim"]);
     assert!(!bench.path("base.json").exists());
@@ -101,7 +93,7 @@ fn a_run_names_the_case_that_failed_and_goes_on() {
 
 #[test]
 fn a_check_with_a_failed_case_is_broken() {
-    let bench = torn();
+    let bench = set_up();
     let bounds = "[default]\nflip_moving = { limit = 0.99, why = \"it serves a test\" }\n";
     fs::write(bench.path("scenes/bounds.toml"), bounds).unwrap();
     let words = ["--filters", "./torn", "--junit", "junit.xml"];

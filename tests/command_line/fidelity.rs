@@ -1,15 +1,11 @@
 //! Presets against transcriptions of the programs that they follow.
 
-use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use tests::root;
 
 use crate::bench::{stderr, stdout};
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
-
-/// Runs examples/fidelity/compare.py; `make test` installs what it needs and says in PYTHON which Python has it.
+/// Runs examples/fidelity/compare.py. `make test` installs what it needs and names the Python in PYTHON.
 fn compare(more: &[&str]) -> Output {
     let python = std::env::var("PYTHON").unwrap_or("python3".to_owned());
     let has_packages = Command::new(&python)
@@ -26,12 +22,12 @@ fn compare(more: &[&str]) -> Output {
         .arg("-B")
         .arg(root().join("examples/fidelity/compare.py"))
         .args(["--program", env!("CARGO_BIN_EXE_shuttertruth")]);
-    command.arg("--scenes-dir").arg(root().join("scenes"));
+    command.arg("--scenes-dir").arg(tests::scenes());
     command.arg("--out").arg(out.path()).args(more);
     command.output().unwrap()
 }
 
-/// The rows of all tables without the columns of numbers, which adapters change.
+/// Returns the rows of all tables, without the columns of numbers, which depend on the adapter.
 fn rows(page: &str) -> Vec<Vec<String>> {
     let cells = |line: &str| -> Vec<String> {
         let cells = line.trim_matches('|').split('|');
@@ -49,7 +45,7 @@ fn rows(page: &str) -> Vec<Vec<String>> {
 }
 
 #[test]
-fn presets_do_what_their_originals_do_as_far_as_the_page_says() {
+fn presets_match_their_originals_as_far_as_the_page_says() {
     let output = compare(&[]);
     let printed = stdout(&output);
     assert!(output.status.success(), "{printed}{}", stderr(&output));
@@ -63,7 +59,7 @@ fn presets_do_what_their_originals_do_as_far_as_the_page_says() {
 }
 
 #[test]
-fn a_filter_that_does_something_else_is_told_from_its_original() {
+fn a_changed_filter_does_not_match_its_original() {
     for (preset, change) in [
         ("bevy:default", "bevy.metric=pixel"),
         ("jimenez:hdrp", "jimenez.extent=0.5"),

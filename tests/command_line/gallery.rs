@@ -27,7 +27,7 @@ fn a_gallery_shows_each_scene_with_its_best_and_its_worst_filter() {
 }
 
 #[test]
-fn a_run_of_references_alone_makes_no_gallery() {
+fn a_run_of_only_references_makes_no_gallery() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "identity"]));
     let output = bench.shuttertruth(&["report", "out", "--gallery", "shown"]);

@@ -1,4 +1,4 @@
-//! `import`: foreign models made into scenes.
+//! `import`: scenes made from foreign models.
 
 use std::fmt::Write;
 use std::fs;
@@ -6,9 +6,9 @@ use std::process::Output;
 
 use frame::Frame;
 
-use crate::bench::{Bench, assert_done, assert_refused, stdout};
+use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
 
-/// A house far from the origin, as exporters write it: lines that end as on Windows, quads, a pentagon, indices from the
+/// House far from the origin, as exporters write one: Windows line ends, quads, a pentagon, indices counted from the
 /// end, no normals, names with spaces.
 const HOUSE: &str = "\
 # Café, à la main\r
@@ -37,7 +37,7 @@ f 4 9 10 5\r
 
 const MATERIALS: &str = "newmtl the wall\r\nKd 0.8 0.7 0.6\r\nNs 12\r\nnewmtl the roof\r\nKd 0.6 0.2 0.1\r\nmap_Bump none.png\r\n";
 
-/// A folder with the house and its materials.
+/// Makes a folder with the house and its materials.
 fn set_up() -> Bench {
     let bench = Bench::new();
     fs::create_dir(bench.path("my models")).unwrap();
@@ -51,27 +51,14 @@ fn import(bench: &Bench, more: &[&str]) -> Output {
     bench.shuttertruth(&[&words, more].concat())
 }
 
-/// The frame of the imported scene, half as large as its speeds are meant for.
-fn frame(bench: &Bench) -> Frame {
-    bench.done(&[
-        "render",
-        "--scenes",
-        "house",
-        "--size",
-        "320x180",
-        "--samples-per-pixel",
-        "8",
-        "--replicates",
-        "2",
-        "--quiet",
-        "--out",
-        "out",
-    ]);
+/// Renders the imported scene's frame at half the size that its speeds are meant for.
+fn render_frame(bench: &Bench) -> Frame {
+    bench.execute(&split("render --scenes house --size 320x180 --samples-per-pixel 8 --replicates 2 --quiet --out out"));
     Frame::read(&bench.path("out/house/frame.exr")).unwrap()
 }
 
-/// Pixels that show an object, with their velocity.
-fn shown(frame: &Frame, object: &str) -> Vec<([f64; 2], [f64; 2])> {
+/// Returns the pixels that show an object, and their velocities.
+fn shown_pixels(frame: &Frame, object: &str) -> Vec<([f64; 2], [f64; 2])> {
     let id = frame
         .objects
         .iter()
@@ -96,7 +83,7 @@ fn shown(frame: &Frame, object: &str) -> Vec<([f64; 2], [f64; 2])> {
 }
 
 #[test]
-fn an_imported_model_stands_in_the_middle_and_slides_as_fast_as_asked() {
+fn an_imported_model_is_centred_and_slides_at_the_requested_speed() {
     let bench = set_up();
     let output = import(&bench, &["--slide", "40px/frame"]);
     assert_done(&output);
@@ -105,11 +92,11 @@ fn an_imported_model_stands_in_the_middle_and_slides_as_fast_as_asked() {
         "{}",
         stdout(&output)
     );
-    let frame = frame(&bench);
-    let house = shown(&frame, "model");
+    let frame = render_frame(&bench);
+    let house = shown_pixels(&frame, "model");
     let count = house.len() as f64;
     let middle = [0, 1].map(|axis| house.iter().map(|(at, _)| at[axis]).sum::<f64>() / count);
-    // The view is from the side and from above, so that what is seen does not lie evenly about the middle.
+    // The camera looks from the side and from above, so that the seen part is not symmetric about the middle.
     assert!(
         (middle[0] - 160.0).abs() < 10.0 && (middle[1] - 90.0).abs() < 10.0,
         "{middle:?}"
@@ -117,38 +104,38 @@ fn an_imported_model_stands_in_the_middle_and_slides_as_fast_as_asked() {
     let inside =
         |(at, _): &([f64; 2], _)| (5.0..315.0).contains(&at[0]) && (5.0..175.0).contains(&at[1]);
     assert!(house.iter().all(inside), "the house is cut off");
-    // Three quarters of the height would be filled by the ball around it, of which a house fills most.
+    // The model's bounding sphere fills three quarters of the height, and the house fills most of that sphere.
     let rows = house.iter().map(|(at, _)| at[1]);
     let height = rows.clone().fold(0.0, f64::max) - rows.fold(180.0, f64::min);
     assert!((70.0..135.0).contains(&height), "{height}");
-    // 20 px at its middle; the front is nearer by a tenth or two, and the motion is along the picture's rows.
+    // 20 px at the middle. The front is nearer by a tenth or two, and the motion follows the picture's rows.
     for (at, velocity) in &house {
         assert!(
             (17.0..26.0).contains(&velocity[0]) && velocity[1].abs() < 0.01,
             "{velocity:?} at {at:?}"
         );
     }
-    // Rounding of a plane of hundreds of metres apart.
+    // Rounding of a plane that is hundreds of metres large.
     assert!(
-        shown(&frame, "wall")
+        shown_pixels(&frame, "wall")
             .iter()
             .all(|(_, velocity)| velocity[0].hypot(velocity[1]) < 1e-3)
     );
     assert!(
-        shown(&frame, "stand")
+        shown_pixels(&frame, "stand")
             .iter()
             .all(|(_, velocity)| velocity[0] > 10.0)
     );
 }
 
 #[test]
-fn an_imported_model_turns_about_its_own_middle() {
+fn an_imported_model_spins_about_its_own_middle() {
     let bench = set_up();
     assert_done(&import(&bench, &["--spin", "20deg/frame"]));
-    let frame = frame(&bench);
-    let house = shown(&frame, "model");
-    // Counter-clockwise seen from above: what is near goes right. The farthest corner from the axis is 14.1 m away, and at
-    // 57.7 m of distance and 247.3 px of focal length no point goes faster than 14.1 x 0.35 x 247.3 / 43 px.
+    let frame = render_frame(&bench);
+    let house = shown_pixels(&frame, "model");
+    // Counter-clockwise from above: near points move right. The farthest corner is 14.1 m from the axis. At 57.7 m of
+    // distance and 247.3 px of focal length, no point moves faster than 14.1 x 0.35 x 247.3 / 43 px.
     let fastest = house
         .iter()
         .map(|(_, velocity)| velocity[0].hypot(velocity[1]))
@@ -164,30 +151,30 @@ fn an_imported_model_turns_about_its_own_middle() {
         house.len()
     );
     assert!(
-        shown(&frame, "floor")
+        shown_pixels(&frame, "floor")
             .iter()
             .all(|(_, velocity)| velocity[0].hypot(velocity[1]) < 1e-3)
     );
 }
 
 #[test]
-fn a_camera_that_goes_around_a_model_keeps_it_in_the_middle() {
+fn an_orbiting_camera_keeps_the_model_in_the_middle() {
     let bench = set_up();
     assert_done(&import(
         &bench,
         &["--orbit", "3deg/frame", "--exposure", "1"],
     ));
-    let frame = frame(&bench);
+    let frame = render_frame(&bench);
     assert_eq!(frame.exposure, 1.0);
     let speed = |object: &str| {
-        let shown = shown(&frame, object);
+        let shown = shown_pixels(&frame, object);
         let sum: f64 = shown
             .iter()
             .map(|(_, velocity)| velocity[0].hypot(velocity[1]))
             .sum();
         sum / shown.len() as f64
     };
-    // The wall is 4 radii behind what the camera looks at, the model's surface within one.
+    // The wall is 4 radii behind the camera's target, and the model's surface is within one.
     assert!(
         speed("wall") > 2.0 * speed("model"),
         "{} {}",
@@ -199,7 +186,7 @@ fn a_camera_that_goes_around_a_model_keeps_it_in_the_middle() {
 #[test]
 fn a_model_with_z_up_stands_upright() {
     let bench = set_up();
-    // The house on its back: y was up, now z is.
+    // The house lies on its back: its y axis becomes z.
     let lying: String = HOUSE
         .lines()
         .map(|line| match line.strip_prefix("v ") {
@@ -214,15 +201,15 @@ fn a_model_with_z_up_stands_upright() {
         })
         .collect();
     assert_done(&import(&bench, &["--slide", "8px/frame"]));
-    let upright = frame(&bench);
+    let upright = render_frame(&bench);
     fs::write(bench.path("my models/the house.obj"), lying).unwrap();
     fs::remove_dir_all(bench.path("scenes/house")).unwrap();
     assert_done(&import(&bench, &["--slide", "8px/frame", "--up", "z"]));
-    assert_eq!(frame(&bench).object_id, upright.object_id);
+    assert_eq!(render_frame(&bench).object_id, upright.object_id);
 }
 
 #[test]
-fn what_cannot_be_imported_is_refused_with_the_way_out() {
+fn bad_models_are_refused_with_the_way_out() {
     let bench = set_up();
     let slide = ["--slide", "40px/frame"];
     assert_refused(
@@ -286,7 +273,7 @@ fn what_cannot_be_imported_is_refused_with_the_way_out() {
         &frame::Raster::filled(2, 2, [0.5; 3]),
     )
     .unwrap();
-    // Refused before it is found to lie outside: faces with a texture need coordinates.
+    // Faces with a texture need coordinates. This is checked before the texture's place.
     assert_refused(
         &import(&bench, &slide),
         2,
@@ -314,7 +301,7 @@ fn what_cannot_be_imported_is_refused_with_the_way_out() {
 }
 
 #[test]
-fn a_model_whose_materials_are_lost_comes_in_plain_if_asked() {
+fn a_model_without_its_materials_imports_plain_on_request() {
     let bench = set_up();
     fs::remove_file(bench.path("my models/the house.mtl")).unwrap();
     let slide = ["--slide", "40px/frame"];
@@ -324,8 +311,8 @@ fn a_model_whose_materials_are_lost_comes_in_plain_if_asked() {
         &["the house.obj:2", "the house.mtl", "import the model plain"],
     );
     assert_done(&import(&bench, &[&slide[..], &["--plain"]].concat()));
-    assert!(!shown(&frame(&bench), "model").is_empty());
-    // In a plain model, too, a mistake is named where it stands.
+    assert!(!shown_pixels(&render_frame(&bench), "model").is_empty());
+    // Errors of a plain model name their place too.
     let broken = HOUSE.replace("f 7 6 10 9 8", "f 7 6 x 9 8");
     fs::write(bench.path("my models/the house.obj"), broken).unwrap();
     fs::remove_dir_all(bench.path("scenes/house")).unwrap();
@@ -371,5 +358,5 @@ fn a_model_of_a_quarter_of_a_million_triangles_is_imported() {
         .unwrap();
     let count: usize = triangles.split(' ').next().unwrap().parse().unwrap();
     assert!(count > 2 * STEPS * STEPS, "{said}");
-    assert!(shown(&frame(&bench), "model").len() > 4000);
+    assert!(shown_pixels(&render_frame(&bench), "model").len() > 4000);
 }

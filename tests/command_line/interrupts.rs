@@ -4,9 +4,9 @@ use std::time::{Duration, Instant};
 
 use tests::filter_folder::one_kernel_without_parameters;
 
-use crate::bench::{Bench, assert_done, press_ctrl_c, quick};
+use crate::bench::{Bench, assert_done, press_ctrl_c, quick_command};
 
-/// Passes that take minutes together.
+/// Manifest of a filter whose passes take minutes together.
 const MANIFEST: &str = r#"
 name = "slow"
 summary = "Takes its time."
@@ -25,20 +25,20 @@ const BODY: &str = "
     textureStore(output, pixel, sum / 8000.0);
 ";
 
-/// Longest time from Ctrl-C to the end of a process.
+/// Longest time from Ctrl-C to the end of the process.
 const LIMIT: Duration = Duration::from_secs(2);
 
 #[test]
 fn ctrl_c_ends_work_on_the_gpu_within_two_seconds() {
     let bench = Bench::new();
     bench.write_filter("slow", MANIFEST, &one_kernel_without_parameters(BODY));
-    // The frame and the truth are there, so that both commands are at the GPU soon.
+    // The frame and the truth are there, so that both commands soon reach the GPU.
     assert_done(&bench.run(&["--filters", "identity"]));
     let frame = bench.path("out/plate/frame.exr").display().to_string();
     let blur = [
         "blur", "--filter", "./slow", "--frame", &frame, "--out", "b.exr",
     ];
-    let quick = quick("run", "16");
+    let quick = quick_command("run", "16");
     let run = [&quick[..], &["--filter", "slow"]].concat();
     for words in [blur.to_vec(), run] {
         let mut child = bench.command(&words).spawn().unwrap();

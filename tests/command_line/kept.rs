@@ -1,4 +1,4 @@
-//! Kept replicates: resumed, shared between processes and joined, always to the same bytes.
+//! Kept replicates: resumed, shared between processes and merged, always with the same bytes.
 
 use std::fs;
 use std::path::Path;
@@ -8,9 +8,9 @@ use std::time::Duration;
 use frame::{read_exr, write_exr};
 use tests::text::assert_contains;
 
-use crate::bench::{Bench, OBJ, assert_done, assert_refused, files_below, stdout};
+use crate::bench::{Bench, OBJ, assert_done, assert_refused, files_below, split, stdout};
 
-/// `render` of the plate into `out`, with more words.
+/// Returns the words of a `render` of the plate into `out`.
 fn render<'a>(out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     let words = [
         "render",
@@ -29,7 +29,7 @@ fn spawn(bench: &Bench, words: &[&str]) -> Child {
     command.spawn().unwrap()
 }
 
-/// Names below a folder, and bytes, of all files that a render leaves.
+/// Reads the names and bytes of all files that a render leaves in a folder.
 fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
     files_below(folder)
         .into_iter()
@@ -54,9 +54,9 @@ fn assert_same(bench: &Bench, one: &str, other: &str) {
 }
 
 #[test]
-fn parts_of_several_processes_join_to_the_bytes_of_one() {
+fn merged_parts_of_several_processes_equal_the_bytes_of_one() {
     let bench = Bench::new();
-    bench.done(&render("whole", &[]));
+    bench.execute(&render("whole", &[]));
     let parts = [("a", "0..3"), ("b", "3..4"), ("c", "4..8")];
     let children: Vec<Child> = parts
         .map(|(out, part)| spawn(&bench, &render(out, &["--replicates", part])))
@@ -74,25 +74,25 @@ fn parts_of_several_processes_join_to_the_bytes_of_one() {
 }
 
 #[test]
-fn processes_may_share_one_folder() {
+fn several_processes_can_render_into_one_folder() {
     let bench = Bench::new();
-    bench.done(&render("whole", &[]));
+    bench.execute(&render("whole", &[]));
     let children: Vec<Child> = ["0..3", "2..5", "5..8", "0..8"]
         .map(|part| spawn(&bench, &render("shared", &["--replicates", part])))
         .into();
     for mut child in children {
         assert!(child.wait().unwrap().success());
     }
-    bench.done(&["merge", "shared", "--out", "shared"]);
+    bench.execute(&["merge", "shared", "--out", "shared"]);
     assert_same(&bench, "whole", "shared");
 }
 
 #[test]
-fn a_killed_render_goes_on_to_the_same_bytes() {
+fn a_killed_render_resumes_to_the_same_bytes() {
     let bench = Bench::new();
     let many = ["--samples-per-pixel", "32768", "--threads", "1"];
     let words = |out: &'static str| [&["render", "--quiet", "--out", out][..], &many].concat();
-    bench.done(&words("whole"));
+    bench.execute(&words("whole"));
     let replicate = |index: u32| {
         bench.path(&format!(
             "killed/plate/truth_trailing/replicate_{index:03}.exr"
@@ -113,7 +113,7 @@ fn a_killed_render_goes_on_to_the_same_bytes() {
         assert!(!bench.path("killed/plate/truth_trailing.exr").exists());
     }
     let kept = fs::metadata(replicate(1)).unwrap().modified().unwrap();
-    bench.done(&words("killed"));
+    bench.execute(&words("killed"));
     assert_eq!(
         fs::metadata(replicate(1)).unwrap().modified().unwrap(),
         kept,
@@ -123,10 +123,10 @@ fn a_killed_render_goes_on_to_the_same_bytes() {
 }
 
 #[test]
-fn files_of_older_versions_are_rendered_anew_and_never_joined() {
+fn files_of_older_versions_are_rendered_again_and_never_merged() {
     let bench = Bench::new();
     for out in ["whole", "old"] {
-        bench.done(&render(out, &[]));
+        bench.execute(&render(out, &[]));
     }
     let truths = files_below(&bench.path("old")).into_iter().filter(|path| {
         let name = path.file_name().unwrap().to_string_lossy();
@@ -151,15 +151,15 @@ fn files_of_older_versions_are_rendered_anew_and_never_joined() {
             "make it anew with `shuttertruth render`",
         ],
     );
-    bench.done(&render("old", &[]));
+    bench.execute(&render("old", &[]));
     assert_same(&bench, "whole", "old");
 }
 
 #[test]
-fn a_broken_replicate_is_rendered_anew() {
+fn a_broken_replicate_is_rendered_again() {
     let bench = Bench::new();
-    bench.done(&render("whole", &[]));
-    bench.done(&render("out", &["--replicates", "0..4"]));
+    bench.execute(&render("whole", &[]));
+    bench.execute(&render("out", &["--replicates", "0..4"]));
     let replicate = bench.path("out/plate/truth_trailing/replicate_002.exr");
     let bytes = fs::read(&replicate).unwrap();
     fs::write(&replicate, &bytes[..bytes.len() / 2]).unwrap();
@@ -169,11 +169,11 @@ fn a_broken_replicate_is_rendered_anew() {
         stray,
     )
     .unwrap();
-    bench.done(&render("out", &[]));
+    bench.execute(&render("out", &[]));
     assert_same(&bench, "whole", "out");
 }
 
-/// Turns one bit of a file's pixels over, far behind its header.
+/// Flips one bit of a file's pixels, far behind its header.
 fn flip_a_bit(path: &Path) {
     let mut bytes = fs::read(path).unwrap();
     let middle = bytes.len() * 3 / 4;
@@ -184,52 +184,52 @@ fn flip_a_bit(path: &Path) {
 #[test]
 fn a_flipped_bit_in_a_replicate_never_reaches_a_truth() {
     let bench = Bench::new();
-    bench.done(&render("whole", &[]));
-    bench.done(&render("out", &["--replicates", "0..7"]));
-    bench.done(&render("rest", &["--replicates", "7..8"]));
+    bench.execute(&render("whole", &[]));
+    bench.execute(&render("out", &["--replicates", "0..7"]));
+    bench.execute(&render("rest", &["--replicates", "7..8"]));
     flip_a_bit(&bench.path("out/plate/truth_trailing/replicate_002.exr"));
     let merged = bench.shuttertruth(&["merge", "out", "rest", "--out", "joined"]);
     assert_refused(&merged, 2, &["out/plate/truth_trailing/replicate_002.exr"]);
     assert!(!bench.path("joined").exists());
-    bench.done(&render("out", &[]));
+    bench.execute(&render("out", &[]));
     assert_same(&bench, "whole", "out");
-    // A truth that was damaged is made again as well.
+    // A damaged truth is made again, too.
     flip_a_bit(&bench.path("out/plate/truth_trailing.exr"));
-    bench.done(&render("out", &[]));
+    bench.execute(&render("out", &[]));
     assert_same(&bench, "whole", "out");
 }
 
 #[test]
-fn a_changed_byte_in_a_mesh_renders_anew() {
+fn a_changed_byte_in_a_mesh_renders_again() {
     let bench = Bench::new();
-    bench.done(&render("out", &[]));
+    bench.execute(&render("out", &[]));
     bench.write("plate.obj", &OBJ.replace("v -0.5 -0.5 0", "v -0.6 -0.5 0"));
-    bench.done(&render("out", &[]));
-    bench.done(&render("fresh", &[]));
+    bench.execute(&render("out", &[]));
+    bench.execute(&render("fresh", &[]));
     assert_same(&bench, "fresh", "out");
 }
 
 #[test]
-fn more_replicates_build_on_those_that_are_there() {
+fn more_replicates_reuse_the_kept_ones() {
     let bench = Bench::new();
-    bench.done(&render("out", &["--replicates", "4"]));
+    bench.execute(&render("out", &["--replicates", "4"]));
     let first = bench.path("out/plate/truth_trailing/replicate_000.exr");
     let before = fs::metadata(&first).unwrap().modified().unwrap();
-    bench.done(&render("out", &["--replicates", "8"]));
+    bench.execute(&render("out", &["--replicates", "8"]));
     assert_eq!(fs::metadata(&first).unwrap().modified().unwrap(), before);
-    bench.done(&render("whole", &[]));
+    bench.execute(&render("whole", &[]));
     assert_same(&bench, "whole", "out");
 }
 
 #[test]
-fn parts_that_make_no_whole_are_refused() {
+fn incomplete_parts_are_refused() {
     let bench = Bench::new();
     for (out, more) in [
         ("start", &["--replicates", "0..3"][..]),
         ("gap", &["--replicates", "5..8"]),
         ("other", &["--replicates", "0..4", "--seed", "2"]),
     ] {
-        bench.done(&render(out, more));
+        bench.execute(&render(out, more));
     }
     fs::create_dir(bench.path("empty")).unwrap();
     for (parts, complaint) in [
@@ -259,8 +259,8 @@ fn parts_that_make_no_whole_are_refused() {
             "a refused merge leaves nothing"
         );
     }
-    // Replicates of two truths whose files never have the same name.
-    bench.done(&render("rest", &["--replicates", "3..4", "--seed", "2"]));
+    // Replicates of two truths, whose files never share a name.
+    bench.execute(&render("rest", &["--replicates", "3..4", "--seed", "2"]));
     let refused = bench.shuttertruth(&["merge", "start", "rest", "--out", "joined"]);
     assert_refused(
         &refused,
@@ -271,7 +271,7 @@ fn parts_that_make_no_whole_are_refused() {
 }
 
 #[test]
-fn a_noise_target_adds_replicates_until_it_is_reached_or_says_that_it_was_not() {
+fn a_noise_target_adds_replicates_until_it_is_reached_or_reports_a_failure() {
     let bench = Bench::new();
     let first = stdout(&bench.shuttertruth(&render("out", &["--replicates", "2"])));
     let floor = |text: &str| -> f64 {
@@ -285,14 +285,7 @@ fn a_noise_target_adds_replicates_until_it_is_reached_or_says_that_it_was_not() 
     assert!(floor(&stdout(&reached)) <= target, "{}", stdout(&reached));
     assert!(!stdout(&reached).contains(": 2 replicates"));
 
-    let more = [
-        "--replicates",
-        "2",
-        "--noise",
-        "1e-9",
-        "--most-replicates",
-        "5",
-    ];
+    let more = split("--replicates 2 --noise 1e-9 --most-replicates 5");
     let short = bench.shuttertruth(&render("short", &more));
     assert_eq!(short.status.code(), Some(4));
     let message = String::from_utf8(short.stderr.clone()).unwrap();

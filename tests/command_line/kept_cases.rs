@@ -1,13 +1,13 @@
-//! Kept cases: a case is measured again only where something that it was made of has changed.
+//! Kept cases: a case is measured again only if one of its inputs has changed.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::time::SystemTime;
 use tests::filter_folder::{copy_shipped_filter, write_program};
 
-use crate::bench::{Bench, assert_done, files_below, quick, stdout};
+use crate::bench::{Bench, assert_done, files_below, quick_command, stdout};
 
-/// Two presets of a filter of the tests' own, beside one that does nothing.
+/// Two presets of a filter of the tests' own, beside the identity.
 const FILTERS: [&str; 4] = ["--filters", "identity", "--filter", "mine"];
 const BARS: [&str; 6] = [
     "accumulate_16_trailing",
@@ -24,7 +24,7 @@ const OF_FILTERS: [&str; 4] = [
     "velocity_gather_fine",
 ];
 
-/// A bench whose filter `mine` is a copy of one that is built in.
+/// Makes a bench whose filter `mine` is a copy of a built-in one.
 fn set_up() -> Bench {
     let bench = Bench::new();
     copy_shipped_filter("velocity_gather", &bench.path("mine"));
@@ -35,8 +35,8 @@ fn run(bench: &Bench, more: &[&str]) {
     assert_done(&bench.run(&[&FILTERS[..], more].concat()));
 }
 
-/// Returns when every file below `out` was last written, but for run.json.
-fn times(bench: &Bench) -> BTreeMap<String, SystemTime> {
+/// Reads the modification times of all files below `out`, except run.json.
+fn read_times(bench: &Bench) -> BTreeMap<String, SystemTime> {
     let out = bench.path("out/plate");
     (files_below(&out).into_iter())
         .map(|path| {
@@ -46,11 +46,11 @@ fn times(bench: &Bench) -> BTreeMap<String, SystemTime> {
         .collect()
 }
 
-/// The folders of the cases that a run measures although it could have kept them.
-fn measured_again(bench: &Bench, more: &[&str]) -> BTreeSet<String> {
-    let before = times(bench);
+/// Returns the folders of the cases that a run measures although it could have kept them.
+fn find_measured_again(bench: &Bench, more: &[&str]) -> BTreeSet<String> {
+    let before = read_times(bench);
     run(bench, more);
-    (times(bench).into_iter())
+    (read_times(bench).into_iter())
         .filter(|(name, time)| name.ends_with("/case.json") && before.get(name) != Some(time))
         .map(|(name, _)| name.trim_end_matches("/case.json").to_owned())
         .collect()
@@ -61,7 +61,7 @@ fn names<'a>(lists: impl IntoIterator<Item = &'a [&'a str]>) -> BTreeSet<String>
     names.map(|name| (*name).to_owned()).collect()
 }
 
-/// Writes one text for another in a file of the bench.
+/// Replaces one text by another in a file of the bench.
 fn change(bench: &Bench, file: &str, from: &str, to: &str) {
     let text = fs::read_to_string(bench.path(file)).unwrap();
     assert!(text.contains(from), "{file} holds \"{from}\"");
@@ -69,13 +69,13 @@ fn change(bench: &Bench, file: &str, from: &str, to: &str) {
 }
 
 #[test]
-fn a_second_run_touches_no_file_and_says_the_same() {
+fn a_second_run_touches_no_file_and_prints_the_same() {
     let bench = set_up();
     run(&bench, &[]);
     let first = fs::read(bench.path("out/run.json")).unwrap();
-    let before = times(&bench);
+    let before = read_times(&bench);
     run(&bench, &[]);
-    assert_eq!(times(&bench), before);
+    assert_eq!(read_times(&bench), before);
     assert!(fs::read(bench.path("out/run.json")).unwrap() == first);
     assert!(before.len() > 60, "{} files", before.len());
 }
@@ -84,25 +84,25 @@ const NONE_KEEPS_IT: &str =
     "[default]\nflip_moving = { limit = 0.0001, why = \"none keeps it\" }\n";
 const WORST: &str = "identity_default/worst_flip_moving.png";
 
-/// The times of all files that are measured, which evidence is not.
-fn times_of_measured(bench: &Bench) -> BTreeMap<String, SystemTime> {
-    let mut times = times(bench);
+/// Reads the modification times of all measured files. Evidence is not measured.
+fn read_measured_times(bench: &Bench) -> BTreeMap<String, SystemTime> {
+    let mut times = read_times(bench);
     times.retain(|name, _| !name.contains("worst_"));
     times
 }
 
 #[test]
-fn a_check_is_kept_with_its_intervals() {
+fn a_kept_check_keeps_its_intervals() {
     let bench = set_up();
     bench.write("bounds.toml", NONE_KEEPS_IT);
     let check = || bench.check(&FILTERS);
     let first = stdout(&check());
     assert!(first.contains("flip_moving"), "{first}");
-    let (run, before) = (bench.measured(), times_of_measured(&bench));
+    let (run, before) = (bench.read_run(), read_measured_times(&bench));
     assert_eq!(stdout(&check()), first);
-    assert_eq!(times_of_measured(&bench), before);
+    assert_eq!(read_measured_times(&bench), before);
     let text = |run: &suite::Run| serde_json::to_string(run).unwrap();
-    assert_eq!(text(&bench.measured()), text(&run));
+    assert_eq!(text(&bench.read_run()), text(&run));
 
     let evidence = bench.path("out/plate").join(WORST);
     fs::remove_file(&evidence).unwrap();
@@ -111,46 +111,46 @@ fn a_check_is_kept_with_its_intervals() {
 }
 
 #[test]
-fn another_bound_measures_nothing_again() {
+fn a_changed_bound_measures_nothing_again() {
     let bench = set_up();
     bench.write("bounds.toml", &NONE_KEEPS_IT.replace("0.0001", "0.1"));
     let broken = bench.check(&FILTERS);
     assert_eq!(broken.status.code(), Some(1), "{}", stdout(&broken));
-    let before = times_of_measured(&bench);
+    let before = read_measured_times(&bench);
     let all_keep_it = NONE_KEEPS_IT.replace("0.0001", "0.9");
     bench.write(
         "bounds.toml",
         &format!("# A comment moves the line.\n{all_keep_it}"),
     );
     assert_done(&bench.check(&FILTERS));
-    assert_eq!(times_of_measured(&bench), before);
+    assert_eq!(read_measured_times(&bench), before);
 }
 
 #[test]
-fn a_run_takes_what_a_check_left() {
+fn a_run_reuses_the_cases_of_a_check() {
     let bench = set_up();
     bench.write("bounds.toml", NONE_KEEPS_IT);
     bench.check(&FILTERS);
-    let before = times_of_measured(&bench);
-    let words = [&quick("run", "64")[..], &FILTERS].concat();
-    bench.done(&words);
-    assert_eq!(times_of_measured(&bench), before);
-    // What it says does not depend on who measured.
+    let before = read_measured_times(&bench);
+    let words = [&quick_command("run", "64")[..], &FILTERS].concat();
+    bench.execute(&words);
+    assert_eq!(read_measured_times(&bench), before);
+    // The output does not depend on which command measured.
     let kept = fs::read_to_string(bench.path("out/run.json")).unwrap();
     assert!(
         bench
-            .measured()
+            .read_run()
             .cases
             .iter()
             .all(|case| case.intervals.is_empty())
     );
     fs::remove_dir_all(bench.path("out")).unwrap();
-    bench.done(&words);
+    bench.execute(&words);
     assert!(fs::read_to_string(bench.path("out/run.json")).unwrap() == kept);
 }
 
 #[test]
-fn what_changes_one_case_measures_that_one_again() {
+fn a_change_to_one_case_measures_only_that_case_again() {
     let bench = set_up();
     run(&bench, &[]);
     let mine = names([&OF_FILTERS[1..]]);
@@ -158,31 +158,35 @@ fn what_changes_one_case_measures_that_one_again() {
     let kernels = "mine/velocity_gather.wgsl";
     let text = fs::read_to_string(bench.path(kernels)).unwrap();
     fs::write(bench.path(kernels), format!(" {text}")).unwrap();
-    assert_eq!(measured_again(&bench, &[]), mine, "a byte of WGSL");
+    assert_eq!(find_measured_again(&bench, &[]), mine, "a byte of WGSL");
 
     change(&bench, "mine/filter.toml", "samples = 8 ", "samples = 7 ");
-    assert_eq!(measured_again(&bench, &[]), mine, "a preset's value");
+    assert_eq!(find_measured_again(&bench, &[]), mine, "a preset's value");
 
     let set = ["--set", "velocity_gather.samples=9"];
     let changed: BTreeSet<String> = mine
         .iter()
         .map(|name| format!("{name}_samples_9"))
         .collect();
-    assert_eq!(measured_again(&bench, &set), changed, "a parameter");
-    assert_eq!(measured_again(&bench, &set), BTreeSet::new());
+    assert_eq!(find_measured_again(&bench, &set), changed, "a parameter");
+    assert_eq!(find_measured_again(&bench, &set), BTreeSet::new());
 
     let filters = names([&OF_FILTERS[..]]);
     let more = ["--jitter-frames", "3"];
-    assert_eq!(measured_again(&bench, &more), filters, "frames of noise");
+    assert_eq!(
+        find_measured_again(&bench, &more),
+        filters,
+        "frames of noise"
+    );
 }
 
 #[test]
-fn what_changes_the_truth_or_the_frame_measures_all_again() {
+fn a_change_to_the_truth_or_the_frame_measures_all_cases_again() {
     let bench = set_up();
     run(&bench, &[]);
     let all = names([&BARS[..], &OF_FILTERS]);
     for more in [["--seed", "2"], ["--velocity", "previous_frame"]] {
-        assert_eq!(measured_again(&bench, &more), all, "{more:?}");
+        assert_eq!(find_measured_again(&bench, &more), all, "{more:?}");
     }
     change(
         &bench,
@@ -191,7 +195,7 @@ fn what_changes_the_truth_or_the_frame_measures_all_again() {
         "nothing. It serves",
     );
     run(&bench, &[]);
-    let said = bench.measured().cases.into_iter().map(|case| case.exposes);
+    let said = bench.read_run().cases.into_iter().map(|case| case.exposes);
     assert_eq!(
         said.collect::<BTreeSet<_>>(),
         names([&["nothing. It serves the tests of the command line"][..]])
@@ -199,21 +203,21 @@ fn what_changes_the_truth_or_the_frame_measures_all_again() {
 }
 
 #[test]
-fn another_common_shutter_measures_again_what_is_compared_with_it() {
+fn another_common_shutter_measures_the_compared_cases_again() {
     let bench = set_up();
     run(&bench, &[]);
-    assert_eq!(bench.measured().common_alignment, "trailing");
-    let again = measured_again(&bench, &["--filter", "bevy:default"]);
-    assert_eq!(bench.measured().common_alignment, "centred");
+    assert_eq!(bench.read_run().common_alignment, "trailing");
+    let again = find_measured_again(&bench, &["--filter", "bevy:default"]);
+    assert_eq!(bench.read_run().common_alignment, "centred");
     let all = names([&BARS[..], &OF_FILTERS]);
     assert!(again.is_superset(&all), "{again:?}");
-    // A narrower run keeps the shutter of the wider one.
-    assert_eq!(measured_again(&bench, &[]), BTreeSet::new());
-    assert_eq!(bench.measured().common_alignment, "centred");
+    // A narrower run keeps the wider run's shutter.
+    assert_eq!(find_measured_again(&bench, &[]), BTreeSet::new());
+    assert_eq!(bench.read_run().common_alignment, "centred");
 }
 
 #[test]
-fn what_is_missing_cut_short_or_altered_is_made_anew() {
+fn missing_truncated_and_altered_files_are_made_again() {
     let bench = set_up();
     run(&bench, &[]);
     let contents = |name: &str| fs::read(bench.path("out/plate").join(name)).unwrap();
@@ -222,7 +226,7 @@ fn what_is_missing_cut_short_or_altered_is_made_anew() {
     type Damage<'a> = &'a dyn Fn(&[u8]) -> Option<Vec<u8>>;
     let damages: [Damage; 3] = [&|_| None, &|bytes| Some(cut(bytes)), &|bytes| {
         let mut bytes = bytes.to_vec();
-        // A score's digit, or some bits of a pixel.
+        // Damages a score's digit, or some bits of a pixel.
         let mut later = bytes.len() * 3 / 4..bytes.len();
         let digit = later.find(|at| bytes[*at].is_ascii_digit());
         let middle = bytes.len() / 2;
@@ -246,7 +250,7 @@ fn what_is_missing_cut_short_or_altered_is_made_anew() {
                 None => fs::remove_file(&path).unwrap(),
                 Some(bytes) => fs::write(&path, bytes).unwrap(),
             }
-            assert_eq!(measured_again(&bench, &[]), *expected, "{name}");
+            assert_eq!(find_measured_again(&bench, &[]), *expected, "{name}");
             assert!(contents(name) == whole, "{name} is not as it was");
             assert!(fs::read(bench.path("out/run.json")).unwrap() == run_json);
         }
@@ -255,7 +259,7 @@ fn what_is_missing_cut_short_or_altered_is_made_anew() {
 
 #[cfg(unix)]
 #[test]
-fn a_program_is_run_again_every_time() {
+fn a_program_runs_again_every_time() {
     let bench = Bench::new();
     write_program(
         &bench.path("copy"),

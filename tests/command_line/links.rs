@@ -1,16 +1,13 @@
-//! Links between the project's own pages: each leads to a file, and to a heading where it names one.
+//! Links between the project's own pages. Each leads to a file, and to a heading if it names one.
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use tests::root;
 
-/// Folders that hold no page of the project's own.
+/// Folders without pages of the project's own.
 const FOREIGN: [&str; 4] = ["target", "out", "node_modules", ".git"];
 
-pub fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
-
-/// Every page below a folder.
+/// Finds every page below a folder.
 pub fn find_pages(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder)
@@ -28,7 +25,7 @@ pub fn find_pages(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Returns the text outside of code blocks.
+/// Returns the text outside code blocks.
 fn prose(text: &str) -> String {
     let parts = text.split("```").step_by(2);
     let lines = parts
@@ -37,14 +34,14 @@ fn prose(text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// The targets of `[words](target)`.
+/// Finds the targets of `[words](target)`.
 fn find_links(text: &str) -> Vec<String> {
     let rests = text.split("](").skip(1);
     let targets = rests.filter_map(|rest| rest.split_once(')'));
     targets.map(|(target, _)| target.to_owned()).collect()
 }
 
-/// Headings as GitHub names them: lower case, no signs, hyphens for spaces.
+/// Names headings as GitHub does: lower case, no punctuation, hyphens for spaces.
 fn anchors(text: &str) -> Vec<String> {
     let headings = text.lines().filter(|line| line.starts_with('#'));
     let anchor = |heading: &str| -> String {
@@ -58,7 +55,7 @@ fn anchors(text: &str) -> Vec<String> {
     headings.map(anchor).collect()
 }
 
-/// None where the link leads somewhere.
+/// Describes a broken link; none where the link leads somewhere.
 fn broken(page: &Path, target: &str) -> Option<String> {
     if target.contains("://") {
         return None;
@@ -81,7 +78,7 @@ fn broken(page: &Path, target: &str) -> Option<String> {
 }
 
 #[test]
-fn every_link_between_the_pages_leads_somewhere() {
+fn every_link_between_pages_has_a_target() {
     let pages = find_pages(&root());
     let mut count = 0;
     let mut all = Vec::new();
@@ -103,7 +100,7 @@ fn every_link_between_the_pages_leads_somewhere() {
 }
 
 #[test]
-fn the_readme_leads_to_every_guide() {
+fn the_readme_links_every_guide() {
     let links = find_links(&prose(
         &fs::read_to_string(root().join("README.md")).unwrap(),
     ));

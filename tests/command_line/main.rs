@@ -37,7 +37,7 @@ use std::process::Stdio;
 use tests::filter_folder::copy_shipped_filter;
 use tests::text::assert_contains;
 
-use bench::{Bench, assert_done, assert_refused, files_below, stdout};
+use bench::{Bench, assert_done, assert_refused, files_below, split, stdout};
 
 #[test]
 fn a_run_writes_scores_and_pictures_of_every_case() {
@@ -71,7 +71,7 @@ fn a_run_writes_scores_and_pictures_of_every_case() {
         "{table}"
     );
 
-    let run = bench.measured();
+    let run = bench.read_run();
     let render = &run.render;
     assert_eq!(run.format, suite::FORMAT);
     assert_eq!(
@@ -115,7 +115,7 @@ fn a_run_writes_scores_and_pictures_of_every_case() {
 }
 
 #[test]
-fn json_goes_to_standard_output_where_a_machine_reads() {
+fn json_goes_to_standard_output() {
     let bench = Bench::new();
     let output = bench.run(&["--filters", "identity", "--json"]);
     assert_done(&output);
@@ -126,7 +126,7 @@ fn json_goes_to_standard_output_where_a_machine_reads() {
 }
 
 #[test]
-fn a_second_run_uses_the_truth_again_and_says_the_same() {
+fn a_second_run_reuses_the_truth_and_prints_the_same() {
     let bench = Bench::new();
     let first = bench.run(&["--filters", "identity"]);
     assert_done(&first);
@@ -138,7 +138,7 @@ fn a_second_run_uses_the_truth_again_and_says_the_same() {
     };
     let before = rendered(&bench);
     let second = bench.run(&["--filters", "identity"]);
-    // All but the counts and the time of the last line.
+    // Everything except the counts and the time in the last line.
     let ranking = |output| stdout(output).split("\ncases: ").next().map(str::to_owned);
     assert_eq!(ranking(&first), ranking(&second));
     assert_eq!(
@@ -158,23 +158,14 @@ fn a_second_run_uses_the_truth_again_and_says_the_same() {
 fn the_number_of_threads_changes_no_byte() {
     let bench = Bench::new();
     let files = |threads: &str, out: &str| {
-        let words = [
-            "run",
-            "--quiet",
-            "--size",
-            "64x32",
-            "--samples-per-pixel",
-            "16",
-            "--filters",
-            "identity",
-        ];
+        let words = split("run --quiet --size 64x32 --samples-per-pixel 16 --filters identity");
         assert_done(
             &bench.shuttertruth(&[&words[..], &["--threads", threads, "--out", out]].concat()),
         );
         let folder = bench.path(out);
         files_below(&folder)
             .into_iter()
-            // run.json records the command, judgement.json which run.json it is about, and the report shows both.
+            // run.json records the command, judgement.json names its run.json, and the report shows both.
             .filter(|path| {
                 let name = path.file_name().unwrap().to_str().unwrap();
                 !["run.json", "judgement.json", "report.html"].contains(&name)
@@ -201,20 +192,9 @@ fn the_number_of_threads_changes_no_byte() {
 }
 
 #[test]
-fn a_rendered_frame_can_be_blurred_by_any_filter() {
+fn any_filter_can_blur_a_rendered_frame() {
     let bench = Bench::new();
-    bench.done(&[
-        "render",
-        "--quiet",
-        "--out",
-        "r",
-        "--scenes",
-        "plate",
-        "--samples-per-pixel",
-        "16",
-        "--alignments",
-        "trailing,centred",
-    ]);
+    bench.execute(&split("render --quiet --out r --scenes plate --samples-per-pixel 16 --alignments trailing,centred"));
     assert_eq!(
         frame::Truth::read(&bench.path("r/plate/truth_centred.exr"))
             .unwrap()
@@ -236,7 +216,7 @@ fn a_rendered_frame_can_be_blurred_by_any_filter() {
             "--out",
             "blurred.exr",
         ];
-        bench.done(&words);
+        bench.execute(&words);
         let blurred = frame::read_exr(&bench.path("blurred.exr")).unwrap();
         assert_eq!(
             blurred.color("").unwrap() != frame.color,
@@ -247,19 +227,11 @@ fn a_rendered_frame_can_be_blurred_by_any_filter() {
 }
 
 #[test]
-fn an_exr_of_an_engine_needs_only_the_channels_and_an_exposure() {
+fn an_engine_s_exr_needs_only_the_channels_and_an_exposure() {
     let bench = Bench::new();
     let mut file = frame::ExrFile::new(16, 16);
     file.push_color("", &frame::Raster::filled(16, 16, [0.5; 3]));
-    let words = [
-        "blur",
-        "--filter",
-        "identity",
-        "--frame",
-        "engine.exr",
-        "--out",
-        "blurred.exr",
-    ];
+    let words = split("blur --filter identity --frame engine.exr --out blurred.exr");
     let refused = |file: &frame::ExrFile, parts: &[&str]| {
         frame::write_exr(&bench.path("engine.exr"), file).unwrap();
         assert_refused(&bench.shuttertruth(&words), 2, parts);
@@ -274,7 +246,7 @@ fn an_exr_of_an_engine_needs_only_the_channels_and_an_exposure() {
         &file,
         &["engine.exr: has no attribute \"exposure\"", "--exposure"],
     );
-    bench.done(&[&words[..], &["--exposure", "0.5"]].concat());
+    bench.execute(&[&words[..], &["--exposure", "0.5"]].concat());
     fs::remove_file(bench.path("blurred.exr")).unwrap();
     let mut nan = ones.clone();
     nan.pixels[5 * 16 + 3] = f32::NAN;
@@ -291,7 +263,7 @@ fn an_exr_of_an_engine_needs_only_the_channels_and_an_exposure() {
 }
 
 #[test]
-fn scenes_and_filters_of_ones_own_are_given_by_their_paths() {
+fn a_user_s_scenes_and_filters_are_given_by_path() {
     let bench = Bench::new();
     let mine = bench.path("my_blur");
     copy_shipped_filter("velocity_gather", &mine);
@@ -371,7 +343,7 @@ fn list_shows_scenes_filters_parameters_and_presets() {
 }
 
 #[test]
-fn a_reader_that_stops_reading_is_no_error() {
+fn a_closed_output_pipe_is_not_an_error() {
     let bench = Bench::new();
     let mut child = bench
         .command(&["list", "--json"])

@@ -1,4 +1,4 @@
-//! The guide's filter of one's own, and the messages that the guide quotes for mistakes in it.
+//! The filter that the guide writes, and the error messages that the guide quotes.
 
 use metrics::Measured;
 use tests::filter_folder::one_kernel_without_parameters;
@@ -7,19 +7,19 @@ use crate::bench::{Bench, assert_done, stderr};
 
 const GUIDE: &str = include_str!("../../docs/add-a-filter.md");
 
-/// The guide's part about writing a filter.
+/// Returns the guide's section about writing a filter.
 fn section() -> &'static str {
     let start = GUIDE.split_once("\n## 1. Write it\n").unwrap().1;
     start.split_once("\n## ").unwrap().0
 }
 
-/// The first code block of that language in the section.
+/// Returns the section's first code block in this language.
 fn block(language: &str) -> &'static str {
     let start = section().split_once(&format!("```{language}\n")).unwrap().1;
     start.split_once("```").unwrap().0
 }
 
-/// Writes the guide's filter, with one word written for another in one of its files.
+/// Writes the guide's filter, with one of its mistakes if asked.
 fn write(bench: &Bench, change: Option<&Mistake>) {
     let [manifest, kernels] =
         [("filter.toml", "toml"), ("my_blur.wgsl", "wgsl")].map(|(name, language)| match change {
@@ -33,7 +33,7 @@ fn write(bench: &Bench, change: Option<&Mistake>) {
     bench.write_filter("my_blur", &manifest, &kernels);
 }
 
-/// A mistake that the guide shows: `from` written `to` in a file, and what the program says to it.
+/// Mistake that the guide shows: a file, a text and its replacement, and the program's message.
 struct Mistake {
     from: &'static str,
     to: &'static str,
@@ -41,7 +41,7 @@ struct Mistake {
     says: String,
 }
 
-/// The items ``- .., `from` written `to` in file:``, each with a block of code.
+/// Reads the items ``- .., `from` written `to` in file:``, each with a block of code.
 fn read_mistakes() -> Vec<Mistake> {
     (section().split("\n- ").skip(1))
         .map(|item| {
@@ -50,7 +50,7 @@ fn read_mistakes() -> Vec<Mistake> {
             let [_, from, " written ", to, file] = words[..] else {
                 panic!("\"{head}\" shows no mistake");
             };
-            // The code ends where lines are no longer indented.
+            // The block ends at the first line without indentation.
             let lines: Vec<&str> = (code.lines())
                 .take_while(|line| line.starts_with("      "))
                 .map(|line| &line[6..])
@@ -66,20 +66,21 @@ fn read_mistakes() -> Vec<Mistake> {
 }
 
 #[test]
-fn the_filter_of_the_guide_runs_and_is_better_than_none() {
+fn the_guide_s_filter_runs_and_beats_the_identity() {
     let bench = Bench::new();
     write(&bench, None);
     assert!(block("wgsl").lines().count() <= 20);
     assert_done(&bench.run(&["--filters", "identity", "--filter", "my_blur"]));
-    let cases = bench.measured_filters();
+    let cases = bench.read_filter_cases();
     let flip = |case: usize| cases[case].scores.moving.flip.value().unwrap();
     assert_eq!(cases[1].filter, "my_blur");
-    // A gather along the pixel's own velocity gets the inside of the plate right, and not what it smears over: about half.
+    // A gather along the pixel's own velocity blurs the inside of the plate correctly, but not the smear outside it:
+    // about half.
     assert!(flip(1) < 0.8 * flip(0), "{} of {}", flip(1), flip(0));
 }
 
 #[test]
-fn each_mistake_says_what_the_readme_says() {
+fn each_mistake_prints_the_message_in_the_guide() {
     let bench = Bench::new();
     let mistakes = read_mistakes();
     assert_eq!(
@@ -97,7 +98,7 @@ fn each_mistake_says_what_the_readme_says() {
 }
 
 #[test]
-fn weights_that_depend_on_colour_leave_no_scores_of_mattes_and_say_why() {
+fn weights_that_depend_on_colour_give_no_matte_scores_and_say_why() {
     let bench = Bench::new();
     let toml = "name = 'bright'\nsummary = 'Counts what is bright more.'\nalignment = 'trailing'\n[[pass]]\nentry = 'work'\n";
     let wgsl = "@group(0) @binding(4) var velocity: texture_2d<f32>;\n".to_owned()
@@ -113,11 +114,11 @@ fn weights_that_depend_on_colour_leave_no_scores_of_mattes_and_say_why() {
         );
     bench.write_filter("bright", toml, &wgsl);
     assert_done(&bench.run(&["--filters", "identity", "--filter", "bright"]));
-    let [identity, bright] = &bench.measured_filters()[..] else {
+    let [identity, bright] = &bench.read_filter_cases()[..] else {
         panic!("two filters on one scene");
     };
     assert_eq!(identity.nonlinearity, Some(0.0));
-    // Twice as bright counts up to twice as much.
+    // Pixels that are twice as bright weigh up to twice as much.
     let nonlinearity = bright.nonlinearity.unwrap();
     assert!(nonlinearity > 0.01, "{nonlinearity}");
     assert!(bright.scores.moving.flip.value().is_some());

@@ -1,4 +1,4 @@
-//! Presets that were made for pictures of another width.
+//! Presets that were made for another picture width.
 
 use std::fs;
 
@@ -6,9 +6,9 @@ use filters::Value;
 use suite::Case;
 use tests::filter_folder::one_kernel;
 
-use crate::bench::{Bench, assert_done, stdout};
+use crate::bench::{Bench, assert_done, split, stdout};
 
-/// Blurs by as many pixels as its parameter says, which was made for pictures four times as wide as the bench's.
+/// Manifest of a box blur. Its parameter is a radius in pixels, for pictures four times as wide as the bench's.
 const MANIFEST: &str = r#"
 name = "mine"
 summary = "Averages pixels to the right."
@@ -46,49 +46,42 @@ fn set_up() -> Bench {
 }
 
 /// Runs the filter and returns its case.
-fn case(bench: &Bench, more: &[&str]) -> Case {
+fn measure_case(bench: &Bench, more: &[&str]) -> Case {
     assert_done(&bench.run(&[&["--filter", "mine"], more].concat()));
-    let mut cases = bench.measured().cases.into_iter();
+    let mut cases = bench.read_run().cases.into_iter();
     cases.find(|case| case.filter == "mine").unwrap()
 }
 
 #[test]
-fn a_run_scales_a_preset_to_its_width_and_says_so() {
+fn a_run_scales_a_preset_to_its_width_and_reports_it() {
     let bench = set_up();
-    let scaled = case(&bench, &[]);
+    let scaled = measure_case(&bench, &[]);
     assert_eq!(scaled.parameters["radius"], Value::Integer(4));
     assert_eq!(scaled.reference_width, Some(256));
 
-    // The case was kept; what follows is another one, and so is not read back.
-    let written = case(&bench, &["--as-written"]);
+    // The first case was kept. This is a different case, so it must not be read back.
+    let written = measure_case(&bench, &["--as-written"]);
     assert_eq!(written.parameters["radius"], Value::Integer(16));
     assert_eq!(written.reference_width, None);
     let flip = |case: &Case| serde_json::to_string(&case.scores.moving).unwrap();
     assert_ne!(flip(&written), flip(&scaled));
 
-    let set = case(&bench, &["--set", "mine.radius=16"]);
+    let set = measure_case(&bench, &["--set", "mine.radius=16"]);
     assert_eq!(set.parameters["radius"], Value::Integer(16));
     assert_eq!(set.reference_width, Some(256));
     assert_eq!(flip(&set), flip(&written));
-    assert_eq!(flip(&case(&bench, &[])), flip(&scaled));
+    assert_eq!(flip(&measure_case(&bench, &[])), flip(&scaled));
 }
 
 #[test]
 fn a_guard_band_is_not_part_of_the_width() {
     let bench = set_up();
-    let case = case(&bench, &["--guard-band", "32"]);
+    let case = measure_case(&bench, &["--guard-band", "32"]);
     assert_eq!(case.parameters["radius"], Value::Integer(4));
 
-    let words = [
-        "blur",
-        "--filter",
-        "./mine",
-        "--frame",
-        "out/plate/frame.exr",
-        "--out",
-    ];
+    let words = split("blur --filter ./mine --frame out/plate/frame.exr --out");
     let blur = |out: &str, more: &[&str]| {
-        bench.done(&[&words[..], &[out], more].concat());
+        bench.execute(&[&words[..], &[out], more].concat());
         let file = frame::read_exr(&bench.path(out)).unwrap();
         file.color("").unwrap()
     };
@@ -101,19 +94,12 @@ fn a_guard_band_is_not_part_of_the_width() {
 }
 
 #[test]
-fn every_command_that_runs_filters_scales_and_can_be_told_not_to() {
+fn every_command_that_runs_filters_scales_presets_unless_told_not_to() {
     let bench = set_up();
-    let json =
-        |words: &[&str]| -> serde_json::Value { serde_json::from_str(&bench.done(words)).unwrap() };
-    let bench_words = [
-        "bench",
-        "--filters",
-        "./mine",
-        "--size",
-        "64x32",
-        "--json",
-        "--quiet",
-    ];
+    let json = |words: &[&str]| -> serde_json::Value {
+        serde_json::from_str(&bench.execute(words)).unwrap()
+    };
+    let bench_words = split("bench --filters ./mine --size 64x32 --json --quiet");
     let radius = |more: &[&str]| {
         let done = json(&[&bench_words[..], more].concat());
         let mut cases = done["cases"].as_array().unwrap().iter();
@@ -129,25 +115,13 @@ fn every_command_that_runs_filters_scales_and_can_be_told_not_to() {
         (16.into(), serde_json::Value::Null)
     );
 
-    // 4 pixels are the preset's own here, and 16 as written.
+    // The preset's own radius is 4 pixels here, and 16 as written.
     let evaluate = |params: &str, more: &[&str]| {
         fs::write(bench.path("params.json"), params).unwrap();
-        let words = [
-            "evaluate",
-            "--quiet",
-            "--filter",
-            "./mine",
-            "--objective",
-            "flip",
-            "--size",
-            "64x32",
-            "--samples-per-pixel",
-            "16",
-            "--out",
-            "tuned",
-            "--params",
-            "params.json",
-        ];
+        let words = split(
+            "evaluate --quiet --filter ./mine --objective flip --size 64x32 --samples-per-pixel 16 --out tuned \
+             --params params.json",
+        );
         json(&[&words[..], more].concat())["scenes"]["plate"]["flip"].clone()
     };
     let (scaled, written) = (evaluate("{}", &[]), evaluate("{}", &["--as-written"]));
@@ -157,7 +131,7 @@ fn every_command_that_runs_filters_scales_and_can_be_told_not_to() {
 }
 
 #[test]
-fn what_tuning_finds_is_meant_for_the_width_it_was_found_at() {
+fn a_tuned_preset_records_the_width_of_its_tuning() {
     let bench = set_up();
     // Five scenes that are much alike tell a choice from the start, which blurs too little at their speeds.
     for (name, way) in [
@@ -169,27 +143,13 @@ fn what_tuning_finds_is_meant_for_the_width_it_was_found_at() {
     ] {
         bench.copy_scene(name, |text| text.replace("-1.6", way));
     }
-    let words = [
-        "tune",
-        "--quiet",
-        "--filter",
-        "./mine",
-        "--objective",
-        "flip",
-        "--size",
-        "64x32",
-        "--samples-per-pixel",
-        "16",
-        "--scenes",
-        "a,b,c,d,e",
-        "--budget",
-        "12",
-        "--out",
-        "tuned",
-    ];
+    let words = split(
+        "tune --quiet --filter ./mine --objective flip --size 64x32 --samples-per-pixel 16 --scenes a,b,c,d,e --budget 12 \
+         --out tuned",
+    );
     let preset = |more: &[&str]| {
         let _ = fs::remove_dir_all(bench.path("tuned"));
-        let table = bench.done(&[&words[..], more].concat());
+        let table = bench.execute(&[&words[..], more].concat());
         let preset = fs::read_to_string(bench.path("tuned/preset.toml"));
         let values: serde_json::Value = bench.read_json("tuned/params.json");
         (preset.expect(&table), values["radius"].to_string())
@@ -203,7 +163,7 @@ fn what_tuning_finds_is_meant_for_the_width_it_was_found_at() {
     let (written, _) = preset(&["--as-written"]);
     assert!(!written.contains("reference_width"), "{written}");
 
-    // The preset is one of the filter's as soon as it is appended.
+    // The filter has the preset as soon as it is appended.
     fs::write(
         bench.path("mine/filter.toml"),
         format!("{MANIFEST}\n{scaled}"),

@@ -1,11 +1,13 @@
-//! Refused command lines: their words, their exit codes, and nothing left behind.
+//! Refused command lines: their messages, their exit codes, and no files left behind.
 
 use std::fs;
 
-use crate::bench::{Bench, OBJ, SCENE, assert_done, assert_refused, files_below, press_ctrl_c};
+use crate::bench::{
+    Bench, OBJ, SCENE, assert_done, assert_refused, files_below, press_ctrl_c, split,
+};
 
 #[test]
-fn no_adapter_is_exit_code_3_and_names_the_way_out() {
+fn a_missing_adapter_gives_exit_code_3_and_the_way_out() {
     let bench = Bench::new();
     let output = bench
         .command(&["run", "--out", "out"])
@@ -18,7 +20,7 @@ fn no_adapter_is_exit_code_3_and_names_the_way_out() {
 }
 
 #[test]
-fn words_that_do_not_fit_are_refused_with_what_is_allowed() {
+fn bad_arguments_are_refused_with_the_allowed_values() {
     let bench = Bench::new();
     let rows: &[(&[&str], &[&str])] = &[
         (
@@ -174,14 +176,11 @@ fn a_bad_scene_is_refused_with_file_and_line_and_leaves_nothing_behind() {
 }
 
 #[test]
-fn bounds_name_metrics_that_exist() {
+fn bounds_of_an_unknown_metric_are_refused() {
     let bench = Bench::new();
-    bench.write(
-        "bounds.toml",
-        "[default]\nflip_moving = { limit = 0.0001, why = \"it serves a test\" }\n",
-    );
+    bench.write_bound(0.0001);
     assert_done(&bench.run(&["--filters", "identity"]));
-    assert_eq!(bench.findings().len(), 1);
+    assert_eq!(bench.read_findings().len(), 1);
     bench.write(
         "bounds.toml",
         "[default]\nflip = { limit = 0.1, why = \"it serves a test\" }\n",
@@ -197,20 +196,13 @@ fn bounds_name_metrics_that_exist() {
 }
 
 #[test]
-fn ctrl_c_leaves_no_broken_file() {
+fn ctrl_c_leaves_no_partial_file() {
     let bench = Bench::new();
-    // Far more samples than can be rendered before the interrupt.
+    // Far more samples than the program can render before the interrupt.
     let mut child = bench
-        .command(&[
-            "render",
-            "--quiet",
-            "--out",
-            "out",
-            "--size",
-            "1024x512",
-            "--samples-per-pixel",
-            "65536",
-        ])
+        .command(&split(
+            "render --quiet --out out --size 1024x512 --samples-per-pixel 65536",
+        ))
         .spawn()
         .unwrap();
     std::thread::sleep(std::time::Duration::from_millis(500));
@@ -222,7 +214,7 @@ fn ctrl_c_leaves_no_broken_file() {
     } else {
         Vec::new()
     };
-    // Empty, and what the next process locks.
+    // Empty; the next process locks it.
     left.retain(|path| !path.ends_with(".shuttertruth.lock"));
     assert!(left.is_empty(), "left behind: {left:?}");
 }

@@ -26,15 +26,15 @@ fn scores(bench: &Bench, image: &str, more: &[&str]) -> Scores {
     serde_json::from_value(json["scores"].clone()).unwrap()
 }
 
-/// A run of one filter on the plate; its scores but those of probes, which a picture cannot have.
+/// Runs one filter on the plate. Returns its scores without those of probes, which a picture cannot have.
 fn run(bench: &Bench, more: &[&str]) -> Scores {
     assert_done(&bench.run(&[&["--filters", "velocity_gather:fine"], more].concat()));
-    let mut scores = bench.measured_filters()[0].scores.clone();
+    let mut scores = bench.read_filter_cases()[0].scores.clone();
     scores.probes = ProbeScores::not_applicable("no probes were run through the filter");
     scores
 }
 
-/// Writes the colours alone of an OpenEXR file.
+/// Writes only the colours of an OpenEXR file.
 fn without_mattes(bench: &Bench, from: &str, to: &str) {
     let mut file = read_exr(&bench.path(from)).unwrap();
     file.channels
@@ -43,7 +43,7 @@ fn without_mattes(bench: &Bench, from: &str, to: &str) {
     write_exr(&bench.path(to), &file).unwrap();
 }
 
-/// Returns whether a metric is about colours, and so can be told of any picture.
+/// Returns whether a metric is about colours, and so applies to any picture.
 fn of_colour(metric: &Metric) -> bool {
     matches!(
         metric,
@@ -56,7 +56,7 @@ fn of_colour(metric: &Metric) -> bool {
 }
 
 #[test]
-fn the_output_of_a_run_scores_as_in_the_run() {
+fn score_repeats_the_scores_of_a_run() {
     let bench = Bench::new();
     let expected = run(&bench, &[]);
     assert_eq!(scores(&bench, OUTPUT, &LADDER), expected);
@@ -71,7 +71,7 @@ fn the_output_of_a_run_scores_as_in_the_run() {
 }
 
 #[test]
-fn colours_without_mattes_keep_the_scores_of_colour_and_miss_the_others() {
+fn colours_without_mattes_get_only_the_scores_of_colour() {
     let bench = Bench::new();
     let expected = run(&bench, &[]);
     without_mattes(&bench, OUTPUT, "mine.exr");
@@ -91,7 +91,7 @@ fn colours_without_mattes_keep_the_scores_of_colour_and_miss_the_others() {
     };
     let mattes = line("the picture has no mattes, channels coverage.<object>");
     for metric in Metric::all() {
-        // The plate is all there is: nothing stands still that it could contaminate.
+        // The plate is the only object, so that nothing still can be contaminated.
         let due = !of_colour(&metric)
             && metric != Metric::OccluderContamination
             && !matches!(metric, Metric::Probe(_));
@@ -102,8 +102,8 @@ fn colours_without_mattes_keep_the_scores_of_colour_and_miss_the_others() {
 }
 
 #[test]
-fn a_png_is_brought_back_to_the_radiance_that_it_showed() {
-    // The plate's radiance is up to 0.7: half of it shown, and twice, which exceeds display white.
+fn a_png_is_converted_back_to_radiance() {
+    // The plate's radiance is up to 0.7. One exposure shows half of it, the other twice, which exceeds display white.
     for (stops, bright) in [("-1.0", false), ("1.0", true)] {
         let bench = Bench::new();
         let display = format!("[display]\nstops = {stops}\n[background]");
@@ -112,8 +112,8 @@ fn a_png_is_brought_back_to_the_radiance_that_it_showed() {
         let png = OUTPUT.replace(".exr", ".png");
         let found = scores(&bench, &png, &LADDER);
         let flip = |scores: &Scores| scores.moving.flip.value().unwrap();
-        // Steps of 1/255 in sRGB vanish beside the blur's error. A forgotten stop does not: it makes the whole picture half
-        // or twice as bright.
+        // Steps of 1/255 in sRGB are small beside the blur's error. A forgotten stop is not: the whole picture becomes
+        // half or twice as bright.
         assert!(
             (flip(&found) - flip(&expected)).abs() < 0.004,
             "{} {}",
@@ -134,7 +134,7 @@ fn a_png_is_brought_back_to_the_radiance_that_it_showed() {
             "{text}"
         );
         if !bright {
-            // Likewise, in decibels.
+            // The same, in decibels.
             assert!((psnr(&found) - psnr(&expected)).abs() < 0.1);
         }
     }
@@ -145,7 +145,7 @@ fn a_guard_band_is_cropped_from_the_picture() {
     let bench = Bench::new();
     let expected = run(&bench, &["--guard-band", "8"]);
     let words = ["blur", "--filter", "velocity_gather:fine", "--out", "b.exr"];
-    bench.done(&[&words[..], &FRAME].concat());
+    bench.execute(&[&words[..], &FRAME].concat());
     let found = scores(&bench, "b.exr", &[]);
     assert_eq!(found.moving, expected.moving);
     assert_eq!(found.full, expected.full);
@@ -157,11 +157,11 @@ fn a_guard_band_is_cropped_from_the_picture() {
 }
 
 #[test]
-fn what_does_not_belong_together_is_refused() {
+fn mismatched_files_are_refused() {
     let bench = Bench::new();
     let words = ["--quiet", "--samples-per-pixel", "16", "--out"];
     let render = |more: &[&str]| {
-        bench.done(&[&["render"][..], &words, more].concat());
+        bench.execute(&[&["render"][..], &words, more].concat());
     };
     render(&["out", "--alignments", "trailing,centred"]);
     render(&["short", "--exposure", "0.25"]);
@@ -170,7 +170,7 @@ fn what_does_not_belong_together_is_refused() {
     render(&["out"]);
     let blur = |more: &[&str]| {
         let words = ["blur", "--filter", "velocity_gather", "--out", "b.exr"];
-        bench.done(&[&words[..], &FRAME, more].concat());
+        bench.execute(&[&words[..], &FRAME, more].concat());
     };
     let refused = |words: [&str; 6], parts: &[&str]| {
         assert_refused(
@@ -221,7 +221,7 @@ fn what_does_not_belong_together_is_refused() {
 }
 
 #[test]
-fn pictures_that_cannot_be_scored_are_refused_with_their_name() {
+fn bad_pictures_are_refused_with_their_name() {
     let bench = Bench::new();
     run(&bench, &[]);
     let refused = |image: &str, parts: &[&str]| {
@@ -276,7 +276,7 @@ fn a_truth_of_an_older_version_is_refused_with_the_way_out() {
 }
 
 #[test]
-fn the_truth_itself_is_without_error_as_exr_and_rounded_as_png() {
+fn the_truth_has_no_error_as_exr_and_rounding_errors_as_png() {
     let bench = Bench::new();
     run(&bench, &[]);
     let truth = Truth::read(&bench.path(TRUTH[1])).unwrap();
@@ -287,7 +287,7 @@ fn the_truth_itself_is_without_error_as_exr_and_rounded_as_png() {
     assert_eq!(exact.full.flip.value(), Some(0.0));
     let rounded = scores(&bench, "truth.png", &[]);
     let flip = rounded.moving.flip.value().unwrap();
-    // FLIP raises small differences: half a step of 1/255 over a whole area is seen as up to some hundredths.
+    // FLIP amplifies small differences: half a step of 1/255 over a whole area gives up to a few hundredths.
     assert!(0.0 < flip && flip < 0.03, "{flip}");
     let text = stdout(&score(&bench, "truth.png", &[]));
     let said = format!("as a PNG of 8 bits, would have a flip_moving of {flip:.3}");

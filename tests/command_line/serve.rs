@@ -1,4 +1,4 @@
-//! `serve` and `evaluate`: searches driven from outside.
+//! `serve` and `evaluate`: searches that other programs drive.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
@@ -9,25 +9,12 @@ use serde_json::{Value, json};
 
 use crate::bench::{Bench, assert_refused, split, stderr, stdout};
 
-const SERVE: [&str; 12] = [
-    "serve",
-    "--quiet",
-    "--filter",
-    "jump_flood",
-    "--objective",
-    "flip",
-    "--size",
-    "64x32",
-    "--samples-per-pixel",
-    "16",
-    "--out",
-    "out",
-];
+pub const SERVE: &str = "serve --quiet --filter jump_flood --objective flip --size 64x32 --samples-per-pixel 16 --out out";
 
-/// Says one line after the other and hears all answers.
-fn conversation(bench: &Bench, more: &[&str], lines: &[Value]) -> Vec<Value> {
+/// Sends the lines one by one and reads all answers.
+fn converse(bench: &Bench, more: &[&str], lines: &[Value]) -> Vec<Value> {
     let mut child = bench
-        .command(&[&SERVE[..], more].concat())
+        .command(&[&split(SERVE)[..], more].concat())
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .spawn()
@@ -50,9 +37,9 @@ fn conversation(bench: &Bench, more: &[&str], lines: &[Value]) -> Vec<Value> {
 }
 
 #[test]
-fn a_request_is_answered_scene_by_scene_and_then_in_full() {
+fn a_request_gets_one_answer_per_scene_and_then_a_summary() {
     let bench = Bench::new();
-    let heard = conversation(&bench, &[], &[json!({"id": 7, "params": {"samples": 12}})]);
+    let heard = converse(&bench, &[], &[json!({"id": 7, "params": {"samples": 12}})]);
     assert_eq!(heard[0]["ready"], true);
     assert_eq!(heard[0]["scenes"], json!(["plate"]));
     assert_eq!(
@@ -70,9 +57,9 @@ fn a_request_is_answered_scene_by_scene_and_then_in_full() {
 }
 
 #[test]
-fn what_cannot_be_answered_is_an_error_and_not_the_end() {
+fn a_bad_request_gets_an_error_and_the_service_goes_on() {
     let bench = Bench::new();
-    let heard = conversation(
+    let heard = converse(
         &bench,
         &[],
         &[
@@ -99,7 +86,7 @@ fn what_cannot_be_answered_is_an_error_and_not_the_end() {
     for (error, part) in errors.iter().zip(parts) {
         assert!(error.contains(part), "\"{part}\" is missing from: {error}");
     }
-    // A whole number is a real one as well.
+    // A whole number is also a real one.
     assert_eq!(
         heard.last().unwrap()["done"]["values"]["match_threshold"],
         1.0
@@ -107,15 +94,15 @@ fn what_cannot_be_answered_is_an_error_and_not_the_end() {
 }
 
 #[test]
-fn what_is_cancelled_is_not_summed_up() {
+fn a_cancelled_request_gets_no_summary() {
     let bench = Bench::new();
-    let heard = conversation(
+    let heard = converse(
         &bench,
         &[],
         &[
             json!({"cancel": 2}),
             json!({"id": 2, "params": {"samples": 3}}),
-            // JSON has one kind of numbers.
+            // JSON has only one kind of number.
             json!({"id": 3, "params": {"samples": 4, "match_threshold": 1}}),
         ],
     );
@@ -159,7 +146,7 @@ fn parameters_of_a_file_are_checked() {
     assert!(!bench.path("out").exists());
 }
 
-/// `make test` installs Optuna and says in PYTHON which Python has it.
+/// `make test` installs Optuna and names its Python in PYTHON.
 #[test]
 fn optuna_finds_something_better_through_the_service() {
     let python = std::env::var("PYTHON").unwrap_or("python3".to_owned());
@@ -169,7 +156,7 @@ fn optuna_finds_something_better_through_the_service() {
         "{python} has no Optuna: `make test` installs it; or pip install optuna, and set PYTHON to the Python that has it"
     );
     let bench = Bench::new();
-    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/optuna_tune.py");
+    let example = tests::root().join("examples/optuna_tune.py");
     let program = Path::new(env!("CARGO_BIN_EXE_shuttertruth"))
         .parent()
         .unwrap();
@@ -177,10 +164,8 @@ fn optuna_finds_something_better_through_the_service() {
     let mut command = Command::new(python);
     command.current_dir(bench.path("")).arg(example);
     command.env("PATH", format!("{}:{path}", program.display()));
-    let words = SERVE[1..]
-        .iter()
-        .map(|word| if *word == "flip" { "flip,bleed" } else { word });
-    let output = command.args(words).output().unwrap();
+    let words = SERVE.replace("flip ", "flip,bleed ");
+    let output = command.args(&split(&words)[1..]).output().unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
     let found: Value = serde_json::from_str(&stdout(&output)).unwrap();
     let errors = found

@@ -1,12 +1,12 @@
-//! What a newcomer sees: the ranking, the report, kept cases, suggestions.
+//! Output that a newcomer sees: the ranking, the report, kept cases, suggestions.
 
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::process::Stdio;
 
-use crate::bench::{Bench, assert_done, assert_refused, files_below, quick, stderr, stdout};
+use crate::bench::{Bench, assert_done, assert_refused, files_below, quick_command, stderr, stdout};
 
-/// A bench with a second scene, which moves at half the speed.
+/// Makes a bench with a second scene, which moves at half the speed.
 fn two_scenes() -> Bench {
     let bench = Bench::new();
     bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
@@ -14,7 +14,7 @@ fn two_scenes() -> Bench {
 }
 
 fn names(bench: &Bench) -> Vec<String> {
-    let cases = bench.measured_filters();
+    let cases = bench.read_filter_cases();
     let names = cases
         .iter()
         .map(|case| format!("{} {}", case.scene, case.name()));
@@ -47,7 +47,7 @@ fn a_run_ranks_filters_in_at_most_40_lines_and_names_the_report() {
     assert!(page.contains("jump_flood"));
     let again = stdout(&bench.run(&["--jitter-frames", "0", "--table"]));
     assert!(again.lines().count() > 60, "{again}");
-    let cases = bench.measured().cases.len();
+    let cases = bench.read_run().cases.len();
     assert!(
         again.contains(&format!("cases: {cases}, {cases} of them read back")),
         "{again}"
@@ -55,7 +55,7 @@ fn a_run_ranks_filters_in_at_most_40_lines_and_names_the_report() {
 }
 
 #[test]
-fn filters_that_noise_cannot_tell_apart_share_a_rank() {
+fn filters_within_noise_share_a_rank() {
     let bench = Bench::new();
     let text = stdout(&bench.run(&[
         "--filters",
@@ -82,14 +82,14 @@ fn a_narrower_run_keeps_the_cases_of_a_wider_one() {
         "{}",
         stderr(&narrow)
     );
-    // The ranking is about what was asked for.
+    // The ranking covers only the filters asked for.
     assert!(!stdout(&narrow).contains("mcguire"), "{}", stdout(&narrow));
     let mut after = names(&bench);
     after.sort();
     let mut sorted = before.clone();
     sorted.sort();
     assert_eq!(after, sorted);
-    assert_eq!(bench.measured().common_alignment, "centred");
+    assert_eq!(bench.read_run().common_alignment, "centred");
     // The report shows all of them.
     assert!(
         fs::read_to_string(bench.path("out/report.html"))
@@ -204,7 +204,7 @@ fn an_override_shows_in_the_name_the_folder_and_the_tables() {
     assert!(stdout(&output).contains(name), "{}", stdout(&output));
     let table = stdout(&bench.run(&[&words[..], &["--table"]].concat()));
     assert!(table.contains(name), "{table}");
-    let case = &bench.measured_filters()[0];
+    let case = &bench.read_filter_cases()[0];
     assert_eq!(case.name(), name);
     assert_eq!(
         case.folder.to_str(),
@@ -261,7 +261,7 @@ fn patterns_select_and_misspelt_names_get_a_suggestion() {
 }
 
 #[test]
-fn list_shows_what_is_asked_for() {
+fn list_shows_only_the_requested_kinds() {
     let bench = two_scenes();
     let list = |words: &[&str]| {
         let output = bench.shuttertruth(&[&["list"], words].concat());
@@ -289,7 +289,7 @@ fn list_shows_what_is_asked_for() {
 }
 
 #[test]
-fn the_program_alone_prints_its_help_and_fails() {
+fn the_program_without_arguments_prints_its_help_and_fails() {
     let bench = Bench::new();
     let output = bench.shuttertruth(&[]);
     assert_eq!(output.status.code(), Some(2));
@@ -313,7 +313,7 @@ fn the_program_alone_prints_its_help_and_fails() {
 }
 
 #[test]
-fn old_words_name_the_new_ones() {
+fn old_options_are_refused_with_the_new_ones() {
     let bench = Bench::new();
     for (words, part) in [
         (&["run", "--color", "point"][..], "--frame-sampling point"),
@@ -343,7 +343,7 @@ fn old_words_name_the_new_ones() {
 }
 
 #[test]
-fn colours_can_be_asked_for_and_refused() {
+fn colours_can_be_forced_and_disabled() {
     let bench = Bench::new();
     let list = |color: &str| stdout(&bench.shuttertruth(&["list", "--color", color]));
     assert!(list("always").contains('\u{1b}'));
@@ -402,11 +402,11 @@ fn long_work_is_announced() {
 
 #[cfg(unix)]
 #[test]
-fn a_driver_is_quiet_unless_asked_and_files_follow_the_umask() {
+fn driver_messages_are_hidden_unless_requested_and_files_follow_the_umask() {
     use std::os::unix::fs::PermissionsExt;
 
     let bench = Bench::new();
-    let words = [&quick("run", "16")[..], &["--filters", "identity"]].concat();
+    let words = [&quick_command("run", "16")[..], &["--filters", "identity"]].concat();
     let output = bench
         .command(&words)
         .env_remove("XDG_RUNTIME_DIR")

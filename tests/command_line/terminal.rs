@@ -1,16 +1,14 @@
-//! Output to a terminal, and to everything else.
+//! Output to terminals, pipes and files.
 
 use std::fs;
 
-use crate::bench::{Bench, assert_done, quick, stderr, stdout};
+use crate::bench::{Bench, IDENTITY, assert_done, quick_command, stderr, stdout};
 
-/// Begins every colour.
+/// First character of every colour code.
 const ESCAPE: char = '\u{1b}';
 
-const IDENTITY: [&str; 2] = ["--filters", "identity"];
-
-/// A bench whose scenes are held to a limit that the identity breaks.
-fn bounded() -> Bench {
+/// Makes a bench whose scenes have a limit that the identity breaks.
+fn make_bounded() -> Bench {
     let bench = Bench::new();
     fs::write(
         bench.path("scenes/bounds.toml"),
@@ -25,7 +23,7 @@ fn bounded() -> Bench {
 fn assert_fits(text: &str) {
     for line in text.lines() {
         let columns = line.chars().count();
-        // A path may be longer than the line it stands on.
+        // A path may be longer than its line.
         assert!(
             columns <= 80 || line.contains('/'),
             "{columns} columns: {line}"
@@ -34,8 +32,8 @@ fn assert_fits(text: &str) {
 }
 
 #[test]
-fn what_is_printed_fits_80_columns() {
-    let bench = bounded();
+fn output_fits_80_columns() {
+    let bench = make_bounded();
     bench.copy_scene("a_scene_with_a_rather_long_name", |text| {
         text.replace("-1.6", "-0.8")
     });
@@ -59,10 +57,10 @@ fn what_is_printed_fits_80_columns() {
 }
 
 #[test]
-fn colours_are_for_terminals_and_no_color_takes_them_away() {
-    let bench = bounded();
+fn only_terminals_get_colours_and_no_color_disables_them() {
+    let bench = make_bounded();
     let with = |variables: &[(&str, &str)], more: &[&str]| {
-        let words = quick("check", "64");
+        let words = quick_command("check", "64");
         let mut command = bench.command(&[&words[..], &IDENTITY, more].concat());
         for name in ["CI", "NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
             command.env_remove(name);
@@ -83,14 +81,14 @@ fn colours_are_for_terminals_and_no_color_takes_them_away() {
     assert!(!json.contains(ESCAPE), "{json:?}");
 }
 
-/// On a terminal of its own; `script` is part of every Debian (util-linux).
+/// The program gets a terminal from `script`, which is part of every Debian (util-linux).
 #[cfg(target_os = "linux")]
 #[test]
-fn a_terminal_sees_how_far_a_run_is_and_what_no_color_says() {
-    let bench = bounded();
+fn a_terminal_shows_progress_and_respects_no_color() {
+    let bench = make_bounded();
     bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
-    // A replicate takes longer than bars take to be drawn again.
-    let words = quick("check", "2048");
+    // One replicate takes longer than the interval at which progress bars are redrawn.
+    let words = quick_command("check", "2048");
     let words: Vec<&str> = words
         .into_iter()
         .filter(|word| *word != "--quiet")
@@ -136,9 +134,9 @@ fn a_terminal_sees_how_far_a_run_is_and_what_no_color_says() {
 }
 
 #[test]
-fn a_short_run_says_nothing_on_standard_error_where_no_terminal_is() {
+fn a_short_run_prints_nothing_on_standard_error_without_a_terminal() {
     let bench = Bench::new();
-    let words = quick("run", "16");
+    let words = quick_command("run", "16");
     let words: Vec<&str> = words
         .into_iter()
         .filter(|word| *word != "--quiet")
@@ -149,11 +147,11 @@ fn a_short_run_says_nothing_on_standard_error_where_no_terminal_is() {
 }
 
 #[test]
-fn json_is_all_that_a_machine_gets() {
-    let bench = bounded();
-    let run = quick("run", "16");
+fn json_output_has_no_other_text() {
+    let bench = make_bounded();
+    let run = quick_command("run", "16");
     let run = [&run[..], &IDENTITY, &["--html", "page.html"]].concat();
-    let check = quick("check", "64");
+    let check = quick_command("check", "64");
     let check = [&check[..], &IDENTITY, &["--html", "page.html"]].concat();
     let candidate = "--quiet --filter jump_flood --objective flip --size 64x32 --samples-per-pixel 16 --out tuned";
     let candidate: Vec<&str> = candidate.split(' ').collect();

@@ -3,26 +3,20 @@
 use tests::filter_folder::write_manifest;
 use tests::text::assert_contains;
 
-use crate::bench::{Bench, assert_refused};
+use crate::bench::{Bench, assert_refused, split};
 
 #[test]
-fn a_bench_prints_tables_and_writes_what_they_show() {
+fn a_bench_prints_and_writes_the_same_times() {
     let bench = Bench::new();
-    let table = bench.done(&[
-        "bench",
-        "--quiet",
-        "--as-written",
-        "--size",
-        "32x16",
-        "--filters",
-        "jump_flood_packed:paper,identity",
-    ]);
+    let table = bench.execute(&split(
+        "bench --quiet --as-written --size 32x16 --filters jump_flood_packed:paper,identity",
+    ));
     assert_contains(
         &table,
         &[
             "32x16",
             "quartiles",
-            // The baseline takes part though it was not named.
+            // The baseline takes part without being named.
             "jump_flood:paper",
             "jump_flood_packed:paper",
             "  dilate x 3",
@@ -33,7 +27,7 @@ fn a_bench_prints_tables_and_writes_what_they_show() {
         ],
     );
 
-    // Wherever the line of 80 columns ends.
+    // Lines of 80 columns may break anywhere.
     let words: Vec<&str> = table.split_whitespace().collect();
     assert!(words.join(" ").contains("of 20 rounds by"), "{table}");
 
@@ -79,7 +73,7 @@ fn a_bench_prints_tables_and_writes_what_they_show() {
 }
 
 #[test]
-fn what_cannot_be_timed_is_refused() {
+fn bad_arguments_of_bench_are_refused() {
     let bench = Bench::new();
     let program = "command = ['cp', '{frame}', '{out}']";
     write_manifest(&bench.path("outside"), "outside", program);

@@ -1,8 +1,8 @@
-//! Kinds of frames that filters get.
+//! Kinds of frames that filters can get.
 
-use crate::bench::{Bench, assert_done, assert_refused};
+use crate::bench::{Bench, assert_done, assert_refused, split};
 
-/// Two colours that meet two pixels beyond the right border, where the plate is going.
+/// Model of two colours that meet two pixels beyond the right border, where the plate moves to.
 const TWO_COLOURS: &str = "\
 mtllib plate.mtl
 v -1 -9 0
@@ -18,12 +18,12 @@ f 2 5 6 3
 ";
 const PAINTS: &str = "newmtl paint\nKd 0 0 0\nKe 0.7 0.4 0.2\nnewmtl other\nKd 0 0 0\nKe 0 0 1\n";
 
-fn run(bench: &Bench, more: &[&str]) -> suite::Run {
+fn measure(bench: &Bench, more: &[&str]) -> suite::Run {
     assert_done(&bench.run(&[&["--filters", "velocity_gather:fine"], more].concat()));
-    bench.measured()
+    bench.read_run()
 }
 
-/// The squared error over the whole picture.
+/// Returns the filter's squared error over the whole picture.
 fn error(run: &suite::Run) -> f64 {
     let filter = run.cases.iter().find(|case| !case.is_reference).unwrap();
     let json = serde_json::to_value(&filter.scores).unwrap();
@@ -33,12 +33,12 @@ fn error(run: &suite::Run) -> f64 {
 }
 
 #[test]
-fn a_guard_band_takes_the_error_from_the_border() {
+fn a_guard_band_removes_the_error_at_the_border() {
     let bench = Bench::new();
     bench.write("plate.obj", TWO_COLOURS);
     bench.write("plate.mtl", PAINTS);
-    let bare = run(&bench, &[]);
-    let padded = run(&bench, &["--guard-band", "8"]);
+    let bare = measure(&bench, &[]);
+    let padded = measure(&bench, &["--guard-band", "8"]);
     assert_eq!((bare.render.guard_band, padded.render.guard_band), (0, 8));
     assert!(
         error(&padded) < 0.9 * error(&bare),
@@ -49,23 +49,16 @@ fn a_guard_band_takes_the_error_from_the_border() {
 }
 
 #[test]
-fn a_run_says_what_its_frames_were() {
+fn a_run_records_the_kind_of_its_frames() {
     let bench = Bench::new();
-    let words = [
-        "--velocity",
-        "camera_only",
-        "--frame-sampling",
-        "point",
-        "--sky-velocity",
-        "off",
-    ];
-    let run = run(&bench, &words);
+    let words = split("--velocity camera_only --frame-sampling point --sky-velocity off");
+    let run = measure(&bench, &words);
     let json = serde_json::to_value(&run).unwrap();
     assert_eq!(
         ["velocity", "color", "sky_velocity"].map(|key| json[key].to_string()),
         ["\"camera_only\"", "\"point\"", "false"]
     );
-    let other = self::run(&bench, &[]);
+    let other = measure(&bench, &[]);
     assert_ne!(
         error(&run),
         error(&other),
@@ -74,7 +67,7 @@ fn a_run_says_what_its_frames_were() {
 }
 
 #[test]
-fn frames_that_cannot_be_are_refused() {
+fn bad_kinds_of_frames_are_refused() {
     let bench = Bench::new();
     for (more, parts) in [
         (

@@ -1,13 +1,15 @@
-//! The blur without a velocity buffer, against the gather that gets the velocity of the camera alone.
+//! The blur without a velocity buffer, against the gather that gets only the camera's velocity.
 
 use filters::{Blur, Filter, Gpu, Input};
 use frame::{Frame, FrameOptions, Image, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
+use tests::open_gpu;
 use tests::shapes::*;
 use tests::unwatched;
 use tracer::{Background, FrameSettings, Key, Motion, Scene, trace_frame};
 
-/// A camera that flies, turns and zooms past a slanted wall before a sky; one panel moves by itself.
+/// Makes a scene in which a camera flies, turns and zooms past a slanted wall before a sky, and one panel moves by
+/// itself.
 fn flight() -> Scene {
     let mut scene = empty_scene("flight");
     scene.background = Background::Gradient {
@@ -42,7 +44,7 @@ fn flight() -> Scene {
     scene
 }
 
-fn frame(guard_band: u32) -> Frame {
+fn render_frame(guard_band: u32) -> Frame {
     let settings = FrameSettings {
         width: 96,
         height: 54,
@@ -58,7 +60,7 @@ fn frame(guard_band: u32) -> Frame {
     trace_frame(&flight(), &settings, &unwatched).expect("settings are allowed")
 }
 
-fn blurred(gpu: &Gpu, filter: &str, preset: &str, frame: &Frame) -> Image {
+fn blur_frame(gpu: &Gpu, filter: &str, preset: &str, frame: &Frame) -> Image {
     let filter = Filter::builtin(filter).unwrap();
     let settings = filter.settings(Some(preset)).unwrap();
     let (width, height) = frame.size();
@@ -75,24 +77,24 @@ fn blurred(gpu: &Gpu, filter: &str, preset: &str, frame: &Frame) -> Image {
 }
 
 #[test]
-fn depth_and_the_last_camera_rebuild_the_velocity_of_the_camera() {
-    let gpu = Gpu::new(None).expect("these tests run filters");
+fn depth_and_the_previous_camera_give_the_camera_s_velocity() {
+    let gpu = open_gpu();
     for guard_band in [0, 7] {
-        let frame = frame(guard_band);
+        let frame = render_frame(guard_band);
         let speeds = frame.velocity.pixels.iter().map(|v| v[0].hypot(v[1]));
         let fastest = speeds.fold(0.0, f32::max);
         assert!(
             fastest > 5.0,
             "the camera moves: {fastest} pixels per frame"
         );
-        // Eight taps each, the same ones.
-        let rebuilt = blurred(&gpu, "camera_gather", "default", &frame);
-        let given = blurred(&gpu, "velocity_gather", "coarse", &frame);
+        // Both take the same eight taps.
+        let rebuilt = blur_frame(&gpu, "camera_gather", "default", &frame);
+        let given = blur_frame(&gpu, "velocity_gather", "coarse", &frame);
         let differences = rebuilt.pixels.iter().zip(&given.pixels);
         let worst = differences
             .map(|(a, b)| (a[0] - b[0]).abs())
             .fold(0.0, f32::max);
-        // Places of 32 bits err by 1e-5 pixels of a picture whose neighbours differ by up to 2.
+        // Positions in 32 bits err by 1e-5 pixels, and neighbouring pixels differ by up to 2.
         assert!(worst < 1e-3, "with a band of {guard_band}: {worst}");
         let moved = rebuilt.pixels.iter().zip(&frame.color.pixels);
         let changed = moved.filter(|(a, b)| (a[0] - b[0]).abs() > 0.01).count();
@@ -101,9 +103,9 @@ fn depth_and_the_last_camera_rebuild_the_velocity_of_the_camera() {
 }
 
 #[test]
-fn a_frame_that_does_not_tell_the_camera_s_motion_is_refused() {
-    let gpu = Gpu::new(None).expect("these tests run filters");
-    let frame = frame(0);
+fn a_frame_without_the_camera_s_motion_is_refused() {
+    let gpu = open_gpu();
+    let frame = render_frame(0);
     let filter = Filter::builtin("camera_gather").unwrap();
     let settings = filter.settings(None).unwrap();
     let (width, height) = frame.size();

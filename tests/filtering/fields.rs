@@ -1,18 +1,35 @@
 //! Velocity and depth fields by formula: the same on every machine.
 
+use filters::{Blur, Input};
 use frame::{FAR_DEPTH, Image, Plane, Raster, Vectors};
 use tests::random::Random;
 
-/// Content of a frame beside its provenance.
+/// Content of a frame without its provenance.
 pub struct Field {
     pub color: Image,
-    /// Pixels per frame.
+    /// Motion, in pixels per frame.
     pub velocity: Vectors,
-    /// Metres.
+    /// Distance, in metres.
     pub depth: Plane,
 }
 
-/// Every pixel moves on its own, at its own depth; a sixth stands still, a tenth is far background.
+impl Field {
+    /// Runs a filter on the field; returns its picture.
+    pub fn blur(&self, blur: &mut Blur, exposure: f64, frame_index: u32) -> Image {
+        let input = Input {
+            color: &[&self.color],
+            velocity: &self.velocity,
+            depth: &self.depth,
+            reprojection: None,
+            exposure,
+            frame_index,
+        };
+        blur.run(&input).unwrap().remove(0)
+    }
+}
+
+/// Makes a field in which every pixel moves on its own, at its own depth; a sixth stands still, a tenth is far
+/// background.
 pub fn noise(width: u32, height: u32, seed: u64) -> Field {
     let mut random = Random::new(seed);
     let color = Raster::from_fn(width, height, |_, _| {
@@ -35,7 +52,7 @@ pub fn noise(width: u32, height: u32, seed: u64) -> Field {
     }
 }
 
-/// Rectangles of one motion and one depth each over a background that pans, so that many sources lie equally deep.
+/// Makes rectangles of one motion and one depth each over a panning background, so that many sources lie equally deep.
 pub fn rectangles(width: u32, height: u32, seed: u64) -> Field {
     let mut random = Random::new(seed);
     let mut field = noise(width, height, seed);

@@ -1,17 +1,14 @@
-//! Equality of the packed jump flood and the jump flood.
+//! The packed jump flood, which must equal the jump flood.
 
 use crate::fields::{Field, noise, rectangles};
-use filters::{Blur, Filter, Gpu, Input, Settings};
+use filters::{Blur, Filter, Gpu, Settings};
 use frame::{FAR_DEPTH, Image, Raster};
+use tests::open_gpu;
 
-fn gpu() -> Gpu {
-    Gpu::new(None).expect("these tests run filters")
-}
-
-/// Parameters and their values.
+/// Names of parameters and their values.
 type Changes = &'static [(&'static str, &'static str)];
 
-/// On top of every preset: each choice in each of its branches, and each number away from its default.
+/// Changes to every preset: each choice in each of its branches, and each number away from its default.
 const CHANGES: [Changes; 9] = [
     &[],
     &[("jitter", "none"), ("tap", "weighted"), ("samples", "1")],
@@ -59,7 +56,7 @@ const CHANGES: [Changes; 9] = [
     ],
 ];
 
-/// Frames and their exposures: chaos, objects, a turning field, and a few movers far apart.
+/// Makes frames with their exposures: chaos, objects, a turning field, and a few movers far apart.
 fn frames() -> Vec<(&'static str, Field, f64)> {
     vec![
         ("noise 61x37", noise(61, 37, 11), 0.8),
@@ -70,7 +67,7 @@ fn frames() -> Vec<(&'static str, Field, f64)> {
     ]
 }
 
-/// Everything turns about the middle, in bands of depth: no two texels move alike, and all nearly so.
+/// Makes a field that turns about the middle, in bands of depth: no two texels move alike, and all move nearly alike.
 fn turning(width: u32, height: u32) -> Field {
     let mut field = noise(width, height, 14);
     field.velocity = Raster::from_fn(width, height, |x, y| {
@@ -81,7 +78,7 @@ fn turning(width: u32, height: u32) -> Field {
     field
 }
 
-/// Three small movers over still ground; one leaves the image.
+/// Makes three small movers over still ground; one leaves the image.
 fn sparse(width: u32, height: u32) -> Field {
     let mut field = noise(width, height, 15);
     field.velocity = Raster::filled(width, height, [0.0; 2]);
@@ -103,33 +100,19 @@ fn sparse(width: u32, height: u32) -> Field {
 
 struct Painted {
     output: Image,
-    /// Column and row of the pixel that the flood found for each.
+    /// Column and row of the source that the flood found for each pixel.
     seeds: Vec<[u32; 2]>,
     /// Number of tiles that a trail may reach.
     reached: Option<(usize, usize)>,
 }
 
-fn painted(
-    gpu: &Gpu,
-    filter: &Filter,
-    settings: &Settings,
-    field: &Field,
-    exposure: f64,
-) -> Painted {
+fn paint(gpu: &Gpu, filter: &Filter, settings: &Settings, field: &Field, exposure: f64) -> Painted {
     let (width, height) = (field.color.width, field.color.height);
     let mut blur = Blur::new(gpu, filter, settings, width, height).unwrap();
-    let input = Input {
-        color: &[&field.color],
-        velocity: &field.velocity,
-        depth: &field.depth,
-        reprojection: None,
-        exposure,
-        frame_index: 5,
-    };
-    let output = blur.run(&input).unwrap().remove(0);
+    let output = field.blur(&mut blur, exposure, 5);
     let seeds = blur.read_texture("seeds").unwrap().pixels;
     let packed = filter.name == "jump_flood_packed";
-    // A map of 16 bits says it of the place that it holds instead.
+    // A map of 16 bits gives the position that it stores instead.
     let exact = settings.values["map"].to_string() == "float32";
     Painted {
         output,
@@ -173,8 +156,8 @@ fn both_have_the_same_parameters_and_presets() {
 }
 
 #[test]
-fn seeds_and_pixels_are_those_of_the_jump_flood() {
-    let (gpu, [plain, packed]) = (gpu(), floods());
+fn seeds_and_pixels_equal_the_jump_flood_s() {
+    let (gpu, [plain, packed]) = (open_gpu(), floods());
     let (mut carried, mut all) = (0, 0);
     for preset in &plain.presets {
         for changes in CHANGES {
@@ -187,21 +170,21 @@ fn seeds_and_pixels_are_those_of_the_jump_flood() {
             });
             for (name, field, exposure) in frames() {
                 let said = format!("{} {changes:?} on {name}", preset.name);
-                let expected = painted(&gpu, &plain, &plain_settings, &field, exposure);
-                let found = painted(&gpu, &packed, &packed_settings, &field, exposure);
+                let expected = paint(&gpu, &plain, &plain_settings, &field, exposure);
+                let found = paint(&gpu, &packed, &packed_settings, &field, exposure);
                 let pairs = || expected.seeds.iter().zip(&found.seeds);
                 let other_seeds = pairs().filter(|(a, b)| a != b).count();
                 let pixels = expected.output.pixels.iter().zip(&found.output.pixels);
-                // Positions at 200 pixels are rounded to 1.5e-5 of one. Between a surface and the background the mixed depth
-                // changes by tens of metres per pixel, which moves a tap whose place depends on it by up to 30 pixels per
-                // metre: 1e-3 of a colour in [0, 2). Another source changes taps by a tenth and more.
+                // Positions at 200 pixels are rounded to 1.5e-5 of a pixel. Between a surface and the background the
+                // mixed depth changes by tens of metres per pixel. That moves a tap whose position depends on it by up
+                // to 30 pixels per metre: 1e-3 of a colour in [0, 2). Another source changes taps by a tenth and more.
                 let differs = |(a, b): (&[f32; 3], &[f32; 3])| {
                     (0..3).any(|channel| (a[channel] - b[channel]).abs() > 1e-3)
                 };
                 let other_pixels = pixels.map(differs).filter(|differs| *differs).count();
-                // The arithmetic is the same, and software adapters round it alike. Others may fuse it differently:
-                // a decision within 4e-6 of its threshold then falls either way. With 9 x 3 of them in each of up to
-                // 8 passes that is one pixel in a thousand; a wrong pixel shows in the taps of its neighbours.
+                // The arithmetic is the same, and software adapters round it alike. Others may fuse it differently: a
+                // decision within 4e-6 of its threshold then goes either way. With 9 x 3 decisions in each of up to 8
+                // passes that is one pixel in a thousand, and a wrong pixel shows in the taps of its neighbours.
                 let count = field.color.pixels.len();
                 let allowed = match gpu.adapter.kind.as_str() {
                     "software" => 0,
@@ -219,23 +202,24 @@ fn seeds_and_pixels_are_those_of_the_jump_flood() {
             }
         }
     }
-    // Where nothing is carried anywhere, nothing is proved.
+    // A flood that carries nothing proves nothing.
     assert!(8 * carried > all, "only {carried} of {all} found a source");
 }
 
 #[test]
-fn tiles_that_no_trail_reaches_are_left_alone() {
-    let (gpu, [_, packed]) = (gpu(), floods());
+fn tiles_that_no_trail_reaches_are_skipped() {
+    let (gpu, [_, packed]) = (open_gpu(), floods());
     for preset in &packed.presets {
         let settings = packed.settings(Some(&preset.name)).unwrap();
         let field = sparse(200, 120);
-        let (reached, tiles) = painted(&gpu, &packed, &settings, &field, 1.0)
+        let (reached, tiles) = paint(&gpu, &packed, &settings, &field, 1.0)
             .reached
             .unwrap();
         assert_eq!(tiles, 13 * 8);
-        // Each of three movers lies in at least one tile. Their trails of up to 33 pixels, a third as wide on either side
-        // by the tolerance, stay within half of the image even where they are taken for boxes around whole tiles. What was tuned
-        // tolerates 1.87 of the way: 123 pixels across, of the image's 120, and not the corners.
+        // Each of three movers lies in at least one tile. Their trails of up to 33 pixels are widened by a third on
+        // either side for the tolerance. They stay within half of the image even if they are taken for boxes around
+        // whole tiles. The tuned preset tolerates 1.87 of the way: 123 pixels across, of the image's 120, but not the
+        // corners.
         let most = match preset.name.as_str() {
             "tuned" => tiles * 9 / 10,
             _ => tiles / 2,

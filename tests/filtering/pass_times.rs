@@ -1,26 +1,19 @@
-//! Reports of what passes cost. The times themselves depend on the machine, and no test looks at them.
+//! Reports of what passes cost. The times depend on the machine, so no test checks them.
 
-use filters::{Blur, BufferCopy, Clock, Filter, Gpu, Input};
-use frame::Raster;
+use filters::{Blur, BufferCopy, Clock, Filter};
+use tests::open_gpu;
+use tests::picture::{Picture, gray_moving_by};
 
 const WIDTH: u32 = 40;
 const HEIGHT: u32 = 24;
 
 #[test]
 fn every_dispatch_is_timed_once_by_either_clock() {
-    let mut gpu = Gpu::new(None).expect("these tests run filters");
+    let mut gpu = open_gpu();
     let filter = Filter::builtin("jump_flood").unwrap();
-    let color = Raster::filled(WIDTH, HEIGHT, [0.5; 3]);
-    let velocity = Raster::filled(WIDTH, HEIGHT, [9.0, 0.0]);
-    let depth = Raster::filled(WIDTH, HEIGHT, 3.0);
-    let input = Input {
-        color: &[&color],
-        velocity: &velocity,
-        depth: &depth,
-        reprojection: None,
-        exposure: 1.0,
-        frame_index: 0,
-    };
+    let picture = Picture::uniform(WIDTH, HEIGHT, gray_moving_by(9.0));
+    let colors = [&picture.color];
+    let input = picture.input(&colors);
     for clock in [gpu.clock, Clock::WallClock] {
         gpu.clock = clock;
         let settings = filter.settings(Some("paper")).unwrap();
@@ -31,13 +24,13 @@ fn every_dispatch_is_timed_once_by_either_clock() {
         let expected = ["seed", "dilate", "dilate", "dilate", "backtrack", "gather"];
         assert_eq!(entries, expected, "{clock:?}");
         for pass in &times {
-            // Eight dispatches of 960 pixels: a minute is a clock that ticks wrongly.
+            // Eight dispatches of 960 pixels: a minute means a wrong clock.
             assert!(
                 pass.seconds > 0.0 && pass.seconds < 60.0,
                 "{clock:?}: {pass:?}"
             );
         }
-        // What was timed is what would have been run.
+        // The timed dispatches are the ones that a run has.
         let seeds = blur.read_texture("seeds").unwrap();
         assert!(seeds.pixels.iter().any(|texel| texel[3] == 1.0));
     }
@@ -45,17 +38,11 @@ fn every_dispatch_is_timed_once_by_either_clock() {
 
 #[test]
 fn every_texture_of_a_pass_counts_once() {
-    let gpu = Gpu::new(None).expect("these tests run filters");
-    let color = Raster::filled(WIDTH, HEIGHT, [0.5; 3]);
-    let input = Input {
-        color: &[&color],
-        velocity: &Raster::filled(WIDTH, HEIGHT, [0.0; 2]),
-        depth: &Raster::filled(WIDTH, HEIGHT, 3.0),
-        reprojection: None,
-        exposure: 1.0,
-        frame_index: 0,
-    };
-    // Bytes per pixel: colours, seeds and sources have 16, velocities 8, depths 4.
+    let gpu = open_gpu();
+    let picture = Picture::uniform(WIDTH, HEIGHT, gray_moving_by(0.0));
+    let colors = [&picture.color];
+    let input = picture.input(&colors);
+    // Bytes per pixel: colours, seeds and sources take 16, velocities 8, depths 4.
     for (filter, expected) in [
         ("identity", vec![16 + 16]),
         (
@@ -83,7 +70,7 @@ fn every_texture_of_a_pass_counts_once() {
 
 #[test]
 fn a_copy_reads_and_writes_its_bytes() {
-    let gpu = Gpu::new(None).expect("these tests run filters");
+    let gpu = open_gpu();
     let copy = BufferCopy::new(&gpu).unwrap();
     assert_eq!(copy.bytes, 2 * 128 * 1024 * 1024);
     assert!(copy.time().unwrap() > 0.0);

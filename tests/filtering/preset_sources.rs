@@ -1,4 +1,4 @@
-//! Sources of presets, and the width of pictures that a preset was made for.
+//! Sources of presets, and the picture width that a preset was made for.
 
 use filters::{Filter, FilterError, Settings, Value};
 use tests::filter_folder::{load_filter, one_kernel};
@@ -74,7 +74,7 @@ fn load_unchanged() -> Filter {
     load_changed("", "").unwrap()
 }
 
-fn scaled(filter: &Filter, settings: &Settings, width: u32) -> [Value; 3] {
+fn scale(filter: &Filter, settings: &Settings, width: u32) -> [Value; 3] {
     let values = settings.scaled_to(filter, width).values;
     ["tile_size", "threshold", "samples"].map(|name| values[name].clone())
 }
@@ -101,7 +101,7 @@ fn a_source_names_repository_commit_files_and_differences() {
 }
 
 #[test]
-fn a_wrong_source_says_where_and_what() {
+fn a_wrong_source_is_refused_with_place_and_reason() {
     let commit = format!("commit = \"{COMMIT}\"\n");
     let repository = "repository = \"https://example.org/engine\"\n";
     let paths = "paths = [\"blur.hlsl\", \"shared/noise.hlsl\"]\n";
@@ -131,7 +131,7 @@ fn a_wrong_source_says_where_and_what() {
 }
 
 #[test]
-fn only_what_has_pixels_can_be_scaled() {
+fn only_parameters_in_pixels_can_be_scaled() {
     let refuse = |manifest: &str, parts: &[&str]| {
         assert_contains(&load(manifest).unwrap_err().to_string(), parts);
     };
@@ -153,38 +153,38 @@ fn only_what_has_pixels_can_be_scaled() {
 }
 
 #[test]
-fn lengths_grow_with_the_width_are_rounded_and_stay_in_range() {
+fn lengths_scale_with_the_width_and_are_rounded_within_their_range() {
     let filter = load_unchanged();
     let engine = filter.settings(Some("engine")).unwrap();
-    assert_eq!(scaled(&filter, &engine, 1920), values(20, 1.5, 9));
-    assert_eq!(scaled(&filter, &engine, 960), values(10, 0.75, 9));
+    assert_eq!(scale(&filter, &engine, 1920), values(20, 1.5, 9));
+    assert_eq!(scale(&filter, &engine, 960), values(10, 0.75, 9));
     // 20 x 600 / 1920 = 6.25 and 20 x 1000 / 1920 = 10.42.
-    assert_eq!(scaled(&filter, &engine, 600)[0], Value::Integer(6));
-    assert_eq!(scaled(&filter, &engine, 1000)[0], Value::Integer(10));
-    // 1.67 tiles and 0.125 pixels lie below the ranges, 400 and 30 above.
-    assert_eq!(scaled(&filter, &engine, 160), values(2, 0.25, 9));
-    assert_eq!(scaled(&filter, &engine, 38_400), values(256, 4.0, 9));
+    assert_eq!(scale(&filter, &engine, 600)[0], Value::Integer(6));
+    assert_eq!(scale(&filter, &engine, 1000)[0], Value::Integer(10));
+    // 1.67 tiles and 0.125 pixels lie below the ranges; 400 and 30 lie above.
+    assert_eq!(scale(&filter, &engine, 160), values(2, 0.25, 9));
+    assert_eq!(scale(&filter, &engine, 38_400), values(256, 4.0, 9));
     let anywhere = filter.settings(Some("anywhere")).unwrap();
-    assert_eq!(scaled(&filter, &anywhere, 160), values(20, 1.5, 8));
+    assert_eq!(scale(&filter, &anywhere, 160), values(20, 1.5, 8));
 }
 
 #[test]
-fn what_a_person_sets_is_not_scaled_nor_anything_twice() {
+fn a_user_s_value_is_not_scaled_and_no_value_is_scaled_twice() {
     let filter = load_unchanged();
     let mut settings = filter.settings(Some("engine")).unwrap();
     settings.set(&filter, "tile_size", "20").unwrap();
-    assert_eq!(scaled(&filter, &settings, 960), values(20, 0.75, 9));
+    assert_eq!(scale(&filter, &settings, 960), values(20, 0.75, 9));
     let once = settings.scaled_to(&filter, 960);
     assert_eq!(once.scaled_to(&filter, 480), once);
     let value = Value::Real(1.5);
     settings.set_value(&filter, "threshold", value).unwrap();
-    assert_eq!(scaled(&filter, &settings, 960), values(20, 1.5, 9));
+    assert_eq!(scale(&filter, &settings, 960), values(20, 1.5, 9));
 }
 
 #[test]
-fn as_written_nothing_is_scaled() {
+fn nothing_is_scaled_as_written() {
     let filter = load_unchanged();
     let settings = filter.settings(Some("engine")).unwrap().as_written();
     assert_eq!(settings.reference_width, None);
-    assert_eq!(scaled(&filter, &settings, 160), values(20, 1.5, 9));
+    assert_eq!(scale(&filter, &settings, 160), values(20, 1.5, 9));
 }

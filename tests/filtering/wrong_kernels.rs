@@ -1,8 +1,10 @@
-//! Kernels that would make a wrong picture: each is refused with its place, and none is scored.
+//! Kernels that would make a wrong picture. Each is refused with its place, and none is scored.
 
-use filters::{Blur, Filter, FilterError, Gpu, Input};
-use frame::{Image, Raster};
+use filters::{Blur, Filter, FilterError, Gpu};
+use frame::Image;
 use tests::filter_folder::{load_filter, one_kernel};
+use tests::open_gpu;
+use tests::picture::{Picture, gray_moving_by};
 
 const MANIFEST: &str = r#"
 name = "wrong"
@@ -21,32 +23,23 @@ doc = "Loop iterations; more take longer."
 entry = "work"
 "#;
 
-/// Loads a filter with one kernel around `body`, which takes at most `limit` seconds.
+/// Loads a filter with one kernel around `body`, and a time limit in seconds.
 fn load(body: &str, limit: f64) -> Filter {
     let manifest = MANIFEST.replace("LIMIT", &limit.to_string());
     load_filter("wrong", &manifest, &one_kernel("steps: i32", body)).unwrap()
 }
 
-/// Runs `body` with that many steps on a grey picture of 40x20 pixels.
+/// Runs `body` with this many steps on a grey picture of 40x20 pixels.
 fn blur(gpu: &Gpu, body: &str, steps: i64, limit: f64) -> Result<Vec<Image>, FilterError> {
     let filter = load(body, limit);
     let mut settings = filter.settings(None).unwrap();
     settings.set(&filter, "steps", &steps.to_string()).unwrap();
     let (width, height) = (40, 20);
-    let color = Raster::filled(width, height, [0.5; 3]);
-    let velocity = Raster::filled(width, height, [3.0, 0.0]);
-    let depth = Raster::filled(width, height, 3.0);
-    Blur::new(gpu, &filter, &settings, width, height)?.run(&Input {
-        color: &[&color],
-        velocity: &velocity,
-        depth: &depth,
-        reprojection: None,
-        exposure: 0.5,
-        frame_index: 0,
-    })
+    let picture = Picture::uniform(width, height, gray_moving_by(3.0));
+    Blur::new(gpu, &filter, &settings, width, height)?.run(&picture.input(&[&picture.color]))
 }
 
-/// Counts to `steps` in a way that no compiler shortens, and writes the count.
+/// Kernel that counts to `steps` in a way that no compiler shortens, and writes the count.
 const COUNT: &str = "
     var value = u32(pixel.x);
     var count = 0u;
@@ -65,8 +58,8 @@ fn refusal(result: Result<Vec<Image>, FilterError>) -> String {
 }
 
 #[test]
-fn loops_that_the_adapter_ends_early_are_refused_and_shorter_ones_are_whole() {
-    let gpu = Gpu::new(None).expect("this test runs filters");
+fn loops_that_the_adapter_cuts_are_refused_and_shorter_ones_complete() {
+    let gpu = open_gpu();
     let Some(limit) = gpu.loop_limit else {
         // An adapter without a limit counts to the end.
         let output = blur(&gpu, COUNT, 1_000_000, 60.0).unwrap();
@@ -74,7 +67,7 @@ fn loops_that_the_adapter_ends_early_are_refused_and_shorter_ones_are_whole() {
         return;
     };
     println!("{limit:?}");
-    // The iteration that finds the end counts as well.
+    // The iteration that finds the end counts, too.
     let longest = i64::from(limit.safe()) - 2;
     let output = blur(&gpu, COUNT, longest, 60.0).unwrap();
     assert_eq!(output[0].at(39, 19)[0], longest as f32);
@@ -96,11 +89,11 @@ fn loops_that_the_adapter_ends_early_are_refused_and_shorter_ones_are_whole() {
 
 #[test]
 fn iterations_of_all_loops_and_functions_count_together() {
-    let gpu = Gpu::new(None).expect("this test runs filters");
+    let gpu = open_gpu();
     let Some(limit) = gpu.loop_limit else {
         return;
     };
-    // Nested loops: as many iterations inside as the square of those outside.
+    // Nested loops: the inner ones take the square of the outer iterations.
     let nested = "
     var value = u32(pixel.x);
     for (var i = 0; i < parameters.steps; i++) {
@@ -117,7 +110,7 @@ fn iterations_of_all_loops_and_functions_count_together() {
 
 #[test]
 fn a_pixel_that_no_pass_writes_is_named() {
-    let gpu = Gpu::new(None).expect("this test runs filters");
+    let gpu = open_gpu();
     let body = "
     if pixel.y == 7 && pixel.x >= 12 { return; }
     textureStore(output, pixel, textureLoad(color, pixel, 0));
@@ -132,7 +125,7 @@ fn a_pixel_that_no_pass_writes_is_named() {
 
 #[test]
 fn a_pixel_that_is_not_finite_is_named() {
-    let gpu = Gpu::new(None).expect("this test runs filters");
+    let gpu = open_gpu();
     let body = "
     let zero = f32(parameters.steps);
     var grey = textureLoad(color, pixel, 0);
@@ -146,9 +139,9 @@ fn a_pixel_that_is_not_finite_is_named() {
 }
 
 #[test]
-fn a_pass_that_takes_too_long_is_given_up_with_its_name() {
-    let gpu = Gpu::new(None).expect("this test runs filters");
-    // Far more work than a hundredth of a second allows, in loops that are no longer than allowed.
+fn a_pass_past_its_time_limit_is_stopped_and_named() {
+    let gpu = open_gpu();
+    // Far more work than a hundredth of a second allows, in loops of allowed length.
     let text = refusal(blur(&gpu, COUNT, 8000, 1e-4));
     for part in [
         "filter wrong, pass work",

@@ -1,4 +1,4 @@
-//! A worker process, seen from outside.
+//! A worker process, as its parent sees it.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader};
@@ -16,35 +16,35 @@ use crate::worker::MARK;
 /// Address space of a worker, and of every program that it starts, in KiB.
 pub const MEMORY: u64 = 4 << 20;
 
-/// Settings that all workers have in common.
+/// Settings that all workers share.
 pub struct Terms<'a> {
     /// Folder of the [`fixture`](crate::fixture).
     pub fixture: &'a Path,
-    /// Chooses the inputs.
+    /// Seed of the inputs.
     pub seed: u64,
-    /// The longest that a case may take.
+    /// Longest time of a case.
     pub limit: Duration,
 }
 
 /// A case that failed.
 pub struct Failed {
-    /// Its number.
+    /// Number of the case.
     pub case: u64,
     /// Kind of failure.
     pub how: How,
-    /// Case that was tried.
+    /// Input that was tried.
     pub input: Vec<u8>,
 }
 
 /// End of a worker.
 pub struct Ended {
-    /// The case that failed; none where all were tried.
+    /// The case that failed; none if all cases passed.
     pub failed: Option<Failed>,
-    /// The slowest case: its time and its number.
+    /// Time and number of the slowest case.
     pub slowest: (Duration, u64),
 }
 
-/// Tries some cases in a process of their own, up to the first that fails.
+/// Tries cases in a process of their own, up to the first that fails.
 pub fn try_cases(target: &Target, cases: Range<u64>, terms: &Terms) -> Ended {
     let kept = tempfile::NamedTempFile::new().expect("a file for an input");
     let mut words = [terms.seed, cases.start, cases.end]
@@ -54,7 +54,7 @@ pub fn try_cases(target: &Target, cases: Range<u64>, terms: &Terms) -> Ended {
     observe(target, &words, kept.path(), terms)
 }
 
-/// Tries the input of a file in a process of its own.
+/// Tries a file's content in a process of its own.
 pub fn try_file(target: &Target, path: &Path, terms: &Terms) -> Ended {
     let words = ["file".to_owned(), path.display().to_string()];
     observe(target, &words, path, terms)
@@ -63,7 +63,7 @@ pub fn try_file(target: &Target, path: &Path, terms: &Terms) -> Ended {
 fn observe(target: &Target, words: &[String], input: &Path, terms: &Terms) -> Ended {
     let stderr = tempfile::NamedTempFile::new().expect("a file for temporary text");
     let mut child = start(target, words, terms, stderr.reopen().unwrap());
-    let lines = lines(&mut child);
+    let lines = read_lines(&mut child);
     let failed = |how: How, case: u64| {
         let input = std::fs::read(input).unwrap_or_default();
         Some(Failed { case, how, input })
@@ -97,12 +97,12 @@ fn observe(target: &Target, words: &[String], input: &Path, terms: &Terms) -> En
     let failed = match (panic, status.success()) {
         (Some(text), _) => failed(How::Panic(text), case),
         (None, true) => None,
-        (None, false) => failed(How::Ended(said(&status, stderr.path())), case),
+        (None, false) => failed(How::Ended(describe_end(&status, stderr.path())), case),
     };
     Ended { failed, slowest }
 }
 
-/// The same program again, with less memory.
+/// Starts this program again, with less memory.
 fn start(target: &Target, words: &[String], terms: &Terms, stderr: File) -> Child {
     let own = std::env::current_exe().expect("the running program has a path");
     let limited = format!("ulimit -v {MEMORY} 2>/dev/null; ulimit -c 0; exec \"$0\" \"$@\"");
@@ -124,8 +124,8 @@ fn start(target: &Target, words: &[String], terms: &Terms, stderr: File) -> Chil
         .expect("sh can be started")
 }
 
-/// Lines that the worker prints.
-fn lines(child: &mut Child) -> Receiver<String> {
+/// Reads the worker's lines on a thread.
+fn read_lines(child: &mut Child) -> Receiver<String> {
     let out = child.stdout.take().expect("its output is a pipe");
     let (sender, receiver) = channel();
     std::thread::spawn(move || {
@@ -140,7 +140,7 @@ fn lines(child: &mut Child) -> Receiver<String> {
     receiver
 }
 
-/// Ends the worker and whatever it has started.
+/// Ends the worker and everything that it started.
 fn end(child: &mut Child) {
     let group = format!("-{}", child.id());
     let _ = Command::new("kill").args(["-9", "--", &group]).status();
@@ -148,8 +148,8 @@ fn end(child: &mut Child) {
     let _ = child.wait();
 }
 
-/// `signal 6: memory allocation of 5368709120 bytes failed`
-fn said(status: &ExitStatus, stderr: &Path) -> String {
+/// Describes the end: `signal 6: memory allocation of 5368709120 bytes failed`.
+fn describe_end(status: &ExitStatus, stderr: &Path) -> String {
     let text = std::fs::read(stderr).unwrap_or_default();
     let text = String::from_utf8_lossy(&text);
     let lines: Vec<&str> = text

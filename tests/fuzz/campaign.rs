@@ -12,29 +12,29 @@ use crate::failure::{Failure, How, save};
 use crate::fixture::Fixture;
 use crate::options::{CASES, Input, RunPlan};
 use crate::place::Place;
-use crate::seeds::seeds;
+use crate::seeds::read_seeds;
 use crate::self_test;
 use crate::target::Target;
 
-/// The longest that a case may take.
+/// Longest time of a case.
 const LIMIT: Duration = Duration::from_secs(60);
 
-/// A target that failed so often is left alone: the same cases would fail again.
+/// Failures after which a target is left alone: the same cases would fail again.
 const MOST_FAILURES: u64 = 40;
 
-/// Rounds of a campaign by time, to which every target adds a part of its share.
+/// Rounds of a campaign by time. Every target adds a part of its share to each.
 const PARTS: u64 = 10;
 
 /// Result of one target.
 #[derive(Default)]
 pub struct Tally {
-    /// Cases tried.
+    /// Number of tried cases.
     pub cases: u64,
-    /// Cases that failed.
+    /// Number of failed cases.
     pub failed: u64,
     /// Time of all its workers.
     pub time: Duration,
-    /// The slowest case that came back: its time and its number.
+    /// Time and number of the slowest case that ended.
     pub slowest: (Duration, u64),
 }
 
@@ -50,7 +50,7 @@ pub struct Found {
 /// Cases of one target.
 pub type Batch = (&'static Target, Range<u64>);
 
-/// Tests that the fuzzer finds what it has to find; then fuzzes, and says what it found.
+/// Tests the fuzzer itself; then fuzzes, and prints the result.
 pub fn execute(plan: &RunPlan) -> ExitCode {
     self_test::check();
     let fixture = Fixture::make();
@@ -84,7 +84,7 @@ pub fn execute(plan: &RunPlan) -> ExitCode {
     }
 }
 
-/// Tries one input, and says what became of it.
+/// Tries one input, and prints the result.
 pub fn try_one(asked: &Input) -> ExitCode {
     let fixture = Fixture::make();
     let terms = Terms {
@@ -105,7 +105,7 @@ pub fn try_one(asked: &Input) -> ExitCode {
     }
 }
 
-/// Tries batches on all cores, until there are no more or the time is over.
+/// Tries batches on all cores until none is left or the time is over.
 pub fn run(
     terms: &Terms,
     batches: impl Iterator<Item = Batch> + Send,
@@ -130,7 +130,7 @@ pub fn run(
     found.into_inner().unwrap()
 }
 
-/// A batch in as many processes as it takes: a new one behind every case that fails.
+/// Tries a batch. Every failed case ends a process, and a new one goes on after it.
 fn try_batch(terms: &Terms, target: &'static Target, mut cases: Range<u64>, found: &Mutex<Found>) {
     while !cases.is_empty() {
         let failed = |found: &Found| found.tallies.get(target.name).map_or(0, |it| it.failed);
@@ -154,7 +154,7 @@ fn try_batch(terms: &Terms, target: &'static Target, mut cases: Range<u64>, foun
 }
 
 impl Found {
-    /// Counts a failure; keeps the input of the first of its kind.
+    /// Counts a failure, and keeps the input of the first of its kind.
     fn add(&mut self, target: &'static Target, Failed { case, how, input }: Failed) {
         let key = (target.name, how.kind());
         if let Some(known) = self.failures.get_mut(&key) {
@@ -172,7 +172,7 @@ impl Found {
         self.failures.insert(key, failure);
     }
 
-    /// Returns how each failure happened, by target.
+    /// Returns how each failure of a target happened.
     pub fn hows(&self, target: &str) -> Vec<&How> {
         let own = self.failures.values();
         own.filter(|failure| failure.target.name == target)
@@ -181,7 +181,7 @@ impl Found {
     }
 }
 
-/// Every seed, and as many changed ones as a target's share is: those that take long first.
+/// Returns every seed, and changed ones according to each target's share; slow targets come first.
 fn once(plan: &RunPlan, fixture: &Path) -> Vec<Batch> {
     let mut targets = plan.targets.clone();
     targets.sort_by_key(|target| target.batch);
@@ -195,7 +195,7 @@ fn once(plan: &RunPlan, fixture: &Path) -> Vec<Batch> {
     batches.collect()
 }
 
-/// The next part of every target's cases.
+/// Returns the next part of every target's cases.
 fn part(plan: &RunPlan, fixture: &Path, round: u64) -> Vec<Batch> {
     let batches = plan.targets.iter().flat_map(|target| {
         let seeds = seed_count(target, fixture);
@@ -210,7 +210,7 @@ fn part(plan: &RunPlan, fixture: &Path, round: u64) -> Vec<Batch> {
 }
 
 fn seed_count(target: &Target, fixture: &Path) -> u64 {
-    seeds(target, &Place::new(fixture)).len() as u64
+    read_seeds(target, &Place::new(fixture)).len() as u64
 }
 
 fn cut(target: &'static Target, cases: Range<u64>) -> Vec<Batch> {

@@ -11,9 +11,9 @@ use crate::target::Target;
 pub enum How {
     /// A panic: its place and message.
     Panic(String),
-    /// A worker that was ended by a signal, or ended itself: how, and its last words.
+    /// A worker that a signal ended, or that ended itself: how it ended, and its last words.
     Ended(String),
-    /// A case that took longer than that.
+    /// A case that took longer than this.
     Hang(Duration),
 }
 
@@ -28,7 +28,7 @@ impl Display for How {
 }
 
 impl How {
-    /// The same for inputs that fail alike: the place of a panic, or the words without their numbers.
+    /// Returns a text that is equal for failures of one kind: the place of a panic, or the words without their numbers.
     pub fn kind(&self) -> String {
         let text = match self {
             How::Panic(text) => {
@@ -41,7 +41,7 @@ impl How {
     }
 }
 
-/// The first input that failed in some way.
+/// First input that failed in one way.
 pub struct Failure {
     /// Name of the target.
     pub target: &'static Target,
@@ -49,14 +49,14 @@ pub struct Failure {
     pub how: How,
     /// File that keeps the input.
     pub path: PathBuf,
-    /// Its number.
+    /// Number of the case.
     pub case: u64,
-    /// Number of inputs that failed alike.
+    /// Number of inputs that failed the same way.
     pub count: u64,
 }
 
 impl Failure {
-    /// Describes the failure, and how to see it again.
+    /// Describes the failure, and how to reproduce it.
     pub fn text(&self, seed: u64) -> String {
         format!(
             "fuzz: {target}: {how} ({count} inputs; the first is case {case} of seed {seed})\n  input: {path}\n  \
@@ -70,7 +70,7 @@ impl Failure {
     }
 }
 
-/// Keeps an input below the build's folder, under the hash of its bytes.
+/// Keeps an input below the build folder, under the hash of its bytes.
 pub fn save(target: &Target, input: &[u8]) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
         .join("fuzz")

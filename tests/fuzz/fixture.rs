@@ -1,4 +1,5 @@
-//! Real files of every kind. The program itself makes them before the first case, so they always have today's layout.
+//! Real files of every kind. The program itself makes them before the first case, so that they always have today's
+//! layout.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,7 +10,7 @@ use tests::plate::{MTL, OBJ};
 /// The program that is fuzzed.
 pub const PROGRAM: &str = env!("CARGO_BIN_EXE_shuttertruth");
 
-/// Options that all of its pictures are rendered with.
+/// Options that every picture is rendered with.
 pub const RENDER: [&str; 7] = [
     "--quiet",
     "--scenes",
@@ -45,7 +46,7 @@ extent = { limit = 9, size = [16, 16], why = \"measured 1\" }
 flip_moving = 0.005
 ";
 
-/// A folder that vanishes with the value: `scenes`, `out` of a run, `tuned` and `study` of a tuning, `base.json`.
+/// Temporary folder: `scenes`, `out` of a run, `tuned` and `study` of a tuning, `base.json`.
 pub struct Fixture {
     folder: tempfile::TempDir,
 }
@@ -74,7 +75,7 @@ impl Fixture {
         fixture
     }
 
-    /// Returns its folder.
+    /// Returns the folder.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
@@ -98,7 +99,7 @@ impl Fixture {
     }
 }
 
-/// Copies a file, or a folder with all that is in it.
+/// Copies a file, or a folder with its content.
 pub fn copy(from: &Path, to: &Path) {
     if !from.is_dir() {
         fs::create_dir_all(to.parent().unwrap()).unwrap();
@@ -112,7 +113,7 @@ pub fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Files below a folder whose names end so, in the order of their paths.
+/// Finds the files below a folder whose names end this way, sorted by path.
 pub fn files(folder: &Path, end: &str) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).into_iter().flatten() {

@@ -1,4 +1,4 @@
-//! Inputs that are large, or claim to be: made when they are needed.
+//! Inputs that are large, or claim to be. They are made when needed.
 
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -10,18 +10,18 @@ use crate::mutation::push_chunk;
 
 const VERTICES: &str = "mtllib mesh.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl paint\n";
 
-/// 10,000 times the same face: no split of a tree parts them.
+/// Makes the same face 10,000 times: no split of a tree separates them.
 pub fn identical_faces() -> Vec<u8> {
     (VERTICES.to_owned() + &"f 1 2 3\n".repeat(10_000)).into_bytes()
 }
 
-/// 6,000 times the same face that glows: a light for each.
+/// Makes the same glowing face 6,000 times, each a light.
 pub fn identical_lights() -> Vec<u8> {
     let text = VERTICES.replace("paint", "glow");
     (text + &"f 1 2 3\n".repeat(6_000)).into_bytes()
 }
 
-/// 200,000 triangles in one place, each with vertices of its own.
+/// Makes 200,000 triangles in one place, each with vertices of its own.
 pub fn coincident_triangles() -> Vec<u8> {
     let mut text = VERTICES.to_owned();
     for triangle in 1..=200_000 {
@@ -36,12 +36,12 @@ pub fn coincident_triangles() -> Vec<u8> {
     text.into_bytes()
 }
 
-/// 20,000 faces whose corners lie in one line.
+/// Makes 20,000 faces whose corners lie on one line.
 pub fn faces_without_area() -> Vec<u8> {
     (VERTICES.to_owned() + "v 2 0 0\nf 1 2 3\n" + &"f 1 2 4\n".repeat(20_000)).into_bytes()
 }
 
-/// A face of 40,000 corners, on a circle.
+/// Makes a face of 40,000 corners on a circle.
 pub fn face_of_many_corners() -> Vec<u8> {
     let mut text = String::from("mtllib mesh.mtl\nusemtl paint\n");
     let mut face = String::from("f");
@@ -53,7 +53,7 @@ pub fn face_of_many_corners() -> Vec<u8> {
     (text + &face + "\n").into_bytes()
 }
 
-/// One line of 10 MB.
+/// Makes one line of 10 MB.
 pub fn line_without_end() -> Vec<u8> {
     ("v ".to_owned() + &"0".repeat(10_000_000)).into_bytes()
 }
@@ -61,12 +61,12 @@ pub fn line_without_end() -> Vec<u8> {
 const SCENE: &str = "exposes = \"x\"\nfamily = \"limits\"\nexposure = 0.5\nsize = [16, 16]\ncamera = { position = [0, 0, 5], \
                      look_at = [0, 0, 0], vertical_fov = 40 }\nbackground = { constant = [0, 0, 0] }\n";
 
-/// 10,000 objects at one pose.
+/// Makes 10,000 objects at one pose.
 pub fn objects_at_one_pose() -> Vec<u8> {
     objects(10_000, |_| String::new())
 }
 
-/// 3,000 objects, each the parent of the next.
+/// Makes 3,000 objects, each the parent of the next.
 pub fn chain_of_parents() -> Vec<u8> {
     objects(3_000, |index| match index {
         0 => String::new(),
@@ -74,7 +74,7 @@ pub fn chain_of_parents() -> Vec<u8> {
     })
 }
 
-/// 2,000 variants.
+/// Makes 2,000 variants.
 pub fn many_variants() -> Vec<u8> {
     let mut text = objects(1, |_| String::new());
     for index in 0..2_000 {
@@ -83,7 +83,7 @@ pub fn many_variants() -> Vec<u8> {
     text
 }
 
-/// An object that moves by 100,000 keys.
+/// Makes an object that moves by 100,000 keys.
 pub fn many_keys() -> Vec<u8> {
     objects(1, |_| {
         let keys: Vec<String> = (0..100_000)
@@ -105,29 +105,29 @@ fn objects(count: usize, more: impl Fn(usize) -> String) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// Tables in tables in tables, in TOML.
+/// Nests tables in TOML.
 pub fn deep_toml() -> Vec<u8> {
     let depth = 100_000;
     format!("exposes = {}1{}", "[".repeat(depth), "]".repeat(depth)).into_bytes()
 }
 
-/// A table whose name has 50,000 parts.
+/// Makes a table whose name has 50,000 parts.
 pub fn long_key() -> Vec<u8> {
     format!("a{} = 1", ".a".repeat(50_000)).into_bytes()
 }
 
-/// Lists in lists in lists, in JSON.
+/// Nests lists in JSON.
 pub fn deep_json() -> Vec<u8> {
     let depth = 100_000;
     format!("{}{}", "[".repeat(depth), "]".repeat(depth)).into_bytes()
 }
 
-/// A sum of 20,000 terms, which is a tree as deep.
+/// Makes a sum of 20,000 terms, which is a tree of that depth.
 pub fn long_sum() -> Vec<u8> {
     kernel(&format!("let x = 1.0{};", " + 1.0".repeat(20_000)))
 }
 
-/// 20,000 brackets in one another.
+/// Nests 20,000 brackets.
 pub fn deep_brackets() -> Vec<u8> {
     kernel(&format!(
         "let x = {}1.0{};",
@@ -136,12 +136,12 @@ pub fn deep_brackets() -> Vec<u8> {
     ))
 }
 
-/// 20,000 blocks in one another.
+/// Nests 20,000 blocks.
 pub fn deep_blocks() -> Vec<u8> {
     kernel(&("{".repeat(20_000) + &"}".repeat(20_000)))
 }
 
-/// 5,000 conditions behind one another.
+/// Makes 5,000 conditions in a row.
 pub fn long_condition() -> Vec<u8> {
     kernel(&format!(
         "if pixel.x > 0 {{}} {}",
@@ -149,12 +149,12 @@ pub fn long_condition() -> Vec<u8> {
     ))
 }
 
-/// 20,000 signs before a number.
+/// Makes 20,000 signs before a number.
 pub fn many_signs() -> Vec<u8> {
     kernel(&format!("let x = {}1.0;", "- ".repeat(20_000)))
 }
 
-/// A type in a type in a type.
+/// Nests types.
 pub fn deep_type() -> Vec<u8> {
     kernel(&format!(
         "var x: {}f32{};",
@@ -174,7 +174,7 @@ fn kernel(body: &str) -> Vec<u8> {
     .into_bytes()
 }
 
-/// A PNG of 20,000 by 20,000 pixels of one bit, in some 50 KB.
+/// Makes a PNG of 20,000 by 20,000 pixels of one bit, in about 50 KB.
 pub fn png_bomb() -> Vec<u8> {
     let side = 20_000;
     let mut packed = ZlibEncoder::new(Vec::new(), Compression::fast());
@@ -185,12 +185,12 @@ pub fn png_bomb() -> Vec<u8> {
     png(side as u32, 1, &packed.finish().unwrap())
 }
 
-/// A PNG that claims 60,000 by 60,000 pixels of 64 bits, and ends.
+/// Makes a PNG that claims 60,000 by 60,000 pixels of 64 bits, and ends.
 pub fn png_that_boasts() -> Vec<u8> {
     png(60_000, 16, &[])
 }
 
-/// A PNG with a text that unpacks to 1 GB.
+/// Makes a PNG with a text that unpacks to 1 GB.
 pub fn png_with_packed_text() -> Vec<u8> {
     let mut packed = ZlibEncoder::new(Vec::new(), Compression::fast());
     let megabyte = vec![b'a'; 1 << 20];
@@ -203,7 +203,7 @@ pub fn png_with_packed_text() -> Vec<u8> {
     file
 }
 
-/// A square of grey or, at 16 bits, of colour with alpha.
+/// Makes a square of grey or, at 16 bits, of colour with alpha.
 fn png(side: u32, depth: u8, packed: &[u8]) -> Vec<u8> {
     let kind = match depth {
         16 => 6,
@@ -218,12 +218,12 @@ fn png(side: u32, depth: u8, packed: &[u8]) -> Vec<u8> {
     file
 }
 
-/// A sky of 200,000 by 100,000 pixels that ends behind its header.
+/// Makes a sky of 200,000 by 100,000 pixels that ends after its header.
 pub fn hdr_that_boasts() -> Vec<u8> {
     b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 100000 +X 200000\n\x02\x02\x80\x00".to_vec()
 }
 
-/// A sky of 32,766 by 16,383 pixels in run lengths: 127 pixels in two bytes.
+/// Makes a sky of 32,766 by 16,383 pixels in run lengths: 127 pixels in two bytes.
 pub fn hdr_bomb() -> Vec<u8> {
     let (width, height) = (32_766_usize, 16_383_usize);
     let mut row = vec![2, 2, (width >> 8) as u8, width as u8];
@@ -237,14 +237,14 @@ pub fn hdr_bomb() -> Vec<u8> {
     }
     let mut file =
         format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n").into_bytes();
-    // The file ends early: it claims 2 GB of pixels and holds a hundredth.
+    // The file claims 2 GB of pixels and holds a hundredth of them.
     for _ in 0..height / 100 {
         file.extend(&row);
     }
     file
 }
 
-/// An OpenEXR file whose window has 2^31 pixels on either side.
+/// Makes an OpenEXR file whose window has 2^31 pixels on either side.
 pub fn exr_that_boasts() -> Vec<u8> {
     let window = |x: i32, y: i32| {
         let mut bytes = [0_i32, 0].map(i32::to_le_bytes).concat();

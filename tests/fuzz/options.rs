@@ -1,4 +1,4 @@
-//! Options of the fuzzer: the words behind `cargo test --test fuzz --`.
+//! Options of the fuzzer: the words after `cargo test --test fuzz --`.
 
 use std::ops::Range;
 use std::path::PathBuf;
@@ -6,18 +6,18 @@ use std::time::Duration;
 
 use crate::target::{Target, find};
 
-/// Cases of one pass of the tests, over all targets.
+/// Cases over all targets when the tests run the fuzzer.
 pub const CASES: u64 = 20_000;
 
 /// Task of this process.
 pub enum Options {
-    /// The words ask for other tests.
+    /// Nothing: the words ask for other tests.
     Nothing,
     /// Fuzz.
     Campaign(RunPlan),
-    /// Try one input.
+    /// Trial of one input.
     Try(Input),
-    /// Be the process that cases run in.
+    /// Work in the process that runs cases.
     Work(Work),
 }
 
@@ -25,11 +25,11 @@ pub enum Options {
 pub struct RunPlan {
     /// Names of the targets.
     pub targets: Vec<&'static Target>,
-    /// Cases of all targets together, were all of them chosen.
+    /// Cases of all targets together, if all were chosen.
     pub cases: u64,
-    /// Goes on so long instead.
+    /// Time to go on for instead.
     pub time: Option<Duration>,
-    /// Chooses the inputs.
+    /// Seed of the inputs.
     pub seed: u64,
 }
 
@@ -47,7 +47,7 @@ pub struct Work {
     pub target: &'static Target,
     /// Folder of the [`fixture`](crate::fixture).
     pub fixture: PathBuf,
-    /// Which inputs.
+    /// Inputs to try.
     pub inputs: Inputs,
 }
 
@@ -55,11 +55,11 @@ pub struct Work {
 pub enum Inputs {
     /// Inputs that the seed makes.
     Made {
-        /// Chooses the inputs.
+        /// Seed of the inputs.
         seed: u64,
-        /// Their numbers.
+        /// Numbers of the cases.
         cases: Range<u64>,
-        /// The file that each is kept in while it is tried.
+        /// File that keeps each input during its trial.
         kept: PathBuf,
     },
     /// Input of a file.
@@ -67,7 +67,7 @@ pub enum Inputs {
 }
 
 impl Options {
-    /// Reads the words; those that are for libtest's kind of test are passed over.
+    /// Parses the words, and ignores those for libtest.
     pub fn parse(words: &[String]) -> Result<Self, String> {
         let mut plan = RunPlan {
             targets: Target::all(),
@@ -115,7 +115,7 @@ impl Options {
     }
 }
 
-/// Failing inputs and the corpus lie in folders named after their targets.
+/// Finds the target that a path belongs to: failing inputs and the corpus lie in folders with targets' names.
 fn target_of(path: &std::path::Path) -> Result<&'static Target, String> {
     let folder = path.parent().and_then(|folder| folder.file_name());
     find(&folder.unwrap_or_default().to_string_lossy())

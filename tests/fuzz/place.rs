@@ -1,4 +1,4 @@
-//! Folder in which a worker's cases run.
+//! Folder that a worker's cases run in.
 
 use std::fs;
 use std::os::unix::fs::FileTypeExt;
@@ -10,19 +10,19 @@ use suite::FilterChoice;
 use crate::fixture;
 use crate::targets::Service;
 
-/// File beside the folder of a case, which no case may change.
+/// Content of a file beside the folder of a case, which no case may change.
 const CANARY: &str = "this file belongs to nobody's run";
 
-/// A folder that vanishes with the value, and what is kept from case to case.
+/// Temporary folder, and values that stay from case to case.
 pub struct Place {
     _keep: tempfile::TempDir,
-    /// The cases' own folder.
+    /// Folder of the cases.
     pub folder: PathBuf,
     /// Files that the program wrote before the first case.
     pub fixture: PathBuf,
-    /// Opened once.
+    /// Adapter, opened once.
     pub gpu: Option<Gpu>,
-    /// A running `serve`.
+    /// Running `serve`.
     pub service: Option<Service>,
     /// All built-in filters, loaded once.
     pub filters: Vec<FilterChoice>,
@@ -30,13 +30,13 @@ pub struct Place {
 }
 
 impl Place {
-    /// An empty folder.
+    /// Makes an empty folder.
     pub fn new(fixture: &Path) -> Self {
         let keep = tempfile::Builder::new()
             .prefix("shuttertruth-fuzz-")
             .tempdir()
             .expect("a folder for temporary files");
-        // Deep enough for inputs that say `../../`.
+        // Deep enough for inputs that contain `../../`.
         let folder = keep.path().join("a/b/c/case");
         fs::create_dir_all(&folder).unwrap();
         let canary = keep.path().join("a/b/c/canary.txt");
@@ -60,8 +60,8 @@ impl Place {
         path
     }
 
-    /// A folder of the fixture as `name` below the own folder, copied once.
-    pub fn copied(&self, name: &str) -> PathBuf {
+    /// Copies a folder of the fixture to `name` below the cases' folder, once.
+    pub fn copy(&self, name: &str) -> PathBuf {
         let own = self.folder.join(name);
         if !own.exists() {
             fixture::copy(&self.fixture.join(name), &own);
@@ -69,20 +69,20 @@ impl Place {
         own
     }
 
-    /// The same, as it was at first.
-    pub fn copied_anew(&self, name: &str) -> PathBuf {
+    /// Copies a folder of the fixture again.
+    pub fn copy_again(&self, name: &str) -> PathBuf {
         let _ = fs::remove_dir_all(self.folder.join(name));
-        self.copied(name)
+        self.copy(name)
     }
 
-    /// Panics if a case changed what lies beside its folder.
+    /// Panics if a case changed a file beside its folder.
     pub fn check(&self) {
         let found = fs::read_to_string(&self.canary).unwrap_or_default();
         assert_eq!(
             found, CANARY,
             "a file outside the case's folder was changed"
         );
-        // Inputs name devices where files are written, and tests of CI run as root.
+        // Inputs name devices as output files, and tests of CI run as root.
         let device = fs::metadata("/dev/null").map(|found| found.file_type());
         assert!(
             device.is_ok_and(|kind| kind.is_char_device()),

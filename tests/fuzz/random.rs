@@ -1,10 +1,10 @@
-//! Random numbers by formula: the same inputs on every machine.
+//! Random numbers by formula, which give the same inputs on every machine.
 
-/// A stream of numbers: SplitMix64 (Steele, Lea and Flood 2014).
+/// Stream of numbers: SplitMix64 (Steele, Lea and Flood 2014).
 pub struct Random(u64);
 
 impl Random {
-    /// The stream of one case of a target.
+    /// Starts the stream of one case of a target.
     pub fn of_case(seed: u64, target: &str, case: u64) -> Self {
         let name = target.bytes().fold(seed, |state, byte| {
             hash(state.wrapping_add(u64::from(byte)))
@@ -12,18 +12,18 @@ impl Random {
         Self(hash(name.wrapping_add(case)))
     }
 
-    /// Any number.
+    /// Draws any number.
     pub fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         hash(self.0)
     }
 
-    /// Below `count`, which is 1 or more.
+    /// Draws a number below `count`, which is at least 1.
     pub fn below(&mut self, count: usize) -> usize {
         (self.next() % count as u64) as usize
     }
 
-    /// True once in `count` draws.
+    /// Returns true in one of `count` draws.
     pub fn once_in(&mut self, count: usize) -> bool {
         self.below(count) == 0
     }
@@ -34,7 +34,7 @@ impl Random {
         (1 + self.below(1 << bits)).min(most)
     }
 
-    /// One of several.
+    /// Picks one of several values.
     pub fn pick<'a, T>(&mut self, of: &'a [T]) -> &'a T {
         &of[self.below(of.len())]
     }

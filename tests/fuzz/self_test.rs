@@ -1,4 +1,4 @@
-//! Self-test of the fuzzer: it finds the inputs that fail on purpose, and names each kind of failure rightly.
+//! Self-test of the fuzzer: it finds the inputs that fail on purpose, and names each kind of failure correctly.
 
 use std::path::Path;
 use std::time::Duration;
@@ -15,7 +15,7 @@ pub fn check() {
     let terms = Terms {
         fixture: Path::new("none"),
         seed: 1,
-        // Long enough for a process to start, however busy the machine is.
+        // Long enough to start a process on a busy machine.
         limit: Duration::from_secs(3),
     };
     let cases = 0..PLANTED.len() as u64;
@@ -47,7 +47,7 @@ pub fn check() {
     is_there("a file outside the folder that is gone", &|how| {
         text(how).contains("outside the case's folder")
     });
-    // Elsewhere `ulimit -v` limits nothing.
+    // On other systems `ulimit -v` has no effect.
     if cfg!(target_os = "linux") {
         is_there("an allocation above the limit", &|how| {
             text(how).contains("memory allocation of")

@@ -4,21 +4,21 @@ use crate::place::Place;
 use crate::seeds::Seed;
 use crate::targets;
 
-/// One kind of input, and what reads it.
+/// One kind of input, and the code that reads it.
 pub struct Target {
-    /// Also the folder of its corpus, and its word on the command line.
+    /// Name, also of its folder in the corpus, and its word on the command line.
     pub name: &'static str,
     /// Number of its cases among 20,000.
     pub share: u64,
-    /// Cases of one worker process: many where a case takes little time.
+    /// Cases of one worker process: many if a case takes little time.
     pub batch: u64,
-    /// Changes that its inputs undergo.
+    /// Kind of changes to its inputs.
     pub shape: Shape,
-    /// Words that are worth trying somewhere in an input.
+    /// Words that are worth trying in an input.
     pub tokens: &'static [&'static str],
-    /// Inputs to begin with, beside those of its corpus.
+    /// Inputs to begin with, beside its corpus.
     pub seeds: fn(&Place) -> Vec<Seed>,
-    /// Reads an input as the program does. It may refuse it; it must come back.
+    /// Function that reads an input as the program does. It may refuse the input, and must return.
     pub run: fn(&mut Place, &[u8]),
 }
 
@@ -29,21 +29,21 @@ pub enum Shape {
     Text,
     /// Bytes.
     Bytes,
-    /// PNG: chunks. OpenEXR: channels and attributes. Their checksums are made right again. Other pictures: bytes.
+    /// PNG (chunks), OpenEXR (channels and attributes) or other pictures (bytes). Checksums are made valid again.
     Picture,
-    /// A command line with one word on each line.
+    /// A command line, one word per line.
     Words,
 }
 
 impl Target {
-    /// All but those that fail on purpose.
+    /// Returns all targets except those that fail on purpose.
     pub fn all() -> Vec<&'static Target> {
         let all = targets::ALL.iter().copied();
         all.filter(|target| target.share > 0).collect()
     }
 }
 
-/// The target of that name.
+/// Finds the target of this name.
 pub fn find(name: &str) -> Result<&'static Target, String> {
     let found = targets::ALL.iter().find(|target| target.name == name);
     found.copied().ok_or_else(|| {

@@ -1,4 +1,4 @@
-//! The process that cases run in. Its end ends nothing else.
+//! The process that cases run in. Its end does not end the fuzzer.
 
 use std::any::Any;
 use std::io::Write;
@@ -10,23 +10,23 @@ use crate::mutation::mutate;
 use crate::options::{Inputs, Work};
 use crate::place::Place;
 use crate::random::Random;
-use crate::seeds::{Seed, changeable, seeds};
+use crate::seeds::{Seed, changeable, read_seeds};
 use crate::target::Target;
 
-/// Begins every line that is for the parent.
+/// Prefix of every line for the parent.
 pub const MARK: &str = "@fuzz ";
 
-/// Characters of a panic's message that are told.
+/// Characters of a panic's message that are reported.
 const LONGEST: usize = 400;
 
 /// The last panic, in one line.
 static PANIC: Mutex<String> = Mutex::new(String::new());
 
-/// Tries inputs one after the other and tells the parent of each; ends at the first panic.
+/// Tries inputs one by one and reports each to the parent; ends at the first panic.
 pub fn work(work: &Work) -> ExitCode {
     std::panic::set_hook(Box::new(|panic| {
         let place = panic.location().map(ToString::to_string);
-        let message = message(panic.payload());
+        let message = panic_message(panic.payload());
         let line = format!("{}: {message}", place.unwrap_or_default());
         let line: String = line.replace('\n', " ").chars().take(LONGEST).collect();
         *PANIC.lock().unwrap() = line;
@@ -38,9 +38,9 @@ pub fn work(work: &Work) -> ExitCode {
             try_input(work.target, &mut place, 0, &input)
         }
         Inputs::Made { seed, cases, kept } => {
-            let seeds = seeds(work.target, &place);
+            let seeds = read_seeds(work.target, &place);
             for case in cases.clone() {
-                let input = input(work.target, &place, &seeds, *seed, case);
+                let input = make_input(work.target, &place, &seeds, *seed, case);
                 std::fs::write(kept, &input).expect("an input can be kept");
                 let tried = try_input(work.target, &mut place, case, &input);
                 if tried != ExitCode::SUCCESS {
@@ -52,14 +52,14 @@ pub fn work(work: &Work) -> ExitCode {
     }
 }
 
-fn message(payload: &dyn Any) -> &str {
+fn panic_message(payload: &dyn Any) -> &str {
     let text = payload.downcast_ref::<String>().map(String::as_str);
     text.or(payload.downcast_ref::<&str>().copied())
         .unwrap_or("no message")
 }
 
-/// The input of a case: the seeds first, each as it is, then changed ones.
-fn input(target: &Target, place: &Place, seeds: &[Seed], seed: u64, case: u64) -> Vec<u8> {
+/// Makes the input of a case: first the seeds as they are, then changed ones.
+fn make_input(target: &Target, place: &Place, seeds: &[Seed], seed: u64, case: u64) -> Vec<u8> {
     match seeds.get(case as usize) {
         Some(Seed::Bytes(bytes)) => bytes.clone(),
         Some(Seed::Made(make)) => make(),
@@ -91,7 +91,7 @@ fn try_input(target: &Target, place: &mut Place, case: u64, input: &[u8]) -> Exi
 
 fn say(line: &str) {
     let mut out = std::io::stdout().lock();
-    // A parent that is gone wants to hear no more.
+    // If the parent is gone, nobody reads the line.
     if writeln!(out, "{MARK}{line}")
         .and_then(|()| out.flush())
         .is_err()

@@ -1,4 +1,4 @@
-//! Shipped bounds that tell a blur from none on every scene where something moves, and the rules of bounds.
+//! Shipped bounds, which the identity breaks on every scene with motion, and the rules of bounds.
 
 use std::fs;
 use std::path::Path;
@@ -7,13 +7,13 @@ use cli::{Programs, SceneChoice};
 use frame::{Alignment, Picture};
 use metrics::{Measured, Metric, Reference};
 use suite::{JudgedScore, Level, Monitor, Outcome, RenderSettings, SceneBounds};
+use tests::scenes;
 use tests::text::assert_contains;
 
-use crate::kept_truths;
+use crate::lock_truths;
 
-const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
-
-/// Nothing in them moves farther than the bounds allow: what they expose is told by changed pixels, in the test `catalogue`.
+/// Scenes in which nothing moves farther than the bounds allow. The tests of the catalogue show by changed pixels what
+/// these scenes expose.
 const HARDLY_MOVING: [&str; 1] = ["creep"];
 
 /// Judges the instant itself, and the mean of 64 sub-frames.
@@ -29,8 +29,8 @@ fn judge_bars(choice: &SceneChoice, out: &Path) -> [Vec<JudgedScore>; 2] {
         suite::render_truth_and_ladder(scene, &settings, Alignment::Trailing, out, Monitor::SILENT)
             .unwrap();
     let reference = Reference::new(&frame, &truth, None, &suite::scene_viewing(scene)).unwrap();
-    let bounds = suite::read_bounds(Path::new(SCENES), &choice.folder).unwrap();
-    // What is asked of every filter, required or not.
+    let bounds = suite::read_bounds(&scenes(), &choice.folder).unwrap();
+    // Bounds for all filters, required or not.
     let bounds = bounds.of("identity", "default");
     let judged = |picture: &Picture| {
         suite::judge_scores(&reference.measure(picture).unwrap().scores, None, &bounds)
@@ -64,11 +64,11 @@ fn describe(judged: &[JudgedScore]) -> String {
 
 #[test]
 fn the_identity_breaks_a_bound_in_every_moving_scene_and_64_subframes_break_none() {
-    let scenes = cli::select_scenes(Path::new(SCENES), &[]).unwrap();
-    assert!(scenes.len() >= 5, "the shipped scenes are missing");
+    let choices = cli::select_scenes(&scenes(), &[]).unwrap();
+    assert!(choices.len() >= 5, "the shipped scenes are missing");
     let mut failures = Vec::new();
-    let (out, _own) = kept_truths();
-    for choice in &scenes {
+    let (out, _own) = lock_truths();
+    for choice in &choices {
         let [identity, accumulation] = judge_bars(choice, &out);
         let broken =
             |judged: &[JudgedScore]| judged.iter().any(|one| one.outcome == Outcome::Broken);
@@ -94,7 +94,7 @@ fn the_identity_breaks_a_bound_in_every_moving_scene_and_64_subframes_break_none
     assert!(failures.is_empty(), "{failures:#?}");
 }
 
-/// A folder of scenes with one scene, `fan`; texts of bounds.toml beside the scenes and beside the scene.
+/// Reads the bounds of a folder with one scene, `fan`, from texts beside the scenes and beside the scene.
 fn read(beside_scenes: &str, beside_scene: &str) -> Result<SceneBounds, String> {
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("fan");
@@ -122,7 +122,7 @@ fn limit(limit: f64) -> String {
 }
 
 #[test]
-fn every_metric_can_be_bounded_but_those_for_reports() {
+fn every_metric_except_those_for_reports_can_have_a_bound() {
     for metric in Metric::all() {
         let bounds = read(&format!("[default]\n{metric} = {}", limit(0.25)), "");
         if metric.report_only().is_some() {
@@ -140,7 +140,7 @@ fn every_metric_can_be_bounded_but_those_for_reports() {
 }
 
 #[test]
-fn limits_hold_for_the_size_that_they_were_measured_at() {
+fn limits_hold_only_at_their_own_size() {
     let everywhere = format!("[default]\nflip_moving = {}", limit(0.1));
     let of = |filter: &str, size: &str| {
         let text = format!(
@@ -180,7 +180,7 @@ fn limits_hold_for_the_size_that_they_were_measured_at() {
     ] {
         assert!(two.contains(part), "{two}");
     }
-    // At another size the limit that holds for any is left.
+    // At another size, the limit for any size is left.
     let left = |size| small.clone().at(size).of("identity", "default")["flip_moving"].limit;
     assert_eq!([left((160, 90)), left((320, 180))], [0.2, 0.1]);
 }
@@ -303,7 +303,7 @@ fn bounds_of_a_scene_that_does_not_exist_are_refused() {
 }
 
 #[test]
-fn the_narrower_bound_overrides_the_wider_and_the_scenes_own_that_of_all_scenes() {
+fn a_narrower_bound_overrides_a_wider_one_and_a_scene_s_bound_overrides_the_shared_one() {
     let level = |table: &str, limits: &[(&str, f64)]| {
         let lines = limits
             .iter()

@@ -9,9 +9,9 @@ mod tuned_presets;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The folder of truths that are kept from one run of the tests to the next, and the right to use it: two tests that need the same
-/// truths render them once.
-fn kept_truths() -> (PathBuf, MutexGuard<'static, ()>) {
+/// Locks and returns the folder of truths, which stay from one run of the tests to the next: two tests that need the
+/// same truths render them once.
+fn lock_truths() -> (PathBuf, MutexGuard<'static, ()>) {
     static IN_USE: Mutex<()> = Mutex::new(());
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("truths");
     (

@@ -1,15 +1,13 @@
-//! Required bounds of the filters that people will compare with, on every scene.
-
-use std::path::Path;
+//! Required bounds of the most compared filters, on every scene.
 
 use cli::{Programs, select_filters, select_scenes};
-use filters::Gpu;
 use suite::{
     Check, Decision, Finding, InputFormat, Level, Monitor, Outcome, RenderSettings, RunBounds,
     RunPlan, check, judge, measure_scenes, read_bounds, size_for_bounds,
 };
+use tests::open_gpu;
 
-use crate::kept_truths;
+use crate::lock_truths;
 
 /// Filters with required bounds.
 const GUARDED: [&str; 4] = [
@@ -20,21 +18,21 @@ const GUARDED: [&str; 4] = [
 ];
 
 #[test]
-fn guarded_filters_keep_what_is_required_of_them_on_every_scene() {
-    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes"));
-    let gpu = Gpu::new(None).expect("this test runs filters");
+fn guarded_filters_keep_their_required_bounds_on_every_scene() {
+    let root = tests::scenes();
+    let gpu = open_gpu();
     let filters =
         select_filters(&GUARDED.map(str::to_owned), None, &[], Programs::Refused).unwrap();
-    let choices = select_scenes(root, &[]).unwrap();
+    let choices = select_scenes(&root, &[]).unwrap();
     assert!(choices.len() >= 23, "the shipped scenes are missing");
     let bounds: RunBounds = (choices.iter())
         .map(|choice| {
-            let bounds = read_bounds(root, &choice.folder).unwrap();
+            let bounds = read_bounds(&root, &choice.folder).unwrap();
             (choice.scene.name.clone(), bounds)
         })
         .collect();
     let (width, height) = (size_for_bounds(bounds.values(), &filters, None).unwrap()).unwrap();
-    let (out, _own) = kept_truths();
+    let (out, _own) = lock_truths();
     let plan = RunPlan {
         scenes: choices.into_iter().map(|choice| choice.scene).collect(),
         filters,

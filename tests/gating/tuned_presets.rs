@@ -1,38 +1,39 @@
-//! Tuned presets against published ones, on scenes that the tuning never met.
+//! Tuned presets against published ones, on scenes that the tuning did not use.
 
 use std::path::Path;
 
 use cli::{Programs, paired_table, select_filters, select_scenes};
-use filters::Gpu;
 use suite::{
     Evaluator, LEAST_BLEED, Monitor, Preference, RenderSettings, SceneBounds, compare_candidates,
     read_bounds, render_scenes,
 };
+use tests::open_gpu;
 use tracer::Scene;
 
 const TUNED: [&str; 2] = ["jump_flood", "mcguire"];
 
-/// The shipped scenes without some.
+/// Loads the shipped scenes except some.
 fn scenes_but(left_out: &[String]) -> Vec<(Scene, SceneBounds)> {
-    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes"));
-    let all = select_scenes(root, &[]).unwrap().into_iter();
+    let root = tests::scenes();
+    let all = select_scenes(&root, &[]).unwrap().into_iter();
     all.filter(|choice| !left_out.contains(&choice.scene.name))
         .map(|choice| {
-            let bounds = read_bounds(root, &choice.folder).unwrap();
+            let bounds = read_bounds(&root, &choice.folder).unwrap();
             (choice.scene, bounds)
         })
         .collect()
 }
 
 #[test]
-fn tuned_presets_beat_what_was_published_and_bleed_no_more_on_scenes_they_never_met() {
-    let gpu = Gpu::new(None).expect("this test runs filters");
+fn tuned_presets_beat_published_ones_and_bleed_no_more_on_held_out_scenes() {
+    let gpu = open_gpu();
     let render = RenderSettings {
-        // docs/tune.md states what 256 samples say. Both presets see the same noise, and a quarter of the samples decides alike.
+        // docs/tune.md gives the result of 256 samples. Both presets see the same noise, and a quarter of the samples
+        // gives the same verdict.
         samples_per_pixel: 64,
         ..RenderSettings::default()
     };
-    // Truths are kept from one run of the tests to the next.
+    // Truths stay from one run of the tests to the next.
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tuned");
     for name in TUNED {
         let choice = select_filters(&[format!("{name}:tuned")], None, &[], Programs::Refused)

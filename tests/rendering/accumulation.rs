@@ -5,17 +5,12 @@ use metrics::Reference;
 use tests::unwatched;
 use tracer::{FrameSettings, TruthSettings, load_scene, trace_frame, trace_ladder, trace_truth};
 
-use std::path::Path;
-
 #[test]
 fn n_subframes_are_worth_n() {
-    let folder = Path::new(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../scenes/sliding_panel"
-    ));
+    let folder = tests::scenes().join("sliding_panel");
     // 128 px per frame at 640x360 are 16 px over this shutter and size: 16 sub-frames lie a pixel apart, so that the
-    // error of each count lies well above the noise.
-    let scene = load_scene(folder, Some("128px_30deg")).unwrap();
+    // error of each count is well above the noise.
+    let scene = load_scene(&folder, Some("128px_30deg")).unwrap();
     let watch = &unwatched;
     let (width, height) = (160, 90);
     let settings = TruthSettings {
@@ -43,7 +38,7 @@ fn n_subframes_are_worth_n() {
     let ladder = trace_ladder(&scene, &settings, &truth, &suite::LADDER, watch).unwrap();
     let reference =
         Reference::new(&frame, &truth, Some(&ladder), &suite::scene_viewing(&scene)).unwrap();
-    // Other random numbers than those of the reference.
+    // Another seed than the reference's.
     let again = TruthSettings {
         seed: 2,
         ..settings

@@ -12,7 +12,7 @@ use tracer::{Key, Mesh, Motion, Scene, TruthSettings, trace_truth};
 
 /// Directions of motion, in degrees.
 const ANGLES: [f64; 4] = [0.0, 30.0, 45.0, 90.0];
-/// White mesh on black in straight motion, turned by `angle`; at `t = 0` it passes `at`.
+/// Makes a white mesh on black in straight motion, turned by `angle`; at `t = 0` it passes `at`.
 fn moving_scene(mesh: Mesh, at: DVec2, angle: f64, velocity: DVec2) -> Scene {
     let mut scene = empty_scene("coverage");
     let place = |time: f64| {
@@ -32,7 +32,7 @@ fn moving_scene(mesh: Mesh, at: DVec2, angle: f64, velocity: DVec2) -> Scene {
     scene
 }
 
-/// Mean of `value` over a pixel, by the midpoint rule on `side` squared points.
+/// Integrates `value` over a pixel, by the midpoint rule on `side` squared points.
 fn mean_over_pixel(pixel: DVec2, side: u32, value: impl Fn(DVec2) -> f64) -> f64 {
     let at = |index: u32| (f64::from(index) + 0.5) / f64::from(side);
     let sum: f64 = (0..side * side)
@@ -41,19 +41,19 @@ fn mean_over_pixel(pixel: DVec2, side: u32, value: impl Fn(DVec2) -> f64) -> f64
     sum / f64::from(side * side)
 }
 
-/// Length of the common part of two intervals.
+/// Returns the length of the common part of two intervals.
 fn overlap(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[1].min(b[1]) - a[0].max(b[0])).max(0.0)
 }
 
-/// Every shutter with every angle, in radians.
+/// Returns every shutter with every angle, in radians.
 fn cases() -> impl Iterator<Item = (Alignment, f64)> {
     Alignment::ALL
         .into_iter()
         .flat_map(|alignment| ANGLES.map(|degrees| (alignment, degrees.to_radians())))
 }
 
-/// Renders a truth and compares its coverage with the exact one, and with its colour.
+/// Renders a truth, and compares its coverage with the exact one and with its colour.
 fn expect_rendered(
     what: &str,
     scene: &Scene,
@@ -127,7 +127,7 @@ fn a_slab_covers_the_difference_of_two_half_planes() {
 
 #[test]
 fn several_keys_inside_one_shutter_cover_the_sum_of_their_parts() {
-    // Ahead, back faster, and ahead again: keys inside the shutter of every alignment.
+    // Forward, back at a higher speed, and forward again: keys inside the shutter of every alignment.
     let keys = [
         (-0.9, 0.0),
         (-0.4, 6.0),
@@ -187,8 +187,8 @@ fn a_disc_covers_its_chord_s_share_of_the_shutter() {
                     let travel = [SPEED * shutter.open, SPEED * shutter.close];
                     overlap(inside, travel) / (SPEED * shutter.exposure())
                 };
-                // The chord's end has a root: error (1/128)^1.5 x 0.2 x sqrt(2 radius) / travel = 5e-5 of the pixels it
-                // crosses; standard errors are above 2e-4.
+                // The chord's end has a root: the error is (1/128)^1.5 x 0.2 x sqrt(2 radius) / travel = 5e-5 in the
+                // pixels that it crosses. Standard errors are above 2e-4.
                 mean_over_pixel(pixel, 128, share)
             },
         );
@@ -219,7 +219,7 @@ fn a_rotating_bar_covers_its_sector_of_the_annulus() {
                     .min(1.0)
                     .asin()
                     .min((inner / distance).min(1.0).acos());
-                // The bar's angles that contain the point lie on both sides of the point's own.
+                // The bar's angles that contain the point lie on both sides of the point's own angle.
                 let sides = if farthest <= nearest {
                     0.0
                 } else {
@@ -233,7 +233,7 @@ fn a_rotating_bar_covers_its_sector_of_the_annulus() {
                 };
                 sides / (swept[1] - swept[0])
             };
-            // The share jumps by up to 0.1 across the bar's end: 1e-4 by the midpoint rule; standard errors are 1e-3.
+            // The share jumps by up to 0.1 across the bar's end: 1e-4 by the midpoint rule. Standard errors are 1e-3.
             mean_over_pixel(pixel, 128, share)
         });
     }
@@ -269,6 +269,6 @@ fn noise_falls_as_stratification_predicts() {
         (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
     };
     let slope = (rms(1024) / rms(16)).log2() / (1024.0_f64 / 16.0).log2();
-    // Random samples fall with -0.5; Owen-scrambled points in three dimensions with about -0.75.
+    // Random samples fall with -0.5; Owen-scrambled points in three dimensions fall with about -0.75.
     assert!(slope > -1.0 && slope < -0.6, "slope is {slope}");
 }

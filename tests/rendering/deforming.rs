@@ -10,7 +10,7 @@ use tests::shapes::*;
 use tests::unwatched;
 use tracer::{FrameSettings, Key, Mesh, Motion, Ray, Scene, Shape, Stage, trace_frame};
 
-/// Mesh with key shapes: `place` moves each vertex.
+/// Makes a mesh with key shapes: `place` moves each vertex.
 fn deforming_mesh(mesh: Mesh, times: &[f64], place: impl Fn(Vec3, f64) -> Vec3) -> Mesh {
     let shapes: Vec<Shape> = times
         .iter()
@@ -42,7 +42,7 @@ fn render_velocities(scene: &Scene, velocity: VelocityKind) -> Vec<[f32; 2]> {
     frame.velocity.pixels
 }
 
-/// Compares the coverage of the only object, and checks that only it moves.
+/// Compares the coverage of the only object, and checks that nothing else moves.
 fn expect_object(what: &str, truth: &Truth, exact: impl Fn(DVec2) -> f64) {
     expect_coverage(what, truth, |x, y| exact(pixel_corner(x, y)));
     assert_eq!(
@@ -52,7 +52,7 @@ fn expect_object(what: &str, truth: &Truth, exact: impl Fn(DVec2) -> f64) {
     );
 }
 
-/// Scene of one glowing mesh at the distance where metres are pixels.
+/// Makes a scene of one glowing mesh at the distance where metres are pixels.
 fn scene_of(mesh: Mesh, motion: impl Fn(DVec3) -> Motion) -> Scene {
     let mut scene = empty_scene("deforming");
     let at = DVec3::new(0.0, 0.0, -DISTANCE);
@@ -61,10 +61,10 @@ fn scene_of(mesh: Mesh, motion: impl Fn(DVec3) -> Motion) -> Scene {
 }
 
 #[test]
-fn shapes_that_only_shift_are_a_translation() {
+fn shifting_shapes_equal_a_translation() {
     let velocity = DVec3::new(14.0, 3.0, 0.0);
     let panel = rectangle(6.0, 40.0);
-    // Beyond the last shape, too.
+    // Times go beyond the last shape.
     let shifted = deforming_mesh(panel.clone(), &[-1.0, -0.25, 0.0], |place, time| {
         place + (time * velocity).as_vec3()
     });
@@ -90,7 +90,7 @@ fn shapes_that_only_shift_are_a_translation() {
 
 #[test]
 fn a_stretching_panel_covers_and_moves_as_its_edges_do() {
-    // The left edge stays; the right one runs, and turns round at a key inside the shutter.
+    // The left edge stays; the right one moves, and turns back at a key inside the shutter.
     let panel = rectangle(10.0, 400.0);
     let right = |time: f64| match time < -0.2 {
         true => 5.0 + 10.0 * time,
@@ -114,7 +114,7 @@ fn a_stretching_panel_covers_and_moves_as_its_edges_do() {
         let edge = part(shutter.open, -0.2, 5.0, 10.0) + part(-0.2, shutter.close, 2.0, -5.0);
         edge - half_plane(pixel, DVec2::X, -5.0, 0.0, shutter)
     });
-    // At t = 0 the panel reaches from -5 to 2 and its points are drawn along in proportion.
+    // At t = 0 the panel reaches from -5 to 2, and its points stretch in proportion.
     for (pixel, found) in render_velocities(&scene, VelocityKind::Instantaneous)
         .iter()
         .enumerate()
@@ -131,7 +131,7 @@ fn a_stretching_panel_covers_and_moves_as_its_edges_do() {
 }
 
 #[test]
-fn between_and_beyond_two_shapes_a_surface_is_on_the_line_through_them() {
+fn a_surface_moves_on_the_line_through_two_shapes() {
     let depth = |time: f64| 3.0 + time;
     let panel = deforming_mesh(rectangle(9.0, 9.0), &[-1.0, 1.0], |place, time| {
         place - (depth(time) * DVec3::Z).as_vec3()
@@ -151,7 +151,7 @@ fn between_and_beyond_two_shapes_a_surface_is_on_the_line_through_them() {
     }
 }
 
-/// Sphere that turns into a potato and back into an egg.
+/// Makes a sphere that turns into a potato and back into an egg.
 fn potato() -> Mesh {
     let mut numbers = Numbers(5 << 32);
     let waves: Vec<DVec3> = (0..4).map(|_| 3.0 * numbers.vector()).collect();
@@ -163,7 +163,7 @@ fn potato() -> Mesh {
     })
 }
 
-/// Pose that is exact in no coordinate: moved, turned and scaled.
+/// Makes a pose that is exact in no coordinate: moved, turned and scaled.
 fn skewed(at: DVec3) -> Motion {
     let mut motion = spin(at, DVec3::new(0.36, 0.48, 0.8), 1.7);
     for key in &mut motion.keys {
@@ -211,7 +211,7 @@ fn a_deforming_sphere_does_not_leak_at_its_edges_and_vertices() {
 }
 
 #[test]
-fn the_trees_find_what_brute_force_finds() {
+fn the_trees_agree_with_brute_force() {
     let mut scene = empty_scene("potatoes");
     add(
         &mut scene,
@@ -236,7 +236,7 @@ fn the_trees_find_what_brute_force_finds() {
 }
 
 #[test]
-fn a_growing_lamp_lights_as_one_that_is_scaled() {
+fn a_growing_lamp_lights_like_a_scaled_one() {
     let grown = |time: f64| 1.0 + 0.5 * time;
     let lamp = rectangle(4.0, 2.0);
     let shapes = deforming_mesh(lamp.clone(), &[-1.0, 1.0], |place, time| {
@@ -274,7 +274,7 @@ fn a_growing_lamp_lights_as_one_that_is_scaled() {
     let largest = (deformed.pixels.iter().zip(&scaled.pixels))
         .map(|(a, b)| (a[0] - b[0]).abs())
         .fold(0.0, f32::max);
-    // The same random numbers meet the same surfaces: only a ray that rounding takes past an edge differs, by one of
+    // The same random numbers meet the same surfaces. Only a ray that rounding takes past an edge differs, by one of
     // 1024 samples of at most 3.
     assert!(largest < 2.0 * 3.0 / 1024.0, "pixels differ by {largest}");
     let lit = scaled.pixels.iter().filter(|pixel| pixel[0] > 0.02).count();

@@ -12,7 +12,7 @@ use tracer::{
     ladder_hash, trace_frame, trace_ladder, trace_truth, truth_hash,
 };
 
-/// Scene with everything that draws random numbers: sky, sun disc, lamp, bounces, motion.
+/// Makes a scene with everything that draws random numbers: sky, sun disc, lamp, bounces, motion.
 fn busy_scene() -> Scene {
     let mut scene = empty_scene("busy");
     scene.background = Background::Gradient {
@@ -88,7 +88,7 @@ fn frame_and_truth_do_not_share_their_noise() {
     for object in &mut scene.objects {
         object.motion.keys.truncate(1);
     }
-    // Nothing moves: with shared numbers the frame would be the truth's first replicate, pixel by pixel.
+    // Nothing moves: with shared numbers the frame would equal the truth's first replicate, pixel by pixel.
     let settings = TruthSettings {
         samples_per_pixel: 32,
         replicates: 2,
@@ -99,7 +99,7 @@ fn frame_and_truth_do_not_share_their_noise() {
     for half in &truth.halves {
         let pairs = frame.color.pixels.iter().zip(&half.color.pixels);
         let equal = pairs.filter(|(a, b)| a == b).count();
-        // Pixels of the even lamp alone are equal by nature; the rest is lit and noisy.
+        // Only pixels of the even lamp are naturally equal; the rest is lit and noisy.
         assert!(
             equal * 2 < frame.color.pixels.len(),
             "{equal} pixels are equal"
@@ -110,7 +110,7 @@ fn frame_and_truth_do_not_share_their_noise() {
 #[test]
 fn one_thread_and_several_give_the_same_bytes() {
     let alone = on_threads(1);
-    // No value is NaN (it would differ from itself), so equality is of bits but for the sign of zero.
+    // No value is NaN (it would differ from itself), so equality means equal bits except for the sign of zero.
     assert_eq!(alone, on_threads(1));
     assert_eq!(alone, on_threads(2));
     assert_eq!(alone, on_threads(5));
@@ -130,7 +130,7 @@ fn another_seed_gives_other_noise() {
 }
 
 #[test]
-fn hashes_follow_everything_that_changes_pixels() {
+fn hashes_change_with_everything_that_changes_pixels() {
     let scene = busy_scene();
     let (frame, truth, ladder) = everything(&scene, &truth_settings());
     assert_eq!(
@@ -237,7 +237,7 @@ fn progress_rises_to_the_whole_and_break_cancels() {
 }
 
 #[test]
-fn settings_that_cannot_be_rendered_are_refused_with_what_is_allowed() {
+fn bad_settings_are_refused_with_the_allowed_values() {
     let scene = busy_scene();
     let message = |settings: TruthSettings| {
         trace_truth(&scene, &settings, &unwatched)

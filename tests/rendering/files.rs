@@ -13,7 +13,7 @@ use frame::{
 const WIDTH: u32 = 13;
 const HEIGHT: u32 = 7;
 
-/// Values of every magnitude, subnormal and negative ones too, so that any rounding shows.
+/// Makes values of every magnitude, subnormal and negative ones too, so that any rounding shows.
 fn plane(salt: u32) -> Plane {
     Raster::from_fn(WIDTH, HEIGHT, |x, y| {
         let mut bits = (x + 17 * y + 1009 * salt).wrapping_mul(0x9e37_79b9);
@@ -123,7 +123,7 @@ fn support() -> Support {
     }
 }
 
-/// Shutters of every kind, with numbers that short decimals cannot represent.
+/// Makes shutters of every kind, with numbers that short decimals cannot represent.
 fn profiles() -> [ShutterProfile; 3] {
     let efficiencies = [
         Efficiency::Table(vec![0.1 + 0.2, 1.0, 1.0 / 3.0]),
@@ -193,7 +193,7 @@ fn a_truth_without_a_support_is_refused_with_the_way_out() {
 }
 
 #[test]
-fn a_file_with_a_shutter_that_cannot_be_is_refused() {
+fn a_file_with_an_invalid_shutter_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("truth.exr");
     a_truth().write(&path).unwrap();
@@ -266,7 +266,7 @@ fn a_ladder_comes_back_bit_for_bit() {
 }
 
 #[test]
-fn channels_bear_the_names_that_compositors_know() {
+fn channels_have_the_names_that_compositors_use() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("frame.exr");
     a_frame().write(&path).unwrap();
@@ -302,12 +302,12 @@ fn channels_bear_the_names_that_compositors_know() {
 }
 
 #[test]
-fn a_file_cut_short_anywhere_is_refused() {
+fn a_file_truncated_anywhere_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("truth.exr");
     a_truth().write(&path).unwrap();
     let whole = fs::read(&path).unwrap();
-    // The last cut leaves out one byte only.
+    // The last cut removes only one byte.
     for length in [0, 3, 20, whole.len() / 3, whole.len() / 2, whole.len() - 1] {
         fs::write(&path, &whole[..length]).unwrap();
         let message = Truth::read(&path).unwrap_err().to_string();
@@ -333,7 +333,7 @@ fn a_picture_of_another_kind_is_refused_by_name() {
 }
 
 #[test]
-fn a_foreign_exr_is_told_what_it_lacks() {
+fn a_foreign_exr_is_refused_with_its_missing_channels() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("render.exr");
     let mut file = ExrFile::new(WIDTH, HEIGHT);
@@ -377,9 +377,9 @@ fn a_missing_file_is_named() {
 }
 
 #[test]
-fn a_failed_write_leaves_what_was_there_and_nothing_else() {
+fn a_failed_write_leaves_the_old_file_and_no_other() {
     let folder = tempfile::tempdir().unwrap();
-    // A folder of the file's name: the last step, the rename, must fail.
+    // A folder has the file's name, so that the last step, the rename, must fail.
     let path = folder.path().join("taken");
     fs::create_dir(&path).unwrap();
     fs::write(path.join("inside"), "kept").unwrap();

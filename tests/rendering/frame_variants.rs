@@ -1,4 +1,4 @@
-//! Frames as engines have them: velocity from the camera alone, colour at pixel centres, a still sky, a guard band.
+//! Frames as engines have them: velocity from only the camera, colour at pixel centres, a still sky, a guard band.
 
 use frame::{ColorSampling, Frame, FrameOptions, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
@@ -34,7 +34,7 @@ fn render_frame(scene: &Scene, settings: &FrameSettings) -> Frame {
     trace_frame(scene, settings, &unwatched).expect("allowed")
 }
 
-/// Two glowing spheres under a grey sky; the far one drifts if `moving`.
+/// Makes two glowing spheres under a grey sky; the far one drifts if `moving`.
 fn spheres_scene(moving: bool) -> Scene {
     let mut scene = empty_scene("spheres");
     scene.background = Background::Constant(Vec3::splat(0.25));
@@ -87,7 +87,7 @@ fn move_camera(mut scene: Scene) -> Scene {
 }
 
 #[test]
-fn in_a_still_world_the_camera_alone_tells_the_whole_motion() {
+fn the_camera_explains_all_motion_in_a_still_world() {
     let scene = move_camera(spheres_scene(false));
     let whole = render_frame(&scene, &with_velocity(VelocityKind::PreviousFrame));
     let rebuilt = render_frame(&scene, &with_velocity(VelocityKind::CameraOnly));
@@ -100,13 +100,13 @@ fn in_a_still_world_the_camera_alone_tells_the_whole_motion() {
     assert!(moved > 1.0, "the camera moves the picture");
     for (whole, rebuilt) in whole.velocity.pixels.iter().zip(&rebuilt.velocity.pixels) {
         let off = (whole[0] - rebuilt[0]).hypot(whole[1] - rebuilt[1]);
-        // Depth in 32-bit floats is exact to 6e-8, and velocities of a few pixels to 2e-7 pixels.
+        // Depth in 32-bit floats is exact to 6e-8, and velocities of a few pixels are exact to 2e-7 pixels.
         assert!(off < 2e-6, "{whole:?} {rebuilt:?}");
     }
 }
 
 #[test]
-fn what_moves_by_itself_stands_still_for_the_camera_alone() {
+fn moving_objects_stand_still_in_the_camera_s_velocity() {
     let rebuilt = render_frame(
         &spheres_scene(true),
         &with_velocity(VelocityKind::CameraOnly),
@@ -120,7 +120,7 @@ fn what_moves_by_itself_stands_still_for_the_camera_alone() {
 }
 
 #[test]
-fn point_sampled_colour_shows_what_is_at_the_centre() {
+fn point_sampled_colour_is_that_of_the_pixel_centre() {
     let frame = render_frame(
         &spheres_scene(true),
         &FrameSettings {
@@ -150,7 +150,7 @@ fn point_sampled_colour_shows_what_is_at_the_centre() {
 }
 
 #[test]
-fn a_sky_without_velocity_is_still_and_nothing_else_changes() {
+fn a_sky_without_velocity_is_still_and_the_rest_is_unchanged() {
     let scene = move_camera(spheres_scene(true));
     let with = render_frame(&scene, &frame_settings());
     let without = render_frame(
@@ -180,7 +180,7 @@ fn a_sky_without_velocity_is_still_and_nothing_else_changes() {
 }
 
 #[test]
-fn inside_its_guard_band_a_frame_is_the_bare_frame() {
+fn a_frame_inside_its_guard_band_equals_the_bare_frame() {
     for velocity in VelocityKind::ALL {
         let scene = move_camera(spheres_scene(true));
         let bare = render_frame(&scene, &with_velocity(velocity));
@@ -205,7 +205,7 @@ fn inside_its_guard_band_a_frame_is_the_bare_frame() {
 }
 
 #[test]
-fn the_guard_band_shows_what_a_wider_view_would() {
+fn the_guard_band_equals_a_wider_view() {
     let band = 6;
     let scene = move_camera(spheres_scene(true));
     let padded = render_frame(
@@ -238,7 +238,7 @@ fn the_guard_band_shows_what_a_wider_view_would() {
 }
 
 #[test]
-fn a_band_that_no_picture_can_have_is_refused() {
+fn a_guard_band_that_is_too_wide_is_refused() {
     let refused = trace_frame(
         &spheres_scene(false),
         &FrameSettings {

@@ -6,12 +6,12 @@ use crate::small_truths::render_truth;
 use frame::Truth;
 use glam::{DQuat, DVec3, Vec2, Vec3};
 use tests::shapes::*;
-use tests::statistics::{estimates, expect_pooled_agreement};
+use tests::statistics::{estimate_pixels, expect_pooled_agreement};
 use tracer::{Background, EnvironmentMap, Key, Material, Motion, Scene, Sun, Texture, Turn};
 
 /// Fails unless the first component agrees with one known value.
 fn expect_everywhere(what: &str, truth: &Truth, expected: f64) {
-    expect_pooled_agreement(what, &estimates(truth, |_, _| expected));
+    expect_pooled_agreement(what, &estimate_pixels(truth, |_, _| expected));
 }
 
 /// Points the camera from `eye` at `target`, with a vertical field of view in degrees.
@@ -24,7 +24,7 @@ fn look_at(scene: &mut Scene, eye: DVec3, target: DVec3, degrees: f64) {
     scene.camera.vertical_fov = vec![(0.0, degrees.to_radians())];
 }
 
-/// Pose of a rectangle or disc that faces upwards.
+/// Returns the pose of a rectangle or disc that faces upwards.
 fn facing_up(at: DVec3) -> Key {
     Key {
         translation: at,
@@ -33,8 +33,8 @@ fn facing_up(at: DVec3) -> Key {
     }
 }
 
-/// Floor at y = 0 of albedo 0.6, seen in a spot of 2 mm around the origin. There the light of a lamp 1 m above varies by less
-/// than 2e-6 of itself.
+/// Makes a floor at y = 0 of albedo 0.6, seen in a spot of 2 mm around the origin. There the light of a lamp 1 m above
+/// varies by less than 2e-6 of itself.
 fn floor_scene(name: &str) -> Scene {
     let mut scene = empty_scene(name);
     let floor = Motion::still(facing_up(DVec3::ZERO));
@@ -89,11 +89,11 @@ fn a_textured_panel_hangs_upright_and_has_its_holes() {
         let found = mean.color.at(x, y)[0];
         assert!((found - expected).abs() < 1e-6, "{found} at ({x}, {y})");
     }
-    // Interpolated alpha is below 0.5 in a square of two texels with rounded corners: 4 (0.5 + 0.75 - ln(2) / 2)
-    // of 16 texels.
+    // Interpolated alpha is below 0.5 in a square of two texels with rounded corners: 4 (0.5 + 0.75 - ln(2) / 2) of 16
+    // texels.
     let area: f64 = mean.coverage[0].pixels.iter().copied().map(f64::from).sum();
     let expected = 144.0 / 16.0 * 4.0 * (1.25 - 0.5 * 2f64.ln());
-    // Rms 0.02 in some 25 border pixels: 0.1 in the sum.
+    // Rms 0.02 in about 25 border pixels: 0.1 in the sum.
     assert!(
         (area - expected).abs() < 0.5,
         "the hole covers {area} pixels, not {expected}"
@@ -119,7 +119,7 @@ fn white_things_under_a_white_sky_cannot_be_seen() {
     let mut scene = empty_scene("white");
     scene.background = Background::Constant(Vec3::ONE);
     let away = |x: f64| DVec3::new(x, 0.0, -4.0);
-    // Smooth normals, concave corners, motion: nothing may take or give energy.
+    // Smooth normals, concave corners and motion must neither take nor give energy.
     add(
         &mut scene,
         icosphere(1.5, 1),
@@ -148,7 +148,7 @@ fn white_things_under_a_white_sky_cannot_be_seen() {
 fn a_convex_body_under_a_white_sky_has_the_radiance_of_its_albedo() {
     let mut scene = empty_scene("convex");
     scene.background = Background::Constant(Vec3::ONE);
-    // So few facets that smooth normals lean far; without sky behind, so that every pixel is the body's.
+    // With few facets smooth normals lean far. The body fills the picture, so that every pixel is the body's.
     let near = DVec3::new(0.0, 0.0, -1.3);
     let body = icosphere(1.0, 0);
     add(&mut scene, body, diffuse(0.5), spin(near, DVec3::Y, 2.0));
@@ -157,7 +157,7 @@ fn a_convex_body_under_a_white_sky_has_the_radiance_of_its_albedo() {
 }
 
 #[test]
-fn a_smooth_normal_shades_and_moves_as_a_normal() {
+fn a_smooth_normal_shades_and_transforms_as_a_normal() {
     let mut scene = floor_scene("smooth");
     let normal = Vec3::new(0.3, 0.2, 1.0).normalize();
     scene.meshes[0].normals = vec![normal; 4];
@@ -175,14 +175,15 @@ fn a_smooth_normal_shades_and_moves_as_a_normal() {
     expect_everywhere("smooth", &render_truth(&scene, 16), expected);
 }
 
-/// Irradiance over pi, times albedo, below the centre of a parallel disc of radiance 1 (radius / height = `ratio`).
+/// Returns irradiance over pi, times albedo, below the centre of a parallel disc of radiance 1 (radius / height =
+/// `ratio`).
 fn under_disc(albedo: f64, ratio: f64) -> f64 {
     albedo * ratio * ratio / (1.0 + ratio * ratio)
 }
 
 #[test]
 fn a_floor_under_a_glowing_disc_has_the_radiance_of_its_form_factor() {
-    // From where the light samples win (small) to where the lobe's do (large).
+    // From small lamps, where light samples weigh most, to large ones, where the lobe's samples do.
     for radius in [0.02, 0.5, 4.0] {
         let mut scene = floor_scene("disc");
         let lamp = Motion::still(facing_up(DVec3::new(0.0, 1.0, 0.0)));
@@ -277,7 +278,7 @@ fn a_sun_with_a_disc_is_seen_and_a_point_is_not() {
     expect_everywhere("disc", &render_truth(&scene, 16), radiance);
 }
 
-/// Environment map of `sky` in 128 x 64 texels.
+/// Makes an environment map of `sky` in 128 x 64 texels.
 fn image_of(sky: &Background) -> Background {
     let (width, height) = (128, 64);
     let texel = |at: u32| {
@@ -298,11 +299,12 @@ fn image_of(sky: &Background) -> Background {
 }
 
 #[test]
-fn an_image_of_a_sky_lights_as_the_sky_does() {
+fn an_image_of_a_sky_lights_like_the_sky() {
     let level = |brightness| Vec3::splat(brightness);
     for (sky, expected) in [
         (Background::Constant(level(1.0)), 0.6),
-        // Even and uneven: met by chance, and drawn as a light. The mean of the height over the cosine lobe is 2/3.
+        // Even and uneven skies: one is met by chance, the other sampled as a light. The mean of the height over the
+        // cosine lobe is 2/3.
         (
             Background::Gradient {
                 ground: level(1.0),
@@ -325,7 +327,7 @@ fn an_image_of_a_sky_lights_as_the_sky_does() {
         let mean = render_truth(&scene, 4096).mean().color;
         let sum: f64 = mean.pixels.iter().map(|pixel| f64::from(pixel[0])).sum();
         let found = sum / mean.pixels.len() as f64;
-        // Interpolation between rows of 3 degrees rounds the horizon's kink off: some 5e-4 of the brightest level.
+        // Interpolation between rows of 3 degrees smooths the horizon's kink: about 5e-4 of the brightest level.
         assert!((found - expected).abs() < 2e-3, "{found} {expected}");
     }
 }
@@ -359,8 +361,8 @@ fn a_small_bright_sun_in_an_image_is_found() {
         .sum();
     let truth = render_truth(&scene, 1024);
     expect_everywhere("sun in an image", &truth, 0.6 * irradiance / PI);
-    // Unsampled it would be met by one path in 500, with a deviation of 20 times its mean.
-    let worst = estimates(&truth, |_, _| 0.0)
+    // Without light samples, one path in 500 would meet it, with a deviation of 20 times its mean.
+    let worst = estimate_pixels(&truth, |_, _| 0.0)
         .iter()
         .map(|estimate| estimate.error)
         .fold(0.0, f64::max);

@@ -6,7 +6,7 @@ use tests::random::Numbers;
 use tests::shapes::*;
 use tracer::{Interpolation, Key, Motion, Object, Parent, Scene, Turn};
 
-/// Scene of `count` objects of one mesh, each with its own motion; every third has another as its parent.
+/// Makes a scene of `count` objects of one mesh, each with its own motion; every third has another as its parent.
 fn swarm(count: usize) -> Scene {
     let mut numbers = Numbers(8 << 32);
     let mut scene = empty_scene("swarm");
@@ -55,16 +55,16 @@ fn swarm(count: usize) -> Scene {
 }
 
 #[test]
-fn rays_hit_four_hundred_objects_of_one_mesh_as_brute_force_says() {
+fn rays_at_four_hundred_objects_of_one_mesh_agree_with_brute_force() {
     let scene = swarm(400);
     expect_what_every_triangle_gives(&scene, [-0.9, 0.5], 10.0, 600);
 }
 
 #[test]
-fn rays_hit_still_objects_among_moving_ones_as_brute_force_says() {
+fn rays_at_still_objects_among_moving_ones_agree_with_brute_force() {
     let mut scene = swarm(60);
     for (index, object) in scene.objects.iter_mut().enumerate() {
-        // Some still objects have moving parents, and the other way round.
+        // Some still objects have moving parents, and some moving objects have still ones.
         if index % 5 < 3 {
             object.motion.keys.truncate(1);
         }
@@ -74,7 +74,7 @@ fn rays_hit_still_objects_among_moving_ones_as_brute_force_says() {
             (object.motion.keys.iter_mut()).for_each(|key| key.scale = scale);
         }
     }
-    // An object of the same mesh that is all hole.
+    // An object of the same mesh whose texture is one hole.
     let mut hole = glowing(1.0);
     hole.opacity = 0.0;
     scene.materials.push(hole);
@@ -82,6 +82,6 @@ fn rays_hit_still_objects_among_moving_ones_as_brute_force_says() {
         scene.objects[index].materials = vec![1];
     }
     expect_what_every_triangle_gives(&scene, [-0.9, 0.5], 8.0, 3000);
-    // At one time all stand still.
+    // At one time, all objects stand still.
     expect_what_every_triangle_gives(&scene, [-0.4, -0.4], 8.0, 1000);
 }

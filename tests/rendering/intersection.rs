@@ -1,4 +1,4 @@
-//! Rays against triangles: no holes, no leaks, nothing lost, at every scale.
+//! Rays against triangles: no holes, no leaks and no misses at any scale.
 
 use glam::{DQuat, DVec3, Vec3};
 use rayon::prelude::*;
@@ -90,10 +90,10 @@ fn a_closed_sphere_does_not_leak_at_its_edges_and_vertices() {
     {
         let [a, b, c] = triangle.map(|index| mesh.positions[index as usize].as_dvec3());
         for target in [a, b, c, 0.5 * (a + b), 0.3 * b + 0.7 * c, 0.9 * c + 0.1 * a] {
-            // From inside, and from far outside: the near side must stop the ray.
+            // From inside, and from far outside, where the near side must stop the ray.
             for (start, most) in [(0.4, 1.01), (1000.0, 1.0 + 1e-9)] {
                 let inner = start * numbers.vector().normalize();
-                // What is seen edge-on belongs to the silhouette, which rounding may miss.
+                // Edge-on triangles belong to the silhouette, which rounding may miss.
                 if start > 1.0 && inner.normalize().dot(target.normalize()) < 0.2 {
                     continue;
                 }
@@ -138,8 +138,8 @@ fn ten_million_rays_at_edges_and_vertices_do_not_leak() {
                 2 => 0.5 * (a + b),
                 _ => a + 0.5 * (1.0 + numbers.next()) * (b - a),
             };
-            // From inside, whence every way out is stopped; and from outside towards the near side, which must stop the
-            // ray at the target. What is seen edge-on belongs to the silhouette, which rounding may miss.
+            // From inside, where every way out must be stopped; and from outside towards the near side, which must stop
+            // the ray at the target. Edge-on triangles belong to the silhouette, which rounding may miss.
             let inside = index % 2 == 0;
             let origin = if inside {
                 0.5 * numbers.vector()
@@ -148,7 +148,7 @@ fn ten_million_rays_at_edges_and_vertices_do_not_leak() {
             };
             let direction = target - origin;
             let ray = Ray { origin, direction };
-            // Every way to search; the mesh is within 1e-4 of a sphere.
+            // Every search method; the mesh is within 1e-4 of a sphere.
             for stage in &stages {
                 let hit = stage.closest(&mut poses, &ray).expect("no leak");
                 assert!(hit.t < 1.0 + 1e-9, "ray {index}: hit at {}", hit.t);
@@ -173,7 +173,7 @@ fn a_convex_surface_never_meets_its_own_rays_from_1_mm_to_10_km() {
         let ball = icosphere(radius as f32, 3);
         let at = DVec3::new(offset, 0.3 * offset, -0.7 * offset);
         add(&mut scene, ball, diffuse(0.5), placed(at));
-        // 90 degrees high, closer than the radius: nothing but the ball is in view.
+        // 90 degrees high, closer than the radius: only the ball is in view.
         scene.camera.motion = placed(at + DVec3::new(0.0, 0.0, 1.1 * radius));
         let settings = TruthSettings {
             width: 24,
@@ -185,7 +185,7 @@ fn a_convex_surface_never_meets_its_own_rays_from_1_mm_to_10_km() {
         let truth = trace_truth(&scene, &settings, &unwatched).expect("settings are allowed");
         for half in &truth.halves {
             for pixel in &half.color.pixels {
-                // Every path is scattered once and leaves; one that met the surface again would lose half its light, a
+                // Every path scatters once and leaves. A path that met the surface again would lose half its light, a
                 // part of 1 / 64 of the pixel.
                 assert!(
                     pixel.iter().all(|part| (part - 0.5).abs() < 1e-6),
@@ -196,7 +196,7 @@ fn a_convex_surface_never_meets_its_own_rays_from_1_mm_to_10_km() {
     }
 }
 
-/// Ridges and pits on a square that faces +Z; the normal of every facet has the cosine 2 / sqrt(6) to +Z.
+/// Makes ridges and pits on a square that faces +Z; the normal of every facet has the cosine 2 / sqrt(6) to +Z.
 fn egg_crate(side: f32) -> Mesh {
     const CELLS: u32 = 24;
     let cell = side / CELLS as f32;
@@ -242,7 +242,7 @@ fn pits_are_lit_to_their_bottom_from_1_mm_to_10_km() {
             diffuse(albedo),
             placed(at),
         );
-        // 90 degrees high: the picture's corners see the field's.
+        // 90 degrees high: the picture's corners see the field's corners.
         scene.camera.motion = placed(at + DVec3::new(0.0, 0.0, 0.45 * side));
         scene.sun = Some(Sun {
             direction: DVec3::Z,
@@ -305,7 +305,7 @@ fn the_nearest_of_three_overlapping_objects_wins_in_every_order() {
 }
 
 #[test]
-fn of_equally_near_surfaces_the_first_is_seen() {
+fn the_first_of_equally_near_surfaces_is_seen() {
     let coincident = |mirror: [f64; 2]| {
         let mut scene = empty_scene("ties");
         for z in mirror {
@@ -334,7 +334,7 @@ fn of_equally_near_surfaces_the_first_is_seen() {
             let hit = stage.closest(&mut stage.poses(), &ray).expect("aimed at");
             assert_eq!((hit.object, hit.t), (0, 2.0));
         }
-        // On the diagonal both triangles are met: the first is seen.
+        // A ray on the diagonal meets both triangles, and the first one is seen.
         let ray = Ray {
             origin: DVec3::new(0.5, 0.5, 2.0),
             direction: DVec3::NEG_Z,
@@ -344,7 +344,7 @@ fn of_equally_near_surfaces_the_first_is_seen() {
     }
 }
 
-/// Scene of meshes of every kind in every motion; `scale` multiplies all sizes and distances.
+/// Makes meshes of every kind in every motion; `scale` multiplies all sizes and distances.
 fn crowd(scale: f64) -> Scene {
     let mut numbers = Numbers(6 << 32);
     let mut scene = empty_scene("crowd");
@@ -389,7 +389,7 @@ fn crowd(scale: f64) -> Scene {
 }
 
 #[test]
-fn the_trees_find_what_brute_force_finds() {
+fn the_trees_agree_with_brute_force() {
     for scale in [1e-4, 1e-2, 1.0, 1e3] {
         let scene = crowd(scale);
         expect_what_every_triangle_gives(&scene, [-0.8, 0.7], 3.0 * scale, 4000);

@@ -4,7 +4,7 @@ use crate::small_truths::render_truth;
 use frame::Truth;
 use glam::{DQuat, DVec3, Vec3};
 use tests::shapes::*;
-use tests::statistics::estimates;
+use tests::statistics::estimate_pixels;
 use tracer::{Background, Finish, Key, Material, Motion, Scene};
 
 const GLOSSY: [Finish; 6] = [
@@ -32,13 +32,13 @@ fn glossy(finish: Finish, color: f32) -> Material {
     }
 }
 
-/// Mean over the picture of the first component.
+/// Returns the mean of the first component over the picture.
 fn mean(truth: &Truth) -> f64 {
     let pixels = &truth.mean().color.pixels;
     pixels.iter().map(|pixel| f64::from(pixel[0])).sum::<f64>() / pixels.len() as f64
 }
 
-/// Turning sphere of few facets with smooth normals under `sky`, so near that it fills the picture.
+/// Makes a turning sphere of few facets with smooth normals under `sky`, so near that it fills the picture.
 fn sphere_scene(finish: Finish, color: f32, sky: Background) -> Scene {
     let mut scene = empty_scene("sphere");
     scene.background = sky;
@@ -54,7 +54,7 @@ fn sphere_scene(finish: Finish, color: f32, sky: Background) -> Scene {
     scene
 }
 
-/// Floor at y = 0, with one small spot seen at a slope of 1 to 2.
+/// Makes a floor at y = 0, with one small spot seen at a slope of 1 to 2.
 fn floor_scene(finish: Finish, color: f32, sky: Background) -> Scene {
     let mut scene = empty_scene("floor");
     scene.background = sky;
@@ -104,7 +104,7 @@ fn a_mirror_shows_the_sky_that_it_faces() {
         1.0,
         heights(9.0, 0.0, 1.0),
     );
-    let found = estimates(&render_truth(&scene, 64), |_, _| 0.2_f64.sqrt());
+    let found = estimate_pixels(&render_truth(&scene, 64), |_, _| 0.2_f64.sqrt());
     for estimate in &found {
         // The spot is 1e-4 radians high.
         assert!((estimate.value - 0.2_f64.sqrt()).abs() < 1e-4);
@@ -112,7 +112,7 @@ fn a_mirror_shows_the_sky_that_it_faces() {
 }
 
 #[test]
-fn a_black_surface_below_a_smooth_coat_shows_what_fresnel_s_equations_say() {
+fn a_black_surface_below_a_smooth_coat_follows_fresnel_s_equations() {
     let coat = Finish::Coated {
         roughness: 0.0,
         index: 1.5,
@@ -140,9 +140,9 @@ fn a_metal_seen_straight_on_has_its_own_colour() {
     assert!((found - 0.3).abs() < 1e-6, "{found}");
 }
 
-/// A sky bright above is sampled as a light, and so is one bright below; their sum is even and is not.
+/// A sky that is bright above is sampled as a light, and so is one bright below. Their sum is even, so it is not.
 #[test]
-fn light_that_is_drawn_and_light_that_is_met_add_up_alike() {
+fn sampled_light_and_light_met_by_chance_agree() {
     for finish in GLOSSY {
         let [above, below] = [heights(0.0, 0.0, 1.0), heights(1.0, 1.0, 0.0)];
         let sum: f64 = [above, below]

@@ -19,7 +19,7 @@ fn draw_vector(counter: &mut u64) -> DVec3 {
     DVec3::from_array(std::array::from_fn(|_| draw_number(counter)))
 }
 
-/// Motion through keys at uneven times, with turns of up to `turn` radians about random axes.
+/// Makes a motion through keys at uneven times, with turns of up to `turn` radians about random axes.
 fn random_motion(counter: &mut u64, interpolation: Interpolation, turn: f64) -> Motion {
     let mut orientation = DQuat::IDENTITY;
     let keys = [-1.3, -1.0, 0.0, 0.2, 0.9].map(|time| {
@@ -43,7 +43,7 @@ fn random_motion(counter: &mut u64, interpolation: Interpolation, turn: f64) -> 
     }
 }
 
-/// Motion through keys at given times, with known translations and scales.
+/// Makes a motion through keys at given times, with known translations and scales.
 fn keys(times: &[f64], place: impl Fn(f64) -> DVec3, scale: impl Fn(f64) -> DVec3) -> Motion {
     Motion {
         keys: times
@@ -60,7 +60,7 @@ fn keys(times: &[f64], place: impl Fn(f64) -> DVec3, scale: impl Fn(f64) -> DVec
 }
 
 #[test]
-fn keys_on_a_parabola_give_it_back() {
+fn keys_on_a_parabola_reproduce_it() {
     let parabola = |time: f64| {
         DVec3::new(1.0, 2.0, 3.0)
             + time * DVec3::new(0.5, -0.7, 0.1)
@@ -83,9 +83,9 @@ fn keys_on_a_parabola_give_it_back() {
 }
 
 #[test]
-fn turns_about_one_axis_are_cubic_angles_however_many() {
+fn turns_about_one_axis_are_cubic_in_angle_for_any_number_of_turns() {
     let axis = DVec3::new(0.48, 0.6, 0.64);
-    // Six turns and more between keys, ever faster.
+    // Six or more turns between keys, at rising speed.
     let angle = |time: f64| 40.0 * time + 25.0 * time * time;
     let times = [-1.0, 0.0, 0.3, 1.0];
     let motion = Motion {
@@ -143,7 +143,7 @@ fn a_motion_passes_through_its_keys() {
     }
 }
 
-/// Velocity of a point just before and just after a time, metres per frame.
+/// Returns the velocity of a point just before and just after a time, in metres per frame.
 fn velocities(motion: &Motion, time: f64) -> [DVec3; 2] {
     let at = |time: f64| motion.at(time).transform_point3(DVec3::new(0.3, -0.4, 0.5));
     [-1e-5, 1e-5]
@@ -159,7 +159,7 @@ fn a_cubic_motion_has_one_velocity_at_each_key_and_a_linear_one_two() {
                 .map(|interpolation| random_motion(&mut counter, interpolation, turn));
             for key in &cubic.keys {
                 let [before, after] = velocities(&cubic, key.time);
-                // The third derivative, up to 400^3 where 20 radians pass in 0.2 frames, times the step squared.
+                // The third derivative, up to 400^3 where 20 radians pass in 0.2 frames, times the squared step.
                 let tolerance = 1e-6 + 1e-10 * (turn / 0.05).powi(3);
                 assert!(before.distance(after) < tolerance, "{before} and {after}");
             }
@@ -172,7 +172,7 @@ fn a_cubic_motion_has_one_velocity_at_each_key_and_a_linear_one_two() {
 }
 
 #[test]
-fn beyond_its_keys_a_motion_goes_on_at_the_velocity_it_has_there() {
+fn a_motion_continues_at_constant_velocity_beyond_its_keys() {
     let mut counter = 3 << 32;
     for interpolation in [Interpolation::Linear, Interpolation::Cubic] {
         let mut motion = random_motion(&mut counter, interpolation, 1.0);

@@ -32,7 +32,7 @@ pub fn render_truth(scene: &Scene, alignment: Alignment) -> Truth {
     trace_truth(scene, &truth_settings(alignment), &unwatched).expect("settings are allowed")
 }
 
-/// Lower left corner of a pixel, y up.
+/// Returns the lower left corner of a pixel, y up.
 pub fn pixel_corner(x: u32, y: u32) -> DVec2 {
     DVec2::new(
         f64::from(x) - 0.5 * f64::from(WIDTH),

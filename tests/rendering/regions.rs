@@ -1,6 +1,4 @@
-//! Regions, which depend on scene, shutter and size but on no noise of a truth.
-
-use std::path::Path;
+//! Regions, which depend on scene, shutter and size but not on a truth's noise.
 
 use frame::{Replicate, Truth, TruthError};
 use metrics::{Region, Regions, measure, regions};
@@ -9,8 +7,7 @@ use tests::unwatched;
 use tracer::{TruthSettings, TruthTracer, load_scene, trace_truth};
 
 fn load_shipped(name: &str) -> tracer::Scene {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
-    load_scene(&folder.join(name), None).unwrap()
+    load_scene(&tests::scenes().join(name), None).unwrap()
 }
 
 fn truth_settings(samples_per_pixel: u32, replicates: u32, seed: u64) -> TruthSettings {
@@ -44,7 +41,7 @@ fn regions_depend_on_no_seed_no_samples_and_no_replicates() {
 }
 
 #[test]
-fn the_support_holds_nearly_all_that_a_truth_sees() {
+fn the_support_holds_nearly_all_coverage_of_a_truth() {
     for name in ["two_spheres", "fan", "wires"] {
         let truth =
             trace_truth(&load_shipped(name), &truth_settings(1024, 2, 1), &unwatched).unwrap();
@@ -59,7 +56,7 @@ fn the_support_holds_nearly_all_that_a_truth_sees() {
                 .iter()
                 .map(|matte| f64::from(*matte))
                 .sum();
-            // 64 rays miss half of what covers a part in 100 of a pixel; wires are worst, by 0.24 %.
+            // 64 rays miss half of the objects that cover a hundredth of a pixel. Wires are worst, with 0.24 %.
             assert!(
                 missed <= 0.005 * all + 0.01,
                 "{name}, object {object}: misses {missed} of {all}"
@@ -69,7 +66,7 @@ fn the_support_holds_nearly_all_that_a_truth_sees() {
 }
 
 #[test]
-fn a_support_that_differs_between_replicates_makes_no_truth() {
+fn replicates_with_different_supports_are_refused() {
     let scene = load_shipped("two_spheres");
     let tracer = TruthTracer::new(&scene, &truth_settings(16, 2, 1)).unwrap();
     let mut replicates: Vec<Replicate> = (0..2)

@@ -12,7 +12,7 @@ use tracer::{
     Interpolation, Key, Motion, Scene, TraceError, replicate_hash, trace_ladder, trace_truth,
 };
 
-/// White half-plane on black whose edge lies `along(t)` pixels from the centre in the direction of `normal`.
+/// Makes a white half-plane on black whose edge lies `along(t)` pixels from the centre in the direction of `normal`.
 fn half_plane_scene(normal: DVec2, times: &[f64], along: impl Fn(f64) -> f64) -> Scene {
     let mut scene = empty_scene("shutter");
     let key = |&time: &f64| {
@@ -32,7 +32,7 @@ fn half_plane_scene(normal: DVec2, times: &[f64], along: impl Fn(f64) -> f64) ->
     scene
 }
 
-/// Efficiency, and its value at a part of the interval, written out by hand.
+/// Efficiency, and its formula over the parts of the interval.
 type Curve = (Efficiency, fn(f64) -> f64);
 
 const TABLE: [f64; 4] = [0.2, 1.0, 0.0, 0.7];
@@ -56,8 +56,8 @@ fn curves() -> Vec<Curve> {
     ]
 }
 
-/// Mean of `value` over the shutter, weighted by `weight` of the part of the interval. The midpoint rule errs by less than
-/// 1e-7 where the weights have corners.
+/// Returns the mean of `value` over the shutter, weighted by `weight` of the part of the interval. The midpoint rule
+/// errs by less than 1e-7 where the weights have corners.
 fn weighted_mean(shutter: Shutter, weight: fn(f64) -> f64, value: impl Fn(f64) -> f64) -> f64 {
     const STEPS: u32 = 6000;
     let (mut sum, mut total) = (0.0, 0.0);
@@ -89,7 +89,7 @@ fn a_ramp_is_the_integral_of_the_efficiency() {
 }
 
 #[test]
-fn braking_inside_a_gradual_shutter_covers_what_the_parabola_says() {
+fn braking_inside_a_gradual_shutter_follows_its_parabola() {
     let normal = DVec2::from_angle(0.4);
     let along = |time: f64| -3.0 - 2.0 * time - 20.0 * time * time;
     for (efficiency, weight) in [
@@ -134,7 +134,7 @@ fn a_rolling_shutter_shifts_each_row_in_time() {
 }
 
 #[test]
-fn sub_frames_lie_at_the_middles_of_equal_light() {
+fn sub_frames_lie_at_the_middles_of_equal_parts_of_light() {
     let mut scene = half_plane_scene(DVec2::X, &[-1.0, 1.0], |time| SPEED * time);
     scene.shutter_profile = ShutterProfile {
         efficiency: Efficiency::Trapezoid {
@@ -157,7 +157,7 @@ fn sub_frames_lie_at_the_middles_of_equal_light() {
             let time = truth.shutter.at(part) + later;
             area(pixel_corner(x, row), DVec2::X, SPEED * time)
         });
-        // Pixels that an edge cuts have noise.
+        // Pixels on an edge have noise.
         if areas.iter().all(|area| area.fract() == 0.0) {
             assert_eq!(
                 f64::from(*found.at(x, row)),
@@ -191,7 +191,7 @@ fn motion_while_only_late_rows_are_open_counts() {
 }
 
 #[test]
-fn the_hash_of_a_truth_follows_its_shutter() {
+fn the_hash_of_a_truth_depends_on_its_shutter() {
     let scene = half_plane_scene(DVec2::X, &[-1.0, 1.0], |time| time);
     let hash = |change: fn(&mut ShutterProfile)| {
         let mut scene = scene.clone();
@@ -207,7 +207,7 @@ fn the_hash_of_a_truth_follows_its_shutter() {
 }
 
 #[test]
-fn shutters_that_cannot_be_are_refused() {
+fn invalid_shutters_are_refused() {
     let trapezoid = |rise, fall| Efficiency::Trapezoid { rise, fall };
     let table = |values: &[f64]| Efficiency::Table(values.to_vec());
     for (efficiency, error) in [

@@ -1,4 +1,4 @@
-//! Small truths of scenes whose picture is even.
+//! Small truths of scenes with even pictures.
 
 use frame::{Alignment, Truth};
 use tests::unwatched;

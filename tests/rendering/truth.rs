@@ -3,7 +3,9 @@
 use frame::{Alignment, FAR_DEPTH, Frame, Truth};
 use glam::{DVec3, Vec3};
 use tests::shapes::*;
-use tests::statistics::{coverage_estimates, estimates, expect_agreement, expect_pooled_agreement};
+use tests::statistics::{
+    coverage_estimates, estimate_pixels, expect_agreement, expect_pooled_agreement,
+};
 use tests::unwatched;
 use tracer::{
     Background, FrameSettings, Motion, Parent, Scene, Sun, TruthSettings, trace_frame,
@@ -44,7 +46,7 @@ fn render_frame(scene: &Scene) -> Frame {
     trace_frame(scene, &settings, &unwatched).expect("allowed")
 }
 
-/// Tall white slab that moves to the right through the centre at `t = 0`; `speed` is in pixels per frame.
+/// Makes a tall white slab that moves right through the centre at `t = 0`; `speed` is in pixels per frame.
 fn slab_scene(speed: f64) -> Scene {
     let mut scene = empty_scene("slab");
     let motion = drift(DVec3::new(0.0, 0.0, -DISTANCE), speed * DVec3::X);
@@ -57,7 +59,7 @@ fn slab_scene(speed: f64) -> Scene {
     scene
 }
 
-/// Centroid and variance along x of an object's coverage, in pixels from the picture's centre.
+/// Returns the centroid and variance along x of an object's coverage, in pixels from the picture's centre.
 fn spread(truth: &Truth) -> (f64, f64) {
     let coverage = &truth.mean().coverage[1];
     let mut moments = [0.0; 3];
@@ -104,7 +106,7 @@ fn the_truth_of_a_still_scene_is_its_frame() {
     let truth = render_truth(&scene, 1.0, Alignment::Trailing);
     let frame = render_frame(&scene);
     // The frame has as many samples as the truth, in one set, and so at most its noise.
-    let mut against_frame = estimates(&truth, |x, y| f64::from(frame.color.at(x, y)[0]));
+    let mut against_frame = estimate_pixels(&truth, |x, y| f64::from(frame.color.at(x, y)[0]));
     for estimate in &mut against_frame {
         estimate.error *= std::f64::consts::SQRT_2;
     }
@@ -113,7 +115,7 @@ fn the_truth_of_a_still_scene_is_its_frame() {
     for halves in [0, 1, 2, 3] {
         for (pixel, coverage) in frame.coverage[halves].pixels.iter().enumerate() {
             let of_truth = truth.mean().coverage[halves].pixels[pixel];
-            // Edges of still things: rms 0.005 at 512 samples (measured), the largest of 864 pixels four times that.
+            // Edges of still things: rms 0.005 at 512 samples (measured); the largest of 864 pixels is four times that.
             assert!((coverage - of_truth).abs() < 0.03);
         }
     }
@@ -124,7 +126,7 @@ fn half_the_exposure_gives_half_the_smear() {
     let scene = slab_scene(SPEED);
     for exposure in [1.0, 0.5] {
         let (_, variance) = spread(&render_truth(&scene, exposure, Alignment::Centred));
-        // The smear, the slab and the pixel are three boxes: their variances add, each its width squared over 12.
+        // The smear, the slab and the pixel are three boxes. Their variances add, each its squared width over 12.
         let smear = (12.0 * variance - SLAB * SLAB - 1.0).sqrt();
         // Noise of the second moment: 2e-4 of it.
         assert!(
@@ -154,7 +156,7 @@ fn the_smear_lies_on_the_shutter_s_side() {
 
 #[test]
 fn trailing_mirrored_in_time_is_leading() {
-    // Turning and moving, so that the way back is the way there.
+    // The object turns and moves, so that time reversed differs from time.
     let mut scene = empty_scene("there");
     let mut motion = drift(DVec3::new(0.0, 0.0, -DISTANCE), SPEED * DVec3::X);
     let turn = spin(DVec3::ZERO, DVec3::Z, 1.5);
@@ -169,7 +171,7 @@ fn trailing_mirrored_in_time_is_leading() {
         motion.clone(),
     );
     let mut back = scene.clone();
-    back.objects[0].motion = mirrored_in_time(&motion);
+    back.objects[0].motion = mirror_in_time(&motion);
     let trailing = render_truth(&scene, 0.7, Alignment::Trailing);
     let leading = render_truth(&back, 0.7, Alignment::Leading);
     let mut between = coverage_estimates(&trailing, |x, y| {
@@ -183,8 +185,8 @@ fn trailing_mirrored_in_time_is_leading() {
     assert!(spread(&unmirrored).0 > 2.0 && spread(&leading).0 < -2.0);
 }
 
-/// The motion whose pose at `t` is the given one's at `-t`; keys at 0 and 1.
-fn mirrored_in_time(motion: &Motion) -> Motion {
+/// Returns the motion whose pose at `t` is the given one's at `-t`; keys at 0 and 1.
+fn mirror_in_time(motion: &Motion) -> Motion {
     let [start, end] = [&motion.keys[0], &motion.keys[1]];
     let mut back = motion.clone();
     back.keys[1].translation = 2.0 * start.translation - end.translation;
@@ -205,7 +207,8 @@ fn halves_are_independent() {
         &unwatched,
     )
     .expect("allowed");
-    // The slab's smear is a trapezoid: the same in every row, and a row's mean its exact value to 1/4 of the noise.
+    // The slab's smear is a trapezoid that is equal in every row. The mean over rows gives its exact value, with 1/4 of
+    // the noise.
     let errors = |coverage: &frame::Plane| -> Vec<f64> {
         let mut errors = Vec::new();
         for x in 0..WIDTH {
@@ -233,7 +236,7 @@ fn halves_are_independent() {
 }
 
 #[test]
-fn a_ladder_s_rungs_are_means_of_midpoint_instants() {
+fn a_ladder_s_rungs_average_midpoint_instants() {
     let scene = slab_scene(SPEED);
     let settings = truth_settings(1.0, Alignment::Leading);
     let truth = trace_truth(&scene, &settings, &unwatched).expect("allowed");
@@ -267,9 +270,9 @@ fn a_ladder_s_rungs_are_means_of_midpoint_instants() {
 }
 
 #[test]
-fn a_ladder_is_the_truth_where_nothing_moves_and_costs_no_more() {
+fn a_ladder_equals_the_truth_at_still_pixels_and_costs_no_more() {
     let mut scene = slab_scene(2.0);
-    // Columns 13.2 to 18.4: its left edge is out of reach of what moves, its right edge within.
+    // Columns 13.2 to 18.4: the moving slab does not reach the left edge, but reaches the right one.
     let panel = placed(DVec3::new(-8.2, 0.1, -DISTANCE));
     add(&mut scene, rectangle(5.2, 30.0), glowing(0.5), panel);
     let settings = truth_settings(1.0, Alignment::Trailing);
@@ -300,14 +303,14 @@ fn a_ladder_is_the_truth_where_nothing_moves_and_costs_no_more() {
 }
 
 #[test]
-fn motion_is_that_of_what_moves_on_screen() {
+fn the_motion_mask_is_the_coverage_of_objects_that_move_on_screen() {
     let mut scene = slab_scene(SPEED);
     let still = placed(DVec3::new(-15.0, 0.0, -DISTANCE));
     add(&mut scene, rectangle(4.0, 4.0), glowing(1.0), still);
     let dashboard = placed(DVec3::new(15.0, 0.0, -DISTANCE));
     let index = add(&mut scene, rectangle(4.0, 4.0), glowing(1.0), dashboard);
     scene.objects[index].parent = Parent::Camera;
-    // Camera still; moving along; turning.
+    // Camera still, moving along, turning.
     let expectations = [
         (placed(DVec3::ZERO), [false, true, false, false]),
         (

@@ -1,4 +1,4 @@
-//! Velocity and depth, against formulas written out by hand.
+//! Velocity and depth, against formulas.
 
 use frame::{FAR_DEPTH, Frame, FrameOptions, VelocityKind};
 use glam::{DQuat, DVec2, DVec3, Vec3};
@@ -27,7 +27,7 @@ fn render_frame(scene: &Scene, velocity: VelocityKind) -> Frame {
     trace_frame(scene, &settings, &unwatched).expect("allowed")
 }
 
-/// Centre of a pixel, in pixels from the picture's centre, +x right, +y **up**.
+/// Returns the centre of a pixel, in pixels from the picture's centre, +x right, +y **up**.
 fn pixel_center(x: u32, y: u32) -> DVec2 {
     DVec2::new(
         f64::from(x) + 0.5 - 0.5 * f64::from(WIDTH),
@@ -35,12 +35,12 @@ fn pixel_center(x: u32, y: u32) -> DVec2 {
     )
 }
 
-/// Point that a camera at rest at the origin sees at a place and depth.
+/// Returns the point that a camera at rest at the origin sees at a place and depth.
 fn point_at(place: DVec2, depth: f64) -> DVec3 {
     DVec3::new(place.x * depth / FOCAL, place.y * depth / FOCAL, -depth)
 }
 
-/// Place at which a camera at rest at the origin sees a point, in pixels from the centre, y up.
+/// Returns the place at which a camera at rest at the origin sees a point, in pixels from the centre, y up.
 fn project(point: DVec3) -> DVec2 {
     FOCAL * DVec2::new(point.x, point.y) / -point.z
 }
@@ -75,7 +75,7 @@ fn expect_velocities(
     expect_velocity("previous", &render(VelocityKind::PreviousFrame), previous);
 }
 
-/// Scene of a wall that fills the view, `depth` metres away at `t = 0`.
+/// Makes a wall that fills the view, `depth` metres away at `t = 0`.
 fn wall_scene(depth: f64, motion_at: impl Fn(DVec3) -> Motion) -> Scene {
     let mut scene = empty_scene("wall");
     let motion = motion_at(DVec3::new(0.0, 0.0, -depth));
@@ -91,7 +91,7 @@ fn a_translated_wall_moves_by_perspective() {
     expect_velocities(
         &scene,
         |place| {
-            // d/dt of focal x / depth, the depth shrinking by velocity.z.
+            // d/dt of focal x / depth, where the depth shrinks by velocity.z.
             (FOCAL * DVec2::new(velocity.x, velocity.y) + place * velocity.z) / depth
         },
         |place| place - project(point_at(place, depth) - velocity),
@@ -167,7 +167,7 @@ fn a_pan_moves_near_and_infinite_things_alike() {
     let wall = wall_scene(4.0, placed);
     for mut scene in [wall, empty_scene("background")] {
         scene.camera.motion = spin(DVec3::ZERO, DVec3::Y, rate);
-        // The camera turns to the left, so that pictures move to the right.
+        // The camera turns left, so that pictures move right.
         expect_velocities(
             &scene,
             |place| {
@@ -202,14 +202,14 @@ fn a_zoom_scales_the_picture_by_the_focal_length() {
     expect_velocities(
         &scene,
         |place| {
-            // d/dt of 1 / tan(angle / 2) at 45 degrees, the angle shrinking by 0.1 per frame.
+            // d/dt of 1 / tan(angle / 2) at 45 degrees, where the angle shrinks by 0.1 per frame.
             place * 0.1
         },
         |place| place * (1.0 - 1.0 / (0.5 * (half_pi + 0.1)).tan()),
     );
 }
 
-/// Cubic motion through keys at -1, 0 and 1, with places and angles about one axis.
+/// Makes a cubic motion through keys at -1, 0 and 1, with places and angles about one axis.
 fn smooth_motion(axis: DVec3, angle: impl Fn(f64) -> f64, place: impl Fn(f64) -> DVec3) -> Motion {
     let key = |time: f64| Key {
         time,
@@ -241,7 +241,7 @@ fn a_braking_dolly_has_the_speed_of_its_parabola() {
 }
 
 #[test]
-fn pans_and_rolls_that_gather_speed_have_the_rate_of_the_instant() {
+fn accelerating_pans_and_rolls_have_the_rate_of_the_instant() {
     let (rate, growth) = (0.2, 0.05);
     for axis in [DVec3::Y, DVec3::Z, DVec3::new(0.6, 0.0, 0.8)] {
         let wall = wall_scene(4.0, placed);
@@ -260,7 +260,7 @@ fn pans_and_rolls_that_gather_speed_have_the_rate_of_the_instant() {
     }
 }
 
-/// Velocity on screen of a point that moves relative to the camera.
+/// Returns the velocity on screen of a point that moves relative to the camera.
 fn screen_motion(place: DVec2, depth: f64, velocity: DVec3) -> DVec2 {
     (FOCAL * DVec2::new(velocity.x, velocity.y) + place * velocity.z) / depth
 }
@@ -275,7 +275,7 @@ fn an_orbit_moves_and_turns_the_camera_at_once() {
         radius * DVec3::new(sine, 0.0, cosine - 1.0)
     };
     scene.camera.motion = smooth_motion(DVec3::Y, |time| rate * time, place);
-    // The slope at the middle key is that from the first key to the last.
+    // The slope at the middle key goes from the first key to the last.
     let velocity = DVec3::new(radius * rate.sin(), 0.0, 0.0);
     expect_velocities(
         &scene,
@@ -305,18 +305,18 @@ fn a_smooth_zoom_has_the_rate_of_its_parabola() {
 }
 
 #[test]
-fn what_the_camera_carries_stands_still() {
+fn objects_carried_by_the_camera_stand_still() {
     let mut scene = wall_scene(4.0, placed);
     scene.camera.motion = spin(DVec3::new(1.0, 2.0, 3.0), DVec3::Y, 2.0);
     scene.objects[0].parent = Parent::Camera;
-    // The camera alone takes a dashboard for a part of the world.
+    // With velocity from only the camera, a dashboard counts as part of the world.
     for kind in [VelocityKind::Instantaneous, VelocityKind::PreviousFrame] {
         expect_velocity("dashboard", &render_frame(&scene, kind), |_| DVec2::ZERO);
     }
 }
 
 #[test]
-fn at_a_turning_point_the_velocity_is_that_of_the_way_there() {
+fn the_velocity_at_a_turning_point_is_that_before_it() {
     let depth = 4.0;
     let scene = wall_scene(depth, |at| {
         let key = |time, x| Key {
@@ -337,7 +337,7 @@ fn at_a_turning_point_the_velocity_is_that_of_the_way_there() {
 }
 
 #[test]
-fn what_was_behind_the_camera_one_frame_ago_gets_the_derivative() {
+fn points_behind_the_previous_camera_get_the_derivative() {
     let (depth, speed) = (1.0, 3.0);
     // The wall comes from behind, through the camera.
     let scene = wall_scene(depth, |at| drift(at, speed * DVec3::NEG_Z));

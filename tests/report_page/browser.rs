@@ -11,13 +11,13 @@ use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 use tungstenite::{Message, WebSocket};
 
-/// Far longer than anything here takes on a busy machine: what is not done by then will never be.
+/// Time limit, far longer than anything here takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Looked for on the PATH where the variable CHROMIUM names none.
+/// Programs to look for on the PATH if the variable CHROMIUM names none.
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
 
-/// One open tab.
+/// Browser with one open tab.
 pub struct Browser {
     process: Child,
     socket: WebSocket<TcpStream>,
@@ -29,7 +29,7 @@ pub struct Browser {
 }
 
 impl Browser {
-    /// Starts Chromium with an empty tab of so many pixels.
+    /// Starts Chromium with an empty tab of this size in pixels.
     pub fn new(width: u32, height: u32) -> Self {
         let profile = tempfile::tempdir().unwrap();
         let mut process = Command::new(program())
@@ -47,7 +47,7 @@ impl Browser {
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
-        let address = address(&mut process);
+        let address = read_address(&mut process);
         let host = address.strip_prefix("ws://").unwrap();
         let stream = TcpStream::connect(host.split('/').next().unwrap()).unwrap();
         stream.set_read_timeout(Some(PATIENCE)).unwrap();
@@ -78,7 +78,7 @@ impl Browser {
         self.until("document.readyState === 'complete'");
     }
 
-    /// The value of an expression; promises are waited for.
+    /// Evaluates an expression, and waits for promises.
     pub fn value(&mut self, expression: &str) -> Value {
         let words = json!({"expression": expression, "returnByValue": true, "awaitPromise": true});
         let answer = self.call("Runtime.evaluate", words);
@@ -89,7 +89,7 @@ impl Browser {
         answer["result"]["value"].clone()
     }
 
-    /// The same, of texts.
+    /// Evaluates an expression that is a text.
     pub fn text(&mut self, expression: &str) -> String {
         let value = self.value(expression);
         let text = value.as_str();
@@ -123,7 +123,7 @@ impl Browser {
         self.mouse("mouseMoved", x, y);
     }
 
-    /// Presses there, moves to another place, and lets go.
+    /// Presses the mouse at a place, moves to another one, and lets go.
     pub fn drag(&mut self, from: [f64; 2], to: [f64; 2]) {
         self.mouse("mousePressed", from[0], from[1]);
         self.mouse("mouseMoved", to[0], to[1]);
@@ -136,13 +136,13 @@ impl Browser {
         self.call("Input.dispatchMouseEvent", words);
     }
 
-    /// Turns the wheel over a place: up is below 0.
+    /// Turns the wheel over a place; up is below 0.
     pub fn turn_wheel(&mut self, x: f64, y: f64, down: f64) {
         let words = json!({"type": "mouseWheel", "x": x, "y": y, "deltaX": 0, "deltaY": down});
         self.call("Input.dispatchMouseEvent", words);
     }
 
-    /// Makes the window as large as a screen of so many pixels.
+    /// Resizes the window to a screen of this size in pixels.
     pub fn resize(&mut self, width: u32, height: u32) {
         let screen =
             json!({"width": width, "height": height, "deviceScaleFactor": 1, "mobile": false});
@@ -154,7 +154,7 @@ impl Browser {
         self.call("Emulation.setEmulatedMedia", json!({"media": "print"}));
     }
 
-    /// Left, top, width and height of the first element that a selector finds, in the window.
+    /// Returns left, top, width and height of the first element that a selector finds, in the window.
     pub fn place(&mut self, selector: &str) -> [f64; 4] {
         let place = self.value(&format!(
             "(() => {{ const box = document.querySelector('{selector}').getBoundingClientRect(); \
@@ -176,7 +176,7 @@ impl Browser {
         STANDARD.decode(shot["data"].as_str().unwrap()).unwrap()
     }
 
-    /// Everything that the page complained about: errors, warnings, and what was refused.
+    /// Returns the page's complaints: errors, warnings and refused requests.
     pub fn complaints(&mut self) -> Vec<String> {
         const COMPLAINTS: [&str; 4] = [
             "Runtime.exceptionThrown",
@@ -184,7 +184,7 @@ impl Browser {
             "Log.entryAdded",
             "Page.javascriptDialogOpening",
         ];
-        // Whatever happened before this answer has been heard by then.
+        // All earlier events have arrived before this answer.
         self.value("0");
         let complains = |event: &&Value| COMPLAINTS.iter().any(|method| event["method"] == *method);
         self.events
@@ -194,7 +194,7 @@ impl Browser {
             .collect()
     }
 
-    /// The addresses of everything that was asked for, but for pictures that the page holds itself.
+    /// Returns the addresses of all requests, except for pictures that the page itself holds.
     pub fn requests(&mut self) -> Vec<String> {
         self.value("0");
         let sent =
@@ -224,7 +224,7 @@ impl Browser {
                 return heard["result"].clone();
             }
             if heard["method"] == "Page.javascriptDialogOpening" {
-                // Otherwise nothing answers any more; that it opened is kept.
+                // After that nothing answers any more; the event that it opened is kept.
                 let close = json!({"id": 0, "method": "Page.handleJavaScriptDialog", "sessionId": self.session,
                     "params": {"accept": false}});
                 self.socket.send(Message::text(close.to_string())).unwrap();
@@ -270,13 +270,13 @@ fn program() -> PathBuf {
 }
 
 /// Reads the address that Chromium listens at.
-fn address(process: &mut Child) -> String {
+fn read_address(process: &mut Child) -> String {
     let mut said = Vec::new();
     let mut lines = BufReader::new(process.stderr.take().unwrap()).lines();
     for line in lines.by_ref().map_while(Result::ok) {
         if let Some(address) = line.strip_prefix("DevTools listening on ") {
             let address = address.to_owned();
-            // It would stop where nobody reads what else it says.
+            // Chromium would stop if nobody read the rest of its output.
             std::thread::spawn(move || lines.for_each(drop));
             return address;
         }

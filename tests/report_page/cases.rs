@@ -1,11 +1,11 @@
-//! Cases in a browser: any two pictures, links, blinking, zoom, the first screen, and paper.
+//! Cases in a browser: picture pairs, links, blinking, zoom, the first screen, and paper.
 
 use crate::bench::{Bench, assert_done};
 use crate::browser::Browser;
 use crate::{make_page, open_case, press, settle};
 
-/// A run of two filters with one shutter, and its page.
-fn bench() -> (Bench, std::path::PathBuf) {
+/// Makes a run of two filters with one shutter, and its page.
+fn set_up() -> (Bench, std::path::PathBuf) {
     let bench = Bench::new();
     assert_done(&bench.run(&[
         "--filters",
@@ -15,7 +15,7 @@ fn bench() -> (Bench, std::path::PathBuf) {
     (bench, page)
 }
 
-/// The picture in a pane, as an address that holds it.
+/// Returns the picture in a pane, as a data address.
 fn canvas(browser: &mut Browser, place: &str) -> String {
     browser.text(&format!(
         "document.querySelector('[data-place={place}] canvas').toDataURL()"
@@ -31,8 +31,8 @@ fn pick(browser: &mut Browser, side: &str, picture: &str) {
 }
 
 #[test]
-fn any_filter_stands_against_any_other() {
-    let (_bench, page) = bench();
+fn any_filter_can_be_compared_with_any_other() {
+    let (_bench, page) = set_up();
     let mut browser = Browser::new(1280, 900);
     open_case(&mut browser, &page, "plate/identity:default");
     let own = canvas(&mut browser, "under");
@@ -50,7 +50,7 @@ fn any_filter_stands_against_any_other() {
     pick(&mut browser, "right", "identity:default");
     let same = canvas(&mut browser, "under");
     assert_eq!(same, own);
-    // Nothing differs from itself; the instant from the truth does.
+    // A picture does not differ from itself; the instant differs from the truth.
     press(&mut browser, "5");
     let colors = "(() => { const own = document.querySelector('[data-place=under] canvas'); \
                   const copy = new OffscreenCanvas(own.width, own.height).getContext('2d'); copy.drawImage(own, 0, 0); \
@@ -73,7 +73,7 @@ fn any_filter_stands_against_any_other() {
 
 #[test]
 fn a_link_opens_the_same_view() {
-    let (_bench, page) = bench();
+    let (_bench, page) = set_up();
     let mut browser = Browser::new(1280, 900);
     open_case(&mut browser, &page, "plate/velocity_gather:fine");
     pick(&mut browser, "left", "identity:default");
@@ -108,8 +108,8 @@ fn a_link_opens_the_same_view() {
 }
 
 #[test]
-fn blink_blinks_by_itself_until_it_is_stopped() {
-    let (_bench, page) = bench();
+fn blink_goes_on_until_it_is_stopped() {
+    let (_bench, page) = set_up();
     let mut browser = Browser::new(1280, 900);
     open_case(&mut browser, &page, "plate/velocity_gather:fine");
     let swapped = "document.getElementById('viewer').hasAttribute('data-swapped')";
@@ -132,7 +132,7 @@ fn blink_blinks_by_itself_until_it_is_stopped() {
 
 #[test]
 fn wheel_and_worst_place_zoom_and_the_zoom_is_shown() {
-    let (_bench, page) = bench();
+    let (_bench, page) = set_up();
     let mut browser = Browser::new(1280, 900);
     open_case(&mut browser, &page, "plate/identity:default");
     let zoom = "document.querySelector('.zoom').textContent";
@@ -148,7 +148,7 @@ fn wheel_and_worst_place_zoom_and_the_zoom_is_shown() {
     ));
     press(&mut browser, "0");
     assert_eq!(browser.text(zoom), "1×");
-    // Numbers float beside the pointer.
+    // The read-out floats beside the pointer.
     browser.point(left + width / 2.0, top + height / 2.0);
     browser.until("document.querySelector('.tip').textContent.includes('identity:default: ')");
     let [x, y, ..] = browser.place(".tip");
@@ -161,7 +161,7 @@ fn wheel_and_worst_place_zoom_and_the_zoom_is_shown() {
 
 #[test]
 fn score_and_picture_are_on_the_first_screen() {
-    let (_bench, page) = bench();
+    let (_bench, page) = set_up();
     let mut browser = Browser::new(1440, 900);
     for (width, height) in [(1440, 900), (800, 600), (390, 844)] {
         browser.resize(width, height);
@@ -183,8 +183,8 @@ fn score_and_picture_are_on_the_first_screen() {
 }
 
 #[test]
-fn paper_has_both_pictures_whole() {
-    let (_bench, page) = bench();
+fn printed_pages_show_both_pictures_whole() {
+    let (_bench, page) = set_up();
     let mut browser = Browser::new(1000, 900);
     open_case(
         &mut browser,

@@ -24,15 +24,15 @@ fn make_page(bench: &Bench) -> PathBuf {
 
 fn make_page_within(bench: &Bench, largest: usize) -> PathBuf {
     let html = bench.path("page/a report.html");
-    let (run, findings) = (bench.measured(), bench.findings());
-    let report = report(&run, &findings, &bench.path("out"), &html, largest).unwrap();
-    report.write().unwrap();
+    let (run, findings) = (bench.read_run(), bench.read_findings());
+    let page = report(&run, &findings, &bench.path("out"), &html, largest).unwrap();
+    page.write().unwrap();
     html
 }
 
-/// The case of a filter on the only scene.
+/// Returns the case of a filter on the only scene.
 fn case_of(bench: &Bench, name: &str) -> suite::Case {
-    let mut cases = bench.measured().cases.into_iter();
+    let mut cases = bench.read_run().cases.into_iter();
     cases
         .find(|case| case.name() == name && !case.is_reference)
         .unwrap()
@@ -44,7 +44,7 @@ fn open_case(browser: &mut Browser, page: &std::path::Path, case: &str) {
     settle(browser);
 }
 
-/// Waits until what was asked for last is drawn.
+/// Waits until the last request is drawn.
 fn settle(browser: &mut Browser) {
     browser.until("document.getElementById('viewer').dataset.drawn === document.getElementById('viewer').dataset.asked");
 }
@@ -62,19 +62,19 @@ fn a_page_opens_without_complaint_and_asks_for_nothing_else() {
     let page = make_page(&bench);
     let mut browser = Browser::new(1280, 900);
     browser.open(&page, "");
-    for case in bench.measured().cases {
+    for case in bench.read_run().cases {
         let reference = if case.is_reference { "@trailing" } else { "" };
         let address = format!("{}/{}{reference}", case.scene, case.name());
         browser.value(&format!("location.hash = '#{address}'"));
         browser.until(&format!(
             "!!document.getElementById('{address}').querySelector('#viewer')"
         ));
-        // Through its own pictures, those of seven other filters, and its maps.
+        // Steps through its own pictures, those of seven other filters, and its maps.
         for _ in 0..18 {
             press(&mut browser, "m");
         }
     }
-    // The test hears what goes wrong: it says something itself.
+    // The test would hear an error: it causes one itself.
     assert_eq!(browser.complaints(), [""; 0]);
     assert_eq!(browser.requests(), [address_of(&page)]);
     browser.value("console.error('heard')");
@@ -86,7 +86,7 @@ fn a_page_opens_without_complaint_and_asks_for_nothing_else() {
 }
 
 #[test]
-fn divider_and_keys_change_what_is_seen() {
+fn divider_and_keys_change_the_shown_pictures() {
     const STAGE: &str = ".stage";
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
@@ -202,10 +202,7 @@ fn rows_of_one_shutter_stay_together_when_headings_sort() {
 #[test]
 fn a_broken_bound_is_seen_with_its_place_and_its_pictures() {
     let bench = Bench::new();
-    bench.write(
-        "bounds.toml",
-        "[default]\nflip_moving = { limit = 0.2, why = \"it serves a test\" }\n",
-    );
+    bench.write_bound(0.2);
     let output = bench.check(&["--filters", "identity"]);
     assert_eq!(output.status.code(), Some(1));
     let page = make_page(&bench);
@@ -233,7 +230,7 @@ fn a_broken_bound_is_seen_with_its_place_and_its_pictures() {
             "\"{words}\" is missing from: {section}"
         );
     }
-    // Truth, output and error are drawn, and no two of them are alike.
+    // Truth, output and error are drawn, and no two of them are equal.
     let canvas = |at: usize| {
         format!("document.querySelectorAll('article.open .crop canvas')[{at}].toDataURL()")
     };
@@ -244,7 +241,7 @@ fn a_broken_bound_is_seen_with_its_place_and_its_pictures() {
         canvas(1),
         canvas(2)
     ));
-    let worst = bench.findings()[0].worst.clone().unwrap();
+    let worst = bench.read_findings()[0].worst.clone().unwrap();
     browser.value("document.querySelector('article.open button.place').click()");
     read_out(&mut browser, worst.x, worst.y);
     assert_eq!(
@@ -256,7 +253,7 @@ fn a_broken_bound_is_seen_with_its_place_and_its_pictures() {
 
 #[cfg(unix)] // Elsewhere no folder has such a name.
 #[test]
-fn a_scene_called_script_is_shown_and_not_run() {
+fn a_scene_name_with_a_script_is_shown_as_text() {
     const NAME: &str = "<script>alert(1)";
     let bench = Bench::new();
     bench.copy_scene(NAME, |text| {

@@ -9,7 +9,7 @@ use crate::bench::{Bench, assert_done};
 use crate::browser::{Browser, address_of};
 use crate::{case_of, make_page, make_page_within, open_case};
 
-/// The read-out's rows by the layer, each with its texts.
+/// Returns the read-out's rows by layer, each with its texts.
 pub fn read_out(browser: &mut Browser, x: u32, y: u32) -> serde_json::Value {
     browser.until(&format!(
         "document.querySelector('.readout').dataset.pixel === '{x},{y}'"
@@ -20,7 +20,7 @@ pub fn read_out(browser: &mut Browser, x: u32, y: u32) -> serde_json::Value {
     )
 }
 
-/// Layer by layer the channels that the read-out shows.
+/// Returns the channels that the read-out shows of each layer.
 fn channels(files: &[ExrFile; 4]) -> Vec<(&'static str, &ExrFile, Vec<&'static str>)> {
     let [truth, output, frame, errors] = files;
     let color = || vec!["R", "G", "B"];
@@ -36,7 +36,7 @@ fn channels(files: &[ExrFile; 4]) -> Vec<(&'static str, &ExrFile, Vec<&'static s
     ]
 }
 
-/// Files of a case: truth, output, frame, errors.
+/// Reads the files of a case: truth, output, frame, errors.
 fn files_of(bench: &Bench, case: &Case) -> [ExrFile; 4] {
     let own = bench.path("out").join(&case.folder);
     let scene = bench.path("out").join(&case.scene);
@@ -49,10 +49,10 @@ fn files_of(bench: &Bench, case: &Case) -> [ExrFile; 4] {
     .map(|path| read_exr(&path).unwrap())
 }
 
-/// Largest error of a number, as a part of it: half a step of a half is 1/2048, and three digits round by 1/200 at most.
+/// Largest relative error of a number: half a step of a half is 1/2048, and three digits round by 1/200 at most.
 const PART: f32 = 0.006;
 
-/// Compares a read-out with the files; a half below 6e-5 has fewer digits, and no picture shows so little.
+/// Compares a read-out with the files. A half below 6e-5 has fewer digits, and no picture shows such small values.
 #[track_caller]
 fn assert_near(shown: &serde_json::Value, files: &[ExrFile; 4], x: u32, y: u32) {
     for (layer, file, names) in channels(files) {
@@ -74,7 +74,7 @@ fn assert_near(shown: &serde_json::Value, files: &[ExrFile; 4], x: u32, y: u32) 
 }
 
 #[test]
-fn the_read_out_is_the_value_of_the_openexr_files_in_three_digits() {
+fn the_read_out_shows_the_values_of_the_openexr_files_in_three_digits() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
     let page = make_page(&bench);

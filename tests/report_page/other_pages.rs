@@ -1,6 +1,6 @@
 //! Pages of a comparison and of a tuning in a browser.
 
-use crate::bench::{Bench, assert_done, quick};
+use crate::bench::{Bench, assert_done, quick_command};
 use crate::browser::{Browser, address_of};
 
 const GATHER: [&str; 2] = ["--filters", "velocity_gather:fine"];
@@ -9,7 +9,7 @@ const GATHER: [&str; 2] = ["--filters", "velocity_gather:fine"];
 fn a_comparison_shows_pictures_first_and_a_change_with_sign_and_word() {
     let bench = Bench::new();
     assert_done(&bench.run(&GATHER));
-    let mut words = quick("run", "16").to_vec();
+    let mut words = quick_command("run", "16").to_vec();
     let out = words.iter().position(|word| *word == "out").unwrap();
     words[out] = "other";
     words.extend(GATHER);
@@ -35,7 +35,7 @@ fn a_comparison_shows_pictures_first_and_a_change_with_sign_and_word() {
         changes.starts_with('+') && changes.contains(" worse"),
         "{changes}"
     );
-    // More of a score that ought to be high is better: less of it has a minus.
+    // For scores where higher is better, less is worse and has a minus.
     let psnr = browser.text(
         "[...document.querySelectorAll('.trio ~ .scroll tr')].find(row => row.textContent.startsWith('psnr_moving')).cells[3].textContent",
     );
@@ -45,7 +45,7 @@ fn a_comparison_shows_pictures_first_and_a_change_with_sign_and_word() {
 }
 
 #[test]
-fn a_tuning_fits_the_screen_and_marks_what_nothing_beats() {
+fn a_tuning_fits_the_screen_and_marks_unbeaten_candidates() {
     let bench = Bench::new();
     bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
     let words = "tune --quiet --filter jump_flood --from paper --vary samples=2..16,jitter --objective flip,bleed --scenes plate,slow \
@@ -56,7 +56,7 @@ fn a_tuning_fits_the_screen_and_marks_what_nothing_beats() {
     let mut browser = Browser::new(390, 844);
     browser.open(&page, "");
     assert_eq!(browser.value("document.documentElement.scrollWidth"), 390);
-    // No blue mark of the chart has another mark left of it and below, or beside it.
+    // No blue mark of the chart has another mark to the left and below, or beside it.
     let beaten = "(() => { const marks = [...document.querySelectorAll('.drawings svg')[0].querySelectorAll('circle:not(.ring)')]; \
                   const at = mark => [mark.cx.baseVal.value, -mark.cy.baseVal.value]; \
                   const blue = marks.filter(mark => !mark.classList.contains('faint')); \

@@ -1,10 +1,10 @@
-//! The overview in a browser: rows that are searched for, the look at a worst place, and sections of filters.
+//! The overview in a browser: the search for rows, the preview of a worst place, and sections of filters.
 
 use crate::bench::{Bench, assert_done};
 use crate::browser::Browser;
 use crate::make_page;
 
-/// The names in the rows that are seen.
+/// Returns the names in the visible rows.
 fn rows(browser: &mut Browser) -> String {
     browser.text(
         "[...document.querySelectorAll('.panel:not([hidden]) tbody:not(.group) tr:not([hidden])')].map(row => \
@@ -13,11 +13,11 @@ fn rows(browser: &mut Browser) -> String {
 }
 
 #[test]
-fn rows_are_searched_for_and_references_come_when_asked_for() {
+fn the_search_filters_rows_and_references_show_on_request() {
     let bench = Bench::new();
     const FILTERS: [&str; 2] = ["--filters", "identity,velocity_gather:fine"];
     assert_done(&bench.run(&FILTERS));
-    let errors = bench.measured_filters();
+    let errors = bench.read_filter_cases();
     let errors = errors
         .iter()
         .map(|case| case.scores.moving.flip.value().unwrap());
@@ -67,7 +67,7 @@ fn rows_are_searched_for_and_references_come_when_asked_for() {
     );
     let title = browser.text("document.querySelector('.panel:not([hidden])').dataset.metric");
     assert_eq!(title, "psnr_moving");
-    // The thumbnail of the truth stands above its column, whichever score is seen.
+    // The thumbnail of the truth stands above its column, whichever score is shown.
     browser
         .until("document.querySelector('.panel:not([hidden]) th.scene img').naturalWidth === 64");
     assert_eq!(browser.complaints(), [""; 0]);

@@ -15,7 +15,7 @@ fn load_finish(statements: &str) -> Finish {
     finish_of(&folder.load().unwrap_or_else(|error| panic!("{error}")))
 }
 
-/// Finish of the second object's material `paint`.
+/// Returns the finish of the second object's material `paint`.
 fn finish_of(scene: &Scene) -> Finish {
     let materials = scene.objects[1].materials.iter();
     let mut materials = materials.map(|index| &scene.materials[*index]);
@@ -35,7 +35,7 @@ fn roughness_makes_gloss_and_metallic_makes_metal() {
     let metal = |roughness| Finish::Conductor { roughness };
     for (statements, expected) in [
         ("", Finish::Diffuse),
-        // Exporters write an index for every material.
+        // Exporters write a refractive index for every material.
         ("Ni 1.45", Finish::Diffuse),
         ("Ni 0", Finish::Diffuse),
         ("Pm 0", Finish::Diffuse),
@@ -162,12 +162,12 @@ fn slips_in_finishes_are_refused() {
     }
 }
 
-/// Image of two rows of four texels that count up from 0.
+/// Makes an image of two rows of four texels that count up from 0.
 fn counting_image() -> Rgb32FImage {
     ImageBuffer::from_fn(4, 2, |x, y| image::Rgb([(x + 4 * y) as f32, 1.0, 0.5]))
 }
 
-/// Folder of the scene with another background.
+/// Makes the scene's folder with another background.
 fn folder_with_background(background: &str) -> Folder {
     let folder = Folder::new();
     folder.edit("scene.toml", "constant = [0, 0, 0]", background);
@@ -193,7 +193,7 @@ fn an_environment_is_read_from_exr_and_hdr() {
         } = map;
         assert_eq!((width, height, strength), (4, 2, 2.0));
         assert_eq!(rotation, std::f64::consts::FRAC_PI_2);
-        // Linear as it is; the shared exponent of HDR holds these numbers exactly.
+        // EXR stays linear, and the shared exponent of HDR holds these numbers exactly.
         let expected: Vec<[f32; 3]> = (0..8).map(|count| [count as f32, 1.0, 0.5]).collect();
         assert_eq!(texels, expected, "{name}");
     }

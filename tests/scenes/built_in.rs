@@ -1,16 +1,11 @@
 //! The shipped scenes: their files and their motions.
 
-use std::path::{Path, PathBuf};
-
 use glam::{DVec2, DVec3};
+use tests::scenes;
 use tracer::{Scene, list_scenes, load_scene};
 
-fn scenes_folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes")
-}
-
 fn load(name: &str, variant: Option<&str>) -> Scene {
-    load_scene(&scenes_folder().join(name), variant).unwrap_or_else(|error| panic!("{error}"))
+    load_scene(&scenes().join(name), variant).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Projects a world point into the still camera's picture, in pixels.
@@ -26,13 +21,13 @@ fn project(scene: &Scene, point: DVec3) -> DVec2 {
     middle + focal * DVec2::new(seen.x, -seen.y) / -seen.z
 }
 
-/// Index of an object.
+/// Returns the index of an object.
 fn object_index(scene: &Scene, name: &str) -> usize {
     let index = scene.objects.iter().position(|object| object.name == name);
     index.unwrap_or_else(|| panic!("{} has no object {name}", scene.name))
 }
 
-/// Least and largest pixel coordinates of an object at a time.
+/// Returns the least and largest pixel coordinates of an object at a time.
 fn pixel_range(scene: &Scene, name: &str, time: f64) -> [DVec2; 2] {
     let index = object_index(scene, name);
     let to_world = scene.object_to_world(index, time);
@@ -48,7 +43,7 @@ fn pixel_range(scene: &Scene, name: &str, time: f64) -> [DVec2; 2] {
 
 #[test]
 fn every_scene_loads_with_every_variant() {
-    let listings = list_scenes(&scenes_folder()).unwrap_or_else(|error| panic!("{error}"));
+    let listings = list_scenes(&scenes()).unwrap_or_else(|error| panic!("{error}"));
     let names: Vec<_> = listings
         .iter()
         .map(|listing| listing.name.as_str())
@@ -96,9 +91,9 @@ fn every_scene_loads_with_every_variant() {
 }
 
 #[test]
-fn the_generator_makes_the_files_that_are_there() {
+fn the_generator_reproduces_the_shipped_files() {
     for file in generator::generate_files() {
-        let found = std::fs::read(scenes_folder().join(&file.path));
+        let found = std::fs::read(scenes().join(&file.path));
         let found = found.unwrap_or_else(|error| panic!("{}: {error}", file.path));
         assert!(
             found == file.bytes,
@@ -109,8 +104,8 @@ fn the_generator_makes_the_files_that_are_there() {
 }
 
 #[test]
-fn the_panel_moves_as_its_variant_says() {
-    let listings = list_scenes(&scenes_folder()).unwrap();
+fn the_panel_moves_at_the_speed_of_its_variant() {
+    let listings = list_scenes(&scenes()).unwrap();
     let listing = listings.iter().find(|l| l.name == "sliding_panel").unwrap();
     assert_eq!(listing.variants.len(), 20, "five speeds in four directions");
     for variant in &listing.variants {
@@ -135,7 +130,7 @@ fn the_panel_moves_as_its_variant_says() {
 
 #[test]
 fn the_panel_keeps_clear_of_the_border() {
-    for listing in list_scenes(&scenes_folder()).unwrap() {
+    for listing in list_scenes(&scenes()).unwrap() {
         if !listing.name.contains("panel") {
             continue;
         }
@@ -192,7 +187,7 @@ fn the_car_is_seen_whole_behind_the_railing_and_its_wheels_roll() {
     assert!((48.0..64.0).contains(&speed("car")));
     assert!((3.0..10.0).contains(&speed("aeroplane")));
 
-    // A rolling wheel stands still where it touches the road, and moves twice as fast as the car at its top.
+    // A rolling wheel stands still where it touches the road, and its top moves twice as fast as the car.
     let wheel = object_index(&scene, "wheel_front_near");
     let velocity = |height: f64| {
         let to_wheel = scene.object_to_world(wheel, 0.0).inverse();
@@ -207,7 +202,7 @@ fn the_car_is_seen_whole_behind_the_railing_and_its_wheels_roll() {
 }
 
 #[test]
-fn the_fan_turns_as_its_variant_says() {
+fn the_fan_turns_at_the_speed_of_its_variant() {
     for (variant, degrees) in [
         (None, 45.0),
         (Some("5deg"), 5.0),
@@ -219,7 +214,7 @@ fn the_fan_turns_as_its_variant_says() {
         let fan = object_index(&scene, "fan");
         let blade = |time| scene.object_to_world(fan, time).transform_vector3(DVec3::X);
         let turned = blade(0.0).angle_between(blade(1.0)).to_degrees();
-        // 1e-6 degrees: an angle from a cosine has half of the digits.
+        // 1e-6 degrees: an angle from a cosine keeps half of the digits.
         assert!((turned - degrees).abs() < 1e-6, "{}: {turned}", scene.name);
         assert!(blade(0.01).y > 0.0, "anticlockwise");
     }

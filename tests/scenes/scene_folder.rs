@@ -1,4 +1,4 @@
-//! A small scene in a temporary folder, which tests load and edit.
+//! Small scene in a temporary folder, which tests load and edit.
 
 use std::path::PathBuf;
 
@@ -86,7 +86,7 @@ pub struct Folder {
 }
 
 impl Folder {
-    /// Writes the scene above.
+    /// Writes the scene to a new folder.
     pub fn new() -> Self {
         let parent = tempfile::tempdir().unwrap();
         let folder = Self {
@@ -110,7 +110,7 @@ impl Folder {
         std::fs::write(self.path.join(file), content).unwrap();
     }
 
-    /// Replaces a text that a file holds once.
+    /// Replaces a text that a file contains once.
     pub fn edit(&self, file: &str, from: &str, to: &str) {
         let text = std::fs::read_to_string(self.path.join(file)).unwrap();
         assert_eq!(

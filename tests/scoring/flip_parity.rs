@@ -1,6 +1,6 @@
 //! Parity of FLIP with the reference tool, flip-evaluator 1.7, on pictures made by formula.
 //!
-//! `fixtures/flip/make.py` makes the same pictures and stores what the tool says.
+//! `fixtures/flip/make.py` makes the same pictures and stores the tool's answers.
 
 use std::collections::BTreeMap;
 
@@ -18,7 +18,7 @@ struct Expected {
     max: f64,
 }
 
-fn expected() -> BTreeMap<String, Expected> {
+fn read_expected() -> BTreeMap<String, Expected> {
     serde_json::from_str(include_str!("../fixtures/flip/flip.json"))
         .expect("flip.json holds numbers")
 }
@@ -83,17 +83,18 @@ fn black(_: u32, _: u32, _: u32) -> u32 {
 }
 
 fn assert_equal(name: &str, map: &Plane) {
-    let expected = &expected()[name];
+    let expected = &read_expected()[name];
     let sum: f64 = map.pixels.iter().map(|error| f64::from(*error)).sum();
     let mean = sum / map.pixels.len() as f64;
     let max = f64::from(map.pixels.iter().copied().fold(0.0, f32::max));
-    // Both compute in 32 bits, whose rounding grows to some 1e-7 through FLIP's powers; a wrong constant shows at 1e-4.
+    // Both compute in 32 bits, whose rounding grows to about 1e-7 through FLIP's powers. A wrong constant shows at
+    // 1e-4.
     assert!(
         (mean - expected.mean).abs() <= 1e-6,
         "{name}: mean {mean}, the tool says {}",
         expected.mean
     );
-    // Single pixels round further than the mean does.
+    // Single pixels round more than the mean does.
     assert!(
         (max - expected.max).abs() <= 1e-5,
         "{name}: max {max}, the tool says {}",
@@ -109,7 +110,7 @@ const LDR: [(&str, Formula, Formula, f32); 4] = [
     ("ldr_scatter_bright", scatter, ramp, 4.0),
 ];
 
-/// First and last in stops, and how many.
+/// First and last exposure in stops, and their number.
 type Exposures = (f32, f32, u32);
 
 /// Name, reference, test, scale, exposures.
@@ -162,7 +163,7 @@ fn hdr_flip_equals_the_reference_tool() {
 
 #[test]
 fn every_stored_number_is_compared() {
-    let stored: Vec<String> = expected().into_keys().collect();
+    let stored: Vec<String> = read_expected().into_keys().collect();
     let hdr = HDR.iter().map(|pair| pair.0);
     let compared: Vec<&str> = hdr.chain(LDR.iter().map(|pair| pair.0)).collect();
     assert_eq!(stored, compared);

@@ -1,54 +1,47 @@
-//! Intervals of scores, counted over many noisy truths: they hold what the score converges to.
-
-use std::path::Path;
+//! Intervals of scores, counted over many noisy truths: they contain the score's limit.
 
 use frame::{Frame, Picture, Raster, Replicate, Truth};
 use metrics::{Metric, Reference, Scores};
 use rayon::prelude::*;
 use suite::{Intervals, intervals, truths_without_pairs};
-use tests::synthetic::{Blur, Object, Sampling, Scene, Shape};
+use tests::synthetic::{Blur, Object, Scene, Shape};
 use tests::unwatched;
 use tracer::{
     FrameSettings, TruthSettings, TruthTracer, load_scene, trace_frame, trace_ladder, trace_truth,
 };
 
-/// Noisy truths, each of as many replicates.
+use crate::{noisy, sliding_disc};
+
+/// Number of noisy truths. Each has as many replicates.
 const SEEDS: u64 = 200;
 const REPLICATES: u64 = 8;
-/// Noisy truths that are traced.
+/// Number of noisy truths that are traced.
 const TRACED_SEEDS: u64 = 48;
 
-fn noisy(samples: u32, seed: u64) -> Sampling {
-    Sampling {
-        samples,
-        seed: Some(seed),
-    }
-}
-
-fn scores(picture: &Picture, frame: &Frame, truth: &Truth) -> Scores {
+fn measure_scores(picture: &Picture, frame: &Frame, truth: &Truth) -> Scores {
     let reference = Reference::new(frame, truth, None, &frame.display.into()).unwrap();
     reference.measure(picture).unwrap().scores
 }
 
-/// Per noisy truth the intervals of a blur's scores, and the scores that they converge to.
+/// Intervals of a blur's scores per noisy truth, and the converged scores.
 type Found = (Vec<Intervals>, Scores);
 
-/// The intervals of a picture's scores, from the replicates of one noisy truth.
+/// Computes the intervals of a picture's scores from the replicates of one noisy truth.
 fn intervals_of(picture: &Picture, frame: &Frame, replicates: &[Replicate]) -> Intervals {
     let without: Vec<Scores> = (truths_without_pairs(replicates).unwrap().iter())
-        .map(|part| scores(picture, frame, part))
+        .map(|part| measure_scores(picture, frame, part))
         .collect();
     assert_eq!(without.len() as u64, REPLICATES / 2);
     let truth = Truth::of(replicates).unwrap();
-    intervals(&scores(picture, frame, &truth), &without, Metric::all())
+    intervals(
+        &measure_scores(picture, frame, &truth),
+        &without,
+        Metric::all(),
+    )
 }
 
-fn measured(blur: &Blur) -> Found {
-    let scene = Scene {
-        width: 72,
-        height: 48,
-        objects: vec![Object::sliding(Shape::Disc(9.0), [46.3, 26.2], [24.0, 6.0])],
-    };
+fn measure_intervals(blur: &Blur) -> Found {
+    let scene = sliding_disc();
     let frame = scene.frame();
     let converged = scene.truth([noisy(8192, 1), noisy(8192, 2)]);
     let picture = scene.render(blur, noisy(4096, 3));
@@ -59,13 +52,13 @@ fn measured(blur: &Blur) -> Found {
             intervals_of(&picture, &frame, &scene.replicates(samplings))
         })
         .collect();
-    (found, scores(&picture, &frame, &converged))
+    (found, measure_scores(&picture, &frame, &converged))
 }
 
-/// The same of a scene of perspective, light and shadow, each truth traced as a user's is: a picture of 8 sub-frames that lies
-/// a few pixels off.
-fn traced() -> Found {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/two_spheres");
+/// Does the same for a scene of perspective, light and shadow, whose truths are traced as a user's are. The picture is
+/// the mean of 8 sub-frames, moved by a few pixels.
+fn trace_intervals() -> Found {
+    let folder = tests::scenes().join("two_spheres");
     let scene = load_scene(&folder, None).unwrap();
     let frame = FrameSettings {
         width: 64,
@@ -85,7 +78,7 @@ fn traced() -> Found {
     let converged = settings(2048, 1000);
     let truth = trace_truth(&scene, &converged, &unwatched).unwrap();
     let ladder = trace_ladder(&scene, &converged, &truth, &[8], &unwatched).unwrap();
-    let picture = moved(&Picture::mean(&ladder.rungs[0].halves));
+    let picture = shift(&Picture::mean(&ladder.rungs[0].halves));
     let found = (0..TRACED_SEEDS)
         .into_par_iter()
         .map(|seed| {
@@ -96,24 +89,24 @@ fn traced() -> Found {
             intervals_of(&picture, &frame, &replicates)
         })
         .collect();
-    (found, scores(&picture, &frame, &truth))
+    (found, measure_scores(&picture, &frame, &truth))
 }
 
-/// The picture one pixel to the right and three down.
-fn moved(picture: &Picture) -> Picture {
-    fn moved<T: Clone>(raster: &Raster<T>) -> Raster<T> {
+/// Moves a picture one pixel right and three down.
+fn shift(picture: &Picture) -> Picture {
+    fn shift_raster<T: Clone>(raster: &Raster<T>) -> Raster<T> {
         Raster::from_fn(raster.width, raster.height, |x, y| {
             raster.at(x.saturating_sub(1), y.saturating_sub(3)).clone()
         })
     }
     Picture {
-        color: moved(&picture.color),
-        coverage: picture.coverage.iter().map(moved).collect(),
+        color: shift_raster(&picture.color),
+        coverage: picture.coverage.iter().map(shift_raster).collect(),
     }
 }
 
-/// Counts the intervals of a metric that hold the score that it converges to.
-fn held(metric: &str, (found, converged): &Found) -> usize {
+/// Counts the intervals of a metric that contain its converged score.
+fn count_holding(metric: &str, (found, converged): &Found) -> usize {
     let expected = converged.get(metric.parse().unwrap()).value().unwrap();
     (found.iter().map(|intervals| &intervals[metric]))
         .filter(|interval| (interval.low..=interval.high).contains(&expected))
@@ -121,7 +114,7 @@ fn held(metric: &str, (found, converged): &Found) -> usize {
 }
 
 #[test]
-fn about_95_of_100_intervals_hold_the_converged_score() {
+fn about_95_of_100_intervals_contain_the_converged_score() {
     let wrong = Blur {
         from: -0.7,
         shift: [1.0, 0.5],
@@ -134,7 +127,7 @@ fn about_95_of_100_intervals_hold_the_converged_score() {
         ("a wrong blur", wrong),
         ("4 sub-frames", Blur::accumulation(4)),
     ] {
-        let measured = measured(&blur);
+        let measured = measure_intervals(&blur);
         for metric in [
             "mse_moving",
             "psnr_moving",
@@ -158,20 +151,20 @@ fn about_95_of_100_intervals_hold_the_converged_score() {
             "object_label_tv",
             "label_tv",
         ] {
-            let held = held(metric, &measured);
+            let held = count_holding(metric, &measured);
             println!("{name}, {metric}: {held} of {SEEDS}");
             assert!(
                 about_95_percent.contains(&held),
                 "{name}, {metric}: {held} of {SEEDS} intervals hold it"
             );
         }
-        // Intervals of percentiles are wider than need be.
+        // Intervals of percentiles are wider than necessary.
         for metric in [
             "flip_p95_moving",
             "flip_weighted_median_moving",
             "label_tv_p95",
         ] {
-            let held = held(metric, &measured);
+            let held = count_holding(metric, &measured);
             assert!(
                 held >= about_95_percent.start,
                 "{name}, {metric}: {held} of {SEEDS} intervals hold it"
@@ -181,8 +174,8 @@ fn about_95_of_100_intervals_hold_the_converged_score() {
 }
 
 #[test]
-fn intervals_hold_though_a_user_s_truth_knows_no_other() {
-    let measured = traced();
+fn intervals_of_traced_truths_contain_the_converged_score() {
+    let measured = trace_intervals();
     for metric in [
         "flip_moving",
         "flip_support",
@@ -201,7 +194,7 @@ fn intervals_hold_though_a_user_s_truth_knows_no_other() {
         "bleed_lateral",
         "bleed_leading",
     ] {
-        let held = held(metric, &measured);
+        let held = count_holding(metric, &measured);
         println!("two_spheres, {metric}: {held} of {TRACED_SEEDS}");
         // Of 48 intervals 45.6 on average, with a standard deviation of 1.5: four of them below.
         assert!(

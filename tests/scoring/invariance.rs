@@ -1,21 +1,14 @@
-//! Independence of scores from orientation, shifts by whole pixels, object numbers and threads.
+//! Scores do not depend on orientation, shifts by whole pixels, object numbers and threads.
 
 use frame::{AtInstant, Frame, Image, Picture, Raster, Support, Truth};
-use metrics::{Measured, Measurement, Metric, ObjectMetric, Scores, Viewing, measure};
+use metrics::{Measured, Metric, ObjectMetric, Scores, Viewing, measure};
 use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
 
-fn clean_truth(scene: &Scene) -> Truth {
-    scene.truth([Sampling::CLEAN; 2])
-}
+use crate::{clean_truth, measure_blur};
 
-fn measured(scene: &Scene, blur: Blur) -> Measurement {
-    let output = scene.render(&blur, Sampling::CLEAN);
-    measure(&output, &scene.frame(), &clean_truth(scene), None, &VIEWING).expect("they agree")
-}
-
-/// A scene whose three objects all differ, and a wrong blur that every score sees.
+/// Makes a scene whose three objects all differ, and a wrong blur that every score sees.
 fn varied_scene() -> (Scene, Blur) {
-    // The still bar stands in the moving region, out of everyone's way.
+    // The still bar stands in the moving region, where nothing meets it.
     let post = Shape::Bar {
         half: [2.0, 20.0],
         tilt: 0.0,
@@ -42,9 +35,9 @@ fn varied_scene() -> (Scene, Blur) {
     (scene, wrong)
 }
 
-/// Frame, truth and output remapped pixel by pixel: `source` gives the pixel that each new one is taken from, `turn` what
-/// happens to screen vectors.
-fn remapped(
+/// Remaps frame, truth and output pixel by pixel: `source` gives the pixel that each new one is taken from, `turn`
+/// changes screen vectors.
+fn remap(
     width: u32,
     height: u32,
     source: impl Fn(u32, u32) -> [u32; 2],
@@ -135,15 +128,15 @@ fn assert_same_scores(found: &Scores, expected: &Scores, metrics: &[Metric], tol
 
 #[test]
 fn a_mirrored_or_turned_scene_has_the_same_scores() {
-    let same = remapped(80, 60, |x, y| [x, y], |v| v);
-    let mirrored = remapped(80, 60, |x, y| [79 - x, y], |[x, y]| [-x, y]);
-    let flipped = remapped(80, 60, |x, y| [x, 59 - y], |[x, y]| [x, -y]);
+    let same = remap(80, 60, |x, y| [x, y], |v| v);
+    let mirrored = remap(80, 60, |x, y| [79 - x, y], |[x, y]| [-x, y]);
+    let flipped = remap(80, 60, |x, y| [x, 59 - y], |[x, y]| [x, -y]);
     // The new pixel (x, y) is the old (y, 59 - x): a quarter turn clockwise, +x becomes +y.
-    let turned = remapped(60, 80, |x, y| [y, 59 - x], |[x, y]| [-y, x]);
-    // Regions follow the height, which a turn changes: only scores of mattes are comparable there.
+    let turned = remap(60, 80, |x, y| [y, 59 - x], |[x, y]| [-y, x]);
+    // Regions follow the height, which a turn changes, so only scores of mattes can be compared.
     let mattes = ObjectMetric::ALL[..11].iter().copied().map(Metric::Object);
     let mattes: Vec<Metric> = mattes.collect();
-    // FLIP sums in 32 bits in another order, and a pixel at exactly 45 degrees may change sides by rounding.
+    // FLIP sums in 32 bits in another order, and rounding may move a pixel at exactly 45 degrees to the other side.
     let tolerance = 1e-4;
     assert_same_scores(&mirrored, &same, &Metric::all(), tolerance);
     assert_same_scores(&flipped, &same, &Metric::all(), tolerance);
@@ -158,8 +151,8 @@ fn a_scene_moved_by_whole_pixels_has_the_same_matte_scores() {
         object.center = [object.center[0] + 4.0, object.center[1] - 3.0];
     }
     let mattes = ObjectMetric::ALL.map(Metric::Object);
-    // Sampling positions are the same in every pixel; what is left is rounding.
-    let [found, expected] = [moved, scene].map(|scene| measured(&scene, wrong).scores);
+    // Sampling positions are the same in every pixel; only rounding differs.
+    let [found, expected] = [moved, scene].map(|scene| measure_blur(&scene, wrong).scores);
     assert_same_scores(&found, &expected, &mattes, 1e-6);
 }
 
@@ -168,21 +161,21 @@ fn object_numbers_do_not_matter() {
     let (scene, wrong) = varied_scene();
     let mut swapped = scene.clone();
     swapped.objects.reverse();
-    let [found, expected] = [swapped, scene].map(|scene| measured(&scene, wrong).scores);
-    // Nothing overlaps, so that the order decides nothing; sums over objects round.
+    let [found, expected] = [swapped, scene].map(|scene| measure_blur(&scene, wrong).scores);
+    // Nothing overlaps, so the order does not matter; sums over objects round.
     assert_same_scores(&found, &expected, &Metric::all(), 1e-12);
 }
 
 #[test]
 fn two_measurements_are_equal_bit_for_bit() {
     let (scene, wrong) = varied_scene();
-    assert_eq!(measured(&scene, wrong), measured(&scene, wrong));
+    assert_eq!(measure_blur(&scene, wrong), measure_blur(&scene, wrong));
     let one = rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .build()
         .expect("a pool");
-    let single = one.install(|| measured(&scene, wrong));
-    assert_eq!(single, measured(&scene, wrong));
+    let single = one.install(|| measure_blur(&scene, wrong));
+    assert_eq!(single, measure_blur(&scene, wrong));
 }
 
 #[test]
@@ -216,6 +209,6 @@ fn brighter_pictures_seen_through_a_darker_exposure_have_the_same_scores() {
         ..VIEWING
     };
     let found = measure(&picture(&output), &frame, &truth, None, &darker).expect("they agree");
-    // Exposures are powers of two computed as such, and FLIP works in 32 bits.
+    // Exposures are powers of two, and FLIP works in 32 bits.
     assert_same_scores(&found.scores, &expected.scores, &Metric::all(), 1e-5);
 }

@@ -1,41 +1,26 @@
-//! Knowledge of one frame, taps of a filter, and skill over doing nothing.
+//! Scores of what one frame knows, probes of a filter's taps, and skill over doing nothing.
 
 use frame::{Frame, Image, Picture, Raster, Region, Truth};
-use metrics::{Measured, Metric, Probes, Reference, Scores, regions};
+use metrics::{Measured, Probes, Reference, Scores, regions};
 use tests::random::Random;
-use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
+use tests::synthetic::{Blur, Sampling, VIEWING};
 
-fn scene() -> Scene {
-    Scene {
-        width: 72,
-        height: 48,
-        objects: vec![Object::sliding(Shape::Disc(9.0), [46.3, 26.2], [24.0, 6.0])],
-    }
-}
+use crate::{clean_truth, find_value, sliding_disc};
 
 fn frame_and_truth() -> (Frame, Truth) {
-    (scene().frame(), scene().truth([Sampling::CLEAN; 2]))
+    (sliding_disc().frame(), clean_truth(&sliding_disc()))
 }
 
-fn reference<'a>(frame: &Frame, truth: &'a Truth) -> Reference<'a> {
+fn make_reference<'a>(frame: &Frame, truth: &'a Truth) -> Reference<'a> {
     Reference::new(frame, truth, None, &VIEWING).expect("they agree")
 }
 
-fn scores(frame: &Frame, truth: &Truth, output: &Picture) -> Scores {
-    let measured = reference(frame, truth).measure(output);
+fn measure_scores(frame: &Frame, truth: &Truth, output: &Picture) -> Scores {
+    let measured = make_reference(frame, truth).measure(output);
     measured.expect("a finite picture").scores
 }
 
-#[track_caller]
-fn value(scores: &Scores, name: &str) -> f64 {
-    let metric: Metric = name.parse().expect("a metric's name");
-    match scores.get(metric) {
-        Measured::Score(score) => score.value,
-        Measured::NotApplicable { reason } => panic!("{name}: {reason}"),
-    }
-}
-
-fn brighter(image: &Image, by: f32, where_: impl Fn(u32, u32) -> bool) -> Image {
+fn brighten(image: &Image, by: f32, where_: impl Fn(u32, u32) -> bool) -> Image {
     Raster::from_fn(image.width, image.height, |x, y| {
         let add = if where_(x, y) { by } else { 0.0 };
         image.at(x, y).map(|c| c + add)
@@ -43,7 +28,7 @@ fn brighter(image: &Image, by: f32, where_: impl Fn(u32, u32) -> bool) -> Image 
 }
 
 #[test]
-fn errors_are_split_by_what_the_frame_shows() {
+fn errors_are_split_into_knowable_and_unknowable() {
     let (frame, mut truth) = frame_and_truth();
     // The right half of the picture cannot be known.
     truth.support.unknowable = Raster::from_fn(72, 48, |x, _| x >= 36);
@@ -56,18 +41,18 @@ fn errors_are_split_by_what_the_frame_shows() {
     assert!(count(&pools.knowable) > 100 && count(&pools.unknowable) > 100);
     let mean = truth.mean();
     let guessed = Picture {
-        color: brighter(&mean.color, 0.1, |x, _| x >= 36),
+        color: brighten(&mean.color, 0.1, |x, _| x >= 36),
         ..mean.clone()
     };
-    let scores = scores(&frame, &truth, &guessed);
+    let scores = measure_scores(&frame, &truth, &guessed);
     // Squares of 32-bit sums.
-    assert!(value(&scores, "mse_knowable").abs() < 1e-9);
-    assert!((value(&scores, "mse_unknowable") - 0.01).abs() < 1e-6);
+    assert!(find_value(&scores, "mse_knowable").abs() < 1e-9);
+    assert!((find_value(&scores, "mse_unknowable") - 0.01).abs() < 1e-6);
     let part = count(&pools.unknowable) as f64 / count(&pools.moving) as f64;
-    assert!((value(&scores, "mse_moving") - 0.01 * part).abs() < 1e-6);
+    assert!((find_value(&scores, "mse_moving") - 0.01 * part).abs() < 1e-6);
 
     let (frame, truth) = frame_and_truth();
-    let scores = self::scores(&frame, &truth, &truth.mean());
+    let scores = measure_scores(&frame, &truth, &truth.mean());
     let Measured::NotApplicable { reason } = scores.get("flip_unknowable".parse().unwrap()) else {
         panic!("nothing is unknowable there");
     };
@@ -78,7 +63,7 @@ fn errors_are_split_by_what_the_frame_shows() {
 }
 
 #[test]
-fn shading_that_moves_is_told_apart_from_visibility() {
+fn moving_shading_is_separated_from_visibility() {
     let (frame, mut truth) = frame_and_truth();
     // At the instant everything was darker: a shadow that left.
     for half in &mut truth.at_instant {
@@ -88,28 +73,31 @@ fn shading_that_moves_is_told_apart_from_visibility() {
         color: color.clone(),
         ..truth.mean()
     };
-    let frozen = scores(&frame, &truth, &output(&truth.at_instant_mean().frozen));
-    let right = scores(&frame, &truth, &truth.mean());
+    let frozen = measure_scores(&frame, &truth, &output(&truth.at_instant_mean().frozen));
+    let right = measure_scores(&frame, &truth, &truth.mean());
     for (scores, against_truth, against_frozen) in [(&frozen, 0.01, 0.0), (&right, 0.0, 0.01)] {
-        assert!((value(scores, "mse_moving") - against_truth).abs() < 1e-6);
-        assert!((value(scores, "mse_frozen") - against_frozen).abs() < 1e-6);
-        assert!((value(scores, "mse_shading") - 0.01).abs() < 1e-6);
+        assert!((find_value(scores, "mse_moving") - against_truth).abs() < 1e-6);
+        assert!((find_value(scores, "mse_frozen") - against_frozen).abs() < 1e-6);
+        assert!((find_value(scores, "mse_shading") - 0.01).abs() < 1e-6);
     }
-    assert_eq!(value(&frozen, "flip_frozen"), 0.0);
-    assert!(value(&right, "flip_frozen") > 0.01);
+    assert_eq!(find_value(&frozen, "flip_frozen"), 0.0);
+    assert!(find_value(&right, "flip_frozen") > 0.01);
 }
 
 #[test]
-fn a_change_of_what_stands_still_is_contamination() {
+fn a_change_at_still_pixels_is_contamination() {
     let (frame, truth) = frame_and_truth();
     let moving = regions(&truth).moving;
     let mean = truth.mean();
     let changed = |by: f32, what: bool| Picture {
-        color: brighter(&mean.color, by, |x, y| *moving.at(x, y) == what),
+        color: brighten(&mean.color, by, |x, y| *moving.at(x, y) == what),
         ..mean.clone()
     };
     for (picture, expected) in [(changed(0.05, false), 0.05), (changed(0.5, true), 0.0)] {
-        let found = value(&scores(&frame, &truth, &picture), "static_contamination");
+        let found = find_value(
+            &measure_scores(&frame, &truth, &picture),
+            "static_contamination",
+        );
         assert!(
             (found - expected).abs() < 1e-6,
             "{found}, expected {expected}"
@@ -126,8 +114,8 @@ fn instant(frame: &Frame) -> Picture {
     }
 }
 
-/// Between two pictures, `part` of the way to the second.
-fn between(first: &Picture, second: &Picture, part: f32) -> Picture {
+/// Mixes two pictures, `part` of the way to the second.
+fn mix(first: &Picture, second: &Picture, part: f32) -> Picture {
     let mixed = |a: f32, b: f32| (1.0 - part) * a + part * b;
     Picture {
         color: first.color.zip(&second.color, |a, b| {
@@ -143,42 +131,45 @@ fn between(first: &Picture, second: &Picture, part: f32) -> Picture {
 fn skill_is_the_share_of_the_way_from_doing_nothing_to_the_one_frame_oracle() {
     let (frame, truth) = frame_and_truth();
     let nothing = instant(&frame);
-    let oracle = between(&nothing, &truth.mean(), 0.75);
-    let reference = reference(&frame, &truth).with_best(&oracle).unwrap();
-    let scores = |picture: &Picture| reference.measure(picture).unwrap().scores;
+    let oracle = mix(&nothing, &truth.mean(), 0.75);
+    let reference = make_reference(&frame, &truth).with_best(&oracle).unwrap();
+    let scores_of = |picture: &Picture| reference.measure(picture).unwrap().scores;
     for (picture, expected) in [(&nothing, 0.0), (&oracle, 1.0)] {
-        let scores = scores(picture);
+        let scores = scores_of(picture);
         for name in SKILLS {
-            assert!((value(&scores, name) - expected).abs() < 1e-6, "{name}");
+            assert!(
+                (find_value(&scores, name) - expected).abs() < 1e-6,
+                "{name}"
+            );
         }
     }
-    // Half of the way to the truth leaves half of what is given to the wrong object, the oracle a quarter; of squared errors the
-    // squares of both.
-    let half = scores(&between(&nothing, &truth.mean(), 0.5));
-    assert!((value(&half, "skill_label_tv") - 0.5 / 0.75).abs() < 1e-5);
-    assert!((value(&half, "skill_mse") - 0.75 / (1.0 - 1.0 / 16.0)).abs() < 1e-5);
-    // The truth is better than what one frame can tell, and a negative with mover and background exchanged worse than doing
+    // Half of the way to the truth leaves half of the pixels' time with the wrong object, and the oracle leaves a
+    // quarter. Squared errors leave the squares of both.
+    let half = scores_of(&mix(&nothing, &truth.mean(), 0.5));
+    assert!((find_value(&half, "skill_label_tv") - 0.5 / 0.75).abs() < 1e-5);
+    assert!((find_value(&half, "skill_mse") - 0.75 / (1.0 - 1.0 / 16.0)).abs() < 1e-5);
+    // The truth is better than any one-frame oracle. A negative with mover and background exchanged is worse than doing
     // nothing.
     let worse = Picture {
         color: (frame.color).map(|color| color.map(|part| (1.0 - part).max(0.0))),
         coverage: frame.coverage.iter().rev().cloned().collect(),
     };
     for name in SKILLS {
-        assert!(value(&scores(&truth.mean()), name) > 1.0, "{name}");
-        assert!(value(&scores(&worse), name) < 0.0, "{name}");
+        assert!(find_value(&scores_of(&truth.mean()), name) > 1.0, "{name}");
+        assert!(find_value(&scores_of(&worse), name) < 0.0, "{name}");
     }
 }
 
 #[test]
-fn skill_does_not_apply_where_the_oracle_is_no_better_than_doing_nothing_or_is_not_known() {
+fn skill_needs_an_oracle_that_beats_doing_nothing() {
     let (frame, truth) = frame_and_truth();
     let nothing = instant(&frame);
     let reason = |scores: &Scores, name: &str| match scores.get(name.parse().unwrap()) {
         Measured::NotApplicable { reason } => reason,
         Measured::Score(score) => panic!("{name}: {score:?}"),
     };
-    let unknown = scores(&frame, &truth, &truth.mean());
-    let reference = reference(&frame, &truth).with_best(&nothing).unwrap();
+    let unknown = measure_scores(&frame, &truth, &truth.mean());
+    let reference = make_reference(&frame, &truth).with_best(&nothing).unwrap();
     let equal = reference.measure(&truth.mean()).unwrap().scores;
     for name in SKILLS {
         assert!(reason(&unknown, name).contains("no picture of the one-frame oracle was given"));
@@ -187,8 +178,8 @@ fn skill_does_not_apply_where_the_oracle_is_no_better_than_doing_nothing_or_is_n
 }
 
 /// Returns the probes after a gather that takes `taps` (offset in whole pixels, weight) at every pixel.
-fn gathered(taps: &[([i32; 2], f32)]) -> Probes {
-    // Far enough from the border that no tap leaves the picture there.
+fn gather_probes(taps: &[([i32; 2], f32)]) -> Probes {
+    // Far enough from the border that all taps stay in the picture.
     let images = Probes::images(72, 48);
     let outputs = images.each_ref().map(|image| -> Image {
         Raster::from_fn(72, 48, |x, y| {
@@ -207,17 +198,17 @@ fn gathered(taps: &[([i32; 2], f32)]) -> Probes {
 }
 
 #[test]
-fn probes_tell_where_a_filter_gathers() {
+fn probes_locate_a_filter_s_taps() {
     let (frame, mut truth) = frame_and_truth();
-    // Everything seen was 3 pixels further right on average, at 2 and at 4, in pixels one wide.
+    // The taps lie 3 pixels further right on average, at 2 and at 4, in pixels one wide.
     for half in &mut truth.at_instant {
         half.offset = half.offset.map(|_| [3.0, 0.0]);
         half.spread = half
             .spread
             .map(|_| [9.0 + 1.0 + 1.0 / 12.0, 0.0, 1.0 / 12.0]);
     }
-    let reference = reference(&frame, &truth);
-    let measured = |taps: &[([i32; 2], f32)]| reference.measure_probes(&gathered(taps)).scores;
+    let reference = make_reference(&frame, &truth);
+    let measured = |taps: &[([i32; 2], f32)]| reference.measure_probes(&gather_probes(taps)).scores;
     let number = |measured: &Measured| measured.value().unwrap();
 
     let right = measured(&[([2, 0], 0.5), ([4, 0], 0.5)]);
@@ -251,11 +242,12 @@ fn grain_raises_total_variation_and_a_smooth_ramp_does_not() {
         let inside = *a > 0.0 && *a < 1.0;
         (a + if inside { random.real(-0.2, 0.2) } else { 0.0 }).clamp(0.0, 1.0)
     });
-    let excess = |picture: &Picture| value(&scores(&frame, &truth, picture), "tv_excess");
+    let excess =
+        |picture: &Picture| find_value(&measure_scores(&frame, &truth, picture), "tv_excess");
     assert!(excess(&mean).abs() < 1e-9);
     assert!(excess(&grainy) > 1.0, "{}", excess(&grainy));
-    // An even blur twice as long rises and falls but once, and less high.
-    let long = scene().render(
+    // An even blur twice as long rises and falls only once, and less high.
+    let long = sliding_disc().render(
         &Blur {
             from: -2.0,
             ..Blur::TRUE
@@ -263,7 +255,8 @@ fn grain_raises_total_variation_and_a_smooth_ramp_does_not() {
         Sampling::CLEAN,
     );
     assert!(excess(&long) < 0.0, "{}", excess(&long));
-    let steep = |picture: &Picture| value(&scores(&frame, &truth, picture), "gradient_error");
+    let steep =
+        |picture: &Picture| find_value(&measure_scores(&frame, &truth, picture), "gradient_error");
     assert!(steep(&mean) < 1e-12 && steep(&grainy) > 1e-4);
 }
 

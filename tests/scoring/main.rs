@@ -10,3 +10,41 @@ mod noise;
 mod ranking;
 mod scatter_oracle;
 mod scores;
+
+use frame::Truth;
+use metrics::{Measured, Measurement, Scores, measure};
+use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
+
+/// Makes a disc that slides at an angle over a picture of 72x48 pixels.
+fn sliding_disc() -> Scene {
+    Scene {
+        width: 72,
+        height: 48,
+        objects: vec![Object::sliding(Shape::Disc(9.0), [46.3, 26.2], [24.0, 6.0])],
+    }
+}
+
+fn noisy(samples: u32, seed: u64) -> Sampling {
+    Sampling {
+        samples,
+        seed: Some(seed),
+    }
+}
+
+fn clean_truth(scene: &Scene) -> Truth {
+    scene.truth([Sampling::CLEAN; 2])
+}
+
+fn measure_blur(scene: &Scene, blur: Blur) -> Measurement {
+    let output = scene.render(&blur, Sampling::CLEAN);
+    measure(&output, &scene.frame(), &clean_truth(scene), None, &VIEWING).expect("they agree")
+}
+
+/// Returns a metric's value; fails the test if the metric does not apply.
+#[track_caller]
+fn find_value(scores: &Scores, name: &str) -> f64 {
+    match scores.get(name.parse().expect("a metric's name")) {
+        Measured::Score(score) => score.value,
+        Measured::NotApplicable { reason } => panic!("{name} does not apply: {reason}"),
+    }
+}

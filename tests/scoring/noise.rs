@@ -1,6 +1,6 @@
 //! Noise in the truth, in the ladder and in a picture.
 //!
-//! Errors are unbiased, floors are what noise makes of a score, and an accumulation of N sub-frames is found to be one of N.
+//! Errors are unbiased, floors are the noise of a score, and an accumulation of N sub-frames scores as one of N.
 
 use std::sync::LazyLock;
 
@@ -9,32 +9,20 @@ use metrics::{
     Equivalent, LadderRange, Measured, Metric, Reference, Region, Scores, measure, regions,
 };
 use tests::random::Random;
-use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
+use tests::synthetic::{Blur, VIEWING};
 
-fn scene() -> Scene {
-    Scene {
-        width: 72,
-        height: 48,
-        objects: vec![Object::sliding(Shape::Disc(9.0), [46.3, 26.2], [24.0, 6.0])],
-    }
-}
+use crate::{noisy, sliding_disc};
 
-fn noisy(samples: u32, seed: u64) -> Sampling {
-    Sampling {
-        samples,
-        seed: Some(seed),
-    }
-}
-
-static FRAME: LazyLock<Frame> = LazyLock::new(|| scene().frame());
+static FRAME: LazyLock<Frame> = LazyLock::new(|| sliding_disc().frame());
 
 static FRAME_PICTURE: LazyLock<Picture> = LazyLock::new(|| Picture {
     color: FRAME.color.clone(),
     coverage: FRAME.coverage.clone(),
 });
 
-/// A truth with little noise, from other seeds than anything measured against it.
-static TRUTH: LazyLock<Truth> = LazyLock::new(|| scene().truth([noisy(4096, 1), noisy(4096, 2)]));
+/// Truth with little noise, from other seeds than the pictures measured against it.
+static TRUTH: LazyLock<Truth> =
+    LazyLock::new(|| sliding_disc().truth([noisy(4096, 1), noisy(4096, 2)]));
 
 fn score(output: &Picture, truth: &Truth) -> Scores {
     measure(output, &FRAME, truth, None, &VIEWING)
@@ -49,7 +37,7 @@ fn get(scores: &Scores, name: &str) -> metrics::Score {
     }
 }
 
-/// Mean and standard error of independent values.
+/// Returns the mean and standard error of independent values.
 fn mean_and_error(values: &[f64]) -> (f64, f64) {
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
@@ -57,7 +45,7 @@ fn mean_and_error(values: &[f64]) -> (f64, f64) {
     (mean, (squares / (count - 1.0) / count).sqrt())
 }
 
-/// Mean squared difference of two pictures over the moving region.
+/// Returns the mean squared difference of two pictures over the moving region.
 fn plain_mse(output: &Picture, truth: &Picture) -> f64 {
     let difference = output.color.zip(&truth.color, |a, b| {
         (0..3).map(|c| f64::from(a[c] - b[c]).powi(2)).sum::<f64>() / 3.0
@@ -67,14 +55,14 @@ fn plain_mse(output: &Picture, truth: &Picture) -> f64 {
 }
 
 #[test]
-fn squared_error_is_unbiased_where_the_plain_one_is_not() {
-    let nearly_right = scene().render(&Blur::accumulation(6), noisy(4096, 3));
+fn the_squared_error_is_unbiased_and_the_plain_one_is_not() {
+    let nearly_right = sliding_disc().render(&Blur::accumulation(6), noisy(4096, 3));
     // The converged truth's own noise is 1/256 of that of 16 samples.
     let expected = plain_mse(&nearly_right, &TRUTH.mean());
     let mut unbiased = Vec::new();
     let mut plain = Vec::new();
     for seed in 0..200 {
-        let truth = scene().truth([noisy(16, 1000 + seed), noisy(16, 2000 + seed)]);
+        let truth = sliding_disc().truth([noisy(16, 1000 + seed), noisy(16, 2000 + seed)]);
         unbiased.push(get(&score(&nearly_right, &truth), "mse_moving").value);
         plain.push(plain_mse(&nearly_right, &truth.mean()));
     }
@@ -94,7 +82,7 @@ fn squared_error_is_unbiased_where_the_plain_one_is_not() {
 fn a_perfect_picture_s_unbiased_error_scatters_by_its_floor() {
     let converged = TRUTH.mean();
     let truths: Vec<Scores> = (0..100)
-        .map(|seed| scene().truth([noisy(16, 3000 + seed), noisy(16, 4000 + seed)]))
+        .map(|seed| sliding_disc().truth([noisy(16, 3000 + seed), noisy(16, 4000 + seed)]))
         .map(|truth| score(&converged, &truth))
         .collect();
     for name in [
@@ -121,12 +109,13 @@ fn a_perfect_picture_s_unbiased_error_scatters_by_its_floor() {
             within(2.0),
             within(3.0)
         );
-        // A standard deviation from 100 values errs by a fourteenth; noise that is not normal moves the floor by a fifth.
+        // A standard deviation from 100 values errs by a fourteenth; noise that is not normal moves the floor by a
+        // fifth.
         assert!(
             (0.7..1.25).contains(&(scatter / floor)),
             "{name}: {scatter} {floor}"
         );
-        // Of normal values 68, 95 and 99.7 of 100 are; four standard deviations below.
+        // Of 100 normal values, 68, 95 and 99.7 are inside; four standard deviations below.
         assert!(
             within(1.0) >= 50 && within(2.0) >= 86 && within(3.0) >= 96,
             "{name}"
@@ -137,7 +126,7 @@ fn a_perfect_picture_s_unbiased_error_scatters_by_its_floor() {
 #[test]
 fn a_converged_picture_scores_about_the_floor_of_a_noisy_truth() {
     let converged = TRUTH.mean();
-    let truth = scene().truth([noisy(128, 5), noisy(128, 6)]);
+    let truth = sliding_disc().truth([noisy(128, 5), noisy(128, 6)]);
     let scores = score(&converged, &truth);
     for name in [
         "flip_moving",
@@ -150,8 +139,8 @@ fn a_converged_picture_scores_about_the_floor_of_a_noisy_truth() {
     ] {
         let score = get(&scores, name);
         let ratio = score.value / score.floor;
-        // Half A and the mean differ by exactly the mean's noise, drawn once more: equal but for chance and, for FLIP,
-        // for noise in both pictures.
+        // Half A and the mean differ by exactly the mean's noise, drawn once more: equal except for chance and, for
+        // FLIP, for noise in both pictures.
         assert!((0.7..1.4).contains(&ratio), "{name}: {score:?}");
     }
     for name in ["lateral_growth", "row_gain", "row_loss"] {
@@ -161,9 +150,9 @@ fn a_converged_picture_scores_about_the_floor_of_a_noisy_truth() {
             "{name}: {score:?}"
         );
     }
-    // Below the noise, PSNR stays at what the truth can vouch for.
+    // Below the noise, PSNR stays at the value that the truth can support.
     let scores = (0..)
-        .map(|seed| scene().truth([noisy(128, 500 + seed), noisy(128, 600 + seed)]))
+        .map(|seed| sliding_disc().truth([noisy(128, 500 + seed), noisy(128, 600 + seed)]))
         .map(|truth| score(&converged, &truth))
         .find(|scores| get(scores, "mse_moving").value < 0.0)
         .expect("every other truth scores a perfect picture below 0");
@@ -177,7 +166,7 @@ fn floors_fall_as_the_truth_converges() {
     let [coarse, fine] = [16, 1024].map(|samples| {
         score(
             output,
-            &scene().truth([noisy(samples, 7), noisy(samples, 8)]),
+            &sliding_disc().truth([noisy(samples, 7), noisy(samples, 8)]),
         )
     });
     for metric in Metric::all() {
@@ -192,7 +181,8 @@ fn floors_fall_as_the_truth_converges() {
             || name.starts_with("bleed")
             || name == "energy"
         {
-            // The still background has no noise, nothing is shaded anew, the margin swallows noise, and one sum can be lucky.
+            // The still background has no noise, nothing is shaded anew, the margin hides noise, and one sum can be
+            // small by chance.
             continue;
         }
         if name.starts_with("psnr") {
@@ -215,12 +205,12 @@ fn floors_fall_as_the_truth_converges() {
 }
 
 #[test]
-fn an_accumulation_of_n_sub_frames_is_found_to_be_one_of_n() {
-    let ladder = scene().ladder(1024, [1000, 2000]);
+fn an_accumulation_of_n_sub_frames_scores_as_n() {
+    let ladder = sliding_disc().ladder(1024, [1000, 2000]);
     let reference = Reference::new(&FRAME, &TRUTH, Some(&ladder), &VIEWING).expect("they agree");
     for subframes in [2, 4, 8, 16] {
         // As many samples as a rung's two halves, from a seed of its own.
-        let output = scene().render(&Blur::accumulation(subframes), noisy(2048, 9));
+        let output = sliding_disc().render(&Blur::accumulation(subframes), noisy(2048, 9));
         let scores = reference.measure(&output).expect("a finite picture").scores;
         for name in ["n_eq", "n_eq_flip", "n_eq_label_tv"] {
             let found = get(&scores, name).value;
@@ -235,13 +225,14 @@ fn an_accumulation_of_n_sub_frames_is_found_to_be_one_of_n() {
 
 #[test]
 fn noise_in_the_ladder_does_not_lower_the_bar() {
-    let ladder = scene().ladder(8, [5000, 6000]);
+    let ladder = sliding_disc().ladder(8, [5000, 6000]);
     let reference = Reference::new(&FRAME, &TRUTH, Some(&ladder), &VIEWING).expect("they agree");
     for subframes in [4, 8] {
-        let output = scene().render(&Blur::accumulation(subframes), noisy(4096, 11));
+        let output = sliding_disc().render(&Blur::accumulation(subframes), noisy(4096, 11));
         let scores = reference.measure(&output).expect("a finite picture").scores;
         let ratio = get(&scores, "n_eq").value / f64::from(subframes);
-        // Two halves of 8 samples: unbiased, their noise scatters the counts by 3 %; counted as error it adds 14 % and more.
+        // Two halves of 8 samples: unbiased, their noise scatters the counts by 3 %; counted as error, it adds at least
+        // 14 %.
         assert!(
             (0.9..1.1).contains(&ratio),
             "{subframes} sub-frames: ratio {ratio}"
@@ -250,11 +241,11 @@ fn noise_in_the_ladder_does_not_lower_the_bar() {
 }
 
 #[test]
-fn counts_beyond_the_ladder_say_so() {
-    let ladder = scene().ladder(256, [3000, 4000]);
+fn counts_beyond_the_ladder_are_marked() {
+    let ladder = sliding_disc().ladder(256, [3000, 4000]);
     let reference = Reference::new(&FRAME, &TRUTH, Some(&ladder), &VIEWING).expect("they agree");
     let range = |blur: Blur| {
-        let output = scene().render(&blur, noisy(4096, 10));
+        let output = sliding_disc().render(&blur, noisy(4096, 10));
         let scores = reference.measure(&output).expect("a finite picture").scores;
         match scores.equivalent_subframes.label_total_variation {
             Equivalent::Subframes(subframes) => subframes.range,
@@ -272,7 +263,7 @@ fn counts_beyond_the_ladder_say_so() {
 }
 
 #[test]
-fn frames_of_noise_tell_a_filters_noise_from_what_it_gets_wrong_every_time() {
+fn frames_of_noise_separate_variance_from_bias() {
     let reference = Reference::new(&FRAME, &TRUTH, None, &VIEWING).expect("they agree");
     let truth = TRUTH.mean().color;
     let (offset, amplitude, frames) = (0.25, 0.5, 4);

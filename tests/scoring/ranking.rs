@@ -11,7 +11,7 @@ use tracer::Family;
 /// Difficulty of a run's scenes relative to one another.
 const SCENES: [f64; 5] = [0.6, 0.8, 1.0, 1.2, 1.4];
 
-/// A filter or bar: its alignment, and its mean FLIP and FLIP*.
+/// A filter or reference: its alignment, and its mean FLIP and FLIP*.
 type Entry = (&'static str, bool, &'static str, f64, f64);
 
 /// Difficulties of the five scenes of `make run`.
@@ -25,8 +25,8 @@ const ENTRIES: [Entry; 7] = [
     ("jimenez:wicked", false, "centred", 0.253, 0.253),
 ];
 
-/// Any scores, to be overwritten.
-fn scores() -> Scores {
+/// Makes scores whose values do not matter.
+fn any_scores() -> Scores {
     let scene = Scene {
         width: 48,
         height: 32,
@@ -37,7 +37,7 @@ fn scores() -> Scores {
     reference.measure(&truth.mean()).unwrap().scores
 }
 
-fn case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common): Entry) -> Case {
+fn make_case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common): Entry) -> Case {
     let of = |name: &str| {
         let own = ENTRIES
             .iter()
@@ -76,10 +76,10 @@ fn case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common): Ent
     }
 }
 
-fn run() -> Run {
-    let scores = scores();
+fn make_run() -> Run {
+    let scores = any_scores();
     let cases: Vec<Case> = (0..SCENES.len())
-        .flat_map(|scene| ENTRIES.map(|entry| case(scene, &scores, entry)))
+        .flat_map(|scene| ENTRIES.map(|entry| make_case(scene, &scores, entry)))
         .collect();
     Run {
         format: FORMAT,
@@ -107,7 +107,7 @@ fn mean<'a>(run: &'a Run, filter: &str, metric: &str) -> &'a Overall {
     found.unwrap_or_else(|| panic!("{metric} of {filter} has no mean"))
 }
 
-/// The names of the rows between two texts of the printed table, in order.
+/// Returns the names of the rows between two texts of the printed table, in order.
 fn rows(text: &str, from: &str, to: &str) -> Vec<String> {
     let (_, text) = text.split_once(from).expect(from);
     let text = text.split_once(to).map_or(text, |(text, _)| text);
@@ -116,8 +116,8 @@ fn rows(text: &str, from: &str, to: &str) -> Vec<String> {
         .collect()
 }
 
-/// Without the codes of colours.
-fn printed(run: &Run) -> String {
+/// Prints the run's table without colour codes.
+fn print_table(run: &Run) -> String {
     let mut text = String::new();
     for (index, part) in run_table(run).split('\u{1b}').enumerate() {
         text += match index {
@@ -130,7 +130,7 @@ fn printed(run: &Run) -> String {
 
 #[test]
 fn a_trailing_filter_of_more_skill_ranks_above_a_centred_one_of_less_flip() {
-    let run = run();
+    let run = make_run();
     let [flip, skill] = ["flip_moving", "skill_flip"].map(|metric| {
         ["jump_flood:paper", "kino:default"].map(|filter| mean(&run, filter, metric).mean)
     });
@@ -140,7 +140,7 @@ fn a_trailing_filter_of_more_skill_ranks_above_a_centred_one_of_less_flip() {
         (skill[0] - 0.6545).abs() < 1e-3 && (skill[1] - 0.5154).abs() < 1e-3,
         "{skill:?}"
     );
-    let text = printed(&run);
+    let text = print_table(&run);
     let (_, ranking) = text.rsplit_once("mean over 5 scenes").unwrap();
     let place = |name: &str| ranking.find(name).expect(name);
     assert!(
@@ -150,17 +150,17 @@ fn a_trailing_filter_of_more_skill_ranks_above_a_centred_one_of_less_flip() {
 }
 
 #[test]
-fn what_is_worse_than_doing_nothing_ranks_below_it() {
-    let run = run();
+fn a_filter_worse_than_doing_nothing_ranks_below_it() {
+    let run = make_run();
     let skill = mean(&run, "jimenez:wicked", "skill_flip");
     assert!(
         (skill.mean - (0.154 - 0.253) / 0.130).abs() < 1e-9,
         "{skill:?}"
     );
     assert!(skill.interval[1] < 0.0);
-    // Its FLIP is smaller than that of doing nothing against the trailing truth all the same.
+    // Its FLIP is nevertheless smaller than the identity's against the trailing truth.
     assert!(mean(&run, "jimenez:wicked", "flip_moving").mean < 0.270);
-    let text = printed(&run);
+    let text = print_table(&run);
     let (_, ranking) = text.rsplit_once("mean over 5 scenes").unwrap();
     let (ranking, _) = ranking.split_once("Skill is by").unwrap();
     let last = ranking.rfind("[identity]").unwrap();
@@ -169,7 +169,7 @@ fn what_is_worse_than_doing_nothing_ranks_below_it() {
 
 #[test]
 fn a_ranking_by_flip_stays_within_a_shutter_and_shows_its_references() {
-    let text = printed(&run());
+    let text = print_table(&make_run());
     let (_, means) = text.split_once("mean over 5 scenes").unwrap();
     let (means, _) = means.split_once("mean over 5 scenes").unwrap();
     assert_eq!(
@@ -193,11 +193,11 @@ fn a_ranking_by_flip_stays_within_a_shutter_and_shows_its_references() {
 
 #[test]
 fn skill_over_scenes_is_a_ratio_of_means() {
-    let scores = scores();
+    let scores = any_scores();
     let mut cases: Vec<Case> = (0..2)
-        .flat_map(|scene| ENTRIES.map(|entry| case(scene, &scores, entry)))
+        .flat_map(|scene| ENTRIES.map(|entry| make_case(scene, &scores, entry)))
         .collect();
-    // On the second scene nothing is to be gained, and what is gained of it is noise: ten times of nearly nothing.
+    // On the second scene nothing can be gained, and the filter's gain there is noise: ten times nearly nothing.
     for case in cases.iter_mut().filter(|case| case.scene == "scene_1") {
         let flip = match case.filter.as_str() {
             "identity" => 0.101,
@@ -218,15 +218,15 @@ fn skill_over_scenes_is_a_ratio_of_means() {
 }
 
 #[test]
-fn scenes_that_skill_does_not_apply_to_are_counted() {
-    let mut run = run();
-    assert!(!printed(&run).contains("Scenes that skill applies to"));
+fn scenes_without_skill_are_counted() {
+    let mut run = make_run();
+    assert!(!print_table(&run).contains("Scenes that skill applies to"));
     let centred = run.cases.iter_mut();
     for case in centred.filter(|case| case.scene == "scene_2" && case.alignment == "centred") {
         case.scores.skill.flip = Measured::not_applicable("it serves a test");
     }
     run.overall = overall(&run.cases);
-    let text = printed(&run);
+    let text = print_table(&run);
     assert!(
         text.contains("Scenes that skill applies to: 4 of 5 centred."),
         "{text}"
@@ -235,7 +235,7 @@ fn scenes_that_skill_does_not_apply_to_are_counted() {
 
 #[test]
 fn flip_against_the_common_shutter_has_a_mean_of_its_own() {
-    let run = run();
+    let run = make_run();
     assert!((mean(&run, "jump_flood:paper", "flip_common").mean - 0.140).abs() < 1e-12);
     let own = run.cases[0]
         .scores
@@ -244,8 +244,8 @@ fn flip_against_the_common_shutter_has_a_mean_of_its_own() {
 }
 
 #[test]
-fn bleed_is_the_largest_of_three_and_says_which() {
-    let mut run = run();
+fn bleed_is_the_largest_of_three_and_names_its_side() {
+    let mut run = make_run();
     run.cases.truncate(ENTRIES.len());
     run.overall.clear();
     let mover = &mut run.cases[6].scores.objects[0];
@@ -257,7 +257,7 @@ fn bleed_is_the_largest_of_three_and_says_which() {
     for (side, pixels) in sides.into_iter().zip([0.0, 4.8, 4.7]) {
         *side = Measured::score(pixels, 0.0);
     }
-    let ahead = printed(&run);
+    let ahead = print_table(&run);
     let line = |text: &str| {
         let mut lines = text.lines();
         lines
@@ -269,12 +269,16 @@ fn bleed_is_the_largest_of_three_and_says_which() {
     let mover = &mut run.cases[6].scores.objects[0];
     mover.bleed_trailing = Measured::score(14.72, 0.0);
     assert!(
-        line(&printed(&run)).contains(" 14.7< "),
+        line(&print_table(&run)).contains(" 14.7< "),
         "{}",
-        printed(&run)
+        print_table(&run)
     );
     let mover = &mut run.cases[6].scores.objects[0];
     mover.bleed_lateral = Measured::score(15.0, 0.0);
-    assert!(line(&printed(&run)).contains(" 15.0 "), "{}", printed(&run));
+    assert!(
+        line(&print_table(&run)).contains(" 15.0 "),
+        "{}",
+        print_table(&run)
+    );
     assert!(ahead.contains("ahead (>)"), "{ahead}");
 }

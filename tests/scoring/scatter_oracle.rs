@@ -1,4 +1,4 @@
-//! The bar `scatter_oracle`: right wherever one frame with straight motion tells what is right.
+//! The reference `scatter_oracle`, which is right wherever one frame with straight motion decides the result.
 
 use frame::{Efficiency, Frame, Image, Picture, Raster, Shutter, ShutterProfile, Vectors};
 use suite::scatter_oracle;
@@ -12,7 +12,7 @@ fn scene(objects: Vec<Object>) -> Scene {
     }
 }
 
-/// A frame of one bright block of columns at depth 2 before black, moving right by whole pixels per frame.
+/// Makes a frame of one bright block of columns at depth 2 before black, moving right by whole pixels per frame.
 fn block(columns: std::ops::Range<u32>, speed: f32) -> Frame {
     let inside = |x: u32| columns.contains(&x);
     let mut frame = scene(Vec::new()).frame();
@@ -54,7 +54,7 @@ fn a_still_frame_comes_out_unchanged() {
 }
 
 #[test]
-fn a_mover_leaves_ramps_where_it_was_and_shows_what_lies_behind() {
+fn a_mover_leaves_ramps_and_shows_its_background() {
     // From 20 to 30, 8 pixels per frame: over the shutter it covers column x while -8 t is between x's distances.
     let frame = block(20..30, 8.0);
     let ramp = |x: u32, from: f64| ((f64::from(x) + 0.5 - from) / 8.0).clamp(0.0, 1.0);
@@ -73,9 +73,9 @@ fn a_mover_leaves_ramps_where_it_was_and_shows_what_lies_behind() {
 }
 
 #[test]
-fn the_nearer_hides_the_farther_and_a_hole_is_filled_with_what_lies_behind() {
-    // Dark green stands before the block's way; blue is what it comes over, and right of it a green wall, farther than the
-    // block.
+fn near_surfaces_hide_far_ones_and_holes_show_the_background() {
+    // Dark green lies ahead of the block. Blue is the background, and right of it a green wall lies farther away than
+    // the block.
     let mut frame = block(20..30, 8.0);
     for y in 0..24 {
         for x in 0..48 {
@@ -99,7 +99,7 @@ fn the_nearer_hides_the_farther_and_a_hole_is_filled_with_what_lies_behind() {
             "hidden behind what is nearer"
         );
     }
-    // The block was not yet at its right end for most of the shutter: between itself and the wall, the wall is farther.
+    // For most of the shutter the block was not yet at its right end: of the block and the wall, the wall is farther.
     let [red, green, blue] = *picture.color.at(29, 12);
     assert_eq!(blue, red, "the white block alone brings blue");
     assert!(
@@ -109,10 +109,10 @@ fn the_nearer_hides_the_farther_and_a_hole_is_filled_with_what_lies_behind() {
 }
 
 #[test]
-fn a_gradual_shutter_weighs_and_a_rolling_one_shifts() {
+fn a_gradual_shutter_weights_instants_and_a_rolling_one_shifts_them() {
     let frame = block(20..30, 8.0);
-    // Efficiency rises from 0.6 to 0.8 of the interval and stays: areas 0.1 and 0.2, on the last 3.2 pixels of the way. Column 19
-    // is covered until half a pixel before the end, at 0.9375.
+    // Efficiency rises from 0.6 to 0.8 of the interval and stays: areas 0.1 and 0.2, on the last 3.2 pixels of the way.
+    // Column 19 is covered until half a pixel before the end, at 0.9375.
     let profile = ShutterProfile {
         efficiency: Efficiency::Table(vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0]),
         ..ShutterProfile::default()
@@ -132,7 +132,7 @@ fn a_gradual_shutter_weighs_and_a_rolling_one_shifts() {
 }
 
 #[test]
-fn a_place_that_all_have_left_keeps_its_own() {
+fn a_pixel_that_every_surface_left_keeps_its_own_colour() {
     let mut frame = block(0..48, 60.0);
     frame.velocity = Vectors::filled(48, 24, [60.0, 0.0]);
     let picture = oracle(&frame, Shutter::new(0.0, 1.0).unwrap());

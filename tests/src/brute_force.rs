@@ -1,12 +1,12 @@
-//! Trees against every triangle in turn.
+//! Search trees against a test of every triangle.
 
 use tracer::{Ray, Scene, Stage};
 
 use crate::random::Numbers;
 
 /// Sends `count` rays through a scene at times in `[open, close]`: from among its objects and from far away, towards
-/// whatever lies within `size` metres of the origin. Every way to search must find what every triangle in turn gives;
-/// at least a tenth of the rays must hit something.
+/// whatever lies within `size` metres of the origin. Every search method must find the same hit as a test of every
+/// triangle. At least a tenth of the rays must hit something.
 pub fn expect_what_every_triangle_gives(
     scene: &Scene,
     [open, close]: [f64; 2],
@@ -34,7 +34,7 @@ pub fn expect_what_every_triangle_gives(
         hits += u32::from(expected.is_some());
         for stage in &stages {
             let path = stage.traversal();
-            // Asked anew each time: what is known of the poses changes the way to the hit.
+            // Asked anew each time, since known poses change the way to the hit.
             assert_eq!(
                 stage.closest(poses.at(time), &ray),
                 expected,

@@ -5,22 +5,22 @@ use std::path::{Path, PathBuf};
 
 use filters::{Filter, FilterError};
 
-/// Writes a filter of one file of kernels: `filter.toml` and `<name>.wgsl` in `folder`, which is made where it is missing.
+/// Writes a filter with one kernel file: `filter.toml` and `<name>.wgsl` in `folder`, which is created if needed.
 pub fn write_filter(folder: &Path, name: &str, manifest: &str, kernels: &str) {
     fs::create_dir_all(folder).unwrap();
     fs::write(folder.join("filter.toml"), manifest).unwrap();
     fs::write(folder.join(format!("{name}.wgsl")), kernels).unwrap();
 }
 
-/// Loads a filter of one file of kernels from a folder that is gone afterwards.
+/// Loads a filter with one kernel file from a temporary folder.
 pub fn load_filter(name: &str, manifest: &str, kernels: &str) -> Result<Filter, FilterError> {
     let folder = tempfile::tempdir().unwrap();
     write_filter(folder.path(), name, manifest, kernels);
     Filter::load(folder.path())
 }
 
-/// Makes the kernels of a filter with one pass, `work`: `body` writes `pixel` of `output` from `color`; `parameters` are the
-/// members of `Parameters`, one or more.
+/// Makes the kernels of a filter with one pass, `work`. `body` writes `pixel` of `output` from `color`; `parameters`
+/// are the members of `Parameters`, one or more.
 pub fn one_kernel(parameters: &str, body: &str) -> String {
     format!(
         "struct Parameters {{ {parameters} }}
@@ -30,7 +30,7 @@ pub fn one_kernel(parameters: &str, body: &str) -> String {
     )
 }
 
-/// Makes such kernels of a filter that has no parameters.
+/// Makes such kernels without parameters.
 pub fn one_kernel_without_parameters(body: &str) -> String {
     format!(
         "@group(0) @binding(2) var color: texture_2d<f32>;
@@ -45,13 +45,13 @@ fn work(@builtin(global_invocation_id) id: vec3<u32>) {{
     )
 }
 
-/// Returns the folder of a filter that the program brings.
+/// Returns the folder of a built-in filter.
 pub fn shipped_filter(name: &str) -> PathBuf {
-    let shaders = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders");
+    let shaders = crate::root().join("shaders");
     shaders.join(name)
 }
 
-/// Copies a filter that the program brings.
+/// Copies a built-in filter.
 pub fn copy_shipped_filter(name: &str, copy: &Path) {
     fs::create_dir_all(copy).unwrap();
     for entry in fs::read_dir(shipped_filter(name)).unwrap() {
@@ -60,14 +60,15 @@ pub fn copy_shipped_filter(name: &str, copy: &Path) {
     }
 }
 
-/// Writes a filter that is a shell script with the files as $1 and $2: `lines` is the script, `more` follows in filter.toml.
+/// Writes a filter that is a shell script, which gets the files as $1 and $2. `lines` is the script, and `more` is
+/// appended to filter.toml.
 pub fn write_program(folder: &Path, name: &str, lines: &str, more: &str) {
     let command = "command = [\"./blur.sh\", \"{frame}\", \"{out}\"]";
     write_manifest(folder, name, &format!("{command}\n{more}"));
     write_script(&folder.join("blur.sh"), lines);
 }
 
-/// Writes a filter folder that holds only filter.toml: three lines, and `more`.
+/// Writes a filter folder with only a filter.toml: three lines, and `more`.
 pub fn write_manifest(folder: &Path, name: &str, more: &str) {
     fs::create_dir_all(folder).unwrap();
     let text =
@@ -75,7 +76,7 @@ pub fn write_manifest(folder: &Path, name: &str, more: &str) {
     fs::write(folder.join("filter.toml"), text).unwrap();
 }
 
-/// Writes a shell script that can be started.
+/// Writes an executable shell script.
 pub fn write_script(path: &Path, lines: &str) {
     fs::write(path, format!("#!/bin/sh\n{lines}\n")).unwrap();
     #[cfg(unix)]

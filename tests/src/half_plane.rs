@@ -3,8 +3,8 @@
 use frame::Shutter;
 use glam::DVec2;
 
-/// Probability that a sum of independent uniform numbers in `[0, width]` is at most `limit`: a piecewise polynomial
-/// (Feller, volume 2, I.9).
+/// Returns the probability that a sum of independent uniform numbers in `[0, width]` is at most `limit`: a piecewise
+/// polynomial (Feller, volume 2, I.9).
 fn uniform_sum(limit: f64, widths: &[f64]) -> f64 {
     let widths: Vec<f64> = widths
         .iter()
@@ -34,7 +34,7 @@ fn uniform_sum(limit: f64, widths: &[f64]) -> f64 {
     sum / (factorial * widths.iter().product::<f64>())
 }
 
-/// Part of pixel x shutter in which `normal . p <= offset + speed t`.
+/// Returns the part of pixel x shutter in which `normal . p <= offset + speed t`.
 pub fn half_plane(pixel: DVec2, normal: DVec2, offset: f64, speed: f64, shutter: Shutter) -> f64 {
     // normal . p - speed t as its least value plus three uniform numbers.
     let least = |along: f64, from: f64, to: f64| (along * from).min(along * to);
@@ -49,7 +49,7 @@ pub fn half_plane(pixel: DVec2, normal: DVec2, offset: f64, speed: f64, shutter:
     uniform_sum(offset - start, &widths)
 }
 
-/// Part of a pixel in which `normal . p <= offset`.
+/// Returns the part of a pixel in which `normal . p <= offset`.
 pub fn area(pixel: DVec2, normal: DVec2, offset: f64) -> f64 {
     let least = |along: f64, from: f64| (along * from).min(along * (from + 1.0));
     let start = least(normal.x, pixel.x) + least(normal.y, pixel.y);

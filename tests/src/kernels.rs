@@ -1,6 +1,6 @@
-//! The taps of every filter on a surface that moves evenly: a closed form, from what was published about each.
+//! Taps of every filter on a surface that moves evenly, in closed form, from the published descriptions.
 //!
-//! All taps lie on one surface there. What remains of a filter is the places and weights of its taps.
+//! All taps lie on one surface there, so that a filter is only the places and weights of its taps.
 
 mod gathers;
 mod jimenez;
@@ -11,28 +11,28 @@ pub use gathers::jump_flood_trail;
 
 use crate::ramp::Ramp;
 
-/// Even motion, and what the picture adds to it.
+/// Even motion, with the exposure and the size of the picture.
 #[derive(Clone, Copy, Debug)]
 pub struct Steady {
-    /// Pixels per frame, +x right, +y down.
+    /// Motion, in pixels per frame, +x right, +y down.
     pub velocity: [f64; 2],
-    /// Frames that the shutter is open.
+    /// Exposure, in frames.
     pub exposure: f64,
-    /// Width and height in pixels.
+    /// Width and height, in pixels.
     pub size: [u32; 2],
 }
 
-/// A pixel that is averaged.
+/// A pixel that enters an average.
 #[derive(Clone, Copy, Debug)]
 pub struct Tap {
-    /// Pixels from the one that the average is for.
+    /// Offset from the averaged pixel, in pixels.
     pub offset: [f64; 2],
     /// Weight.
     pub weight: f64,
 }
 
 impl Steady {
-    /// Motion while the shutter is open, in pixels.
+    /// Returns the motion while the shutter is open, in pixels.
     pub fn trail(&self) -> [f64; 2] {
         scaled(self.velocity, self.exposure)
     }
@@ -42,13 +42,13 @@ impl Steady {
     }
 }
 
-/// Ramp that a filter's preset should make of an edge across the motion; its middle is where that edge was.
+/// Predicts the ramp that a filter's preset makes of an edge across the motion; its middle is relative to the edge.
 pub fn expected_ramp(filter: &str, preset: &str, steady: &Steady) -> Ramp {
-    // Noise is even in [0, 1).
+    // Noise is uniform in [0, 1).
     let steps = 1000;
     let averages = (0..steps).map(|step| {
         let noise = (f64::from(step) + 0.5) / f64::from(steps);
-        let taps = taps(filter, preset, steady, noise);
+        let taps = place_taps(filter, preset, steady, noise);
         let total: f64 = taps.iter().map(|tap| tap.weight).sum();
         // A tap at an offset brings the edge here from there: the ramp lies on the other side.
         taps.into_iter()
@@ -57,16 +57,16 @@ pub fn expected_ramp(filter: &str, preset: &str, steady: &Steady) -> Ramp {
     Ramp::spread(averages.flatten())
 }
 
-/// Returns the taps of one pixel whose noise has a value in [0, 1).
-pub fn taps(filter: &str, preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
+/// Returns the taps of one pixel whose noise has this value in [0, 1).
+pub fn place_taps(filter: &str, preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     match filter {
         "identity" => vec![own(1.0)],
         "velocity_gather" | "camera_gather" => gathers::plain(preset, steady),
         // The packed flood paints the same pixels.
         "jump_flood" | "jump_flood_packed" => gathers::jump_flood(preset, steady, noise),
         "bevy" => gathers::bevy(preset, steady, noise),
-        "jimenez" => jimenez::taps(preset, steady, noise),
-        "kino" => kino::taps(steady, noise),
+        "jimenez" => jimenez::place_taps(preset, steady, noise),
+        "kino" => kino::place_taps(steady, noise),
         "mcguire" => tiles::mcguire(preset, steady, noise),
         "guertin" => tiles::guertin(steady, noise),
         _ => panic!("say here what {filter} averages"),
@@ -78,7 +78,7 @@ pub fn along_motion(steady: &Steady, offset: [f64; 2]) -> f64 {
     dot(offset, direction(steady.velocity))
 }
 
-/// The pixel itself.
+/// Makes a tap on the pixel itself.
 fn own(weight: f64) -> Tap {
     Tap {
         offset: [0.0, 0.0],
@@ -86,7 +86,7 @@ fn own(weight: f64) -> Tap {
     }
 }
 
-/// A tap between pixels: the four around it.
+/// Splits a tap between pixels into the four around it.
 fn bilinear(offset: [f64; 2], weight: f64) -> [Tap; 4] {
     let low = offset.map(f64::floor);
     let part = [offset[0] - low[0], offset[1] - low[1]];
@@ -106,7 +106,7 @@ fn nearest(offset: f64) -> f64 {
     (offset + 0.5).floor()
 }
 
-/// Even weights at these parts of a trail, read between pixels.
+/// Makes taps of equal weight at these parts of a trail, read between pixels.
 fn on_trail(trail: [f64; 2], parts: impl IntoIterator<Item = f64>) -> Vec<Tap> {
     parts
         .into_iter()

@@ -15,10 +15,27 @@ pub mod synthetic;
 pub mod text;
 
 use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
 
+use filters::Gpu;
 use tracer::Progress;
 
-/// A watcher that lets every render go on.
+/// Watches a render and lets it go on.
 pub fn unwatched(_: Progress) -> ControlFlow<()> {
     ControlFlow::Continue(())
+}
+
+/// Opens the adapter that tests run filters on.
+pub fn open_gpu() -> Gpu {
+    Gpu::new(None).expect("these tests run filters")
+}
+
+/// Returns the folder of the repository.
+pub fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// Returns the folder of the shipped scenes.
+pub fn scenes() -> PathBuf {
+    root().join("scenes")
 }

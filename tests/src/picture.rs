@@ -1,29 +1,30 @@
-//! Small frames of surfaces that move to one side each, and their blurs.
+//! Small frames of surfaces, each with its own motion, and their blurs.
 
-use filters::{Blur, Filter, Gpu, Input, Settings};
+use crate::open_gpu;
+use filters::{Blur, Filter, Input, Settings};
 use frame::{Image, Plane, Raster, Vectors};
 
 use crate::ramp::Ramp;
 
-/// A surface, as a pixel sees it.
+/// A surface as one pixel sees it.
 #[derive(Clone, Copy)]
 pub struct Surface {
     /// Grey value.
     pub gray: f32,
-    /// Pixels per frame, +x right, +y down.
+    /// Motion, in pixels per frame, +x right, +y down.
     pub velocity: [f32; 2],
-    /// Metres.
+    /// Depth, in metres.
     pub depth: f32,
 }
 
-/// Still, and behind all else.
+/// Still surface behind all others.
 pub const BLACK_WALL: Surface = Surface {
     gray: 0.0,
     velocity: [0.0, 0.0],
     depth: 20.0,
 };
 
-/// A white surface in front of the wall that moves right by so many pixels per frame.
+/// Makes a white surface in front of the wall that moves right by `speed` pixels per frame.
 pub const fn white(speed: f32) -> Surface {
     Surface {
         gray: 1.0,
@@ -32,20 +33,29 @@ pub const fn white(speed: f32) -> Surface {
     }
 }
 
+/// Makes a grey surface that moves right by `speed` pixels per frame.
+pub const fn gray_moving_by(speed: f32) -> Surface {
+    Surface {
+        gray: 0.5,
+        velocity: [speed, 0.0],
+        depth: 3.0,
+    }
+}
+
 /// Input of a filter.
 pub struct Picture {
-    /// Scene-linear.
+    /// Colours, scene-linear.
     pub color: Image,
-    /// Pixels per frame, +x right, +y down.
+    /// Motion, in pixels per frame, +x right, +y down.
     pub velocity: Vectors,
-    /// Metres.
+    /// Depth, in metres.
     pub depth: Plane,
-    /// Frames that the shutter is open.
+    /// Exposure, in frames.
     pub exposure: f64,
 }
 
 impl Picture {
-    /// The surface at every pixel (column, row); the exposure is one frame.
+    /// Makes a picture from the surface at every (column, row); the exposure is one frame.
     pub fn new(width: u32, height: u32, surface: impl Fn(u32, u32) -> Surface) -> Self {
         Self {
             color: Raster::from_fn(width, height, |x, y| [surface(x, y).gray; 3]),
@@ -55,7 +65,12 @@ impl Picture {
         }
     }
 
-    /// Makes the input of a filter with these colours instead of its own.
+    /// Makes a picture of one surface everywhere.
+    pub fn uniform(width: u32, height: u32, surface: Surface) -> Self {
+        Self::new(width, height, |_, _| surface)
+    }
+
+    /// Makes the input of a filter with these colours in place of its own.
     pub fn input<'a>(&'a self, color: &'a [&'a Image]) -> Input<'a> {
         Input {
             color,
@@ -67,11 +82,11 @@ impl Picture {
         }
     }
 
-    /// A filter's output with parameters set as on the command line.
-    pub fn blurred(&self, filter: &str, preset: &str, overrides: &[(&str, &str)]) -> Image {
+    /// Runs a filter with parameters set as on the command line, and returns its output.
+    pub fn blur(&self, filter: &str, preset: &str, overrides: &[(&str, &str)]) -> Image {
         let (filter, settings) = settings(filter, preset, overrides);
         let (width, height) = (self.color.width, self.color.height);
-        let gpu = Gpu::new(None).expect("these tests run filters");
+        let gpu = open_gpu();
         let mut blur = Blur::new(&gpu, &filter, &settings, width, height).unwrap();
         blur.run(&self.input(&[&self.color])).unwrap().remove(0)
     }
@@ -89,7 +104,7 @@ impl Picture {
             overrides,
         );
         let (width, height) = (self.color.width, self.color.height);
-        let gpu = Gpu::new(None).expect("these tests run filters");
+        let gpu = open_gpu();
         let mut blur = Blur::new(&gpu, &filter, &settings, width, height).unwrap();
         blur.run(&self.input(&[&self.color])).unwrap();
         blur.read_texture(texture).unwrap()
@@ -105,7 +120,7 @@ fn settings(filter: &str, preset: &str, overrides: &[(&str, &str)]) -> (Filter, 
     (filter, settings)
 }
 
-/// Grey value of a column, over all rows: noise becomes the distribution that it is drawn from.
+/// Returns the mean grey value of a column over all rows, which turns noise into its distribution.
 pub fn column(image: &Image, x: u32) -> f64 {
     let sum: f64 = (0..image.height)
         .map(|y| f64::from(image.at(x, y)[0]))
@@ -113,7 +128,7 @@ pub fn column(image: &Image, x: u32) -> f64 {
     sum / f64::from(image.height)
 }
 
-/// Length in pixels of the even ramp that spreads as far as what became of an edge.
+/// Returns the length in pixels of the even ramp with the same spread as a blurred edge.
 pub fn ramp_length(image: &Image) -> f64 {
     let profile: Vec<(f64, f64)> = (0..image.width)
         .map(|x| (f64::from(x), column(image, x)))
@@ -121,7 +136,7 @@ pub fn ramp_length(image: &Image) -> f64 {
     Ramp::of(&profile).length
 }
 
-/// Black on the left and white on the right of the middle, all in one motion at one depth.
+/// Makes a picture that is black left of the middle and white right of it, all in one motion at one depth.
 pub fn moving_edge(width: u32, height: u32, velocity: [f32; 2]) -> Picture {
     Picture::new(width, height, |x, _| Surface {
         gray: if x < width / 2 { 0.0 } else { 1.0 },
@@ -130,7 +145,7 @@ pub fn moving_edge(width: u32, height: u32, velocity: [f32; 2]) -> Picture {
     })
 }
 
-/// A black picture whose lower half moves fast in front, and in its upper half something white that moves less.
+/// Makes a black picture. Its lower half moves fast in front, and its upper half has something white that moves slower.
 pub fn slow_above_fast(slow: f32, fast: f32) -> Picture {
     Picture::new(320, 64, |x, y| match (x, y) {
         (_, 32..) => Surface {
@@ -142,13 +157,13 @@ pub fn slow_above_fast(slow: f32, fast: f32) -> Picture {
     })
 }
 
-/// Light in the rows just above the fast half, so many pixels left of the slow thing.
+/// Measures the light in the rows just above the fast half, at these distances in pixels left of the slow thing.
 pub fn light_above(output: &Image, distances: std::ops::Range<u32>) -> f32 {
     let pixels = distances.flat_map(|distance| (24..32).map(move |y| (159 - distance, y)));
     pixels.map(|(x, y)| output.at(x, y)[0]).sum()
 }
 
-/// Sum of the columns.
+/// Sums the columns.
 pub fn light(image: &Image, columns: std::ops::Range<u32>) -> f64 {
     columns.map(|x| column(image, x)).sum()
 }

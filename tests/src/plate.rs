@@ -1,4 +1,4 @@
-//! Model of a square plate, the smallest scene's object.
+//! Model of a square plate, the object of the smallest scene.
 
 /// plate.obj: one metre on each side.
 pub const OBJ: &str = "\

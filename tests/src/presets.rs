@@ -1,8 +1,8 @@
-//! Every filter that the program brings.
+//! Every built-in filter.
 
 use filters::{Filter, Settings};
 
-/// Every built-in filter with every preset.
+/// Returns every built-in filter with every preset.
 pub fn every_preset() -> Vec<(Filter, Settings)> {
     let filters = Filter::builtin_names()
         .into_iter()
@@ -21,7 +21,7 @@ pub fn every_preset() -> Vec<(Filter, Settings)> {
         .collect()
 }
 
-/// Names a preset as a test's messages do.
+/// Names a preset as messages of tests do.
 pub fn preset_name(filter: &Filter, settings: &Settings) -> String {
     format!("{} with preset {}", filter.name, settings.preset)
 }

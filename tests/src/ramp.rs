@@ -1,17 +1,17 @@
-//! The ramp that a blur makes of an edge.
+//! Ramp that a blur makes of an edge.
 
-/// The way from one side of an edge to the other, along the motion.
+/// Change from one side of an edge to the other, along the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ramp {
-    /// Length in pixels of the even ramp that spreads as far.
+    /// Length in pixels of the even ramp with the same spread.
     pub length: f64,
     /// Position of its middle, in pixels; negative against the motion.
     pub middle: f64,
 }
 
 impl Ramp {
-    /// Measures an edge seen at rising positions, in pixels: (position, brightness). Slopes are weighed with their sign, so that
-    /// noise cancels.
+    /// Measures an edge from (position, brightness) at rising positions, in pixels. Slopes count with their sign, so
+    /// that noise cancels.
     pub fn of(profile: &[(f64, f64)]) -> Self {
         let slopes: Vec<(f64, f64)> = profile
             .windows(2)
@@ -32,13 +32,13 @@ impl Ramp {
         let middle = sum / total;
         let variance: f64 = squares / total - middle * middle;
         Self {
-            // An even ramp of length L has the variance L^2 / 12. Rounding may leave less than nothing.
+            // An even ramp of length L has the variance L^2 / 12. Rounding may leave less than zero.
             length: (12.0 * variance.max(0.0)).sqrt(),
             middle,
         }
     }
 
-    /// Takes out the softness that the edge had before the blur: variances add.
+    /// Removes the softness that the edge had before the blur: variances add.
     pub fn beyond(self, before: Self) -> Self {
         let squares = self.length * self.length - before.length * before.length;
         Self {

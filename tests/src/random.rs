@@ -1,17 +1,17 @@
-//! Random numbers by formula: the same on every machine.
+//! Random numbers by formula, which are the same on every machine.
 
 use glam::DVec3;
 
-/// A stream of numbers; streams of different seeds share nothing in their first four thousand million draws.
+/// Stream of numbers. Streams of different seeds share nothing in their first four thousand million draws.
 pub struct Random(u64);
 
 impl Random {
-    /// The stream of a seed.
+    /// Starts the stream of a seed.
     pub fn new(seed: u64) -> Self {
         Self(seed << 32)
     }
 
-    /// Uniform in [low, high).
+    /// Draws a uniform number in [low, high).
     pub fn real(&mut self, low: f32, high: f32) -> f32 {
         self.0 = self.0.wrapping_add(1);
         let unit = (hash(self.0) >> 40) as f32 / (1u64 << 24) as f32;
@@ -19,24 +19,24 @@ impl Random {
     }
 }
 
-/// A stream of numbers in double precision; as [`Random`], its seeds are multiples of 2^32.
+/// Stream of numbers in double precision; as in [`Random`], its seeds are multiples of 2^32.
 pub struct Numbers(pub u64);
 
 impl Numbers {
-    /// Uniform in [-1, 1).
+    /// Draws a uniform number in [-1, 1).
     #[expect(clippy::should_implement_trait, reason = "a stream without end")]
     pub fn next(&mut self) -> f64 {
         self.0 += 1;
         (hash(self.0) >> 11) as f64 / 2f64.powi(52) - 1.0
     }
 
-    /// Uniform in a cube about the origin.
+    /// Draws a uniform point in a cube about the origin.
     pub fn vector(&mut self) -> DVec3 {
         DVec3::from_array(std::array::from_fn(|_| self.next()))
     }
 }
 
-/// SplitMix64 (Steele, Lea and Flood 2014).
+/// Hashes by SplitMix64 (Steele, Lea and Flood 2014).
 pub fn hash(key: u64) -> u64 {
     let mut z = key.wrapping_add(0x9E37_79B9_7F4A_7C15);
     z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);

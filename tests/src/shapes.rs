@@ -9,7 +9,7 @@ use tracer::{
     Object, Parent, Scene, Turn,
 };
 
-/// A scene without objects, under black sky; the camera at the origin looks along -Z, 90 degrees high.
+/// Makes a scene without objects under a black sky. The camera at the origin looks along -Z, 90 degrees high.
 pub fn empty_scene(name: &str) -> Scene {
     Scene {
         name: name.into(),
@@ -57,7 +57,7 @@ pub fn add(scene: &mut Scene, mesh: Mesh, material: Material, motion: Motion) ->
     index
 }
 
-/// A diffuse surface.
+/// Makes a diffuse surface.
 pub fn diffuse(albedo: f32) -> Material {
     Material {
         name: "diffuse".into(),
@@ -71,7 +71,7 @@ pub fn diffuse(albedo: f32) -> Material {
     }
 }
 
-/// An unlit surface that emits.
+/// Makes an unlit surface that emits.
 pub fn glowing(radiance: f32) -> Material {
     Material {
         emission: Vec3::splat(radiance),
@@ -79,7 +79,7 @@ pub fn glowing(radiance: f32) -> Material {
     }
 }
 
-/// Translation at a constant velocity (metres per frame) through `at` at `t = 0`.
+/// Makes a translation at a constant velocity (metres per frame) through `at` at `t = 0`.
 pub fn drift(at: DVec3, velocity: DVec3) -> Motion {
     Motion {
         keys: vec![
@@ -97,7 +97,7 @@ pub fn drift(at: DVec3, velocity: DVec3) -> Motion {
     }
 }
 
-/// Rotation at a constant `rate` (radians per frame) about `axis` through `at`, at rest pose at `t = 0`.
+/// Makes a rotation at a constant `rate` (radians per frame) about `axis` through `at`, at rest pose at `t = 0`.
 pub fn spin(at: DVec3, axis: DVec3, rate: f64) -> Motion {
     let turn = Turn { axis, angle: rate };
     let key = Key {
@@ -119,7 +119,7 @@ pub fn spin(at: DVec3, axis: DVec3, rate: f64) -> Motion {
     }
 }
 
-/// A pose that never changes.
+/// Makes a pose that never changes.
 pub fn placed(at: DVec3) -> Motion {
     Motion::still(Key {
         translation: at,
@@ -127,7 +127,7 @@ pub fn placed(at: DVec3) -> Motion {
     })
 }
 
-/// Triangles without normals or texture coordinates, in one slot.
+/// Makes a mesh of triangles without normals or texture coordinates, in one slot.
 pub fn mesh(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Mesh {
     Mesh {
         path: PathBuf::from("made by a test"),
@@ -140,7 +140,7 @@ pub fn mesh(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Mesh {
     }
 }
 
-/// A rectangle in the plane z = 0 around the origin, facing +Z.
+/// Makes a rectangle in the plane z = 0 around the origin, facing +Z.
 pub fn rectangle(width: f32, height: f32) -> Mesh {
     let [x, y] = [0.5 * width, 0.5 * height];
     let corner = |x, y| Vec3::new(x, y, 0.0);
@@ -150,7 +150,7 @@ pub fn rectangle(width: f32, height: f32) -> Mesh {
     )
 }
 
-/// A disc in the plane z = 0 around the origin, as a fan of `sides` triangles of the disc's exact area.
+/// Makes a disc in the plane z = 0 around the origin, as a fan of `sides` triangles of the disc's exact area.
 pub fn disc(radius: f32, sides: u32) -> Mesh {
     let angle = std::f64::consts::TAU / f64::from(sides);
     // A regular polygon of the disc's area lies half outside and half inside the circle.
@@ -167,7 +167,7 @@ pub fn disc(radius: f32, sides: u32) -> Mesh {
     )
 }
 
-/// A closed box around the origin, wound outwards.
+/// Makes a closed box around the origin, wound outwards.
 pub fn cuboid(size: Vec3) -> Mesh {
     let positions = (0..8)
         .map(|corner: u32| {
@@ -192,8 +192,8 @@ pub fn cuboid(size: Vec3) -> Mesh {
     )
 }
 
-/// A closed sphere around the origin: an icosahedron whose triangles are split into four `splits` times, with smooth
-/// normals.
+/// Makes a closed sphere around the origin: an icosahedron whose triangles are split into four `splits` times, with
+/// smooth normals.
 pub fn icosphere(radius: f32, splits: u32) -> Mesh {
     let golden = 0.5 * (1.0 + 5f64.sqrt());
     let mut directions: Vec<DVec3> = [

@@ -3,10 +3,10 @@
 use frame::Truth;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// Colours are rounded to f32, and so are the vertices of meshes.
+/// Rounding of colours to f32, and of the vertices of meshes.
 const ROUNDING: f64 = 2e-6;
 
-/// An estimate, its standard error, and what it should be.
+/// An estimate, its standard error, and its expected value.
 #[derive(Clone, Copy, Debug)]
 pub struct Estimate {
     /// Rendered value.
@@ -19,8 +19,8 @@ pub struct Estimate {
     pub expected: f64,
 }
 
-/// The first colour component of every pixel against what `expected` says of its column and row.
-pub fn estimates(truth: &Truth, expected: impl Fn(u32, u32) -> f64) -> Vec<Estimate> {
+/// Compares the first colour component of every pixel with the `expected` one at its column and row.
+pub fn estimate_pixels(truth: &Truth, expected: impl Fn(u32, u32) -> f64) -> Vec<Estimate> {
     let (width, height) = truth.size();
     let color = truth.mean().color;
     (0..height)
@@ -34,7 +34,7 @@ pub fn estimates(truth: &Truth, expected: impl Fn(u32, u32) -> f64) -> Vec<Estim
         .collect()
 }
 
-/// The same where colour counts samples: white things on black.
+/// Compares white things on black, where colour counts samples.
 ///
 /// Eight replicates of n samples may agree on a count although each is off by one sample with a probability of 0.3
 /// (they do in 0.7^8 = 6 % of cases); the error of their mean is then sqrt(0.3 x 0.7 / 8) / n, and not the zero of
@@ -43,7 +43,7 @@ pub fn coverage_estimates(truth: &Truth, expected: impl Fn(u32, u32) -> f64) -> 
     let samples = truth.provenance.samples_per_pixel / truth.provenance.replicates;
     let replicates = f64::from(truth.provenance.replicates);
     let floor = (0.3 * 0.7 / replicates).sqrt() / f64::from(samples);
-    let mut estimates = estimates(truth, expected);
+    let mut estimates = estimate_pixels(truth, expected);
     for estimate in &mut estimates {
         if estimate.expected > 0.0 && estimate.expected < 1.0 {
             estimate.floor = floor;
@@ -52,11 +52,11 @@ pub fn coverage_estimates(truth: &Truth, expected: impl Fn(u32, u32) -> f64) -> 
     estimates
 }
 
-/// Fails unless the estimates of `replicates` replicates agree with what is expected: pixel by pixel, and in total.
+/// Fails unless the estimates of `replicates` replicates agree with the expected values: pixel by pixel, and in total.
 ///
-/// The pixel test is that of Mitsuba 3's render tests with Student's distribution in place of the normal one: at
-/// least 99.75 % of the pixels must have a p-value above Sidak's 1 - 0.99^(1/pixels). Four standard errors of a
-/// normal distribution (p = 6.3e-5) are asked of 99.75 % as well. Errors that all pixels share show in the sum.
+/// The pixel test is that of Mitsuba 3's render tests with Student's distribution in place of the normal one: at least
+/// 99.75 % of the pixels must have a p-value above Sidak's 1 - 0.99^(1/pixels). 99.75 % must also lie within four
+/// standard errors of a normal distribution (p = 6.3e-5). Errors that all pixels share show in the sum.
 pub fn expect_agreement(what: &str, estimates: &[Estimate], replicates: u32) {
     let student = StudentsT::new(0.0, 1.0, f64::from(replicates - 1)).expect("degrees of freedom");
     let count = estimates.len() as f64;
@@ -87,17 +87,17 @@ pub fn expect_agreement(what: &str, estimates: &[Estimate], replicates: u32) {
     expect_total(what, estimates, |_| 1.0);
 }
 
-/// Fails unless the sum of all estimates, each times the weight of its index, agrees with what is expected: finds
-/// errors that all pixels share, and with weights that grow across the picture, shifts.
+/// Fails unless the sum of all estimates, each times the weight of its index, agrees with the expected one. This finds
+/// errors that all pixels share and, with weights that grow across the picture, shifts.
 pub fn expect_total(what: &str, estimates: &[Estimate], weight: impl Fn(usize) -> f64) {
     let mut sum = 0.0;
     let mut variance = 0.0;
     let mut rounding = 0.0;
     for (index, estimate) in estimates.iter().enumerate() {
-        let weight = weight(index);
-        sum += weight * (estimate.value - estimate.expected);
-        variance += (weight * estimate.error).powi(2);
-        rounding += weight.abs() * ROUNDING;
+        let factor = weight(index);
+        sum += factor * (estimate.value - estimate.expected);
+        variance += (factor * estimate.error).powi(2);
+        rounding += factor.abs() * ROUNDING;
     }
     let error = variance.sqrt();
     // Pixels are independent, so their sum is nearly normal: 4.5 sigma is 7e-6.
@@ -108,11 +108,11 @@ pub fn expect_total(what: &str, estimates: &[Estimate], weight: impl Fn(usize) -
     );
 }
 
-/// Fails unless the estimates agree with what is expected as a whole: their sum, and the size of their errors.
+/// Fails unless the estimates agree with the expected values as a whole: their sum, and the size of their errors.
 ///
-/// For lit scenes. There rare long paths make single pixels stray far more than Student's distribution allows
-/// (measured in a closed sphere of albedo 0.5: beyond 12 standard errors in 3 of 1000 pixels, the mean unbiased and
-/// the pooled error right to 2 %).
+/// This is for lit scenes, where rare long paths make single pixels stray far more than Student's distribution allows.
+/// (Measured in a closed sphere of albedo 0.5: beyond 12 standard errors in 3 of 1000 pixels, the mean unbiased and the
+/// pooled error right to 2 %.)
 pub fn expect_pooled_agreement(what: &str, estimates: &[Estimate]) {
     expect_total(what, estimates, |_| 1.0);
     let rms = |value: fn(&Estimate) -> f64| {
@@ -125,7 +125,7 @@ pub fn expect_pooled_agreement(what: &str, estimates: &[Estimate]) {
     let off = rms(|estimate| estimate.value - estimate.expected);
     let error = rms(|estimate| estimate.error);
     let rounding = ROUNDING * rms(|estimate| estimate.expected);
-    // Of 144 pixels: a factor of 1.5 is five sigma of the rms where tails are normal, two where they are as above.
+    // Of 144 pixels: a factor of 1.5 is five sigma of the rms where tails are normal, and two where they are as above.
     assert!(
         off <= 1.5 * error + rounding,
         "{what}: pixels are off by {off} rms, their standard errors are {error}"

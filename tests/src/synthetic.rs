@@ -1,6 +1,6 @@
 //! Pictures by formula: flat shapes that move over a still background.
 //!
-//! No tracer takes part, so the right value of a metric is known beforehand.
+//! No tracer takes part, so that the right value of a metric is known in advance.
 
 use frame::{
     Accumulation, Alignment, AtInstant, Display, FAR_DEPTH, FlipExposures, Frame, FrameOptions,
@@ -15,12 +15,12 @@ mod sampling;
 pub use object::{Blur, Object, Shape};
 pub use sampling::Sampling;
 
-use sampling::{offsets, sequence};
+use sampling::{pixel_offsets, sequence};
 
-/// Exposure of every synthetic frame, in frames; not 1, so that a forgotten factor shows.
+/// Exposure of every synthetic frame, in frames. It is not 1, so that a forgotten factor shows.
 pub const EXPOSURE: f64 = 0.5;
 
-/// Display white is radiance 1.
+/// Viewing conditions in which display white is radiance 1.
 pub const VIEWING: Viewing = Viewing {
     stops: DISPLAY.stops,
     flip_start: DISPLAY.flip.start,
@@ -37,19 +37,19 @@ const DISPLAY: Display = Display {
     },
 };
 
-/// Shapes over a background, the first in front. Object ids are 1, 2 .. in this order.
+/// Shapes over a background, from front to back. Object ids are 1, 2 .. in this order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     /// Pixels per row.
     pub width: u32,
-    /// Rows.
+    /// Number of rows.
     pub height: u32,
-    /// Front to back.
+    /// Objects, front to back.
     pub objects: Vec<Object>,
 }
 
 impl Scene {
-    /// The picture that a blur makes of the scene.
+    /// Renders the picture that a blur makes of the scene.
     pub fn render(&self, blur: &Blur, sampling: Sampling) -> Picture {
         let mut coverage: Vec<Plane> =
             vec![Raster::filled(self.width, self.height, 0.0); self.objects.len() + 1];
@@ -62,7 +62,7 @@ impl Scene {
                 coverage[0].pixels[(y * self.width + x) as usize] = 1.0;
                 return ground([x, y]).map(|value| value as f32);
             }
-            let offsets = offsets(sampling.seed, x, y);
+            let offsets = pixel_offsets(sampling.seed, x, y);
             let mut sum = [0.0; 3];
             let mut counts = vec![0u32; coverage.len()];
             for sample in 0..sampling.samples {
@@ -120,7 +120,7 @@ impl Scene {
         }
     }
 
-    /// The truth of a trailing shutter, from two renders.
+    /// Renders the truth of a trailing shutter, twice.
     pub fn truth(&self, samplings: [Sampling; 2]) -> Truth {
         let first = self.render(&Blur::TRUE, samplings[0]);
         let second = if samplings[0] == samplings[1] {
@@ -173,7 +173,7 @@ impl Scene {
         }
     }
 
-    /// Replicates of the truth of a trailing shutter, one for each sampling.
+    /// Renders a replicate of the truth of a trailing shutter for each sampling.
     pub fn replicates(&self, samplings: impl IntoIterator<Item = Sampling>) -> Vec<Replicate> {
         let still = std::iter::once(false);
         let moving: Vec<bool> = still
@@ -200,7 +200,7 @@ impl Scene {
             .collect()
     }
 
-    /// Accumulations of 1, 2, 4 .. 64 sub-frames; `seeds` gives each half's noise.
+    /// Renders accumulations of 1, 2, 4 .. 64 sub-frames; `seeds` gives each half's noise.
     pub fn ladder(&self, samples: u32, seeds: [u64; 2]) -> Ladder {
         let rung = |subframes: u32| Accumulation {
             subframes,
@@ -229,7 +229,7 @@ impl Scene {
             .collect()
     }
 
-    /// The id and radiance seen at a point.
+    /// Returns the id and radiance seen at a point.
     fn sees(&self, point: [f64; 2], pixel: [u32; 2], time: f64, blur: &Blur) -> (usize, [f64; 3]) {
         for (object, id) in self.objects.iter().zip(1..) {
             let still = Blur::IDENTITY;
@@ -247,7 +247,7 @@ impl Scene {
     }
 }
 
-/// A picture of one colour and one mixture of labels everywhere: the mean of another.
+/// Makes a picture whose colour and labels are everywhere the mean of another's.
 pub fn constant(picture: &Picture) -> Picture {
     Picture {
         color: constant_color(&picture.color),
@@ -277,7 +277,7 @@ fn shutter() -> Shutter {
         .expect("the synthetic exposure is positive")
 }
 
-/// Radiance on an object: bands fixed to it, 8 pixels wide.
+/// Returns the radiance on an object: bands fixed to it, 8 pixels wide.
 fn texture(local: [f64; 2]) -> [f64; 3] {
     let bright = (local[0] / 8.0).floor() as i64 % 2 == 0;
     if bright {
@@ -287,13 +287,13 @@ fn texture(local: [f64; 2]) -> [f64; 3] {
     }
 }
 
-/// Radiance of the background: constant within a pixel, so that it carries no sampling noise.
+/// Returns the radiance of the background: constant within a pixel, so that it carries no sampling noise.
 fn ground(pixel: [u32; 2]) -> [f64; 3] {
     let value = 0.2 + 0.15 * f64::from((pixel[0] / 5 + pixel[1] / 7) % 3);
     [0.7 * value, value, 1.1 * value]
 }
 
-/// Makes layers in which everything is known and stands still; no score of these truths looks at them.
+/// Makes layers in which everything is known and stands still, for truths whose scores do not read them.
 fn nothing_unknown(color: &Image) -> AtInstant {
     AtInstant {
         frozen: color.clone(),

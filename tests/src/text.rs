@@ -1,6 +1,6 @@
-//! Texts that a test looks for parts in.
+//! Checks of texts.
 
-/// Fails, with the whole text, where it lacks one of `parts`.
+/// Fails, with the whole text, if it lacks one of `parts`.
 #[track_caller]
 pub fn assert_contains(text: &str, parts: &[&str]) {
     for part in parts {

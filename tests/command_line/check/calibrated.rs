@@ -2,35 +2,23 @@
 
 use std::fs;
 
-use super::{assert_ends, bounded};
-use crate::bench::{assert_done, stdout};
+use super::{assert_ends, make_bounded};
+use crate::bench::{assert_done, split, stdout};
 
 #[test]
-fn calibrated_limits_are_kept_and_nothing_much_worse_is() {
-    let bench = bounded(0.9, "required");
-    let words = [
-        "calibrate",
-        "--quiet",
-        "--out",
-        "calibrated",
-        "--size",
-        "64x32",
-        "--samples-per-pixel",
-        "64",
-        "--runs",
-        "2",
-        "--filters",
-        "velocity_gather:fine",
-        "--metrics",
-        "flip_moving,misplacement,bleed_leading,extent,psnr_moving",
-    ];
+fn calibrated_limits_pass_the_filter_and_fail_a_worse_one() {
+    let bench = make_bounded(0.9, "required");
+    let words = split(
+        "calibrate --quiet --out calibrated --size 64x32 --samples-per-pixel 64 --runs 2 --filters \
+         velocity_gather:fine --metrics flip_moving,misplacement,bleed_leading,extent,psnr_moving",
+    );
     let output = bench.shuttertruth(&words);
     assert_done(&output);
     let proposed = fs::read_to_string(bench.path("calibrated/plate.bounds.toml")).unwrap();
     assert!(stdout(&output).contains(&proposed));
     assert_eq!(proposed.matches("limit = ").count(), 5, "{proposed}");
     bench.write("bounds.toml", &proposed);
-    // Another seed than either run's.
+    // A seed that neither run has.
     let fine = ["--filters", "velocity_gather:fine", "--seed", "9"];
     assert_ends(&bench.check(&fine), 0, &["5 required bounds: 5 kept"]);
     let worse = [&fine[..], &["--set", "velocity_gather.samples=2"]].concat();

@@ -2,28 +2,28 @@
 
 use std::fs;
 
-use super::{IDENTITY, assert_ends, bound, bounded};
+use super::{IDENTITY, assert_ends, bound, make_bounded};
 use crate::bench::assert_refused;
 
 #[test]
 fn a_finished_run_is_judged_without_an_adapter() {
-    let bench = bounded(0.2, "required");
+    let bench = make_bounded(0.2, "required");
     let made = assert_ends(&bench.check(&IDENTITY), 1, &["BROKEN flip_moving"]);
     let judge = |words: &[&str]| bench.without_adapter(&[&["check"], words].concat());
-    // The page was written with the run.
+    // The run wrote the page already.
     let page = made.lines().find(|line| line.starts_with("report: "));
     let made = made.replace(&format!("{}\n", page.unwrap()), "");
     assert_eq!(
         assert_ends(&judge(&["out/run.json", "--evidence"]), 1, &[]),
         made
     );
-    // Evidence takes a while, and is made only for who asks.
+    // Evidence takes a while, so only who asks for it gets it.
     let plain = assert_ends(&judge(&["out"]), 1, &["BROKEN flip_moving"]);
     assert!(!plain.contains("worst at"), "{plain}");
 
     bench.write("bounds.toml", &bound("flip_moving", 0.9, "required"));
     assert_ends(&judge(&["out"]), 0, &["1 required bound: 1 kept"]);
-    assert_eq!(bench.findings()[0].limit, 0.9);
+    assert_eq!(bench.read_findings()[0].limit, 0.9);
 
     let output = judge(&["out", "--scenes-dir", "elsewhere"]);
     assert_refused(
@@ -43,7 +43,7 @@ fn a_finished_run_is_judged_without_an_adapter() {
 
 #[test]
 fn a_judgement_of_another_run_is_refused() {
-    let bench = bounded(0.2, "required");
+    let bench = make_bounded(0.2, "required");
     bench.check(&IDENTITY);
     let run = bench.path("out/run.json");
     let text = fs::read_to_string(&run).unwrap();

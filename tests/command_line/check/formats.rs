@@ -3,8 +3,8 @@
 use std::fs;
 use std::process::Output;
 
-use super::{IDENTITY, assert_ends, bounded, json};
-use crate::bench::{Bench, quick};
+use super::{IDENTITY, assert_ends, json, make_bounded};
+use crate::bench::{Bench, quick_command};
 
 #[test]
 fn junit_has_a_case_for_every_bound() {
@@ -51,7 +51,7 @@ occluder_contamination = { limit = 0.5, why = \"it serves a test\" }
 }
 
 #[test]
-fn github_gets_ten_annotations_at_most_and_a_summary_of_all() {
+fn github_gets_at_most_ten_annotations_and_a_full_summary() {
     let bench = Bench::new();
     let metrics = [
         "flip_moving",
@@ -69,7 +69,7 @@ fn github_gets_ten_annotations_at_most_and_a_summary_of_all() {
     fs::write(bench.path("summary.md"), "before\n").unwrap();
     let check = |filters: &str| {
         let more = ["--github", "--filters", filters];
-        let mut command = bench.command(&[&quick("check", "64")[..], &more].concat());
+        let mut command = bench.command(&[&quick_command("check", "64")[..], &more].concat());
         command
             .env("GITHUB_STEP_SUMMARY", bench.path("summary.md"))
             .output()
@@ -105,8 +105,8 @@ fn github_gets_ten_annotations_at_most_and_a_summary_of_all() {
 }
 
 #[test]
-fn json_says_the_same_to_a_machine() {
-    let bench = bounded(0.2, "required");
+fn json_holds_the_same_verdict() {
+    let bench = make_bounded(0.2, "required");
     let found = json(&bench, &[]);
     assert_eq!(found["format"], suite::CHECK_FORMAT);
     assert_eq!(found["decision"], "broken");

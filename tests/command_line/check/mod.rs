@@ -7,12 +7,10 @@ mod outcomes;
 
 use std::process::Output;
 
-use crate::bench::{Bench, stderr, stdout};
+use crate::bench::{Bench, IDENTITY, stderr, stdout};
 
-const IDENTITY: [&str; 2] = ["--filters", "identity"];
-
-/// A bench whose scene holds the identity to a limit on `flip_moving`, which it scores about 0.3 in.
-fn bounded(limit: f64, level: &str) -> Bench {
+/// Makes a bench whose scene bounds the identity's `flip_moving`; the identity scores about 0.3.
+fn make_bounded(limit: f64, level: &str) -> Bench {
     let bench = Bench::new();
     bench.write("bounds.toml", &bound("flip_moving", limit, level));
     bench
@@ -28,7 +26,7 @@ fn bound(metric: &str, limit: f64, level: &str) -> String {
 fn assert_ends(output: &Output, code: i32, parts: &[&str]) -> String {
     let text = stdout(output);
     assert_eq!(output.status.code(), Some(code), "{text}{}", stderr(output));
-    // Lines break where the terminal ends.
+    // Lines break at the width of the terminal.
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
     for part in parts {
         let found = text.contains(part) || words.contains(part);
@@ -37,7 +35,7 @@ fn assert_ends(output: &Output, code: i32, parts: &[&str]) -> String {
     text
 }
 
-/// Returns the last lines of a check, on one line.
+/// Returns the last lines of a check as one line.
 fn verdict(output: &Output) -> String {
     let text = stdout(output);
     let start = ["PASS", "FAIL", "UNDECIDED:"].map(|word| text.rfind(&format!("\n{word}")));

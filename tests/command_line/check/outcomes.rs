@@ -2,18 +2,18 @@
 
 use std::fs;
 
-use super::{IDENTITY, assert_ends, bound, bounded, json, verdict};
+use super::{IDENTITY, assert_ends, bound, json, make_bounded, verdict};
 use crate::bench::{Bench, SCENE, assert_refused};
 
 #[test]
-fn scores_that_keep_their_bounds_pass() {
-    let bench = bounded(0.9, "required");
+fn scores_within_their_bounds_pass() {
+    let bench = make_bounded(0.9, "required");
     let text = assert_ends(&bench.check(&IDENTITY), 0, &["1 required bound: 1 kept"]);
     assert!(
         !text.contains("plate /"),
         "what is kept is not listed: {text}"
     );
-    let case = &bench.measured_filters()[0];
+    let case = &bench.read_filter_cases()[0];
     let interval = case.intervals["flip_moving"];
     let value = case
         .scores
@@ -27,8 +27,8 @@ fn scores_that_keep_their_bounds_pass() {
 }
 
 #[test]
-fn a_broken_bound_is_exit_code_1_with_all_that_helps() {
-    let bench = bounded(0.2, "required");
+fn a_broken_bound_gives_exit_code_1_and_its_evidence() {
+    let bench = make_bounded(0.2, "required");
     let output = bench.check(&IDENTITY);
     let text = assert_ends(
         &output,
@@ -58,10 +58,10 @@ fn a_broken_bound_is_exit_code_1_with_all_that_helps() {
 }
 
 #[test]
-fn a_blur_that_is_like_no_wrong_one_is_said_to_be_like_none() {
-    let bench = bounded(0.04, "required");
-    // A box over whatever moves, with front and back swapped: wrong in a way of its own. Scaled to 64 pixels, its tiles would be
-    // too small for any blur.
+fn a_blur_unlike_every_decoy_is_reported_as_such() {
+    let bench = make_bounded(0.04, "required");
+    // A box over whatever moves, with front and back swapped: wrong in a way that no decoy is. Scaled to 64 pixels, its
+    // tiles would be too small to blur anything.
     let output = bench.check(&[
         "--filters",
         "mcguire:motion_blur_demo,mcguire:paper",
@@ -72,12 +72,12 @@ fn a_blur_that_is_like_no_wrong_one_is_said_to_be_like_none() {
     let [own, short] = [0, 1].map(|filter| &found["findings"][filter]);
     assert_eq!([&own["kind"], &short["kind"]], ["broken"; 2]);
     assert!(own["resembles"].is_null(), "{own}");
-    // Its taps count less towards the ends, and at 3 px that is much of them.
+    // Taps count less towards the ends of the trail. At 3 px that is a large part of it.
     assert_eq!(short["resembles"]["decoy"], "half_length", "{short}");
 }
 
 #[test]
-fn what_is_only_reported_fails_nothing() {
+fn a_bound_of_level_report_fails_nothing() {
     let bench = Bench::new();
     let text = bound("flip_moving", 0.2, "report");
     let required = "label_tv = { limit = 0.9, why = \"it serves a test\" }\n";
@@ -90,12 +90,13 @@ fn what_is_only_reported_fails_nothing() {
 }
 
 #[test]
-fn a_limit_inside_the_interval_is_exit_code_4_and_says_what_would_settle_it() {
-    let bench = bounded(0.9, "required");
+fn a_limit_inside_the_interval_gives_exit_code_4_and_the_samples_to_decide() {
+    let bench = make_bounded(0.9, "required");
     let found = json(&bench, &[]);
     let interval = &found["findings"][0]["interval"];
     let [low, high] = ["low", "high"].map(|end| interval[end].as_f64().unwrap());
-    // A little more than a quarter of the half width from its middle: 16 times the samples halve it twice.
+    // The limit lies a little more than a quarter of the interval's half width from its middle. 16 times the samples
+    // halve the width twice.
     let limit = 0.5 * (low + high) + 0.26 * 0.5 * (high - low);
     bench.write("bounds.toml", &bound("flip_moving", limit, "required"));
     let output = bench.check(&IDENTITY);
@@ -124,8 +125,8 @@ fn a_limit_inside_the_interval_is_exit_code_4_and_says_what_would_settle_it() {
 }
 
 #[test]
-fn a_bound_within_three_floors_is_exit_code_2_and_names_the_strictest() {
-    let bench = bounded(0.9, "required");
+fn a_bound_within_three_floors_gives_exit_code_2_and_the_strictest_bound() {
+    let bench = make_bounded(0.9, "required");
     let found = json(&bench, &[]);
     let floor = found["findings"][0]["floor"].as_f64().unwrap();
     let strictest = found["findings"][0]["strictest"].as_f64().unwrap();
@@ -152,8 +153,8 @@ fn a_bound_within_three_floors_is_exit_code_2_and_names_the_strictest() {
 }
 
 #[test]
-fn a_case_of_which_no_bound_applies_is_no_success() {
-    let bench = bounded(0.9, "required");
+fn a_case_without_an_applicable_bound_does_not_pass() {
+    let bench = make_bounded(0.9, "required");
     bench.write("scene.toml", &SCENE.replace("[-1.6, 0, 0]", "[0, 0, 0]"));
     let output = bench.check(&IDENTITY);
     assert_ends(&output, 2, &["1 not applicable"]);
@@ -161,7 +162,7 @@ fn a_case_of_which_no_bound_applies_is_no_success() {
 }
 
 #[test]
-fn what_cannot_be_checked_is_refused_before_anything_is_rendered() {
+fn check_refuses_bad_input_before_it_renders() {
     let rows: &[(&str, &[&str], &[&str])] = &[
         (
             "",
@@ -208,7 +209,7 @@ fn what_cannot_be_checked_is_refused_before_anything_is_rendered() {
             "{more:?} left something behind"
         );
     }
-    let bench = bounded(0.9, "required");
+    let bench = make_bounded(0.9, "required");
     fs::create_dir(bench.path("scenes/plates")).unwrap();
     fs::write(bench.path("scenes/plates/bounds.toml"), "").unwrap();
     assert_refused(
@@ -219,8 +220,8 @@ fn what_cannot_be_checked_is_refused_before_anything_is_rendered() {
 }
 
 #[test]
-fn no_adapter_is_exit_code_3() {
-    let bench = bounded(0.9, "required");
+fn a_missing_adapter_gives_exit_code_3() {
+    let bench = make_bounded(0.9, "required");
     let output = bench.without_adapter(&["check", "--out", "out", "--filters", "identity"]);
     assert_refused(&output, 3, &["mesa-vulkan-drivers"]);
 }

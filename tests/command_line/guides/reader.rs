@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 
 use super::page::{Step, find_steps};
 use crate::bench::files_below;
-use crate::links::root;
+use tests::root;
 
 /// A copy of what the commands of the guides need of the repository.
 pub struct Reader {

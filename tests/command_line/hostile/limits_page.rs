@@ -1,14 +1,13 @@
 //! The page that lists all limits.
 
 use std::fs;
-use std::path::Path;
 
 #[test]
-fn the_page_of_limits_says_what_the_constants_say() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+fn the_page_of_limits_agrees_with_the_constants() {
+    let root = tests::root();
     let read = |path: &str| fs::read_to_string(root.join(path)).unwrap();
     let page = read("docs/limits.md");
-    // Each holds a number, and the constant that has it as `NAME` in `path`.
+    // Each row holds a number, and the constant that defines it as `NAME` in `path`.
     let rows: Vec<Vec<&str>> = (page.lines())
         .filter(|line| line.starts_with("| ") && line.contains("` in `"))
         .map(|line| line.split('|').map(str::trim).collect())
@@ -33,7 +32,7 @@ fn the_page_of_limits_says_what_the_constants_say() {
     }
 }
 
-/// A product of numbers as Rust writes them, or a shifted 1.
+/// Parses a product of numbers in Rust's notation, or a shifted 1.
 fn number(text: &str) -> f64 {
     let text = text.trim().replace('_', "");
     match text.split_once("<<") {

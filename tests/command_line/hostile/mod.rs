@@ -1,4 +1,4 @@
-//! Hostile and broken input: an error names each, and none ends the program in another way.
+//! Hostile and broken input. Every case must end with an error that names the input.
 
 mod kernels;
 mod limits_page;

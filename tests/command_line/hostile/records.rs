@@ -1,4 +1,4 @@
-//! Files of this program, altered: pictures, parts of truths, runs, journals.
+//! Altered files of this program: pictures, parts of truths, runs, journals.
 
 mod damage;
 mod journals;

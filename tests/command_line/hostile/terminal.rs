@@ -1,4 +1,4 @@
-//! Output to terminals, logs and summaries: hostile names and messages, and readers that go away.
+//! Output to terminals, logs and summaries: hostile names and messages, and closed pipes.
 
 use std::fs;
 use std::path::Path;
@@ -8,13 +8,13 @@ use cli::{annotations, check_text, summary};
 use frame::{Frame, Truth};
 use suite::{CHECK_FORMAT, Check, Decision, Failure, printable_table};
 
-use crate::bench::{Bench, assert_done, assert_refused, stderr, stdout};
+use crate::bench::{Bench, assert_done, assert_refused, split, stderr, stdout};
 
-/// A folder's name that begins a line as a command of GitHub Actions does, and clears a terminal.
+/// Folder name that starts a line like a GitHub Actions command, and clears a terminal.
 #[cfg(unix)]
 const HOSTILE: &str = "a\n::error::b\u{1b}[2J";
 
-/// Nothing that a terminal obeys, and no line that a log takes for a command.
+/// Asserts that the output has no escape codes, and no line that a log would take for a command.
 #[track_caller]
 fn assert_tame(output: &Output) {
     for text in [stdout(output), stderr(output)] {
@@ -32,7 +32,7 @@ fn assert_tame(output: &Output) {
 
 #[cfg(unix)]
 #[test]
-fn names_of_files_are_printed_without_what_a_terminal_or_a_log_obeys() {
+fn names_of_files_are_printed_without_control_codes() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "identity"]));
     fs::create_dir(bench.path(HOSTILE)).unwrap();
@@ -87,7 +87,7 @@ fn names_of_files_are_printed_without_what_a_terminal_or_a_log_obeys() {
 }
 
 #[test]
-fn names_in_files_are_printed_without_what_a_terminal_or_a_log_obeys() {
+fn names_in_files_are_printed_without_control_codes() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "identity"]));
     let name = "a\n::error::b\u{1b}]0;c\u{7}";
@@ -98,15 +98,10 @@ fn names_in_files_are_printed_without_what_a_terminal_or_a_log_obeys() {
     let mut altered = Truth::read(&truth).unwrap();
     altered.provenance.scene = name.to_owned();
     altered.write(&truth).unwrap();
-    let words = [
-        "score",
-        "--truth",
-        "out/plate/truth_trailing.exr",
-        "--frame",
-        "out/plate/frame.exr",
-        "--image",
-        "out/plate/identity_default/output.exr",
-    ];
+    let words = split(
+        "score --truth out/plate/truth_trailing.exr --frame out/plate/frame.exr --image \
+         out/plate/identity_default/output.exr",
+    );
     let other = bench.shuttertruth(&words);
     assert_refused(&other, 2, &["was rendered from the scene plate"]);
     assert_tame(&other);
@@ -122,7 +117,7 @@ fn names_in_files_are_printed_without_what_a_terminal_or_a_log_obeys() {
 }
 
 #[test]
-fn annotations_and_summaries_quote_what_fails_on_one_line() {
+fn annotations_and_summaries_quote_failures_on_one_line() {
     let hostile = "a\n::error::b\u{1b}[2J\r![x](http://example.org/x)<img src=x>";
     let check = Check {
         format: CHECK_FORMAT,
@@ -154,18 +149,18 @@ fn annotations_and_summaries_quote_what_fails_on_one_line() {
             .filter(|line| line.trim_start().starts_with("::error::"));
         assert_eq!(commands.count(), 0, "{text}");
     }
-    let summary = summary(&check);
+    let markdown = summary(&check);
     assert!(
-        !summary.contains('\u{1b}') && !summary.contains('\r'),
-        "{summary:?}"
+        !markdown.contains('\u{1b}') && !markdown.contains('\r'),
+        "{markdown:?}"
     );
     assert!(
-        !summary.contains("![x]") && !summary.contains(" <img"),
-        "{summary}"
+        !markdown.contains("![x]") && !markdown.contains(" <img"),
+        "{markdown}"
     );
     assert!(
-        !summary.lines().any(|line| line.starts_with("::error::")),
-        "{summary}"
+        !markdown.lines().any(|line| line.starts_with("::error::")),
+        "{markdown}"
     );
 }
 

@@ -1,21 +1,21 @@
-//! Geometry that a tree cannot split, and renders that no memory holds.
+//! Geometry that a tree cannot split, and renders that do not fit into memory.
 
 use std::process::Output;
 use std::time::{Duration, Instant};
 
 use crate::bench::{Bench, OBJ, SCENE, assert_done, assert_refused, files_below, stderr};
 
-/// Time limit for work of a second or two, on a busy machine. Once these took longer, or ended the program.
+/// Time limit for a second or two of work on a busy machine. These cases once took longer, or ended the program.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Renders the plate with these faces after its own two.
 fn render(bench: &Bench, more_faces: &str) -> Output {
     bench.write("plate.obj", &format!("{OBJ}{more_faces}"));
-    rendered(bench, &[])
+    render_soon(bench, &[])
 }
 
-/// Renders the scene as it is, which must not take long.
-fn rendered(bench: &Bench, more: &[&str]) -> Output {
+/// Renders the scene, and fails if that takes long.
+fn render_soon(bench: &Bench, more: &[&str]) -> Output {
     let words = ["render", "--quiet", "--out", "out", "--size", "16x16"];
     let samples = ["--scenes", "plate", "--samples-per-pixel", "16"];
     let began = Instant::now();
@@ -24,7 +24,7 @@ fn rendered(bench: &Bench, more: &[&str]) -> Output {
     output
 }
 
-/// The channels of all pictures of a render.
+/// Reads the channels of all pictures of a render.
 fn pictures(bench: &Bench) -> Vec<Vec<frame::Channel>> {
     let files = files_below(&bench.path("out")).into_iter();
     files
@@ -33,7 +33,7 @@ fn pictures(bench: &Bench) -> Vec<Vec<frame::Channel>> {
         .collect()
 }
 
-/// Triangles of these corners, as statements of an OBJ file.
+/// Writes triangles of these corners as statements of an OBJ file.
 fn triangles(corners: impl Iterator<Item = [[f64; 3]; 3]>) -> String {
     corners
         .map(|corners| {
@@ -44,10 +44,10 @@ fn triangles(corners: impl Iterator<Item = [[f64; 3]; 3]>) -> String {
 }
 
 #[test]
-fn copies_of_a_face_are_left_out_with_a_note_and_change_no_pixel() {
+fn copies_of_a_face_are_dropped_with_a_note_and_change_no_pixel() {
     let (plain, crowded) = (Bench::new(), Bench::new());
     assert_done(&render(&plain, ""));
-    // The plate emits: so does every copy.
+    // The plate emits light, and so does every copy.
     let output = render(&crowded, &"f 1 2 3\n".repeat(20_000));
     assert_done(&output);
     let note = "20000 of 20002 triangles of object plate are copies of others; they are left out";
@@ -58,7 +58,7 @@ fn copies_of_a_face_are_left_out_with_a_note_and_change_no_pixel() {
 }
 
 #[test]
-fn faces_without_area_are_left_out_with_a_note_and_change_no_pixel() {
+fn faces_without_area_are_dropped_with_a_note_and_change_no_pixel() {
     let (plain, crowded) = (Bench::new(), Bench::new());
     assert_done(&render(&plain, ""));
     let on_a_line =
@@ -87,22 +87,22 @@ fn many_different_faces_in_one_place_are_refused() {
         "allowed: 256",
         "delete all but one",
     ];
-    assert_refused(&rendered(&bench, &[]), 2, &parts);
+    assert_refused(&render_soon(&bench, &[]), 2, &parts);
 }
 
 #[test]
-fn a_few_faces_in_one_place_make_the_same_picture_every_time() {
+fn a_few_faces_in_one_place_render_the_same_every_time() {
     let bench = Bench::new();
     assert_done(&render(&bench, "f 3 2 1\nf 2 3 1\nf 1 3 2\n"));
     let first = pictures(&bench);
     std::fs::remove_dir_all(bench.path("out")).unwrap();
-    assert_done(&rendered(&bench, &["--threads", "1"]));
+    assert_done(&render_soon(&bench, &["--threads", "1"]));
     assert!(first == pictures(&bench));
 }
 
 #[test]
-fn faces_within_faces_are_rendered() {
-    // Each larger than the one before, about one centre: as boxes, each contains all before it.
+fn nested_faces_render() {
+    // Each face is larger than the one before, about one centre, so that its box contains all the others'.
     let nested = (1..=6000).map(|size| {
         let size = f64::from(size) * 1e-5;
         [[-size, -size, 0.0], [size, -size, 0.0], [0.0, size, 0.0]]
@@ -111,8 +111,8 @@ fn faces_within_faces_are_rendered() {
 }
 
 #[test]
-fn long_thin_faces_all_across_each_other_are_rendered() {
-    // The fractional parts of multiples of irrational numbers are everywhere.
+fn long_thin_crossing_faces_render() {
+    // Fractional parts of multiples of irrational numbers spread evenly.
     let part = |number: u32, step: f64| 20.0 * (f64::from(number) * step).fract() - 10.0;
     let thin = (0..2000).map(|number| {
         let [from, to] = [number, number + 5000]
@@ -123,18 +123,18 @@ fn long_thin_faces_all_across_each_other_are_rendered() {
 }
 
 #[test]
-fn many_objects_in_one_place_are_rendered() {
+fn many_objects_in_one_place_render() {
     let bench = Bench::new();
     let (head, object) = SCENE.split_once("[object.plate]").unwrap();
     let objects: String = (0..1000)
         .map(|index| format!("[object.plate_{index}]{object}"))
         .collect();
     bench.write("scene.toml", &format!("{head}{objects}"));
-    assert_done(&rendered(&bench, &[]));
+    assert_done(&render_soon(&bench, &[]));
 }
 
 #[test]
-fn what_reaches_too_far_is_refused() {
+fn geometry_that_is_too_large_is_refused() {
     let bench = Bench::new();
     let size = 1e30;
     let huge = [[-size, 0.0, -1.0], [size, 0.0, -1.0], [0.0, size, -1.0]];
@@ -146,12 +146,12 @@ fn what_reaches_too_far_is_refused() {
 #[test]
 fn a_picture_that_is_not_finite_is_refused_before_it_is_written() {
     let bench = Bench::new();
-    // A surface that sends more than two can be added.
+    // The sum of two such radiances exceeds what a float holds.
     bench.write(
         "plate.mtl",
         "newmtl paint\nKd 0.5 0.5 0.5\nKe 3e38 3e38 3e38\n",
     );
-    assert_refused(&rendered(&bench, &[]), 2, &["plate"]);
+    assert_refused(&render_soon(&bench, &[]), 2, &["plate"]);
     assert!(!bench.path("out/plate/frame.exr").exists());
 }
 
@@ -182,7 +182,7 @@ fn samples_and_threads_beyond_the_limits_are_refused() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_render_that_memory_does_not_hold_says_so_before_it_begins() {
+fn a_render_that_exceeds_memory_is_refused_before_it_begins() {
     let bench = Bench::new();
     let limited = |size: &str| {
         let program = env!("CARGO_BIN_EXE_shuttertruth");

@@ -1,7 +1,7 @@
 //! Bounds on the page of a finished run.
 
-use super::{article, between, filter_case, make_page};
-use crate::bench::{Bench, assert_done, quick, stdout};
+use super::{between, filter_case, find_article, make_page};
+use crate::bench::{Bench, assert_done, quick_command, stdout};
 
 #[test]
 fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
@@ -28,8 +28,8 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
     let failures = between(&page, "<details class=\"failures\"", "</details>")[0];
     assert!(failures.contains("plate / identity:default"));
 
-    let article = article(&page, &case);
-    let findings = bench.findings();
+    let article = find_article(&page, &case);
+    let findings = bench.read_findings();
     let worst = findings[0].worst.as_ref().unwrap();
     for words in [
         "1 of 2 kept.",
@@ -56,25 +56,22 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
 }
 
 #[test]
-fn a_run_that_looked_for_no_place_gets_one_in_its_report() {
+fn a_report_finds_the_worst_place_if_the_run_did_not() {
     let bench = Bench::new();
-    bench.write(
-        "bounds.toml",
-        "[default]\nflip_moving = { limit = 0.2, why = \"it serves a test\" }\n",
-    );
+    bench.write_bound(0.2);
     let output = bench.check(&["--filters", "identity"]);
     assert_eq!(output.status.code(), Some(1));
     let page = make_page(&bench);
     let checked = between(
-        article(&page, &filter_case(&bench)),
+        find_article(&page, &filter_case(&bench)),
         "<figure class=\"crop\" ",
         " data-map",
     )[0]
     .to_owned();
-    let words = [&quick("run", "64")[..], &["--filters", "identity"]].concat();
+    let words = [&quick_command("run", "64")[..], &["--filters", "identity"]].concat();
     assert_done(&bench.shuttertruth(&words));
     let page = make_page(&bench);
-    let article = article(&page, &filter_case(&bench));
+    let article = find_article(&page, &filter_case(&bench));
     assert_eq!(
         between(article, "<figure class=\"crop\" ", " data-map")[0],
         checked

@@ -5,20 +5,15 @@ use std::fs;
 
 use frame::{Frame, Truth, read_exr};
 
-use crate::bench::{Bench, assert_done, assert_refused, files_below, stdout};
-
-const IDENTITY: [&str; 2] = ["--filters", "identity"];
+use crate::bench::{Bench, IDENTITY, assert_done, assert_refused, files_below, stdout};
 
 #[test]
 fn run_and_check_write_the_page_that_report_writes() {
     let bench = Bench::new();
-    bench.write(
-        "bounds.toml",
-        "[default]\nflip_moving = { limit = 0.2, why = \"it is broken\" }\n",
-    );
+    bench.write_bound(0.2);
     let make_page = || {
-        bench.done(&["report", "out", "--html", "make_page.html"]);
-        fs::read(bench.path("make_page.html")).unwrap()
+        bench.execute(&["report", "out", "--html", "page.html"]);
+        fs::read(bench.path("page.html")).unwrap()
     };
     let output = bench.run(&[&IDENTITY[..], &["--html", "own.html"]].concat());
     assert_done(&output);
@@ -45,12 +40,12 @@ fn run_and_check_write_the_page_that_report_writes() {
 }
 
 #[test]
-fn layers_hold_what_the_files_of_the_case_hold() {
+fn layers_equal_the_files_of_the_case() {
     let bench = Bench::new();
     let words = ["--filters", "velocity_gather:fine", "--guard-band", "4"];
     assert_done(&bench.run(&words));
-    bench.done(&["report", "out", "--exr", "layers", "--quiet"]);
-    let run = bench.measured();
+    bench.execute(&["report", "out", "--exr", "layers", "--quiet"]);
+    let run = bench.read_run();
     assert_eq!(
         files_below(&bench.path("layers")).len(),
         run.cases.len(),
@@ -90,7 +85,7 @@ fn layers_hold_what_the_files_of_the_case_hold() {
         output.plane("coverage.plate").unwrap()
     );
     assert_eq!(layers.attributes["filter"], "velocity_gather:fine");
-    // What stands before the last point is the group that tev shows.
+    // tev shows the part before the last dot as a group.
     let mut groups: BTreeMap<&str, usize> = BTreeMap::new();
     for channel in &layers.channels {
         let group = channel.name.rsplit_once('.').map_or("", |(group, _)| group);
@@ -111,7 +106,7 @@ fn layers_hold_what_the_files_of_the_case_hold() {
 }
 
 #[test]
-fn a_report_needs_no_names_and_refuses_what_is_missing() {
+fn a_report_needs_no_names_and_refuses_missing_files() {
     let bench = Bench::new();
     assert_done(&bench.run(&IDENTITY));
     fs::remove_file(bench.path("out/report.html")).unwrap();

@@ -19,7 +19,7 @@ fn make_page(bench: &Bench) -> String {
     fs::read_to_string(bench.path("page/report.html")).unwrap()
 }
 
-/// What stands between two texts, each time.
+/// Finds every text between two texts.
 fn between<'a>(page: &'a str, before: &str, after: &str) -> Vec<&'a str> {
     let rests = page.split(before).skip(1);
     rests
@@ -27,7 +27,7 @@ fn between<'a>(page: &'a str, before: &str, after: &str) -> Vec<&'a str> {
         .collect()
 }
 
-/// The planes of a page's scenes.
+/// Reads the planes of a page's scenes.
 fn planes(page: &str) -> Vec<Vec<String>> {
     let texts = between(
         page,
@@ -39,7 +39,7 @@ fn planes(page: &str) -> Vec<Vec<String>> {
         .collect()
 }
 
-/// The part of a page that shows one score of all cases.
+/// Finds the part of a page that shows one score of all cases.
 fn panel<'a>(page: &'a str, metric: &str) -> &'a str {
     let (_, rest) = page
         .split_once(&format!("data-metric=\"{metric}\""))
@@ -47,7 +47,7 @@ fn panel<'a>(page: &'a str, metric: &str) -> &'a str {
     rest.split("data-metric=").next().unwrap()
 }
 
-/// The address of a case: `plate/bevy:high`, `plate/identity@trailing`.
+/// Returns the address of a case: `plate/bevy:high`, `plate/identity@trailing`.
 fn address(case: &suite::Case) -> String {
     let reference = match case.is_reference {
         true => format!("@{}", case.alignment),
@@ -56,13 +56,13 @@ fn address(case: &suite::Case) -> String {
     format!("{}/{}{reference}", case.scene, case.name())
 }
 
-/// The part of a page that shows a case.
-fn article<'a>(page: &'a str, case: &suite::Case) -> &'a str {
+/// Finds the part of a page that shows a case.
+fn find_article<'a>(page: &'a str, case: &suite::Case) -> &'a str {
     let start = format!("<article class=\"case\" id=\"{}\"", address(case));
     between(page, &start, "</article>")[0]
 }
 
-/// The only case of a filter.
+/// Returns the only case of a filter.
 fn filter_case(bench: &Bench) -> suite::Case {
-    bench.measured_filters().remove(0)
+    bench.read_filter_cases().remove(0)
 }

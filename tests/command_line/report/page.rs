@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 
-use super::{WORDS, address, article, between, make_page, panel, planes};
+use super::{WORDS, address, between, find_article, make_page, panel, planes};
 use crate::bench::{Bench, assert_done, assert_refused, split};
 
 #[test]
@@ -12,7 +12,7 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
     bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
     assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
     let page = make_page(&bench);
-    let run = bench.measured();
+    let run = bench.read_run();
     for case in &run.cases {
         let link = format!("href=\"#{}\"", address(case));
         for (metric, digits) in [("flip_moving", 3), ("row_loss", 2), ("psnr_moving", 1)] {
@@ -28,7 +28,7 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
         let count = count.to_string().replace('<', "&lt;").replace('>', "&gt;");
         let cell = format!("{link}>{count}</a>");
         assert!(panel(&page, "n_eq").contains(&cell), "{cell}");
-        let article = article(&page, case);
+        let article = find_article(&page, case);
         assert!(article.contains(&format!("{} / {}", case.scene, case.name())));
         assert!(article.contains("nothing: it serves the tests"));
         assert!(article.contains(&case.truth_hash));
@@ -46,7 +46,7 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
             "data-value=\"{}\">{:.3}</td><td class=\"note\">{low:.3} to {high:.3}</td>",
             mean.mean, mean.mean
         );
-        // Each behind the one before.
+        // Each follows the one before.
         rest = rest.split_once(&cells).expect(&cells).1;
     }
     for words in [&run.program, "--samples-per-pixel 16", "seed 1"] {
@@ -55,9 +55,9 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
 }
 
 #[test]
-fn a_ranking_by_flip_has_a_group_per_shutter_and_one_by_skill_has_all_in_one() {
+fn rankings_by_flip_are_grouped_by_shutter_and_rankings_by_skill_are_not() {
     let bench = Bench::new();
-    // A slow scene of few samples has no skill: what the oracle gains there is noise.
+    // A slow scene of few samples has no skill: the oracle's gain there is noise.
     bench.copy_scene("fast", |text| text.replace("-1.6, 0, 0", "-3.2, 0, 0"));
     assert_done(&bench.run(&["--filters", "velocity_gather:fine,bevy:high"]));
     let page = make_page(&bench);
@@ -99,8 +99,8 @@ fn a_page_holds_every_plane_once_and_fetches_nothing() {
         let once: BTreeSet<&String> = own.iter().collect();
         assert_eq!(once.len(), own.len(), "a plane stands there twice");
     }
-    for case in bench.measured().cases {
-        let article = article(&page, &case);
+    for case in bench.read_run().cases {
+        let article = find_article(&page, &case);
         let layers = between(article, "data-layers=\"", "\"")[0];
         let scene: usize = between(article, "data-scene=\"", "\"")[0].parse().unwrap();
         let mut names = Vec::new();
@@ -143,7 +143,7 @@ fn a_page_holds_every_plane_once_and_fetches_nothing() {
     for words in ["@import", "url(", "fetch("] {
         assert!(!page.contains(words), "{words}");
     }
-    // An address is text for the reader: none begins an attribute or a string of a script.
+    // An address is text for the reader. It must not begin an attribute or a string of a script.
     for scheme in ["http://", "https://"] {
         for (place, _) in page.match_indices(scheme) {
             let before = &page[..place];
@@ -165,7 +165,7 @@ fn the_same_run_makes_the_same_page() {
 
 #[cfg(unix)] // Elsewhere no folder has such a name.
 #[test]
-fn a_scene_called_script_is_shown_and_not_run() {
+fn a_scene_name_with_a_script_is_shown_as_text() {
     const NAME: &str = "<script>alert(1)";
     let bench = Bench::new();
     bench.copy_scene(NAME, |text| {
@@ -177,12 +177,12 @@ fn a_scene_called_script_is_shown_and_not_run() {
     assert!(page.contains("<h2 tabindex=\"-1\">&lt;script&gt;alert(1) / <a href="));
     assert!(page.contains("&lt;img src=x onerror=alert(2)&gt; &amp; it"));
     assert!(!page.contains("<script>alert") && !page.contains("<img src=x"));
-    // Nine scripts, the colours, the kinds of pictures and the numbers of one scene are the page's own.
+    // Nine scripts, the colours, the picture kinds and the numbers of one scene belong to the page itself.
     assert_eq!(page.matches("<script").count(), 12);
 }
 
 #[test]
-fn costs_are_those_of_the_bench_beside_the_run() {
+fn costs_come_from_the_bench_beside_the_run() {
     let bench = Bench::new();
     let words = "--filters identity,mcguire:paper --set mcguire.samples=7";
     assert_done(&bench.run(&split(words)));
@@ -200,8 +200,8 @@ fn costs_are_those_of_the_bench_beside_the_run() {
         .find(|cost| cost.filter == "identity")
         .unwrap()
         .seconds;
-    // In every table of scores one cell of the filter that was run and timed, and none of those that were only timed, or run with
-    // other parameters.
+    // Every table of scores has one cell for the filter that was both run and timed. Filters that were only timed, or
+    // run with other parameters, have none.
     let cell = format!("<td class=\"cost\" data-value=\"{}\">", seconds.median);
     assert_eq!(page.matches(&cell).count(), 9);
     assert_eq!(page.matches("<td class=\"cost\" data-value").count(), 9);
@@ -231,16 +231,16 @@ fn costs_are_those_of_the_bench_beside_the_run() {
 }
 
 #[test]
-fn a_run_keeps_what_the_jump_flood_dilated() {
+fn a_run_keeps_the_jump_flood_s_dilated_map() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "jump_flood:corrected"]));
-    let case = &bench.measured_filters()[0];
+    let case = &bench.read_filter_cases()[0];
     let output = frame::read_exr(&bench.path("out").join(&case.folder).join("output.exr")).unwrap();
     let frame = frame::Frame::read(&bench.path("out/plate/frame.exr")).unwrap();
     let [x, y] = ["dilated.X", "dilated.Y"].map(|name| output.plane(name).unwrap());
     let motion = *frame.velocity.at(32, 16);
     assert!(motion[0] > 5.0, "the plate moves to the right: {motion:?}");
-    // On the plate and a pixel behind it the plate's own velocity; nothing far ahead, and none above it.
+    // The plate and one pixel behind it hold the plate's own velocity. Pixels far ahead and above hold none.
     let behind = (0..32).find(|x| *frame.object_id.at(*x, 16) == 1).unwrap() - 1;
     for (column, row, due) in [
         (32, 16, motion),
@@ -257,7 +257,7 @@ fn a_run_keeps_what_the_jump_flood_dilated() {
 }
 
 #[test]
-fn what_is_no_run_or_lacks_its_pictures_is_refused() {
+fn a_report_refuses_a_file_without_a_run_or_its_pictures() {
     let bench = Bench::new();
     fs::create_dir(bench.path("out")).unwrap();
     let refused = |parts: &[&str]| {

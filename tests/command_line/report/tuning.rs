@@ -4,7 +4,7 @@ use std::fs;
 
 use suite::{Sensitivity, Tuning};
 
-use crate::bench::{Bench, assert_refused};
+use crate::bench::{Bench, assert_refused, split};
 
 const TUNE: &str = "tune --quiet --filter jump_flood --from paper --vary samples=2..16,jitter,foreground_extent --objective flip,bleed \
                     --scenes plate,slow --size 64x32 --samples-per-pixel 16 --out tuned";
@@ -20,16 +20,15 @@ fn set_up() -> Bench {
 }
 
 fn tune(bench: &Bench, more: &[&str]) {
-    let words: Vec<&str> = TUNE.split_whitespace().collect();
-    bench.done(&[&words[..], more].concat());
+    bench.execute(&[&split(TUNE)[..], more].concat());
 }
 
 fn make_page(bench: &Bench) -> String {
-    bench.done(&["report", "tuned", "--html", "page.html"]);
+    bench.execute(&["report", "tuned", "--html", "page.html"]);
     fs::read_to_string(bench.path("page.html")).unwrap()
 }
 
-/// The part of a page behind a heading, up to the next one.
+/// Finds the part of a page from a heading to the next one.
 #[track_caller]
 fn find_section<'a>(page: &'a str, heading: &str) -> &'a str {
     let start = format!("<h2>{heading}</h2>");
@@ -40,20 +39,13 @@ fn find_section<'a>(page: &'a str, heading: &str) -> &'a str {
 }
 
 #[test]
-fn a_tuning_is_shown_with_its_trials_its_choice_and_its_folds() {
+fn the_page_of_a_tuning_shows_trials_choice_and_folds() {
     let bench = set_up();
     tune(
         &bench,
-        &[
-            "--budget",
-            "14",
-            "--held-out",
-            "held_out",
-            "--held-out-size",
-            "64x32",
-            "--held-out-samples-per-pixel",
-            "16",
-        ],
+        &split(
+            "--budget 14 --held-out held_out --held-out-size 64x32 --held-out-samples-per-pixel 16",
+        ),
     );
     let page = make_page(&bench);
     let tuning: Tuning = bench.read_json("tuned/tune.json");
@@ -92,7 +84,7 @@ fn a_tuning_is_shown_with_its_trials_its_choice_and_its_folds() {
             "{name}"
         );
     }
-    // One chart a parameter that was varied.
+    // One chart per varied parameter.
     assert_eq!(
         find_section(&page, "Error along each parameter")
             .matches("<svg")
@@ -109,10 +101,10 @@ fn a_tuning_is_shown_with_its_trials_its_choice_and_its_folds() {
 }
 
 #[test]
-fn a_study_of_sensitivity_is_shown_with_intervals_and_slices() {
+fn the_page_of_a_sensitivity_study_shows_intervals_and_slices() {
     let bench = set_up();
     let words: Vec<&str> = TUNE.split_whitespace().skip(1).collect();
-    bench.done(&[&["sensitivity", "--rows", "4"], &words[..]].concat());
+    bench.execute(&[&["sensitivity", "--rows", "4"], &words[..]].concat());
     let page = make_page(&bench);
     let found: Sensitivity =
         serde_json::from_slice(&fs::read(bench.path("tuned/sensitivity.json")).unwrap()).unwrap();
@@ -126,7 +118,7 @@ fn a_study_of_sensitivity_is_shown_with_intervals_and_slices() {
     }
     let slices = find_section(&page, "Error along each parameter");
     assert_eq!(slices.matches("<polyline").count(), found.parameters.len());
-    // A study of a version that could do without Sobol indices.
+    // A study of a version without Sobol indices.
     let mut old: serde_json::Value = serde_json::to_value(&found).unwrap();
     for own in old["parameters"].as_object_mut().unwrap().values_mut() {
         own["indices"] = serde_json::Value::Null;
@@ -144,13 +136,13 @@ fn a_study_of_sensitivity_is_shown_with_intervals_and_slices() {
 }
 
 #[test]
-fn a_tuning_under_way_has_a_page_and_a_folder_without_any_is_refused() {
+fn an_unfinished_tuning_has_a_page_and_an_empty_folder_is_refused() {
     let bench = set_up();
     tune(&bench, &["--budget", "3"]);
     fs::remove_file(bench.path("tuned/tune.json")).unwrap();
     let journal = bench.path("tuned/journal.jsonl");
     let text = fs::read_to_string(&journal).unwrap();
-    // A fourth trial is being written.
+    // A fourth trial is half written.
     fs::write(&journal, format!("{text}{{\"trial\": 3, \"val")).unwrap();
     assert_eq!(
         find_section(&make_page(&bench), "Convergence")
@@ -180,7 +172,7 @@ fn a_tuning_under_way_has_a_page_and_a_folder_without_any_is_refused() {
 }
 
 #[test]
-fn what_a_filter_says_is_shown_and_not_run() {
+fn texts_of_a_filter_are_shown_as_text() {
     let bench = set_up();
     tune(&bench, &["--budget", "3"]);
     let path = bench.path("tuned/tune.json");

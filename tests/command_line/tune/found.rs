@@ -12,9 +12,9 @@ use super::{parse_trials, read_journal, read_tuning, set_up, tuning_words};
 use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
 
 #[test]
-fn a_tuning_beats_the_start_and_writes_down_how() {
+fn a_tuning_beats_its_start_and_records_the_way() {
     let bench = set_up();
-    let table = bench.done(&tuning_words("out", "40", &["--held-out", "plate"]));
+    let table = bench.execute(&tuning_words("out", "40", &["--held-out", "plate"]));
     assert_contains(
         &table,
         &[
@@ -29,7 +29,7 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
     let journal = read_journal(&bench, "out");
     let trials = parse_trials(&journal);
     assert_eq!(trials.len(), 40);
-    // It begins with what was published and not with what another tuning found.
+    // The tuning begins with the published preset, not with the result of another tuning.
     let begun = |preset: &str| {
         let filter = Filter::builtin("jump_flood").unwrap();
         let values = filter.settings(Some(preset)).unwrap().values;
@@ -40,7 +40,8 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
     };
     assert!(["paper", "july_2024", "corrected"].map(begun) == [true; 3]);
     assert!(!begun("tuned"), "{journal}");
-    // The published demo scales each trail by noise; another jitter alone takes some percent off, on these small plates.
+    // The published demo scales each trail by noise. On these small plates, another jitter alone lowers the error by
+    // some percent.
     let tuning = read_tuning(&bench, "out");
     assert!(tuning.chosen.error.unwrap() < -0.01, "{table}");
     assert_eq!(tuning.start.error, Some(0.0));
@@ -71,7 +72,7 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
     assert_eq!(first["opening"], 1, "keys of files stay");
     assert!(first["paired"]["flip"]["bounds"].is_array(), "{first}");
 
-    // The choice as a file is what the choice was.
+    // The choice in the file equals the choice in tune.json.
     let params = bench.path("out/params.json");
     let words = split("evaluate --quiet --filter jump_flood --from paper --params");
     let scene = split("--scenes a --size 64x32 --samples-per-pixel 16 --out out");
@@ -81,7 +82,7 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
     let answer: suite::Evaluation = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!(answer.scenes["a"], tuning.chosen.scenes["a"]);
     assert_eq!(answer.values, tuning.values);
-    // And as the preset of a filter.
+    // The filter's preset equals it, too.
     let filter = with_preset(&bench, "out/preset.toml");
     let preset = filter.presets.last().unwrap();
     assert_eq!(
@@ -95,8 +96,8 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
     let scenes: Vec<&String> = tuning.journal.scenes.iter().map(|(name, _)| name).collect();
     assert_eq!(tuned.scenes.iter().collect::<Vec<_>>(), scenes);
 
-    // Another look at the same is no second opening; one at something else is.
-    bench.done(&tuning_words("out", "40", &["--held-out", "plate"]));
+    // Reading the same scenes again does not count as a second opening; reading others does.
+    bench.execute(&tuning_words("out", "40", &["--held-out", "plate"]));
     assert_eq!(read_tuning(&bench, "out").held_out.len(), 1);
     let other = ["--held-out", "plate", "--held-out-size", "64x32"];
     let output = bench.shuttertruth(&tuning_words("out", "40", &other));
@@ -109,12 +110,12 @@ fn a_tuning_beats_the_start_and_writes_down_how() {
 }
 
 #[test]
-fn a_score_of_a_trial_is_that_of_a_run() {
+fn a_trial_scores_like_a_run() {
     let bench = set_up();
-    bench.done(&tuning_words("out", "1", &[]));
+    bench.execute(&tuning_words("out", "1", &[]));
     assert_done(&bench.run(&["--filters", "jump_flood:paper", "--scenes", "a,b,c,d,e,f,g"]));
     let trial = &parse_trials(&read_journal(&bench, "out"))[0];
-    for case in bench.measured_filters() {
+    for case in bench.read_filter_cases() {
         let score = trial.scenes[&case.scene];
         assert_eq!(
             Some(score.flip),
@@ -127,7 +128,7 @@ fn a_score_of_a_trial_is_that_of_a_run() {
     }
 }
 
-/// The built-in jump flood with a preset of a file instead of a tuned one of its own.
+/// Loads the built-in jump flood with a preset from a file in place of its tuned one.
 fn with_preset(bench: &Bench, preset: &str) -> Filter {
     let copy = bench.path("jump_flood");
     copy_shipped_filter("jump_flood", &copy);
@@ -148,7 +149,7 @@ fn two_presets_are_compared_scene_by_scene() {
     let more = split("--scenes a,b,c,d,e,f,g --size 64x32 --samples-per-pixel 16 --out out");
     let output = bench.shuttertruth(&[&words[..], &more].concat());
     assert_done(&output);
-    // Lines break where the terminal ends.
+    // Lines break at the width of the terminal.
     let text = stdout(&output)
         .split_whitespace()
         .collect::<Vec<_>>()
@@ -174,7 +175,7 @@ fn two_presets_are_compared_scene_by_scene() {
 }
 
 #[test]
-fn a_study_tells_what_matters() {
+fn a_study_finds_the_parameters_that_matter() {
     let bench = set_up();
     let words = split("sensitivity --quiet --filter jump_flood --from corrected --rows 4");
     let more = split("--vary samples,behind_extent --scenes a,b --size 64x32");
@@ -182,10 +183,10 @@ fn a_study_tells_what_matters() {
     let output = bench.shuttertruth(&[&words[..], &more, &few].concat());
     assert_done(&output);
     let found: suite::Sensitivity = bench.read_json("out/sensitivity.json");
-    // Weighted taps do not read the extent at all, which replaced ones alone ask for.
+    // Weighted taps do not read the extent; only replaced ones do.
     let extent = &found.parameters["behind_extent"];
     assert!(extent.constant && extent.slice.iter().all(|(_, error)| *error == 0.0));
-    // Nine points of 1 to 64, of which two round to the same number.
+    // Nine points from 1 to 64, two of which round to the same number.
     let samples = &found.parameters["samples"];
     assert!(!samples.constant && samples.slice.len() == 8, "{samples:?}");
     let table = stdout(&output);
@@ -204,11 +205,11 @@ fn a_study_tells_what_matters() {
 }
 
 #[test]
-fn a_cost_is_a_ratio_to_the_start() {
+fn cost_is_relative_to_the_start() {
     let bench = set_up();
     let words = split("tune --quiet --filter jump_flood --vary samples --scenes a");
     let more = split("--size 64x32 --samples-per-pixel 16 --budget 6 --out out");
-    bench.done(&[&words[..], &more].concat());
+    bench.execute(&[&words[..], &more].concat());
     let trials = parse_trials(&read_journal(&bench, "out"));
     assert_eq!(trials[0].cost, Some(1.0));
     assert!(

@@ -8,9 +8,9 @@ use super::{read_journal, set_up, tuning_words};
 use crate::bench::assert_refused;
 
 #[test]
-fn a_killed_tuning_goes_on_where_it_was_and_ends_with_the_same_bytes() {
+fn a_killed_tuning_resumes_and_ends_with_the_same_bytes() {
     let bench = set_up();
-    bench.done(&tuning_words("whole", "30", &[]));
+    bench.execute(&tuning_words("whole", "30", &[]));
     let mut child = bench
         .command(&tuning_words("killed", "30", &[]))
         .spawn()
@@ -18,7 +18,7 @@ fn a_killed_tuning_goes_on_where_it_was_and_ends_with_the_same_bytes() {
     let path = bench.path("killed/journal.jsonl");
     let began = Instant::now();
     while fs::read_to_string(&path).map_or(0, |text| text.lines().count()) < 8 {
-        // Generous: it takes a second or two.
+        // A generous limit: it takes a second or two.
         assert!(
             began.elapsed() < Duration::from_secs(120),
             "no trial after two minutes"
@@ -29,9 +29,9 @@ fn a_killed_tuning_goes_on_where_it_was_and_ends_with_the_same_bytes() {
     child.wait().unwrap();
     let left = read_journal(&bench, "killed");
     assert!(left.lines().count() < 31, "it was killed on its way");
-    // A line that was half written when the power failed.
+    // A power failure left this line half written.
     fs::write(&path, format!("{left}{{\"trial\":7")).unwrap();
-    bench.done(&tuning_words("killed", "30", &[]));
+    bench.execute(&tuning_words("killed", "30", &[]));
     assert_eq!(
         read_journal(&bench, "killed"),
         read_journal(&bench, "whole")
@@ -39,7 +39,7 @@ fn a_killed_tuning_goes_on_where_it_was_and_ends_with_the_same_bytes() {
 }
 
 #[test]
-fn a_file_that_is_no_journal_of_this_tuning_is_left_as_it_was() {
+fn a_foreign_journal_is_left_unchanged() {
     let bench = set_up();
     let path = bench.path("out/journal.jsonl");
     fs::create_dir_all(bench.path("out")).unwrap();
@@ -56,11 +56,11 @@ fn a_file_that_is_no_journal_of_this_tuning_is_left_as_it_was() {
 }
 
 #[test]
-fn a_smaller_budget_is_the_beginning_of_a_larger_one_and_another_seed_is_another_search() {
+fn a_larger_budget_extends_a_smaller_one_and_another_seed_searches_differently() {
     let bench = set_up();
-    bench.done(&tuning_words("out", "12", &[]));
+    bench.execute(&tuning_words("out", "12", &[]));
     let first = read_journal(&bench, "out");
-    bench.done(&tuning_words("out", "16", &[]));
+    bench.execute(&tuning_words("out", "16", &[]));
     let second = read_journal(&bench, "out");
     assert!(second.starts_with(&first) && second.lines().count() == 17);
     let other = tuning_words("out", "16", &["--search-seed", "2"]);
@@ -75,14 +75,14 @@ fn a_smaller_budget_is_the_beginning_of_a_larger_one_and_another_seed_is_another
     assert_eq!(read_journal(&bench, "out"), second, "nothing is lost");
 }
 
-/// A limit on the size of files stands for a disk that is full: either way, a write comes back with an error.
+/// Limits the size of files, which stands in for a full disk: either way, a write fails.
 #[cfg(unix)]
 #[test]
 fn a_full_disk_loses_nothing() {
     let bench = set_up();
-    bench.done(&tuning_words("out", "1", &[]));
+    bench.execute(&tuning_words("out", "1", &[]));
     let begun = read_journal(&bench, "out");
-    // Blocks of 512 bytes: room for some trials more.
+    // Blocks of 512 bytes, with room for a few more trials.
     let blocks = (begun.len() + 2000).div_ceil(512).to_string();
     let program = env!("CARGO_BIN_EXE_shuttertruth");
     let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec {program} \"$@\"");
@@ -100,7 +100,7 @@ fn a_full_disk_loses_nothing() {
     );
     let left = read_journal(&bench, "out");
     assert!(left.starts_with(&begun) && left.len() > begun.len());
-    bench.done(&tuning_words("out", "20", &[]));
-    bench.done(&tuning_words("whole", "20", &[]));
+    bench.execute(&tuning_words("out", "20", &[]));
+    bench.execute(&tuning_words("whole", "20", &[]));
     assert_eq!(read_journal(&bench, "out"), read_journal(&bench, "whole"));
 }

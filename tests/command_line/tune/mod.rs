@@ -8,9 +8,9 @@ use std::fs;
 
 use suite::{Trial, Tuning};
 
-use crate::bench::{Bench, MTL, OBJ, SCENE};
+use crate::bench::{Bench, MTL, OBJ, SCENE, split};
 
-/// Ways of the plate in one frame, in metres, and the families that its scenes claim.
+/// Scenes: name, distance that the plate moves in one frame in metres, and family.
 const SCENES: [(&str, &str, &str); 7] = [
     ("a", "-1.6", "translation"),
     ("b", "-1.2", "camera"),
@@ -21,7 +21,7 @@ const SCENES: [(&str, &str, &str); 7] = [
     ("g", "-2.0", "translation"),
 ];
 
-/// A bench with scenes a to g.
+/// Makes a bench with scenes a to g.
 fn set_up() -> Bench {
     let bench = Bench::new();
     for (name, way, family) in SCENES {
@@ -41,29 +41,13 @@ fn set_up() -> Bench {
     bench
 }
 
-/// A tuning of five parameters on six scenes, by what does not depend on a clock.
-const TUNE: [&str; 17] = [
-    "tune",
-    "--quiet",
-    "--filter",
-    "jump_flood",
-    "--from",
-    "paper",
-    "--vary",
-    "samples=2..16,probes,match_threshold,jitter,foreground_extent",
-    "--objective",
-    "flip,bleed",
-    "--scenes",
-    "a,b,c,d,e,f,g",
-    "--size",
-    "64x32",
-    "--samples-per-pixel",
-    "16",
-    "--budget",
-];
+/// Tuning of five parameters on six scenes, by scores that do not depend on a clock.
+const TUNE: &str = "tune --quiet --filter jump_flood --from paper \
+    --vary samples=2..16,probes,match_threshold,jitter,foreground_extent --objective flip,bleed \
+    --scenes a,b,c,d,e,f,g --size 64x32 --samples-per-pixel 16 --budget";
 
 fn tuning_words<'w>(out: &'w str, budget: &'w str, more: &[&'w str]) -> Vec<&'w str> {
-    [&TUNE[..], &[budget, "--out", out], more].concat()
+    [&split(TUNE)[..], &[budget, "--out", out], more].concat()
 }
 
 fn read_journal(bench: &Bench, out: &str) -> String {

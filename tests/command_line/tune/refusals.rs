@@ -8,7 +8,7 @@ use super::{read_tuning, set_up};
 use crate::bench::{Bench, SCENE, assert_done, assert_refused, split, stderr, stdout};
 
 #[test]
-fn what_cannot_be_tuned_is_refused_and_leaves_nothing_behind() {
+fn bad_tunings_are_refused_and_leave_no_files() {
     let bench = set_up();
     fs::write(
         bench.path("scenes/g/scene.toml"),
@@ -80,7 +80,7 @@ fn a_choice_that_the_scenes_cannot_tell_from_the_start_gets_no_preset() {
     let few = split("--objective flip --scenes a,b --size 64x32 --samples-per-pixel 16 --out out");
     fs::create_dir(bench.path("out")).unwrap();
     fs::write(bench.path("out/preset.toml"), "of an earlier tuning").unwrap();
-    let text = bench.done(&[&words[..], &few, &["--budget", "12"]].concat());
+    let text = bench.execute(&[&words[..], &few, &["--budget", "12"]].concat());
     let text: Vec<&str> = text.split_whitespace().collect();
     let text = text.join(" ");
     let trial = read_tuning(&bench, "out").choice.trial;
@@ -94,7 +94,7 @@ fn a_choice_that_the_scenes_cannot_tell_from_the_start_gets_no_preset() {
     assert!(bench.path("out/params.json").is_file());
 }
 
-/// A filter that is a program: it copies, and fails where its one parameter is above a half.
+/// Writes a filter that is a program: it copies its input, and fails if its one parameter is above a half.
 #[cfg(unix)]
 fn fails_above_a_half(bench: &Bench, name: &str, default: &str) {
     let parameter = format!(
@@ -109,7 +109,7 @@ fn fails_above_a_half(bench: &Bench, name: &str, default: &str) {
 
 #[cfg(unix)]
 #[test]
-fn a_candidate_that_fails_is_told_of_and_the_others_go_on() {
+fn a_failing_candidate_is_reported_and_the_tuning_goes_on() {
     let bench = set_up();
     fails_above_a_half(&bench, "fragile", "0.25");
     let tune = |filter| {

@@ -1,4 +1,4 @@
-//! Lengths of every filter's smear against what its preset promises, on the scene `sliding_panel` at several speeds and
+//! Measured lengths of every filter's smear against promised ones, on the scene `sliding_panel` at several speeds and
 //! angles.
 
 mod outcome;
@@ -9,11 +9,12 @@ mod silhouette;
 use frame::Alignment;
 use outcome::{ANGLES, OUTCOMES, Outcome, SHOTS};
 use panel::{HALF_PANEL, TRUTHS};
-use promised::{promised, stated};
-use tests::kernels::{along_motion, expected_ramp, taps};
+use promised::{promised_smear, stated_lengths};
+use tests::kernels::{along_motion, expected_ramp, place_taps};
 use tests::ramp::Ramp;
 
-/// Part of a profile on one side of the panel's middle, counted from the panel's edge there.
+/// Cuts out the part of a profile on one side of the panel's middle, with positions counted from the panel's edge
+/// there.
 fn edge(profile: &[(f64, f64)], front: bool) -> Vec<(f64, f64)> {
     let side = if front { 1.0 } else { -1.0 };
     profile
@@ -24,7 +25,7 @@ fn edge(profile: &[(f64, f64)], front: bool) -> Vec<(f64, f64)> {
 }
 
 #[test]
-fn the_panel_moves_as_fast_and_as_far_as_asked() {
+fn the_panel_moves_at_the_requested_speed() {
     for shot in SHOTS.iter() {
         let middle = shot.frame.velocity.at(panel::WIDTH / 2, panel::HEIGHT / 2);
         for (found, expected) in middle.iter().zip(shot.steady().velocity) {
@@ -35,7 +36,7 @@ fn the_panel_moves_as_fast_and_as_far_as_asked() {
 }
 
 #[test]
-fn the_truth_measures_as_long_as_the_shutter_is_open() {
+fn the_truth_s_smear_is_as_long_as_the_exposure() {
     let (shot, truths) = &*TRUTHS;
     let instant = shot.profile(shot.matte());
     for (alignment, truth) in truths {
@@ -47,21 +48,21 @@ fn the_truth_measures_as_long_as_the_shutter_is_open() {
         for front in [true, false] {
             let before = Ramp::of(&edge(&instant, front));
             let found = Ramp::of(&edge(&truth, front)).beyond(before);
-            // Noise of 32 samples in a band of 33 pixels, weighed by squares of distances.
+            // Noise of 32 samples in a band of 33 pixels, weighted by squared distances.
             assert!((found.length - shot.speed).abs() < 0.2, "{found:?}");
             assert!((found.middle - middle).abs() < 0.2, "{found:?}");
         }
     }
 }
 
-/// Returns whether the panel is long enough to hold what the taps of a preset make of its middle, and the picture, where a preset
-/// pushes them inwards at its border, to hold them beside all of that.
+/// Returns whether the panel is long enough for the taps of a preset, and the picture too if the preset pushes taps
+/// inwards at its border.
 fn fits(outcome: &Outcome) -> bool {
     let steady = outcome.shot().steady();
     let noise = [0.0, 0.25, 0.5, 0.75, 0.999_999];
     let taps = noise
         .into_iter()
-        .flat_map(|noise| taps(&outcome.filter, &outcome.preset, &steady, noise));
+        .flat_map(|noise| place_taps(&outcome.filter, &outcome.preset, &steady, noise));
     let reach = taps
         .map(|tap| along_motion(&steady, tap.offset).abs())
         .fold(0.0, f64::max);
@@ -74,8 +75,8 @@ fn fits(outcome: &Outcome) -> bool {
     reach < (HALF_PANEL - 3.0).min(room)
 }
 
-/// Returns the ramp that the taps of a preset make of an edge painted on the panel. This camera stands still.
-fn expected(outcome: &Outcome) -> Ramp {
+/// Returns the ramp that a preset's taps make of an edge painted on the panel. The camera stands still.
+fn expect_ramp(outcome: &Outcome) -> Ramp {
     match outcome.filter.as_str() {
         "camera_gather" => Ramp {
             length: 0.0,
@@ -85,45 +86,45 @@ fn expected(outcome: &Outcome) -> Ramp {
     }
 }
 
-/// Measures the edge painted on the panel; none where the panel is too short for it.
-fn measured(outcome: &Outcome) -> Option<Ramp> {
+/// Measures the edge painted on the panel; none if the panel is too short.
+fn measure_ramp(outcome: &Outcome) -> Option<Ramp> {
     let shot = outcome.shot();
     let before = Ramp::of(&shot.profile(&shot.painted()));
     fits(outcome).then(|| Ramp::of(&shot.profile(&outcome.painted)).beyond(before))
 }
 
-fn promise(outcome: &Outcome) -> f64 {
-    promised(&outcome.filter, &outcome.preset, &outcome.shot().steady())
+fn promised_length(outcome: &Outcome) -> f64 {
+    promised_smear(&outcome.filter, &outcome.preset, &outcome.shot().steady())
 }
 
 #[test]
-fn what_is_painted_on_the_panel_smears_as_far_as_the_taps_of_each_filter_say() {
+fn an_edge_on_the_panel_smears_as_far_as_each_filter_s_taps_predict() {
     let mut wrong = Vec::new();
     let mut compared = 0;
     for outcome in OUTCOMES.iter() {
-        let Some(found) = measured(outcome) else {
+        let Some(found) = measure_ramp(outcome) else {
             continue;
         };
-        let expected = expected(outcome);
+        let expected = expect_ramp(outcome);
         let off = [
             found.length - expected.length,
             found.middle - expected.middle,
         ];
         let tolerance = match outcome.preset.as_str() {
-            // Two taps at whole pixels: the noise has some nine values along a row, and rounding moves either end of a smear by up
-            // to half a pixel. Measured 1.1 at most.
+            // Two taps at whole pixels: the noise has about nine values along a row, and rounding moves either end of a
+            // smear by up to half a pixel. The largest measured error is 1.1.
             "msaa" => 1.2,
-            // Noise in a band of 33 pixels, most of it with two taps.
+            // Noise in a band of 33 pixels, mostly with two taps.
             _ => 0.2 + 0.01 * outcome.shot().speed,
         };
         if off.iter().any(|off| off.abs() > tolerance) {
-            let said = outcome.said();
+            let said = outcome.describe();
             wrong.push(format!("{said}: {found:?} instead of {expected:?}"));
         }
         compared += 1;
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    // All but long smears of two presets.
+    // All except long smears of two presets.
     assert!(compared + 30 > OUTCOMES.len(), "only {compared} compared");
 }
 
@@ -137,21 +138,21 @@ fn smears_are_as_long_as_each_filter_s_text_says() {
             row[0].shot().speed,
         );
         let cells = row.iter().map(|outcome| {
-            let Some(found) = measured(outcome) else {
+            let Some(found) = measure_ramp(outcome) else {
                 return "longer than the panel".to_owned();
             };
-            let promise = promise(outcome);
+            let promise = promised_length(outcome);
             if promise == 0.0 {
                 if found.length > 0.01 {
-                    wrong.push(format!("{}: {found:?} instead of none", outcome.said()));
+                    wrong.push(format!("{}: {found:?} instead of none", outcome.describe()));
                 }
                 return "none".to_owned();
             }
             let part = (100.0 * found.length / promise).round() / 100.0;
-            let stated = stated(&outcome.filter, &outcome.preset);
-            // Below, interpolation between pixels and their grid weigh more.
+            let stated = stated_lengths(&outcome.filter, &outcome.preset);
+            // At lower speeds, interpolation and the pixel grid weigh more.
             if speed >= 8.0 && !stated.contains(&part) {
-                wrong.push(format!("{}: {part}, stated {stated:?}", outcome.said()));
+                wrong.push(format!("{}: {part}, stated {stated:?}", outcome.describe()));
             }
             format!("{part:.2} ({:.2})", promise / speed)
         });

@@ -1,9 +1,10 @@
-//! Blurs of every shot by every filter.
+//! Every shot, blurred by every filter.
 
 use std::sync::LazyLock;
 
-use filters::{Blur, Gpu, Input};
+use filters::{Blur, Input};
 use frame::Plane;
+use tests::open_gpu;
 use tests::presets::every_preset;
 
 use super::panel::{EXPOSURE, HEIGHT, Shot, WIDTH};
@@ -22,7 +23,7 @@ pub struct Outcome {
     pub matte: Plane,
 }
 
-/// Every angle at every speed.
+/// A shot for every angle at every speed.
 pub static SHOTS: LazyLock<Vec<Shot>> = LazyLock::new(|| {
     let speeds = SPEEDS.into_iter();
     speeds
@@ -32,12 +33,12 @@ pub static SHOTS: LazyLock<Vec<Shot>> = LazyLock::new(|| {
 
 /// Blurs by every preset, in the order of the shots.
 pub static OUTCOMES: LazyLock<Vec<Outcome>> = LazyLock::new(|| {
-    let gpu = Gpu::new(None).expect("these tests run filters");
+    let gpu = open_gpu();
     let mut outcomes = Vec::new();
     for (filter, settings) in every_preset() {
         let mut blur = Blur::new(&gpu, &filter, &settings, WIDTH, HEIGHT).unwrap();
         for (index, shot) in SHOTS.iter().enumerate() {
-            // Colours pass through the same weights, so one run blurs both.
+            // Colours get the same weights, so that one run blurs both.
             let color = shot.painted().zip(shot.matte(), |a, b| [*a, *b, 0.0]);
             let input = Input {
                 color: &[&color],
@@ -65,7 +66,7 @@ impl Outcome {
         &SHOTS[self.shot]
     }
 
-    pub fn said(&self) -> String {
+    pub fn describe(&self) -> String {
         let shot = self.shot();
         format!(
             "{} {} at {} px and {} degrees",

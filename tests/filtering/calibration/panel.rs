@@ -1,6 +1,5 @@
-//! The scene `sliding_panel` with a larger panel that faces its motion, as fast as a test wants it.
+//! The scene `sliding_panel` with a larger panel that faces its motion, at any speed.
 
-use std::path::Path;
 use std::sync::LazyLock;
 
 use frame::{Alignment, Frame, Plane, Raster};
@@ -13,20 +12,20 @@ use tracer::{
 
 pub const WIDTH: u32 = 256;
 pub const HEIGHT: u32 = 144;
-/// The scene shows 3.6 m from top to bottom.
+/// Metres per pixel: the scene shows 3.6 m from top to bottom.
 const METRES_PER_PIXEL: f64 = 3.6 / HEIGHT as f64;
-/// On the panel of 0.8 m: longer than the longest trail by a band on either side.
+/// Factor on the panel of 0.8 m, which makes it longer than the longest trail by a band on either side.
 const SCALE: f64 = 3.4;
 /// Distance from the panel's middle to its edges, in pixels.
 pub const HALF_PANEL: f64 = 0.5 * 0.8 * SCALE / METRES_PER_PIXEL;
-/// Half the width of the band, in pixels, along which edges are measured.
+/// Half the width, in pixels, of the band that edges are measured along.
 const HALF_BAND: f64 = 16.0;
-/// Half the width of the tent, in pixels. The rows of pixels of a tilted band lie up to 0.7 apart: narrower ones
-/// would see them.
+/// Half the width of the tent, in pixels. The rows of pixels in a tilted band lie up to 0.7 apart; a narrower tent
+/// would resolve them.
 const TENT: f64 = 2.0;
 pub const EXPOSURE: f64 = 1.0;
 
-/// Two truths of one shot, which two tests look at.
+/// Two truths of one shot, which two tests need.
 pub static TRUTHS: LazyLock<(Shot, [(Alignment, Plane); 2])> = LazyLock::new(|| {
     let shot = Shot::new(24.0, 30.0);
     let alignments = [Alignment::Trailing, Alignment::Centred];
@@ -34,11 +33,11 @@ pub static TRUTHS: LazyLock<(Shot, [(Alignment, Plane); 2])> = LazyLock::new(|| 
     (shot, truths)
 });
 
-/// The panel at the middle of the picture, moving.
+/// A moving panel at the middle of the picture.
 pub struct Shot {
-    /// Pixels per frame.
+    /// Speed, in pixels per frame.
     pub speed: f64,
-    /// Angle of the motion, 0 to the right and 90 upwards.
+    /// Angle of the motion in degrees: 0 to the right, 90 upwards.
     pub degrees: f64,
     pub frame: Frame,
     scene: Scene,
@@ -46,8 +45,8 @@ pub struct Shot {
 
 impl Shot {
     pub fn new(speed: f64, degrees: f64) -> Self {
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/sliding_panel");
-        let mut scene = load_scene(Path::new(folder), None).unwrap();
+        let folder = tests::scenes().join("sliding_panel");
+        let mut scene = load_scene(&folder, None).unwrap();
         let turned = DQuat::from_rotation_z(degrees.to_radians());
         let step = turned * DVec3::X * speed * METRES_PER_PIXEL;
         let panel = scene
@@ -81,13 +80,13 @@ impl Shot {
         }
     }
 
-    /// Direction of the motion, +y down.
+    /// Returns the direction of the motion, +y down.
     pub fn direction(&self) -> DVec2 {
         let (sine, cosine) = self.degrees.to_radians().sin_cos();
         DVec2::new(cosine, -sine)
     }
 
-    /// Returns the way from the middle of the picture along the motion, in pixels.
+    /// Returns the distance from the middle of the picture to its border along the motion, in pixels.
     pub fn to_border(&self) -> f64 {
         let [across, down] = self.direction().to_array().map(f64::abs);
         (middle().x / across).min(middle().y / down)
@@ -101,7 +100,8 @@ impl Shot {
         }
     }
 
-    /// White behind the panel's middle and black ahead of it, as if painted on the panel and on what lies beyond.
+    /// Makes a picture that is white behind the panel's middle and black ahead of it, as if painted on the panel and on
+    /// everything beyond.
     pub fn painted(&self) -> Plane {
         let normal = self.direction();
         let offset = normal.dot(middle());
@@ -116,7 +116,7 @@ impl Shot {
         &self.frame.coverage[self.panel()]
     }
 
-    /// Returns the part of each pixel that it covers while the shutter is open.
+    /// Returns the part of each pixel that the panel covers while the shutter is open.
     fn true_matte(&self, alignment: Alignment) -> Plane {
         let settings = TruthSettings {
             width: WIDTH,
@@ -137,8 +137,8 @@ impl Shot {
         index.expect("the frame lists the panel")
     }
 
-    /// Brightness along the motion, at every whole pixel from the panel's middle on: the mean over a band, smoothed by a
-    /// tent.
+    /// Measures the brightness along the motion, at every whole pixel from the panel's middle: the mean over a band,
+    /// smoothed by a tent.
     pub fn profile(&self, plane: &Plane) -> Vec<(f64, f64)> {
         let direction = self.direction();
         let reach = (HALF_PANEL + self.speed + 16.0).ceil() as i32;
@@ -159,7 +159,7 @@ impl Shot {
             }
         }
         let positions = (-reach..=reach).map(f64::from).zip(sums);
-        // Off the picture there is nothing to see.
+        // Samples beyond the picture show nothing.
         positions
             .filter(|(_, (share, _))| *share > HALF_BAND)
             .map(|(position, (share, sum))| (position, sum / share))

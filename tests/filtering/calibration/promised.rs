@@ -1,4 +1,4 @@
-//! Lengths of smears that every filter promises.
+//! Lengths of smears that the filters promise.
 
 use std::ops::RangeInclusive;
 
@@ -6,8 +6,9 @@ use tests::kernels::{Steady, along_motion, jump_flood_trail};
 
 use super::panel::HEIGHT;
 
-/// Length of the smear in pixels: the exposure's where nothing else is said, times a preset's factor, cut at its reach.
-pub fn promised(filter: &str, preset: &str, steady: &Steady) -> f64 {
+/// Returns the promised length of the smear in pixels. Unless a preset says otherwise, it is the exposure's, times the
+/// preset's factor, cut at its reach.
+pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
     let [x, y] = steady.trail();
     let trail = x.hypot(y);
     match (filter, preset) {
@@ -21,7 +22,7 @@ pub fn promised(filter: &str, preset: &str, steady: &Steady) -> f64 {
         ("mcguire", "motion_blur_demo") => trail.min(20.0),
         ("mcguire", "g3d") => trail.min(2.0 * 64.0),
         ("guertin", _) => trail.min(2.0 * 40.0),
-        // Whole pixels of 5 % of the rows, on either side; under 2 nothing.
+        // Whole pixels of 5 % of the rows on either side; nothing below 2.
         ("kino", _) => match (0.05 * f64::from(HEIGHT)).floor() {
             _ if trail < 4.0 => 0.0,
             radius => trail.min(2.0 * radius),
@@ -35,7 +36,7 @@ pub fn promised(filter: &str, preset: &str, steady: &Steady) -> f64 {
         ("jimenez", "o3de") => 10.0 * trail,
         // Seven steps of a sixteenth.
         ("jimenez", "kajiya") => 7.0 / 16.0 * trail,
-        // 1500 pixels per width and height of motion, by noise from 0 to 1.
+        // 1500 pixels per picture width and height of motion, times noise from 0 to 1.
         ("jimenez", "wicked") => {
             let [width, height] = steady.size.map(f64::from);
             along_motion(steady, [1500.0 * x / width, 1500.0 * y / height])
@@ -44,9 +45,9 @@ pub fn promised(filter: &str, preset: &str, steady: &Steady) -> f64 {
     }
 }
 
-/// Returns what every filter's text says that an edge on the panel spreads by, from 8 pixels on: parts of the promised length, in
-/// whole hundredths.
-pub fn stated(filter: &str, preset: &str) -> RangeInclusive<f64> {
+/// Returns how far an edge on the panel spreads according to the filter's text, from 8 pixels on: parts of the promised
+/// length, in whole hundredths.
+pub fn stated_lengths(filter: &str, preset: &str) -> RangeInclusive<f64> {
     match (filter, preset) {
         ("jump_flood" | "jump_flood_packed", "paper") => 1.26..=1.31,
         ("jump_flood" | "jump_flood_packed", "july_2024") => 1.09..=1.12,

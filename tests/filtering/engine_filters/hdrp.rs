@@ -11,26 +11,26 @@ fn an_intensity_of_one_is_a_shutter_of_180_degrees() {
     let picture = moving_edge(160, 64, [24.0, 0.0]);
     let length = |intensity: &str| {
         let overrides = [("strength", intensity)];
-        ramp_length(&picture.blurred("jimenez", "hdrp", &overrides))
+        ramp_length(&picture.blur("jimenez", "hdrp", &overrides))
     };
-    // A quarter of the motion to each side. Half a pixel for reading the nearest ones.
+    // A quarter of the motion to each side. Nearest fetches round by half a pixel.
     assert!((length("1") - 12.0).abs() < 0.5, "{}", length("1"));
     assert!((length("2") - 24.0).abs() < 0.5, "{}", length("2"));
 }
 
 #[test]
 fn the_noise_of_hdrp_shifts_all_taps_of_a_pixel_to_one_side() {
-    // Brightness is the column: a mean of taps is their mean place.
+    // Brightness is the column, so a mean of taps is their mean position.
     let picture = Picture::new(200, 64, |x, _| Surface {
         gray: x as f32,
         ..white(24.0)
     });
-    let output = picture.blurred("jimenez", "hdrp", &[]);
+    let output = picture.blur("jimenez", "hdrp", &[]);
     let pixels = (50..150).flat_map(|x| (0..48).map(move |y| (x, y)));
     let shifts: Vec<f32> = pixels.map(|(x, y)| output.at(x, y)[0] - x as f32).collect();
     let mean = shifts.iter().map(|shift| shift.abs()).sum::<f32>() / shifts.len() as f32;
-    // Up to half a step of 3 pixels. Read at the nearest ones, taps shift by 1.5 for a third of the noise and by 0.5 for the
-    // rest; mirrored, they would not.
+    // Taps shift by up to half a step of 3 pixels. With nearest fetches, a third of the noise shifts them by 1.5 pixels
+    // and the rest by 0.5. Mirrored taps would not shift.
     assert!((mean - 5.0 / 6.0).abs() < 0.05, "{mean}");
 }
 
@@ -40,8 +40,8 @@ fn hdrp_reads_the_nearest_pixels() {
         gray: (x % 2) as f32,
         ..white(25.0)
     });
-    let output = picture.blurred("jimenez", "hdrp", &[]);
-    // All taps weigh alike: a mean of eight zeros and ones.
+    let output = picture.blur("jimenez", "hdrp", &[]);
+    // All taps have equal weight: a mean of eight zeros and ones.
     for pixel in &output.pixels {
         let ones = 8.0 * pixel[0];
         assert!((ones - ones.round()).abs() < 1e-5, "{ones} of 8");
@@ -50,12 +50,13 @@ fn hdrp_reads_the_nearest_pixels() {
 
 #[test]
 fn short_trails_of_hdrp_have_fewer_taps() {
-    // As above, but for a length in parts of the picture's diagonal, a tenth longer, of 5 pixels and a bit.
+    // The same for a trail of a little over 5 pixels. Its length counts in parts of the picture's diagonal, which makes
+    // it a tenth longer.
     let picture = Picture::new(160, 64, |x, _| Surface {
         gray: (x % 2) as f32,
         ..white(2.4)
     });
-    let output = picture.blurred("jimenez", "hdrp", &[]);
+    let output = picture.blur("jimenez", "hdrp", &[]);
     for pixel in &output.pixels {
         let ones = 6.0 * pixel[0];
         assert!((ones - ones.round()).abs() < 1e-5, "{ones} of 6");
@@ -64,7 +65,7 @@ fn short_trails_of_hdrp_have_fewer_taps() {
 
 #[test]
 fn a_tap_that_moves_half_as_far_as_the_trail_counts_whole() {
-    // In front something white that moves half as fast as what lies behind it.
+    // Something white in front moves half as fast as the background.
     let picture = Picture::new(160, 64, |x, _| match x {
         80.. => white(12.0),
         _ => Surface {
@@ -74,7 +75,7 @@ fn a_tap_that_moves_half_as_far_as_the_trail_counts_whole() {
     });
     let output = |direction: &str| {
         let overrides = [("direction", direction), ("plain_tiles", "never")];
-        picture.blurred("jimenez", "hdrp", &overrides)
+        picture.blur("jimenez", "hdrp", &overrides)
     };
     let (weighted, ignored) = (output("weighted"), output("ignored"));
     let pairs = weighted.pixels.iter().zip(&ignored.pixels);
@@ -84,7 +85,7 @@ fn a_tap_that_moves_half_as_far_as_the_trail_counts_whole() {
 
 #[test]
 fn directions_count_only_where_the_pixel_itself_moves() {
-    // Below, something fast in front gives the trail; above, something white moves down past a wall.
+    // At the bottom, something fast in front sets the trail; at the top, something white moves down past a wall.
     let seen = |wall: f32| {
         let picture = Picture::new(160, 64, |x, y| match (x, y) {
             (_, 40..) => Surface {
@@ -100,17 +101,17 @@ fn directions_count_only_where_the_pixel_itself_moves() {
                 ..BLACK_WALL
             },
         });
-        let output = picture.blurred("jimenez", "hdrp", &[("plain_tiles", "never")]);
+        let output = picture.blur("jimenez", "hdrp", &[("plain_tiles", "never")]);
         (32..38).map(|y| output.at(76, y)[0]).fold(0.0, f32::max)
     };
-    // 4 pixels away, of 12 that trails reach.
+    // 4 of the 12 pixels that trails reach.
     assert!(seen(0.0) > 0.1, "{}", seen(0.0));
     assert_eq!(seen(4.0), 0.0);
 }
 
 #[test]
-fn what_moves_like_the_fastest_shows_only_what_its_taps_saw() {
-    // A wall that moves behind something still: half of its taps count for nothing beside that.
+fn a_pixel_that_moves_like_the_fastest_shows_only_its_taps() {
+    // A moving wall behind something still: half of its taps have no weight beside the still thing.
     let picture = Picture::new(160, 64, |x, _| match x {
         0..80 => white(0.0),
         _ => Surface {
@@ -119,14 +120,14 @@ fn what_moves_like_the_fastest_shows_only_what_its_taps_saw() {
             ..BLACK_WALL
         },
     });
-    let seen = |rest: &str| column(&picture.blurred("jimenez", "hdrp", &[("rest", rest)]), 80);
-    // Of itself, white, half remains beside the wall's black.
+    let seen = |rest: &str| column(&picture.blur("jimenez", "hdrp", &[("rest", rest)]), 80);
+    // The white thing keeps half of itself beside the wall's black.
     assert!(seen("own") > 0.5, "{}", seen("own"));
-    // One of some four taps may read the pixel itself.
+    // One of about four taps may read the pixel itself.
     assert!(seen("layers") < 0.3, "{}", seen("layers"));
 }
 
-/// A speckled background that moves right, and on the left something still and black in front.
+/// Makes a speckled background that moves right, with something still and black in front on the left.
 fn still_in_front() -> Picture {
     let mut random = Random::new(5);
     let speckles: Vec<f32> = (0..160 * 64).map(|_| random.real(0.0, 1.0)).collect();
@@ -144,25 +145,25 @@ fn still_in_front() -> Picture {
 }
 
 #[test]
-fn hdrp_leaves_moving_background_sharp_beside_something_still_in_front() {
+fn hdrp_leaves_moving_background_sharp_beside_a_still_foreground() {
     let picture = still_in_front();
     let change = |mirror: &str| {
-        let output = picture.blurred("jimenez", "hdrp_mirrored", &[("mirror", mirror)]);
+        let output = picture.blur("jimenez", "hdrp_mirrored", &[("mirror", mirror)]);
         let changes = (0..64).map(|y| output.at(80, y)[0] - picture.color.at(80, y)[0]);
         changes.map(|change| f64::from(change.abs())).sum::<f64>() / 64.0
     };
-    // Speckles are a third apart on average; a mean of some is about a quarter away from each of them, and half of the
-    // taps are the pixel's own colour again.
+    // Speckles differ by a third on average. A mean of several differs from each of them by about a quarter, and half
+    // of the taps read the pixel's own colour again.
     let usual = change("slow_background");
     assert!(usual > 0.08, "{usual}");
-    // Nearly all pairs reach the still thing, whose motion is nothing, and both taps take its weight.
+    // Nearly all pairs reach the still thing. Its motion is zero, and both taps of a pair get its weight.
     let turned = change("fast_background");
     assert!(turned < 0.1 * usual, "{turned} and {usual}");
 }
 
 #[test]
 fn steps_that_end_late_keep_still_things_out_of_the_trail_at_its_start() {
-    // A pixel of the background beside something still in front; a step is 3 pixels.
+    // A background pixel beside something still in front; a step is 3 pixels.
     let picture = Picture::new(160, 64, |x, _| match x {
         0..80 => white(0.0),
         _ => Surface {
@@ -176,15 +177,15 @@ fn steps_that_end_late_keep_still_things_out_of_the_trail_at_its_start() {
             ("spread", spread),
             ("direction", "ignored"),
         ];
-        column(&picture.blurred("jimenez", "hdrp", &overrides), 80)
+        column(&picture.blur("jimenez", "hdrp", &overrides), 80)
     };
-    // One of eight taps is less than a step to the left, and counts for what is left of the step.
+    // One of eight taps lies less than a step to the left, and counts for the remaining part of the step.
     assert!(seen("steps") > 0.03, "{}", seen("steps"));
     assert_eq!(seen("late_steps"), 0.0);
 }
 
 #[test]
-fn late_steps_are_steps_from_the_first_whole_one_on() {
+fn late_steps_equal_normal_steps_after_the_first() {
     let picture = still_in_front();
     let output = |placement: &str, spread: &str| {
         let overrides = [
@@ -192,7 +193,7 @@ fn late_steps_are_steps_from_the_first_whole_one_on() {
             ("spread", spread),
             ("noise", "none"),
         ];
-        picture.blurred("jimenez", "hdrp", &overrides)
+        picture.blur("jimenez", "hdrp", &overrides)
     };
     // Taps at the ends of steps lie one step away or more.
     assert!(output("with_centre", "late_steps") == output("with_centre", "steps"));
@@ -200,8 +201,8 @@ fn late_steps_are_steps_from_the_first_whole_one_on() {
 }
 
 #[test]
-fn weighted_directions_leave_out_what_crosses_the_trail() {
-    // On the right something white that moves down; around it everything moves right.
+fn weighted_directions_exclude_motion_across_the_trail() {
+    // Something white on the right moves down; everything around it moves right.
     let picture = Picture::new(160, 64, |x, _| match x {
         80.. => Surface {
             velocity: [0.0, 9.0],
@@ -218,21 +219,21 @@ fn weighted_directions_leave_out_what_crosses_the_trail() {
             ("plain_tiles", "never"),
             ("mirror", "off"),
         ];
-        column(&picture.blurred("jimenez", "hdrp", &overrides), 76)
+        column(&picture.blur("jimenez", "hdrp", &overrides), 76)
     };
-    // A third of the right half of the taps lies beyond 4 pixels of 12.
+    // A third of the right half of the taps lies beyond 4 of 12 pixels.
     assert!(seen("ignored") > 0.2, "{}", seen("ignored"));
     assert_eq!(seen("weighted"), 0.0);
 }
 
 #[test]
-fn what_stands_still_in_front_stays_sharp() {
+fn a_still_foreground_stays_sharp() {
     let picture = still_in_front();
     for preset in ["slides_2014", "hdrp", "hdrp_mirrored"] {
-        let output = picture.blurred("jimenez", preset, &[]);
-        // Up to the one step, 12 / pairs pixels, in which a still pixel's spread ends.
+        let output = picture.blur("jimenez", preset, &[]);
+        // Up to one step, 12 / pairs pixels, where a still pixel's spread ends.
         assert_eq!(light(&output, 0..76), 0.0, "{preset}");
     }
-    let output = picture.blurred("jimenez", "hdrp", &[]);
+    let output = picture.blur("jimenez", "hdrp", &[]);
     assert!(light(&output, 0..80) < 0.01, "late steps end at once");
 }

@@ -4,7 +4,8 @@ use tests::picture::{BLACK_WALL, Picture, Surface, column, white};
 
 #[test]
 fn plain_tiles_forget_depth_where_motions_are_alike() {
-    // In front something white that moves 8 pixels, behind it 24: in their tiles the least is over a quarter.
+    // Something white in front moves 8 pixels, and the background 24: the least motion in their tiles is over a
+    // quarter.
     let picture = Picture::new(160, 64, |x, _| match x {
         80.. => white(8.0),
         _ => Surface {
@@ -14,11 +15,11 @@ fn plain_tiles_forget_depth_where_motions_are_alike() {
     });
     let seen = |plain: &str| {
         let overrides = [("plain_tiles", plain), ("mirror", "off")];
-        column(&picture.blurred("jimenez", "hdrp", &overrides), 72)
+        column(&picture.blur("jimenez", "hdrp", &overrides), 72)
     };
-    // It comes 4 pixels to each side, and 8 are beyond a step of 3 more.
+    // It moves 4 pixels to each side; a distance of 8 is more than a step of 3 beyond that.
     assert!(seen("never") < 0.01, "{}", seen("never"));
-    // A box of 24 pixels, of which 4.5 lie in it.
+    // A box of 24 pixels, 4.5 of which lie in it.
     assert!(
         (seen("similar") - 4.5 / 24.0).abs() < 0.03,
         "{}",
@@ -27,8 +28,8 @@ fn plain_tiles_forget_depth_where_motions_are_alike() {
 }
 
 #[test]
-fn tiles_around_end_long_smears_that_tiles_along_the_motion_carry() {
-    // Half of 160 pixels to each side; Unity HDRP cuts twice that at 200, parts of the picture's diagonal.
+fn neighbouring_tiles_cut_long_smears_and_tiles_along_the_motion_do_not() {
+    // Half of 160 pixels to each side. Unity HDRP cuts twice that at 200, in parts of the picture's diagonal.
     let picture = Picture::new(
         320,
         64,
@@ -37,7 +38,7 @@ fn tiles_around_end_long_smears_that_tiles_along_the_motion_carry() {
         },
     );
     let reach = |preset: &str| {
-        let output = picture.blurred("jimenez", preset, &[("tile_dither", "0")]);
+        let output = picture.blur("jimenez", preset, &[("tile_dither", "0")]);
         (0..160).filter(|x| column(&output, *x) > 0.0).count()
     };
     // One tile of 20 pixels beside the mover's.
@@ -46,7 +47,7 @@ fn tiles_around_end_long_smears_that_tiles_along_the_motion_carry() {
     assert!((47..=50).contains(&reach("hdrp")), "{}", reach("hdrp"));
 }
 
-/// Tiles of 16 pixels that know of one moving pixel in tile (10, 4), by its velocity.
+/// Returns the tiles of 16 pixels that know the velocity of one moving pixel in tile (10, 4).
 fn tiles_told_of(velocity: [f32; 2]) -> Vec<(u32, u32)> {
     let picture = Picture::new(320, 160, |x, y| match (x, y) {
         (160, 72) => Surface {
@@ -67,9 +68,9 @@ fn tiles_told_of(velocity: [f32; 2]) -> Vec<(u32, u32)> {
 }
 
 #[test]
-fn unity_walks_over_tiles_and_misses_the_one_to_the_left() {
-    // Half of 100 pixels is a bit over three tiles. From (9, 3) the walk goes 5 to the right and 1 down, and 2 to the left
-    // and 1 down, by the integers of Cohen 1994.
+fn unity_s_walk_over_tiles_misses_the_left_one() {
+    // Half of 100 pixels is a little over three tiles. The integers of Cohen 1994 take the walk from (9, 3) 5 to the
+    // right and 1 down, and 2 to the left and 1 down.
     let expected = [
         (8, 3),
         (10, 3),
@@ -83,7 +84,7 @@ fn unity_walks_over_tiles_and_misses_the_one_to_the_left() {
         (14, 4),
     ];
     assert_eq!(tiles_told_of([100.0, 0.0]), expected);
-    // Up to half a pixel, motion stays in its tile.
+    // Motion of up to half a pixel stays in its tile.
     assert_eq!(tiles_told_of([0.5, 0.0]), [(10, 4)]);
 }
 

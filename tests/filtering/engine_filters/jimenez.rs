@@ -14,12 +14,13 @@ const HONEST_LENGTHS: [&str; 5] = [
 ];
 
 #[test]
-fn presets_scaled_to_the_exposure_smear_as_far_as_it_says() {
+fn presets_scaled_to_the_exposure_smear_as_far_as_the_exposure() {
     for preset in HONEST_LENGTHS {
         for speed in [24.0, 40.0] {
             let picture = moving_edge(200, 64, [speed, 0.0]);
-            let found = ramp_length(&picture.blurred("jimenez", preset, &[]));
-            // O3DE's outermost taps lie half a step, a 48th, before the ends, and cut to whole pixels half of one nearer.
+            let found = ramp_length(&picture.blur("jimenez", preset, &[]));
+            // O3DE's outermost taps lie half a step, a 48th, before the ends. Cutting to whole pixels brings half of
+            // them one pixel nearer.
             let least = if preset == "o3de_scaled" { 0.90 } else { 0.98 };
             let part = found / f64::from(speed);
             assert!((least..1.03).contains(&part), "{preset}: {part}");
@@ -28,7 +29,7 @@ fn presets_scaled_to_the_exposure_smear_as_far_as_it_says() {
 }
 
 #[test]
-fn a_mover_smears_half_its_motion_over_what_lies_behind() {
+fn a_mover_smears_half_its_motion_over_the_background() {
     let picture = Picture::new(
         160,
         64,
@@ -37,9 +38,9 @@ fn a_mover_smears_half_its_motion_over_what_lies_behind() {
         },
     );
     for preset in HONEST_LENGTHS {
-        let output = picture.blurred("jimenez", preset, &[]);
-        // A ramp from a half to nothing over 12 pixels holds 3 pixels of light; with half a step less, and half a pixel less
-        // for whole pixels, 2.6.
+        let output = picture.blur("jimenez", preset, &[]);
+        // A ramp from a half to zero over 12 pixels holds 3 pixels of light. Half a step less, and half a pixel less
+        // for whole pixels, give 2.6.
         let expected = if preset == "o3de_scaled" { 2.6 } else { 3.0 };
         let found = light(&output, 0..80);
         assert!((found - expected).abs() < 0.4, "{preset}: {found}");
@@ -49,7 +50,7 @@ fn a_mover_smears_half_its_motion_over_what_lies_behind() {
 
 #[test]
 fn mirrored_weights_show_background_from_the_other_side() {
-    // A black mover on the right; the wall is black for 4 pixels beside it and white beyond.
+    // A black mover on the right. The wall is black for 4 pixels beside it, and white beyond.
     let picture = Picture::new(160, 64, |x, _| match x {
         80.. => Surface {
             gray: 0.0,
@@ -61,23 +62,23 @@ fn mirrored_weights_show_background_from_the_other_side() {
         },
     });
     let seen = |mirror: &str| {
-        let output = picture.blurred("jimenez", "slides_2014", &[("mirror", mirror)]);
+        let output = picture.blur("jimenez", "slides_2014", &[("mirror", mirror)]);
         column(&output, 79)
     };
-    // In all pairs the tap on the right reaches the mover; 8.5 of 12 pixels on the left are white, and half of the taps
-    // are on the left. One tap more or less, a sixteenth.
+    // In all pairs the right tap reaches the mover. 8.5 of 12 pixels on the left are white, and half of the taps are on
+    // the left. One tap more or less is a sixteenth.
     let expected = 0.5 * 8.5 / 12.0;
     assert!(
         (seen("slow_background") - expected).abs() < 1.0 / 16.0,
         "{} instead of {expected}",
         seen("slow_background")
     );
-    // By itself a still background reaches nothing, but for the half pixel of bilinear fetches.
+    // A still background reaches nothing by itself, except in the half pixel of bilinear fetches.
     assert!(seen("off") < 0.02, "{}", seen("off"));
 }
 
 #[test]
-fn tiles_know_what_is_longest_in_parts_of_the_picture() {
+fn tiles_compare_lengths_in_parts_of_the_picture() {
     // In a picture four times as wide as high, 8 pixels down are longer than 24 to the right.
     let picture = Picture::new(256, 64, |x, _| match x {
         128.. => Surface {
@@ -88,7 +89,7 @@ fn tiles_know_what_is_longest_in_parts_of_the_picture() {
     });
     let longest = |by: &str| {
         let tiles = picture.texture("jimenez", &[("longest_by", by)], "near_motion");
-        // Two tiles of 20 pixels to the left of the middle lies one that touches both.
+        // Two tiles of 20 pixels left of the middle, a tile touches both.
         let [right, down, ..] = *tiles.at(5, 1);
         [right, down]
     };
@@ -99,7 +100,7 @@ fn tiles_know_what_is_longest_in_parts_of_the_picture() {
 }
 
 #[test]
-fn of_equally_long_motions_a_tile_knows_the_first_the_last_or_the_greatest_angle() {
+fn a_tile_keeps_the_first_the_last_or_the_greatest_angle_of_equally_long_motions() {
     let picture = Picture::new(60, 60, |_, y| Surface {
         velocity: match y {
             20..25 => [6.0, -6.0],
@@ -116,19 +117,19 @@ fn of_equally_long_motions_a_tile_knows_the_first_the_last_or_the_greatest_angle
     };
     assert_eq!(known("screens"), [6.0, -6.0]);
     assert_eq!(known("last_screens"), [-6.0, -6.0]);
-    // Angles count from the left, clockwise.
+    // Angles count clockwise from the left.
     assert_eq!(known("packed_screens"), [6.0, 6.0]);
 }
 
 #[test]
-fn every_preset_says_whose_it_is_and_for_which_pictures() {
+fn every_preset_names_its_source_and_its_picture_width() {
     let filter = Filter::builtin("jimenez").unwrap();
     for preset in &filter.presets {
         let source = preset.source.as_ref();
         let source = source.unwrap_or_else(|| panic!("{} names no source", preset.name));
         assert!(!source.differs.is_empty(), "{}", preset.name);
         assert_eq!(preset.reference_width, Some(1920), "{}", preset.name);
-        // What nobody published as code is under no game's or engine's name.
+        // A preset without published code bears no game's or engine's name.
         let is_code = source.code.is_some();
         assert_eq!(is_code, preset.name != "slides_2014", "{}", preset.name);
     }

@@ -10,7 +10,7 @@ use tests::picture::{
 #[test]
 fn kajiya_smears_seven_sixteenths_of_the_motion() {
     let picture = moving_edge(160, 64, [48.0, 0.0]);
-    let length = |preset: &str| ramp_length(&picture.blurred("jimenez", preset, &[]));
+    let length = |preset: &str| ramp_length(&picture.blur("jimenez", preset, &[]));
     // Seven steps of a sixteenth; half a pixel for 32 shifts in 64 rows.
     assert!(
         (length("kajiya") - 21.0).abs() < 0.5,
@@ -26,15 +26,15 @@ fn kajiya_smears_seven_sixteenths_of_the_motion() {
 
 #[test]
 fn kajiya_lets_things_smear_twice_as_far_as_they_move() {
-    // To each side the slow thing should smear 12 * 3.5 / 16, 2.6 pixels; steps are 9 / 16 pixels.
+    // To each side the slow thing should smear 12 * 3.5 / 16 = 2.6 pixels; steps are 9 / 16 pixels.
     let picture = slow_above_fast(12.0, 48.0);
     let smear = |spread: &str| {
         let overrides = [("pairs", "16"), ("spread", spread)];
-        picture.blurred("jimenez", "kajiya", &overrides)
+        picture.blur("jimenez", "kajiya", &overrides)
     };
-    // Three of 33 taps, of which a half counts.
+    // Three of 33 taps, half of which count.
     assert!(light_above(&smear("pixels"), 3..5) > 0.2);
-    // A pixel less than half its motion, and one for fetches.
+    // A pixel less than half its motion, and one pixel for fetches.
     assert_eq!(light_above(&smear("pixels"), 6..30), 0.0);
     // One step more than its own.
     assert_eq!(light_above(&smear("steps"), 3..30), 0.0);
@@ -42,15 +42,15 @@ fn kajiya_lets_things_smear_twice_as_far_as_they_move() {
 
 #[test]
 fn kajiya_shifts_taps_by_one_of_32_numbers() {
-    // Brightness is the column: a mean of taps is their mean place.
+    // Brightness is the column, so a mean of taps is their mean position.
     let picture = Picture::new(256, 64, |x, _| Surface {
         gray: x as f32,
         ..white(-48.0)
     });
-    let output = picture.blurred("jimenez", "kajiya", &[]);
+    let output = picture.blur("jimenez", "kajiya", &[]);
     let mut shifts: Vec<i32> = (64..192)
         .flat_map(|x| (0..64).map(move |y| (x, y)))
-        // Taps lie 3 pixels apart; the centre, one of seven, is read at whole ones.
+        // Taps lie 3 pixels apart; the centre, one of seven, reads whole pixels.
         .map(|(x, y)| {
             let mean = output.at(x, y)[0] - x as f32;
             (-20..=20)
@@ -80,30 +80,31 @@ fn kajiya_displaces_still_pixels_near_a_mover() {
         },
     });
     let changed = |preset: &str, overrides: &[(&str, &str)]| {
-        let output = picture.blurred("jimenez", preset, overrides);
+        let output = picture.blur("jimenez", preset, overrides);
         let wall = (0..38).flat_map(|y| (0..160).map(move |x| (x, y)));
         wall.filter(|(x, y)| (output.at(*x, *y)[0] - picture.color.at(*x, *y)[0]).abs() > 0.05)
             .count()
     };
-    // Of 6080 pixels, those in tiles that know the mover and that are shifted by half a pixel or more of 1.5.
+    // The wall has 6080 pixels. Those change that lie in tiles that know the mover and shift by at least half a pixel
+    // of 1.5.
     assert!(changed("kajiya", &[]) > 2000, "{}", changed("kajiya", &[]));
-    // Without noise, the pixel stays where it is, and a still pixel has no spread.
+    // Without noise the pixel does not shift, and a still pixel has no spread.
     assert_eq!(changed("kajiya", &[("noise", "none")]), 0);
 }
 
 #[test]
 fn taps_off_the_picture_are_dropped_or_read_its_border() {
-    // A white column at the border, in motion with everything else.
+    // A white column at the border, which moves with everything else.
     let picture = Picture::new(80, 64, |x, _| Surface {
         gray: if x == 0 { 1.0 } else { 0.0 },
         velocity: [48.0, 0.0],
         depth: 2.0,
     });
     let seen = |border: &str| {
-        let output = picture.blurred("jimenez", "kajiya", &[("border", border)]);
+        let output = picture.blur("jimenez", "kajiya", &[("border", border)]);
         column(&output, 4)
     };
-    // Of seven taps 3 pixels apart around 4.5, two lie off the picture; one is anywhere in the first three columns.
+    // Two of seven taps, 3 pixels apart around 4.5, lie off the picture; one is in the first three columns.
     let one = 1.0 / 3.0;
     assert!(
         (seen("clamp") - (2.0 + one) / 7.0).abs() < 0.05,

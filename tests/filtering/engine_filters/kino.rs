@@ -3,11 +3,11 @@
 use tests::picture::{BLACK_WALL, Picture, Surface, column, moving_edge, ramp_length, white};
 
 #[test]
-fn weights_that_fall_off_make_the_smear_shorter_than_the_exposure() {
-    // 5 % of 480 rows are 24 pixels: half of 24 is not cut.
+fn falling_weights_make_the_smear_shorter_than_the_exposure() {
+    // 5 % of 480 rows are 24 pixels, so half of 24 is not cut.
     let picture = moving_edge(120, 480, [24.0, 0.0]);
-    let found = ramp_length(&picture.blurred("kino", "default", &[])) / 24.0;
-    // Four taps on each side, spread evenly over a quarter of the half trail each, with weights that fall off.
+    let found = ramp_length(&picture.blur("kino", "default", &[])) / 24.0;
+    // Four taps on each side, spread evenly over a quarter of the half trail each, with falling weights.
     let taps: Vec<(f64, f64)> = (0..4)
         .map(|pair| 1.0 - (f64::from(pair) + 0.5) / 4.0)
         .map(|along| (along * along + 1.0 / 192.0, 2.0 * (1.2 - along) / 12.0))
@@ -21,7 +21,7 @@ fn weights_that_fall_off_make_the_smear_shorter_than_the_exposure() {
         / total;
     // An even ramp of half length 1 has the mean square 1/3.
     let expected = (3.0 * square).sqrt();
-    // In the last pixel of the trail weights fall to nothing, which the formula leaves out: up to 1/24.
+    // Weights fall to zero in the last pixel of the trail, which the formula leaves out: up to 1/24.
     assert!(
         (found - expected).abs() < 0.04,
         "{found} instead of {expected}"
@@ -29,7 +29,7 @@ fn weights_that_fall_off_make_the_smear_shorter_than_the_exposure() {
     assert!(found < 0.85);
 }
 
-/// A white bar of 40 pixels that moves right, right or left of the middle of a still black picture.
+/// Makes a white bar of 40 pixels that moves right, in the right or left half of a still black picture.
 fn bar(right: bool) -> Picture {
     Picture::new(160, 64, |x, _| {
         let from_middle = if right { x as i32 - 80 } else { 79 - x as i32 };
@@ -42,25 +42,25 @@ fn bar(right: bool) -> Picture {
 }
 
 #[test]
-fn the_order_of_taps_makes_the_two_sides_of_a_mover_differ() {
+fn the_order_of_taps_makes_a_mover_s_two_sides_differ() {
     let overrides = [
         ("jitter", "none"),
         ("storage", "exact"),
         ("radius_percent", "40"),
     ];
-    // The still pixels beside the bar, 1 to 18 of the 20 that its smear covers.
-    let right = bar(true).blurred("kino", "default", &overrides);
-    let left = bar(false).blurred("kino", "default", &overrides);
+    // The still pixels beside the bar: 1 to 18 of the 20 that its smear covers.
+    let right = bar(true).blur("kino", "default", &overrides);
+    let left = bar(false).blur("kino", "default", &overrides);
     let light = |distances: [f64; 18]| distances.iter().sum::<f64>();
     let behind = light(std::array::from_fn(|i| column(&right, 79 - i as u32)));
     let ahead = light(std::array::from_fn(|i| column(&left, 80 + i as u32)));
-    // The tap to the right is the first of each pair; seen first, the bar teaches that what lies behind it moves as far,
-    // and its own share shrinks. Without the order the two were equal but for rounding.
+    // The right tap is the first of each pair. If the bar is seen first, the background counts as moving as far, and
+    // the bar's own share shrinks. Without this order both sides would be equal up to rounding.
     assert!(behind < 0.97 * ahead, "{behind} and {ahead}");
 }
 
 #[test]
-fn packed_motion_comes_in_steps_and_knows_no_standstill() {
+fn packed_motion_has_steps_and_no_zero() {
     let picture = Picture::new(64, 360, |x, _| Surface {
         velocity: [2.0 * x as f32 / 100.0, 0.0],
         ..BLACK_WALL
@@ -84,7 +84,7 @@ fn packed_motion_comes_in_steps_and_knows_no_standstill() {
     }
     let exact = picture.texture("kino", &[("storage", "exact")], "motion");
     assert_eq!(exact.at(0, 7)[0], 0.0);
-    // Depth of 20 metres, of 1000, to the nearest of 1024 values.
+    // A depth of 20 metres, of 1000, to the nearest of 1024 values.
     assert_eq!(packed.at(0, 7)[2], 20.0 / 1023.0);
 }
 
@@ -105,7 +105,7 @@ fn a_tile_is_the_radius_rounded_up_to_eight() {
         assert!((tiles.at(100 / tile, 50 / tile)[0] - radius).abs() < 1e-4);
         let moving = tiles.pixels.iter().filter(|motion| motion[0] > 0.0).count();
         assert_eq!(moving, 1, "{rows} rows");
-        // A tile's own motion counts for 1.01 times what it is, and neighbours' motion arrives so much shorter.
+        // A tile's own motion counts 1.01 times, so neighbours' motion arrives shorter by that factor.
         let near = picture.texture("kino", &overrides, "neighbor_max");
         assert!((near.at(100 / tile, 50 / tile)[0] - radius).abs() < 1e-4);
         let beside = near.at(100 / tile - 1, 50 / tile)[0];
@@ -117,7 +117,7 @@ fn a_tile_is_the_radius_rounded_up_to_eight() {
 fn half_motion_under_two_pixels_stays_sharp() {
     for (speed, blurs) in [(3.9, false), (4.1, true)] {
         let picture = moving_edge(60, 360, [speed, 0.0]);
-        let output = picture.blurred("kino", "default", &[("storage", "exact")]);
+        let output = picture.blur("kino", "default", &[("storage", "exact")]);
         assert_eq!(output != picture.color, blurs, "{speed} pixels per frame");
     }
 }

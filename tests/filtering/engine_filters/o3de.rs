@@ -5,9 +5,9 @@ use tests::random::Random;
 use tests::picture::{BLACK_WALL, Picture, Surface, column, moving_edge, ramp_length, white};
 
 #[test]
-fn o3de_smears_ten_times_as_far_as_the_exposure_says() {
+fn o3de_smears_ten_times_as_far_as_the_exposure() {
     let picture = moving_edge(400, 64, [24.0, 0.0]);
-    let found = ramp_length(&picture.blurred("jimenez", "o3de", &[]));
+    let found = ramp_length(&picture.blur("jimenez", "o3de", &[]));
     // 24 pairs, a quarter of a step to and fro, at whole pixels of the 120 to each side.
     let offsets: Vec<f64> = (0..24)
         .flat_map(|i| [f64::from(i) - 0.25, f64::from(i) + 0.25])
@@ -29,9 +29,9 @@ fn o3de_cuts_offsets_to_whole_pixels() {
     let picture = moving_edge(60, 64, [0.21, 0.0]);
     let seen = |placement: &str| {
         let overrides = [("placement", placement)];
-        column(&picture.blurred("jimenez", "o3de", &overrides), 29)
+        column(&picture.blur("jimenez", "o3de", &overrides), 29)
     };
-    // At the edge: two of 24 pairs at most reach a whole pixel.
+    // At the edge, at most two of 24 pairs reach a whole pixel.
     let published = seen("whole_pixels");
     assert!(published <= 2.0 / 48.0, "{published}");
     // Half of the taps lie 0.5 pixels to the right on average.
@@ -39,7 +39,7 @@ fn o3de_cuts_offsets_to_whole_pixels() {
     assert!((between - 0.25).abs() < 0.03, "{between}");
 }
 
-/// A still white post at 60..70 in front of a black wall; from row 40 on, something black moves in front of both.
+/// Makes a still white post at 60..70 in front of a black wall; from row 40 on, something black moves in front of both.
 fn post_above_motion() -> Picture {
     Picture::new(160, 64, |x, y| match (x, y) {
         (_, 40..) => Surface {
@@ -57,10 +57,10 @@ fn post_above_motion() -> Picture {
 #[test]
 fn o3de_keeps_the_sign_of_its_innermost_offset() {
     let picture = post_above_motion();
-    let output = picture.blurred("jimenez", "o3de", &[("pairs", "24")]);
-    // Beside the post, and in odd rows, taps lie at i - 1/4 steps of 5 pixels, cut: -1, 3, 8 .. and the same to the left.
-    // The first on the post is at -1/4 steps, so that a still thing's spread of one step covers it and more: whole. At 3/4
-    // steps a quarter counts, and no farther one.
+    let output = picture.blur("jimenez", "o3de", &[("pairs", "24")]);
+    // Beside the post, and in odd rows, taps lie at i - 1/4 steps of 5 pixels, cut: -1, 3, 8 .. and the same to the
+    // left. The first tap on the post is at -1/4 steps, within a still thing's spread of one step: it counts whole. At
+    // 3/4 steps it counts a quarter, and farther ones do not count.
     for row in [37, 39] {
         let found = output.at(70, row)[0];
         let expected = (1.0 + 0.25) / 48.0;
@@ -81,24 +81,25 @@ fn o3de_mixes_the_motion_of_tiles() {
     });
     let changes = |lookup: &str, x: u32| {
         let overrides = [("tile_dither", "0"), ("tile_lookup", lookup)];
-        let output = picture.blurred("jimenez", "o3de_scaled", &overrides);
+        let output = picture.blur("jimenez", "o3de_scaled", &overrides);
         (0..200).any(|y| output.at(x, y) != picture.color.at(x, y))
     };
-    // The tile left of the mover knows it, the next does not. Mixed, motion begins between their centres.
+    // The tile left of the mover knows it, and the next one does not. Mixed motion begins between their centres.
     assert!(changes("nearest", 180) && !changes("nearest", 179));
     assert!(changes("linear", 175) && !changes("linear", 170));
 }
 
 #[test]
-fn o3de_mixes_still_things_near_a_mover_with_what_lies_behind_them() {
+fn o3de_mixes_still_things_near_a_mover_with_their_background() {
     let picture = post_above_motion();
-    // The rows above the mover, within its tiles' reach.
+    // The rows above the mover, within reach of its tiles.
     let darkest = |overrides: &[(&str, &str)]| {
-        let output = picture.blurred("jimenez", "o3de", overrides);
+        let output = picture.blur("jimenez", "o3de", overrides);
         let post = (22..38).flat_map(|y| (60..70).map(move |x| (x, y)));
         post.map(|(x, y)| output.at(x, y)[0]).fold(1.0, f32::min)
     };
     assert!(darkest(&[]) < 0.5, "{}", darkest(&[]));
-    // With the pixel's own motion for the tile's, only taps within a step of a still pixel count: one pair of 24.
+    // With the pixel's own motion in place of the tile's, only taps within a step of a still pixel count: one pair of
+    // 24.
     assert!(darkest(&[("spread", "steps")]) > 0.9);
 }

@@ -8,9 +8,10 @@ use tests::picture::{
 fn the_smear_of_wicked_depends_on_the_width_of_the_picture() {
     let length = |width: u32| {
         let picture = moving_edge(width, 64, [12.0, 0.0]);
-        ramp_length(&picture.blurred("jimenez", "wicked", &[]))
+        ramp_length(&picture.blur("jimenez", "wicked", &[]))
     };
-    // 1500 pixels per picture width of motion, scaled by noise whose mean square is a third; 16 taps at (2 i - 15) / 15.
+    // 1500 pixels per picture width of motion, scaled by noise whose mean square is a third; 16 taps at (2 i - 15) /
+    // 15.
     let expected = |width: u32| {
         let taps: f64 = (0..16)
             .map(|i| ((2.0 * f64::from(i) - 15.0) / 15.0).powi(2))
@@ -30,14 +31,14 @@ fn the_smear_of_wicked_depends_on_the_width_of_the_picture() {
 
 #[test]
 fn the_kernel_of_wicked_is_peaked_and_not_a_box() {
-    // 750 pixels per picture width to each side, 24 / 480 of it: 37.5 pixels.
+    // 750 pixels per picture width to each side, of 24 / 480: 37.5 pixels.
     let picture = moving_edge(480, 128, [24.0, 0.0]);
-    let output = picture.blurred("jimenez", "wicked", &[]);
+    let output = picture.blur("jimenez", "wicked", &[]);
     let share = |part: f64| {
         let reach = (37.5 * part).round() as u32;
         column(&output, 240 + reach - 1) - column(&output, 240 - reach)
     };
-    // Even taps times even noise are distributed as -ln|x| / 2: within x of the middle lies x (1 - ln x).
+    // Uniform taps times uniform noise have the density -ln|x| / 2, so x (1 - ln x) lies within x of the middle.
     for part in [0.2f64, 0.4] {
         let expected = part * (1.0 - part.ln());
         // 16 taps of 128 rows, in whole pixels of 37.5.
@@ -51,36 +52,36 @@ fn the_kernel_of_wicked_is_peaked_and_not_a_box() {
 
 #[test]
 fn wicked_lets_slow_things_smear_as_far_as_fast_ones() {
-    // To each side the fast half smears 750 * 24 / 320 = 56 pixels, the slow thing should 11.
+    // To each side the fast half smears 750 * 24 / 320 = 56 pixels, and the slow thing should smear 11.
     let picture = slow_above_fast(4.8, 24.0);
-    let as_published = picture.blurred("jimenez", "wicked", &[]);
+    let as_published = picture.blur("jimenez", "wicked", &[]);
     assert!(light_above(&as_published, 20..40) > 1.0);
-    // Against the taps' distances, it ends after its own length and a step, 8 pixels. Half a pixel for fetches.
-    let by_steps = picture.blurred("jimenez", "wicked", &[("spread", "steps")]);
+    // Compared with the taps' distances, it ends after its own length and a step of 8 pixels. Half a pixel for fetches.
+    let by_steps = picture.blur("jimenez", "wicked", &[("spread", "steps")]);
     assert!(light_above(&by_steps, 1..8) > 1.0);
     assert_eq!(light_above(&by_steps, 20..40), 0.0);
 }
 
 #[test]
-fn motion_counts_for_wicked_all_or_nothing_from_a_tenth_of_the_fastest_on() {
+fn wicked_counts_motion_fully_above_a_tenth_of_the_fastest_and_not_below() {
     let light = |part: f32| {
         let picture = slow_above_fast(24.0 * part, 24.0);
-        light_above(&picture.blurred("jimenez", "wicked", &[]), 1..40)
+        light_above(&picture.blur("jimenez", "wicked", &[]), 1..40)
     };
-    // The fastest is 7.5 in its unit, and motions from 6.5 / 75 to 7.5 / 75 of it count in part.
+    // In its unit the fastest motion is 7.5, and motions from 6.5 / 75 to 7.5 / 75 of it count in part.
     assert_eq!(light(0.08), 0.0);
     assert!(light(0.095) > 0.0 && light(0.095) < 0.9 * light(0.11));
-    // Below, the fast half hides itself; equal up to rounding.
+    // Below that, the fast half hides itself; equal up to rounding.
     assert!((light(0.11) / light(0.8) - 1.0).abs() < 1e-3);
 }
 
 #[test]
-fn wicked_scaled_goes_as_far_as_the_exposure_says_at_any_width() {
+fn wicked_scaled_smears_as_far_as_the_exposure_at_any_width() {
     for width in [160, 320] {
         let picture = moving_edge(width, 64, [24.0, 0.0]);
-        let output = picture.blurred("jimenez", "wicked_scaled", &[]);
+        let output = picture.blur("jimenez", "wicked_scaled", &[]);
         let middle = width / 2;
-        // 12 pixels to each side, which the largest of 64 rows of noise almost reaches.
+        // 12 pixels to each side, which the largest noise of 64 rows almost reaches.
         assert_eq!(column(&output, middle - 13), 0.0);
         assert!(column(&output, middle - 11) > 0.0);
         assert!(column(&output, middle + 10) < 1.0);
@@ -90,7 +91,7 @@ fn wicked_scaled_goes_as_far_as_the_exposure_says_at_any_width() {
 
 #[test]
 fn wicked_pushes_trails_inwards_where_they_begin() {
-    // All move by as much as makes taps of 2 pixels, over which a white column at the border spreads.
+    // Everything moves far enough for taps 2 pixels apart, which spread a white column at the border.
     let seen = |speed: f32, border: &str| {
         let picture = Picture::new(80, 64, |x, _| Surface {
             gray: if x == 0 { 1.0 } else { 0.0 },
@@ -98,9 +99,9 @@ fn wicked_pushes_trails_inwards_where_they_begin() {
             depth: 2.0,
         });
         let overrides = [("noise", "none"), ("tile_dither", "0"), ("border", border)];
-        column(&picture.blurred("jimenez", "wicked", &overrides), 2)
+        column(&picture.blur("jimenez", "wicked", &overrides), 2)
     };
-    // Motion points back there, so that trails begin ahead. Of 16 taps around 2.5, seven lie off the picture.
+    // Motion points back, so trails begin ahead. Seven of 16 taps around 2.5 lie off the picture.
     assert!((seen(-1.6, "push") - 1.0 / 16.0).abs() < 1e-5);
     assert!((seen(1.6, "push") - 7.0 / 16.0).abs() < 1e-5);
     assert!((seen(-1.6, "clamp") - 7.0 / 16.0).abs() < 1e-5);

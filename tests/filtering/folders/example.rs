@@ -1,29 +1,24 @@
-//! Folders that load: the documented example, and those that are built in.
+//! Folders that load: the documented example, and the built-in ones.
 
-use filters::{Blur, Filter, Gpu, Input, Settings, Value};
-use frame::Raster;
+use filters::{Blur, Filter, Settings, Value};
 use tests::filter_folder::{load_filter, shipped_filter};
+use tests::open_gpu;
+use tests::picture::{Picture, Surface, white};
 
 use super::example;
 
-/// A bar that moves right, at the middle of a wide image.
-fn blurred_row(filter: &Filter, settings: &Settings) -> Vec<f32> {
-    let gpu = Gpu::new(None).expect("these tests run filters");
-    let color = Raster::from_fn(90, 5, |x, _| {
-        [if (40..50).contains(&x) { 1.0 } else { 0.0 }; 3]
-    });
-    let velocity = Raster::filled(90, 5, [20.0, 0.0]);
-    let depth = Raster::filled(90, 5, 3.0);
-    let mut blur = Blur::new(&gpu, filter, settings, 90, 5).unwrap();
-    let input = Input {
-        color: &[&color],
-        velocity: &velocity,
-        depth: &depth,
-        reprojection: None,
+/// Blurs a bar that moves right, at the middle of a wide image. Returns the middle row.
+fn blur_row(filter: &Filter, settings: &Settings) -> Vec<f32> {
+    let gpu = open_gpu();
+    let bar = Picture {
         exposure: 0.5,
-        frame_index: 0,
+        ..Picture::new(90, 5, |x, _| Surface {
+            gray: if (40..50).contains(&x) { 1.0 } else { 0.0 },
+            ..white(20.0)
+        })
     };
-    let output = blur.run(&input).unwrap();
+    let mut blur = Blur::new(&gpu, filter, settings, 90, 5).unwrap();
+    let output = blur.run(&bar.input(&[&bar.color])).unwrap();
     (0..90).map(|x| output[0].at(x, 2)[0]).collect()
 }
 
@@ -33,8 +28,8 @@ fn the_documented_example_loads_from_a_folder_and_blurs() {
     assert_eq!(filter.alignment, frame::Alignment::Centred);
     let settings = filter.settings(None).unwrap();
     assert_eq!(settings.preset, "fast");
-    let row = blurred_row(&filter, &settings);
-    // Ten pixels of motion on ten pixels of bar: a triangle over 35 to 55.
+    let row = blur_row(&filter, &settings);
+    // Ten pixels of motion on ten pixels of bar give a triangle from 35 to 55.
     let energy: f32 = row.iter().sum();
     assert!(
         (energy - 10.0).abs() < 1e-4,
@@ -93,7 +88,7 @@ fn the_smallest_reach_that_covers_a_trail_is_set() {
 }
 
 #[test]
-fn built_in_folders_load_from_disk_alike() {
+fn built_in_filters_load_from_disk_unchanged() {
     let shaders = shipped_filter("");
     let folders = std::fs::read_dir(&shaders).unwrap().map(Result::unwrap);
     let mut names: Vec<String> = folders

@@ -2,9 +2,11 @@
 
 use filters::{Blur, Filter, FilterError, Gpu, Input, Value, list_adapters};
 use frame::Raster;
+use tests::open_gpu;
+use tests::picture::{Picture, gray_moving_by};
 
 #[test]
-fn unknown_names_list_what_there_is() {
+fn unknown_names_are_refused_with_the_known_ones() {
     let filter = Filter::builtin("velocity_gather").unwrap();
     let unknown = Filter::builtin("bokeh").unwrap_err().to_string();
     assert!(
@@ -65,7 +67,7 @@ fn unknown_names_list_what_there_is() {
 
 #[test]
 fn settings_of_another_filter_are_refused() {
-    let gpu = Gpu::new(None).expect("these tests run filters");
+    let gpu = open_gpu();
     let (gather, flood) = (
         Filter::builtin("velocity_gather").unwrap(),
         Filter::builtin("jump_flood").unwrap(),
@@ -78,8 +80,8 @@ fn settings_of_another_filter_are_refused() {
 }
 
 #[test]
-fn sizes_that_no_adapter_holds_are_refused_before_anything_is_allocated() {
-    let gpu = Gpu::new(None).expect("these tests run filters");
+fn sizes_beyond_the_adapter_are_refused_before_allocation() {
+    let gpu = open_gpu();
     let filter = Filter::builtin("identity").unwrap();
     let settings = filter.settings(None).unwrap();
     for (width, height) in [(1 << 20, 1), (1, 1 << 20), (0, 4), (4, 0)] {
@@ -93,29 +95,21 @@ fn sizes_that_no_adapter_holds_are_refused_before_anything_is_allocated() {
 
 #[test]
 fn frames_that_cannot_be_blurred_are_refused() {
-    let gpu = Gpu::new(None).expect("these tests run filters");
+    let gpu = open_gpu();
     let filter = Filter::builtin("identity").unwrap();
     let mut blur = Blur::new(&gpu, &filter, &filter.settings(None).unwrap(), 4, 3).unwrap();
-    let color = Raster::filled(4, 3, [0.5; 3]);
-    let velocity = Raster::filled(4, 3, [1.0, 2.0]);
-    let depth = Raster::filled(4, 3, 2.0);
-    let input = Input {
-        color: &[&color],
-        velocity: &velocity,
-        depth: &depth,
-        reprojection: None,
-        exposure: 0.5,
-        frame_index: 0,
-    };
+    let picture = Picture::uniform(4, 3, gray_moving_by(1.0));
+    let own = [&picture.color];
+    let input = picture.input(&own);
     blur.run(&input).expect("this frame can be blurred");
-    let mut broken_velocity = velocity.clone();
+    let mut broken_velocity = picture.velocity.clone();
     broken_velocity.pixels[6] = [f32::NAN, 0.0];
-    let mut broken_depth = depth.clone();
+    let mut broken_depth = picture.depth.clone();
     broken_depth.pixels[3] = 0.0;
-    let mut broken_color = color.clone();
+    let mut broken_color = picture.color.clone();
     broken_color.pixels[4] = [0.0, f32::INFINITY, 0.0];
     let narrow = Raster::filled(3, 3, 2.0);
-    let colors = [&color, &broken_color];
+    let colors = [&picture.color, &broken_color];
     for (input, says) in [
         (
             Input {
@@ -169,7 +163,7 @@ fn frames_that_cannot_be_blurred_are_refused() {
 }
 
 #[test]
-fn adapters_are_chosen_by_index_or_name_and_a_wrong_name_lists_them() {
+fn an_index_or_a_name_selects_an_adapter_and_a_wrong_name_lists_them() {
     let adapters = list_adapters();
     assert!(
         !adapters.is_empty(),

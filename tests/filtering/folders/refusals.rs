@@ -1,14 +1,15 @@
-//! Wrong folders, each with what the error says.
+//! Wrong folders, and their error messages.
 
 use std::path::Path;
 
-use filters::{Blur, Filter, FilterError, Gpu};
+use filters::{Blur, Filter, FilterError};
+use tests::open_gpu;
 
 use super::load_changed;
 
 #[test]
-fn a_wrong_folder_says_where_and_what() {
-    // (file, text, what replaces it, what the message must say)
+fn a_wrong_folder_is_refused_with_place_and_reason() {
+    // (file, text, replacement, expected part of the message)
     #[rustfmt::skip]
     let wrong: &[(&str, &str, &str, &[&str])] = &[
         ("filter.toml", "summary =", "sumary =", &["filter.toml:2:", "unknown field `sumary`", "expected one of"]),
@@ -95,8 +96,8 @@ fn a_missing_folder_names_the_file_it_looked_for() {
 }
 
 #[test]
-fn what_the_gpu_refuses_names_file_and_pass() {
-    let gpu = Gpu::new(None).expect("these tests run filters");
+fn an_error_of_the_gpu_names_file_and_pass() {
+    let gpu = open_gpu();
     let filter = load_changed(
         "kernels",
         "@workgroup_size(8, 8)\nfn gather",

@@ -1,8 +1,10 @@
 //! Textures that kernels read and write.
 
-use filters::{Blur, Gpu, Input};
+use filters::Blur;
 use frame::Raster;
 use tests::filter_folder::load_filter;
+use tests::open_gpu;
+use tests::picture::{BLACK_WALL, Picture};
 use tests::text::assert_contains;
 
 const SHIFT_MANIFEST: &str = r#"
@@ -62,9 +64,9 @@ fn show(@builtin(global_invocation_id) id: vec3<u32>) {
 ";
 
 #[test]
-fn a_texture_that_a_pass_reads_and_writes_is_exchanged_for_every_colour() {
+fn a_texture_that_a_pass_reads_and_writes_is_swapped_for_every_colour() {
     let filter = load_filter("shift", SHIFT_MANIFEST, SHIFT_KERNELS).unwrap();
-    let gpu = Gpu::new(None).expect("these tests run filters");
+    let gpu = open_gpu();
     for distance in 1..=4 {
         let mut settings = filter.settings(None).unwrap();
         let text = distance.to_string();
@@ -72,16 +74,8 @@ fn a_texture_that_a_pass_reads_and_writes_is_exchanged_for_every_colour() {
         let mut blur = Blur::new(&gpu, &filter, &settings, 10, 3).unwrap();
         let colors = [1.0, 2.0]
             .map(|scale| Raster::from_fn(10, 3, |x, y| [scale * x as f32, y as f32, 0.0]));
-        let outputs = blur
-            .run(&Input {
-                color: &[&colors[0], &colors[1]],
-                velocity: &Raster::filled(10, 3, [0.0; 2]),
-                depth: &Raster::filled(10, 3, 1.0),
-                reprojection: None,
-                exposure: 1.0,
-                frame_index: 0,
-            })
-            .unwrap();
+        let still = Picture::uniform(10, 3, BLACK_WALL);
+        let outputs = blur.run(&still.input(&colors.each_ref())).unwrap();
         for (color, output) in colors.iter().zip(&outputs) {
             let expected = Raster::from_fn(10, 3, |x, y| *color.at(x.saturating_sub(distance), y));
             assert_eq!(*output, expected, "by {distance} pixels");
@@ -127,30 +121,21 @@ fn show(@builtin(global_invocation_id) id: vec3<u32>) {
 #[test]
 fn whole_numbers_keep_every_bit_in_a_texture_of_a_fixed_fraction() {
     let filter = load_filter("numbers", NUMBERS_MANIFEST, NUMBERS_KERNELS).unwrap();
-    let gpu = Gpu::new(None).expect("these tests run filters");
+    let gpu = open_gpu();
     let mut blur = Blur::new(&gpu, &filter, &filter.settings(None).unwrap(), 10, 5).unwrap();
-    let color = Raster::filled(10, 5, [0.0; 3]);
-    let outputs = blur
-        .run(&Input {
-            color: &[&color],
-            velocity: &Raster::filled(10, 5, [0.0; 2]),
-            depth: &Raster::filled(10, 5, 1.0),
-            reprojection: None,
-            exposure: 1.0,
-            frame_index: 0,
-        })
-        .unwrap();
+    let still = Picture::uniform(10, 5, BLACK_WALL);
+    let outputs = blur.run(&still.input(&[&still.color])).unwrap();
     let number = |x: u32, y: u32| 1 + x / 4 + 16 * (y / 4);
     let expected = Raster::from_fn(10, 5, |x, y| [255.0, number(x, y) as f32, 0.0]);
     assert_eq!(outputs[0], expected);
-    // Rounded up, so that the last block is there though it is not whole.
+    // Rounded up, so that the last, partial block is there.
     let blocks = blur.read_texture("blocks").unwrap();
     assert_eq!((blocks.width, blocks.height), (3, 2));
     assert_eq!(blocks.at(2, 1)[0].to_bits(), 0xff00_0001 + 2 + 16);
 }
 
 #[test]
-fn a_texture_is_read_as_what_it_holds() {
+fn a_texture_is_read_in_its_own_format() {
     let read = NUMBERS_KERNELS.replace("f32(block >> 24u), f32(block & 0xffu)", "0.0, 0.0");
     let stored = read.replace(
         "vec4<u32>(0xff000001u + id.x + 16u * id.y)",

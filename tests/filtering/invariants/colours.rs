@@ -1,4 +1,4 @@
-//! Colours that come out: unchanged, constant, bounded, and linear.
+//! Output colours: unchanged, constant, bounded, and linear.
 
 use frame::{Image, Raster, Reprojection};
 use tests::presets::{every_preset, preset_name};
@@ -12,7 +12,7 @@ fn a_still_frame_comes_out_unchanged() {
     field.velocity = Raster::filled(WIDTH, HEIGHT, [0.0, 0.0]);
     field.reprojection = Reprojection::STILL;
     for (filter, settings) in every_preset() {
-        let output = field.blurred(&gpu, &filter, &settings);
+        let output = field.blur(&gpu, &filter, &settings);
         // Bit for bit: a pixel that does not move has nothing to average.
         assert!(output == field.color, "{}", preset_name(&filter, &settings));
     }
@@ -25,8 +25,8 @@ fn a_constant_colour_comes_out_constant() {
         let mut field = Field::random(2);
         field.color = Raster::filled(WIDTH, HEIGHT, color);
         for (filter, settings) in every_preset() {
-            let output = field.blurred(&gpu, &filter, &settings);
-            // Bit for bit: a running mean of equal values adds nothing.
+            let output = field.blur(&gpu, &filter, &settings);
+            // Bit for bit: a running mean of equal values changes nothing.
             assert!(output == field.color, "{}", preset_name(&filter, &settings));
         }
     }
@@ -38,14 +38,15 @@ fn output_stays_finite_and_within_the_colours_of_the_frame() {
     for seed in 3..6 {
         let field = Field::random(seed);
         for (filter, settings) in every_preset() {
-            let output = field.blurred(&gpu, &filter, &settings);
+            let output = field.blur(&gpu, &filter, &settings);
             for channel in 0..3 {
                 let values = |image: &Image| -> Vec<f32> {
                     image.pixels.iter().map(|pixel| pixel[channel]).collect()
                 };
                 let brightest = values(&field.color).into_iter().fold(0.0, f32::max);
                 for value in values(&output) {
-                    // Weights are not negative; rounding of a mean of 20 taps may pass the ends by a few parts in 1e6.
+                    // Weights are not negative. Rounding of a mean of 20 taps may exceed the limits by a few parts in
+                    // 1e6.
                     let slack = 1e-5 * brightest;
                     assert!(
                         value.is_finite() && value >= -slack && value <= brightest + slack,
@@ -67,8 +68,8 @@ fn every_colour_goes_through_the_same_weights() {
         .map(|[r, ..]| if *r > 0.5 { [1.0, 0.0, 0.5] } else { [0.0; 3] });
     for (filter, settings) in every_preset() {
         let colors = [&field.color, &matte, &field.color];
-        let together = field.blurred_colors(&gpu, &filter, &settings, &colors);
-        let alone = field.blurred_colors(&gpu, &filter, &settings, &[&matte]);
+        let together = field.blur_colors(&gpu, &filter, &settings, &colors);
+        let alone = field.blur_colors(&gpu, &filter, &settings, &[&matte]);
         assert!(
             together[1] == alone[0],
             "{}",
@@ -97,7 +98,7 @@ fn a_mixture_of_images_comes_out_as_the_mixture_of_their_blurs() {
         .fold(0.0, f32::max);
     for (filter, settings) in every_preset() {
         let colors = [&field.color, &other.color, &mixture];
-        let outputs = field.blurred_colors(&gpu, &filter, &settings, &colors);
+        let outputs = field.blur_colors(&gpu, &filter, &settings, &colors);
         let expected = mix(&outputs[0], &outputs[1]);
         let deviation = expected
             .zip(&outputs[2], |a, b| [0, 1, 2].map(|c| (a[c] - b[c]).abs()))

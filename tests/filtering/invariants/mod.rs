@@ -7,11 +7,8 @@ mod symmetry;
 
 use filters::{Blur, Filter, Gpu, Input, Settings};
 use frame::{FAR_DEPTH, Image, Plane, Raster, Reprojection, Vectors};
+use tests::open_gpu;
 use tests::random::Random;
-
-fn open_gpu() -> Gpu {
-    Gpu::new(None).expect("these tests run filters")
-}
 
 #[derive(Clone)]
 struct Field {
@@ -27,7 +24,7 @@ const WIDTH: u32 = 71;
 const HEIGHT: u32 = 43;
 
 impl Field {
-    /// Highlights up to 10000, still pixels, motion up to 60 pixels, near surfaces and far background.
+    /// Makes highlights of up to 10000, still pixels, motion of up to 60 pixels, near surfaces and far background.
     fn random(seed: u64) -> Self {
         let mut random = Random::new(seed);
         let color = Raster::from_fn(WIDTH, HEIGHT, |_, _| {
@@ -49,7 +46,7 @@ impl Field {
             color,
             velocity,
             depth,
-            // A pan, a zoom, and a step aside.
+            // A pan, a zoom and a step aside.
             reprojection: Reprojection {
                 rows: [
                     [1.02, 0.0, 9.0, 15.0],
@@ -61,12 +58,12 @@ impl Field {
         }
     }
 
-    fn blurred(&self, gpu: &Gpu, filter: &Filter, settings: &Settings) -> Image {
-        let mut outputs = self.blurred_colors(gpu, filter, settings, &[&self.color]);
+    fn blur(&self, gpu: &Gpu, filter: &Filter, settings: &Settings) -> Image {
+        let mut outputs = self.blur_colors(gpu, filter, settings, &[&self.color]);
         outputs.remove(0)
     }
 
-    fn blurred_colors(
+    fn blur_colors(
         &self,
         gpu: &Gpu,
         filter: &Filter,

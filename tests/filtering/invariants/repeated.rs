@@ -1,4 +1,4 @@
-//! Runs that must repeat other runs bit for bit.
+//! Runs that must equal other runs bit for bit.
 
 use filters::{Blur, Filter, Input, Kernels};
 use frame::Image;
@@ -7,7 +7,7 @@ use tests::presets::{every_preset, preset_name};
 use super::{Field, HEIGHT, WIDTH, open_gpu};
 
 #[test]
-fn two_runs_give_the_same_bytes_whatever_ran_before() {
+fn two_runs_give_the_same_bytes_after_any_other_run() {
     let gpu = open_gpu();
     let (field, other) = (Field::random(6), Field::random(7));
     for (filter, settings) in every_preset() {
@@ -15,21 +15,21 @@ fn two_runs_give_the_same_bytes_whatever_ran_before() {
         let first = blur.run(&field.input(&[&field.color])).unwrap();
         blur.run(&other.input(&[&other.color])).unwrap();
         let again = blur.run(&field.input(&[&field.color])).unwrap();
-        let fresh = field.blurred(&gpu, &filter, &settings);
+        let fresh = field.blur(&gpu, &filter, &settings);
         let name = preset_name(&filter, &settings);
         assert_eq!(bits(&first[0]), bits(&again[0]), "{name}");
         assert_eq!(bits(&first[0]), bits(&fresh), "{name}");
     }
 }
 
-/// Compared as bits: NaN would equal nothing, and -0 equals 0.
+/// Returns the bits of all values. As numbers, NaN would equal nothing, and -0 would equal 0.
 fn bits(image: &Image) -> Vec<u32> {
     let values = image.pixels.as_flattened().iter();
     values.map(|value| value.to_bits()).collect()
 }
 
 #[test]
-fn inputs_and_kernels_that_stay_on_the_gpu_give_the_bytes_of_fresh_ones() {
+fn inputs_and_kernels_kept_on_the_gpu_give_the_same_bytes() {
     let gpu = open_gpu();
     let (field, other) = (Field::random(6), Field::random(7));
     let matte = field.color.map(|[r, ..]| [*r, 0.0, 0.5]);
@@ -50,7 +50,7 @@ fn inputs_and_kernels_that_stay_on_the_gpu_give_the_bytes_of_fresh_ones() {
         let mut blur = Blur::with_kernels(kernels, &settings, WIDTH, HEIGHT).unwrap();
         blur.run_uploaded(&between).unwrap();
         let kept = blur.run_uploaded(&input).unwrap();
-        let fresh = field.blurred_colors(&gpu, &filter, &settings, &colors);
+        let fresh = field.blur_colors(&gpu, &filter, &settings, &colors);
         for (kept, fresh) in kept.iter().zip(&fresh) {
             assert_eq!(
                 bits(kept),
@@ -64,7 +64,7 @@ fn inputs_and_kernels_that_stay_on_the_gpu_give_the_bytes_of_fresh_ones() {
 }
 
 #[test]
-fn frames_of_noise_made_together_are_those_made_one_by_one() {
+fn frames_of_noise_in_one_batch_equal_single_ones() {
     let gpu = open_gpu();
     let field = Field::random(21);
     let mut noisy = 0;

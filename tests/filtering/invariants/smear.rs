@@ -10,7 +10,7 @@ use super::{Field, open_gpu};
 
 const EDGE: u32 = 120;
 
-/// A white wall left or right of an edge; `whole` says whether the black beside it moves along, at the same depth.
+/// Makes a white wall left or right of an edge. With `whole`, the black beside it moves along at the same depth.
 fn wall(left: bool, whole: bool, speed: f32, exposure: f64) -> Field {
     let (width, height) = (2 * EDGE, 31);
     let wall = |x: u32| (x < EDGE) == left;
@@ -22,7 +22,7 @@ fn wall(left: bool, whole: bool, speed: f32, exposure: f64) -> Field {
         depth: Raster::from_fn(width, height, |x, _| {
             if whole || wall(x) { 2.0 } else { FAR_DEPTH }
         }),
-        // A camera past which everything at the wall's depth moves so.
+        // A camera move that moves everything at the wall's depth this way.
         reprojection: Reprojection {
             rows: [
                 [1.0, 0.0, 0.0, -2.0 * f64::from(speed)],
@@ -36,13 +36,13 @@ fn wall(left: bool, whole: bool, speed: f32, exposure: f64) -> Field {
 
 /// Measures the edge along the motion.
 fn ramp(output: &Image) -> Ramp {
-    // Over all rows, noise becomes the distribution that it is drawn from.
+    // The mean over all rows turns noise into its distribution.
     let mean = |x: u32| {
         (0..output.height)
             .map(|y| f64::from(output.at(x, y)[0]))
             .sum::<f64>()
     };
-    // What a filter does at the border of the image is not of the edge.
+    // Leaves out the border of the image, where filters treat taps in their own ways.
     let profile: Vec<(f64, f64)> = (11..output.width - 12)
         .map(|x| (f64::from(x) + 0.5 - f64::from(EDGE), mean(x)))
         .collect();
@@ -57,10 +57,10 @@ fn an_edge_in_steady_motion_smears_to_the_right_side_and_length() {
         filter.name == "jimenez" && ["o3de", "wicked"].contains(&settings.preset.as_str())
     };
     for (filter, settings) in every_preset().into_iter().filter(|it| !longer(it)) {
-        // Trails of 24 and 12 pixels are below the jump flood's cut of 32, and their halves below most tiles.
+        // Trails of 24 and 12 pixels are below the jump flood's cut of 32, and their halves are below most tiles.
         for (speed, exposure) in [(24.0, 1.0), (24.0, 0.5), (-24.0, 1.0)] {
             let field = wall(true, true, speed, exposure);
-            let found = ramp(&field.blurred(&gpu, &filter, &settings));
+            let found = ramp(&field.blur(&gpu, &filter, &settings));
             let steady = Steady {
                 velocity: [speed.into(), 0.0],
                 exposure,
@@ -71,7 +71,7 @@ fn an_edge_in_steady_motion_smears_to_the_right_side_and_length() {
                 "{} at {speed} x {exposure}",
                 preset_name(&filter, &settings)
             );
-            // Half a pixel: the edge is between texels, and 8 taps of noise in 31 rows place it to a tenth of a step.
+            // Half a pixel: the edge is between texels, and 8 noisy taps in 31 rows place it to a tenth of a step.
             assert!(
                 (found.length - expected.length).abs() < 0.5,
                 "{said}: {} pixels long, expected {}",
@@ -88,9 +88,10 @@ fn an_edge_in_steady_motion_smears_to_the_right_side_and_length() {
     }
 }
 
-/// Light that a white wall with its edge at the left or right, moving right over black, leaves on the black.
+/// Measures the light that a white wall, with its edge at the left or right and moving right over black, leaves on the
+/// black.
 fn light_beside_a_wall(gpu: &Gpu, filter: &Filter, settings: &Settings, left: bool) -> f32 {
-    let output = wall(left, false, 24.0, 1.0).blurred(gpu, filter, settings);
+    let output = wall(left, false, 24.0, 1.0).blur(gpu, filter, settings);
     let black = if left { EDGE..output.width } else { 0..EDGE };
     black.map(|x| output.at(x, 15)[0]).sum()
 }
@@ -101,19 +102,20 @@ fn no_trailing_filter_smears_ahead_of_a_mover() {
     for (filter, settings) in every_preset() {
         if filter.alignment == Alignment::Trailing {
             let light = light_beside_a_wall(&gpu, &filter, &settings, true);
-            // What lies ahead of the edge has not been touched yet.
+            // The wall has not touched what lies ahead of its edge.
             assert_eq!(light, 0.0, "{}", preset_name(&filter, &settings));
         }
     }
 }
 
 #[test]
-fn filters_that_carry_motion_smear_over_what_lies_beside_a_mover() {
+fn filters_that_carry_motion_smear_beyond_a_mover() {
     let gpu = open_gpu();
     for (filter, settings) in every_preset() {
         let light = |left: bool| light_beside_a_wall(&gpu, &filter, &settings, left);
         let name = preset_name(&filter, &settings);
-        // An even trail of 24 pixels leaves the light of 12 behind the wall; a centred one that of 3 on either side.
+        // An even trail of 24 pixels leaves the light of 12 behind the wall; a centred one leaves that of 3 on either
+        // side.
         match filter.name.as_str() {
             "jump_flood" | "jump_flood_packed" => {
                 assert!(light(false) > 6.0, "{name}: {}", light(false))
@@ -136,25 +138,25 @@ fn filters_that_carry_motion_smear_over_what_lies_beside_a_mover() {
 }
 
 #[test]
-fn the_corrected_jump_flood_makes_whole_trails_where_the_paper_cuts_them() {
+fn the_corrected_jump_flood_keeps_trails_that_the_paper_cuts() {
     let gpu = open_gpu();
     let filter = Filter::builtin("jump_flood").unwrap();
     let trail_behind = |preset: &str, speed: f32| {
         let settings = filter.settings(Some(preset)).unwrap();
         let field = wall(false, false, speed, 1.0);
-        ramp(&field.blurred(&gpu, &filter, &settings)).length
+        ramp(&field.blur(&gpu, &filter, &settings)).length
     };
     for speed in [3.0f32, 8.0, 24.0, 48.0, 90.0] {
         let found = trail_behind("corrected", speed);
-        // The texel adds one pixel of its own: sqrt(speed^2 + 1). Then half a pixel for the noise.
+        // The texel adds one pixel of its own: sqrt(speed^2 + 1). Half a pixel more for the noise.
         let expected = f64::from(speed.hypot(1.0));
         assert!(
             (found - expected).abs() < 0.5,
             "{speed}: {found} instead of {expected}"
         );
     }
-    // Its smallest step is 8 pixels, which is further than a slow mover goes.
+    // Its smallest step is 8 pixels, which is farther than a slow mover goes.
     assert_eq!(trail_behind("paper", 7.0), 0.0);
-    // Its largest step is 32 pixels, and noise may make half as much again of it.
+    // Its largest step is 32 pixels, and noise may add half as much.
     assert!(trail_behind("paper", 90.0) < 48.0);
 }

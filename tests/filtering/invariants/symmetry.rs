@@ -7,7 +7,7 @@ use tests::random::Random;
 
 use super::{Field, open_gpu};
 
-fn mirrored(field: &Field, horizontal: bool) -> Field {
+fn mirror(field: &Field, horizontal: bool) -> Field {
     fn turn<T: Copy>(raster: &Raster<T>, horizontal: bool) -> Raster<T> {
         Raster::from_fn(raster.width, raster.height, |x, y| match horizontal {
             true => *raster.at(raster.width - 1 - x, y),
@@ -19,13 +19,13 @@ fn mirrored(field: &Field, horizontal: bool) -> Field {
         color: turn(&field.color, horizontal),
         velocity: velocity.map(|[x, y]| if horizontal { [-x, *y] } else { [*x, -y] }),
         depth: turn(&field.depth, horizontal),
-        reprojection: mirrored_camera(field, usize::from(!horizontal)),
+        reprojection: mirror_camera(field, usize::from(!horizontal)),
         exposure: field.exposure,
     }
 }
 
 /// Mirrors the reprojection: x = side - x' on both sides, along one axis.
-fn mirrored_camera(field: &Field, axis: usize) -> Reprojection {
+fn mirror_camera(field: &Field, axis: usize) -> Reprojection {
     let side = f64::from([field.color.width, field.color.height][axis]);
     let mut rows = field.reprojection.rows.map(|mut row| {
         row[2] += side * row[axis];
@@ -39,16 +39,16 @@ fn mirrored_camera(field: &Field, axis: usize) -> Reprojection {
     Reprojection { rows }
 }
 
-/// Pixels that differ by more than 1e-3 of the brightest tap: many times the rounding of positions (1e-5 pixels) times
-/// the contrast of neighbours, and far below the weight of one tap of twenty.
+/// Counts pixels that differ by more than 1e-3 of the brightest tap. That is many times the rounding of positions (1e-5
+/// pixels) times the contrast of neighbours, and far below the weight of one tap of twenty.
 fn asymmetric_pixels(gpu: &Gpu, field: &Field, filter: &Filter, settings: &Settings) -> usize {
-    let output = field.blurred(gpu, filter, settings);
+    let output = field.blur(gpu, filter, settings);
     let mut count = 0;
     for horizontal in [true, false] {
-        let turned = mirrored(field, horizontal);
-        let back = mirrored(
+        let turned = mirror(field, horizontal);
+        let back = mirror(
             &Field {
-                color: turned.blurred(gpu, filter, settings),
+                color: turned.blur(gpu, filter, settings),
                 ..turned.clone()
             },
             horizontal,
@@ -63,7 +63,7 @@ fn asymmetric_pixels(gpu: &Gpu, field: &Field, filter: &Filter, settings: &Setti
     count
 }
 
-/// Colours up to 1 and no two depths alike, so that nothing but the geometry decides.
+/// Makes colours up to 1 and depths that are all different, so that only the geometry decides.
 fn distinct_depths(seed: u64) -> Field {
     let mut field = Field::random(seed);
     let mut random = Random::new(seed);
@@ -92,7 +92,7 @@ fn a_mirrored_frame_gives_the_mirrored_output() {
 }
 
 #[test]
-fn the_jump_flood_is_symmetric_but_for_noise_equal_depths_and_rounded_places() {
+fn the_jump_flood_is_symmetric_except_for_noise_equal_depths_and_rounding() {
     let gpu = open_gpu();
     let filter = Filter::builtin("jump_flood").unwrap();
     for preset in &filter.presets {
@@ -102,10 +102,10 @@ fn the_jump_flood_is_symmetric_but_for_noise_equal_depths_and_rounded_places() {
         if settings.values["tap"].to_string() == "replaced" {
             settings.set(&filter, "fetch", "nearest").unwrap();
         }
-        // 16 bits round places towards the top left.
+        // 16 bits round positions towards the top left.
         settings.set(&filter, "map", "float32").unwrap();
         let count = asymmetric_pixels(&gpu, &distinct_depths(10), &filter, &settings);
-        // Of 2 x 3053 pixels; a tap on the edge of a texel, or a decision within rounding of its threshold, may fall
+        // Of 2 x 3053 pixels. A tap on the edge of a texel, or a decision within rounding of its threshold, may go
         // either way.
         assert!(count <= 6, "preset {}: {count} pixels differ", preset.name);
     }

@@ -1,15 +1,16 @@
-//! The candidate that the dilation keeps. The published comparison reads as if distances along the path mattered.
+//! The candidate that the dilation keeps. The published comparison looks as if distances along the path mattered.
 
-use filters::{Blur, Filter, Gpu, Input};
+use filters::{Blur, Filter, Input};
 use frame::Raster;
+use tests::open_gpu;
 use tests::random::Random;
 
-/// A candidate, as the paper's listing keeps it.
+/// Candidate of the paper's listing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Candidate {
-    /// |tau - m/2|.
+    /// Distance along the path: |tau - m/2|.
     from_middle: f64,
-    /// Metres.
+    /// Depth, in metres.
     depth: f64,
     valid: bool,
 }
@@ -21,7 +22,7 @@ const NOTHING: Candidate = Candidate {
     valid: false,
 };
 
-/// The listing's comparison: by depth between two valid ones, else by distances that validity multiplies.
+/// Compares as the listing does: two valid candidates by depth, others by distances times validity.
 fn is_better(candidate: Candidate, best: Candidate) -> bool {
     let number = |truth: bool| if truth { 1.0 } else { 0.0 };
     if candidate.valid && best.valid {
@@ -31,8 +32,8 @@ fn is_better(candidate: Candidate, best: Candidate) -> bool {
     candidate.from_middle * number(best.valid) * nearer < best.from_middle * number(candidate.valid)
 }
 
-/// The index that the listing ends with, if any.
-fn published(candidates: &[Candidate]) -> Option<usize> {
+/// Returns the index that the listing ends with, if any.
+fn choose_as_published(candidates: &[Candidate]) -> Option<usize> {
     let mut best = (NOTHING, None);
     for (index, candidate) in candidates.iter().enumerate() {
         if is_better(*candidate, best.0) {
@@ -42,7 +43,7 @@ fn published(candidates: &[Candidate]) -> Option<usize> {
     best.1
 }
 
-/// The nearest of the valid ones; of equal depths, the first.
+/// Returns the nearest valid candidate; of equal depths, the first.
 fn nearest_valid(candidates: &[Candidate]) -> Option<usize> {
     let valid = candidates
         .iter()
@@ -62,20 +63,20 @@ fn the_published_comparison_keeps_the_nearest_valid_candidate_and_the_first_of_e
         let candidates: Vec<Candidate> = (0..8)
             .map(|_| Candidate {
                 from_middle: random.real(0.0, 2.0).into(),
-                // Few depths, so that many are equal.
+                // There are few depths, so that many are equal.
                 depth: random.real(1.0, 5.0).floor().into(),
                 valid: random.real(0.0, 1.0) < odds,
             })
             .collect();
         let kept = nearest_valid(&candidates);
-        assert_eq!(published(&candidates), kept, "{candidates:?}");
+        assert_eq!(choose_as_published(&candidates), kept, "{candidates:?}");
         let as_near = |candidate: &&Candidate| {
             candidate.valid && kept.is_some_and(|kept| candidates[kept].depth == candidate.depth)
         };
         with_ties += usize::from(candidates.iter().filter(as_near).count() > 1);
         with_none += usize::from(kept.is_none());
     }
-    // Ties and empty hands are met by many.
+    // Ties and empty lists occur often.
     assert!(
         with_ties > 1000 && with_none > 100,
         "{with_ties} {with_none}"
@@ -83,7 +84,7 @@ fn the_published_comparison_keeps_the_nearest_valid_candidate_and_the_first_of_e
 }
 
 #[test]
-fn distances_along_the_path_decide_only_between_a_valid_candidate_and_none() {
+fn distances_along_the_path_only_separate_valid_from_invalid_candidates() {
     let mut random = Random::new(2);
     let mut draw = || Candidate {
         from_middle: random.real(0.0, 2.0).into(),
@@ -99,7 +100,7 @@ fn distances_along_the_path_decide_only_between_a_valid_candidate_and_none() {
     }
 }
 
-/// Pixels to the eight neighbours of one step, in the listing's order.
+/// Offsets of the eight neighbours of one step, in the listing's order.
 const NEIGHBOURS: [[i64; 2]; 8] = [
     [1, 1],
     [0, 1],
@@ -112,12 +113,12 @@ const NEIGHBOURS: [[i64; 2]; 8] = [
 ];
 
 #[test]
-fn the_kernel_keeps_what_the_published_comparison_keeps() {
+fn the_kernel_keeps_the_candidate_of_the_published_comparison() {
     const SIDE: i64 = 64;
     const STEP: i64 = 3;
     let mut random = Random::new(3);
     let mut whole = |low: f32, high: f32| random.real(low, high).floor();
-    // Whole pixels and metres: comparisons are exact, and depths often equal.
+    // Whole pixels and metres make comparisons exact and depths often equal.
     let velocity = Raster::from_fn(SIDE as u32, SIDE as u32, |_, _| {
         [whole(-9.0, 10.0), whole(-9.0, 10.0)]
     });
@@ -129,12 +130,12 @@ fn the_kernel_keeps_what_the_published_comparison_keeps() {
         ("step_multiplier", "3"),
         ("metric", "pixel"),
         ("fetch", "nearest"),
-        // Not the quotient of whole pixels below 10.
+        // No quotient of whole pixels below 10 equals it.
         ("perpendicular_tolerance", "0.3017"),
     ] {
         settings.set(&filter, parameter, value).unwrap();
     }
-    let gpu = Gpu::new(None).expect("these tests run filters");
+    let gpu = open_gpu();
     let mut blur = Blur::new(&gpu, &filter, &settings, SIDE as u32, SIDE as u32).unwrap();
     let input = Input {
         color: &[&Raster::filled(SIDE as u32, SIDE as u32, [0.5; 3])],
@@ -163,7 +164,7 @@ fn the_kernel_keeps_what_the_published_comparison_keeps() {
                     valid: square > 0.0 && (along - 0.5).abs() <= 0.5 && beside <= 0.3017,
                 }
             });
-            let expected = published(&candidates).map_or([x, y], |index| {
+            let expected = choose_as_published(&candidates).map_or([x, y], |index| {
                 let [right, down] = NEIGHBOURS[index];
                 [x + right * STEP, y + down * STEP]
             });

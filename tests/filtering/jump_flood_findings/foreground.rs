@@ -2,8 +2,8 @@
 
 use tests::picture::{BLACK_WALL, Picture, Surface, column, white};
 
-/// Weight of the one tap of eight that meets something white in front, which moves right by `other` where the trail's
-/// source moves by 21 pixels.
+/// Returns the weight of the one tap of eight that meets something white in front. It moves right by `other`, and the
+/// trail's source by 21 pixels.
 fn weight_in_front(preset: &str, other: f32) -> f64 {
     let picture = Picture::new(160, 24, |x, _| match x {
         80.. => white(other),
@@ -12,34 +12,35 @@ fn weight_in_front(preset: &str, other: f32) -> f64 {
             ..BLACK_WALL
         },
     });
-    // One step of 64 pixels carries nothing: every pixel is its own source. Taps lie 3 pixels apart, on pixel centres.
+    // One step of 64 pixels carries nothing, so every pixel is its own source. Taps lie 3 pixels apart, on pixel
+    // centres.
     let overrides = [
         ("jitter", "none"),
         ("passes", "1"),
         ("step_multiplier", "64"),
     ];
-    let output = picture.blurred("jump_flood", preset, &overrides);
-    // The seventh tap alone lies beyond: of weights 1 in all others it is w / (7 + w).
+    let output = picture.blur("jump_flood", preset, &overrides);
+    // Only the seventh tap lies beyond. All others weigh 1, so it gets w / (7 + w).
     let share = f64::from(output.at(80 - 21, 12)[0]);
     7.0 * share / (1.0 - share)
 }
 
 #[test]
-fn a_tenth_root_makes_nearly_all_or_nothing_of_a_difference_in_motion() {
+fn a_tenth_root_makes_a_difference_in_motion_nearly_binary() {
     for (difference, weight) in [(0.01, 0.369), (0.1, 0.206), (0.5, 0.067), (1.0, 0.0)] {
         let found = weight_in_front("paper", 21.0 * (1.0 - difference as f32));
-        // 32-bit floats: a hundredth of the motion is known to 1e-5 of itself, and its root better.
+        // 32-bit floats: a hundredth of the motion is known to 1e-5 of itself, and its root is known better.
         assert!((found - weight).abs() < 0.001, "{difference}: {found}");
     }
     assert!((weight_in_front("paper", 21.0) - 1.0).abs() < 1e-5);
 }
 
 #[test]
-fn two_days_later_taps_are_weighed_as_well_as_replaced() {
-    // A tap in front stays where it is, so that its weight alone can keep it out.
+fn the_version_of_two_days_later_weights_and_replaces_taps() {
+    // A tap in front stays in place, so only its weight can exclude it.
     for (difference, weight) in [(0.1, 0.206), (1.0, 0.0)] {
         let found = weight_in_front("july_2024", 21.0 * (1.0 - difference as f32));
-        // Places of 16 bits lie 0.03 pixels off, which mix as much of the next colour into the tap.
+        // Positions of 16 bits are 0.03 pixels off, which mixes as much of the next colour into the tap.
         assert!((found - weight).abs() < 0.04, "{difference}: {found}");
     }
 }
@@ -52,7 +53,7 @@ fn the_last_bit_of_a_motion_takes_a_fifth_of_the_weight() {
 }
 
 #[test]
-fn what_moves_faster_the_same_way_counts_in_full() {
+fn a_faster_surface_in_the_same_direction_counts_fully() {
     for faster in [22.0, 42.0, 60.0] {
         let found = weight_in_front("paper", faster);
         assert!((found - 1.0).abs() < 1e-5, "{faster}: {found}");
@@ -60,7 +61,7 @@ fn what_moves_faster_the_same_way_counts_in_full() {
 }
 
 #[test]
-fn what_stands_still_in_front_neither_blurs_nor_is_smeared() {
+fn a_still_surface_in_front_neither_blurs_nor_is_smeared() {
     let background = Surface {
         velocity: [21.0, 0.0],
         ..BLACK_WALL
@@ -76,15 +77,15 @@ fn what_stands_still_in_front_neither_blurs_nor_is_smeared() {
     };
     // Taps 3 pixels apart lie on pixel centres; between them, half a pixel at the post's edge would mix.
     let light = |depth: f32| {
-        let output = post(depth).blurred("jump_flood", "paper", &[("jitter", "none")]);
+        let output = post(depth).blur("jump_flood", "paper", &[("jitter", "none")]);
         [
             column(&output, 80),
             (90..110).map(|x| column(&output, x)).fold(1.0, f64::min),
         ]
     };
-    // Its own pixels find no source, and taps that meet it count nothing.
+    // Its own pixels find no source, and taps that meet it do not count.
     assert_eq!(light(2.0), [0.0, 1.0]);
-    // Behind the background, it counts in full and is smeared over.
+    // Behind the background it counts in full, and the background smears over it.
     let [background, darkest] = light(30.0);
     assert!((background - 4.0 / 8.0).abs() < 1e-5, "{background}");
     assert!(darkest < 0.9, "{darkest}");

@@ -5,11 +5,11 @@ use tests::picture::{Picture, Surface, column, white};
 /// Columns that the mover covers at the instant.
 const MOVER: std::ops::Range<u32> = 80..140;
 const SPEED: f64 = 21.0;
-/// Brightness of what lies ahead of it, and behind it.
+/// Brightness ahead of the mover.
 const AHEAD: f64 = 0.25;
 const BEHIND: f64 = 0.75;
 
-/// A white bar moves right in front of something still that is darker ahead of it than behind.
+/// Makes a white bar that moves right in front of something still, which is darker ahead of the bar than behind.
 fn bar() -> Picture {
     Picture::new(240, 24, |x, _| match x {
         x if MOVER.contains(&x) => white(SPEED as f32),
@@ -21,17 +21,17 @@ fn bar() -> Picture {
     })
 }
 
-/// Returns the part of a column that shows the mover; the rest shows what lies ahead.
+/// Returns the part of a column that shows the mover; the rest shows the background ahead.
 fn share(x: u32) -> f64 {
     // Taps 3 pixels apart lie on pixel centres.
-    let output = bar().blurred("jump_flood", "paper", &[("jitter", "none")]);
+    let output = bar().blur("jump_flood", "paper", &[("jitter", "none")]);
     (column(&output, x) - AHEAD) / (1.0 - AHEAD)
 }
 
 #[test]
-fn the_leading_edge_fades_as_it_should_and_does_not_stay_hard() {
+fn the_leading_edge_fades_and_does_not_stay_hard() {
     for inside in [1, 4, 10, 16, 20] {
-        // It came to the middle of the column so many pixels before it stopped.
+        // The mover reached the middle of the column this many pixels before it stopped.
         let truth = (f64::from(inside) - 0.5) / SPEED;
         let found = share(MOVER.end - inside);
         // One tap of eight.
@@ -45,8 +45,8 @@ fn the_leading_edge_fades_as_it_should_and_does_not_stay_hard() {
 }
 
 #[test]
-fn what_the_leading_part_uncovers_is_guessed_from_ahead() {
-    let output = bar().blurred("jump_flood", "paper", &[("jitter", "none")]);
+fn the_leading_part_takes_its_background_from_ahead() {
+    let output = bar().blur("jump_flood", "paper", &[("jitter", "none")]);
     // Seven of eight taps lie beyond the edge; 32-bit floats.
     let expected = (1.0 + 7.0 * AHEAD) / 8.0;
     let found = column(&output, MOVER.end - 1);

@@ -2,7 +2,7 @@
 
 use tests::picture::{Picture, Surface, column, moving_edge};
 
-/// Everything moves right, and a pixel's brightness is its column.
+/// Makes a picture in which everything moves right, and a pixel's brightness is its column.
 fn slope(speed: f32) -> Picture {
     Picture::new(200, 32, |x, _| Surface {
         gray: x as f32,
@@ -11,9 +11,9 @@ fn slope(speed: f32) -> Picture {
     })
 }
 
-/// Returns how far ahead each pixel's mean lies, in pixels, in rising order; away from the border.
+/// Measures how far ahead the mean of each pixel's taps lies, in pixels, away from the border. Returns them sorted.
 fn displacements(preset: &str, jitter: &str, speed: f32) -> Vec<f32> {
-    let output = slope(speed).blurred("jump_flood", preset, &[("jitter", jitter)]);
+    let output = slope(speed).blur("jump_flood", preset, &[("jitter", jitter)]);
     let inner = (0..120).flat_map(|x| (0..32).map(move |y| (x, y)));
     let mut found: Vec<f32> = inner.map(|(x, y)| output.at(x, y)[0] - x as f32).collect();
     found.sort_by(f32::total_cmp);
@@ -23,7 +23,7 @@ fn displacements(preset: &str, jitter: &str, speed: f32) -> Vec<f32> {
 #[test]
 fn noise_scales_whole_trails_evenly_by_a_half_to_one_and_a_half() {
     let found = displacements("paper", "step_scale", 20.0);
-    // The mean of a trail of 20 pixels is 10 ahead.
+    // The mean of a trail of 20 pixels lies 10 ahead.
     for part in [0.0, 0.25, 0.5, 0.75, 1.0] {
         let index = (part * (found.len() - 1) as f64) as usize;
         let scale = f64::from(found[index]) / 10.0;
@@ -32,39 +32,40 @@ fn noise_scales_whole_trails_evenly_by_a_half_to_one_and_a_half() {
     }
 }
 
-/// Brightness so many pixels behind an edge between black and white that moves right by 24 pixels with everything else.
+/// Returns the brightness this many pixels behind an edge from black to white. Everything moves right by 24 pixels.
 fn behind_an_edge(preset: &str, distance: u32) -> f64 {
-    let output = moving_edge(240, 64, [24.0, 0.0]).blurred("jump_flood", preset, &[]);
+    let output = moving_edge(240, 64, [24.0, 0.0]).blur("jump_flood", preset, &[]);
     column(&output, 120 - distance)
 }
 
 #[test]
-fn the_far_end_of_the_mean_trail_is_a_ramp_and_not_that_of_a_box() {
-    // Of eight taps at i / 7 of the trail, those with i = 5, 6, 7 pass its whole length where the scale is above 1.4, 7/6
-    // and 1.
+fn the_mean_trail_ends_in_a_ramp_and_not_in_a_step() {
+    // Eight taps lie at i / 7 of the trail. Those with i = 5, 6 and 7 exceed its whole length where the scale is above
+    // 1.4, 7/6 and 1.
     let expected = (0.1 + 1.0 / 3.0 + 0.5) / 8.0;
     let found = behind_an_edge("paper", 24);
     // Noise of 64 rows; half a pixel of the edge.
     assert!((found - expected).abs() < 0.03, "{found}, {expected}");
     assert!(behind_an_edge("paper", 34) > 0.0);
     assert_eq!(behind_an_edge("paper", 37), 0.0);
-    // A box ends where it ends.
+    // A box ends abruptly.
     assert_eq!(behind_an_edge("corrected", 25), 0.0);
 }
 
 #[test]
 fn a_start_offset_makes_a_box_only_if_the_pixel_itself_shifts_too() {
-    // Half a pixel short of the edge, a box of 24 pixels is white but for 0.5 / 24.
+    // Half a pixel before the edge, a box of 24 pixels is white except for 0.5 / 24.
     let box_filter = 1.0 - 0.5 / 24.0;
     // Two pixels of bilinear fetches, and noise of 64 rows.
     let corrected = behind_an_edge("corrected", 1);
     assert!((corrected - box_filter).abs() < 0.02, "{corrected}");
-    // Two days later the pixel's own colour is one of eight taps still, and black.
+    // In the version of two days later the pixel's own colour is still one of eight taps, and black.
     let later = behind_an_edge("july_2024", 1);
     assert!((later - 7.0 / 8.0 * box_filter).abs() < 0.02, "{later}");
 }
 
-/// The farthest pixel behind an edge in steady motion that sees any of what is ahead, along columns or rows.
+/// Returns the farthest pixel behind an edge in steady motion that still mixes in the other side, along columns or
+/// rows.
 fn reach(preset: &str, vertical: bool, speed: f32, exposure: f64) -> u32 {
     let (width, height) = (256, 144);
     let mut picture = Picture::new(width, height, |x, y| {
@@ -76,7 +77,7 @@ fn reach(preset: &str, vertical: bool, speed: f32, exposure: f64) -> u32 {
         }
     });
     picture.exposure = exposure;
-    let output = picture.blurred("jump_flood", preset, &[("jitter", "none")]);
+    let output = picture.blur("jump_flood", preset, &[("jitter", "none")]);
     let lit = |distance: &u32| {
         let pixel = match vertical {
             true => output.at(20, 72 - distance),
@@ -88,7 +89,7 @@ fn reach(preset: &str, vertical: bool, speed: f32, exposure: f64) -> u32 {
 }
 
 #[test]
-fn trails_are_cut_at_32_pixels_and_two_days_later_at_64_whatever_the_speed() {
+fn trails_are_cut_at_32_pixels_and_two_days_later_at_64_at_any_speed() {
     for speed in [70.0, 100.0, 150.0] {
         // The last tap lies on the cut.
         assert_eq!(reach("paper", false, speed, 1.0), 32, "{speed}");
@@ -99,13 +100,13 @@ fn trails_are_cut_at_32_pixels_and_two_days_later_at_64_whatever_the_speed() {
 
 #[test]
 fn vertical_trails_of_a_wide_picture_are_cut_shorter() {
-    // By 144 / 256: 32 and 64 pixels are parts of the width, and a vertical path is one of the height.
+    // 144 / 256: the cuts of 32 and 64 pixels are parts of the width, and a vertical path is a part of the height.
     assert_eq!(reach("paper", true, 60.0, 1.0), 18);
     assert_eq!(reach("july_2024", true, 60.0, 1.0), 36);
 }
 
 #[test]
-fn the_cut_is_right_for_an_exposure_of_one_frame_alone() {
+fn the_cut_is_right_only_for_an_exposure_of_one_frame() {
     // It divides by the exposure where it should not: 32 / 0.5 and 32 / 2 pixels.
     assert_eq!(reach("paper", false, 90.0, 0.5), 45);
     assert_eq!(reach("paper", false, 140.0, 0.5), 64);

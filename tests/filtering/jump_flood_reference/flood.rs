@@ -1,8 +1,8 @@
-//! The dilation passes, with every outcome that rounding leaves open.
+//! The dilation passes, with every result that rounding allows.
 
 use super::paper::{Answer, ROUNDING, Reference, Vec2, at_most, both, cross, dot, minus};
 
-/// A source pixel, and whether it is a valid one (else the pixel's own).
+/// A source pixel, and whether it is valid (otherwise it is the pixel itself).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chosen {
     pub pixel: [i64; 2],
@@ -22,14 +22,14 @@ const KERNEL: [[i64; 2]; 9] = [
 ];
 
 impl Reference<'_> {
-    /// (tau, whether the candidate is valid) for pixel p and source s.
+    /// Returns tau, and whether the candidate is valid, for pixel p and source s.
     pub fn fitness(&self, p: Vec2, s: Vec2) -> (f64, Answer) {
         let v = self.velocity(s);
         if v == [0.0, 0.0] {
             return (0.0, Answer::No);
         }
-        let u = self.measured([-v[0], -v[1]]);
-        let o = self.measured(minus(s, p));
+        let u = self.to_path_space([-v[0], -v[1]]);
+        let o = self.to_path_space(minus(s, p));
         let tau = dot(u, o) / dot(u, u);
         let half = self.paper.m / 2.0;
         if o == [0.0, 0.0] {
@@ -47,8 +47,8 @@ impl Reference<'_> {
         (tau, both(within, beside))
     }
 
-    /// The dilated map: per pixel, every source that a correct run may hold after the last pass.
-    pub fn dilated(&self) -> Vec<Vec<Chosen>> {
+    /// Computes the dilated map: per pixel, every source that a correct run may hold after the last pass.
+    pub fn dilate(&self) -> Vec<Vec<Chosen>> {
         let [width, height] = self.size;
         let pixels = || (0..height).flat_map(move |y| (0..width).map(move |x| [x, y]));
         let mut map: Vec<Vec<Chosen>> = pixels()
@@ -69,11 +69,11 @@ impl Reference<'_> {
         map
     }
 
-    /// Returns the place of a pixel as a source in an iteration: an earlier one stored it in the map.
+    /// Returns the position of a pixel as a source in an iteration: an earlier iteration stored it in the map.
     pub fn place(&self, pixel: [i64; 2], iteration: u32) -> Vec2 {
         match iteration {
             0 => self.uv(pixel),
-            _ => self.stored(self.uv(pixel)),
+            _ => self.round_as_stored(self.uv(pixel)),
         }
     }
 
@@ -116,7 +116,7 @@ impl Reference<'_> {
                 a.z < b.z - ROUNDING * b.z
             }
         };
-        // Only a neighbour with a single, certainly valid source is sure to compete.
+        // Only a neighbour with a single, certainly valid source certainly competes.
         let certain = |order: usize| {
             let mut of = candidates.iter().filter(|c| c.order == order);
             let only = of.next().filter(|c| c.valid == Answer::Yes);

@@ -1,4 +1,4 @@
-//! The demo's blur over a given map of sources.
+//! The demo's blur with a given map of sources.
 
 use super::paper::{Jitter, POSITION, ROUNDING, Reference, Vec2, dot, minus};
 
@@ -11,9 +11,9 @@ struct Share {
 }
 
 impl Reference<'_> {
-    /// The blur of one pixel over a given map of sources (in pixels), and how far off 32-bit noise may put it; nothing
-    /// where a tap lies too near an edge to know which texel it falls on.
-    pub fn blurred(
+    /// Blurs one pixel with a given map of sources, in pixels. Returns the colour and its error from 32-bit noise; none
+    /// where a tap lies too near an edge to tell its texel.
+    pub fn blur(
         &self,
         pixel: [i64; 2],
         sources: &dyn Fn([i64; 2]) -> Vec2,
@@ -37,7 +37,7 @@ impl Reference<'_> {
         };
         let [trail_x, trail_y] = self.pixels(v);
         let misplaced = POSITION + noise_error * length * trail_x.hypot(trail_y);
-        // A share moves what is read of the colours, and no tap.
+        // A share moves only the read of colours, not the tap.
         let mut misread = misplaced;
         let (mut sum, mut weights) = match start_offset {
             true => ([0.0; 3], 0.0),
@@ -79,7 +79,7 @@ impl Reference<'_> {
     fn color(&self, uv: Vec2) -> [f64; 3] {
         [0, 1, 2].map(|c| {
             self.sample(uv, false, |x, y| {
-                f64::from(self.clamped(&self.field.color, x, y)[c])
+                f64::from(self.read_clamped(&self.field.color, x, y)[c])
             })
         })
     }
@@ -107,10 +107,10 @@ impl Reference<'_> {
         }
     }
 
-    /// w = 1 - fg * D^0.1, or nothing where D is rounding noise that the root would blow up and that counts.
+    /// Computes w = 1 - fg * D^0.1; none where the root would amplify rounding noise in D and the weight matters.
     fn weight(&self, own: Vec2, other: Vec2) -> Option<f64> {
-        let v = self.measured(self.velocity(own));
-        let w = self.measured(self.velocity(other));
+        let v = self.to_path_space(self.velocity(own));
+        let w = self.to_path_space(self.velocity(other));
         let d = dot(minus(v, w), v) / dot(v, v);
         let ahead = (self.depth(other) - self.depth(own)) / self.paper.foreground_extent;
         let fg = (1.0 - ahead).clamp(0.0, 1.0);
@@ -121,7 +121,7 @@ impl Reference<'_> {
         Some(1.0 - fg * d.clamp(0.0, 1.0).powf(self.paper.mismatch_exponent))
     }
 
-    /// Interleaved gradient noise on a cycle of 8 frames; nothing where it may wrap around.
+    /// Computes interleaved gradient noise on a cycle of 8 frames; none where it may wrap around.
     fn noise(&self, pixel: [i64; 2]) -> Option<f64> {
         let frame = f64::from(self.paper.frame_index % 8);
         let x = pixel[0] as f64 + frame * 47.0 * 0.695;

@@ -6,12 +6,13 @@ mod paper;
 mod way_back;
 
 use crate::fields::{Field, noise, rectangles};
-use filters::{Blur, Filter, Gpu, Input, Settings, Value};
+use filters::{Blur, Filter, Gpu, Settings, Value};
 use flood::Chosen;
 use paper::{Jitter, Paper, Reference};
+use tests::open_gpu;
 use way_back::Source;
 
-/// Odd sizes, wide and tall; two of random pixels, two of objects.
+/// Makes fields of odd sizes, wide and tall; two of random pixels, two of objects.
 fn fields() -> Vec<(&'static str, Field)> {
     vec![
         ("noise 61x37", noise(61, 37, 1)),
@@ -21,7 +22,7 @@ fn fields() -> Vec<(&'static str, Field)> {
     ]
 }
 
-/// Parameters and their values.
+/// Names of parameters and their values.
 type Changes = &'static [(&'static str, &'static str)];
 
 /// Changes to a preset, and the exposure in frames.
@@ -80,10 +81,6 @@ const CASES: [(&str, Changes, f64); 12] = [
     ),
 ];
 
-fn gpu() -> Gpu {
-    Gpu::new(None).expect("these tests run filters")
-}
-
 struct Case {
     name: String,
     settings: Settings,
@@ -114,22 +111,10 @@ const FRAME_INDEX: u32 = 11;
 
 impl Case {
     fn blur<'g>(&self, gpu: &'g Gpu, filter: &Filter) -> (Blur<'g>, frame::Image) {
-        let Field {
-            color,
-            velocity,
-            depth,
-        } = &self.field;
-        let mut blur = Blur::new(gpu, filter, &self.settings, color.width, color.height).unwrap();
-        let input = Input {
-            color: &[color],
-            velocity,
-            depth,
-            reprojection: None,
-            exposure: self.exposure,
-            frame_index: FRAME_INDEX,
-        };
-        let mut outputs = blur.run(&input).unwrap();
-        (blur, outputs.remove(0))
+        let (width, height) = (self.field.color.width, self.field.color.height);
+        let mut blur = Blur::new(gpu, filter, &self.settings, width, height).unwrap();
+        let output = self.field.blur(&mut blur, self.exposure, FRAME_INDEX);
+        (blur, output)
     }
 
     fn reference(&self) -> Reference<'_> {
@@ -183,8 +168,8 @@ fn pixels(field: &Field) -> impl Iterator<Item = [i64; 2]> {
 }
 
 #[test]
-fn the_dilation_chooses_the_sources_of_a_64_bit_reference() {
-    let (gpu, filter) = (gpu(), Filter::builtin("jump_flood").unwrap());
+fn the_dilation_agrees_with_a_64_bit_reference() {
+    let (gpu, filter) = (open_gpu(), Filter::builtin("jump_flood").unwrap());
     let (mut found, mut all) = (0, 0);
     for case in cases(&filter) {
         let (blur, _) = case.blur(&gpu, &filter);
@@ -192,7 +177,7 @@ fn the_dilation_chooses_the_sources_of_a_64_bit_reference() {
         let mut ties = 0;
         for ((pixel, texel), outcomes) in pixels(&case.field)
             .zip(&seeds.pixels)
-            .zip(case.reference().dilated())
+            .zip(case.reference().dilate())
         {
             let chosen = Chosen {
                 pixel: [texel[0].floor() as i64, texel[1].floor() as i64],
@@ -206,19 +191,20 @@ fn the_dilation_chooses_the_sources_of_a_64_bit_reference() {
             ties += usize::from(outcomes.len() > 1);
             found += usize::from(chosen.valid && chosen.pixel != pixel);
         }
-        // A decision is a tie within 4e-6 of its threshold; a pixel takes up to 9 x 3 of them in each of up to 8
-        // passes, which makes one in a thousand, and most of them do not change who wins; twice that, for luck of few.
+        // A decision is a tie within 4e-6 of its threshold. A pixel takes up to 9 x 3 decisions in each of up to 8
+        // passes: one pixel in a thousand has a tie, and most ties do not change the winner. The factor of two is for
+        // chance.
         let count = seeds.pixels.len();
         assert!(500 * ties <= count, "{}: {ties} ties of {count}", case.name);
         all += count;
     }
-    // Where nothing is carried anywhere, nothing is proved.
+    // A dilation that carries nothing proves nothing.
     assert!(4 * found > all, "only {found} of {all} found a source");
 }
 
 #[test]
-fn rejection_and_the_way_back_end_where_the_reference_ends() {
-    let (gpu, filter) = (gpu(), Filter::builtin("jump_flood").unwrap());
+fn rejection_and_the_way_back_agree_with_the_reference() {
+    let (gpu, filter) = (open_gpu(), Filter::builtin("jump_flood").unwrap());
     let (mut moved, mut flagged, mut all) = (0, 0, 0);
     for case in cases(&filter) {
         let (blur, _) = case.blur(&gpu, &filter);
@@ -227,13 +213,13 @@ fn rejection_and_the_way_back_end_where_the_reference_ends() {
         let mut ties = 0;
         for ((pixel, texel), dilated) in pixels(&case.field)
             .zip(&sources.pixels)
-            .zip(reference.dilated())
+            .zip(reference.dilate())
         {
             let [chosen] = dilated[..] else {
                 ties += 1;
                 continue;
             };
-            let outcomes = reference.backtracked(pixel, chosen);
+            let outcomes = reference.backtrack(pixel, chosen);
             let near = |outcome: &&Source| {
                 // Positions up to 100 pixels after three products in 32-bit floats.
                 let distance = (0..2).map(|axis| outcome.position[axis] - f64::from(texel[axis]));
@@ -253,14 +239,14 @@ fn rejection_and_the_way_back_end_where_the_reference_ends() {
         assert!(37 * ties <= count, "{}: {ties} ties of {count}", case.name);
         all += count;
     }
-    // Each of the three endings is taken by many.
+    // Each of the three endings occurs often.
     assert!(8 * moved > all, "only {moved} of {all} moved");
     assert!(8 * flagged > all, "only {flagged} of {all} flagged");
 }
 
 #[test]
-fn the_gather_weighs_taps_as_the_reference_does() {
-    let (gpu, filter) = (gpu(), Filter::builtin("jump_flood").unwrap());
+fn the_gather_weights_taps_like_the_reference() {
+    let (gpu, filter) = (open_gpu(), Filter::builtin("jump_flood").unwrap());
     for case in cases(&filter) {
         let (blur, output) = case.blur(&gpu, &filter);
         let sources = blur.read_texture("sources").unwrap();
@@ -271,11 +257,11 @@ fn the_gather_weighs_taps_as_the_reference_does() {
         let reference = case.reference();
         let mut compared = 0;
         for (pixel, found) in pixels(&case.field).zip(&output.pixels) {
-            let Some((expected, misplaced)) = reference.blurred(pixel, &source) else {
+            let Some((expected, misplaced)) = reference.blur(pixel, &source) else {
                 continue;
             };
             for (expected, found) in expected.iter().zip(found) {
-                // Colours lie in [0, 2) and change by 2 per pixel at most, on both axes; a weight is off by 1e-4 where
+                // Colours lie in [0, 2) and change by 2 per pixel at most on both axes. A weight is off by 1e-4 where
                 // its tenth root is steepest.
                 let tolerance = 1e-3 + 4.0 * misplaced;
                 assert!(

@@ -1,12 +1,12 @@
 //! Golan 2024 in 64-bit floats, from its description: UV coordinates, the velocity V that leads back to the previous
-//! frame, reverse depth. Plain loops; nothing is shared with the kernels.
+//! frame, reverse depth. The code is plain loops and shares nothing with the kernels.
 //!
-//! Where a decision depends on less than 32-bit floats resolve, every outcome is kept: a pixel holds all sources that a
+//! Where a decision depends on less than 32-bit floats resolve, every result is kept: a pixel holds all sources that a
 //! correct run may choose.
 
 use crate::fields::Field;
 
-/// The parameters, by the paper's meaning.
+/// Parameters, with the paper's meaning.
 pub struct Paper {
     /// The paper's motion_blur_intensity, in frames.
     pub m: f64,
@@ -20,21 +20,21 @@ pub struct Paper {
     pub foreground_extent: f64,
     pub mismatch_exponent: f64,
     pub samples: u32,
-    /// Measure paths in pixels instead of UV.
+    /// True if paths are measured in pixels instead of UV.
     pub pixel_metric: bool,
-    /// Factor on the paper's cut of trails in the gather; infinite for none, on the way back too.
+    /// Factor on the paper's cut of trails in the gather; infinite for no cut, on the way back too.
     pub reach_factor: f64,
     pub jitter: Jitter,
-    /// The demo of two days later: the difference of reverse depth over which a pixel turns from level with its source to
-    /// behind it. None where taps are weighted.
+    /// Difference of reverse depth, in the demo of two days later, over which a pixel turns from level with its source
+    /// to behind it. None where taps are weighted.
     pub behind_extent: Option<f64>,
-    /// Two days later: the difference of reverse depth under which a probe matches, and three matches end the way back.
-    /// None where the first match of velocities does.
+    /// Difference of reverse depth, two days later, below which a probe matches; three matches end the way back. None
+    /// where the first match of velocities ends it.
     pub third_match: Option<f64>,
-    /// Two days later: the map has 16 bits.
+    /// True if the map has 16 bits, as two days later.
     pub half_map: bool,
     pub with_centre: bool,
-    /// Read velocity and depth without filtering.
+    /// True if velocity and depth are read without filtering.
     pub nearest: bool,
     pub frame_index: u32,
 }
@@ -51,7 +51,7 @@ pub type Vec2 = [f64; 2];
 
 /// 64 rounding steps of a 32-bit float: no quantity below goes through more.
 pub const ROUNDING: f64 = 64.0 * 6e-8;
-/// In pixels: what 32-bit floats make of positions up to 1000 after a product and a sum, with room.
+/// Error of 32-bit floats in positions of up to 1000 pixels after a product and a sum, in pixels, with room.
 pub const POSITION: f64 = 2e-4;
 
 pub fn dot(a: Vec2, b: Vec2) -> f64 {
@@ -112,19 +112,19 @@ impl<'f> Reference<'f> {
         (0..2).all(|axis| (0..self.size[axis]).contains(&pixel[axis]))
     }
 
-    pub fn clamped<T: Copy>(&self, raster: &frame::Raster<T>, x: i64, y: i64) -> T {
+    pub fn read_clamped<T: Copy>(&self, raster: &frame::Raster<T>, x: i64, y: i64) -> T {
         let x = x.clamp(0, self.size[0] - 1);
         let y = y.clamp(0, self.size[1] - 1);
         *raster.at(x as u32, y as u32)
     }
 
-    /// A linear, clamp-to-edge sampler, or the nearest texel.
+    /// Samples as a linear, clamp-to-edge sampler does, or reads the nearest texel.
     pub fn sample(&self, uv: Vec2, nearest: bool, texel: impl Fn(i64, i64) -> f64) -> f64 {
         let [x, y] = self.pixels(uv);
         if nearest {
             return texel(x.floor() as i64, y.floor() as i64);
         }
-        // A texel's centre is meant where only the last bits of a 64-bit float miss it.
+        // Snaps to a texel's centre if only the last bits of a 64-bit float miss it.
         let snap = |c: f64| {
             if (c - c.round()).abs() < 1e-9 {
                 c.round()
@@ -140,26 +140,26 @@ impl<'f> Reference<'f> {
         mix(row(top), row(top + 1), bottom_part)
     }
 
-    /// V: from here to where the surface was one frame before, in UV.
+    /// Returns V: the vector from here to where the surface was one frame before, in UV.
     pub fn velocity(&self, uv: Vec2) -> Vec2 {
         [0, 1].map(|axis| {
             let motion = self.sample(uv, self.paper.nearest, |x, y| {
-                f64::from(self.clamped(&self.field.velocity, x, y)[axis])
+                f64::from(self.read_clamped(&self.field.velocity, x, y)[axis])
             });
             -motion / self.size[axis] as f64
         })
     }
 
-    /// z = near plane / reverse depth, with the demo's near plane of 0.05 m.
+    /// Computes z = near plane / reverse depth, with the demo's near plane of 0.05 m.
     pub fn depth(&self, uv: Vec2) -> f64 {
         let reverse = self.sample(uv, self.paper.nearest, |x, y| {
-            0.05 / f64::from(self.clamped(&self.field.depth, x, y))
+            0.05 / f64::from(self.read_clamped(&self.field.depth, x, y))
         });
         0.05 / reverse
     }
 
     /// Converts UV to the space in which paths are measured.
-    pub fn measured(&self, uv: Vec2) -> Vec2 {
+    pub fn to_path_space(&self, uv: Vec2) -> Vec2 {
         match self.paper.pixel_metric {
             true => self.pixels(uv),
             false => uv,
@@ -167,14 +167,14 @@ impl<'f> Reference<'f> {
     }
 
     /// Rounds a UV as the map does: 11 binary digits, towards zero.
-    pub fn stored(&self, uv: Vec2) -> Vec2 {
+    pub fn round_as_stored(&self, uv: Vec2) -> Vec2 {
         match self.paper.half_map {
             true => uv.map(|c| f64::from_bits(c.to_bits() & !((1 << 42) - 1))),
             false => uv,
         }
     }
 
-    /// `factor` R / (|V| m), the time at which a trail is cut.
+    /// Computes `factor` R / (|V| m), the time at which a trail is cut.
     pub fn cut(&self, v: Vec2, factor: f64) -> f64 {
         if factor.is_infinite() {
             return f64::INFINITY;
@@ -185,7 +185,7 @@ impl<'f> Reference<'f> {
             false => self.size[0].max(self.size[1]),
         };
         let r = factor * largest as f64 / side as f64;
-        let v = self.measured(v);
+        let v = self.to_path_space(v);
         r / (dot(v, v).sqrt() * self.paper.m)
     }
 

@@ -3,14 +3,14 @@
 use super::flood::Chosen;
 use super::paper::{Answer, POSITION, ROUNDING, Reference, Vec2, at_most, both, cross, dot, minus};
 
-/// Place that a pixel's velocity comes from after the way back, in pixels, and the paper's flag.
+/// Position that a pixel's velocity comes from after the way back, in pixels, and the paper's flag.
 #[derive(Clone, Copy, Debug)]
 pub struct Source {
     pub position: Vec2,
     pub flag: f64,
 }
 
-/// In pixels: what 32-bit floats make of positions up to 100 after a product and a sum.
+/// Error of 32-bit floats in positions of up to 100 pixels after a product and a sum, in pixels.
 const STORED: f64 = 3e-5;
 
 /// A row of matching probes that a correct run may be in.
@@ -22,12 +22,12 @@ struct Row {
 }
 
 impl Reference<'_> {
-    /// Rejection and the way back for a pixel whose dilated source is certain: every outcome that a correct run may
-    /// store.
-    pub fn backtracked(&self, pixel: [i64; 2], chosen: Chosen) -> Vec<Source> {
+    /// Applies rejection and the way back to a pixel whose dilated source is certain. Returns every result that a
+    /// correct run may store.
+    pub fn backtrack(&self, pixel: [i64; 2], chosen: Chosen) -> Vec<Source> {
         let p = self.uv(pixel);
         let own = |flag| Source {
-            position: self.pixels(self.stored(p)),
+            position: self.pixels(self.round_as_stored(p)),
             flag,
         };
         if !chosen.valid {
@@ -45,7 +45,7 @@ impl Reference<'_> {
         }
         let v = self.velocity(s);
         let tau = self.fitness(p, s).0;
-        // The doubled reach is the gather's alone.
+        // Only the gather has the doubled reach.
         let factor = match self.paper.reach_factor.is_infinite() {
             true => f64::INFINITY,
             false => 1.0,
@@ -90,14 +90,14 @@ impl Reference<'_> {
             }
             rows = next;
         }
-        // Rows that the last probe cuts short count nothing.
+        // Rows that the last probe cuts short do not count.
         if !rows.is_empty() {
             outcomes.push(own(1.0));
         }
         outcomes
     }
 
-    /// Returns what the map may hold of a UV that 32-bit floats round to either side.
+    /// Returns what the map may hold for a UV that 32-bit floats round to either side.
     fn ends(&self, uv: Vec2) -> Vec<Source> {
         let mut sources: Vec<Source> = Vec::new();
         for (right, down) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
@@ -109,7 +109,7 @@ impl Reference<'_> {
                 ],
                 false => uv,
             };
-            let position = self.pixels(self.stored(near));
+            let position = self.pixels(self.round_as_stored(near));
             if sources.iter().all(|source| source.position != position) {
                 sources.push(Source {
                     position,
@@ -120,7 +120,7 @@ impl Reference<'_> {
         sources
     }
 
-    /// Returns whether probe q at k frames is looked at.
+    /// Returns whether probe q at k frames is read.
     fn looks(&self, k: f64, q: Vec2) -> Answer {
         if k < f64::from(f32::MIN_POSITIVE) {
             return Answer::No;
@@ -141,7 +141,7 @@ impl Reference<'_> {
             let [width, height] = self.size.map(|side| side as f64);
             let q = [q[0] + dx * POSITION / width, q[1] + dy * POSITION / height];
             let difference = self.difference(v, self.velocity(q));
-            // The difference is a sum of ratios that may each be far above 1 before the clamp.
+            // The difference is a sum of ratios, each of which may be far above 1 before the clamp.
             let alike = at_most(
                 difference,
                 self.paper.match_threshold,
@@ -165,7 +165,7 @@ impl Reference<'_> {
     }
 
     fn difference(&self, v: Vec2, w: Vec2) -> f64 {
-        let (v, w) = (self.measured(v), self.measured(w));
+        let (v, w) = (self.to_path_space(v), self.to_path_space(w));
         let parallel = dot(minus(v, w), v).abs() / dot(v, v);
         let perpendicular = cross(minus(v, w), v).abs() / dot(v, v);
         let weighted = self.paper.parallel_sensitivity * parallel

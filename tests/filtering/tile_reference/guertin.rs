@@ -1,15 +1,15 @@
 //! Reconstruction of Guertin et al. 2014.
 //!
-//! Depths are compared relative to each other as inverse depths, which are larger for nearer surfaces: the paper's operands
-//! require it.
+//! Depths are compared relative to each other as inverse depths, which are larger for nearer surfaces, as the paper's
+//! operands require.
 
 use super::mcguire::{cone, cylinder, on_image};
 use super::noise::{NOISE, noise};
 use super::tiles::{Vec2, direction, dot, length, scaled};
 use super::{Expected, FRAME_INDEX, Run};
 
-/// Returns what a pixel becomes, given the neighbourhoods of the GPU; nothing where rounding decides which texel is read.
-pub fn reconstructed(run: &Run, pixel: [i64; 2]) -> Option<Expected> {
+/// Computes a pixel from the GPU's neighbourhoods; none where rounding decides which texel is read.
+pub fn reconstruct(run: &Run, pixel: [i64; 2]) -> Option<Expected> {
     let tile = asked_tile(run, pixel)?;
     let noise = match run.real("jitter") {
         0.0 => {
@@ -58,7 +58,7 @@ fn color(run: &Run, pixel: [i64; 2], tile: [i64; 2], noise: f64) -> Option<[f64;
             largest
         };
         let misplaced = 1e-4 + 2.0 * NOISE * eta_phi / samples * step * length(along);
-        let tap = on_image(run, pixel, truncated(scaled(along, t), misplaced)?);
+        let tap = on_image(run, pixel, truncate_clearly(scaled(along, t), misplaced)?);
         let distance = t.abs() * length(largest);
         let other = run.motion(tap);
         let f = z_compare(1.0 / run.depth(pixel), 1.0 / run.depth(tap));
@@ -75,12 +75,12 @@ fn color(run: &Run, pixel: [i64; 2], tile: [i64; 2], noise: f64) -> Option<[f64;
     Some(sum.map(|component| component / weight))
 }
 
-/// The pixel's tile or, by chance, the one across its nearest border.
+/// Returns the pixel's tile or, by chance, the one across its nearest border.
 fn asked_tile(run: &Run, pixel: [i64; 2]) -> Option<[i64; 2]> {
     let tiles = run.tiles();
     let tile = tiles.of(pixel);
     let side = tiles.side as f64;
-    // From the middle of the tile, in tiles.
+    // Distance from the middle of the tile, in tiles.
     let aside =
         [0, 1].map(|axis| (pixel[axis] as f64 + 0.5 - tile[axis] as f64 * side) / side - 0.5);
     let blend = run.real("tile_blend");
@@ -93,18 +93,18 @@ fn asked_tile(run: &Run, pixel: [i64; 2]) -> Option<[i64; 2]> {
     }
     let axis = usize::from(distances[1] < distances[0]);
     let odds = 0.5 * (1.0 - distances[axis] / blend).clamp(0.0, 1.0);
-    let noise = noise(pixel, FRAME_INDEX, 37.0)?;
-    if (noise - odds).abs() < 2.0 * NOISE {
+    let drawn = noise(pixel, FRAME_INDEX, 37.0)?;
+    if (drawn - odds).abs() < 2.0 * NOISE {
         return None;
     }
     let mut across = tile;
-    if noise < odds {
+    if drawn < odds {
         across[axis] += aside[axis].signum() as i64;
     }
     Some([0, 1].map(|axis| across[axis].clamp(0, tiles.count()[axis] - 1)))
 }
 
-/// Returns whether tap i follows the pixel's own motion; nothing where rounding decides.
+/// Returns whether tap i follows the pixel's own motion; none where rounding decides.
 fn is_own(run: &Run, i: i64, variance: f64) -> Option<bool> {
     if run.choice("split") == "alternate" {
         return Some(i % 2 == 1);
@@ -127,8 +127,8 @@ fn center_direction(largest: Vec2, own: Vec2, gamma: f64) -> Vec2 {
     direction([0, 1].map(|axis| across[axis] + trust * (own[axis] - across[axis])))
 }
 
-/// Towards zero; nothing where `margin` decides.
-fn truncated(offset: Vec2, margin: f64) -> Option<[i64; 2]> {
+/// Truncates towards zero; none where `margin` decides.
+fn truncate_clearly(offset: Vec2, margin: f64) -> Option<[i64; 2]> {
     let clear = offset
         .iter()
         .all(|component| component.abs() < 0.5 || (component - component.round()).abs() > margin);

@@ -1,4 +1,4 @@
-//! Reconstruction of McGuire et al. 2012, as the paper writes it: Z is negative into the screen.
+//! Reconstruction of McGuire et al. 2012 in the paper's notation: Z is negative into the screen.
 
 use super::noise::{NOISE, noise};
 use super::tiles::{Vec2, length, scaled};
@@ -7,8 +7,8 @@ use super::{Expected, FRAME_INDEX, Run};
 /// The paper's epsilon, in pixels.
 const EPSILON: f64 = 1e-4;
 
-/// Returns what a pixel becomes, given the neighbourhoods of the GPU; nothing where rounding decides which texel a tap reads.
-pub fn reconstructed(run: &Run, pixel: [i64; 2]) -> Option<Expected> {
+/// Computes a pixel from the GPU's neighbourhoods; none where rounding decides which texel a tap reads.
+pub fn reconstruct(run: &Run, pixel: [i64; 2]) -> Option<Expected> {
     // Distances are between pixels, so noise cannot change a weight.
     color(run, pixel).map(|color| Expected {
         color,
@@ -41,7 +41,7 @@ fn color(run: &Run, pixel: [i64; 2]) -> Option<[f64; 3]> {
         let step = 2.0 / (samples as f64 + 1.0);
         let t = -1.0 + step * (i as f64 + jitter + 1.0);
         let misplaced = 1e-4 + uncertainty * step * length(largest);
-        let offset = rounded(scaled(largest, t), misplaced)?;
+        let offset = round_clearly(scaled(largest, t), misplaced)?;
         let distance = length(offset.map(|component| component as f64));
         let tap = on_image(run, pixel, offset);
         let f = soft_depth_compare(z(pixel), z(tap), run.real("soft_extent"));
@@ -56,15 +56,15 @@ fn color(run: &Run, pixel: [i64; 2]) -> Option<[f64; 3]> {
     Some(sum.map(|component| component / weight))
 }
 
-/// The nearest whole pixels; nothing where `margin` decides.
-fn rounded(offset: Vec2, margin: f64) -> Option<[i64; 2]> {
+/// Rounds to the nearest whole pixel; none where `margin` decides.
+fn round_clearly(offset: Vec2, margin: f64) -> Option<[i64; 2]> {
     let clear = offset
         .iter()
         .all(|component| (component - component.floor() - 0.5).abs() > margin);
     clear.then(|| offset.map(|component| (component + 0.5).floor() as i64))
 }
 
-/// The pixel at an offset, or the nearest one of the image.
+/// Returns the pixel at an offset, clamped to the image.
 pub fn on_image(run: &Run, pixel: [i64; 2], offset: [i64; 2]) -> [i64; 2] {
     [0, 1].map(|axis| (pixel[axis] + offset[axis]).clamp(0, run.size()[axis] - 1))
 }

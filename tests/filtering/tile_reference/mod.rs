@@ -1,4 +1,4 @@
-//! Tile filters on the GPU against their papers in 64-bit floats. Each pass gets what the pass before it left.
+//! Tile filters on the GPU against their papers in 64-bit floats. Each pass gets the output of the pass before.
 
 mod guertin;
 mod mcguire;
@@ -7,11 +7,13 @@ mod published;
 mod tiles;
 
 use crate::fields::{self, Field, rectangles};
-use filters::{Blur, Filter, Gpu, Input, Settings, Value};
+use filters::{Blur, Filter, Settings, Value};
 use frame::{Image, Raster};
+use tests::open_gpu;
 use tiles::{Tiles, Vec2, length};
 
-/// Odd sizes, wide and tall, none a multiple of a tile; two of random pixels, two of objects over a slow background.
+/// Makes fields of odd sizes, wide and tall, none a multiple of a tile; two of random pixels, two of objects over a
+/// slow background.
 fn fields() -> Vec<(&'static str, Field)> {
     vec![
         ("noise 61x37", fields::noise(61, 37, 1)),
@@ -21,8 +23,8 @@ fn fields() -> Vec<(&'static str, Field)> {
     ]
 }
 
-/// A filter, changes to its preset `paper`, and the exposure in frames. At 1 most motion is cut at the side of a tile,
-/// at 0.3 little; at 0.05 most of it is less than half a pixel.
+/// A filter, changes to its preset `paper`, and the exposure in frames. At 1, most motion is cut at the side of a tile;
+/// at 0.3, little is; at 0.05, most of it is less than half a pixel.
 type Case = (&'static str, &'static [(&'static str, &'static str)], f64);
 
 const CASES: [Case; 9] = [
@@ -66,7 +68,7 @@ struct Expected {
     tolerance: f64,
 }
 
-/// A case on a field, and what its passes left.
+/// A case on a field, with the output of its passes.
 struct Run {
     name: String,
     settings: Settings,
@@ -79,7 +81,7 @@ struct Run {
 }
 
 fn runs(filter: &str) -> Vec<Run> {
-    let gpu = Gpu::new(None).expect("these tests run filters");
+    let gpu = open_gpu();
     let mut runs = Vec::new();
     for (name, changes, exposure) in CASES.iter().filter(|(name, ..)| *name == filter) {
         let filter = Filter::builtin(name).unwrap();
@@ -90,15 +92,7 @@ fn runs(filter: &str) -> Vec<Run> {
             }
             let (width, height) = (field.color.width, field.color.height);
             let mut blur = Blur::new(&gpu, &filter, &settings, width, height).unwrap();
-            let input = Input {
-                color: &[&field.color],
-                velocity: &field.velocity,
-                depth: &field.depth,
-                reprojection: None,
-                exposure: *exposure,
-                frame_index: FRAME_INDEX,
-            };
-            let output = blur.run(&input).unwrap().remove(0);
+            let output = field.blur(&mut blur, *exposure, FRAME_INDEX);
             runs.push(Run {
                 name: format!("{name} {changes:?} at {exposure} on {field_name}"),
                 motion: blur.read_texture("motion").unwrap(),
@@ -146,7 +140,7 @@ impl Run {
         (0..height).flat_map(move |y| (0..width).map(move |x| [x, y]))
     }
 
-    /// The half-velocity that the first pass left, in pixels.
+    /// Returns the half-velocity that the first pass wrote, in pixels.
     fn motion(&self, pixel: [i64; 2]) -> Vec2 {
         vector(&self.motion, pixel)
     }
@@ -167,7 +161,8 @@ impl Run {
         }
     }
 
-    /// Compares the picture with a reference; returns how many pixels that decides on, and how many of those it blurs.
+    /// Compares the picture with a reference. Returns how many pixels the reference decides, and how many of those it
+    /// blurs.
     fn compare(&self, reference: impl Fn(&Run, [i64; 2]) -> Option<Expected>) -> (usize, usize) {
         let (mut compared, mut blurred) = (0, 0);
         for (pixel, found) in self.pixels().zip(&self.output.pixels) {
@@ -200,7 +195,7 @@ fn vector(raster: &Raster<[f32; 4]>, [x, y]: [i64; 2]) -> Vec2 {
 const ROUNDING: f64 = 16.0 * 6e-8;
 
 #[test]
-fn half_velocities_are_those_of_the_papers() {
+fn half_velocities_equal_the_papers() {
     let (mut still, mut slow, mut free, mut cut) = (0, 0, 0, 0);
     for run in every_run() {
         for pixel in run.pixels() {
@@ -224,13 +219,13 @@ fn half_velocities_are_those_of_the_papers() {
             }
         }
     }
-    // Each case of the formula is met by many.
+    // Each case of the formula occurs often.
     let least = [still, slow, free, cut].into_iter().min().unwrap();
     assert!(least > 1000, "{still} {slow} {free} {cut}");
 }
 
 #[test]
-fn tiles_hold_their_longest_half_velocity_partial_ones_too() {
+fn full_and_partial_tiles_hold_their_longest_half_velocity() {
     for run in every_run() {
         let tiles = run.tiles();
         assert_eq!(
@@ -247,7 +242,7 @@ fn tiles_hold_their_longest_half_velocity_partial_ones_too() {
                     (low.min(speed), high.max(speed))
                 });
             let found = vector(&run.tiles, tile);
-            // Motion that is cut has one length, so a correct run may choose among many: any of the longest.
+            // Motion that is cut has one length, so a correct run may choose any of the longest.
             assert!(
                 motion.contains(&found) && length(found) >= longest * (1.0 - ROUNDING),
                 "{}: tile {tile:?} holds {found:?}; its longest has {longest} pixels",
@@ -298,7 +293,7 @@ fn neighbourhoods_hold_the_longest_of_the_tiles_that_count() {
 }
 
 #[test]
-fn tile_variance_is_that_of_the_directions_around() {
+fn tile_variance_follows_the_directions_of_neighbouring_tiles() {
     let (mut varied, mut all) = (0, 0);
     for run in runs("guertin") {
         let tiles = run.tiles();
@@ -319,13 +314,13 @@ fn tile_variance_is_that_of_the_directions_around() {
 }
 
 #[test]
-fn mcguires_reconstruction_is_that_of_the_paper() {
-    expect_pictures("mcguire", mcguire::reconstructed);
+fn mcguire_s_reconstruction_equals_the_paper() {
+    expect_pictures("mcguire", mcguire::reconstruct);
 }
 
 #[test]
-fn guertins_reconstruction_is_that_of_the_paper() {
-    expect_pictures("guertin", guertin::reconstructed);
+fn guertin_s_reconstruction_equals_the_paper() {
+    expect_pictures("guertin", guertin::reconstruct);
 }
 
 fn expect_pictures(filter: &str, reference: fn(&Run, [i64; 2]) -> Option<Expected>) {
@@ -333,7 +328,7 @@ fn expect_pictures(filter: &str, reference: fn(&Run, [i64; 2]) -> Option<Expecte
     for run in runs(filter) {
         let count = run.output.pixels.len();
         let (compared, of_those) = run.compare(reference);
-        // Up to 35 taps, each with a chance of 2 x 1.5e-3 per axis to be undecided; and a sixth of the pixels may lie as
+        // Up to 35 taps, each with a chance of 2 x 1.5e-3 per axis to be undecided. A sixth of the pixels may lie as
         // near to one border of a small tile as to another.
         assert!(
             2 * compared > count,
@@ -344,7 +339,7 @@ fn expect_pictures(filter: &str, reference: fn(&Run, [i64; 2]) -> Option<Expecte
         unblurred += compared - of_those;
         all += count;
     }
-    // Both ends of the filter are taken by many.
+    // Both ends of the filter are taken often.
     assert!(2 * blurred > all, "only {blurred} of {all} blurred");
     assert!(20 * unblurred > all, "only {unblurred} of {all} left alone");
 }

@@ -3,7 +3,7 @@
 /// Error in 32-bit floats: 53 times the rounding of a number up to 64, twice.
 pub const NOISE: f64 = 4e-4;
 
-/// The noise of a pixel on a cycle of 8 frames, `offset` pixels further right and down; nothing where it may wrap
+/// Computes the noise of a pixel on a cycle of 8 frames, `offset` pixels further right and down; none where it may wrap
 /// around.
 pub fn noise(pixel: [i64; 2], frame_index: u32, offset: f64) -> Option<f64> {
     let frame = f64::from(frame_index % 8);

@@ -2,81 +2,55 @@
 //!
 //! shaders/mcguire/README.md lists the outcomes.
 
-use filters::{Blur, Filter, Gpu, Input};
-use frame::{Image, Plane, Raster, Vectors};
+use frame::{Image, Raster};
+use tests::picture::{BLACK_WALL, Picture, Surface, white};
 use tests::random::Random;
 
 const WIDTH: u32 = 97;
 const HEIGHT: u32 = 31;
-/// Pixels per frame: 8 of half-velocity, so that unshifted taps of 15 lie on the whole pixels from -7 to 7.
+/// Speed in pixels per frame: 8 of half-velocity, so that 15 unshifted taps lie on the whole pixels from -7 to 7.
 const SPEED: f32 = 16.0;
 /// Column at which things begin or end, in the middle of the image.
 const EDGE: u32 = 48;
 
 type Changes<'c> = &'c [(&'c str, &'c str)];
 
-struct Frame {
-    color: Image,
-    velocity: Vectors,
-    depth: Plane,
+/// Makes a picture in which everything moves right alike, at one depth.
+fn steady(gray: impl Fn(u32) -> f32) -> Picture {
+    Picture::new(WIDTH, HEIGHT, |x, _| Surface {
+        gray: gray(x),
+        velocity: [SPEED, 0.0],
+        depth: 5.0,
+    })
 }
 
-/// Everything moves right alike, at one depth.
-fn steady(color: impl Fn(u32) -> f32) -> Frame {
-    Frame {
-        color: Raster::from_fn(WIDTH, HEIGHT, |x, _| [color(x); 3]),
-        velocity: Raster::filled(WIDTH, HEIGHT, [SPEED, 0.0]),
-        depth: Raster::filled(WIDTH, HEIGHT, 5.0),
-    }
+/// Makes a white surface left of the edge that moves right, beside a black one that stands still.
+fn mover_beside_still(mover_depth: f32, still_depth: f32) -> Picture {
+    Picture::new(WIDTH, HEIGHT, |x, _| match x {
+        ..EDGE => Surface {
+            depth: mover_depth,
+            ..white(SPEED)
+        },
+        _ => Surface {
+            depth: still_depth,
+            ..BLACK_WALL
+        },
+    })
 }
 
-/// A white surface left of the edge moves right, beside a black one that stands still.
-fn mover_beside_still(mover_depth: f32, still_depth: f32) -> Frame {
-    Frame {
-        color: Raster::from_fn(WIDTH, HEIGHT, |x, _| [if x < EDGE { 1.0 } else { 0.0 }; 3]),
-        velocity: Raster::from_fn(WIDTH, HEIGHT, |x, _| {
-            [if x < EDGE { SPEED } else { 0.0 }, 0.0]
-        }),
-        depth: Raster::from_fn(WIDTH, HEIGHT, |x, _| {
-            if x < EDGE { mover_depth } else { still_depth }
-        }),
-    }
+/// Runs the preset `motion_blur_demo` with changes.
+fn motion_blur_demo(picture: &Picture, changes: Changes) -> Image {
+    picture.blur("mcguire", "motion_blur_demo", changes)
 }
 
-impl Frame {
-    fn blurred(&self, filter: &str, preset: &str, changes: Changes) -> Image {
-        let gpu = Gpu::new(None).expect("these tests run filters");
-        let filter = Filter::builtin(filter).unwrap();
-        let mut settings = filter.settings(Some(preset)).unwrap();
-        for (parameter, value) in changes {
-            settings.set(&filter, parameter, value).unwrap();
-        }
-        let (width, height) = (self.color.width, self.color.height);
-        let mut blur = Blur::new(&gpu, &filter, &settings, width, height).unwrap();
-        let input = Input {
-            color: &[&self.color],
-            velocity: &self.velocity,
-            depth: &self.depth,
-            reprojection: None,
-            exposure: 1.0,
-            frame_index: 0,
-        };
-        blur.run(&input).unwrap().remove(0)
-    }
-
-    fn motion_blur_demo(&self, changes: Changes) -> Image {
-        self.blurred("mcguire", "motion_blur_demo", changes)
-    }
-}
-
-/// Returns what a pixel takes of the tap at -7 to 7 pixels from it, as parts of the whole.
+/// Returns the part that a pixel takes of the tap -7 to 7 pixels from it.
 fn tap_weights(changes: Changes) -> impl Fn(i64) -> f32 {
-    let output = steady(|x| if x == EDGE { 1.0 } else { 0.0 }).motion_blur_demo(changes);
+    let output = motion_blur_demo(&steady(|x| if x == EDGE { 1.0 } else { 0.0 }), changes);
     move |offset| output.at((i64::from(EDGE) - offset) as u32, HEIGHT / 2)[0]
 }
 
 #[test]
-fn distances_in_uv_make_far_taps_weigh_as_near_ones() {
+fn distances_in_uv_give_far_taps_the_weight_of_near_ones() {
     let published = tap_weights(&[("jitter", "none")]);
     let repaired = tap_weights(&[("jitter", "none"), ("distance", "to_pixel")]);
     for side in [-1, 1] {
@@ -90,9 +64,9 @@ fn distances_in_uv_make_far_taps_weigh_as_near_ones() {
 }
 
 #[test]
-fn it_is_a_box_of_what_moves_and_not_of_every_tap() {
+fn the_filter_averages_moving_taps_and_not_every_tap() {
     let changes: Changes = &[("jitter", "none"), ("center_tap", "skipped")];
-    let output = mover_beside_still(5.0, 5.0).motion_blur_demo(changes);
+    let output = motion_blur_demo(&mover_beside_still(5.0, 5.0), changes);
     for (beside, movers) in [(0, 7.0), (3, 4.0), (6, 1.0)] {
         // Each mover within reach weighs a cone of 0.99 to 1, near or far. Still taps weigh nothing on a still pixel,
         // whose own weight is 1 / 0.5.
@@ -107,10 +81,10 @@ fn it_is_a_box_of_what_moves_and_not_of_every_tap() {
 
 #[test]
 fn clamping_before_halving_halves_the_reach() {
-    let mut frame = steady(|x| if x < EDGE { 1.0 } else { 0.0 });
-    frame.velocity = frame.velocity.map(|_| [200.0, 0.0]);
+    let mut picture = steady(|x| if x < EDGE { 1.0 } else { 0.0 });
+    picture.velocity = picture.velocity.map(|_| [200.0, 0.0]);
     let reach = |changes: Changes| {
-        let output = frame.motion_blur_demo(changes);
+        let output = motion_blur_demo(&picture, changes);
         let lit = |x: &u32| (0..HEIGHT).any(|y| output.at(*x, y)[0] > 0.0);
         (EDGE..WIDTH - 25).filter(lit).count()
     };
@@ -122,17 +96,17 @@ fn clamping_before_halving_halves_the_reach() {
 }
 
 #[test]
-fn the_centre_tap_counts_beside_the_pixel_itself() {
-    // 15 or 14 taps of two cones and two cylinders, 4 each but for 1 %, and the pixel of 1/8.
+fn the_centre_tap_counts_in_addition_to_the_pixel() {
+    // 15 or 14 taps of two cones and two cylinders, 4 each within 1 %, and the pixel of 1/8.
     let kept = tap_weights(&[("jitter", "none")])(0);
     assert!((kept - 4.125 / 60.125).abs() < 1e-3, "{kept}");
     let skipped = tap_weights(&[("jitter", "none"), ("center_tap", "skipped")])(0);
     assert!((skipped - 0.125 / 56.125).abs() < 1e-3, "{skipped}");
 }
 
-/// Returns how far noise displaces the picture at each pixel, in pixels.
-fn displacements(changes: Changes) -> Vec<f32> {
-    let output = steady(|x| x as f32).motion_blur_demo(changes);
+/// Measures how far noise displaces the picture at each pixel, in pixels.
+fn measure_displacements(changes: Changes) -> Vec<f32> {
+    let output = motion_blur_demo(&steady(|x| x as f32), changes);
     let inner = 12..WIDTH - 12;
     inner
         .flat_map(|x| (0..HEIGHT).map(move |y| (x, y)))
@@ -146,8 +120,8 @@ fn deviation(values: &[f32]) -> f32 {
 
 #[test]
 fn a_jitter_of_a_whole_step_displaces_twice_as_far() {
-    let published = deviation(&displacements(&[("noise", "gradient")]));
-    let repaired = deviation(&displacements(&[
+    let published = deviation(&measure_displacements(&[("noise", "gradient")]));
+    let repaired = deviation(&measure_displacements(&[
         ("noise", "gradient"),
         ("jitter", "half_step"),
     ]));
@@ -166,14 +140,15 @@ fn a_jitter_of_a_whole_step_displaces_twice_as_far() {
 #[test]
 fn filtering_between_tiles_leaves_moving_pixels_unblurred() {
     let mut random = Random::new(1);
-    let frame = Frame {
+    let picture = Picture {
         color: Raster::from_fn(120, 20, |_, _| [random.real(0.0, 1.0); 3]),
         velocity: Raster::from_fn(120, 20, |x, _| [if x < 60 { SPEED } else { -SPEED }, 0.0]),
         depth: Raster::filled(120, 20, 5.0),
+        exposure: 1.0,
     };
     let unblurred = |changes: Changes| {
-        let output = frame.motion_blur_demo(changes);
-        let column = |x: &u32| (0..20).all(|y| output.at(*x, y) == frame.color.at(*x, y));
+        let output = motion_blur_demo(&picture, changes);
+        let column = |x: &u32| (0..20).all(|y| output.at(*x, y) == picture.color.at(*x, y));
         (0..120).filter(column).collect::<Vec<u32>>()
     };
     // Two tiles of opposite motion: halfway between their middles at 70 and 90 their mix is less than half a pixel.
@@ -182,30 +157,31 @@ fn filtering_between_tiles_leaves_moving_pixels_unblurred() {
 }
 
 #[test]
-fn what_moves_only_in_the_last_partial_tile_is_not_blurred() {
+fn motion_only_in_the_last_partial_tile_is_not_blurred() {
     let mut random = Random::new(2);
-    let frame = Frame {
+    let picture = Picture {
         color: Raster::from_fn(59, 40, |_, _| [random.real(0.0, 1.0); 3]),
         velocity: Raster::from_fn(59, 40, |x, _| [if x < 45 { 0.0 } else { SPEED }, 0.0]),
         depth: Raster::filled(59, 40, 5.0),
+        exposure: 1.0,
     };
-    assert!(frame.motion_blur_demo(&[]) == frame.color);
-    assert!(frame.motion_blur_demo(&[("tile_lookup", "own")]) != frame.color);
+    assert!(motion_blur_demo(&picture, &[]) == picture.color);
+    assert!(motion_blur_demo(&picture, &[("tile_lookup", "own")]) != picture.color);
 }
 
 #[test]
-fn the_hash_is_not_even() {
+fn the_hash_is_not_uniform() {
     // Displacements beyond half the largest, of 1 pixel.
     let far = |changes: Changes| {
-        let displacements = displacements(changes);
+        let displacements = measure_displacements(changes);
         let far = displacements
             .iter()
             .filter(|value| value.abs() > 0.5)
             .count();
         far as f64 / displacements.len() as f64
     };
-    // 2263 pixels: 3 sigma are 0.03. Even noise is far in half of them; the fraction of a sine in
-    // 1 + (asin 1/4 - asin 3/4) / (pi / 2) = 0.62.
+    // 2263 pixels: 3 sigma are 0.03. Even noise exceeds it in half of the pixels; the fraction of a sine does in 1 +
+    // (asin 1/4 - asin 3/4) / (pi / 2) = 0.62.
     let even = far(&[("noise", "gradient")]);
     assert!((even - 0.5).abs() < 0.03, "{even}");
     let published = far(&[]);
@@ -214,19 +190,17 @@ fn the_hash_is_not_even() {
 
 #[test]
 fn front_and_back_are_swapped() {
-    // Light on the still surface, four pixels from the edge: three taps of the mover reach it.
+    // Light on the still surface, four pixels from the edge, which three taps of the mover reach.
     let light = |mover: f32, still: f32, changes: Changes| {
         let mut all = vec![("jitter", "none"), ("center_tap", "skipped")];
         all.extend(changes);
-        mover_beside_still(mover, still)
-            .motion_blur_demo(&all)
-            .at(EDGE + 4, HEIGHT / 2)[0]
+        motion_blur_demo(&mover_beside_still(mover, still), &all).at(EDGE + 4, HEIGHT / 2)[0]
     };
     // Depth buffers of 0.5 and 0.9: a mover in front weighs 1 - 0.4 / 0.5, one behind 1.
     let (in_front, behind) = (light(0.2, 1.0, &[]), light(1.0, 0.2, &[]));
     assert!((in_front - 0.6 / 2.6).abs() < 0.005, "{in_front}");
     assert!((behind - 3.0 / 5.0).abs() < 0.005, "{behind}");
-    // From 5 m on, all is within a hundredth of the far plane, and depth decides next to nothing.
+    // From 5 m on, everything is within a hundredth of the far plane, and depth hardly matters.
     let (in_front, behind) = (light(5.0, 20.0, &[]), light(20.0, 5.0, &[]));
     assert!(
         behind - in_front < 0.01 && in_front < behind,
@@ -239,33 +213,34 @@ fn front_and_back_are_swapped() {
 
 #[test]
 fn colour_comes_from_the_opposite_border() {
-    let frame = steady(|x| if x == WIDTH - 1 { 1.0 } else { 0.0 });
-    assert!(frame.motion_blur_demo(&[]).at(0, HEIGHT / 2)[0] > 0.01);
-    assert_eq!(
-        frame
-            .motion_blur_demo(&[("fetch", "nearest")])
-            .at(0, HEIGHT / 2)[0],
-        0.0
-    );
+    let picture = steady(|x| if x == WIDTH - 1 { 1.0 } else { 0.0 });
+    let left = |changes: Changes| motion_blur_demo(&picture, changes).at(0, HEIGHT / 2)[0];
+    assert!(left(&[]) > 0.01);
+    assert_eq!(left(&[("fetch", "nearest")]), 0.0);
 }
 
 #[test]
-fn guertins_rule_for_diagonal_tiles_misses_what_heads_away() {
-    // A white mover at the corner where four tiles meet heads up and left; its centred smear reaches 15 pixels down and
-    // right too.
+fn guertin_s_rule_for_diagonal_tiles_misses_motion_away_from_the_tile() {
+    // A white mover at the corner of four tiles moves up and left; its centred smear reaches 15 pixels down and right,
+    // too.
     let mover = |x: u32, y: u32| (12..20).contains(&x) && (12..20).contains(&y);
-    let frame = Frame {
-        color: Raster::from_fn(40, 40, |x, y| [if mover(x, y) { 1.0 } else { 0.0 }; 3]),
-        velocity: Raster::from_fn(40, 40, |x, y| [if mover(x, y) { -30.0 } else { 0.0 }; 2]),
-        depth: Raster::from_fn(40, 40, |x, y| if mover(x, y) { 2.0 } else { 9.0 }),
-    };
+    let picture = Picture::new(40, 40, |x, y| match mover(x, y) {
+        true => Surface {
+            velocity: [-30.0; 2],
+            ..white(0.0)
+        },
+        false => Surface {
+            depth: 9.0,
+            ..BLACK_WALL
+        },
+    });
     let light = |rule: &str| {
         let changes = [
             ("tile_size", "20"),
             ("tile_blend", "0"),
             ("neighbor_rule", rule),
         ];
-        let output = frame.blurred("guertin", "paper", &changes);
+        let output = picture.blur("guertin", "paper", &changes);
         let diagonal = (20..40).flat_map(|y| (20..40).map(move |x| (x, y)));
         diagonal.map(|(x, y)| output.at(x, y)[0]).sum::<f32>()
     };

@@ -1,4 +1,4 @@
-//! Half-velocities, tiles and neighbourhoods in 64-bit floats; plain loops, nothing shared with the kernels.
+//! Half-velocities, tiles and neighbourhoods in 64-bit floats, as plain loops that share nothing with the kernels.
 
 use frame::Raster;
 
@@ -24,7 +24,7 @@ pub fn direction(a: Vec2) -> Vec2 {
     }
 }
 
-/// V of both papers for half the motion over the exposure, in pixels, with their epsilon of 1e-5.
+/// Computes V of both papers for half the motion over the exposure, in pixels, with their epsilon of 1e-5.
 pub fn half_velocity(half: Vec2, longest: f64) -> Vec2 {
     let speed = length(half);
     scaled(half, speed.min(longest).max(0.5) / (speed + 1e-5))
@@ -38,7 +38,7 @@ pub struct Tiles<'r> {
 }
 
 impl Tiles<'_> {
-    /// Columns and rows, the last partial ones included.
+    /// Returns the number of columns and rows, including partial ones.
     pub fn count(&self) -> [i64; 2] {
         self.image
             .map(|side| side / self.side + i64::from(side % self.side > 0))
@@ -64,7 +64,7 @@ impl Tiles<'_> {
         [horizontal.into(), vertical.into()]
     }
 
-    /// A tile and the up to eight around it: their offsets and half-velocities.
+    /// Returns a tile and the up to eight around it: their offsets and half-velocities.
     pub fn around(&self, tile: [i64; 2]) -> impl Iterator<Item = ([i64; 2], Vec2)> {
         let offsets = (-1..=1).flat_map(|y| (-1..=1).map(move |x| [x, y]));
         offsets.filter_map(move |offset| {
@@ -74,7 +74,7 @@ impl Tiles<'_> {
         })
     }
 
-    /// 1 - the mean |cosine| between a tile's half-velocity and those around it, of tiles that move.
+    /// Computes 1 - the mean |cosine| between a tile's half-velocity and those of the moving tiles around it.
     pub fn variance(&self, tile: [i64; 2]) -> f64 {
         let own = direction(self.vector(tile));
         let cosines: Vec<f64> = self
@@ -89,14 +89,14 @@ impl Tiles<'_> {
     }
 }
 
-/// Returns whether a tile's half-velocity counts for the one that sees it at `offset`.
+/// Returns whether a tile's half-velocity counts for the tile that sees it at `offset`.
 pub fn counts(rule: &str, offset: [i64; 2], vector: Vec2) -> bool {
     let offset = offset.map(|component| component as f64);
     let diagonal = offset[0] != 0.0 && offset[1] != 0.0;
     match rule {
         "all" => true,
         _ if !diagonal => true,
-        // Towards the middle: against the offset.
+        // Towards the middle means against the offset.
         "toward" => dot(vector, scaled(offset, -1.0)) > 0.0,
         "either_way" => {
             let signs = [0, 1].map(|axis| (vector[axis] * offset[axis]).signum());

@@ -7,20 +7,29 @@ use crate::random::Random;
 
 type Change = fn(&mut Vec<u8>, &Source, &mut Random);
 
-const CHANGES: [Change; 8] = [flip, replace, word, insert, remove, repeat, cut, splice];
+const CHANGES: [Change; 8] = [
+    flip,
+    replace,
+    write_number,
+    insert,
+    remove,
+    repeat,
+    cut,
+    splice,
+];
 
-/// Changes something.
+/// Applies a random change.
 pub fn change(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
     random.pick(&CHANGES)(input, source, random);
 }
 
-/// A place in the input, its end included.
+/// Picks a position in the input, or its end.
 pub fn place(input: &[u8], random: &mut Random) -> usize {
     random.below(input.len() + 1)
 }
 
-/// A piece of the input.
-pub fn piece(input: &[u8], random: &mut Random) -> std::ops::Range<usize> {
+/// Picks a piece of the input.
+pub fn pick_piece(input: &[u8], random: &mut Random) -> std::ops::Range<usize> {
     let start = place(input, random);
     let length = random.magnitude(input.len().max(1));
     start..(start + length).min(input.len())
@@ -40,8 +49,8 @@ fn replace(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
     }
 }
 
-/// Two or four bytes that are a length or a number at its border.
-fn word(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
+/// Writes two or four bytes that are a length or a number at a limit.
+fn write_number(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
     const NUMBERS: [u32; 12] = [
         0,
         1,
@@ -62,7 +71,7 @@ fn word(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
         false => number.to_be_bytes(),
     };
     let start = place(input, random);
-    // Headers are where lengths stand.
+    // Lengths lie in headers.
     let start = match random.once_in(2) {
         true => start.min(random.below(64)),
         false => start,
@@ -80,12 +89,12 @@ fn insert(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
 }
 
 fn remove(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
-    let piece = piece(input, random);
+    let piece = pick_piece(input, random);
     input.drain(piece);
 }
 
 fn repeat(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
-    let range = piece(input, random);
+    let range = pick_piece(input, random);
     let piece = input[range.clone()].to_vec();
     let count = random.magnitude(64).min(1 + 100_000 / piece.len().max(1));
     input.splice(range.end..range.end, piece.repeat(count));
@@ -96,7 +105,7 @@ fn cut(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
     input.truncate(end);
 }
 
-/// Goes on as another input does.
+/// Continues as another input does.
 fn splice(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
     let end = place(input, random);
     input.truncate(end);

@@ -19,7 +19,7 @@ pub fn change(input: &mut Vec<u8>, place: &Place, random: &mut Random) {
         1 => {
             let at = random.below(file.channels.len());
             let mut copy = file.channels[at].clone();
-            copy.name = name(&file, random);
+            copy.name = pick_name(&file, random);
             if file
                 .channels
                 .iter()
@@ -28,9 +28,9 @@ pub fn change(input: &mut Vec<u8>, place: &Place, random: &mut Random) {
                 file.channels[at] = copy;
             }
         }
-        2 => size(&mut file, random),
-        3 | 4 => values(&mut file, random),
-        _ => attribute(&mut file, random),
+        2 => change_size(&mut file, random),
+        3 | 4 => change_values(&mut file, random),
+        _ => change_attribute(&mut file, random),
     }
     if file.channels.is_empty() {
         return;
@@ -40,9 +40,9 @@ pub fn change(input: &mut Vec<u8>, place: &Place, random: &mut Random) {
     }
 }
 
-fn name(file: &ExrFile, random: &mut Random) -> String {
+fn pick_name(file: &ExrFile, random: &mut Random) -> String {
     match random.once_in(3) {
-        true => format!("coverage.{}", text(random)),
+        true => format!("coverage.{}", make_text(random)),
         false => {
             file.channels[random.below(file.channels.len())]
                 .name
@@ -52,16 +52,16 @@ fn name(file: &ExrFile, random: &mut Random) -> String {
     }
 }
 
-/// A text that the format holds.
-fn text(random: &mut Random) -> String {
+/// Makes a text that the format can hold.
+fn make_text(random: &mut Random) -> String {
     let text = random.pick(&TEXTS);
     text.chars()
         .filter(|c| c.is_ascii() && *c != '\0')
         .collect()
 }
 
-/// Another size, with as many samples as that takes.
-fn size(file: &mut ExrFile, random: &mut Random) {
+/// Changes the size, with the right number of samples.
+fn change_size(file: &mut ExrFile, random: &mut Random) {
     (file.width, file.height) = (1 + random.below(20) as u32, 1 + random.below(20) as u32);
     let count = (file.width * file.height) as usize;
     for Channel { samples, .. } in &mut file.channels {
@@ -72,8 +72,8 @@ fn size(file: &mut ExrFile, random: &mut Random) {
     }
 }
 
-/// Some samples of a channel, or its kind.
-fn values(file: &mut ExrFile, random: &mut Random) {
+/// Changes some samples of a channel, or its kind.
+fn change_values(file: &mut ExrFile, random: &mut Random) {
     const FLOATS: [f32; 10] = [
         0.0,
         -0.0,
@@ -99,7 +99,7 @@ fn values(file: &mut ExrFile, random: &mut Random) {
     }
 }
 
-fn attribute(file: &mut ExrFile, random: &mut Random) {
+fn change_attribute(file: &mut ExrFile, random: &mut Random) {
     let names: Vec<String> = file.attributes.keys().cloned().collect();
     if names.is_empty() {
         return;
@@ -111,7 +111,7 @@ fn attribute(file: &mut ExrFile, random: &mut Random) {
             file.attributes.remove(&name);
             return;
         }
-        1 => text(random),
+        1 => make_text(random),
         2 => format!("{old} {old}"),
         3 => file.attributes[random.pick(&names)].clone(),
         _ => (*random.pick(&NUMBERS)).to_owned(),

@@ -1,4 +1,4 @@
-//! Changes that make other inputs from inputs.
+//! Changes that turn inputs into other inputs.
 
 #![expect(
     clippy::explicit_auto_deref,
@@ -20,7 +20,7 @@ use crate::target::{Shape, Target};
 /// Longest input that is made.
 const LONGEST: usize = 400_000;
 
-/// First bytes of files.
+/// First bytes of PNG files.
 const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
 const EXR: &[u8] = b"\x76\x2F\x31\x01";
 
@@ -32,14 +32,14 @@ pub struct Source<'a> {
     pub other: &'a [u8],
 }
 
-/// One of the inputs, changed once or a few times.
+/// Changes one of the inputs, once or a few times.
 pub fn mutate(target: &Target, place: &Place, seeds: &[&[u8]], random: &mut Random) -> Vec<u8> {
     let mut input = random.pick(seeds).to_vec();
     let source = Source {
         tokens: target.tokens,
         other: *random.pick(seeds),
     };
-    // Half of the files are spoilt as bytes, too.
+    // Half of the files get wrong bytes, too.
     let whole = !random.once_in(2);
     for _ in 0..random.magnitude(4) {
         match target.shape {

@@ -12,7 +12,7 @@ type Chunk = ([u8; 4], Vec<u8>);
 
 /// Changes, doubles, moves or removes a chunk.
 pub fn change(input: &mut Vec<u8>, random: &mut Random) {
-    let mut chunks = chunks(input);
+    let mut chunks = read_chunks(input);
     if chunks.is_empty() {
         return;
     }
@@ -21,7 +21,7 @@ pub fn change(input: &mut Vec<u8>, random: &mut Random) {
         0 => drop(chunks.remove(at)),
         1 => chunks.insert(at, chunks[at].clone()),
         2 => chunks.swap(at, 0),
-        3 => header(&mut chunks[0].1, random),
+        3 => change_header(&mut chunks[0].1, random),
         _ => {
             let none = Source {
                 tokens: &[],
@@ -47,8 +47,8 @@ pub fn push(file: &mut Vec<u8>, name: [u8; 4], content: &[u8]) {
     file.extend(crc.sum().to_be_bytes());
 }
 
-/// Another size, depth, kind of colour or interlacing.
-fn header(content: &mut [u8], random: &mut Random) {
+/// Changes the size, depth, kind of colour or interlacing.
+fn change_header(content: &mut [u8], random: &mut Random) {
     if content.len() < 13 {
         return;
     }
@@ -62,7 +62,7 @@ fn header(content: &mut [u8], random: &mut Random) {
     }
 }
 
-fn chunks(input: &[u8]) -> Vec<Chunk> {
+fn read_chunks(input: &[u8]) -> Vec<Chunk> {
     let mut chunks = Vec::new();
     let mut rest = input.get(SIGNATURE..).unwrap_or_default();
     while let [a, b, c, d, name @ ..] = rest {

@@ -8,27 +8,27 @@ use crate::tokens::{NUMBERS, TEXTS};
 
 type Change = fn(&mut Vec<u8>, &Source, &mut Random);
 
-/// Numbers, texts and words of the format go wrong most often.
+/// Changes. Numbers, texts and words of the format stand in the list more often.
 const CHANGES: [Change; 16] = [
-    number,
-    number,
-    number,
-    quoted,
-    quoted,
-    token,
-    token,
-    line_token,
-    word,
-    word,
+    change_number,
+    change_number,
+    change_number,
+    change_quoted,
+    change_quoted,
+    insert_token,
+    insert_token,
+    insert_line_token,
+    change_word,
+    change_word,
     repeat_line,
     remove_line,
     swap_lines,
     borrow_line,
     nest,
-    bracket,
+    change_bracket,
 ];
 
-/// Brackets that may stand in one another.
+/// Brackets that can be nested.
 const BRACKETS: [(&str, &str); 7] = [
     ("[", "]"),
     ("{", "}"),
@@ -39,19 +39,19 @@ const BRACKETS: [(&str, &str); 7] = [
     ("{ ", " }"),
 ];
 
-/// Changes something.
+/// Applies a random change.
 pub fn change(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
     random.pick(&CHANGES)(input, source, random);
 }
 
-/// Another number in the place of one.
-fn number(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
+/// Replaces a number.
+fn change_number(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
     let is_number = |word: &[u8]| matches!(word.first(), Some(b'0'..=b'9' | b'-' | b'.'));
-    let numbers: Vec<Range<usize>> = (words(input).into_iter())
+    let numbers: Vec<Range<usize>> = (find_words(input).into_iter())
         .filter(|range| is_number(&input[range.clone()]))
         .collect();
     if numbers.is_empty() {
-        return token(input, source, random);
+        return insert_token(input, source, random);
     }
     let range = random.pick(&numbers).clone();
     let new = match random.below(4) {
@@ -62,11 +62,11 @@ fn number(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
     input.splice(range, new.into_bytes());
 }
 
-/// Another text between quotes.
-fn quoted(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
+/// Replaces a text between quotes.
+fn change_quoted(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
     let quotes: Vec<usize> = (0..input.len()).filter(|at| input[*at] == b'"').collect();
     if quotes.len() < 2 {
-        return word(input, source, random);
+        return change_word(input, source, random);
     }
     let first = random.below(quotes.len() - 1);
     let range = quotes[first] + 1..quotes[first + 1];
@@ -82,26 +82,26 @@ fn quoted(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
     input.splice(range, new.into_bytes());
 }
 
-/// A word of the format anywhere.
-fn token(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
+/// Inserts a word of the format anywhere.
+fn insert_token(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
     let at = match random.once_in(2) {
         true => random.below(input.len() + 1),
-        false => random.pick(&words(input)).start,
+        false => random.pick(&find_words(input)).start,
     };
     let token = some_token(source, random);
     input.splice(at..at, token.bytes());
 }
 
-/// A word of the format before some line.
-fn line_token(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
-    let at = random.pick(&lines(input)).start;
+/// Inserts a word of the format before a line.
+fn insert_line_token(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
+    let at = random.pick(&find_lines(input)).start;
     let token = some_token(source, random);
     input.splice(at..at, token.bytes());
 }
 
-/// Another word in the place of one.
-fn word(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
-    let words = words(input);
+/// Replaces a word.
+fn change_word(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
+    let words = find_words(input);
     let range = random.pick(&words).clone();
     let new = match random.once_in(2) {
         true => some_token(source, random).trim_end().as_bytes().to_vec(),
@@ -111,33 +111,33 @@ fn word(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
 }
 
 fn repeat_line(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
-    let range = random.pick(&lines(input)).clone();
+    let range = random.pick(&find_lines(input)).clone();
     let line = input[range.clone()].to_vec();
     let count = random.magnitude(2_000).min(1 + 100_000 / line.len().max(1));
     input.splice(range.end..range.end, line.repeat(count));
 }
 
 fn remove_line(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
-    let range = random.pick(&lines(input)).clone();
+    let range = random.pick(&find_lines(input)).clone();
     input.drain(range);
 }
 
 fn swap_lines(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
-    let lines = lines(input);
+    let lines = find_lines(input);
     let (from, to) = (random.pick(&lines).clone(), random.pick(&lines).start);
     let line = input[from.clone()].to_vec();
     input.splice(to..to, line);
 }
 
 fn borrow_line(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
-    let line = random.pick(&lines(source.other)).clone();
-    let at = random.pick(&lines(input)).start;
+    let line = random.pick(&find_lines(source.other)).clone();
+    let at = random.pick(&find_lines(input)).start;
     input.splice(at..at, source.other[line].to_vec());
 }
 
-/// Brackets in brackets in brackets, around a word.
+/// Nests brackets around a word.
 fn nest(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
-    let range = random.pick(&words(input)).clone();
+    let range = random.pick(&find_words(input)).clone();
     let (open, close) = *random.pick(&BRACKETS);
     let depth = random.magnitude(20_000);
     let inner = input[range.clone()].to_vec();
@@ -149,8 +149,8 @@ fn nest(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
     input.splice(range, nested);
 }
 
-/// A bracket or comma goes, or comes twice.
-fn bracket(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
+/// Removes or doubles a bracket or comma.
+fn change_bracket(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
     let marks = b"[]{}(),:=\"'\n";
     let places: Vec<usize> = (0..input.len())
         .filter(|at| marks.contains(&input[*at]))
@@ -172,8 +172,8 @@ fn some_token<'a>(source: &Source<'a>, random: &mut Random) -> &'a str {
     }
 }
 
-/// Words and numbers; an empty one at the end where there are none.
-fn words(input: &[u8]) -> Vec<Range<usize>> {
+/// Finds words and numbers. Without any, returns an empty range at the end.
+fn find_words(input: &[u8]) -> Vec<Range<usize>> {
     let is_part = |byte: u8| byte.is_ascii_alphanumeric() || b"_-.+".contains(&byte);
     let mut words = Vec::new();
     let mut start = None;
@@ -194,8 +194,8 @@ fn words(input: &[u8]) -> Vec<Range<usize>> {
     words
 }
 
-/// Lines with their ends; an empty one where there are none.
-fn lines(input: &[u8]) -> Vec<Range<usize>> {
+/// Finds lines with their ends. Without any, returns an empty range.
+fn find_lines(input: &[u8]) -> Vec<Range<usize>> {
     let mut start = 0;
     let mut lines: Vec<Range<usize>> = (input.split_inclusive(|byte| *byte == b'\n'))
         .map(|line| {

@@ -4,7 +4,7 @@ use super::Source;
 use crate::random::Random;
 use crate::tokens::TEXTS;
 
-/// Puts in, takes out or replaces a word, or goes on as another command line does.
+/// Inserts, removes or replaces a word, or continues as another command line does.
 pub fn change(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
     let text = String::from_utf8_lossy(input).into_owned();
     let mut words: Vec<String> = text.split('\n').map(str::to_owned).collect();

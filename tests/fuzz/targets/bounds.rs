@@ -9,7 +9,7 @@ use suite::{
 use super::run_json::of;
 use crate::huge;
 use crate::place::Place;
-use crate::seeds::{Seed, shipped};
+use crate::seeds::{Seed, read_shipped};
 use crate::target::{Shape, Target};
 use crate::tokens;
 
@@ -22,7 +22,7 @@ pub static TARGET: Target = Target {
     tokens: tokens::BOUNDS,
     seeds: |place| {
         let mut seeds = vec![of(place, "scenes/bounds.toml")];
-        seeds.extend(shipped("scenes", "bounds.toml").into_iter().take(8));
+        seeds.extend(read_shipped("scenes", "bounds.toml").into_iter().take(8));
         seeds.extend([Seed::Made(huge::deep_toml), Seed::Made(huge::long_key)]);
         seeds
     },
@@ -34,7 +34,7 @@ fn run(place: &mut Place, input: &[u8]) {
         place.filters =
             select_filters(&Filter::builtin_names(), None, &[], Programs::Refused).unwrap();
     }
-    let root = place.copied("scenes");
+    let root = place.copy("scenes");
     let path = place.write("scenes/bounds.toml", input);
     drop(read_bounds_file(&path));
     let scene = root.join("plate");

@@ -15,7 +15,7 @@ use crate::tokens;
 /// Exit codes that the README names.
 const CODES: [i32; 5] = [0, 1, 2, 3, 4];
 
-/// A program that was asked for much may work so long, and is then ended.
+/// Time limit for a program with much work; it is then ended.
 const PATIENCE: Duration = Duration::from_secs(5);
 
 /// Command lines in a folder with scenes, a run and a tuning.
@@ -33,7 +33,7 @@ pub static TARGET: Target = Target {
     },
     run: |place, input| {
         for name in ["scenes", "out", "tuned", "study", "base.json"] {
-            place.copied(name);
+            place.copy(name);
         }
         let words: Vec<&OsStr> = (input.split(|byte| *byte == b'\n'))
             .filter(|word| !word.contains(&0) && *word != b"/")
@@ -43,7 +43,7 @@ pub static TARGET: Target = Target {
     },
 };
 
-/// Runs the program; panics unless it ends with a code that it documents.
+/// Runs the program; panics unless it ends with a documented code.
 pub fn shuttertruth(place: &Place, words: &[impl AsRef<OsStr>]) {
     let mut stderr: File = tempfile::tempfile().expect("a file for temporary text");
     let mut child = Command::new(PROGRAM)
@@ -78,7 +78,7 @@ pub fn shuttertruth(place: &Place, words: &[impl AsRef<OsStr>]) {
     );
 }
 
-/// Returns whether some number is so large that the work may be, or the scenes and filters are all there are.
+/// Returns whether a number is large enough for much work, or all scenes and filters are asked for.
 fn asks_for_much(words: &[impl AsRef<OsStr>]) -> bool {
     let words: Vec<String> = (words.iter())
         .map(|word| word.as_ref().to_string_lossy().into_owned())

@@ -9,7 +9,7 @@ use suite::{merge, read_finished_picture, score};
 use super::none;
 use crate::fixture::files;
 use crate::huge;
-use crate::seeds::{Seed, shipped};
+use crate::seeds::{Seed, read_shipped};
 use crate::target::{Shape, Target};
 
 /// Frames, truths and ladders, as `score` reads them.
@@ -42,8 +42,8 @@ pub static EXR: Target = Target {
         let path = place.write("input.exr", input);
         drop(read_exr(&path));
         drop(Replicate::read(&path).map(|replicate| Truth::of(&[replicate.clone(), replicate])));
-        let scene = place.copied("out").join("plate");
-        let [frame, truth, ladder] = rendered(&scene);
+        let scene = place.copy("out").join("plate");
+        let [frame, truth, ladder] = rendered_files(&scene);
         if Frame::read(&path).is_ok() {
             score_picture(&path, &truth, None, &scene);
         }
@@ -70,12 +70,12 @@ pub static PICTURE: Target = Target {
         let mut seeds: Vec<Seed> = (pictures.iter())
             .map(|path| Seed::Bytes(fs::read(path).unwrap()))
             .collect();
-        seeds.extend(shipped("tests/fuzz/corpus/texture", ""));
+        seeds.extend(read_shipped("tests/fuzz/corpus/texture", ""));
         seeds
     },
     run: |place, input| {
-        let scene = place.copied("out").join("plate");
-        let [frame, truth, _] = rendered(&scene).map(PathBuf::from);
+        let scene = place.copy("out").join("plate");
+        let [frame, truth, _] = rendered_files(&scene).map(PathBuf::from);
         let end = match input.starts_with(b"\x89PNG") {
             true => "png",
             false => "exr",
@@ -105,7 +105,7 @@ pub static MERGE: Target = Target {
         seeds.take(4).collect()
     },
     run: |place, input| {
-        let part = place.copied("out");
+        let part = place.copy("out");
         let replicates = files(&part, ".exr");
         let one = (replicates.iter())
             .find(|path| path.to_string_lossy().contains("replicate_"))
@@ -117,12 +117,12 @@ pub static MERGE: Target = Target {
     },
 };
 
-/// Frame, truth and ladder of a scene's folder.
-fn rendered(scene: &Path) -> [PathBuf; 3] {
+/// Returns the frame, truth and ladder of a scene's folder.
+fn rendered_files(scene: &Path) -> [PathBuf; 3] {
     ["frame.exr", "truth_trailing.exr", "ladder_trailing.exr"].map(|name| scene.join(name))
 }
 
-/// Scores as `score` does, with one file of another origin; some picture of the run is scored.
+/// Scores a picture of the run as `score` does; one of the files is foreign.
 fn score_picture(frame: &Path, truth: &Path, ladder: Option<&Path>, scene: &Path) {
     let (Ok(frame), Ok(truth)) = (Frame::read(frame), Truth::read(truth)) else {
         return;

@@ -1,4 +1,4 @@
-//! Filter folders, read and checked; nothing runs.
+//! Filter folders, read and checked but not run.
 
 use std::path::PathBuf;
 
@@ -7,7 +7,7 @@ use filters::Filter;
 
 use crate::huge;
 use crate::place::Place;
-use crate::seeds::{Seed, shipped};
+use crate::seeds::{Seed, read_shipped};
 use crate::target::{Shape, Target};
 use crate::tokens;
 
@@ -19,7 +19,7 @@ pub static MANIFEST: Target = Target {
     shape: Shape::Text,
     tokens: tokens::FILTER,
     seeds: |_| {
-        let mut seeds = shipped("shaders", "filter.toml");
+        let mut seeds = read_shipped("shaders", "filter.toml");
         seeds.extend([Seed::Made(huge::deep_toml), Seed::Made(huge::long_key)]);
         seeds
     },
@@ -59,7 +59,7 @@ pub static WGSL: Target = Target {
     run: |place, input| drop(Filter::load(&write(place, input))),
 };
 
-/// Kernels of all built-in filters, each with a line that says whose they are.
+/// Returns the kernels of all built-in filters, each with a line that names its filter.
 pub fn sources() -> Vec<Seed> {
     let names = Filter::builtin_names();
     let sources = names.iter().map(|name| {
@@ -69,7 +69,7 @@ pub fn sources() -> Vec<Seed> {
     sources.collect()
 }
 
-/// Kernels that are deeper than a stack, for the identity.
+/// Returns kernels for the identity that are deeper than a stack.
 pub fn hostile() -> [Seed; 6] {
     [
         Seed::Made(huge::long_sum),
@@ -83,7 +83,7 @@ pub fn hostile() -> [Seed; 6] {
 
 const MARK: &str = "// filter: ";
 
-/// Makes a filter folder of kernels: with the manifest of the filter that their first line names, or the identity's.
+/// Makes a filter folder of kernels, with the manifest of the filter that their first line names, or the identity's.
 pub fn write(place: &Place, input: &[u8]) -> PathBuf {
     let line = input
         .split(|byte| *byte == b'\n')
@@ -94,21 +94,21 @@ pub fn write(place: &Place, input: &[u8]) -> PathBuf {
     let names = Filter::builtin_names();
     let name = (names.iter().find(|known| *known == name)).map_or("identity", String::as_str);
     place.write(&format!("{name}/{name}.wgsl"), input);
-    let manifest = shipped(&format!("shaders/{name}"), "filter.toml");
+    let manifest = read_shipped(&format!("shaders/{name}"), "filter.toml");
     let [Seed::Bytes(manifest)] = manifest.as_slice() else {
         panic!("{name} has a filter.toml");
     };
     let manifest = String::from_utf8_lossy(manifest);
     place.write(
         &format!("{name}/filter.toml"),
-        // A pass that runs takes no longer.
+        // No pass may run longer.
         format!("time_limit = 5\n{manifest}"),
     );
     place.folder.join(name)
 }
 
 fn kernels(name: &str) -> String {
-    let found = shipped(&format!("shaders/{name}"), ".wgsl");
+    let found = read_shipped(&format!("shaders/{name}"), ".wgsl");
     let [Seed::Bytes(kernels)] = found.as_slice() else {
         panic!("{name} has one file of kernels");
     };

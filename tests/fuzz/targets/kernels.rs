@@ -1,4 +1,4 @@
-//! Kernels; those that can be loaded are run.
+//! Kernels, which are run if they load.
 
 use filters::{Blur, Filter, Gpu, Input};
 use frame::{Image, Plane, Raster, Vectors};

@@ -18,7 +18,7 @@ pub use serve::Service;
 
 use crate::target::Target;
 
-/// All of them.
+/// All targets.
 pub static ALL: [&Target; 25] = [
     &scene::SCENE,
     &scene::OBJ,
@@ -47,7 +47,7 @@ pub static ALL: [&Target; 25] = [
     &planted::TARGET,
 ];
 
-/// No tokens.
+/// Returns no tokens.
 const fn none() -> &'static [&'static str] {
     &[]
 }

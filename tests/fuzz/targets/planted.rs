@@ -7,7 +7,7 @@ use crate::place::Place;
 use crate::seeds::Seed;
 use crate::target::{Shape, Target};
 
-/// Inputs, by what they do.
+/// Inputs, named after what they do.
 pub const PLANTED: [&str; 8] = [
     "hang",
     "nothing",
@@ -19,7 +19,7 @@ pub const PLANTED: [&str; 8] = [
     "canary",
 ];
 
-/// Not among the targets that are fuzzed.
+/// Target that the fuzzer skips.
 pub static TARGET: Target = Target {
     name: "planted",
     share: 0,

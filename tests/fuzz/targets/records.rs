@@ -1,4 +1,4 @@
-//! Records of earlier measurements: case.json and frame.json, with right seals.
+//! Records of earlier measurements: case.json and frame.json, with valid seals.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -15,7 +15,7 @@ use crate::seeds::Seed;
 use crate::target::{Shape, Target};
 use crate::tokens;
 
-/// A record, read by the same `run` that wrote it.
+/// Records that the same `run` reads back.
 pub static TARGET: Target = Target {
     name: "records",
     share: 50,
@@ -31,16 +31,16 @@ pub static TARGET: Target = Target {
         seeds.collect()
     },
     run: |place, input| {
-        place.copied("scenes");
-        place.copied_anew("out");
-        fs::write(record(place, input), sealed(input)).unwrap();
+        place.copy("scenes");
+        place.copy_again("out");
+        fs::write(record(place, input), add_seal(input)).unwrap();
         let filters = ["--filters", "velocity_gather:departure,mcguire:paper"];
         let words = [&["run"], &RENDER[..], &filters, &["--out", "out"]].concat();
         shuttertruth(place, &words);
     },
 };
 
-/// Returns the place of a record of that kind.
+/// Returns the path of a record of this kind.
 fn record(place: &Place, input: &[u8]) -> PathBuf {
     let is_frame = input.windows(9).any(|it| it == b"frame.exr");
     let end = match is_frame {
@@ -51,8 +51,8 @@ fn record(place: &Place, input: &[u8]) -> PathBuf {
     found.first().expect("a run leaves records").clone()
 }
 
-/// Gives a record the seal that fits its content; leaves anything else as it is.
-fn sealed(input: &[u8]) -> Vec<u8> {
+/// Gives a record a valid seal; leaves anything else unchanged.
+fn add_seal(input: &[u8]) -> Vec<u8> {
     let Ok(mut record) = serde_json::from_slice::<Value>(input) else {
         return input.to_vec();
     };

@@ -27,7 +27,7 @@ pub static RUN: Target = Target {
     tokens: tokens::JSON,
     seeds: |place| vec![of(place, "out/run.json"), Seed::Made(huge::deep_json)],
     run: |place, input| {
-        let folder = place.copied("out");
+        let folder = place.copy("out");
         let path = place.write("out/run.json", input);
         let Ok(run) = Run::read(&path) else {
             return;
@@ -71,7 +71,7 @@ pub static BENCH: Target = Target {
     tokens: tokens::JSON,
     seeds: |place| vec![of(place, "out/bench.json"), Seed::Made(huge::deep_json)],
     run: |place, input| {
-        let folder = place.copied("out");
+        let folder = place.copy("out");
         place.write("out/bench.json", input);
         let run = Run::read(&folder.join("run.json")).unwrap();
         write_page(&run, &[], &folder);
@@ -87,7 +87,7 @@ pub static JUDGEMENT: Target = Target {
     tokens: tokens::JSON,
     seeds: |place| vec![of(place, "out/judgement.json"), Seed::Made(huge::deep_json)],
     run: |place, input| {
-        let folder = place.copied("out");
+        let folder = place.copy("out");
         place.write("out/judgement.json", input);
         let run = Run::read(&folder.join("run.json")).unwrap();
         if let Ok(Some(judgement)) = Judgement::read(&run, &folder) {
@@ -96,9 +96,9 @@ pub static JUDGEMENT: Target = Target {
     },
 };
 
-/// A file of the fixture.
+/// Reads a file of the fixture as a seed.
 pub fn of(place: &Place, name: &str) -> Seed {
-    // The self-test has no fixture, and makes none of these.
+    // The self-test has no fixture, and needs none of these.
     Seed::Bytes(fs::read(place.fixture.join(name)).unwrap_or_default())
 }
 
@@ -115,7 +115,7 @@ fn read_by_all(run: &Run, folder: &Path, place: &Place) {
     let _ = fs::remove_dir_all(layers);
 }
 
-/// The fixture's bounds, for every scene that the run names.
+/// Reads the fixture's bounds for every scene that the run names.
 fn bounds(run: &Run, place: &Place) -> RunBounds {
     let root = place.fixture.join("scenes");
     let own = read_bounds(&root, &root.join("plate")).unwrap();
@@ -134,12 +134,12 @@ fn show(
     comparisons: Vec<suite::BaselineComparison>,
     out: &Path,
 ) {
-    let check = check(run, findings, comparisons);
-    drop(check_text(&check, out, true));
-    drop(junit(&check));
-    drop(summary(&check));
-    drop(annotations(&check));
-    drop(check.verdict());
+    let checked = check(run, findings, comparisons);
+    drop(check_text(&checked, out, true));
+    drop(junit(&checked));
+    drop(summary(&checked));
+    drop(annotations(&checked));
+    drop(checked.verdict());
 }
 
 fn accept_run(run: &Run, old: Option<Baseline>) {

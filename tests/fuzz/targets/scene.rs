@@ -13,7 +13,7 @@ use tracer::{
 use super::none;
 use crate::huge;
 use crate::place::Place;
-use crate::seeds::{Seed, shipped};
+use crate::seeds::{Seed, read_shipped};
 use crate::target::{Shape, Target};
 use crate::tokens;
 
@@ -25,7 +25,7 @@ pub static SCENE: Target = Target {
     shape: Shape::Text,
     tokens: tokens::SCENE,
     seeds: |_| {
-        let mut seeds: Vec<Seed> = shipped("scenes", "scene.toml")
+        let mut seeds: Vec<Seed> = read_shipped("scenes", "scene.toml")
             .iter()
             .map(at_home)
             .collect();
@@ -65,7 +65,7 @@ pub static OBJ: Target = Target {
     run: |place, input| {
         write(place, "mesh.obj", input);
         if let Some(scene) = load(place) {
-            // The tree is built, and a few rays are traced.
+            // Builds the tree and traces a few rays.
             render(&scene);
         }
     },
@@ -85,14 +85,14 @@ pub static MTL: Target = Target {
     },
 };
 
-/// OBJ files that `import` makes scenes of.
+/// OBJ files that `import` turns into scenes.
 pub static IMPORT: Target = Target {
     name: "import",
     share: 400,
     batch: 250,
     shape: Shape::Text,
     tokens: tokens::MODEL,
-    seeds: |_| shipped("tests/fuzz/corpus/obj", ""),
+    seeds: |_| read_shipped("tests/fuzz/corpus/obj", ""),
     run: |place, input| {
         let folder = write(place, "mesh.obj", input);
         let out = place.folder.join("imported");
@@ -112,7 +112,7 @@ pub static IMPORT: Target = Target {
     },
 };
 
-/// Scenes that are rendered where they can be loaded.
+/// Scenes that are rendered if they load.
 pub static RENDER: Target = Target {
     name: "render",
     share: 800,
@@ -148,7 +148,7 @@ pub static TEXTURE: Target = Target {
     },
 };
 
-/// A shipped scene with the only mesh that there is.
+/// Changes a shipped scene to use the only mesh that is there.
 fn at_home(seed: &Seed) -> Seed {
     let Seed::Bytes(text) = seed else {
         unreachable!("a file is bytes");
@@ -165,7 +165,7 @@ fn at_home(seed: &Seed) -> Seed {
     Seed::Bytes(lines.collect::<String>().into_bytes())
 }
 
-/// Writes one file of a scene folder whose other files are right, and returns the folder.
+/// Writes one file of a scene folder whose other files are valid, and returns the folder.
 fn write(place: &Place, name: &str, input: &[u8]) -> PathBuf {
     let folder = place.folder.join("scenes/square");
     if !folder.exists() {
@@ -196,7 +196,7 @@ fn load(place: &Place) -> Option<Scene> {
     load_scene(&listing.folder, None).ok()
 }
 
-/// A frame and a truth of a few pixels. What is rendered holds numbers.
+/// Renders a frame and a truth of a few pixels, which must be finite.
 fn render(scene: &Scene) {
     let watch = &|_| ControlFlow::Continue(());
     let frame = FrameSettings {

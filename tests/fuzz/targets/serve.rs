@@ -1,4 +1,4 @@
-//! The lines that `serve` reads.
+//! Lines that `serve` reads.
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
@@ -11,7 +11,7 @@ use crate::seeds::Seed;
 use crate::target::{Shape, Target};
 use crate::tokens;
 
-/// Lines of standard input, to a program that goes on.
+/// Lines of standard input to a running program.
 pub static TARGET: Target = Target {
     name: "serve",
     share: 600,
@@ -29,7 +29,7 @@ pub static TARGET: Target = Target {
     },
 };
 
-/// A program that answers.
+/// Running program that answers.
 pub struct Service {
     child: Child,
     requests: ChildStdin,
@@ -39,8 +39,8 @@ pub struct Service {
 
 impl Service {
     fn start(place: &Place) -> Self {
-        place.copied("scenes");
-        place.copied("out");
+        place.copy("scenes");
+        place.copy("out");
         let mut child = Command::new(PROGRAM)
             .current_dir(&place.folder)
             .arg("serve")
@@ -68,14 +68,14 @@ impl Service {
         service
     }
 
-    /// Sends an input and then a request that is refused at once: when its answer comes, the input is done with.
+    /// Sends an input, and then a request that is refused at once: its answer means that the input has been read.
     fn ask(&mut self, input: &[u8]) {
         self.asked += 1;
-        // No input has so large a number but by chance.
+        // No input has such a large number except by chance.
         let id = 1_000_000_000_000_000 + self.asked;
         let last = format!("\n{{\"id\": {id}, \"params\": {{}}, \"scenes\": [\"none\"]}}\n");
         let (requests, answers) = (&mut self.requests, &mut self.answers);
-        // Answers are read meanwhile: a pipe that nobody empties stops the program, and then its reading.
+        // Another thread reads the answers meanwhile: a full pipe would stop the program, and then its reading.
         let answered = thread::scope(|scope| {
             let sending = scope.spawn(|| {
                 requests.write_all(input)?;
@@ -100,7 +100,7 @@ impl Service {
     }
 }
 
-/// The next line; none where the program has ended.
+/// Reads the next line; none if the program has ended.
 fn line(answers: &mut BufReader<ChildStdout>) -> Option<String> {
     let mut line = String::new();
     let count = answers.read_line(&mut line).unwrap_or(0);

@@ -1,4 +1,4 @@
-//! Files that `tune` wrote and reads again.
+//! Files that `tune` writes and reads again.
 
 use std::fs;
 
@@ -25,10 +25,10 @@ pub static JOURNAL: Target = Target {
         ]
     },
     run: |place, input| {
-        let folder = place.copied("tuned");
+        let folder = place.copy("tuned");
         place.write("tuned/journal.jsonl", input);
         show(&folder);
-        // The same command again, which goes on with the journal.
+        // The same command again, which continues the journal.
         let header = TuneFolder::read(&place.fixture.join("tuned"))
             .unwrap()
             .header
@@ -53,8 +53,8 @@ pub static TUNE: Target = Target {
         ]
     },
     run: |place, input| {
-        let folder = place.copied("tuned");
-        let study = place.copied("study");
+        let folder = place.copy("tuned");
+        let study = place.copy("study");
         place.write("tuned/tune.json", input);
         show(&folder);
         place.write("study/sensitivity.json", input);

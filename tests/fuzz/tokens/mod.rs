@@ -1,4 +1,4 @@
-//! Words that are worth trying where others stand.
+//! Words that are worth trying in place of others.
 
 mod filter;
 mod program;
@@ -10,7 +10,7 @@ pub use program::{SERVE, WORDS};
 pub use records::{BOUNDS, JSON};
 pub use scene::{MODEL, SCENE};
 
-/// Numbers at and beyond every border.
+/// Numbers at and beyond every limit.
 pub const NUMBERS: [&str; 44] = [
     "0",
     "-0",
@@ -58,7 +58,7 @@ pub const NUMBERS: [&str; 44] = [
     "18446744073709551616",
 ];
 
-/// Texts that are no good names, or mean something to a terminal, a page or a file system.
+/// Texts that make bad names, or mean something to a terminal, a page or a file system.
 pub const TEXTS: [&str; 30] = [
     "",
     " ",

@@ -1,4 +1,4 @@
-//! Words that the program is started with, and lines that it is sent.
+//! Words that the program starts with, and lines that it gets.
 
 /// Words of the lines that `serve` reads.
 pub const SERVE: &[&str] = &[
@@ -23,7 +23,7 @@ pub const SERVE: &[&str] = &[
     "\u{0}",
 ];
 
-/// Words of the command line, without those that are allowed and take long.
+/// Words of the command line, except those that are valid and slow.
 pub const WORDS: &[&str] = &[
     "--out",
     "--size",

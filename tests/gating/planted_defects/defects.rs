@@ -1,18 +1,18 @@
 //! Planted defects: one wrong line of a kernel each.
 //!
-//! One defect is left out: the jump flood without its break at the picture's border. Taps beyond the border then repeat its
-//! colours. On `frame_edge` that is a little nearer to the truth (0.95 times the mean squared error, at 160x90), and nowhere
-//! else is the error more than 1.02 times what it was: the loss of the break cannot matter.
+//! The jump flood without its break at the picture's border is not in the list. Its taps beyond the border repeat the
+//! border's colours. On `frame_edge` that is a little nearer to the truth (0.95 times the mean squared error, at
+//! 160x90). On other scenes the error is at most 1.02 times as large, so that this break cannot matter.
 
 /// A defect of one shipped filter.
 pub struct Defect {
     /// Name of the defect.
     pub name: &'static str,
-    /// The filter.
+    /// Name of the filter.
     pub filter: &'static str,
-    /// The preset that is bounded.
+    /// Preset with bounds.
     pub preset: &'static str,
-    /// Text that the kernels hold once.
+    /// Text that the kernels contain once.
     pub sound: &'static str,
     /// Text that replaces it.
     pub broken: &'static str,

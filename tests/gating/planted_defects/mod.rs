@@ -1,11 +1,11 @@
-//! Planted defects against the gate: each breaks a bound that the sound filter keeps.
+//! Planted defects against the gate: each breaks a bound that the filter without it keeps.
 //!
-//! `calibrate` makes the bounds from the sound filters, on small pictures of shipped scenes.
+//! `calibrate` makes the bounds from the filters without defects, on small pictures of shipped scenes.
 
 mod defects;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use cli::{Programs, select_filters, select_scenes};
 use filters::Gpu;
@@ -19,10 +19,8 @@ use tracer::Scene;
 
 use defects::{DEFECTS, Defect};
 
-const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
-
-/// One thing that slides, far and aslant, two that pass one another, many that turn, fly and hide one another, many that
-/// cross, some that leave the picture, and thin ones.
+/// Scenes: one thing that slides, far and at an angle; two that pass one another; many that turn, fly and hide one
+/// another; many that cross; some that leave the picture; thin ones.
 const NAMES: [&str; 7] = [
     "sliding_panel@128px_0deg",
     "sliding_panel@64px_45deg",
@@ -54,15 +52,16 @@ const METRICS: [&str; 17] = [
     "unity",
 ];
 
-/// Seeds that the bounds are measured with, and the first of them to check with: floors scatter from seed to seed, and a
-/// bound that is too strict for one would say nothing about defects.
+/// Seeds that the bounds are measured with, and the first of them to check with. Floors vary from seed to seed, and a
+/// bound that is too strict for one seed would say nothing about defects.
 const CALIBRATED_WITH: [u64; 2] = [1, 2];
 const CHECKED_WITH: u64 = CALIBRATED_WITH[0];
 
-/// Side of McGuire's tiles, to these small pictures what 20 pixels are at 320x180: trails reach from tile to tile.
+/// Side of McGuire's tiles. It is to these small pictures what 20 pixels are to 320x180: trails reach from tile to
+/// tile.
 const SMALL_TILES: &str = "8";
 
-/// The filters as they are.
+/// Filters without defects.
 const SOUND: [&str; 2] = ["mcguire:paper", "jump_flood:corrected"];
 
 struct Bench {
@@ -72,7 +71,7 @@ struct Bench {
 }
 
 impl Bench {
-    /// Measures what the filters score as they are, and takes bounds from that.
+    /// Measures the filters without defects, and makes bounds from their scores.
     fn new(filters: &[&str]) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let shipped = choices(filters.iter().map(|name| (*name).to_owned()));
@@ -97,7 +96,7 @@ impl Bench {
     }
 
     fn run(&self, filters: Vec<FilterChoice>, seed: u64) -> Run {
-        let scenes: Vec<Scene> = select_scenes(Path::new(SCENES), &NAMES.map(str::to_owned))
+        let scenes: Vec<Scene> = select_scenes(&tests::scenes(), &NAMES.map(str::to_owned))
             .unwrap()
             .into_iter()
             .map(|choice| choice.scene)
@@ -114,7 +113,7 @@ impl Bench {
                 seed,
                 ..RenderSettings::default()
             },
-            // Truths are kept per seed.
+            // Each seed has truths of its own.
             out: self.folder.path().join(format!("seed_{seed}")),
             intervals: true,
             no_cache: false,
@@ -124,7 +123,7 @@ impl Bench {
         measure_scenes(&plan, self.gpu.as_ref(), Vec::new()).unwrap()
     }
 
-    /// Checks each of the filters, which all take part in one run.
+    /// Runs all filters together, and checks each of them alone.
     fn checks(&self, filters: Vec<FilterChoice>) -> Vec<Check> {
         let count = filters.len();
         let run = self.run(filters, CHECKED_WITH);
@@ -143,8 +142,8 @@ impl Bench {
             .collect()
     }
 
-    /// A copy of a shipped filter with one defect.
-    fn planted(&self, defect: &Defect) -> PathBuf {
+    /// Copies a shipped filter and plants a defect.
+    fn plant(&self, defect: &Defect) -> PathBuf {
         let copy = self.folder.path().join("planted").join(defect.name);
         copy_shipped_filter(defect.filter, &copy);
         let kernels = copy.join(defect.filter).with_extension("wgsl");
@@ -162,7 +161,7 @@ impl Bench {
     }
 }
 
-/// Each filter by itself: copies have the name of what they are copies of.
+/// Selects each filter by itself: copies have the names of their originals.
 fn choices(words: impl Iterator<Item = String>) -> Vec<FilterChoice> {
     words
         .flat_map(|word| select_filters(&[word], None, &[], Programs::Refused).unwrap())
@@ -178,8 +177,8 @@ fn choices(words: impl Iterator<Item = String>) -> Vec<FilterChoice> {
         .collect()
 }
 
-/// Names of the metrics whose bounds are broken, with their scenes.
-fn broken(check: &Check) -> Vec<String> {
+/// Names the metrics whose bounds are broken, with their scenes.
+fn broken_bounds(check: &Check) -> Vec<String> {
     (check.findings.iter())
         .filter(|finding| finding.decision() == Decision::Broken)
         .map(|finding| format!("{} on {}", finding.metric, finding.scene))
@@ -187,21 +186,26 @@ fn broken(check: &Check) -> Vec<String> {
 }
 
 #[test]
-fn every_planted_defect_is_found_and_none_where_there_is_none() {
+fn every_planted_defect_breaks_a_bound_and_sound_filters_pass() {
     let bench = Bench::new(&SOUND);
     let planted = DEFECTS.iter().map(|defect| {
-        let copy = bench.planted(defect);
+        let copy = bench.plant(defect);
         format!("{}:{}", copy.display(), defect.preset)
     });
     let words = SOUND.iter().map(|name| (*name).to_owned());
     let checks = bench.checks(choices(words.chain(planted)));
     let (sound, defective) = checks.split_at(SOUND.len());
     for check in sound {
-        assert_eq!(check.decision, Decision::Pass, "{:#?}", broken(check));
+        assert_eq!(
+            check.decision,
+            Decision::Pass,
+            "{:#?}",
+            broken_bounds(check)
+        );
     }
     let mut slipped = Vec::new();
     for (defect, check) in DEFECTS.iter().zip(defective) {
-        let broken = broken(check);
+        let broken = broken_bounds(check);
         println!(
             "{} {}, {} bounds: {}",
             defect.filter,

@@ -1,4 +1,4 @@
-//! Choice among candidates: those dropped, the one chosen, and the reasons.
+//! Choice among candidates: which are dropped, which is chosen, and why.
 
 use std::collections::BTreeMap;
 
@@ -40,18 +40,18 @@ fn darwins_plants_have_the_published_probability() {
 }
 
 #[test]
-fn equal_sizes_share_their_ranks_and_zeros_say_nothing() {
+fn equal_sizes_share_their_ranks_and_zeros_do_not_count() {
     // Both ranks are 1.5: the sums 3, 1.5, 1.5 and 0 are equally likely.
     assert_eq!(signed_rank_p_value(&[1.0, 1.0]), 0.25);
     assert_eq!(signed_rank_p_value(&[1.0, -1.0]), 0.75);
     assert_eq!(signed_rank_p_value(&[0.0, 1.0, 0.0, -1.0]), 0.75);
-    // Ranks 2, 2, 2 and 4, and a sum of 6: as much or more have 8 of 16 arrangements; 9 have if the three were of rank 1.
+    // The ranks are 2, 2, 2 and 4, and the sum is 6: 8 of 16 arrangements reach it. If the three had rank 1, 9 would.
     assert_eq!(signed_rank_p_value(&[1.0, 1.0, 1.0, -2.0]), 0.5);
     assert_eq!(signed_rank_p_value(&[]), 1.0);
 }
 
 #[test]
-fn the_front_holds_what_nothing_beats() {
+fn the_front_holds_unbeaten_candidates() {
     let rows = [
         [1.0, 5.0],
         [2.0, 4.0],
@@ -61,12 +61,12 @@ fn the_front_holds_what_nothing_beats() {
         [5.0, 5.0],
     ];
     let rows: Vec<Vec<f64>> = rows.iter().map(|row| row.to_vec()).collect();
-    // The third is beaten by the second, the fifth equals it, the last is beaten by all.
+    // The second beats the third, the fifth equals it, and all beat the last.
     assert_eq!(pareto_front(&rows), [0, 1, 3]);
     assert!(pareto_front(&[]).is_empty());
 }
 
-/// A start with samples = 8, and trials with other numbers of samples and the given FLIP on scenes a, b, c, d.
+/// Makes a start with samples = 8, and trials with other numbers of samples and the given FLIP on scenes a, b, c, d.
 fn make_trials(rows: &[(i32, [f64; 4])]) -> Vec<Trial> {
     (rows.iter().enumerate())
         .map(|(trial, (samples, flips))| Trial {
@@ -99,12 +99,12 @@ fn space() -> Space {
 }
 
 #[test]
-fn of_what_the_scenes_cannot_tell_apart_the_nearest_to_the_start_is_chosen() {
+fn the_choice_among_equal_candidates_is_the_nearest_to_the_start() {
     let rows = [
         (8, [0.1, 0.1, 0.1, 0.1]),
-        // Half the error everywhere, give or take: the best.
+        // About half the error everywhere: the best.
         (60, [0.05, 0.04, 0.06, 0.05]),
-        // Hardly worse, and much nearer.
+        // Hardly worse, and much nearer to the start.
         (12, [0.05, 0.042, 0.06, 0.05]),
         // Nearer still, and clearly worse.
         (10, [0.08, 0.08, 0.08, 0.08]),
@@ -117,7 +117,7 @@ fn of_what_the_scenes_cannot_tell_apart_the_nearest_to_the_start_is_chosen() {
     )
     .unwrap();
     assert_eq!((choice.best, choice.trial), (1, 2));
-    // Logs of 0.5, 0.4, 0.6 and 0.5: standard deviation 0.1659, of the mean 0.0830.
+    // Logs of 0.5, 0.4, 0.6 and 0.5: the standard deviation is 0.1659, and that of the mean 0.0830.
     assert!(
         (choice.standard_error - 0.0830).abs() < 1e-4,
         "{}",
@@ -126,7 +126,7 @@ fn of_what_the_scenes_cannot_tell_apart_the_nearest_to_the_start_is_chosen() {
 }
 
 #[test]
-fn a_start_that_nothing_clearly_beats_stays() {
+fn an_unbeaten_start_stays_the_choice() {
     let rows = [(8, [0.1; 4]), (9, [0.05, 0.16, 0.09, 0.11])];
     let choice = choose_trial(
         &make_trials(&rows),
@@ -172,9 +172,9 @@ fn limits_and_failures_keep_trials_out_of_the_choice() {
 }
 
 #[test]
-fn a_choice_that_suits_one_family_alone_shows_its_gap() {
+fn a_choice_that_suits_only_one_family_shows_its_gap() {
     let families = BTreeMap::from([("camera", vec!["a", "b"]), ("thin", vec!["c", "d"])]);
-    // One trial is made for the camera, the other for what is thin; each doubles the other's error.
+    // One trial suits the camera, the other suits thin things; each doubles the other's error.
     let rows = [
         (8, [0.1; 4]),
         (9, [0.05, 0.05, 0.2, 0.2]),
@@ -192,7 +192,7 @@ fn a_choice_that_suits_one_family_alone_shows_its_gap() {
             (fold.family.as_str(), fold.trial, fold.scenes),
             (family, trial, 2)
         );
-        // Exact but for the logarithm's rounding.
+        // Exact except for the logarithm's rounding.
         assert!((fold.others + two).abs() < 1e-12 && (fold.held_out - two).abs() < 1e-12);
         assert!((fold.gap - 2.0 * two).abs() < 1e-12, "{}", fold.gap);
     }
@@ -209,7 +209,7 @@ fn a_choice_that_suits_one_family_alone_shows_its_gap() {
     );
 }
 
-fn paired(rows: &[(f64, f64)]) -> PairedComparison {
+fn compare_pairs(rows: &[(f64, f64)]) -> PairedComparison {
     let score = |flip| SceneScore {
         flip,
         bleed: Some(10.0 * flip),
@@ -223,8 +223,8 @@ fn paired(rows: &[(f64, f64)]) -> PairedComparison {
 }
 
 #[test]
-fn the_lower_error_on_every_scene_is_better_and_one_on_half_of_them_is_undecided() {
-    let better = paired(&[
+fn lower_error_on_every_scene_is_better_and_on_half_of_them_undecided() {
+    let better = compare_pairs(&[
         (0.2, 0.1),
         (0.3, 0.2),
         (0.1, 0.08),
@@ -235,7 +235,7 @@ fn the_lower_error_on_every_scene_is_better_and_one_on_half_of_them_is_undecided
     assert_eq!(better.bleed.as_ref().unwrap().verdict, Preference::Second);
     // Mean of -1, -1, -0.2, -0.5 and -0.3 pixels.
     assert!((better.bleed.unwrap().mean + 0.6).abs() < 1e-9);
-    let worse = paired(&[
+    let worse = compare_pairs(&[
         (0.1, 0.2),
         (0.2, 0.3),
         (0.08, 0.1),
@@ -243,9 +243,9 @@ fn the_lower_error_on_every_scene_is_better_and_one_on_half_of_them_is_undecided
         (0.07, 0.1),
     ]);
     assert_eq!(worse.flip.verdict, Preference::First);
-    let even = paired(&[(0.1, 0.2), (0.2, 0.1), (0.1, 0.2), (0.2, 0.1), (0.1, 0.1)]);
+    let even = compare_pairs(&[(0.1, 0.2), (0.2, 0.1), (0.1, 0.2), (0.2, 0.1), (0.1, 0.1)]);
     assert_eq!(even.flip.verdict, Preference::Undecided);
-    let few = paired(&[(0.2, 0.1), (0.3, 0.2), (0.1, 0.08), (0.2, 0.15)]);
+    let few = compare_pairs(&[(0.2, 0.1), (0.3, 0.2), (0.1, 0.08), (0.2, 0.15)]);
     assert_eq!(
         few.flip.verdict,
         Preference::Undecided,

@@ -18,7 +18,7 @@ fn make_space(vary: &[&str]) -> Result<Space, String> {
 }
 
 #[test]
-fn every_tunable_parameter_is_an_axis_and_no_other() {
+fn exactly_the_tunable_parameters_are_axes() {
     let names: Vec<String> = (make_space(&[]).unwrap().axes.iter())
         .map(|axis| axis.name.clone())
         .collect();
@@ -51,7 +51,7 @@ fn the_middle_of_a_logarithmic_range_is_its_geometric_mean() {
 }
 
 #[test]
-fn every_whole_number_and_every_choice_is_met_and_none_beyond() {
+fn the_search_reaches_every_whole_number_and_choice_and_no_other() {
     let space = make_space(&["passes=2..5", "jitter"]).unwrap();
     let mut met: BTreeMap<String, usize> = BTreeMap::new();
     for step in 0..=400 {
@@ -77,13 +77,13 @@ fn every_whole_number_and_every_choice_is_met_and_none_beyond() {
     ];
     assert_eq!(names, expected);
     for (name, count) in counts {
-        // A quarter of 401 points each, give or take those on the ends.
+        // A quarter of 401 points each, except for those on the ends.
         assert!((99..=102).contains(&count), "{name} is met {count} times");
     }
 }
 
 #[test]
-fn what_cannot_be_varied_is_refused_with_what_can() {
+fn fixed_parameters_are_refused_with_the_variable_ones() {
     for (word, parts) in [
         (
             "sample",
@@ -114,7 +114,8 @@ fn what_cannot_be_varied_is_refused_with_what_can() {
     assert!(text.contains("nothing to tune"), "{text}");
 }
 
-/// A valley that is narrow along a diagonal, with its lowest point off every axis and off the middle.
+/// Returns the height of a valley that is narrow along a diagonal, with its lowest point off every axis and off the
+/// middle.
 fn valley(point: &[f64]) -> f64 {
     let lowest = [0.31, 0.62, 0.18, 0.77];
     let off: Vec<f64> = point.iter().zip(lowest).map(|(at, low)| at - low).collect();
@@ -147,8 +148,8 @@ fn the_search_finds_the_lowest_point_of_a_valley() {
             [0.9, 0.1, 0.9, 0.1],
             "it begins with the presets"
         );
-        // Within 0.03 of the lowest point along the valley, and ten times less across: among 400 points that fill four
-        // dimensions evenly, the nearest is about 0.15 away, and most of that across.
+        // Within 0.03 of the lowest point along the valley, and a tenth of that across. Among 400 points that fill four
+        // dimensions evenly, the nearest is about 0.15 away, mostly across.
         assert!(least(&losses) < 1e-3, "seed {seed}: {}", least(&losses));
         let even = Search::new(Vec::new(), 200, seed).design;
         let even: Vec<f64> = even.iter().map(|point| valley(&point[..4])).collect();
@@ -157,7 +158,7 @@ fn the_search_finds_the_lowest_point_of_a_valley() {
 }
 
 #[test]
-fn the_same_seed_asks_the_same_and_another_one_does_not() {
+fn equal_seeds_propose_equal_points_and_other_seeds_do_not() {
     let search = |seed| Search::new(vec![vec![0.5; 4]], 4, seed);
     assert_eq!(
         search_valley(&search(1), 60).0,
@@ -172,7 +173,7 @@ fn the_same_seed_asks_the_same_and_another_one_does_not() {
 }
 
 #[test]
-fn what_is_asked_next_depends_on_nothing_but_the_losses() {
+fn the_next_point_depends_only_on_the_losses() {
     let search = Search::new(vec![vec![0.5; 4]], 4, 7);
     let (points, losses) = search_valley(&search, 80);
     for count in [0, 5, 9, 10, 41, 79] {
@@ -185,9 +186,10 @@ fn what_is_asked_next_depends_on_nothing_but_the_losses() {
 }
 
 #[test]
-fn a_search_that_has_settled_begins_again_elsewhere() {
+fn a_converged_search_restarts_elsewhere() {
     let search = Search::new(vec![vec![0.5; 2]], 2, 1);
-    // A plane without slope ends a climb of two axes after twenty generations of six points: 400 are at least two climbs.
+    // A plane without slope ends a climb of two axes after twenty generations of six points: 400 points are at least
+    // two climbs.
     let mut losses = Vec::new();
     let mut points = Vec::new();
     for _ in 0..400 {

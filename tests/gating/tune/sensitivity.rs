@@ -1,17 +1,17 @@
-//! Sobol indices of functions whose indices are known.
+//! Sobol indices of functions with known indices.
 
 use std::convert::Infallible;
 use std::f64::consts::PI;
 
 use suite::sobol_indices;
 
-/// Ishigami and Homma 1990 with a = 7, b = 0.1, on the unit cube.
+/// Evaluates the function of Ishigami and Homma 1990 with a = 7, b = 0.1, on the unit cube.
 fn ishigami(point: &[f64]) -> Result<f64, Infallible> {
     let [x, y, z] = [0, 1, 2].map(|axis| PI * (2.0 * point[axis] - 1.0));
     Ok(x.sin() + 7.0 * y.sin().powi(2) + 0.1 * z.powi(4) * x.sin())
 }
 
-/// Sobol's g-function; the first parameters matter most.
+/// Coefficients of Sobol's g-function; the first parameters matter most.
 const G: [f64; 6] = [0.0, 1.0, 4.5, 9.0, 99.0, 99.0];
 
 fn g_function(point: &[f64]) -> Result<f64, Infallible> {
@@ -20,9 +20,9 @@ fn g_function(point: &[f64]) -> Result<f64, Infallible> {
 }
 
 #[test]
-fn the_indices_of_ishigamis_function_are_the_published_ones() {
+fn the_indices_of_ishigami_s_function_equal_the_published_ones() {
     let found = sobol_indices(3, 1024, 1, ishigami).unwrap();
-    // Closed form: variance 13.845, of which 0.3139, 0.4424 and 0 alone, 0.5576, 0.4424 and 0.2437 in all.
+    // Closed form: variance 13.845; first-order indices 0.3139, 0.4424 and 0; total indices 0.5576, 0.4424 and 0.2437.
     let expected = [(0.3139, 0.5576), (0.4424, 0.4424), (0.0, 0.2437)];
     for (indices, (first, total)) in found.iter().zip(expected) {
         // Four standard errors of 1024 rows, about a quarter of the intervals' widths.
@@ -53,7 +53,7 @@ fn the_indices_of_sobols_g_function_follow_its_formula() {
             .map(|it| 1.0 + own[it])
             .product();
         let (first, total) = (own[axis] / variance, own[axis] * others / variance);
-        // The widest interval of these is 0.15; an index of the wrong axis is off by 0.3 and more.
+        // The widest interval is 0.15; an index of the wrong axis is off by at least 0.3.
         assert!(
             (indices.first.value - first).abs() < 0.1,
             "{axis}: {indices:?}, {first}"

@@ -12,7 +12,7 @@ use tests::unwatched;
 use tracer::{Background, Finish, FrameSettings, Key, Material, Motion, Sun, trace_frame};
 
 #[test]
-fn a_still_scene_was_always_as_it_is() {
+fn the_frozen_truth_of_a_still_scene_equals_its_truth() {
     let mut scene = panel_over_wall(2.0, 0.0, 10.0);
     scene.objects[1].motion = placed(DVec3::new(0.0, 0.0, -DISTANCE));
     scene.materials[0] = diffuse(0.7);
@@ -71,7 +71,7 @@ fn a_closed_mesh_does_not_hide_its_own_near_side() {
             .zip(&truth.mean().color.pixels)
             .map(|(frozen, live)| f64::from((frozen[0] - live[0]).abs()))
             .fold(0.0, f64::max);
-        // The same random numbers from the same places: rounding may turn a sample in a thousand at most.
+        // The same random numbers from the same places: rounding may flip one sample in a thousand.
         assert!(
             difference < 2e-3,
             "shaded again, {radius} m at {offset} m differ by {difference}"
@@ -99,9 +99,10 @@ fn an_unlit_panel_needs_no_light_of_the_instant() {
     }
 }
 
-/// A camera flies over a mirror in a still world: each point of the floor shows another height of the sky from elsewhere.
+/// Makes a camera that flies over a mirror in a still world: each point of the floor mirrors another height of the sky
+/// at another time.
 #[test]
-fn a_mirror_is_frozen_as_the_camera_of_the_instant_saw_it() {
+fn a_frozen_mirror_shows_the_view_of_the_instant_s_camera() {
     let mut scene = empty_scene("mirror");
     let mirror = Material {
         finish: Finish::Conductor { roughness: 0.0 },
@@ -131,9 +132,9 @@ fn a_mirror_is_frozen_as_the_camera_of_the_instant_saw_it() {
     };
     scene.camera.vertical_fov = vec![(0.0, 1e-4)];
     let truth = render_truth(&scene, Alignment::Trailing);
-    // The mirrored ray rises as steeply as the ray falls: always the same while the camera sees it.
+    // The mirrored ray rises as steeply as the view ray falls, at all times that the camera sees the point.
     let live = 0.2_f64.sqrt();
-    // At time t the floor is seen 4 + 3 t metres ahead of where the camera is at the instant.
+    // At time t the camera sees the floor 4 + 3 t metres ahead of its place at the instant.
     let steps = 1000;
     let frozen: f64 = (0..steps)
         .map(|step| -EXPOSURE * (f64::from(step) + 0.5) / f64::from(steps))
@@ -144,7 +145,7 @@ fn a_mirror_is_frozen_as_the_camera_of_the_instant_saw_it() {
     let mean = |pixels: &[[f32; 3]]| {
         pixels.iter().map(|pixel| f64::from(pixel[0])).sum::<f64>() / pixels.len() as f64
     };
-    // 384 pixels of 1024 stratified samples, of which a quarter is shaded again.
+    // 384 pixels of 1024 stratified samples, a quarter of which is shaded again.
     assert!((mean(&truth.mean().color.pixels) - live).abs() < 1e-4);
     let found = mean(&known.frozen.pixels);
     assert!((found - frozen).abs() < 1e-3, "{found} {frozen}");
@@ -192,8 +193,8 @@ fn a_moving_shadow_stands_still_in_the_frozen_truth() {
         off = off.max(f64::from((frozen[0] - frame[0]).abs()) / lit);
         moved = moved.max(f64::from((truth[0] - frame[0]).abs()) / lit);
     }
-    // Both take 1024 samples per pixel of the shadow's border: of the truth's 4096 a quarter is shaded again. Light between blind
-    // and wall adds a little noise.
+    // Both take 1024 samples per pixel of the shadow's border: a quarter of the truth's 4096 is shaded again. Light
+    // between blind and wall adds a little noise.
     assert!(
         off < 0.05,
         "frozen and frame differ by {off} of what is lit"
@@ -207,7 +208,7 @@ fn a_moving_shadow_stands_still_in_the_frozen_truth() {
 }
 
 #[test]
-fn a_turning_sphere_is_shaded_as_it_stood() {
+fn a_turning_sphere_keeps_the_shading_of_the_instant() {
     let rate = 2.0;
     let light = DVec3::new(0.8, 0.0, 0.6);
     let mut scene = empty_scene("sphere");
@@ -226,8 +227,8 @@ fn a_turning_sphere_is_shaded_as_it_stood() {
     });
     let truth = render_truth(&scene, Alignment::Trailing);
     let frozen = truth.at_instant_mean().frozen;
-    // The mean of the four pixels around the centre is that of the centre but for the square of that. A point seen
-    // there at time t stands at the instant where a turn by -rate t has brought it.
+    // The mean of the four pixels around the centre equals that of the centre except for second-order terms. A point
+    // seen there at time t stands at the instant where a turn by -rate t has brought it.
     let centre = (HEIGHT / 2 * WIDTH + WIDTH / 2) as usize;
     let four = [
         centre,

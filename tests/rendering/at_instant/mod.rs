@@ -1,4 +1,4 @@
-//! The state at the frame's instant of all that a shutter sees.
+//! State at the frame's instant of everything that a shutter sees.
 //!
 //! The camera sees one metre as one pixel at the panels' distance, with the origin at the image's centre.
 
@@ -19,8 +19,8 @@ const DISTANCE: f64 = 0.5 * HEIGHT as f64;
 const SPEED: f64 = 12.0;
 /// Exposure in frames.
 const EXPOSURE: f64 = 0.75;
-/// Tolerance for 1024 stratified samples of a step, which err by less than 0.003 in nearly every pixel (measured for coverage:
-/// 0.0022 rms in the worst).
+/// Tolerance for 1024 stratified samples of a step. They err by less than 0.003 in nearly every pixel (measured for
+/// coverage: 0.0022 rms in the worst).
 const STEP_ERROR: f64 = 0.012;
 
 fn render_truth(scene: &Scene, alignment: Alignment) -> Truth {
@@ -40,7 +40,8 @@ fn render_truth_with(scene: &Scene, alignment: Alignment, samples_per_pixel: u32
     trace_truth(scene, &settings, &unwatched).expect("allowed")
 }
 
-/// Unlit wall, `gap` metres behind an unlit panel whose middle passes `at` at `t = 0`; both are higher than any blur.
+/// Makes an unlit wall, `gap` metres behind an unlit panel whose middle passes `at` at `t = 0`. Both are higher than
+/// any blur.
 fn panel_over_wall(gap: f64, at: f64, width: f32) -> Scene {
     let mut scene = empty_scene("panel");
     let place = |x: f64, z: f64| DVec3::new(x, 0.0, z);
@@ -55,7 +56,8 @@ fn panel_over_wall(gap: f64, at: f64, width: f32) -> Scene {
     scene
 }
 
-/// Calls `check` with each column's left border, in pixels from the picture's centre, and its middle row's pixel.
+/// Calls `check` with each column's left border, in pixels from the picture's centre, and the index of its pixel in the
+/// middle row.
 fn for_each_column(mut check: impl FnMut(f64, usize)) {
     for column in 0..WIDTH {
         let left = f64::from(column) - 0.5 * f64::from(WIDTH);
@@ -63,7 +65,7 @@ fn for_each_column(mut check: impl FnMut(f64, usize)) {
     }
 }
 
-/// Mean of `value` over a column of unit width and the shutter, by midpoints.
+/// Integrates `value` over a column of unit width and the shutter, by midpoints.
 fn mean_over(left: f64, alignment: Alignment, value: impl Fn(f64, f64) -> f64) -> f64 {
     const STEPS: u32 = 400;
     let shutter = alignment.shutter(EXPOSURE).unwrap();

@@ -1,4 +1,4 @@
-//! Places at the instant, and what no frame can know.
+//! Places at the instant, and parts that no frame can know.
 
 use super::{
     DISTANCE, EXPOSURE, HEIGHT, SPEED, STEP_ERROR, WIDTH, for_each_column, mean_over,
@@ -12,7 +12,7 @@ use tests::shapes::*;
 use tracer::{Key, Motion, Turn};
 
 #[test]
-fn what_the_panel_uncovers_or_what_was_beyond_the_border_cannot_be_known() {
+fn uncovered_background_and_pixels_beyond_the_border_are_unknowable() {
     // In the middle, and reaching over the right border; far from the wall and very near it.
     for (gap, at, half) in [(2.0, 0.0, 5.0), (2.0, 13.0, 8.0), (1e-5, 0.0, 5.0)] {
         for alignment in Alignment::ALL {
@@ -22,7 +22,7 @@ fn what_the_panel_uncovers_or_what_was_beyond_the_border_cannot_be_known() {
                 let expected = mean_over(left, alignment, |x, t| {
                     let covered = |x: f64, t: f64| (x - at - SPEED * t).abs() < half;
                     let unknown = if covered(x, t) {
-                        // Where the panel's point was at the instant.
+                        // The place of the panel's point at the instant.
                         (x - SPEED * t).abs() > 0.5 * f64::from(WIDTH)
                     } else {
                         covered(x, 0.0)
@@ -40,16 +40,16 @@ fn what_the_panel_uncovers_or_what_was_beyond_the_border_cannot_be_known() {
 }
 
 #[test]
-fn a_sliding_panel_comes_from_all_along_its_way() {
+fn a_sliding_panel_s_samples_come_from_its_whole_way() {
     for alignment in Alignment::ALL {
-        // Wider than the picture and its way.
+        // Wider than the picture and its motion together.
         let truth = render_truth(&panel_over_wall(2.0, 0.0, 90.0), alignment);
         let mean = truth.at_instant_mean();
         for_each_column(|left, pixel| {
             let shutter = alignment.shutter(EXPOSURE).unwrap();
             let [open, close] = [shutter.open, shutter.close].map(|t| -SPEED * t);
             let offset = 0.5 * (open + close);
-            // The mean square of a number that is uniform between two, and of the place in the pixel.
+            // The mean square of a number that is uniform between two others, and of the place in the pixel.
             let spread = (open * open + open * close + close * close) / 3.0 + 1.0 / 12.0;
             assert_eq!(mean.placed.pixels[pixel], 1.0);
             let [x, y] = mean.offset.pixels[pixel].map(f64::from);
@@ -73,7 +73,7 @@ fn a_sliding_panel_comes_from_all_along_its_way() {
 }
 
 #[test]
-fn the_other_side_of_a_sheet_cannot_be_known() {
+fn the_other_side_of_a_sheet_is_unknowable() {
     let mut scene = empty_scene("sheet");
     let turn = Turn {
         axis: DVec3::Y,
@@ -97,13 +97,13 @@ fn the_other_side_of_a_sheet_cannot_be_known() {
     };
     add(&mut scene, rectangle(8.0, 8.0), glowing(1.0), motion);
     let known: AtInstant = render_truth(&scene, Alignment::Trailing).at_instant_mean();
-    // Turned by `angle` the sheet is met by the ray through `x` this far from its axis.
+    // The ray through `x` meets the sheet, turned by `angle`, at this distance from its axis.
     let met = |x: f64, angle: f64| DISTANCE * x / (DISTANCE * angle.cos() + x * angle.sin());
     let front = |x: f64, t: f64| {
         let angle = PI / EXPOSURE * t;
         f64::from(angle.abs() < FRAC_PI_2 && met(x, angle).abs() < 4.0)
     };
-    // The axis lies between two pixels; which of them has the sheet's nearer half does not matter to their mean.
+    // The axis lies between two pixels. Their mean does not depend on which of them sees the sheet's nearer half.
     let expected = 1.0
         - [0.0, -1.0]
             .map(|left| mean_over(left, Alignment::Trailing, front))
@@ -123,13 +123,13 @@ fn the_other_side_of_a_sheet_cannot_be_known() {
 }
 
 #[test]
-fn what_was_behind_the_camera_has_no_place() {
+fn points_behind_the_camera_have_no_place() {
     let mut scene = empty_scene("pan");
     let rate = 2.0;
     scene.camera.motion = spin(DVec3::ZERO, DVec3::Y, rate);
     let known = render_truth(&scene, Alignment::Trailing).at_instant_mean();
     for_each_column(|left, pixel| {
-        // The view turns left: what is seen earlier lies to the right, behind beyond a right angle.
+        // The view turns left: earlier views lie to the right, and behind the camera beyond a right angle.
         let expected = mean_over(left, Alignment::Trailing, |x, t| {
             f64::from((x / DISTANCE).atan() - rate * t < FRAC_PI_2)
         });

@@ -6,7 +6,7 @@ use super::rendered_scene::RenderedScene;
 #[test]
 fn limbs_that_swing_are_harder_than_a_body_that_glides() {
     let scenes = ["walker", "walker@gliding"].map(RenderedScene::new);
-    // Measured 2.9 and 2.3; 1.3 for what moves every pixel by itself.
+    // Measured 2.9 and 2.3; 1.3 for a filter that moves every pixel by itself.
     for filter in ["jimenez:kajiya_scaled", "jump_flood:corrected"] {
         let variation = scenes
             .each_ref()
@@ -19,7 +19,8 @@ fn limbs_that_swing_are_harder_than_a_body_that_glides() {
 fn a_waving_flag_is_harder_than_a_stiff_one() {
     let scenes = ["flag", "flag@stiff"].map(RenderedScene::new);
     for filter in ["jimenez:kajiya_scaled", "jump_flood:corrected"] {
-        // The part of the error of doing nothing that is left, for the two flags do not move as far. Measured 2.3 and 1.9.
+        // The part of the identity's error that is left, since the two flags do not move equally far. Measured 2.3 and
+        // 1.9.
         let left = scenes
             .each_ref()
             .map(|scene| scene.error_left_by(filter, "label_tv"));

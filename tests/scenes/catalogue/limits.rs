@@ -5,6 +5,7 @@ use std::path::Path;
 
 use filters::Filter;
 use frame::{Alignment, Image, Picture};
+use tests::filter_folder::copy_shipped_filter;
 use tests::presets::{every_preset, preset_name};
 use tracer::FrameSettings;
 
@@ -12,7 +13,7 @@ use super::assert_worse;
 use super::rendered_scene::{RenderedScene, find_preset, small_frame, value};
 
 #[test]
-fn what_lies_beyond_the_border_is_missed() {
+fn filters_miss_motion_from_beyond_the_border() {
     let render = |guard_band| {
         let settings = FrameSettings {
             guard_band,
@@ -31,7 +32,7 @@ fn what_lies_beyond_the_border_is_missed() {
 
 #[test]
 fn motion_below_a_pixel_is_left_sharp() {
-    // The size to which the scenes' speeds refer.
+    // The size that the scenes' speeds refer to.
     let settings = FrameSettings {
         width: 640,
         height: 360,
@@ -54,8 +55,8 @@ fn motion_below_a_pixel_is_left_sharp() {
         let differs = |at: &&usize| output.pixels[**at] != color.pixels[**at];
         moving.iter().filter(differs).count() as f64 / moving.len() as f64
     };
-    // Their thresholds are 2, 1 and 0.5 pixels. Measured 0.61, 1.00 and 0.61 of the hurrying ones,
-    // 0, 0.40 and 0 of the creeping ones.
+    // Their thresholds are 2, 1 and 0.5 pixels. Measured: 0.61, 1.00 and 0.61 of the fast pixels, and 0, 0.40 and 0 of
+    // the slow ones.
     for (filter, most) in [
         ("kino:default", 0.0),
         ("bevy:high", 0.5),
@@ -65,13 +66,13 @@ fn motion_below_a_pixel_is_left_sharp() {
         println!("{filter} changes {slow:.3}, where they hurry {fast:.3}");
         assert!(slow <= most && fast > 0.55, "{filter}: {slow}, {fast}");
     }
-    // One filter does it: measured 0.997.
+    // One filter blurs them: measured 0.997.
     let all = changed(&creeping, "velocity_gather:fine");
     assert!(all > 0.95, "{all}");
 }
 
 #[test]
-fn averages_in_a_display_s_colours_lose_the_light_of_a_neon_sign() {
+fn averages_of_display_colours_lose_the_light_of_a_neon_sign() {
     let scenes = ["neon", "neon@dim"].map(RenderedScene::new);
     let (filter, preset) = find_preset("velocity_gather:fine");
     let average_compressed = |scene: &RenderedScene| {
@@ -86,7 +87,7 @@ fn averages_in_a_display_s_colours_lose_the_light_of_a_neon_sign() {
             coverage: scene.frame.coverage.clone(),
         }
     };
-    // Measured 25 and 1.4, without the cause 1.0: bright light is a matter of linear averages.
+    // Measured 25 and 1.4; without the cause 1.0. Bright light needs linear averages.
     for (metric, least) in [("mse_moving", 5.0), ("flip_hdr_moving", 1.2)] {
         let times = scenes.each_ref().map(|scene| {
             let wrong = value(
@@ -101,7 +102,7 @@ fn averages_in_a_display_s_colours_lose_the_light_of_a_neon_sign() {
 }
 
 #[test]
-fn one_velocity_does_not_tell_a_bounce_or_a_brake() {
+fn one_velocity_cannot_describe_a_bounce_or_a_brake() {
     let scenes = ["reversal", "reversal@steady"].map(RenderedScene::new);
     // Trailing: measured 4.1 and 1.8.
     for (filter, times) in [("jump_flood:corrected", 2.0), ("velocity_gather:fine", 1.4)] {
@@ -110,7 +111,7 @@ fn one_velocity_does_not_tell_a_bounce_or_a_brake() {
             .map(|scene| scene.score(filter, "label_tv"));
         assert_worse(&format!("label_tv of {filter}"), variation, times);
     }
-    // Centred, where half of the brake makes up for the other half: measured 2.3.
+    // Centred, where the two halves of the brake cancel: measured 2.3.
     let ball = scenes
         .each_ref()
         .map(|scene| scene.object_label_tv("jimenez:hdrp", "ball"));
@@ -118,14 +119,15 @@ fn one_velocity_does_not_tell_a_bounce_or_a_brake() {
 }
 
 #[test]
-fn on_a_slope_the_fastest_nearby_is_not_what_a_pixel_makes() {
+fn the_fastest_motion_nearby_is_wrong_for_pixels_on_a_slope() {
     let scenes = ["ramp_floor", "ramp_floor@facing"].map(RenderedScene::new);
     let flip = scenes
         .each_ref()
         .map(|scene| scene.score("jimenez:kajiya_scaled", "flip_moving"));
-    // Measured 2.3; 1.2 for what moves every pixel by itself.
+    // Measured 2.3; 1.2 for a filter that moves every pixel by itself.
     assert_worse("flip_moving of jimenez:kajiya_scaled", flip, 1.6);
-    // It is hardly better than no blur: it leaves 0.76 of its squared error, and 0.03 before the wall that faces the camera.
+    // It is hardly better than no blur: it leaves 0.76 of the squared error, and 0.03 before the wall that faces the
+    // camera.
     let left = scenes
         .each_ref()
         .map(|scene| scene.error_left_by("jimenez:kajiya_scaled", "mse_moving"));
@@ -133,7 +135,7 @@ fn on_a_slope_the_fastest_nearby_is_not_what_a_pixel_makes() {
 }
 
 #[test]
-fn light_that_is_the_same_everywhere_comes_out_unchanged_and_weights_that_amplify_show() {
+fn uniform_light_stays_unchanged_and_amplifying_weights_show() {
     let flat = RenderedScene::new("flat_field");
     for (filter, settings) in every_preset() {
         let output = flat
@@ -143,7 +145,7 @@ fn light_that_is_the_same_everywhere_comes_out_unchanged_and_weights_that_amplif
         let worst = differences
             .map(|(a, b)| (a[0] - b[0]).abs())
             .fold(0.0, f32::max);
-        // Sums of up to some hundred weights in 32 bits.
+        // Sums of up to about a hundred weights in 32 bits.
         assert!(worst < 1e-5, "{}: {worst}", preset_name(&filter, &settings));
     }
     let folder = tempfile::tempdir().unwrap();
@@ -160,7 +162,7 @@ fn light_that_is_the_same_everywhere_comes_out_unchanged_and_weights_that_amplif
     let sound = Filter::builtin("mcguire").unwrap();
     let times =
         [&flat, &painted].map(|scene| error(scene, &planted) / error(scene, &sound).max(1e-7));
-    // Measured 2.5e5 (32-bit rounding is all that the sound ones err by) and 2.3.
+    // Measured 2.5e5 and 2.3; the correct filters err only by 32-bit rounding.
     assert_worse(
         "error of amplifying weights over that of sound ones",
         times,
@@ -170,11 +172,9 @@ fn light_that_is_the_same_everywhere_comes_out_unchanged_and_weights_that_amplif
 
 /// Writes a copy of a shipped filter whose weights add up to 1.05.
 fn write_amplifying_filter(folder: &Path) -> Filter {
-    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders/mcguire");
     let copy = folder.join("mcguire");
-    fs::create_dir(&copy).unwrap();
-    fs::copy(shipped.join("filter.toml"), copy.join("filter.toml")).unwrap();
-    let kernels = fs::read_to_string(shipped.join("mcguire.wgsl")).unwrap();
+    copy_shipped_filter("mcguire", &copy);
+    let kernels = fs::read_to_string(copy.join("mcguire.wgsl")).unwrap();
     let sound = "textureStore(output, pixel, mean);\n}";
     assert_eq!(kernels.matches(sound).count(), 1);
     let broken = kernels.replace(sound, "textureStore(output, pixel, mean * 1.05);\n}");

@@ -1,4 +1,4 @@
-//! Things before and behind one another.
+//! Things in front of and behind one another.
 
 use frame::Alignment;
 
@@ -6,18 +6,18 @@ use super::assert_worse;
 use super::rendered_scene::{RenderedScene, value};
 
 #[test]
-fn behind_a_fence_a_train_bleeds_onto_the_bars_where_depth_is_not_compared_well() {
+fn a_train_behind_a_fence_bleeds_onto_the_bars_with_a_wrong_depth_comparison() {
     let [passing, creeping] = ["fence", "fence@creeping"].map(RenderedScene::new);
     let fence =
         |filter: &str| [&passing, &creeping].map(|scene| scene.object_label_tv(filter, "fence"));
-    // Measured 40 and 8.5: one swaps front and back, the other gives still things their tile's motion.
+    // Measured 40 and 8.5: one filter swaps front and back, the other gives still things their tile's motion.
     assert_worse(
         "fence in mcguire:motion_blur_demo",
         fence("mcguire:motion_blur_demo"),
         10.0,
     );
     assert_worse("fence in jimenez:o3de", fence("jimenez:o3de"), 4.0);
-    // A filter that compares depth keeps the bars: measured 0.013, the wrong ones 0.38 and 0.49.
+    // A filter that compares depth keeps the bars: measured 0.013; the wrong filters 0.38 and 0.49.
     let bleed = passing.object_label_tv("jimenez:hdrp", "fence");
     assert!(bleed < 0.04, "{bleed}");
 }
@@ -33,7 +33,7 @@ fn movers_that_share_a_tile_take_one_another_s_motion() {
         1.8,
     );
     assert_worse("label_tv of mcguire:paper", variation("mcguire:paper"), 1.4);
-    // What moves every pixel by itself finds one place as easy as the other: measured 0.99.
+    // A filter that moves every pixel by itself finds both places equally easy: measured 0.99.
     let [here, there] = [&together, &apart].map(|scene| {
         let (truth, frame) = (scene.truth(Alignment::Centred), &scene.frame);
         let oracle = suite::scatter_oracle(frame, truth.shutter, &truth.shutter_profile);

@@ -1,11 +1,11 @@
 //! Small renders of a scene of the catalogue, with the outputs and scores of filters.
 
 use std::cell::OnceCell;
-use std::path::Path;
 
 use filters::{Blur, Filter, Gpu, Input};
 use frame::{Alignment, Frame, Image, Picture, Truth};
 use metrics::{Metric, Reference, Scores};
+use tests::open_gpu;
 use tests::unwatched;
 use tracer::{FrameSettings, Scene, TruthSettings, load_scene, trace_frame, trace_truth};
 
@@ -39,9 +39,7 @@ impl RenderedScene {
             Some((name, variant)) => (name, Some(variant)),
             None => (name, None),
         };
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("../scenes")
-            .join(name);
+        let folder = tests::scenes().join(name);
         let scene = load_scene(&folder, variant).unwrap_or_else(|error| panic!("{error}"));
         let settings = FrameSettings {
             exposure: scene.exposure,
@@ -51,7 +49,7 @@ impl RenderedScene {
             frame: trace_frame(&scene, &settings, &unwatched).unwrap(),
             scene,
             settings,
-            gpu: Gpu::new(None).expect("these tests run filters"),
+            gpu: open_gpu(),
             truths: Default::default(),
         }
     }
@@ -139,7 +137,7 @@ impl RenderedScene {
         value(&self.score_filter(filter), metric)
     }
 
-    /// Error of a filter, relative to that of doing nothing.
+    /// Returns the error of a filter relative to the identity's.
     pub fn error_left_by(&self, filter: &str, metric: &str) -> f64 {
         let frame = self.frame.cropped();
         let nothing = Picture {
@@ -150,7 +148,7 @@ impl RenderedScene {
         self.score(filter, metric) / value(&nothing, metric)
     }
 
-    /// Share of an object that a filter gives to others.
+    /// Returns the share of an object that a filter gives to others.
     pub fn object_label_tv(&self, filter: &str, object: &str) -> f64 {
         let scores = self.score_filter(filter);
         let found = scores.objects.iter().find(|scores| scores.object == object);
@@ -158,7 +156,8 @@ impl RenderedScene {
         found.label_total_variation.value().expect("it is seen")
     }
 
-    /// Weighted mean of the squared error of a filter's radiance; unbiased, as the truth's halves are independent.
+    /// Returns the weighted mean of the squared error of a filter's radiance. It is unbiased, since the truth's halves
+    /// are independent.
     pub fn squared_error(&self, filter: &str, weight_at: impl Fn(u32, u32) -> f64) -> f64 {
         let output = self.blur(filter).color;
         let [a, b] = &self.truth(find_preset(filter).0.alignment).halves;

@@ -4,7 +4,7 @@ use crate::scene_folder::{Folder, SCENE};
 use glam::Vec3;
 
 #[test]
-fn a_material_is_changed_for_one_object_alone() {
+fn a_material_can_change_for_one_object_only() {
     let scene = Folder::new().load().unwrap();
     let paint =
         |object: usize, slot: usize| &scene.materials[scene.objects[object].materials[slot]];
@@ -59,7 +59,7 @@ fn texture_colours_are_decoded_and_opacities_are_not() {
 #[test]
 fn a_jpeg_is_a_texture_too_and_a_name_from_windows_finds_it() {
     let folder = Folder::new();
-    // One colour, so that nothing is lost: 128 of 255.
+    // One colour, so that the compression loses nothing: 128 of 255.
     let grey = image::GrayImage::from_pixel(16, 8, image::Luma([128]));
     let mut bytes = std::io::Cursor::new(Vec::new());
     grey.write_to(&mut bytes, image::ImageFormat::Jpeg).unwrap();

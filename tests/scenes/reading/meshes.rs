@@ -38,7 +38,7 @@ fn objects_of_one_mesh_share_it() {
 }
 
 #[test]
-fn other_ways_to_write_a_mesh_mean_the_same() {
+fn other_spellings_of_a_mesh_load_the_same() {
     let plain = Folder::new().load().unwrap();
     let spaced = |text: &str| {
         text.replace("paint", "old  red paint")
@@ -87,7 +87,7 @@ fn faces_without_normals_are_flat_beside_smooth_ones() {
     assert_eq!(mesh.texcoords[last[1] as usize], Vec2::ONE);
 }
 
-/// The square with its corner (1, 1) elsewhere, and other indices for the same normals.
+/// Returns the square with its corner (1, 1) elsewhere, and other indices for the same normals.
 fn bent_obj() -> String {
     OBJ.replace("v 1 1 0", "v 3 5 0")
         .replace("vn 0 0 2", "vn 0 0 2\nvn 0 0 3")
@@ -127,7 +127,7 @@ fn key_shapes_are_one_mesh_that_deforms() {
         assert_eq!(shape.normals, vec![Vec3::Z; mesh.positions.len()]);
     }
     assert_eq!(mesh.texcoords.len(), mesh.positions.len());
-    // Another object shows a group of the first file, as it is.
+    // Another object shows a group of the first file unchanged.
     assert!(scene.meshes[scene.objects[1].mesh].shapes.is_empty());
 }
 

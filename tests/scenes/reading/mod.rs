@@ -1,4 +1,4 @@
-//! Scenes read from files: the documented example, defaults and hashes; and by subject what files come to mean.
+//! Scenes read from files: the documented example, defaults and hashes, and the meaning of each kind of file.
 
 mod materials;
 mod meshes;
@@ -72,7 +72,7 @@ fn the_documented_example_loads() {
 }
 
 #[test]
-fn what_a_scene_leaves_out_has_its_documented_value() {
+fn omitted_keys_have_their_documented_values() {
     let scene = Folder::new().load().unwrap();
     assert_eq!(scene.display.stops, 0.0);
     assert_eq!(scene.shutter_profile, ShutterProfile::default());
@@ -83,7 +83,7 @@ fn what_a_scene_leaves_out_has_its_documented_value() {
 }
 
 #[test]
-fn the_hash_follows_every_file_and_the_variant_but_not_the_place() {
+fn the_hash_depends_on_every_file_and_the_variant_but_not_on_the_path() {
     let hash = |folder: &Folder, variant| load_scene(&folder.path, variant).unwrap().hash;
     let plain = hash(&Folder::new(), None);
     assert_eq!(plain, hash(&Folder::new(), None), "folders in two places");

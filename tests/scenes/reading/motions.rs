@@ -14,7 +14,7 @@ fn load_with_keys(keys: &str) -> tracer::Scene {
     folder.load().unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Direction of the body's +X at a time.
+/// Returns the direction of the body's +X at a time.
 fn body_x(scene: &tracer::Scene, time: f64) -> DVec3 {
     scene.object_to_world(0, time).transform_vector3(DVec3::X)
 }
@@ -39,7 +39,7 @@ fn an_axis_and_degrees_turn_more_than_once() {
 
 #[test]
 fn quaternions_turn_steadily_the_shorter_way() {
-    // Half of 120 degrees about (1, 1, 1), written with the sign that a naive mean would take the long way round.
+    // Half of 120 degrees about (1, 1, 1), with the sign that leads a naive mean the long way round.
     let scene = load_with_keys("{ time = 0 }, { time = 1, rotation = [-0.5, -0.5, -0.5, -0.5] },");
     let axis = DVec3::ONE.normalize();
     for time in [0.1, 0.25, 0.75, 1.0] {
@@ -50,7 +50,7 @@ fn quaternions_turn_steadily_the_shorter_way() {
 }
 
 #[test]
-fn a_turn_just_below_half_is_taken() {
+fn a_turn_just_below_half_is_accepted() {
     let scene = load_with_keys(
         "{ time = 0, rotation = [0, 0, 0, 1] },
          { time = 1, rotation = { axis = [0, 0, 1], degrees = 179.89 } },",
@@ -71,10 +71,10 @@ fn cubic_keys_are_joined_smoothly() {
     let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
     // The parabola through the keys.
     assert_eq!(scene.object_to_world(0, 0.5).translation.x, 0.25);
-    // A variant's keys leave the interpolation as it is.
+    // A variant's keys do not change the interpolation.
     let fast = load_scene(&folder.path, Some("fast")).unwrap();
     assert_eq!(fast.objects[0].motion.interpolation, Interpolation::Cubic);
-    // Its still pose takes both back.
+    // A variant's still pose removes both.
     folder.edit(
         "scene.toml",
         "keys = [\n    { time = -1 },\n    { time = 1, translation = [2, 0, 0] },\n]",
@@ -85,7 +85,7 @@ fn cubic_keys_are_joined_smoothly() {
 }
 
 #[test]
-fn a_camera_looks_at_its_point_with_up_as_far_as_that_allows() {
+fn a_camera_looks_at_its_point_with_up_as_close_as_possible() {
     let folder = Folder::new();
     folder.edit(
         "scene.toml",

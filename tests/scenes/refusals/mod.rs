@@ -1,4 +1,4 @@
-//! Refusals of slips in a scene's files, each with its place, what was found and what is allowed.
+//! Refusals of slips in a scene's files. Each names its place, what was found and what is allowed.
 
 mod materials;
 mod meshes;
@@ -8,8 +8,8 @@ mod scene_tables;
 use crate::scene_folder::{Folder, SCENE};
 use tracer::{SceneError, list_scenes, load_scene};
 
-/// Slip: its name, a piece of a file, its replacement and the expected message. Paths in the message lie below the scene's
-/// folder; `{gone}` stands for the operating system's text about a missing file.
+/// Slip: its name, a piece of a file, its replacement and the expected message. Paths in the message lie below the
+/// scene's folder. `{gone}` stands for the operating system's text about a missing file.
 type Slip = (&'static str, &'static str, &'static str, &'static str);
 
 /// Puts each slip into a fresh folder, and compares the messages.
@@ -27,13 +27,13 @@ fn check_slips(file: &str, slips: &[Slip]) {
     }
 }
 
-/// Message with paths below the scene's folder.
+/// Formats a message with paths below the scene's folder.
 fn relative_message(folder: &Folder, error: &SceneError) -> String {
     let prefix = format!("{}{}", folder.path.display(), std::path::MAIN_SEPARATOR);
     error.to_string().replace(&prefix, "")
 }
 
-/// The operating system's text about a missing file.
+/// Returns the operating system's text about a missing file.
 fn missing_file_text() -> String {
     std::fs::read("no such file").unwrap_err().to_string()
 }
@@ -82,7 +82,7 @@ fn an_unknown_variant_is_refused() {
 #[test]
 fn an_empty_mesh_is_refused() {
     let folder = Folder::new();
-    // Lines and points are no surface.
+    // Lines and points are not surfaces.
     folder.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\np 1\n");
     folder.edit("scene.toml", "group = \"left\"\n", "");
     let error = folder.load().unwrap_err();
@@ -103,7 +103,7 @@ fn a_mesh_without_area_is_refused() {
 }
 
 #[test]
-fn bytes_that_are_no_text_are_refused() {
+fn bytes_that_are_not_text_are_refused() {
     let folder = Folder::new();
     folder.write("mesh.obj", b"# caf\xe9\n");
     let error = folder.load().unwrap_err();

@@ -13,7 +13,7 @@ fn slips_in_interpolations_are_refused() {
 }
 
 #[test]
-fn numbers_that_carry_things_too_far_are_refused() {
+fn numbers_that_place_things_too_far_away_are_refused() {
     check_slips("scene.toml", FAR_SLIPS);
 }
 

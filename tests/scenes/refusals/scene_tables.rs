@@ -1,4 +1,4 @@
-//! Slips in the tables of a scene.toml: the picture, the camera, lights, names and parents; and in its shutter.
+//! Slips in the tables of a scene.toml: the picture, the camera, lights, names, parents and the shutter.
 
 use super::{Slip, check_slips};
 

@@ -3,13 +3,13 @@
 use frame::{Frame, Picture, Plane, Raster};
 use tests::synthetic::{Blur, EXPOSURE, Sampling, Scene, constant};
 
-/// Noise of a render apart from the truth's.
+/// Samples of a render whose noise differs from the truth's.
 pub const APART: Sampling = Sampling {
     samples: 512,
     seed: Some(99),
 };
 
-/// Wrong pictures of a scene by name.
+/// Makes wrong pictures of a scene, with their names.
 pub fn decoys(scene: &Scene, frame: &Frame) -> Vec<(&'static str, Picture)> {
     let blurred = |blur: Blur| scene.render(&blur, APART);
     let instant = Picture {
@@ -40,22 +40,19 @@ pub fn decoys(scene: &Scene, frame: &Frame) -> Vec<(&'static str, Picture)> {
         ("shift across", blurred(shifted([0.0, 3.0]))),
         ("dilation 2 px", blurred(wide(2.0))),
         ("dilation 6 px", blurred(wide(6.0))),
-        ("isotropic", isotropic(&instant, 7.0)),
+        ("isotropic", blur_isotropically(&instant, 7.0)),
         (
             "fat, rescaled",
-            rescaled(&blurred(Blur::TRUE), &blurred(wide(6.0)), &instant),
+            rescale(&blurred(Blur::TRUE), &blurred(wide(6.0)), &instant),
         ),
-        ("own velocity", gathered(frame)),
-        (
-            "sharp core",
-            sharpened(&blurred(Blur::TRUE), &instant, scene),
-        ),
+        ("own velocity", gather(frame)),
+        ("sharp core", sharpen(&blurred(Blur::TRUE), &instant, scene)),
         ("banding", blurred(Blur::accumulation(3))),
     ]
 }
 
-/// The dilated picture thinned until every object has the mass that it should have; what is missing is the instant.
-fn rescaled(right: &Picture, wide: &Picture, instant: &Picture) -> Picture {
+/// Thins the dilated picture until every object has its true mass; the instant fills the gaps.
+fn rescale(right: &Picture, wide: &Picture, instant: &Picture) -> Picture {
     let mass = |picture: &Picture| -> f64 {
         let mattes = picture.coverage[1..].iter();
         mattes
@@ -82,8 +79,8 @@ fn rescaled(right: &Picture, wide: &Picture, instant: &Picture) -> Picture {
     }
 }
 
-/// The instant's movers over their own true smears.
-fn sharpened(right: &Picture, instant: &Picture, scene: &Scene) -> Picture {
+/// Draws the instant's movers over their own true smears.
+fn sharpen(right: &Picture, instant: &Picture, scene: &Scene) -> Picture {
     let movers = (scene.objects.iter().zip(&instant.coverage[1..]))
         .filter(|(object, _)| object.displacement != [0.0; 2] || object.turn != 0.0);
     let nothing: Plane = instant.coverage[0].map(|_| 0.0);
@@ -104,8 +101,8 @@ fn sharpened(right: &Picture, instant: &Picture, scene: &Scene) -> Picture {
     }
 }
 
-/// Each pixel averages what lies ahead of it along its own velocity, in 64 steps: nothing is carried beyond an outline.
-fn gathered(frame: &Frame) -> Picture {
+/// Averages for each pixel what lies ahead along its own velocity, in 64 steps. Nothing is carried beyond an outline.
+fn gather(frame: &Frame) -> Picture {
     let (width, height) = frame.size();
     let taps = |x: u32, y: u32| {
         let velocity = frame.velocity.at(x, y).map(f64::from);
@@ -133,8 +130,8 @@ fn gathered(frame: &Frame) -> Picture {
     }
 }
 
-/// A Gaussian of `sigma` pixels in all directions, normalised at the border.
-fn isotropic(instant: &Picture, sigma: f64) -> Picture {
+/// Blurs with a Gaussian of `sigma` pixels in all directions, normalised at the border.
+fn blur_isotropically(instant: &Picture, sigma: f64) -> Picture {
     let smooth = |plane: &Plane| across(&across(plane, sigma, [1, 0]), sigma, [0, 1]);
     let channels = [0, 1, 2].map(|c| smooth(&instant.color.map(|color| color[c])));
     Picture {

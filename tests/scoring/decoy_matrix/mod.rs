@@ -1,35 +1,29 @@
-//! Wrong blurs against the bounds that hold for all filters: on every scene each breaks one, and the right blurs break none.
+//! Wrong blurs against the bounds that hold for all filters. On every scene each wrong blur breaks a bound, and the
+//! right ones break none.
 
 mod decoys;
 mod scenes;
 
-use std::path::Path;
-
 use frame::Picture;
 use metrics::{Measured, Metric, Reference, Scores};
 use suite::{Bounds, Outcome, judge_scores, read_bounds_file};
-use tests::synthetic::{Blur, Sampling, Scene, VIEWING};
+use tests::synthetic::{Blur, Scene, VIEWING};
 
+use crate::noisy;
 use decoys::{APART, decoys};
 use scenes::scenes;
 
 /// Reads the bounds of every filter on every scene, required or not.
-fn bounds() -> Bounds {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/bounds.toml");
-    read_bounds_file(Path::new(path)).unwrap().default
+fn shared_bounds() -> Bounds {
+    read_bounds_file(&tests::scenes().join("bounds.toml"))
+        .unwrap()
+        .default
 }
 
-fn noisy(seed: u64) -> Sampling {
-    Sampling {
-        samples: 1024,
-        seed: Some(seed),
-    }
-}
-
-/// Scores of every decoy, and of what is right, on one scene.
-fn scored(scene: &Scene) -> Vec<(&'static str, Scores)> {
+/// Scores every decoy, and the right blurs, on one scene.
+fn score_decoys(scene: &Scene) -> Vec<(&'static str, Scores)> {
     let frame = scene.frame();
-    let truth = scene.truth([noisy(1), noisy(2)]);
+    let truth = scene.truth([noisy(1024, 1), noisy(1024, 2)]);
     let reference = Reference::new(&frame, &truth, None, &VIEWING).unwrap();
     let score = |picture: &Picture| reference.measure(picture).unwrap().scores;
     let mut rows: Vec<_> = (decoys(scene, &frame).iter())
@@ -43,7 +37,7 @@ fn scored(scene: &Scene) -> Vec<(&'static str, Scores)> {
     rows
 }
 
-/// Per decoy the scores that should see it: the first that applies to a scene has to.
+/// Scores that should see each decoy: the first one that applies to a scene must.
 const SEEN_BY: [(&str, &[&str]); 14] = [
     ("identity", &["misplacement", "label_tv"]),
     ("constant", &["bleed_lateral"]),
@@ -61,8 +55,8 @@ const SEEN_BY: [(&str, &[&str]); 14] = [
     ("banding", &["flip_p95_moving"]),
 ];
 
-/// Names of the broken bounds.
-fn broken(scores: &Scores, bounds: &Bounds) -> Vec<String> {
+/// Returns the names of the broken bounds.
+fn broken_bounds(scores: &Scores, bounds: &Bounds) -> Vec<String> {
     let judged = judge_scores(scores, None, bounds).into_iter();
     judged
         .filter_map(|judged| match judged.outcome {
@@ -73,11 +67,11 @@ fn broken(scores: &Scores, bounds: &Bounds) -> Vec<String> {
         .collect()
 }
 
-/// A scene, and per decoy the bounds that it breaks there.
+/// A scene, and for each decoy the bounds that it breaks there.
 type Column<'a> = (&'a str, Vec<(&'a str, Vec<String>)>);
 
-/// The page's table: a row per decoy, a column per scene.
-fn table(columns: &[Column]) -> String {
+/// Formats the page's table: a row per decoy, a column per scene.
+fn format_table(columns: &[Column]) -> String {
     let mut text = "| |".to_owned();
     for (scene, _) in columns {
         text += &format!(" {scene} |");
@@ -99,14 +93,14 @@ fn table(columns: &[Column]) -> String {
 }
 
 #[test]
-fn every_wrong_blur_breaks_a_bound_and_the_right_ones_break_none() {
-    let bounds = bounds();
+fn every_wrong_blur_breaks_a_bound_and_the_right_blurs_break_none() {
+    let bounds = shared_bounds();
     let mut columns = Vec::new();
     let mut failures = Vec::new();
     for (scene, made) in scenes() {
         let mut rows = Vec::new();
-        for (decoy, scores) in scored(&made) {
-            let broken = broken(&scores, &bounds);
+        for (decoy, scores) in score_decoys(&made) {
+            let broken = broken_bounds(&scores, &bounds);
             let seen_by = SEEN_BY.iter().find(|(name, _)| *name == decoy);
             match seen_by {
                 None if broken.is_empty() => {}
@@ -128,7 +122,7 @@ fn every_wrong_blur_breaks_a_bound_and_the_right_ones_break_none() {
         }
         columns.push((scene, rows));
     }
-    let table = table(&columns);
+    let table = format_table(&columns);
     println!("{table}");
     assert!(failures.is_empty(), "{}", failures.join("\n"));
     let page = include_str!("../../../crates/metrics/DECOYS.md");

@@ -1,4 +1,4 @@
-//! Scenes by formula that wrong blurs are tried on.
+//! Scenes by formula, for wrong blurs.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -12,7 +12,7 @@ fn scene(objects: Vec<Object>) -> Scene {
     }
 }
 
-/// Scenes by name: a translation, a rotation, two ways that cross, thin things, and a mover between what stands still.
+/// Makes scenes by name: a translation, a rotation, two crossing ways, thin things, and a mover between still things.
 pub fn scenes() -> Vec<(&'static str, Scene)> {
     let bar = |half: [f64; 2], tilt: f64| Shape::Bar { half, tilt };
     let still = [0.0, 0.0];

@@ -3,9 +3,9 @@
 use metrics::{Ideal, ImageMetric, Measured, Metric, Score};
 use tests::synthetic::Blur;
 
-use super::{DISCS, NOTHING, RADIUS, ROW_MASS, ROWS, TRAVEL, assert_near, discs, read_score};
+use super::{DISCS, NOTHING, RADIUS, ROW_MASS, ROWS, TRAVEL, assert_near, discs, find_value};
 
-/// Standard deviation along the motion, within rows, of a disc smeared over `travel` pixels.
+/// Returns the standard deviation along the motion, within rows, of a disc smeared over `travel` pixels.
 fn spread_of_disc(travel: f64) -> f64 {
     (RADIUS * RADIUS / 4.0 + travel * travel / 12.0).sqrt()
 }
@@ -28,7 +28,7 @@ fn the_truth_itself_scores_perfectly() {
 }
 
 #[test]
-fn blurs_that_only_err_along_the_motion_neither_grow_nor_gain_nor_lose() {
+fn blurs_that_only_err_along_the_motion_keep_the_mass_of_every_row() {
     for (degrees, disc) in discs() {
         let half = Blur {
             from: -0.5,
@@ -44,19 +44,19 @@ fn blurs_that_only_err_along_the_motion_neither_grow_nor_gain_nor_lose() {
         for (scores, blur) in disc.score_blurs(blurs).iter().zip(blurs) {
             let what = |name: &str| format!("{name} of {blur:?} at {degrees} degrees");
             for name in ROW_MASS {
-                assert_near(&what(name), read_score(scores, name), 0.0, ROWS);
+                assert_near(&what(name), find_value(scores, name), 0.0, ROWS);
             }
             for name in ["bleed_lateral", "bleed_leading", "bleed_trailing"] {
-                assert_near(&what(name), read_score(scores, name), 0.0, NOTHING);
+                assert_near(&what(name), find_value(scores, name), 0.0, NOTHING);
             }
             // Sampling of 512 per pixel, over thousands of pixels.
-            assert_near(&what("energy"), read_score(scores, "energy"), 1.0, 1e-3);
+            assert_near(&what("energy"), find_value(scores, "energy"), 1.0, 1e-3);
         }
     }
 }
 
 #[test]
-fn the_floor_of_growth_is_what_the_instants_own_rows_differ_by() {
+fn the_floor_of_growth_is_the_difference_between_the_instant_s_rows() {
     for (degrees, disc) in discs() {
         let [scores] = disc.score_blurs([Blur::IDENTITY]);
         for name in ROW_MASS {
@@ -71,7 +71,7 @@ fn the_floor_of_growth_is_what_the_instants_own_rows_differ_by() {
 }
 
 #[test]
-fn a_blur_of_the_wrong_length_is_misplaced_by_half_of_what_is_missing() {
+fn a_blur_of_the_wrong_length_is_misplaced_by_half_the_difference() {
     for (degrees, disc) in discs() {
         let lengths = [0.0, 0.5, 1.5];
         let blurs = lengths.map(|length| Blur {
@@ -81,21 +81,21 @@ fn a_blur_of_the_wrong_length_is_misplaced_by_half_of_what_is_missing() {
         for (scores, length) in disc.score_blurs(blurs).iter().zip(lengths) {
             let what = |name: &str| format!("{name} of length {length} at {degrees} degrees");
             let ahead = TRAVEL * (1.0 - length) / 2.0;
-            // Mattes sampled 512 times, and rows one pixel wide at an angle: hundredths of a pixel.
+            // Mattes have 512 samples, and rows are one pixel wide at an angle: hundredths of a pixel.
             assert_near(
                 &what("centroid"),
-                read_score(scores, "centroid"),
+                find_value(scores, "centroid"),
                 ahead,
                 0.05,
             );
             assert_near(
                 &what("misplacement"),
-                read_score(scores, "misplacement"),
+                find_value(scores, "misplacement"),
                 ahead.abs(),
                 0.05,
             );
             let extent = spread_of_disc(TRAVEL * length) / spread_of_disc(TRAVEL);
-            assert_near(&what("extent"), read_score(scores, "extent"), extent, 0.01);
+            assert_near(&what("extent"), find_value(scores, "extent"), extent, 0.01);
         }
     }
 }
@@ -109,16 +109,16 @@ fn too_long_a_blur_bleeds_behind_only() {
         };
         let [scores] = disc.score_blurs([long]);
         assert!(
-            read_score(&scores, "bleed_trailing") > 1.0,
+            find_value(&scores, "bleed_trailing") > 1.0,
             "{degrees} degrees"
         );
         assert_near(
             "leading",
-            read_score(&scores, "bleed_leading"),
+            find_value(&scores, "bleed_leading"),
             0.0,
             NOTHING,
         );
-        assert_near("growth", read_score(&scores, "lateral_growth"), 0.0, ROWS);
+        assert_near("growth", find_value(&scores, "lateral_growth"), 0.0, ROWS);
     }
 }
 
@@ -132,28 +132,28 @@ fn a_centred_shutter_against_a_trailing_truth_bleeds_ahead_and_lies_half_the_way
         };
         let [scores] = disc.score_blurs([centred]);
         assert!(
-            read_score(&scores, "bleed_leading") > 1.0,
+            find_value(&scores, "bleed_leading") > 1.0,
             "{degrees} degrees"
         );
         assert_near(
             "trailing",
-            read_score(&scores, "bleed_trailing"),
+            find_value(&scores, "bleed_trailing"),
             0.0,
             NOTHING,
         );
         assert_near(
             "centroid",
-            read_score(&scores, "centroid"),
+            find_value(&scores, "centroid"),
             TRAVEL / 2.0,
             0.05,
         );
-        assert_near("extent", read_score(&scores, "extent"), 1.0, 0.01);
-        assert_near("growth", read_score(&scores, "lateral_growth"), 0.0, ROWS);
+        assert_near("extent", find_value(&scores, "extent"), 1.0, 0.01);
+        assert_near("growth", find_value(&scores, "lateral_growth"), 0.0, ROWS);
     }
 }
 
 #[test]
-fn a_shift_along_the_motion_is_its_centroid_with_its_sign() {
+fn a_shift_along_the_motion_shows_in_the_signed_centroid() {
     for (_, disc) in discs() {
         let shifts = [3.0, -3.0];
         let blurs = shifts.map(|shift| Blur {
@@ -161,14 +161,14 @@ fn a_shift_along_the_motion_is_its_centroid_with_its_sign() {
             ..Blur::TRUE
         });
         for (scores, shift) in disc.score_blurs(blurs).iter().zip(shifts) {
-            assert_near("centroid", read_score(scores, "centroid"), shift, 0.05);
+            assert_near("centroid", find_value(scores, "centroid"), shift, 0.05);
             assert_near(
                 "misplacement",
-                read_score(scores, "misplacement"),
+                find_value(scores, "misplacement"),
                 3.0,
                 0.05,
             );
-            assert_near("growth", read_score(scores, "lateral_growth"), 0.0, ROWS);
+            assert_near("growth", find_value(scores, "lateral_growth"), 0.0, ROWS);
         }
     }
 }

@@ -2,14 +2,14 @@
 
 use tests::synthetic::{Blur, Object, Shape, constant};
 
-use super::{Case, DISCS, NOTHING, RADIUS, assert_near, read_score, slide};
+use super::{Case, DISCS, NOTHING, RADIUS, assert_near, find_value, slide};
 
 #[test]
 fn a_constant_picture_keeps_the_energy_and_fails_everything_else() {
     let [_, disc, ..] = &*DISCS;
     let [scores] = &disc.score_pictures([constant(&disc.truth.mean())]);
     // The mean matte times the pixels, rounded to 32 bits.
-    assert_near("energy", read_score(scores, "energy"), 1.0, 1e-4);
+    assert_near("energy", find_value(scores, "energy"), 1.0, 1e-4);
     for (name, least) in [
         ("bleed_lateral", 1.0),
         ("bleed_leading", 1.0),
@@ -22,9 +22,9 @@ fn a_constant_picture_keeps_the_energy_and_fails_everything_else() {
         ("flip_moving", 0.1),
     ] {
         assert!(
-            read_score(scores, name) > least,
+            find_value(scores, name) > least,
             "{name}: {}",
-            read_score(scores, name)
+            find_value(scores, name)
         );
     }
 }
@@ -44,13 +44,13 @@ fn a_half_erased_bar_has_half_its_energy_and_half_a_hole() {
     let [scores] = &case.score_pictures([faint]);
     // Halves of 32-bit numbers are exact.
     for (name, expected) in [("energy", 0.5), ("deficit", 0.5), ("hole", 0.5)] {
-        assert_near(name, read_score(scores, name), expected, 1e-9);
+        assert_near(name, find_value(scores, name), expected, 1e-9);
     }
 }
 
 #[test]
-fn label_total_variation_is_the_time_given_to_the_wrong_object() {
-    // A bar as long as its way, moving along itself: at each of its three places the time it is seen is known.
+fn label_total_variation_measures_the_time_of_wrong_objects() {
+    // A bar as long as its way, moving along itself: the visible time at each of its three places is known.
     let scene = slide(
         Shape::Bar {
             half: [15.0, 8.0],
@@ -60,15 +60,15 @@ fn label_total_variation_is_the_time_given_to_the_wrong_object() {
     );
     let case = Case::new(scene);
     let [scores] = case.score_blurs([Blur::IDENTITY]);
-    // Ahead and behind, the truth ramps over 30 px; the instant covers one of the ramps: |a - a*| sums to 15 px there,
-    // and to 15 px where it was, over 16 rows: half of it twice, for bar and background.
+    // Ahead and behind, the truth ramps over 30 px, and the instant covers one of the ramps. |a - a*| sums to 15 px
+    // ahead and to 15 px behind, over 16 rows. Half of it counts twice, for bar and background.
     let wrong = 16.0 * (15.0 + 15.0);
     let pixels = metrics::regions(&case.truth).moving.pixels;
     let region = pixels.iter().filter(|inside| **inside).count() as f64;
     // 512 samples per pixel.
     assert_near(
         "label_tv",
-        read_score(&scores, "label_tv"),
+        find_value(&scores, "label_tv"),
         wrong / region,
         2e-3 * wrong / region,
     );
@@ -97,13 +97,13 @@ fn a_filter_that_smears_a_still_bar_contaminates_the_occluder() {
     let scores = case.score_pictures([clean, smeared]);
     assert_near(
         "clean",
-        read_score(&scores[0], "occluder_contamination"),
+        find_value(&scores[0], "occluder_contamination"),
         0.0,
         NOTHING,
     );
     assert_near(
         "smeared",
-        read_score(&scores[1], "occluder_contamination"),
+        find_value(&scores[1], "occluder_contamination"),
         0.25,
         NOTHING,
     );

@@ -1,4 +1,4 @@
-//! Wrong blurs of known wrongness: each score says what was done, and stays silent about what was not.
+//! Wrong blurs with known errors. Scores of an error report it, and the others stay silent.
 
 mod along;
 mod beside;
@@ -7,8 +7,10 @@ mod mattes;
 use std::sync::LazyLock;
 
 use frame::{Frame, Picture, Truth};
-use metrics::{Measured, Metric, Reference, Score, Scores};
+use metrics::{Reference, Scores};
 use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
+
+use crate::{clean_truth, find_value};
 
 const RADIUS: f64 = 14.0;
 
@@ -16,11 +18,11 @@ const TRAVEL: f64 = 30.0;
 
 const ANGLES: [f64; 4] = [0.0, 30.0, 45.0, 90.0];
 
-/// Rows of pixels at an angle to the motion keep their mass only as well as a box pixel samples the outline: measured
-/// below 0.02 px over the angles here; a filter's bleed that matters is above 0.2 px.
+/// Tolerance of the mass of rows. A box pixel samples the outline of rows at an angle inexactly: measured below 0.02 px
+/// over the angles here. A filter's bleed matters above 0.2 px.
 const ROWS: f64 = 0.05;
 
-/// Sums of single-precision mattes, sampled 512 times: what is exactly 0 by geometry.
+/// Tolerance of sums of single-precision mattes with 512 samples, which geometry makes exactly 0.
 const NOTHING: f64 = 1e-6;
 
 /// Scores of the mass that rows along the motion gain or lose.
@@ -31,7 +33,7 @@ fn direction(degrees: f64) -> [f64; 2] {
     [cos, sin]
 }
 
-/// A shape whose smear has its middle a little off the picture's, and stays inside when it is too long or too late.
+/// Makes a shape whose smear has its middle a little off the picture's, and stays inside if it is too long or too late.
 fn slide(shape: Shape, degrees: f64) -> Scene {
     let along = direction(degrees);
     Scene {
@@ -59,7 +61,7 @@ impl Case {
     fn new(scene: Scene) -> Self {
         Self {
             frame: scene.frame(),
-            truth: scene.truth([Sampling::CLEAN; 2]),
+            truth: clean_truth(&scene),
             scene,
         }
     }
@@ -80,20 +82,12 @@ impl Case {
     }
 }
 
-/// A disc that slides at each of the angles.
+/// Discs that slide at each of the angles.
 static DISCS: LazyLock<[Case; 4]> =
     LazyLock::new(|| ANGLES.map(|degrees| Case::new(slide(Shape::Disc(RADIUS), degrees))));
 
 fn discs() -> impl Iterator<Item = (f64, &'static Case)> {
     ANGLES.into_iter().zip(DISCS.iter())
-}
-
-fn read_score(scores: &Scores, name: &str) -> f64 {
-    let metric: Metric = name.parse().expect("a metric's name");
-    match scores.get(metric) {
-        Measured::Score(Score { value, .. }) => value,
-        Measured::NotApplicable { reason } => panic!("{name} is not applicable: {reason}"),
-    }
 }
 
 #[track_caller]

@@ -1,15 +1,14 @@
-//! Scores: their silence, pooling, names and refusals.
+//! Scores: their reasons to stay silent, pooling, names and refusals.
 
 mod names;
 mod pooling;
 mod refusals;
 mod silence;
 
-use frame::Truth;
-use metrics::{Measured, Measurement, Scores, measure};
-use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
+use metrics::{Measured, Scores};
+use tests::synthetic::{Object, Scene, Shape};
 
-/// A disc of 8 px that slides 12 px to the right, and a bar that stands still, in front of it or not.
+/// Makes a disc of 8 px that slides 12 px to the right, and a bar that stands still, in front of it or not.
 fn small_scene(bar_at: [f64; 2]) -> Scene {
     let bar = Shape::Bar {
         half: [2.0, 20.0],
@@ -28,28 +27,12 @@ fn small_scene(bar_at: [f64; 2]) -> Scene {
 /// Place of a bar beside the disc's way.
 const BESIDE: [f64; 2] = [10.0, 30.0];
 
-/// Place of a bar in its way.
+/// Place of a bar in the disc's way.
 const BEFORE: [f64; 2] = [40.0, 30.0];
-
-fn clean_truth(scene: &Scene) -> Truth {
-    scene.truth([Sampling::CLEAN; 2])
-}
-
-fn measure_blur(scene: &Scene, blur: Blur) -> Measurement {
-    let output = scene.render(&blur, Sampling::CLEAN);
-    measure(&output, &scene.frame(), &clean_truth(scene), None, &VIEWING).expect("they agree")
-}
 
 fn find_reason(scores: &Scores, metric: &str) -> String {
     match scores.get(metric.parse().expect("a metric's name")) {
         Measured::NotApplicable { reason } => reason,
         Measured::Score(score) => panic!("{metric} scores {} where it means nothing", score.value),
     }
-}
-
-fn find_value(scores: &Scores, metric: &str) -> f64 {
-    let measured = scores.get(metric.parse().expect("a metric's name"));
-    measured
-        .value()
-        .unwrap_or_else(|| panic!("{metric}: {measured:?}"))
 }

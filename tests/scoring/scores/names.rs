@@ -3,10 +3,11 @@
 use metrics::{Group, Ideal, ImageMetric, Metric, ObjectMetric, Region, Scores};
 use tests::synthetic::Blur;
 
-use super::{BEFORE, measure_blur, small_scene};
+use super::{BEFORE, small_scene};
+use crate::measure_blur;
 
 #[test]
-fn every_metric_has_one_name_that_finds_it() {
+fn every_metric_is_found_by_its_one_name() {
     let all = Metric::all();
     for metric in &all {
         assert_eq!(metric.name().parse(), Ok(*metric));
@@ -32,7 +33,7 @@ fn every_metric_has_a_meaning_of_its_own() {
 }
 
 #[test]
-fn every_group_that_a_page_shows_has_metrics() {
+fn every_group_of_a_page_has_metrics() {
     let all = Metric::all();
     for group in Group::SHOWN {
         assert!(

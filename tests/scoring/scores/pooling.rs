@@ -4,19 +4,20 @@ use frame::Raster;
 use metrics::{Measured, Metric, ObjectMetric, Viewing, measure, regions};
 use tests::synthetic::{Blur, Object, Shape, VIEWING};
 
-use super::{BESIDE, clean_truth, find_value, measure_blur, small_scene};
+use super::{BESIDE, small_scene};
+use crate::{clean_truth, find_value, measure_blur};
 
 #[test]
-fn the_moving_region_reaches_a_fifteenth_of_the_height_beyond_what_moves() {
+fn the_moving_region_extends_a_fifteenth_of_the_height_beyond_movers() {
     let mut truth = clean_truth(&small_scene(BESIDE));
     truth.support.moving = Raster::from_fn(80, 60, |x, y| (x, y) == (40, 30));
-    let regions = regions(&truth);
+    let pools = regions(&truth);
     for (reach, inside) in [(4, true), (5, false)] {
-        assert_eq!(*regions.moving.at(40 + reach, 30), inside);
-        assert_eq!(*regions.moving.at(40, 30 - reach), inside);
-        assert_eq!(*regions.still.at(40 + reach, 30), !inside);
+        assert_eq!(*pools.moving.at(40 + reach, 30), inside);
+        assert_eq!(*pools.moving.at(40, 30 - reach), inside);
+        assert_eq!(*pools.still.at(40 + reach, 30), !inside);
     }
-    assert_eq!(regions.support, truth.support.moving);
+    assert_eq!(pools.support, truth.support.moving);
 }
 
 #[test]
@@ -42,7 +43,7 @@ fn an_error_in_a_still_pixel_counts_as_static_and_not_as_moving() {
 }
 
 #[test]
-fn errors_of_colour_are_those_of_the_viewing_exposure() {
+fn errors_of_colour_use_the_viewing_exposure() {
     let scene = small_scene(BESIDE);
     let (frame, truth) = (scene.frame(), clean_truth(&scene));
     let mut output = truth.mean();
@@ -70,9 +71,9 @@ fn errors_of_colour_are_those_of_the_viewing_exposure() {
 }
 
 #[test]
-fn scores_are_pooled_from_the_maps_that_their_rows_name() {
+fn scores_are_pooled_from_their_metrics_maps() {
     let measurement = measure_blur(&small_scene(BESIDE), Blur::accumulation(2));
-    let regions = regions(&clean_truth(&small_scene(BESIDE)));
+    let pools = regions(&clean_truth(&small_scene(BESIDE)));
     for name in [
         "mse_moving",
         "relmse_moving",
@@ -86,7 +87,7 @@ fn scores_are_pooled_from_the_maps_that_their_rows_name() {
     ] {
         let metric: Metric = name.parse().unwrap();
         let map = measurement.map(metric.row().map).expect("no probe's map");
-        let values = regions.select(metric.region(), map);
+        let values = pools.select(metric.region(), map);
         let mean = values.iter().map(|value| f64::from(*value)).sum::<f64>() / values.len() as f64;
         assert!(mean > 0.0, "{name} has an error to show");
         // Maps are stored in 32 bits.
@@ -96,7 +97,7 @@ fn scores_are_pooled_from_the_maps_that_their_rows_name() {
 }
 
 #[test]
-fn the_bleed_map_holds_what_lies_outside_the_support() {
+fn the_bleed_map_holds_coverage_outside_the_support() {
     let long = Blur {
         from: -2.0,
         ..Blur::TRUE
@@ -122,7 +123,7 @@ fn the_bleed_map_holds_what_lies_outside_the_support() {
 }
 
 #[test]
-fn the_worst_object_speaks_for_all() {
+fn the_worst_object_s_score_is_the_scene_s() {
     let mut scene = small_scene(BESIDE);
     scene
         .objects
@@ -141,7 +142,7 @@ fn the_worst_object_speaks_for_all() {
 }
 
 #[test]
-fn the_largest_bleed_is_found_on_whichever_side_it_is() {
+fn the_largest_bleed_is_found_on_every_side() {
     let mut scores = measure_blur(&small_scene(BESIDE), Blur::IDENTITY).scores;
     let mut largest = |values: [f64; 3]| {
         let [lateral, leading, trailing] = values.map(|value| Measured::score(value, 0.0));

@@ -4,10 +4,11 @@ use frame::{Frame, Picture, Raster};
 use metrics::{MeasureError, Viewing, measure};
 use tests::synthetic::VIEWING;
 
-use super::{BESIDE, clean_truth, small_scene};
+use super::{BESIDE, small_scene};
+use crate::clean_truth;
 
 #[test]
-fn pictures_that_do_not_belong_together_are_refused_by_name() {
+fn invalid_and_mismatched_pictures_are_refused_by_name() {
     let scene = small_scene(BESIDE);
     let (frame, truth) = (scene.frame(), clean_truth(&scene));
     let output = truth.mean();

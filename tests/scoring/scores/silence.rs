@@ -4,7 +4,8 @@ use frame::Raster;
 use metrics::{Measured, ObjectMetric, measure};
 use tests::synthetic::{Blur, Object, Shape, VIEWING};
 
-use super::{BEFORE, BESIDE, clean_truth, find_reason, find_value, measure_blur, small_scene};
+use super::{BEFORE, BESIDE, find_reason, small_scene};
+use crate::{clean_truth, find_value, measure_blur};
 
 /// Scores that need rows along a translation.
 const ROW_SCORES: [&str; 6] = [
@@ -34,7 +35,7 @@ fn a_rotation_has_no_row_scores_but_bleeds() {
         half: [20.0, 3.0],
         tilt: 0.3,
     };
-    // In place, and while it travels: the mean of its velocities is nothing, and something.
+    // In place, and while it travels: the mean velocity is zero, and not zero.
     for travel in [0.0, 4.0] {
         scene.objects[1] = Object {
             turn: 0.8,
@@ -68,7 +69,7 @@ fn turning_too_far_bleeds_ahead_of_the_local_motion() {
     let scores = measure_blur(&scene, ahead).scores;
     let leading = find_value(&scores, "bleed_leading");
     assert!(leading > 0.2, "{leading}");
-    // The two ends of the arm swing towards opposite sides; judged by one direction, half of this would be trailing.
+    // The two ends of the arm swing towards opposite sides. Judged by one direction, half of this would be trailing.
     let trailing = find_value(&scores, "bleed_trailing");
     assert!(
         trailing < 0.1 * leading,
@@ -80,12 +81,12 @@ fn turning_too_far_bleeds_ahead_of_the_local_motion() {
 fn an_object_behind_another_cannot_tell_growth_from_occlusion() {
     let scores = measure_blur(&small_scene(BEFORE), Blur::IDENTITY).scores;
     assert!(find_reason(&scores, "lateral_growth").contains("rows do not keep their mass"));
-    // Rows are normalised there: half of the way of 12 px, and what the bar hides of it.
+    // Rows are normalised there: half of the way of 12 px, and the part that the bar hides of it.
     assert!((find_value(&scores, "misplacement") - 6.0).abs() < 1.5);
 }
 
 #[test]
-fn objects_that_stand_still_or_are_not_seen_say_so() {
+fn still_and_unseen_objects_have_no_scores_and_say_why() {
     let mut scene = small_scene(BESIDE);
     let hidden = Object::sliding(Shape::Disc(1.0), BESIDE, [5.0, 0.0]);
     scene.objects.push(hidden);
@@ -135,7 +136,7 @@ fn a_scene_without_motion_has_nothing_to_score_but_stillness() {
 }
 
 #[test]
-fn without_a_ladder_there_is_no_count_of_sub_frames() {
+fn a_count_of_sub_frames_needs_a_ladder() {
     let scores = measure_blur(&small_scene(BESIDE), Blur::IDENTITY).scores;
     assert_eq!(
         find_reason(&scores, "n_eq"),

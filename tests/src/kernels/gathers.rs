@@ -1,8 +1,8 @@
-//! Filters that average along a pixel's own motion, or one that was brought to it.
+//! Filters that average along a pixel's own motion, or along motion from a nearby pixel.
 
 use super::{Steady, Tap, length, nearest, on_trail, own, scaled};
 
-/// Taps at i/N of the trail: Ctrl-Alt-Test 2011, and the blur by the camera's motion.
+/// Places the taps at i/N of the trail: Ctrl-Alt-Test 2011, and the blur by the camera's motion.
 pub fn plain(preset: &str, steady: &Steady) -> Vec<Tap> {
     let count = match preset {
         "departure" => 10,
@@ -14,7 +14,7 @@ pub fn plain(preset: &str, steady: &Steady) -> Vec<Tap> {
     on_trail(steady.trail(), parts)
 }
 
-/// The demo of Golan 2024, and what it became two days later.
+/// Places the taps of Golan's demo of 2024, and of the version two days later.
 pub fn jump_flood(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     let trail = jump_flood_trail(preset, steady);
     match preset {
@@ -31,8 +31,8 @@ pub fn jump_flood(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     }
 }
 
-/// The motion that is gathered along: cut at the largest step of the dilation, 32 pixels, or at twice that, both as parts of
-/// the picture's longer side and of a path in parts of width and height.
+/// Returns the motion that is gathered along. It is cut at the largest step of the dilation, 32 pixels, or at twice
+/// that, both as parts of the picture's longer side and of a path in parts of width and height.
 pub fn jump_flood_trail(preset: &str, steady: &Steady) -> [f64; 2] {
     let cut = match preset {
         "paper" | "tuned" => 32.0,
@@ -44,12 +44,12 @@ pub fn jump_flood_trail(preset: &str, steady: &Steady) -> [f64; 2] {
     if path == 0.0 {
         return [0.0, 0.0];
     }
-    // Divided by the exposure, and again by it when it becomes a length: right for one frame alone.
+    // Divided by the exposure, and again when it becomes a length: right only for one frame.
     let frames = cut / width.max(height) / (path * steady.exposure);
     scaled(steady.velocity, steady.exposure.min(frames))
 }
 
-/// Bevy: twice as many taps as its `samples` says, within half the trail to each side.
+/// Places the taps of Bevy: twice as many as its `samples`, within half the trail to each side.
 pub fn bevy(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     let samples = match preset {
         "default" | "msaa" => 1,

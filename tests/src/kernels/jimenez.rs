@@ -1,18 +1,18 @@
 //! Jimenez 2014 and the engines that follow it, from their sources.
 //!
-//! Where everything moves alike at one depth, weights are whole, except those of kajiya, which compare in pixels.
+//! Where everything moves alike at one depth, weights are 1, except those of kajiya, which compare in pixels.
 
 use super::{Steady, Tap, bilinear, length, on_trail, own, scaled};
 
 /// Returns the taps of a preset.
-pub fn taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
+pub fn place_taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     match preset {
         "slides_2014" => slides(steady, noise),
         "hdrp" | "hdrp_mirrored" => hdrp(steady, noise),
-        // Ships with a strength of 5; the exposure's trail goes half of itself to each side.
+        // Ships with a strength of 5; the exposure's trail extends by half of itself to each side.
         "o3de" => o3de(steady, 5.0, noise),
         "o3de_scaled" => o3de(steady, 0.5, noise),
-        // A direction is 100 widths and heights of motion, taken for pixels, and goes 7.5 steps to each side.
+        // A direction is 100 widths and heights of motion, taken as pixels, and extends 7.5 steps to each side.
         "wicked" => {
             let [width, height] = steady.size();
             let [x, y] = steady.trail();
@@ -25,19 +25,19 @@ pub fn taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     }
 }
 
-/// Eight pairs in the middles of steps, a quarter of a step to and fro in turn between pixels.
+/// Places eight pairs in the middles of steps, a quarter of a step to and fro in turn between pixels.
 fn slides(steady: &Steady, noise: f64) -> Vec<Tap> {
     let shift = if noise < 0.5 { -0.25 } else { 0.25 };
     let sides = (0..8).flat_map(|i| [0.5 + f64::from(i) + shift, -0.5 - f64::from(i) - shift]);
     on_trail(scaled(steady.trail(), 0.5 / 8.0), sides)
 }
 
-/// MotionBlur.compute of Unity HDRP, 8 samples.
+/// Places the taps of MotionBlur.compute of Unity HDRP, 8 samples.
 fn hdrp(steady: &Steady, noise: f64) -> Vec<Tap> {
     let [width, height] = steady.size();
     let intensity = 2.0;
     let motion = scaled(steady.trail(), intensity);
-    // Lengths are those of parts of the picture, times its diagonal.
+    // Lengths are in parts of the picture, times its diagonal.
     let pixels = length([motion[0] / width, motion[1] / height]) * width.hypot(height);
     if pixels <= 2.0 {
         return vec![own(1.0)];
@@ -55,7 +55,7 @@ fn hdrp(steady: &Steady, noise: f64) -> Vec<Tap> {
         .collect()
 }
 
-/// MotionBlur.azsl of O3DE at quality High, of whose offsets whole pixels count.
+/// Places the taps of MotionBlur.azsl of O3DE at quality High, whose offsets are cut to whole pixels.
 fn o3de(steady: &Steady, strength: f64, noise: f64) -> Vec<Tap> {
     let motion = scaled(steady.trail(), strength);
     if length(motion) < 1.0 {
@@ -73,7 +73,7 @@ fn o3de(steady: &Steady, strength: f64, noise: f64) -> Vec<Tap> {
         .collect()
 }
 
-/// motionblurCS.hlsl of Wicked Engine: 16 taps from end to end of a trail that noise scales.
+/// Places the taps of motionblurCS.hlsl of Wicked Engine: 16 from end to end of a trail that noise scales.
 fn wicked(half: [f64; 2], noise: f64) -> Vec<Tap> {
     let steps = (0..16).map(|i| f64::from(i) - 7.5);
     steps
@@ -81,7 +81,8 @@ fn wicked(half: [f64; 2], noise: f64) -> Vec<Tap> {
         .collect()
 }
 
-/// motion_blur.rs of kajiya: the pixel and three steps on each side, of an eighth of half the motion, shifted together.
+/// Places the taps of motion_blur.rs of kajiya: the pixel and three steps on each side, of an eighth of half the
+/// motion, shifted together.
 fn kajiya(steady: &Steady, scale: f64, noise: f64) -> Vec<Tap> {
     // Its map of motion points back.
     let half = scaled(steady.trail(), -0.5 * scale);
@@ -91,7 +92,7 @@ fn kajiya(steady: &Steady, scale: f64, noise: f64) -> Vec<Tap> {
     let mut covered = 0.0;
     for i in [1.0, 2.0, 3.0] {
         let distance = length(along(i + shift));
-        // Of equals, the second takes the first's.
+        // Of equal taps, the second takes the first's weight.
         let weight = (length(half) - (distance + 1.0)).clamp(0.0, 1.0) / 7.0;
         covered += 2.0 * weight;
         taps.extend(bilinear(along(i + shift), weight));
@@ -105,7 +106,7 @@ fn kajiya(steady: &Steady, scale: f64, noise: f64) -> Vec<Tap> {
     taps
 }
 
-/// A tap that reads the nearest pixel.
+/// Makes a tap that reads the nearest pixel.
 fn nearest(offset: [f64; 2]) -> Tap {
     Tap {
         offset: offset.map(|part| (part + 0.5).floor()),

@@ -3,7 +3,7 @@
 use super::{Steady, Tap, bilinear, length, own, scaled};
 
 /// Returns the taps of its preset.
-pub fn taps(steady: &Steady, noise: f64) -> Vec<Tap> {
+pub fn place_taps(steady: &Steady, noise: f64) -> Vec<Tap> {
     let motion = packed(steady);
     let reach = length(motion);
     if reach < 2.0 {
@@ -16,7 +16,7 @@ pub fn taps(steady: &Steady, noise: f64) -> Vec<Tap> {
     for pair in 0..pairs as u32 {
         let along = 1.0 - (f64::from(pair) + 0.5) * step;
         for place in [along + shift, -along + shift] {
-            // Whole up to the last pixel, and a window that falls to a sixth.
+            // The weight is 1 up to the last pixel, times a window that falls to a sixth.
             let arrives = (reach - reach * place.abs()).clamp(0.0, 1.0);
             let weight = arrives / reach * (1.2 - along);
             taps.extend(bilinear(scaled(motion, place), weight));
@@ -25,7 +25,7 @@ pub fn taps(steady: &Steady, noise: f64) -> Vec<Tap> {
     taps
 }
 
-/// Half-motion in pixels, cut at 5 % of the rows, after 10 bits per axis.
+/// Returns half the motion in pixels, cut at 5 % of the rows, after packing in 10 bits per axis.
 fn packed(steady: &Steady) -> [f64; 2] {
     let radius = (f64::from(steady.size[1]) * 5.0 / 100.0).floor().max(1.0);
     let half = scaled(steady.trail(), 0.5);

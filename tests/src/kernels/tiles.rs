@@ -1,17 +1,18 @@
-//! Filters that weigh taps by a cone and a cylinder.
+//! Filters that weight taps by a cone and a cylinder.
 //!
 //! Where everything moves alike at one depth, every tap is both in front and behind: two cones and two cylinders.
 
 use super::{Steady, Tap, bilinear, length, nearest, own, scaled};
 
-/// McGuire et al. 2012, and what two implementations make of it.
+/// Places the taps of McGuire et al. 2012, and of two implementations.
 pub fn mcguire(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     let half = scaled(steady.trail(), 0.5);
     let along = |i: i32, jitter: f64, count: i32| {
         2.0 * (f64::from(i) + jitter + 1.0) / f64::from(count + 1) - 1.0
     };
     match preset {
-        // Tuned, 1.2 times as far and held at the ends; the pixel's own direction is that of all.
+        // The tuned preset reaches 1.2 times as far and clamps at the ends. The pixel's own direction equals all
+        // others.
         "paper" | "tuned" => {
             let (count, spread) = if preset == "paper" {
                 (15, 1.0)
@@ -32,7 +33,7 @@ pub fn mcguire(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
             }));
             taps
         }
-        // Cut at half a tile. Distances are next to nothing in its unit, so all taps weigh alike, and the middle one counts.
+        // Cut at half a tile. Distances are tiny in its unit, so all taps have equal weight, and the middle one counts.
         "motion_blur_demo" => {
             let half = scaled(half, (10.0 / length(half)).min(1.0));
             let jitter = 2.0 * (noise * std::f64::consts::TAU).sin().rem_euclid(1.0) - 1.0;
@@ -40,7 +41,7 @@ pub fn mcguire(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
             taps.extend((0..15).flat_map(|i| bilinear(scaled(half, along(i, jitter, 15)), 4.0)));
             taps
         }
-        // 1.2 times as far and held at the ends, by distances along the trail, with a hard cylinder.
+        // 1.2 times as far and clamped at the ends, by distances along the trail, with a hard cylinder.
         "g3d" => {
             let half = half_velocity(half, 64.0);
             let radius = length(half);
@@ -58,7 +59,7 @@ pub fn mcguire(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     }
 }
 
-/// Guertin, McGuire and Nowrouzezahrai 2014.
+/// Places the taps of Guertin, McGuire and Nowrouzezahrai 2014.
 pub fn guertin(steady: &Steady, noise: f64) -> Vec<Tap> {
     let half = half_velocity(scaled(steady.trail(), 0.5), 40.0);
     let radius = length(half);
@@ -78,7 +79,7 @@ pub fn guertin(steady: &Steady, noise: f64) -> Vec<Tap> {
     taps
 }
 
-/// Half-velocities between half a pixel and so many, with the papers' epsilon.
+/// Clamps half-velocities between half a pixel and `longest`, with the papers' epsilon.
 fn half_velocity(half: [f64; 2], longest: f64) -> [f64; 2] {
     scaled(
         half,

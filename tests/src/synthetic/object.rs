@@ -14,25 +14,25 @@ pub enum Shape {
     },
 }
 
-/// A shape that moves.
+/// A moving shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Object {
-    /// Form and size.
+    /// Shape and size.
     pub shape: Shape,
-    /// Its centre at the instant, in pixels.
+    /// Centre at the instant, in pixels.
     pub center: [f64; 2],
-    /// Its translation over the shutter, in pixels.
+    /// Translation over the shutter, in pixels.
     pub displacement: [f64; 2],
-    /// Its rotation about its centre over the shutter, in radians.
+    /// Rotation about its centre over the shutter, in radians.
     pub turn: f64,
 }
 
 /// A smear of moving objects, right or wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blur {
-    /// Begin of the smear, in displacements from the instant.
+    /// Start of the smear, in displacements from the instant.
     pub from: f64,
-    /// End of the smear.
+    /// End of the smear, in displacements from the instant.
     pub to: f64,
     /// Sub-frames at the midpoints of equal parts; none for a continuous smear.
     pub subframes: Option<u32>,
@@ -43,7 +43,7 @@ pub struct Blur {
 }
 
 impl Blur {
-    /// The smear that a camera with a trailing shutter sees.
+    /// Smear that a camera with a trailing shutter sees.
     pub const TRUE: Blur = Blur {
         from: -1.0,
         to: 0.0,
@@ -57,7 +57,7 @@ impl Blur {
         ..Blur::TRUE
     };
 
-    /// The mean of `subframes` instants.
+    /// Makes the mean of `subframes` instants.
     pub fn accumulation(subframes: u32) -> Blur {
         Blur {
             subframes: Some(subframes),
@@ -67,7 +67,7 @@ impl Blur {
 }
 
 impl Object {
-    /// An object that translates only.
+    /// Makes an object that only translates.
     pub fn sliding(shape: Shape, center: [f64; 2], displacement: [f64; 2]) -> Self {
         Self {
             shape,
@@ -81,7 +81,8 @@ impl Object {
         self.displacement != [0.0, 0.0] || self.turn != 0.0
     }
 
-    /// The point in the object's own coordinates, its centre at (0, 0), at `time` displacements from the instant.
+    /// Converts a point to the object's own coordinates, its centre at (0, 0), at `time` displacements from the
+    /// instant.
     pub(crate) fn local(&self, point: [f64; 2], time: f64, blur: &Blur) -> [f64; 2] {
         let along = unit(self.displacement);
         let across = [-along[1], along[0]];
@@ -95,7 +96,7 @@ impl Object {
         rotate(moved, -self.turn * time)
     }
 
-    /// Returns whether any part of a pixel can see the object at any time of a blur; errs towards true.
+    /// Returns whether any part of a pixel can see the object at any time of a blur. It may return true wrongly.
     pub(crate) fn reaches(&self, pixel: [u32; 2], blur: &Blur) -> bool {
         let size = match self.shape {
             Shape::Disc(radius) => radius,
@@ -108,7 +109,8 @@ impl Object {
         distance[0].hypot(distance[1]) <= size + travel + shift + 1.0
     }
 
-    /// Returns whether the object, dilated across its motion by `dilation` to both sides, holds a point of its own coordinates.
+    /// Returns whether a point in the object's own coordinates is inside it, after a dilation across its motion by
+    /// `dilation` to both sides.
     pub(crate) fn holds(&self, local: [f64; 2], dilation: f64) -> bool {
         let along = unit(self.displacement);
         let across = [-along[1], along[0]];

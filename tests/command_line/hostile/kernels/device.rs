@@ -2,22 +2,23 @@
 
 use std::time::Instant;
 
-use filters::{Filter, Gpu, Limits, try_out};
+use filters::{Filter, Limits, try_out};
+use tests::open_gpu;
 use tests::text::assert_contains;
 
-use super::{change, list, load, mine};
+use super::{change, list, load, write_mine};
 use crate::bench::{assert_done, assert_refused, stderr};
 
 #[test]
-fn list_tries_a_filter_that_holds_and_says_so_by_listing_it() {
-    let bench = mine(&[]);
+fn list_tries_a_filter_and_lists_it_if_it_works() {
+    let bench = write_mine(&[]);
     let output = list(&bench);
     assert_done(&output);
     assert_eq!(stderr(&output), "");
 }
 
 #[test]
-fn what_the_device_refuses_is_refused_by_list_with_file_and_pass() {
+fn list_refuses_a_filter_that_the_device_refuses_with_file_and_pass() {
     #[rustfmt::skip]
     let wrong: &[(&str, &str, &[&str])] = &[
         ("(8, 8)", "(64, 64)", &["mine/mine.wgsl:10: pass \"work\"", "@workgroup_size(64, 64, 1): 4096 invocations", "allowed: at most", "smaller"]),
@@ -29,18 +30,18 @@ fn what_the_device_refuses_is_refused_by_list_with_file_and_pass() {
     for (from, to, parts) in wrong {
         let table = "var<workgroup> table: array<vec4<f32>, 100000>;";
         let bench = match to.starts_with("table") {
-            true => mine(&[(from, to), ("// declarations", table)]),
-            false => mine(&[(from, to)]),
+            true => write_mine(&[(from, to), ("// declarations", table)]),
+            false => write_mine(&[(from, to)]),
         };
         assert_refused(&list(&bench), 2, parts);
-        // Before anything is rendered.
+        // Nothing was rendered before.
         assert_refused(&bench.run(&["--filter", "mine"]), 2, parts);
         assert!(!bench.path("out").exists());
     }
 }
 
 #[test]
-fn without_an_adapter_the_lowest_common_limits_hold() {
+fn the_lowest_common_limits_hold_if_no_adapter_is_there() {
     let written = |names: &[&str]| {
         let declared: String = (names.iter().enumerate())
             .map(|(index, name)| {
@@ -57,7 +58,7 @@ fn without_an_adapter_the_lowest_common_limits_hold() {
             .map(|name| format!("[[texture]]\nname = \"{name}\"\nformat = \"rgba32float\"\n"))
             .collect();
         let pass = format!("{textures}\n[[pass]]");
-        let bench = mine(&[
+        let bench = write_mine(&[
             ("// declarations", &declared),
             ("// statements", &stored),
             ("[[pass]]", &pass),
@@ -78,7 +79,7 @@ fn without_an_adapter_the_lowest_common_limits_hold() {
         ],
     );
     let lowest = |from, to| {
-        let filter = load(&mine(&[(from, to)])).unwrap();
+        let filter = load(&write_mine(&[(from, to)])).unwrap();
         Limits::lowest()
             .check(&filter)
             .map_err(|error| error.to_string())
@@ -94,8 +95,8 @@ fn without_an_adapter_the_lowest_common_limits_hold() {
 }
 
 #[test]
-fn variables_and_calls_that_no_device_holds_are_refused_when_loaded() {
-    let bench = mine(&[
+fn variables_and_calls_too_large_for_any_device_are_refused_on_load() {
+    let bench = write_mine(&[
         (
             "// declarations",
             "var<private> much: array<f32, 10000000>;",
@@ -111,7 +112,7 @@ fn variables_and_calls_that_no_device_holds_are_refused_when_loaded() {
         "allowed: at most 16384",
     ];
     assert_contains(&load(&bench).unwrap_err(), &parts);
-    // Each function calls the one before it twice: 2^60 calls.
+    // Each function calls the previous one twice, which makes 2^60 calls.
     let twice: String = (1..=60)
         .map(|level| {
             let before = level - 1;
@@ -135,7 +136,7 @@ fn variables_and_calls_that_no_device_holds_are_refused_when_loaded() {
 }
 
 #[test]
-fn a_range_that_makes_a_kernel_fail_is_found_by_list() {
+fn list_finds_a_range_in_which_a_kernel_fails() {
     #[rustfmt::skip]
     let wrong: &[(&str, &str, &[&str])] = &[
         ("[1, 64]", "[0, 64]", &["mine/filter.toml:5: parameter \"samples\" = 0, the lower end of its range, with preset \"plain\"", "pass work", "NaN", "pixel (0, 0)", "narrow the range"]),
@@ -148,19 +149,19 @@ fn a_range_that_makes_a_kernel_fail_is_found_by_list() {
         if to.contains("dark") {
             changes.push(("[1, 64]", "[0, 64]"));
         }
-        assert_refused(&list(&mine(&changes)), 2, parts);
+        assert_refused(&list(&write_mine(&changes)), 2, parts);
     }
-    let gpu = Gpu::new(None).expect("this test runs filters");
+    let gpu = open_gpu();
     if gpu.loop_limit.is_some() {
-        let bench = mine(&[("[1, 64]", "[1, 100000]")]);
+        let bench = write_mine(&[("[1, 64]", "[1, 100000]")]);
         let parts = ["parameter \"samples\" = 100000", "ends all loops"];
         assert_refused(&list(&bench), 2, &parts);
     }
 }
 
 #[test]
-fn every_built_in_filter_holds_at_the_ends_of_its_ranges() {
-    let gpu = Gpu::new(None).expect("this test runs filters");
+fn every_built_in_filter_works_at_the_ends_of_its_ranges() {
+    let gpu = open_gpu();
     for name in Filter::builtin_names() {
         let filter = Filter::builtin(&name).unwrap();
         let start = Instant::now();

@@ -1,4 +1,4 @@
-//! Filter folders that no device could run, that fail within their own ranges, or that were made to break their readers.
+//! Filter folders that no device could run, that fail within their own ranges, or that attack their reader.
 
 mod device;
 mod text;
@@ -57,8 +57,8 @@ fn work(@builtin(global_invocation_id) id: vec3<u32>) {
 }
 ";
 
-/// A bench with the filter `mine`, some texts of which are replaced by others.
-fn mine(changes: &[(&str, &str)]) -> Bench {
+/// Makes a bench with the filter `mine`, after these replacements in its files.
+fn write_mine(changes: &[(&str, &str)]) -> Bench {
     let bench = Bench::new();
     change(&bench, changes);
     bench

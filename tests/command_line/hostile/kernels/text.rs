@@ -1,13 +1,13 @@
-//! Texts, numbers and files that are too deep, too large or no text.
+//! Text that is too deep, too large or not text, and numbers out of range.
 
 use std::fs;
 use std::time::{Duration, Instant};
 
-use super::{list, load, mine};
+use super::{list, load, write_mine};
 use crate::bench::{assert_done, assert_refused, make_fifo, stderr};
 
 #[test]
-fn deep_kernels_are_read_or_refused_with_their_line() {
+fn deep_kernels_load_or_are_refused_with_their_line() {
     let sum = |terms: usize| format!("value.x = here.x{};", " + here.x".repeat(terms - 1));
     let choices = |count: usize| {
         let branches: String = (0..count)
@@ -17,9 +17,9 @@ fn deep_kernels_are_read_or_refused_with_their_line() {
     };
     let brackets =
         |count: usize| format!("value.x = {}1.0{};", "(".repeat(count), ")".repeat(count));
-    // Each term counts two: a sum and a member.
+    // Each term counts twice: as a sum and as a member.
     for statements in [sum(490), choices(300), brackets(150)] {
-        let bench = mine(&[("// statements", &statements)]);
+        let bench = write_mine(&[("// statements", &statements)]);
         assert_done(&list(&bench));
     }
     for statements in [
@@ -30,27 +30,27 @@ fn deep_kernels_are_read_or_refused_with_their_line() {
         choices(3_000),
         brackets(100_000),
     ] {
-        let bench = mine(&[("// statements", &statements)]);
+        let bench = write_mine(&[("// statements", &statements)]);
         let parts = [
             "mine.wgsl:18: more than 1000 operators",
             "allowed: at most 1000",
         ];
         assert_refused(&list(&bench), 2, &parts);
     }
-    // Naga's own limits have a place too.
-    let bench = mine(&[("// statements", &brackets(400))]);
+    // Errors from Naga's own limits name their place too.
+    let bench = write_mine(&[("// statements", &brackets(400))]);
     assert_refused(&list(&bench), 2, &["mine.wgsl"]);
     // Many declarations that refer to one another, and many statements.
     let mut constants = "const c0 = 1;\n".to_owned();
     for index in 1..10_000 {
         constants.insert_str(0, &format!("const c{index} = c{};\n", index - 1));
     }
-    load(&mine(&[("// declarations", &constants)])).unwrap();
+    load(&write_mine(&[("// declarations", &constants)])).unwrap();
 }
 
 #[test]
-fn only_regular_files_of_bounded_size_are_read() {
-    let bench = mine(&[]);
+fn irregular_and_large_files_are_refused() {
+    let bench = write_mine(&[]);
     for (file, limit) in [("filter.toml", 1 << 20), ("mine.wgsl", 256 << 10)] {
         let path = bench.path("mine").join(file);
         let whole = fs::read(&path).unwrap();
@@ -80,7 +80,7 @@ fn only_regular_files_of_bounded_size_are_read() {
 }
 
 #[test]
-fn numbers_and_texts_that_nothing_can_hold_are_refused_with_their_line() {
+fn extreme_numbers_and_texts_are_refused_with_their_line() {
     #[rustfmt::skip]
     let wrong: &[(&str, &str, &[&str])] = &[
         ("[0.5, 2.0]", "[0.5, 1e39]", &["filter.toml:12", "gain", "1e39", "no f32 holds"]),
@@ -107,7 +107,7 @@ fn numbers_and_texts_that_nothing_can_hold_are_refused_with_their_line() {
         ("// statements", "value.x = \u{7}\u{1b}[31m;", &["mine.wgsl:18"]),
     ];
     for (from, to, parts) in wrong {
-        let output = list(&mine(&[(from, to)]));
+        let output = list(&write_mine(&[(from, to)]));
         assert_refused(&output, 2, parts);
         let message = stderr(&output);
         let raw = message.chars().find(|c| c.is_control() && *c != '\n');
@@ -120,26 +120,26 @@ fn numbers_and_texts_that_nothing_can_hold_are_refused_with_their_line() {
 }
 
 #[test]
-fn thousands_of_presets_and_parameters_are_refused_in_no_time() {
+fn thousands_of_presets_and_parameters_are_refused_quickly() {
     let start = Instant::now();
     let presets: String = (0..8_000)
         .map(|index| {
             format!("[[preset]]\nname = \"p{index}\"\ndoc = \"d\"\nvalues = {{ samples = 2 }}\n")
         })
         .collect();
-    let bench = mine(&[("[[pass]]", &format!("{presets}[[pass]]"))]);
+    let bench = write_mine(&[("[[pass]]", &format!("{presets}[[pass]]"))]);
     assert_refused(&list(&bench), 2, &["8001 [[preset]]", "at most 256"]);
     let parameters: String = (0..8_000)
         .map(|index| format!("[[parameter]]\nname = \"p{index}\"\nkind = \"integer\"\ndefault = 1\nrange = [0, 2]\ndoc = \"d\"\n"))
         .collect();
-    let bench = mine(&[("[[pass]]", &format!("{parameters}[[pass]]"))]);
+    let bench = write_mine(&[("[[pass]]", &format!("{parameters}[[pass]]"))]);
     assert_refused(&list(&bench), 2, &["8002 [[parameter]]", "at most 256"]);
     assert!(start.elapsed() < Duration::from_secs(60));
 }
 
 #[test]
-fn values_out_of_range_are_refused_before_anything_runs() {
-    let bench = mine(&[]);
+fn values_out_of_range_are_refused_before_a_run() {
+    let bench = write_mine(&[]);
     for (value, parts) in [
         (
             "gain=nan",

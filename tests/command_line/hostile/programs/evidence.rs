@@ -8,12 +8,11 @@ use metrics::Measured;
 use serde::{Deserialize, Serialize};
 use suite::Case;
 
-use crate::bench::{Bench, assert_refused, quick, stdout};
+use crate::bench::{Bench, IDENTITY, assert_refused, quick_command, stdout};
 
-const IDENTITY: [&str; 2] = ["--filters", "identity"];
 const RECORD: &str = "out/plate/identity_default/case.json";
 
-/// A record as it lies in a case's folder.
+/// Layout of a record in a case's folder.
 #[derive(Serialize, Deserialize)]
 struct Record {
     inputs: String,
@@ -22,17 +21,14 @@ struct Record {
     seal: String,
 }
 
-/// A bench whose scene holds the identity to a limit that it breaks.
+/// Makes a bench whose scene has a bound that the identity breaks.
 fn set_up() -> Bench {
     let bench = Bench::new();
-    bench.write(
-        "bounds.toml",
-        "[default]\nflip_moving = { limit = 0.2, why = \"it serves a test\" }\n",
-    );
+    bench.write_bound(0.2);
     bench
 }
 
-/// Writes a good score into the record, with a new seal: anybody can compute one.
+/// Writes a good score into the record and seals it anew, as anybody could.
 fn forge(bench: &Bench) {
     let text = fs::read(bench.path(RECORD)).unwrap();
     let mut record: Record = serde_json::from_slice(&text).unwrap();
@@ -52,7 +48,7 @@ fn git(bench: &Bench, words: &[&str]) {
 }
 
 #[test]
-fn a_forged_record_does_not_pass_a_check_that_uses_no_cache() {
+fn a_check_without_cache_ignores_a_forged_record() {
     let bench = set_up();
     let first = bench.check(&IDENTITY);
     assert_eq!(first.status.code(), Some(1));
@@ -67,16 +63,16 @@ fn a_forged_record_does_not_pass_a_check_that_uses_no_cache() {
     let anew = bench.check(&no_cache);
     assert_eq!(anew.status.code(), Some(1));
     assert_eq!(stdout(&anew), stdout(&first));
-    // What was made anew is kept again.
+    // The new measurement is kept.
     assert_eq!(stdout(&bench.check(&IDENTITY)), stdout(&first));
 }
 
 #[test]
-fn a_check_refuses_a_folder_that_came_with_the_checkout() {
+fn a_check_refuses_a_folder_tracked_by_git() {
     let bench = set_up();
     let first = bench.check(&IDENTITY);
     git(&bench, &["init", "-q"]);
-    // Below a work tree, but no part of it.
+    // The folder lies below a work tree without being part of it.
     assert_eq!(stdout(&bench.check(&IDENTITY)), stdout(&first));
     forge(&bench);
     git(&bench, &["add", "-f", RECORD]);
@@ -86,21 +82,21 @@ fn a_check_refuses_a_folder_that_came_with_the_checkout() {
     let parts = [RECORD, "is tracked by git", "measure it now"];
     assert_refused(&finished, 2, &parts);
 
-    let words = [&quick("check", "64")[..], &IDENTITY].concat();
+    let words = [&quick_command("check", "64")[..], &IDENTITY].concat();
     let mut without_git = bench.command(&words);
     without_git.env("PATH", "/nowhere").env_remove("CI");
     let output = without_git.output().unwrap();
     assert_refused(&output, 2, &["cannot tell", "git: ", "--no-cache"]);
-    // Where no file lies, none is tracked.
+    // Git cannot track a file that does not exist.
     fs::remove_dir_all(bench.path("out")).unwrap();
     let output = without_git.output().unwrap();
     assert_eq!(output.status.code(), Some(1));
 }
 
-/// Programs that git would run for a repository's settings, such as `core.fsmonitor`.
+/// A repository's settings, such as `core.fsmonitor`, can make git start programs.
 #[cfg(unix)]
 #[test]
-fn a_repository_within_the_checkout_runs_nothing() {
+fn a_nested_repository_starts_no_program() {
     let bench = set_up();
     git(&bench, &["init", "-q"]);
     git(&bench, &["init", "-q", "--bare", "out"]);

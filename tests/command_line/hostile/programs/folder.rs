@@ -1,4 +1,4 @@
-//! One folder with several processes.
+//! One folder that several processes use.
 
 use std::fs::{self, File, OpenOptions};
 use std::os::unix::fs::PermissionsExt;
@@ -9,7 +9,7 @@ use crate::bench::{Bench, assert_done, assert_refused, files_below, split};
 const RUN: &str = "run --quiet --size 64x32 --samples-per-pixel 16 --filters identity --out out";
 const RENDER: &str = "render --quiet --samples-per-pixel 16 --out out";
 
-/// Opens the lock that another process would hold.
+/// Opens the lock file that another process would hold.
 fn lock_file(bench: &Bench) -> File {
     fs::create_dir_all(bench.path("out")).unwrap();
     let path = bench.path("out/.shuttertruth.lock");
@@ -20,16 +20,13 @@ fn lock_file(bench: &Bench) -> File {
 }
 
 #[test]
-fn two_runs_do_not_write_to_one_folder_at_a_time() {
+fn two_runs_cannot_share_a_folder_at_the_same_time() {
     let bench = Bench::new();
     let parts = [
         "another shuttertruth is writing to out",
         "another output folder",
     ];
-    bench.write(
-        "bounds.toml",
-        "[default]\nflip_moving = { limit = 1, why = \"any\" }\n",
-    );
+    bench.write_bound(1.0);
     let other = lock_file(&bench);
     other.try_lock().unwrap();
     for words in [
@@ -44,19 +41,19 @@ fn two_runs_do_not_write_to_one_folder_at_a_time() {
         assert_refused(&bench.shuttertruth(&words), 2, &parts);
         assert_eq!(files_below(&bench.path("out")).len(), 1, "{words:?}");
     }
-    // Renders share a folder with one another, and with nobody else.
+    // Renders share a folder with each other and with no other command.
     other.unlock().unwrap();
     other.try_lock_shared().unwrap();
-    bench.done(&split(RENDER));
+    bench.execute(&split(RENDER));
     assert_refused(&bench.shuttertruth(&split(RUN)), 2, &parts);
-    // The lock of a process that has ended is gone.
+    // A process that ends releases its lock.
     drop(other);
-    bench.done(&split(RUN));
-    bench.done(&split(RUN));
+    bench.execute(&split(RUN));
+    bench.execute(&split(RUN));
 }
 
 #[test]
-fn what_a_killed_process_was_writing_is_removed_by_the_next_run() {
+fn the_next_run_removes_files_of_a_killed_process() {
     let bench = Bench::new();
     let gone = [
         "out/.shuttertruth-a.tmp",
@@ -70,7 +67,7 @@ fn what_a_killed_process_was_writing_is_removed_by_the_next_run() {
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         fs::write(path, "half").unwrap();
     }
-    bench.done(&split(RUN));
+    bench.execute(&split(RUN));
     for name in gone {
         assert!(!bench.path(name).exists(), "{name}");
     }

@@ -1,4 +1,4 @@
-//! Programs as filters: permission, environment and end.
+//! Filters that are programs: permission, environment, end.
 
 use std::fs;
 use std::path::Path;
@@ -10,12 +10,12 @@ use tests::filter_folder::write_program;
 
 use crate::bench::{Bench, assert_done, assert_refused, press_ctrl_c, split, stdout};
 
-/// Writes a filter `mine` that is a shell script with the files as $1 and $2.
+/// Writes the filter `mine`, a shell script that gets the files as $1 and $2.
 fn write_mine(bench: &Bench, lines: &str, more: &str) {
     write_program(&bench.path("mine"), "mine", lines, more);
 }
 
-/// A bench with a frame of 16 x 16 pixels, which takes no time.
+/// Makes a bench with a frame of 16 x 16 pixels, which is quick to blur.
 fn set_up() -> Bench {
     let bench = Bench::new();
     let mut file = ExrFile::new(16, 16);
@@ -30,7 +30,7 @@ fn set_up() -> Bench {
 
 const BLUR: &str = "blur --allow-commands --filter ./mine --frame frame.exr --out b.exr";
 
-/// `blur`, which fails where it takes a minute.
+/// Makes the command `blur`; a timeout of a minute fails it.
 fn blur(bench: &Bench) -> Command {
     let mut command = Command::new("timeout");
     command.arg("60").arg(env!("CARGO_BIN_EXE_shuttertruth"));
@@ -39,7 +39,7 @@ fn blur(bench: &Bench) -> Command {
 }
 
 #[test]
-fn no_command_runs_a_program_that_was_not_allowed() {
+fn no_command_runs_a_program_without_permission() {
     let bench = set_up();
     write_mine(&bench, "touch ran; cp $1 $2", "");
     for words in [
@@ -63,12 +63,12 @@ fn no_command_runs_a_program_that_was_not_allowed() {
     assert_done(&output);
     assert!(stdout(&output).contains("runs: ./blur.sh {frame} {out}"));
     assert!(!bench.path("mine/ran").exists(), "it ran");
-    bench.done(&split(BLUR));
+    bench.execute(&split(BLUR));
     assert!(bench.path("mine/ran").exists());
 }
 
 #[test]
-fn a_program_sees_no_secret() {
+fn a_program_gets_no_secret_from_the_environment() {
     let bench = set_up();
     let named = "environment = [\"CUDA_VISIBLE_DEVICES\", \"NOT_SET\"]";
     write_mine(&bench, "env > seen; cp $1 $2", named);
@@ -116,12 +116,12 @@ fn a_program_sees_no_secret() {
     );
 }
 
-/// Leaves a session of its own behind, which names itself in `pid`.
+/// Shell line that leaves a process behind in a session of its own; `pid` names it.
 #[cfg(target_os = "linux")]
 const LEAVES_ONE: &str = "(setsid sh -c 'echo $$ > pid.new; mv pid.new pid; exec sleep 300' &)\n\
                           while [ ! -e pid ]; do sleep 0.01; done";
 
-/// Returns whether the process in `pid` has ended; a zombie has.
+/// Returns whether the process in `pid` has ended, as a zombie has.
 #[cfg(target_os = "linux")]
 fn has_ended(bench: &Bench) -> bool {
     let pid = fs::read_to_string(bench.path("mine/pid")).unwrap();
@@ -131,7 +131,7 @@ fn has_ended(bench: &Bench) -> bool {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_session_of_its_own_ends_with_the_program() {
+fn a_child_session_ends_with_its_program() {
     for (rest, more, code, part) in [
         ("cp $1 $2", "", 0, ""),
         ("exit 7", "", 2, "ended with exit status: 7"),
@@ -149,7 +149,7 @@ fn a_session_of_its_own_ends_with_the_program() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_session_of_its_own_ends_at_ctrl_c() {
+fn a_child_session_ends_at_ctrl_c() {
     let bench = set_up();
     write_mine(&bench, &format!("{LEAVES_ONE}\nsleep 300"), "");
     let mut child = bench.command(&split(BLUR)).spawn().unwrap();
@@ -165,7 +165,7 @@ fn a_session_of_its_own_ends_at_ctrl_c() {
 }
 
 #[test]
-fn what_is_no_file_in_the_place_of_out_is_refused_at_once() {
+fn an_output_that_is_not_a_regular_file_is_refused() {
     let bench = set_up();
     for (lines, part) in [
         ("mkfifo $2", "left a pipe or a device in the place of {out}"),
@@ -177,7 +177,7 @@ fn what_is_no_file_in_the_place_of_out_is_refused_at_once() {
         let output = blur(&bench).output().unwrap();
         assert_refused(&output, 2, &[part, "a regular file"]);
     }
-    // Nobody else may look into the folder of the files.
+    // No other user may read the folder of the files.
     write_mine(&bench, "ls -ld $(dirname $2) > mode; cp $1 $2", "");
     assert_done(&blur(&bench).output().unwrap());
     let mode = fs::read_to_string(bench.path("mine/mode")).unwrap();
@@ -185,9 +185,9 @@ fn what_is_no_file_in_the_place_of_out_is_refused_at_once() {
 }
 
 #[test]
-fn what_a_program_writes_is_bounded() {
+fn the_output_of_a_program_is_limited() {
     let bench = set_up();
-    // 16 x 16 pixels of 256 bytes, and 1 MiB.
+    // The limit is 16 x 16 pixels of 256 bytes, and 1 MiB.
     let parts = ["wrote an {out} of more than 1114112 bytes", "16x16 pixels"];
     for lines in [
         "head -c 20000000 /dev/zero > $2; sleep 300",
@@ -196,7 +196,7 @@ fn what_a_program_writes_is_bounded() {
         write_mine(&bench, lines, "");
         assert_refused(&blur(&bench).output().unwrap(), 2, &parts);
     }
-    // 300 MB on standard output, where no file may have more than 50: only the end is kept, and not in a file.
+    // 300 MB on standard output, although no file may exceed 50 MB: the program keeps only the end, in memory.
     write_mine(
         &bench,
         "yes | head -c 300000000; echo the end >&2; exit 7",
@@ -216,7 +216,7 @@ fn what_a_program_writes_is_bounded() {
 }
 
 #[test]
-fn a_program_that_closes_its_pipes_and_lives_on_is_stopped() {
+fn a_program_that_closes_its_pipes_and_goes_on_is_stopped() {
     let bench = set_up();
     write_mine(&bench, "exec >&- 2>&-; sleep 300", "time_limit = 1");
     let output = blur(&bench).output().unwrap();

@@ -7,11 +7,10 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 
 use crate::bench::{Bench, press_ctrl_c, split};
+use crate::serve::SERVE;
 
-const SERVE: &str = "serve --quiet --filter jump_flood --objective flip --size 64x32 --samples-per-pixel 16 --out out";
-
-/// Says bytes and hears all answers until the service ends, which has to be well.
-fn conversation(bench: &Bench, said: &[u8]) -> Vec<Value> {
+/// Sends bytes, reads answers until the service ends, and checks that it ends well.
+fn converse(bench: &Bench, said: &[u8]) -> Vec<Value> {
     let mut command = bench.command(&split(SERVE));
     command.stdin(Stdio::piped()).stdout(Stdio::piped());
     let mut child = command.spawn().unwrap();
@@ -30,7 +29,7 @@ fn conversation(bench: &Bench, said: &[u8]) -> Vec<Value> {
 }
 
 #[test]
-fn each_line_that_cannot_be_answered_gets_an_error_and_the_next_one_an_answer() {
+fn a_bad_line_gets_an_error_and_the_next_line_an_answer() {
     let bench = Bench::new();
     let request = b"{\"id\": 1, \"params\": {}, \"scenes\": [\"plate\", \"plate\"]}\n";
     let long = vec![b'['; 3 << 20];
@@ -44,7 +43,7 @@ fn each_line_that_cannot_be_answered_gets_an_error_and_the_next_one_an_answer() 
         &wrong,
         last,
     ];
-    let heard = conversation(&bench, &said.concat());
+    let heard = converse(&bench, &said.concat());
     let errors: Vec<&str> = heard
         .iter()
         .filter_map(|line| line["error"].as_str())
@@ -70,7 +69,7 @@ fn each_line_that_cannot_be_answered_gets_an_error_and_the_next_one_an_answer() 
 
 #[cfg(unix)]
 #[test]
-fn ctrl_c_ends_a_service_that_nobody_talks_to() {
+fn ctrl_c_ends_an_idle_service() {
     let bench = Bench::new();
     let mut command = bench.command(&split(SERVE));
     command.stdin(Stdio::piped()).stdout(Stdio::piped());

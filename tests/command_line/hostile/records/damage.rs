@@ -1,4 +1,4 @@
-//! Changed numbers and lists of a run.json: each gives a report, or an error that names the file.
+//! Changed numbers and lists of a run.json. Each must give a report, or an error that names the file.
 
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -11,7 +11,7 @@ use suite::{Acceptance, Baseline, Error, Run, Side, accept_scores, compare_runs}
 
 use crate::bench::{Bench, assert_done, assert_refused};
 
-/// JSON pointers of all values below, cases and objects but the first left out: the others are alike.
+/// Collects the JSON pointers of all values. Of cases and objects it takes only the first: the others are alike.
 fn pointers(value: &Value, at: &str, all: &mut Vec<String>) {
     all.push(at.to_owned());
     match value {
@@ -29,7 +29,7 @@ fn pointers(value: &Value, at: &str, all: &mut Vec<String>) {
     }
 }
 
-/// Values that such a value is changed to.
+/// Returns hostile replacements for a value.
 fn hostile(value: &Value) -> Vec<Value> {
     match value {
         Value::Number(_) => vec![json!(-1), json!(4294967295u32), json!(1e308), Value::Null],
@@ -41,7 +41,7 @@ fn hostile(value: &Value) -> Vec<Value> {
     }
 }
 
-/// All that reads a run.json, in memory.
+/// Reads a run.json in memory, as every command does.
 fn read_everywhere(changed: &Path, whole: &Side) -> Result<(), Error> {
     let side = Side::read(changed)?;
     let folder = changed.parent().unwrap();
@@ -69,13 +69,13 @@ fn a_changed_value_of_run_json_never_ends_the_program() {
         "[default]\nflip_moving = { limit = 0.01, why = \"it serves a test\" }\n",
     )
     .unwrap();
-    // Broken or too strict, it has evidence.
+    // Broken and too strict bounds have evidence.
     let check = bench.check(&["--filters", "jump_flood:paper"]);
     assert!(matches!(check.status.code(), Some(1 | 2)));
     let path = bench.path("out/run.json");
     let text = fs::read_to_string(&path).unwrap();
     let mut whole: Value = serde_json::from_str(&text).unwrap();
-    // Of the bars one is enough; the filter's case is the last.
+    // One reference is enough; the filter's case is the last.
     let cases = whole["cases"].as_array_mut().unwrap();
     let last = cases.pop().unwrap();
     cases.truncate(1);
@@ -92,7 +92,7 @@ fn a_changed_value_of_run_json_never_ends_the_program() {
     let mut refused = 0;
     for (index, pointer) in all.iter().enumerate() {
         let due = hostile(whole.pointer(pointer).unwrap());
-        // Each value gets another of the hostile ones: scores are many and alike.
+        // Each value gets a different hostile one. Scores are many and alike.
         let is_score = pointer.contains("scores/") || pointer.contains("common/");
         let due: Vec<Value> = match is_score {
             true => vec![due[index % due.len()].clone()],
@@ -114,7 +114,7 @@ fn a_changed_value_of_run_json_never_ends_the_program() {
 }
 
 #[test]
-fn a_run_json_that_is_none_is_refused_with_its_name() {
+fn a_file_that_is_not_a_run_json_is_refused_with_its_name() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "identity"]));
     let path = bench.path("out/run.json");
@@ -190,7 +190,7 @@ fn a_run_json_that_is_none_is_refused_with_its_name() {
 }
 
 #[test]
-fn a_baseline_or_a_bench_that_is_none_is_refused_with_its_name() {
+fn a_file_that_is_not_a_baseline_or_bench_is_refused_with_its_name() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "identity"]));
     for (text, found) in [

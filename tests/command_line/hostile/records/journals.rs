@@ -10,17 +10,17 @@ const TUNE: &str = "tune --quiet --filter jump_flood --vary samples --objective 
                     --samples-per-pixel 16 --out tuned --budget 3";
 
 #[test]
-fn a_journal_with_an_impossible_trial_is_refused_with_its_line_and_kept() {
+fn a_journal_with_an_impossible_trial_is_refused_with_its_line_and_left_unchanged() {
     let bench = Bench::new();
     let words = TUNE.to_owned();
-    bench.done(&split(&words));
+    bench.execute(&split(&words));
     let path = bench.path("tuned/journal.jsonl");
     let whole = fs::read_to_string(&path).unwrap();
     let lines: Vec<&str> = whole.lines().collect();
     assert_eq!(lines.len(), 4);
     fs::remove_file(bench.path("tuned/tune.json")).unwrap();
 
-    // Line, pointer, value, what is said, and whether the report, which knows no filter, says so too.
+    // Line, pointer, value, expected message, and whether the report also refuses it, which knows no filter.
     for (line, pointer, value, found, in_report) in [
         (2, "/trial", json!(7), "trial 7, expected 0", true),
         (3, "/values/samples", json!(-5), "samples", false),

@@ -1,4 +1,4 @@
-//! Names of scenes: in every script, with an @, without any sense.
+//! Names of scenes: in every script, with an @, with odd characters.
 
 use std::fs;
 
@@ -15,19 +15,19 @@ const RENDER: [&str; 6] = [
     "16",
 ];
 
-/// The plate in a folder of another name.
-fn renamed(bench: &Bench, folder: &str) {
+/// Renames the plate's folder.
+fn rename_scene(bench: &Bench, folder: &str) {
     let target = bench.path(folder);
     fs::create_dir_all(target.parent().unwrap()).unwrap();
     fs::rename(bench.path("scenes/plate"), target).unwrap();
 }
 
 #[test]
-fn names_of_every_script_stand_in_files_as_utf_8() {
+fn names_in_every_script_are_written_as_utf_8() {
     for name in ["\u{e9}ventail", "\u{6247}\u{98a8}\u{6a5f}_\u{1f300}"] {
         let bench = Bench::new();
-        renamed(&bench, &format!("scenes/{name}"));
-        bench.done(&RENDER);
+        rename_scene(&bench, &format!("scenes/{name}"));
+        bench.execute(&RENDER);
         let path = bench.path("r").join(name).join("frame.exr");
         assert_eq!(Frame::read(&path).unwrap().provenance.scene, name);
         let bytes = fs::read(&path).unwrap();
@@ -37,9 +37,9 @@ fn names_of_every_script_stand_in_files_as_utf_8() {
 }
 
 #[test]
-fn a_folder_above_a_scene_may_have_an_at_in_its_name_and_the_scene_may_not() {
+fn a_folder_above_a_scene_may_contain_an_at_and_the_scene_may_not() {
     let bench = Bench::new();
-    renamed(&bench, "me@home/plate");
+    rename_scene(&bench, "me@home/plate");
     let scene = |path: &str| bench.shuttertruth(&[&RENDER[..], &["--scenes", path]].concat());
     assert_done(&scene("./me@home/plate"));
     assert_refused(
@@ -61,7 +61,7 @@ fn a_folder_above_a_scene_may_have_an_at_in_its_name_and_the_scene_may_not() {
 }
 
 #[test]
-fn all_variants_of_a_scene_are_taken_by_its_path_too() {
+fn a_path_with_at_all_selects_every_variant() {
     let bench = Bench::new();
     let text = fs::read_to_string(bench.path("scenes/plate/scene.toml")).unwrap();
     bench.write(
@@ -69,7 +69,7 @@ fn all_variants_of_a_scene_are_taken_by_its_path_too() {
         &format!("{text}\n[variant.short]\nexposure = 0.25\n[variant.long]\nexposure = 1.0\n"),
     );
     let words = [&RENDER[..], &["--scenes", "./scenes/plate@all"]].concat();
-    bench.done(&words);
+    bench.execute(&words);
     for variant in ["plate@short", "plate@long"] {
         assert!(bench.path("r").join(variant).join("frame.exr").is_file());
     }

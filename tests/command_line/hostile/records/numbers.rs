@@ -1,11 +1,11 @@
-//! Numbers beyond what can be rendered, compared or kept.
+//! Numbers that are too large to render, compare or keep.
 
 use std::fs;
 
 use crate::bench::{Bench, SCENE, assert_refused, split};
 
 #[test]
-fn numbers_beyond_what_can_be_done_are_refused_with_what_is_allowed() {
+fn numbers_out_of_range_are_refused_with_the_allowed_range() {
     let bench = Bench::new();
     for (words, parts) in [
         (
@@ -72,8 +72,7 @@ fn numbers_beyond_what_can_be_done_are_refused_with_what_is_allowed() {
 }
 
 #[test]
-fn exposures_of_display_and_flip_that_show_nothing_are_refused_by_every_command_that_loads_the_scene()
- {
+fn every_command_refuses_a_scene_whose_exposures_show_nothing() {
     let bench = Bench::new();
     for (display, parts) in [
         (
@@ -99,7 +98,7 @@ fn exposures_of_display_and_flip_that_show_nothing_are_refused_by_every_command_
 }
 
 #[test]
-fn a_reason_of_two_lines_is_called_that() {
+fn a_reason_of_two_lines_is_refused() {
     let bench = Bench::new();
     fs::write(
         bench.path("scenes/bounds.toml"),

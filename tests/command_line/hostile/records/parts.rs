@@ -1,4 +1,4 @@
-//! Files that `merge` must not take for parts of a truth.
+//! Files that `merge` must refuse as parts of a truth.
 
 use std::fs;
 use std::path::Path;
@@ -10,13 +10,13 @@ use crate::bench::{Bench, assert_done, assert_refused, make_fifo, split};
 
 const SECOND: &str = "b/plate/truth_trailing/replicate_001.exr";
 
-/// Two parts, `a` with the frame and replicate 0, `b` with replicate 1.
+/// Makes two parts: `a` with the frame and replicate 0, `b` with replicate 1.
 fn parts() -> Bench {
     let bench = Bench::new();
     for (out, part) in [("a", "0..1"), ("b", "1..2")] {
         let words =
             format!("render --quiet --samples-per-pixel 16 --replicates {part} --out {out}");
-        bench.done(&split(&words));
+        bench.execute(&split(&words));
     }
     bench
 }
@@ -32,7 +32,7 @@ fn merge(bench: &Bench, parts: &[&str]) -> Output {
     output
 }
 
-/// The same replicate without its border.
+/// Crops the border from a replicate.
 fn smaller(replicate: &Replicate) -> Replicate {
     let AtInstant {
         frozen,
@@ -65,7 +65,7 @@ fn smaller(replicate: &Replicate) -> Replicate {
 }
 
 #[test]
-fn replicates_that_do_not_belong_together_are_refused() {
+fn replicates_of_different_truths_are_refused() {
     let bench = parts();
     let path = bench.path(SECOND);
     let whole = Replicate::read(&path).unwrap();
@@ -123,7 +123,7 @@ fn replicates_that_do_not_belong_together_are_refused() {
 
 #[cfg(unix)]
 #[test]
-fn links_that_lead_in_circles_and_pipes_are_no_parts() {
+fn circular_links_and_pipes_are_not_read_as_parts() {
     use std::os::unix::fs::symlink;
 
     let bench = parts();

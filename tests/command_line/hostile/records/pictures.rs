@@ -1,4 +1,4 @@
-//! Pictures, truths and frames that claim too much, hold no numbers or are of another shape.
+//! Pictures, truths and frames with huge claims, missing numbers or another shape.
 
 use std::fs;
 use std::io::Write;
@@ -15,7 +15,7 @@ const FRAME: &str = "out/plate/frame.exr";
 const LADDER: &str = "out/plate/ladder_trailing.exr";
 const OUTPUT: &str = "out/plate/identity_default/output.exr";
 
-fn finished() -> Bench {
+fn set_up() -> Bench {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "identity"]));
     bench
@@ -52,7 +52,7 @@ impl Default for Claim {
 }
 
 impl Claim {
-    /// A file of uncompressed rows of zeros, or with nothing but `rest` bytes behind the header.
+    /// Writes a file of uncompressed zeros, or only `rest` bytes after the header.
     fn write(&self, bench: &Bench, name: &str, rest: Option<usize>) {
         let mut bytes = vec![0x76, 0x2f, 0x31, 0x01];
         bytes.extend((2 | self.flags).to_le_bytes());
@@ -105,7 +105,7 @@ impl Claim {
     }
 }
 
-/// A PNG whose header claims so many pixels, and whose rows are missing.
+/// Makes a PNG whose header claims this many pixels, and whose rows are missing.
 fn png(width: u32, height: u32) -> Vec<u8> {
     let mut bytes = b"\x89PNG\r\n\x1a\n".to_vec();
     let mut chunk = |kind: &[u8], data: &[u8]| {
@@ -128,8 +128,8 @@ fn png(width: u32, height: u32) -> Vec<u8> {
 }
 
 #[test]
-fn headers_that_claim_too_much_are_refused_before_anything_is_allocated() {
-    let bench = finished();
+fn headers_with_huge_claims_are_refused_before_allocation() {
+    let bench = set_up();
     let whole = Claim::default;
     whole().write(&bench, "whole.exr", None);
     assert_done(&score(&bench, "whole.exr"));
@@ -201,15 +201,15 @@ fn headers_that_claim_too_much_are_refused_before_anything_is_allocated() {
     }
 }
 
-/// Writes what `change` makes of a file of the run, with a checksum that fits.
-fn altered(bench: &Bench, path: &str, change: impl FnOnce(&mut ExrFile)) {
+/// Applies `change` to a file of the run, and writes it with a valid checksum.
+fn alter(bench: &Bench, path: &str, change: impl FnOnce(&mut ExrFile)) {
     let mut file = read_exr(&bench.path(path)).unwrap();
     change(&mut file);
     write_exr(&bench.path(path), &file).unwrap();
 }
 
-/// Both commands that read pictures of a run refuse it, with such words.
-fn refused(bench: &Bench, found: &str) {
+/// Asserts that both commands that read pictures of a run refuse it with these words.
+fn assert_both_refuse(bench: &Bench, found: &str) {
     assert_refused(&score(bench, OUTPUT), 2, &[found]);
     let report = bench.shuttertruth(&["report", "out", "--html", "page.html"]);
     assert_refused(&report, 2, &[found]);
@@ -217,17 +217,17 @@ fn refused(bench: &Bench, found: &str) {
 }
 
 #[test]
-fn a_truth_or_a_frame_that_holds_no_numbers_or_lacks_some_is_refused() {
-    let bench = finished();
+fn a_truth_or_frame_with_missing_or_invalid_numbers_is_refused() {
+    let bench = set_up();
     for path in [TRUTH, FRAME] {
         let whole = fs::read(bench.path(path)).unwrap();
         let names: Vec<String> = (read_exr(&bench.path(path)).unwrap().channels.iter())
             .filter(|channel| matches!(channel.samples, Samples::F32(_)))
             .map(|channel| channel.name.clone())
             .collect();
-        // Each layer is checked alike; a few of each file stand for all.
+        // All layers pass through the same check, so a few of each file are enough.
         for name in names.iter().step_by(7) {
-            altered(&bench, path, |file| {
+            alter(&bench, path, |file| {
                 let channel = file
                     .channels
                     .iter_mut()
@@ -240,7 +240,7 @@ fn a_truth_or_a_frame_that_holds_no_numbers_or_lacks_some_is_refused() {
             assert_refused(&score(&bench, OUTPUT), 2, &[&found]);
             fs::write(bench.path(path), &whole).unwrap();
         }
-        altered(&bench, path, |file| {
+        alter(&bench, path, |file| {
             file.channels
                 .retain(|channel| !channel.name.starts_with("coverage") && channel.name != "A.G");
         });
@@ -273,16 +273,16 @@ fn a_truth_or_a_frame_that_holds_no_numbers_or_lacks_some_is_refused() {
         (LADDER, "subframes", "", "\"subframes\" is empty"),
     ] {
         let whole = fs::read(bench.path(path)).unwrap();
-        altered(&bench, path, |file| file.set(name, value));
+        alter(&bench, path, |file| file.set(name, value));
         assert_refused(&score(&bench, OUTPUT), 2, &[path, found]);
         fs::write(bench.path(path), whole).unwrap();
     }
 }
 
-/// The file with two more pixels on every side.
-fn padded(file: &mut ExrFile) {
+/// Adds two pixels to every side of the file.
+fn pad(file: &mut ExrFile) {
     let (width, height) = (file.width as usize, file.height as usize);
-    fn grown<T: Copy>(samples: &[T], width: usize, height: usize) -> Vec<T> {
+    fn grow<T: Copy>(samples: &[T], width: usize, height: usize) -> Vec<T> {
         let inside = |at: usize, size: usize| at.saturating_sub(2).min(size - 1);
         (0..height + 4)
             .flat_map(|y| (0..width + 4).map(move |x| (x, y)))
@@ -291,8 +291,8 @@ fn padded(file: &mut ExrFile) {
     }
     for channel in &mut file.channels {
         channel.samples = match &channel.samples {
-            Samples::F32(samples) => Samples::F32(grown(samples, width, height)),
-            Samples::U32(samples) => Samples::U32(grown(samples, width, height)),
+            Samples::F32(samples) => Samples::F32(grow(samples, width, height)),
+            Samples::U32(samples) => Samples::U32(grow(samples, width, height)),
         };
     }
     (file.width, file.height) = (file.width + 4, file.height + 4);
@@ -300,11 +300,11 @@ fn padded(file: &mut ExrFile) {
 
 #[test]
 fn files_of_another_size_or_of_other_objects_are_refused() {
-    let bench = finished();
+    let bench = set_up();
     for (path, found) in [(TRUTH, "68x36"), (FRAME, "68x36")] {
         let whole = fs::read(bench.path(path)).unwrap();
-        altered(&bench, path, padded);
-        refused(&bench, found);
+        alter(&bench, path, pad);
+        assert_both_refuse(&bench, found);
         let layers = bench.shuttertruth(&["report", "out", "--exr", "layers"]);
         assert_refused(&layers, 2, &[found]);
         fs::write(bench.path(path), whole).unwrap();
@@ -313,7 +313,7 @@ fn files_of_another_size_or_of_other_objects_are_refused() {
     for name in ["output.exr", "errors.exr"] {
         let path = format!("out/plate/identity_default/{name}");
         let whole = fs::read(bench.path(&path)).unwrap();
-        altered(&bench, &path, padded);
+        alter(&bench, &path, pad);
         assert_refused(&bench.shuttertruth(&page), 2, &["68x36"]);
         let layers = bench.shuttertruth(&["report", "out", "--exr", "layers"]);
         assert_refused(&layers, 2, &["68x36"]);
@@ -323,14 +323,14 @@ fn files_of_another_size_or_of_other_objects_are_refused() {
     let mut other = Truth::read(&path).unwrap();
     other.objects[1] = "other".to_owned();
     other.write(&path).unwrap();
-    refused(&bench, "other");
+    assert_both_refuse(&bench, "other");
 }
 
 #[test]
-fn pictures_of_a_run_that_hold_no_numbers_are_refused_or_shown() {
-    let bench = finished();
+fn pictures_with_invalid_numbers_are_refused_or_shown() {
+    let bench = set_up();
     for (name, is_refused) in [("errors.exr", false), ("output.exr", true)] {
-        altered(
+        alter(
             &bench,
             &format!("out/plate/identity_default/{name}"),
             |file| {
@@ -350,9 +350,9 @@ fn pictures_of_a_run_that_hold_no_numbers_are_refused_or_shown() {
 }
 
 #[test]
-fn radiance_that_no_tone_curve_can_square_is_refused_where_it_is() {
-    let bench = finished();
-    altered(&bench, OUTPUT, |file| {
+fn radiance_whose_square_overflows_is_refused_with_its_place() {
+    let bench = set_up();
+    alter(&bench, OUTPUT, |file| {
         let red = file.channels.iter_mut().find(|channel| channel.name == "R");
         if let Samples::F32(samples) = &mut red.unwrap().samples {
             samples[2 * 64 + 9] = 1e30;

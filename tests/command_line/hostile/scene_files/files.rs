@@ -10,7 +10,7 @@ use crate::bench::{Bench, SCENE, assert_done, assert_refused, make_fifo};
 
 #[cfg(unix)]
 #[test]
-fn what_is_no_regular_file_is_refused_before_it_is_opened() {
+fn an_irregular_file_is_refused_before_it_is_opened() {
     let zero = |path: &Path| std::os::unix::fs::symlink("/dev/zero", path).unwrap();
     let socket = |path: &Path| drop(std::os::unix::net::UnixListener::bind(path).unwrap());
     let folder = |path: &Path| fs::create_dir(path).unwrap();
@@ -36,7 +36,8 @@ fn what_is_no_regular_file_is_refused_before_it_is_opened() {
                 _ => fs::remove_file(bench.path("scenes/plate").join(file)).unwrap(),
             }
             make(&bench.path("scenes/plate").join(file));
-            // In this process, since there are so many: a file that is opened after all hangs it.
+            // This runs in the test's own process, since there are so many cases. A file that gets opened after all
+            // hangs the test.
             let error = tracer::load_scene(&bench.path("scenes/plate"), None).unwrap_err();
             let message = error.to_string();
             assert_contains(
@@ -48,9 +49,9 @@ fn what_is_no_regular_file_is_refused_before_it_is_opened() {
 }
 
 #[test]
-fn a_file_that_is_too_large_is_refused_before_it_is_read() {
+fn a_large_file_is_refused_before_it_is_read() {
     let bench = Bench::new();
-    // A hole: no disk is taken.
+    // A sparse file takes no disk space.
     let file = fs::File::create(bench.path("scenes/plate/plate.obj")).unwrap();
     file.set_len(tracer::limits::LARGEST_MESH_FILE + 1).unwrap();
     let found = "holds 2147483649 bytes, and at most 2147483648 are read";
@@ -58,7 +59,7 @@ fn a_file_that_is_too_large_is_refused_before_it_is_read() {
 }
 
 #[test]
-fn a_folder_whose_name_moves_the_cursor_is_refused() {
+fn a_folder_name_with_control_characters_is_refused() {
     let bench = Bench::new();
     bench.copy_scene("turn\u{1b}[31med", |scene| {
         scene.replace("exposure = 0.5", "exposure = 1")
@@ -81,20 +82,20 @@ fn letters_of_other_languages_are_allowed() {
 
 #[cfg(unix)]
 #[test]
-fn a_scene_that_cannot_be_read_is_named_and_not_passed_over() {
+fn an_unreadable_scene_is_named_and_not_skipped() {
     let message = |bench: &Bench| {
         let error = tracer::list_scenes(&bench.path("scenes")).unwrap_err();
         error.to_string()
     };
     let link = std::os::unix::fs::symlink::<&str, std::path::PathBuf>;
 
-    // A folder that is gone.
+    // The folder does not exist.
     let bench = Bench::new();
     link("nowhere", bench.path("scenes/moved")).unwrap();
     let found = message(&bench);
     assert!(found.contains("scenes/moved: cannot be read"), "{found}");
 
-    // A scene.toml that is gone, and one that is a folder.
+    // One scene.toml does not exist, and one is a folder.
     let bench = Bench::new();
     fs::create_dir(bench.path("scenes/half")).unwrap();
     assert_eq!(tracer::list_scenes(&bench.path("scenes")).unwrap().len(), 1);
@@ -108,7 +109,7 @@ fn a_scene_that_cannot_be_read_is_named_and_not_passed_over() {
 }
 
 #[test]
-fn files_outside_of_the_scenes_folder_are_read() {
+fn a_scene_may_use_files_outside_its_folder() {
     let bench = Bench::new();
     fs::create_dir(bench.path("shared")).unwrap();
     for file in ["plate.obj", "plate.mtl"] {

@@ -1,4 +1,4 @@
-//! Pictures that are small files and huge once decoded.
+//! Pictures that are small as files and huge when decoded.
 
 use std::fs;
 use std::io::Write as _;
@@ -6,7 +6,7 @@ use std::io::Write as _;
 use super::{assert_render_refused, with_sky, with_texture};
 use crate::bench::Bench;
 
-/// A grey PNG of one bit per pixel, all black: a few kilobytes, whatever the size.
+/// Makes a black grey PNG of one bit per pixel, which takes a few kilobytes at any size.
 fn black_png(width: u32, height: u32) -> Vec<u8> {
     let mut idat = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::best());
     let row = vec![0; 1 + width.div_ceil(8) as usize];
@@ -32,13 +32,14 @@ fn black_png(width: u32, height: u32) -> Vec<u8> {
     png
 }
 
-/// The header of an EXR file without compression, and nothing behind it: `channels` and the corners of both windows.
+/// Makes the header of an uncompressed EXR file without its pixels. Its parameters are `channels` and the corners of
+/// both windows.
 fn exr_header(channels: &[String], data_window: [i32; 4], display_window: [i32; 4]) -> Vec<u8> {
     let mut list = Vec::new();
     for channel in channels {
         list.extend(channel.as_bytes());
         list.push(0);
-        // 32-bit floats, linear, a sample for every pixel.
+        // 32-bit floats, linear, one sample for every pixel.
         for number in [2, 0, 1, 1] {
             list.extend(i32::to_le_bytes(number));
         }
@@ -65,7 +66,7 @@ fn exr_header(channels: &[String], data_window: [i32; 4], display_window: [i32; 
 }
 
 #[test]
-fn a_small_png_that_is_huge_once_decoded_is_refused_from_its_header() {
+fn a_small_png_that_decodes_to_a_huge_picture_is_refused() {
     let bench = Bench::new();
     with_texture(&bench, "black.png");
     let png = black_png(16_384, 8_192);
@@ -76,7 +77,7 @@ fn a_small_png_that_is_huge_once_decoded_is_refused_from_its_header() {
 }
 
 #[test]
-fn environments_that_are_huge_once_decoded_are_refused_from_their_headers() {
+fn small_environments_that_decode_to_huge_pictures_are_refused() {
     let rgb = ["B", "G", "R"].map(str::to_owned);
     let mut many: Vec<String> = (0..4_000).map(|channel| format!("A{channel:04}")).collect();
     many.extend(rgb.clone());

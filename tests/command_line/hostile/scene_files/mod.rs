@@ -7,7 +7,7 @@ mod sizes;
 
 use crate::bench::{Bench, SCENE, assert_refused};
 
-/// Loads the plate's scene in a process of its own, which renders as little as it can.
+/// Loads the plate's scene in a process of its own, which renders as little as possible.
 #[track_caller]
 fn assert_render_refused(bench: &Bench, parts: &[&str]) {
     assert_refused(&render(bench), 2, parts);

@@ -6,7 +6,7 @@ use super::assert_render_refused;
 use crate::bench::{Bench, MTL, OBJ};
 
 #[test]
-fn a_face_of_too_many_corners_is_refused() {
+fn a_face_with_too_many_corners_is_refused() {
     let bench = Bench::new();
     let mut obj = String::from("v 0 0 0\nv 1 0 0\nv 0 1 0\nf");
     for corner in 0..40_000 {
@@ -18,7 +18,7 @@ fn a_face_of_too_many_corners_is_refused() {
 }
 
 #[test]
-fn odd_models_are_refused_or_read_but_never_panic() {
+fn odd_models_load_or_are_refused_and_never_panic() {
     let odd = [
         "",
         "\0",

@@ -1,4 +1,4 @@
-//! Scenes of very many objects, variants, keys, parents and brackets.
+//! Scenes with very many objects, variants, keys, parents and brackets.
 
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
@@ -6,22 +6,22 @@ use std::time::{Duration, Instant};
 use super::{assert_render_refused, render};
 use crate::bench::{Bench, OBJ, SCENE, assert_refused, stderr};
 
-/// A scene of the plate and a text behind it.
+/// Writes the plate's scene with more text after it.
 fn with_more(bench: &Bench, more: impl FnOnce(&mut String)) {
     let mut scene = SCENE.to_owned();
     more(&mut scene);
     bench.write("scene.toml", &scene);
 }
 
-fn objects(scene: &mut String, count: usize, rest: impl Fn(usize) -> String) {
+fn objects(scene: &mut String, count: usize, more: impl Fn(usize) -> String) {
     for object in 0..count {
-        let rest = rest(object);
+        let rest = more(object);
         write!(scene, "[object.o{object}]\nmesh = \"plate.obj\"\n{rest}\n").unwrap();
     }
 }
 
-/// Each of these took minutes, or grew with the square or the cube of the number; now some 0.2 s. The limit is one for a
-/// slow machine that does other things.
+/// Runs `load`, and fails if it takes long. Each of these cases once took minutes, or grew with the square or the cube
+/// of its size, and now takes about 0.2 s. The limit leaves room for a slow and busy machine.
 #[track_caller]
 fn loads_soon<T>(load: impl FnOnce() -> T) -> T {
     let start = Instant::now();
@@ -32,7 +32,7 @@ fn loads_soon<T>(load: impl FnOnce() -> T) -> T {
 }
 
 #[test]
-fn loading_takes_a_time_that_grows_with_the_scenes_size() {
+fn loading_time_grows_linearly_with_the_scene() {
     let bench = Bench::new();
     let load = || loads_soon(|| tracer::load_scene(&bench.path("scenes/plate"), None));
 
@@ -45,7 +45,7 @@ fn loading_takes_a_time_that_grows_with_the_scenes_size() {
     });
     assert_eq!(load().unwrap().objects.len(), 16_001);
 
-    // 4,000 variants, each of which changes an object that the others do not.
+    // 4,000 variants, each of which changes another object.
     with_more(&bench, |scene| {
         objects(scene, 4_000, |_| String::new());
         for variant in 0..4_000 {
@@ -56,7 +56,7 @@ fn loading_takes_a_time_that_grows_with_the_scenes_size() {
     let listings = loads_soon(|| tracer::list_scenes(&bench.path("scenes")).unwrap());
     assert_eq!(listings[0].variants.len(), 4_000);
 
-    // 30,000 groups of as many materials, and 200 objects that show them all.
+    // 30,000 groups with a material each, and 200 objects that show all of them.
     let mut obj = OBJ.replace("usemtl paint\n", "");
     let mut mtl = String::new();
     for group in 0..30_000 {
@@ -86,7 +86,7 @@ fn a_chain_of_too_many_parents_is_refused_without_recursion() {
     let found = "object \"o257\" has 257 parents above it; allowed: 256; attach it to one nearer to the world";
     assert_render_refused(&bench, &["scene.toml:791:", found]);
 
-    // All in one circle.
+    // All of them form one circle.
     with_more(&bench, |scene| {
         objects(scene, 10_000, |object| {
             format!("parent = \"o{}\"", (object + 1) % 10_000)
@@ -97,7 +97,7 @@ fn a_chain_of_too_many_parents_is_refused_without_recursion() {
 }
 
 #[test]
-fn too_many_of_anything_are_refused() {
+fn too_many_objects_variants_or_keys_are_refused() {
     let bench = Bench::new();
     with_more(&bench, |scene| objects(scene, 16_384, |_| String::new()));
     let found = "the scene has 16385 objects; allowed: 16384";
@@ -135,7 +135,7 @@ fn a_long_list_of_names_is_cut_in_messages() {
 }
 
 #[test]
-fn a_text_that_nests_without_end_is_refused() {
+fn a_deeply_nested_text_is_refused() {
     let bench = Bench::new();
     for text in [
         format!("a = {}", "[".repeat(200_000)),
