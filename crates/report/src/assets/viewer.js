@@ -354,14 +354,14 @@
   split.addEventListener("input", place);
   const actions = { in: () => zoom(2), out: () => zoom(0.5), fit, worst: showWorst, exchange };
   for (const button of viewer.querySelectorAll("[data-do]")) button.addEventListener("click", actions[button.dataset.do]);
-  for (const button of document.querySelectorAll("button.place")) {
-    button.addEventListener("click", () => {
-      mark = { x: Number(button.dataset.x), y: Number(button.dataset.y) };
-      lookAt(NEAR, mark.x, mark.y);
-      choose(mark.x, mark.y, true);
-      viewer.scrollIntoView({ block: "start" });
-    });
-  }
+  document.addEventListener("click", (event) => {
+    const button = event.target.closest("button.place");
+    if (!button) return;
+    mark = { x: Number(button.dataset.x), y: Number(button.dataset.y) };
+    lookAt(NEAR, mark.x, mark.y);
+    choose(mark.x, mark.y, true);
+    viewer.scrollIntoView({ block: "start" });
+  });
   new ResizeObserver(place).observe(viewer);
 
   Object.assign(pictures, {
