@@ -86,7 +86,7 @@ fn weakest(run: &Run, cases: &[&Case], thumbnails: &[String]) -> Markup {
     sorted.sort_by(|a, b| error(b).total_cmp(&error(a)));
     html! {
         div.scroll tabindex="0" role="region" aria-label="Scenes" {
-            table {
+            table.stacked {
                 caption { "Scenes, the weakest first" }
                 thead {
                     tr {
@@ -105,7 +105,7 @@ fn weakest(run: &Run, cases: &[&Case], thumbnails: &[String]) -> Markup {
                                     (case.scene)
                                 }
                             }
-                            @for (headline, _) in SCORES { td { (estimate_text(case, headline)) } }
+                            @for (headline, title) in SCORES { td data-label=(title) { (estimate_text(case, headline)) } }
                             td.text { (case.exposes) }
                         }
                     }
@@ -123,7 +123,7 @@ fn parameters(filter: Option<&Filter>, case: &Case) -> Markup {
     html! {
         @if !case.parameters.is_empty() {
             div.scroll tabindex="0" role="region" aria-label="Parameters" {
-                table {
+                table.stacked {
                     caption { "Parameters" }
                     thead { tr { th scope="col" { "parameter" } th scope="col" { "value" } th.text scope="col" { "meaning" } } }
                     tbody {

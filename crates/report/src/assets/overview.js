@@ -48,8 +48,13 @@
       !row.cells[0].textContent.toLowerCase().includes(words);
     for (const panel of panels) {
       panel.hidden = panel.dataset.metric !== metric;
-      for (const row of panel.querySelectorAll("tbody:not(.group) tr")) row.hidden = isHidden(row);
+      for (const group of panel.querySelectorAll("tbody:not(.group)")) {
+        for (const row of group.rows) row.hidden = isHidden(row);
+        const heading = group.previousElementSibling;
+        if (heading.matches(".group")) heading.hidden = [...group.rows].every((row) => row.hidden);
+      }
     }
+    document.querySelector(".nothing").hidden = panels[0].querySelector("tbody:not(.group) tr:not([hidden])") !== null;
   };
   const pictures = window.shuttertruth;
   tools.addEventListener("input", () => {

@@ -7,6 +7,7 @@ use super::case_view::CaseView;
 use super::evidence::Evidence;
 use crate::filter_id::case_anchor;
 use crate::finding_text::{Status, finding_line, way_out};
+use crate::numbers::counted;
 use suite::Level;
 use suite::{CROP, Finding, Outcome, number};
 
@@ -46,10 +47,10 @@ pub fn bounds(page: &CaseView) -> Markup {
         section.verdicts {
             h3 { @if fails { "Why it failed" } @else { "Bounds and targets" } }
             @if page.findings.is_empty() { p { "This picture is held to no bound." } }
-            @for (level, nouns) in [(Level::Required, "required bounds kept"), (Level::Report, "targets met; targets fail nothing")] {
+            @for (level, [noun, outcome]) in [(Level::Required, ["required bound", "kept"]), (Level::Report, ["target", "met; targets fail nothing"])] {
                 @let own = || page.findings.iter().filter(|own| own.level == level);
                 @if own().next().is_some() {
-                    p { (own().filter(|own| own.outcome == Outcome::Kept).count()) " of " (own().count()) " " (nouns) "." }
+                    p { (own().filter(|own| own.outcome == Outcome::Kept).count()) " of " (counted(own().count(), noun)) " " (outcome) "." }
                 }
             }
             @if explained { (failure_pattern(page)) }

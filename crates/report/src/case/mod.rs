@@ -11,8 +11,9 @@ pub mod viewer;
 
 use maud::{Markup, html};
 
-use crate::case_score::{estimate_of, interval_of};
+use crate::case_score::{estimate_of, estimate_text, interval_of};
 use crate::filter_id::{FilterId, case_anchor, list_scenes};
+use crate::numbers::counted;
 use crate::run_facts::provenance_line;
 use bounds::bounds;
 use case_view::CaseView;
@@ -30,7 +31,8 @@ pub fn case_section(view: &CaseView) -> Markup {
     let [x, y] = view.profile.place;
     html! {
         article.case id=(case_anchor(case)) data-title=(title) data-name=(filter.anchor())
-            data-filter=(filter.title()) data-reference[filter.is_reference] {
+            data-filter=(filter.title()) data-reference[filter.is_reference]
+            data-score=(format!("FLIP {}", estimate_text(case, Headline::FLIP))) {
             noscript {
                 div.case_head {
                     h2 tabindex="-1" {
@@ -83,9 +85,9 @@ fn score_line(view: &CaseView) -> Markup {
                 span { "rank " strong { (rank) } " of " (of) " with a " (case.alignment) " shutter" }
             }
             @if bounds > 0 {
-                span class=(if broken > 0 { "broken" } else { "kept" }) { (broken) " of " (bounds) " required bounds broken" }
+                span class=(if broken > 0 { "broken" } else { "kept" }) { (broken) " of " (counted(bounds, "required bound")) " broken" }
             }
-            @if targets > 0 { span { (missed) " of " (targets) " targets missed" } }
+            @if targets > 0 { span { (missed) " of " (counted(targets, "target")) " missed" } }
         }
     }
 }

@@ -145,6 +145,7 @@ fn marks(run: &Run) -> Markup {
     html! {
         div.layer aria-hidden="true" {
             svg.overlay width=(run.width) height=(run.height) viewBox=(format!("0 0 {} {}", run.width, run.height)) {
+                path.line.shade fill="none" {}
                 path.line fill="none" {}
             }
         }

@@ -12,6 +12,7 @@ use crate::case::bounds::broken_bounds;
 use crate::case::case_view::CaseView;
 use crate::case_score::estimate_of;
 use crate::filter_id::{FilterId, case_anchor, list_filters, list_scenes};
+use crate::numbers::counted;
 use crate::run_facts::provenance;
 use costs::costs;
 use headlines::{TABLE_SCORES, TableScore};
@@ -48,6 +49,7 @@ pub fn overview(
                 label.check { input type="checkbox" name="references"; " References" }
             }
             @for score in &TABLE_SCORES { (panel(run, views, thumbnails, score, bench)) }
+            p.nothing hidden { "No filter of this name." }
             (key(is_checked(views)))
             div.peek hidden aria-hidden="true" {
                 p {}
@@ -95,7 +97,7 @@ fn outcome(views: &[CaseView]) -> Markup {
     }
 }
 
-/// Counts scenes, filters and missed targets, and explains the score.
+/// Counts scenes, filters and missed targets.
 fn counts(run: &Run, views: &[CaseView]) -> Markup {
     let filters = list_filters(run);
     let filters = filters.iter().filter(|own| !own.is_reference).count();
@@ -104,7 +106,6 @@ fn counts(run: &Run, views: &[CaseView]) -> Markup {
     html! {
         p.note {
             (counted(list_scenes(run).len(), "scene")) ", " (counted(filters, "filter preset")) ". "
-            "FLIP is the visible difference from the truth where anything moves; low is good. "
             "Click a score to see the pictures."
             @if targets > 0 { " " (missed.count()) " of " (counted(targets, "target")) " missed; targets fail nothing." }
         }
@@ -157,14 +158,6 @@ fn last(row: &Row, text: &impl Fn(&Row) -> String) -> Markup {
     html! { "; worst: " a href=(format!("#{}", row.filter.section_anchor())) { (name) } " (" (text(row)) ")" }
 }
 
-/// Writes `1 scene`, `2 scenes`.
-fn counted(count: usize, noun: &str) -> String {
-    match count {
-        1 => format!("1 {noun}"),
-        count => format!("{count} {noun}s"),
-    }
-}
-
 fn panel(
     run: &Run,
     views: &[CaseView],
@@ -190,7 +183,7 @@ fn key(is_checked: bool) -> Markup {
             span.good style="--strength:80%" { "good" } " " span.bad style="--strength:80%" { "bad" }
             " compared with all scores of the table. "
             @if is_checked {
-                "✓ bound kept; " span.required { "✗ bound broken" } "; ? too noisy to decide; ~ limit stricter than the noise allows. "
+                "✓ bound kept; ? too noisy to decide; ~ limit stricter than the noise allows; " span.required { "✗ bound broken" } ". "
             }
             "Italics and open marks: references. Arrows: beyond the scale. Click a heading to sort."
         }

@@ -163,8 +163,15 @@ fn is_failing(run: &Run, views: &[CaseView], filter: &FilterId) -> bool {
 fn name(headline: Headline, filter: &FilterId) -> Markup {
     html! {
         @if filter.is_reference { (filter.name) }
-        @else { a href=(format!("#{}", filter.section_anchor())) { (filter.name) } }
+        @else { a href=(format!("#{}", filter.section_anchor())) { (breakable(&filter.name)) } }
         @if headline.spans_alignments() { " " span.note { "(" (filter.alignment) ")" } }
+    }
+}
+
+/// Writes a name that may break behind every word.
+fn breakable(name: &str) -> Markup {
+    html! {
+        @for part in name.split_inclusive(['_', ':']) { (part) wbr; }
     }
 }
 
