@@ -48,12 +48,14 @@ pub fn case_section(view: &CaseView) -> Markup {
                 data-names=(serde_json::json!(view.names)) data-line=(line(&view.profile)) data-worst=(format!("{x},{y}")) {}
             noscript {
                 p { (case.exposes) }
-                section {
-                    h3 { "Along the motion, through the worst place" }
-                    (profile_chart(&view.profile))
-                }
                 div.columns {
-                    (bounds(view))
+                    div {
+                        section {
+                            h3 { "Along the motion, through the worst place" }
+                            (profile_chart(&view.profile))
+                        }
+                        (bounds(view))
+                    }
                     (facts(case))
                 }
                 (score_rows(view))

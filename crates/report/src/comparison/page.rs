@@ -38,7 +38,7 @@ pub fn compare_page(
         p.lead { (summary(compared)) }
         p.key {
             "Change: the second run less the first. " span.better { "better" } " " span.worse { "worse" } " beyond noise. "
-            "Of a score whose ideal is a number, such as extent, the change is that of its distance from the ideal."
+            "A score with an ideal value, such as extent, changes by its distance from that value."
         }
         @if !shown.is_empty() {
             section {

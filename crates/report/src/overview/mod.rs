@@ -183,7 +183,7 @@ fn key(is_checked: bool) -> Markup {
             span.good style="--strength:80%" { "good" } " " span.bad style="--strength:80%" { "bad" }
             " compared with all scores of the table. "
             @if is_checked {
-                "✓ bound kept; ? too noisy to decide; ~ limit stricter than the noise allows; " span.required { "✗ bound broken" } ". "
+                "✓ bound kept; ? too noisy to decide; ~ limit stricter than the noise allows; " span.required { "✗ bound broken" } " "
             }
             "Italics and open marks: references. Arrows: beyond the scale. Click a heading to sort."
         }

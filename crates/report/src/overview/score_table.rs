@@ -15,6 +15,9 @@ use suite::{Bench, Headline, Level, Outcome, Overall, Run};
 /// Lengths of the middle half of the means that the scale goes on beyond it; what lies farther is drawn as an arrow.
 const WHISKERS: f64 = 1.5;
 
+/// Scenes from which on their columns are narrow.
+const MANY: usize = 8;
+
 /// A row before it is drawn.
 pub struct Row<'a> {
     /// Filter or reference.
@@ -91,7 +94,7 @@ pub fn score_table(
     };
     html! {
         div.scroll tabindex="0" role="region" aria-label=(format!("{} of every case", score.title)) {
-            table.sortable data-first=(order) {
+            table.sortable.many[scenes.len() > MANY] data-first=(order) {
                 caption { (caption(headline, has_means)) }
                 thead {
                     tr {

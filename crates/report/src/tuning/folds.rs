@@ -25,6 +25,7 @@ pub fn folds(folds: &[Fold]) -> Markup {
             }
             div.scroll tabindex="0" role="region" aria-label="Cross-validation" {
                 table {
+                    caption.unseen { "Families of scenes, each left out of the choice" }
                     thead {
                         tr {
                             th scope="col" { "family left out" }

@@ -110,7 +110,7 @@ fn table(front: &[Trial], start: &Trial, chosen: usize) -> Markup {
                 tbody {
                     @for trial in front {
                         tr {
-                            th scope="row" { (trial.trial) @if trial.trial == chosen { " (chosen)" } }
+                            th scope="row" data-label="trial" { (trial.trial) @if trial.trial == chosen { " (chosen)" } }
                             td data-label="error" { (trial.error.map_or_else(|| "-".to_owned(), percent)) }
                             @if bled { td data-label="lateral bleed, px" { (number(trial.bleed)) } }
                             @if timed { td data-label="GPU time" { (number(trial.cost)) } }
