@@ -388,4 +388,10 @@ fn everything_fits_a_narrow_screen() {
             "the page at \"{part}\" has to be scrolled sideways"
         );
     }
+    // As does the paper of the overview.
+    browser.resize(794, 1123);
+    browser.print();
+    browser.open(&page, "");
+    let width = browser.value("document.documentElement.scrollWidth");
+    assert_eq!(width, 794);
 }
