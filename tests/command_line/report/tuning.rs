@@ -67,7 +67,10 @@ fn a_tuning_is_shown_with_its_trials_its_choice_and_its_folds() {
     let front = find_section(&page, "Trials that ran on every scene");
     for trial in &tuning.front {
         assert!(
-            front.contains(&format!("<th scope=\"row\">{}", trial.trial)),
+            front.contains(&format!(
+                "<th scope=\"row\" data-label=\"trial\">{}",
+                trial.trial
+            )),
             "trial {}",
             trial.trial
         );
