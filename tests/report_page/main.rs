@@ -142,6 +142,99 @@ fn divider_and_keys_change_the_shown_pictures() {
 }
 
 #[test]
+fn every_key_that_the_page_lists_works() {
+    let bench = Bench::new();
+    bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
+    assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
+    let page = make_page(&bench);
+    let mut browser = Browser::new(1280, 900);
+    open_case(&mut browser, &page, "plate/identity:default");
+    let state = "[location.hash.split('&')[0], document.documentElement.dataset.theme, document.getElementById('viewer').dataset.mode, \
+                 ...['left', 'right', 'split'].map(name => document.querySelector(`[name=${name}]`).value), \
+                 document.querySelector('[name=exposure]:checked').value, document.querySelector('.zoom').textContent, \
+                 document.querySelector('.readout').dataset.pixel, document.getElementById('viewer').hidden].join()";
+    let mut before = browser.text(state);
+    for key in [
+        "3",
+        "4",
+        "5",
+        "1",
+        "a",
+        "A",
+        "m",
+        "M",
+        "x",
+        "w",
+        "-",
+        "+",
+        "=",
+        "0",
+        "e",
+        "[",
+        "]",
+        "PageUp",
+        "PageDown",
+        "ArrowRight",
+        "ArrowLeft",
+        "ArrowDown",
+        "ArrowUp",
+        "t",
+        "j",
+        "k",
+        "l",
+        "h",
+        "2",
+        "o",
+    ] {
+        if key == "PageUp" {
+            // Side by side it was hidden.
+            browser.value("document.querySelector('.stack').focus()");
+        }
+        browser.press(key);
+        let is_changed = format!("{state} !== {}", serde_json::json!(before));
+        browser.until(&is_changed);
+        before = browser.text(state);
+    }
+    // A filter's own page leads back, too.
+    browser.value("document.querySelector('.winners a').click()");
+    browser.until("location.hash.startsWith('#filter:')");
+    browser.press("o");
+    browser.until("document.getElementById('overview').checkVisibility()");
+    assert_eq!(browser.complaints(), [""; 0]);
+}
+
+#[test]
+fn tables_have_captions_and_pictures_have_words() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
+    let page = make_page(&bench);
+    let mut browser = Browser::new(1280, 900);
+    for part in ["", "#plate/identity:default", "#filter:identity:default"] {
+        browser.open(&page, part);
+        browser.until("document.documentElement.classList.contains('scripted')");
+        for (elements, lacks) in [
+            ("table", "!own.caption?.textContent.trim()"),
+            ("th", "!own.scope"),
+            ("img", "!own.hasAttribute('alt')"),
+            (
+                "canvas",
+                "!own.closest('[aria-hidden=true]') && own.checkVisibility() && !own.ariaLabel",
+            ),
+            (
+                "svg",
+                "!own.closest('[aria-hidden=true]') && !own.ariaLabel",
+            ),
+            ("button", "!own.ariaLabel && !own.textContent.trim()"),
+        ] {
+            let found = browser.text(&format!(
+                "[...document.querySelectorAll('{elements}')].filter(own => {lacks}).map(own => own.outerHTML.slice(0, 200)).join('; ')"
+            ));
+            assert_eq!(found, "", "{part} {elements}");
+        }
+    }
+}
+
+#[test]
 fn headings_sort_both_ways() {
     let bench = Bench::new();
     assert_done(&bench.run(&[
@@ -292,4 +385,10 @@ fn everything_fits_a_narrow_screen() {
             "the page at \"{part}\" has to be scrolled sideways"
         );
     }
+    // As does the paper of the overview.
+    browser.resize(794, 1123);
+    browser.print();
+    browser.open(&page, "");
+    let width = browser.value("document.documentElement.scrollWidth");
+    assert_eq!(width, 794);
 }

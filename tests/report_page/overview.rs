@@ -74,6 +74,49 @@ fn the_search_filters_rows_and_references_show_on_request() {
 }
 
 #[test]
+fn a_link_opens_the_same_table() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
+    let page = make_page(&bench);
+    let mut browser = Browser::new(1280, 900);
+    browser.open(&page, "");
+    assert_eq!(browser.text("location.hash"), "");
+    browser.value(
+        "(() => { const tools = document.getElementById('tables'); tools.querySelector('[value=row_loss]').checked = true; \
+         tools.querySelector('[name=search]').value = 'y_g & 100%+'; tools.dispatchEvent(new Event('input')); })()",
+    );
+    browser.until("location.hash === '#overview&metric=row_loss&search=y_g%20%26%20100%25%2B'");
+    assert_eq!(rows(&mut browser), "");
+    let nothing = "document.querySelector('.nothing').checkVisibility()";
+    assert_eq!(browser.value(nothing), true);
+    browser.value(
+        "(() => { const search = document.querySelector('[name=search]'); search.value = 'y_g'; \
+         search.dispatchEvent(new Event('input', {bubbles: true})); })()",
+    );
+    browser.until("location.hash === '#overview&metric=row_loss&search=y_g'");
+    let link = browser.text("location.hash");
+    let seen = "[document.querySelector('.panel:not([hidden])').dataset.metric, document.querySelector('[name=search]').value].join()";
+    browser.value("location.reload()");
+    browser.until("document.readyState === 'complete'");
+    for part in ["", &link] {
+        if !part.is_empty() {
+            browser.open(&page, "");
+            assert_eq!(browser.text(seen), "flip_moving,");
+            browser.open(&page, part);
+        }
+        browser.until(&format!("{seen} === 'row_loss,y_g'"));
+        assert_eq!(rows(&mut browser), "velocity_gather:fine");
+    }
+    // The way back from a case keeps them.
+    browser.value("location.hash = '#plate/identity:default'");
+    browser.until("!document.getElementById('viewer').hidden");
+    browser.press("o");
+    browser.until("location.hash === '#overview&metric=row_loss&search=y_g'");
+    assert_eq!(rows(&mut browser), "velocity_gather:fine");
+    assert_eq!(browser.complaints(), [""; 0]);
+}
+
+#[test]
 fn a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
@@ -95,7 +138,7 @@ fn a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter() {
     for words in [
         "velocity_gather:fine",
         "published",
-        "cannot",
+        "limits",
         "Parameters",
         "Scenes, the weakest first",
         "plate",

@@ -2,8 +2,8 @@
 
 use filters::{Filter, Source};
 use maud::{Markup, html};
-use metrics::Ideal;
 
+use crate::case_score::{estimate_of, estimate_text};
 use crate::filter_id::{FilterId, case_anchor, list_scenes};
 use crate::overview::costs::{cost_of, cost_text};
 use suite::{Bench, Case, Headline, Run};
@@ -38,18 +38,21 @@ pub fn filter_section(
     });
     html! {
         article.filter id=(filter.section_anchor()) data-title=(filter.name) {
-            div.case_head {
-                h2 tabindex="-1" { (filter.name) }
-                nav.neighbours { a href="#overview" { "Overview" } }
-            }
-            @if let Some(own) = &own { (about(own, first)) }
-            (weakest(run, &cases, thumbnails))
-            (parameters(own.as_ref(), first))
-            dl.facts {
-                div { dt { "shutter" } dd { (filter.alignment) } }
-                @if bench.is_some() { div { dt { "cost" } dd { (cost_text(cost_of(run, bench, filter))) " ms" } } }
-                @if let Some(change) = first.input.change() { div { dt { "input" } dd { (change) } } }
-                @if let Some(command) = &first.command { div { dt { "command" } dd { code { (command.join(" ")) } } } }
+            noscript {
+                div.case_head {
+                    h2 tabindex="-1" { (filter.name) }
+                    nav.neighbours { a href="#overview" data-key="o" { "Overview" } }
+                }
+                @if let Some(own) = &own { p.lead { (own.summary) } }
+                dl.facts {
+                    @if let Some(own) = &own { (about(own, first)) }
+                    div { dt { "shutter" } dd { (filter.alignment) } }
+                    @if bench.is_some() { div { dt { "cost" } dd { (cost_text(cost_of(run, bench, filter))) " ms" } } }
+                    @if let Some(change) = first.input.change() { div { dt { "input" } dd { (change) } } }
+                    @if let Some(command) = &first.command { div { dt { "command" } dd { code { (command.join(" ")) } } } }
+                }
+                (weakest(run, &cases, thumbnails))
+                (parameters(own.as_ref(), first))
             }
         }
     }
@@ -59,14 +62,11 @@ pub fn filter_section(
 fn about(filter: &Filter, case: &Case) -> Markup {
     let preset = filter.presets.iter().find(|own| own.name == case.preset);
     html! {
-        p.lead { (filter.summary) }
-        dl.facts {
-            @if let Some(preset) = preset { div { dt { "preset" } dd { (preset.doc) } } }
-            div { dt { "published" } dd { (filter.source) } }
-            @if let Some(source) = preset.and_then(|own| own.source.as_ref()) { (source_rows(source)) }
-            div { dt { "reach" } dd { (filter.reach) } }
-            div { dt { "cannot" } dd { (filter.cannot) } }
-        }
+        @if let Some(preset) = preset { div { dt { "preset" } dd { (preset.doc) } } }
+        div { dt { "published" } dd { (filter.source) } }
+        @if let Some(source) = preset.and_then(|own| own.source.as_ref()) { (source_rows(source)) }
+        div { dt { "reach" } dd { (filter.reach) } }
+        div { dt { "limits" } dd { (filter.cannot) } }
     }
 }
 
@@ -74,22 +74,19 @@ fn source_rows(source: &Source) -> Markup {
     html! {
         @if let Some(publication) = &source.publication { div { dt { "follows" } dd { (publication) } } }
         @if let Some(code) = &source.code { div { dt { "code" } dd { (code.repository) " at " code { (code.commit) } } } }
-        @if !source.differs.is_empty() { div { dt { "differs" } dd { (source.differs.join(" ")) } } }
+        @if !source.differs.is_empty() { div { dt { "differences" } dd { (source.differs.join(" ")) } } }
     }
 }
 
 /// Lists the scenes, largest error first, each with a link to its case.
 fn weakest(run: &Run, cases: &[&Case], thumbnails: &[String]) -> Markup {
     let scenes = list_scenes(run);
-    let error = |case: &Case| {
-        let value = Headline::FLIP.measured(case).value();
-        value.map_or(f64::NEG_INFINITY, |own| Ideal::Lowest.badness(own))
-    };
+    let error = |case: &Case| estimate_of(case, Headline::FLIP).unwrap_or(f64::NEG_INFINITY);
     let mut sorted = cases.to_vec();
     sorted.sort_by(|a, b| error(b).total_cmp(&error(a)));
     html! {
         div.scroll tabindex="0" role="region" aria-label="Scenes" {
-            table {
+            table.stacked {
                 caption { "Scenes, the weakest first" }
                 thead {
                     tr {
@@ -108,7 +105,7 @@ fn weakest(run: &Run, cases: &[&Case], thumbnails: &[String]) -> Markup {
                                     (case.scene)
                                 }
                             }
-                            @for (headline, _) in SCORES { td { (headline.text(case)) } }
+                            @for (headline, title) in SCORES { td data-label=(title) { (estimate_text(case, headline)) } }
                             td.text { (case.exposes) }
                         }
                     }
@@ -126,7 +123,7 @@ fn parameters(filter: Option<&Filter>, case: &Case) -> Markup {
     html! {
         @if !case.parameters.is_empty() {
             div.scroll tabindex="0" role="region" aria-label="Parameters" {
-                table {
+                table.stacked {
                     caption { "Parameters" }
                     thead { tr { th scope="col" { "parameter" } th scope="col" { "value" } th.text scope="col" { "meaning" } } }
                     tbody {

@@ -17,6 +17,14 @@ pub fn percent(log: f64) -> String {
     format!("{:+.1} %", 100.0 * log.exp_m1())
 }
 
+/// Writes `1 scene`, `2 scenes`.
+pub fn counted(count: usize, noun: &str) -> String {
+    match count {
+        1 => format!("1 {noun}"),
+        count => format!("{count} {noun}s"),
+    }
+}
+
 /// Writes a number with three digits that count.
 pub fn three_digits(value: f64) -> String {
     if value == 0.0 {

@@ -21,10 +21,10 @@ pub fn provenance(run: &Run) -> Markup {
                     thead {
                         tr {
                             th scope="col" { "scene" }
-                            th scope="col" { "family" }
+                            th.text scope="col" { "family" }
                             th scope="col" { "exposure, frames" }
-                            th scope="col" { "shutter" }
-                            th scope="col" { "hash of the truth" }
+                            th.text scope="col" { "shutter" }
+                            th.text scope="col" { "hash of the truth" }
                         }
                     }
                     tbody { @for truth in truths(run) { (truth) } }
@@ -111,10 +111,10 @@ fn truths(run: &Run) -> Vec<Markup> {
             rows.push(html! {
                 tr {
                     th scope="row" { (scene) }
-                    td { (case.family.name()) }
+                    td.text { (case.family.name()) }
                     td { (case.exposure) }
-                    td { (case.alignment) }
-                    td { code { (case.truth_hash) } }
+                    td.text { (case.alignment) }
+                    td.text { code { (case.truth_hash) } }
                 }
             });
         }

@@ -9,10 +9,11 @@ use std::fs;
 use std::time::Instant;
 
 use crate::bench::{stderr, stdout};
-use crate::links::{find_pages, root};
+use crate::links::find_pages;
 use page::{Step, find_steps};
 use quick::shorten;
 use reader::Reader;
+use tests::root;
 
 /// Commands that are not run, and why.
 const NOT_RUN: [(&str, &str); 13] = [

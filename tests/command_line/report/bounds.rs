@@ -18,13 +18,18 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
     let case = filter_case(&bench);
 
     assert!(page.contains("2 required bounds: 1 broken, 0 too noisy to decide."));
-    let flip = case.scores.moving.flip.value().unwrap();
+    // The estimate without the truth's noise, with its interval.
+    let interval = &case.intervals["flip_moving"];
+    let flip = f64::midpoint(interval.low, interval.high);
     let cell = format!(
         "<td class=\"required\" data-value=\"{flip}\"><a class=\"case\" href=\"#plate/identity:default\">\
          <span class=\"sign\" aria-hidden=\"true\">✗</span>{flip:.3}\
-         <span class=\"unseen\">, broken, required limit 0.2000</span></a>"
+         <span class=\"unseen\">, 95 % CI {} to {}",
+        suite::number(interval.low),
+        suite::number(interval.high)
     );
     assert!(page.contains(&cell), "{cell}");
+    assert!(page.contains("<span class=\"unseen\">, broken, required limit 0.2000</span></a>"));
     let failures = between(&page, "<details class=\"failures\"", "</details>")[0];
     assert!(failures.contains("plate / identity:default"));
 
@@ -32,7 +37,7 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
     let findings = bench.read_findings();
     let worst = findings[0].worst.as_ref().unwrap();
     for words in [
-        "1 of 2 kept.",
+        "1 of 2 required bounds kept.",
         "BROKEN flip_moving 0.2",
         "scenes/plate/bounds.toml:2: it &lt;i&gt;serves&lt;/i&gt; a test",
         "the wrong blur <strong>no_blur</strong>, 0 % off",
@@ -77,4 +82,9 @@ fn a_report_finds_the_worst_place_if_the_run_did_not() {
         checked
     );
     assert!(article.contains("No known failure pattern matched (only <code>check</code> looks"));
+    // Nothing that a run breaks fails: it is a target.
+    assert!(article.contains("0 of 1 target met; targets fail nothing."));
+    for words in ["class=\"outcome\"", "FAIL", "Why it failed", "BROKEN"] {
+        assert!(!page.contains(words), "{words}");
+    }
 }

@@ -59,7 +59,10 @@ fn the_page_of_a_tuning_shows_trials_choice_and_folds() {
     let front = find_section(&page, "Trials that ran on every scene");
     for trial in &tuning.front {
         assert!(
-            front.contains(&format!("<th scope=\"row\">{}", trial.trial)),
+            front.contains(&format!(
+                "<th scope=\"row\" data-label=\"trial\">{}",
+                trial.trial
+            )),
             "trial {}",
             trial.trial
         );

@@ -1,22 +1,34 @@
 "use strict";
-// The address: `#railing/bevy:high&right=jimenez:hdrp&zoom=6&at=80,45` opens that case with these settings.
+// The address: `#railing/bevy:high&right=jimenez:hdrp&zoom=6&at=80,45` opens that case with these settings, and
+// `#overview&metric=psnr_moving&search=bevy` the tables.
 {
   const pictures = window.shuttertruth;
   let noted = null;
 
-  // The section that is open, and the settings behind its name.
+  // The section that is named, and the settings behind its name.
   const parse = () => {
-    const [name, ...rest] = decodeURIComponent(location.hash.slice(1)).split("&");
-    return [document.getElementById(name), Object.fromEntries(new URLSearchParams(rest.join("&")))];
+    const [name, ...rest] = location.hash.slice(1).split("&");
+    return [document.getElementById(decodeURIComponent(name)), Object.fromEntries(new URLSearchParams(rest.join("&")))];
+  };
+
+  // Parses the parts of a section that are text until somebody opens it.
+  const parseParts = (section) => {
+    for (const part of section.querySelectorAll("noscript")) part.outerHTML = part.textContent;
+    for (const image of section.querySelectorAll("[data-thumbnail]")) image.src = pictures.thumbnails[image.dataset.thumbnail];
   };
 
   const route = () => {
     const [named, settings] = parse();
     const section = named?.matches("article") ? named : null;
     for (const one of document.querySelectorAll("article.open")) one.classList.remove("open");
+    if (section) parseParts(section);
     section?.classList.add("open");
     document.title = section ? `${section.dataset.title} - Shuttertruth` : "Shuttertruth report";
     pictures.show(section?.matches(".case") ? section : null, settings);
+    if (!section) {
+      pictures.showTables(settings);
+      pictures.note();
+    }
     return section;
   };
 
@@ -24,10 +36,14 @@
   pictures.note = () => {
     clearTimeout(noted);
     noted = setTimeout(() => {
-      if (!pictures.isOpen()) return;
-      const words = [pictures.section().id, ...pictures.settings().map(([name, value]) => `${name}=${value}`)];
+      const section = document.querySelector("article.open");
+      if (section && !pictures.isOpen()) return;
+      const settings = section ? pictures.settings() : pictures.tableSettings();
+      if (!section && !location.hash && settings.length === 0) return;
+      const escaped = (value) => value.replace(/[%&+#\s]/g, encodeURIComponent);
+      const words = [section?.id ?? "overview", ...settings.map(([name, value]) => `${name}=${escaped(value)}`)];
       const hash = `#${words.join("&")}`;
-      if (decodeURIComponent(location.hash) !== hash) history.replaceState(null, "", hash);
+      if (location.hash !== hash) history.replaceState(null, "", hash);
     }, 200);
   };
 

@@ -28,10 +28,9 @@
     if (dialog.open || event.ctrlKey || event.altKey || event.metaKey || event.target.matches("input[type=search]")) return;
     if (event.key === "t") document.getElementById("theme").click();
     if (event.key === "?") dialog.showModal();
-    if (!pictures.isOpen()) return;
-    const link = pictures.section().querySelector(`a[data-key="${CSS.escape(event.key)}"]`);
+    const link = document.querySelector(`article.open a[data-key="${CSS.escape(event.key)}"]`);
     if (link) link.click();
-    else if (actions[event.key]) actions[event.key]();
+    else if (pictures.isOpen() && actions[event.key]) actions[event.key]();
     else return;
     event.preventDefault();
   });

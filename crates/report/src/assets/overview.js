@@ -1,5 +1,6 @@
 "use strict";
-// The overview: one score at a time, rows that are searched for, sorting, and a look at the worst place of a case.
+// The overview: one score at a time, rows that are searched for, sorting, settings in the address, and a look at the worst place of
+// a case.
 {
   const value = (row, column) => {
     const cell = row.cells[column];
@@ -35,7 +36,6 @@
   const panels = [...document.querySelectorAll(".panel")];
   const thumbnails = [...panels[0].querySelectorAll("th.scene img")].map((image) => image.src);
   for (const panel of panels) panel.querySelectorAll("th.scene img").forEach((image, at) => (image.src = thumbnails[at]));
-  for (const image of document.querySelectorAll("[data-thumbnail]")) image.src = thumbnails[image.dataset.thumbnail];
 
   const tools = document.getElementById("tables");
   const tool = (name) => tools.querySelector(`[name=${name}]`);
@@ -48,14 +48,42 @@
       !row.cells[0].textContent.toLowerCase().includes(words);
     for (const panel of panels) {
       panel.hidden = panel.dataset.metric !== metric;
-      for (const row of panel.querySelectorAll("tbody:not(.group) tr")) row.hidden = isHidden(row);
+      for (const group of panel.querySelectorAll("tbody:not(.group)")) {
+        for (const row of group.rows) row.hidden = isHidden(row);
+        const heading = group.previousElementSibling;
+        if (heading.matches(".group")) heading.hidden = [...group.rows].every((row) => row.hidden);
+      }
     }
+    document.querySelector(".nothing").hidden = panels[0].querySelector("tbody:not(.group) tr:not([hidden])") !== null;
   };
-  tools.addEventListener("input", show);
-  show();
-
-  // Truth, output and error around the worst place of the case that is pointed at.
   const pictures = window.shuttertruth;
+  tools.addEventListener("input", () => {
+    show();
+    pictures.note();
+  });
+
+  // What an address names: the score, the words that are searched for, and what is ticked. An address without any keeps what there is.
+  const boxes = ["failing", "references"];
+  const usual = panels[0].dataset.metric;
+  const showTables = (settings) => {
+    if (Object.keys(settings).length > 0) {
+      const metric = settings.metric ?? usual;
+      const button = tools.querySelector(`[name=metric][value="${CSS.escape(metric)}"]`);
+      (button ?? tool("metric")).checked = true;
+      tool("search").value = settings.search ?? "";
+      for (const name of boxes) if (tool(name)) tool(name).checked = name in settings;
+    }
+    show();
+  };
+  const tableSettings = () => {
+    const metric = tools.querySelector("[name=metric]:checked").value;
+    const ticked = boxes.filter((name) => tool(name)?.checked).map((name) => [name, "1"]);
+    const all = [["metric", metric === usual ? "" : metric], ["search", tool("search").value], ...ticked];
+    return all.filter(([, value]) => value);
+  };
+  Object.assign(pictures, { thumbnails, showTables, tableSettings });
+
+  // Score, truth, output and error around the worst place of the case that is pointed at.
   const peek = document.querySelector(".peek");
   const width = Number(document.getElementById("viewer").dataset.width);
   const height = Number(document.getElementById("viewer").dataset.height);
@@ -66,6 +94,7 @@
     const { scene, stops, worst } = document.getElementById(link.hash.slice(1)).querySelector(".viewer_place").dataset;
     pictures.openScene(Number(scene));
     pictures.openCase(document.getElementById(link.hash.slice(1)));
+    peek.querySelector("p").textContent = link.textContent.replace(/^[✓✗?~]/, "");
     const canvases = [...peek.querySelectorAll("canvas")];
     const [x, y] = worst.split(",").map(Number);
     const start = (middle, size, all) => Math.max(0, Math.min(all - size, middle - size / 2));

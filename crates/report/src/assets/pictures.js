@@ -31,9 +31,10 @@
   // A picture by its word: `truth`, `flip`, or a filter, `bevy:high`. None if the case has none of that name.
   const find = (word) => {
     const layer = layers[word];
-    if (layer) return own[word] && { ...layer, word, planes: own[word], title: word === "output" ? open.dataset.filter : layer.title };
+    const of = (section) => ({ title: section.dataset.filter, score: section.dataset.score });
+    if (layer) return own[word] && { ...layer, word, planes: own[word], ...(word === "output" ? of(open) : {}) };
     const other = siblings().find((section) => section.dataset.name === word);
-    return other && { ...layers.output, word, planes: planesOf(other).output, title: other.dataset.filter };
+    return other && { ...layers.output, word, planes: planesOf(other).output, ...of(other) };
   };
 
   // Groups of a menu: titles, each with the words of its pictures.

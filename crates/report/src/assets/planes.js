@@ -5,7 +5,7 @@
   const { folder } = store.dataset;
   const waiting = new Map();
   // Of the scene that is open; those of others are dropped.
-  let open = { scene: null, texts: null, planes: new Map() };
+  let open = { scene: null };
 
   // Called by the files beside the page, each of which holds one scene.
   const arrived = (scene, texts) => waiting.get(scene)(texts);
@@ -25,7 +25,7 @@
   };
 
   const openScene = (scene) => {
-    if (open.scene !== scene) open = { scene, texts: textsOf(scene), planes: new Map() };
+    if (open.scene !== scene) open = { scene, texts: textsOf(scene), bits: new Map(), planes: new Map() };
   };
 
   const inflate = async (text) => {
@@ -42,20 +42,34 @@
     if (exponent === 31) return fraction ? NaN : sign * Infinity;
     return sign * 2 ** (exponent - 15) * (1 + fraction);
   };
+  let floats = null;
 
-  // Lower bytes, then higher bytes of the difference of each number to the one before.
-  const unpack = (bytes) => {
-    const values = new Float32Array(bytes.length / 2);
-    let bits = 0;
-    for (let at = 0; at < values.length; at++) {
-      bits = (bits + bytes[at] + (bytes[at + values.length] << 8)) & 0xffff;
-      values[at] = floatOf(bits);
+  // Lower bytes, then higher bytes of the difference of each number to that of another plane, or else to the one before.
+  const unpack = (bytes, reference) => {
+    const bits = new Uint16Array(bytes.length / 2);
+    for (let at = 0; at < bits.length; at++) {
+      const other = reference ? reference[at] : at > 0 ? bits[at - 1] : 0;
+      bits[at] = other + bytes[at] + (bytes[at + bits.length] << 8);
     }
-    return values;
+    return bits;
+  };
+
+  const bitsOf = (own, number) => {
+    const load = async () => {
+      const [reference, text] = (await own.texts)[number].split(" ");
+      return unpack(await inflate(text), reference && (await bitsOf(own, Number(reference))));
+    };
+    if (!own.bits.has(number)) own.bits.set(number, load());
+    return own.bits.get(number);
   };
 
   const plane = (own, number) => {
-    if (!own.planes.has(number)) own.planes.set(number, own.texts.then((texts) => inflate(texts[number])).then(unpack));
+    const load = async () => {
+      const bits = await bitsOf(own, number);
+      floats ??= Float32Array.from({ length: 65536 }, (_, one) => floatOf(one));
+      return Float32Array.from(bits, (one) => floats[one]);
+    };
+    if (!own.planes.has(number)) own.planes.set(number, load());
     return own.planes.get(number);
   };
 

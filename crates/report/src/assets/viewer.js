@@ -83,14 +83,16 @@
       : drawing(right);
     const swapped = "swapped" in viewer.dataset;
     const shown = differs ? "signed" : mode === "blink" && !swapped ? left.word : right.word;
-    const titles = { over: left.title, under: right.title, left: left.title, right: right.title };
-    if (mode === "blink") titles.over = swapped ? right.title : left.title;
-    if (differs) titles.under = `${right.title} minus ${left.title}`;
-    for (const [place, title] of Object.entries(titles)) {
+    const minus = { title: `${right.title} minus ${left.title}`, hint: "brightness of the right picture minus the left one" };
+    const over = mode === "blink" && swapped ? right : left;
+    const named = { over, under: differs ? minus : right, left, right };
+    for (const [place, { title, score = "" }] of Object.entries(named)) {
       viewer.querySelector(`[data-place=${place}] canvas`).setAttribute("aria-label", `${title}, ${open.dataset.title}`);
-      viewer.querySelector(`[data-tag=${place}]`).textContent = title;
+      const tag = viewer.querySelector(`[data-tag=${place}]`);
+      tag.textContent = title;
+      tag.dataset.score = score;
     }
-    const { title, hint } = differs ? { title: titles.under, hint: "brightness of the right picture minus the left one" } : pictures.find(shown);
+    const { title, hint } = differs ? minus : pictures.find(shown);
     viewer.querySelector(".hint").textContent =
       mode === "difference" && !isLight ? "A difference needs two pictures of light." : `${title}: ${hint}.`;
     for (const legend of viewer.querySelectorAll("[data-legend]")) {
@@ -138,7 +140,9 @@
       };
       box(pane.querySelector(".mark"), mark, mark?.x - block / 2, mark?.y - block / 2, block);
       box(pane.querySelector(".pixel"), pixel, pixel?.x, pixel?.y, 1);
-      pane.querySelector(".line").style.strokeWidth = `${1.5 / scale}px`;
+      for (const line of pane.querySelectorAll(".line")) {
+        line.style.strokeWidth = `${(line.matches(".shade") ? 3.5 : 1.5) / scale}px`;
+      }
     }
     viewer.classList.toggle("zoomed", view.zoom > 1);
     viewer.querySelector(".zoom").textContent = `${Number(view.zoom.toPrecision(2))}×`;
@@ -354,14 +358,14 @@
   split.addEventListener("input", place);
   const actions = { in: () => zoom(2), out: () => zoom(0.5), fit, worst: showWorst, exchange };
   for (const button of viewer.querySelectorAll("[data-do]")) button.addEventListener("click", actions[button.dataset.do]);
-  for (const button of document.querySelectorAll("button.place")) {
-    button.addEventListener("click", () => {
-      mark = { x: Number(button.dataset.x), y: Number(button.dataset.y) };
-      lookAt(NEAR, mark.x, mark.y);
-      choose(mark.x, mark.y, true);
-      viewer.scrollIntoView({ block: "start" });
-    });
-  }
+  document.addEventListener("click", (event) => {
+    const button = event.target.closest("button.place");
+    if (!button) return;
+    mark = { x: Number(button.dataset.x), y: Number(button.dataset.y) };
+    lookAt(NEAR, mark.x, mark.y);
+    choose(mark.x, mark.y, true);
+    viewer.scrollIntoView({ block: "start" });
+  });
   new ResizeObserver(place).observe(viewer);
 
   Object.assign(pictures, {

@@ -7,6 +7,7 @@ use super::case_view::CaseView;
 use super::evidence::Evidence;
 use crate::filter_id::case_anchor;
 use crate::finding_text::{Status, finding_line, way_out};
+use crate::numbers::counted;
 use suite::Level;
 use suite::{CROP, Finding, Outcome, number};
 
@@ -27,6 +28,7 @@ pub fn broken_bounds(pages: &[CaseView]) -> Markup {
                                 (finding.scene) " / " (finding.filter)
                             }
                             ": " (finding_line(finding))
+                            @if let Some(way_out) = way_out(finding) { "; " (way_out) }
                         }
                     }
                 }
@@ -37,17 +39,19 @@ pub fn broken_bounds(pages: &[CaseView]) -> Markup {
 
 /// Shows every bound of a case: those that are not kept with evidence, the others as a count.
 pub fn bounds(page: &CaseView) -> Markup {
-    let kept = (page.findings.iter()).filter(|finding| finding.outcome == Outcome::Kept);
-    let kept = kept.count();
     let notable = || page.findings.iter().zip(&page.evidence);
     let explained = page.evidence.iter().any(Option::is_some);
-    let broken = (page.findings.iter()).any(|finding| finding.outcome == Outcome::Broken);
+    let fails = (page.findings.iter())
+        .any(|own| own.level == Level::Required && own.outcome == Outcome::Broken);
     html! {
         section.verdicts {
-            h3 { @if broken { "Why it failed" } @else { "Bounds" } }
-            @match page.findings.len() {
-                0 => p { "This picture is held to no bound." },
-                all => p { (kept) " of " (all) " kept." },
+            h3 { @if fails { "Why it failed" } @else { "Bounds and targets" } }
+            @if page.findings.is_empty() { p { "This picture is held to no bound." } }
+            @for (level, [noun, outcome]) in [(Level::Required, ["required bound", "kept"]), (Level::Report, ["target", "met; targets fail nothing"])] {
+                @let own = || page.findings.iter().filter(|own| own.level == level);
+                @if own().next().is_some() {
+                    p { (own().filter(|own| own.outcome == Outcome::Kept).count()) " of " (counted(own().count(), noun)) " " (outcome) "." }
+                }
             }
             @if explained { (failure_pattern(page)) }
             @for (finding, evidence) in notable() {
@@ -77,7 +81,8 @@ fn failure_pattern(page: &CaseView) -> Markup {
 }
 
 fn finding_section(page: &CaseView, finding: &Finding, evidence: &Evidence) -> Markup {
-    let class = Status::of(finding.outcome).map(|status| status.word);
+    let required = Status::of(finding.outcome).filter(|_| finding.level == Level::Required);
+    let class = required.map(|status| status.word);
     let [x, y] = evidence.place;
     html! {
         div class=(format!("verdict {}", class.unwrap_or_default())) {

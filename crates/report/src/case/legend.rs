@@ -42,7 +42,7 @@ pub fn draw_legends() -> Markup {
             "0 " (strip(MAGMA, false)) " 1"
         }))
         (legend(Painter::Signed, html! {
-            "darker " (strip(PURPLE_ORANGE, false)) " brighter; the ends differ as display black and white do, half the strength is a quarter of that"
+            "darker " (strip(PURPLE_ORANGE, false)) " brighter; strength is the square root of the difference, and full from black to white"
         }))
         (legend(Painter::Sides, html! {
             @for (color, side) in SIDES {
@@ -52,8 +52,8 @@ pub fn draw_legends() -> Markup {
         (legend(Painter::Motion, html! {
             canvas.wheel width="48" height="48" aria-hidden="true" {}
             span {
-                "right is orange, left is blue, up is light, down is dark, grey stands still; the strongest at "
-                span.fastest {} " px per frame, half as strong at a quarter"
+                "right is orange, left is blue, up is light, down is dark, grey stands still; strength is the square root of speed, and full at "
+                span.fastest {} " px per frame"
             }
         }))
         (legend(Painter::Distance, html! {

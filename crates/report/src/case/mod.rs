@@ -11,17 +11,19 @@ pub mod viewer;
 
 use maud::{Markup, html};
 
+use crate::case_score::{estimate_of, estimate_text, interval_of};
 use crate::filter_id::{FilterId, case_anchor, list_scenes};
-use crate::finding_text::estimate;
+use crate::numbers::counted;
 use crate::run_facts::provenance_line;
 use bounds::bounds;
 use case_view::CaseView;
 use profile::Profile;
 use profile_chart::profile_chart;
 use scores::score_rows;
-use suite::{Case, Headline, Outcome, Run};
+use suite::{Case, Headline, Level, Outcome, Run};
 
-/// Writes a case; it is seen while it is open, and the script brings the viewer.
+/// Writes a case; it is seen while it is open, and the script brings the viewer. Where scripts run, its tables are text until then:
+/// a browser takes seconds for those of all cases.
 pub fn case_section(view: &CaseView) -> Markup {
     let case = view.case;
     let filter = FilterId::of(case);
@@ -29,29 +31,36 @@ pub fn case_section(view: &CaseView) -> Markup {
     let [x, y] = view.profile.place;
     html! {
         article.case id=(case_anchor(case)) data-title=(title) data-name=(filter.anchor())
-            data-filter=(filter.title()) data-reference[filter.is_reference] {
-            div.case_head {
-                h2 tabindex="-1" {
-                    (case.scene) " / "
-                    @if filter.is_reference { (filter.title()) }
-                    @else { a href=(format!("#{}", filter.section_anchor())) { (filter.title()) } }
+            data-filter=(filter.title()) data-reference[filter.is_reference]
+            data-score=(format!("FLIP {}", estimate_text(case, Headline::FLIP))) {
+            noscript {
+                div.case_head {
+                    h2 tabindex="-1" {
+                        (case.scene) " / "
+                        @if filter.is_reference { (filter.title()) }
+                        @else { a href=(format!("#{}", filter.section_anchor())) { (filter.title()) } }
+                    }
+                    (neighbours(view))
                 }
-                (neighbours(view))
+                (score_line(view))
             }
-            (score_line(view))
             div.viewer_place data-scene=(view.scene) data-layers=(layers(view)) data-stops=(view.stops)
                 data-names=(serde_json::json!(view.names)) data-line=(line(&view.profile)) data-worst=(format!("{x},{y}")) {}
-            p { (case.exposes) }
-            section {
-                h3 { "Along the motion, through the worst place" }
-                (profile_chart(&view.profile))
+            noscript {
+                p { (case.exposes) }
+                div.columns {
+                    div {
+                        section {
+                            h3 { "Along the motion, through the worst place" }
+                            (profile_chart(&view.profile))
+                        }
+                        (bounds(view))
+                    }
+                    (facts(case))
+                }
+                (score_rows(view))
+                p.note { (provenance_line(view.run)) }
             }
-            div.columns {
-                (bounds(view))
-                (facts(case))
-            }
-            (score_rows(view))
-            p.note { (provenance_line(view.run)) }
         }
     }
 }
@@ -60,22 +69,27 @@ pub fn case_section(view: &CaseView) -> Markup {
 fn score_line(view: &CaseView) -> Markup {
     let case = view.case;
     let (rank, of) = rank_on_scene(view.run, case);
-    let bounded = view.findings.len();
-    let broken = (view.findings.iter()).filter(|finding| finding.outcome == Outcome::Broken);
-    let broken = broken.count();
+    let count = |level, is_counted: fn(Outcome) -> bool| {
+        let own = view.findings.iter().filter(|own| own.level == level);
+        own.filter(|own| is_counted(own.outcome)).count()
+    };
+    let [bounds, targets] = [Level::Required, Level::Report].map(|level| count(level, |_| true));
+    let [broken, missed] =
+        [Level::Required, Level::Report].map(|level| count(level, |own| own == Outcome::Broken));
     html! {
         p.score {
             @for headline in [Headline::FLIP, Headline::SKILL, Headline::PSNR] {
-                @if let Some(value) = headline.measured(case).value() {
-                    span { (short_name(headline)) " " strong { (headline.number(estimate(value, case.intervals.get(&headline.name())))) } (interval(case, headline)) }
+                @if let Some(value) = estimate_of(case, headline) {
+                    span { (short_name(headline)) " " strong { (headline.number(value)) } (interval(case, headline)) }
                 }
             }
             @if let (false, Some(rank)) = (case.is_reference, rank) {
                 span { "rank " strong { (rank) } " of " (of) " with a " (case.alignment) " shutter" }
             }
-            @if bounded > 0 {
-                span class=(if broken > 0 { "broken" } else { "kept" }) { (broken) " of " (bounded) " bounds broken" }
+            @if bounds > 0 {
+                span class=(if broken > 0 { "broken" } else { "kept" }) { (broken) " of " (counted(bounds, "required bound")) " broken" }
             }
+            @if targets > 0 { span { (missed) " of " (counted(targets, "target")) " missed" } }
         }
     }
 }
@@ -90,8 +104,7 @@ fn short_name(headline: Headline) -> &'static str {
 
 /// ` (95 % CI 0.052 to 0.061)`
 fn interval(case: &Case, headline: Headline) -> String {
-    let interval = case.intervals.get(&headline.name());
-    interval.map_or_else(String::new, |own| {
+    interval_of(case, headline).map_or_else(String::new, |own| {
         let [low, high] = [own.low, own.high].map(|end| headline.number(end));
         format!(" (95 % CI {low} to {high})")
     })

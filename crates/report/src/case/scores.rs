@@ -4,9 +4,10 @@ use maud::{Markup, html};
 use metrics::{Group, Measured, Metric};
 
 use super::case_view::CaseView;
-use crate::finding_text::Status;
+use crate::case_score::interval_text;
+use crate::finding_text::{Status, estimate};
 use suite::Case;
-use suite::number;
+use suite::{Level, number};
 
 /// Lists the scores of all groups.
 pub fn score_rows(page: &CaseView) -> Markup {
@@ -15,7 +16,7 @@ pub fn score_rows(page: &CaseView) -> Markup {
     html! {
         table.scores {
             caption {
-                "Scores; small: the 95 % CI, and the object that the score is about. run.json holds more."
+                "Scores, estimated without the truth's noise where there is a 95 % CI; grey: the interval, and the object that the score is about. run.json holds more."
             }
             thead {
                 tr {
@@ -55,6 +56,7 @@ fn row(page: &CaseView, metric: Metric) -> Markup {
     let name = metric.name();
     let finding = (page.findings.iter()).find(|finding| finding.metric == name);
     let status = finding.and_then(|finding| Status::of(finding.outcome));
+    let required = finding.is_some_and(|finding| finding.level == Level::Required);
     html! {
         tr {
             th scope="row" { (name) }
@@ -62,21 +64,20 @@ fn row(page: &CaseView, metric: Metric) -> Markup {
                 Measured::NotApplicable { reason } => td.reason colspan="3" { "n/a: " (reason) },
                 Measured::Score(score) => {
                     td {
-                        (value(case, metric, score.value))
-                        @if let Some(interval) = case.intervals.get(&name) {
-                            span.note { " " (number(interval.low)) " to " (number(interval.high)) }
-                        }
+                        @let interval = case.intervals.get(&name);
+                        (value(case, metric, estimate(score.value, interval)))
+                        @if let Some(interval) = interval { span.note { " " (interval_text(interval, score.value)) } }
                         @if let Some((object, _)) = case.scores.worst_object(metric) {
                             span.note { " " (object) }
                         }
                     }
                     td data-label="floor" { (number(score.floor)) }
-                    td class=[status.map(|status| status.word)]
+                    td class=[status.filter(|_| required).map(|status| status.word)]
                         data-label=[status.map(|_| "limit")] {
                         @if let (Some(finding), Some(status)) = (finding, status) {
                             span.sign aria-hidden="true" { (status.sign) }
                             (number(finding.limit))
-                            span.unseen { ", " (status.word) }
+                            @if required { span.unseen { ", " (status.word) } } @else { span.note { " target" } }
                         }
                     }
                 }

@@ -146,6 +146,7 @@ fn marks(run: &Run) -> Markup {
     html! {
         div.layer aria-hidden="true" {
             svg.overlay width=(width) height=(height) viewBox=(format!("0 0 {width} {height}")) {
+                path.line.shade fill="none" {}
                 path.line fill="none" {}
             }
         }

@@ -182,7 +182,7 @@ fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
 
 /// Lists three to six round numbers between two.
 fn ticks(low: f64, high: f64) -> Vec<(f64, String)> {
-    let rough = (high - low) / 4.0;
+    let rough = (high - low) / 5.0;
     let power = 10_f64.powf(rough.log10().floor());
     let step = [1.0, 2.0, 5.0, 10.0]
         .map(|factor| factor * power)
@@ -218,8 +218,8 @@ mod tests {
                 .map(|(_, word)| word)
                 .collect::<Vec<_>>()
         };
-        assert_eq!(words(0.0, 1.0), ["0.0", "0.5", "1.0"]);
-        assert_eq!(words(-21.0, 4.0), ["-20", "-10", "0"]);
+        assert_eq!(words(0.0, 1.0), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+        assert_eq!(words(-21.0, 4.0), ["-20", "-15", "-10", "-5", "0"]);
         assert_eq!(words(0.93, 1.32), ["1.0", "1.1", "1.2", "1.3"]);
     }
 

@@ -38,7 +38,7 @@ pub fn compare_page(
         p.lead { (summary(compared)) }
         p.key {
             "Change: the second run less the first. " span.better { "better" } " " span.worse { "worse" } " beyond noise. "
-            "Of a score whose ideal is a number, such as extent, the change is that of its distance from the ideal."
+            "A score with an ideal value, such as extent, changes by its distance from that value."
         }
         @if !shown.is_empty() {
             section {
@@ -72,7 +72,7 @@ fn summary(compared: &RunComparison) -> String {
             .count()
     };
     format!(
-        "{} scores of cases that both runs have: {} better and {} worse, {} below the margins, {} within noise, {} the same.",
+        "{} scores are in both runs: {} better and {} worse, {} below the margins, {} within noise, {} the same.",
         compared.changes.len(),
         count(ChangeKind::Better),
         count(ChangeKind::Worse),
@@ -94,6 +94,7 @@ fn differences(compared: &RunComparison) -> Markup {
                 h2 { "Settings that differ" }
                 div.scroll tabindex="0" role="region" aria-label="Settings that differ" {
                     table {
+                        caption.unseen { "Settings that differ" }
                         thead { tr { th scope="col" { "setting" } th.text scope="col" { "first" } th.text scope="col" { "second" } } }
                         tbody {
                             @for own in &compared.settings {
@@ -237,7 +238,7 @@ fn case(compared: &RunComparison, pair: &Pair, pictures: Option<Pictures>) -> Ma
             }
         }
         div.scroll tabindex="0" role="region" aria-label=(format!("Scores of {title}")) {
-            table { (change_heading(false)) tbody { @for change in changes { (change_row(change, false)) } } }
+            table.stacked { caption.unseen { "Scores of " (title) } (change_heading(false)) tbody { @for change in changes { (change_row(change, false)) } } }
         }
     }
 }
@@ -254,7 +255,7 @@ fn all_changes(changes: &[Change]) -> Markup {
                 details {
                     summary { (rows.len()) " scores" }
                     div.scroll tabindex="0" role="region" aria-label="Every score that is not the same" {
-                        table { (change_heading(true)) tbody { @for change in rows { (change_row(change, true)) } } }
+                        table.stacked { caption.unseen { "Every score that is not the same" } (change_heading(true)) tbody { @for change in rows { (change_row(change, true)) } } }
                     }
                 }
             }
@@ -287,10 +288,10 @@ fn change_row(change: &Change, named: bool) -> Markup {
         tr {
             @if named { th scope="row" { (change.scene) " / " (change.filter) } }
             th.text scope="row" { (change.metric) }
-            td { (number(change.first)) }
-            td { (number(change.second)) }
+            td data-label="first" { (number(change.first)) }
+            td data-label="second" { (number(change.second)) }
             td class=(class) { (signed(change_of(&change.metric, change.worse))) " " (change.kind.label()) }
-            td {
+            td data-label="95 % CI" {
                 @match (change.interval, change.basis) {
                     (Some(interval), _) => { (change_interval(&change.metric, interval)) }
                     (None, _) if change.kind == ChangeKind::Same => "",

@@ -14,6 +14,7 @@ pub fn both_runs(first: &Side, second: &Side) -> Markup {
             h2 { "Provenance" }
             div.scroll tabindex="0" role="region" aria-label="Both runs" {
                 table.wide {
+                    caption.unseen { "Settings of both runs" }
                     thead {
                         tr { th scope="col" {} th.text scope="col" { "first" } th.text scope="col" { "second" } }
                     }

@@ -4,6 +4,7 @@ use maud::{Markup, html};
 use metrics::{Ideal, Measured};
 
 use crate::case::case_view::CaseView;
+use crate::case_score::{estimate_of, estimate_text, interval_of, interval_text};
 use crate::filter_id::case_anchor;
 use crate::finding_text::Status;
 use suite::{Finding, Headline, Level, Outcome, number};
@@ -50,43 +51,42 @@ fn scale(ideal: Ideal, score: f64) -> f64 {
 
 /// Writes the cell of a case.
 pub fn cell(headline: Headline, colors: &Colors, view: &CaseView) -> Markup {
-    let measured = headline.measured(view.case);
+    let case = view.case;
+    let measured = headline.measured(case);
+    let estimate = estimate_of(case, headline);
     let judged = find_judged(headline, view);
-    let color =
-        (measured.value().filter(|_| !view.case.is_reference)).and_then(|score| colors.of(score));
-    let fails = judged.is_some_and(|(finding, _)| {
-        finding.level == Level::Required && finding.outcome == Outcome::Broken
-    });
+    let color = (estimate.filter(|_| !case.is_reference)).and_then(|score| colors.of(score));
+    let fails = judged.is_some_and(|(finding, _)| finding.outcome == Outcome::Broken);
     html! {
         td class=(format!("{} {}", color.map_or("", |own| own.0), if fails { "required" } else { "" }).trim())
             style=[color.map(|(_, strength)| format!("--strength:{strength:.0}%"))]
-            data-value=[measured.value()]
+            data-value=[estimate]
             title=[reason(&measured)] {
-            a.case href=(format!("#{}", case_anchor(view.case))) {
+            a.case href=(format!("#{}", case_anchor(case))) {
                 @if let Some((_, status)) = judged {
                     span.sign aria-hidden="true" { (status.sign) }
                 }
-                (headline.text(view.case))
+                (estimate_text(case, headline))
+                @if let (Some(interval), Some(value)) = (interval_of(case, headline), measured.value()) {
+                    span.unseen { ", " (interval_text(interval, value)) }
+                }
                 @if let Some((finding, status)) = judged {
-                    span.unseen { ", " (status.word) ", " (level(finding)) " " (number(finding.limit)) }
+                    span.unseen { ", " (status.word) ", required limit " (number(finding.limit)) }
                 }
             }
         }
     }
 }
 
-/// Finds the bound on a case's score, and the score's status; none where it has no bound, or does not apply.
+/// Finds the required bound on a case's score, and the score's status; none where it has no such bound, or does not apply.
 fn find_judged<'a>(headline: Headline, view: &'a CaseView) -> Option<(&'a Finding, Status)> {
     let name = headline.metric(&view.case.scores)?.name();
-    let finding = (view.findings.iter()).find(|finding| finding.metric == name)?;
+    let mut required = view
+        .findings
+        .iter()
+        .filter(|own| own.level == Level::Required);
+    let finding = required.find(|finding| finding.metric == name)?;
     Some((finding, Status::of(finding.outcome)?))
-}
-
-fn level(finding: &Finding) -> &'static str {
-    match finding.level {
-        Level::Required => "required limit",
-        Level::Report => "target",
-    }
 }
 
 fn reason(measured: &Measured) -> Option<&str> {

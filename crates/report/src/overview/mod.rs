@@ -10,12 +10,14 @@ use maud::{Markup, html};
 
 use crate::case::bounds::broken_bounds;
 use crate::case::case_view::CaseView;
+use crate::case_score::estimate_of;
 use crate::filter_id::{FilterId, case_anchor, list_filters, list_scenes};
+use crate::numbers::counted;
 use crate::run_facts::provenance;
 use costs::costs;
 use headlines::{TABLE_SCORES, TableScore};
 use score_table::{Row, rank_rows, score_table};
-use suite::{Bench, Headline, Level, Outcome, Run};
+use suite::{Bench, Finding, Headline, Level, Outcome, Run};
 
 /// Shows the scores of all cases, costs, and what the run depended on. `thumbnails` are addresses of the scenes' truths.
 pub fn overview(
@@ -28,6 +30,7 @@ pub fn overview(
         section #overview {
             (outcome(views))
             (winners(run))
+            (counts(run, views))
             (broken_bounds(views))
             div.toolbar #tables {
                 fieldset.choice {
@@ -40,14 +43,16 @@ pub fn overview(
                     }
                 }
                 input type="search" name="search" placeholder="Search filters" aria-label="Search filters";
-                @if views.iter().any(|view| !view.findings.is_empty()) {
+                @if is_checked(views) {
                     label.check { input type="checkbox" name="failing"; " Only failing" }
                 }
                 label.check { input type="checkbox" name="references"; " References" }
             }
             @for score in &TABLE_SCORES { (panel(run, views, thumbnails, score, bench)) }
-            (key())
+            p.nothing hidden { "No filter of this name." }
+            (key(is_checked(views)))
             div.peek hidden aria-hidden="true" {
+                p {}
                 @for title in ["truth", "output", "FLIP"] { figure { canvas width="48" height="48" {} figcaption { (title) } } }
             }
             (costs(run, bench))
@@ -56,37 +61,53 @@ pub fn overview(
     }
 }
 
-/// Counts scenes and filters, and says whether a check passes.
+/// Lists the findings about bounds of one level.
+fn findings_of<'a>(views: &'a [CaseView<'a>], level: Level) -> impl Iterator<Item = &'a Finding> {
+    let all = views.iter().flat_map(|view| &view.findings);
+    all.filter(move |finding| finding.level == level)
+}
+
+/// Tells whether any bound is required: a check's are, a run's are targets.
+fn is_checked(views: &[CaseView]) -> bool {
+    findings_of(views, Level::Required).next().is_some()
+}
+
+/// Says whether a check passes; nothing where no bound is required.
 fn outcome(views: &[CaseView]) -> Markup {
-    let findings = || views.iter().flat_map(|view| &view.findings);
-    let count = |level, outcome| {
-        findings()
-            .filter(|own| own.level == level && own.outcome == outcome)
+    let count = |is_counted: fn(Outcome) -> bool| {
+        findings_of(views, Level::Required)
+            .filter(|finding| is_counted(finding.outcome))
             .count()
     };
-    let required = findings()
-        .filter(|own| own.level == Level::Required)
-        .count();
-    let broken = count(Level::Required, Outcome::Broken);
-    let open =
-        count(Level::Required, Outcome::Inconclusive) + count(Level::Required, Outcome::TooNoisy);
+    let required = count(|_| true);
+    let broken = count(|own| own == Outcome::Broken);
+    let open = count(|own| matches!(own, Outcome::Inconclusive | Outcome::TooNoisy));
     let (class, word) = match (broken, open) {
         (0, 0) => ("kept", "PASS"),
         (0, _) => ("undecided", "UNDECIDED"),
         (_, _) => ("broken", "FAIL"),
     };
-    let targets = findings().filter(|own| own.level == Level::Report).count();
     html! {
-        @if required + targets > 0 {
+        @if required > 0 {
             p.outcome {
-                @if required > 0 {
-                    strong class=(class) { (word) } " "
-                    (counted(required, "required bound")) ": " (broken) " broken, " (open) " too noisy to decide. "
-                }
-                @if targets > 0 {
-                    (counted(targets, "target")) ", which fail nothing: " (count(Level::Report, Outcome::Broken)) " missed."
-                }
+                strong class=(class) { (word) } " "
+                (counted(required, "required bound")) ": " (broken) " broken, " (open) " too noisy to decide."
             }
+        }
+    }
+}
+
+/// Counts scenes, filters and missed targets.
+fn counts(run: &Run, views: &[CaseView]) -> Markup {
+    let filters = list_filters(run);
+    let filters = filters.iter().filter(|own| !own.is_reference).count();
+    let targets = findings_of(views, Level::Report).count();
+    let missed = findings_of(views, Level::Report).filter(|own| own.outcome == Outcome::Broken);
+    html! {
+        p.note {
+            (counted(list_scenes(run).len(), "scene")) ", " (counted(filters, "filter preset")) ". "
+            "Click a score to see the pictures."
+            @if targets > 0 { " " (missed.count()) " of " (counted(targets, "target")) " missed; targets fail nothing." }
         }
     }
 }
@@ -101,23 +122,14 @@ fn winners(run: &Run) -> Markup {
                 @if let Some(best) = own.first() { (winner(run, best, &own)) }
             }
         }
-        p.note {
-            (counted(list_scenes(run).len(), "scene")) ", "
-            (counted(list_filters(run).iter().filter(|own| !own.is_reference).count(), "filter preset")) ". "
-            "FLIP is the visible difference from the truth where anything moves; low is good. "
-            "Click a score to see the pictures."
-        }
     }
 }
 
 fn winner(run: &Run, best: &Row, group: &[&Row]) -> Markup {
     let text = |row: &Row| Headline::FLIP.number(row.mean.unwrap_or_default());
     let ties: Vec<&&Row> = group.iter().filter(|row| text(row) == text(best)).collect();
-    let flip = |index: usize| Headline::FLIP.measured(&run.cases[index]).value();
-    let cases = best
-        .filter
-        .cases(run)
-        .filter_map(|(index, _)| Some((index, flip(index)?)));
+    let cases = best.filter.cases(run);
+    let cases = cases.filter_map(|(index, case)| Some((index, estimate_of(case, Headline::FLIP)?)));
     let worst = cases.max_by(|a, b| a.1.total_cmp(&b.1));
     html! {
         li {
@@ -143,15 +155,7 @@ fn winner(run: &Run, best: &Row, group: &[&Row]) -> Markup {
 
 fn last(row: &Row, text: &impl Fn(&Row) -> String) -> Markup {
     let FilterId { name, .. } = &row.filter;
-    html! { "; last of the shutter: " a href=(format!("#{}", row.filter.section_anchor())) { (name) } " (" (text(row)) ")" }
-}
-
-/// Writes `1 scene`, `2 scenes`.
-fn counted(count: usize, noun: &str) -> String {
-    match count {
-        1 => format!("1 {noun}"),
-        count => format!("{count} {noun}s"),
-    }
+    html! { "; worst: " a href=(format!("#{}", row.filter.section_anchor())) { (name) } " (" (text(row)) ")" }
 }
 
 fn panel(
@@ -172,14 +176,16 @@ fn panel(
     }
 }
 
-/// Explains signs and colours.
-fn key() -> Markup {
+/// Explains signs and colours; `is_checked` tells whether any bound is required.
+fn key(is_checked: bool) -> Markup {
     html! {
         p.key {
             span.good style="--strength:80%" { "good" } " " span.bad style="--strength:80%" { "bad" }
-            " against all scores of the table. ✓ bound kept, ✗ broken, ? too noisy to decide, ~ limit stricter than the noise allows; "
-            span.required { "✗ fails a check" }
-            ". Open marks and italics: references. Arrows lie beyond the scale. Headings sort."
+            " compared with all scores of the table. "
+            @if is_checked {
+                "✓ bound kept; ? too noisy to decide; ~ limit stricter than the noise allows; " span.required { "✗ bound broken" } " "
+            }
+            "Italics and open marks: references. Arrows: beyond the scale. Click a heading to sort."
         }
     }
 }

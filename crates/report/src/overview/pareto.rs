@@ -84,6 +84,7 @@ pub fn pareto_chart(points: &[Point], references: &[(String, f64)]) -> Markup {
         }
         div.scroll tabindex="0" role="region" aria-label="Quality against time" {
             table {
+                caption.unseen { "Quality and time" }
                 thead {
                     tr {
                         th scope="col" { "filter" }

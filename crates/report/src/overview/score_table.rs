@@ -7,12 +7,16 @@ use super::cell::{Colors, cell};
 use super::costs::{cost_of, cost_text};
 use super::headlines::TableScore;
 use crate::case::case_view::CaseView;
+use crate::case_score::estimate_of;
 use crate::charts::strip::Strip;
 use crate::filter_id::{FilterId, list_alignments, list_filters, list_scenes, mean, mean_floor};
-use suite::{Bench, Headline, Outcome, Overall, Run};
+use suite::{Bench, Headline, Level, Outcome, Overall, Run};
 
 /// Lengths of the middle half of the means that the scale goes on beyond it; what lies farther is drawn as an arrow.
 const WHISKERS: f64 = 1.5;
+
+/// Scenes from which on their columns are narrow.
+const MANY: usize = 8;
 
 /// A row before it is drawn.
 pub struct Row<'a> {
@@ -75,7 +79,7 @@ pub fn score_table(
     let own = views.iter().filter(|view| !view.case.is_reference);
     let colors = Colors::over(
         headline.ideal(),
-        own.filter_map(|view| headline.measured(view.case).value()),
+        own.filter_map(|view| estimate_of(view.case, headline)),
     );
     let has_means = rows().any(|row| row.overall.is_some());
     let strip = strip_over(
@@ -90,7 +94,7 @@ pub fn score_table(
     };
     html! {
         div.scroll tabindex="0" role="region" aria-label=(format!("{} of every case", score.title)) {
-            table.sortable data-first=(order) {
+            table.sortable.many[scenes.len() > MANY] data-first=(order) {
                 caption { (caption(headline, has_means)) }
                 thead {
                     tr {
@@ -150,20 +154,27 @@ fn caption(headline: Headline, has_means: bool) -> &'static str {
     }
 }
 
-/// Tells whether any bound on a filter's scores is broken.
+/// Tells whether any required bound on a filter's scores is broken.
 fn is_failing(run: &Run, views: &[CaseView], filter: &FilterId) -> bool {
     let mut findings = filter
         .cases(run)
         .flat_map(|(index, _)| &views[index].findings);
-    findings.any(|finding| finding.outcome == Outcome::Broken)
+    findings.any(|own| own.level == Level::Required && own.outcome == Outcome::Broken)
 }
 
 /// Links a filter to its section.
 fn name(headline: Headline, filter: &FilterId) -> Markup {
     html! {
         @if filter.is_reference { (filter.name) }
-        @else { a href=(format!("#{}", filter.section_anchor())) { (filter.name) } }
+        @else { a href=(format!("#{}", filter.section_anchor())) { (breakable(&filter.name)) } }
         @if headline.spans_alignments() { " " span.note { "(" (filter.alignment) ")" } }
+    }
+}
+
+/// Writes a name that may break behind every word.
+fn breakable(name: &str) -> Markup {
+    html! {
+        @for part in name.split_inclusive(['_', ':']) { (part) wbr; }
     }
 }
 

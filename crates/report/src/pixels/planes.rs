@@ -11,6 +11,11 @@ use frame::{Image, Plane};
 use half::f16;
 use rayon::prelude::*;
 
+/// Most differences that a browser adds up for one plane.
+const LONGEST_CHAIN: usize = 4;
+/// Step between the numbers by which planes are compared: enough to choose by, and a small part of the work.
+const STRIDE: usize = 13;
+
 /// Planes as bits of halves, by the order in which they were added. Equal planes are one.
 ///
 /// A half has three digits that count. `report --exr` writes the floats themselves.
@@ -41,20 +46,52 @@ impl Planes {
         [0, 1, 2].map(|index| self.add(&component(index))).to_vec()
     }
 
-    /// Writes every plane as JSON: a list of texts, each the base64 of a zlib stream.
+    /// Writes every plane as JSON: a list of texts, each the number of the plane that it is the difference to, or none, a space, and
+    /// the base64 of a zlib stream.
     pub fn json(&self) -> String {
-        let texts: Vec<String> = (self.planes.par_iter())
-            .map(|bits| format!("\"{}\"", STANDARD.encode(compress(bits))))
+        let references = self.choose_references();
+        let texts: Vec<String> = (self.planes.par_iter().zip(references))
+            .map(|(bits, reference)| {
+                let whole = compress(bits, std::iter::once(&0).chain(bits));
+                let other = reference.map(|number| (number, compress(bits, &self.planes[number])));
+                match other {
+                    Some((number, other)) if other.len() < whole.len() => {
+                        format!("\"{number} {}\"", STANDARD.encode(other))
+                    }
+                    _ => format!("\" {}\"", STANDARD.encode(whole)),
+                }
+            })
             .collect();
         format!("[{}]", texts.join(",\n"))
     }
+
+    /// Chooses for every plane the earlier one with the most equal numbers: filters leave most of a picture as it is.
+    fn choose_references(&self) -> Vec<Option<usize>> {
+        let samples: Vec<Vec<u16>> = (self.planes.iter())
+            .map(|bits| bits.iter().copied().step_by(STRIDE).collect())
+            .collect();
+        let mut chains = vec![0; samples.len()];
+        let mut references = Vec::new();
+        for (number, own) in samples.iter().enumerate() {
+            let unequal = |other: &usize| {
+                let pairs = own.iter().zip(&samples[*other]);
+                (pairs.filter(|(own, other)| own != other).count(), *other)
+            };
+            let short = (0..number)
+                .into_par_iter()
+                .filter(|other| chains[*other] < LONGEST_CHAIN);
+            let reference = short.min_by_key(unequal);
+            chains[number] = reference.map_or(0, |other| chains[other] + 1);
+            references.push(reference);
+        }
+        references
+    }
 }
 
-/// Compresses the difference of every number to the one before it: first all lower bytes, then all higher ones.
-fn compress(bits: &[u16]) -> Vec<u8> {
-    let before = std::iter::once(&0).chain(bits);
-    let steps: Vec<u16> = (bits.iter().zip(before))
-        .map(|(bits, before)| bits.wrapping_sub(*before))
+/// Compresses the difference of every number to another one: first all lower bytes, then all higher ones.
+fn compress<'a>(bits: &[u16], others: impl IntoIterator<Item = &'a u16>) -> Vec<u8> {
+    let steps: Vec<u16> = (bits.iter().zip(others))
+        .map(|(bits, other)| bits.wrapping_sub(*other))
         .collect();
     let low = steps.iter().map(|step| *step as u8);
     let high = steps.iter().map(|step| (*step >> 8) as u8);
@@ -86,25 +123,46 @@ mod tests {
         assert_eq!(json.len(), 6);
     }
 
+    /// Reads texts as the page's script does it.
+    fn unpack(texts: &[String]) -> Vec<Vec<u16>> {
+        let mut planes: Vec<Vec<u16>> = Vec::new();
+        for text in texts {
+            let (reference, stream) = text.split_once(' ').unwrap();
+            let stream = STANDARD.decode(stream).unwrap();
+            let mut bytes = Vec::new();
+            ZlibDecoder::new(&stream[..])
+                .read_to_end(&mut bytes)
+                .unwrap();
+            let reference = reference.parse().ok().map(|at: usize| &planes[at]);
+            let count = bytes.len() / 2;
+            let mut plane: Vec<u16> = Vec::new();
+            for at in 0..count {
+                let before = plane.last().copied().unwrap_or(0);
+                let other = reference.map_or(before, |reference| reference[at]);
+                let step = u16::from_le_bytes([bytes[at], bytes[at + count]]);
+                plane.push(other.wrapping_add(step));
+            }
+            planes.push(plane);
+        }
+        planes
+    }
+
     #[test]
     fn compressed_numbers_come_back_bit_for_bit() {
-        let bits: Vec<u16> = (0..1001_u32)
-            .map(|at| (at.wrapping_mul(2_654_435_761) >> 13) as u16)
-            .collect();
-        let mut bytes = Vec::new();
-        let stream = compress(&bits);
-        ZlibDecoder::new(&stream[..])
-            .read_to_end(&mut bytes)
-            .unwrap();
-        // As the page's script does it.
-        let mut value = 0_u16;
-        let read: Vec<u16> = (0..bits.len())
-            .map(|at| {
-                let step = u16::from_le_bytes([bytes[at], bytes[at + bits.len()]]);
-                value = value.wrapping_add(step);
-                value
-            })
-            .collect();
-        assert_eq!(read, bits);
+        let mut planes = Planes::default();
+        for count in 0..7_u32 {
+            let plane = Raster::from_fn(40, 25, |x, y| {
+                let at = 40 * y + x;
+                let is_moved = at % 11 < count;
+                let bits = (at + count * u32::from(is_moved)).wrapping_mul(2_654_435_761) >> 13;
+                f16::from_bits(bits as u16 & 0x7bff).to_f32()
+            });
+            planes.add(&plane);
+        }
+        let texts: Vec<String> = serde_json::from_str(&planes.json()).unwrap();
+        assert_eq!(unpack(&texts), planes.planes);
+        assert!(texts[0].starts_with(' '));
+        let others = texts[1..].iter().filter(|text| !text.starts_with(' '));
+        assert_eq!(others.count(), 6, "each is the difference to another one");
     }
 }

@@ -62,7 +62,8 @@ pub fn values(tuning: &Tuning) -> Markup {
         section {
             h2 { "Values" }
             div.scroll tabindex="0" role="region" aria-label="Values" {
-                table {
+                table.stacked {
+                    caption { "Varied parameters" }
                     thead {
                         tr {
                             th scope="col" { "parameter" }
@@ -76,9 +77,9 @@ pub fn values(tuning: &Tuning) -> Markup {
                             @let (start, chosen) = (tuning.start.values.get(name), tuning.chosen.values.get(name));
                             tr {
                                 th scope="row" { (name) }
-                                td { @if let Some(value) = start { (value) } }
-                                td { @if let Some(value) = chosen { @if start == chosen || !is_offered { (value) } @else { strong { (value) } } } }
-                                td.text { (range) }
+                                td data-label="start" { @if let Some(value) = start { (value) } }
+                                td data-label=(trial) { @if let Some(value) = chosen { @if start == chosen || !is_offered { (value) } @else { strong { (value) } } } }
+                                td.text data-label="tried" { (range) }
                             }
                         }
                     }

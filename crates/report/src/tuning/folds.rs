@@ -20,11 +20,12 @@ pub fn folds(folds: &[Fold]) -> Markup {
         section {
             h2 { "Cross-validation" }
             p {
-                "Each family of scenes is left out of the choice in turn. A gap above 0 means: worse where it was not chosen for. The \
-                 trials themselves were searched for on all scenes; only held-out scenes tell the overfit of the search."
+                "Each family of scenes is left out of the choice in turn. A gap above 0 means that the choice is worse on the family that \
+                 it was made without. The search itself saw every scene: only held-out scenes show how much it overfits."
             }
             div.scroll tabindex="0" role="region" aria-label="Cross-validation" {
                 table {
+                    caption.unseen { "Families of scenes, each left out of the choice" }
                     thead {
                         tr {
                             th scope="col" { "family left out" }

@@ -92,27 +92,29 @@ fn change(trial: &Trial) -> Option<f64> {
 fn table(front: &[Trial], start: &Trial, chosen: usize) -> Markup {
     let number =
         |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"));
+    // Only what the tuning measured has a column.
+    let [timed, bled] = AGAINST.map(|own| front.iter().any(|trial| (own.value)(trial).is_some()));
     html! {
         div.scroll tabindex="0" role="region" aria-label="Undominated trials" {
-            table {
-                caption { "Undominated in error, bleed and time together, by error" }
+            table.stacked {
+                caption { "Undominated in all that was measured, the least error first" }
                 thead {
                     tr {
                         th scope="col" { "trial" }
                         th scope="col" { "error" }
-                        th scope="col" { "lateral bleed, px" }
-                        th scope="col" { "GPU time" }
+                        @if bled { th scope="col" { "lateral bleed, px" } }
+                        @if timed { th scope="col" { "GPU time" } }
                         th.text scope="col" { "values that differ from the start" }
                     }
                 }
                 tbody {
                     @for trial in front {
                         tr {
-                            th scope="row" { (trial.trial) @if trial.trial == chosen { " (chosen)" } }
-                            td { (trial.error.map_or_else(|| "-".to_owned(), percent)) }
-                            td { (number(trial.bleed)) }
-                            td { (number(trial.cost)) }
-                            td.text { (differing(trial, start)) }
+                            th scope="row" data-label="trial" { (trial.trial) @if trial.trial == chosen { " (chosen)" } }
+                            td data-label="error" { (trial.error.map_or_else(|| "-".to_owned(), percent)) }
+                            @if bled { td data-label="lateral bleed, px" { (number(trial.bleed)) } }
+                            @if timed { td data-label="GPU time" { (number(trial.cost)) } }
+                            td.text data-label="values" { (differing(trial, start)) }
                         }
                     }
                 }

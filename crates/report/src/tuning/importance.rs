@@ -19,6 +19,7 @@ pub fn importance(found: &Sensitivity) -> Markup {
             }
             div.scroll tabindex="0" role="region" aria-label="Sensitivity" {
                 table {
+                    caption.unseen { "Parameters by what they change" }
                     thead {
                         tr {
                             th scope="col" { "parameter" }
