@@ -4,7 +4,9 @@ use std::fs;
 use std::io::{BufRead, BufReader};
 use std::process::Stdio;
 
-use crate::bench::{Bench, assert_done, assert_refused, files_below, quick_command, stderr, stdout};
+use crate::bench::{
+    Bench, assert_done, assert_refused, files_below, quick_command, stderr, stdout,
+};
 
 /// Makes a bench with a second scene, which moves at half the speed.
 fn two_scenes() -> Bench {
