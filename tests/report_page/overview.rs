@@ -96,8 +96,8 @@ fn a_link_opens_the_same_table() {
     browser.until("location.hash === '#overview&metric=row_loss&search=y_g'");
     let link = browser.text("location.hash");
     let seen = "[document.querySelector('.panel:not([hidden])').dataset.metric, document.querySelector('[name=search]').value].join()";
-    browser.value("location.reload()");
-    browser.until("document.readyState === 'complete'");
+    browser.value("document.wasSeen = true; location.reload()");
+    browser.until("!document.wasSeen && document.readyState === 'complete'");
     for part in ["", &link] {
         if !part.is_empty() {
             browser.open(&page, "");
