@@ -60,9 +60,8 @@ const NOT_RUN: [(&str, &str); 14] = [
     ),
 ];
 
-/// What the reader of a page has when he comes to a command: the page, the beginning of the command, and a line of shell that
-/// makes it.
-const PREPARED: [(&str, &str, &str); 10] = [
+/// Things that a command of a page needs: the page, the beginning of the command, and a line of shell that makes them.
+const PREPARED: [(&str, &str, &str); 9] = [
     (
         "README.md",
         "shuttertruth import",
@@ -78,11 +77,6 @@ const PREPARED: [(&str, &str, &str); 10] = [
         "docs/add-a-filter.md",
         "shuttertruth score",
         "cp out/fan/my_blur_default/output.exr mine.exr",
-    ),
-    (
-        "docs/ci.md",
-        "shuttertruth accept --out out",
-        "cp -r checked out",
     ),
     (
         "docs/ci.md",
