@@ -267,6 +267,7 @@ fn a_report_refuses_a_file_without_a_run_or_its_pictures() {
     refused(&["out/run.json", "read"]);
     fs::write(bench.path("out/run.json"), "{}").unwrap();
     refused(&["out/run.json: no run of this program", "`shuttertruth run`"]);
+    fs::remove_file(bench.path("out/run.json")).unwrap();
     assert_done(&bench.run(&["--filters", "identity"]));
     let picture = bench.path("out/plate/identity_default/output.exr");
     let other = bench.path("out/other.exr");
