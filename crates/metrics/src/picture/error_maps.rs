@@ -31,34 +31,33 @@ pub struct ErrorMaps {
 }
 
 impl ErrorMaps {
-    /// Maps the errors of `output` against the truth's mean; squared errors by `halves`.
-    pub fn new(output: &Picture, halves: [&Image; 2], mean: &Picture, viewing: &Viewing) -> Self {
+    /// Maps the errors of `output` against the truth's mean; squared errors by `halves`. `ended` hears of the end of each part.
+    pub fn new(
+        output: &Picture,
+        halves: [&Image; 2],
+        mean: &Picture,
+        viewing: &Viewing,
+        ended: fn(&'static str),
+    ) -> Self {
         let scale = viewing.scale();
-        let ((flip, flip_hdr), (squared, relative, ssim)) = rayon::join(
-            || {
-                rayon::join(
-                    || widen(&flip_ldr(&mean.color, &output.color, viewing)),
-                    || widen(&flip_hdr(&mean.color, &output.color, viewing)),
-                )
-            },
-            || {
-                (
-                    squared_error(&output.color, halves, scale),
-                    relative_squared_error(&output.color, halves, &mean.color, scale),
-                    ssim(&output.color, &mean.color, viewing),
-                )
-            },
-        );
-        Self {
-            squared,
-            relative,
+        let flip = widen(&flip_ldr(&mean.color, &output.color, viewing));
+        ended("FLIP");
+        let flip_hdr = widen(&flip_hdr(&mean.color, &output.color, viewing));
+        ended("HDR-FLIP");
+        let ssim = ssim(&output.color, &mean.color, viewing);
+        ended("SSIM");
+        let maps = Self {
+            squared: squared_error(&output.color, halves, scale),
+            relative: relative_squared_error(&output.color, halves, &mean.color, scale),
             absolute: absolute_error(&output.color, &mean.color, scale),
             symmetric: symmetric_error(&output.color, &mean.color, scale),
             ssim,
             flip,
             flip_hdr,
             label: label_variation(&output.coverage, &mean.coverage),
-        }
+        };
+        ended("other maps");
+        maps
     }
 
     /// Converts the maps to planes, and adds more.

@@ -52,6 +52,8 @@ pub struct Reference<'a> {
     frozen: FrozenReference,
     pub(crate) objects: Vec<ObjectReference>,
     curves: Option<Curves>,
+    /// Listener to the end of each part of measuring, by the part's name.
+    ended: fn(&'static str),
 }
 
 impl<'a> Reference<'a> {
@@ -79,8 +81,8 @@ impl<'a> Reference<'a> {
         let masks = regions(truth);
         let windows = mark_whole_windows(truth.size());
         let halves = truth.halves.each_ref().map(|half| &half.color);
-        let noise = ErrorMaps::new(&truth.halves[0], [&mean.color; 2], &mean, viewing);
-        let instant_errors = ErrorMaps::new(&instant, halves, &mean, viewing);
+        let noise = ErrorMaps::new(&truth.halves[0], [&mean.color; 2], &mean, viewing, |_| ());
+        let instant_errors = ErrorMaps::new(&instant, halves, &mean, viewing, |_| ());
         Ok(Self {
             noise: Region::ALL.map(|region| Pooled::of_noise(&noise, &masks, region, &windows)),
             label_noise: noise.label,
@@ -100,6 +102,7 @@ impl<'a> Reference<'a> {
             mean,
             instant: instant.color,
             viewing: *viewing,
+            ended: |_| (),
         })
     }
 
@@ -107,16 +110,29 @@ impl<'a> Reference<'a> {
     /// apply.
     pub fn with_best(mut self, best: &Picture) -> Result<Self, MeasureError> {
         check_picture(best, self.truth, "the one-frame oracle")?;
-        let errors = ErrorMaps::new(best, self.half_colors(), &self.mean, &self.viewing);
+        let errors = ErrorMaps::new(best, self.half_colors(), &self.mean, &self.viewing, |_| ());
         self.ends.best = Pooled::new(&errors, &self.regions, Region::Moving, &self.windows);
         Ok(self)
+    }
+
+    /// Tells a listener of the end of each part of measuring a picture, by the part's name.
+    pub fn with_listener(mut self, ended: fn(&'static str)) -> Self {
+        self.ended = ended;
+        self
     }
 
     /// Measures one picture.
     pub fn measure(&self, output: &Picture) -> Result<Measurement, MeasureError> {
         check_picture(output, self.truth, "the output")?;
         check_brightness(output, &self.viewing, "the output")?;
-        let errors = ErrorMaps::new(output, self.half_colors(), &self.mean, &self.viewing);
+        (self.ended)("checks");
+        let errors = ErrorMaps::new(
+            output,
+            self.half_colors(),
+            &self.mean,
+            &self.viewing,
+            self.ended,
+        );
         let pairs = || self.objects.iter().zip(&output.coverage[1..]);
         let nothing: Plane = errors.label.map(|_| 0.0);
         let bleed = pairs().fold(nothing.clone(), |sum: Plane, (object, matte)| {
@@ -132,11 +148,16 @@ impl<'a> Reference<'a> {
             let variations = [&errors.label, &self.label_noise];
             object.measure(matte, variations, gradient.as_ref(), &self.regions)
         });
+        let objects = objects.collect();
+        (self.ended)("objects");
         let (frozen, frozen_squared) =
             self.frozen
                 .measure(&output.color, &self.regions, &self.viewing);
+        (self.ended)("frozen truth");
         let static_change = self.map_static_change(&output.color);
+        (self.ended)("other maps");
         let pooled = Region::ALL.map(|region| self.pool(&errors, region));
+        (self.ended)("pooling");
         let [moving, support, still, full, knowable, unknowable] = &pooled;
         Ok(Measurement {
             scores: Scores {
@@ -155,7 +176,7 @@ impl<'a> Reference<'a> {
                     None => Measured::not_applicable(explain_empty(Region::Still)),
                 },
                 label_total_variation: score_labels(moving),
-                objects: objects.collect(),
+                objects,
                 probes: ProbeScores::not_applicable("no probes were run through the filter"),
                 skill: score_skill(moving, &self.ends),
                 equivalent_subframes: self.score_equivalents(moving),
@@ -178,7 +199,13 @@ impl<'a> Reference<'a> {
     pub fn measure_moving(&self, output: &Picture) -> Result<ImageScores, MeasureError> {
         check_picture(output, self.truth, "the output")?;
         check_brightness(output, &self.viewing, "the output")?;
-        let errors = ErrorMaps::new(output, self.half_colors(), &self.mean, &self.viewing);
+        let errors = ErrorMaps::new(
+            output,
+            self.half_colors(),
+            &self.mean,
+            &self.viewing,
+            |_| (),
+        );
         Ok(score_image(&self.pool(&errors, Region::Moving)))
     }
 

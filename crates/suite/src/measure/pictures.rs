@@ -32,13 +32,14 @@ pub fn write_truth(folder: &Path, scene: &Scene, truth: &Truth) -> Result<Vec<St
 }
 
 /// Writes a case: the output, with the dilated velocity of filters that have one, and the error maps; returns the names of the
-/// files.
+/// files. `ended` hears of the end of each part.
 pub fn write_case(
     folder: &Path,
     scene: &Scene,
     objects: &[String],
     (output, dilated_velocity): (&Picture, Option<&Vectors>),
     measurement: &Measurement,
+    ended: fn(&'static str),
 ) -> Result<Vec<String>, FileError> {
     let maps = &measurement.maps;
     let displayed = [
@@ -53,6 +54,7 @@ pub fn write_case(
     for (name, picture) in &displayed {
         write_png(&folder.join(name), picture)?;
     }
+    ended("PNG files");
     let exact = [
         ("output.exr", output_file(objects, output, dilated_velocity)),
         ("errors.exr", errors_file(measurement)),
@@ -60,6 +62,7 @@ pub fn write_case(
     for (name, file) in &exact {
         write_exr(&folder.join(name), file)?;
     }
+    ended("OpenEXR files");
     let names = displayed.iter().map(|(name, _)| *name);
     let names = names.chain(exact.iter().map(|(name, _)| *name));
     Ok(names.map(str::to_owned).collect())

@@ -18,10 +18,11 @@ pub(crate) struct FilterOutput {
 }
 
 /// Runs the filter on the frame's colour and, each in the colour's place, on the instant's coverage of each object, on the
-/// probes, and on a mixture of colour and probe.
+/// probes, and on a mixture of colour and probe. `ended` hears of the end of each part.
 pub(crate) fn blur_with_probes(
     runner: &mut Runner,
     frame: &Frame,
+    ended: fn(&'static str),
 ) -> Result<FilterOutput, FilterError> {
     let mattes = pack(&frame.coverage);
     let (width, height) = frame.size();
@@ -29,7 +30,10 @@ pub(crate) fn blur_with_probes(
     let mixture = mix(&frame.color, &probes[0]);
     let mut colors: Vec<&Image> = vec![&frame.color, &probes[0], &probes[1], &mixture];
     colors.extend(&mattes);
-    let outputs: Vec<Image> = (runner.run(&input(frame, &colors))?.iter())
+    ended("mattes and probes");
+    let outputs = runner.run(&input(frame, &colors))?;
+    ended("kernels: colour, probes, mattes");
+    let outputs: Vec<Image> = (outputs.iter())
         .map(|output| output.cropped(frame.guard_band))
         .collect();
     Ok(FilterOutput {

@@ -18,12 +18,14 @@ pub(crate) struct TruthReferences<'a> {
 }
 
 impl<'a> TruthReferences<'a> {
-    /// Prepares the truth, and the same truth without each pair of its replicates.
+    /// Prepares the truth, and the same truth without each pair of its replicates. `ended` hears of the end of each part of
+    /// measuring a picture against the truth.
     pub fn new(
         frame: &Frame,
         (truth, ladder): &'a (Truth, Ladder),
         without_pairs: &'a [Truth],
         viewing: &Viewing,
+        ended: fn(&'static str),
     ) -> Result<Self, MeasureError> {
         let oracle = make_oracle(frame, truth);
         let frame = frame.cropped();
@@ -33,7 +35,7 @@ impl<'a> TruthReferences<'a> {
         Ok(Self {
             truth,
             ladder,
-            reference: reference(truth)?,
+            reference: reference(truth)?.with_listener(ended),
             without_pairs: without_pairs
                 .iter()
                 .map(reference)

@@ -93,6 +93,8 @@ impl SceneContext<'_> {
         if due.is_empty() {
             return Ok(Vec::new());
         }
+        let monitor = self.plan.monitor;
+        (monitor.ended)("frame and truths");
         let viewing = scene_viewing(self.scene);
         let without_pairs = self.truths_without_pairs(due)?;
         let alignments: BTreeSet<Alignment> = due.iter().map(|case| case.alignment).collect();
@@ -100,7 +102,8 @@ impl SceneContext<'_> {
             .map(|alignment| {
                 let without = without_pairs.get(&alignment).map_or(&[][..], Vec::as_slice);
                 let truth = &truths[&alignment];
-                let references = TruthReferences::new(frame, truth, without, &viewing)?;
+                let references =
+                    TruthReferences::new(frame, truth, without, &viewing, monitor.ended)?;
                 Ok((alignment, references))
             })
             .collect::<Result<BTreeMap<_, _>, Error>>()?;
@@ -121,6 +124,7 @@ impl SceneContext<'_> {
         let stored_frames: Vec<(InputFormat, Frame)> = (self.plan.inputs.iter())
             .map(|format| (*format, format.apply(frame)))
             .collect();
+        (monitor.ended)("references");
         let mut cases = Vec::with_capacity(due.len());
         for (done, planned) in due.iter().enumerate() {
             let progress = Progress {
@@ -145,6 +149,7 @@ impl SceneContext<'_> {
                     if let Some(key) = self.case_key(planned) {
                         write_record(&self.case_record(planned), key, &files, &case)?;
                     }
+                    (monitor.ended)("record");
                     Ok(case)
                 }
                 Err(error) => Err(self.failure(error, planned)?),
