@@ -15,7 +15,10 @@ use suite::{FilterChoice, InputFormat, Monitor, RenderSettings, RunPlan};
 const DEFAULTS: [&str; 3] = ["railing", "jump_flood:paper", "1920x1080"];
 
 /// Samples per pixel of the truth: what it shows does not matter here.
-const SAMPLES_PER_PIXEL: u32 = 8;
+const SAMPLES_PER_PIXEL: u32 = 2;
+
+/// Replicates of the truth: the fewest.
+const REPLICATES: u32 = 2;
 
 /// Frames of noise, as in `run`.
 const NOISE_FRAMES: u32 = 16;
@@ -61,6 +64,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             width: width.parse()?,
             height: height.parse()?,
             samples_per_pixel: SAMPLES_PER_PIXEL,
+            replicates: REPLICATES,
             ..RenderSettings::default()
         },
         out: out.path().to_owned(),
