@@ -67,7 +67,7 @@ impl<T> WithSimd for Band<'_, T> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn with_simd<S: Simd>(self, simd: S) {
         let Self {
             pictures,
             channel,
@@ -88,14 +88,14 @@ impl<T> WithSimd for Band<'_, T> {
                     let [a, b] = pictures.map(|picture| &picture.pixels[next * width..][..width]);
                     for (at, place) in places.iter().enumerate() {
                         let [x, y] = [channel(&a[*place], c), channel(&b[*place], c)];
-                        for (line, value) in padded.iter_mut().zip([x, y, x * x, y * y, x * y]) {
-                            line[at] = value;
-                        }
+                        padded[0][at] = x;
+                        padded[1][at] = y;
                     }
+                    multiply(&mut padded);
                     let start = next % window.len() * FILTERED * stride;
                     let lines = recent[start..].chunks_exact_mut(stride);
                     for (values, line) in padded.iter().zip(lines) {
-                        correlate::<f64, LANES>(window, values, line);
+                        correlate::<S, f64, LANES>(simd, window, values, line);
                     }
                     next += 1;
                 }
@@ -104,13 +104,15 @@ impl<T> WithSimd for Band<'_, T> {
                     .map(|row| row % window.len() * FILTERED * stride)
                     .collect();
                 for (block, map) in map.chunks_mut(LANES).enumerate() {
-                    let local = [0, 1, 2, 3, 4].map(|plane| -> [f64; LANES] {
+                    let mut local = [[0.0; LANES]; FILTERED];
+                    for (plane, sums) in local.iter_mut().enumerate() {
                         let from = plane * stride + block * LANES;
-                        correlate_down(window, &recent[from..], &starts)
-                    });
+                        *sums = correlate_down(simd, window, &recent[from..], &starts);
+                    }
+                    let [a, b, aa, bb, ab] = &local;
                     let mut similar = [0.0; LANES];
-                    for (lane, similar) in similar.iter_mut().enumerate() {
-                        *similar = compare(local.map(|values| values[lane]));
+                    for lane in 0..LANES {
+                        similar[lane] = compare([a[lane], b[lane], aa[lane], bb[lane], ab[lane]]);
                     }
                     for (map, similar) in map.iter_mut().zip(similar) {
                         // The last of three channels makes the sum a mean.
@@ -122,6 +124,20 @@ impl<T> WithSimd for Band<'_, T> {
                 }
             }
         }
+    }
+}
+
+/// Fills in the squares of the first two lines, and their product.
+#[inline(always)]
+fn multiply([x, y, xx, yy, xy]: &mut [Vec<f64>; FILTERED]) {
+    for (square, x) in xx.iter_mut().zip(x.iter()) {
+        *square = x * x;
+    }
+    for (square, y) in yy.iter_mut().zip(y.iter()) {
+        *square = y * y;
+    }
+    for (product, (x, y)) in xy.iter_mut().zip(x.iter().zip(y.iter())) {
+        *product = x * y;
     }
 }
 

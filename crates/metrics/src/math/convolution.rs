@@ -24,7 +24,7 @@ pub fn gaussian(sigma: f64, truncate: f64, derivative: bool) -> Vec<f64> {
 }
 
 /// Pixels that are filtered at a time: their sums stay in registers.
-pub const LANES: usize = 16;
+pub const LANES: usize = 32;
 
 /// Rows that are filtered one after another.
 const BAND: usize = 32;
@@ -76,7 +76,7 @@ impl WithSimd for Along<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn with_simd<S: Simd>(self, simd: S) {
         let stride = self.width.next_multiple_of(LANES);
         let mut padded = vec![0.0; stride + self.taps.len() - 1];
         let rows = self.values.chunks_exact(self.width);
@@ -84,7 +84,7 @@ impl WithSimd for Along<'_> {
             for (value, place) in padded.iter_mut().zip(self.places) {
                 *value = row[*place];
             }
-            correlate::<f64, LANES>(self.taps, &padded, line);
+            correlate::<S, f64, LANES>(simd, self.taps, &padded, line);
         }
     }
 }
@@ -102,7 +102,7 @@ impl WithSimd for Down<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn with_simd<S: Simd>(self, simd: S) {
         let (width, height) = self.size;
         let stride = width.next_multiple_of(LANES);
         for (y, line) in (self.first..).zip(self.lines.chunks_exact_mut(width)) {
@@ -111,7 +111,7 @@ impl WithSimd for Down<'_> {
                 .collect();
             for (block, line) in line.chunks_mut(LANES).enumerate() {
                 let sums: [f64; LANES] =
-                    correlate_down(self.taps, &self.values[block * LANES..], &starts);
+                    correlate_down(simd, self.taps, &self.values[block * LANES..], &starts);
                 line.copy_from_slice(&sums[..line.len()]);
             }
         }

@@ -6,10 +6,7 @@
 pub fn power(x: f32, y: f32) -> f32 {
     let product = f64::from(y) * log2(f64::from(x));
     let raised = exp2(product.max(LEAST_EXPONENT)) as f32;
-    match x > 0.0 || y == 0.0 {
-        true => raised,
-        false => 0.0,
-    }
+    if (x > 0.0) | (y == 0.0) { raised } else { 0.0 }
 }
 
 /// Exponents below give 0 in 32 bits.

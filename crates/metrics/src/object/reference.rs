@@ -8,7 +8,7 @@ use crate::object::bleed::{Bleed, measure_bleed};
 use crate::object::gradient::{gradient_error, gradient_magnitude};
 use crate::object::mass::{Mass, measure_mass};
 use crate::object::misplacement::{Misplacement, measure_misplacement};
-use crate::object::mover::{Mover, Stillness};
+use crate::object::mover::{Directions, Mover, Stillness};
 use crate::object::patch::Patch;
 use crate::object::row_mass::RowMass;
 use crate::object::sides::{Side, find_sides};
@@ -57,9 +57,10 @@ impl ObjectReference {
         let core = truth.support.throughout(id);
         let seen = support.map(|seen| f32::from(*seen));
         let is_at_border = touches_border(&seen) || touches_border(instant);
-        let moving = |mover: Mover| {
+        let moving = |(mover, directions): (Mover, Directions)| {
             let gradient = gradient_magnitude(&matte);
-            let sides = find_sides(support, &mover.directions);
+            let sides = find_sides(support, &directions);
+            drop(directions);
             Moving {
                 bleed_noise: (sides.as_ref())
                     .and_then(|sides| measure_bleed(half, sides, &mover.silhouette)),

@@ -56,7 +56,7 @@ impl CaseContext<'_> {
                 self.measure_reference(self.references.oracle.clone())?
             }
             PictureSource::Accumulation(subframes) => {
-                self.measure_reference(self.accumulation(subframes))?
+                self.measure_reference(self.references.take_accumulation(subframes))?
             }
             PictureSource::Filter(choice, input) => self.measure_filter(choice, input)?,
         };
@@ -70,12 +70,6 @@ impl CaseContext<'_> {
             color: frame.color,
             coverage: frame.coverage,
         }
-    }
-
-    fn accumulation(&self, subframes: u32) -> Picture {
-        let mut rungs = self.references.ladder.rungs.iter();
-        let rung = rungs.find(|rung| rung.subframes == subframes);
-        Picture::mean(&rung.expect("accumulations are rungs of the ladder").halves)
     }
 
     fn measure_reference(&self, picture: Picture) -> Result<MeasuredPicture, Error> {

@@ -33,9 +33,7 @@ pub(crate) fn blur_with_probes(
     ended("mattes and probes");
     let outputs = runner.run(&input(frame, &colors))?;
     ended("kernels: colour, probes, mattes");
-    let outputs: Vec<Image> = (outputs.iter())
-        .map(|output| output.cropped(frame.guard_band))
-        .collect();
+    let outputs = crop_all(outputs, frame.guard_band);
     Ok(FilterOutput {
         nonlinearity: nonlinearity(
             &mixture.cropped(frame.guard_band),
@@ -79,11 +77,15 @@ pub(crate) fn blur_noise_frames(
     frames: u32,
 ) -> Result<Option<Vec<Image>>, FilterError> {
     let outputs = runner.run_noise(&input(frame, &[&frame.color]), 0..frames)?;
-    Ok(outputs.map(|outputs| {
-        (outputs.iter())
-            .map(|output| output.cropped(frame.guard_band))
-            .collect()
-    }))
+    Ok(outputs.map(|outputs| crop_all(outputs, frame.guard_band)))
+}
+
+/// Removes the frame's guard band from outputs.
+fn crop_all(outputs: Vec<Image>, guard_band: u32) -> Vec<Image> {
+    match guard_band {
+        0 => outputs,
+        _ => (outputs.iter().map(|output| output.cropped(guard_band))).collect(),
+    }
 }
 
 fn input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {

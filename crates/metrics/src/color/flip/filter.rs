@@ -1,6 +1,7 @@
 //! Filters of one picture, row by row: what the eye keeps of it.
 
 use frame::Image;
+use pulp::Simd;
 
 use super::space::{to_lab, to_opponent, tone_map};
 use super::weights::Weights;
@@ -10,7 +11,10 @@ use crate::math::lines::{correlate, correlate_down};
 pub const LINES: usize = 5;
 
 /// Pixels that are filtered at a time: their sums stay in registers.
-const LANES: usize = 32;
+pub const LANES: usize = 64;
+
+/// Sums of a pixel: four for contrast, and two each, along rows and columns, for edges and points.
+const SUMS: usize = 8;
 
 /// Lines of a row that was filtered along itself: four for contrast, three for features.
 const FILTERED_ALONG: usize = 7;
@@ -46,7 +50,7 @@ impl<'a> RowFilter<'a> {
     /// Makes a filter that begins with row `first`.
     pub fn new(image: &'a Image, exposure: Exposure, weights: &'a Weights, first: usize) -> Self {
         let reach = weights.contrast[0].len() / 2;
-        let stride = (image.width as usize).next_multiple_of(LANES);
+        let stride = Self::stride(image);
         Self {
             image,
             exposure,
@@ -60,12 +64,17 @@ impl<'a> RowFilter<'a> {
         }
     }
 
+    /// Returns the length of a line: a multiple of [`LANES`] that holds a row.
+    pub fn stride(image: &Image) -> usize {
+        (image.width as usize).next_multiple_of(LANES)
+    }
+
     /// Filters row `y`, which follows the last one; returns its lines.
     #[inline(always)]
-    pub fn filter_row(&mut self, y: usize) -> [&[f32]; LINES] {
+    pub fn filter_row<S: Simd>(&mut self, simd: S, y: usize) -> &[Vec<f32>; LINES] {
         let last = self.image.height as usize - 1;
         while self.next <= (y + self.reach).min(last) {
-            self.filter_along(self.next);
+            self.filter_along(simd, self.next);
             self.next += 1;
         }
         let slots = 2 * self.reach + 1;
@@ -77,21 +86,19 @@ impl<'a> RowFilter<'a> {
             })
             .collect();
         for at in (0..self.stride).step_by(LANES) {
-            self.filter_down(&starts, at);
+            self.filter_down(simd, &starts, at);
         }
-        self.lines
-            .each_ref()
-            .map(|line| &line[..self.image.width as usize])
+        &self.lines
     }
 
     /// Filters row `y` along itself, and keeps that among the recent rows.
     #[inline(always)]
-    fn filter_along(&mut self, y: usize) {
+    fn filter_along<S: Simd>(&mut self, simd: S, y: usize) {
         let width = self.image.width as usize;
         let row = &self.image.pixels[y * width..][..width];
         match self.exposure {
-            Exposure::Display => self.convert(row, |color| color),
-            Exposure::Factor(factor) => self.convert(row, |color| tone_map(color, factor)),
+            Exposure::Display => self.convert(row, |value| value),
+            Exposure::Factor(factor) => self.convert(row, |value| tone_map(value, factor)),
         }
         let Weights { contrast, feature } = self.weights;
         let slot = y % (2 * self.reach + 1);
@@ -111,13 +118,13 @@ impl<'a> RowFilter<'a> {
             .into_iter()
             .zip(recent.chunks_exact_mut(self.stride))
         {
-            correlate::<f32, LANES>(taps, values, line);
+            correlate::<S, f32, LANES>(simd, taps, values, line);
         }
     }
 
     /// Converts a row to opponent colours, and repeats its outermost pixels.
     #[inline(always)]
-    fn convert(&mut self, row: &[[f32; 3]], expose: impl Fn([f32; 3]) -> [f32; 3]) {
+    fn convert(&mut self, row: &[[f32; 3]], expose: impl Fn(f32) -> f32) {
         let (reach, width) = (self.reach, row.len());
         let [lightness, red_green, blue_yellow, normal] = &mut self.padded;
         let targets = lightness[reach..]
@@ -125,9 +132,12 @@ impl<'a> RowFilter<'a> {
             .zip(&mut red_green[reach..])
             .zip(&mut blue_yellow[reach..])
             .zip(&mut normal[reach..]);
-        for (color, (((l, r), b), n)) in row.iter().zip(targets) {
-            [*l, *r, *b] = to_opponent(expose(*color));
-            *n = *l * (1.0 / 116.0) + (16.0 / 116.0);
+        for ([red, green, blue], (((l, r), b), n)) in row.iter().zip(targets) {
+            let opponent = to_opponent([expose(*red), expose(*green), expose(*blue)]);
+            *l = opponent[0];
+            *r = opponent[1];
+            *b = opponent[2];
+            *n = opponent[0] * (1.0 / 116.0) + (16.0 / 116.0);
         }
         for line in &mut self.padded {
             let (first, last) = (line[reach], line[reach + width - 1]);
@@ -138,28 +148,49 @@ impl<'a> RowFilter<'a> {
 
     /// Filters columns from `at` on; recent rows begin at `starts`.
     #[inline(always)]
-    fn filter_down(&mut self, starts: &[usize], at: usize) {
+    fn filter_down<S: Simd>(&mut self, simd: S, starts: &[usize], at: usize) {
         let Weights { contrast, feature } = self.weights;
-        let inset = self.reach - feature[0].len() / 2;
-        let near = &starts[inset..];
-        let down = |taps: &[f32], starts: &[usize], line: usize| -> [f32; LANES] {
-            correlate_down(taps, &self.recent[line * self.stride + at..], starts)
-        };
-        let lightness = down(&contrast[0], starts, 0);
-        let red_green = down(&contrast[1], starts, 1);
-        let wide = down(&contrast[2], starts, 2);
-        let narrow = down(&contrast[3], starts, 3);
-        let mut lab = [[0.0; LANES]; 3];
-        for lane in 0..LANES {
-            let color = [lightness[lane], red_green[lane], wide[lane] + narrow[lane]];
-            [lab[0][lane], lab[1][lane], lab[2][lane]] = to_lab(color);
+        let (recent, stride) = (&self.recent[at..], self.stride);
+        let near = &starts[self.reach - feature[0].len() / 2..];
+        let sums: [(&[f32], &[usize], usize); SUMS] = [
+            (&contrast[0], starts, 0),
+            (&contrast[1], starts, 1),
+            (&contrast[2], starts, 2),
+            (&contrast[3], starts, 3),
+            (&feature[0], near, 5),
+            (&feature[1], near, 4),
+            (&feature[0], near, 6),
+            (&feature[2], near, 4),
+        ];
+        let mut filtered = [[0.0; LANES]; SUMS];
+        for ((taps, starts, line), filtered) in sums.into_iter().zip(&mut filtered) {
+            *filtered = correlate_down(simd, taps, &recent[line * stride..], starts);
         }
-        let slope = [down(&feature[0], near, 5), down(&feature[1], near, 4)];
-        let bend = [down(&feature[0], near, 6), down(&feature[2], near, 4)];
-        let strengths = [slope, bend].map(|[right, down]| -> [f32; LANES] {
-            std::array::from_fn(|lane| (right[lane] * right[lane] + down[lane] * down[lane]).sqrt())
-        });
-        for (line, values) in self.lines.iter_mut().zip(lab.iter().chain(&strengths)) {
+        let [
+            lightness,
+            red_green,
+            wide,
+            narrow,
+            right,
+            down,
+            bend_right,
+            bend_down,
+        ] = filtered;
+        let mut lab = [lightness, red_green, wide];
+        for (sum, part) in lab[2].iter_mut().zip(&narrow) {
+            *sum += part;
+        }
+        to_lab(&mut lab);
+        let (mut edges, mut points) = ([0.0; LANES], [0.0; LANES]);
+        for lane in 0..LANES {
+            edges[lane] = (right[lane] * right[lane] + down[lane] * down[lane]).sqrt();
+        }
+        for lane in 0..LANES {
+            let (right, down) = (bend_right[lane], bend_down[lane]);
+            points[lane] = (right * right + down * down).sqrt();
+        }
+        let values = lab.iter().chain([&edges, &points]);
+        for (line, values) in self.lines.iter_mut().zip(values) {
             line[at..at + LANES].copy_from_slice(values);
         }
     }

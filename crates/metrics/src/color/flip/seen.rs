@@ -4,7 +4,7 @@ use frame::{Image, Plane};
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
-use super::filter::{Exposure, LINES, RowFilter};
+use super::filter::{Exposure, LANES, LINES, RowFilter};
 use super::space::{distance, largest_distance};
 use super::weights::Weights;
 use crate::math::power::power;
@@ -22,7 +22,7 @@ impl Seen {
     /// Filters a picture.
     pub fn new(image: &Image, exposure: Exposure) -> Self {
         let weights = Weights::new();
-        let row = LINES * image.width as usize;
+        let row = LINES * RowFilter::stride(image);
         let mut rows = vec![0.0; row * image.height as usize];
         let bands = rows.par_chunks_mut(BAND * row).enumerate();
         bands.for_each(|(band, rows)| {
@@ -49,9 +49,9 @@ impl WithSimd for FilterBand<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(mut self, _: S) {
+    fn with_simd<S: Simd>(mut self, simd: S) {
         for (y, row) in (self.first..).zip(self.rows.chunks_exact_mut(self.row)) {
-            let lines = self.filter.filter_row(y);
+            let lines = self.filter.filter_row(simd, y);
             for (target, line) in row.chunks_exact_mut(self.row / LINES).zip(lines) {
                 target.copy_from_slice(line);
             }
@@ -91,11 +91,12 @@ impl WithSimd for CompareBand<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(mut self, _: S) {
+    fn with_simd<S: Simd>(mut self, simd: S) {
         for (y, errors) in (self.first..).zip(self.errors.chunks_exact_mut(self.width)) {
-            let truth = &self.truth.rows[y * LINES * self.width..][..LINES * self.width];
-            let seen = self.filter.filter_row(y);
-            self.scale.raise(errors, truth, seen);
+            let seen = self.filter.filter_row(simd, y);
+            let row = LINES * seen[0].len();
+            self.scale
+                .raise(errors, &self.truth.rows[y * row..][..row], seen);
         }
     }
 }
@@ -114,28 +115,60 @@ impl ErrorScale {
         }
     }
 
-    /// Raises a line of errors to those of `seen` against the truth's lines, where they are larger.
+    /// Raises a row of errors to those of `seen` against the truth's lines, where they are larger.
     #[inline(always)]
-    fn raise(self, errors: &mut [f32], truth: &[f32], seen: [&[f32]; LINES]) {
+    fn raise(self, errors: &mut [f32], truth: &[f32], seen: &[Vec<f32>; LINES]) {
+        let stride = seen[0].len();
+        for (block, errors) in errors.chunks_mut(LANES).enumerate() {
+            let at = block * LANES;
+            let (mut one, mut other) = ([[0.0; LANES]; LINES], [[0.0; LANES]; LINES]);
+            for line in 0..LINES {
+                one[line].copy_from_slice(&truth[line * stride + at..][..LANES]);
+                other[line].copy_from_slice(&seen[line][at..][..LANES]);
+            }
+            let found = self.compare(&one, &other);
+            for (error, found) in errors.iter_mut().zip(found) {
+                *error = error.max(found);
+            }
+        }
+    }
+
+    /// Computes the errors of a block, step by step: compilers turn each step into wide instructions.
+    #[inline(always)]
+    fn compare(
+        self,
+        [l, a, b, edges, points]: &[[f32; LANES]; LINES],
+        [seen_l, seen_a, seen_b, seen_edges, seen_points]: &[[f32; LANES]; LINES],
+    ) -> [f32; LANES] {
         /// Part of the largest distance up to which errors are spread over all but a twentieth of the range.
         const NEAR: f32 = 0.4;
         const NEAR_RANGE: f32 = 0.95;
         let largest = self.largest;
         let near = NEAR * largest;
-        let width = errors.len();
-        let [l, a, b, edges, points] = [0, 1, 2, 3, 4].map(|line| &truth[line * width..][..width]);
-        let [seen_l, seen_a, seen_b, seen_edges, seen_points] = seen.map(|line| &line[..width]);
-        for at in 0..width {
-            let apart = distance([l[at], a[at], b[at]], [seen_l[at], seen_a[at], seen_b[at]]);
-            let apart = power(apart, 0.7);
-            let color = match apart < near {
-                true => apart * (NEAR_RANGE / near),
-                false => NEAR_RANGE + ((apart - near) / (largest - near)) * (1.0 - NEAR_RANGE),
-            };
-            let edge = (edges[at] - seen_edges[at]).abs();
-            let point = (points[at] - seen_points[at]).abs();
-            let feature = (std::f32::consts::FRAC_1_SQRT_2 * edge.max(point)).sqrt();
-            errors[at] = errors[at].max(power(color, 1.0 - feature));
+        let (mut color, mut exponents) = ([0.0; LANES], [0.0; LANES]);
+        for lane in 0..LANES {
+            color[lane] = distance(
+                [l[lane], a[lane], b[lane]],
+                [seen_l[lane], seen_a[lane], seen_b[lane]],
+            );
         }
+        for color in &mut color {
+            *color = power(*color, 0.7);
+        }
+        for color in &mut color {
+            let small = *color * (NEAR_RANGE / near);
+            let large = NEAR_RANGE + ((*color - near) / (largest - near)) * (1.0 - NEAR_RANGE);
+            *color = if *color < near { small } else { large };
+        }
+        for lane in 0..LANES {
+            let edge = (edges[lane] - seen_edges[lane]).abs();
+            let point = (points[lane] - seen_points[lane]).abs();
+            let feature = std::f32::consts::FRAC_1_SQRT_2 * edge.max(point);
+            exponents[lane] = 1.0 - feature.sqrt();
+        }
+        for (color, exponent) in color.iter_mut().zip(&exponents) {
+            *color = power(*color, *exponent);
+        }
+        color
     }
 }

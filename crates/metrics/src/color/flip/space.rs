@@ -43,14 +43,12 @@ pub fn decode_srgb(value: f32) -> f32 {
 
 /// Exposes radiance by a factor, and maps it to [0, 1] by the ACES curve.
 #[inline(always)]
-pub fn tone_map(color: [f32; 3], factor: f32) -> [f32; 3] {
-    color.map(|value| {
-        let x = value * factor;
-        let square = x * x;
-        let curve = (square * (0.6 * 0.6 * 2.51) + x * (0.6 * 0.03) + 0.0)
-            / (square * (0.6 * 0.6 * 2.43) + x * (0.6 * 0.59) + 0.14);
-        clamp(curve)
-    })
+pub fn tone_map(value: f32, factor: f32) -> f32 {
+    let x = value * factor;
+    let square = x * x;
+    let curve = (square * (0.6 * 0.6 * 2.51) + x * (0.6 * 0.03) + 0.0)
+        / (square * (0.6 * 0.6 * 2.43) + x * (0.6 * 0.59) + 0.14);
+    clamp(curve)
 }
 
 /// Converts linear values to the opponent colours in which contrast is filtered: lightness, red to green, blue to yellow.
@@ -61,40 +59,70 @@ pub fn to_opponent(color: [f32; 3]) -> [f32; 3] {
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
 
-/// Converts filtered opponent colours to CIELab with Hunt's adjustment.
+/// Converts lines of filtered opponent colours to CIELab with Hunt's adjustment, step by step: compilers turn each step into wide
+/// instructions.
 #[inline(always)]
-pub fn to_lab([lightness, red_green, blue_yellow]: [f32; 3]) -> [f32; 3] {
-    let y = (lightness + 16.0) / 116.0;
-    let x = (y + red_green / 500.0) * WHITE[0];
-    let z = (y - blue_yellow / 200.0) * WHITE[1];
-    hunt_lab(multiply(&FROM_XYZ, [x, y, z]).map(clamp))
+pub fn to_lab<const LANES: usize>([first, second, third]: &mut [[f32; LANES]; 3]) {
+    for lane in 0..LANES {
+        let y = (first[lane] + 16.0) / 116.0;
+        let x = (y + second[lane] / 500.0) * WHITE[0];
+        let z = (y - third[lane] / 200.0) * WHITE[1];
+        let [r, g, b] = multiply(&FROM_XYZ, [x, y, z]);
+        let [x, y, z] = multiply(&TO_XYZ, [clamp(r), clamp(g), clamp(b)]);
+        first[lane] = x * PER_WHITE[0];
+        second[lane] = y;
+        third[lane] = z * PER_WHITE[1];
+    }
+    for value in first.iter_mut() {
+        *value = bend(*value);
+    }
+    for value in second.iter_mut() {
+        *value = bend(*value);
+    }
+    for value in third.iter_mut() {
+        *value = bend(*value);
+    }
+    for lane in 0..LANES {
+        let lab = adjust([first[lane], second[lane], third[lane]]);
+        first[lane] = lab[0];
+        second[lane] = lab[1];
+        third[lane] = lab[2];
+    }
 }
 
 /// Returns the largest distance of two colours of a display: that of green and blue, raised to 0.7.
 pub fn largest_distance() -> f32 {
-    let [green, blue] = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(hunt_lab);
+    let [green, blue] = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|color| {
+        let [x, y, z] = multiply(&TO_XYZ, color);
+        adjust([x * PER_WHITE[0], y, z * PER_WHITE[1]].map(bend))
+    });
     distance(green, blue).powf(0.7)
 }
 
 /// Computes the HyAB distance of two colours.
 #[inline(always)]
 pub fn distance(one: [f32; 3], other: [f32; 3]) -> f32 {
-    let [l, a, b] = [0, 1, 2].map(|c| one[c] - other[c]);
-    l.abs() + (a * a + b * b).sqrt()
+    let (a, b) = (one[1] - other[1], one[2] - other[2]);
+    (one[0] - other[0]).abs() + (a * a + b * b).sqrt()
 }
 
+/// Bends a part of white as CIELab does: a cube root, which ends in a line.
 #[inline(always)]
-fn hunt_lab(color: [f32; 3]) -> [f32; 3] {
+fn bend(value: f32) -> f32 {
     const LEAST: f32 = 6.0 / 29.0;
     const SLOPE: f32 = 1.0 / (3.0 * (LEAST * LEAST));
-    let [x, y, z] = multiply(&TO_XYZ, color);
-    let [x, y, z] = [x * PER_WHITE[0], y, z * PER_WHITE[1]].map(|value| {
-        let root = power(value, 1.0 / 3.0);
-        match value > LEAST * (LEAST * LEAST) {
-            true => root,
-            false => SLOPE * value + 4.0 / 29.0,
-        }
-    });
+    let root = power(value, 1.0 / 3.0);
+    let line = SLOPE * value + 4.0 / 29.0;
+    if value > LEAST * (LEAST * LEAST) {
+        root
+    } else {
+        line
+    }
+}
+
+/// Makes CIELab of bent parts of white, and adjusts it as Hunt does: dark colours are less colourful.
+#[inline(always)]
+fn adjust([x, y, z]: [f32; 3]) -> [f32; 3] {
     let lightness = 116.0 * y - 16.0;
     [
         lightness,
@@ -105,10 +133,12 @@ fn hunt_lab(color: [f32; 3]) -> [f32; 3] {
 
 #[inline(always)]
 fn multiply(matrix: &[[f32; 3]; 3], [x, y, z]: [f32; 3]) -> [f32; 3] {
-    [0, 1, 2].map(|row| {
-        let [a, b, c] = matrix[row];
-        a * x + b * y + c * z
-    })
+    let [first, second, third] = matrix;
+    [
+        first[0] * x + first[1] * y + first[2] * z,
+        second[0] * x + second[1] * y + second[2] * z,
+        third[0] * x + third[1] * y + third[2] * z,
+    ]
 }
 
 #[inline(always)]
