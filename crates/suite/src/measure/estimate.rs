@@ -20,9 +20,9 @@ const SECONDS_PER_CASE: f64 = 18e-6;
 const INTERVALS: f64 = 2.0;
 /// Bytes on disk per pixel: of a frame, of a truth with its ladder, of each replicate, and of a case.
 const FRAME_BYTES: u64 = 100;
-const TRUTH_BYTES: u64 = 220;
-const REPLICATE_BYTES: u64 = 52;
-const CASE_BYTES: u64 = 76;
+const TRUTH_BYTES: u64 = 170;
+const REPLICATE_BYTES: u64 = 35;
+const CASE_BYTES: u64 = 28;
 
 /// Work that a run has to do.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -31,7 +31,7 @@ const FROM_XYZ: [[f32; 3]; 3] = [
 /// White's X and Z; its Y is 1.
 const WHITE: [f32; 2] = [0.950_428_55, 1.088_900_3];
 /// Inverse of [`WHITE`].
-const PER_WHITE: [f32; 2] = [1.052_156_9, 0.918_357_67];
+const PER_WHITE: [f32; 2] = [1.052_156_9, 0.918_357_7];
 
 /// Decodes an sRGB value in [0, 1].
 pub fn decode_srgb(value: f32) -> f32 {
