@@ -59,7 +59,7 @@ impl Ladder {
         file.set("subframes", subframes.join(" "));
         self.provenance.set(&mut file);
         // Away from motion all rungs hold the truth's mean.
-        write_small_exr(path, &file)
+        write_small_exr(path, file)
     }
 
     /// Reads a ladder that [`Ladder::write`] wrote, bit for bit.

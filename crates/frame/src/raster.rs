@@ -35,19 +35,27 @@ impl<T: Clone> Raster<T> {
             2 * border < self.width && 2 * border < self.height,
             "a border of {border} pixels leaves nothing"
         );
-        Raster::from_fn(self.width - 2 * border, self.height - 2 * border, |x, y| {
-            self.at(x + border, y + border).clone()
-        })
+        let (width, height) = (self.width - 2 * border, self.height - 2 * border);
+        let mut pixels = Vec::with_capacity(width as usize * height as usize);
+        let rows = self.pixels.chunks_exact(self.width as usize);
+        for row in rows.skip(border as usize).take(height as usize) {
+            pixels.extend_from_slice(&row[border as usize..][..width as usize]);
+        }
+        Raster {
+            width,
+            height,
+            pixels,
+        }
     }
 }
 
 impl<T> Raster<T> {
     /// Makes a raster from `value(x, y)`, pixel by pixel and row by row.
     pub fn from_fn(width: u32, height: u32, mut value: impl FnMut(u32, u32) -> T) -> Self {
-        let pixels = (0..height)
-            .flat_map(|y| (0..width).map(move |x| (x, y)))
-            .map(|(x, y)| value(x, y))
-            .collect();
+        let mut pixels = Vec::with_capacity(width as usize * height as usize);
+        for y in 0..height {
+            pixels.extend((0..width).map(|x| value(x, y)));
+        }
         Self {
             width,
             height,

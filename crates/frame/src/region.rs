@@ -95,18 +95,17 @@ impl Regions {
 
     /// Takes the values of `map` inside a region, in row order.
     pub fn select<T: Copy>(&self, region: Region, map: &Raster<T>) -> Vec<T> {
-        let Some(mask) = self.mask(region) else {
-            return map.pixels.clone();
-        };
         assert!(
-            mask.same_size(map),
+            self.moving.same_size(map),
             "a map is pooled over regions of its own size"
         );
-        mask.pixels
-            .iter()
-            .zip(&map.pixels)
-            .filter_map(|(inside, value)| inside.then_some(*value))
-            .collect()
+        self.indices(region).map(|at| map.pixels[at]).collect()
+    }
+
+    /// Iterates over the indices of a region's pixels, in row order.
+    pub fn indices(&self, region: Region) -> impl Iterator<Item = usize> {
+        let mask = self.mask(region);
+        (0..self.moving.pixels.len()).filter(move |at| mask.is_none_or(|mask| mask.pixels[*at]))
     }
 }
 
@@ -147,13 +146,14 @@ pub(crate) fn estimate_noise(
     region: Region,
 ) -> Option<f64> {
     let [a, b] = halves;
-    let squares = a.zip(b, |a, b| {
+    let (mut sum, mut count) = (0.0, 0_u32);
+    for at in regions.indices(region) {
+        let (a, b) = (a.pixels[at], b.pixels[at]);
         let square = |c: usize| (f64::from(a[c]) - f64::from(b[c])).powi(2);
-        (square(0) + square(1) + square(2)) / 3.0
-    });
-    let inside = regions.select(region, &squares);
-    let mean = inside.iter().sum::<f64>() / inside.len() as f64;
-    (!inside.is_empty()).then(|| (mean / 4.0).sqrt())
+        sum += (square(0) + square(1) + square(2)) / 3.0;
+        count += 1;
+    }
+    (count > 0).then(|| (sum / f64::from(count) / 4.0).sqrt())
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::exr::{ExrFile, read_exr, write_exr};
+use crate::exr::{ExrFile, read_exr, write_small_exr};
 use crate::shutter::{get_shutter, set_shutter};
 use crate::{
     Alignment, AtInstant, FileError, Picture, Provenance, Shutter, ShutterProfile, Support,
@@ -52,7 +52,7 @@ impl Replicate {
             .collect();
         file.set("moving", moving.join(" "));
         self.provenance.set(&mut file);
-        write_exr(path, &file)
+        write_small_exr(path, file)
     }
 
     /// Names a property that replicates of one truth share and these two do not; `None` if there is none.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::exr::{ExrFile, read_exr, write_exr};
+use crate::exr::{ExrFile, read_exr, write_small_exr};
 use crate::region::estimate_noise;
 use crate::shutter::{get_shutter, set_shutter};
 use crate::{
@@ -201,7 +201,7 @@ impl Truth {
             "coverage is the fraction of shutter x pixel area; scene-linear Rec.709",
         );
         self.provenance.set(&mut file);
-        write_exr(path, &file)
+        write_small_exr(path, file)
     }
 
     /// Reads a truth that [`Truth::write`] wrote, bit for bit.

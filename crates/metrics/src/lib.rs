@@ -12,7 +12,7 @@
 //! | `picture` | errors of a whole picture, pooled over regions |
 //! | `worth` | error put into proportion: skill and equivalent sub-frames |
 //! | `reference` | the truth, ready to measure pictures against |
-//! | `math` | means and convolutions |
+//! | `math` | means, convolutions and powers |
 
 mod color;
 mod error;
@@ -36,7 +36,6 @@ mod worth;
 pub use color::absolute_error::SMAPE_EPSILON;
 pub use color::cross_error::{PSNR_LIMIT, RELATIVE_EPSILON};
 pub use color::flip::{flip_hdr, flip_ldr};
-pub use color::ssim::{SSIM_BORDER, ssim};
 pub use error::MeasureError;
 pub use frame::{Region, Regions, regions};
 pub use interval::{Interval, jackknife};
@@ -46,7 +45,6 @@ pub use metric::{
     ImageScores, LabelMetric, LabelScores, Metric, ObjectMetric, ObjectScores, ProbeMetric,
     ProbeScores, Row, SkillMetric, SkillScores,
 };
-pub use object::gradient::{gradient_error, gradient_magnitude};
 pub use object::sides::{Side, object_sides};
 pub use probe::{ProbeMaps, ProbeMeasurement, Probes};
 pub use reference::{Jitter, Measurement, Reference};

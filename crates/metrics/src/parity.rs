@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 
 use frame::{Image, Plane, Raster};
 
-use crate::color::absolute_error::{absolute_error, symmetric_error};
-use crate::color::cross_error::{psnr, relative_squared_error, squared_error};
+use crate::color::absolute_error::{absolute_error, symmetric};
+use crate::color::cross_error::{psnr, relative_squared, squared_error};
 use crate::color::ssim::{SSIM_BORDER, ssim_of};
 use crate::object::gradient::{gradient_error, gradient_magnitude};
 use crate::object::misplacement::measure_misplacement;
@@ -69,21 +69,26 @@ fn scores(output: &Plane, truth: &Plane) -> BTreeMap<&'static str, f64> {
     let similarity = ssim_of(&wide(output), &wide(truth)).cropped(SSIM_BORDER);
     let halves = [&true_color; 2];
     let mse = average(&squared_error(&color, halves, 1.0));
-    let relative = relative_squared_error(&color, halves, &true_color, 1.0);
+    let relative = color.zip(&true_color, |output, truth| {
+        relative_squared(*output, [*truth; 2], *truth, 1.0)
+    });
+    let symmetric = color.zip(&true_color, |output, truth| symmetric(*output, *truth, 1.0));
     let rows = Rows::new([1.0, 0.0], output.width, output.height);
     let apart = measure_misplacement(&rows.spread(output), &rows.spread(truth));
     let gradients = [output, truth].map(gradient_magnitude);
+    let gradient = gradient_error(gradients[0].as_ref(), gradients[1].as_ref());
+    let gradient = gradient.expect("neither is zero");
     BTreeMap::from([
         ("ssim", average(&similarity)),
         ("psnr", psnr(mse, 0.0)),
         ("mse", mse),
         ("mae", average(&absolute_error(&color, &true_color, 1.0))),
         ("relmse", average(&relative)),
-        ("smape", average(&symmetric_error(&color, &true_color, 1.0))),
+        ("smape", average(&symmetric)),
         ("wasserstein", apart.expect("both have mass").distance),
         (
             "gradient",
-            average(&gradient_error(&gradients[0], &gradients[1])),
+            gradient.pixels(61).map(|(_, error)| error).sum::<f64>() / (61.0 * 43.0),
         ),
     ])
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use exr::meta::attribute::AttributeValue;
 use exr::prelude::{
     AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Layer, LayerAttributes,
-    WritableImage,
+    WritableImage, f16,
 };
 
 use super::checksum::CHECKSUM;
@@ -18,30 +18,55 @@ use crate::file::write_atomically;
 /// Writes single-part, lossless OpenEXR under a temporary name and renames it: the path holds the whole file or what it held
 /// before. A file that says its kind gets the checksum of its content.
 ///
-/// Run lengths leave noise a sixth to a third larger than deflate would, and take a sixth to a fourteenth of its time, which
+/// Run lengths leave noise up to a third larger than deflate would, and take a sixth to a fourteenth of its time, which
 /// was a fifth of what measuring a picture takes.
 pub fn write_exr(path: &Path, file: &ExrFile) -> Result<(), FileError> {
-    write_encoded(
-        path,
-        file,
-        Encoding {
-            compression: Compression::RLE,
-            ..Encoding::SMALL_LOSSLESS
-        },
-    )
+    let quick = Encoding {
+        compression: Compression::RLE,
+        ..Encoding::SMALL_LOSSLESS
+    };
+    write_encoded(path, file.clone(), quick, FlatSamples::F32)
 }
 
-/// Writes as [`write_exr`] does, smaller (ZIP16) and much slower: for files that repeat themselves.
-pub(crate) fn write_small_exr(path: &Path, file: &ExrFile) -> Result<(), FileError> {
-    write_encoded(path, file, Encoding::SMALL_LOSSLESS)
+/// Writes as [`write_exr`] does, smaller (ZIP16) and slower: for files that are made once, or that repeat themselves.
+pub(crate) fn write_small_exr(path: &Path, file: ExrFile) -> Result<(), FileError> {
+    write_encoded(path, file, Encoding::SMALL_LOSSLESS, FlatSamples::F32)
 }
 
-fn write_encoded(path: &Path, file: &ExrFile, encoding: Encoding) -> Result<(), FileError> {
+/// Writes floats rounded to halves (ZIP16), which is not lossless: for maps that people look at. What lies beyond the largest half
+/// becomes that.
+pub fn write_half_exr(path: &Path, mut file: ExrFile) -> Result<(), FileError> {
+    for channel in &mut file.channels {
+        if let Samples::F32(samples) = &mut channel.samples {
+            for value in samples {
+                *value = round_to_half(*value).to_f32();
+            }
+        }
+    }
+    write_encoded(path, file, Encoding::SMALL_LOSSLESS, |samples| {
+        FlatSamples::F16(samples.into_iter().map(round_to_half).collect())
+    })
+}
+
+fn round_to_half(value: f32) -> f16 {
+    f16::from_f32(value.clamp(f16::MIN.to_f32(), f16::MAX.to_f32()))
+}
+
+/// Encodes floats as `floats` does, and writes the file.
+fn write_encoded(
+    path: &Path,
+    file: ExrFile,
+    encoding: Encoding,
+    floats: fn(Vec<f32>) -> FlatSamples,
+) -> Result<(), FileError> {
     let pixels = file.width as usize * file.height as usize;
-    let channels = file.channels.iter().map(|channel| {
-        let samples = match &channel.samples {
-            Samples::F32(samples) => FlatSamples::F32(samples.clone()),
-            Samples::U32(samples) => FlatSamples::U32(samples.clone()),
+    // Other programs may change what they are handed.
+    let checksum = (file.attributes.contains_key("kind"))
+        .then(|| (CHECKSUM.to_owned(), file.compute_checksum()));
+    let channels = file.channels.into_iter().map(|channel| {
+        let samples = match channel.samples {
+            Samples::F32(samples) => floats(samples),
+            Samples::U32(samples) => FlatSamples::U32(samples),
         };
         assert_eq!(
             samples.len(),
@@ -57,12 +82,8 @@ fn write_encoded(path: &Path, file: &ExrFile, encoding: Encoding) -> Result<(), 
         encoding,
         AnyChannels::sort(channels.collect()),
     );
-    let mut attributes = file.attributes.clone();
-    // Other programs may change what they are handed.
-    if attributes.contains_key("kind") {
-        attributes.insert(CHECKSUM.to_owned(), file.compute_checksum());
-    }
-    for (name, value) in attributes {
+    let attributes = (file.attributes.into_iter()).filter(|(name, _)| name != CHECKSUM);
+    for (name, value) in attributes.chain(checksum) {
         layer
             .attributes
             .other

@@ -2,54 +2,61 @@
 
 use frame::{Image, Raster};
 
+use crate::math::raster::index_pixels;
+
 /// Added to the squared truth in relMSE: a convention that keeps dark pixels from deciding the score.
 pub const RELATIVE_EPSILON: f64 = 1e-2;
 
 /// Upper limit of PSNR, in dB: squared differences below 1e-12 lie within the rounding of 32-bit radiance.
 pub const PSNR_LIMIT: f64 = 120.0;
 
-/// Maps `(F - A)(F - B)`, mean over the channels, of radiance times `scale`.
+/// Maps [`squared`].
+pub fn squared_error(output: &Image, [a, b]: [&Image; 2], scale: f64) -> Raster<f64> {
+    cross([output, output], [a, b], scale)
+}
+
+/// Maps `(F - A)(G - B)` with independent F and G, mean over the channels: [`squared`] of an output that is noisy itself and
+/// known by two halves.
+pub fn cross([f, g]: [&Image; 2], [a, b]: [&Image; 2], scale: f64) -> Raster<f64> {
+    assert!(
+        [g, a, b].iter().all(|image| image.same_size(f)),
+        "rasters of different sizes cannot be combined pixel by pixel"
+    );
+    index_pixels(f, |at| {
+        let [f, g, a, b] = [f, g, a, b].map(|image| image.pixels[at]);
+        multiply(subtract(f, a), subtract(g, b), scale)
+    })
+}
+
+/// Computes `(F - A)(F - B)`, mean over the channels, of radiance times `scale`.
 ///
 /// A and B hold the truth plus independent noise, so the expectation is the squared error against the converged truth;
 /// single pixels may be negative, and so may a mean over pixels when F is as close as the noise. The sign is kept:
 /// clamping it would bring the bias back.
-pub fn squared_error(output: &Image, halves: [&Image; 2], scale: f64) -> Raster<f64> {
-    let [a, b] = halves;
-    cross([output, output], [a, b], scale)
+pub fn squared(output: [f32; 3], halves: [[f32; 3]; 2], scale: f64) -> f64 {
+    let [first, second] = halves.map(|half| subtract(output, half));
+    multiply(first, second, scale)
 }
 
-/// Maps `(F - A)(G - B)` with independent F and G, mean over the channels: [`squared_error`] of an output that is noisy itself and
-/// known by two halves.
-pub fn cross(outputs: [&Image; 2], halves: [&Image; 2], scale: f64) -> Raster<f64> {
-    let first = subtract(outputs[0], halves[0]);
-    let second = subtract(outputs[1], halves[1]);
-    first.zip(&second, |f, g| {
-        (f[0] * g[0] + f[1] * g[1] + f[2] * g[2]) * scale * scale / 3.0
-    })
-}
-
-/// Maps `(F - A)(F - B) / (T^2 + epsilon)`, mean over the channels. T is the mean of the halves: its noise moves the
+/// Computes `(F - A)(F - B) / (T^2 + epsilon)`, mean over the channels. T is the mean of the halves: its noise moves the
 /// denominator only.
-pub fn relative_squared_error(
-    output: &Image,
-    halves: [&Image; 2],
-    mean: &Image,
+pub fn relative_squared(
+    output: [f32; 3],
+    halves: [[f32; 3]; 2],
+    mean: [f32; 3],
     scale: f64,
-) -> Raster<f64> {
-    let weighted = |half: &Image| {
-        subtract(output, half).zip(mean, |difference, truth| -> [f64; 3] {
-            std::array::from_fn(|c| {
-                let truth = f64::from(truth[c]) * scale;
-                difference[c] * scale / (truth * truth + RELATIVE_EPSILON).sqrt()
-            })
+) -> f64 {
+    let [f, g] = halves.map(|half| -> [f64; 3] {
+        let difference = subtract(output, half);
+        std::array::from_fn(|c| {
+            let truth = f64::from(mean[c]) * scale;
+            difference[c] * scale / (truth * truth + RELATIVE_EPSILON).sqrt()
         })
-    };
-    weighted(halves[0]).zip(&weighted(halves[1]), |f, g| {
-        (f[0] * g[0] + f[1] * g[1] + f[2] * g[2]) / 3.0
-    })
+    });
+    (f[0] * g[0] + f[1] * g[1] + f[2] * g[2]) / 3.0
 }
 
-/// Estimates the standard deviation of the mean of [`squared_error`] for a picture without error. `noise` is, per pixel, the
+/// Estimates the standard deviation of the mean of [`squared`] for a picture without error. `noise` is, per pixel, the
 /// squared error of half A against the mean of both halves. `None` if there are no pixels.
 ///
 /// Such a picture scores the mean of products of the halves' independent noises, which scatters about 0. The variance of a
@@ -59,9 +66,13 @@ pub fn relative_squared_error(
 ///
 /// The estimate is up to 1.3 times too high where the noises of the channels are unlike, higher where tails are heavy, and
 /// at most a fifth too low where there are none.
-pub fn scatter(noise: &[f64]) -> Option<f64> {
-    let fourths: f64 = noise.iter().map(|square| (2.0 * square).powi(2)).sum();
-    (!noise.is_empty()).then(|| (fourths / 3.0).sqrt() / noise.len() as f64)
+pub fn scatter(noise: impl Iterator<Item = f64>) -> Option<f64> {
+    let (mut fourths, mut count) = (0.0, 0_u32);
+    for square in noise {
+        fourths += (2.0 * square).powi(2);
+        count += 1;
+    }
+    (count > 0).then(|| (fourths / 3.0).sqrt() / f64::from(count))
 }
 
 /// Converts a mean squared error to the peak signal to noise ratio in dB, with peak 1. An error below `floor`, which the truth cannot
@@ -71,8 +82,10 @@ pub fn psnr(squared_error: f64, floor: f64) -> f64 {
     -10.0 * squared_error.max(floor).max(limit).log10()
 }
 
-fn subtract(a: &Image, b: &Image) -> Raster<[f64; 3]> {
-    a.zip(b, |a, b| {
-        std::array::from_fn(|c| f64::from(a[c]) - f64::from(b[c]))
-    })
+fn multiply(f: [f64; 3], g: [f64; 3], scale: f64) -> f64 {
+    (f[0] * g[0] + f[1] * g[1] + f[2] * g[2]) * scale * scale / 3.0
+}
+
+fn subtract(a: [f32; 3], b: [f32; 3]) -> [f64; 3] {
+    std::array::from_fn(|c| f64::from(a[c]) - f64::from(b[c]))
 }

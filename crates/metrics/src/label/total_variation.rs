@@ -2,16 +2,19 @@
 
 use frame::{Plane, Raster};
 
+use crate::math::raster::index_pixels;
+
 /// Maps half the sum over objects of `|a - a*|`, in [0, 1] for mattes that sum to 1: the fraction of the shutter during which a
 /// pixel shows another object than it should. Texture does not matter.
 pub fn label_variation(output: &[Plane], truth: &[Plane]) -> Raster<f64> {
     let first = truth.first().expect("a truth has a background");
-    let mut sum = first.map(|_| 0.0);
-    for (output, truth) in output.iter().zip(truth) {
-        let wrong = output.zip(truth, |a, b| (f64::from(*a) - f64::from(*b)).abs() / 2.0);
-        sum = sum.zip(&wrong, |sum, wrong| sum + wrong);
-    }
-    sum
+    index_pixels(first, |at| {
+        let pairs = output.iter().zip(truth);
+        pairs.fold(0.0, |sum, (output, truth)| {
+            let (a, b) = (f64::from(output.pixels[at]), f64::from(truth.pixels[at]));
+            sum + (a - b).abs() / 2.0
+        })
+    })
 }
 
 /// Averages a label total variation over the pixels of `inside`, weighted by the object's true matte: the error on the object
@@ -21,13 +24,13 @@ pub fn average_on_object(
     truth: &Plane,
     inside: &Raster<bool>,
 ) -> Option<f64> {
-    let weights = truth.zip(
-        inside,
-        |matte, inside| {
-            if *inside { f64::from(*matte) } else { 0.0 }
-        },
-    );
-    let weight: f64 = weights.pixels.iter().sum();
-    let wrong: f64 = weights.zip(variation, |w, v| w * v).pixels.iter().sum();
+    let (mut weight, mut wrong) = (0.0, 0.0);
+    let pixels = truth.pixels.iter().zip(&inside.pixels);
+    for ((matte, inside), variation) in pixels.zip(&variation.pixels) {
+        if *inside {
+            weight += f64::from(*matte);
+            wrong += f64::from(*matte) * variation;
+        }
+    }
     (weight > 0.0).then(|| wrong / weight)
 }

@@ -1,7 +1,10 @@
 //! Separable filters of pictures, with borders mirrored at the outer edges of the outermost pixels (d c b a | a b c d).
 
 use frame::Raster;
+use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
+
+use super::lines::{correlate, correlate_down};
 
 /// Samples a Gaussian or its derivative at whole pixels up to `truncate` standard deviations, and divides by the sum of the
 /// Gaussian's samples, as `scipy.ndimage.gaussian_filter1d` does.
@@ -20,46 +23,110 @@ pub fn gaussian(sigma: f64, truncate: f64, derivative: bool) -> Vec<f64> {
         .collect()
 }
 
+/// Pixels that are filtered at a time: their sums stay in registers.
+pub const LANES: usize = 32;
+
+/// Rows that are filtered one after another.
+const BAND: usize = 32;
+
 /// Correlates rows with one kernel and columns with another; kernels have odd lengths.
 pub fn filter_separably(map: &Raster<f64>, rows: &[f64], columns: &[f64]) -> Raster<f64> {
-    let (width, height) = (map.width as usize, map.height as usize);
-    let beyond = rows.len() / 2;
-    let places: Vec<usize> = (0..width + 2 * beyond)
-        .map(|at| mirror_index(at, beyond, width))
-        .collect();
-    let mut along = vec![0.0; map.pixels.len()];
-    let lines = along.par_chunks_mut(width);
-    lines.enumerate().for_each(|(y, sums)| {
-        let line = &map.pixels[y * width..][..width];
-        let padded: Vec<f64> = places.iter().map(|place| line[*place]).collect();
-        for (offset, weight) in rows.iter().enumerate() {
-            add_weighted(sums, *weight, &padded[offset..]);
-        }
+    let width = map.width as usize;
+    let stride = width.next_multiple_of(LANES);
+    let places = mirrored_places(width, rows.len() / 2);
+    let mut along = vec![0.0; stride * map.height as usize];
+    let bands = along.par_chunks_mut(BAND * stride).enumerate();
+    bands.for_each(|(band, lines)| {
+        Arch::new().dispatch(Along {
+            taps: rows,
+            places: &places,
+            values: &map.pixels[band * BAND * width..],
+            width,
+            lines,
+        });
     });
-    let beyond = columns.len() / 2;
     let mut both = Raster {
-        pixels: vec![0.0; along.len()],
+        pixels: vec![0.0; map.pixels.len()],
         ..*map
     };
-    let lines = both.pixels.par_chunks_mut(width);
-    lines.enumerate().for_each(|(y, sums)| {
-        for (offset, weight) in columns.iter().enumerate() {
-            let line = mirror_index(y + offset, beyond, height);
-            add_weighted(sums, *weight, &along[line * width..]);
-        }
+    let bands = both.pixels.par_chunks_mut(BAND * width).enumerate();
+    bands.for_each(|(band, lines)| {
+        Arch::new().dispatch(Down {
+            taps: columns,
+            first: band * BAND,
+            values: &along,
+            size: (width, map.height as usize),
+            lines,
+        });
     });
     both
 }
 
-/// Adds weighted values to sums, a whole line at a time, which compilers turn into wide instructions.
-fn add_weighted(sums: &mut [f64], weight: f64, values: &[f64]) {
-    for (sum, value) in sums.iter_mut().zip(values) {
-        *sum += weight * value;
+/// Correlation of rows with taps.
+struct Along<'a> {
+    taps: &'a [f64],
+    /// Column of each place of a row that is mirrored at its ends.
+    places: &'a [usize],
+    values: &'a [f64],
+    width: usize,
+    lines: &'a mut [f64],
+}
+
+impl WithSimd for Along<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let stride = self.width.next_multiple_of(LANES);
+        let mut padded = vec![0.0; stride + self.taps.len() - 1];
+        let rows = self.values.chunks_exact(self.width);
+        for (row, line) in rows.zip(self.lines.chunks_exact_mut(stride)) {
+            for (value, place) in padded.iter_mut().zip(self.places) {
+                *value = row[*place];
+            }
+            correlate::<S, f64, LANES>(simd, self.taps, &padded, line);
+        }
     }
 }
 
+/// Correlation of columns with taps, row by row.
+struct Down<'a> {
+    taps: &'a [f64],
+    first: usize,
+    values: &'a [f64],
+    size: (usize, usize),
+    lines: &'a mut [f64],
+}
+
+impl WithSimd for Down<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let (width, height) = self.size;
+        let stride = width.next_multiple_of(LANES);
+        for (y, line) in (self.first..).zip(self.lines.chunks_exact_mut(width)) {
+            let starts: Vec<usize> = (0..self.taps.len())
+                .map(|tap| mirror_index(y + tap, self.taps.len() / 2, height) * stride)
+                .collect();
+            for (block, line) in line.chunks_mut(LANES).enumerate() {
+                let sums: [f64; LANES] =
+                    correlate_down(simd, self.taps, &self.values[block * LANES..], &starts);
+                line.copy_from_slice(&sums[..line.len()]);
+            }
+        }
+    }
+}
+
+/// Lists the columns of a row that is mirrored at its ends, from `beyond` pixels before it to as many behind it.
+pub fn mirrored_places(width: usize, beyond: usize) -> Vec<usize> {
+    (0..width + 2 * beyond)
+        .map(|at| mirror_index(at, beyond, width))
+        .collect()
+}
+
 /// Returns the index into a line of pixels, mirrored at its ends, of a place counted from `beyond` pixels before its start.
-fn mirror_index(at: usize, beyond: usize, length: usize) -> usize {
+pub fn mirror_index(at: usize, beyond: usize, length: usize) -> usize {
     let period = 2 * length;
     let mirrored = (at + period * beyond.div_ceil(period) - beyond) % period;
     mirrored.min(period - 1 - mirrored)

@@ -1,5 +1,7 @@
-//! Means, convolutions and conversions that several rooms share.
+//! Means, convolutions, powers and rasters that several rooms share.
 
-pub mod conversion;
 pub mod convolution;
+pub mod lines;
 pub mod pooling;
+pub mod power;
+pub mod raster;

@@ -1,31 +1,55 @@
 //! Means and percentiles.
 
+use frame::{Raster, Region, Regions};
+
 /// Averages values; `None` if there are none.
 pub(crate) fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
+/// Averages the values of a map over a region; `None` if that is empty.
+pub(crate) fn mean_over<T: Copy + Into<f64>>(
+    map: &Raster<T>,
+    regions: &Regions,
+    region: Region,
+) -> Option<f64> {
+    let (mut sum, mut count) = (0.0, 0_u32);
+    for at in regions.indices(region) {
+        sum += map.pixels[at].into();
+        count += 1;
+    }
+    (count > 0).then(|| sum / f64::from(count))
+}
+
 /// Finds the value that at least this part of the sorted values does not exceed (nearest rank); `None` if there are none.
-pub(crate) fn percentile(sorted: &[f64], part: f64) -> Option<f64> {
-    let rank = (sorted.len() as f64 * part).ceil() as usize;
-    sorted.get(rank.checked_sub(1)?).copied()
+pub(crate) fn percentile(sorted: &[f32], part: f64) -> Option<f64> {
+    sorted
+        .get(find_rank(sorted.len(), part)?)
+        .map(|value| f64::from(*value))
+}
+
+/// Finds the same of values in any order, in linear time.
+pub(crate) fn percentile_of(mut values: Vec<f64>, part: f64) -> Option<f64> {
+    let rank = find_rank(values.len(), part)?;
+    let (_, value, _) = values.select_nth_unstable_by(rank, f64::total_cmp);
+    Some(*value)
+}
+
+/// Returns the place among the sorted values, counted from 0; `None` if there are none.
+fn find_rank(count: usize, part: f64) -> Option<usize> {
+    ((count as f64 * part).ceil() as usize).checked_sub(1)
 }
 
 /// Finds the smallest of the sorted values up to which they add up to half of their sum, as the FLIP tool reports it: pixels
 /// without error do not count. Values are not negative; `None` if there are none.
-pub(crate) fn weighted_median(sorted: &[f64]) -> Option<f64> {
-    let half = 0.5 * sorted.iter().sum::<f64>();
+pub(crate) fn weighted_median(sorted: &[f32]) -> Option<f64> {
+    let values = || sorted.iter().map(|value| f64::from(*value));
+    let half = 0.5 * values().sum::<f64>();
     let mut sum = 0.0;
-    sorted.iter().copied().find(|value| {
+    values().find(|value| {
         sum += value;
         sum >= half
     })
-}
-
-/// Sorts values in rising order.
-pub(crate) fn sort(mut values: Vec<f64>) -> Vec<f64> {
-    values.sort_unstable_by(f64::total_cmp);
-    values
 }
 
 #[cfg(test)]
@@ -34,22 +58,24 @@ mod tests {
 
     #[test]
     fn the_percentile_is_the_value_that_95_percent_do_not_exceed() {
-        let values = sort((1..=100).rev().map(f64::from).collect());
-        assert_eq!(percentile(&values, 0.95), Some(95.0));
-        assert_eq!(percentile(&values[90..], 0.95), Some(100.0));
+        let values: Vec<f64> = (1..=100).rev().map(f64::from).collect();
+        let sorted: Vec<f32> = (1..=100_u8).map(f32::from).collect();
+        for (part, expected) in [(0.95, 95.0), (0.99, 99.0)] {
+            assert_eq!(percentile(&sorted, part), Some(expected));
+            assert_eq!(percentile_of(values.clone(), part), Some(expected));
+        }
+        assert_eq!(percentile(&sorted[90..], 0.95), Some(100.0));
         assert_eq!(percentile(&[3.0], 0.95), Some(3.0));
         assert_eq!(percentile(&[], 0.95), None);
-        assert_eq!(percentile(&values, 0.99), Some(99.0));
+        assert_eq!(percentile_of(Vec::new(), 0.95), None);
         assert_eq!(mean(&[]), None);
     }
 
     #[test]
     fn half_of_the_error_lies_below_the_weighted_median() {
         // 1 + 2 + 3 + 4 = 10: the 3 passes 5.
-        assert_eq!(
-            weighted_median(&sort(vec![4.0, 0.0, 2.0, 0.0, 3.0, 0.0, 1.0])),
-            Some(3.0)
-        );
+        let sorted = [0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 4.0];
+        assert_eq!(weighted_median(&sorted), Some(3.0));
         assert_eq!(weighted_median(&[0.0, 0.0]), Some(0.0));
         assert_eq!(weighted_median(&[]), None);
     }

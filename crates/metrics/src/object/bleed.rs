@@ -22,18 +22,18 @@ pub fn measure_bleed(
     sides: &Raster<Side>,
     silhouette: &Silhouette,
 ) -> Option<Bleed> {
-    let on = |wanted: Side| -> f64 {
-        output
-            .pixels
-            .iter()
-            .zip(&sides.pixels)
-            .filter(|(_, side)| **side == wanted)
-            .map(|(matte, _)| f64::from(*matte))
-            .sum()
-    };
+    let (mut lateral, mut leading, mut trailing) = (0.0, 0.0, 0.0);
+    for (matte, side) in output.pixels.iter().zip(&sides.pixels) {
+        match side {
+            Side::Inside => (),
+            Side::Lateral => lateral += f64::from(*matte),
+            Side::Leading => leading += f64::from(*matte),
+            Side::Trailing => trailing += f64::from(*matte),
+        }
+    }
     (silhouette.lateral > 0.0 && silhouette.across > 0.0).then(|| Bleed {
-        lateral: on(Side::Lateral) / silhouette.lateral,
-        leading: on(Side::Leading) / silhouette.across,
-        trailing: on(Side::Trailing) / silhouette.across,
+        lateral: lateral / silhouette.lateral,
+        leading: leading / silhouette.across,
+        trailing: trailing / silhouette.across,
     })
 }

@@ -1,19 +1,31 @@
 //! Gradient magnitude of a matte, and its error.
 
-use frame::{Plane, Raster};
+use frame::Plane;
 
 use crate::math::convolution::{filter_separably, gaussian};
+use crate::math::raster::zip_pixels;
+use crate::object::patch::Patch;
 
-/// Maps the magnitude of a matte's gradient, by derivatives of a Gaussian of 1.4 pixels.
-pub fn gradient_magnitude(matte: &Plane) -> Raster<f64> {
-    let (bell, slope) = (gaussian(1.4, 4.0, false), gaussian(1.4, 4.0, true));
-    let matte = matte.map(|value| f64::from(*value));
-    let across = filter_separably(&matte, &slope, &bell);
-    across.zip(&filter_separably(&matte, &bell, &slope), |x, y| x.hypot(*y))
+/// Standard deviation of the Gaussian, in pixels.
+const SIGMA: f64 = 1.4;
+/// Reach of the Gaussian, in standard deviations.
+const REACH: f64 = 4.0;
+
+/// Maps the magnitude of a matte's gradient, by derivatives of a Gaussian of 1.4 pixels; `None` if the matte is zero, and so its
+/// gradient.
+pub fn gradient_magnitude(matte: &Plane) -> Option<Patch> {
+    let (bell, slope) = (gaussian(SIGMA, REACH, false), gaussian(SIGMA, REACH, true));
+    let patch = Patch::cut(matte, bell.len() as u32 / 2)?;
+    let across = filter_separably(&patch.raster, &slope, &bell);
+    let down = filter_separably(&patch.raster, &bell, &slope);
+    Some(Patch {
+        raster: zip_pixels(&across, &down, |x, y| x.hypot(*y)),
+        ..patch
+    })
 }
 
 /// Maps the squared difference of two gradient magnitudes: Rhemann et al., "A Perceptually Motivated Online Benchmark for Image
-/// Matting" (CVPR 2009), where it agrees with observers better than squared differences do.
-pub fn gradient_error(a: &Raster<f64>, b: &Raster<f64>) -> Raster<f64> {
-    a.zip(b, |a, b| (a - b).powi(2))
+/// Matting" (CVPR 2009), where it agrees with observers better than squared differences do. `None` if both are zero.
+pub fn gradient_error(a: Option<&Patch>, b: Option<&Patch>) -> Option<Patch> {
+    Patch::zip(a, b, |a, b| (a - b).powi(2))
 }

@@ -2,8 +2,6 @@
 
 use frame::{Plane, Raster};
 
-use crate::math::pooling::mean;
-
 /// Mass of a whole matte.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mass {
@@ -18,20 +16,22 @@ pub struct Mass {
 /// Compares sums of mattes; `core` is where the object is seen throughout the shutter. `None` if the truth never shows the
 /// object.
 pub fn measure_mass(output: &Plane, truth: &Plane, core: &Raster<bool>) -> Option<Mass> {
-    let pairs = || {
-        output
-            .pixels
-            .iter()
-            .zip(&truth.pixels)
-            .map(|(a, b)| (f64::from(*a), f64::from(*b)))
-    };
-    let total: f64 = pairs().map(|(_, truth)| truth).sum();
-    let missing: Vec<f64> = (output.pixels.iter().zip(&core.pixels))
-        .filter_map(|(output, inside)| inside.then_some(1.0 - f64::from(*output)))
-        .collect();
+    let (mut total, mut deficit, mut energy) = (0.0, 0.0, 0.0);
+    let (mut hole, mut inside) = (0.0, 0_u32);
+    let pixels = output.pixels.iter().zip(&truth.pixels);
+    for ((output, truth), is_core) in pixels.zip(&core.pixels) {
+        let (output, truth) = (f64::from(*output), f64::from(*truth));
+        total += truth;
+        deficit += (truth - output).max(0.0);
+        energy += output;
+        if *is_core {
+            hole += 1.0 - output;
+            inside += 1;
+        }
+    }
     (total > 0.0).then(|| Mass {
-        hole: mean(&missing),
-        deficit: pairs().map(|(a, truth)| (truth - a).max(0.0)).sum::<f64>() / total,
-        energy: pairs().map(|(a, _)| a).sum::<f64>() / total,
+        hole: (inside > 0).then(|| hole / f64::from(inside)),
+        deficit: deficit / total,
+        energy: energy / total,
     })
 }

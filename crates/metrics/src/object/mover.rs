@@ -18,11 +18,12 @@ pub struct Mover {
     pub displacement: [f64; 2],
     /// Root mean square of the displacements' deviation from their mean, in pixels.
     pub deviation: f64,
-    /// Unit vector along which the nearest visible pixel of the object moves, per pixel; zero if that one stands.
-    pub directions: Raster<[f64; 2]>,
     /// Outline of the object at the instant.
     pub silhouette: Silhouette,
 }
+
+/// Unit vector along which the nearest visible pixel of an object moves, per pixel; zero if that one stands.
+pub type Directions = Raster<[f64; 2]>;
 
 /// Length of an object's outline, in pixels, each way of crossing it counted: the total variation of its matte across
 /// and along the motion. For a convex object it is the width, twice for both sides.
@@ -44,8 +45,9 @@ pub enum Stillness {
 }
 
 impl Mover {
-    /// Measures object `id` of the frame, moving for the frame's exposure.
-    pub fn new(frame: &Frame, id: u32) -> Result<Self, Stillness> {
+    /// Measures object `id` of the frame, moving for the frame's exposure. Returns the directions beside it: they take more memory
+    /// than all else of an object, and nothing but its sides depends on them.
+    pub fn new(frame: &Frame, id: u32) -> Result<(Self, Directions), Stillness> {
         let seen = frame.object_id.map(|object| *object == id);
         let sources = find_nearest(&seen).ok_or(Stillness::Invisible)?;
         let displacements = frame
@@ -67,12 +69,12 @@ impl Mover {
         let deviation = (squares.sum::<f64>() / own.len() as f64).sqrt();
         let directions = sources.map(|[x, y]| unit(*displacements.at(*x, *y)));
         let silhouette = Silhouette::new(&frame.coverage[id as usize], &directions);
-        Ok(Self {
+        let mover = Self {
             displacement,
             deviation,
-            directions,
             silhouette,
-        })
+        };
+        Ok((mover, directions))
     }
 
     /// Returns the unit vector of its translation, or the reason why it does not translate.
@@ -96,7 +98,7 @@ impl Mover {
 impl Silhouette {
     /// Measures the total variation of a matte across and along local directions. Gradients are taken between pixels, over squares of
     /// two by two.
-    fn new(matte: &Plane, directions: &Raster<[f64; 2]>) -> Self {
+    fn new(matte: &Plane, directions: &Directions) -> Self {
         let (mut lateral, mut lengthwise) = (0.0, 0.0);
         for y in 1..matte.height {
             for x in 1..matte.width {

@@ -3,13 +3,13 @@
 use frame::{Frame, Picture, Plane, Raster, Region, Regions, Truth};
 
 use crate::label::total_variation::average_on_object;
-use crate::math::pooling::mean;
 use crate::object::along_motion::{AlongMotion, BORDER, NO_SILHOUETTE, touches_border};
 use crate::object::bleed::{Bleed, measure_bleed};
 use crate::object::gradient::{gradient_error, gradient_magnitude};
 use crate::object::mass::{Mass, measure_mass};
 use crate::object::misplacement::{Misplacement, measure_misplacement};
-use crate::object::mover::{Mover, Stillness};
+use crate::object::mover::{Directions, Mover, Stillness};
+use crate::object::patch::Patch;
 use crate::object::row_mass::RowMass;
 use crate::object::sides::{Side, find_sides};
 use crate::{Measured, ObjectMetric, ObjectScores};
@@ -23,6 +23,8 @@ pub struct ObjectReference {
     mover: Result<Moving, Stillness>,
     /// Mass scores of the truth's first half.
     mass_noise: Option<Mass>,
+    /// Mean error of the first half's labels on the object.
+    label_noise: Option<f64>,
     /// True if the object is seen at the picture's border, at the instant or while the shutter is open.
     is_at_border: bool,
 }
@@ -34,14 +36,20 @@ struct Moving {
     /// Bleed of the truth's first half.
     bleed_noise: Option<Bleed>,
     rows: Result<AlongMotion, String>,
-    /// Gradient magnitude of the true matte, and the error of the first half's.
-    gradient: Raster<f64>,
-    gradient_noise: Raster<f64>,
+    /// Gradient magnitude of the true matte; none where that is zero.
+    gradient: Option<Patch>,
+    /// Mean error of the first half's gradient where anything moves.
+    gradient_noise: Option<f64>,
 }
 
 impl ObjectReference {
-    /// Prepares object `id` of a truth and its frame.
-    pub fn new(frame: &Frame, truth: &Truth, mean: &Picture, id: usize) -> Self {
+    /// Prepares object `id` of a truth and its frame. `label_noise` are the errors of the first half's labels.
+    pub fn new(
+        (frame, truth): (&Frame, &Truth),
+        (mean, label_noise): (&Picture, &Raster<f64>),
+        regions: &Regions,
+        id: usize,
+    ) -> Self {
         let matte = mean.coverage[id].clone();
         let half = &truth.halves[0].coverage[id];
         let instant = &frame.coverage[id];
@@ -49,15 +57,19 @@ impl ObjectReference {
         let core = truth.support.throughout(id);
         let seen = support.map(|seen| f32::from(*seen));
         let is_at_border = touches_border(&seen) || touches_border(instant);
-        let moving = |mover: Mover| {
+        let moving = |(mover, directions): (Mover, Directions)| {
             let gradient = gradient_magnitude(&matte);
-            let sides = find_sides(support, &mover.directions);
+            let sides = find_sides(support, &directions);
+            drop(directions);
             Moving {
                 bleed_noise: (sides.as_ref())
                     .and_then(|sides| measure_bleed(half, sides, &mover.silhouette)),
                 sides,
                 rows: AlongMotion::new(&mover, is_at_border, instant, &matte, half),
-                gradient_noise: gradient_error(&gradient_magnitude(half), &gradient),
+                gradient_noise: average_patch(
+                    gradient_error(gradient_magnitude(half).as_ref(), gradient.as_ref()).as_ref(),
+                    regions,
+                ),
                 gradient,
                 mover,
             }
@@ -66,23 +78,23 @@ impl ObjectReference {
             name: truth.objects[id].clone(),
             mover: Mover::new(frame, id as u32).map(moving),
             mass_noise: measure_mass(half, &matte, &core),
+            label_noise: average_on_object(label_noise, &matte, &regions.moving),
             core,
             is_at_border,
             truth: matte,
         }
     }
 
-    /// Scores an output's matte. `variations` are the label total variations of the output and of the truth's first half,
-    /// `gradient` is [`ObjectReference::map_gradient_errors`] of the matte.
+    /// Scores an output's matte. `variation` is the label total variation of the output, `gradient` is
+    /// [`ObjectReference::map_gradient_errors`] of the matte.
     pub fn measure(
         &self,
         matte: &Plane,
-        variations: [&Raster<f64>; 2],
-        gradient: Option<&Raster<f64>>,
+        variation: &Raster<f64>,
+        gradient: Option<&Patch>,
         regions: &Regions,
     ) -> ObjectScores {
-        let [variation, noise] =
-            variations.map(|map| average_on_object(map, &self.truth, &regions.moving));
+        let variation = average_on_object(variation, &self.truth, &regions.moving);
         let [bleed_lateral, bleed_leading, bleed_trailing] = self.score_bleed(matte);
         let [
             lateral_growth,
@@ -115,43 +127,45 @@ impl ObjectReference {
             label_total_variation: score(
                 ObjectMetric::LabelTotalVariation,
                 variation,
-                noise,
+                self.label_noise,
                 "is not seen in the moving region",
             ),
             gradient_error: self.score_gradient(gradient, regions),
         }
     }
 
-    /// Maps the squared difference of the gradient magnitudes of matte and truth; `None` for an object that does not move.
-    pub fn map_gradient_errors(&self, matte: &Plane) -> Option<Raster<f64>> {
+    /// Maps the squared difference of the gradient magnitudes of matte and truth; `None` where it is zero, and for an object that
+    /// does not move.
+    pub fn map_gradient_errors(&self, matte: &Plane) -> Option<Patch> {
         let moving = self.mover.as_ref().ok()?;
-        Some(gradient_error(&gradient_magnitude(matte), &moving.gradient))
+        gradient_error(gradient_magnitude(matte).as_ref(), moving.gradient.as_ref())
     }
 
-    fn score_gradient(&self, errors: Option<&Raster<f64>>, regions: &Regions) -> Measured {
-        let moving = match self.moving() {
-            Ok(moving) => moving,
-            Err(reason) => return Measured::not_applicable(reason),
+    fn score_gradient(&self, errors: Option<&Patch>, regions: &Regions) -> Measured {
+        match self.moving() {
+            Ok(moving) => score(
+                ObjectMetric::GradientError,
+                average_patch(errors, regions),
+                moving.gradient_noise,
+                "is not seen in the moving region",
+            ),
+            Err(reason) => Measured::not_applicable(reason),
+        }
+    }
+
+    /// Adds the object's matte outside its support; nothing for an object that does not move.
+    pub fn add_bleed(&self, matte: &Plane, bleed: &mut Plane) {
+        let Ok(Moving {
+            sides: Some(sides), ..
+        }) = &self.mover
+        else {
+            return;
         };
-        let pool = |map| mean(&regions.select(Region::Moving, map));
-        score(
-            ObjectMetric::GradientError,
-            errors.and_then(pool),
-            pool(&moving.gradient_noise),
-            "is not seen in the moving region",
-        )
-    }
-
-    /// Maps the object's matte outside its support; zero elsewhere, and for an object that does not move.
-    pub fn map_bleed(&self, matte: &Plane) -> Plane {
-        match &self.mover {
-            Ok(Moving {
-                sides: Some(sides), ..
-            }) => matte.zip(sides, |matte, side| match side {
-                Side::Inside => 0.0,
-                Side::Lateral | Side::Leading | Side::Trailing => *matte,
-            }),
-            _ => matte.map(|_| 0.0),
+        let pixels = matte.pixels.iter().zip(&sides.pixels);
+        for (bleed, (matte, side)) in bleed.pixels.iter_mut().zip(pixels) {
+            if *side != Side::Inside {
+                *bleed += matte;
+            }
         }
     }
 
@@ -262,6 +276,18 @@ impl ObjectReference {
         let rows = moving.rows.as_ref().map_err(String::clone)?;
         Ok((rows, &moving.mover))
     }
+}
+
+/// Averages a map where anything moves; `None` if nothing does.
+fn average_patch(patch: Option<&Patch>, regions: &Regions) -> Option<f64> {
+    let moving = &regions.moving;
+    let pixels = patch
+        .into_iter()
+        .flat_map(|patch| patch.pixels(moving.width));
+    let inside = pixels.filter(|(at, _)| moving.pixels[*at]);
+    let sum: f64 = inside.map(|(_, value)| value).sum();
+    let count = regions.indices(Region::Moving).count();
+    (count > 0).then(|| sum / count as f64)
 }
 
 /// Makes a score of a value and its noise, with the metric's floor, or gives the reason for their absence.

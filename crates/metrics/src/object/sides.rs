@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use frame::{Frame, Raster, Support};
 
-use crate::object::mover::Mover;
+use crate::object::mover::{Directions, Mover};
 use crate::object::nearest::{distance_squared, find_nearest, find_on_circle, list_circle};
 
 /// Side of the swept support that a pixel lies on, as seen along the motion of the nearest part of it.
@@ -26,7 +26,7 @@ pub enum Side {
 ///
 /// Everything lies beside a pixel without direction (the centre of a rotation). Equally near parts of the support decide together,
 /// by the sum of their offsets and the sum of their directions.
-pub fn find_sides(support: &Raster<bool>, directions: &Raster<[f64; 2]>) -> Option<Raster<Side>> {
+pub fn find_sides(support: &Raster<bool>, directions: &Directions) -> Option<Raster<Side>> {
     let sources = find_nearest(support)?;
     // Straight outlines have whole rows of pixels at one distance.
     let mut circles: HashMap<u64, Vec<[i64; 2]>> = HashMap::new();
@@ -59,6 +59,6 @@ pub fn find_sides(support: &Raster<bool>, directions: &Raster<[f64; 2]>) -> Opti
 /// Finds the side of object `id` that each pixel lies on, as for its bleed; `None` if the object is not seen at the instant, does
 /// not move, or never shows. `frame` has no guard band, `support` is the truth's.
 pub fn object_sides(frame: &Frame, support: &Support, id: u32) -> Option<Raster<Side>> {
-    let mover = Mover::new(frame, id).ok()?;
-    find_sides(&support.seen[id as usize], &mover.directions)
+    let (_, directions) = Mover::new(frame, id).ok()?;
+    find_sides(&support.seen[id as usize], &directions)
 }

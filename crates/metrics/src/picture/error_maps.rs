@@ -2,78 +2,85 @@
 
 use frame::{Image, Picture, Plane, Raster};
 
-use crate::color::absolute_error::{absolute_error, symmetric_error};
-use crate::color::cross_error::{relative_squared_error, squared_error};
-use crate::color::flip::{flip_hdr, flip_ldr};
+use crate::Maps;
+use crate::color::absolute_error::{absolute, symmetric};
+use crate::color::cross_error::{relative_squared, squared};
+use crate::color::flip::Displayed;
 use crate::color::ssim::ssim;
 use crate::label::total_variation::label_variation;
-use crate::math::conversion::{narrow, widen};
-use crate::{Maps, Viewing};
+use crate::math::raster::{index_pixels, map_pixels, zip_pixels};
+use crate::picture::seen_truth::SeenTruth;
 
-/// Error maps of one picture, in `f64`: thousands of signed products are summed.
+/// Error maps of one picture. Thousands of signed products are summed, and so are errors of 64 bits.
 pub struct ErrorMaps {
-    /// `(F - A)(F - B)`.
-    pub squared: Raster<f64>,
-    /// `squared` over the squared truth.
-    pub relative: Raster<f64>,
-    /// `|F - T|`.
-    pub absolute: Raster<f64>,
-    /// `absolute` over the mean of both.
-    pub symmetric: Raster<f64>,
+    /// Errors that a pixel has by itself.
+    pub pixels: Raster<PixelErrors>,
     /// Structural similarity.
     pub ssim: Raster<f64>,
     /// LDR-FLIP.
-    pub flip: Raster<f64>,
+    pub flip: Plane,
     /// HDR-FLIP.
-    pub flip_hdr: Raster<f64>,
+    pub flip_hdr: Plane,
     /// Label total variation.
     pub label: Raster<f64>,
 }
 
+/// Errors of a pixel that depend on no other.
+#[derive(Clone, Copy)]
+pub struct PixelErrors {
+    /// `(F - A)(F - B)`.
+    pub squared: f64,
+    /// `squared` over the squared truth.
+    pub relative: f64,
+    /// `|F - T|`.
+    pub absolute: f64,
+    /// `absolute` over the mean of both.
+    pub symmetric: f64,
+}
+
 impl ErrorMaps {
-    /// Maps the errors of `output` against the truth's mean; squared errors by `halves`.
-    pub fn new(output: &Picture, halves: [&Image; 2], mean: &Picture, viewing: &Viewing) -> Self {
-        let scale = viewing.scale();
-        let ((flip, flip_hdr), (squared, relative, ssim)) = rayon::join(
-            || {
-                rayon::join(
-                    || widen(&flip_ldr(&mean.color, &output.color, viewing)),
-                    || widen(&flip_hdr(&mean.color, &output.color, viewing)),
-                )
-            },
-            || {
-                (
-                    squared_error(&output.color, halves, scale),
-                    relative_squared_error(&output.color, halves, &mean.color, scale),
-                    ssim(&output.color, &mean.color, viewing),
-                )
-            },
-        );
-        Self {
-            squared,
-            relative,
-            absolute: absolute_error(&output.color, &mean.color, scale),
-            symmetric: symmetric_error(&output.color, &mean.color, scale),
+    /// Maps the errors of `output`, which is also given as `displayed`, against the truth's mean; squared errors by `halves`.
+    /// `ended` hears of the end of each part.
+    pub fn new(
+        (output, displayed): (&Picture, &Displayed),
+        halves: [&Image; 2],
+        mean: &Picture,
+        seen: &SeenTruth,
+        ended: fn(&'static str),
+    ) -> Self {
+        let flip = seen.display.map_errors(displayed);
+        ended("FLIP");
+        let flip_hdr = seen.exposures.map_errors(&output.color);
+        ended("HDR-FLIP");
+        let ssim = ssim(&displayed.srgb, &seen.srgb);
+        ended("SSIM");
+        let maps = Self {
+            pixels: map_pixel_errors(&output.color, halves, &mean.color, seen.scale),
             ssim,
             flip,
             flip_hdr,
             label: label_variation(&output.coverage, &mean.coverage),
-        }
+        };
+        ended("other maps");
+        maps
     }
 
     /// Converts the maps to planes, and adds more.
-    pub fn to_maps(&self, output: &Picture, mean: &Picture, more: MoreMaps) -> Maps {
+    pub fn into_maps(self, output: &Picture, mean: &Picture, more: MoreMaps) -> Maps {
+        let part = |error: fn(&PixelErrors) -> f64| {
+            map_pixels(&self.pixels, |errors| error(errors) as f32)
+        };
         Maps {
-            signed_error: output.color.zip(&mean.color, |output, truth| {
+            signed_error: zip_pixels(&output.color, &mean.color, |output, truth| {
                 std::array::from_fn(|c| output[c] - truth[c])
             }),
-            squared_error: narrow(&self.squared),
-            relative_squared_error: narrow(&self.relative),
-            absolute_error: narrow(&self.absolute),
-            symmetric_error: narrow(&self.symmetric),
+            squared_error: part(|errors| errors.squared),
+            relative_squared_error: part(|errors| errors.relative),
+            absolute_error: part(|errors| errors.absolute),
+            symmetric_error: part(|errors| errors.symmetric),
             ssim: narrow(&self.ssim),
-            flip: narrow(&self.flip),
-            flip_hdr: narrow(&self.flip_hdr),
+            flip: self.flip,
+            flip_hdr: self.flip_hdr,
             label_total_variation: narrow(&self.label),
             bleed: more.bleed,
             gradient_error: more.gradient_error,
@@ -93,4 +100,30 @@ pub struct MoreMaps {
     pub frozen_squared: Raster<f64>,
     /// Change of the instant's colour where nothing moves.
     pub static_change: Raster<f64>,
+}
+
+fn map_pixel_errors(
+    output: &Image,
+    [a, b]: [&Image; 2],
+    mean: &Image,
+    scale: f64,
+) -> Raster<PixelErrors> {
+    assert!(
+        [a, b, mean].iter().all(|image| image.same_size(output)),
+        "pictures were checked before they are measured"
+    );
+    index_pixels(output, |at| {
+        let [output, a, b, mean] = [output, a, b, mean].map(|image| image.pixels[at]);
+        PixelErrors {
+            squared: squared(output, [a, b], scale),
+            relative: relative_squared(output, [a, b], mean, scale),
+            absolute: absolute(output, mean, scale),
+            symmetric: symmetric(output, mean, scale),
+        }
+    })
+}
+
+/// Rounds a plane to `f32`, to be stored.
+fn narrow(map: &Raster<f64>) -> Plane {
+    map_pixels(map, |value| *value as f32)
 }

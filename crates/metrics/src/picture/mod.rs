@@ -3,3 +3,4 @@
 pub mod error_maps;
 pub mod pooled;
 pub mod scores;
+pub mod seen_truth;

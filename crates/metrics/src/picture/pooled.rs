@@ -1,9 +1,10 @@
 //! Errors of one picture over one region.
 
 use frame::{Raster, Region, Regions};
+use rayon::prelude::*;
 
 use crate::color::cross_error::scatter;
-use crate::math::pooling::{mean, percentile, sort, weighted_median};
+use crate::math::pooling::{mean, percentile, percentile_of, weighted_median};
 use crate::picture::error_maps::ErrorMaps;
 
 /// Error maps pooled over one region.
@@ -36,49 +37,86 @@ pub struct Pooled {
 }
 
 impl Pooled {
-    /// Pools maps over a region; `None` if it is empty. `windows` marks the pixels whose SSIM window lies in the picture.
+    /// Pools maps over every region; `None` for those that are empty. `windows` marks the pixels whose SSIM window lies in the
+    /// picture.
+    pub fn over_all(
+        errors: &ErrorMaps,
+        regions: &Regions,
+        windows: &Raster<bool>,
+    ) -> [Option<Self>; Region::ALL.len()] {
+        let mut all = [None; Region::ALL.len()];
+        let pairs = all.par_iter_mut().zip(Region::ALL);
+        pairs.for_each(|(pooled, region)| *pooled = Self::new(errors, regions, region, windows));
+        all
+    }
+
+    /// Pools maps over a region; `None` if it is empty.
     pub fn new(
         errors: &ErrorMaps,
         regions: &Regions,
         region: Region,
         windows: &Raster<bool>,
     ) -> Option<Self> {
-        let inside = |map| regions.select(region, map);
-        let flip = sort(inside(&errors.flip));
-        let label = inside(&errors.label);
-        let windows = regions.select(region, windows);
-        let ssim = inside(&errors.ssim).into_iter().zip(windows);
-        let ssim: Vec<f64> = ssim
-            .filter_map(|(value, whole)| whole.then_some(value))
-            .collect();
+        let mut sums = [0.0; 6];
+        let mut ssim = Vec::new();
+        let (mut flip, mut label) = (Vec::new(), Vec::new());
+        for at in regions.indices(region) {
+            let own = &errors.pixels.pixels[at];
+            let found = errors.flip.pixels[at];
+            let values = [
+                own.squared,
+                own.relative,
+                own.absolute,
+                own.symmetric,
+                f64::from(found),
+                f64::from(errors.flip_hdr.pixels[at]),
+            ];
+            for (sum, value) in sums.iter_mut().zip(values) {
+                *sum += value;
+            }
+            if windows.pixels[at] {
+                ssim.push(errors.ssim.pixels[at]);
+            }
+            flip.push(found);
+            label.push(errors.label.pixels[at]);
+        }
+        let label_mean = mean(&label)?;
+        // None is negative, and so their bits are in their order.
+        flip.sort_unstable_by_key(|error| error.to_bits());
+        let [mse, relmse, mae, smape, flip_mean, flip_hdr] =
+            sums.map(|sum| sum / flip.len() as f64);
         Some(Self {
-            mse: mean(&inside(&errors.squared))?,
-            relmse: mean(&inside(&errors.relative))?,
-            mae: mean(&inside(&errors.absolute))?,
-            smape: mean(&inside(&errors.symmetric))?,
-            flip: mean(&inside(&errors.flip))?,
+            mse,
+            relmse,
+            mae,
+            smape,
+            flip: flip_mean,
             flip_weighted_median: weighted_median(&flip)?,
             flip_p95: percentile(&flip, 0.95)?,
             flip_p99: percentile(&flip, 0.99)?,
-            flip_hdr: mean(&inside(&errors.flip_hdr))?,
+            flip_hdr,
             ssim: mean(&ssim),
-            label: mean(&label)?,
-            label_p95: percentile(&sort(label), 0.95)?,
+            label: label_mean,
+            label_p95: percentile_of(label, 0.95)?,
         })
     }
 
-    /// Pools noise floors, from the errors of the truth's first half against the mean. Unbiased errors of a perfect picture scatter
-    /// about 0 and are smaller than the noise, see [`scatter`].
+    /// Pools noise floors over every region, from the errors of the truth's first half against the mean. Unbiased errors of a perfect
+    /// picture scatter about 0 and are smaller than the noise, see [`scatter`].
     pub fn of_noise(
         noise: &ErrorMaps,
         regions: &Regions,
-        region: Region,
         windows: &Raster<bool>,
-    ) -> Option<Self> {
-        Some(Self {
-            mse: scatter(&regions.select(region, &noise.squared))?,
-            relmse: scatter(&regions.select(region, &noise.relative))?,
-            ..Self::new(noise, regions, region, windows)?
-        })
+    ) -> [Option<Self>; Region::ALL.len()] {
+        let mut all = Self::over_all(noise, regions, windows);
+        for (pooled, region) in all.iter_mut().zip(Region::ALL) {
+            let errors = || regions.indices(region).map(|at| &noise.pixels.pixels[at]);
+            if let Some(pooled) = pooled {
+                let scattered = "a region that is pooled over has pixels";
+                pooled.mse = scatter(errors().map(|own| own.squared)).expect(scattered);
+                pooled.relmse = scatter(errors().map(|own| own.relative)).expect(scattered);
+            }
+        }
+        all
     }
 }

@@ -1,10 +1,10 @@
 //! Scores of probes.
 
-use frame::{Plane, Raster, Region, Regions, Truth};
+use frame::{AtInstant, Plane, Region, Regions, Truth};
 
-use super::origins::{Origin, find_gathered_origins, find_true_origins};
+use super::origins::{Origin, TrueOrigins, find_gathered_origin};
 use super::pictures::Probes;
-use crate::math::pooling::mean;
+use crate::math::raster::{index_pixels, map_pixels};
 use crate::{Measured, ProbeScores};
 
 /// Probe scores and the maps that they were pooled from.
@@ -27,42 +27,58 @@ pub struct ProbeMaps {
     pub spread: Plane,
 }
 
-/// Scores probes against the truth's origins at the instant.
-pub fn measure_probes(probes: &Probes, truth: &Truth, regions: &Regions) -> ProbeMeasurement {
-    let unity = probes.weight.map(|weight| (f64::from(*weight) - 1.0).abs());
-    let largest = unity.pixels.iter().copied().fold(0.0, f64::max);
-    let expected = find_true_origins(&truth.at_instant_mean());
-    let found = find_gathered_origins(probes);
-    let noisy = find_true_origins(&truth.at_instant[0]);
-    let errors = compare_origins(&found, &expected);
-    let noise = compare_origins(&noisy, &expected);
-    let pool = |map: fn(&Difference) -> f64| {
-        let pooled = |differences: &Raster<Option<Difference>>| {
-            let inside = regions.select(Region::Knowable, differences);
-            let values: Vec<f64> = inside.iter().flatten().map(map).collect();
-            mean(&values)
-        };
-        match (pooled(&errors), pooled(&noise)) {
-            (Some(value), Some(noise)) => Measured::score(value, noise),
+/// Origins in the truth, which the scores of any number of probes are measured against.
+pub struct OriginReference {
+    expected: TrueOrigins,
+    /// Mean differences of the truth's first half over what is knowable; none where that is empty.
+    noise: Option<Difference>,
+}
+
+impl OriginReference {
+    /// Finds the origins in the truth; `mean` is that of its halves at the instant.
+    pub fn new(truth: &Truth, mean: &AtInstant, regions: &Regions) -> Self {
+        let expected = TrueOrigins::new(mean);
+        let half = TrueOrigins::new(&truth.at_instant[0]);
+        let differences = (regions.indices(Region::Knowable))
+            .filter_map(|at| Difference::new(half.at(at), expected.at(at)));
+        Self {
+            noise: average(differences),
+            expected,
+        }
+    }
+
+    /// Scores probes.
+    pub fn measure(&self, probes: &Probes, regions: &Regions) -> ProbeMeasurement {
+        let unity = map_pixels(&probes.weight, |weight| (f64::from(*weight) - 1.0).abs());
+        let largest = unity.pixels.iter().copied().fold(0.0, f64::max);
+        let errors = index_pixels(&probes.weight, |at| {
+            Difference::new(find_gathered_origin(probes, at), self.expected.at(at))
+        });
+        let inside = regions.indices(Region::Knowable);
+        let found = average(inside.filter_map(|at| errors.pixels[at]));
+        let score = |part: fn(&Difference) -> f64| match (&found, &self.noise) {
+            (Some(found), Some(noise)) => Measured::score(part(found), part(noise)),
             _ => Measured::not_applicable(
                 "no moving pixel is seen whole in the frame of the instant",
             ),
+        };
+        let plane = |part: fn(&Difference) -> f64| {
+            map_pixels(&errors, |difference| {
+                difference.as_ref().map_or(0.0, part) as f32
+            })
+        };
+        ProbeMeasurement {
+            scores: ProbeScores {
+                unity: Measured::score(largest, 0.0),
+                gather_offset: score(|difference| difference.offset),
+                gather_spread: score(|difference| difference.spread),
+            },
+            maps: ProbeMaps {
+                unity: map_pixels(&unity, |difference| *difference as f32),
+                offset: plane(|difference| difference.offset),
+                spread: plane(|difference| difference.spread),
+            },
         }
-    };
-    let plane = |map: fn(&Difference) -> f64| {
-        errors.map(|difference| difference.as_ref().map_or(0.0, map) as f32)
-    };
-    ProbeMeasurement {
-        scores: ProbeScores {
-            unity: Measured::score(largest, 0.0),
-            gather_offset: pool(|difference| difference.offset),
-            gather_spread: pool(|difference| difference.spread),
-        },
-        maps: ProbeMaps {
-            unity: unity.map(|difference| *difference as f32),
-            offset: plane(|difference| difference.offset),
-            spread: plane(|difference| difference.spread),
-        },
     }
 }
 
@@ -73,18 +89,28 @@ struct Difference {
     spread: f64,
 }
 
-fn compare_origins(
-    found: &Raster<Option<Origin>>,
-    expected: &Raster<Option<Origin>>,
-) -> Raster<Option<Difference>> {
-    found.zip(expected, |found, expected| {
-        let (found, expected) = (found.as_ref()?, expected.as_ref()?);
+impl Difference {
+    /// Compares two origins; `None` unless there are both.
+    fn new(found: Option<Origin>, expected: Option<Origin>) -> Option<Self> {
+        let (found, expected) = (found?, expected?);
         let [x, y] = [0, 1].map(|axis| found.offset[axis] - expected.offset[axis]);
-        Some(Difference {
+        Some(Self {
             offset: x.hypot(y),
             spread: (found.spread - expected.spread).abs(),
         })
-    })
+    }
+}
+
+/// Averages differences; `None` if there are none.
+fn average(differences: impl Iterator<Item = Difference>) -> Option<Difference> {
+    let (mut sum, mut count) = ([0.0; 2], 0_u32);
+    for difference in differences {
+        sum[0] += difference.offset;
+        sum[1] += difference.spread;
+        count += 1;
+    }
+    let [offset, spread] = sum.map(|sum| sum / f64::from(count));
+    (count > 0).then_some(Difference { offset, spread })
 }
 
 impl ProbeScores {

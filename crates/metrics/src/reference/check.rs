@@ -2,9 +2,10 @@
 
 use frame::{Frame, Ladder, MOST_STOPS, Picture, Raster, Truth};
 
+use crate::color::flip::MOST_EXPOSURES;
 use crate::{MeasureError, Viewing};
 
-/// Upper limit on pixels. flip-rs refuses more than 2^34 additions, which 28.5 million pixels take at 67.02 pixels per degree.
+/// Upper limit on pixels: measuring more takes tens of gigabytes.
 const LARGEST_PICTURE: u64 = 28_000_000;
 
 /// Upper limit on radiance at the brightest exposure of a comparison: HDR-FLIP's tone curve squares it, and the square must stay
@@ -45,7 +46,7 @@ pub fn check_viewing(viewing: &Viewing) -> Result<(), MeasureError> {
     let bounded = [stops, start, stop]
         .iter()
         .all(|stops| stops.abs() <= MOST_STOPS);
-    if bounded && start <= stop && (2..=flip_rs::MAX_EXPOSURES as u32).contains(&count) {
+    if bounded && start <= stop && (2..=MOST_EXPOSURES).contains(&count) {
         Ok(())
     } else {
         Err(MeasureError::Exposures {

@@ -3,14 +3,15 @@
 use frame::{Image, Raster, Region, Regions, Truth};
 
 use crate::color::cross_error::{cross, scatter, squared_error};
-use crate::color::flip::flip_ldr;
-use crate::math::conversion::widen;
-use crate::math::pooling::mean;
+use crate::color::flip::{Displayed, SeenDisplay};
+use crate::math::pooling::mean_over;
+use crate::math::raster::zip_pixels;
 use crate::{FrozenScores, Measured, Viewing};
 
 /// The frozen-shading truth, ready to score any number of pictures.
 pub struct FrozenReference {
-    mean: Image,
+    /// The mean as FLIP sees it.
+    seen: SeenDisplay,
     halves: [Image; 2],
     /// Scores of its own noise over the moving region.
     noise: Option<[f64; 2]>,
@@ -19,49 +20,43 @@ pub struct FrozenReference {
 }
 
 impl FrozenReference {
-    /// Prepares the frozen-shading truth.
-    pub fn new(truth: &Truth, regions: &Regions, viewing: &Viewing) -> Self {
-        let mean = truth.at_instant_mean().frozen;
+    /// Prepares the frozen-shading truth, whose mean this is.
+    pub fn new(truth: &Truth, mean: &Image, regions: &Regions, viewing: &Viewing) -> Self {
         let halves = truth.at_instant.each_ref().map(|half| half.frozen.clone());
-        let mut reference = Self {
-            noise: None,
+        let seen = SeenDisplay::new(&Displayed::new(mean, viewing));
+        let squared = squared_error(&halves[0], [mean; 2], viewing.scale());
+        let flip = seen.map_errors(&Displayed::new(&halves[0], viewing));
+        Self {
+            noise: pool_scatter(&squared, regions)
+                .zip(pool(&flip, regions))
+                .map(<[f64; 2]>::from),
             shading: measure_shading(truth, &halves, regions, viewing),
-            mean,
+            seen,
             halves,
-        };
-        let against_itself = [&reference.mean; 2];
-        let squared = squared_error(&reference.halves[0], against_itself, viewing.scale());
-        let flip = reference.map_flip(&reference.halves[0], viewing);
-        reference.noise = pool_scatter(&squared, regions)
-            .zip(pool(&flip, regions))
-            .map(<[f64; 2]>::from);
-        reference
+        }
     }
 
-    /// Scores a picture, and the squared error that its score was pooled from.
+    /// Scores a picture, which is also given as it is displayed; returns the squared error that its score was pooled from as well.
     pub fn measure(
         &self,
-        output: &Image,
+        (output, displayed): (&Image, &Displayed),
         regions: &Regions,
         viewing: &Viewing,
     ) -> (FrozenScores, Raster<f64>) {
         let halves = self.halves.each_ref();
         let squared = squared_error(output, halves, viewing.scale());
-        let flip = self.map_flip(output, viewing);
-        let score = |map: &Raster<f64>, which: usize| match (pool(map, regions), self.noise) {
+        let flip = self.seen.map_errors(displayed);
+        let found = [pool(&squared, regions), pool(&flip, regions)];
+        let score = |which: usize| match (found[which], self.noise) {
             (Some(value), Some(noise)) => Measured::score(value, noise[which]),
             _ => Measured::not_applicable(NOTHING_MOVES),
         };
         let scores = FrozenScores {
-            mse: score(&squared, 0),
-            flip: score(&flip, 1),
+            mse: score(0),
+            flip: score(1),
             shading: self.shading.clone(),
         };
         (scores, squared)
-    }
-
-    fn map_flip(&self, output: &Image, viewing: &Viewing) -> Raster<f64> {
-        widen(&flip_ldr(&self.mean, output, viewing))
     }
 }
 
@@ -78,7 +73,7 @@ fn measure_shading(
     let colors = truth.halves.each_ref().map(|half| &half.color);
     let product = cross(colors, frozen.each_ref(), scale);
     let differences = [0, 1].map(|half| {
-        colors[half].zip(&frozen[half], |color, frozen| -> [f32; 3] {
+        zip_pixels(colors[half], &frozen[half], |color, frozen| -> [f32; 3] {
             std::array::from_fn(|c| color[c] - frozen[c])
         })
     });
@@ -90,9 +85,10 @@ fn measure_shading(
 }
 
 fn pool_scatter(noise: &Raster<f64>, regions: &Regions) -> Option<f64> {
-    scatter(&regions.select(Region::Moving, noise))
+    let moving = regions.indices(Region::Moving);
+    scatter(moving.map(|at| noise.pixels[at]))
 }
 
-fn pool(map: &Raster<f64>, regions: &Regions) -> Option<f64> {
-    mean(&regions.select(Region::Moving, map))
+fn pool<T: Copy + Into<f64>>(map: &Raster<T>, regions: &Regions) -> Option<f64> {
+    mean_over(map, regions, Region::Moving)
 }

@@ -1,11 +1,12 @@
 //! Noise of a filter, told apart from its constant error.
 
-use frame::{Image, Raster, Region};
+use frame::{Image, Region};
 use serde::{Deserialize, Serialize};
 
 use crate::Reference;
 use crate::color::cross_error::squared_error;
-use crate::math::pooling::mean;
+use crate::math::pooling::mean_over;
+use crate::math::raster::{index_pixels, map_pixels};
 
 /// Squared error of one frame over what moves, in two parts that add up to it on average.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,27 +39,19 @@ impl Reference<'_> {
         let first = &outputs[0];
         let channels =
             |at: usize, c: usize| outputs.iter().map(move |o| f64::from(o.pixels[at][c]));
-        let expectation = |at: usize, c: usize| channels(at, c).sum::<f64>() / count;
-        let variance = |at: usize, c: usize| {
-            let mean = expectation(at, c);
-            channels(at, c).map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0)
-        };
-        let raster = |pixel: &dyn Fn(usize) -> f64| Raster {
-            width: first.width,
-            height: first.height,
-            pixels: (0..first.pixels.len()).map(pixel).collect(),
-        };
-        let variances =
-            raster(&|at| (0..3).map(|c| variance(at, c)).sum::<f64>() / 3.0 * scale * scale);
-        let mean_image = Image {
-            width: first.width,
-            height: first.height,
-            pixels: (0..first.pixels.len())
-                .map(|at| [0, 1, 2].map(|c| expectation(at, c) as f32))
-                .collect(),
-        };
+        let expectations = index_pixels(first, |at| -> [f64; 3] {
+            std::array::from_fn(|c| channels(at, c).sum::<f64>() / count)
+        });
+        let variances = index_pixels(first, |at| {
+            let means = expectations.pixels[at];
+            let variance = |c: usize| {
+                channels(at, c).map(|x| (x - means[c]).powi(2)).sum::<f64>() / (count - 1.0)
+            };
+            (0..3).map(variance).sum::<f64>() / 3.0 * scale * scale
+        });
+        let mean_image: Image = map_pixels(&expectations, |mean| mean.map(|mean| mean as f32));
         let errors = squared_error(&mean_image, self.half_colors(), scale);
-        let pool = |map| mean(&self.regions.select(Region::Moving, map));
+        let pool = |map| mean_over(map, &self.regions, Region::Moving);
         let variance = pool(&variances)?;
         Some(Jitter {
             frames: outputs.len() as u32,

@@ -10,13 +10,16 @@ use frame::{Frame, Image, Ladder, Picture, Plane, Raster, Truth, regions};
 use rayon::prelude::*;
 
 use crate::color::absolute_error::absolute_error;
+use crate::color::flip::Displayed;
 use crate::color::ssim::SSIM_BORDER;
-use crate::math::pooling::mean;
+use crate::math::pooling::mean_over;
+use crate::math::raster::zip_pixels;
 use crate::object::reference::ObjectReference;
 use crate::picture::error_maps::{ErrorMaps, MoreMaps};
 use crate::picture::pooled::Pooled;
 use crate::picture::scores::{Found, score_image, score_labels};
-use crate::probe::{ProbeMeasurement, Probes, measure_probes};
+use crate::picture::seen_truth::SeenTruth;
+use crate::probe::{OriginReference, ProbeMeasurement, Probes};
 use crate::subframes::Equivalent;
 use crate::worth::curve::Curve;
 use crate::worth::ladder::Curves;
@@ -37,12 +40,12 @@ pub struct Reference<'a> {
     pub regions: Regions,
     truth: &'a Truth,
     mean: Picture,
+    /// The mean as a display shows it and as FLIP sees it.
+    seen: SeenTruth,
     viewing: Viewing,
     /// Noise floors of every region, from the errors of the truth's first half against the mean: the two differ by as much as the
     /// mean's own noise.
     noise: [Option<Pooled>; Region::ALL.len()],
-    /// Errors of the first half's labels.
-    label_noise: Raster<f64>,
     /// The instant: the picture of a filter that does nothing.
     instant: Image,
     /// The two pictures that skill lies between.
@@ -50,8 +53,11 @@ pub struct Reference<'a> {
     /// Pixels whose SSIM window lies in the picture.
     windows: Raster<bool>,
     frozen: FrozenReference,
+    origins: OriginReference,
     pub(crate) objects: Vec<ObjectReference>,
     curves: Option<Curves>,
+    /// Listener to the end of each part of measuring, by the part's name.
+    ended: fn(&'static str),
 }
 
 impl<'a> Reference<'a> {
@@ -79,27 +85,36 @@ impl<'a> Reference<'a> {
         let masks = regions(truth);
         let windows = mark_whole_windows(truth.size());
         let halves = truth.halves.each_ref().map(|half| &half.color);
-        let noise = ErrorMaps::new(&truth.halves[0], [&mean.color; 2], &mean, viewing);
-        let instant_errors = ErrorMaps::new(&instant, halves, &mean, viewing);
+        let seen = SeenTruth::new(&mean.color, viewing);
+        let map = |picture: &Picture, halves| {
+            let displayed = Displayed::new(&picture.color, viewing);
+            ErrorMaps::new((picture, &displayed), halves, &mean, &seen, |_| ())
+        };
+        let noise = map(&truth.halves[0], [&mean.color; 2]);
+        let instant_errors = map(&instant, halves);
+        let at_instant = truth.at_instant_mean();
         Ok(Self {
-            noise: Region::ALL.map(|region| Pooled::of_noise(&noise, &masks, region, &windows)),
-            label_noise: noise.label,
+            noise: Pooled::of_noise(&noise, &masks, &windows),
             ends: Ends {
                 nothing: Pooled::new(&instant_errors, &masks, Region::Moving, &windows),
                 best: None,
             },
             windows,
-            frozen: FrozenReference::new(truth, &masks, viewing),
+            frozen: FrozenReference::new(truth, &at_instant.frozen, &masks, viewing),
+            origins: OriginReference::new(truth, &at_instant, &masks),
             objects: (1..truth.objects.len())
                 .into_par_iter()
-                .map(|id| ObjectReference::new(frame, truth, &mean, id))
+                .map(|id| ObjectReference::new((frame, truth), (&mean, &noise.label), &masks, id))
                 .collect(),
-            curves: ladder.map(|ladder| Curves::new(ladder, truth, &mean, &masks, viewing)),
+            curves: ladder
+                .map(|ladder| Curves::new(ladder, truth, (&mean, &seen.display), &masks, viewing)),
             regions: masks,
             truth,
             mean,
+            seen,
             instant: instant.color,
             viewing: *viewing,
+            ended: |_| (),
         })
     }
 
@@ -107,36 +122,47 @@ impl<'a> Reference<'a> {
     /// apply.
     pub fn with_best(mut self, best: &Picture) -> Result<Self, MeasureError> {
         check_picture(best, self.truth, "the one-frame oracle")?;
-        let errors = ErrorMaps::new(best, self.half_colors(), &self.mean, &self.viewing);
+        let errors = self.map_errors(best, &self.display(best), |_| ());
         self.ends.best = Pooled::new(&errors, &self.regions, Region::Moving, &self.windows);
         Ok(self)
+    }
+
+    /// Tells a listener of the end of each part of measuring a picture, by the part's name.
+    pub fn with_listener(mut self, ended: fn(&'static str)) -> Self {
+        self.ended = ended;
+        self
     }
 
     /// Measures one picture.
     pub fn measure(&self, output: &Picture) -> Result<Measurement, MeasureError> {
         check_picture(output, self.truth, "the output")?;
         check_brightness(output, &self.viewing, "the output")?;
-        let errors = ErrorMaps::new(output, self.half_colors(), &self.mean, &self.viewing);
+        (self.ended)("checks");
+        let displayed = self.display(output);
+        let errors = self.map_errors(output, &displayed, self.ended);
         let pairs = || self.objects.iter().zip(&output.coverage[1..]);
-        let nothing: Plane = errors.label.map(|_| 0.0);
-        let bleed = pairs().fold(nothing.clone(), |sum: Plane, (object, matte)| {
-            sum.zip(&object.map_bleed(matte), |sum, bleed| sum + bleed)
+        let nothing = || Plane::filled(output.color.width, output.color.height, 0.0);
+        let (mut bleed, mut gradient_error) = (nothing(), nothing());
+        let objects = pairs().map(|(object, matte)| {
+            object.add_bleed(matte, &mut bleed);
+            let gradient = object.map_gradient_errors(matte);
+            let pixels = gradient.iter().flat_map(|patch| patch.pixels(bleed.width));
+            for (at, error) in pixels {
+                gradient_error.pixels[at] += error as f32;
+            }
+            object.measure(matte, &errors.label, gradient.as_ref(), &self.regions)
         });
-        let gradients: Vec<Option<Raster<f64>>> = pairs()
-            .map(|(object, matte)| object.map_gradient_errors(matte))
-            .collect();
-        let gradient_error = gradients.iter().flatten().fold(nothing, |sum, errors| {
-            sum.zip(errors, |sum, error| sum + *error as f32)
-        });
-        let objects = pairs().zip(&gradients).map(|((object, matte), gradient)| {
-            let variations = [&errors.label, &self.label_noise];
-            object.measure(matte, variations, gradient.as_ref(), &self.regions)
-        });
+        let objects = objects.collect();
+        (self.ended)("objects");
         let (frozen, frozen_squared) =
             self.frozen
-                .measure(&output.color, &self.regions, &self.viewing);
+                .measure((&output.color, &displayed), &self.regions, &self.viewing);
+        (self.ended)("frozen truth");
         let static_change = self.map_static_change(&output.color);
-        let pooled = Region::ALL.map(|region| self.pool(&errors, region));
+        (self.ended)("other maps");
+        let pooled = Pooled::over_all(&errors, &self.regions, &self.windows);
+        let pooled = Region::ALL.map(|region| self.find(region, pooled[place_of(region)]));
+        (self.ended)("pooling");
         let [moving, support, still, full, knowable, unknowable] = &pooled;
         Ok(Measurement {
             scores: Scores {
@@ -147,20 +173,19 @@ impl<'a> Reference<'a> {
                 knowable: score_image(knowable),
                 unknowable: score_image(unknowable),
                 frozen,
-                static_contamination: match mean(
-                    &self.regions.select(Region::Still, &static_change),
-                ) {
+                static_contamination: match mean_over(&static_change, &self.regions, Region::Still)
+                {
                     // The instant is exact there: the picture is compared with what the filter was given.
                     Some(change) => Measured::score(change, 0.0),
                     None => Measured::not_applicable(explain_empty(Region::Still)),
                 },
                 label_total_variation: score_labels(moving),
-                objects: objects.collect(),
+                objects,
                 probes: ProbeScores::not_applicable("no probes were run through the filter"),
                 skill: score_skill(moving, &self.ends),
                 equivalent_subframes: self.score_equivalents(moving),
             },
-            maps: errors.to_maps(
+            maps: errors.into_maps(
                 output,
                 &self.mean,
                 MoreMaps {
@@ -178,13 +203,14 @@ impl<'a> Reference<'a> {
     pub fn measure_moving(&self, output: &Picture) -> Result<ImageScores, MeasureError> {
         check_picture(output, self.truth, "the output")?;
         check_brightness(output, &self.viewing, "the output")?;
-        let errors = ErrorMaps::new(output, self.half_colors(), &self.mean, &self.viewing);
-        Ok(score_image(&self.pool(&errors, Region::Moving)))
+        let errors = self.map_errors(output, &self.display(output), |_| ());
+        let pooled = Pooled::new(&errors, &self.regions, Region::Moving, &self.windows);
+        Ok(score_image(&self.find(Region::Moving, pooled)))
     }
 
     /// Scores what a filter made of [`Probes::images`]; its weights must be those of the measured picture.
     pub fn measure_probes(&self, probes: &Probes) -> ProbeMeasurement {
-        measure_probes(probes, self.truth, &self.regions)
+        self.origins.measure(probes, &self.regions)
     }
 
     pub(crate) fn viewing(&self) -> &Viewing {
@@ -196,21 +222,33 @@ impl<'a> Reference<'a> {
         self.truth.halves.each_ref().map(|half| &half.color)
     }
 
-    fn pool(&self, errors: &ErrorMaps, region: Region) -> Found {
-        let pooled = Pooled::new(errors, &self.regions, region, &self.windows);
-        let noise = self.noise[Region::ALL
-            .iter()
-            .position(|other| *other == region)
-            .expect("Region::ALL holds every region")];
-        pooled.zip(noise).ok_or(explain_empty(region))
+    fn display(&self, picture: &Picture) -> Displayed {
+        Displayed::new(&picture.color, &self.viewing)
+    }
+
+    fn map_errors(
+        &self,
+        picture: &Picture,
+        displayed: &Displayed,
+        ended: fn(&'static str),
+    ) -> ErrorMaps {
+        let halves = self.half_colors();
+        ErrorMaps::new((picture, displayed), halves, &self.mean, &self.seen, ended)
+    }
+
+    /// Adds the noise of a region to what was pooled over it, or says why nothing was.
+    fn find(&self, region: Region, pooled: Option<Pooled>) -> Found {
+        pooled
+            .zip(self.noise[place_of(region)])
+            .ok_or(explain_empty(region))
     }
 
     /// Maps the change of the instant's colour where nothing moves; 0 elsewhere.
     fn map_static_change(&self, output: &Image) -> Raster<f64> {
-        absolute_error(output, &self.instant, self.viewing.scale()).zip(
-            &self.regions.still,
-            |change, still| if *still { *change } else { 0.0 },
-        )
+        let changes = absolute_error(output, &self.instant, self.viewing.scale());
+        zip_pixels(&changes, &self.regions.still, |change, still| {
+            if *still { *change } else { 0.0 }
+        })
     }
 
     fn score_equivalents(&self, moving: &Found) -> EquivalentScores {
@@ -242,6 +280,13 @@ fn mark_whole_windows((width, height): (u32, u32)) -> Raster<bool> {
     Raster::from_fn(width, height, |x, y| {
         x.min(y) >= SSIM_BORDER && x + SSIM_BORDER < width && y + SSIM_BORDER < height
     })
+}
+
+/// Returns the place of a region in [`Region::ALL`].
+fn place_of(region: Region) -> usize {
+    let mut all = Region::ALL.iter();
+    all.position(|other| *other == region)
+        .expect("Region::ALL holds every region")
 }
 
 fn explain_empty(region: Region) -> &'static str {

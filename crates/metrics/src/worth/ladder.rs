@@ -1,13 +1,11 @@
 //! Errors of the accumulation ladder by number of sub-frames.
 
 use frame::{Ladder, Picture, Raster, Truth};
-use rayon::prelude::*;
 
 use crate::color::cross_error::cross;
-use crate::color::flip::flip_ldr;
+use crate::color::flip::{Displayed, SeenDisplay};
 use crate::label::total_variation::label_variation;
-use crate::math::conversion::widen;
-use crate::math::pooling::mean;
+use crate::math::pooling::mean_over;
 use crate::worth::curve::Curve;
 use crate::{Region, Regions, Viewing};
 
@@ -22,26 +20,24 @@ pub struct Curves {
 }
 
 impl Curves {
-    /// Scores every rung against the truth. `average` is the truth's mean.
+    /// Scores every rung against the truth. `average` is the truth's mean, `seen` is it as FLIP sees it.
     pub fn new(
         ladder: &Ladder,
         truth: &Truth,
-        average: &Picture,
+        (average, seen): (&Picture, &SeenDisplay),
         regions: &Regions,
         viewing: &Viewing,
     ) -> Self {
-        let pool = |map: &Raster<f64>| mean(&regions.select(Region::Moving, map)).unwrap_or(0.0);
-        let errors: Vec<[f64; 3]> = ladder
-            .rungs
-            .par_iter()
+        let pool = |map: &Raster<f64>| mean_over(map, regions, Region::Moving).unwrap_or(0.0);
+        let truths = truth.halves.each_ref().map(|half| &half.color);
+        let errors: Vec<[f64; 3]> = (ladder.rungs.iter())
             .map(|rung| {
                 let picture = Picture::mean(&rung.halves);
                 let halves = rung.halves.each_ref().map(|half| &half.color);
-                let truths = truth.halves.each_ref().map(|half| &half.color);
-                let flip = widen(&flip_ldr(&average.color, &picture.color, viewing));
+                let flip = seen.map_errors(&Displayed::new(&picture.color, viewing));
                 [
                     pool(&cross(halves, truths, viewing.scale())),
-                    pool(&flip),
+                    mean_over(&flip, regions, Region::Moving).unwrap_or(0.0),
                     pool(&label_variation(&picture.coverage, &average.coverage)),
                 ]
             })

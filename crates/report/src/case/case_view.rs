@@ -67,7 +67,7 @@ impl<'a> CaseView<'a> {
             .collect::<Result<_, _>>()?;
         let flip = own.errors.plane("flip")?;
         let place = match evidence.iter().flatten().next() {
-            Some(first) => worst_pixel(&own.errors.plane(&first.map)?, first.place, BLOCK),
+            Some(first) => worst_pixel(&own.error_map(case, &first.map)?, first.place, BLOCK),
             None => {
                 let metric = "flip_moving".parse().expect("a metric's name");
                 let (x, y) = worst_block(metric, &flip, &files.truths[&case.alignment].regions);

@@ -12,7 +12,7 @@ use super::layer::Layer;
 use super::planes::Planes;
 use super::png::{embed_picture, thumbnail};
 use suite::ACCUMULATE;
-use suite::{Case, Error, Run};
+use suite::{Case, Error, Run, read_error_map};
 
 /// The frame of a scene, its truths, and the planes of all its pictures.
 pub struct SceneFiles {
@@ -55,6 +55,15 @@ pub struct CaseFiles {
     pub layers: Vec<(Layer, Vec<usize>)>,
     /// The plane of the objects' indices.
     pub objects: usize,
+    /// Folder of the run.
+    folder: PathBuf,
+}
+
+impl CaseFiles {
+    /// Reads an error map of the case by its name; measures one that the file does not hold.
+    pub fn error_map(&self, case: &Case, name: &str) -> Result<Plane, Error> {
+        read_error_map(case, &self.folder, &self.errors, name)
+    }
 }
 
 impl SceneFiles {
@@ -194,6 +203,7 @@ impl SceneFiles {
             errors,
             layers,
             objects: self.objects,
+            folder: folder.to_owned(),
         })
     }
 }

@@ -8,6 +8,7 @@ use metrics::{Metric, Reference, Regions};
 use super::decoys::Decoys;
 use super::finding::Finding;
 use super::worst::{Worst, worst_block, write_crop};
+use crate::run::error_map::read_error_map;
 use crate::{Case, Error, Run};
 
 /// Adds evidence to every notable finding of a run, from the run's files below `folder`, and writes a picture of each worst place
@@ -97,7 +98,7 @@ impl WorstPlaces<'_> {
     ) -> Result<Worst, Error> {
         let metric: Metric = (finding.metric.parse()).expect("a finding is about a metric");
         let map_name = metric.row().map.name();
-        let map = files.errors.plane(map_name)?;
+        let map = read_error_map(case, folder, &files.errors, map_name)?;
         let (x, y) = worst_block(metric, &map, self.regions);
         let picture = case.folder.join(format!("worst_{metric}.png"));
         let panels = [self.truth, &files.output];

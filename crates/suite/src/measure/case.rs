@@ -56,7 +56,7 @@ impl CaseContext<'_> {
                 self.measure_reference(self.references.oracle.clone())?
             }
             PictureSource::Accumulation(subframes) => {
-                self.measure_reference(self.accumulation(subframes))?
+                self.measure_reference(self.references.take_accumulation(subframes))?
             }
             PictureSource::Filter(choice, input) => self.measure_filter(choice, input)?,
         };
@@ -70,12 +70,6 @@ impl CaseContext<'_> {
             color: frame.color,
             coverage: frame.coverage,
         }
-    }
-
-    fn accumulation(&self, subframes: u32) -> Picture {
-        let mut rungs = self.references.ladder.rungs.iter();
-        let rung = rungs.find(|rung| rung.subframes == subframes);
-        Picture::mean(&rung.expect("accumulations are rungs of the ladder").halves)
     }
 
     fn measure_reference(&self, picture: Picture) -> Result<MeasuredPicture, Error> {
@@ -98,11 +92,16 @@ impl CaseContext<'_> {
         let frame = stored.find(|(format, _)| *format == input);
         let (_, frame) = frame.expect("the frame was stored in every form of the plan");
         let mut runner = Runner::new(self.gpu, choice, frame.size(), self.plan.monitor)?;
-        let output =
-            blur_with_probes(&mut runner, frame).map_err(|error| name_scene(error, self.scene))?;
+        let ended = self.plan.monitor.ended;
+        ended("filter made ready");
+        let output = blur_with_probes(&mut runner, frame, ended)
+            .map_err(|error| name_scene(error, self.scene))?;
         let dilated_velocity = read_dilated_velocity(&choice.filter, &runner, frame)?;
+        ended("mattes and probes");
         let jitter = self.measure_jitter(&mut runner, frame)?;
+        ended("noise of the filter");
         let measurement = measure_output(&self.references.reference, &output)?;
+        ended("probes");
         Ok(MeasuredPicture {
             intervals: self.measure_intervals(&output, &measurement)?,
             nonlinearity: Some(output.nonlinearity),
@@ -135,6 +134,7 @@ impl CaseContext<'_> {
         }
         let outputs = blur_noise_frames(runner, frame, self.plan.jitter_frames)
             .map_err(|error| name_scene(error, self.scene))?;
+        (self.plan.monitor.ended)("kernels: noise frames");
         Ok(outputs
             .filter(|outputs| outputs[1..].iter().any(|output| *output != outputs[0]))
             .and_then(|outputs| self.references.reference.jitter(&outputs)))
@@ -155,6 +155,8 @@ impl CaseContext<'_> {
             Some(reference) => reference.measure_moving(picture)?,
             None => measurement.scores.moving.clone(),
         };
+        let ended = self.plan.monitor.ended;
+        ended("common truth");
         let folder = planned.folder(self.scene);
         let files = write_case(
             &self.plan.out.join(&folder),
@@ -162,6 +164,7 @@ impl CaseContext<'_> {
             &self.frame.objects,
             (picture, measured.dilated_velocity.as_ref()),
             measurement,
+            ended,
         )?;
         let choice = match planned.source {
             PictureSource::Filter(choice, _) => Some(choice),

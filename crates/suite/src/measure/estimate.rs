@@ -25,11 +25,10 @@ const SECONDS_PER_REPORT_PIXEL: f64 = 0.45e-6;
 /// Time of a case with intervals, relative to one without.
 const INTERVALS: f64 = 2.0;
 /// Bytes on disk per pixel: of a frame, of a truth with its ladder, of each replicate, and of a case with its part of the report.
-/// Between the means over five scenes at 320x180 and those over 23 scenes at 160x90, which are a tenth lower and higher.
 const FRAME_BYTES: u64 = 25;
-const TRUTH_BYTES: u64 = 220;
-const REPLICATE_BYTES: u64 = 50;
-const CASE_BYTES: u64 = 58;
+const TRUTH_BYTES: u64 = 170;
+const REPLICATE_BYTES: u64 = 35;
+const CASE_BYTES: u64 = 36;
 
 /// Work that a run has to do.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -3,12 +3,14 @@
 use std::path::Path;
 
 use frame::{
-    ExrFile, FileError, Frame, Image, Picture, Truth, Vectors, display_srgb, write_exr, write_png,
+    ExrFile, FileError, Frame, Image, Picture, Truth, Vectors, display_srgb, write_exr,
+    write_half_exr, write_png,
 };
-use metrics::{ErrorMap, Measurement};
+use metrics::Measurement;
 use tracer::Scene;
 
 use crate::colors::{magma, velocity_wheel};
+use crate::run::error_map::KEPT_MAPS;
 
 /// Writes a frame's PNGs beside its EXR file; returns the names of all.
 pub fn write_frame(folder: &Path, scene: &Scene, frame: &Frame) -> Result<Vec<String>, FileError> {
@@ -32,13 +34,14 @@ pub fn write_truth(folder: &Path, scene: &Scene, truth: &Truth) -> Result<Vec<St
 }
 
 /// Writes a case: the output, with the dilated velocity of filters that have one, and the error maps; returns the names of the
-/// files.
+/// files. `ended` hears of the end of each part.
 pub fn write_case(
     folder: &Path,
     scene: &Scene,
     objects: &[String],
     (output, dilated_velocity): (&Picture, Option<&Vectors>),
     measurement: &Measurement,
+    ended: fn(&'static str),
 ) -> Result<Vec<String>, FileError> {
     let maps = &measurement.maps;
     let displayed = [
@@ -53,15 +56,13 @@ pub fn write_case(
     for (name, picture) in &displayed {
         write_png(&folder.join(name), picture)?;
     }
-    let exact = [
-        ("output.exr", output_file(objects, output, dilated_velocity)),
-        ("errors.exr", errors_file(measurement)),
-    ];
-    for (name, file) in &exact {
-        write_exr(&folder.join(name), file)?;
-    }
+    ended("PNG files");
+    let file = output_file(objects, output, dilated_velocity);
+    write_exr(&folder.join("output.exr"), &file)?;
+    write_half_exr(&folder.join("errors.exr"), errors_file(measurement))?;
+    ended("OpenEXR files");
     let names = displayed.iter().map(|(name, _)| *name);
-    let names = names.chain(exact.iter().map(|(name, _)| *name));
+    let names = names.chain(["output.exr", "errors.exr"]);
     Ok(names.map(str::to_owned).collect())
 }
 
@@ -87,8 +88,7 @@ fn output_file(
 fn errors_file(measurement: &Measurement) -> ExrFile {
     let maps = &measurement.maps;
     let mut file = ExrFile::new(maps.flip.width, maps.flip.height);
-    file.push_color("signed", &maps.signed_error);
-    for map in ErrorMap::ALL {
+    for map in KEPT_MAPS {
         if let Some(plane) = measurement.map(map) {
             file.push_plane(map.name(), plane);
         }

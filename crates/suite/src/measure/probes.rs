@@ -18,10 +18,11 @@ pub(crate) struct FilterOutput {
 }
 
 /// Runs the filter on the frame's colour and, each in the colour's place, on the instant's coverage of each object, on the
-/// probes, and on a mixture of colour and probe.
+/// probes, and on a mixture of colour and probe. `ended` hears of the end of each part.
 pub(crate) fn blur_with_probes(
     runner: &mut Runner,
     frame: &Frame,
+    ended: fn(&'static str),
 ) -> Result<FilterOutput, FilterError> {
     let mattes = pack(&frame.coverage);
     let (width, height) = frame.size();
@@ -29,9 +30,10 @@ pub(crate) fn blur_with_probes(
     let mixture = mix(&frame.color, &probes[0]);
     let mut colors: Vec<&Image> = vec![&frame.color, &probes[0], &probes[1], &mixture];
     colors.extend(&mattes);
-    let outputs: Vec<Image> = (runner.run(&input(frame, &colors))?.iter())
-        .map(|output| output.cropped(frame.guard_band))
-        .collect();
+    ended("mattes and probes");
+    let outputs = runner.run(&input(frame, &colors))?;
+    ended("kernels: colour, probes, mattes");
+    let outputs = crop_all(outputs, frame.guard_band);
     Ok(FilterOutput {
         nonlinearity: nonlinearity(
             &mixture.cropped(frame.guard_band),
@@ -75,11 +77,15 @@ pub(crate) fn blur_noise_frames(
     frames: u32,
 ) -> Result<Option<Vec<Image>>, FilterError> {
     let outputs = runner.run_noise(&input(frame, &[&frame.color]), 0..frames)?;
-    Ok(outputs.map(|outputs| {
-        (outputs.iter())
-            .map(|output| output.cropped(frame.guard_band))
-            .collect()
-    }))
+    Ok(outputs.map(|outputs| crop_all(outputs, frame.guard_band)))
+}
+
+/// Removes the frame's guard band from outputs.
+fn crop_all(outputs: Vec<Image>, guard_band: u32) -> Vec<Image> {
+    match guard_band {
+        0 => outputs,
+        _ => (outputs.iter().map(|output| output.cropped(guard_band))).collect(),
+    }
 }
 
 fn input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {

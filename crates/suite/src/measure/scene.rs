@@ -11,7 +11,7 @@ use tracer::{Progress, Scene, Watch};
 use super::case::CaseContext;
 use super::pictures::{write_frame, write_truth};
 use super::plan::RunPlan;
-use super::planned_case::PlannedCase;
+use super::planned_case::{PictureSource, PlannedCase};
 use super::references::{TruthReferences, scene_viewing};
 use crate::Error;
 use crate::cache::clear::clear_scene;
@@ -69,7 +69,7 @@ impl SceneContext<'_> {
         let label = format!("{} blurs and scores", self.scene.name);
         let monitor = self.plan.monitor;
         let measured = monitor.watch(&label, |watch| {
-            self.measure(&due, &frame, &truths, advance, watch)
+            self.measure(&due, &frame, truths, advance, watch)
         })?;
         let mut measured = measured.into_iter();
         let cases = found.into_iter().map(|found| match found {
@@ -84,7 +84,7 @@ impl SceneContext<'_> {
         &self,
         due: &[&PlannedCase],
         frame: &Frame,
-        truths: &Truths,
+        truths: Truths,
         advance: &dyn Fn(u64),
         watch: Watch,
     ) -> Result<Vec<Result<Case, Failure>>, Error> {
@@ -92,27 +92,44 @@ impl SceneContext<'_> {
         if due.is_empty() {
             return Ok(Vec::new());
         }
+        let monitor = self.plan.monitor;
+        (monitor.ended)("frame and truths");
         let viewing = scene_viewing(self.scene);
         let without_pairs = self.truths_without_pairs(due)?;
-        let alignments: BTreeSet<Alignment> = due.iter().map(|case| case.alignment).collect();
-        let references = (alignments.into_iter())
-            .map(|alignment| {
-                let without = without_pairs.get(&alignment).map_or(&[][..], Vec::as_slice);
-                let truth = &truths[&alignment];
-                let references = TruthReferences::new(frame, truth, without, &viewing)?;
-                Ok((alignment, references))
-            })
-            .collect::<Result<BTreeMap<_, _>, Error>>()?;
+        let due_at =
+            |alignment: Alignment| due.iter().filter(move |case| case.alignment == alignment);
         let common_alignment = self.plan.common_alignment();
-        let common_alone = match references.contains_key(&common_alignment) {
-            true => None,
-            false => {
-                let (truth, ladder) = &truths[&common_alignment];
+        let (truths, mut ladders): (BTreeMap<Alignment, Truth>, BTreeMap<Alignment, Ladder>) =
+            (truths.into_iter())
+                .map(|(alignment, (truth, ladder))| ((alignment, truth), (alignment, ladder)))
+                .unzip();
+        let mut references = BTreeMap::new();
+        let mut common_alone = None;
+        for (alignment, truth) in &truths {
+            let ladder = ladders.remove(alignment).expect("every truth has a ladder");
+            if due_at(*alignment).next().is_some() {
+                let subframes: Vec<u32> = due_at(*alignment)
+                    .filter_map(|case| match case.source {
+                        PictureSource::Accumulation(subframes) => Some(subframes),
+                        _ => None,
+                    })
+                    .collect();
+                let without = without_pairs.get(alignment).map_or(&[][..], Vec::as_slice);
+                let own = TruthReferences::new(
+                    frame,
+                    (truth, ladder),
+                    &subframes,
+                    without,
+                    &viewing,
+                    monitor.ended,
+                )?;
+                references.insert(*alignment, own);
+            } else if *alignment == common_alignment {
                 // Only FLIP is measured against it, which needs no oracle.
                 let frame = frame.cropped();
-                Some(Reference::new(&frame, truth, Some(ladder), &viewing)?)
+                common_alone = Some(Reference::new(&frame, truth, Some(&ladder), &viewing)?);
             }
-        };
+        }
         let common = match &common_alone {
             Some(reference) => reference,
             None => &references[&common_alignment].reference,
@@ -120,6 +137,7 @@ impl SceneContext<'_> {
         let stored_frames: Vec<(InputFormat, Frame)> = (self.plan.inputs.iter())
             .map(|format| (*format, format.apply(frame)))
             .collect();
+        (monitor.ended)("references");
         let mut cases = Vec::with_capacity(due.len());
         for (done, planned) in due.iter().enumerate() {
             let progress = Progress {
@@ -143,6 +161,7 @@ impl SceneContext<'_> {
                     if let Some(key) = self.case_key(planned) {
                         write_record(&self.case_record(planned), key, &files, &case)?;
                     }
+                    (monitor.ended)("record");
                     Ok(case)
                 }
                 Err(error) => Err(self.failure(error, planned)?),

@@ -101,9 +101,13 @@ fn collect_layers(
     let mean = truth.mean();
     let mut file = ExrFile::new(width, height);
     file.push_color("truth", &mean.color);
-    file.push_color("output", &output.color("")?);
+    let color = output.color("")?;
+    file.push_color("output", &color);
     file.push_color("instant", &frame.color);
-    file.push_color("signed", &errors.color("signed")?);
+    let signed = color.zip(&mean.color, |output, truth| {
+        std::array::from_fn(|c| output[c] - truth[c])
+    });
+    file.push_color("signed", &signed);
     for map in MAPS {
         file.push_plane(map.name(), &errors.plane(map.name())?);
     }

@@ -1,0 +1,31 @@
+//! What is made of a truth's colour once, for all pictures that are measured against it.
+
+use frame::Image;
+
+use crate::Viewing;
+use crate::color::flip::{Displayed, SeenDisplay, SeenExposures};
+
+/// The truth's mean as a display shows it and as FLIP sees it.
+pub struct SeenTruth {
+    /// The truth in sRGB.
+    pub srgb: Image,
+    /// The truth as LDR-FLIP sees it.
+    pub display: SeenDisplay,
+    /// The truth as HDR-FLIP sees it.
+    pub exposures: SeenExposures,
+    /// Factor from radiance to display.
+    pub scale: f64,
+}
+
+impl SeenTruth {
+    /// Prepares the colour of the truth's mean.
+    pub fn new(mean: &Image, viewing: &Viewing) -> Self {
+        let displayed = Displayed::new(mean, viewing);
+        Self {
+            display: SeenDisplay::new(&displayed),
+            srgb: displayed.srgb,
+            exposures: SeenExposures::new(mean, viewing),
+            scale: viewing.scale(),
+        }
+    }
+}
