@@ -50,7 +50,8 @@ pub fn report() {
             samples / best.as_secs_f64() / 1e6,
             best.as_secs_f64() * (error / TARGET).powi(2)
         );
-        let tracer = TruthTracer::new(&scene, &settings).expect("settings are allowed");
+        let tracer = TruthTracer::new(&scene, &settings, &[settings.alignment])
+            .expect("settings are allowed");
         println!(
             "{:12} {} bytes per pixel while a replicate is traced, {} in each of {} replicates, {} in the truth",
             "",

@@ -14,7 +14,8 @@ const SAMPLES: u32 = 64;
 /// Seed, the same for all renders, so that regions do not depend on the seed of a truth.
 const SEED: u64 = 0;
 
-/// The objects that one pixel's rays met.
+/// The objects that one pixel's rays met while one shutter was open.
+#[derive(Clone)]
 struct PixelProbe {
     /// True per object id that was seen.
     seen: Vec<bool>,
@@ -22,13 +23,13 @@ struct PixelProbe {
     unknowable: bool,
 }
 
-/// Probes the scene over the canvas and times of `film`, which must have a view of the instant; nothing else of it is used.
-/// `moving` tells per object id that it moves on screen.
-pub(crate) fn trace_support(
+/// Probes the scene over the canvas and each of the times of `film`, which must have a view of the instant; nothing else of
+/// it is used. `moving` tells for each of the times, per object id, that it moves on screen.
+pub(crate) fn trace_supports(
     film: &Film,
-    moving: &[bool],
+    moving: &[&[bool]],
     meter: &Meter,
-) -> Result<Support, TraceError> {
+) -> Result<Vec<Support>, TraceError> {
     let tasks = (film.canvas.pixels())
         .par_chunks(PIXELS_PER_TASK)
         .map(|task| {
@@ -40,24 +41,34 @@ pub(crate) fn trace_support(
                 .map(|&pixel| probe_pixel(film, &mut eye, pixel))
                 .collect())
         })
-        .collect::<Result<Vec<Vec<PixelProbe>>, TraceError>>()?;
-    let probes = Raster {
-        width: film.canvas.columns(),
-        height: film.canvas.rows(),
-        pixels: tasks.into_iter().flatten().collect(),
-    };
+        .collect::<Result<Vec<Vec<Vec<PixelProbe>>>, TraceError>>()?;
+    let pixels: Vec<Vec<PixelProbe>> = tasks.into_iter().flatten().collect();
+    Ok((moving.iter().enumerate())
+        .map(|(number, moving)| {
+            let probes = Raster {
+                width: film.canvas.columns(),
+                height: film.canvas.rows(),
+                pixels: pixels.iter().map(|probes| &probes[number]).collect(),
+            };
+            assemble_support(&probes, moving)
+        })
+        .collect())
+}
+
+fn assemble_support(probes: &Raster<&PixelProbe>, moving: &[bool]) -> Support {
     let moves =
-        |probe: &PixelProbe| (probe.seen.iter().zip(moving)).any(|(seen, moves)| *seen && *moves);
-    Ok(Support {
+        |probe: &&PixelProbe| (probe.seen.iter().zip(moving)).any(|(seen, moves)| *seen && *moves);
+    Support {
         seen: (0..moving.len())
             .map(|object| probes.map(|probe| probe.seen[object]))
             .collect(),
         moving: probes.map(moves),
         unknowable: probes.map(|probe| probe.unknowable),
-    })
+    }
 }
 
-fn probe_pixel(film: &Film, eye: &mut Eye, pixel: u32) -> PixelProbe {
+/// Probes one pixel at each of the film's times.
+fn probe_pixel(film: &Film, eye: &mut Eye, pixel: u32) -> Vec<PixelProbe> {
     let stage = film.integrator.stage;
     let instant = film
         .instant
@@ -66,21 +77,30 @@ fn probe_pixel(film: &Film, eye: &mut Eye, pixel: u32) -> PixelProbe {
     let [left, top] = film.canvas.corner(pixel);
     let row = pixel / film.canvas.columns();
     let seed = pixel_seed(SEED, Stream::Support, film.canvas.seed_number(pixel), 0);
-    let mut probe = PixelProbe {
+    let unseen = PixelProbe {
         seen: vec![false; stage.scene.objects.len() + 1],
         unknowable: false,
     };
+    let mut probes = vec![unseen; film.times.len()];
     for index in 0..SAMPLES {
         let [x, y, part, _] = Sampler::new(seed, index).camera();
-        let time = film.times.at(part, row, film.canvas.height);
-        let ray = eye.view_at(time).ray(left + x, top + y);
-        let hit = stage.closest(&mut eye.poses, &ray);
-        probe.seen[hit.map_or(0, |hit| hit.object + 1)] = true;
-        if !probe.unknowable {
-            let poses = (&mut eye.poses, &mut eye.instant);
-            let point = instant.look_back(stage, poses, &ray, hit.as_ref());
-            probe.unknowable = !point.is_shown;
+        let mut last: Option<(f64, usize, bool)> = None;
+        for (times, probe) in film.times.iter().zip(&mut probes) {
+            let time = times.at(part, row, film.canvas.height);
+            let (object, is_hidden) = match last {
+                Some((probed_at, object, is_hidden)) if probed_at == time => (object, is_hidden),
+                _ => {
+                    let ray = eye.view_at(time).ray(left + x, top + y);
+                    let hit = stage.closest(&mut eye.poses, &ray);
+                    let poses = (&mut eye.poses, &mut eye.instant);
+                    let point = instant.look_back(stage, poses, &ray, hit.as_ref());
+                    (hit.map_or(0, |hit| hit.object + 1), !point.is_shown)
+                }
+            };
+            probe.seen[object] = true;
+            probe.unknowable |= is_hidden;
+            last = Some((time, object, is_hidden));
         }
     }
-    probe
+    probes
 }

@@ -33,8 +33,8 @@ pub(crate) struct PathSample {
     pub radiance: Vec3,
     /// First surface; none for the background.
     pub hit: Option<Hit>,
-    /// True where that surface scattered light, false where it sent only its own.
-    pub scattered: bool,
+    /// Surfaces that scattered light.
+    pub bounces: u32,
 }
 
 impl PathSample {
@@ -64,7 +64,7 @@ impl<'a> Integrator<'a> {
         PathSample {
             radiance,
             hit,
-            scattered: bounces > 0,
+            bounces,
         }
     }
 
