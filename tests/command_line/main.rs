@@ -70,9 +70,11 @@ fn a_run_writes_scores_and_pictures_of_every_case() {
     );
 
     let run = bench.measured();
+    let render = &run.render;
+    assert_eq!(run.format, suite::FORMAT);
     assert_eq!(
-        (run.format, run.width, run.height, run.samples_per_pixel),
-        (suite::FORMAT, 64, 32, 16)
+        (render.width, render.height, render.samples_per_pixel),
+        (64, 32, 16)
     );
     let names: Vec<_> = run
         .cases

@@ -1,7 +1,7 @@
 //! The blur without a velocity buffer, against the gather that gets the velocity of the camera alone.
 
 use filters::{Blur, Filter, Gpu, Input};
-use frame::{Frame, Image, VelocityKind};
+use frame::{Frame, FrameOptions, Image, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
 use tests::shapes::*;
 use tests::unwatched;
@@ -47,7 +47,10 @@ fn frame(guard_band: u32) -> Frame {
         width: 96,
         height: 54,
         exposure: 0.75,
-        velocity: VelocityKind::CameraOnly,
+        options: FrameOptions {
+            velocity: VelocityKind::CameraOnly,
+            ..FrameOptions::default()
+        },
         guard_band,
         samples_per_pixel: 16,
         ..FrameSettings::default()

@@ -1,7 +1,7 @@
 //! Deforming meshes, against rigid ones, closed forms and brute force.
 
 use crate::moving_shapes::{DISTANCE, HEIGHT, WIDTH, expect_coverage, pixel_corner, render_truth};
-use frame::{Alignment, Truth, VelocityKind};
+use frame::{Alignment, FrameOptions, Truth, VelocityKind};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 use tests::brute_force::expect_what_every_triangle_gives;
 use tests::half_plane::half_plane;
@@ -31,7 +31,10 @@ fn render_velocities(scene: &Scene, velocity: VelocityKind) -> Vec<[f32; 2]> {
     let settings = FrameSettings {
         width: WIDTH,
         height: HEIGHT,
-        velocity,
+        options: FrameOptions {
+            velocity,
+            ..FrameOptions::default()
+        },
         samples_per_pixel: 1,
         ..FrameSettings::default()
     };

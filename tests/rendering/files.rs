@@ -5,8 +5,8 @@ use std::path::Path;
 
 use frame::{
     Accumulation, Alignment, AtInstant, Channel, ColorSampling, Display, Efficiency, ExrFile,
-    FileError, FlipExposures, Frame, Image, Ladder, Picture, Plane, Provenance, Raster,
-    Reprojection, Samples, ShutterProfile, Support, Truth, VelocityKind, read_exr,
+    FileError, FlipExposures, Frame, FrameOptions, Image, Ladder, Picture, Plane, Provenance,
+    Raster, Reprojection, Samples, ShutterProfile, Support, Truth, VelocityKind, read_exr,
     write_atomically, write_exr,
 };
 
@@ -61,9 +61,11 @@ fn a_frame() -> Frame {
     Frame {
         provenance: provenance(),
         exposure: 0.1 + 0.2, // not representable in short decimals
-        velocity_kind: VelocityKind::PreviousFrame,
-        color_sampling: ColorSampling::Point,
-        sky_velocity: false,
+        options: FrameOptions {
+            velocity: VelocityKind::PreviousFrame,
+            color: ColorSampling::Point,
+            sky_velocity: false,
+        },
         guard_band: 1,
         reprojection: Reprojection {
             rows: [0, 1, 2].map(|row| [0, 1, 2, 3].map(|column| 0.1 * f64::from(4 * row + column))),

@@ -1,6 +1,6 @@
 //! Frames as engines have them: velocity from the camera alone, colour at pixel centres, a still sky, a guard band.
 
-use frame::{ColorSampling, Frame, VelocityKind};
+use frame::{ColorSampling, Frame, FrameOptions, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
 use tests::shapes::*;
 use tests::unwatched;
@@ -16,6 +16,17 @@ fn frame_settings() -> FrameSettings {
         height: SIZE[1],
         samples_per_pixel: 4,
         ..FrameSettings::default()
+    }
+}
+
+/// Takes a kind of motion for the velocity buffer.
+fn with_velocity(velocity: VelocityKind) -> FrameSettings {
+    FrameSettings {
+        options: FrameOptions {
+            velocity,
+            ..FrameOptions::default()
+        },
+        ..frame_settings()
     }
 }
 
@@ -78,20 +89,8 @@ fn move_camera(mut scene: Scene) -> Scene {
 #[test]
 fn in_a_still_world_the_camera_alone_tells_the_whole_motion() {
     let scene = move_camera(spheres_scene(false));
-    let whole = render_frame(
-        &scene,
-        &FrameSettings {
-            velocity: VelocityKind::PreviousFrame,
-            ..frame_settings()
-        },
-    );
-    let rebuilt = render_frame(
-        &scene,
-        &FrameSettings {
-            velocity: VelocityKind::CameraOnly,
-            ..frame_settings()
-        },
-    );
+    let whole = render_frame(&scene, &with_velocity(VelocityKind::PreviousFrame));
+    let rebuilt = render_frame(&scene, &with_velocity(VelocityKind::CameraOnly));
     let moved = whole
         .velocity
         .pixels
@@ -108,13 +107,9 @@ fn in_a_still_world_the_camera_alone_tells_the_whole_motion() {
 
 #[test]
 fn what_moves_by_itself_stands_still_for_the_camera_alone() {
-    let velocity = VelocityKind::CameraOnly;
     let rebuilt = render_frame(
         &spheres_scene(true),
-        &FrameSettings {
-            velocity,
-            ..frame_settings()
-        },
+        &with_velocity(VelocityKind::CameraOnly),
     );
     let known = render_frame(&spheres_scene(true), &frame_settings());
     assert!(known.velocity.pixels.iter().any(|v| v[0] > 0.5));
@@ -129,7 +124,10 @@ fn point_sampled_colour_shows_what_is_at_the_centre() {
     let frame = render_frame(
         &spheres_scene(true),
         &FrameSettings {
-            color: ColorSampling::Point,
+            options: FrameOptions {
+                color: ColorSampling::Point,
+                ..FrameOptions::default()
+            },
             ..frame_settings()
         },
     );
@@ -158,7 +156,10 @@ fn a_sky_without_velocity_is_still_and_nothing_else_changes() {
     let without = render_frame(
         &scene,
         &FrameSettings {
-            sky_velocity: false,
+            options: FrameOptions {
+                sky_velocity: false,
+                ..FrameOptions::default()
+            },
             ..frame_settings()
         },
     );
@@ -182,19 +183,12 @@ fn a_sky_without_velocity_is_still_and_nothing_else_changes() {
 fn inside_its_guard_band_a_frame_is_the_bare_frame() {
     for velocity in VelocityKind::ALL {
         let scene = move_camera(spheres_scene(true));
-        let bare = render_frame(
-            &scene,
-            &FrameSettings {
-                velocity,
-                ..frame_settings()
-            },
-        );
+        let bare = render_frame(&scene, &with_velocity(velocity));
         let padded = render_frame(
             &scene,
             &FrameSettings {
-                velocity,
                 guard_band: 5,
-                ..frame_settings()
+                ..with_velocity(velocity)
             },
         );
         assert_eq!(padded.size(), (SIZE[0] + 10, SIZE[1] + 10));

@@ -1,6 +1,6 @@
 //! Velocity and depth, against formulas written out by hand.
 
-use frame::{FAR_DEPTH, Frame, VelocityKind};
+use frame::{FAR_DEPTH, Frame, FrameOptions, VelocityKind};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 use tests::shapes::*;
 use tests::unwatched;
@@ -17,7 +17,10 @@ fn render_frame(scene: &Scene, velocity: VelocityKind) -> Frame {
     let settings = FrameSettings {
         width: WIDTH,
         height: HEIGHT,
-        velocity,
+        options: FrameOptions {
+            velocity,
+            ..FrameOptions::default()
+        },
         samples_per_pixel: 1,
         ..FrameSettings::default()
     };

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use cli::run_table;
 use metrics::{ImageMetric, Measured, Reference, Region, Scores};
-use suite::{Case, FORMAT, InputFormat, Overall, Run, overall};
+use suite::{Case, FORMAT, InputFormat, Overall, RenderSettings, Run, overall};
 use tests::synthetic::{Object, Sampling, Scene, Shape, VIEWING};
 use tracer::Family;
 
@@ -86,15 +86,13 @@ fn run() -> Run {
         program: suite::PROGRAM.to_owned(),
         command: Vec::new(),
         adapter: None,
-        width: 48,
-        height: 32,
-        samples_per_pixel: 16,
-        replicates: 2,
-        seed: 1,
-        velocity: "instantaneous".to_owned(),
-        color: "antialiased".to_owned(),
-        sky_velocity: true,
-        guard_band: 0,
+        render: RenderSettings {
+            width: 48,
+            height: 32,
+            samples_per_pixel: 16,
+            replicates: 2,
+            ..RenderSettings::default()
+        },
         common_alignment: "centred".to_owned(),
         overall: overall(&cases),
         read_back: 0,

@@ -3,9 +3,9 @@
 //! No tracer takes part, so the right value of a metric is known beforehand.
 
 use frame::{
-    Accumulation, Alignment, AtInstant, ColorSampling, Display, FAR_DEPTH, FlipExposures, Frame,
+    Accumulation, Alignment, AtInstant, Display, FAR_DEPTH, FlipExposures, Frame, FrameOptions,
     Image, Ladder, Picture, Plane, Provenance, Raster, Replicate, Reprojection, Shutter,
-    ShutterProfile, Support, Truth, VelocityKind,
+    ShutterProfile, Support, Truth,
 };
 use metrics::Viewing;
 
@@ -107,9 +107,7 @@ impl Scene {
         Frame {
             provenance: Provenance::default(),
             exposure: EXPOSURE,
-            velocity_kind: VelocityKind::Instantaneous,
-            color_sampling: ColorSampling::Antialiased,
-            sky_velocity: true,
+            options: FrameOptions::default(),
             guard_band: 0,
             reprojection: Reprojection::STILL,
             display: DISPLAY,

@@ -1,107 +1,16 @@
 //! The frame that an engine would hand to its motion blur: colour, velocity and depth of one instant.
 
-use std::fmt;
 use std::path::Path;
-use std::str::FromStr;
 
 use crate::exr::{Channel, ExrFile, Samples, read_exr, write_exr};
 use crate::picture::coverage_name;
 use crate::{
-    Alignment, Display, FileError, Image, Plane, Provenance, Raster, Reprojection, Vectors,
+    Alignment, Display, FileError, FrameOptions, Image, Plane, Provenance, Raster, Reprojection,
+    Vectors,
 };
 
 /// Depth of a pixel that sees no surface, in metres: finite, so that filters may subtract it.
 pub const FAR_DEPTH: f32 = 1.0e10;
-
-/// Kind of screen motion in the velocity buffer.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum VelocityKind {
-    /// The derivative at `t = 0`, in pixels per frame.
-    #[default]
-    Instantaneous,
-    /// `x(0) - x(-1)`, the motion since the frame before, which engines hand over.
-    PreviousFrame,
-    /// The motion since the frame before as if everything stood still in the world, from depth and both frames' cameras alone:
-    /// all that is known without a velocity buffer.
-    CameraOnly,
-}
-
-/// Sampling of a frame's colour.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum ColorSampling {
-    /// Filtered over the pixel's area.
-    #[default]
-    Antialiased,
-    /// Sampled at the pixel's centre, as by a rasteriser without multisampling. Coverage is then 0 or 1.
-    Point,
-}
-
-impl VelocityKind {
-    /// Every kind.
-    pub const ALL: [VelocityKind; 3] = [
-        VelocityKind::Instantaneous,
-        VelocityKind::PreviousFrame,
-        VelocityKind::CameraOnly,
-    ];
-
-    /// Returns the word used in files and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            VelocityKind::Instantaneous => "instantaneous",
-            VelocityKind::PreviousFrame => "previous_frame",
-            VelocityKind::CameraOnly => "camera_only",
-        }
-    }
-}
-
-impl fmt::Display for VelocityKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
-
-impl FromStr for VelocityKind {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        Self::ALL
-            .into_iter()
-            .find(|kind| kind.name() == text)
-            .ok_or_else(|| {
-                format!("velocity \"{text}\" is unknown; allowed: instantaneous, previous_frame, camera_only")
-            })
-    }
-}
-
-impl ColorSampling {
-    /// Every kind.
-    pub const ALL: [ColorSampling; 2] = [ColorSampling::Antialiased, ColorSampling::Point];
-
-    /// Returns the word used in files and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            ColorSampling::Antialiased => "antialiased",
-            ColorSampling::Point => "point",
-        }
-    }
-}
-
-impl fmt::Display for ColorSampling {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
-
-impl FromStr for ColorSampling {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        Self::ALL
-            .into_iter()
-            .find(|kind| kind.name() == text)
-            .ok_or_else(|| format!("color \"{text}\" is unknown; allowed: antialiased, point"))
-    }
-}
 
 /// One instant (`t = 0`) of a scene. All rasters have the same size.
 #[derive(Clone, Debug, PartialEq)]
@@ -110,12 +19,8 @@ pub struct Frame {
     pub provenance: Provenance,
     /// Exposure that a filter is to blur by, in frames.
     pub exposure: f64,
-    /// Kind of motion in `velocity`.
-    pub velocity_kind: VelocityKind,
-    /// Sampling of `color` and `coverage`.
-    pub color_sampling: ColorSampling,
-    /// True if the background has its velocity, false if it has zero.
-    pub sky_velocity: bool,
+    /// Kind of motion in `velocity`, sampling of `color` and `coverage`, motion of the background.
+    pub options: FrameOptions,
     /// Pixels by which all rasters extend beyond the picture on every side.
     pub guard_band: u32,
     /// The camera's motion since the frame before, between places of the picture without its guard band.
@@ -180,9 +85,7 @@ impl Frame {
         }
         file.set("kind", "frame");
         file.set("exposure", self.exposure);
-        file.set("velocity", self.velocity_kind);
-        file.set("color", self.color_sampling);
-        file.set("sky_velocity", self.sky_velocity);
+        self.options.set(&mut file);
         file.set("guard_band", self.guard_band);
         self.reprojection.set(&mut file);
         self.display.set(&mut file);
@@ -209,9 +112,7 @@ impl Frame {
         Ok(Self {
             provenance: Provenance::from_exr(&file)?,
             exposure: read_exposure(&file)?,
-            velocity_kind: file.get("velocity")?,
-            color_sampling: file.get("color")?,
-            sky_velocity: file.get("sky_velocity")?,
+            options: FrameOptions::from_exr(&file)?,
             guard_band: read_guard_band(&file)?,
             reprojection: Reprojection::from_exr(&file)?,
             display: Display::from_exr(&file)?,

@@ -26,6 +26,7 @@ mod display;
 mod exr;
 mod file;
 mod frame;
+mod frame_options;
 mod hidden;
 mod picture;
 mod png;
@@ -46,7 +47,8 @@ pub use exr::{
     Samples, read_exr, write_exr,
 };
 pub use file::{FileError, read_bounded, remove_leftovers, write_atomically};
-pub use frame::{ColorSampling, FAR_DEPTH, Frame, VelocityKind};
+pub use frame::{FAR_DEPTH, Frame};
+pub use frame_options::{ColorSampling, FrameOptions, VelocityKind};
 pub use hidden::is_hidden;
 pub use picture::Picture;
 pub use png::{MOST_PNG_PIXELS, check_png_palette, read_png, write_png};

@@ -95,9 +95,9 @@ fn introduction(run: &Run) -> String {
          output of the best filter; the truth and the output of the worst filter. Two truths differ where the filters declare two \
          shutters. Best and worst are by skill, the share of the way from doing nothing (0) to the one-frame oracle (1). Where no skill \
          applies, FLIP* decides: FLIP against one shutter for all filters. The filter that does nothing takes no part.\n\n{}x{} pixels, {} samples per pixel. Made from\n\n    {}\n\nby `shuttertruth report --gallery`.\n",
-        run.width,
-        run.height,
-        run.samples_per_pixel,
+        run.render.width,
+        run.render.height,
+        run.render.samples_per_pixel,
         command.join(" "),
     )
 }

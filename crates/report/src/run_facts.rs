@@ -43,7 +43,8 @@ pub fn facts(run: &Run) -> Vec<(&'static str, String)> {
         ),
         None => "none: every filter is a program".to_owned(),
     };
-    let sky = match run.sky_velocity {
+    let render = &run.render;
+    let sky = match render.options.sky_velocity {
         true => "with a velocity",
         false => "without velocity",
     };
@@ -51,19 +52,22 @@ pub fn facts(run: &Run) -> Vec<(&'static str, String)> {
         ("command", command(run)),
         ("program", run.program.clone()),
         ("adapter", adapter),
-        ("pictures", format!("{}x{} pixels", run.width, run.height)),
+        (
+            "pictures",
+            format!("{}x{} pixels", render.width, render.height),
+        ),
         (
             "truth",
             format!(
                 "{} samples per pixel in {} replicates, seed {}",
-                run.samples_per_pixel, run.replicates, run.seed
+                render.samples_per_pixel, render.replicates, render.seed
             ),
         ),
         (
             "frame",
             format!(
                 "velocity {}, colour {}, background {sky}, guard band of {} pixels",
-                run.velocity, run.color, run.guard_band
+                render.options.velocity, render.options.color, render.guard_band
             ),
         ),
         ("shutter in common", run.common_alignment.clone()),
@@ -79,10 +83,10 @@ pub fn provenance_line(run: &Run) -> String {
     format!(
         "{}, {adapter}; {}x{}, {} samples per pixel, seed {}; made by: {}",
         run.program,
-        run.width,
-        run.height,
-        run.samples_per_pixel,
-        run.seed,
+        run.render.width,
+        run.render.height,
+        run.render.samples_per_pixel,
+        run.render.seed,
         command(run)
     )
 }

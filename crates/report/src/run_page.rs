@@ -25,7 +25,10 @@ pub fn run_page(run: &Run, overview: &Markup, cases: &[Markup], numbers: &SceneN
     let document = Document {
         title: "Shuttertruth report",
         heading: html! { a href="#overview" { "Shuttertruth" } },
-        subtitle: &format!("{}, {}x{}", run.program, run.width, run.height),
+        subtitle: &format!(
+            "{}, {}x{}",
+            run.program, run.render.width, run.render.height
+        ),
         body: html! {
             main {
                 noscript {

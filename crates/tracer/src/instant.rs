@@ -43,7 +43,7 @@ pub fn trace_frame(
     let film = |samples, replicates, stream| Film {
         integrator: Integrator::new(stage, 0.0),
         canvas,
-        places: match settings.color {
+        places: match settings.options.color {
             ColorSampling::Antialiased => Places::Area,
             ColorSampling::Point => Places::Centre,
         },
@@ -87,9 +87,7 @@ pub fn trace_frame(
             frame_hash(scene, settings),
         ),
         exposure: settings.exposure,
-        velocity_kind: settings.velocity,
-        color_sampling: settings.color,
-        sky_velocity: settings.sky_velocity,
+        options: settings.options,
         guard_band: settings.guard_band,
         reprojection: reprojection(scene, [settings.width, settings.height]),
         display: scene.display,
@@ -105,6 +103,7 @@ pub fn trace_frame(
 /// Samples what a rasteriser writes, at the centres of all pixels.
 fn sample_points(stage: &Stage, canvas: Canvas, settings: &FrameSettings) -> Vec<PointSample> {
     let scene = stage.scene;
+    let options = settings.options;
     let size = [canvas.width, canvas.height];
     let view = scene.camera.view(0.0, size[0], size[1]);
     let before = reprojection(scene, size);
@@ -116,14 +115,14 @@ fn sample_points(stage: &Stage, canvas: Canvas, settings: &FrameSettings) -> Vec
                 let ray = view.ray(centre[0], centre[1]);
                 let hit = stage.closest(poses.at(0.0), &ray);
                 let depth = hit.map_or(FAR_DEPTH, |hit| view.depth(ray.at(hit.t)) as f32);
-                let velocity = if hit.is_none() && !settings.sky_velocity {
+                let velocity = if hit.is_none() && !options.sky_velocity {
                     [0.0, 0.0]
-                } else if settings.velocity == VelocityKind::CameraOnly {
+                } else if options.velocity == VelocityKind::CameraOnly {
                     let depth = hit.map_or(f64::INFINITY, |_| f64::from(depth));
                     camera_velocity(&before, centre, depth)
                 } else {
                     let tracked = TrackedPoint::of(hit.as_ref(), ray.direction);
-                    tracked.velocity(scene, size, settings.velocity)
+                    tracked.velocity(scene, size, options.velocity)
                 };
                 PointSample {
                     velocity: velocity.map(|component| component as f32),

@@ -1,6 +1,6 @@
 //! The settings of frames and truths, and the check of each.
 
-use frame::{Alignment, ColorSampling, Shutter, VelocityKind};
+use frame::{Alignment, FrameOptions, Shutter};
 
 use crate::error::TraceError;
 use crate::film::sampler::MOST_SAMPLES;
@@ -17,12 +17,8 @@ pub struct FrameSettings {
     pub height: u32,
     /// Exposure that filters blur by, in frames; no pixel of the frame depends on it.
     pub exposure: f64,
-    /// Meaning of the velocity buffer.
-    pub velocity: VelocityKind,
-    /// Sampling of colour and coverage.
-    pub color: ColorSampling,
-    /// True if the background has its velocity, false if it has zero.
-    pub sky_velocity: bool,
+    /// Choice of what the frame holds.
+    pub options: FrameOptions,
     /// Pixels by which all rasters extend beyond the picture on every side.
     pub guard_band: u32,
     /// Samples of colour and coverage per pixel, a power of two up to 65536; time grows with it.
@@ -57,9 +53,7 @@ impl Default for FrameSettings {
             width: 320,
             height: 180,
             exposure: 0.5,
-            velocity: VelocityKind::default(),
-            color: ColorSampling::default(),
-            sky_velocity: true,
+            options: FrameOptions::default(),
             guard_band: 0,
             samples_per_pixel: 256,
             seed: 0,
@@ -92,7 +86,7 @@ impl FrameSettings {
         )?;
         Alignment::Trailing.shutter(self.exposure)?;
         check_samples(self.samples_per_pixel, 1)?;
-        check_field_of_view(scene, earliest_time(self.velocity), 0.0)
+        check_field_of_view(scene, earliest_time(self.options.velocity), 0.0)
     }
 }
 

@@ -4,7 +4,7 @@ use std::fs;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
-use frame::{Alignment, Image, VelocityKind};
+use frame::{Alignment, FrameOptions, Image, VelocityKind};
 use suite::{ImportPlan, Motions, Up, import};
 use tracer::{
     FrameSettings, Scene, TruthSettings, list_scenes, load_scene, trace_frame, trace_truth,
@@ -203,7 +203,10 @@ fn render(scene: &Scene) {
         width: 8,
         height: 8,
         exposure: scene.exposure,
-        velocity: VelocityKind::PreviousFrame,
+        options: FrameOptions {
+            velocity: VelocityKind::PreviousFrame,
+            ..FrameOptions::default()
+        },
         samples_per_pixel: 4,
         seed: 1,
         ..FrameSettings::default()

@@ -1,18 +1,22 @@
 //! Moving cameras.
 
-use frame::Alignment;
+use frame::{Alignment, FrameOptions};
+use tracer::FrameSettings;
 
 use super::assert_worse;
-use super::rendered_scene::{RenderSettings, RenderedScene};
+use super::rendered_scene::{RenderedScene, small_frame};
 
 #[test]
 fn a_sky_without_velocity_stays_sharp_above_a_fast_pan() {
     let render = |sky_velocity| {
         RenderedScene::with_settings(
             "pan_sky",
-            RenderSettings {
-                sky_velocity,
-                ..RenderSettings::default()
+            FrameSettings {
+                options: FrameOptions {
+                    sky_velocity,
+                    ..FrameOptions::default()
+                },
+                ..small_frame()
             },
         )
     };

@@ -6,16 +6,17 @@ use std::path::Path;
 use filters::Filter;
 use frame::{Alignment, Image, Picture};
 use tests::presets::{every_preset, preset_name};
+use tracer::FrameSettings;
 
 use super::assert_worse;
-use super::rendered_scene::{RenderSettings, RenderedScene, find_preset, value};
+use super::rendered_scene::{RenderedScene, find_preset, small_frame, value};
 
 #[test]
 fn what_lies_beyond_the_border_is_missed() {
     let render = |guard_band| {
-        let settings = RenderSettings {
+        let settings = FrameSettings {
             guard_band,
-            ..RenderSettings::default()
+            ..small_frame()
         };
         RenderedScene::with_settings("frame_edge", settings)
     };
@@ -31,11 +32,11 @@ fn what_lies_beyond_the_border_is_missed() {
 #[test]
 fn motion_below_a_pixel_is_left_sharp() {
     // The size to which the scenes' speeds refer.
-    let settings = RenderSettings {
+    let settings = FrameSettings {
         width: 640,
         height: 360,
         samples_per_pixel: 1,
-        ..RenderSettings::default()
+        ..small_frame()
     };
     let [creeping, hurried] =
         ["creep", "creep@hurried"].map(|name| RenderedScene::with_settings(name, settings));

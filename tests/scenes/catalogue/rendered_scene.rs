@@ -9,27 +9,13 @@ use metrics::{Metric, Reference, Scores};
 use tests::unwatched;
 use tracer::{FrameSettings, Scene, TruthSettings, load_scene, trace_frame, trace_truth};
 
-/// Settings of a frame and its truths.
-#[derive(Clone, Copy)]
-pub struct RenderSettings {
-    pub width: u32,
-    pub height: u32,
-    /// Samples of the frame, and of the two replicates of a truth together.
-    pub samples_per_pixel: u32,
-    pub sky_velocity: bool,
-    /// Width of the border that the frame has beyond the picture, in pixels.
-    pub guard_band: u32,
-}
-
-impl Default for RenderSettings {
-    fn default() -> Self {
-        Self {
-            width: 160,
-            height: 90,
-            samples_per_pixel: 32,
-            sky_velocity: true,
-            guard_band: 0,
-        }
+/// Settings of a small frame. The two replicates of a truth share as many samples as the frame has.
+pub fn small_frame() -> FrameSettings {
+    FrameSettings {
+        width: 160,
+        height: 90,
+        samples_per_pixel: 32,
+        ..FrameSettings::default()
     }
 }
 
@@ -37,7 +23,7 @@ impl Default for RenderSettings {
 pub struct RenderedScene {
     pub frame: Frame,
     scene: Scene,
-    settings: RenderSettings,
+    settings: FrameSettings,
     gpu: Gpu,
     truths: [OnceCell<Truth>; 2],
 }
@@ -45,10 +31,10 @@ pub struct RenderedScene {
 impl RenderedScene {
     /// Renders `scene` or `scene@variant`.
     pub fn new(name: &str) -> Self {
-        Self::with_settings(name, RenderSettings::default())
+        Self::with_settings(name, small_frame())
     }
 
-    pub fn with_settings(name: &str, settings: RenderSettings) -> Self {
+    pub fn with_settings(name: &str, settings: FrameSettings) -> Self {
         let (name, variant) = match name.split_once('@') {
             Some((name, variant)) => (name, Some(variant)),
             None => (name, None),
@@ -57,17 +43,12 @@ impl RenderedScene {
             .join("../scenes")
             .join(name);
         let scene = load_scene(&folder, variant).unwrap_or_else(|error| panic!("{error}"));
-        let frame_settings = FrameSettings {
-            width: settings.width,
-            height: settings.height,
+        let settings = FrameSettings {
             exposure: scene.exposure,
-            sky_velocity: settings.sky_velocity,
-            guard_band: settings.guard_band,
-            samples_per_pixel: settings.samples_per_pixel,
-            ..FrameSettings::default()
+            ..settings
         };
         Self {
-            frame: trace_frame(&scene, &frame_settings, &unwatched).unwrap(),
+            frame: trace_frame(&scene, &settings, &unwatched).unwrap(),
             scene,
             settings,
             gpu: Gpu::new(None).expect("these tests run filters"),
@@ -86,7 +67,7 @@ impl RenderedScene {
             let settings = TruthSettings {
                 width: self.settings.width,
                 height: self.settings.height,
-                exposure: self.scene.exposure,
+                exposure: self.settings.exposure,
                 alignment,
                 samples_per_pixel: self.settings.samples_per_pixel,
                 replicates: 2,

@@ -50,7 +50,7 @@ pub use parse::Replicates;
 pub use render::RenderArgs;
 pub use report::ReportArgs;
 pub use run::RunArgs;
-pub use scenes::{SceneArgs, Switch};
+pub use scenes::SceneArgs;
 pub use score::ScoreArgs;
 pub use sensitivity::SensitivityArgs;
 pub use serve::ServeArgs;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use frame::{ColorSampling, VelocityKind};
+use frame::{ColorSampling, FrameOptions, VelocityKind};
 
 /// On or off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -58,4 +58,15 @@ pub struct SceneArgs {
     /// Folder for all files. Truths and cases that lie there are used again if their inputs have not changed.
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
+}
+
+impl SceneArgs {
+    /// Makes the options of a frame.
+    pub fn frame_options(&self) -> FrameOptions {
+        FrameOptions {
+            velocity: self.velocity,
+            color: self.frame_sampling,
+            sky_velocity: self.sky_velocity == Switch::On,
+        }
+    }
 }

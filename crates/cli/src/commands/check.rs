@@ -184,7 +184,7 @@ fn read_run_bounds(run: &Run, root: &Path) -> Result<RunBounds, Error> {
                 folder.display()
             )));
         }
-        let bounds = read_bounds(root, &folder)?.at((run.width, run.height));
+        let bounds = read_bounds(root, &folder)?.at((run.render.width, run.render.height));
         found.insert(case.scene.clone(), bounds);
     }
     Ok(found)

@@ -3,7 +3,7 @@
 use suite::{Error, MOST_REPLICATES, RenderSettings};
 use tracer::MOST_SAMPLES;
 
-use crate::arguments::{SceneArgs, Switch};
+use crate::arguments::SceneArgs;
 
 /// Makes the settings of a render, for pictures of one size.
 pub fn make_render_settings(
@@ -20,9 +20,7 @@ pub fn make_render_settings(
         width,
         height,
         exposure: args.exposure,
-        velocity: args.velocity,
-        color: args.frame_sampling,
-        sky_velocity: args.sky_velocity == Switch::On,
+        options: args.frame_options(),
         guard_band: args.guard_band,
         samples_per_pixel: args.samples_per_pixel,
         seed: args.seed,

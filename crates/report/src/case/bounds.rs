@@ -91,7 +91,7 @@ fn finding_section(page: &CaseView, finding: &Finding, evidence: &Evidence) -> M
             figure.crop data-x=(x) data-y=(y) data-map=(evidence.plane) {
                 div.panels {
                     @for what in ["truth", "output", "error"] {
-                        canvas width=(CROP.min(page.run.width)) height=(CROP.min(page.run.height)) role="img"
+                        canvas width=(CROP.min(page.run.render.width)) height=(CROP.min(page.run.render.height)) role="img"
                             aria-label=(format!("{what} around ({x}, {y})")) {}
                     }
                 }

@@ -46,7 +46,7 @@ const KEYS: [(&str, &str); 14] = [
 /// Writes the viewer, hidden until a case is open.
 pub fn viewer(run: &Run) -> Markup {
     html! {
-        div #viewer hidden data-width=(run.width) data-height=(run.height) data-block=(BLOCK) {
+        div #viewer hidden data-width=(run.render.width) data-height=(run.render.height) data-block=(BLOCK) {
             div.controls {
                 div.toolbar {
                     label.menu { "Left " select name="left" {} }
@@ -71,7 +71,7 @@ pub fn viewer(run: &Run) -> Markup {
                     button.help type="button" aria-label="Keys" { "?" }
                 }
             }
-            div.stage style=(format!("--ratio:{}/{}", run.width, run.height)) {
+            div.stage style=(format!("--ratio:{}/{}", run.render.width, run.render.height)) {
                 div.pane.stack tabindex="0" role="group"
                     aria-label="Two pictures; arrows read pixels, plus and minus zoom" {
                     (layer(run, "under"))
@@ -136,15 +136,16 @@ fn layers() -> String {
 /// Makes a picture that zooms and moves with all others.
 fn layer(run: &Run, place: &str) -> Markup {
     html! {
-        div.layer data-place=(place) { canvas width=(run.width) height=(run.height) role="img" {} }
+        div.layer data-place=(place) { canvas width=(run.render.width) height=(run.render.height) role="img" {} }
     }
 }
 
 /// Marks the line of the profile, the worst place of a bound, and the pixel that is read.
 fn marks(run: &Run) -> Markup {
+    let [width, height] = [run.render.width, run.render.height];
     html! {
         div.layer aria-hidden="true" {
-            svg.overlay width=(run.width) height=(run.height) viewBox=(format!("0 0 {} {}", run.width, run.height)) {
+            svg.overlay width=(width) height=(height) viewBox=(format!("0 0 {width} {height}")) {
                 path.line fill="none" {}
             }
         }

@@ -87,7 +87,7 @@ const LONGEST: f64 = 86_400.0;
 pub fn cost_of<'a>(run: &Run, bench: Option<&'a Bench>, filter: &FilterId) -> Option<&'a CaseCost> {
     let (_, case) = filter.cases(run).next()?;
     let mut costs = bench?.cases.iter();
-    let ratio = f64::from(bench?.width) / f64::from(run.width);
+    let ratio = f64::from(bench?.width) / f64::from(run.render.width);
     costs.find(|cost| {
         let scaled = case.reference_width.is_some();
         (&cost.filter, &cost.preset, cost.reference_width)

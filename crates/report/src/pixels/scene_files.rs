@@ -63,7 +63,7 @@ impl SceneFiles {
         let own = folder.join(&cases[0].scene);
         let path = own.join("frame.exr");
         let frame = Frame::read(&path)?.cropped();
-        check_size(&path, frame.size(), (run.width, run.height))?;
+        check_size(&path, frame.size(), (run.render.width, run.render.height))?;
         let mut accumulations = BTreeMap::new();
         for case in cases.iter().filter(|case| is_in_profiles(case)) {
             let path = folder.join(&case.folder).join("output.exr");

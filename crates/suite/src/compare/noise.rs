@@ -91,7 +91,7 @@ impl TruthParts {
     fn read(sides: [&Side; 2], pair: &Pair) -> Result<Option<Self>, Error> {
         for side in sides {
             let folder = side.folder().join(&pair.first.scene);
-            if let Some(parts) = Self::read_below(&folder, pair, side.run.replicates)? {
+            if let Some(parts) = Self::read_below(&folder, pair, side.run.render.replicates)? {
                 return Ok(Some(parts));
             }
         }

@@ -51,7 +51,7 @@ pub fn filter_label(case: &Case) -> String {
 pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(), Error> {
     let refuse = |reason: String| Err(Error::Usage(format!("{}: {reason}", second.path.display())));
     let there = first.path.display();
-    let size = |side: &Side| (side.run.width, side.run.height);
+    let size = |side: &Side| (side.run.render.width, side.run.render.height);
     if size(first) != size(second) {
         let [(w, h), (width, height)] = [size(first), size(second)];
         return refuse(format!(

@@ -41,14 +41,12 @@ pub fn compare_settings(first: &Run, second: &Run, pairs: &[Pair]) -> Vec<Settin
 }
 
 fn run_settings(run: &Run) -> Vec<(&'static str, String)> {
-    vec![
+    let mut settings = vec![
         ("program", run.program.clone()),
         ("adapter", adapter_label(&run.adapter)),
-        ("velocity", run.velocity.clone()),
-        ("color", run.color.clone()),
-        ("sky velocity", run.sky_velocity.to_string()),
-        ("guard band", format!("{} px", run.guard_band)),
-    ]
+    ];
+    settings.extend(run.render.list());
+    settings
 }
 
 fn adapter_label(adapter: &Option<AdapterDescription>) -> String {

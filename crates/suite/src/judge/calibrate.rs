@@ -57,7 +57,9 @@ pub fn calibrate<'a>(
     metrics: &[Metric],
 ) -> Calibration {
     let mut calibration = Calibration {
-        size: runs.first().map_or((0, 0), |run| (run.width, run.height)),
+        size: runs
+            .first()
+            .map_or((0, 0), |run| (run.render.width, run.render.height)),
         ..Calibration::default()
     };
     for case in runs.iter().flat_map(|run| &run.cases) {

@@ -62,8 +62,9 @@ fn samples_to_settle(run: &Run, metric: Metric, interval: &Interval, limit: f64)
     let apart = (middle - limit_as_badness(metric.ideal(), limit)).abs();
     let half_width = (interval.high - interval.low) / 2.0;
     let more = (half_width / apart).powi(2);
-    let mut samples = u64::from(run.samples_per_pixel);
-    while (samples as f64) < more * f64::from(run.samples_per_pixel) && samples < MOST_SAMPLES {
+    let own = u64::from(run.render.samples_per_pixel);
+    let mut samples = own;
+    while (samples as f64) < more * own as f64 && samples < MOST_SAMPLES {
         samples *= 2;
     }
     samples

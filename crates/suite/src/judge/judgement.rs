@@ -89,9 +89,9 @@ impl Judgement {
 fn check_finding(finding: &Finding, run: &Run) -> Result<(), String> {
     Metric::from_str(&finding.metric)?;
     match &finding.worst {
-        Some(worst) if worst.x >= run.width || worst.y >= run.height => Err(format!(
+        Some(worst) if worst.x >= run.render.width || worst.y >= run.render.height => Err(format!(
             "the worst place ({}, {}) lies outside of {}x{} pixels",
-            worst.x, worst.y, run.width, run.height
+            worst.x, worst.y, run.render.width, run.render.height
         )),
         Some(worst) if !is_below(&worst.picture) => Err(format!(
             "picture \"{}\": it lies in a folder below run.json, and nowhere else",

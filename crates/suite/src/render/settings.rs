@@ -2,7 +2,8 @@
 
 use std::ops::RangeInclusive;
 
-use frame::{Alignment, ColorSampling, VelocityKind};
+use frame::{Alignment, FrameOptions};
+use serde::{Deserialize, Serialize};
 use tracer::{FrameSettings, Scene, TruthSettings};
 
 /// Columns and rows that a picture may have.
@@ -14,29 +15,27 @@ pub const MOST_REPLICATES: u32 = 4096;
 /// Replicates of a truth that have as many samples as a frame, whatever number the truth has.
 const FRAME_REPLICATES: u32 = 8;
 
-/// Settings of every scene's frame and truths.
-#[derive(Clone, Debug, PartialEq)]
+/// Settings of every scene's frame and truths; run.json holds them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RenderSettings {
     /// Pixels per row.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Exposure in frames; none takes the scene's.
-    pub exposure: Option<f64>,
-    /// Motion that the velocity buffer holds.
-    pub velocity: VelocityKind,
-    /// Sampling of the frame's colour.
-    pub color: ColorSampling,
-    /// True if the background has its velocity, false if it has none.
-    pub sky_velocity: bool,
-    /// Pixels by which the frame reaches beyond the picture on every side.
-    pub guard_band: u32,
     /// Samples per pixel of a truth, over all its replicates.
     pub samples_per_pixel: u32,
     /// Independent, complete renders behind a truth; an even number.
     pub replicates: u32,
     /// Seed of all randomness.
     pub seed: u64,
+    /// Choice of what the frame holds.
+    #[serde(flatten)]
+    pub options: FrameOptions,
+    /// Pixels by which the frame reaches beyond the picture on every side.
+    pub guard_band: u32,
+    /// Exposure in frames; none takes the scene's. Not in run.json, where every case has its own.
+    #[serde(skip)]
+    pub exposure: Option<f64>,
 }
 
 impl Default for RenderSettings {
@@ -44,14 +43,12 @@ impl Default for RenderSettings {
         Self {
             width: 320,
             height: 180,
-            exposure: None,
-            velocity: VelocityKind::Instantaneous,
-            color: ColorSampling::Antialiased,
-            sky_velocity: true,
-            guard_band: 0,
             samples_per_pixel: 256,
             replicates: 8,
             seed: 1,
+            options: FrameOptions::default(),
+            guard_band: 0,
+            exposure: None,
         }
     }
 }
@@ -67,15 +64,30 @@ impl RenderSettings {
         }
     }
 
+    /// Lists name and value of every setting that all cases of a run share.
+    pub(crate) fn list(&self) -> [(&'static str, String); 8] {
+        [
+            ("picture size", format!("{}x{}", self.width, self.height)),
+            (
+                "number of samples per pixel",
+                self.samples_per_pixel.to_string(),
+            ),
+            ("number of replicates", self.replicates.to_string()),
+            ("seed", self.seed.to_string()),
+            ("velocity", self.options.velocity.to_string()),
+            ("color", self.options.color.to_string()),
+            ("sky velocity", self.options.sky_velocity.to_string()),
+            ("guard band", format!("{} px", self.guard_band)),
+        ]
+    }
+
     /// Selects what the tracer needs for a scene's frame.
     pub(crate) fn for_frame(&self, scene: &Scene) -> FrameSettings {
         FrameSettings {
             width: self.width,
             height: self.height,
             exposure: self.exposure.unwrap_or(scene.exposure),
-            velocity: self.velocity,
-            color: self.color,
-            sky_velocity: self.sky_velocity,
+            options: self.options,
             guard_band: self.guard_band,
             samples_per_pixel: FRAME_REPLICATES * self.samples_per_pixel / self.replicates,
             seed: self.seed,

@@ -161,52 +161,16 @@ fn find_difference(
     plan: &RunPlan,
     adapter: Option<&AdapterDescription>,
 ) -> Option<(&'static str, String, String)> {
-    let render = &plan.render;
     let name = |adapter: Option<&AdapterDescription>| {
         adapter.map_or("none".to_owned(), |adapter| adapter.name.clone())
     };
-    let size = |width: u32, height: u32| format!("{width}x{height}");
-    let pairs = [
-        ("program", run.program.clone(), PROGRAM.to_owned()),
-        (
-            "picture size",
-            size(run.width, run.height),
-            size(render.width, render.height),
-        ),
-        (
-            "number of samples per pixel",
-            run.samples_per_pixel.to_string(),
-            render.samples_per_pixel.to_string(),
-        ),
-        (
-            "number of replicates",
-            run.replicates.to_string(),
-            render.replicates.to_string(),
-        ),
-        ("seed", run.seed.to_string(), render.seed.to_string()),
-        (
-            "kind of velocity",
-            run.velocity.clone(),
-            render.velocity.name().to_owned(),
-        ),
-        (
-            "sampling of the frame",
-            run.color.clone(),
-            render.color.name().to_owned(),
-        ),
-        (
-            "velocity of the sky",
-            run.sky_velocity.to_string(),
-            render.sky_velocity.to_string(),
-        ),
-        (
-            "guard band",
-            run.guard_band.to_string(),
-            render.guard_band.to_string(),
-        ),
-    ];
+    let program = ("program", run.program.clone(), PROGRAM.to_owned());
+    let settings = std::iter::zip(run.render.list(), plan.render.list());
+    let settings = settings.map(|((setting, earlier), (_, now))| (setting, earlier, now));
     let adapters = ("the adapter", name(run.adapter.as_ref()), name(adapter));
     // A run of programs alone has no adapter, and can stand beside any.
     let both = run.adapter.is_some() && adapter.is_some();
-    (pairs.into_iter().chain(both.then_some(adapters))).find(|(_, earlier, now)| earlier != now)
+    (std::iter::once(program).chain(settings))
+        .chain(both.then_some(adapters))
+        .find(|(_, earlier, now)| earlier != now)
 }

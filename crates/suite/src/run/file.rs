@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::path::{Component, Path};
 use std::str::FromStr;
 
-use frame::{Alignment, VelocityKind};
+use frame::Alignment;
 
 use super::case::Case;
 use super::{FORMAT, Run};
@@ -60,26 +60,26 @@ fn parse(text: &str) -> Result<Run, String> {
 
 /// Checks sizes and counts of the whole run.
 fn check_settings(run: &Run) -> Result<(), String> {
-    let sides = [run.width, run.height];
+    let render = &run.render;
+    let sides = [render.width, render.height];
     if !sides.iter().all(|side| SIDES.contains(side)) {
         return Err(format!(
             "has pictures of {}x{} pixels; allowed: {} to {} columns and rows",
-            run.width,
-            run.height,
+            render.width,
+            render.height,
             SIDES.start(),
             SIDES.end()
         ));
     }
-    if !(1..=MOST_REPLICATES).contains(&run.replicates) {
+    if !(1..=MOST_REPLICATES).contains(&render.replicates) {
         return Err(format!(
             "has {} replicates; allowed: 1 to {MOST_REPLICATES}",
-            run.replicates
+            render.replicates
         ));
     }
-    if run.samples_per_pixel == 0 {
+    if render.samples_per_pixel == 0 {
         return Err("has 0 samples per pixel; allowed: 1 or more".to_owned());
     }
-    VelocityKind::from_str(&run.velocity)?;
     Alignment::from_str(&run.common_alignment).map(drop)
 }
 

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use self::case::Case;
 use self::failure::Failure;
 use self::overall::Overall;
+use crate::render::settings::RenderSettings;
 
 /// Version of the layout of `run.json`; it rises when a reader of the old one would misread the new one.
 pub const FORMAT: u32 = 5;
@@ -28,24 +29,9 @@ pub struct Run {
     pub command: Vec<String>,
     /// Adapter that the kernels ran on; none where every filter is a command.
     pub adapter: Option<AdapterDescription>,
-    /// Pixels per row.
-    pub width: u32,
-    /// Rows.
-    pub height: u32,
-    /// Samples per pixel of each truth, over all replicates.
-    pub samples_per_pixel: u32,
-    /// Independent renders behind each truth.
-    pub replicates: u32,
-    /// Seed of all randomness.
-    pub seed: u64,
-    /// Motion that the velocity buffers held: `instantaneous`, `previous_frame` or `camera_only`.
-    pub velocity: String,
-    /// Sampling of the frames' colour: `antialiased` or `point`.
-    pub color: String,
-    /// True if the background had a velocity.
-    pub sky_velocity: bool,
-    /// Pixels by which frames reached beyond the picture on every side.
-    pub guard_band: u32,
+    /// Settings of frames and truths.
+    #[serde(flatten)]
+    pub render: RenderSettings,
     /// The shutter alignment that every case is compared with beside its own, so that filters of several alignments have one
     /// score in common: centred where a filter declares that, or else trailing, or else leading.
     pub common_alignment: String,
