@@ -324,6 +324,62 @@ mod tests {
         }
     }
 
+    #[test]
+    fn a_replicate_has_the_same_bytes_alone_and_with_the_other_alignment() {
+        for scene in ["fan", "railing"] {
+            let scene = load_test_scene(scene);
+            let settings = TruthSettings {
+                width: 48,
+                height: 27,
+                samples_per_pixel: 32,
+                replicates: 2,
+                exposure: 0.3,
+                ..TruthSettings::default()
+            };
+            let unwatched = |_: Progress| ControlFlow::Continue(());
+            let trace = |alignments: &[Alignment]| {
+                let tracer = TruthTracer::new(&scene, &settings, alignments).expect("allowed");
+                tracer.trace(1, &unwatched).expect("nothing cancels")
+            };
+            let [trailing, centred] = [Alignment::Trailing, Alignment::Centred];
+            let both = trace(&[trailing, centred]);
+            assert_eq!(both, [trace(&[trailing]), trace(&[centred])].concat());
+            assert_ne!(both[0].picture, both[1].picture);
+        }
+    }
+
+    #[test]
+    fn samples_gather_where_the_picture_is_noisy_and_do_not_exceed_the_mean() {
+        let scene = load_test_scene("two_spheres");
+        let settings = TruthSettings {
+            width: 64,
+            height: 36,
+            samples_per_pixel: 64,
+            replicates: 2,
+            ..TruthSettings::default()
+        };
+        let unwatched = |_: Progress| ControlFlow::Continue(());
+        let truth = trace_truth(&scene, &settings, &unwatched).expect("settings are allowed");
+        let samples = &truth.samples.pixels;
+        let mean = samples.iter().sum::<f32>() / samples.len() as f32;
+        assert!((32.0..=64.0).contains(&mean), "{mean}");
+        let errors = truth.standard_error.pixels.iter();
+        let noise: Vec<f32> = errors.map(|error| error.iter().sum()).collect();
+        let mean_noise = |wanted: fn(f32) -> bool| {
+            let wanted = samples
+                .iter()
+                .zip(&noise)
+                .filter(|(count, _)| wanted(**count));
+            let noise: Vec<f32> = wanted.map(|(_, noise)| *noise).collect();
+            noise.iter().sum::<f32>() / noise.len() as f32
+        };
+        let [few, many] = [
+            mean_noise(|count| count <= 16.0),
+            mean_noise(|count| count > 64.0),
+        ];
+        assert!(few < many, "{few} {many}");
+    }
+
     /// Renders two replicates of a scene at four by four pixels.
     fn trace_small(change: impl FnOnce(&mut Scene)) -> Result<Truth, TraceError> {
         let mut scene = load_test_scene("two_spheres");

@@ -20,7 +20,7 @@ use crate::progress::Meter;
 pub(crate) const PIXELS_PER_TASK: usize = 32;
 
 /// Distance between samples that are shaded once more, as at the instant.
-const SHADED_AGAIN: u32 = 4;
+const SHADED_AGAIN: u32 = 8;
 
 /// Times of the samples of a picture.
 #[derive(Clone, Copy)]

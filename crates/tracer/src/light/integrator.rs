@@ -105,7 +105,12 @@ impl<'a> Integrator<'a> {
                 return (radiance, depth);
             };
             let [u, v, roulette, choice] = sampler.bounce(depth);
-            let [sky_u, sky_v, lobe_choice, _] = sampler.sky(depth);
+            let sky_numbers = match (&brdf, self.stage.sky().is_sampled()) {
+                // Nothing asks for them.
+                (Brdf::Diffuse { .. }, false) => [0.0; 4],
+                _ => sampler.sky(depth),
+            };
+            let [sky_u, sky_v, lobe_choice, _] = sky_numbers;
             let start = surface.position + LIFT * magnitude(&surface, &hit) * surface.facet;
             if self.has_lights() {
                 let points = sampler.lights(depth);
