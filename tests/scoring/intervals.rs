@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use frame::{Frame, Picture, Raster, Replicate, Truth};
+use frame::{Alignment, Frame, Picture, Raster, Replicate, Truth};
 use metrics::{Metric, Reference, Scores};
 use rayon::prelude::*;
 use suite::{Intervals, intervals, truths_without_pairs};
@@ -89,9 +89,10 @@ fn traced() -> Found {
     let found = (0..TRACED_SEEDS)
         .into_par_iter()
         .map(|seed| {
-            let tracer = TruthTracer::new(&scene, &settings(64, seed)).unwrap();
+            let tracer =
+                TruthTracer::new(&scene, &settings(64, seed), &[Alignment::Trailing]).unwrap();
             let replicates: Vec<Replicate> = (0..REPLICATES as u32)
-                .map(|index| tracer.trace(index, &unwatched).unwrap())
+                .flat_map(|index| tracer.trace(index, &unwatched).unwrap())
                 .collect();
             intervals_of(&picture, &frame, &replicates)
         })
