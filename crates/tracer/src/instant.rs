@@ -49,25 +49,19 @@ pub fn trace_frame(
         },
         times: &[Times::Instant],
         instant: None,
+        shaded_again: 1,
         replicates,
         samples,
         seed: settings.seed,
         stream,
     };
     let pixels = canvas.pixels();
-    let each = u64::from(settings.samples_per_pixel + PILOT_REPLICATES * PILOT_SAMPLES);
-    let meter = Meter::new(watch, pixels.len() as u64 * each);
     let uniform = SampleCounts::Uniform(PILOT_SAMPLES);
     let pilot = film(&uniform, 0..PILOT_REPLICATES, Stream::FramePilot);
     let nothing_moves = vec![false; scene.objects.len() + 1];
-    let samples = choose_samples(
-        &pilot,
-        &nothing_moves,
-        0,
-        settings.samples_per_pixel,
-        &meter,
-    )?;
+    let samples = choose_samples(&pilot, &nothing_moves, 0, settings.samples_per_pixel, watch)?;
     let film = film(&samples, 0..1, Stream::Frame);
+    let meter = Meter::new(watch, film.work(&pixels));
     let pixel_means = film.render(&pixels, &meter, |estimates| PixelMean::of(&estimates[0]))?;
     let picture = assemble_picture(canvas, &pixel_means);
     let points = Raster {

@@ -64,6 +64,7 @@ pub fn trace_ladder(
             places: Places::Area,
             times: &[Times::Midpoints(&shutter_sampler, subframes)],
             instant: None,
+            shaded_again: 1,
             replicates: 0..REPLICATES,
             samples: &SampleCounts::Uniform(samples_per_replicate),
             seed: settings.seed,

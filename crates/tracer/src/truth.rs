@@ -23,6 +23,9 @@ use crate::scene::Scene;
 use crate::settings::TruthSettings;
 use crate::stage::Stage;
 
+/// Distance between samples that are shaded once more, as at the instant.
+const SHADED_AGAIN: u32 = 4;
+
 /// A scene prepared to render the replicates of its truths, for one alignment or several.
 ///
 /// Alignments of one exposure overlap. What the shutter of each sees in the common part of their intervals is traced once. A
@@ -149,11 +152,10 @@ impl<'a> TruthTracer<'a> {
     /// nothing else; it may exceed the number of replicates in the settings.
     pub fn trace(&self, index: u32, watch: Watch) -> Result<Vec<Replicate>, TraceError> {
         let pixels = self.canvas().pixels();
-        let work = u64::from(self.settings.samples_per_replicate()) * self.shutters.len() as u64;
-        let meter = Meter::new(watch, pixels.len() as u64 * work);
-        let samples = self.samples(&meter)?;
+        let samples = self.samples(watch)?;
         let times: Vec<Times> = self.shutters.iter().map(AlignedShutter::times).collect();
         let film = self.film(&times, samples, index..index + 1, Stream::Truth);
+        let meter = Meter::new(watch, film.work(&pixels));
         let supports = self.supports(&film, &meter)?;
         let rendered = film.render(&pixels, &meter, |replicates| {
             let estimates = replicates[0].iter();
@@ -188,6 +190,7 @@ impl<'a> TruthTracer<'a> {
             places: Places::Area,
             times,
             instant: Some(InstantView::new(&self.stage, canvas)),
+            shaded_again: SHADED_AGAIN,
             replicates,
             samples,
             seed: self.settings.seed,
@@ -237,12 +240,12 @@ impl<'a> TruthTracer<'a> {
     }
 
     /// The samples of every pixel, which are the same for every replicate and every alignment of the family.
-    fn samples(&self, meter: &Meter) -> Result<&SampleCounts, TraceError> {
+    fn samples(&self, watch: Watch) -> Result<&SampleCounts, TraceError> {
         if self.samples.get().is_none() {
             let times: Vec<Times> = self.family.iter().map(AlignedShutter::times).collect();
             let uniform = SampleCounts::Uniform(PILOT_SAMPLES);
             let pilot = Film {
-                instant: None,
+                shaded_again: 1,
                 ..self.film(&times, &uniform, 0..PILOT_REPLICATES, Stream::TruthPilot)
             };
             let moving: Vec<bool> = (0..self.stage.scene.objects.len() + 1)
@@ -250,7 +253,7 @@ impl<'a> TruthTracer<'a> {
                 .collect();
             let mean = self.settings.samples_per_replicate();
             let margin = motion_margin(self.settings.height);
-            let chosen = choose_samples(&pilot, &moving, margin, mean, meter)?;
+            let chosen = choose_samples(&pilot, &moving, margin, mean, watch)?;
             // Another thread may have been faster, with the same result.
             self.samples.get_or_init(|| chosen);
         }

@@ -7,10 +7,10 @@ use crate::film::canvas::Canvas;
 use crate::film::dilate::dilate_square;
 use crate::film::render::{Estimate, Film};
 use crate::film::sample_counts::SampleCounts;
-use crate::progress::Meter;
+use crate::progress::{Meter, Progress, Watch};
 
 /// Samples per pixel of each of the pilot's two replicates.
-pub(crate) const PILOT_SAMPLES: u32 = 4;
+pub(crate) const PILOT_SAMPLES: u32 = 2;
 /// Replicates of a pilot: the least whose difference shows the noise.
 pub(crate) const PILOT_REPLICATES: u32 = 2;
 /// Side of the tiles that share a number of samples, pixels. Their pixels' noise is averaged, because that of one pixel is
@@ -74,10 +74,16 @@ pub(crate) fn choose_samples(
     moving: &[bool],
     margin: u32,
     mean: u32,
-    meter: &Meter,
+    watch: Watch,
 ) -> Result<SampleCounts, TraceError> {
     let pixels = pilot.canvas.pixels();
-    let probes = pilot.render(&pixels, meter, |replicates| probe_pixel(replicates, moving))?;
+    // The pilot is no progress of the picture, but a chance to cancel it.
+    let total = pixels.len() as u64 * u64::from(mean);
+    let start = |_: Progress| watch(Progress { done: 0, total });
+    let meter = Meter::new(&start, total);
+    let probes = pilot.render(&pixels, &meter, |replicates| {
+        probe_pixel(replicates, moving)
+    })?;
     let tiles = Tiles::new(pilot.canvas);
     let mut found = tiles.filled(TilePilot::default());
     for (&pixel, probe) in pixels.iter().zip(&probes) {
@@ -104,7 +110,12 @@ pub(crate) fn choose_samples(
 fn probe_pixel(replicates: &[Vec<Estimate>], moving: &[bool]) -> TilePilot {
     let pictures = replicates[0].len() as f64;
     let pairs = replicates[0].iter().zip(&replicates[1]);
-    let squares = pairs.map(|(a, b)| (a.radiance - b.radiance).length_squared());
+    let squares = pairs.map(|(a, b)| {
+        let frozen = a.at_instant.frozen - b.at_instant.frozen;
+        (a.radiance - b.radiance)
+            .length_squared()
+            .max(frozen.length_squared())
+    });
     let all = replicates.iter().flatten();
     TilePilot {
         pixels: 1.0,

@@ -19,9 +19,6 @@ use crate::progress::Meter;
 /// Pixels that a thread takes at a time; between two tasks it reports progress.
 pub(crate) const PIXELS_PER_TASK: usize = 32;
 
-/// Distance between samples that are shaded once more, as at the instant.
-const SHADED_AGAIN: u32 = 8;
-
 /// Times of the samples of a picture.
 #[derive(Clone, Copy)]
 pub(crate) enum Times<'a> {
@@ -51,6 +48,8 @@ pub(crate) struct Film<'a> {
     pub times: &'a [Times<'a>],
     /// View of the instant, if samples are looked up there; the stage must then hold `t = 0`.
     pub instant: Option<InstantView>,
+    /// Distance between samples that are shaded once more, as at the instant.
+    pub shaded_again: u32,
     /// Independent, complete sets of samples, by the numbers that seed them.
     pub replicates: Range<u32>,
     /// Samples per pixel of each.
@@ -172,7 +171,7 @@ impl<'a> Film<'a> {
         let at_instant = self.instant.as_ref().map(|instant| {
             let poses = (&mut eye.poses, &mut eye.instant);
             let point = instant.look_back(self.integrator.stage, poses, &ray, path.hit.as_ref());
-            let shift = sampler.index().is_multiple_of(SHADED_AGAIN).then(|| {
+            let shift = sampler.index().is_multiple_of(self.shaded_again).then(|| {
                 let then = &mut eye.instant;
                 instant.shift(&self.integrator, then, &point, &path, sampler)
             });
