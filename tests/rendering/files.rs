@@ -109,6 +109,7 @@ fn a_truth() -> Truth {
         halves: [picture(20), picture(30)],
         at_instant: [at_instant(60), at_instant(70)],
         standard_error: image(40),
+        samples: plane(80),
         motion: plane(50),
         support: support(),
     }

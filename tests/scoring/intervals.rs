@@ -1,6 +1,6 @@
 //! Intervals of scores, counted over many noisy truths: they contain the score's limit.
 
-use frame::{Frame, Picture, Raster, Replicate, Truth};
+use frame::{Alignment, Frame, Picture, Raster, Replicate, Truth};
 use metrics::{Metric, Reference, Scores};
 use rayon::prelude::*;
 use suite::{Intervals, intervals, truths_without_pairs};
@@ -82,9 +82,10 @@ fn trace_intervals() -> Found {
     let found = (0..TRACED_SEEDS)
         .into_par_iter()
         .map(|seed| {
-            let tracer = TruthTracer::new(&scene, &settings(64, seed)).unwrap();
+            let tracer =
+                TruthTracer::new(&scene, &settings(64, seed), &[Alignment::Trailing]).unwrap();
             let replicates: Vec<Replicate> = (0..REPLICATES as u32)
-                .map(|index| tracer.trace(index, &unwatched).unwrap())
+                .flat_map(|index| tracer.trace(index, &unwatched).unwrap())
                 .collect();
             intervals_of(&picture, &frame, &replicates)
         })

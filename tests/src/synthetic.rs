@@ -148,6 +148,7 @@ impl Scene {
             }),
             at_instant: halves.each_ref().map(|half| nothing_unknown(&half.color)),
             halves,
+            samples: Raster::filled(self.width, self.height, 1.0),
             motion,
             support: self.support(),
         }
@@ -193,6 +194,7 @@ impl Scene {
                     objects: self.names(),
                     moving: moving.clone(),
                     at_instant: nothing_unknown(&picture.color),
+                    samples: Raster::filled(self.width, self.height, 1.0),
                     support: support.clone(),
                     picture,
                 }

@@ -62,4 +62,4 @@ pub use shutter::{
     ShutterProfile,
 };
 pub use support::Support;
-pub use truth::{Truth, TruthError, regions, truth_hash};
+pub use truth::{Truth, TruthError, motion_margin, regions, truth_hash};

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::exr::{ExrFile, read_exr, write_small_exr};
 use crate::shutter::{get_shutter, set_shutter};
 use crate::{
-    Alignment, AtInstant, FileError, Picture, Provenance, Shutter, ShutterProfile, Support,
+    Alignment, AtInstant, FileError, Picture, Plane, Provenance, Shutter, ShutterProfile, Support,
 };
 
 /// One of the renders that a [`Truth`](crate::Truth) is the mean of. All rasters have the same size.
@@ -29,17 +29,20 @@ pub struct Replicate {
     pub picture: Picture,
     /// What was seen, as it was at the instant.
     pub at_instant: AtInstant,
+    /// Samples per pixel: the same for all replicates of a scene, exposure, size and seed.
+    pub samples: Plane,
     /// Pixels that scores are pooled over: the same for all replicates of a scene, shutter and size.
     pub support: Support,
 }
 
 impl Replicate {
-    /// Writes the replicate as OpenEXR: `R G B`, `coverage.<object>`, and the channels of [`AtInstant`] and [`Support`].
+    /// Writes the replicate as OpenEXR: `R G B`, `coverage.<object>`, `samples`, and the channels of [`AtInstant`] and [`Support`].
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
         let color = &self.picture.color;
         let mut file = ExrFile::new(color.width, color.height);
         self.picture.push(&mut file, "", &self.objects);
         self.at_instant.push(&mut file, "");
+        file.push_plane("samples", &self.samples);
         self.support.push(&mut file, &self.objects);
         file.set("kind", "replicate");
         file.set("replicate", self.index);
@@ -65,7 +68,9 @@ impl Replicate {
             || self.shutter_profile != other.shutter_profile
         {
             Some("shutter")
-        } else if self.provenance.samples_per_pixel != other.provenance.samples_per_pixel {
+        } else if self.provenance.samples_per_pixel != other.provenance.samples_per_pixel
+            || self.samples != other.samples
+        {
             Some("number of samples")
         } else {
             None
@@ -88,6 +93,7 @@ impl Replicate {
             moving: objects.iter().map(|name| moving.contains(name)).collect(),
             picture: Picture::from_exr(&file, "", &objects)?,
             at_instant: AtInstant::from_exr(&file, "")?,
+            samples: file.plane("samples")?,
             support: Support::from_exr(&file, &objects)?,
             objects,
         })

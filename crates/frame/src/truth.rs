@@ -27,6 +27,8 @@ pub struct Truth {
     pub halves: [Picture; 2],
     /// What was seen, as it was at the instant; halved in the same way.
     pub at_instant: [AtInstant; 2],
+    /// Samples per pixel over all replicates: more where the picture is noisy.
+    pub samples: Plane,
     /// Standard error of [`Truth::mean`], from the spread of the replicates.
     pub standard_error: Image,
     /// Fraction of (shutter x pixel area) whose visible surface moves on screen while the shutter is open.
@@ -136,6 +138,7 @@ impl Truth {
             objects: first.objects.clone(),
             motion: sum_motion(&Picture::mean(&halves), &first.moving),
             standard_error: estimate_error(replicates),
+            samples: first.samples.map(|samples| samples * count as f32),
             support: first.support.clone(),
             halves,
             at_instant,
@@ -150,7 +153,7 @@ impl Truth {
     /// Returns the margin around motion in which blur is looked for, in pixels: a fifteenth of the height, because bleed leaves the
     /// support. The moving region and accumulations include it.
     pub fn motion_margin(&self) -> u32 {
-        (f64::from(self.motion.height) / 15.0).round() as u32
+        motion_margin(self.motion.height)
     }
 
     /// Averages over all replicates what was seen, as it was at the instant.
@@ -175,7 +178,7 @@ impl Truth {
     }
 
     /// Writes the truth as OpenEXR: the mean as `R G B` and `coverage.<object>`, the channels of [`AtInstant`], the halves of both
-    /// as layers `A` and `B`, `stderr.R/G/B`, `motion`, and the channels of [`Support`]. The attributes `noise_floor_<region>` hold
+    /// as layers `A` and `B`, `stderr.R/G/B`, `motion`, `samples`, and the channels of [`Support`]. The attributes `noise_floor_<region>` hold
     /// [`Truth::noise_floors`].
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
         let (width, height) = self.size();
@@ -188,6 +191,7 @@ impl Truth {
         self.at_instant[1].push(&mut file, "B");
         file.push_color("stderr", &self.standard_error);
         file.push_plane("motion", &self.motion);
+        file.push_plane("samples", &self.samples);
         self.support.push(&mut file, &self.objects);
         file.set("kind", "truth");
         for (region, floor) in self.noise_floors() {
@@ -227,6 +231,7 @@ impl Truth {
             ],
             standard_error: file.color("stderr")?,
             motion: file.plane("motion")?,
+            samples: file.plane("samples")?,
         })
     }
 }
@@ -237,6 +242,11 @@ impl Truth {
 /// where the support saw nothing that the frame does not show.
 pub fn regions(truth: &Truth) -> Regions {
     Regions::new(&truth.support, truth.motion_margin())
+}
+
+/// Returns the margin of [`Truth::motion_margin`] for a picture of `height` rows.
+pub fn motion_margin(height: u32) -> u32 {
+    (f64::from(height) / 15.0).round() as u32
 }
 
 /// Derives the content hash of a truth from that of its first `count` replicates.

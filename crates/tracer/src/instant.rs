@@ -7,7 +7,9 @@ use crate::content_hash::{frame_hash, provenance};
 use crate::error::TraceError;
 use crate::film::canvas::Canvas;
 use crate::film::finite::{check_layer, check_picture};
+use crate::film::pilot::{PILOT_REPLICATES, PILOT_SAMPLES, choose_samples};
 use crate::film::render::{Film, PixelMean, Places, Times, assemble_picture};
+use crate::film::sample_counts::SampleCounts;
 use crate::film::sampler::Stream;
 use crate::light::integrator::Integrator;
 use crate::motion::velocity::{TrackedPoint, camera_velocity, reprojection};
@@ -37,23 +39,30 @@ pub fn trace_frame(
         guard_band: settings.guard_band,
     };
     let stage = Stage::try_new(scene, 0.0, 0.0)?;
-    let film = Film {
-        integrator: Integrator::new(&stage, 0.0),
+    let stage = &stage;
+    let film = |samples, replicates, stream| Film {
+        integrator: Integrator::new(stage, 0.0),
         canvas,
         places: match settings.options.color {
             ColorSampling::Antialiased => Places::Area,
             ColorSampling::Point => Places::Centre,
         },
-        times: Times::Instant,
+        times: &[Times::Instant],
         instant: None,
-        replicates: 0..1,
-        samples_per_replicate: settings.samples_per_pixel,
+        shaded_again: 1,
+        replicates,
+        samples,
         seed: settings.seed,
-        stream: Stream::Frame,
+        stream,
     };
     let pixels = canvas.pixels();
-    let meter = Meter::new(watch, pixels.len() as u64 * film.samples_per_pixel());
-    let pixel_means = film.render(&pixels, &meter, |estimates| PixelMean::of(estimates))?;
+    let uniform = SampleCounts::Uniform(PILOT_SAMPLES);
+    let pilot = film(&uniform, 0..PILOT_REPLICATES, Stream::FramePilot);
+    let nothing_moves = vec![false; scene.objects.len() + 1];
+    let samples = choose_samples(&pilot, &nothing_moves, 0, settings.samples_per_pixel, watch)?;
+    let film = film(&samples, 0..1, Stream::Frame);
+    let meter = Meter::new(watch, film.work(&pixels));
+    let pixel_means = film.render(&pixels, &meter, |estimates| PixelMean::of(&estimates[0]))?;
     let picture = assemble_picture(canvas, &pixel_means);
     let points = Raster {
         width: canvas.columns(),

@@ -5,8 +5,10 @@ use frame::{Accumulation, Ladder, Picture, Plane, Raster, Truth};
 use crate::content_hash::{ladder_hash, provenance};
 use crate::error::TraceError;
 use crate::film::canvas::Canvas;
+use crate::film::dilate::dilate_square;
 use crate::film::finite::check_picture;
 use crate::film::render::{Film, PixelMean, Places, Times};
+use crate::film::sample_counts::SampleCounts;
 use crate::film::sampler::{MOST_SAMPLES, Stream};
 use crate::film::shutter_sampler::ShutterSampler;
 use crate::light::integrator::Integrator;
@@ -57,18 +59,19 @@ pub fn trace_ladder(
     let mut rungs = Vec::with_capacity(subframes.len());
     for &subframes in subframes {
         let film = Film {
-            integrator: Integrator::new(&stage, shutter.at(0.5)),
+            integrator: Integrator::new(&stage, 0.0),
             canvas: Canvas::bare(settings.width, settings.height),
             places: Places::Area,
-            times: Times::Midpoints(&shutter_sampler, subframes),
+            times: &[Times::Midpoints(&shutter_sampler, subframes)],
             instant: None,
+            shaded_again: 1,
             replicates: 0..REPLICATES,
-            samples_per_replicate,
+            samples: &SampleCounts::Uniform(samples_per_replicate),
             seed: settings.seed,
             stream: Stream::Accumulation(subframes),
         };
         let rendered = film.render(&pixels, &meter, |estimates| {
-            [0, 1].map(|half| PixelMean::of([&estimates[half]]))
+            [0, 1].map(|half| PixelMean::of(&estimates[half]))
         })?;
         let halves = [0, 1].map(|half| {
             let mut picture = mean.clone();
@@ -135,17 +138,10 @@ fn affordable_samples(
     1 << most.ilog2()
 }
 
-/// Indices of the pixels within the margin of any pixel that shows motion, rising. The margin is a square, which contains the
-/// disc.
+/// Indices of the pixels within the margin of any pixel that shows motion, rising.
 fn pixels_near_motion(motion: &Raster<bool>, margin: u32) -> Vec<u32> {
-    let within = |at: u32, end: u32| at.saturating_sub(margin)..(at + margin + 1).min(end);
-    let across = Raster::from_fn(motion.width, motion.height, |x, y| {
-        within(x, motion.width).any(|x| *motion.at(x, y))
-    });
+    let near = dilate_square(motion, margin);
     (0..motion.width * motion.height)
-        .filter(|pixel| {
-            let (x, y) = (pixel % motion.width, pixel / motion.width);
-            within(y, motion.height).any(|y| *across.at(x, y))
-        })
+        .filter(|&pixel| near.pixels[pixel as usize])
         .collect()
 }

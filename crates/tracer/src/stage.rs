@@ -58,10 +58,7 @@ impl<'a> Stage<'a> {
 
     /// Returns true if nothing in the world changes its place or shape.
     pub(crate) fn stands_still(&self) -> bool {
-        let mut objects = self.scene.objects.iter().enumerate();
-        objects.all(|(index, object)| {
-            self.poses.stands_still(index) && !self.scene.meshes[object.mesh].deforms()
-        })
+        (0..self.scene.objects.len()).all(|object| self.object_stands_still(object))
     }
 
     /// Returns true if all surfaces look the same from everywhere.
@@ -106,6 +103,27 @@ impl<'a> Stage<'a> {
             ),
             Traversal::Portable => self.tree.blocked(Portable, poses, ray, limit),
         }
+    }
+
+    /// Returns true if anything lies at `0 < t < limit`, for a ray that nothing blocks which stands still.
+    pub(crate) fn blocked_by_mover(&self, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
+        if !self.tree.has_few_movers() {
+            return self.blocked(poses, ray, limit);
+        }
+        match self.traversal {
+            #[cfg(target_arch = "x86_64")]
+            Traversal::Avx2(lanes) => lanes.run(
+                #[inline(always)]
+                || self.tree.blocked_by_mover(lanes, poses, ray, limit),
+            ),
+            Traversal::Portable => self.tree.blocked_by_mover(Portable, poses, ray, limit),
+        }
+    }
+
+    /// Returns true if an object keeps its place and its shape.
+    pub(crate) fn object_stands_still(&self, object: usize) -> bool {
+        let mesh = &self.scene.meshes[self.scene.objects[object].mesh];
+        self.poses.stands_still(object) && !mesh.deforms()
     }
 
     /// The same stage, traversed as on a processor without AVX2: for comparison.

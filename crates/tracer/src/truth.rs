@@ -1,18 +1,21 @@
 //! The truth: radiance and visibility integrated over the shutter interval.
 
+use std::ops::Range;
 use std::sync::OnceLock;
 
-use frame::{AtInstant, Raster, Replicate, Shutter, Support, Truth};
+use frame::{Alignment, AtInstant, Raster, Replicate, Shutter, Support, Truth, motion_margin};
 
 use crate::content_hash::{provenance, replicate_hash};
 use crate::error::TraceError;
 use crate::film::at_instant::{InstantMeans, InstantView};
 use crate::film::canvas::Canvas;
 use crate::film::finite::{check_at_instant, check_picture};
+use crate::film::pilot::{PILOT_REPLICATES, PILOT_SAMPLES, choose_samples};
 use crate::film::render::{Film, PixelMean, Places, Times, assemble_picture};
+use crate::film::sample_counts::SampleCounts;
 use crate::film::sampler::Stream;
 use crate::film::shutter_sampler::ShutterSampler;
-use crate::film::support::trace_support;
+use crate::film::support::trace_supports;
 use crate::light::integrator::Integrator;
 use crate::motion::moving::find_moving_objects;
 use crate::progress::{Meter, Progress, Watch};
@@ -20,15 +23,34 @@ use crate::scene::Scene;
 use crate::settings::TruthSettings;
 use crate::stage::Stage;
 
-/// A scene prepared to render the replicates of one truth.
+/// Distance between samples that are shaded once more, as at the instant.
+const SHADED_AGAIN: u32 = 4;
+
+/// A scene prepared to render the replicates of its truths, for one alignment or several.
+///
+/// Alignments of one exposure overlap. What the shutter of each sees in the common part of their intervals is traced once. A
+/// replicate has the same bytes whether it is rendered alone or with others.
 pub struct TruthTracer<'a> {
     stage: Stage<'a>,
     settings: TruthSettings,
+    /// The truths to render.
+    shutters: Vec<AlignedShutter>,
+    /// All alignments that share their numbers of samples with these.
+    family: Vec<AlignedShutter>,
+    /// Samples per pixel of a replicate, from the pilot.
+    samples: OnceLock<SampleCounts>,
+    /// Objects seen per pixel, for each of the truths, probed with the first replicate.
+    supports: OnceLock<Vec<Support>>,
+}
+
+/// The shutter of one truth.
+#[derive(Clone)]
+struct AlignedShutter {
+    alignment: Alignment,
     shutter: Shutter,
-    shutter_sampler: ShutterSampler,
+    sampler: ShutterSampler,
+    /// Per object id, true if it moves on screen while the shutter is open.
     moving: Vec<bool>,
-    /// Objects seen per pixel, probed with the first replicate.
-    support: OnceLock<Support>,
 }
 
 /// Renders the picture that a camera with an open shutter would have taken, and measures its noise.
@@ -37,101 +59,218 @@ pub fn trace_truth(
     settings: &TruthSettings,
     watch: Watch,
 ) -> Result<Truth, TraceError> {
-    let tracer = TruthTracer::new(scene, settings)?;
-    let replicates: Vec<Replicate> = (0..settings.replicates)
-        .map(|index| {
-            tracer.trace(index, &|progress: Progress| {
-                watch(Progress {
-                    done: progress.done + u64::from(index) * progress.total,
-                    total: progress.total * u64::from(settings.replicates),
-                })
+    let tracer = TruthTracer::new(scene, settings, &[settings.alignment])?;
+    let mut replicates = Vec::new();
+    for index in 0..settings.replicates {
+        let traced = tracer.trace(index, &|progress: Progress| {
+            watch(Progress {
+                done: progress.done + u64::from(index) * progress.total,
+                total: progress.total * u64::from(settings.replicates),
             })
-        })
-        .collect::<Result<_, _>>()?;
+        })?;
+        replicates.extend(traced);
+    }
     Ok(Truth::of(&replicates).expect("settings ask for an even number of replicates"))
 }
 
-impl<'a> TruthTracer<'a> {
-    /// Prepares a scene; refuses settings with which it cannot be rendered.
-    pub fn new(scene: &'a Scene, settings: &TruthSettings) -> Result<Self, TraceError> {
+impl AlignedShutter {
+    /// Refuses settings with which the scene cannot be rendered.
+    fn new(scene: &Scene, settings: &TruthSettings) -> Result<Self, TraceError> {
         let shutter = settings.check(scene)?;
-        let whole = scene.shutter_profile.whole(shutter);
         Ok(Self {
-            stage: Stage::try_new(scene, whole.open.min(0.0), whole.close.max(0.0))?,
-            settings: *settings,
+            alignment: settings.alignment,
             shutter,
-            shutter_sampler: ShutterSampler::new(shutter, &scene.shutter_profile),
-            moving: find_moving_objects(scene, whole),
-            support: OnceLock::new(),
+            sampler: ShutterSampler::new(shutter, &scene.shutter_profile),
+            moving: find_moving_objects(scene, scene.shutter_profile.whole(shutter)),
         })
     }
 
-    /// Memory that a pixel takes while a replicate is traced, in bytes: its means, those at the instant, and the support.
+    fn times(&self) -> Times<'_> {
+        Times::Shutter(&self.sampler)
+    }
+}
+
+/// Alignments that overlap with this one and are used with it: they share their numbers of samples.
+fn family(alignment: Alignment) -> &'static [Alignment] {
+    match alignment {
+        Alignment::Trailing | Alignment::Centred => &[Alignment::Trailing, Alignment::Centred],
+        Alignment::Leading => &[Alignment::Leading],
+    }
+}
+
+impl<'a> TruthTracer<'a> {
+    /// Prepares a scene for one truth per alignment: one alone, or trailing and centred. Refuses settings with which the scene
+    /// cannot be rendered.
+    pub fn new(
+        scene: &'a Scene,
+        settings: &TruthSettings,
+        alignments: &[Alignment],
+    ) -> Result<Self, TraceError> {
+        let family = family(alignments[0]);
+        assert!(
+            alignments
+                .iter()
+                .all(|alignment| family.contains(alignment)),
+            "only trailing and centred truths are rendered together"
+        );
+        let prepare = |alignment: &Alignment| {
+            let settings = TruthSettings {
+                alignment: *alignment,
+                ..*settings
+            };
+            AlignedShutter::new(scene, &settings)
+        };
+        let shutters = alignments.iter().map(prepare).collect::<Result<_, _>>()?;
+        let family: Vec<AlignedShutter> = family.iter().map(prepare).collect::<Result<_, _>>()?;
+        let whole = (family.iter()).map(|shutter| scene.shutter_profile.whole(shutter.shutter));
+        let [open, close] = whole.fold([0.0, 0.0], |[open, close]: [f64; 2], whole| {
+            [open.min(whole.open), close.max(whole.close)]
+        });
+        Ok(Self {
+            stage: Stage::try_new(scene, open, close)?,
+            settings: *settings,
+            shutters,
+            family,
+            samples: OnceLock::new(),
+            supports: OnceLock::new(),
+        })
+    }
+
+    /// Memory that a pixel takes while a replicate of every truth is traced, in bytes: its means, those at the instant, and
+    /// the support.
     pub fn bytes_per_pixel(&self) -> usize {
         let coverages = self.stage.scene.objects.len() + 1;
         let masks = coverages + 2;
-        size_of::<PixelMean>()
+        let each = size_of::<PixelMean>()
             + coverages * size_of::<f32>()
             + size_of::<InstantMeans>()
-            + masks * size_of::<bool>()
+            + masks * size_of::<bool>();
+        self.shutters.len() * each + size_of::<u32>()
     }
 
-    /// Renders one replicate. The index seeds its random numbers and changes nothing else; it may exceed the number of
-    /// replicates in the settings.
-    pub fn trace(&self, index: u32, watch: Watch) -> Result<Replicate, TraceError> {
-        let canvas = Canvas::bare(self.settings.width, self.settings.height);
-        let film = Film {
-            integrator: Integrator::new(&self.stage, self.shutter.at(0.5)),
+    /// Renders one replicate of every truth, in the order of the alignments. The index seeds its random numbers and changes
+    /// nothing else; it may exceed the number of replicates in the settings.
+    pub fn trace(&self, index: u32, watch: Watch) -> Result<Vec<Replicate>, TraceError> {
+        let pixels = self.canvas().pixels();
+        let samples = self.samples(watch)?;
+        let times: Vec<Times> = self.shutters.iter().map(AlignedShutter::times).collect();
+        let film = self.film(&times, samples, index..index + 1, Stream::Truth);
+        let meter = Meter::new(watch, film.work(&pixels));
+        let supports = self.supports(&film, &meter)?;
+        let rendered = film.render(&pixels, &meter, |replicates| {
+            let estimates = replicates[0].iter();
+            let means = estimates.map(|estimate| (PixelMean::of([estimate]), estimate.at_instant));
+            means.collect::<Vec<(PixelMean, InstantMeans)>>()
+        })?;
+        (self.shutters.iter().zip(supports).enumerate())
+            .map(|(number, (shutter, support))| {
+                let pixels = rendered.iter().map(|means| means[number].clone());
+                let (means, instant_means): (Vec<PixelMean>, Vec<InstantMeans>) = pixels.unzip();
+                self.replicate(index, shutter, support, &means, instant_means)
+            })
+            .collect()
+    }
+
+    fn canvas(&self) -> Canvas {
+        Canvas::bare(self.settings.width, self.settings.height)
+    }
+
+    fn film<'f>(
+        &'f self,
+        times: &'f [Times<'f>],
+        samples: &'f SampleCounts,
+        replicates: Range<u32>,
+        stream: Stream,
+    ) -> Film<'f> {
+        let canvas = self.canvas();
+        Film {
+            // Emitters are weighted at the instant, which belongs to every alignment.
+            integrator: Integrator::new(&self.stage, 0.0),
             canvas,
             places: Places::Area,
-            times: Times::Shutter(&self.shutter_sampler),
+            times,
             instant: Some(InstantView::new(&self.stage, canvas)),
-            replicates: index..index + 1,
-            samples_per_replicate: self.settings.samples_per_replicate(),
+            shaded_again: SHADED_AGAIN,
+            replicates,
+            samples,
             seed: self.settings.seed,
-            stream: Stream::Truth,
-        };
-        let pixels = canvas.pixels();
-        let meter = Meter::new(watch, pixels.len() as u64 * film.samples_per_pixel());
-        let support = self.support(&film, &meter)?;
-        let rendered = film.render(&pixels, &meter, |estimates| {
-            (PixelMean::of(estimates), estimates[0].at_instant)
-        })?;
-        let (means, instant_means): (Vec<PixelMean>, Vec<InstantMeans>) =
-            rendered.into_iter().unzip();
+            stream,
+        }
+    }
+
+    /// Assembles a replicate from its pixels in row-major order.
+    fn replicate(
+        &self,
+        index: u32,
+        shutter: &AlignedShutter,
+        support: &Support,
+        means: &[PixelMean],
+        instant_means: Vec<InstantMeans>,
+    ) -> Result<Replicate, TraceError> {
         let scene = self.stage.scene;
-        let picture = assemble_picture(canvas, &means);
+        let canvas = self.canvas();
+        let settings = TruthSettings {
+            alignment: shutter.alignment,
+            ..self.settings
+        };
+        let picture = assemble_picture(canvas, means);
         let at_instant = assemble_at_instant(canvas, instant_means);
         check_picture(scene, &picture)?;
         check_at_instant(scene, &at_instant)?;
+        let samples = self.samples.get().expect("the replicate was traced by it");
         Ok(Replicate {
             provenance: provenance(
                 &self.stage,
-                self.settings.seed,
-                self.settings.samples_per_replicate(),
+                settings.seed,
+                settings.samples_per_replicate(),
                 1,
-                replicate_hash(scene, &self.settings),
+                replicate_hash(scene, &settings),
             ),
             index,
-            shutter: self.shutter,
+            shutter: shutter.shutter,
             shutter_profile: scene.shutter_profile.clone(),
-            alignment: self.settings.alignment,
+            alignment: shutter.alignment,
             objects: scene.object_names(),
-            moving: self.moving.clone(),
+            moving: shutter.moving.clone(),
             picture,
             at_instant,
-            support,
+            samples: samples.to_plane(canvas),
+            support: support.clone(),
         })
     }
 
-    /// The support, which is the same for every replicate.
-    fn support(&self, film: &Film, meter: &Meter) -> Result<Support, TraceError> {
-        if self.support.get().is_none() {
-            let found = trace_support(film, &self.moving, meter)?;
+    /// The samples of every pixel, which are the same for every replicate and every alignment of the family.
+    fn samples(&self, watch: Watch) -> Result<&SampleCounts, TraceError> {
+        if self.samples.get().is_none() {
+            let times: Vec<Times> = self.family.iter().map(AlignedShutter::times).collect();
+            let uniform = SampleCounts::Uniform(PILOT_SAMPLES);
+            let pilot = Film {
+                shaded_again: 1,
+                ..self.film(&times, &uniform, 0..PILOT_REPLICATES, Stream::TruthPilot)
+            };
+            let moving: Vec<bool> = (0..self.stage.scene.objects.len() + 1)
+                .map(|object| self.family.iter().any(|shutter| shutter.moving[object]))
+                .collect();
+            let mean = self.settings.samples_per_replicate();
+            let margin = motion_margin(self.settings.height);
+            let chosen = choose_samples(&pilot, &moving, margin, mean, watch)?;
             // Another thread may have been faster, with the same result.
-            self.support.get_or_init(|| found);
+            self.samples.get_or_init(|| chosen);
         }
-        Ok(self.support.get().expect("it was just probed").clone())
+        Ok(self.samples.get().expect("they were just chosen"))
+    }
+
+    /// The supports of all truths, which are the same for every replicate.
+    fn supports(&self, film: &Film, meter: &Meter) -> Result<&[Support], TraceError> {
+        if self.supports.get().is_none() {
+            let moving: Vec<&[bool]> = (self.shutters.iter())
+                .map(|shutter| shutter.moving.as_slice())
+                .collect();
+            let found = trace_supports(film, &moving, meter)?;
+            // Another thread may have been faster, with the same result.
+            self.supports.get_or_init(|| found);
+        }
+        Ok(self.supports.get().expect("they were just probed"))
     }
 }
 
@@ -171,14 +310,77 @@ mod tests {
                 replicates: 2,
                 ..TruthSettings::default()
             };
-            let mut tracer = TruthTracer::new(&scene, &settings).expect("settings are allowed");
+            let mut tracer = TruthTracer::new(&scene, &settings, &[settings.alignment])
+                .expect("settings are allowed");
             let unwatched = |_: Progress| ControlFlow::Continue(());
-            let fastest = tracer.trace(0, &unwatched).expect("nothing cancels");
+            let fastest = tracer
+                .trace(0, &unwatched)
+                .expect("nothing cancels")
+                .remove(0);
             tracer.stage = tracer.stage.portable();
             assert_eq!(tracer.stage.traversal(), "portable");
-            let portable = tracer.trace(0, &unwatched).expect("nothing cancels");
+            let portable = tracer
+                .trace(0, &unwatched)
+                .expect("nothing cancels")
+                .remove(0);
             assert_eq!(fastest.picture.color.pixels, portable.picture.color.pixels);
         }
+    }
+
+    #[test]
+    fn a_replicate_has_the_same_bytes_alone_and_with_the_other_alignment() {
+        for scene in ["fan", "railing"] {
+            let scene = load_test_scene(scene);
+            let settings = TruthSettings {
+                width: 48,
+                height: 27,
+                samples_per_pixel: 32,
+                replicates: 2,
+                exposure: 0.3,
+                ..TruthSettings::default()
+            };
+            let unwatched = |_: Progress| ControlFlow::Continue(());
+            let trace = |alignments: &[Alignment]| {
+                let tracer = TruthTracer::new(&scene, &settings, alignments).expect("allowed");
+                tracer.trace(1, &unwatched).expect("nothing cancels")
+            };
+            let [trailing, centred] = [Alignment::Trailing, Alignment::Centred];
+            let both = trace(&[trailing, centred]);
+            assert_eq!(both, [trace(&[trailing]), trace(&[centred])].concat());
+            assert_ne!(both[0].picture, both[1].picture);
+        }
+    }
+
+    #[test]
+    fn samples_gather_where_the_picture_is_noisy_and_do_not_exceed_the_mean() {
+        let scene = load_test_scene("two_spheres");
+        let settings = TruthSettings {
+            width: 64,
+            height: 36,
+            samples_per_pixel: 64,
+            replicates: 2,
+            ..TruthSettings::default()
+        };
+        let unwatched = |_: Progress| ControlFlow::Continue(());
+        let truth = trace_truth(&scene, &settings, &unwatched).expect("settings are allowed");
+        let samples = &truth.samples.pixels;
+        let mean = samples.iter().sum::<f32>() / samples.len() as f32;
+        assert!((32.0..=64.0).contains(&mean), "{mean}");
+        let errors = truth.standard_error.pixels.iter();
+        let noise: Vec<f32> = errors.map(|error| error.iter().sum()).collect();
+        let mean_noise = |wanted: fn(f32) -> bool| {
+            let wanted = samples
+                .iter()
+                .zip(&noise)
+                .filter(|(count, _)| wanted(**count));
+            let noise: Vec<f32> = wanted.map(|(_, noise)| *noise).collect();
+            noise.iter().sum::<f32>() / noise.len() as f32
+        };
+        let [few, many] = [
+            mean_noise(|count| count <= 16.0),
+            mean_noise(|count| count > 64.0),
+        ];
+        assert!(few < many, "{few} {many}");
     }
 
     /// Renders two replicates of a scene at four by four pixels.

@@ -3,8 +3,8 @@
 use frame::Truth;
 use suite::{
     Error, MOST_REPLICATES, RenderSettings, Sharing, claim, deciding_floor,
-    estimate_render_seconds, printable_path, render_frame, render_part, render_truth,
-    render_truth_until, scene_folder,
+    estimate_render_seconds, printable_path, render_frame, render_part, render_shared,
+    render_truth, render_truth_until, scene_folder,
 };
 use tracer::Scene;
 
@@ -38,6 +38,8 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
                 if indices.start == 0 {
                     render_frame(&scene, &settings, out, monitor)?;
                 }
+                let shared = indices.clone();
+                render_shared(&scene, &settings, &args.alignments, shared, out, monitor)?;
                 for alignment in &args.alignments {
                     render_part(&scene, &settings, *alignment, indices.clone(), out, monitor)?;
                 }
@@ -78,6 +80,7 @@ fn render_whole(args: &RenderArgs, scene: &Scene, count: u32) -> Result<Vec<Stri
     let (out, monitor) = (&args.scenes.out, make_monitor());
     let _claim = claim(out, [scene], Sharing::Together)?;
     render_frame(scene, &settings, out, monitor)?;
+    render_shared(scene, &settings, &args.alignments, 0..count, out, monitor)?;
     let mut noisy = Vec::new();
     let mut report = format!("{}\n", printable_path(&scene_folder(out, scene)));
     for &alignment in &args.alignments {

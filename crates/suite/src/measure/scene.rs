@@ -25,6 +25,7 @@ use crate::folder::scene_folder::scene_folder;
 use crate::render::frames::render_frame;
 use crate::render::ladders::render_truth_and_ladder;
 use crate::render::memory::check_measuring_memory;
+use crate::render::shared::render_shared;
 use crate::render::truths::render_replicates;
 use crate::run::case::Case;
 use crate::run::failure::Failure;
@@ -198,8 +199,11 @@ impl SceneContext<'_> {
         let folder = scene_folder(out, self.scene);
         let frame = render_frame(self.scene, render, out, *monitor)?;
         let mut files = vec![write_frame(&folder, self.scene, &frame)?];
+        let alignments = self.plan.alignments();
+        let replicates = 0..render.replicates;
+        render_shared(self.scene, render, &alignments, replicates, out, *monitor)?;
         let mut truths = Truths::new();
-        for (alignment, done) in self.plan.alignments().into_iter().zip(0..) {
+        for (alignment, done) in alignments.into_iter().zip(0..) {
             advance(1 + done * self.truth_steps());
             let rendered = render_truth_and_ladder(self.scene, render, alignment, out, *monitor)?;
             files.push(write_truth(&folder, self.scene, &rendered.0)?);

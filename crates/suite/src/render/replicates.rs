@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, Replicate};
+use frame::{Alignment, Replicate, Truth, truth_hash};
 use tracer::{Scene, TruthSettings, TruthTracer};
 
 use crate::{Error, Monitor};
@@ -43,29 +43,40 @@ impl ReplicateFiles {
         monitor: Monitor,
     ) -> Result<Vec<Replicate>, Error> {
         let mut tracer = None;
-        indices
-            .map(|index| {
-                if let Some(found) = self.read(index) {
-                    return Ok(found);
-                }
-                let tracer = match &mut tracer {
-                    Some(tracer) => tracer,
-                    none => none.insert(TruthTracer::new(scene, settings)?),
-                };
-                let label = format!("{} {}, replicate {index}", scene.name, self.alignment);
-                let replicate = monitor.watch(&label, |watch| tracer.trace(index, watch))?;
+        let mut replicates = Vec::new();
+        for index in indices {
+            if let Some(found) = self.read(index) {
+                replicates.push(found);
+                continue;
+            }
+            let tracer = match &mut tracer {
+                Some(tracer) => tracer,
+                none => none.insert(TruthTracer::new(scene, settings, &[self.alignment])?),
+            };
+            let label = format!("{} {}, replicate {index}", scene.name, self.alignment);
+            for replicate in monitor.watch(&label, |watch| tracer.trace(index, watch))? {
                 replicate.write(&self.path(index))?;
-                Ok(replicate)
-            })
-            .collect()
+                replicates.push(replicate);
+            }
+        }
+        Ok(replicates)
     }
 
-    fn read(&self, index: u32) -> Option<Replicate> {
+    /// Returns true if the truth of this many replicates is there.
+    pub(super) fn has_truth(&self, replicates: u32) -> bool {
+        let expected = truth_hash(&self.hash, replicates);
+        let is_expected = |found: Truth| found.provenance.content_hash == expected;
+        Truth::read(&self.truth_path()).is_ok_and(is_expected)
+    }
+
+    /// Reads a replicate; none where it is missing, broken or made from other inputs.
+    pub(super) fn read(&self, index: u32) -> Option<Replicate> {
         let found = Replicate::read(&self.path(index)).ok()?;
         (found.provenance.content_hash == self.hash && found.index == index).then_some(found)
     }
 
-    fn path(&self, index: u32) -> PathBuf {
+    /// Names the file of a replicate.
+    pub(super) fn path(&self, index: u32) -> PathBuf {
         replicates_folder(&self.folder, self.alignment).join(format!("replicate_{index:03}.exr"))
     }
 }

@@ -13,7 +13,7 @@ pub const SIDES: RangeInclusive<u32> = 16..=16384;
 pub const MOST_REPLICATES: u32 = 4096;
 
 /// Replicates of a truth that have as many samples as a frame, whatever number the truth has.
-const FRAME_REPLICATES: u32 = 8;
+const FRAME_REPLICATES: u32 = 4;
 
 /// Settings of every scene's frame and truths; run.json holds them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

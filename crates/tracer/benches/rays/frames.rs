@@ -1,87 +1,104 @@
-//! Whole truths of shipped scenes: camera samples per second, and the time to a given noise.
+//! Frames and truths of shipped scenes: CPU time at a given noise.
 
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use frame::{AtInstant, Picture, Raster, Truth};
-use tracer::{Progress, TruthSettings, TruthTracer, load_scene, trace_truth};
+use frame::{Alignment, Region, Truth};
+use tracer::{FrameSettings, Progress, Scene, TruthSettings, TruthTracer, load_scene, trace_frame};
 
-const SCENES: [&str; 3] = ["fan", "railing", "two_spheres"];
-const TURNS: u32 = 3;
-/// Standard error that times are scaled to, by the square of the error that was reached. Noise falls faster than that, so the
-/// times are upper limits.
-const TARGET: f64 = 0.003;
+const SCENES: [&str; 5] = ["fan", "railing", "walker", "foliage", "neon"];
+/// Noise floor of the moving region that times are scaled to, by the square of the floor that was reached. Noise falls faster
+/// than that, so times of noisier truths are upper limits.
+const TARGET: f64 = 0.005;
+const SAMPLES: u32 = 128;
 
-/// Renders small truths on all processors and prints what they cost.
+/// Renders the frame and both truths of each scene on all processors and prints what they cost.
 pub fn report() {
     let settings = TruthSettings {
         width: 160,
         height: 90,
-        samples_per_pixel: 128,
+        samples_per_pixel: SAMPLES,
         ..TruthSettings::default()
     };
     println!(
-        "\n{}x{} pixels, {} samples each, all processors, best of {TURNS} turns",
-        settings.width, settings.height, settings.samples_per_pixel
+        "\n{}x{} pixels, {SAMPLES} samples each, all processors; CPU seconds",
+        settings.width, settings.height
     );
+    println!(
+        "{:12} {:>7} {:>9} {:>7} {:>13} {:>15}",
+        "", "frame", "trailing", "both", "floor, moving", "all at 0.005"
+    );
+    let mut product = 1.0;
     for name in SCENES {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("../../scenes")
             .join(name);
-        let scene = load_scene(&folder, None).expect("the scenes of the catalogue load");
-        let unwatched = |_: Progress| ControlFlow::Continue(());
-        let mut best = Duration::MAX;
-        let mut squares = 0.0;
-        let mut stored = [0; 2];
-        for _ in 0..TURNS {
-            let start = Instant::now();
-            let truth = trace_truth(&scene, &settings, &unwatched).expect("settings are allowed");
-            best = best.min(start.elapsed());
-            let errors = truth.standard_error.pixels.iter().flatten();
-            stored = stored_per_pixel(&truth);
-            squares = errors.map(|error| f64::from(*error).powi(2)).sum::<f64>();
-        }
-        let pixels = f64::from(settings.width * settings.height);
-        let error = (squares / (3.0 * pixels)).sqrt();
-        let samples = pixels * f64::from(settings.samples_per_pixel);
-        println!(
-            "{name:12} {:5.2} million camera samples/s, standard error {error:.4}; {TARGET} within {:.2} s",
-            samples / best.as_secs_f64() / 1e6,
-            best.as_secs_f64() * (error / TARGET).powi(2)
-        );
-        let tracer = TruthTracer::new(&scene, &settings).expect("settings are allowed");
-        println!(
-            "{:12} {} bytes per pixel while a replicate is traced, {} in each of {} replicates, {} in the truth",
-            "",
-            tracer.bytes_per_pixel(),
-            stored[0],
-            settings.replicates,
-            stored[1]
-        );
+        let scene = load_scene(&folder, None).expect("the shipped scenes load");
+        let settings = TruthSettings {
+            exposure: scene.exposure,
+            ..settings
+        };
+        let (frame, _) = timed(|| trace_a_frame(&scene, &settings));
+        let (one, _) = timed(|| trace_truths(&scene, &settings, &[Alignment::Trailing]));
+        let alignments = [Alignment::Trailing, Alignment::Centred];
+        let (both, truth) = timed(|| trace_truths(&scene, &settings, &alignments));
+        let floors = truth.noise_floors();
+        let moving = floors.iter().find(|(region, _)| *region == Region::Moving);
+        let floor = moving.expect("something moves").1;
+        let scaled = (frame + both) * (floor / TARGET).powi(2);
+        product *= scaled;
+        println!("{name:12} {frame:7.2} {one:9.2} {both:7.2} {floor:13.5} {scaled:15.2}");
     }
+    let mean = product.powf(1.0 / SCENES.len() as f64);
+    println!("geometric mean {mean:52.2}");
 }
 
-/// Bytes per pixel of a replicate, and of a truth.
-fn stored_per_pixel(truth: &Truth) -> [usize; 2] {
-    let replicate = in_picture(&truth.halves[0]) + in_instant(&truth.at_instant[0]);
-    let own = in_raster(&truth.standard_error) + in_raster(&truth.motion);
-    [replicate, 2 * replicate + own]
+fn trace_a_frame(scene: &Scene, settings: &TruthSettings) {
+    let settings = FrameSettings {
+        width: settings.width,
+        height: settings.height,
+        samples_per_pixel: settings.samples_per_pixel / 2,
+        ..FrameSettings::default()
+    };
+    trace_frame(scene, &settings, &unwatched).expect("settings are allowed");
 }
 
-fn in_picture(picture: &Picture) -> usize {
-    let coverage = picture.coverage.iter();
-    in_raster(&picture.color) + coverage.map(in_raster).sum::<usize>()
+/// Renders the truths of some alignments; returns the first.
+fn trace_truths(scene: &Scene, settings: &TruthSettings, alignments: &[Alignment]) -> Truth {
+    let tracer = TruthTracer::new(scene, settings, alignments).expect("settings are allowed");
+    let first = (0..settings.replicates).map(|index| {
+        let mut replicates = tracer.trace(index, &unwatched).expect("nothing cancels");
+        replicates.remove(0)
+    });
+    let first: Vec<_> = first.collect();
+    Truth::of(&first).expect("their number is even")
 }
 
-fn in_instant(instant: &AtInstant) -> usize {
-    in_raster(&instant.frozen)
-        + in_raster(&instant.unknowable)
-        + in_raster(&instant.placed)
-        + in_raster(&instant.offset)
-        + in_raster(&instant.spread)
+fn unwatched(_: Progress) -> ControlFlow<()> {
+    ControlFlow::Continue(())
 }
 
-fn in_raster<T>(_: &Raster<T>) -> usize {
-    size_of::<T>()
+/// Runs some work; returns the CPU seconds of the process that it took, on all threads, and its result. Where the system does
+/// not tell CPU time, wall time.
+fn timed<T>(work: impl FnOnce() -> T) -> (f64, T) {
+    let start = Instant::now();
+    let cpu = cpu_time();
+    let result = work();
+    let taken = match (cpu, cpu_time()) {
+        (Some(from), Some(to)) => to - from,
+        _ => start.elapsed(),
+    };
+    (taken.as_secs_f64(), result)
+}
+
+/// CPU time of the process so far; none where `/proc/self/schedstat` is missing.
+fn cpu_time() -> Option<Duration> {
+    let tasks = std::fs::read_dir("/proc/self/task").ok()?;
+    let mut sum = 0;
+    for task in tasks {
+        let text = std::fs::read_to_string(task.ok()?.path().join("schedstat")).ok()?;
+        sum += text.split_whitespace().next()?.parse::<u64>().ok()?;
+    }
+    Some(Duration::from_nanos(sum))
 }

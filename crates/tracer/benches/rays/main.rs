@@ -27,9 +27,14 @@ const LIFT: f64 = 1e-6;
 
 fn main() {
     divan::main();
-    if !std::env::args().any(|word| word == "--list" || word == "--test") {
+    let has = |wanted: &str| std::env::args().any(|word| word == wanted);
+    if has("--list") || has("--test") {
+        return;
+    }
+    if !has("truths") {
         ratios();
     }
+    frames::report();
 }
 
 /// A ray and its time in frames.
@@ -164,7 +169,6 @@ fn ratios() {
         fields[0].stage.traversal(),
         fields[0].stage.bytes() as f64 / stored as f64
     );
-    frames::report();
 }
 
 /// Measures the time of some work.

@@ -7,7 +7,7 @@
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::Avx2;
@@ -87,21 +87,26 @@ impl SlabRay {
     #[inline(always)]
     pub fn new(origin: DVec3, direction: DVec3, largest_coordinate: f64) -> Self {
         let pad = (PAD * largest_coordinate.max(origin.abs().max_element())) as f32;
-        let direction = direction.as_vec3().to_array();
-        let origin = origin.as_vec3().to_array();
-        let scale = direction.map(|d| {
-            1.0 / if d.abs() < LEAST_DIRECTION {
-                LEAST_DIRECTION.copysign(d)
-            } else {
-                d
-            }
-        });
+        let scale = 1.0
+            / Vec3::select(
+                direction
+                    .as_vec3()
+                    .abs()
+                    .cmplt(Vec3::splat(LEAST_DIRECTION)),
+                Vec3::splat(LEAST_DIRECTION).copysign(direction.as_vec3()),
+                direction.as_vec3(),
+            );
+        let centre = -origin.as_vec3() * scale;
+        let margin = pad * scale.abs();
+        let is_backwards = scale.cmplt(Vec3::ZERO);
         Self {
-            scale,
-            offsets: [-pad, pad].map(|pad| {
-                std::array::from_fn(|axis| -origin[axis] * scale[axis] + pad * scale[axis].abs())
-            }),
-            first: scale.map(|scale| usize::from(scale < 0.0)),
+            scale: scale.to_array(),
+            offsets: [(centre - margin).to_array(), (centre + margin).to_array()],
+            first: [
+                usize::from(is_backwards.test(0)),
+                usize::from(is_backwards.test(1)),
+                usize::from(is_backwards.test(2)),
+            ],
         }
     }
 }
@@ -110,7 +115,7 @@ impl EdgeRay {
     /// Prepares a ray for triangles of coordinates up to `largest_coordinate`, in metres.
     #[inline(always)]
     pub fn new(origin: DVec3, direction: DVec3, largest_coordinate: f64) -> Self {
-        let [o, d] = [origin, direction].map(|vector| vector.to_array());
+        let [o, d] = [origin.to_array(), direction.to_array()];
         let longest = direction.abs().max_position();
         let axes = [(longest + 1) % 3, (longest + 2) % 3, longest];
         let along = 1.0 / d[longest];
@@ -118,8 +123,11 @@ impl EdgeRay {
         let greatest = largest_coordinate.max(origin.abs().max_element());
         Self {
             axes,
-            shear: shear.map(|shear| shear as f32),
-            foot: [0, 1].map(|axis| (o[axes[axis]] - shear[axis] * o[longest]) as f32),
+            shear: [shear[0] as f32, shear[1] as f32],
+            foot: [
+                (o[axes[0]] - shear[0] * o[longest]) as f32,
+                (o[axes[1]] - shear[1] * o[longest]) as f32,
+            ],
             doubt: if greatest < GREATEST_SQUARED {
                 (EDGE_PAD * greatest) as f32
             } else {

@@ -18,6 +18,8 @@ use crate::scene::Scene;
 
 /// A limit before every crossing: it ends a traversal.
 const NOWHERE: f64 = f64::NEG_INFINITY;
+/// Movers up to which a test of each is shorter than a traversal of the world tree.
+const FEW_MOVERS: usize = 8;
 
 /// The meshes of a scene, and the world tree above them.
 ///
@@ -28,6 +30,8 @@ pub(crate) struct SceneTree<'a> {
     /// Trees per mesh of the scene; none where no object shows it.
     meshes: Vec<Option<MeshTree<'a>>>,
     world: WorldTree,
+    /// Objects that move or deform.
+    movers: Vec<usize>,
     /// Holes per object.
     opacities: Vec<Opacity>,
     stack_size: usize,
@@ -96,6 +100,12 @@ impl<'a> SceneTree<'a> {
             stack_size: world.stack_size() + in_meshes.unwrap_or(0),
             meshes,
             world,
+            movers: (0..scene.objects.len())
+                .filter(|&object| {
+                    let mesh = &scene.meshes[scene.objects[object].mesh];
+                    !poses.stands_still(object) || mesh.deforms()
+                })
+                .collect(),
             opacities: Opacity::of_objects(scene),
         })
     }
@@ -142,6 +152,47 @@ impl<'a> SceneTree<'a> {
             },
         );
         blocked
+    }
+
+    /// Returns true if anything that moves lies at `0 < t < limit`.
+    #[inline(always)]
+    pub fn blocked_by_mover<L: Lanes>(
+        &self,
+        lanes: L,
+        poses: &mut Poses,
+        ray: &Ray,
+        limit: f64,
+    ) -> bool {
+        let time = poses.time();
+        let mut stack = poses.take_stack(self.stack_size);
+        let blocked = self.movers.iter().any(|&object| {
+            if poses.is_missed(object, ray) {
+                return false;
+            }
+            let mut blocked = false;
+            let local = ray.transformed(&poses.pose(object).to_object);
+            self.mesh(object).traverse::<L, false>(
+                lanes,
+                &mut stack,
+                &local,
+                time,
+                limit,
+                #[inline(always)]
+                |triangle, crossing| {
+                    let opaque = self.opacities[object].is_opaque(self.scene, triangle, &crossing);
+                    blocked |= crossing.t < limit && opaque;
+                    if blocked { NOWHERE } else { limit }
+                },
+            );
+            blocked
+        });
+        poses.stack = stack;
+        blocked
+    }
+
+    /// Returns true if a test of every mover is shorter than a traversal of the world tree.
+    pub fn has_few_movers(&self) -> bool {
+        self.movers.len() <= FEW_MOVERS
     }
 
     /// Visits the crossings at `0 < t <= limit`: roughly from near to far where `SORTED`, else in any order. `visit` takes

@@ -18,6 +18,8 @@ const ROUNDING: f64 = 1e-9;
 pub(crate) struct InstantView {
     view: View,
     canvas: Canvas,
+    /// True if the camera stands still. A still point that it sees at one time is then hidden at another only by what moves.
+    camera_stands_still: bool,
     /// True where nothing changes in the world and all surfaces are diffuse: shading is then the same at all times.
     unchanging: bool,
 }
@@ -31,6 +33,16 @@ pub(crate) struct InstantPoint {
     pub is_shown: bool,
     /// Ray of the instant's camera to the point, and its hit; none at infinity.
     ray: Option<(Ray, Hit)>,
+}
+
+/// One sample of a pixel, looked up at the instant.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct InstantSample {
+    pub point: InstantPoint,
+    /// Change of its radiance from its own time to the instant, if it was shaded again.
+    pub shift: Option<Vec3>,
+    /// Centre of the pixel.
+    pub centre: [f64; 2],
 }
 
 /// Sums over the samples of a pixel.
@@ -61,6 +73,7 @@ impl InstantView {
         Self {
             view: stage.scene.camera.view(0.0, canvas.width, canvas.height),
             canvas,
+            camera_stands_still: stage.scene.camera.stands_still(),
             unchanging: stage.stands_still() && stage.is_diffuse(),
         }
     }
@@ -127,7 +140,7 @@ impl InstantView {
         InstantPoint {
             place,
             is_shown: place.is_some_and(|place| self.contains(place))
-                && !stage.blocked(then, &ray, f64::INFINITY),
+                && !self.is_blocked(stage, then, &ray, f64::INFINITY, true),
             ray: None,
         }
     }
@@ -143,7 +156,7 @@ impl InstantView {
         sampler: &Sampler,
     ) -> Vec3 {
         match point.ray {
-            Some((ray, hit)) if sample.scattered && !self.unchanging => {
+            Some((ray, hit)) if sample.bounces > 0 && !self.unchanging => {
                 integrator.radiance_along(then, ray, Some(hit), sampler) - sample.radiance
             }
             _ => Vec3::ZERO,
@@ -173,19 +186,36 @@ impl InstantView {
             origin: start,
             direction: way.normalize(),
         };
-        stage.blocked(then, &back, way.length())
+        let stands_still = stage.object_stands_still(hit.object);
+        self.is_blocked(stage, then, &back, way.length(), stands_still)
+    }
+
+    /// Returns true if anything lies between the eye and a point that some sample saw; `stands_still` tells that the point
+    /// does not move.
+    fn is_blocked(
+        &self,
+        stage: &Stage,
+        then: &mut Poses,
+        ray: &Ray,
+        limit: f64,
+        stands_still: bool,
+    ) -> bool {
+        if self.camera_stands_still && stands_still {
+            stage.blocked_by_mover(then, ray, limit)
+        } else {
+            stage.blocked(then, ray, limit)
+        }
     }
 }
 
 impl InstantSums {
-    /// Adds a sample of the pixel with this centre: its point, its radiance, and the shift if it was shaded again.
-    pub fn add(
-        &mut self,
-        point: &InstantPoint,
-        radiance: Vec3,
-        shift: Option<Vec3>,
-        centre: [f64; 2],
-    ) {
+    /// Adds a sample and its radiance.
+    pub fn add(&mut self, sample: &InstantSample, radiance: Vec3) {
+        let InstantSample {
+            point,
+            shift,
+            centre,
+        } = *sample;
         self.live += radiance.as_dvec3();
         if let Some(shift) = shift {
             self.shift += shift.as_dvec3();

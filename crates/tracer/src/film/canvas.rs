@@ -37,6 +37,13 @@ impl Canvas {
         (0..self.columns() * self.rows()).collect()
     }
 
+    /// Returns true if a pixel lies in the picture, not in the band around it.
+    pub fn is_in_picture(&self, pixel: u32) -> bool {
+        let [column, row] = [pixel % self.columns(), pixel / self.columns()]
+            .map(|index| index.wrapping_sub(self.guard_band));
+        column < self.width && row < self.height
+    }
+
     /// The top left corner of a pixel.
     pub fn corner(&self, pixel: u32) -> [f64; 2] {
         [pixel % self.columns(), pixel / self.columns()]

@@ -28,7 +28,7 @@ impl<'a> Eye<'a> {
             view: (scene.camera).view(poses.time(), canvas.width, canvas.height),
             poses,
             instant,
-            moves: scene.camera.motion.keys.len() > 1 || scene.camera.vertical_fov.len() > 1,
+            moves: !scene.camera.stands_still(),
             size: [canvas.width, canvas.height],
         }
     }

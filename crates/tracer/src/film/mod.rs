@@ -2,9 +2,12 @@
 
 pub(crate) mod at_instant;
 pub(crate) mod canvas;
+pub(crate) mod dilate;
 pub(crate) mod eye;
 pub(crate) mod finite;
+pub(crate) mod pilot;
 pub(crate) mod render;
+pub(crate) mod sample_counts;
 pub(crate) mod sampler;
 pub(crate) mod shutter_sampler;
 pub(crate) mod support;

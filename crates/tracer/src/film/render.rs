@@ -7,19 +7,17 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::error::TraceError;
-use crate::film::at_instant::{InstantMeans, InstantSums, InstantView};
+use crate::film::at_instant::{InstantMeans, InstantSample, InstantSums, InstantView};
 use crate::film::canvas::Canvas;
 use crate::film::eye::Eye;
+use crate::film::sample_counts::SampleCounts;
 use crate::film::sampler::{Sampler, Stream, pixel_seed};
 use crate::film::shutter_sampler::ShutterSampler;
-use crate::light::integrator::Integrator;
+use crate::light::integrator::{Integrator, PathSample};
 use crate::progress::Meter;
 
 /// Pixels that a thread takes at a time; between two tasks it reports progress.
 pub(crate) const PIXELS_PER_TASK: usize = 32;
-
-/// Distance between samples that are shaded once more, as at the instant.
-const SHADED_AGAIN: u32 = 4;
 
 /// Times of the samples of a picture.
 #[derive(Clone, Copy)]
@@ -46,21 +44,26 @@ pub(crate) struct Film<'a> {
     pub integrator: Integrator<'a>,
     pub canvas: Canvas,
     pub places: Places,
-    pub times: Times<'a>,
+    /// Times of each picture that is rendered; a sample at a time of several pictures is traced once.
+    pub times: &'a [Times<'a>],
     /// View of the instant, if samples are looked up there; the stage must then hold `t = 0`.
     pub instant: Option<InstantView>,
+    /// Distance between samples that are shaded once more, as at the instant.
+    pub shaded_again: u32,
     /// Independent, complete sets of samples, by the numbers that seed them.
     pub replicates: Range<u32>,
-    /// Samples per pixel of each, a power of two.
-    pub samples_per_replicate: u32,
+    /// Samples per pixel of each.
+    pub samples: &'a SampleCounts,
     pub seed: u64,
     pub stream: Stream,
 }
 
-/// The mean of one complete set of samples of one pixel.
+/// The mean of one complete set of samples of one pixel of one picture.
 #[derive(Clone, Debug)]
 pub(crate) struct Estimate {
     pub radiance: DVec3,
+    /// Share of the samples that met a surface and then scattered, per bounce: the mean number of bounces.
+    pub bounces: f64,
     /// Samples that saw each object, by id.
     pub seen: Vec<u32>,
     /// Means at the instant; zero without a view of it.
@@ -79,7 +82,7 @@ impl Times<'_> {
     pub fn at(self, part: f64, row: u32, height: u32) -> f64 {
         match self {
             Times::Instant => 0.0,
-            Times::Shutter(shutter) => shutter.time(part, row, height),
+            Times::Shutter(shutter) => shutter.sample_time(part, row, height),
             Times::Midpoints(shutter, parts) => {
                 let parts = f64::from(parts);
                 shutter.time(((part * parts).floor() + 0.5) / parts, row, height)
@@ -89,17 +92,19 @@ impl Times<'_> {
 }
 
 impl<'a> Film<'a> {
-    /// Samples per pixel over all replicates.
-    pub fn samples_per_pixel(&self) -> u64 {
-        self.replicates.len() as u64 * u64::from(self.samples_per_replicate)
+    /// Samples of some pixels over all replicates and pictures, as progress counts them.
+    pub fn work(&self, pixels: &[u32]) -> u64 {
+        let each = self.replicates.len() as u64 * self.times.len() as u64;
+        each * self.samples.sum(pixels)
     }
 
-    /// Renders the listed pixels (indices in row-major order) and turns the estimates of each into a result.
+    /// Renders the listed pixels (indices in row-major order) and turns the estimates of each into a result: for every
+    /// replicate one of each picture.
     pub fn render<T: Send>(
         &self,
         pixels: &[u32],
         meter: &Meter,
-        result: impl Fn(&[Estimate]) -> T + Sync,
+        result: impl Fn(&[Vec<Estimate>]) -> T + Sync,
     ) -> Result<Vec<T>, TraceError> {
         let tasks = pixels
             .par_chunks(PIXELS_PER_TASK)
@@ -108,14 +113,14 @@ impl<'a> Film<'a> {
                 let mut results = Vec::with_capacity(task.len());
                 for &pixel in task {
                     meter.check()?;
-                    let estimates: Vec<Estimate> = self
+                    let estimates: Vec<Vec<Estimate>> = self
                         .replicates
                         .clone()
                         .map(|replicate| self.estimate(&mut eye, pixel, replicate))
                         .collect();
                     results.push(result(&estimates));
                 }
-                meter.advance(task.len() as u64 * self.samples_per_pixel());
+                meter.advance(self.work(task));
                 Ok(results)
             })
             .collect::<Result<Vec<Vec<T>>, TraceError>>()?;
@@ -123,45 +128,110 @@ impl<'a> Film<'a> {
         Ok(tasks.into_iter().flatten().collect())
     }
 
-    fn estimate(&self, eye: &mut Eye, pixel: u32, replicate: u32) -> Estimate {
-        let [left, top] = self.canvas.corner(pixel);
+    /// Estimates a pixel of every picture.
+    fn estimate(&self, eye: &mut Eye, pixel: u32, replicate: u32) -> Vec<Estimate> {
         let row = pixel / self.canvas.columns();
         let number = self.canvas.seed_number(pixel);
         let seed = pixel_seed(self.seed, self.stream, number, replicate);
-        let mut sum = DVec3::ZERO;
-        let mut instant_sums = InstantSums::default();
-        let mut seen = vec![0; self.integrator.stage.scene.objects.len() + 1];
-        for index in 0..self.samples_per_replicate {
+        let objects = self.integrator.stage.scene.objects.len() + 1;
+        let mut sums = vec![PixelSums::new(objects); self.times.len()];
+        for index in 0..self.samples.of(pixel) {
             let sampler = Sampler::new(seed, index);
             let [x, y, part, _] = sampler.camera();
-            let [x, y] = match self.places {
+            let place = match self.places {
                 Places::Area => [x, y],
                 Places::Centre => [0.5, 0.5],
             };
-            let time = self.times.at(part, row, self.canvas.height);
-            let ray = eye.view_at(time).ray(left + x, top + y);
-            let sample = self.integrator.trace(&mut eye.poses, ray, &sampler);
-            sum += sample.radiance.as_dvec3();
-            seen[sample.object_id()] += 1;
-            if let Some(instant) = &self.instant {
-                let poses = (&mut eye.poses, &mut eye.instant);
-                let point =
-                    instant.look_back(self.integrator.stage, poses, &ray, sample.hit.as_ref());
-                let shift = index.is_multiple_of(SHADED_AGAIN).then(|| {
-                    let then = &mut eye.instant;
-                    instant.shift(&self.integrator, then, &point, &sample, &sampler)
-                });
-                let centre = [left + 0.5, top + 0.5];
-                instant_sums.add(&point, sample.radiance, shift, centre);
+            let mut last: Option<(f64, FilmSample)> = None;
+            for (times, sums) in self.times.iter().zip(&mut sums) {
+                let time = times.at(part, row, self.canvas.height);
+                let sample = match last {
+                    Some((traced_at, sample)) if traced_at == time => sample,
+                    _ => self.trace(eye, pixel, place, time, &sampler),
+                };
+                sums.add(&sample);
+                last = Some((time, sample));
             }
         }
+        sums.iter().map(PixelSums::estimate).collect()
+    }
+
+    /// Traces one sample of a pixel.
+    fn trace(
+        &self,
+        eye: &mut Eye,
+        pixel: u32,
+        [x, y]: [f64; 2],
+        time: f64,
+        sampler: &Sampler,
+    ) -> FilmSample {
+        let [left, top] = self.canvas.corner(pixel);
+        let ray = eye.view_at(time).ray(left + x, top + y);
+        let path = self.integrator.trace(&mut eye.poses, ray, sampler);
+        let at_instant = self.instant.as_ref().map(|instant| {
+            let poses = (&mut eye.poses, &mut eye.instant);
+            let point = instant.look_back(self.integrator.stage, poses, &ray, path.hit.as_ref());
+            let shift = sampler.index().is_multiple_of(self.shaded_again).then(|| {
+                let then = &mut eye.instant;
+                instant.shift(&self.integrator, then, &point, &path, sampler)
+            });
+            InstantSample {
+                point,
+                shift,
+                centre: [left + 0.5, top + 0.5],
+            }
+        });
+        FilmSample { path, at_instant }
+    }
+}
+
+/// One sample of a pixel.
+#[derive(Clone, Copy)]
+struct FilmSample {
+    path: PathSample,
+    /// The point that it saw, as it was at the instant, if the film looks there.
+    at_instant: Option<InstantSample>,
+}
+
+/// Sums over the samples of a pixel of one picture.
+#[derive(Clone)]
+struct PixelSums {
+    count: u32,
+    radiance: DVec3,
+    bounces: u32,
+    seen: Vec<u32>,
+    at_instant: Option<InstantSums>,
+}
+
+impl PixelSums {
+    fn new(objects: usize) -> Self {
+        Self {
+            count: 0,
+            radiance: DVec3::ZERO,
+            bounces: 0,
+            seen: vec![0; objects],
+            at_instant: None,
+        }
+    }
+
+    fn add(&mut self, FilmSample { path, at_instant }: &FilmSample) {
+        self.count += 1;
+        self.radiance += path.radiance.as_dvec3();
+        self.bounces += path.bounces;
+        self.seen[path.object_id()] += 1;
+        if let Some(sample) = at_instant {
+            let sums = self.at_instant.get_or_insert_default();
+            sums.add(sample, path.radiance);
+        }
+    }
+
+    fn estimate(&self) -> Estimate {
+        let means = self.at_instant.map(|sums| sums.means(self.count));
         Estimate {
-            radiance: sum / f64::from(self.samples_per_replicate),
-            seen,
-            at_instant: match self.instant {
-                Some(_) => instant_sums.means(self.samples_per_replicate),
-                None => InstantMeans::default(),
-            },
+            radiance: self.radiance / f64::from(self.count),
+            bounces: f64::from(self.bounces) / f64::from(self.count),
+            seen: self.seen.clone(),
+            at_instant: means.unwrap_or_default(),
         }
     }
 }

@@ -17,6 +17,9 @@ pub(crate) enum Stream {
     /// An accumulation of this many sub-frames.
     Accumulation(u32),
     Support,
+    /// Pilots of frames and of truths.
+    FramePilot,
+    TruthPilot,
 }
 
 /// The random numbers of one sample of one pixel.
@@ -34,6 +37,8 @@ pub(crate) fn pixel_seed(seed: u64, stream: Stream, pixel: u32, replicate: u32) 
         Stream::Accumulation(subframes) => 1 + u64::from(subframes),
         // Greater than any number of sub-frames.
         Stream::Support => u64::MAX,
+        Stream::TruthPilot => u64::MAX - 1,
+        Stream::FramePilot => u64::MAX - 2,
     };
     let pixel_hash = mix64(mix64(mix64(seed) ^ stream) ^ u64::from(pixel));
     mix32((pixel_hash as u32).wrapping_add(replicate))
@@ -45,9 +50,14 @@ impl Sampler {
         Self { index, seed }
     }
 
+    /// The sample's index.
+    pub fn index(&self) -> u32 {
+        self.index
+    }
+
     /// Numbers for the place in the pixel (x, y) and in the shutter interval, stratified together; one is spare.
     pub fn camera(&self) -> [f64; 4] {
-        sample_4d(self.index, 0, self.seed).map(f64::from)
+        draw(self.index, 0, self.seed)
     }
 
     /// Numbers for the next direction (two), roulette, and the choice of an emitter.
@@ -74,11 +84,17 @@ impl Sampler {
     fn set(&self, depth: u32, which: u32) -> [f64; 4] {
         let set = 1 + SETS_PER_BOUNCE * depth + which;
         if depth < JOINT_BOUNCES {
-            return sample_4d(self.index, set, self.seed).map(f64::from);
+            return draw(self.index, set, self.seed);
         }
         let seed = mix32(self.seed ^ mix32(set));
-        sample_4d(self.index, 0, seed).map(f64::from)
+        draw(self.index, 0, seed)
     }
+}
+
+/// Draws four numbers. Each is converted by name, because arrays are not mapped in registers.
+fn draw(index: u32, set: u32, seed: u32) -> [f64; 4] {
+    let [a, b, c, d] = sample_4d(index, set, seed);
+    [a.into(), b.into(), c.into(), d.into()]
 }
 
 /// A bijection of 64 bits: the finaliser of SplitMix64 (Steele, Lea and Flood 2014).

@@ -1,20 +1,25 @@
 //! The objects that the open shutter sees at each pixel, found by camera rays without shading.
 
+use std::ops::Range;
+
 use frame::{Raster, Support};
 use rayon::prelude::*;
 
 use crate::error::TraceError;
 use crate::film::eye::Eye;
-use crate::film::render::{Film, PIXELS_PER_TASK};
+use crate::film::render::{Film, PIXELS_PER_TASK, Times};
 use crate::film::sampler::{Sampler, Stream, pixel_seed};
 use crate::progress::Meter;
 
 /// Rays per pixel, a power of two. Parts that cover less of a pixel than one ray stands for may be missed.
 const SAMPLES: u32 = 64;
+/// Rays per pixel where they and those of all eight neighbours met one object alone.
+const FIRST_SAMPLES: u32 = 16;
 /// Seed, the same for all renders, so that regions do not depend on the seed of a truth.
 const SEED: u64 = 0;
 
-/// The objects that one pixel's rays met.
+/// The objects that one pixel's rays met while one shutter was open.
+#[derive(Clone, PartialEq)]
 struct PixelProbe {
     /// True per object id that was seen.
     seen: Vec<bool>,
@@ -22,13 +27,43 @@ struct PixelProbe {
     unknowable: bool,
 }
 
-/// Probes the scene over the canvas and times of `film`, which must have a view of the instant; nothing else of it is used.
-/// `moving` tells per object id that it moves on screen.
-pub(crate) fn trace_support(
+/// Probes the scene over the canvas and each of the times of `film`, which must have a view of the instant; nothing else of
+/// it is used. `moving` tells for each of the times, per object id, that it moves on screen.
+pub(crate) fn trace_supports(
     film: &Film,
-    moving: &[bool],
+    moving: &[&[bool]],
     meter: &Meter,
-) -> Result<Support, TraceError> {
+) -> Result<Vec<Support>, TraceError> {
+    let unseen = PixelProbe {
+        seen: vec![false; film.integrator.stage.scene.objects.len() + 1],
+        unknowable: false,
+    };
+    let pixels = film.canvas.pixels();
+    let nothing = vec![vec![unseen; film.times.len()]; pixels.len()];
+    let first = probe_pixels(film, &nothing, 0..FIRST_SAMPLES, |_, _| true, meter)?;
+    let raster = |number: usize, pixels: &[Vec<PixelProbe>]| Raster {
+        width: film.canvas.columns(),
+        height: film.canvas.rows(),
+        pixels: pixels.iter().map(|probes| probes[number].clone()).collect(),
+    };
+    let plain: Vec<Raster<bool>> = (0..film.times.len())
+        .map(|number| find_plain(&raster(number, &first)))
+        .collect();
+    let is_mixed = |pixel: u32, number: usize| !plain[number].pixels[pixel as usize];
+    let whole = probe_pixels(film, &first, FIRST_SAMPLES..SAMPLES, is_mixed, meter)?;
+    Ok((moving.iter().enumerate())
+        .map(|(number, moving)| assemble_support(&raster(number, &whole), moving))
+        .collect())
+}
+
+/// Adds samples to what earlier ones found, in each pixel at those of the film's times that `is_due` names.
+fn probe_pixels(
+    film: &Film,
+    before: &[Vec<PixelProbe>],
+    samples: Range<u32>,
+    is_due: impl Fn(u32, usize) -> bool + Sync,
+    meter: &Meter,
+) -> Result<Vec<Vec<PixelProbe>>, TraceError> {
     let tasks = (film.canvas.pixels())
         .par_chunks(PIXELS_PER_TASK)
         .map(|task| {
@@ -37,27 +72,57 @@ pub(crate) fn trace_support(
             meter.advance(0);
             meter.check()?;
             Ok((task.iter())
-                .map(|&pixel| probe_pixel(film, &mut eye, pixel))
+                .map(|&pixel| {
+                    let mut probes = before[pixel as usize].clone();
+                    let mut due: Vec<(&Times, &mut PixelProbe)> = (film.times.iter().enumerate())
+                        .zip(&mut probes)
+                        .filter(|((number, _), _)| is_due(pixel, *number))
+                        .map(|((_, times), probe)| (times, probe))
+                        .collect();
+                    if !due.is_empty() {
+                        for index in samples.clone() {
+                            probe_once(film, &mut eye, pixel, index, &mut due);
+                        }
+                    }
+                    probes
+                })
                 .collect())
         })
-        .collect::<Result<Vec<Vec<PixelProbe>>, TraceError>>()?;
-    let probes = Raster {
-        width: film.canvas.columns(),
-        height: film.canvas.rows(),
-        pixels: tasks.into_iter().flatten().collect(),
-    };
+        .collect::<Result<Vec<Vec<Vec<PixelProbe>>>, TraceError>>()?;
+    Ok(tasks.into_iter().flatten().collect())
+}
+
+/// Marks the pixels that found one object alone, as all their neighbours did, all of it knowable or all of it not.
+fn find_plain(probes: &Raster<PixelProbe>) -> Raster<bool> {
+    Raster::from_fn(probes.width, probes.height, |x, y| {
+        let own = probes.at(x, y);
+        let objects = own.seen.iter().filter(|seen| **seen).count();
+        let around = |at: u32, end: u32| at.saturating_sub(1)..(at + 2).min(end);
+        let mut rows = around(y, probes.height);
+        objects == 1 && rows.all(|y| around(x, probes.width).all(|x| probes.at(x, y) == own))
+    })
+}
+
+fn assemble_support(probes: &Raster<PixelProbe>, moving: &[bool]) -> Support {
     let moves =
         |probe: &PixelProbe| (probe.seen.iter().zip(moving)).any(|(seen, moves)| *seen && *moves);
-    Ok(Support {
+    Support {
         seen: (0..moving.len())
             .map(|object| probes.map(|probe| probe.seen[object]))
             .collect(),
         moving: probes.map(moves),
         unknowable: probes.map(|probe| probe.unknowable),
-    })
+    }
 }
 
-fn probe_pixel(film: &Film, eye: &mut Eye, pixel: u32) -> PixelProbe {
+/// Adds one sample of a pixel at each of some times.
+fn probe_once(
+    film: &Film,
+    eye: &mut Eye,
+    pixel: u32,
+    index: u32,
+    due: &mut [(&Times, &mut PixelProbe)],
+) {
     let stage = film.integrator.stage;
     let instant = film
         .instant
@@ -66,21 +131,22 @@ fn probe_pixel(film: &Film, eye: &mut Eye, pixel: u32) -> PixelProbe {
     let [left, top] = film.canvas.corner(pixel);
     let row = pixel / film.canvas.columns();
     let seed = pixel_seed(SEED, Stream::Support, film.canvas.seed_number(pixel), 0);
-    let mut probe = PixelProbe {
-        seen: vec![false; stage.scene.objects.len() + 1],
-        unknowable: false,
-    };
-    for index in 0..SAMPLES {
-        let [x, y, part, _] = Sampler::new(seed, index).camera();
-        let time = film.times.at(part, row, film.canvas.height);
-        let ray = eye.view_at(time).ray(left + x, top + y);
-        let hit = stage.closest(&mut eye.poses, &ray);
-        probe.seen[hit.map_or(0, |hit| hit.object + 1)] = true;
-        if !probe.unknowable {
-            let poses = (&mut eye.poses, &mut eye.instant);
-            let point = instant.look_back(stage, poses, &ray, hit.as_ref());
-            probe.unknowable = !point.is_shown;
-        }
+    let [x, y, part, _] = Sampler::new(seed, index).camera();
+    let mut last: Option<(f64, usize, bool)> = None;
+    for (times, probe) in due {
+        let time = times.at(part, row, film.canvas.height);
+        let (object, is_hidden) = match last {
+            Some((probed_at, object, is_hidden)) if probed_at == time => (object, is_hidden),
+            _ => {
+                let ray = eye.view_at(time).ray(left + x, top + y);
+                let hit = stage.closest(&mut eye.poses, &ray);
+                let poses = (&mut eye.poses, &mut eye.instant);
+                let point = instant.look_back(stage, poses, &ray, hit.as_ref());
+                (hit.map_or(0, |hit| hit.object + 1), !point.is_shown)
+            }
+        };
+        probe.seen[object] = true;
+        probe.unknowable |= is_hidden;
+        last = Some((time, object, is_hidden));
     }
-    probe
 }

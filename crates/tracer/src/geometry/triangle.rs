@@ -31,7 +31,8 @@ const BEHIND: f64 = 1e-12;
 /// decided exactly, for one and the same line (Shewchuk 1997, adaptive predicates).
 #[inline(always)]
 pub(crate) fn cross(ray: &Ray, corners: [DVec3; 3]) -> Option<Crossing> {
-    let [a, b, c] = corners.map(|corner| corner - ray.origin);
+    let [a, b, c] = corners;
+    let [a, b, c] = [a - ray.origin, b - ray.origin, c - ray.origin];
     let mut weights = [
         c.cross(b).dot(ray.direction),
         a.cross(c).dot(ray.direction),
@@ -58,7 +59,7 @@ pub(crate) fn cross(ray: &Ray, corners: [DVec3; 3]) -> Option<Crossing> {
     if along < -BEHIND * longest.max_element() * ray.direction.abs().max_element() * total.abs() {
         return None;
     }
-    let [wa, wb, wc] = weights.map(|weight| weight / total);
+    let [wa, wb, wc] = [wa / total, wb / total, wc / total];
     // A weighted mean of the vertices' distances stays between them, however thin the triangle.
     let t = (wa * a + wb * b + wc * c).dot(ray.direction) / ray.direction.length_squared();
     Some(Crossing { t, u: wb, v: wc })

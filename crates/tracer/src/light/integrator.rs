@@ -33,8 +33,8 @@ pub(crate) struct PathSample {
     pub radiance: Vec3,
     /// First surface; none for the background.
     pub hit: Option<Hit>,
-    /// True where that surface scattered light, false where it sent only its own.
-    pub scattered: bool,
+    /// Surfaces that scattered light.
+    pub bounces: u32,
 }
 
 impl PathSample {
@@ -64,7 +64,7 @@ impl<'a> Integrator<'a> {
         PathSample {
             radiance,
             hit,
-            scattered: bounces > 0,
+            bounces,
         }
     }
 
@@ -105,7 +105,12 @@ impl<'a> Integrator<'a> {
                 return (radiance, depth);
             };
             let [u, v, roulette, choice] = sampler.bounce(depth);
-            let [sky_u, sky_v, lobe_choice, _] = sampler.sky(depth);
+            let sky_numbers = match (&brdf, self.stage.sky().is_sampled()) {
+                // Nothing asks for them.
+                (Brdf::Diffuse { .. }, false) => [0.0; 4],
+                _ => sampler.sky(depth),
+            };
+            let [sky_u, sky_v, lobe_choice, _] = sky_numbers;
             let start = surface.position + LIFT * magnitude(&surface, &hit) * surface.facet;
             if self.has_lights() {
                 let points = sampler.lights(depth);

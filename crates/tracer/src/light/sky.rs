@@ -78,6 +78,11 @@ impl<'a> Sky<'a> {
         }
     }
 
+    /// Returns true if [`Sky::sample`] draws directions.
+    pub fn is_sampled(&self) -> bool {
+        !matches!(self.profile, Profile::Even)
+    }
+
     /// Draws a direction from two numbers in [0, 1); none from an even sky.
     pub fn sample(&self, [u, v]: [f64; 2]) -> Option<LightSample> {
         match (&self.profile, self.background) {

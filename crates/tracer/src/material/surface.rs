@@ -148,16 +148,17 @@ fn interpolate_texcoord(mesh: &Mesh, triangle: u32, weights: [f64; 2]) -> Vec2 {
     if mesh.texcoords.is_empty() {
         return Vec2::ZERO;
     }
-    let [a, b, c] =
-        mesh.triangles[triangle as usize].map(|index| mesh.texcoords[index as usize].as_dvec2());
+    let [a, b, c] = mesh.triangles[triangle as usize];
+    let texcoord = |index: u32| mesh.texcoords[index as usize].as_dvec2();
+    let [a, b, c] = [texcoord(a), texcoord(b), texcoord(c)];
     (a + weights[0] * (b - a) + weights[1] * (c - a)).as_vec2()
 }
 
 /// The interpolated normal; none where the mesh has no normals, or where they cancel.
 fn shading_normal(mesh: &Mesh, pose: &Pose, hit: &Hit) -> Option<DVec3> {
     let shape = mesh.at(hit.time);
-    let [a, b, c] = mesh.triangles[hit.triangle as usize].map(|vertex| shape.normal(vertex));
-    let [a, b, c] = [a?, b?, c?];
+    let [a, b, c] = mesh.triangles[hit.triangle as usize];
+    let [a, b, c] = [shape.normal(a)?, shape.normal(b)?, shape.normal(c)?];
     let normal = a + hit.weights[0] * (b - a) + hit.weights[1] * (c - a);
     // Normals transform by the transpose of the inverse.
     (pose.to_object.matrix3.transpose() * normal).try_normalize()

@@ -11,10 +11,10 @@ impl Texture {
         let y = wrap(1.0 - uv.y, self.height);
         let [left, top] = [x.floor(), y.floor()];
         let [across, down] = [x - left, y - top];
-        let texel = |dx: i64, dy: i64| {
-            let column = (left as i64 + dx).rem_euclid(i64::from(self.width)) as usize;
-            let row = (top as i64 + dy).rem_euclid(i64::from(self.height)) as usize;
-            Vec4::from(self.texels[row * self.width as usize + column])
+        let columns = neighbours(left, self.width);
+        let rows = neighbours(top, self.height);
+        let texel = |column: usize, row: usize| {
+            Vec4::from(self.texels[rows[row] * self.width as usize + columns[column]])
         };
         let upper = texel(0, 0).lerp(texel(1, 0), across);
         let lower = texel(0, 1).lerp(texel(1, 1), across);
@@ -25,7 +25,17 @@ impl Texture {
 /// Wraps a texture coordinate and converts it to texels from the centre of the first. The integer part of `fraction` is
 /// dropped first, so that far repeats keep their precision.
 fn wrap(fraction: f32, texels: u32) -> f32 {
-    fraction.rem_euclid(1.0) * texels as f32 - 0.5
+    (fraction - fraction.floor()) * texels as f32 - 0.5
+}
+
+/// A texel and the next one, in a row of `texels` that repeats; `first` is a whole number from -1 to `texels`.
+fn neighbours(first: f32, texels: u32) -> [usize; 2] {
+    let last = texels as usize - 1;
+    match first as i64 {
+        ..0 => [last, 0],
+        first if first as usize >= last => [last, 0],
+        first => [first as usize, first as usize + 1],
+    }
 }
 
 #[cfg(test)]

@@ -25,6 +25,11 @@ impl Camera {
         curve.at(time - start)
     }
 
+    /// Returns true if it has one place, one direction and one field of view.
+    pub(crate) fn stands_still(&self) -> bool {
+        self.motion.keys.len() <= 1 && self.vertical_fov.len() <= 1
+    }
+
     /// Times within `[from, to]` at which the field of view may be greatest or least: the ends, keys and turning points.
     pub(crate) fn vertical_fov_extremes(&self, from: f64, to: f64) -> Vec<f64> {
         let keys = self.vertical_fov.iter().map(|(time, _)| *time);

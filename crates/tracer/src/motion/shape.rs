@@ -78,7 +78,8 @@ impl ShapeAt<'_> {
     /// Positions of a triangle's vertices.
     #[inline]
     pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
-        self.mesh.triangles[triangle as usize].map(|vertex| self.position(vertex))
+        let [a, b, c] = self.mesh.triangles[triangle as usize];
+        [self.position(a), self.position(b), self.position(c)]
     }
 
     /// Positions of all vertices.
@@ -87,6 +88,7 @@ impl ShapeAt<'_> {
     }
 
     /// Unit normal of a vertex; none where the mesh has none, where the face is flat, or where two shapes' cancel.
+    #[inline]
     pub fn normal(&self, vertex: u32) -> Option<DVec3> {
         if self.mesh.normals.is_empty() {
             return None;
@@ -99,6 +101,7 @@ impl ShapeAt<'_> {
     }
 
     /// The normal of a transformed triangle, on the side from which it is wound anticlockwise. Its length is twice the area.
+    #[inline]
     pub fn area_normal(&self, triangle: u32, transform: &DAffine3) -> DVec3 {
         let [a, b, c] = self.corners(triangle);
         let edge = |to: DVec3| transform.transform_vector3(to - a);
@@ -106,6 +109,7 @@ impl ShapeAt<'_> {
     }
 
     /// A point of a triangle from the weights of its second and third vertex.
+    #[inline]
     pub fn point(&self, triangle: u32, weights: [f64; 2]) -> DVec3 {
         let [a, b, c] = self.corners(triangle);
         a + weights[0] * (b - a) + weights[1] * (c - a)
@@ -117,7 +121,8 @@ impl ShapeAt<'_> {
         let Some(Between { shapes, fraction }) = self.between else {
             return rigid[vertex].as_dvec3();
         };
-        let [from, to] = shapes.map(|shape| of(shape)[vertex].as_dvec3());
+        let [from, to] = [of(shapes[0])[vertex], of(shapes[1])[vertex]];
+        let [from, to] = [from.as_dvec3(), to.as_dvec3()];
         from + fraction * (to - from)
     }
 }

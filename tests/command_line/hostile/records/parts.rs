@@ -55,6 +55,7 @@ fn smaller(replicate: &Replicate) -> Replicate {
             offset: offset.cropped(2),
             spread: spread.cropped(2),
         },
+        samples: replicate.samples.cropped(2),
         support: Support {
             seen: seen.iter().map(|mask| mask.cropped(2)).collect(),
             moving: moving.cropped(2),

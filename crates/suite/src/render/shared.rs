@@ -1,0 +1,62 @@
+//! Replicates of a trailing and a centred truth, rendered together.
+
+use std::ops::Range;
+use std::path::Path;
+
+use frame::Alignment;
+use tracer::{Scene, TruthTracer};
+
+use super::memory::check_memory;
+use super::replicates::ReplicateFiles;
+use super::settings::RenderSettings;
+use crate::folder::scene_folder::scene_folder;
+use crate::{Error, Monitor};
+
+const SHARED: [Alignment; 2] = [Alignment::Trailing, Alignment::Centred];
+
+/// Renders those replicates that a trailing and a centred truth both lack, and writes them to `out`; does nothing unless
+/// `alignments` holds both.
+///
+/// Where the two shutters overlap their samples are traced once. Both truths together take three quarters of the time of one
+/// after the other, and have the same bytes.
+pub fn render_shared(
+    scene: &Scene,
+    settings: &RenderSettings,
+    alignments: &[Alignment],
+    indices: Range<u32>,
+    out: &Path,
+    monitor: Monitor,
+) -> Result<(), Error> {
+    if !SHARED.iter().all(|shared| alignments.contains(shared)) {
+        return Ok(());
+    }
+    let both = SHARED.map(|alignment| settings.for_truth(scene, alignment));
+    let folder = scene_folder(out, scene);
+    let files = both.map(|settings| ReplicateFiles::new(folder.clone(), scene, &settings));
+    if files
+        .iter()
+        .any(|files| files.has_truth(settings.replicates))
+    {
+        return Ok(());
+    }
+    for settings in &both {
+        settings.check(scene)?;
+    }
+    check_memory(scene, settings, 2 * indices.len() as u32)?;
+    let mut tracer = None;
+    for index in indices {
+        if files.iter().any(|files| files.read(index).is_some()) {
+            continue;
+        }
+        let tracer = match &mut tracer {
+            Some(tracer) => tracer,
+            none => none.insert(TruthTracer::new(scene, &both[0], &SHARED)?),
+        };
+        let label = format!("{} trailing and centred, replicate {index}", scene.name);
+        let replicates = monitor.watch(&label, |watch| tracer.trace(index, watch))?;
+        for (files, replicate) in files.iter().zip(replicates) {
+            replicate.write(&files.path(index))?;
+        }
+    }
+    Ok(())
+}
