@@ -142,7 +142,8 @@ pub fn estimate_render_seconds(renders: &[(&Scene, RenderSettings)], truths: usi
     let estimate = |costs: &dyn Fn(&Scene, &RenderSettings) -> RenderCosts| -> f64 {
         let seconds = renders.iter().map(|(scene, render)| {
             let costs = costs(scene, render);
-            frame_seconds(render, &costs) + truths as f64 * truth_seconds(render, &costs)
+            let each = truth_seconds(render, &costs);
+            frame_seconds(render, &costs) + shared_truths(truths) * each
         });
         seconds.sum()
     };
@@ -180,11 +181,19 @@ fn count_samples(render: &RenderSettings) -> f64 {
 }
 
 fn frame_seconds(render: &RenderSettings, costs: &RenderCosts) -> f64 {
-    costs.scene + count_samples(render) * costs.frame
+    costs.scene + count_pixels(render) * f64::from(render.frame_samples()) * costs.frame
 }
 
 fn truth_seconds(render: &RenderSettings, costs: &RenderCosts) -> f64 {
     costs.scene + count_pixels(render) * costs.support + count_samples(render) * costs.truth
+}
+
+/// Counts truths by their cost: two that overlap share the samples of half their time.
+fn shared_truths(truths: usize) -> f64 {
+    match truths {
+        0 | 1 => truths as f64,
+        _ => truths as f64 - 0.5,
+    }
 }
 
 /// Estimates every step of a scene, in the order of [`SceneContext::measure_cases`]; no time for those that are not due.
@@ -200,8 +209,10 @@ fn step_seconds(
         costs.map_or(0.0, |costs| seconds(render, &costs.render))
     };
     let mut steps = vec![of_costs(frame, frame_seconds)];
+    let missing = truths.iter().filter(|missing| **missing).count();
+    let share = shared_truths(missing) / missing.max(1) as f64;
     for missing in truths {
-        let replicate = of_costs(*missing, truth_seconds) / f64::from(render.replicates);
+        let replicate = share * of_costs(*missing, truth_seconds) / f64::from(render.replicates);
         steps.extend((0..render.replicates).map(|_| replicate));
         steps.push(of_costs(*missing, |render, costs| {
             costs.scene + LADDER * count_samples(render) * costs.truth

@@ -24,7 +24,7 @@ const SAMPLES: u32 = 16;
 pub(super) struct RenderCosts {
     /// Preparing the scene for rays.
     pub scene: f64,
-    /// A pixel of a truth's support.
+    /// A pixel of a truth's support and pilot.
     pub support: f64,
     /// A sample of a frame.
     pub frame: f64,
@@ -49,7 +49,8 @@ impl RenderCosts {
         let watch = |_: Progress| ControlFlow::Continue(());
         let render = small_settings(render);
         let settings = render.for_truth(scene, Alignment::Trailing);
-        let (tracer, preparing) = timed(|| TruthTracer::new(scene, &settings).ok());
+        let (tracer, preparing) =
+            timed(|| TruthTracer::new(scene, &settings, &[settings.alignment]).ok());
         let tracer = tracer?;
         let (first, with_support) = timed(|| tracer.trace(0, &watch).ok());
         // The faster of two, which fewer other programs have interrupted.
@@ -107,7 +108,7 @@ pub(super) fn measure_first_cases(scene: &SceneContext) -> Option<(f64, usize)> 
     let watch = |_: Progress| ControlFlow::Continue(());
     let (cases, seconds) = timed(|| {
         scene
-            .measure(&due, &frame, &truths, &|_| {}, &watch)
+            .measure(&due, &frame, truths, &|_| {}, &watch)
             .ok()
             .map(|cases| cases.len())
     });

@@ -201,6 +201,7 @@ impl SceneContext<'_> {
         let mut files = vec![write_frame(&folder, self.scene, &frame)?];
         let alignments = self.plan.alignments();
         let replicates = 0..render.replicates;
+        advance(1);
         render_shared(self.scene, render, &alignments, replicates, out, *monitor)?;
         let mut truths = Truths::new();
         for (alignment, done) in alignments.into_iter().zip(0..) {

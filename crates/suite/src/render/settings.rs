@@ -81,6 +81,11 @@ impl RenderSettings {
         ]
     }
 
+    /// Samples per pixel of a frame.
+    pub(crate) fn frame_samples(&self) -> u32 {
+        FRAME_REPLICATES * self.samples_per_pixel / self.replicates
+    }
+
     /// Selects what the tracer needs for a scene's frame.
     pub(crate) fn for_frame(&self, scene: &Scene) -> FrameSettings {
         FrameSettings {
@@ -89,7 +94,7 @@ impl RenderSettings {
             exposure: self.exposure.unwrap_or(scene.exposure),
             options: self.options,
             guard_band: self.guard_band,
-            samples_per_pixel: FRAME_REPLICATES * self.samples_per_pixel / self.replicates,
+            samples_per_pixel: self.frame_samples(),
             seed: self.seed,
         }
     }
