@@ -86,6 +86,7 @@ fn a_frame() -> Frame {
         depth: plane(10),
         object_id: Raster::from_fn(WIDTH, HEIGHT, |x, y| u32::MAX - x * y),
         coverage: vec![plane(11), plane(12)],
+        samples: Some(plane(13)),
     }
 }
 

@@ -117,6 +117,7 @@ impl Scene {
             depth: seen.map(|id| if *id == 0 { FAR_DEPTH } else { *id as f32 }),
             object_id: seen.map(|id| *id as u32),
             coverage: instant.coverage,
+            samples: None,
         }
     }
 

@@ -40,6 +40,8 @@ pub struct Frame {
     /// Fraction of the pixel's area in which an object is visible at the instant, per object; 0 or 1 if colour is sampled at the
     /// centre.
     pub coverage: Vec<Plane>,
+    /// Samples per pixel; none in a frame that another program rendered.
+    pub samples: Option<Plane>,
 }
 
 impl Frame {
@@ -64,11 +66,13 @@ impl Frame {
                 .iter()
                 .map(|plane| plane.cropped(band))
                 .collect(),
+            samples: self.samples.as_ref().map(|plane| plane.cropped(band)),
             ..*self
         }
     }
 
-    /// Writes the frame as OpenEXR: `R G B`, `Z`, `velocity.X/Y`, `object.id`, `coverage.<object>`.
+    /// Writes the frame as OpenEXR: `R G B`, `Z`, `velocity.X/Y`, `object.id`, `coverage.<object>`,
+    /// `samples`.
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
         let (width, height) = self.size();
         let mut file = ExrFile::new(width, height);
@@ -82,6 +86,9 @@ impl Frame {
         });
         for (object, plane) in self.objects.iter().zip(&self.coverage) {
             file.push_plane(&coverage_name("", object), plane);
+        }
+        if let Some(samples) = &self.samples {
+            file.push_plane("samples", samples);
         }
         file.set("kind", "frame");
         file.set("exposure", self.exposure);
@@ -122,6 +129,7 @@ impl Frame {
             depth: file.plane("Z")?,
             object_id: ids,
             coverage,
+            samples: (file.has_channel("samples").then(|| file.plane("samples"))).transpose()?,
         })
     }
 }

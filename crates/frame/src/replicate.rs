@@ -93,7 +93,7 @@ impl Replicate {
             moving: objects.iter().map(|name| moving.contains(name)).collect(),
             picture: Picture::from_exr(&file, "", &objects)?,
             at_instant: AtInstant::from_exr(&file, "")?,
-            samples: file.plane("samples")?,
+            samples: file.samples_per_pixel()?,
             support: Support::from_exr(&file, &objects)?,
             objects,
         })

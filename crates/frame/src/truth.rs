@@ -231,7 +231,7 @@ impl Truth {
             ],
             standard_error: file.color("stderr")?,
             motion: file.plane("motion")?,
-            samples: file.plane("samples")?,
+            samples: file.samples_per_pixel()?,
         })
     }
 }

@@ -91,6 +91,7 @@ pub fn trace_frame(
         velocity,
         depth: points.map(|point| point.depth),
         object_id: points.map(|point| point.object_id),
+        samples: Some(samples.to_plane(canvas)),
     })
 }
 

@@ -21,7 +21,7 @@ pub struct FrameSettings {
     pub options: FrameOptions,
     /// Pixels by which all rasters extend beyond the picture on every side.
     pub guard_band: u32,
-    /// Samples of colour and coverage per pixel, a power of two up to 65536; time grows with it.
+    /// Mean samples of colour and coverage per pixel, a power of two up to 65536; time grows with it. A pilot shares them out.
     pub samples_per_pixel: u32,
     /// Seed of the random numbers.
     pub seed: u64,
@@ -38,7 +38,8 @@ pub struct TruthSettings {
     pub exposure: f64,
     /// Position of the interval relative to the instant.
     pub alignment: Alignment,
-    /// Samples per pixel over all replicates; time grows with it, noise falls faster than its square root.
+    /// Mean samples per pixel over all replicates; time grows with it, noise falls faster than its square root. A pilot shares
+    /// them out.
     pub samples_per_pixel: u32,
     /// Independent, complete renders, an even number; each gets a power of two of samples. More of them measure the noise
     /// better and stratify worse.

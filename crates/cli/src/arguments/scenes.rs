@@ -32,7 +32,8 @@ pub struct SceneArgs {
     /// Folder that holds the scenes.
     #[arg(long, value_name = "FOLDER", default_value = "scenes")]
     pub scenes_dir: PathBuf,
-    /// Samples per pixel of a truth with 8 replicates: 8 times a power of two.
+    /// Mean samples per pixel of a truth with 8 replicates, 8 times a power of two. Noisy parts of
+    /// the picture get more, quiet ones fewer.
     #[arg(long, value_name = "N", default_value_t = 256, value_parser = parse_whole::<u32>)]
     pub samples_per_pixel: u32,
     /// Exposure in frames; 0.5 is a shutter of 180 degrees [default: each scene's own].

@@ -48,7 +48,7 @@ pub struct TuneArgs {
     /// Picture size of the held-out scenes.
     #[arg(help_heading = "Held-out scenes", long, value_name = "WxH", default_value = "320x180", value_parser = parse_size)]
     pub held_out_size: (u32, u32),
-    /// Samples per pixel of the held-out scenes' truths.
+    /// Mean samples per pixel of the held-out scenes' truths.
     #[arg(
         help_heading = "Held-out scenes",
         long,

@@ -95,6 +95,23 @@ impl ExrFile {
             .collect())
     }
 
+    /// Returns true if there is a channel of this name.
+    pub fn has_channel(&self, name: &str) -> bool {
+        self.channels.iter().any(|channel| channel.name == name)
+    }
+
+    /// Reads the samples per pixel of a truth, which files of older versions lack.
+    pub fn samples_per_pixel(&self) -> Result<Plane, FileError> {
+        if !self.has_channel("samples") {
+            return Err(self.foreign(
+                "holds no channel \"samples\", which older versions of shuttertruth did not write; make it anew with \
+                 `shuttertruth render`"
+                    .to_owned(),
+            ));
+        }
+        self.plane("samples")
+    }
+
     /// Reads a channel of floats.
     pub fn plane(&self, name: &str) -> Result<Plane, FileError> {
         match self.samples(name)? {

@@ -46,6 +46,7 @@ pub(crate) fn repeat_border(frame: &Frame, margin: u32) -> Frame {
         coverage: (frame.coverage.iter())
             .map(|plane| wide(plane, margin))
             .collect(),
+        samples: frame.samples.as_ref().map(|plane| wide(plane, margin)),
         ..frame.clone()
     }
 }

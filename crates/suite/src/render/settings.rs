@@ -22,7 +22,7 @@ pub struct RenderSettings {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Samples per pixel of a truth, over all its replicates.
+    /// Mean samples per pixel of a truth, over all its replicates.
     pub samples_per_pixel: u32,
     /// Independent, complete renders behind a truth; an even number.
     pub replicates: u32,
@@ -81,7 +81,8 @@ impl RenderSettings {
         ]
     }
 
-    /// Samples per pixel of a frame.
+    /// Mean samples per pixel of a frame: half as many as a truth of eight replicates has. The pilot shares them out, so that
+    /// they leave about the noise that twice as many would leave without it.
     pub(crate) fn frame_samples(&self) -> u32 {
         FRAME_REPLICATES * self.samples_per_pixel / self.replicates
     }

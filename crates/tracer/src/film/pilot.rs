@@ -18,6 +18,8 @@ pub(crate) const PILOT_REPLICATES: u32 = 2;
 const TILE: u32 = 4;
 /// Weight of squared errors where nothing moves. Scores of motion blur are pooled over what moves.
 const WEIGHT_OF_STILL: f64 = 0.25;
+/// Radiance below which a display shows all as dark.
+const DARK: f64 = 0.02;
 /// Cost of a sample without bounces, in bounces.
 const COST_OF_A_MISS: f64 = 0.25;
 
@@ -27,39 +29,32 @@ struct TilePilot {
     pixels: f64,
     /// Variance of the mean of a replicate.
     variance: f64,
+    /// Radiance, the mean of the components.
+    radiance: f64,
     bounces: f64,
     /// True if anything was seen that moves.
     moves: bool,
 }
 
-/// The tiles of a canvas. They begin at the picture's corner, so that a guard band does not shift them.
+/// The tiles of a canvas' picture.
 #[derive(Clone, Copy)]
 struct Tiles {
     canvas: Canvas,
-    /// Tiles of the band to the left of the picture and above it.
-    offset: u32,
 }
 
 impl Tiles {
-    fn new(canvas: Canvas) -> Self {
-        Self {
-            canvas,
-            offset: canvas.guard_band.div_ceil(TILE),
-        }
-    }
-
     /// A raster with one value per tile.
     fn filled<T: Clone>(self, value: T) -> Raster<T> {
-        let [width, height] = [self.canvas.columns(), self.canvas.rows()]
-            .map(|side| (side + self.offset * TILE).div_ceil(TILE));
+        let [width, height] =
+            [self.canvas.width, self.canvas.height].map(|side| side.div_ceil(TILE));
         Raster::filled(width, height, value)
     }
 
-    /// The index of a pixel's tile in such a raster.
+    /// The index of a pixel's tile in such a raster. A pixel of the guard band has the nearest tile of the picture.
     fn index<T>(self, raster: &Raster<T>, pixel: u32) -> usize {
-        let columns = self.canvas.columns();
-        let shift = self.offset * TILE - self.canvas.guard_band;
-        let [column, row] = [pixel % columns, pixel / columns].map(|index| (index + shift) / TILE);
+        let [x, y] = self.canvas.corner(pixel).map(|at| at.max(0.0) as u32);
+        let column = x.min(self.canvas.width - 1) / TILE;
+        let row = y.min(self.canvas.height - 1) / TILE;
         (row * raster.width + column) as usize
     }
 }
@@ -76,7 +71,10 @@ pub(crate) fn choose_samples(
     mean: u32,
     watch: Watch,
 ) -> Result<SampleCounts, TraceError> {
-    let pixels = pilot.canvas.pixels();
+    let inside = pilot.canvas.pixels().into_iter();
+    let pixels: Vec<u32> = inside
+        .filter(|&pixel| pilot.canvas.is_in_picture(pixel))
+        .collect();
     // The pilot is no progress of the picture, but a chance to cancel it.
     let total = pixels.len() as u64 * u64::from(mean);
     let start = |_: Progress| watch(Progress { done: 0, total });
@@ -84,26 +82,52 @@ pub(crate) fn choose_samples(
     let probes = pilot.render(&pixels, &meter, |replicates| {
         probe_pixel(replicates, moving)
     })?;
-    let tiles = Tiles::new(pilot.canvas);
+    let tiles = Tiles {
+        canvas: pilot.canvas,
+    };
     let mut found = tiles.filled(TilePilot::default());
     for (&pixel, probe) in pixels.iter().zip(&probes) {
         let index = tiles.index(&found, pixel);
         let tile = &mut found.pixels[index];
         tile.pixels += 1.0;
         tile.variance += probe.variance;
+        tile.radiance += probe.radiance;
         tile.bounces += probe.bounces;
         tile.moves |= probe.moves;
     }
+    // Variance of twice the square root of radiance, which is about as a display shows it.
+    let variance = widen(&found.map(|tile| {
+        let pixels = tile.pixels;
+        tile.variance / pixels / (DARK + tile.radiance / pixels)
+    }));
     let near_motion = dilate_square(&found.map(|tile| tile.moves), margin.div_ceil(TILE));
-    let demands = found.zip(&near_motion, |tile, near_motion| {
-        let weight = if *near_motion { 1.0 } else { WEIGHT_OF_STILL };
+    let demands = Raster::from_fn(found.width, found.height, |x, y| {
+        let tile = found.at(x, y);
+        let weight = if *near_motion.at(x, y) {
+            1.0
+        } else {
+            WEIGHT_OF_STILL
+        };
         let cost = COST_OF_A_MISS + tile.bounces / tile.pixels;
-        (weight * tile.variance / tile.pixels / cost).sqrt()
+        (weight * variance.at(x, y) / cost).sqrt()
     });
-    let demand: Vec<f64> = (pixels.iter())
-        .map(|&pixel| demands.pixels[tiles.index(&demands, pixel)])
+    let demand: Vec<f64> = (pilot.canvas.pixels().into_iter())
+        .map(|pixel| demands.pixels[tiles.index(&demands, pixel)])
         .collect();
     Ok(SampleCounts::share(pilot.canvas, &demand, mean))
+}
+
+/// Raises each tile to the mean of itself and its neighbours. A tile in which the pilot met nothing by chance so gets its
+/// share where it lies beside a noisy one, or in an evenly noisy region.
+fn widen(variance: &Raster<f64>) -> Raster<f64> {
+    let around = |at: u32, end: u32| at.saturating_sub(1)..(at + 2).min(end);
+    Raster::from_fn(variance.width, variance.height, |x, y| {
+        let rows = around(y, variance.height);
+        let tiles = rows.flat_map(|y| around(x, variance.width).map(move |x| (x, y)));
+        let values: Vec<f64> = tiles.map(|(x, y)| *variance.at(x, y)).collect();
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        variance.at(x, y).max(mean)
+    })
 }
 
 /// Summarises the replicates of one pixel.
@@ -120,6 +144,11 @@ fn probe_pixel(replicates: &[Vec<Estimate>], moving: &[bool]) -> TilePilot {
     TilePilot {
         pixels: 1.0,
         variance: squares.sum::<f64>() / (2.0 * 3.0 * pictures),
+        radiance: all
+            .clone()
+            .map(|estimate| estimate.radiance.element_sum())
+            .sum::<f64>()
+            / (3.0 * f64::from(PILOT_REPLICATES) * pictures),
         bounces: all.clone().map(|estimate| estimate.bounces).sum::<f64>()
             / (f64::from(PILOT_REPLICATES) * pictures),
         moves: all
