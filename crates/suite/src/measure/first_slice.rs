@@ -107,7 +107,7 @@ pub(super) fn measure_first_cases(scene: &SceneContext) -> Option<(f64, usize)> 
     let watch = |_: Progress| ControlFlow::Continue(());
     let (cases, seconds) = timed(|| {
         scene
-            .measure(&due, &frame, &truths, &|_| {}, &watch)
+            .measure(&due, &frame, truths, &|_| {}, &watch)
             .ok()
             .map(|cases| cases.len())
     });
