@@ -385,7 +385,7 @@ fn a_check_ends_with_its_verdict_and_counts_targets_apart() {
 fn long_work_is_announced() {
     let bench = Bench::new();
     let mut child = bench
-        .command(&["run", "--samples-per-pixel", "1024", "--size", "320x180"])
+        .command(&["run", "--samples-per-pixel", "8192", "--size", "320x180"])
         .stdout(Stdio::null())
         .stderr(Stdio::piped())
         .spawn()

@@ -74,7 +74,7 @@ pub use render::shared::render_shared;
 pub use render::truths::{deciding_floor, render_part, render_truth, render_truth_until};
 pub use run::case::{ACCUMULATE, Case, IDENTITY, Intervals};
 pub use run::earlier::{EarlierCases, folder_for_size};
-pub use run::error_map::read_error_map;
+pub use run::error_maps::ErrorMaps;
 pub use run::failure::{Failure, refuse_failures};
 pub use run::file::MOST_CASES;
 pub use run::layers::write_layers;

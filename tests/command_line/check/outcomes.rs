@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use frame::{Frame, Truth, read_exr};
+
 use super::{IDENTITY, assert_ends, bound, json, make_bounded, verdict};
 use crate::bench::{Bench, SCENE, assert_refused};
 
@@ -224,4 +226,36 @@ fn a_missing_adapter_gives_exit_code_3() {
     let bench = make_bounded(0.9, "required");
     let output = bench.without_adapter(&["check", "--out", "out", "--filters", "identity"]);
     assert_refused(&output, 3, &["mesa-vulkan-drivers"]);
+}
+
+#[test]
+fn an_error_map_that_no_file_holds_is_measured_again() {
+    let bench = Bench::new();
+    bench.write("bounds.toml", &bound("mae_moving", 0.001, "required"));
+    let output = bench.check(&[&IDENTITY[..], &["--json"]].concat());
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let worst = &found["findings"][0]["worst"];
+    assert_eq!(worst["map"], "absolute_error", "{found}");
+    let run = bench.read_run();
+    let case = (run.cases.iter())
+        .find(|case| case.filter == "identity")
+        .unwrap();
+    let out = bench.path("out");
+    let errors = read_exr(&out.join(&case.folder).join("errors.exr")).unwrap();
+    assert!(errors.plane("absolute_error").is_err(), "it is not kept");
+    let map = (suite::ErrorMaps::read(case, &out).unwrap())
+        .map("absolute_error")
+        .unwrap();
+    let frame = Frame::read(&out.join("plate/frame.exr")).unwrap();
+    let truth = Truth::read(&out.join("plate/truth_trailing.exr")).unwrap();
+    let scale = frame.display.stops.exp2();
+    // The identity's output is the frame.
+    let expected = frame.color.zip(&truth.mean().color, |output, truth| {
+        let sum: f32 = (0..3).map(|c| (output[c] - truth[c]).abs()).sum();
+        sum * scale / 3.0
+    });
+    assert!(expected.pixels.iter().any(|error| *error > 0.05));
+    for (found, expected) in map.pixels.iter().zip(&expected.pixels) {
+        assert!((found - expected).abs() < 1e-6, "{found} {expected}");
+    }
 }

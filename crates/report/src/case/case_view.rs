@@ -65,9 +65,9 @@ impl<'a> CaseView<'a> {
         let evidence: Vec<Option<Evidence>> = (findings.iter())
             .map(|finding| find_evidence(finding, case, &own, files))
             .collect::<Result<_, _>>()?;
-        let flip = own.errors.plane("flip")?;
+        let flip = own.errors.map("flip")?;
         let place = match evidence.iter().flatten().next() {
-            Some(first) => worst_pixel(&own.error_map(case, &first.map)?, first.place, BLOCK),
+            Some(first) => worst_pixel(&own.errors.map(&first.map)?, first.place, BLOCK),
             None => {
                 let metric = "flip_moving".parse().expect("a metric's name");
                 let (x, y) = worst_block(metric, &flip, &files.truths[&case.alignment].regions);

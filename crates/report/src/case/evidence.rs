@@ -35,7 +35,7 @@ pub fn find_evidence(
         Some(worst) => worst.map.clone(),
         None => metric.row().map.name().to_owned(),
     };
-    let plane = files.error_map(case, &map)?;
+    let plane = files.errors.map(&map)?;
     let (x, y) = match &finding.worst {
         Some(worst) => (worst.x, worst.y),
         None => worst_block(metric, &plane, &scene.truths[&case.alignment].regions),

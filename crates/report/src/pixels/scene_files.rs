@@ -12,7 +12,7 @@ use super::layer::Layer;
 use super::planes::Planes;
 use super::png::{embed_picture, thumbnail};
 use suite::ACCUMULATE;
-use suite::{Case, Error, Run, read_error_map};
+use suite::{Case, Error, ErrorMaps, Run};
 
 /// The frame of a scene, its truths, and the planes of all its pictures.
 pub struct SceneFiles {
@@ -46,24 +46,15 @@ pub struct TruthFile {
 }
 
 /// Files that a run left of one case.
-pub struct CaseFiles {
+pub struct CaseFiles<'a> {
     /// Output of the filter.
     pub output: Image,
     /// The error maps.
-    pub errors: ExrFile,
+    pub errors: ErrorMaps<'a>,
     /// Every picture that there is, with the numbers of its planes.
     pub layers: Vec<(Layer, Vec<usize>)>,
     /// The plane of the objects' indices.
     pub objects: usize,
-    /// Folder of the run.
-    folder: PathBuf,
-}
-
-impl CaseFiles {
-    /// Reads an error map of the case by its name; measures one that the file does not hold.
-    pub fn error_map(&self, case: &Case, name: &str) -> Result<Plane, Error> {
-        read_error_map(case, &self.folder, &self.errors, name)
-    }
 }
 
 impl SceneFiles {
@@ -152,22 +143,22 @@ impl SceneFiles {
     }
 
     /// Reads the files that a run left of a case below `folder`, that of its run.json.
-    pub fn read_case(&mut self, case: &Case, folder: &Path) -> Result<CaseFiles, Error> {
+    pub fn read_case<'c>(&mut self, case: &'c Case, folder: &Path) -> Result<CaseFiles<'c>, Error> {
         let own = folder.join(&case.folder);
         let file = read_exr(&own.join("output.exr"))?;
         file.expect_finite()?;
-        let errors = read_exr(&own.join("errors.exr"))?;
+        let errors = ErrorMaps::read(case, folder)?;
         let output = file.color("")?;
         let size = (output.width, output.height);
-        if size != self.frame.size() || (errors.width, errors.height) != size {
+        if size != self.frame.size() || errors.size() != size {
             let (width, height) = self.frame.size();
             return Err(Error::Usage(format!(
                 "{}: output.exr has {}x{} pixels, errors.exr {}x{}, the scene's frame {width}x{height}; run the case again",
                 own.display(),
                 size.0,
                 size.1,
-                errors.width,
-                errors.height
+                errors.size().0,
+                errors.size().1
             )));
         }
         self.truth(case)?;
@@ -184,7 +175,7 @@ impl SceneFiles {
             (Layer::Flip, "flip"),
             (Layer::LabelTotalVariation, "label_tv"),
         ] {
-            let plane = self.planes.add(&errors.plane(name)?);
+            let plane = self.planes.add(&errors.map(name)?);
             layers.push((layer, vec![plane]));
         }
         if file
@@ -203,7 +194,6 @@ impl SceneFiles {
             errors,
             layers,
             objects: self.objects,
-            folder: folder.to_owned(),
         })
     }
 }

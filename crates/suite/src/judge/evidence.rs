@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use frame::{ExrFile, Frame, Image, Ladder, Truth, read_exr};
+use frame::{Frame, Image, Ladder, Truth, read_exr};
 use metrics::{Metric, Reference, Regions};
 
 use super::decoys::Decoys;
 use super::finding::Finding;
 use super::worst::{Worst, worst_block, write_crop};
-use crate::run::error_map::read_error_map;
+use crate::run::error_maps::ErrorMaps;
 use crate::{Case, Error, Run};
 
 /// Adds evidence to every notable finding of a run, from the run's files below `folder`, and writes a picture of each worst place
@@ -54,29 +54,14 @@ fn add_evidence_of_truth(
     };
     for (case, findings) in cases {
         let resembles = decoys.nearest(&case.scores);
-        let files = CaseFiles::read(case, folder)?;
+        let output = read_exr(&folder.join(&case.folder).join("output.exr"))?.color("")?;
+        let errors = ErrorMaps::read(case, folder)?;
         for finding in findings {
-            finding.worst = Some(places.show_worst(case, &files, finding, folder)?);
+            finding.worst = Some(places.show_worst(case, (&output, &errors), finding, folder)?);
             finding.resembles = resembles.clone();
         }
     }
     Ok(())
-}
-
-/// A case's picture and its error maps.
-struct CaseFiles {
-    output: Image,
-    errors: ExrFile,
-}
-
-impl CaseFiles {
-    fn read(case: &Case, folder: &Path) -> Result<Self, Error> {
-        let own = folder.join(&case.folder);
-        Ok(Self {
-            output: read_exr(&own.join("output.exr"))?.color("")?,
-            errors: read_exr(&own.join("errors.exr"))?,
-        })
-    }
 }
 
 /// Inputs to find and show worst places.
@@ -92,16 +77,16 @@ impl WorstPlaces<'_> {
     fn show_worst(
         &self,
         case: &Case,
-        files: &CaseFiles,
+        (output, errors): (&Image, &ErrorMaps),
         finding: &Finding,
         folder: &Path,
     ) -> Result<Worst, Error> {
         let metric: Metric = (finding.metric.parse()).expect("a finding is about a metric");
         let map_name = metric.row().map.name();
-        let map = read_error_map(case, folder, &files.errors, map_name)?;
+        let map = errors.map(map_name)?;
         let (x, y) = worst_block(metric, &map, self.regions);
         let picture = case.folder.join(format!("worst_{metric}.png"));
-        let panels = [self.truth, &files.output];
+        let panels = [self.truth, output];
         write_crop(&folder.join(&picture), (x, y), panels, &map, self.stops)?;
         Ok(Worst {
             x,

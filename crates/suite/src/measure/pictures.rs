@@ -10,7 +10,7 @@ use metrics::Measurement;
 use tracer::Scene;
 
 use crate::colors::{magma, velocity_wheel};
-use crate::run::error_map::KEPT_MAPS;
+use crate::run::error_maps::KEPT_MAPS;
 
 /// Writes a frame's PNGs beside its EXR file; returns the names of all.
 pub fn write_frame(folder: &Path, scene: &Scene, frame: &Frame) -> Result<Vec<String>, FileError> {

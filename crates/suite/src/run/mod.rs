@@ -2,7 +2,7 @@
 
 pub mod case;
 pub mod earlier;
-pub mod error_map;
+pub mod error_maps;
 pub mod failure;
 pub mod file;
 pub mod layers;

@@ -1,0 +1,85 @@
+//! Error maps of a finished case: those that errors.exr holds, and others, which are measured again.
+
+use std::cell::OnceCell;
+use std::path::{Path, PathBuf};
+
+use frame::{ExrFile, Frame, Picture, Plane, Truth, read_exr};
+use metrics::{ErrorMap, Measurement, Reference};
+
+use super::case::Case;
+use crate::Error;
+
+/// Maps that errors.exr holds: those that people look at, and those of probes, which only the filter itself could make again.
+pub const KEPT_MAPS: [ErrorMap; 6] = [
+    ErrorMap::Flip,
+    ErrorMap::LabelTotalVariation,
+    ErrorMap::Bleed,
+    ErrorMap::Unity,
+    ErrorMap::GatherOffset,
+    ErrorMap::GatherSpread,
+];
+
+/// The error maps of one case.
+pub struct ErrorMaps<'a> {
+    case: &'a Case,
+    /// Folder of run.json.
+    folder: PathBuf,
+    /// errors.exr.
+    file: ExrFile,
+    /// Measurement of maps that the file does not hold, made once for all of them.
+    again: OnceCell<Measurement>,
+}
+
+impl<'a> ErrorMaps<'a> {
+    /// Reads the maps that a run left of a case below `folder`, that of run.json.
+    pub fn read(case: &'a Case, folder: &Path) -> Result<Self, Error> {
+        Ok(Self {
+            file: read_exr(&folder.join(&case.folder).join("errors.exr"))?,
+            case,
+            folder: folder.to_owned(),
+            again: OnceCell::new(),
+        })
+    }
+
+    /// Returns pixels per row and rows.
+    pub fn size(&self) -> (u32, u32) {
+        (self.file.width, self.file.height)
+    }
+
+    /// Takes a map by its name. One that errors.exr does not hold is measured again, from output.exr, the frame and the truth.
+    pub fn map(&self, name: &str) -> Result<Plane, Error> {
+        let map = ErrorMap::ALL.into_iter().find(|map| map.name() == name);
+        let is_held = (self.file.channels.iter()).any(|channel| channel.name == name);
+        match map {
+            Some(map) if !is_held && !KEPT_MAPS.contains(&map) => {
+                let measurement = match self.again.get() {
+                    Some(measurement) => measurement,
+                    None => {
+                        let measured = self.measure_again()?;
+                        self.again.get_or_init(|| measured)
+                    }
+                };
+                let plane = measurement.map(map);
+                Ok(plane.expect("probes have maps of their own").clone())
+            }
+            _ => Ok(self.file.plane(name)?),
+        }
+    }
+
+    fn measure_again(&self) -> Result<Measurement, Error> {
+        let Self { case, folder, .. } = self;
+        let scene = folder.join(&case.scene);
+        let frame = Frame::read(&scene.join("frame.exr"))?.cropped();
+        let truth = Truth::read(&scene.join(format!("truth_{}.exr", case.alignment)))?;
+        let output = read_exr(&folder.join(&case.folder).join("output.exr"))?;
+        let mattes = truth.objects.iter();
+        let picture = Picture {
+            color: output.color("")?,
+            coverage: mattes
+                .map(|object| output.plane(&format!("coverage.{object}")))
+                .collect::<Result<_, _>>()?,
+        };
+        let reference = Reference::new(&frame, &truth, None, &frame.display.into())?;
+        Ok(reference.measure(&picture)?)
+    }
+}
