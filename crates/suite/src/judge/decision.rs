@@ -8,10 +8,10 @@ use serde::Serialize;
 pub enum Decision {
     /// Every required bound is kept.
     Pass,
-    /// None is broken, but for some the truth is too noisy to tell.
+    /// For some the truth is too noisy to tell.
     Inconclusive,
-    /// A required bound is broken, or a case failed.
-    Broken,
     /// A bound is stricter than the truth's noise can carry, or no bound applies to a case.
     Misconfigured,
+    /// A required bound is broken, or a case failed. The noise of another bound does not undo it.
+    Broken,
 }
