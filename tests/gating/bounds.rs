@@ -25,9 +25,10 @@ fn judge_bars(choice: &SceneChoice, out: &Path) -> [Vec<JudgedScore>; 2] {
     };
     let scene = &choice.scene;
     let frame = suite::render_frame(scene, &settings, out, Monitor::SILENT).unwrap();
-    let (truth, ladder) =
-        suite::render_truth_and_ladder(scene, &settings, Alignment::Trailing, out, Monitor::SILENT)
-            .unwrap();
+    let shutter = Alignment::Trailing;
+    let truth = suite::render_truth(scene, &settings, shutter, out, Monitor::SILENT).unwrap();
+    let ladder = suite::LadderFile::new(scene, &settings, shutter, out);
+    let ladder = ladder.read_or_render(&truth, Monitor::SILENT).unwrap();
     let reference = Reference::new(&frame, &truth, None, &suite::scene_viewing(scene)).unwrap();
     let bounds = suite::read_bounds(&scenes(), &choice.folder).unwrap();
     // Bounds for all filters, required or not.

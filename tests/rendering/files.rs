@@ -263,7 +263,7 @@ fn a_ladder_comes_back_bit_for_bit() {
             })
             .into(),
     };
-    ladder.write(&path).unwrap();
+    ladder.clone().write(&path).unwrap();
     assert_eq!(Ladder::read(&path).unwrap(), ladder);
 }
 

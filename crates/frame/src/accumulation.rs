@@ -34,24 +34,20 @@ pub struct Ladder {
 }
 
 impl Ladder {
-    /// Writes the ladder as OpenEXR: layers `n<N>.A` and `n<N>.B` per rung.
-    pub fn write(&self, path: &Path) -> Result<(), FileError> {
+    /// Writes the ladder as OpenEXR: layers `n<N>.A` and `n<N>.B` per rung. Takes the ladder, since a copy of the largest thing that
+    /// measuring holds would double its memory.
+    pub fn write(self, path: &Path) -> Result<(), FileError> {
         let first = &self.rungs.first().expect("a ladder has rungs").halves[0].color;
         let mut file = ExrFile::new(first.width, first.height);
-        for rung in &self.rungs {
-            for (half, layer) in rung.halves.iter().zip(["A", "B"]) {
-                half.push(
-                    &mut file,
-                    &format!("n{}.{layer}", rung.subframes),
-                    &self.objects,
-                );
-            }
-        }
-        let subframes: Vec<String> = self
-            .rungs
-            .iter()
+        let subframes: Vec<String> = (self.rungs.iter())
             .map(|rung| rung.subframes.to_string())
             .collect();
+        for rung in self.rungs {
+            for (half, layer) in rung.halves.into_iter().zip(["A", "B"]) {
+                let layer = format!("n{}.{layer}", rung.subframes);
+                half.move_to(&mut file, &layer, &self.objects);
+            }
+        }
         file.set("kind", "ladder");
         set_shutter(&mut file, self.shutter, self.alignment);
         self.shutter_profile.set(&mut file);
@@ -64,7 +60,7 @@ impl Ladder {
 
     /// Reads a ladder that [`Ladder::write`] wrote, bit for bit.
     pub fn read(path: &Path) -> Result<Self, FileError> {
-        let file = read_exr(path)?;
+        let mut file = read_exr(path)?;
         file.expect_kind("ladder")?;
         let objects = file.objects()?;
         let (shutter, alignment) = get_shutter(&file)?;
@@ -80,8 +76,9 @@ impl Ladder {
                     "attribute \"subframes\" holds \"{word}\" out of order; allowed: rising whole numbers from 1"
                 )));
             }
-            let half =
-                |layer: &str| Picture::from_exr(&file, &format!("n{subframes}.{layer}"), &objects);
+            let mut half = |layer: &str| {
+                Picture::take_from(&mut file, &format!("n{subframes}.{layer}"), &objects)
+            };
             rungs.push(Accumulation {
                 subframes,
                 halves: [half("A")?, half("B")?],

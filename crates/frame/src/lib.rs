@@ -44,7 +44,7 @@ pub use at_instant::AtInstant;
 pub use display::{Display, FlipExposures, MOST_STOPS, display_srgb, scene_linear};
 pub use exr::{
     Channel, ExrFile, LARGEST_EXR_RATIO, LARGEST_EXR_SIDE, MOST_EXR_BYTES, MOST_EXR_CHANNELS,
-    Samples, read_exr, write_exr, write_half_exr,
+    Samples, read_attribute, read_exr, write_exr, write_half_exr,
 };
 pub use file::{FileError, read_bounded, remove_leftovers, write_atomically};
 pub use frame::{FAR_DEPTH, Frame};

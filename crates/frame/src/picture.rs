@@ -21,14 +21,23 @@ impl Picture {
         }
     }
 
-    pub(crate) fn from_exr(
-        file: &ExrFile,
+    /// Adds the same channels as [`Picture::push`], without copying coverage.
+    pub(crate) fn move_to(self, file: &mut ExrFile, layer: &str, objects: &[String]) {
+        file.push_color(layer, &self.color);
+        for (object, plane) in objects.iter().zip(self.coverage) {
+            file.push_owned_plane(&coverage_name(layer, object), plane);
+        }
+    }
+
+    /// Takes the picture out of a file.
+    pub(crate) fn take_from(
+        file: &mut ExrFile,
         layer: &str,
         objects: &[String],
     ) -> Result<Self, FileError> {
         let coverage = objects
             .iter()
-            .map(|object| file.plane(&coverage_name(layer, object)))
+            .map(|object| file.take_plane(&coverage_name(layer, object)))
             .collect::<Result<_, _>>()?;
         Ok(Self {
             color: file.color(layer)?,

@@ -79,7 +79,7 @@ impl Replicate {
 
     /// Reads a replicate that [`Replicate::write`] wrote, bit for bit.
     pub fn read(path: &Path) -> Result<Self, FileError> {
-        let file = read_exr(path)?;
+        let mut file = read_exr(path)?;
         file.expect_kind("replicate")?;
         let objects = file.objects()?;
         let moving = file.words("moving")?;
@@ -91,7 +91,7 @@ impl Replicate {
             shutter_profile: ShutterProfile::from_exr(&file)?,
             alignment,
             moving: objects.iter().map(|name| moving.contains(name)).collect(),
-            picture: Picture::from_exr(&file, "", &objects)?,
+            picture: Picture::take_from(&mut file, "", &objects)?,
             at_instant: AtInstant::from_exr(&file, "")?,
             samples: file.samples_per_pixel()?,
             support: Support::from_exr(&file, &objects)?,

@@ -210,7 +210,7 @@ impl Truth {
 
     /// Reads a truth that [`Truth::write`] wrote, bit for bit.
     pub fn read(path: &Path) -> Result<Self, FileError> {
-        let file = read_exr(path)?;
+        let mut file = read_exr(path)?;
         file.expect_kind("truth")?;
         let objects = file.objects()?;
         let (shutter, alignment) = get_shutter(&file)?;
@@ -220,8 +220,8 @@ impl Truth {
             shutter_profile: ShutterProfile::from_exr(&file)?,
             alignment,
             halves: [
-                Picture::from_exr(&file, "A", &objects)?,
-                Picture::from_exr(&file, "B", &objects)?,
+                Picture::take_from(&mut file, "A", &objects)?,
+                Picture::take_from(&mut file, "B", &objects)?,
             ],
             support: Support::from_exr(&file, &objects)?,
             objects,

@@ -66,7 +66,7 @@ pub use measure::scenes::{measure_scenes, measure_scenes_as_expected};
 pub use monitor::{Monitor, Step};
 pub use printable::{printable, printable_lines, printable_path, printable_table};
 pub use render::frames::render_frame;
-pub use render::ladders::{LADDER, render_truth_and_ladder};
+pub use render::ladders::{LADDER, LadderFile};
 pub use render::merge::{MOST_PART_BYTES, Merged, merge};
 pub use render::scatter_oracle::scatter_oracle;
 pub use render::settings::{MOST_REPLICATES, RenderSettings, SIDES};

@@ -63,16 +63,21 @@ impl ExrFile {
 
     /// Adds one channel of floats.
     pub fn push_plane(&mut self, name: &str, plane: &Plane) {
+        self.push_owned_plane(name, plane.clone());
+    }
+
+    /// Adds one channel of floats without copying them.
+    pub(crate) fn push_owned_plane(&mut self, name: &str, plane: Plane) {
         self.channels.push(Channel {
             name: name.to_owned(),
-            samples: Samples::F32(plane.pixels.clone()),
+            samples: Samples::F32(plane.pixels),
         });
     }
 
     /// Adds `R G B`, in a named layer or at the top.
     pub fn push_color(&mut self, layer: &str, image: &Image) {
         for (component, name) in ["R", "G", "B"].into_iter().enumerate() {
-            self.push_plane(&in_layer(layer, name), &image.map(|pixel| pixel[component]));
+            self.push_owned_plane(&in_layer(layer, name), image.map(|pixel| pixel[component]));
         }
     }
 
@@ -123,6 +128,20 @@ impl ExrFile {
             Samples::U32(_) => Err(self.foreign(format!(
                 "channel \"{name}\" holds integers; 32-bit floats are needed"
             ))),
+        }
+    }
+
+    /// Takes a channel of floats out of the file, which leaves it without samples.
+    pub(crate) fn take_plane(&mut self, name: &str) -> Result<Plane, FileError> {
+        let (width, height) = (self.width, self.height);
+        let channel = (self.channels.iter_mut()).find(|channel| channel.name == name);
+        match channel.map(|channel| &mut channel.samples) {
+            Some(Samples::F32(pixels)) => Ok(Raster {
+                width,
+                height,
+                pixels: std::mem::take(pixels),
+            }),
+            _ => self.plane(name),
         }
     }
 

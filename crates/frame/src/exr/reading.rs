@@ -66,6 +66,20 @@ pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
     Ok(file)
 }
 
+/// Reads one text attribute of an OpenEXR file without its pixels; none where the file or the attribute is missing or broken.
+pub fn read_attribute(path: &Path, name: &str) -> Option<String> {
+    let (handle, _) = open_regular(path, u64::MAX).ok()?;
+    let chunks = exr::block::read(BufReader::new(handle), false).ok()?;
+    let header = chunks.headers().first()?;
+    (header.own_attributes.other.iter())
+        .chain(&header.shared_attributes.other)
+        .find(|(found, _)| from_exr(found) == name)
+        .and_then(|(_, value)| match value {
+            AttributeValue::Text(text) => Some(from_exr(text)),
+            _ => None,
+        })
+}
+
 fn foreign(path: &Path, reason: String) -> FileError {
     FileError::Foreign {
         path: path.to_owned(),

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use filters::{FilterError, Gpu};
-use frame::{Alignment, Frame, Ladder, Truth};
+use frame::{Alignment, Frame, Truth};
 use metrics::Reference;
 use tracer::{Progress, Scene, Watch};
 
@@ -23,10 +23,10 @@ use crate::filter::choice::FilterChoice;
 use crate::filter::input_format::InputFormat;
 use crate::folder::scene_folder::scene_folder;
 use crate::render::frames::render_frame;
-use crate::render::ladders::render_truth_and_ladder;
+use crate::render::ladders::LadderFile;
 use crate::render::memory::check_measuring_memory;
 use crate::render::shared::render_shared;
-use crate::render::truths::render_replicates;
+use crate::render::truths::{render_replicates, render_truth};
 use crate::run::case::Case;
 use crate::run::failure::Failure;
 use crate::stats::intervals::truths_without_pairs;
@@ -43,7 +43,7 @@ pub(crate) struct SceneContext<'a> {
     pub keys: Option<SceneKeys>,
 }
 
-pub(super) type Truths = BTreeMap<Alignment, (Truth, Ladder)>;
+pub(super) type Truths = BTreeMap<Alignment, Truth>;
 
 impl SceneContext<'_> {
     /// Returns the reference pictures of each alignment, then one case per filter preset and form of the input; a failure where a
@@ -100,14 +100,10 @@ impl SceneContext<'_> {
         let due_at =
             |alignment: Alignment| due.iter().filter(move |case| case.alignment == alignment);
         let common_alignment = self.plan.common_alignment();
-        let (truths, mut ladders): (BTreeMap<Alignment, Truth>, BTreeMap<Alignment, Ladder>) =
-            (truths.into_iter())
-                .map(|(alignment, (truth, ladder))| ((alignment, truth), (alignment, ladder)))
-                .unzip();
         let mut references = BTreeMap::new();
         let mut common_alone = None;
         for (alignment, truth) in &truths {
-            let ladder = ladders.remove(alignment).expect("every truth has a ladder");
+            let ladder = || self.ladder_file(*alignment).read_or_render(truth, monitor);
             if due_at(*alignment).next().is_some() {
                 let subframes: Vec<u32> = due_at(*alignment)
                     .filter_map(|case| match case.source {
@@ -118,7 +114,7 @@ impl SceneContext<'_> {
                 let without = without_pairs.get(alignment).map_or(&[][..], Vec::as_slice);
                 let own = TruthReferences::new(
                     frame,
-                    (truth, ladder),
+                    (truth, ladder()?),
                     &subframes,
                     without,
                     &viewing,
@@ -128,7 +124,7 @@ impl SceneContext<'_> {
             } else if *alignment == common_alignment {
                 // Only FLIP is measured against it, which needs no oracle.
                 let frame = frame.cropped();
-                common_alone = Some(Reference::new(&frame, truth, Some(&ladder), &viewing)?);
+                common_alone = Some(Reference::new(&frame, truth, Some(&ladder()?), &viewing)?);
             }
         }
         let common = match &common_alone {
@@ -206,14 +202,19 @@ impl SceneContext<'_> {
         let mut truths = Truths::new();
         for (alignment, done) in alignments.into_iter().zip(0..) {
             advance(1 + done * self.truth_steps());
-            let rendered = render_truth_and_ladder(self.scene, render, alignment, out, *monitor)?;
-            files.push(write_truth(&folder, self.scene, &rendered.0)?);
-            truths.insert(alignment, rendered);
+            let truth = render_truth(self.scene, render, alignment, out, *monitor)?;
+            self.ladder_file(alignment).ensure(&truth, *monitor)?;
+            files.push(write_truth(&folder, self.scene, &truth)?);
+            truths.insert(alignment, truth);
         }
         for ((record, key), files) in self.render_records().into_iter().zip(files) {
             write_record(&record, key, &files, &())?;
         }
         Ok((frame, truths))
+    }
+
+    fn ladder_file(&self, alignment: Alignment) -> LadderFile<'_> {
+        LadderFile::new(self.scene, &self.plan.render, alignment, &self.plan.out)
     }
 
     /// Counts the steps of the whole scene, as progress shows them: those of rendering, and the measuring.
