@@ -56,7 +56,7 @@ impl Default for FrameSettings {
             exposure: 0.5,
             options: FrameOptions::default(),
             guard_band: 0,
-            samples_per_pixel: 64,
+            samples_per_pixel: 256,
             seed: 0,
         }
     }
@@ -69,7 +69,7 @@ impl Default for TruthSettings {
             height: 180,
             exposure: 0.5,
             alignment: Alignment::Trailing,
-            samples_per_pixel: 128,
+            samples_per_pixel: 256,
             replicates: 8,
             seed: 0,
         }

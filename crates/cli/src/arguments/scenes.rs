@@ -34,7 +34,7 @@ pub struct SceneArgs {
     pub scenes_dir: PathBuf,
     /// Mean samples per pixel of a truth with 8 replicates, 8 times a power of two. Noisy parts of
     /// the picture get more, quiet ones fewer.
-    #[arg(long, value_name = "N", default_value_t = 128, value_parser = parse_whole::<u32>)]
+    #[arg(long, value_name = "N", default_value_t = 256, value_parser = parse_whole::<u32>)]
     pub samples_per_pixel: u32,
     /// Exposure in frames; 0.5 is a shutter of 180 degrees [default: each scene's own].
     #[arg(long, value_name = "E", value_parser = parse_exposure)]

@@ -53,7 +53,7 @@ pub struct TuneArgs {
         help_heading = "Held-out scenes",
         long,
         value_name = "N",
-        default_value_t = 128,
+        default_value_t = 256,
         value_parser = parse_whole::<u32>
     )]
     pub held_out_samples_per_pixel: u32,

@@ -43,7 +43,7 @@ impl Default for RenderSettings {
         Self {
             width: 320,
             height: 180,
-            samples_per_pixel: 128,
+            samples_per_pixel: 256,
             replicates: 8,
             seed: 1,
             options: FrameOptions::default(),

@@ -20,6 +20,9 @@ const TILE: u32 = 4;
 const WEIGHT_OF_STILL: f64 = 0.25;
 /// Radiance below which a display shows all as dark.
 const DARK: f64 = 0.02;
+/// Weight of the variance of coverage beside that of twice the square root of radiance. Scores of labels see the edge of a mover
+/// that has the colour of what lies behind it.
+const WEIGHT_OF_COVERAGE: f64 = 0.25;
 /// Cost of a sample without bounces, in bounces.
 const COST_OF_A_MISS: f64 = 0.25;
 
@@ -29,6 +32,8 @@ struct TilePilot {
     pixels: f64,
     /// Variance of the mean of a replicate.
     variance: f64,
+    /// Variance of the coverages of a replicate, summed over the objects.
+    coverage_variance: f64,
     /// Radiance, the mean of the components.
     radiance: f64,
     bounces: f64,
@@ -91,6 +96,7 @@ pub(crate) fn choose_samples(
         let tile = &mut found.pixels[index];
         tile.pixels += 1.0;
         tile.variance += probe.variance;
+        tile.coverage_variance += probe.coverage_variance;
         tile.radiance += probe.radiance;
         tile.bounces += probe.bounces;
         tile.moves |= probe.moves;
@@ -98,7 +104,8 @@ pub(crate) fn choose_samples(
     // Variance of twice the square root of radiance, which is about as a display shows it.
     let variance = widen(&found.map(|tile| {
         let pixels = tile.pixels;
-        tile.variance / pixels / (DARK + tile.radiance / pixels)
+        let shown = tile.variance / (DARK + tile.radiance / pixels);
+        (shown + WEIGHT_OF_COVERAGE * tile.coverage_variance) / pixels
     }));
     let near_motion = dilate_square(&found.map(|tile| tile.moves), margin.div_ceil(TILE));
     let demands = Raster::from_fn(found.width, found.height, |x, y| {
@@ -134,16 +141,22 @@ fn widen(variance: &Raster<f64>) -> Raster<f64> {
 fn probe_pixel(replicates: &[Vec<Estimate>], moving: &[bool]) -> TilePilot {
     let pictures = replicates[0].len() as f64;
     let pairs = replicates[0].iter().zip(&replicates[1]);
-    let squares = pairs.map(|(a, b)| {
+    let squares = pairs.clone().map(|(a, b)| {
         let frozen = a.at_instant.frozen - b.at_instant.frozen;
         (a.radiance - b.radiance)
             .length_squared()
             .max(frozen.length_squared())
     });
+    let coverage = pairs.flat_map(|(a, b)| {
+        let seen = a.seen.iter().zip(&b.seen);
+        seen.map(|(a, b)| (f64::from(*a) - f64::from(*b)) / f64::from(PILOT_SAMPLES))
+    });
     let all = replicates.iter().flatten();
     TilePilot {
         pixels: 1.0,
         variance: squares.sum::<f64>() / (2.0 * 3.0 * pictures),
+        coverage_variance: coverage.map(|difference| difference.powi(2)).sum::<f64>()
+            / (2.0 * pictures),
         radiance: all
             .clone()
             .map(|estimate| estimate.radiance.element_sum())
