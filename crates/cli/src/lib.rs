@@ -10,6 +10,7 @@ mod tables;
 use std::process::ExitCode;
 
 use clap::FromArgMatches;
+use clap::error::{ContextKind, ContextValue};
 use filters::FilterError;
 use suite::{Error, printable, printable_lines};
 
@@ -18,9 +19,11 @@ use output::print::{print_error, print_failure};
 use output::progress::{INTERRUPTED_CODE, INTERRUPTED_TEXT, catch_interrupts};
 use output::verbosity::set_output;
 use quiet_driver::quiet_driver;
+use selection::suggest_names;
 
 pub use output::annotations::{annotations, summary};
 pub use output::junit::junit;
+
 pub use selection::{Programs, SceneChoice, select_filters, select_scenes};
 pub use tables::cases::{run_table, score_table};
 pub use tables::check::check_text;
@@ -69,6 +72,12 @@ fn exit_code(error: &Error) -> u8 {
 
 /// Prints the error in the command line, or its help. The message quotes arguments.
 fn refuse_arguments(error: &clap::Error) -> ! {
+    if let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) {
+        let commands = arguments::list_commands();
+        let meant = suggest_names(word, &commands);
+        print_failure(&Error::Usage(format!("no command \"{word}\"; {meant}")));
+        std::process::exit(error.exit_code())
+    }
     let all_fit = std::env::args_os().all(|word| {
         let word = word.to_string_lossy();
         printable(&word) == word

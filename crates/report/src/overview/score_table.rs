@@ -7,7 +7,6 @@ use super::cell::{Colors, cell};
 use super::costs::{cost_of, cost_text};
 use super::headlines::TableScore;
 use crate::case::case_view::CaseView;
-use crate::case_score::estimate_of;
 use crate::charts::strip::Strip;
 use crate::filter_id::{FilterId, list_alignments, list_filters, list_scenes, mean, mean_floor};
 use suite::{Bench, Headline, Level, Outcome, Overall, Run};
@@ -19,23 +18,23 @@ const WHISKERS: f64 = 1.5;
 const MANY: usize = 8;
 
 /// A row before it is drawn.
-pub struct Row<'a> {
+struct Row<'a> {
     /// Filter or reference.
-    pub filter: FilterId,
+    filter: FilterId,
     /// Mean over scenes with its interval; none with a single scene.
-    pub overall: Option<&'a Overall>,
+    overall: Option<&'a Overall>,
     /// Mean, or the only score.
-    pub mean: Option<f64>,
+    mean: Option<f64>,
 }
 
 /// Groups the filters of a run by shutter, unless the score compares across shutters; the best mean comes first.
-pub fn rank_rows(run: &Run, headline: Headline) -> Vec<Vec<Row<'_>>> {
+fn rank_rows(run: &Run, headline: Headline) -> Vec<Vec<Row<'_>>> {
     let filters = list_filters(run);
     let row = |filter: &FilterId| {
         let mut means = run.overall.iter();
         let overall = means.find(|own| own.metric == headline.name() && filter.is_of(own));
         let scores = filter.cases(run);
-        let only = mean(scores.filter_map(|(_, case)| headline.measured(case).value()));
+        let only = mean(scores.filter_map(|(_, case)| headline.estimate(case)));
         Row {
             overall,
             mean: overall.map(|own| own.mean).or(only),
@@ -79,7 +78,7 @@ pub fn score_table(
     let own = views.iter().filter(|view| !view.case.is_reference);
     let colors = Colors::over(
         headline.ideal(),
-        own.filter_map(|view| estimate_of(view.case, headline)),
+        own.filter_map(|view| headline.estimate(view.case)),
     );
     let has_means = rows().any(|row| row.overall.is_some());
     let strip = strip_over(
