@@ -91,9 +91,9 @@ pub use tune::{
     JOURNAL_FORMAT, Journal, JournalHeader, LEAST_BLEED, Objective, PairedComparison,
     ParameterSensitivity, Preference, RenderedScene, SceneScore, Search, Sensitivity, SobolIndices,
     Space, TUNE_FORMAT, Target, Trial, TrialOutcome, TuneOptions, Tuning, analyze_sensitivity,
-    choose_trial, compare_candidates, cross_validate, evaluate_candidate, interleave_families,
-    log_ratio, pareto_front, render_scenes, signed_rank_p_value, sobol_indices, tune,
-    tuned_preset_toml,
+    choose_trial, compare_candidates, count_candidates, cross_validate, evaluate_candidate,
+    interleave_families, log_ratio, pareto_front, render_scenes, signed_rank_p_value,
+    sobol_indices, tune, tuned_preset_toml,
 };
 
 /// Program name and version, as files and runs record it.

@@ -29,7 +29,9 @@ struct Row<'a> {
 
 /// Groups the filters of a run by shutter, unless the score compares across shutters; the best mean comes first.
 fn rank_rows(run: &Run, headline: Headline) -> Vec<Vec<Row<'_>>> {
-    let filters = list_filters(run);
+    // Shutters come in the order of their filters, as in every ranking, and references behind the filters.
+    let mut filters = list_filters(run);
+    filters.sort_by_key(|filter| filter.is_reference);
     let row = |filter: &FilterId| {
         let mut means = run.overall.iter();
         let overall = means.find(|own| own.metric == headline.name() && filter.is_of(own));
@@ -108,7 +110,7 @@ pub fn score_table(
                         @for (scene, picture) in scenes.iter().zip(thumbnails) {
                             th.scene scope="col" {
                                 img src=[Some(picture).filter(|own| !own.is_empty())] alt="";
-                                button { (scene) }
+                                button { (breakable(scene)) }
                             }
                         }
                         @if bench.is_some() { th scope="col" { button { "cost, ms" } } }
