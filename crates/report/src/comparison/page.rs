@@ -37,7 +37,7 @@ pub fn compare_page(
     let body = html! {
         p.lead { (summary(compared)) }
         p.key {
-            "Change: the second run less the first. " span.better { "better" } " " span.worse { "worse" } " beyond noise. "
+            "Change: the second run less the first, estimated without the truth's noise. " span.better { "better" } " " span.worse { "worse" } " beyond noise. "
             "A score with an ideal value, such as extent, changes by its distance from that value."
         }
         @if !shown.is_empty() {
