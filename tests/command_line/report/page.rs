@@ -56,9 +56,10 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
 #[test]
 fn the_page_of_a_check_ranks_as_the_terminal_does() {
     let bench = Bench::two_scenes();
-    bench.write_bound(0.9);
+    let bounds = "[default]\nflip_moving = { limit = 0.9, why = \"it serves a test\" }\n";
+    fs::write(bench.path("scenes/bounds.toml"), bounds).unwrap();
     let filters = "identity,velocity_gather:fine,mcguire:paper,bevy:high";
-    bench.check(&["--filters", filters]);
+    assert_done(&bench.check(&["--filters", filters]));
     let page = make_page(&bench);
     let run = bench.read_run();
     let table = panel(&page, "flip_moving");
