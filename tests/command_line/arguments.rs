@@ -41,12 +41,15 @@ fn patterns_select_and_misspelt_names_get_a_suggestion() {
 }
 
 #[test]
-fn misspelt_commands_get_a_suggestion() {
+fn misspelt_commands_and_options_get_a_suggestion() {
     let bench = Bench::new();
     for words in [&["rnu"][..], &["help", "rnu"]] {
         let refused = bench.shuttertruth(words);
         assert_refused(&refused, 2, &["no command \"rnu\"; did you mean run?"]);
     }
+    let refused = bench.run(&["--sceens", "plate"]);
+    let suggested = "no option --sceens; did you mean --scenes?";
+    assert_refused(&refused, 2, &[suggested]);
     let refused = bench.shuttertruth(&["help", "xyz"]);
     assert_refused(&refused, 2, &["no command \"xyz\"; allowed: run, score"]);
 }

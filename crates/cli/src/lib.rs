@@ -71,12 +71,25 @@ fn exit_code(error: &Error) -> u8 {
     }
 }
 
+/// Says which command or option is meant by a misspelt one; none for other errors.
+fn misspelt_text(error: &clap::Error) -> Option<String> {
+    let context = |kind| match error.get(kind) {
+        Some(ContextValue::String(word)) => Some(word),
+        _ => None,
+    };
+    if let Some(word) = context(ContextKind::InvalidSubcommand) {
+        let meant = suggest_names(word, &arguments::list_commands());
+        return Some(format!("no command \"{word}\"; {meant}"));
+    }
+    let word = context(ContextKind::InvalidArg)?;
+    let meant = context(ContextKind::SuggestedArg)?;
+    Some(format!("no option {word}; did you mean {meant}?"))
+}
+
 /// Prints the error in the command line, or its help. The message quotes arguments.
 fn refuse_arguments(error: &clap::Error) -> ! {
-    if let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) {
-        let commands = arguments::list_commands();
-        let meant = suggest_names(word, &commands);
-        print_failure(&Error::Usage(format!("no command \"{word}\"; {meant}")));
+    if let Some(text) = misspelt_text(error) {
+        print_failure(&Error::Usage(text));
         std::process::exit(error.exit_code())
     }
     let all_fit = std::env::args_os().all(|word| {
