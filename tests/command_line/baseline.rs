@@ -24,9 +24,19 @@ fn set_up() -> Bench {
 
 /// Runs `run` with the samples of a check.
 fn run(bench: &Bench, more: &[&str]) -> Output {
-    let size = ["--size", "64x32", "--samples-per-pixel", "64"];
-    let words = ["run", "--quiet", "--out", "out"];
-    bench.shuttertruth(&[&words[..], &size, more].concat())
+    let words = [
+        "run",
+        "--quiet",
+        "--out",
+        "out",
+        "--samples-per-pixel",
+        "64",
+    ];
+    let size: &[&str] = match more.contains(&"--size") {
+        true => &[],
+        false => &["--size", "64x32"],
+    };
+    bench.shuttertruth(&[&words[..], size, more].concat())
 }
 
 fn accept(bench: &Bench, more: &[&str]) -> Output {
@@ -85,6 +95,34 @@ fn a_baseline_has_one_number_per_line_under_sorted_keys() {
     let before = text;
     assert_done(&accept(&bench, &["--reason", "the first"]));
     assert_eq!(fs::read_to_string(bench.path("base.json")).unwrap(), before);
+}
+
+#[test]
+fn accept_names_its_run_and_newer_runs_of_other_sizes() {
+    let bench = set_up();
+    let first = accept(&bench, &["--reason", "again"]);
+    let written = "written: base.json, from out/run.json (1 case at 64x32)\n";
+    assert_eq!(
+        (stdout(&first), stderr(&first)),
+        (written.into(), "".into())
+    );
+    assert_done(&run(&bench, &["--size", "48x24", "--filters", "identity"]));
+    let beside = accept(&bench, &["--reason", "again"]);
+    assert_eq!(stdout(&beside), written);
+    assert_eq!(
+        stderr(&beside),
+        "note: out/48x24 is newer, and is not accepted; to accept it instead: --out out/48x24\n"
+    );
+    let words = ["accept", "--out", "out/48x24", "--reason", "the other size"];
+    let other = bench.outside_ci(&words);
+    let written = "written: base.json, from out/48x24/run.json (1 case at 48x24)\n";
+    assert_eq!(
+        (stdout(&other), stderr(&other)),
+        (written.into(), "".into())
+    );
+    // A run that is not newer is no news.
+    assert_done(&run(&bench, &FINE));
+    assert_eq!(stderr(&accept(&bench, &["--reason", "again"])), "");
 }
 
 #[test]

@@ -53,6 +53,18 @@ impl Bench {
         bench
     }
 
+    /// Makes a bench with a second scene, which moves at half the speed.
+    pub fn two_scenes() -> Self {
+        let bench = Self::new();
+        bench.add_slow_scene();
+        bench
+    }
+
+    /// Adds the scene `slow`, which moves at half the plate's speed.
+    pub fn add_slow_scene(&self) {
+        self.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
+    }
+
     pub fn path(&self, below: &str) -> PathBuf {
         self.folder.path().join(below)
     }
@@ -154,6 +166,14 @@ impl Bench {
     pub fn read_filter_cases(&self) -> Vec<suite::Case> {
         let cases = self.read_run().cases.into_iter();
         cases.filter(|case| !case.is_reference).collect()
+    }
+
+    /// Names the last run's cases without the references: `plate identity:default`.
+    pub fn read_case_names(&self) -> Vec<String> {
+        let cases = self.read_filter_cases().into_iter();
+        cases
+            .map(|case| format!("{} {}", case.scene, case.name()))
+            .collect()
     }
 }
 

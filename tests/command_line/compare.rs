@@ -186,7 +186,7 @@ fn runs_without_a_common_ground_are_refused() {
         "same samples per pixel",
     ]);
     fs::remove_dir_all(bench.path("other")).unwrap();
-    bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
+    bench.add_slow_scene();
     assert_done(&run_into(
         &bench,
         "other",

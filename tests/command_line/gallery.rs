@@ -9,8 +9,7 @@ use crate::bench::{Bench, assert_done, assert_refused};
 
 #[test]
 fn a_gallery_shows_each_scene_with_its_best_and_its_worst_filter() {
-    let bench = Bench::new();
-    bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
+    let bench = Bench::two_scenes();
     assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine,bevy:default"]));
     assert_done(&bench.shuttertruth(&["report", "out", "--gallery", "shown"]));
     let page = fs::read_to_string(bench.path("shown/README.md")).unwrap();

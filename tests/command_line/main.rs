@@ -1,5 +1,6 @@
 //! The program as its user meets it: output, files and exit codes.
 
+mod arguments;
 mod baseline;
 mod bench;
 mod check;
@@ -7,6 +8,7 @@ mod check;
 mod command_filter;
 mod compare;
 mod comparison;
+mod earlier_run;
 mod failures;
 mod fidelity;
 mod gallery;

@@ -1,6 +1,8 @@
 //! Output to terminals, pipes and files.
 
 use std::fs;
+use std::io::{BufRead, BufReader};
+use std::process::Stdio;
 
 use crate::bench::{Bench, IDENTITY, assert_done, quick_command, stderr, stdout};
 
@@ -86,7 +88,7 @@ fn only_terminals_get_colours_and_no_color_disables_them() {
 #[test]
 fn a_terminal_shows_progress_and_respects_no_color() {
     let bench = make_bounded();
-    bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
+    bench.add_slow_scene();
     // One replicate takes longer than the interval at which progress bars are redrawn.
     let words = quick_command("check", "2048");
     let words: Vec<&str> = words
@@ -196,5 +198,68 @@ fn json_output_has_no_other_text() {
             "" => assert!(value[0]["bytes"].as_u64().unwrap() > 0, "{value}"),
             key => assert!(!value[key].is_null(), "{words:?}: {key}"),
         }
+    }
+}
+
+#[test]
+fn colours_can_be_forced_and_disabled() {
+    let bench = Bench::new();
+    let list = |color: &str| stdout(&bench.shuttertruth(&["list", "--color", color]));
+    assert!(list("always").contains('\u{1b}'));
+    assert!(!list("never").contains('\u{1b}'));
+}
+
+#[test]
+fn long_work_is_announced() {
+    let bench = Bench::new();
+    let mut child = bench
+        .command(&["run", "--samples-per-pixel", "8192", "--size", "320x180"])
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let lines = BufReader::new(child.stderr.take().unwrap()).lines();
+    let expected = lines
+        .map_while(Result::ok)
+        .find(|line| line.starts_with("expected: about "));
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let expected = expected.expect("the time is announced before anything is rendered");
+    for words in [" min on ", "MB in out", "GB of memory", "cases"] {
+        assert!(expected.contains(words), "{expected}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn driver_messages_are_hidden_unless_requested_and_files_follow_the_umask() {
+    use std::os::unix::fs::PermissionsExt;
+
+    let bench = Bench::new();
+    let words = [&quick_command("run", "16")[..], &["--filters", "identity"]].concat();
+    let output = bench
+        .command(&words)
+        .env_remove("XDG_RUNTIME_DIR")
+        .output()
+        .unwrap();
+    assert_done(&output);
+    assert_eq!(stderr(&output), "");
+    let verbose = [&words[..], &["-v"]].concat();
+    let output = bench
+        .command(&verbose)
+        .env_remove("XDG_RUNTIME_DIR")
+        .output()
+        .unwrap();
+    assert_done(&output);
+    let probe = bench.path("probe");
+    fs::write(&probe, "").unwrap();
+    let mode = |path: &std::path::Path| fs::metadata(path).unwrap().permissions().mode();
+    for file in [
+        "run.json",
+        "report.html",
+        "plate/frame.exr",
+        "plate/frame.png",
+    ] {
+        assert_eq!(mode(&bench.path("out").join(file)), mode(&probe), "{file}");
     }
 }

@@ -56,8 +56,7 @@ fn press(browser: &mut Browser, key: &str) {
 
 #[test]
 fn a_page_opens_without_complaint_and_asks_for_nothing_else() {
-    let bench = Bench::new();
-    bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
+    let bench = Bench::two_scenes();
     assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
     let page = make_page(&bench);
     let mut browser = Browser::new(1280, 900);
@@ -143,8 +142,7 @@ fn divider_and_keys_change_the_shown_pictures() {
 
 #[test]
 fn every_key_that_the_page_lists_works() {
-    let bench = Bench::new();
-    bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
+    let bench = Bench::two_scenes();
     assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
     let page = make_page(&bench);
     let mut browser = Browser::new(1280, 900);

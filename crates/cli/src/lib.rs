@@ -10,6 +10,7 @@ mod tables;
 use std::process::ExitCode;
 
 use clap::FromArgMatches;
+use clap::error::{ContextKind, ContextValue};
 use filters::FilterError;
 use suite::{Error, printable, printable_lines};
 
@@ -18,13 +19,16 @@ use output::print::{print_error, print_failure};
 use output::progress::{INTERRUPTED_CODE, INTERRUPTED_TEXT, catch_interrupts};
 use output::verbosity::set_output;
 use quiet_driver::quiet_driver;
+use selection::suggest_names;
 
 pub use output::annotations::{annotations, summary};
 pub use output::junit::junit;
+
 pub use selection::{Programs, SceneChoice, select_filters, select_scenes};
 pub use tables::cases::{run_table, score_table};
 pub use tables::check::check_text;
 pub use tables::comparison::compare_table;
+pub use tables::ranking::ranking_text;
 pub use tables::tuning::paired_table;
 
 /// Runs the command of the command line and returns its exit code.
@@ -67,8 +71,27 @@ fn exit_code(error: &Error) -> u8 {
     }
 }
 
+/// Says which command or option is meant by a misspelt one; none for other errors.
+fn misspelt_text(error: &clap::Error) -> Option<String> {
+    let context = |kind| match error.get(kind) {
+        Some(ContextValue::String(word)) => Some(word),
+        _ => None,
+    };
+    if let Some(word) = context(ContextKind::InvalidSubcommand) {
+        let meant = suggest_names(word, &arguments::list_commands());
+        return Some(format!("no command \"{word}\"; {meant}"));
+    }
+    let word = context(ContextKind::InvalidArg)?;
+    let meant = context(ContextKind::SuggestedArg)?;
+    Some(format!("no option {word}; did you mean {meant}?"))
+}
+
 /// Prints the error in the command line, or its help. The message quotes arguments.
 fn refuse_arguments(error: &clap::Error) -> ! {
+    if let Some(text) = misspelt_text(error) {
+        print_failure(&Error::Usage(text));
+        std::process::exit(error.exit_code())
+    }
     let all_fit = std::env::args_os().all(|word| {
         let word = word.to_string_lossy();
         printable(&word) == word

@@ -17,6 +17,19 @@ pub struct Interval {
     pub standard_error: f64,
 }
 
+impl Interval {
+    /// Estimates the score against a truth without noise: the middle of the interval.
+    pub fn center(&self) -> f64 {
+        f64::midpoint(self.low, self.high)
+    }
+
+    /// Tells whether the interval holds the measured value. The truth's noise moves a score, and the interval is about a truth
+    /// without.
+    pub fn holds(&self, value: f64) -> bool {
+        (self.low..=self.high).contains(&value)
+    }
+}
+
 /// Estimates the interval of a score. `whole` is its value by all of the truth's replicates; `without` are its values by all but one
 /// group of replicates each, with groups of equal size. `None` for fewer than two groups.
 ///

@@ -3,7 +3,6 @@
 use filters::{Filter, Source};
 use maud::{Markup, html};
 
-use crate::case_score::{estimate_of, estimate_text};
 use crate::filter_id::{FilterId, case_anchor, list_scenes};
 use crate::overview::costs::{cost_of, cost_text};
 use suite::{Bench, Case, Headline, Run};
@@ -81,7 +80,7 @@ fn source_rows(source: &Source) -> Markup {
 /// Lists the scenes, largest error first, each with a link to its case.
 fn weakest(run: &Run, cases: &[&Case], thumbnails: &[String]) -> Markup {
     let scenes = list_scenes(run);
-    let error = |case: &Case| estimate_of(case, Headline::FLIP).unwrap_or(f64::NEG_INFINITY);
+    let error = |case: &Case| Headline::FLIP.estimate(case).unwrap_or(f64::NEG_INFINITY);
     let mut sorted = cases.to_vec();
     sorted.sort_by(|a, b| error(b).total_cmp(&error(a)));
     html! {
@@ -105,7 +104,7 @@ fn weakest(run: &Run, cases: &[&Case], thumbnails: &[String]) -> Markup {
                                     (case.scene)
                                 }
                             }
-                            @for (headline, title) in SCORES { td data-label=(title) { (estimate_text(case, headline)) } }
+                            @for (headline, title) in SCORES { td data-label=(title) { (headline.text(case)) } }
                             td.text { (case.exposes) }
                         }
                     }

@@ -48,13 +48,13 @@ pub fn finding_status(finding: &Finding) -> &'static str {
 pub fn finding_score(finding: &Finding) -> String {
     let mut text = finding.metric.clone();
     if let Some(value) = finding.value {
-        let without_noise = estimate(value, finding.interval.as_ref());
-        text += &format!(" {}", finding.with_unit(without_noise));
+        let estimate = finding.interval.map_or(value, |own| own.center());
+        text += &format!(" {}", finding.with_unit(estimate));
     }
     if let Some(interval) = &finding.interval {
         let [low, high] = [interval.low, interval.high].map(number);
         text += &format!(" (95 % CI {low} to {high})");
-        if let Some(measured) = finding.value.filter(|value| !holds(interval, *value)) {
+        if let Some(measured) = finding.value.filter(|value| !interval.holds(*value)) {
             text += &format!(", measured {}", finding.with_unit(measured));
         }
     }
@@ -65,14 +65,15 @@ pub fn finding_score(finding: &Finding) -> String {
     text
 }
 
-/// Estimates the score against a truth without noise: the middle of its interval, or the measured value without one.
-pub fn estimate(value: f64, interval: Option<&Interval>) -> f64 {
-    interval.map_or(value, |own| f64::midpoint(own.low, own.high))
-}
-
-/// Tells whether an interval holds the measured value. The truth's noise moves a score, and the interval is about a truth without.
-pub fn holds(interval: &Interval, value: f64) -> bool {
-    (interval.low..=interval.high).contains(&value)
+/// Writes `95 % CI 0.05198 to 0.05332, measured 0.05364`; the measured value only where the truth's noise moved it out of the
+/// interval.
+pub fn interval_text(interval: &Interval, measured: f64) -> String {
+    let [low, high] = [interval.low, interval.high].map(number);
+    let raw = match interval.holds(measured) {
+        true => String::new(),
+        false => format!(", measured {}", number(measured)),
+    };
+    format!("95 % CI {low} to {high}{raw}")
 }
 
 /// Tells what to do about a score that was not judged.
@@ -101,14 +102,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_estimate_lies_in_its_interval() {
+    fn a_value_outside_of_its_interval_stands_beside_it() {
         let interval = Interval {
             low: 0.051_98,
             high: 0.053_32,
             standard_error: 0.0003,
         };
-        let without_noise = estimate(0.053_64, Some(&interval));
-        assert!(holds(&interval, without_noise) && !holds(&interval, 0.053_64));
-        assert_eq!(estimate(0.053_64, None), 0.053_64);
+        assert!(interval.holds(interval.center()));
+        let text = |measured| interval_text(&interval, measured);
+        assert_eq!(text(0.053), "95 % CI 0.05198 to 0.05332");
+        assert_eq!(
+            text(0.053_64),
+            "95 % CI 0.05198 to 0.05332, measured 0.05364"
+        );
     }
 }

@@ -69,15 +69,8 @@ fn find_entries(run: &Run) -> Vec<Entry<'_>> {
 /// Ranks the filters of one scene by skill; by FLIP against the common shutter where the oracle is no better than doing nothing,
 /// so that there is no skill. None where nothing moves.
 fn find_entry<'a>(cases: &[&'a Case]) -> Option<Entry<'a>> {
-    let skills = cases
-        .iter()
-        .map(|case| Headline::SKILL.measured(case).value());
-    let errors = cases.iter().map(|case| {
-        Headline::CommonFlip
-            .measured(case)
-            .value()
-            .map(|flip| -flip)
-    });
+    let skills = cases.iter().map(|case| Headline::SKILL.estimate(case));
+    let errors = (cases.iter()).map(|case| Some(-Headline::CommonFlip.estimate(case)?));
     let keys: Vec<f64> = (skills.collect::<Option<_>>()).or_else(|| errors.collect())?;
     let place = |index: usize| cases[index];
     let by_key = |a: &usize, b: &usize| keys[*a].total_cmp(&keys[*b]);

@@ -1,7 +1,6 @@
 //! Pages of a run, a comparison and a tuning, each of which opens from disk and fetches nothing.
 
 mod case;
-mod case_score;
 mod charts;
 mod comparison;
 mod document;

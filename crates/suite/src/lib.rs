@@ -73,7 +73,7 @@ pub use render::settings::{MOST_REPLICATES, RenderSettings, SIDES};
 pub use render::shared::render_shared;
 pub use render::truths::{deciding_floor, render_part, render_truth, render_truth_until};
 pub use run::case::{ACCUMULATE, Case, IDENTITY, Intervals};
-pub use run::earlier::{EarlierCases, folder_for_size};
+pub use run::earlier::{EarlierCases, find_newer_sizes, folder_for_size};
 pub use run::error_maps::ErrorMaps;
 pub use run::failure::{Failure, refuse_failures};
 pub use run::file::MOST_CASES;
@@ -85,16 +85,16 @@ pub use score::scores::{Scored, missing_scores, score};
 pub use stats::headline::Headline;
 pub use stats::intervals::{FEWEST_REPLICATES, intervals, truths_without_pairs};
 pub use stats::overall::{overall, rank_filters};
-pub use stats::ranking::{RankedFilter, rank_by_flip};
+pub use stats::ranking::{MOST_RANKED, RankedFilter, rank_for_summary};
 pub use stats::scene_mean::FEWEST_SCENES;
 pub use tune::{
     Advice, Choice, ChoiceLimits, Difference, Estimate, Evaluation, Evaluator, Fold, HeldOutResult,
     JOURNAL_FORMAT, Journal, JournalHeader, LEAST_BLEED, Objective, PairedComparison,
     ParameterSensitivity, Preference, RenderedScene, SceneScore, Search, Sensitivity, SobolIndices,
     Space, TUNE_FORMAT, Target, Trial, TrialOutcome, TuneOptions, Tuning, analyze_sensitivity,
-    choose_trial, compare_candidates, cross_validate, evaluate_candidate, interleave_families,
-    log_ratio, pareto_front, render_scenes, signed_rank_p_value, sobol_indices, tune,
-    tuned_preset_toml,
+    choose_trial, compare_candidates, count_candidates, cross_validate, evaluate_candidate,
+    interleave_families, log_ratio, pareto_front, render_scenes, signed_rank_p_value,
+    sobol_indices, tune, tuned_preset_toml,
 };
 
 /// Program name and version, as files and runs record it.

@@ -8,8 +8,7 @@ use crate::bench::{Bench, assert_done, assert_refused, split};
 
 #[test]
 fn a_page_shows_the_scores_and_means_of_the_run() {
-    let bench = Bench::new();
-    bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
+    let bench = Bench::two_scenes();
     assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
     let page = make_page(&bench);
     let run = bench.read_run();
@@ -55,6 +54,56 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
 }
 
 #[test]
+fn the_page_of_a_check_ranks_as_the_terminal_does() {
+    let bench = Bench::two_scenes();
+    let bounds = "[default]\nflip_moving = { limit = 0.9, why = \"it serves a test\" }\n";
+    fs::write(bench.path("scenes/bounds.toml"), bounds).unwrap();
+    let filters = "identity,velocity_gather:fine,mcguire:paper,bevy:high";
+    assert_done(&bench.check(&["--filters", filters]));
+    let page = make_page(&bench);
+    let run = bench.read_run();
+    let table = panel(&page, "flip_moving");
+    let terminal = cli::ranking_text(&run.cases);
+    for ranked in suite::rank_for_summary(&run.cases).concat() {
+        let cells: Vec<f64> = (run.cases.iter().filter(|case| case.name() == ranked.name))
+            .map(|case| {
+                let link = format!("href=\"#{}\"", address(case));
+                let (before, _) = table.split_once(&link).expect(&link);
+                let (_, value) = before.rsplit_once("data-value=\"").unwrap();
+                let shown: f64 = value.split('"').next().unwrap().parse().unwrap();
+                // The truth's noise is in the measured score, and no longer in the estimate.
+                assert_ne!(Some(shown), case.scores.moving.flip.value(), "{link}");
+                shown
+            })
+            .collect();
+        let [first, second] = cells[..] else {
+            panic!("two scenes have {} scores", cells.len())
+        };
+        assert!((ranked.flip - (first + second) / 2.0).abs() < 1e-12);
+        let ([low, high], mean) = (ranked.interval.unwrap(), ranked.flip);
+        let on_page = format!("{mean:.3}</td><td class=\"note\">{low:.3} to {high:.3}</td>");
+        assert!(table.contains(&on_page), "{on_page}");
+        let row = (terminal.lines()).find(|line| line.contains(&ranked.name));
+        let row = row.expect(&ranked.name);
+        for text in [format!("{mean:.3}"), format!("{low:.3} to {high:.3}")] {
+            assert!(row.contains(&text), "{text}: {row}");
+        }
+    }
+    // Both name the same best filters, and the same ties.
+    let best = between(&page, "<ul class=\"winners\">", "</ul>")[0];
+    for group in suite::rank_for_summary(&run.cases) {
+        let name = format!(
+            "shutter: <strong><a href=\"#filter:{0}\">{0}</a>",
+            group[0].name
+        );
+        assert!(best.contains(&name), "{name}: {best}");
+        for tie in group[1..].iter().filter(|own| own.rank == 1) {
+            assert!(best.contains(&format!(">{}</a> (", tie.name)), "{best}");
+        }
+    }
+}
+
+#[test]
 fn rankings_by_flip_are_grouped_by_shutter_and_rankings_by_skill_are_not() {
     let bench = Bench::new();
     // A slow scene of few samples has no skill: the oracle's gain there is noise.
@@ -89,8 +138,7 @@ fn rankings_by_flip_are_grouped_by_shutter_and_rankings_by_skill_are_not() {
 
 #[test]
 fn a_page_holds_every_plane_once_and_fetches_nothing() {
-    let bench = Bench::new();
-    bench.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
+    let bench = Bench::two_scenes();
     assert_done(&bench.run(&["--filters", "identity,jump_flood:paper"]));
     let page = make_page(&bench);
     let scenes = planes(&page);

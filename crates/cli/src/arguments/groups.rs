@@ -47,6 +47,12 @@ pub const GROUPS: [Group; 6] = [
     },
 ];
 
+/// Lists the names of the commands, in the order of the help.
+pub fn list_commands() -> Vec<String> {
+    let names = GROUPS.iter().flat_map(|group| group.commands);
+    names.map(|name| (*name).to_owned()).collect()
+}
+
 /// Column at which a command's description begins.
 const DESCRIPTIONS: usize = 19;
 
@@ -96,12 +102,7 @@ fn groups_text(program: &Command) -> String {
 
 #[test]
 fn every_command_is_in_one_group() {
-    let listed: Vec<&str> = GROUPS
-        .iter()
-        .flat_map(|group| group.commands)
-        .copied()
-        .collect();
-    let mut sorted = listed.clone();
+    let mut sorted = list_commands();
     sorted.sort_unstable();
     let program = Cli::command();
     let mut known: Vec<&str> = program.get_subcommands().map(Command::get_name).collect();

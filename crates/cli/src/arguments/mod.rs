@@ -42,7 +42,7 @@ pub use check::CheckArgs;
 pub use compare::CompareArgs;
 pub use compare_presets::ComparePresetsArgs;
 pub use evaluate::EvaluateArgs;
-pub use groups::command_line;
+pub use groups::{command_line, list_commands};
 pub use import::ImportArgs;
 pub use list::ListArgs;
 pub use measure::MeasureArgs;

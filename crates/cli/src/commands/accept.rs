@@ -1,9 +1,13 @@
 //! The command `accept`.
 
-use suite::{Acceptance, Baseline, Error, Run, accept_scores, refuse_failures};
+use suite::{
+    Acceptance, Baseline, Error, Run, accept_scores, find_newer_sizes, printable_path,
+    refuse_failures,
+};
 
 use crate::arguments::AcceptArgs;
-use crate::output::print::print;
+use crate::output::count::count_text;
+use crate::output::print::{print, print_note};
 
 /// Writes the scores of a finished run into the baseline.
 pub fn execute(args: &AcceptArgs) -> Result<(), Error> {
@@ -20,24 +24,34 @@ pub fn execute(args: &AcceptArgs) -> Result<(), Error> {
             "--reason: needs one line on why these scores are right".to_owned(),
         ));
     }
-    let run = Run::read(&args.out.join("run.json"))?;
+    let path = args.out.join("run.json");
+    let run = Run::read(&path)?;
     refuse_failures(&run.failures)?;
     let old = match args.baseline.exists() {
         true => Some(Baseline::read(&args.baseline)?),
         false => None,
     };
-    let baseline = accept_scores(
-        &run,
-        old,
-        &Acceptance {
-            only: args.only.as_ref(),
-            reason,
-            forced: args.force,
-        },
-    )?;
+    let acceptance = Acceptance {
+        only: args.only.as_ref(),
+        reason,
+        forced: args.force,
+    };
+    let baseline = accept_scores(&run, old, &acceptance)?;
     baseline.write(&args.baseline)?;
+    let accepted = run.cases.iter().filter(|case| acceptance.includes(case));
     print(&format!(
-        "written: {}\n",
-        suite::printable_path(&args.baseline)
-    ))
+        "written: {}, from {} ({} at {}x{})\n",
+        printable_path(&args.baseline),
+        printable_path(&path),
+        count_text(accepted.count(), "case", "cases"),
+        run.render.width,
+        run.render.height
+    ))?;
+    for folder in find_newer_sizes(&args.out) {
+        print_note(&format!(
+            "{0} is newer, and is not accepted; to accept it instead: --out {0}",
+            folder.display()
+        ));
+    }
+    Ok(())
 }

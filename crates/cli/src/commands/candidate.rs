@@ -3,12 +3,14 @@
 use filters::Gpu;
 use suite::{
     Claim, Error, FilterChoice, RenderSettings, RenderedScene, SceneBounds, Sharing, claim,
-    open_gpu, render_scenes,
+    estimate_case_seconds, estimate_render_seconds, open_gpu, render_scenes,
 };
 use tracer::Scene;
 
+use super::expected::print_expected_time;
 use super::render_settings::make_render_settings;
 use crate::arguments::{CandidateArgs, SceneArgs};
+use crate::output::count::count_text;
 use crate::output::progress::make_monitor;
 use crate::selection::select_filters;
 
@@ -40,6 +42,27 @@ pub fn open_candidate_gpu(
         adapter,
         make_monitor(),
     )?)
+}
+
+/// Prints the expected time of scoring a number of candidates on scenes that are not rendered yet. Scoring ends after `limit`
+/// seconds.
+pub fn print_expected_scoring(
+    scenes: &[(Scene, SceneBounds)],
+    render: &RenderSettings,
+    candidates: usize,
+    limit: f64,
+) {
+    let renders: Vec<_> = (scenes.iter())
+        .map(|(scene, _)| (scene, render.clone()))
+        .collect();
+    let scores = candidates * scenes.len();
+    let scoring = scores as f64 * estimate_case_seconds(render);
+    let candidates = count_text(candidates, "candidate", "candidates");
+    let scenes = count_text(scenes.len(), "scene", "scenes");
+    print_expected_time(
+        estimate_render_seconds(&renders, 1) + scoring.min(limit),
+        &format!("{candidates} on {scenes}"),
+    );
 }
 
 /// Claims the folder for files, and renders the frames and truths of the scenes into it, or reads them back.

@@ -2,7 +2,10 @@
 
 use suite::{Error, Evaluator, Objective, Sharing, compare_candidates};
 
-use super::candidate::{claim_and_render, open_candidate_gpu, select_candidate};
+use super::candidate::{
+    candidate_render_settings, claim_and_render, open_candidate_gpu, print_expected_scoring,
+    select_candidate,
+};
 use super::plan::load_scenes;
 use super::result::CommandResult;
 use crate::arguments::ComparePresetsArgs;
@@ -18,6 +21,8 @@ pub fn execute(args: &ComparePresetsArgs) -> Result<(), Error> {
     let (first, second) = (first?, second?);
     let scenes = load_scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
     let gpu = open_candidate_gpu(&choice, candidate)?;
+    let render = candidate_render_settings(candidate)?;
+    print_expected_scoring(&scenes, &render, 2, f64::INFINITY);
     let (_claim, rendered) = claim_and_render(&scenes, &choice, candidate, Sharing::Alone)?;
     let bleed = candidate.objective.contains(&Objective::Bleed);
     let mut scorer = Evaluator::new(gpu.as_ref(), &choice, &rendered, bleed, make_monitor())?;

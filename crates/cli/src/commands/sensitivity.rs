@@ -1,8 +1,11 @@
 //! The command `sensitivity`.
 
-use suite::{Error, Evaluator, Sharing, Space, analyze_sensitivity};
+use suite::{Error, Evaluator, Sharing, Space, analyze_sensitivity, count_candidates};
 
-use super::candidate::{claim_and_render, open_candidate_gpu, select_candidate};
+use super::candidate::{
+    candidate_render_settings, claim_and_render, open_candidate_gpu, print_expected_scoring,
+    select_candidate,
+};
 use super::plan::load_scenes;
 use super::result::CommandResult;
 use crate::arguments::SensitivityArgs;
@@ -22,6 +25,9 @@ pub fn execute(args: &SensitivityArgs) -> Result<(), Error> {
     let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;
     let scenes = load_scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
     let gpu = open_candidate_gpu(&choice, candidate)?;
+    let count = count_candidates(space.axes.len(), args.rows);
+    let render = candidate_render_settings(candidate)?;
+    print_expected_scoring(&scenes, &render, count, f64::INFINITY);
     let (_claim, rendered) = claim_and_render(&scenes, &choice, candidate, Sharing::Alone)?;
     let monitor = make_monitor();
     let mut scorer = Evaluator::new(gpu.as_ref(), &choice, &rendered, false, monitor)?;

@@ -7,12 +7,13 @@ use std::time::{Duration, Instant};
 use frame::FileError;
 use suite::{
     Advice, Error, FilterChoice, RenderSettings, Sharing, Space, TuneOptions, Tuning, claim,
-    estimate_case_seconds, estimate_render_seconds, interleave_families, tune, tuned_preset_toml,
+    interleave_families, tune, tuned_preset_toml,
 };
 use tracer::Progress;
 
-use super::candidate::{candidate_render_settings, open_candidate_gpu, select_candidate};
-use super::expected::print_expected_time;
+use super::candidate::{
+    candidate_render_settings, open_candidate_gpu, print_expected_scoring, select_candidate,
+};
 use super::plan::load_scenes;
 use super::render_settings::make_render_settings;
 use super::result::CommandResult;
@@ -35,7 +36,9 @@ pub fn execute(args: &TuneArgs) -> Result<(), Error> {
     let gpu = open_candidate_gpu(&options.choice, &args.candidate)?;
     let scenes = options.scenes.iter().chain(&options.held_out);
     let _claim = claim(&options.out, scenes.map(|(scene, _)| scene), Sharing::Alone)?;
-    print_expected_tuning(&options);
+    // A race drops many candidates early.
+    let limit = (options.time).map_or(f64::INFINITY, |time| time.as_secs_f64());
+    print_expected_scoring(&options.scenes, &options.render, options.budget, limit);
     let began = Instant::now();
     let label = format!("tuning {}", options.choice.filter.name);
     let tuning = options.monitor.watch(&label, |watch| {
@@ -52,23 +55,6 @@ pub fn execute(args: &TuneArgs) -> Result<(), Error> {
         print_error(&format!("{} trials in {seconds:.1} s", tuning.trials));
     }
     write_tuning(&tuning, &options)?.print(args.json)
-}
-
-/// Prints the expected time of a tuning whose scenes are not rendered yet. A race drops many candidates early.
-fn print_expected_tuning(options: &TuneOptions) {
-    let scenes = options.scenes.len() as f64;
-    let open = (options.scenes.iter()).map(|(scene, _)| (scene, options.render.clone()));
-    let rendering = estimate_render_seconds(&open.collect::<Vec<_>>(), 1);
-    let trials = options.budget as f64 * scenes * estimate_case_seconds(&options.render);
-    let limit = options
-        .time
-        .map_or(f64::INFINITY, |time| time.as_secs_f64());
-    let more = format!(
-        "{} candidates on {} scenes",
-        options.budget,
-        options.scenes.len()
-    );
-    print_expected_time(rendering + trials.min(limit), &more);
 }
 
 fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Error> {

@@ -32,13 +32,19 @@ pub fn refuse_empty_names(option: &str, names: &[String]) -> Result<(), Error> {
     }
 }
 
+/// Compares a word with a name; 1 is equal. One slip of a finger, such as two letters that changed places, is `SIMILAR`.
+fn similarity(word: &str, name: &str) -> f64 {
+    let slips = strsim::damerau_levenshtein(word, name);
+    let least = if slips <= 1 { SIMILAR } else { 0.0 };
+    strsim::jaro_winkler(word, name).max(least)
+}
+
 /// Says which names are meant or allowed: `did you mean railing?`, or all of them where none is similar.
 pub fn suggest_names(text: &str, known: &[String]) -> String {
-    let similarity = |name: &&String| strsim::jaro_winkler(text, name);
     let best = known
         .iter()
-        .max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
-    match best.filter(|name| similarity(name) >= SIMILAR) {
+        .max_by(|a, b| similarity(text, a).total_cmp(&similarity(text, b)));
+    match best.filter(|name| similarity(text, name) >= SIMILAR) {
         Some(name) => format!("did you mean {name}?"),
         None => format!("allowed: {}.", known.join(", ")),
     }
@@ -54,6 +60,8 @@ mod tests {
         for misspelt in ["raling", "Railing", "railings", "rialing"] {
             assert_eq!(suggest_names(misspelt, &known), "did you mean railing?");
         }
+        let commands = ["score", "run", "render"].map(str::to_owned);
+        assert_eq!(suggest_names("rnu", &commands), "did you mean run?");
         assert_eq!(
             suggest_names("my_scene", &known),
             "allowed: railing, fan, two_spheres."

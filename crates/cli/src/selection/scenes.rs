@@ -25,6 +25,12 @@ pub fn select_scenes(root: &Path, names: &[String]) -> Result<Vec<SceneChoice>, 
     // Where every scene is given by its path, `root` need not exist.
     let listings = match !names.is_empty() && names.iter().all(|name| is_path(name)) {
         true => Vec::new(),
+        false if !root.is_dir() => {
+            return Err(Error::Usage(format!(
+                "{}: there is no such folder of scenes; name one with --scenes-dir, or a scene by its path with --scenes",
+                root.display()
+            )));
+        }
         false => list_scenes(root)?,
     };
     if names.is_empty() {

@@ -2,6 +2,7 @@
 
 use super::layout::{Align, Table};
 use crate::output::colors::{bad, doubtful, faint, good};
+use crate::output::count::count_text;
 use crate::output::wrap::push_wrapped;
 use report::signed;
 use suite::{
@@ -55,7 +56,10 @@ fn means_table(means: &[MeanChange]) -> String {
     for mean in means.iter().filter(|mean| mean.kind != MeanKind::Same) {
         if filter != mean.filter {
             filter = &mean.filter;
-            table.push_text(&format!("{filter}, {} scenes", mean.scenes));
+            table.push_text(&format!(
+                "{filter}, {}",
+                count_text(mean.scenes, "scene", "scenes")
+            ));
         }
         let [low, high] = mean.interval.map(signed);
         let verdict = match mean.kind {
@@ -132,7 +136,7 @@ fn push_change(table: &mut Table, change: &Change) {
         ChangeKind::Better => good(change.kind.label()),
         _ => bad(change.kind.label()),
     };
-    let values = [change.first, change.second, change.worse];
+    let values = [change.first, change.second, change.estimate()];
     table.push(change_cells(&change.metric, values, interval, verdict));
 }
 

@@ -1,24 +1,14 @@
 //! Summary of a run: the ranking of its filters, and the references beside them.
 
-use metrics::Measured;
-use suite::{Case, Headline, RankedFilter, rank_by_flip};
+use suite::{Case, Headline, MOST_RANKED, RankedFilter, rank_for_summary};
 
 use super::columns::{legend_text, list_once};
 use super::layout::{Align, Table};
 use crate::output::colors::faint;
 
-/// Upper limit on rows of filters, so that the summary of a run fits 40 lines.
-const MOST_ROWS: usize = 16;
-
-/// Makes the summary of cases: filters ranked within each shutter, then references. Where the presets are too many for a
-/// summary, the best preset of each filter stands for it.
+/// Makes the summary of cases, in at most 40 lines: filters ranked within each shutter, then references.
 pub fn ranking_text(cases: &[Case]) -> String {
-    let presets = rank_by_flip(cases, false);
-    let count: usize = presets.iter().map(Vec::len).sum();
-    let (mut groups, best_presets) = match count > MOST_ROWS {
-        true => (rank_by_flip(cases, true), true),
-        false => (presets, false),
-    };
+    let mut groups = rank_for_summary(cases);
     if groups.is_empty() {
         return "no filter has a FLIP score: nothing moves in these scenes\n".to_owned();
     }
@@ -29,7 +19,7 @@ pub fn ranking_text(cases: &[Case]) -> String {
     text += &references_text(cases, &groups);
     text += "\n";
     text += &legend_text(&notes(&groups));
-    if best_presets && shown_presets > rows {
+    if shown_presets > rows {
         text += &legend_text(&format!(
             "Each filter by its best preset; --table shows all {shown_presets}."
         ));
@@ -42,10 +32,10 @@ pub fn ranking_text(cases: &[Case]) -> String {
 
 /// Keeps the best of every group; returns the number of rows left out.
 fn limit_rows(groups: &mut [Vec<RankedFilter>], rows: usize) -> usize {
-    if rows <= MOST_ROWS {
+    if rows <= MOST_RANKED {
         return 0;
     }
-    let each = (MOST_ROWS / groups.len()).max(1);
+    let each = (MOST_RANKED / groups.len()).max(1);
     for group in groups.iter_mut() {
         group.truncate(each);
     }
@@ -129,10 +119,7 @@ fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
 
 fn mean_flip<'a>(cases: impl Iterator<Item = &'a Case>) -> String {
     let values: Vec<f64> = cases
-        .filter_map(|case| match Headline::FLIP.measured(case) {
-            Measured::Score(score) => Some(score.value),
-            Measured::NotApplicable { .. } => None,
-        })
+        .filter_map(|case| Headline::FLIP.estimate(case))
         .collect();
     match values.len() {
         0 => "n/a".to_owned(),

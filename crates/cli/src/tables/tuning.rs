@@ -42,13 +42,17 @@ pub fn tuning_table(tuning: &Tuning) -> String {
         text += &format!("and {} more in tune.json\n", tuning.front.len() - ROWS);
     }
     let chosen = format!(
-        "chosen: trial {}, {}; the best is trial {}, and {} lies within its standard error of {:.3}",
+        "{}: trial {}, {}; the best is trial {}, and {} lies within its standard error of {:.3}",
+        match tuning.advice() {
+            Advice::Take => "chosen",
+            _ => "candidate",
+        },
         tuning.choice.trial,
         percent(tuning.chosen.error.expect("the choice is done")),
         tuning.choice.best,
         match tuning.choice.trial == tuning.choice.best {
             true => "nothing nearer to the start",
-            false => "the chosen one, nearer to the start,",
+            false => "this one, nearer to the start,",
         },
         tuning.choice.standard_error,
     );

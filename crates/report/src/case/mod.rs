@@ -11,7 +11,6 @@ pub mod viewer;
 
 use maud::{Markup, html};
 
-use crate::case_score::{estimate_of, estimate_text, interval_of};
 use crate::filter_id::{FilterId, case_anchor, list_scenes};
 use crate::numbers::counted;
 use crate::run_facts::provenance_line;
@@ -32,7 +31,7 @@ pub fn case_section(view: &CaseView) -> Markup {
     html! {
         article.case id=(case_anchor(case)) data-title=(title) data-name=(filter.anchor())
             data-filter=(filter.title()) data-reference[filter.is_reference]
-            data-score=(format!("FLIP {}", estimate_text(case, Headline::FLIP))) {
+            data-score=(format!("FLIP {}", Headline::FLIP.text(case))) {
             noscript {
                 div.case_head {
                     h2 tabindex="-1" {
@@ -79,7 +78,7 @@ fn score_line(view: &CaseView) -> Markup {
     html! {
         p.score {
             @for headline in [Headline::FLIP, Headline::SKILL, Headline::PSNR] {
-                @if let Some(value) = estimate_of(case, headline) {
+                @if let Some(value) = headline.estimate(case) {
                     span { (short_name(headline)) " " strong { (headline.number(value)) } (interval(case, headline)) }
                 }
             }
@@ -104,7 +103,7 @@ fn short_name(headline: Headline) -> &'static str {
 
 /// ` (95 % CI 0.052 to 0.061)`
 fn interval(case: &Case, headline: Headline) -> String {
-    interval_of(case, headline).map_or_else(String::new, |own| {
+    headline.interval(case).map_or_else(String::new, |own| {
         let [low, high] = [own.low, own.high].map(|end| headline.number(end));
         format!(" (95 % CI {low} to {high})")
     })
@@ -112,7 +111,7 @@ fn interval(case: &Case, headline: Headline) -> String {
 
 /// Counts the filters of the scene with the same shutter: those that are better by FLIP, and all.
 fn rank_on_scene(run: &Run, case: &Case) -> (Option<usize>, usize) {
-    let flip = |case: &Case| Headline::FLIP.measured(case).value();
+    let flip = |case: &Case| Headline::FLIP.estimate(case);
     let rivals = (run.cases.iter()).filter(|own| {
         !own.is_reference && own.scene == case.scene && own.alignment == case.alignment
     });

@@ -1,11 +1,10 @@
 //! Table of a case's scores, each with its noise floor and its meaning.
 
 use maud::{Markup, html};
-use metrics::{Group, Measured, Metric};
+use metrics::{Group, Interval, Measured, Metric};
 
 use super::case_view::CaseView;
-use crate::case_score::interval_text;
-use crate::finding_text::{Status, estimate};
+use crate::finding_text::{Status, interval_text};
 use suite::Case;
 use suite::{Level, number};
 
@@ -65,7 +64,7 @@ fn row(page: &CaseView, metric: Metric) -> Markup {
                 Measured::Score(score) => {
                     td {
                         @let interval = case.intervals.get(&name);
-                        (value(case, metric, estimate(score.value, interval)))
+                        (value(case, metric, interval.map_or(score.value, Interval::center)))
                         @if let Some(interval) = interval { span.note { " " (interval_text(interval, score.value)) } }
                         @if let Some((object, _)) = case.scores.worst_object(metric) {
                             span.note { " " (object) }

@@ -37,7 +37,7 @@ pub fn compare_page(
     let body = html! {
         p.lead { (summary(compared)) }
         p.key {
-            "Change: the second run less the first. " span.better { "better" } " " span.worse { "worse" } " beyond noise. "
+            "Change: the second run less the first, estimated without the truth's noise. " span.better { "better" } " " span.worse { "worse" } " beyond noise. "
             "A score with an ideal value, such as extent, changes by its distance from that value."
         }
         @if !shown.is_empty() {
@@ -290,7 +290,7 @@ fn change_row(change: &Change, named: bool) -> Markup {
             th.text scope="row" { (change.metric) }
             td data-label="first" { (number(change.first)) }
             td data-label="second" { (number(change.second)) }
-            td class=(class) { (signed(change_of(&change.metric, change.worse))) " " (change.kind.label()) }
+            td class=(class) { (signed(change_of(&change.metric, change.estimate()))) " " (change.kind.label()) }
             td data-label="95 % CI" {
                 @match (change.interval, change.basis) {
                     (Some(interval), _) => { (change_interval(&change.metric, interval)) }

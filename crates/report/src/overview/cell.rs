@@ -4,9 +4,8 @@ use maud::{Markup, html};
 use metrics::{Ideal, Measured};
 
 use crate::case::case_view::CaseView;
-use crate::case_score::{estimate_of, estimate_text, interval_of, interval_text};
 use crate::filter_id::case_anchor;
-use crate::finding_text::Status;
+use crate::finding_text::{Status, interval_text};
 use suite::{Finding, Headline, Level, Outcome, number};
 
 /// Least badness that a colour tells from another one, where scores have a logarithmic scale.
@@ -53,7 +52,7 @@ fn scale(ideal: Ideal, score: f64) -> f64 {
 pub fn cell(headline: Headline, colors: &Colors, view: &CaseView) -> Markup {
     let case = view.case;
     let measured = headline.measured(case);
-    let estimate = estimate_of(case, headline);
+    let estimate = headline.estimate(case);
     let judged = find_judged(headline, view);
     let color = (estimate.filter(|_| !case.is_reference)).and_then(|score| colors.of(score));
     let fails = judged.is_some_and(|(finding, _)| finding.outcome == Outcome::Broken);
@@ -66,8 +65,8 @@ pub fn cell(headline: Headline, colors: &Colors, view: &CaseView) -> Markup {
                 @if let Some((_, status)) = judged {
                     span.sign aria-hidden="true" { (status.sign) }
                 }
-                (estimate_text(case, headline))
-                @if let (Some(interval), Some(value)) = (interval_of(case, headline), measured.value()) {
+                (headline.text(case))
+                @if let (Some(interval), Some(value)) = (headline.interval(case), measured.value()) {
                     span.unseen { ", " (interval_text(interval, value)) }
                 }
                 @if let Some((finding, status)) = judged {

@@ -185,7 +185,7 @@ fn references(run: &Run) -> Vec<(String, f64)> {
 /// Averages over the scenes that have an error.
 fn mean_error(run: &Run, filter: &FilterId) -> Option<f64> {
     let cases = filter.cases(run);
-    mean(cases.filter_map(|(_, case)| Headline::CommonFlip.measured(case).value()))
+    mean(cases.filter_map(|(_, case)| Headline::CommonFlip.estimate(case)))
 }
 
 /// Lists the run's filters that were timed.

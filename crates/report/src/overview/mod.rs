@@ -10,14 +10,13 @@ use maud::{Markup, html};
 
 use crate::case::bounds::broken_bounds;
 use crate::case::case_view::CaseView;
-use crate::case_score::estimate_of;
 use crate::filter_id::{FilterId, case_anchor, list_filters, list_scenes};
 use crate::numbers::counted;
 use crate::run_facts::provenance;
 use costs::costs;
 use headlines::{TABLE_SCORES, TableScore};
-use score_table::{Row, rank_rows, score_table};
-use suite::{Bench, Finding, Headline, Level, Outcome, Run};
+use score_table::score_table;
+use suite::{Bench, Finding, Headline, Level, Outcome, RankedFilter, Run, rank_for_summary};
 
 /// Shows the scores of all cases, costs, and what the run depended on. `thumbnails` are addresses of the scenes' truths.
 pub fn overview(
@@ -114,48 +113,52 @@ fn counts(run: &Run, views: &[CaseView]) -> Markup {
 
 /// Names the best filter of every shutter, and the scene that it is weakest on.
 fn winners(run: &Run) -> Markup {
-    let groups = rank_rows(run, Headline::FLIP);
     html! {
         ul.winners {
-            @for group in &groups {
-                @let own: Vec<&Row> = group.iter().filter(|row| !row.filter.is_reference && row.mean.is_some()).collect();
-                @if let Some(best) = own.first() { (winner(run, best, &own)) }
-            }
+            @for group in &rank_for_summary(&run.cases) { (winner(run, group)) }
         }
     }
 }
 
-fn winner(run: &Run, best: &Row, group: &[&Row]) -> Markup {
-    let text = |row: &Row| Headline::FLIP.number(row.mean.unwrap_or_default());
-    let ties: Vec<&&Row> = group.iter().filter(|row| text(row) == text(best)).collect();
-    let cases = best.filter.cases(run);
-    let cases = cases.filter_map(|(index, case)| Some((index, estimate_of(case, Headline::FLIP)?)));
-    let worst = cases.max_by(|a, b| a.1.total_cmp(&b.1));
+/// Names the filters that share the first rank, and the last filter of the ranking.
+fn winner(run: &Run, group: &[RankedFilter]) -> Markup {
+    let best = &group[0];
+    let ties: Vec<&RankedFilter> = group[1..]
+        .iter()
+        .filter(|own| own.rank == best.rank)
+        .collect();
+    let number = |value: f64| Headline::FLIP.number(value);
+    let (scene, error) = &best.worst;
+    let weakest = id_of(best).case_on(run, scene);
     html! {
         li {
-            "Best with a " (best.filter.alignment) " shutter: "
-            @for (index, row) in ties.iter().enumerate() {
-                @if index > 0 { " = " }
-                a href=(format!("#{}", row.filter.section_anchor())) { strong { (row.filter.name) } }
+            "Best with a " (best.alignment) " shutter: " strong { (link(best)) } ", FLIP " strong { (number(best.flip)) }
+            @if let Some([low, high]) = best.interval { " (95 % CI " (number(low)) " to " (number(high)) ")" }
+            @if let Some(index) = weakest {
+                "; weakest on " a href=(format!("#{}", case_anchor(&run.cases[index]))) { (scene) } " (" (number(*error)) ")"
             }
-            ", FLIP " strong { (text(best)) }
-            @if let Some(own) = best.overall {
-                @let [low, high] = own.interval.map(|end| Headline::FLIP.number(end));
-                " (95 % CI " (low) " to " (high) ")"
+            @for (index, own) in ties.iter().enumerate() {
+                (if index == 0 { "; too close to tell apart: " } else { ", " }) (link(own)) " (" (number(own.flip)) ")"
             }
-            @if let Some((index, error)) = worst {
-                "; weakest on " a href=(format!("#{}", case_anchor(&run.cases[index]))) { (run.cases[index].scene) }
-                " (" (Headline::FLIP.number(error)) ")"
+            @if let Some(last) = group.last().filter(|own| own.rank > best.rank) {
+                "; worst: " (link(last)) " (" (number(last.flip)) ")"
             }
-            @if group.len() > ties.len() { (last(group[group.len() - 1], &text)) }
             "."
         }
     }
 }
 
-fn last(row: &Row, text: &impl Fn(&Row) -> String) -> Markup {
-    let FilterId { name, .. } = &row.filter;
-    html! { "; worst: " a href=(format!("#{}", row.filter.section_anchor())) { (name) } " (" (text(row)) ")" }
+fn id_of(ranked: &RankedFilter) -> FilterId {
+    FilterId {
+        name: ranked.name.clone(),
+        is_reference: false,
+        alignment: ranked.alignment.clone(),
+    }
+}
+
+/// Links a filter to its section.
+fn link(ranked: &RankedFilter) -> Markup {
+    html! { a href=(format!("#{}", id_of(ranked).section_anchor())) { (ranked.name) } }
 }
 
 fn panel(

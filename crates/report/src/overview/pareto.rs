@@ -51,17 +51,24 @@ pub fn pareto_chart(points: &[Point], references: &[(String, f64)]) -> Markup {
     let places: Vec<(f64, f64)> = (sorted.iter())
         .map(|point| plot.place(point.milliseconds, point.error))
         .collect();
+    let levels = named_levels(references, 0.05 * plot.y.high);
+    let end = plot.size[0] - 12.0;
+    let level_height = |error: f64| plot.place(plot.x.low, error).1;
+    let names_of_levels = levels.iter().map(|(title, error)| {
+        let bottom = level_height(*error) - 1.0;
+        [end - text_width(title), bottom - LINE, end, bottom]
+    });
     let bars: Vec<[f64; 4]> = (sorted.iter())
         .map(|point| {
             let [(left, y), (right, _)] = point.quartiles.map(|time| plot.place(time, point.error));
             [left, y - 2.0, right, y + 2.0]
         })
+        .chain(names_of_levels)
         .collect();
     let marks = html! {
-        @for (title, error) in named_levels(references, 0.05 * plot.y.high) {
-            @let (_, y) = plot.place(plot.x.low, error);
-            (plot.level("reference", error))
-            text.reference x=(plot.size[0] - 12.0) y=(format!("{:.1}", y - 3.0)) text-anchor="end" { (title) }
+        @for (title, error) in &levels {
+            (plot.level("reference", *error))
+            text.reference x=(end) y=(format!("{:.1}", level_height(*error) - 3.0)) text-anchor="end" { (title) }
         }
         @for point in &sorted {
             @let class = if is_undominated(point, points) { "" } else { "faint" };
@@ -138,8 +145,12 @@ fn words(point: &Point) -> String {
     format!("{}: {time} ms, FLIP* {error}", point.title)
 }
 
+fn text_width(text: &str) -> f64 {
+    LETTER * text.chars().count() as f64
+}
+
 /// Finds the upper left corner of every label: beside its point, where it covers no point, no bar and no other label; none where
-/// there is no room.
+/// there is no room. The first bars are the points' own, in their order.
 fn place_labels(
     points: &[Point],
     places: &[(f64, f64)],
@@ -159,7 +170,7 @@ fn place_labels(
     };
     let mut labels = Vec::new();
     for (index, (point, (x, y))) in points.iter().zip(places).enumerate() {
-        let length = LETTER * point.title.chars().count() as f64;
+        let length = text_width(&point.title);
         let [start, _, end, _] = bars.get(index).copied().unwrap_or([*x, *y, *x, *y]);
         let (middle, above, below) = (y - LINE / 2.0, y - 7.0 - LINE, y + 6.0);
         let corners = [

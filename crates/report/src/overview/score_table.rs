@@ -7,7 +7,6 @@ use super::cell::{Colors, cell};
 use super::costs::{cost_of, cost_text};
 use super::headlines::TableScore;
 use crate::case::case_view::CaseView;
-use crate::case_score::estimate_of;
 use crate::charts::strip::Strip;
 use crate::filter_id::{FilterId, list_alignments, list_filters, list_scenes, mean, mean_floor};
 use suite::{Bench, Headline, Level, Outcome, Overall, Run};
@@ -19,23 +18,25 @@ const WHISKERS: f64 = 1.5;
 const MANY: usize = 8;
 
 /// A row before it is drawn.
-pub struct Row<'a> {
+struct Row<'a> {
     /// Filter or reference.
-    pub filter: FilterId,
+    filter: FilterId,
     /// Mean over scenes with its interval; none with a single scene.
-    pub overall: Option<&'a Overall>,
+    overall: Option<&'a Overall>,
     /// Mean, or the only score.
-    pub mean: Option<f64>,
+    mean: Option<f64>,
 }
 
 /// Groups the filters of a run by shutter, unless the score compares across shutters; the best mean comes first.
-pub fn rank_rows(run: &Run, headline: Headline) -> Vec<Vec<Row<'_>>> {
-    let filters = list_filters(run);
+fn rank_rows(run: &Run, headline: Headline) -> Vec<Vec<Row<'_>>> {
+    // Shutters come in the order of their filters, as in every ranking, and references behind the filters.
+    let mut filters = list_filters(run);
+    filters.sort_by_key(|filter| filter.is_reference);
     let row = |filter: &FilterId| {
         let mut means = run.overall.iter();
         let overall = means.find(|own| own.metric == headline.name() && filter.is_of(own));
         let scores = filter.cases(run);
-        let only = mean(scores.filter_map(|(_, case)| headline.measured(case).value()));
+        let only = mean(scores.filter_map(|(_, case)| headline.estimate(case)));
         Row {
             overall,
             mean: overall.map(|own| own.mean).or(only),
@@ -79,7 +80,7 @@ pub fn score_table(
     let own = views.iter().filter(|view| !view.case.is_reference);
     let colors = Colors::over(
         headline.ideal(),
-        own.filter_map(|view| estimate_of(view.case, headline)),
+        own.filter_map(|view| headline.estimate(view.case)),
     );
     let has_means = rows().any(|row| row.overall.is_some());
     let strip = strip_over(
@@ -109,7 +110,7 @@ pub fn score_table(
                         @for (scene, picture) in scenes.iter().zip(thumbnails) {
                             th.scene scope="col" {
                                 img src=[Some(picture).filter(|own| !own.is_empty())] alt="";
-                                button { (scene) }
+                                button { (breakable(scene)) }
                             }
                         }
                         @if bench.is_some() { th scope="col" { button { "cost, ms" } } }

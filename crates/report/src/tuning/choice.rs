@@ -43,8 +43,8 @@ pub fn summary(tuning: &Tuning) -> Markup {
         }
         p {
             "The error is the mean over scenes of log(FLIP / FLIP of the start), shown as a change in percent. The best is trial "
-            (choice.best) "; of all within its standard error of " (format!("{:.3}", choice.standard_error))
-            ", the one nearest to the start is chosen. " (tuning.dropped) " of " (tuning.trials)
+            (choice.best) ". Of all within its standard error of " (format!("{:.3}", choice.standard_error))
+            ", trial " (choice.trial) " is nearest to the start. " (tuning.dropped) " of " (tuning.trials)
             " trials were dropped after the first scenes, " (tuning.failed.len()) " did not run."
         }
     }

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::folder::TuneFolder;
 use crate::charts::plot::{Axis, Plot};
 use crate::numbers::percent;
-use suite::Trial;
+use suite::{Advice, Trial};
 
 /// A measure that a chart shows against the error.
 struct Against {
@@ -31,15 +31,22 @@ pub fn front_section(folder: &TuneFolder) -> Markup {
         .iter()
         .filter(|trial| trial.is_done())
         .collect();
-    let chosen = folder.tuning.as_ref().map(|tuning| tuning.choice.trial);
+    let tuning = folder.tuning.as_ref();
+    // A choice that is not worth taking is a trial as any other.
+    let taken = tuning.filter(|tuning| tuning.advice() == Advice::Take);
+    let chosen = taken.map(|tuning| tuning.choice.trial);
     html! {
         section {
             h2 { "Trials that ran on every scene" }
-            p.key { "Blue: no other trial is as good in both axes of the chart; grey: beaten; ring: the start; the largest: the choice. Down and left is good." }
+            p.key {
+                "Blue: no other trial is as good in both axes of the chart; grey: beaten; ring: the start"
+                @if chosen.is_some() { "; the largest: the choice" }
+                ". Down and left is good."
+            }
             div.drawings {
                 @for against in &AGAINST { (chart(&done, chosen, against)) }
             }
-            @if let Some(tuning) = &folder.tuning { (table(&tuning.front, &tuning.start, tuning.choice.trial)) }
+            @if let Some(tuning) = tuning { (table(&tuning.front, &tuning.start, chosen)) }
         }
     }
 }
@@ -89,7 +96,7 @@ fn change(trial: &Trial) -> Option<f64> {
     Some(100.0 * trial.error?.exp_m1())
 }
 
-fn table(front: &[Trial], start: &Trial, chosen: usize) -> Markup {
+fn table(front: &[Trial], start: &Trial, chosen: Option<usize>) -> Markup {
     let number =
         |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"));
     // Only what the tuning measured has a column.
@@ -110,7 +117,7 @@ fn table(front: &[Trial], start: &Trial, chosen: usize) -> Markup {
                 tbody {
                     @for trial in front {
                         tr {
-                            th scope="row" data-label="trial" { (trial.trial) @if trial.trial == chosen { " (chosen)" } }
+                            th scope="row" data-label="trial" { (trial.trial) @if Some(trial.trial) == chosen { " (chosen)" } @else if trial.trial == 0 { " (start)" } }
                             td data-label="error" { (trial.error.map_or_else(|| "-".to_owned(), percent)) }
                             @if bled { td data-label="lateral bleed, px" { (number(trial.bleed)) } }
                             @if timed { td data-label="GPU time" { (number(trial.cost)) } }

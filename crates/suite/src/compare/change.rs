@@ -131,6 +131,12 @@ impl Change {
         })
     }
 
+    /// Estimates the change against a truth without noise: the middle of its interval, or the measured change without one.
+    pub fn estimate(&self) -> f64 {
+        self.interval
+            .map_or(self.worse, |[low, high]| f64::midpoint(low, high))
+    }
+
     /// Returns true if the second is better or worse.
     pub fn is_beyond_noise(&self) -> bool {
         matches!(self.kind, ChangeKind::Better | ChangeKind::Worse)

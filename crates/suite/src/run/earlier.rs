@@ -1,6 +1,7 @@
 //! Cases of an earlier run in the same folder, which a narrower run keeps.
 
 use std::collections::HashSet;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use filters::AdapterDescription;
@@ -122,6 +123,24 @@ pub fn folder_for_size(out: &Path, (width, height): (u32, u32)) -> Result<PathBu
         }
         _ => out.to_owned(),
     })
+}
+
+/// Finds the runs of other picture sizes below `out` that are newer than the run in `out` itself, and returns their folders.
+pub fn find_newer_sizes(out: &Path) -> Vec<PathBuf> {
+    let written = |folder: &Path| fs::metadata(folder.join("run.json"))?.modified();
+    let (Ok(own), Ok(entries)) = (written(out), fs::read_dir(out)) else {
+        return Vec::new();
+    };
+    let is_size = |folder: &Path| {
+        let sides = folder.file_name()?.to_str()?.split_once('x')?;
+        Some(sides.0.parse::<u32>().is_ok() && sides.1.parse::<u32>().is_ok())
+    };
+    let mut newer: Vec<PathBuf> = (entries.flatten().map(|entry| entry.path()))
+        .filter(|folder| is_size(folder) == Some(true))
+        .filter(|folder| written(folder).is_ok_and(|time| time > own))
+        .collect();
+    newer.sort();
+    newer
 }
 
 /// Reads the run that a new one would replace; none where there is no such file.

@@ -1,7 +1,8 @@
 //! Scores that tables, means over scenes and pages show.
 
 use metrics::{
-    Ideal, ImageMetric, LabelMetric, Measured, Metric, ObjectMetric, Region, Scores, SkillMetric,
+    Ideal, ImageMetric, Interval, LabelMetric, Measured, Metric, ObjectMetric, Region, Scores,
+    SkillMetric,
 };
 
 use crate::run::case::{Case, IDENTITY, SCATTER_ORACLE};
@@ -94,6 +95,18 @@ impl Headline {
         }
     }
 
+    /// Finds the interval of a case's score; none where the run has no intervals.
+    pub fn interval(self, case: &Case) -> Option<&Interval> {
+        case.intervals.get(&self.metric(&case.scores)?.name())
+    }
+
+    /// Estimates a case's score against a truth without noise, which takes an interval; without one, returns the measured score.
+    /// None where the score does not apply.
+    pub fn estimate(self, case: &Case) -> Option<f64> {
+        let measured = self.measured(case).value()?;
+        Some(self.interval(case).map_or(measured, Interval::center))
+    }
+
     /// Returns a picture's score; not that against the common shutter, which no picture has alone.
     pub fn of_scores(self, scores: &Scores) -> Measured {
         match self.metric(scores) {
@@ -102,22 +115,23 @@ impl Headline {
         }
     }
 
-    /// Writes a case's score: `0.063`, `4.80>`, `<1`, `n/a`.
+    /// Writes a case's estimated score: `0.063`, `4.80>`, `<1`, `n/a`.
     pub fn text(self, case: &Case) -> String {
-        self.format(&self.measured(case), &case.scores)
+        self.format(self.estimate(case), &case.scores)
     }
 
     /// Writes a picture's score.
     pub fn text_of_scores(self, scores: &Scores) -> String {
-        self.format(&self.of_scores(scores), scores)
+        self.format(self.of_scores(scores).value(), scores)
     }
 
-    fn format(self, measured: &Measured, scores: &Scores) -> String {
-        match (self, measured) {
+    fn format(self, value: Option<f64>, scores: &Scores) -> String {
+        match (self, value) {
+            // Counts of sub-frames have ends that no estimate has.
             (Self::SUBFRAMES, _) => scores.equivalent_subframes.mse.to_string(),
-            (_, Measured::NotApplicable { .. }) => "n/a".to_owned(),
-            (Self::Bleed, Measured::Score(score)) => self.number(score.value) + bleed_mark(scores),
-            (_, Measured::Score(score)) => self.number(score.value),
+            (_, None) => "n/a".to_owned(),
+            (Self::Bleed, Some(value)) => self.number(value) + bleed_mark(scores),
+            (_, Some(value)) => self.number(value),
         }
     }
 

@@ -4,9 +4,8 @@ use super::headline::Headline;
 use super::scene_mean::{TWO_SIDED, Weighted, scene_mean};
 use crate::run::case::Case;
 use crate::run::overall::Overall;
-use metrics::Measured;
 
-/// Computes means over at least two scenes, in the order of the cases, with Student's intervals over scenes.
+/// Computes means of estimated scores over at least two scenes, in the order of the cases, with Student's intervals over scenes.
 pub fn overall(cases: &[Case]) -> Vec<Overall> {
     let mut subjects: Vec<&Case> = Vec::new();
     for case in cases {
@@ -52,12 +51,11 @@ fn are_of_one(a: &Case, b: &Case) -> bool {
 
 fn mean(own: &[&Case], headline: Headline, all: &[Case]) -> Option<Overall> {
     let scores: Vec<Weighted> = (own.iter())
-        .filter_map(|case| match headline.measured(case) {
-            Measured::NotApplicable { .. } => None,
-            Measured::Score(score) => Some(Weighted {
-                value: score.value,
+        .filter_map(|case| {
+            Some(Weighted {
+                value: headline.estimate(case)?,
                 weight: headline.weight(case, all)?,
-            }),
+            })
         })
         .collect();
     (scores.len() >= 2).then(|| {

@@ -31,7 +31,7 @@ pub struct RankedFilter {
     pub presets: usize,
 }
 
-/// FLIP of one filter on one scene.
+/// Estimated FLIP of one filter on one scene.
 struct SceneScore {
     scene: String,
     flip: f64,
@@ -43,20 +43,34 @@ struct Entry {
     scores: Vec<SceneScore>,
 }
 
+/// Upper limit on presets that a summary ranks one by one.
+pub const MOST_RANKED: usize = 16;
+
+/// Ranks filters for a summary. Where the presets are too many for it, the best preset of each filter stands for the filter.
+pub fn rank_for_summary(cases: &[Case]) -> Vec<Vec<RankedFilter>> {
+    let presets = rank_by_flip(cases, false);
+    match presets.iter().map(Vec::len).sum() {
+        ..=MOST_RANKED => presets,
+        _ => rank_by_flip(cases, true),
+    }
+}
+
 /// Ranks filters of one shutter among each other, the best first: one group per shutter. References are left out. With
 /// `best_presets`, the best preset stands for its filter.
 ///
 /// Two filters tie where the mean difference over their common scenes is not told from 0: its 95 % CI holds 0. On a single
 /// scene they tie within the noise floor.
-pub fn rank_by_flip(cases: &[Case], best_presets: bool) -> Vec<Vec<RankedFilter>> {
+fn rank_by_flip(cases: &[Case], best_presets: bool) -> Vec<Vec<RankedFilter>> {
     let mut groups: Vec<Vec<Entry>> = Vec::new();
     for case in cases.iter().filter(|case| !case.is_reference) {
-        let Measured::Score(score) = Headline::FLIP.measured(case) else {
+        let (Measured::Score(score), Some(flip)) =
+            (Headline::FLIP.measured(case), Headline::FLIP.estimate(case))
+        else {
             continue;
         };
         let score = SceneScore {
             scene: case.scene.clone(),
-            flip: score.value,
+            flip,
             floor: score.floor,
         };
         let group = (groups.iter()).position(|group| group[0].ranked.alignment == case.alignment);

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use filters::Settings;
 use serde::{Deserialize, Serialize};
+use tracer::{Progress, TraceError};
 
 use super::evaluator::Evaluator;
 use super::loss::log_ratio;
@@ -78,8 +79,22 @@ pub fn compare_candidates(
     second: &Settings,
 ) -> Result<PairedComparison, Error> {
     let all: Vec<usize> = (0..evaluator.targets.len()).collect();
-    let first = evaluator.score_candidate(first, &all, |_, _| true)?;
-    let second = evaluator.score_candidate(second, &all, |_, _| true)?;
+    let total = 2 * all.len() as u64;
+    let monitor = evaluator.monitor;
+    let [first, second] = monitor.watch("both sets of parameters", |watch| {
+        let mut done = 0;
+        let mut score = |settings: &Settings| {
+            let scores = evaluator.score_candidate(settings, &all, |_, _| {
+                done += 1;
+                watch(Progress { done, total }).is_continue()
+            })?;
+            match scores.len() == all.len() {
+                true => Ok::<_, Error>(scores),
+                false => Err(TraceError::Cancelled.into()),
+            }
+        };
+        Ok::<_, Error>([score(first)?, score(second)?])
+    })?;
     let names = evaluator.targets.iter().map(|it| it.scene.name.clone());
     let pairs = first.into_iter().zip(second).map(|(a, b)| [a, b]);
     Ok(PairedComparison::new(names.zip(pairs).collect()))

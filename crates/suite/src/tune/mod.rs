@@ -42,7 +42,7 @@ pub use preset::tuned_preset_toml;
 pub use rendered_scene::{RenderedScene, render_scenes};
 pub use search::Search;
 pub use selection::{Choice, ChoiceLimits, Fold, choose_trial, cross_validate};
-pub use sensitivity::{ParameterSensitivity, Sensitivity, analyze_sensitivity};
+pub use sensitivity::{ParameterSensitivity, Sensitivity, analyze_sensitivity, count_candidates};
 pub use sobol::{Estimate, SobolIndices, sobol_indices};
 pub use space::Space;
 pub use target::{SceneScore, Target};

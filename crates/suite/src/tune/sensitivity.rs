@@ -50,6 +50,11 @@ fn read_indices<'de, D: Deserializer<'de>>(deserializer: D) -> Result<SobolIndic
     })
 }
 
+/// Counts the candidates of a study of `axes` parameters.
+pub fn count_candidates(axes: usize, rows: usize) -> usize {
+    rows * (axes + 2) + axes * SLICE
+}
+
 /// Scores candidates all over the space, `rows` x (axes + 2) for Sobol indices and some more for slices along each axis.
 /// `watch` hears of each.
 pub fn analyze_sensitivity(
@@ -66,7 +71,7 @@ pub fn analyze_sensitivity(
     let start = evaluator.score_candidate(&space.start, &all, |_, _| true)?;
     let start: BTreeMap<_, _> = names.iter().cloned().zip(start).collect();
     let axes = space.axes.len();
-    let planned = rows * (axes + 2) + axes * SLICE;
+    let planned = count_candidates(axes, rows);
     let (mut candidates, mut failed) = (0, 0);
     let interrupted = evaluator.monitor.interrupted;
     let mut error = |point: &[f64]| -> Result<f64, Error> {

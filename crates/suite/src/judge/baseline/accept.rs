@@ -18,6 +18,14 @@ pub struct Acceptance<'a> {
     pub forced: bool,
 }
 
+impl Acceptance<'_> {
+    /// Tells whether a case is accepted: references never are.
+    pub fn includes(&self, case: &Case) -> bool {
+        let name = format!("{}/{}", case.scene, case.name());
+        !case.is_reference && self.only.is_none_or(|only| only.matches(&name))
+    }
+}
+
 /// Makes a baseline of a run, and of the old one if only some cases are accepted.
 pub fn accept_scores(
     run: &Run,
@@ -29,11 +37,9 @@ pub fn accept_scores(
     {
         check_adapter(run, old, how.only.is_some())?;
     }
-    let wanted = |case: &&Case| {
-        let name = format!("{}/{}", case.scene, case.name());
-        !case.is_reference && how.only.is_none_or(|only| only.matches(&name))
-    };
-    let cases: Vec<&Case> = run.cases.iter().filter(wanted).collect();
+    let cases: Vec<&Case> = (run.cases.iter())
+        .filter(|case| how.includes(case))
+        .collect();
     if cases.is_empty() {
         let names = (run.cases.iter().filter(|case| !case.is_reference))
             .map(|case| format!("{}/{}", case.scene, case.name()));
