@@ -1,7 +1,7 @@
 //! Limits of a device, and the check of a filter against them.
 
 use super::device::Gpu;
-use crate::shader::{EntryPoint, Role};
+use crate::shader::{EntryPoint, Role, Shader};
 use crate::{Filter, FilterError};
 
 /// The limits of a device.
@@ -33,9 +33,10 @@ impl Limits {
     pub fn check(&self, filter: &Filter) -> Result<(), FilterError> {
         for pass in &filter.passes {
             let entry = filter.entry_point(pass);
-            if let Some(reason) = self.find_broken(filter, entry) {
+            let shader = filter.shader(pass);
+            if let Some(reason) = self.find_broken(shader, entry) {
                 return Err(FilterError::Folder {
-                    path: filter.shader.path.clone(),
+                    path: shader.path.clone(),
                     line: entry.line,
                     reason: format!("pass \"{}\": {reason}", pass.entry),
                 });
@@ -45,7 +46,7 @@ impl Limits {
     }
 
     /// Describes the first limit that a kernel breaks.
-    fn find_broken(&self, filter: &Filter, entry: &EntryPoint) -> Option<String> {
+    fn find_broken(&self, shader: &Shader, entry: &EntryPoint) -> Option<String> {
         let Self { owner, limits } = self;
         let [x, y, z] = entry.workgroup_size;
         let invocations = u64::from(x) * u64::from(y) * u64::from(z);
@@ -56,7 +57,7 @@ impl Limits {
         ];
         let variables = || {
             let indices = entry.variables.iter();
-            indices.map(|index| &filter.shader.variables[*index])
+            indices.map(|index| &shader.variables[*index])
         };
         let count = |is: fn(Role) -> bool| variables().filter(|it| is(it.role)).count() as u64;
         let highest = variables()
