@@ -142,7 +142,8 @@ impl BoundPasses {
             let over = targets.current(over.unwrap_or("output")).texture.size();
             let shader = filter.shader(pass);
             // Texels that one workgroup covers.
-            let [group_width, group_height] = match pass.workgroup_per_texel {
+            let [group_width, group_height] = match pass.workgroup_per_texel || entry.is_fragment()
+            {
                 true => [1, 1],
                 false => [entry.workgroup_size[0], entry.workgroup_size[1]],
             };

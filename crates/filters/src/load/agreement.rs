@@ -112,9 +112,9 @@ impl Check<'_> {
                 )),
                 None => Err(self.refuse_undeclared()),
             },
-            (Role::Write(Format::Rgba32Float), "output") => Ok(()),
+            (Role::Write(Format::Rgba32Float | Format::Rgba16Float), "output") => Ok(()),
             (Role::Write(_), "output") => {
-                Err("has another format than the image: rgba32float".into())
+                Err("has another format than the image: rgba32float or rgba16float".into())
             }
             (Role::Write(found), name) if name != written_texture(name) => {
                 match declared(written_texture(name)) {

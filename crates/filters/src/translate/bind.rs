@@ -32,8 +32,15 @@ pub(super) fn bind(
         mut module,
         samplers,
     } = read;
+    let split: BTreeSet<BindingPlace> = (samplers.keys())
+        .map(|(group, binding)| BindingPlace::Bound {
+            group: *group,
+            binding: *binding,
+        })
+        .collect();
     let declared: BTreeSet<BindingPlace> = (module.global_variables.iter())
         .filter_map(|(_, variable)| find_place(variable))
+        .filter(|place| !split.contains(place))
         .collect();
     let info = validate(path, &module)?;
     keep_entry_point(shader, path, &mut module)?;

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 
 use super::language::Language;
 use crate::FilterError;
+use crate::command::collect_environment;
 use crate::filter::{PassShader, Stage};
 use crate::printable::escape_controls;
 
@@ -191,6 +192,8 @@ fn run(
     };
     let mut child = Command::new(program)
         .args(words)
+        .env_clear()
+        .envs(collect_environment(&[]))
         .current_dir(folder.path())
         .stdin(Stdio::null())
         .stdout(said)
