@@ -66,7 +66,7 @@ fn wrong_shaders_are_refused_with_file_line_and_reason() {
         ("uniform sampler2D color;", "uniform sampler2D color[2];", &["gather.comp"]),
         ("uniform sampler2D color;", "uniform sampler3D color;", &["gather.comp"]),
         ("layout(set = 0, binding = 0) uniform sampler2D color;", "layout(set = 0, binding = 0) uniform sampler2D color;\nlayout(constant_id = 4) const int TAPS = 3;\nint taps() { return TAPS; }", &["specialisation constant"]),
-        ("mat4 turned;", "mat2 turned;", &["gather.comp", "its SPIR-V cannot be read: unsupported matrix stride 16"]),
+        ("mat4 turned;", "mat4 turned;\n    mat2 spare;", &["gather.comp", "its SPIR-V cannot be read: unsupported matrix stride 16"]),
         ("bool noisy;", "double noisy;", &["gather.comp"]),
     ];
     let original = fs::read_to_string(fixtures().join("gather.comp")).unwrap();
