@@ -7,6 +7,7 @@ mod check;
 mod command_filter;
 mod compare;
 mod comparison;
+mod compilers;
 mod failures;
 mod fidelity;
 mod gallery;

@@ -2,8 +2,9 @@
 
 use std::fs;
 
-use filters::{Filter, FilterError};
+use filters::{Blur, Filter, FilterError};
 use tests::filter_folder::load_filter;
+use tests::open_gpu;
 
 use super::super::folders::example;
 use super::{blur, busy_picture, fixtures, head, largest_difference};
@@ -75,7 +76,11 @@ fn load(passes: &str, gather: impl Fn(String) -> String) -> Result<Filter, Filte
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
     let fragment = fs::read_to_string(fixtures().join("gather.frag")).unwrap();
-    write("filter.toml", &format!("{}{passes}", head()));
+    // Keys of the whole filter stand before its first table.
+    write(
+        "filter.toml",
+        &format!("time_limit = 5\n{}{passes}", head()),
+    );
     write("fastest.wgsl", FASTEST);
     write("gather.frag", &gather(fragment));
     Filter::load(folder.path())
@@ -136,4 +141,42 @@ fn wrong_targets_are_refused() {
         |text: String| text.replace("layout(location = 0) out vec4 result;", "vec4 result;");
     let message = load(PASSES, colourless).unwrap_err().to_string();
     assert!(message.contains("colours to locations []"), "{message}");
+}
+
+#[test]
+fn broken_pixels_and_endless_loops_are_reported_with_their_pass() {
+    let gpu = open_gpu();
+    let picture = busy_picture();
+    let colors = [&picture.color];
+    // (text of gather.frag, replacement, expected part of the message)
+    for (from, to, says) in [
+        (
+            "result = vec4(0.0);",
+            "result = vec4(0.0); if (pixel == ivec2(3, 4)) discard;",
+            "leaves pixel (3, 4) of the output unwritten",
+        ),
+        (
+            "result = vec4(0.0);",
+            "result = vec4(0.0); result.y = pixel == ivec2(3, 4) ? sqrt(uv.x - 9.0) : 0.0;",
+            "to pixel (3, 4); every value must be finite",
+        ),
+        (
+            "for (int i = 0; i < params.samples; i++)",
+            "for (int i = 0; params.samples > 0; i++)",
+            "loop",
+        ),
+    ] {
+        let change = |text: String| {
+            assert!(text.contains(from), "gather.frag holds \"{from}\"");
+            text.replace(from, to)
+        };
+        let filter = load(PASSES, change).unwrap();
+        let settings = filter.settings(None).unwrap();
+        let mut blur = Blur::new(&gpu, &filter, &settings, 61, 43).unwrap();
+        let message = blur.run(&picture.input(&colors)).unwrap_err().to_string();
+        assert!(
+            message.contains("pass gather: ") && message.contains(says),
+            "{message}"
+        );
+    }
 }

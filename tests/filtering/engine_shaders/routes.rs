@@ -57,3 +57,33 @@ fn spir_v_blurs_as_the_glsl_that_it_was_made_from() {
     }
     assert_same(&Filter::load(folder.path()).unwrap());
 }
+
+#[test]
+fn specialisation_constants_have_the_values_of_filter_toml() {
+    let folder = tempfile::tempdir().unwrap();
+    let load = |constants: &str| {
+        let pass = format!("shader = \"gather.comp\"\nconstants = {{ {constants} }}");
+        let passes = PASSES.replace("shader = \"gather.comp\"", &pass);
+        write_folder(folder.path(), &passes, &["fastest.comp"]);
+        let text = fs::read_to_string(fixtures().join("gather.comp")).unwrap();
+        let constant = "layout(constant_id = 4) const int TAPS = 3;\nvoid main() {";
+        let text = (text.replace("void main() {", constant))
+            .replace("int(settings.shutter_side_samples.z)", "TAPS");
+        fs::write(folder.path().join("gather.comp"), text).unwrap();
+        Filter::load(folder.path())
+    };
+    let picture = busy_picture();
+    let pictures = ["", "TAPS = 3", "TAPS = 8", "4 = 8"].map(|constants| {
+        let filter = load(constants).unwrap();
+        blur(&filter, &filter.settings(None).unwrap(), &picture)
+    });
+    assert!(pictures[0] == pictures[1], "the shader's own value is 3");
+    assert!(pictures[1] != pictures[2], "filter.toml sets another");
+    assert!(pictures[2] == pictures[3], "4 is the number of TAPS");
+    let message = load("SAMPLES = 8").unwrap_err().to_string();
+    assert!(
+        message.contains("no specialisation constant \"SAMPLES\"")
+            && message.contains("it has: TAPS"),
+        "{message}"
+    );
+}

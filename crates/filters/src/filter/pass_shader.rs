@@ -28,6 +28,8 @@ pub struct PassShader {
     pub targets: Vec<String>,
     /// Meanings of bindings.
     pub bindings: Vec<Binding>,
+    /// Values of specialisation constants (`override` of WGSL), by name or number.
+    pub constants: Vec<(String, f64)>,
     /// Conditions of WESL that hold.
     pub conditions: Vec<String>,
 }

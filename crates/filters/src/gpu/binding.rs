@@ -131,7 +131,7 @@ fn create_render_pipeline(
         .device
         .create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("triangle"),
-            source: wgpu::ShaderSource::Wgsl(write_triangle(entry.coordinates_at).into()),
+            source: wgpu::ShaderSource::Wgsl(write_triangle(entry.inputs.first().copied()).into()),
         });
     let targets: Vec<_> = (targets.iter())
         .map(|format| {

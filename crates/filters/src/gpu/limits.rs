@@ -68,7 +68,7 @@ impl Limits {
             format.component_bytes() == 4
         })?;
         Some(format!(
-            "a sampler interpolates the 32-bit floats of \"{name}\", which {} do not allow; give the texture a format of \
+            "a sampler interpolates the 32-bit floats of \"{name}\", not allowed by {}; give the texture a format of \
              16-bit floats ([convention] has color_format, velocity_format and depth_format), or take sampler = \"nearest\"",
             self.owner
         ))

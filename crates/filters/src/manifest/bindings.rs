@@ -54,6 +54,7 @@ pub(super) struct ShaderKeys<'m> {
     pub stage: Option<Stage>,
     pub targets: Option<&'m Vec<String>>,
     pub bindings: &'m [Spanned<BindingEntry>],
+    pub constants: &'m BTreeMap<String, f64>,
     pub conditions: &'m [String],
 }
 
@@ -77,6 +78,7 @@ pub(super) fn read_shader<T>(
             ("stage", keys.stage.is_some()),
             ("targets", keys.targets.is_some()),
             ("[[pass.binding]]", !keys.bindings.is_empty()),
+            ("constants", !keys.constants.is_empty()),
             ("conditions", !keys.conditions.is_empty()),
         ];
         return match given.iter().find(|(_, given)| *given) {
@@ -130,6 +132,7 @@ pub(super) fn read_shader<T>(
         stage,
         targets,
         bindings,
+        constants: keys.constants.clone().into_iter().collect(),
         conditions: keys.conditions.to_vec(),
     }))
 }

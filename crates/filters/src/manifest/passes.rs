@@ -1,5 +1,7 @@
 //! `[[texture]]` and `[[pass]]` of filter.toml.
 
+use std::collections::BTreeMap;
+
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -34,6 +36,8 @@ pub(super) struct PassEntry {
     targets: Option<Vec<String>>,
     #[serde(default)]
     binding: Vec<Spanned<BindingEntry>>,
+    #[serde(default)]
+    constants: BTreeMap<String, f64>,
     #[serde(default)]
     conditions: Vec<String>,
 }
@@ -144,6 +148,7 @@ pub(super) fn read_passes(
             stage,
             targets,
             binding,
+            constants,
             conditions,
         } = spanned.get_ref();
         if let Some(entry) = entry {
@@ -155,6 +160,7 @@ pub(super) fn read_passes(
             stage: *stage,
             targets: targets.as_ref(),
             bindings: binding,
+            constants,
             conditions,
         };
         let names = Names {

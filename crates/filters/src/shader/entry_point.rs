@@ -23,8 +23,8 @@ pub(crate) struct EntryPoint {
     pub interpolated: BTreeSet<usize>,
     /// Locations of the colours that a fragment shader writes; none of a kernel.
     pub locations: Vec<u32>,
-    /// Location at which a fragment shader reads texture coordinates.
-    pub coordinates_at: Option<u32>,
+    /// Locations that a fragment shader reads: texture coordinates.
+    pub inputs: Vec<u32>,
     /// Names of the textures that it reads.
     pub reads: BTreeSet<String>,
     /// Names of the textures that it writes.
@@ -83,7 +83,7 @@ pub(crate) fn find_entry_points(
                 variables: used,
                 interpolated: find_interpolated(info, handles, variables),
                 locations: find_outputs(module, entry),
-                coordinates_at: find_inputs(module, entry).first().copied(),
+                inputs: find_inputs(module, entry),
                 reads,
                 writes,
                 draws_noise: reads_frame_index(module, &entry.function),

@@ -1,8 +1,9 @@
 //! Bindings of a shader, as filter.toml explains them, put in the places that the suite binds.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use wgpu::naga::back::pipeline_constants::process_overrides;
 use wgpu::naga::compact::{KeepUnused, compact};
 use wgpu::naga::valid::{ModuleInfo, ValidationFlags, Validator};
 use wgpu::naga::{
@@ -10,6 +11,7 @@ use wgpu::naga::{
     ShaderStage, StorageAccess, TypeInner,
 };
 
+use super::combined::Place;
 use super::members::fill_block;
 use super::module::Read;
 use super::{explain, refuse};
@@ -27,102 +29,40 @@ pub(super) fn bind(
     path: &Path,
     read: Read,
 ) -> Result<Shader, FilterError> {
-    let fail = |reason: String| refuse(path, reason);
     let Read {
         mut module,
         samplers,
     } = read;
-    let split: BTreeSet<BindingPlace> = (samplers.keys())
-        .map(|(group, binding)| BindingPlace::Bound {
-            group: *group,
-            binding: *binding,
-        })
-        .collect();
-    let declared: BTreeSet<BindingPlace> = (module.global_variables.iter())
+    let mut declared: BTreeSet<BindingPlace> = (module.global_variables.iter())
         .filter_map(|(_, variable)| find_place(variable))
-        .filter(|place| !split.contains(place))
         .collect();
-    let info = validate(path, &module)?;
+    // Samplers that were split from textures are explained where the textures are.
+    let owners: BTreeMap<BindingPlace, BindingPlace> = (samplers.into_iter())
+        .map(|(sampler, texture)| (bound_at(sampler), bound_at(texture)))
+        .collect();
+    declared.retain(|place| !owners.contains_key(place));
+    check_places(filter, shader, path, &declared)?;
+    validate(path, &module)?;
     keep_entry_point(shader, path, &mut module)?;
-    if let Some((_, constant)) = module.overrides.iter().next() {
-        return Err(fail(format!(
-            "specialisation constant \"{}\" is set by nobody; allowed: constants, or a member of a uniform block",
-            constant.name.as_deref().unwrap_or("without a name")
-        )));
-    }
-    drop(info);
+    set_constants(shader, path, &mut module)?;
     compact(&mut module, KeepUnused::No);
-    if let Some(unknown) = (shader.bindings.iter()).find(|it| !declared.contains(&it.place)) {
-        let places: Vec<String> = declared.iter().map(BindingPlace::to_string).collect();
-        return Err(FilterError::Folder {
-            path: filter.lines.path.clone(),
-            line: Some(unknown.line),
-            reason: format!(
-                "binding: {} has nothing at {}; it has: {}",
-                path.display(),
-                unknown.place,
-                match places.is_empty() {
-                    true => "no bindings".to_owned(),
-                    false => places.join("; "),
-                }
-            ),
-        });
-    }
     let mut binder = Binder {
         filter,
         shader,
+        path,
         blocks: Vec::new(),
         variables: Vec::new(),
     };
-    let mut handles = Vec::new();
-    let globals: Vec<Handle<GlobalVariable>> = module
-        .global_variables
-        .iter()
-        .map(|(handle, _)| handle)
-        .collect();
-    for handle in globals {
-        let variable = &module.global_variables[handle];
-        let Some(place) = find_place(variable) else {
-            continue;
-        };
-        // A sampler that was split from a texture is explained where the texture is.
-        let owner = match place {
-            BindingPlace::Bound { group, binding } => {
-                (samplers.get(&(group, binding))).map(|(group, binding)| BindingPlace::Bound {
-                    group: *group,
-                    binding: *binding,
-                })
-            }
-            BindingPlace::PushConstants => None,
-        };
-        let (line, named) = binder.describe(variable, place);
-        let found = binder.bind(&module, handle, owner.unwrap_or(place));
-        found.map_err(|reason| match line {
-            Some(line) => FilterError::Folder {
-                path: filter.lines.path.clone(),
-                line: Some(line),
-                reason: format!("binding: {named} of {}: {reason}", path.display()),
-            },
-            None => fail(format!("{named}: {reason}")),
-        })?;
-        let variable = &mut module.global_variables[handle];
-        variable.binding = Some(ResourceBinding {
-            group: 0,
-            binding: handles.len() as u32,
-        });
-        if variable.space == AddressSpace::Immediate {
-            variable.space = AddressSpace::Uniform;
-        }
-        handles.push(handle);
-    }
+    let handles = binder.bind_all(&mut module, &owners)?;
     let info = validate(path, &module)?;
     let mut entry_points =
         find_entry_points(&module, &info, &handles, &binder.variables, &|_| None);
-    let frame_reader = |block: &UniformBlock| block.reads("frame_index");
     for entry in &mut entry_points {
-        entry.draws_noise = binder.blocks.iter().any(frame_reader);
+        let mut blocks = binder.blocks.iter();
+        entry.draws_noise = blocks.any(|block| block.reads("frame_index"));
         entry.writes.extend(shader.targets.iter().cloned());
-        entry.usage.check(&entry.name).map_err(fail)?;
+        let checked = entry.usage.check(&entry.name);
+        checked.map_err(|reason| refuse(path, reason))?;
     }
     Ok(Shader {
         path: path.to_owned(),
@@ -131,6 +71,36 @@ pub(super) fn bind(
         blocks: binder.blocks,
         entry_points,
         ..Shader::default()
+    })
+}
+
+fn bound_at((group, binding): Place) -> BindingPlace {
+    BindingPlace::Bound { group, binding }
+}
+
+/// Refuses a binding of filter.toml that the shader does not have.
+fn check_places(
+    filter: &Filter,
+    shader: &PassShader,
+    path: &Path,
+    declared: &BTreeSet<BindingPlace>,
+) -> Result<(), FilterError> {
+    let Some(unknown) = (shader.bindings.iter()).find(|it| !declared.contains(&it.place)) else {
+        return Ok(());
+    };
+    let places: Vec<String> = declared.iter().map(BindingPlace::to_string).collect();
+    Err(FilterError::Folder {
+        path: filter.lines.path.clone(),
+        line: Some(unknown.line),
+        reason: format!(
+            "binding: {} has nothing at {}; it has: {}",
+            path.display(),
+            unknown.place,
+            match places.is_empty() {
+                true => "no bindings".to_owned(),
+                false => places.join("; "),
+            }
+        ),
     })
 }
 
@@ -194,6 +164,55 @@ fn keep_entry_point(
     }
 }
 
+/// Sets specialisation constants. Those that filter.toml does not name keep the value that the shader gives them.
+fn set_constants(shader: &PassShader, path: &Path, module: &mut Module) -> Result<(), FilterError> {
+    let mut names = Vec::new();
+    for (_, constant) in module.overrides.iter() {
+        let name = constant.name.clone().filter(|name| !name.is_empty());
+        let number = constant.id.map(|id| id.to_string());
+        names.push((name, number));
+    }
+    let is = |known: &Option<String>, name: &str| known.as_deref() == Some(name);
+    for (name, _) in &shader.constants {
+        if !(names.iter()).any(|(own, number)| is(own, name) || is(number, name)) {
+            let known: Vec<String> = (names.into_iter())
+                .filter_map(|(name, number)| name.or(number))
+                .collect();
+            return Err(refuse(
+                path,
+                format!(
+                    "has no specialisation constant \"{name}\", which filter.toml sets; it has: {}",
+                    match known.is_empty() {
+                        true => "none".to_owned(),
+                        false => known.join(", "),
+                    }
+                ),
+            ));
+        }
+    }
+    // A constant with a name and a number goes by its number.
+    let values = shader.constants.iter().map(|(name, value)| {
+        let numbered = names
+            .iter()
+            .find(|(own, number)| is(own, name) && number.is_some());
+        let key = numbered.and_then(|(_, number)| number.clone());
+        (key.unwrap_or(name.clone()), *value)
+    });
+    let info = validate(path, module)?;
+    let set = process_overrides(module, &info, None, &values.collect());
+    let set = set.map_err(|error| {
+        refuse(
+            path,
+            format!(
+                "specialisation constants: {}; `constants` of the pass sets them",
+                explain(&error)
+            ),
+        )
+    })?;
+    *module = set.0.into_owned();
+    Ok(())
+}
+
 fn name_stage(stage: ShaderStage) -> &'static str {
     match stage {
         ShaderStage::Compute => "compute",
@@ -207,6 +226,7 @@ fn name_stage(stage: ShaderStage) -> &'static str {
 struct Binder<'a> {
     filter: &'a Filter,
     shader: &'a PassShader,
+    path: &'a Path,
     blocks: Vec<UniformBlock>,
     variables: Vec<Variable>,
 }
@@ -216,14 +236,45 @@ impl Binder<'_> {
         self.shader.bindings.iter().find(|it| it.place == place)
     }
 
-    /// Returns the line of filter.toml that explains a variable, and a name for messages.
-    fn describe(&self, variable: &GlobalVariable, place: BindingPlace) -> (Option<usize>, String) {
-        let line = self.find(place).map(|binding| binding.line);
+    /// Binds every variable that needs it in group 0; returns their handles. `owners` has the places that explain others.
+    fn bind_all(
+        &mut self,
+        module: &mut Module,
+        owners: &BTreeMap<BindingPlace, BindingPlace>,
+    ) -> Result<Vec<Handle<GlobalVariable>>, FilterError> {
+        let placed: Vec<(Handle<GlobalVariable>, BindingPlace)> = (module.global_variables.iter())
+            .filter_map(|(handle, variable)| Some((handle, find_place(variable)?)))
+            .collect();
+        for (index, (handle, place)) in placed.iter().enumerate() {
+            let explained_at = owners.get(place).copied().unwrap_or(*place);
+            let bound = self.bind(module, *handle, explained_at);
+            let variable = &mut module.global_variables[*handle];
+            bound.map_err(|reason| self.refuse(variable, explained_at, &reason))?;
+            variable.binding = Some(ResourceBinding {
+                group: 0,
+                binding: index as u32,
+            });
+            if variable.space == AddressSpace::Immediate {
+                variable.space = AddressSpace::Uniform;
+            }
+        }
+        Ok(placed.into_iter().map(|(handle, _)| handle).collect())
+    }
+
+    /// Makes an error of a variable. It names the line of filter.toml that explains the variable, or else the shader.
+    fn refuse(&self, variable: &GlobalVariable, place: BindingPlace, reason: &str) -> FilterError {
         let named = match &variable.name {
             Some(name) if !name.is_empty() => format!("\"{name}\" at {place}"),
             _ => place.to_string(),
         };
-        (line, named)
+        match self.find(place) {
+            None => refuse(self.path, format!("{named}: {reason}")),
+            Some(binding) => FilterError::Folder {
+                path: self.filter.lines.path.clone(),
+                line: Some(binding.line),
+                reason: format!("binding: {named} of {}: {reason}", self.path.display()),
+            },
+        }
     }
 
     /// Adds a variable. `place` is that of the binding which explains it.

@@ -6,6 +6,8 @@
 mod bind;
 mod combined;
 mod compiler;
+#[cfg(test)]
+mod deep;
 mod language;
 mod members;
 mod module;

@@ -6,6 +6,9 @@ const MAGIC: u32 = 0x0723_0203;
 /// Upper limit on ids. The largest shaders of engines have a hundredth of it.
 const MAX_IDS: u32 = 1 << 20;
 
+/// Upper limit on branches, on types and on composite constants of a module, each: naga recurses where they lie within one another.
+const MAX_NESTABLE: usize = 10_000;
+
 /// Opcodes that the passes over a module look at.
 pub(super) mod op {
     pub const NAME: u32 = 5;
@@ -16,9 +19,13 @@ pub(super) mod op {
     pub const TYPE_SAMPLED_IMAGE: u32 = 27;
     pub const TYPE_ARRAY: u32 = 28;
     pub const TYPE_RUNTIME_ARRAY: u32 = 29;
+    pub const TYPE_STRUCT: u32 = 30;
     pub const TYPE_POINTER: u32 = 32;
     pub const TYPE_FUNCTION: u32 = 33;
     pub const CONSTANT: u32 = 43;
+    pub const CONSTANT_COMPOSITE: u32 = 44;
+    pub const SPEC_CONSTANT_COMPOSITE: u32 = 51;
+    pub const SPEC_CONSTANT_OP: u32 = 52;
     pub const FUNCTION_PARAMETER: u32 = 55;
     pub const FUNCTION_CALL: u32 = 57;
     pub const VARIABLE: u32 = 59;
@@ -30,6 +37,9 @@ pub(super) mod op {
     pub const IMAGE_WRITE: u32 = 99;
     pub const IMAGE_QUERY_SIZE_LOD: u32 = 103;
     pub const IMAGE_QUERY_SIZE: u32 = 104;
+    pub const LOOP_MERGE: u32 = 246;
+    pub const SELECTION_MERGE: u32 = 247;
+    pub const SWITCH: u32 = 251;
 }
 
 /// Decorations that the passes look at.
@@ -117,12 +127,42 @@ impl Words {
             instructions.push(Instruction::new(opcode, &words[at + 1..end]));
             at = end;
         }
-        Ok(Self {
+        let read = Self {
             version: words[1],
             generator: words[2],
             bound: words[3],
             instructions,
-        })
+        };
+        read.check_nesting()?;
+        Ok(read)
+    }
+
+    /// Refuses a module that may be nested deeper than a stack.
+    fn check_nesting(&self) -> Result<(), String> {
+        for (what, opcodes) in [
+            (
+                "branches",
+                [op::LOOP_MERGE, op::SELECTION_MERGE, op::SWITCH],
+            ),
+            ("types", [op::TYPE_ARRAY, op::TYPE_STRUCT, op::TYPE_POINTER]),
+            (
+                "composite constants",
+                [
+                    op::CONSTANT_COMPOSITE,
+                    op::SPEC_CONSTANT_COMPOSITE,
+                    op::SPEC_CONSTANT_OP,
+                ],
+            ),
+        ] {
+            let opcodes = |instruction: &&Instruction| opcodes.contains(&instruction.opcode);
+            let found = self.instructions.iter().filter(opcodes).count();
+            if found > MAX_NESTABLE {
+                return Err(format!(
+                    "has {found} {what}; allowed: at most {MAX_NESTABLE}; divide the pass"
+                ));
+            }
+        }
+        Ok(())
     }
 
     /// Returns an id that nothing has.
