@@ -2,10 +2,11 @@
 # page, and `make fuzz` tries hostile input for ten minutes.
 #
 # All look for a Vulkan driver first and, on Debian and Ubuntu, install the software one where there is none. The tests need Python:
-# Optuna drives the tuning service, and numpy and OpenEXR compare presets with their originals. They need Chromium to open reports.
+# Optuna drives the tuning service, and numpy and OpenEXR compare presets with their originals. They need Chromium to open reports, and
+# glslang to compile shaders in GLSL.
 # On macOS and Windows plain cargo commands work.
 
-.PHONY: run test guides fuzz vulkan python chromium
+.PHONY: run test guides fuzz vulkan python chromium glslang
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -16,11 +17,11 @@ SCENES ?= sliding_panel,panel_over_texture,two_spheres,railing,fan
 run: vulkan
 	cargo run --release --locked --bin shuttertruth -- run $(if $(SCENES),--scenes $(SCENES)) --out out
 
-test: vulkan python chromium
+test: vulkan python chromium glslang
 	cargo test --workspace --locked
 
 # Prints each command with its time.
-guides: vulkan python
+guides: vulkan python glslang
 	cargo test --package cli --test command_line --locked -- --ignored --nocapture --test-threads 1 guides
 
 # How long to fuzz, what, and from which numbers on; `make fuzz MINUTES=1 TARGETS=scene,obj SEED=7`. See docs/fuzzing.md.
@@ -88,3 +89,11 @@ chromium:
 	found >/dev/null && exit 0; \
 	$(call INSTALL,Chromium,chromium,$(CHROMIUM_WAY_OUT)); \
 	found >/dev/null || { echo "still no Chromium after the installation; $(CHROMIUM_WAY_OUT)" >&2; exit 1; }
+
+GLSLANG_WAY_OUT := install it, for example: apt-get install glslang-tools (Debian, Ubuntu), dnf install glslang (Fedora), pacman -S glslang (Arch)
+
+glslang:
+	@[ "$$(uname -s)" = Linux ] || exit 0; \
+	command -v glslangValidator >/dev/null && exit 0; \
+	$(call INSTALL,compiler of GLSL,glslang-tools,$(GLSLANG_WAY_OUT)); \
+	command -v glslangValidator >/dev/null || { echo "still no glslangValidator after the installation; $(GLSLANG_WAY_OUT)" >&2; exit 1; }

@@ -8,6 +8,7 @@ mod check;
 mod command_filter;
 mod compare;
 mod comparison;
+mod compilers;
 mod earlier_run;
 mod failures;
 mod fidelity;

@@ -3,6 +3,7 @@
 mod calibration;
 mod camera_gather;
 mod engine_filters;
+mod engine_shaders;
 mod fields;
 mod folders;
 mod invariants;

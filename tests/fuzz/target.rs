@@ -31,6 +31,8 @@ pub enum Shape {
     Bytes,
     /// PNG (chunks), OpenEXR (channels and attributes) or other pictures (bytes). Checksums are made valid again.
     Picture,
+    /// SPIR-V (instructions), or bytes.
+    Spirv,
     /// A command line, one word per line.
     Words,
 }

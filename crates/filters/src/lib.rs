@@ -1,5 +1,5 @@
-//! Motion blur filters: a filter is a folder with `filter.toml` and one WGSL file, or with the command of a program that blurs
-//! files.
+//! Motion blur filters: a filter is a folder with `filter.toml` and one WGSL file, with shaders of an engine, or with the command
+//! of a program that blurs files.
 //!
 //! `shaders/README.md` says how to write one. The conventions of images, velocity, depth and time are those of the
 //! [`frame`] crate.
@@ -8,6 +8,7 @@
 //! |---|---|
 //! | `filter` | a filter as data: parameters, presets, passes, and the settings that it runs with |
 //! | `shader` | declarations and costs of WGSL kernels, found without an adapter |
+//! | `translate` | shaders in other languages, translated and bound as `filter.toml` says |
 //! | `manifest` | the parser of `filter.toml` |
 //! | `load` | loading: manifest and kernels of a folder, checked against each other |
 //! | `gpu` | running kernels on an adapter |
@@ -22,12 +23,15 @@ mod load;
 mod manifest;
 mod printable;
 mod shader;
+mod translate;
 
 pub use command::{BESIDE_PIXELS, BYTES_PER_PIXEL, CommandBlur};
 pub use error::FilterError;
 pub use filter::{
-    Code, Command, Filter, Growth, Holds, Kind, Length, Parameter, Pass, Preset, ReachBy, Repeat,
-    Scale, Settings, Source, Texture, TuningRecord, Unit, Value,
+    Binding, BindingPlace, Code, Command, Convention, DepthKind, Expression, Filter, Growth, Holds,
+    Kind, Length, Parameter, Pass, PassShader, Preset, ReachBy, Repeat, SamplerFilter, Sampling,
+    Scale, Settings, Source, Stage, Texture, TuningRecord, Unit, Value, VelocitySign, VelocityTime,
+    VelocityUnit, VerticalDirection, Wrap,
 };
 pub use gpu::{
     AdapterDescription, Blur, BufferCopy, Clock, Gpu, Kernels, Limits, LoadedBlur, LoopLimit,

@@ -11,7 +11,7 @@ use tests::filter_folder::load_filter;
 const README: &str = include_str!("../../../shaders/README.md");
 
 /// Returns the first code block in this language in shaders/README.md.
-fn example(language: &str) -> &'static str {
+pub fn example(language: &str) -> &'static str {
     let start = README.split_once(&format!("```{language}\n")).unwrap().1;
     start.split_once("```").unwrap().0
 }

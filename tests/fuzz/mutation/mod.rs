@@ -8,6 +8,7 @@
 mod bytes;
 mod exr;
 mod png;
+mod spirv;
 mod text;
 mod words;
 
@@ -50,7 +51,10 @@ pub fn mutate(target: &Target, place: &Place, seeds: &[&[u8]], random: &mut Rand
             Shape::Picture if whole && input.starts_with(EXR) => {
                 exr::change(&mut input, place, random);
             }
-            Shape::Bytes | Shape::Picture => bytes::change(&mut input, &source, random),
+            Shape::Spirv if whole => spirv::change(&mut input, source.other, random),
+            Shape::Bytes | Shape::Picture | Shape::Spirv => {
+                bytes::change(&mut input, &source, random)
+            }
         }
         input.truncate(LONGEST);
     }

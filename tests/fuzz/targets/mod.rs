@@ -11,6 +11,7 @@ mod run_json;
 mod scene;
 mod serve;
 mod sky;
+mod spirv;
 mod tuning;
 
 pub use planted::PLANTED;
@@ -19,7 +20,7 @@ pub use serve::Service;
 use crate::target::Target;
 
 /// All targets.
-pub static ALL: [&Target; 25] = [
+pub static ALL: [&Target; 26] = [
     &scene::SCENE,
     &scene::OBJ,
     &scene::MTL,
@@ -34,6 +35,7 @@ pub static ALL: [&Target; 25] = [
     &filter::MANIFEST,
     &filter::WGSL,
     &kernels::TARGET,
+    &spirv::TARGET,
     &run_json::RUN,
     &run_json::BASELINE,
     &run_json::BENCH,

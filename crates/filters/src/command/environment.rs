@@ -37,7 +37,7 @@ const PASSED: [&str; 14] = [
 const LOCALE: &str = "LC_";
 
 /// Collects the variables of this process that a program gets: those above, and those that are `named`.
-pub(super) fn collect_environment(named: &[String]) -> Vec<(OsString, OsString)> {
+pub(crate) fn collect_environment(named: &[String]) -> Vec<(OsString, OsString)> {
     std::env::vars_os()
         .filter(|(name, _)| name.to_str().is_some_and(|name| is_passed(name, named)))
         .collect()

@@ -9,3 +9,4 @@ mod process;
 mod process_group;
 
 pub use blur::{BESIDE_PIXELS, BYTES_PER_PIXEL, CommandBlur};
+pub(crate) use environment::collect_environment;

@@ -3,12 +3,17 @@
 use frame::Alignment;
 
 use super::command::Command;
+use super::convention::Convention;
+use super::expression::FRAME_VALUES;
 use super::lines::Lines;
 use super::parameter::Parameter;
 use super::pass::{Pass, Texture};
 use super::preset::Preset;
 use super::reach::ReachBy;
 use crate::shader::{EntryPoint, Shader};
+
+/// Textures that every filter may read.
+pub(crate) const INPUTS: [&str; 3] = ["color", "velocity", "depth"];
 
 /// Seconds that one run of a program, or one dispatch of a pass, may take where filter.toml does not say.
 pub(crate) const DEFAULT_TIME_LIMIT: f64 = 60.0;
@@ -44,7 +49,10 @@ pub struct Filter {
     pub textures: Vec<Texture>,
     /// Passes, in the order in which they run.
     pub passes: Vec<Pass>,
-    pub(crate) shader: Shader,
+    /// Form in which its shaders expect the frame.
+    pub convention: Convention,
+    /// Kernels: those of its WGSL file, and one shader for each pass that names its own.
+    pub(crate) shaders: Vec<Shader>,
     /// Lines of filter.toml that declare it all.
     pub(crate) lines: Lines,
 }
@@ -52,7 +60,42 @@ pub struct Filter {
 impl Filter {
     /// Finds the kernel of a pass, which exists once the filter has been checked.
     pub(crate) fn entry_point(&self, pass: &Pass) -> &EntryPoint {
-        let entry = self.shader.entry_point(&pass.entry);
+        let entry = self.shader(pass).entry_point(pass.kernel());
         entry.expect("a checked filter has the entry points of its passes")
+    }
+
+    /// Finds the shader that a pass runs.
+    pub(crate) fn shader(&self, pass: &Pass) -> &Shader {
+        &self.shaders[pass.shader_index]
+    }
+
+    /// Returns true if a kernel reads how the camera moved.
+    pub(crate) fn reads_reprojection(&self) -> bool {
+        self.shaders.iter().any(|shader| shader.reads_reprojection)
+    }
+
+    /// Returns true for a name that a member of a uniform block can get its value from.
+    pub(crate) fn knows_value(&self, name: &str) -> bool {
+        let is_frame_value = FRAME_VALUES.iter().any(|(known, _)| *known == name);
+        let has_rate = self.convention.frames_per_second.is_some();
+        (self.parameters.iter()).any(|parameter| parameter.name == name)
+            || is_frame_value && (name != "frames_per_second" || has_rate)
+    }
+
+    /// Returns true for a texture that shaders can name.
+    pub(crate) fn has_texture(&self, name: &str) -> bool {
+        let builtin = INPUTS.contains(&name) || name == "output";
+        builtin || (self.textures.iter()).any(|texture| texture.name == name)
+    }
+
+    /// Lists the textures that shaders can name.
+    pub(crate) fn list_textures(&self) -> String {
+        let declared = self.textures.iter().map(|texture| &texture.name[..]);
+        let names: Vec<&str> = INPUTS
+            .into_iter()
+            .chain(["output"])
+            .chain(declared)
+            .collect();
+        names.join(", ")
     }
 }

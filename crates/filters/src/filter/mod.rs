@@ -1,21 +1,30 @@
 //! A filter as data, and the settings that it runs with.
 
 mod command;
+mod convention;
 mod definition;
+mod expression;
 mod lines;
 mod parameter;
 mod pass;
+mod pass_shader;
 mod placeholders;
 mod preset;
 mod reach;
 mod settings;
 
 pub use command::Command;
-pub(crate) use definition::DEFAULT_TIME_LIMIT;
+pub use convention::{
+    Convention, DepthKind, VelocitySign, VelocityTime, VelocityUnit, VerticalDirection,
+};
 pub use definition::Filter;
+pub(crate) use definition::{DEFAULT_TIME_LIMIT, INPUTS};
+pub use expression::Expression;
+pub(crate) use expression::FRAME_VALUES;
 pub(crate) use lines::Lines;
 pub use parameter::{Kind, Parameter, Scale, Unit, Value};
 pub use pass::{Holds, Pass, Repeat, Texture};
+pub use pass_shader::{Binding, BindingPlace, PassShader, SamplerFilter, Sampling, Stage, Wrap};
 pub(crate) use placeholders::{PLACEHOLDERS, fill_placeholders};
 pub use preset::{Code, Preset, Source, TuningRecord};
 pub use reach::{Growth, Length, ReachBy};

@@ -1,5 +1,6 @@
 //! Passes of a filter, and the textures between them.
 
+use super::pass_shader::PassShader;
 use super::reach::Length;
 use crate::Format;
 
@@ -10,8 +11,8 @@ pub struct Texture {
     pub name: String,
     /// Numbers per texel.
     pub format: Format,
-    /// Divisor of the image's size, rounded up; `None` for the image's own size.
-    pub divided_by: Option<Length>,
+    /// Divisors of the image's width and height, rounded up; `None` for the image's own size.
+    pub divided_by: Option<[Length; 2]>,
     /// Meaning of its numbers, where a person may want to see them.
     pub holds: Option<Holds>,
 }
@@ -27,14 +28,28 @@ pub enum Holds {
 /// One kernel, run over a whole texture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pass {
-    /// Entry point of the kernel; the pass's name in messages.
+    /// Name in messages: the entry point of the kernel, or the file of a shader whose entry point is `main`.
     pub entry: String,
+    /// The shader, if the pass names one of its own.
+    pub shader: Option<PassShader>,
+    /// Index of the shader among those of the filter.
+    pub(crate) shader_index: usize,
     /// Texture whose texels it runs over; `None` for the image's pixels.
     pub over: Option<String>,
     /// True if a whole workgroup runs for each of those texels, instead of one invocation.
     pub workgroup_per_texel: bool,
     /// Number of runs.
     pub repeat: Repeat,
+}
+
+impl Pass {
+    /// Names the entry point.
+    pub(crate) fn kernel(&self) -> &str {
+        match &self.shader {
+            Some(shader) => &shader.entry,
+            None => &self.entry,
+        }
+    }
 }
 
 /// Number of times that a pass runs.

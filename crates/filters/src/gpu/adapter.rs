@@ -10,6 +10,10 @@ use crate::FilterError;
 const TIMESTAMPS: wgpu::Features =
     wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
 
+/// Features that shaders of engines may need: samplers that interpolate 32-bit floats, and storage textures in more formats.
+const SHADERS_OF_ENGINES: wgpu::Features = wgpu::Features::FLOAT32_FILTERABLE
+    .union(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
+
 /// Lists every adapter of this machine; index or name choose one in [`Gpu::new`].
 pub fn list_adapters() -> Vec<AdapterDescription> {
     find_adapters().iter().map(describe).collect()
@@ -37,7 +41,7 @@ impl Gpu {
         })?;
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("shuttertruth"),
-            required_features: chosen.features() & TIMESTAMPS,
+            required_features: chosen.features() & (TIMESTAMPS | SHADERS_OF_ENGINES),
             required_limits: chosen.limits(),
             ..Default::default()
         };

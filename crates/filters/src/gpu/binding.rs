@@ -1,6 +1,10 @@
 //! Pipelines of kernels, and bindings of their variables.
 
+use std::collections::BTreeMap;
+
 use super::device::Gpu;
+use super::kernels::Pipeline;
+use crate::filter::{SamplerFilter, Wrap};
 use crate::shader::{EntryPoint, Role, Shader, Variable};
 
 /// Creates the layout of group 0 as the kernel uses it, with the buffer of loop iterations if there is one.
@@ -10,9 +14,13 @@ pub(super) fn create_layout(
     entry: &EntryPoint,
     counted_at: Option<u32>,
 ) -> wgpu::BindGroupLayout {
+    let visibility = match entry.is_fragment() {
+        true => wgpu::ShaderStages::FRAGMENT,
+        false => wgpu::ShaderStages::COMPUTE,
+    };
     let counted = counted_at.map(|binding| wgpu::BindGroupLayoutEntry {
         binding,
-        visibility: wgpu::ShaderStages::COMPUTE,
+        visibility,
         ty: wgpu::BindingType::Buffer {
             ty: wgpu::BufferBindingType::Storage { read_only: false },
             has_dynamic_offset: false,
@@ -23,18 +31,18 @@ pub(super) fn create_layout(
     let entries: Vec<wgpu::BindGroupLayoutEntry> = entry
         .variables
         .iter()
-        .map(|variable| &shader.variables[*variable])
-        .map(|variable| wgpu::BindGroupLayoutEntry {
+        .map(|index| (*index, &shader.variables[*index]))
+        .map(|(index, variable)| wgpu::BindGroupLayoutEntry {
             binding: variable.binding,
-            visibility: wgpu::ShaderStages::COMPUTE,
+            visibility,
             ty: match variable.role {
-                Role::Uniform => wgpu::BindingType::Buffer {
+                Role::Uniform | Role::Block(_) => wgpu::BindingType::Buffer {
                     ty: wgpu::BufferBindingType::Uniform,
                     has_dynamic_offset: false,
                     min_binding_size: None,
                 },
                 Role::Read(texel) => wgpu::BindingType::Texture {
-                    sample_type: texel.wgpu(),
+                    sample_type: texel.wgpu(entry.interpolated.contains(&index)),
                     view_dimension: wgpu::TextureViewDimension::D2,
                     multisampled: false,
                 },
@@ -43,6 +51,10 @@ pub(super) fn create_layout(
                     format: format.wgpu(),
                     view_dimension: wgpu::TextureViewDimension::D2,
                 },
+                Role::Sampler(sampling) => wgpu::BindingType::Sampler(match sampling.filter {
+                    SamplerFilter::Nearest => wgpu::SamplerBindingType::NonFiltering,
+                    SamplerFilter::Linear => wgpu::SamplerBindingType::Filtering,
+                }),
             },
             count: None,
         })
@@ -61,7 +73,8 @@ pub(super) fn create_pipeline(
     layout: &wgpu::BindGroupLayout,
     module: &wgpu::ShaderModule,
     entry: &EntryPoint,
-) -> wgpu::ComputePipeline {
+    targets: &[wgpu::TextureFormat],
+) -> Pipeline {
     let layout = gpu
         .device
         .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -69,7 +82,11 @@ pub(super) fn create_pipeline(
             bind_group_layouts: &[Some(layout)],
             immediate_size: 0,
         });
-    gpu.device
+    if entry.is_fragment() {
+        return Pipeline::Render(create_render_pipeline(gpu, &layout, module, entry, targets));
+    }
+    let pipeline = gpu
+        .device
         .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(&entry.name),
             layout: Some(&layout),
@@ -77,7 +94,109 @@ pub(super) fn create_pipeline(
             entry_point: Some(&entry.name),
             compilation_options: Default::default(),
             cache: None,
+        });
+    Pipeline::Compute(pipeline)
+}
+
+/// Vertices of a triangle over the whole picture, with texture coordinates from the top left at the location that the fragment
+/// shader reads them from.
+fn write_triangle(location: Option<u32>) -> String {
+    let coordinates = match location {
+        Some(location) => format!("@location({location}) place: vec2<f32>,"),
+        None => String::new(),
+    };
+    let values = match location {
+        Some(_) => ", place",
+        None => "",
+    };
+    format!(
+        "struct Corner {{ @builtin(position) position: vec4<f32>, {coordinates} }}
+@vertex
+fn triangle(@builtin(vertex_index) index: u32) -> Corner {{
+    let place = vec2<f32>(f32((index << 1u) & 2u), f32(index & 2u));
+    return Corner(vec4<f32>(2.0 * place.x - 1.0, 1.0 - 2.0 * place.y, 0.0, 1.0){values});
+}}
+"
+    )
+}
+
+fn create_render_pipeline(
+    gpu: &Gpu,
+    layout: &wgpu::PipelineLayout,
+    module: &wgpu::ShaderModule,
+    entry: &EntryPoint,
+    targets: &[wgpu::TextureFormat],
+) -> wgpu::RenderPipeline {
+    let triangle = gpu
+        .device
+        .create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("triangle"),
+            source: wgpu::ShaderSource::Wgsl(write_triangle(entry.inputs.first().copied()).into()),
+        });
+    let targets: Vec<_> = (targets.iter())
+        .map(|format| {
+            Some(wgpu::ColorTargetState {
+                format: *format,
+                blend: None,
+                write_mask: wgpu::ColorWrites::ALL,
+            })
         })
+        .collect();
+    gpu.device
+        .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(&entry.name),
+            layout: Some(layout),
+            vertex: wgpu::VertexState {
+                module: &triangle,
+                entry_point: Some("triangle"),
+                compilation_options: Default::default(),
+                buffers: &[],
+            },
+            primitive: Default::default(),
+            depth_stencil: None,
+            multisample: Default::default(),
+            fragment: Some(wgpu::FragmentState {
+                module,
+                entry_point: Some(&entry.name),
+                compilation_options: Default::default(),
+                targets: &targets,
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+}
+
+/// Creates the samplers of the kernel, by the index of their variables.
+pub(super) fn create_samplers(
+    gpu: &Gpu,
+    shader: &Shader,
+    entry: &EntryPoint,
+) -> BTreeMap<usize, wgpu::Sampler> {
+    let mut samplers = BTreeMap::new();
+    for index in &entry.variables {
+        let Role::Sampler(sampling) = shader.variables[*index].role else {
+            continue;
+        };
+        let wrap = match sampling.wrap {
+            Wrap::Clamp => wgpu::AddressMode::ClampToEdge,
+            Wrap::Repeat => wgpu::AddressMode::Repeat,
+            Wrap::Mirror => wgpu::AddressMode::MirrorRepeat,
+        };
+        let filter = match sampling.filter {
+            SamplerFilter::Nearest => wgpu::FilterMode::Nearest,
+            SamplerFilter::Linear => wgpu::FilterMode::Linear,
+        };
+        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some(&entry.name),
+            address_mode_u: wrap,
+            address_mode_v: wrap,
+            mag_filter: filter,
+            min_filter: filter,
+            ..Default::default()
+        });
+        samplers.insert(*index, sampler);
+    }
+    samplers
 }
 
 /// Binds each variable of group 0 to its resource, and the buffer of loop iterations if there is one.
@@ -87,15 +206,15 @@ pub(super) fn create_bind_group<'r>(
     entry: &EntryPoint,
     layout: &wgpu::BindGroupLayout,
     counted: Option<wgpu::BindGroupEntry<'r>>,
-    resource: impl Fn(&Variable) -> wgpu::BindingResource<'r>,
+    resource: impl Fn(usize, &Variable) -> wgpu::BindingResource<'r>,
 ) -> wgpu::BindGroup {
     let entries: Vec<wgpu::BindGroupEntry> = entry
         .variables
         .iter()
-        .map(|variable| &shader.variables[*variable])
-        .map(|variable| wgpu::BindGroupEntry {
+        .map(|index| (*index, &shader.variables[*index]))
+        .map(|(index, variable)| wgpu::BindGroupEntry {
             binding: variable.binding,
-            resource: resource(variable),
+            resource: resource(index, variable),
         })
         .chain(counted)
         .collect();

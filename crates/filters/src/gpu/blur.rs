@@ -2,14 +2,14 @@
 
 use frame::{Image, Raster};
 
-use super::bound_passes::{BoundPasses, Dispatch, MARK};
+use super::bound_passes::{BoundPasses, Dispatch, mark_of};
 use super::device::Gpu;
 use super::kernels::Kernels;
 use super::place::Place;
-use super::transfer::{row_bytes, to_texels};
+use super::transfer::{row_bytes, to_texels, velocity_texels};
 use super::uniforms::FrameUniform;
 use super::uploaded_input::UploadedInput;
-use crate::{Filter, FilterError, Format, Input, Settings};
+use crate::{Convention, Filter, FilterError, Format, Input, Settings};
 
 /// A filter ready to run on images of one size.
 #[derive(Debug)]
@@ -18,6 +18,7 @@ pub struct Blur<'g> {
     filter: String,
     size: [u32; 2],
     reads_reprojection: bool,
+    convention: Convention,
     pub(super) passes: BoundPasses,
 }
 
@@ -49,7 +50,8 @@ impl<'g> Blur<'g> {
             gpu,
             filter: filter.name.clone(),
             size: [width, height],
-            reads_reprojection: filter.shader.reads_reprojection,
+            reads_reprojection: filter.reads_reprojection(),
+            convention: filter.convention,
             passes: BoundPasses::new(kernels, settings, [width, height])?,
         })
     }
@@ -156,7 +158,10 @@ impl<'g> Blur<'g> {
         let output = self.gpu.download(target, self.place("read back"))?;
         let broken = |texel: &[f32; 4]| texel[..3].iter().any(|value| !value.is_finite());
         match output.pixels.iter().position(broken) {
-            None => Ok(output.map(|[r, g, b, _]| [*r, *g, *b])),
+            None => {
+                let scale = self.color_scale();
+                Ok(output.map(|[r, g, b, _]| [*r / scale, *g / scale, *b / scale]))
+            }
             Some(index) => Err(self.refuse_pixel(index as u32, output.pixels[index])),
         }
     }
@@ -171,7 +176,11 @@ impl<'g> Blur<'g> {
             .filter(|dispatch| dispatch.writes_output);
         let writer = writers.next_back();
         let place = self.place(writer.map_or("output", |dispatch| &dispatch.entry));
-        if texel[..3].iter().any(|value| value.to_bits() == MARK) {
+        let mark = mark_of(self.passes.target("output").format);
+        if texel[..3]
+            .iter()
+            .any(|value| value.to_bits() == mark.to_bits())
+        {
             return place.refuse(format!(
                 "leaves pixel ({x}, {y}) of the output unwritten; every pixel of {width}x{height} must be written"
             ));
@@ -208,19 +217,26 @@ impl<'g> Blur<'g> {
 
     pub(super) fn upload(&self, input: &Input) -> Result<(), FilterError> {
         self.gpu.catch_errors(self.place("upload"), || {
-            let velocity = bytemuck::cast_slice(&input.velocity.pixels);
-            self.gpu.upload(self.passes.target("velocity"), velocity);
-            self.gpu
-                .upload(self.passes.target("depth"), &input.depth.pixels);
+            let velocity = velocity_texels(&self.convention, input);
+            self.gpu.upload(self.passes.target("velocity"), &velocity);
+            let depth = self.convention.convert_depth(&input.depth.pixels);
+            self.gpu.upload(self.passes.target("depth"), &depth);
             self.passes.upload_frame(self.gpu, FrameUniform::of(input));
         })
     }
 
     pub(super) fn upload_color(&self, color: &Image) -> Result<(), FilterError> {
         self.gpu.catch_errors(self.place("upload"), || {
-            self.gpu
-                .upload(self.passes.target("color"), &to_texels(color));
+            self.gpu.upload(
+                self.passes.target("color"),
+                &to_texels(color, self.color_scale()),
+            );
         })
+    }
+
+    /// Returns the factor on colours that the shaders expect.
+    fn color_scale(&self) -> f32 {
+        self.convention.color_scale.unwrap_or(1.0) as f32
     }
 
     /// Runs one dispatch and waits for it, so that an error names the pass that takes too long.

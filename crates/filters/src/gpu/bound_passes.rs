@@ -1,15 +1,20 @@
 //! Passes of one filter, settings and size, bound to their textures and ready to be dispatched.
 
+use std::collections::BTreeMap;
+
+use half::f16;
+
 use super::binding::create_bind_group;
 use super::dependence::{find_color_dependent, find_noise_dependent};
 use super::device::Gpu;
-use super::kernels::Kernels;
+use super::kernels::{Kernels, Pipeline};
 use super::loop_counts::LoopCounts;
 use super::place::Place;
 use super::targets::Targets;
 use super::transfer::Target;
 use super::uniforms::{FrameUniform, Uniforms};
-use crate::{FilterError, Format, Pass, Repeat, Settings};
+use crate::shader::{Role, UniformBlock};
+use crate::{Filter, FilterError, Format, Kind, Pass, Repeat, Settings, Value};
 
 /// Everything of a filter that lives on the GPU.
 #[derive(Debug)]
@@ -24,15 +29,21 @@ pub(super) struct BoundPasses {
     pub mark: Target,
     targets: Targets,
     uniforms: Uniforms,
+    /// Values of the parameters, and of the frame rate, by name.
+    values: BTreeMap<String, f64>,
 }
 
 /// One dispatch.
 #[derive(Debug)]
 pub(super) struct Dispatch {
     pub entry: String,
-    pub pipeline: wgpu::ComputePipeline,
+    pub pipeline: Pipeline,
     pub bind_group: wgpu::BindGroup,
     pub workgroups: [u32; 2],
+    /// Render targets, by location; none of a kernel.
+    pub attachments: Vec<wgpu::TextureView>,
+    /// Uniform blocks, with the buffers that hold them.
+    pub blocks: Vec<(UniformBlock, wgpu::Buffer)>,
     /// Bytes of the textures that it reads and of those that it writes, each counted once and whole.
     pub bytes: u64,
     /// True if its result changes with the colour image.
@@ -48,11 +59,39 @@ pub(super) struct Dispatch {
 impl Dispatch {
     /// Adds the dispatch to the commands of an encoder.
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, &self.bind_group, &[]);
-        let [x, y] = self.workgroups;
-        pass.dispatch_workgroups(x, y, 1);
+        match &self.pipeline {
+            Pipeline::Compute(pipeline) => {
+                let mut pass = encoder.begin_compute_pass(&Default::default());
+                pass.set_pipeline(pipeline);
+                pass.set_bind_group(0, &self.bind_group, &[]);
+                let [x, y] = self.workgroups;
+                pass.dispatch_workgroups(x, y, 1);
+            }
+            Pipeline::Render(pipeline) => {
+                let attachments: Vec<_> = (self.attachments.iter())
+                    .map(|view| {
+                        Some(wgpu::RenderPassColorAttachment {
+                            view,
+                            depth_slice: None,
+                            resolve_target: None,
+                            // A fragment that is discarded leaves what was there.
+                            ops: wgpu::Operations {
+                                load: wgpu::LoadOp::Load,
+                                store: wgpu::StoreOp::Store,
+                            },
+                        })
+                    })
+                    .collect();
+                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                    label: Some(&self.entry),
+                    color_attachments: &attachments,
+                    ..Default::default()
+                });
+                pass.set_pipeline(pipeline);
+                pass.set_bind_group(0, &self.bind_group, &[]);
+                pass.draw(0..3, 0..1);
+            }
+        }
     }
 }
 
@@ -67,7 +106,6 @@ impl BoundPasses {
             gpu,
             filter,
             passes,
-            counted_at,
         } = kernels;
         let place_of = |pass| Place {
             filter: &filter.name,
@@ -87,7 +125,8 @@ impl BoundPasses {
                 gpu.catch_errors(place_of("counts"), || LoopCounts::new(gpu, limit, count))
             })
             .transpose()?;
-        let mark = gpu.catch_errors(place_of("textures"), || create_mark(gpu, size))?;
+        let format = targets.current("output").format;
+        let mark = gpu.catch_errors(place_of("textures"), || create_mark(gpu, size, format))?;
         let dependence = find_color_dependent(filter)
             .into_iter()
             .zip(find_noise_dependent(filter));
@@ -95,10 +134,16 @@ impl BoundPasses {
         let bound = filter.passes.iter().zip(passes).zip(dependence);
         for ((pass, compiled), (depends_on_color, depends_on_noise)) in bound {
             let entry = filter.entry_point(pass);
-            let over = pass.over.as_deref().unwrap_or("output");
-            let over = targets.current(over).texture.size();
+            let drawn = pass
+                .shader
+                .as_ref()
+                .and_then(|shader| shader.targets.first());
+            let over = drawn.map(String::as_str).or(pass.over.as_deref());
+            let over = targets.current(over.unwrap_or("output")).texture.size();
+            let shader = filter.shader(pass);
             // Texels that one workgroup covers.
-            let [group_width, group_height] = match pass.workgroup_per_texel {
+            let [group_width, group_height] = match pass.workgroup_per_texel || entry.is_fragment()
+            {
                 true => [1, 1],
                 false => [entry.workgroup_size[0], entry.workgroup_size[1]],
             };
@@ -106,37 +151,47 @@ impl BoundPasses {
             let repeats = times(pass);
             for iteration in 0..repeats {
                 let frame = uniforms.bind_frame(dispatches.len());
-                let counted = (loop_counts.as_ref())
-                    .zip(*counted_at)
-                    .map(|(counts, binding)| {
-                        let resource = counts.bind_dispatch(dispatches.len());
-                        wgpu::BindGroupEntry { binding, resource }
-                    });
+                let counted =
+                    (loop_counts.as_ref())
+                        .zip(compiled.counted_at)
+                        .map(|(counts, binding)| {
+                            let resource = counts.bind_dispatch(dispatches.len());
+                            wgpu::BindGroupEntry { binding, resource }
+                        });
+                let blocks = gpu.catch_errors(place, || create_blocks(gpu, &shader.blocks))?;
                 let bind_group = gpu.catch_errors(place, || {
                     create_bind_group(
                         gpu,
-                        &filter.shader,
+                        shader,
                         entry,
                         &compiled.layout,
                         counted,
-                        |variable| match variable.name.as_str() {
-                            "frame" => frame.clone(),
-                            "parameters" => uniforms.parameters.as_entire_binding(),
-                            _ => wgpu::BindingResource::TextureView(
+                        |index, variable| match variable.role {
+                            Role::Uniform if variable.name == "frame" => frame.clone(),
+                            Role::Uniform => uniforms.parameters.as_entire_binding(),
+                            Role::Block(block) => blocks[block].1.as_entire_binding(),
+                            Role::Sampler(_) => {
+                                wgpu::BindingResource::Sampler(&compiled.samplers[&index])
+                            }
+                            Role::Read(_) | Role::Write(_) => wgpu::BindingResource::TextureView(
                                 &targets.of_variable(entry, variable).view,
                             ),
                         },
                     )
                 })?;
+                let drawn = pass.shader.iter().flat_map(|shader| &shader.targets);
+                let attachments = drawn.map(|name| targets.written(entry, name).view.clone());
                 dispatches.push(Dispatch {
                     entry: pass.entry.clone(),
                     pipeline: compiled.pipeline.clone(),
+                    attachments: attachments.collect(),
+                    blocks,
                     bind_group,
                     workgroups: [
                         over.width.div_ceil(group_width),
                         over.height.div_ceil(group_height),
                     ],
-                    bytes: targets.sum_bytes(&filter.shader, entry),
+                    bytes: targets.sum_bytes(shader, entry),
                     depends_on_color,
                     depends_on_noise,
                     writes_output: entry.writes.contains("output"),
@@ -153,6 +208,7 @@ impl BoundPasses {
             mark,
             targets,
             uniforms,
+            values: list_values(filter, settings),
         })
     }
 
@@ -181,17 +237,66 @@ impl BoundPasses {
                 ..frame
             };
             self.uniforms.upload_frame(gpu, index, frame);
+            for (block, buffer) in &dispatch.blocks {
+                let bytes = block.encode(&|name| match self.values.get(name) {
+                    Some(value) => *value,
+                    None => frame.value(name),
+                });
+                gpu.queue.write_buffer(buffer, 0, &bytes);
+            }
         }
     }
 }
 
-/// Bits of every component of a pixel that no pass has written: a NaN that no arithmetic makes.
-pub(super) const MARK: u32 = 0x7fd3_5a17;
+/// Lists the values that stay the same in all dispatches. A choice is its index.
+fn list_values(filter: &Filter, settings: &Settings) -> BTreeMap<String, f64> {
+    let mut values = BTreeMap::new();
+    for parameter in &filter.parameters {
+        let value = match (&settings.values[&parameter.name], &parameter.kind) {
+            (Value::Integer(value), _) => f64::from(*value),
+            (Value::Real(value), _) => *value,
+            (Value::Choice(name), Kind::Choice { choices }) => {
+                let index = choices.iter().position(|choice| choice == name);
+                index.expect("settings hold only allowed values") as f64
+            }
+            (Value::Choice(_), _) => unreachable!("settings hold only values of their kind"),
+        };
+        values.insert(parameter.name.clone(), value);
+    }
+    let rate = filter.convention.frames_per_second;
+    values.extend(rate.map(|rate| ("frames_per_second".to_owned(), rate)));
+    values
+}
+
+/// Creates a buffer for each uniform block.
+fn create_blocks(gpu: &Gpu, blocks: &[UniformBlock]) -> Vec<(UniformBlock, wgpu::Buffer)> {
+    let create = |block: &UniformBlock| {
+        gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("block"),
+            size: u64::from(block.bytes).next_multiple_of(16),
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        })
+    };
+    blocks
+        .iter()
+        .map(|block| (block.clone(), create(block)))
+        .collect()
+}
+
+/// Returns every component of a pixel that no pass has written: a NaN that no arithmetic makes.
+pub(super) fn mark_of(format: Format) -> f32 {
+    match format {
+        Format::Rgba16Float => f16::from_bits(0x7e5a).to_f32(),
+        _ => f32::from_bits(0x7fd3_5a17),
+    }
+}
 
 /// Creates a texture like the output that holds nothing but the mark.
-fn create_mark(gpu: &Gpu, [width, height]: [u32; 2]) -> Target {
-    let target = gpu.create_target("mark", width, height, Format::Rgba32Float);
+fn create_mark(gpu: &Gpu, [width, height]: [u32; 2], format: Format) -> Target {
+    let usage = wgpu::TextureUsages::empty();
+    let target = gpu.create_target("mark", width, height, format, usage);
     let components = width as usize * height as usize * 4;
-    gpu.upload(&target, &vec![f32::from_bits(MARK); components]);
+    gpu.upload(&target, &vec![mark_of(format); components]);
     target
 }

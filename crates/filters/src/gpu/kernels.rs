@@ -1,12 +1,16 @@
 //! Compiled kernels of a filter, for blurs of every size and with any settings.
 
-use super::binding::{create_layout, create_pipeline};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use super::binding::{create_layout, create_pipeline, create_samplers};
 use super::device::Gpu;
 use super::limits::Limits;
 use super::place::Place;
+use super::targets::list_target_formats;
 use super::uploaded_input::UploadedInput;
 use crate::printable::escape_controls;
-use crate::shader::{count_loop_iterations, run_on_large_stack};
+use crate::shader::{Code, Shader, count_loop_iterations, run_on_large_stack};
 use crate::{Filter, FilterError, Input};
 
 /// The compiled kernels of one filter, from which [`Blur::with_kernels`](super::Blur::with_kernels) makes blurs without compiling again.
@@ -16,15 +20,24 @@ pub struct Kernels<'g> {
     pub(super) filter: Filter,
     /// Kernels in the order of the filter's passes.
     pub(super) passes: Vec<Compiled>,
-    /// Binding of the buffer of loop iterations, if they are counted.
-    pub(super) counted_at: Option<u32>,
 }
 
 /// The kernel of one pass.
 #[derive(Debug)]
 pub(super) struct Compiled {
     pub layout: wgpu::BindGroupLayout,
-    pub pipeline: wgpu::ComputePipeline,
+    pub pipeline: Pipeline,
+    /// Samplers by the index of their variables.
+    pub samplers: BTreeMap<usize, wgpu::Sampler>,
+    /// Binding of the buffer of loop iterations, if they are counted.
+    pub counted_at: Option<u32>,
+}
+
+/// A compiled pass.
+#[derive(Clone, Debug)]
+pub(super) enum Pipeline {
+    Compute(wgpu::ComputePipeline),
+    Render(wgpu::RenderPipeline),
 }
 
 impl<'g> Kernels<'g> {
@@ -54,29 +67,47 @@ impl<'g> Kernels<'g> {
             FilterError::Gpu { reason, .. } => refuse(gpu, filter, pass, reason),
             error => error,
         };
-        let shader = &filter.shader;
-        let counted_at = gpu.loop_limit.map(|_| shader.find_free_binding());
-        let source = match (gpu.loop_limit, counted_at) {
-            (Some(limit), Some(binding)) => {
-                count_loop_iterations(&shader.source, binding, limit.safe())
-            }
-            _ => wgpu::ShaderSource::Wgsl(shader.source.as_str().into()),
+        let compile_shader = |shader: &Shader| {
+            let counted_at = gpu.loop_limit.map(|_| shader.find_free_binding());
+            let source = match (gpu.loop_limit, counted_at, &shader.code) {
+                (Some(limit), Some(binding), code) => {
+                    count_loop_iterations(code, binding, limit.safe())
+                }
+                (_, _, Code::Wgsl(text)) => wgpu::ShaderSource::Wgsl(text.as_str().into()),
+                (_, _, Code::Module(module)) => {
+                    wgpu::ShaderSource::Naga(Cow::Owned((**module).clone()))
+                }
+            };
+            let module = gpu.catch_errors(place("kernels"), || {
+                gpu.device
+                    .create_shader_module(wgpu::ShaderModuleDescriptor {
+                        label: Some(&filter.name),
+                        source,
+                    })
+            });
+            Ok((
+                module.map_err(|error| explain("kernels", error))?,
+                counted_at,
+            ))
         };
-        let module = gpu.catch_errors(place("kernels"), || {
-            gpu.device
-                .create_shader_module(wgpu::ShaderModuleDescriptor {
-                    label: Some(&filter.name),
-                    source,
-                })
-        });
-        let module = module.map_err(|error| explain("kernels", error))?;
+        let modules = (filter.shaders.iter())
+            .map(compile_shader)
+            .collect::<Result<Vec<_>, FilterError>>()?;
         let passes = (filter.passes.iter())
             .map(|pass| {
+                let shader = filter.shader(pass);
+                let (module, counted_at) = &modules[pass.shader_index];
                 let entry = filter.entry_point(pass);
+                let targets = list_target_formats(filter, pass);
                 let compiled = gpu.catch_errors(place(&pass.entry), || {
-                    let layout = create_layout(gpu, shader, entry, counted_at);
-                    let pipeline = create_pipeline(gpu, &layout, &module, entry);
-                    Compiled { layout, pipeline }
+                    let layout = create_layout(gpu, shader, entry, *counted_at);
+                    let pipeline = create_pipeline(gpu, &layout, module, entry, &targets);
+                    Compiled {
+                        layout,
+                        pipeline,
+                        samplers: create_samplers(gpu, shader, entry),
+                        counted_at: *counted_at,
+                    }
                 });
                 compiled.map_err(|error| explain(&pass.entry, error))
             })
@@ -85,7 +116,6 @@ impl<'g> Kernels<'g> {
             gpu,
             filter: filter.clone(),
             passes,
-            counted_at,
         })
     }
 
@@ -97,9 +127,11 @@ impl<'g> Kernels<'g> {
 
 /// Makes an error of what wgpu or the driver says of a pass or of all kernels; it names the file and the adapter.
 fn refuse(gpu: &Gpu, filter: &Filter, pass: &str, reason: String) -> FilterError {
-    let line = (filter.shader.entry_point(pass)).and_then(|entry| entry.line);
+    let known = filter.passes.iter().find(|known| known.entry == pass);
+    let line = known.and_then(|known| filter.entry_point(known).line);
     let line = line.map_or(String::new(), |line| format!(":{line}"));
-    let path = filter.shader.path.display();
+    let shader = known.map_or(&filter.shaders[0], |known| filter.shader(known));
+    let path = shader.path.display();
     let lines = reason
         .lines()
         .map(str::trim)

@@ -1,8 +1,8 @@
 //! Limits of a device, and the check of a filter against them.
 
 use super::device::Gpu;
-use crate::shader::{EntryPoint, Role};
-use crate::{Filter, FilterError};
+use crate::shader::{EntryPoint, Role, Shader};
+use crate::{Filter, FilterError, Pass};
 
 /// The limits of a device.
 #[derive(Clone, Debug)]
@@ -10,6 +10,8 @@ pub struct Limits {
     /// Owner of the limits, as a message names it.
     owner: String,
     limits: wgpu::Limits,
+    /// True if samplers interpolate 32-bit floats.
+    interpolates_floats: bool,
 }
 
 impl Limits {
@@ -18,6 +20,7 @@ impl Limits {
         Self {
             owner: "the lowest common limits, those that WebGPU promises everywhere".into(),
             limits: wgpu::Limits::default(),
+            interpolates_floats: false,
         }
     }
 
@@ -26,6 +29,8 @@ impl Limits {
         Self {
             owner: format!("adapter \"{}\"", gpu.adapter.name),
             limits: gpu.device.limits(),
+            interpolates_floats: (gpu.device.features())
+                .contains(wgpu::Features::FLOAT32_FILTERABLE),
         }
     }
 
@@ -33,9 +38,11 @@ impl Limits {
     pub fn check(&self, filter: &Filter) -> Result<(), FilterError> {
         for pass in &filter.passes {
             let entry = filter.entry_point(pass);
-            if let Some(reason) = self.find_broken(filter, entry) {
+            let shader = filter.shader(pass);
+            let broken = self.find_broken(shader, entry);
+            if let Some(reason) = broken.or_else(|| self.find_uninterpolated(filter, pass)) {
                 return Err(FilterError::Folder {
-                    path: filter.shader.path.clone(),
+                    path: shader.path.clone(),
                     line: entry.line,
                     reason: format!("pass \"{}\": {reason}", pass.entry),
                 });
@@ -44,9 +51,32 @@ impl Limits {
         Ok(())
     }
 
+    /// Describes the first texture of 32-bit floats that a pass interpolates where that cannot be.
+    fn find_uninterpolated(&self, filter: &Filter, pass: &Pass) -> Option<String> {
+        if self.interpolates_floats {
+            return None;
+        }
+        let variables = &filter.shader(pass).variables;
+        let interpolated = filter.entry_point(pass).interpolated.iter();
+        let mut names = interpolated.map(|index| &variables[*index].resource);
+        let name = names.find(|name| {
+            let declared = filter
+                .textures
+                .iter()
+                .find(|texture| texture.name == **name);
+            let format = declared.map_or(filter.convention.input_format(name), |it| it.format);
+            format.component_bytes() == 4
+        })?;
+        Some(format!(
+            "a sampler interpolates the 32-bit floats of \"{name}\", not allowed by {}; give the texture a format of \
+             16-bit floats ([convention] has color_format, velocity_format and depth_format), or take sampler = \"nearest\"",
+            self.owner
+        ))
+    }
+
     /// Describes the first limit that a kernel breaks.
-    fn find_broken(&self, filter: &Filter, entry: &EntryPoint) -> Option<String> {
-        let Self { owner, limits } = self;
+    fn find_broken(&self, shader: &Shader, entry: &EntryPoint) -> Option<String> {
+        let Self { owner, limits, .. } = self;
         let [x, y, z] = entry.workgroup_size;
         let invocations = u64::from(x) * u64::from(y) * u64::from(z);
         let largest = [
@@ -56,7 +86,7 @@ impl Limits {
         ];
         let variables = || {
             let indices = entry.variables.iter();
-            indices.map(|index| &filter.shader.variables[*index])
+            indices.map(|index| &shader.variables[*index])
         };
         let count = |is: fn(Role) -> bool| variables().filter(|it| is(it.role)).count() as u64;
         let highest = variables()

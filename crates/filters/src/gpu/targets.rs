@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use super::device::Gpu;
 use super::place::Place;
 use super::transfer::Target;
-use crate::shader::{EntryPoint, Role, Shader, Variable, written_texture};
-use crate::{Filter, FilterError, Format, Settings};
+use crate::filter::INPUTS;
+use crate::shader::{EntryPoint, Role, Shader, Variable};
+use crate::{Filter, FilterError, Format, Pass, Settings};
 
 /// Textures by name. One that a pass both reads and writes has two copies; the first is the one to read.
 #[derive(Debug)]
@@ -21,12 +22,13 @@ struct TargetDescription<'f> {
     size: [u32; 2],
     format: Format,
     copies: usize,
+    usage: wgpu::TextureUsages,
 }
 
 impl TargetDescription<'_> {
     fn bytes(&self) -> u64 {
         let [width, height] = self.size.map(u64::from);
-        width * height * 4 * self.format.components() as u64 * self.copies as u64
+        width * height * self.format.texel_bytes() * self.copies as u64
     }
 }
 
@@ -36,33 +38,77 @@ fn describe_targets<'f>(
     settings: &Settings,
     size: [u32; 2],
 ) -> Vec<TargetDescription<'f>> {
-    let builtin = [
-        ("color", Format::Rgba32Float),
-        ("velocity", Format::Rg32Float),
-        ("depth", Format::R32Float),
-        ("output", Format::Rgba32Float),
-    ];
+    let inputs = INPUTS.map(|name| (name, filter.convention.input_format(name)));
+    let builtin = inputs
+        .into_iter()
+        .chain([("output", output_format(filter))]);
     let builtin = builtin.map(|(name, format)| TargetDescription {
         name,
         size,
         format,
         copies: 1,
+        usage: find_usage(filter, name),
     });
     let declared = filter.textures.iter().map(|texture| {
-        let divided_by = texture.divided_by.as_ref();
-        let divisor = divided_by.map_or(1, |length| settings.pixels(length));
+        let divisors = texture.divided_by.as_ref();
+        let divisors = divisors.map_or([1, 1], |each| each.clone().map(|it| settings.pixels(&it)));
+        let [width, height] = size;
         let exchanged = filter.passes.iter().any(|pass| {
             let mut names = filter.entry_point(pass).exchanged_textures();
             names.any(|name| *name == texture.name)
         });
         TargetDescription {
             name: &texture.name,
-            size: size.map(|side| side.div_ceil(divisor)),
+            size: [width.div_ceil(divisors[0]), height.div_ceil(divisors[1])],
             format: texture.format,
             copies: if exchanged { 2 } else { 1 },
+            usage: find_usage(filter, &texture.name),
         }
     });
-    builtin.into_iter().chain(declared).collect()
+    builtin.chain(declared).collect()
+}
+
+/// Finds the format of the output: that in which a shader stores it, or that of the convention for render targets.
+fn output_format(filter: &Filter) -> Format {
+    let variables = filter.shaders.iter().flat_map(|shader| &shader.variables);
+    let stored = variables.filter(|variable| variable.resource == "output");
+    let mut stored = stored.filter_map(|variable| match variable.role {
+        Role::Write(format) => Some(format),
+        _ => None,
+    });
+    let by_convention = filter.convention.output_format;
+    stored
+        .next()
+        .or(by_convention)
+        .unwrap_or(Format::Rgba32Float)
+}
+
+/// Lists the formats of the render targets of a pass, by location.
+pub(super) fn list_target_formats(filter: &Filter, pass: &Pass) -> Vec<wgpu::TextureFormat> {
+    let format = |name: &String| {
+        let declared = filter.textures.iter().find(|texture| texture.name == *name);
+        declared
+            .map_or(output_format(filter), |texture| texture.format)
+            .wgpu()
+    };
+    let targets = pass.shader.iter().flat_map(|shader| &shader.targets);
+    targets.map(format).collect()
+}
+
+/// Finds how the passes write a texture.
+fn find_usage(filter: &Filter, name: &str) -> wgpu::TextureUsages {
+    let mut usage = wgpu::TextureUsages::empty();
+    for pass in &filter.passes {
+        let entry = filter.entry_point(pass);
+        let is_target =
+            (pass.shader.iter()).any(|shader| shader.targets.iter().any(|it| it == name));
+        if is_target {
+            usage |= wgpu::TextureUsages::RENDER_ATTACHMENT;
+        } else if entry.writes.contains(name) {
+            usage |= wgpu::TextureUsages::STORAGE_BINDING;
+        }
+    }
+    usage
 }
 
 impl Targets {
@@ -93,8 +139,9 @@ impl Targets {
         gpu.catch_errors(place, || {
             let made = descriptions.iter().map(|planned| {
                 let [width, height] = planned.size;
-                let copies = (0..planned.copies)
-                    .map(|_| gpu.create_target(planned.name, width, height, planned.format));
+                let copies = (0..planned.copies).map(|_| {
+                    gpu.create_target(planned.name, width, height, planned.format, planned.usage)
+                });
                 (planned.name.to_owned(), copies.collect())
             });
             Self(made.collect())
@@ -112,14 +159,16 @@ impl Targets {
     /// Returns the texture that the kernel reads or writes through a variable.
     pub fn of_variable(&self, entry: &EntryPoint, variable: &Variable) -> &Target {
         match variable.role {
-            Role::Write(_) => {
-                let name = written_texture(&variable.name);
-                match entry.reads.contains(name) {
-                    true => &self.0[name][1],
-                    false => self.current(name),
-                }
-            }
-            Role::Read(_) | Role::Uniform => self.current(&variable.name),
+            Role::Write(_) => self.written(entry, &variable.resource),
+            _ => self.current(&variable.resource),
+        }
+    }
+
+    /// Returns the texture that the kernel writes by that name.
+    pub fn written(&self, entry: &EntryPoint, name: &str) -> &Target {
+        match entry.reads.contains(name) {
+            true => &self.0[name][1],
+            false => self.current(name),
         }
     }
 
@@ -130,7 +179,7 @@ impl Targets {
             .iter()
             .map(|index| &shader.variables[*index]);
         variables
-            .filter(|variable| variable.role != Role::Uniform)
+            .filter(|variable| matches!(variable.role, Role::Read(_) | Role::Write(_)))
             .map(|variable| self.of_variable(entry, variable).bytes())
             .sum()
     }

@@ -1,30 +1,78 @@
 //! Textures on the GPU, and transfers to and from them.
 
 use frame::{Image, Raster};
+use half::f16;
 
 use super::device::Gpu;
 use super::place::Place;
 use crate::filter::DEFAULT_TIME_LIMIT;
 use crate::shader::Texel;
-use crate::{FilterError, Format};
+use crate::{Convention, FilterError, Format, Input};
 
 impl Format {
     /// Converts the format to that of wgpu.
-    pub(super) fn wgpu(self) -> wgpu::TextureFormat {
+    pub(in crate::gpu) fn wgpu(self) -> wgpu::TextureFormat {
         match self {
             Format::R32Uint => wgpu::TextureFormat::R32Uint,
             Format::R32Float => wgpu::TextureFormat::R32Float,
             Format::Rg32Float => wgpu::TextureFormat::Rg32Float,
             Format::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
+            Format::R16Float => wgpu::TextureFormat::R16Float,
+            Format::Rg16Float => wgpu::TextureFormat::Rg16Float,
+            Format::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
+            Format::R8Unorm => wgpu::TextureFormat::R8Unorm,
+            Format::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,
         }
     }
 }
 
+impl Format {
+    /// Returns the bytes of a texel.
+    pub(super) fn texel_bytes(self) -> u64 {
+        (self.components() * self.component_bytes()) as u64
+    }
+
+    /// Encodes numbers; those of `r32uint` are given as the floats of their bits.
+    fn encode(self, values: &[f32]) -> Vec<u8> {
+        match self {
+            Format::R32Uint | Format::R32Float | Format::Rg32Float | Format::Rgba32Float => {
+                bytemuck::cast_slice(values).to_vec()
+            }
+            Format::R16Float | Format::Rg16Float | Format::Rgba16Float => (values.iter())
+                .flat_map(|value| {
+                    f16::from_f32(value.clamp(-LARGEST_F16, LARGEST_F16)).to_le_bytes()
+                })
+                .collect(),
+            Format::R8Unorm | Format::Rgba8Unorm => (values.iter())
+                .map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
+                .collect(),
+        }
+    }
+
+    /// Decodes the numbers of a row.
+    fn decode(self, bytes: &[u8]) -> Vec<f32> {
+        match self {
+            Format::R32Uint | Format::R32Float | Format::Rg32Float | Format::Rgba32Float => {
+                bytemuck::pod_collect_to_vec(bytes)
+            }
+            Format::R16Float | Format::Rg16Float | Format::Rgba16Float => (bytes.chunks_exact(2))
+                .map(|pair| f16::from_le_bytes([pair[0], pair[1]]).to_f32())
+                .collect(),
+            Format::R8Unorm | Format::Rgba8Unorm => {
+                bytes.iter().map(|byte| f32::from(*byte) / 255.0).collect()
+            }
+        }
+    }
+}
+
+/// The largest number of 16 bits: larger ones, such as the depth of the background, become this and not infinite.
+const LARGEST_F16: f32 = 65504.0;
+
 impl Texel {
     /// Converts the type to that of wgpu.
-    pub(super) fn wgpu(self) -> wgpu::TextureSampleType {
+    pub(super) fn wgpu(self, filterable: bool) -> wgpu::TextureSampleType {
         match self {
-            Texel::Float => wgpu::TextureSampleType::Float { filterable: false },
+            Texel::Float => wgpu::TextureSampleType::Float { filterable },
             Texel::Uint => wgpu::TextureSampleType::Uint,
         }
     }
@@ -42,19 +90,32 @@ impl Target {
     /// Returns its size in bytes.
     pub fn bytes(&self) -> u64 {
         let texels = u64::from(self.texture.width()) * u64::from(self.texture.height());
-        texels * 4 * self.format.components() as u64
+        texels * self.format.texel_bytes()
     }
 }
 
-/// Converts a colour image to texels with a fourth component of 1.
-pub(super) fn to_texels(color: &Image) -> Vec<f32> {
+/// Converts a colour image to texels with a fourth component of 1; multiplies colours by `scale`.
+pub(super) fn to_texels(color: &Image, scale: f32) -> Vec<f32> {
     let pixels = color.pixels.iter();
-    pixels.flat_map(|[r, g, b]| [*r, *g, *b, 1.0]).collect()
+    (pixels.flat_map(|[r, g, b]| [scale * r, scale * g, scale * b, 1.0])).collect()
+}
+
+/// Converts the velocity of an input as a shader expects it, with as many components as its format has.
+pub(super) fn velocity_texels(convention: &Convention, input: &Input) -> Vec<f32> {
+    let velocity = input.velocity;
+    let size = [velocity.width, velocity.height];
+    let pairs = convention.convert_velocity(&velocity.pixels, size, input.exposure);
+    match convention.input_format("velocity").components() {
+        4 => (pairs.chunks(2))
+            .flat_map(|pair| [pair[0], pair[1], 0.0, 1.0])
+            .collect(),
+        _ => pairs,
+    }
 }
 
 /// Returns the bytes per row of a buffer that a texture is copied to.
 pub(super) fn row_bytes(width: u32, format: Format) -> u64 {
-    let bytes = u64::from(width) * 4 * format.components() as u64;
+    let bytes = u64::from(width) * format.texel_bytes();
     bytes.next_multiple_of(u64::from(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT))
 }
 
@@ -66,6 +127,7 @@ impl Gpu {
         width: u32,
         height: u32,
         format: Format,
+        usage: wgpu::TextureUsages,
     ) -> Target {
         let texture = self.device.create_texture(&wgpu::TextureDescriptor {
             label: Some(label),
@@ -79,9 +141,9 @@ impl Gpu {
             dimension: wgpu::TextureDimension::D2,
             format: format.wgpu(),
             usage: wgpu::TextureUsages::TEXTURE_BINDING
-                | wgpu::TextureUsages::STORAGE_BINDING
                 | wgpu::TextureUsages::COPY_DST
-                | wgpu::TextureUsages::COPY_SRC,
+                | wgpu::TextureUsages::COPY_SRC
+                | usage,
             view_formats: &[],
         });
         Target {
@@ -93,10 +155,10 @@ impl Gpu {
 
     /// Fills a texture with rows of `target.format` without padding.
     pub(super) fn upload(&self, target: &Target, values: &[f32]) {
-        let row = target.texture.width() * 4 * target.format.components() as u32;
+        let row = target.texture.width() * target.format.texel_bytes() as u32;
         self.queue.write_texture(
             target.texture.as_image_copy(),
-            bytemuck::cast_slice(values),
+            &target.format.encode(values),
             wgpu::TexelCopyBufferLayout {
                 offset: 0,
                 bytes_per_row: Some(row),
@@ -148,12 +210,15 @@ impl Gpu {
             self.queue.submit([encoder.finish()]);
             buffer
         })?;
-        let values: Vec<f32> = self.read_buffer(&buffer, place)?;
+        let bytes: Vec<u8> = self.read_buffer(&buffer, place)?;
         let components = target.format.components();
-        let row = padded as usize / 4;
+        let row = (u64::from(width) * target.format.texel_bytes()) as usize;
+        let rows: Vec<Vec<f32>> = (bytes.chunks(padded as usize))
+            .map(|padded| target.format.decode(&padded[..row]))
+            .collect();
         Ok(Raster::from_fn(width, height, |x, y| {
-            let start = y as usize * row + x as usize * components;
-            let texel = &values[start..start + components];
+            let start = x as usize * components;
+            let texel = &rows[y as usize][start..start + components];
             std::array::from_fn(|component| texel.get(component).copied().unwrap_or(0.0))
         }))
     }

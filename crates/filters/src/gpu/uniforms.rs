@@ -33,6 +33,21 @@ impl FrameUniform {
     }
 }
 
+impl FrameUniform {
+    /// Returns a value that members of uniform blocks may name.
+    pub fn value(&self, name: &str) -> f64 {
+        match name {
+            "width" => f64::from(self.size[0]),
+            "height" => f64::from(self.size[1]),
+            "exposure" => f64::from(self.exposure),
+            "frame_index" => f64::from(self.frame_index),
+            "iteration" => f64::from(self.iteration),
+            "iterations" => f64::from(self.iterations),
+            _ => unreachable!("filter.toml was refused for the unknown value {name}"),
+        }
+    }
+}
+
 /// Lays a matrix out as a WGSL mat4x3: columns, each filled up to four numbers.
 fn to_columns(reprojection: Reprojection) -> [[f32; 4]; 4] {
     let [x, y, common] = reprojection.rows;

@@ -2,9 +2,9 @@
 
 use super::device::Gpu;
 use super::place::Place;
-use super::transfer::{Target, to_texels};
+use super::transfer::{Target, to_texels, velocity_texels};
 use super::uniforms::FrameUniform;
-use crate::{Filter, FilterError, Format, Input};
+use crate::{Filter, FilterError, Input};
 
 /// A checked and uploaded input of one filter.
 #[derive(Debug)]
@@ -20,13 +20,17 @@ pub struct UploadedInput {
 impl UploadedInput {
     pub(super) fn new(gpu: &Gpu, filter: &Filter, input: &Input) -> Result<Self, FilterError> {
         let size = [input.velocity.width, input.velocity.height];
-        input.check(&filter.name, size, filter.shader.reads_reprojection)?;
+        input.check(&filter.name, size, filter.reads_reprojection())?;
         let place = Place {
             filter: &filter.name,
             pass: "upload",
         };
-        let texture = |name, format, values: &[f32]| {
-            let target = gpu.create_target(name, size[0], size[1], format);
+        let convention = &filter.convention;
+        let scale = convention.color_scale.unwrap_or(1.0) as f32;
+        let texture = |name, values: &[f32]| {
+            let format = convention.input_format(name);
+            let usage = wgpu::TextureUsages::empty();
+            let target = gpu.create_target(name, size[0], size[1], format, usage);
             gpu.upload(&target, values);
             target
         };
@@ -35,14 +39,10 @@ impl UploadedInput {
             size,
             frame: FrameUniform::of(input),
             color: (input.color.iter())
-                .map(|color| texture("color", Format::Rgba32Float, &to_texels(color)))
+                .map(|color| texture("color", &to_texels(color, scale)))
                 .collect(),
-            velocity: texture(
-                "velocity",
-                Format::Rg32Float,
-                bytemuck::cast_slice(&input.velocity.pixels),
-            ),
-            depth: texture("depth", Format::R32Float, &input.depth.pixels),
+            velocity: texture("velocity", &velocity_texels(convention, input)),
+            depth: texture("depth", &convention.convert_depth(&input.depth.pixels)),
         })
     }
 }

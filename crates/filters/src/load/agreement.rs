@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use crate::filter::Lines;
-use crate::shader::{EntryPoint, Role, Texel, written_texture};
-use crate::{Filter, FilterError, Format, Pass};
+use crate::filter::PassShader;
+use crate::shader::{EntryPoint, Role, Shader, Texel, written_texture};
+use crate::{Filter, FilterError, Format, Pass, Stage};
 
 /// Refuses a filter whose declarations and kernels differ: parameters, textures, entry points, and the order in which
 /// passes read and write.
@@ -26,7 +27,10 @@ struct Check<'a> {
 impl Check<'_> {
     fn check_parameters(&self) -> Result<(), FilterError> {
         let parameters = &self.filter.parameters;
-        let uniforms = &self.filter.shader.uniforms;
+        let Some(kernels) = self.kernels() else {
+            return Ok(());
+        };
+        let uniforms = &kernels.uniforms;
         let members = uniforms.get("parameters").map_or(&[][..], Vec::as_slice);
         for index in 0..parameters.len().max(members.len()) {
             let reason = match (parameters.get(index), members.get(index)) {
@@ -78,13 +82,11 @@ impl Check<'_> {
     }
 
     fn check_variables(&self) -> Result<(), FilterError> {
-        for variable in &self.filter.shader.variables {
+        let kernels = self.kernels();
+        for variable in kernels.iter().flat_map(|kernels| &kernels.variables) {
             self.check_variable(&variable.name, variable.role)
                 .map_err(|reason| {
-                    self.refuse_kernel(
-                        Some(variable.line),
-                        format!("\"{}\" {reason}", variable.name),
-                    )
+                    self.refuse_kernel(variable.line, format!("\"{}\" {reason}", variable.name))
                 })?;
         }
         Ok(())
@@ -110,9 +112,9 @@ impl Check<'_> {
                 )),
                 None => Err(self.refuse_undeclared()),
             },
-            (Role::Write(Format::Rgba32Float), "output") => Ok(()),
+            (Role::Write(Format::Rgba32Float | Format::Rgba16Float), "output") => Ok(()),
             (Role::Write(_), "output") => {
-                Err("has another format than the image: rgba32float".into())
+                Err("has another format than the image: rgba32float or rgba16float".into())
             }
             (Role::Write(found), name) if name != written_texture(name) => {
                 match declared(written_texture(name)) {
@@ -151,6 +153,9 @@ impl Check<'_> {
                 self.refuse_manifest(*line, format!("pass \"{}\": {reason}", pass.entry))
             };
             let entry = self.find_entry_point(pass).map_err(refuse)?;
+            if let Some(shader) = &pass.shader {
+                check_targets(self.filter, shader, entry).map_err(refuse)?;
+            }
             if let Some(name) = entry.reads.iter().find(|name| !ready.contains(&name[..])) {
                 return Err(refuse(format!(
                     "reads \"{name}\" before any pass has written it"
@@ -178,8 +183,8 @@ impl Check<'_> {
     }
 
     fn find_entry_point(&self, pass: &Pass) -> Result<&EntryPoint, String> {
-        let shader = &self.filter.shader;
-        shader.entry_point(&pass.entry).ok_or_else(|| {
+        let shader = self.filter.shader(pass);
+        shader.entry_point(pass.kernel()).ok_or_else(|| {
             let names: Vec<&str> = shader.entry_points.iter().map(|e| &e.name[..]).collect();
             format!(
                 "{} has no such @compute entry point; it has: {}",
@@ -187,6 +192,12 @@ impl Check<'_> {
                 names.join(", ")
             )
         })
+    }
+
+    /// Returns the kernels of the filter's WGSL file, which are bound by name.
+    fn kernels(&self) -> Option<&Shader> {
+        let pass = self.filter.passes.iter().find(|pass| pass.shader.is_none());
+        pass.map(|pass| self.filter.shader(pass))
     }
 
     fn kernel_path(&self) -> PathBuf {
@@ -208,5 +219,39 @@ impl Check<'_> {
             line: Some(line),
             reason,
         }
+    }
+}
+
+/// Refuses a fragment shader whose colours are not the render targets that filter.toml names.
+fn check_targets(filter: &Filter, shader: &PassShader, entry: &EntryPoint) -> Result<(), String> {
+    if shader.stage == Stage::Compute {
+        return Ok(());
+    }
+    let targets = &shader.targets;
+    let wanted: Vec<u32> = (0..targets.len() as u32).collect();
+    if entry.locations != wanted {
+        return Err(format!(
+            "the fragment shader writes colours to locations {:?}; filter.toml has {} in `targets`; allowed: one target for \
+             each location, from 0",
+            entry.locations,
+            targets.join(", ")
+        ));
+    }
+    if entry.inputs.len() > 1 {
+        return Err(format!(
+            "the fragment shader reads locations {:?}; allowed: one, which gets texture coordinates from the top left",
+            entry.inputs
+        ));
+    }
+    let size = |name: &String| {
+        let texture = filter.textures.iter().find(|texture| texture.name == *name);
+        texture.and_then(|texture| texture.divided_by.clone())
+    };
+    match targets.iter().find(|name| size(name) != size(&targets[0])) {
+        Some(other) => Err(format!(
+            "targets \"{}\" and \"{other}\" have different sizes; allowed: targets of one size",
+            targets[0]
+        )),
+        None => Ok(()),
     }
 }

@@ -2,12 +2,13 @@
 
 mod agreement;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use frame::{FileError, read_bounded};
 use include_dir::{Dir, include_dir};
 
 use crate::shader::Shader;
+use crate::translate::{MAX_SHADER_BYTES, translate};
 use crate::{Filter, FilterError, manifest};
 use agreement::check_agreement;
 
@@ -23,8 +24,9 @@ impl Filter {
     /// Reads and checks a filter folder: `filter.toml` and, unless it is a command, the WGSL file that it names. Both are
     /// regular files of at most [`MAX_MANIFEST_BYTES`] and [`MAX_KERNEL_BYTES`].
     pub fn load(folder: &Path) -> Result<Self, FilterError> {
-        let manifest = read_text(&folder.join("filter.toml"), MAX_MANIFEST_BYTES)?;
-        parse_filter(folder, &manifest, |path| read_text(&path, MAX_KERNEL_BYTES))
+        let path = folder.join("filter.toml");
+        let manifest = as_text(&path, read_bytes(&path, MAX_MANIFEST_BYTES)?)?;
+        parse_filter(folder, &manifest, read_bytes)
     }
 
     /// Loads a filter that the program brings along.
@@ -42,7 +44,9 @@ impl Filter {
                 .to_owned()
         };
         let manifest = text(&folder.path().join("filter.toml"));
-        parse_filter(folder.path(), &manifest, |path| Ok(text(&path)))
+        parse_filter(folder.path(), &manifest, |path, _| {
+            Ok(text(path).into_bytes())
+        })
     }
 
     /// Lists the built-in filters in alphabetical order.
@@ -59,36 +63,57 @@ impl Filter {
 fn parse_filter(
     folder: &Path,
     manifest: &str,
-    read_kernels: impl Fn(PathBuf) -> Result<String, FilterError>,
+    read_file: impl Fn(&Path, u64) -> Result<Vec<u8>, FilterError>,
 ) -> Result<Filter, FilterError> {
     let mut filter = manifest::parse(&folder.join("filter.toml"), manifest)?;
     if filter.command.is_some() {
         return Ok(filter);
     }
     let path = folder.join(format!("{}.wgsl", filter.name));
-    filter.shader = Shader::parse(&path, &read_kernels(path.clone())?)?;
+    let mut shaders = Vec::new();
+    if filter.passes.iter().any(|pass| pass.shader.is_none()) {
+        let text = as_text(&path, read_file(&path, MAX_KERNEL_BYTES)?)?;
+        shaders.push(Shader::parse(&path, &text)?);
+    }
+    for index in 0..filter.passes.len() {
+        if let Some(shader) = &filter.passes[index].shader {
+            let path = folder.join(&shader.file);
+            let bytes = read_file(&path, MAX_SHADER_BYTES)?;
+            shaders.push(translate(&filter, shader, &path, &bytes)?);
+            filter.passes[index].shader_index = shaders.len() - 1;
+        }
+    }
+    filter.shaders = shaders;
     check_agreement(&filter)?;
     Ok(filter)
 }
 
-/// Reads a UTF-8 file of a filter folder.
-fn read_text(path: &Path, limit: u64) -> Result<String, FilterError> {
-    let refuse = |reason: String| FilterError::Folder {
+/// Reads a file of a filter folder.
+fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, FilterError> {
+    read_bounded(path, limit).map_err(|error| {
+        let holds = "a filter folder holds filter.toml, and <name>.wgsl or the shaders that its passes name";
+        let reason = match error {
+            FileError::Io { source, .. } => format!("cannot be read: {source}; {holds}"),
+            FileError::Broken { reason, .. } | FileError::Foreign { reason, .. } => reason,
+        };
+        refuse(path, reason)
+    })
+}
+
+fn as_text(path: &Path, bytes: Vec<u8>) -> Result<String, FilterError> {
+    String::from_utf8(bytes).map_err(|error| {
+        let place = error.utf8_error().valid_up_to();
+        refuse(
+            path,
+            format!("is not UTF-8 from byte {place} on; save it as UTF-8"),
+        )
+    })
+}
+
+fn refuse(path: &Path, reason: String) -> FilterError {
+    FilterError::Folder {
         path: path.to_owned(),
         line: None,
         reason,
-    };
-    let bytes = read_bounded(path, limit).map_err(|error| {
-        let holds = "a filter folder holds filter.toml and <name>.wgsl";
-        refuse(match error {
-            FileError::Io { source, .. } => format!("cannot be read: {source}; {holds}"),
-            FileError::Broken { reason, .. } | FileError::Foreign { reason, .. } => reason,
-        })
-    })?;
-    String::from_utf8(bytes).map_err(|error| {
-        let place = error.utf8_error().valid_up_to();
-        refuse(format!(
-            "is not UTF-8 from byte {place} on; save it as UTF-8"
-        ))
-    })
+    }
 }

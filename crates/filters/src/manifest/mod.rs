@@ -1,5 +1,6 @@
 //! `filter.toml`.
 
+mod bindings;
 mod command;
 mod file;
 mod parameters;

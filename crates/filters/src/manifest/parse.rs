@@ -15,8 +15,7 @@ use super::presets::{PresetEntry, read_presets};
 use super::reach_by::{ReachEntry, read_reach_by};
 use super::time_limit::read_time_limit;
 use crate::filter::Lines;
-use crate::shader::Shader;
-use crate::{Filter, FilterError};
+use crate::{Convention, Filter, FilterError};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -38,6 +37,7 @@ struct Manifest {
     command: Option<Spanned<Vec<String>>>,
     environment: Option<Spanned<Vec<String>>>,
     time_limit: Option<Spanned<f64>>,
+    convention: Option<Spanned<Convention>>,
     #[serde(default)]
     texture: Vec<Spanned<TextureEntry>>,
     #[serde(default)]
@@ -77,10 +77,12 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
         .transpose()?;
     let command = add_environment(&file, manifest.environment.as_ref(), command)?;
     let textures = read_textures(&file, &manifest.texture, &parameters)?;
+    let convention = read_convention(&file, &manifest)?;
     Ok(Filter {
         name: name.clone(),
         presets: read_presets(&file, &manifest.preset, &parameters)?,
-        passes: read_passes(&file, &manifest.pass, &textures, &parameters)?,
+        passes: read_passes(&file, &manifest.pass, &textures, &parameters, &convention)?,
+        convention,
         command,
         time_limit: read_time_limit(&file, manifest.time_limit.as_ref())?,
         reach_by: read_reach_by(&file, manifest.reach_by.as_ref(), &parameters)?,
@@ -92,7 +94,7 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
         cannot: check_sentence("cannot", manifest.cannot.as_ref())?,
         alignment: manifest.alignment,
         mirror_symmetric: manifest.mirror_symmetric,
-        shader: Shader::default(),
+        shaders: Vec::new(),
         lines: Lines {
             path: path.to_owned(),
             parameters: file.lines(&manifest.parameter),
@@ -101,6 +103,23 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
             passes: file.lines(&manifest.pass),
         },
     })
+}
+
+/// Reads the form in which shaders expect the frame.
+fn read_convention(file: &File, manifest: &Manifest) -> Result<Convention, FilterError> {
+    let Some(convention) = &manifest.convention else {
+        return Ok(Convention::default());
+    };
+    let refuse = |reason: &str| file.at(convention, format!("convention: {reason}"));
+    if manifest.command.is_some() {
+        return Err(refuse(
+            "is for shaders; a command gets the file that it is given",
+        ));
+    }
+    match convention.get_ref().check() {
+        Ok(()) => Ok(*convention.get_ref()),
+        Err(reason) => Err(refuse(&reason)),
+    }
 }
 
 /// Refuses a filter that is neither a command nor passes over kernels, or both.

@@ -1,30 +1,55 @@
 //! `[[texture]]` and `[[pass]]` of filter.toml.
 
+use std::collections::BTreeMap;
+
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::bindings::{BindingEntry, Names, ShaderKeys, read_shader};
 use super::file::{File, IDENTIFIER, is_identifier};
 use super::parameters::check_count;
 use super::reach_by::{LengthEntry, read_length};
-use crate::{FilterError, Format, Holds, Kind, Parameter, Pass, Repeat, Texture};
+use crate::filter::{PassShader, Stage};
+use crate::{
+    Convention, FilterError, Format, Holds, Kind, Length, Parameter, Pass, Repeat, Texture,
+};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct TextureEntry {
     name: String,
     format: Format,
-    divided_by: Option<LengthEntry>,
+    divided_by: Option<DivisorEntry>,
     holds: Option<Holds>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct PassEntry {
-    entry: String,
+    entry: Option<String>,
     over: Option<String>,
     #[serde(default)]
     workgroup_per_texel: bool,
     repeat: Option<RepeatEntry>,
+    shader: Option<Spanned<String>>,
+    stage: Option<Stage>,
+    targets: Option<Vec<String>>,
+    #[serde(default)]
+    binding: Vec<Spanned<BindingEntry>>,
+    #[serde(default)]
+    constants: BTreeMap<String, f64>,
+    #[serde(default)]
+    conditions: Vec<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(
+    untagged,
+    expecting = "a length is a number of pixels or the name of an integer parameter, or a list of two for width and height"
+)]
+enum DivisorEntry {
+    Both(LengthEntry),
+    Each([LengthEntry; 2]),
 }
 
 #[derive(Deserialize)]
@@ -77,7 +102,7 @@ pub(super) fn read_textures(
         }
         let divided_by = divided_by
             .as_ref()
-            .map(|entry| read_length(parameters, entry))
+            .map(|entry| read_divisors(parameters, entry))
             .transpose()
             .map_err(|reason| {
                 file.at(
@@ -109,6 +134,7 @@ pub(super) fn read_passes(
     entries: &[Spanned<PassEntry>],
     textures: &[Texture],
     parameters: &[Parameter],
+    convention: &Convention,
 ) -> Result<Vec<Pass>, FilterError> {
     let mut passes = Vec::new();
     let mut dispatches = 0u32;
@@ -118,8 +144,36 @@ pub(super) fn read_passes(
             over,
             workgroup_per_texel,
             repeat,
+            shader,
+            stage,
+            targets,
+            binding,
+            constants,
+            conditions,
         } = spanned.get_ref();
-        file.check_line(spanned, "entry", entry)?;
+        if let Some(entry) = entry {
+            file.check_line(spanned, "entry", entry)?;
+        }
+        let keys = ShaderKeys {
+            file: shader.as_ref(),
+            entry: entry.as_deref(),
+            stage: *stage,
+            targets: targets.as_ref(),
+            bindings: binding,
+            constants,
+            conditions,
+        };
+        let names = Names {
+            textures,
+            parameters,
+            convention,
+        };
+        let shader = read_shader(file, spanned, &keys, names)?;
+        let entry = match (entry, &shader) {
+            (None, None) => return Err(file.at(spanned, "missing field `entry`".into())),
+            (Some(entry), None) => entry.clone(),
+            (_, Some(shader)) => name_pass(shader),
+        };
         let named = |reason: String| file.at(spanned, format!("pass \"{entry}\": {reason}"));
         if let Some(over) = over
             && !textures.iter().any(|texture| texture.name == *over)
@@ -155,13 +209,37 @@ pub(super) fn read_passes(
             )));
         }
         passes.push(Pass {
-            entry: entry.clone(),
+            entry,
+            shader_index: 0,
+            shader,
             over: over.clone(),
             workgroup_per_texel: *workgroup_per_texel,
             repeat,
         });
     }
     Ok(passes)
+}
+
+/// Names a pass with a shader of its own: after its entry point, or after its file where that is called `main` as all are.
+fn name_pass(shader: &PassShader) -> String {
+    let stem = shader.file.file_stem().and_then(|stem| stem.to_str());
+    match (&shader.entry[..], stem) {
+        ("main", Some(stem)) => stem.to_owned(),
+        (entry, _) => entry.to_owned(),
+    }
+}
+
+fn read_divisors(parameters: &[Parameter], entry: &DivisorEntry) -> Result<[Length; 2], String> {
+    match entry {
+        DivisorEntry::Both(both) => {
+            let length = read_length(parameters, both)?;
+            Ok([length.clone(), length])
+        }
+        DivisorEntry::Each([width, height]) => Ok([
+            read_length(parameters, width)?,
+            read_length(parameters, height)?,
+        ]),
+    }
 }
 
 /// Returns how often a pass runs with the largest value that is allowed.

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
-use wgpu::naga::{GlobalVariable, Handle, front};
+use wgpu::naga::{GlobalVariable, Handle, Module, front};
 
+use super::block::UniformBlock;
 use super::entry_point::{EntryPoint, find_entry_points};
 use super::nesting::check_nesting;
 use super::source::Source;
@@ -23,21 +24,56 @@ const COMMON: &str = include_str!("../../../../shaders/common.wgsl");
 pub(crate) struct Shader {
     /// The filter's file.
     pub path: PathBuf,
-    /// WGSL: the filter's file, then common.wgsl.
-    pub source: String,
+    /// The kernels themselves.
+    pub code: Code,
     /// Resource variables of group 0, in order of declaration.
     pub variables: Vec<Variable>,
     /// Members of the structs that uniforms hold, by the uniform's name.
     pub uniforms: BTreeMap<String, Vec<Member>>,
+    /// Uniform blocks that filter.toml explains.
+    pub blocks: Vec<UniformBlock>,
     /// True if the kernels read how the camera moved.
     pub reads_reprojection: bool,
     /// Compute entry points.
     pub entry_points: Vec<EntryPoint>,
 }
 
+/// Kernels in a form that wgpu takes.
+#[derive(Clone, Debug)]
+pub(crate) enum Code {
+    /// WGSL: the filter's file, then common.wgsl.
+    Wgsl(String),
+    /// A validated module, translated from another language.
+    Module(Box<Module>),
+}
+
+impl Default for Code {
+    fn default() -> Self {
+        Self::Wgsl(String::new())
+    }
+}
+
 /// Capabilities of every device; kernels can `enable` nothing more.
-const CAPABILITIES: Capabilities =
+pub(crate) const CAPABILITIES: Capabilities =
     Capabilities::MULTISAMPLED_SHADING.union(Capabilities::CUBE_ARRAY_TEXTURES);
+
+/// Parses WGSL that stands alone, without common.wgsl.
+pub(crate) fn parse_wgsl(path: &Path, text: &str) -> Result<Module, FilterError> {
+    check_nesting(path, text)?;
+    parse_source(&Source::new(path, text, ""))
+}
+
+fn parse_source(source: &Source) -> Result<Module, FilterError> {
+    let options = front::wgsl::Options {
+        capabilities: CAPABILITIES,
+        ..front::wgsl::Options::new()
+    };
+    let mut parser = front::wgsl::Frontend::new_with_options(options);
+    parser.parse(&source.text).map_err(|error| {
+        let message = error.emit_to_string_with_path(&source.text, source.name());
+        source.refuse(error.location(&source.text), &message)
+    })
+}
 
 impl Shader {
     /// Parses and validates the kernels at `path`, with common.wgsl appended. Refuses text that is nested too deep before naga
@@ -59,15 +95,7 @@ impl Shader {
 
     fn parse_here(path: &Path, kernels: &str) -> Result<Self, FilterError> {
         let source = Source::new(path, kernels, COMMON);
-        let options = front::wgsl::Options {
-            capabilities: CAPABILITIES,
-            ..front::wgsl::Options::new()
-        };
-        let mut parser = front::wgsl::Frontend::new_with_options(options);
-        let module = parser.parse(&source.text).map_err(|error| {
-            let message = error.emit_to_string_with_path(&source.text, source.name());
-            source.refuse(error.location(&source.text), &message)
-        })?;
+        let module = parse_source(&source)?;
         source.refuse_overrides(&module)?;
         let info = Validator::new(ValidationFlags::all(), CAPABILITIES)
             .validate(&module)
@@ -85,7 +113,10 @@ impl Shader {
             .iter()
             .map(|handle| find_variable(&source, &module, *handle))
             .collect::<Result<Vec<_>, _>>()?;
-        let entry_points = find_entry_points(&source, &module, &info, &handles, &variables);
+        let find_line = |function: &str| source.line_of_function(function);
+        let mut entry_points = find_entry_points(&module, &info, &handles, &variables, &find_line);
+        // A fragment shader is named with its bindings.
+        entry_points.retain(|entry| !entry.is_fragment());
         for entry in &entry_points {
             let checked = entry.usage.check(&entry.name);
             checked.map_err(|reason| source.at(entry.line, reason))?;
@@ -97,7 +128,8 @@ impl Shader {
                 || kernels.contains("frame.reprojection"),
             entry_points,
             variables,
-            source: source.text,
+            blocks: Vec::new(),
+            code: Code::Wgsl(source.text),
         })
     }
 

@@ -2,22 +2,29 @@
 
 use std::collections::BTreeSet;
 
-use wgpu::naga::valid::{GlobalUse, ModuleInfo};
-use wgpu::naga::{GlobalVariable, Handle, Module, ShaderStage};
+use wgpu::naga::valid::{FunctionInfo, GlobalUse, ModuleInfo};
+use wgpu::naga::{Binding, GlobalVariable, Handle, Module, ShaderStage, Type, TypeInner};
 
 use super::noise::reads_frame_index;
 use super::resource_usage::ResourceUsage;
-use super::source::Source;
-use super::variable::{Role, Variable, written_texture};
+use super::variable::{Role, Variable};
+use crate::filter::SamplerFilter;
 
 /// A kernel.
 #[derive(Clone, Debug)]
 pub(crate) struct EntryPoint {
     pub name: String,
+    pub stage: ShaderStage,
     /// Invocations per workgroup.
     pub workgroup_size: [u32; 3],
     /// Indices of the variables that it uses.
     pub variables: Vec<usize>,
+    /// Indices of the textures among them that it reads through a sampler that interpolates.
+    pub interpolated: BTreeSet<usize>,
+    /// Locations of the colours that a fragment shader writes; none of a kernel.
+    pub locations: Vec<u32>,
+    /// Locations that a fragment shader reads: texture coordinates.
+    pub inputs: Vec<u32>,
     /// Names of the textures that it reads.
     pub reads: BTreeSet<String>,
     /// Names of the textures that it writes.
@@ -31,25 +38,30 @@ pub(crate) struct EntryPoint {
 }
 
 impl EntryPoint {
+    /// Returns true for a fragment shader.
+    pub fn is_fragment(&self) -> bool {
+        self.stage == ShaderStage::Fragment
+    }
+
     /// Names the textures that it both reads and writes: those have two copies, exchanged after each iteration.
     pub fn exchanged_textures(&self) -> impl Iterator<Item = &String> {
         self.reads.intersection(&self.writes)
     }
 }
 
-/// Lists the compute entry points. `handles` are those of `variables`.
-pub(super) fn find_entry_points(
-    source: &Source,
+/// Lists the compute and fragment entry points. `handles` are those of `variables`, and `find_line` finds the line of a function.
+pub(crate) fn find_entry_points(
     module: &Module,
     module_info: &ModuleInfo,
     handles: &[Handle<GlobalVariable>],
     variables: &[Variable],
+    find_line: &dyn Fn(&str) -> Option<usize>,
 ) -> Vec<EntryPoint> {
     module
         .entry_points
         .iter()
         .enumerate()
-        .filter(|(_, entry)| entry.stage == ShaderStage::Compute)
+        .filter(|(_, entry)| [ShaderStage::Compute, ShaderStage::Fragment].contains(&entry.stage))
         .map(|(index, entry)| {
             let info = module_info.get_entry_point(index);
             let used: Vec<usize> = (0..handles.len())
@@ -57,23 +69,72 @@ pub(super) fn find_entry_points(
                 .collect();
             let used_variables = used.iter().map(|index| &variables[*index]);
             let (mut reads, mut writes) = (BTreeSet::new(), BTreeSet::new());
-            for Variable { name, role, .. } in used_variables {
+            for Variable { resource, role, .. } in used_variables {
                 match role {
-                    Role::Uniform => {}
-                    Role::Read(_) => _ = reads.insert(name.clone()),
-                    Role::Write(_) => _ = writes.insert(written_texture(name).to_owned()),
+                    Role::Uniform | Role::Block(_) | Role::Sampler(_) => {}
+                    Role::Read(_) => _ = reads.insert(resource.clone()),
+                    Role::Write(_) => _ = writes.insert(resource.clone()),
                 }
             }
             EntryPoint {
                 name: entry.name.clone(),
+                stage: entry.stage,
                 workgroup_size: entry.workgroup_size,
                 variables: used,
+                interpolated: find_interpolated(info, handles, variables),
+                locations: find_outputs(module, entry),
+                inputs: find_inputs(module, entry),
                 reads,
                 writes,
                 draws_noise: reads_frame_index(module, &entry.function),
                 usage: ResourceUsage::of(module, module_info, index),
-                line: source.line_of_function(&entry.name),
+                line: find_line(&entry.name),
             }
+        })
+        .collect()
+}
+
+/// Finds the textures that are read through samplers that interpolate.
+fn find_interpolated(
+    info: &FunctionInfo,
+    handles: &[Handle<GlobalVariable>],
+    variables: &[Variable],
+) -> BTreeSet<usize> {
+    let index = |wanted| handles.iter().position(|handle| *handle == wanted);
+    let is_linear = |sampler: usize| matches!(variables[sampler].role, Role::Sampler(sampling) if sampling.filter == SamplerFilter::Linear);
+    (info.sampling_set.iter())
+        .filter(|pair| index(pair.sampler).is_some_and(is_linear))
+        .filter_map(|pair| index(pair.image))
+        .collect()
+}
+
+/// Lists the locations of the colours that an entry point returns, in order.
+fn find_outputs(module: &Module, entry: &wgpu::naga::EntryPoint) -> Vec<u32> {
+    let result = entry.function.result.iter();
+    let places = result.flat_map(|result| find_locations(module, result.ty, &result.binding));
+    let mut locations: Vec<u32> = places.collect();
+    locations.sort_unstable();
+    locations
+}
+
+/// Lists the locations that an entry point reads.
+fn find_inputs(module: &Module, entry: &wgpu::naga::EntryPoint) -> Vec<u32> {
+    let arguments = entry.function.arguments.iter();
+    arguments
+        .flat_map(|argument| find_locations(module, argument.ty, &argument.binding))
+        .collect()
+}
+
+/// Lists the locations of a value: its own, or those of its members.
+fn find_locations(module: &Module, ty: Handle<Type>, binding: &Option<Binding>) -> Vec<u32> {
+    let bindings = match &module.types[ty].inner {
+        TypeInner::Struct { members, .. } => members.iter().map(|it| &it.binding).collect(),
+        _ => vec![binding],
+    };
+    (bindings.into_iter().flatten())
+        .filter_map(|binding| match binding {
+            Binding::Location { location, .. } => Some(*location),
+            Binding::BuiltIn(_) => None,
         })
         .collect()
 }

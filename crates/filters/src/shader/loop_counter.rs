@@ -4,18 +4,25 @@ use std::borrow::Cow;
 
 use wgpu::naga::{
     AddressSpace, AtomicFunction, BinaryOperator, Block, EntryPoint, Expression, Function,
-    FunctionArgument, GlobalVariable, Handle, Literal, MemoryDecorations, Module, Range,
-    ResourceBinding, Scalar, Span, Statement, StorageAccess, Type, TypeInner, front,
+    FunctionArgument, FunctionResult, GlobalVariable, Handle, Literal, MemoryDecorations, Module,
+    Range, ResourceBinding, Scalar, Span, Statement, StorageAccess, Type, TypeInner, front,
 };
+
+use super::declarations::Code;
 
 /// Rewrites validated kernels so that every invocation counts its loop iterations. Counts from `least` on raise the number in the
 /// storage buffer at `binding`.
 pub(crate) fn count_loop_iterations(
-    source: &str,
+    code: &Code,
     binding: u32,
     least: u32,
 ) -> wgpu::ShaderSource<'static> {
-    let mut module = front::wgsl::parse_str(source).expect("the kernels were parsed when loaded");
+    let mut module = match code {
+        Code::Wgsl(text) => {
+            front::wgsl::parse_str(text).expect("the kernels were parsed when loaded")
+        }
+        Code::Module(module) => (**module).clone(),
+    };
     let counter = Counter::declare(&mut module, binding);
     let functions = module.functions.iter_mut().map(|(_, function)| function);
     let entries = module.entry_points.iter_mut();
@@ -25,22 +32,30 @@ pub(crate) fn count_loop_iterations(
     for index in 0..module.entry_points.len() {
         let entry = &mut module.entry_points[index];
         let kernel = std::mem::take(&mut entry.function);
-        let (callee, arguments) = make_callable(entry, kernel);
+        let (callee, arguments, result) = make_callable(entry, kernel);
         let callee = module.functions.append(callee, Span::UNDEFINED);
-        module.entry_points[index].function = counter.report_from(callee, arguments, least);
+        module.entry_points[index].function = counter.report_from(callee, arguments, result, least);
     }
     wgpu::ShaderSource::Naga(Cow::Owned(module))
 }
 
-/// Makes the body of an entry point a function that another one can call; returns the arguments of the entry point too.
-fn make_callable(entry: &EntryPoint, kernel: Function) -> (Function, Vec<FunctionArgument>) {
+/// Makes the body of an entry point a function that another one can call; returns the arguments and the result of the entry point
+/// too.
+fn make_callable(
+    entry: &EntryPoint,
+    kernel: Function,
+) -> (Function, Vec<FunctionArgument>, Option<FunctionResult>) {
     let arguments = kernel.arguments.clone();
+    let result = kernel.result.clone();
     let mut callee = kernel;
     callee.name = Some(format!("{}_counted", entry.name));
     for argument in &mut callee.arguments {
         argument.binding = None;
     }
-    (callee, arguments)
+    if let Some(result) = &mut callee.result {
+        result.binding = None;
+    }
+    (callee, arguments, result)
 }
 
 /// Variables that the rewritten kernels count with.
@@ -142,10 +157,13 @@ impl Counter {
         &self,
         kernel: Handle<Function>,
         arguments: Vec<FunctionArgument>,
+        result: Option<FunctionResult>,
         least: u32,
     ) -> Function {
+        let returns = result.is_some();
         let mut function = Function {
             arguments,
+            result,
             ..Function::default()
         };
         let count = function.arguments.len() as u32;
@@ -153,6 +171,7 @@ impl Counter {
         let passed = (0..count)
             .map(|index| append(Expression::FunctionArgument(index)))
             .collect();
+        let returned = returns.then(|| append(Expression::CallResult(kernel)));
         let counted = append(Expression::GlobalVariable(self.iterations));
         let most = append(Expression::GlobalVariable(self.most));
         let right = append(Expression::Literal(Literal::U32(least)));
@@ -162,7 +181,7 @@ impl Counter {
             left: value,
             right,
         });
-        let result = append(Expression::AtomicResult {
+        let raised = append(Expression::AtomicResult {
             ty: self.number,
             comparison: false,
         });
@@ -170,13 +189,13 @@ impl Counter {
             pointer: most,
             fun: AtomicFunction::Max,
             value,
-            result: Some(result),
+            result: Some(raised),
         };
         function.body = Block::from_vec(vec![
             Statement::Call {
                 function: kernel,
                 arguments: passed,
-                result: None,
+                result: returned,
             },
             Statement::Emit(Range::new_from_bounds(value, condition)),
             Statement::If {
@@ -184,7 +203,7 @@ impl Counter {
                 accept: Block::from_vec(vec![report]),
                 reject: Block::new(),
             },
-            Statement::Return { value: None },
+            Statement::Return { value: returned },
         ]);
         function
     }

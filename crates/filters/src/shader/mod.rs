@@ -1,5 +1,6 @@
 //! Kernels of a filter, read without an adapter: their declarations, and what they ask of a device.
 
+mod block;
 mod declarations;
 mod entry_point;
 mod loop_counter;
@@ -12,12 +13,14 @@ mod texel;
 mod uniform;
 mod variable;
 
-pub(crate) use declarations::Shader;
-pub(crate) use entry_point::EntryPoint;
+pub(crate) use block::{BlockNumber, NumberKind, UniformBlock};
+pub(crate) use declarations::{CAPABILITIES, Code, Shader, parse_wgsl};
+pub(crate) use entry_point::{EntryPoint, find_entry_points};
 pub(crate) use loop_counter::count_loop_iterations;
 pub use nesting::MAX_NESTING;
 pub use resource_usage::{MAX_INLINED, MAX_INVOCATION_BYTES};
+pub(crate) use source::tidy;
 pub(crate) use stack::run_on_large_stack;
 pub use texel::Format;
 pub(crate) use texel::Texel;
-pub(crate) use variable::{Role, Variable, written_texture};
+pub(crate) use variable::{Role, Variable, find_image_role, written_texture};

@@ -101,7 +101,7 @@ impl<'a> Source<'a> {
 }
 
 /// Removes the word "error" before a message of naga, and blanks at the ends of its lines.
-fn tidy(message: &str) -> String {
+pub(crate) fn tidy(message: &str) -> String {
     let message = message.strip_prefix("error: ").unwrap_or(message);
     let lines = message.trim_end().lines().map(str::trim_end);
     let lines: Vec<String> = lines.map(escape_controls).collect();

@@ -8,15 +8,18 @@ use wgpu::naga::{
 use super::source::Source;
 use super::texel::{Format, Texel};
 use crate::FilterError;
+use crate::filter::Sampling;
 
 /// A resource variable.
 #[derive(Clone, Debug)]
 pub(crate) struct Variable {
     pub name: String,
+    /// Texture that it reads or writes, or the uniform that it is.
+    pub resource: String,
     pub binding: u32,
     pub role: Role,
     /// Line in the WGSL file, from 1.
-    pub line: usize,
+    pub line: Option<usize>,
 }
 
 /// Use of a resource variable.
@@ -28,6 +31,10 @@ pub(crate) enum Role {
     Read(Texel),
     /// `texture_storage_2d<format, write>`.
     Write(Format),
+    /// Uniform block with that index among the shader's, which filter.toml explains.
+    Block(usize),
+    /// `sampler`.
+    Sampler(Sampling),
 }
 
 /// Names the texture that a variable writes: `<texture>_out` writes `<texture>`, and `output` itself.
@@ -71,19 +78,26 @@ pub(super) fn find_variable(
             Some(line),
             format!(
                 "\"{name}\" cannot be bound; allowed: var<uniform>, texture_2d<f32>, texture_2d<u32>, and \
-                 texture_storage_2d<r32uint | r32float | rg32float | rgba32float, write>"
+                 texture_storage_2d<{}, write>",
+                Format::ALL.map(Format::name).join(" | ")
             ),
         )
     })?;
+    let resource = match role {
+        Role::Write(_) => written_texture(&name).to_owned(),
+        _ => name.clone(),
+    };
     Ok(Variable {
         name,
+        resource,
         binding: binding.binding,
         role,
-        line,
+        line: Some(line),
     })
 }
 
-fn find_image_role(class: ImageClass) -> Option<Role> {
+/// Finds the role of a texture of two dimensions.
+pub(crate) fn find_image_role(class: ImageClass) -> Option<Role> {
     match class {
         ImageClass::Sampled {
             kind: ScalarKind::Float,
@@ -99,6 +113,11 @@ fn find_image_role(class: ImageClass) -> Option<Role> {
                 StorageFormat::R32Float => Format::R32Float,
                 StorageFormat::Rg32Float => Format::Rg32Float,
                 StorageFormat::Rgba32Float => Format::Rgba32Float,
+                StorageFormat::R16Float => Format::R16Float,
+                StorageFormat::Rg16Float => Format::Rg16Float,
+                StorageFormat::Rgba16Float => Format::Rgba16Float,
+                StorageFormat::R8Unorm => Format::R8Unorm,
+                StorageFormat::Rgba8Unorm => Format::Rgba8Unorm,
                 _ => return None,
             };
             Some(Role::Write(format))

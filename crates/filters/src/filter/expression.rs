@@ -1,0 +1,203 @@
+//! Arithmetic on values of the frame and on parameters, for members of uniform blocks.
+
+/// Values of the frame, each with its meaning.
+pub(crate) const FRAME_VALUES: [(&str, &str); 7] = [
+    ("width", "pixels per row"),
+    ("height", "rows"),
+    ("exposure", "time that the shutter is open, in frames"),
+    (
+        "frame_index",
+        "a number that changes the noise, and nothing else",
+    ),
+    ("iteration", "run of the pass, from 0"),
+    ("iterations", "number of runs of the pass"),
+    ("frames_per_second", "frame rate of [convention]"),
+];
+
+/// An expression: numbers, names, `+ - * / ^`, brackets and `floor(..)`.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Expression {
+    /// A number.
+    Number(f64),
+    /// A parameter or a value of the frame.
+    Name(String),
+    /// A negative.
+    Negative(Box<Expression>),
+    /// The largest whole number that is not larger.
+    Floor(Box<Expression>),
+    /// Two operands.
+    Binary(char, Box<Expression>, Box<Expression>),
+}
+
+/// Upper limit on the characters of an expression, which limits its depth as well.
+const MAX_CHARACTERS: usize = 200;
+
+impl Expression {
+    /// Parses an expression; `is_known` tells which names there are.
+    pub fn parse(text: &str, is_known: &dyn Fn(&str) -> bool) -> Result<Self, String> {
+        if text.len() > MAX_CHARACTERS {
+            return Err(format!(
+                "has {} characters; allowed: at most {MAX_CHARACTERS}",
+                text.len()
+            ));
+        }
+        let mut parser = Parser {
+            rest: text,
+            is_known,
+        };
+        let expression = parser.sum()?;
+        match parser.rest.trim_start() {
+            "" => Ok(expression),
+            rest => Err(format!("goes on with \"{rest}\" where an operator is due")),
+        }
+    }
+
+    /// Computes the value.
+    pub fn evaluate(&self, value: &dyn Fn(&str) -> f64) -> f64 {
+        match self {
+            Self::Number(number) => *number,
+            Self::Name(name) => value(name),
+            Self::Negative(of) => -of.evaluate(value),
+            Self::Floor(of) => of.evaluate(value).floor(),
+            Self::Binary(operator, left, right) => {
+                let (left, right) = (left.evaluate(value), right.evaluate(value));
+                match operator {
+                    '+' => left + right,
+                    '-' => left - right,
+                    '*' => left * right,
+                    '/' => left / right,
+                    _ => left.powf(right),
+                }
+            }
+        }
+    }
+
+    /// Returns true if the value depends on a name.
+    pub fn reads(&self, wanted: &str) -> bool {
+        match self {
+            Self::Number(_) => false,
+            Self::Name(name) => name == wanted,
+            Self::Negative(of) | Self::Floor(of) => of.reads(wanted),
+            Self::Binary(_, left, right) => left.reads(wanted) || right.reads(wanted),
+        }
+    }
+}
+
+struct Parser<'t> {
+    rest: &'t str,
+    is_known: &'t dyn Fn(&str) -> bool,
+}
+
+impl Parser<'_> {
+    fn sum(&mut self) -> Result<Expression, String> {
+        let mut left = self.product()?;
+        while let Some(operator) = self.take(&['+', '-']) {
+            left = Expression::Binary(operator, Box::new(left), Box::new(self.product()?));
+        }
+        Ok(left)
+    }
+
+    fn product(&mut self) -> Result<Expression, String> {
+        let mut left = self.power()?;
+        while let Some(operator) = self.take(&['*', '/']) {
+            left = Expression::Binary(operator, Box::new(left), Box::new(self.power()?));
+        }
+        Ok(left)
+    }
+
+    fn power(&mut self) -> Result<Expression, String> {
+        if self.take(&['-']).is_some() {
+            return Ok(Expression::Negative(Box::new(self.power()?)));
+        }
+        let base = self.atom()?;
+        match self.take(&['^']) {
+            None => Ok(base),
+            Some(operator) => Ok(Expression::Binary(
+                operator,
+                Box::new(base),
+                Box::new(self.power()?),
+            )),
+        }
+    }
+
+    fn atom(&mut self) -> Result<Expression, String> {
+        if self.take(&['(']).is_some() {
+            let inner = self.sum()?;
+            return match self.take(&[')']) {
+                Some(_) => Ok(inner),
+                None => Err("has a bracket without the other".into()),
+            };
+        }
+        self.rest = self.rest.trim_start();
+        let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.';
+        let end = self.rest.find(|c| !is_part(c)).unwrap_or(self.rest.len());
+        let (word, rest) = self.rest.split_at(end);
+        self.rest = rest;
+        if word.is_empty() {
+            return Err("has an operator without a value beside it".into());
+        }
+        if word.starts_with(|c: char| c.is_ascii_digit() || c == '.') {
+            let number = word.parse::<f64>();
+            return (number.map(Expression::Number))
+                .map_err(|_| format!("\"{word}\" is no number"));
+        }
+        if word == "floor" && self.rest.trim_start().starts_with('(') {
+            return Ok(Expression::Floor(Box::new(self.atom()?)));
+        }
+        match (self.is_known)(word) {
+            true => Ok(Expression::Name(word.to_owned())),
+            false => Err(format!("holds the unknown name \"{word}\"")),
+        }
+    }
+
+    /// Takes one of the characters if it is next.
+    fn take(&mut self, wanted: &[char]) -> Option<char> {
+        let rest = self.rest.trim_start();
+        let first = rest.chars().next().filter(|first| wanted.contains(first))?;
+        self.rest = &rest[first.len_utf8()..];
+        Some(first)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Expression;
+
+    fn evaluate(text: &str) -> Result<f64, String> {
+        let parsed = Expression::parse(text, &|name| ["width", "taps"].contains(&name))?;
+        Ok(parsed.evaluate(&|name| if name == "width" { 90.0 } else { 4.0 }))
+    }
+
+    #[test]
+    fn expressions_have_the_value_that_mathematics_gives_them() {
+        for (text, expected) in [
+            ("1", 1.0),
+            (" 1 / width ", 1.0 / 90.0),
+            ("1 - 2 - 3", -4.0),
+            ("-2 ^ 2", -4.0),
+            ("2 ^ (taps - 1)", 8.0),
+            ("2 ^ -1", 0.5),
+            ("2 * (1 + taps) / 4", 2.5),
+            ("floor(width / 20)", 4.0),
+            ("0.5e1 + .5", 5.5),
+        ] {
+            assert_eq!(evaluate(text), Ok(expected), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_expression_is_refused() {
+        for (text, says) in [
+            ("", "without a value"),
+            ("1 +", "without a value"),
+            ("(1", "bracket without"),
+            ("1 2", "goes on with"),
+            ("time", "unknown name \"time\""),
+            ("1.2.3", "no number"),
+            (&"(".repeat(300), "has 300 characters"),
+        ] {
+            let refusal = evaluate(text).unwrap_err();
+            assert!(refusal.contains(says), "{text}: {refusal}");
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! Shader of a pass as an engine has it, and what its bindings stand for.
+
+use std::path::PathBuf;
+
+use super::expression::Expression;
+
+/// Stage of a shader.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Stage {
+    /// One invocation per texel writes storage textures.
+    #[default]
+    Compute,
+    /// A triangle over the whole picture; each fragment writes the render targets.
+    Fragment,
+}
+
+/// A shader in a file of its own, with bindings that filter.toml explains.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PassShader {
+    /// The file, relative to the filter's folder.
+    pub file: PathBuf,
+    /// Entry point.
+    pub entry: String,
+    /// Stage of the entry point.
+    pub stage: Stage,
+    /// Textures that a fragment shader writes, by location; `output` is the picture.
+    pub targets: Vec<String>,
+    /// Meanings of bindings.
+    pub bindings: Vec<Binding>,
+    /// Values of specialisation constants (`override` of WGSL), by name or number.
+    pub constants: Vec<(String, f64)>,
+    /// Conditions of WESL that hold.
+    pub conditions: Vec<String>,
+}
+
+/// Meaning of one binding of a shader.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Binding {
+    /// Place in the shader.
+    pub place: BindingPlace,
+    /// Texture that it reads or writes: `color`, `velocity`, `depth`, `output` or a [[texture]].
+    pub texture: Option<String>,
+    /// Sampling by a sampler, or by a combined image sampler.
+    pub sampling: Sampling,
+    /// Values of a uniform block, by member.
+    pub values: Vec<(String, Vec<Expression>)>,
+    /// Line in filter.toml.
+    pub line: usize,
+}
+
+/// Place of a resource in a shader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum BindingPlace {
+    /// `@group` and `@binding` of WGSL, `set` and `binding` of GLSL.
+    Bound {
+        /// Group or set.
+        group: u32,
+        /// Number in the group.
+        binding: u32,
+    },
+    /// The block of push constants.
+    PushConstants,
+}
+
+impl std::fmt::Display for BindingPlace {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Bound { group, binding } => write!(f, "group {group}, binding {binding}"),
+            Self::PushConstants => write!(f, "push constants"),
+        }
+    }
+}
+
+/// Reading of a texture between and beyond its texels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Sampling {
+    /// Between texels.
+    pub filter: SamplerFilter,
+    /// Beyond the border.
+    pub wrap: Wrap,
+}
+
+/// Value of a texture between its texels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SamplerFilter {
+    /// That of the nearest texel.
+    Nearest,
+    /// Interpolated between the four texels around.
+    #[default]
+    Linear,
+}
+
+/// Value of a texture beyond its border.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Wrap {
+    /// That of the border.
+    #[default]
+    Clamp,
+    /// That of the other side.
+    Repeat,
+    /// That of the mirrored picture.
+    Mirror,
+}

@@ -1,0 +1,64 @@
+//! Shading languages, told by the ending of a file.
+
+use std::path::Path;
+
+/// A shading language.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Language {
+    Spirv,
+    Glsl,
+    Slang,
+    Hlsl,
+    Wesl,
+    Wgsl,
+}
+
+/// Endings of files.
+const ENDINGS: [(&str, Language); 9] = [
+    ("spv", Language::Spirv),
+    ("glsl", Language::Glsl),
+    ("comp", Language::Glsl),
+    ("frag", Language::Glsl),
+    ("slang", Language::Slang),
+    ("hlsl", Language::Hlsl),
+    ("fx", Language::Hlsl),
+    ("wesl", Language::Wesl),
+    ("wgsl", Language::Wgsl),
+];
+
+impl Language {
+    /// Tells the language of a file; fails with what is allowed.
+    pub fn of(file: &Path) -> Result<Self, String> {
+        let ending = file.extension().and_then(|ending| ending.to_str());
+        let known = ENDINGS.iter().find(|(known, _)| Some(*known) == ending);
+        known.map(|(_, language)| *language).ok_or_else(|| {
+            let allowed: Vec<String> = ENDINGS
+                .iter()
+                .map(|(ending, _)| format!(".{ending}"))
+                .collect();
+            format!(
+                "\"{}\" has no ending that tells its language; allowed: {}",
+                file.display(),
+                allowed.join(", ")
+            )
+        })
+    }
+
+    /// Names the language in messages.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Spirv => "SPIR-V",
+            Self::Glsl => "GLSL",
+            Self::Slang => "Slang",
+            Self::Hlsl => "HLSL",
+            Self::Wesl => "WESL",
+            Self::Wgsl => "WGSL",
+        }
+    }
+
+    /// Returns the ending of a file in this language.
+    pub fn ending(self) -> &'static str {
+        let mut known = ENDINGS.iter().filter(|(_, language)| *language == self);
+        known.next().expect("each language has an ending").0
+    }
+}

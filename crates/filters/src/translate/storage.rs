@@ -1,0 +1,167 @@
+//! Access of kernels to storage images, narrowed to what they do.
+//!
+//! GLSL often leaves `readonly` and `writeonly` out, and WebGPU lets few formats be read and written at once. An image that is only
+//! written is declared so. One that is only read becomes a sampled texture, which every format can be.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::words::{Instruction, UNIFORM_CONSTANT, Words, decoration, op};
+
+/// Uses of one storage image.
+#[derive(Clone, Copy, Default)]
+struct Uses {
+    reads: bool,
+    writes: bool,
+    /// Uses that the narrowing does not understand, such as passing it to a function.
+    others: bool,
+}
+
+/// Narrows the access to every storage image.
+pub(super) fn narrow_storage_access(words: &mut Words) {
+    let storage_types: BTreeMap<u32, Instruction> = (words.instructions.iter())
+        .filter(|it| it.opcode == op::TYPE_IMAGE && it.operands.get(6) == Some(&2))
+        .map(|it| (it.operands[0], it.clone()))
+        .collect();
+    let pointers: BTreeMap<u32, u32> = (words.all(op::TYPE_POINTER))
+        .filter(|[_, class, image]| *class == UNIFORM_CONSTANT && storage_types.contains_key(image))
+        .map(|[pointer, _, image]| (pointer, image))
+        .collect();
+    // Image types of the variables.
+    let variables: BTreeMap<u32, u32> = (words.all(op::VARIABLE))
+        .filter_map(|[pointer, variable]| Some((variable, *pointers.get(&pointer)?)))
+        .collect();
+    let uses = find_uses(words, &variables);
+    let written = |uses: &Uses| uses.writes && !uses.reads && !uses.others;
+    let read = |uses: &Uses| uses.reads && !uses.writes && !uses.others;
+    let only = |is: &dyn Fn(&Uses) -> bool| -> BTreeSet<u32> {
+        let chosen = uses.iter().filter(|(_, uses)| is(uses));
+        chosen.map(|(variable, _)| *variable).collect()
+    };
+    declare_written(words, &only(&written));
+    sample_read(words, &only(&read), &variables, &storage_types);
+}
+
+/// Finds what a module does with each variable.
+fn find_uses(words: &Words, variables: &BTreeMap<u32, u32>) -> BTreeMap<u32, Uses> {
+    let mut uses: BTreeMap<u32, Uses> = variables.keys().map(|id| (*id, Uses::default())).collect();
+    // Variable of each loaded image.
+    let mut loaded = BTreeMap::new();
+    for instruction in &words.instructions {
+        let operands = &instruction.operands;
+        match (instruction.opcode, &operands[..]) {
+            (op::NAME | op::DECORATE | op::ENTRY_POINT | op::VARIABLE, _) => {}
+            (op::LOAD, [_, result, pointer, ..]) if variables.contains_key(pointer) => {
+                loaded.insert(*result, *pointer);
+            }
+            (op::IMAGE_READ, [_, _, image, _, rest @ ..]) if loaded.contains_key(image) => {
+                let found = uses.entry(loaded[image]).or_default();
+                found.reads = true;
+                found.others |= !rest.is_empty();
+            }
+            (op::IMAGE_WRITE, [image, ..]) if loaded.contains_key(image) => {
+                uses.entry(loaded[image]).or_default().writes = true;
+            }
+            (op::IMAGE_QUERY_SIZE, [_, _, image]) if loaded.contains_key(image) => {}
+            // A word may be a number that looks like an id: then nothing is narrowed, and nothing is wrong.
+            _ => {
+                for word in operands {
+                    let variable = loaded.get(word).unwrap_or(word);
+                    if let Some(found) = uses.get_mut(variable) {
+                        found.others = true;
+                    }
+                }
+            }
+        }
+    }
+    uses
+}
+
+/// Declares images that are only written.
+fn declare_written(words: &mut Words, written: &BTreeSet<u32>) {
+    let is_access =
+        |kind: u32| [decoration::NON_READABLE, decoration::NON_WRITABLE].contains(&kind);
+    let mut instructions = Vec::with_capacity(words.instructions.len());
+    for instruction in std::mem::take(&mut words.instructions) {
+        match (instruction.opcode, &instruction.operands[..]) {
+            (op::DECORATE, [target, kind, ..]) if written.contains(target) && is_access(*kind) => {}
+            (op::DECORATE, [target, decoration::BINDING, ..]) if written.contains(target) => {
+                let access = [*target, decoration::NON_READABLE];
+                instructions.push(Instruction::new(op::DECORATE, access));
+                instructions.push(instruction);
+            }
+            _ => instructions.push(instruction),
+        }
+    }
+    words.instructions = instructions;
+}
+
+/// Makes sampled textures of images that are only read.
+fn sample_read(
+    words: &mut Words,
+    read: &BTreeSet<u32>,
+    variables: &BTreeMap<u32, u32>,
+    storage_types: &BTreeMap<u32, Instruction>,
+) {
+    if read.is_empty() {
+        return;
+    }
+    let signed = (words.all(op::TYPE_INT)).find(|[_, width, signed]| [*width, *signed] == [32, 1]);
+    let integer = signed.map_or_else(|| words.new_id(), |[id, ..]| id);
+    let zero = words.new_id();
+    // Sampled type, and pointer to it, of each storage type.
+    let types: BTreeMap<u32, [u32; 2]> = (read.iter())
+        .map(|variable| variables[variable])
+        .collect::<BTreeSet<u32>>()
+        .into_iter()
+        .map(|storage| (storage, [words.new_id(), words.new_id()]))
+        .collect();
+    let mut declared = false;
+    // Storage type of each image that was loaded.
+    let mut loaded = BTreeSet::new();
+    let mut instructions = Vec::with_capacity(words.instructions.len());
+    for instruction in std::mem::take(&mut words.instructions) {
+        match (instruction.opcode, &instruction.operands[..]) {
+            (op::VARIABLE, [_, variable, ..]) if read.contains(variable) => {
+                if !std::mem::replace(&mut declared, true) {
+                    if signed.is_none() {
+                        instructions.push(Instruction::new(op::TYPE_INT, [integer, 32, 1]));
+                    }
+                    instructions.push(Instruction::new(op::CONSTANT, [integer, zero, 0]));
+                    for (storage, [sampled, pointer]) in &types {
+                        let mut operands = storage_types[storage].operands.clone();
+                        operands[0] = *sampled;
+                        operands[6] = 1;
+                        operands.truncate(8);
+                        if let Some(format) = operands.get_mut(7) {
+                            *format = 0;
+                        }
+                        instructions.push(Instruction::new(op::TYPE_IMAGE, operands));
+                        let pointer = [*pointer, UNIFORM_CONSTANT, *sampled];
+                        instructions.push(Instruction::new(op::TYPE_POINTER, pointer));
+                    }
+                }
+                let [_, pointer] = types[&variables[variable]];
+                let operands = [pointer, *variable, UNIFORM_CONSTANT];
+                instructions.push(Instruction::new(op::VARIABLE, operands));
+            }
+            (op::DECORATE, [target, decoration::NON_WRITABLE, ..]) if read.contains(target) => {}
+            (op::LOAD, [_, result, pointer, ..]) if read.contains(pointer) => {
+                loaded.insert(*result);
+                let [sampled, _] = types[&variables[pointer]];
+                instructions.push(Instruction::new(op::LOAD, [sampled, *result, *pointer]));
+            }
+            (op::IMAGE_READ, [ty, result, image, at]) if loaded.contains(image) => {
+                /// Says that a level follows.
+                const LOD: u32 = 2;
+                let operands = [*ty, *result, *image, *at, LOD, zero];
+                instructions.push(Instruction::new(op::IMAGE_FETCH, operands));
+            }
+            (op::IMAGE_QUERY_SIZE, [ty, result, image]) if loaded.contains(image) => {
+                let operands = [*ty, *result, *image, zero];
+                instructions.push(Instruction::new(op::IMAGE_QUERY_SIZE_LOD, operands));
+            }
+            _ => instructions.push(instruction),
+        }
+    }
+    words.instructions = instructions;
+}

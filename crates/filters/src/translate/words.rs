@@ -1,0 +1,226 @@
+//! Instructions of a SPIR-V module, read from its words and written back.
+
+/// The first word of every module.
+const MAGIC: u32 = 0x0723_0203;
+
+/// Upper limit on ids. The largest shaders of engines have a hundredth of it.
+const MAX_IDS: u32 = 1 << 20;
+
+/// Upper limit on branches, on types and on composite constants of a module, each: naga recurses where they lie within one another.
+const MAX_NESTABLE: usize = 10_000;
+
+/// Opcodes that the passes over a module look at.
+pub(super) mod op {
+    pub const NAME: u32 = 5;
+    pub const ENTRY_POINT: u32 = 15;
+    pub const TYPE_INT: u32 = 21;
+    pub const TYPE_IMAGE: u32 = 25;
+    pub const TYPE_SAMPLER: u32 = 26;
+    pub const TYPE_SAMPLED_IMAGE: u32 = 27;
+    pub const TYPE_ARRAY: u32 = 28;
+    pub const TYPE_RUNTIME_ARRAY: u32 = 29;
+    pub const TYPE_STRUCT: u32 = 30;
+    pub const TYPE_POINTER: u32 = 32;
+    pub const TYPE_FUNCTION: u32 = 33;
+    pub const CONSTANT: u32 = 43;
+    pub const CONSTANT_COMPOSITE: u32 = 44;
+    pub const SPEC_CONSTANT_COMPOSITE: u32 = 51;
+    pub const SPEC_CONSTANT_OP: u32 = 52;
+    pub const FUNCTION_PARAMETER: u32 = 55;
+    pub const FUNCTION_CALL: u32 = 57;
+    pub const VARIABLE: u32 = 59;
+    pub const LOAD: u32 = 61;
+    pub const DECORATE: u32 = 71;
+    pub const SAMPLED_IMAGE: u32 = 86;
+    pub const IMAGE_FETCH: u32 = 95;
+    pub const IMAGE_READ: u32 = 98;
+    pub const IMAGE_WRITE: u32 = 99;
+    pub const IMAGE_QUERY_SIZE_LOD: u32 = 103;
+    pub const IMAGE_QUERY_SIZE: u32 = 104;
+    pub const LOOP_MERGE: u32 = 246;
+    pub const SELECTION_MERGE: u32 = 247;
+    pub const SWITCH: u32 = 251;
+}
+
+/// Decorations that the passes look at.
+pub(super) mod decoration {
+    pub const NON_WRITABLE: u32 = 24;
+    pub const NON_READABLE: u32 = 25;
+    pub const BINDING: u32 = 33;
+    pub const DESCRIPTOR_SET: u32 = 34;
+}
+
+/// Storage class of textures and samplers.
+pub(super) const UNIFORM_CONSTANT: u32 = 0;
+
+/// One instruction.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Instruction {
+    pub opcode: u32,
+    /// The words after the first.
+    pub operands: Vec<u32>,
+}
+
+impl Instruction {
+    pub fn new(opcode: u32, operands: impl Into<Vec<u32>>) -> Self {
+        Self {
+            opcode,
+            operands: operands.into(),
+        }
+    }
+
+    /// Returns the operands if they begin with as many as asked for.
+    pub fn first<const COUNT: usize>(&self) -> Option<[u32; COUNT]> {
+        self.operands.get(..COUNT)?.try_into().ok()
+    }
+}
+
+/// A SPIR-V module.
+#[derive(Clone, Debug)]
+pub(super) struct Words {
+    version: u32,
+    generator: u32,
+    /// All ids are smaller.
+    bound: u32,
+    pub instructions: Vec<Instruction>,
+}
+
+impl Words {
+    /// Reads a module. Fails if it is cut short or is no SPIR-V.
+    pub fn read(bytes: &[u8]) -> Result<Self, String> {
+        if bytes.len() < 20 || !bytes.len().is_multiple_of(4) {
+            return Err(format!(
+                "{} bytes are no SPIR-V module, or it is cut short: a module has five words of four bytes, and more",
+                bytes.len()
+            ));
+        }
+        let words: Vec<u32> = (bytes.chunks_exact(4))
+            .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
+            .collect();
+        if words[0] == MAGIC.swap_bytes() {
+            return Err("the module is big-endian; allowed: little-endian SPIR-V".into());
+        }
+        if words[0] != MAGIC {
+            return Err(format!(
+                "begins with {:#010x}; allowed: SPIR-V, which begins with {MAGIC:#010x}",
+                words[0]
+            ));
+        }
+        if words[3] > MAX_IDS {
+            return Err(format!(
+                "has ids up to {}; allowed: at most {MAX_IDS}",
+                words[3]
+            ));
+        }
+        let mut instructions = Vec::new();
+        let mut at = 5;
+        while at < words.len() {
+            let count = (words[at] >> 16) as usize;
+            let end = at + count;
+            if count == 0 || end > words.len() {
+                return Err(format!(
+                    "word {at}: an instruction of {count} words, where {} are left; the module is cut short or damaged",
+                    words.len() - at
+                ));
+            }
+            let opcode = words[at] & 0xffff;
+            instructions.push(Instruction::new(opcode, &words[at + 1..end]));
+            at = end;
+        }
+        let read = Self {
+            version: words[1],
+            generator: words[2],
+            bound: words[3],
+            instructions,
+        };
+        read.check_nesting()?;
+        Ok(read)
+    }
+
+    /// Refuses a module that may be nested deeper than a stack.
+    fn check_nesting(&self) -> Result<(), String> {
+        for (what, opcodes) in [
+            (
+                "branches",
+                [op::LOOP_MERGE, op::SELECTION_MERGE, op::SWITCH],
+            ),
+            ("types", [op::TYPE_ARRAY, op::TYPE_STRUCT, op::TYPE_POINTER]),
+            (
+                "composite constants",
+                [
+                    op::CONSTANT_COMPOSITE,
+                    op::SPEC_CONSTANT_COMPOSITE,
+                    op::SPEC_CONSTANT_OP,
+                ],
+            ),
+        ] {
+            let opcodes = |instruction: &&Instruction| opcodes.contains(&instruction.opcode);
+            let found = self.instructions.iter().filter(opcodes).count();
+            if found > MAX_NESTABLE {
+                return Err(format!(
+                    "has {found} {what}; allowed: at most {MAX_NESTABLE}; divide the pass"
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns an id that nothing has.
+    pub fn new_id(&mut self) -> u32 {
+        self.bound = self.bound.saturating_add(1);
+        self.bound - 1
+    }
+
+    /// Lists the operands of all instructions of one kind that have at least `COUNT`.
+    pub fn all<const COUNT: usize>(&self, opcode: u32) -> impl Iterator<Item = [u32; COUNT]> {
+        (self.instructions.iter())
+            .filter(move |instruction| instruction.opcode == opcode)
+            .filter_map(Instruction::first)
+    }
+
+    /// Writes the module.
+    pub fn write(&self) -> Vec<u8> {
+        let header = [MAGIC, self.version, self.generator, self.bound, 0];
+        let instructions = self.instructions.iter().flat_map(|instruction| {
+            let count = instruction.operands.len() as u32 + 1;
+            let first = count << 16 | instruction.opcode;
+            [first]
+                .into_iter()
+                .chain(instruction.operands.iter().copied())
+        });
+        let words = header.into_iter().chain(instructions);
+        words.flat_map(u32::to_le_bytes).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_module_is_written_as_it_was_read() {
+        let words = [MAGIC, 0x1_0300, 7, 9, 0, 2 << 16 | 17, 1, 1 << 16 | 56];
+        let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+        let read = Words::read(&bytes).unwrap();
+        assert_eq!(read.instructions.len(), 2);
+        assert_eq!(read.write(), bytes);
+    }
+
+    #[test]
+    fn damaged_modules_are_refused() {
+        let module = |words: &[u32]| -> Vec<u8> {
+            words.iter().flat_map(|word| word.to_le_bytes()).collect()
+        };
+        for (bytes, says) in [
+            (vec![3, 2, 35], "cut short"),
+            (module(&[1, 2, 3, 4, 5]), "begins with"),
+            (module(&[MAGIC.swap_bytes(), 2, 3, 4, 5]), "big-endian"),
+            (module(&[MAGIC, 2, 3, 4, 5, 3 << 16, 1]), "word 5"),
+            (module(&[MAGIC, 2, 3, 4, 5, 17]), "of 0 words"),
+            (module(&[MAGIC, 2, 3, u32::MAX, 5]), "has ids up to"),
+        ] {
+            let refusal = Words::read(&bytes).unwrap_err();
+            assert!(refusal.contains(says), "{refusal}");
+        }
+    }
+}

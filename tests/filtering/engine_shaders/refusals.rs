@@ -1,0 +1,106 @@
+//! Wrong bindings, wrong shaders and missing compilers, each refused with its place and the way out.
+
+use std::fs;
+
+use filters::Filter;
+
+use super::{fixtures, load, write_folder};
+
+const PASSES: &str = include_str!("../../fixtures/shaders/passes.toml");
+const FILES: [&str; 2] = ["fastest.comp", "gather.comp"];
+
+#[test]
+fn wrong_bindings_are_refused_with_place_and_reason() {
+    // (text of the passes, replacement, expected parts of the message)
+    #[rustfmt::skip]
+    let wrong: &[(&str, &str, &[&str])] = &[
+        ("fastest.comp", "missing.comp", &["missing.comp", "cannot be read", "the shaders that its passes name"]),
+        ("fastest.comp", "fastest.cpp", &["filter.toml:42:", "fastest.cpp", ".spv, .glsl"]),
+        ("fastest.comp", "../fastest.comp", &["filter.toml:42:", "no path within the filter's folder"]),
+        ("shader = \"fastest.comp\"", "entry = \"fastest\"\nstage = \"compute\"", &["filter.toml:41:", "stage is for a pass with `shader`"]),
+        ("shader = \"fastest.comp\"", "shader = \"fastest.comp\"\nentry = \"start\"", &["fastest.comp", "no compute entry point \"start\"", "main (compute)"]),
+        ("shader = \"fastest.comp\"", "shader = \"fastest.comp\"\ntargets = [\"output\"]", &["filter.toml:41:", "targets are for stage = \"fragment\""]),
+        ("shader = \"fastest.comp\"", "shader = \"fastest.comp\"\nconditions = [\"FAST\"]", &["conditions are for WESL"]),
+        ("set = 1\nbinding = 3\n", "set = 1\nbinding = 4\n", &["filter.toml:50:", "has nothing at group 1, binding 4", "group 0, binding 0; group 1, binding 3; push constants"]),
+        ("set = 1\nbinding = 3\ntexture = \"tile_motion\"\n", "set = 1\nbinding = 3\n", &["filter.toml:50:", "\"tiles\" at group 1, binding 3", "has no `texture`", "color, velocity, depth, output, tile_motion"]),
+        ("texture = \"velocity\"", "texture = \"motion\"", &["filter.toml:45:", "\"motion\" names none", "color, velocity, depth, output, tile_motion"]),
+        ("texture = \"velocity\"", "texture = \"output\"", &["filter.toml:45:", "reads \"output\""]),
+        ("texture = \"output\"", "texture = \"color\"", &["writes \"color\", which is an input"]),
+        ("texture = \"output\"", "texture = \"tile_motion\"", &["writes texture \"tile_motion\" as rgba32float", "declared as rg32float"]),
+        ("sampler = \"nearest\"", "sampler = \"cubic\"", &["filter.toml:48:", "cubic", "nearest", "linear"]),
+        ("push_constants = true", "push_constants = true\nbinding = 2", &["needs `binding` with its number"]),
+        ("[[pass.binding]]\nbinding = 0\ntexture = \"color\"", "[[pass.binding]]\nbinding = 0\ntexture = \"color\"\n[[pass.binding]]\nbinding = 0\ntexture = \"color\"", &["group 0, binding 0 is explained twice"]),
+        ("side = \"tile_size\", ", "", &["filter.toml:55:", "member \"side\" (i32 at byte 8) has no value", "exposure"]),
+        ("side = \"tile_size\"", "side = \"tile\"", &["filter.toml:55:", "side = \"tile\" holds the unknown name \"tile\"", "samples, tile_size, spacing, width"]),
+        ("unused = 0", "unsued = 0", &["member \"unused\" (f32 at byte 12) has no value"]),
+        ("unused = 0", "unused = 0, more = 1", &["\"more\", which is no member", "picture, side, unused"]),
+        ("picture = [\"width\", \"height\"]", "picture = [1, 2, 3]", &["member \"picture\" holds 2 x i32", "has 3"]),
+        ("picture = [\"width\", \"height\"]", "picture = [1, [2]]", &["a value is a number"]),
+        ("shader = \"gather.comp\"\n", "shader = \"gather.comp\"\nstage = \"fragment\"\n", &["gather.comp"]),
+    ];
+    for (from, to, parts) in wrong {
+        assert!(PASSES.contains(from), "the passes hold \"{from}\"");
+        let Err(error) = load(&PASSES.replacen(from, to, 1), &FILES) else {
+            panic!("\"{from}\" -> \"{to}\" was accepted");
+        };
+        let message = error.to_string();
+        for part in *parts {
+            assert!(
+                message.contains(part),
+                "\"{from}\" -> \"{to}\": no \"{part}\" in: {message}"
+            );
+        }
+    }
+}
+
+#[test]
+fn wrong_shaders_are_refused_with_file_line_and_reason() {
+    // (text of gather.comp, replacement, expected parts of the message)
+    #[rustfmt::skip]
+    let wrong: &[(&str, &str, &[&str])] = &[
+        ("settings.turned", "settings.turn", &["gather.comp:30: glslangValidator refuses it", "gather.comp:30: 'turn'"]),
+        ("void main()", "void main(", &["gather.comp:", "glslangValidator refuses it", "syntax error"]),
+        ("rgba32f, set = 0, binding = 2", "rgba8, set = 0, binding = 2", &["filter.toml:", "writes \"output\" as rgba8unorm", "rgba32float or rgba16float"]),
+        ("rgba32f, set = 0, binding = 2", "rgba16ui, set = 0, binding = 2", &["gather.comp"]),
+        ("imageStore(picture, pixel, mean);", "imageStore(picture, pixel, mean + imageLoad(picture, pixel));", &["\"picture\" at group 0, binding 2", "both read and written"]),
+        ("uniform sampler2D color;", "uniform sampler2D color[2];", &["gather.comp"]),
+        ("uniform sampler2D color;", "uniform sampler3D color;", &["gather.comp"]),
+        ("mat4 turned;", "mat4 turned;\n    mat2 spare;", &["gather.comp", "its SPIR-V cannot be read: unsupported matrix stride 16"]),
+        ("bool noisy;", "double noisy;", &["gather.comp"]),
+    ];
+    let original = fs::read_to_string(fixtures().join("gather.comp")).unwrap();
+    for (from, to, parts) in wrong {
+        assert!(original.contains(from), "gather.comp holds \"{from}\"");
+        let folder = tempfile::tempdir().unwrap();
+        write_folder(folder.path(), PASSES, &FILES);
+        let text = original.replacen(from, to, 1);
+        fs::write(folder.path().join("gather.comp"), text).unwrap();
+        let Err(error) = Filter::load(folder.path()) else {
+            panic!("\"{from}\" -> \"{to}\" was accepted");
+        };
+        let message = error.to_string();
+        for part in *parts {
+            assert!(
+                message.contains(part),
+                "\"{from}\" -> \"{to}\": no \"{part}\" in: {message}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_module_that_is_cut_short_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    write_folder(folder.path(), "[[pass]]\nshader = \"blur.spv\"\n", &[]);
+    let module = include_bytes!("../../fuzz/corpus/spirv/gather");
+    for (bytes, says) in [
+        (&module[..0], "no SPIR-V module"),
+        (&module[..1001], "cut short"),
+        (&module[..600], "blur.spv"),
+        (&b"#version 450 layout(set = 0)"[..], "begins with"),
+    ] {
+        fs::write(folder.path().join("blur.spv"), bytes).unwrap();
+        let message = Filter::load(folder.path()).unwrap_err().to_string();
+        assert!(message.contains(says), "{message}");
+    }
+}
