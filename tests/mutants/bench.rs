@@ -12,17 +12,12 @@ use suite::{
 use tests::scenes;
 use tracer::Scene;
 
-use crate::journal::{Journal, Place};
-use crate::limits::Limits;
+use crate::journal::Place;
 use crate::options::Options;
 use crate::subject::{MutantFilter, Subject};
-use crate::verdict::{is_killed, is_same_picture};
 
 /// Seed of the truth that mutants are checked against: the one that `check` takes.
 pub const SEED: u64 = 1;
-
-/// Mutants that are measured before the journal gets their scores.
-const BATCH: usize = 16;
 
 /// Scenes, their settings, and the adapter.
 pub struct Bench {
@@ -122,94 +117,4 @@ impl Bench {
 /// Names a mutant on a scene.
 pub fn place(subject: &Subject, mutant: &MutantFilter, scene: &str) -> Place {
     (subject.key.clone(), mutant.name.clone(), scene.to_owned())
-}
-
-/// Measures mutants, scene by scene, until a limit kills them.
-pub fn measure_mutants(
-    bench: &mut Bench,
-    subjects: &[Subject],
-    limits: &[Limits],
-    journal: &mut Journal,
-    due: &dyn Fn() -> bool,
-) -> Result<(), Error> {
-    for at in 0..bench.scenes.len() {
-        let scene = bench.scenes[at].scene.clone();
-        for (subject, limits) in subjects.iter().zip(limits) {
-            let alive: Vec<&MutantFilter> = (subject.mutants.iter())
-                .filter(|mutant| {
-                    let place = place(subject, mutant, &scene.name);
-                    journal.cases.get(&place).is_none()
-                        && !is_same_picture(journal, &place)
-                        && !is_killed(bench, subject, limits, journal, mutant)
-                })
-                .collect();
-            for batch in alive.chunks(BATCH) {
-                if !due() {
-                    return Ok(());
-                }
-                eprintln!(
-                    "{}: {} mutants of {}",
-                    scene.name,
-                    batch.len(),
-                    subject.name
-                );
-                measure_batch(bench, subject, &scene, batch, journal)?;
-            }
-        }
-    }
-    Ok(())
-}
-
-/// Measures some mutants on a scene, one by one if they fail together.
-fn measure_batch(
-    bench: &mut Bench,
-    subject: &Subject,
-    scene: &Scene,
-    batch: &[&MutantFilter],
-    journal: &mut Journal,
-) -> Result<(), Error> {
-    // Cases and failures name filter and preset, which are the same in all mutants.
-    let label = |at: usize| format!("mutant_{at}");
-    let filters = batch.iter().enumerate().map(|(at, mutant)| FilterChoice {
-        preset: label(at),
-        ..mutant.choice.clone()
-    });
-    let run = match bench.measure(scene, filters.collect(), SEED) {
-        Ok(run) => run,
-        Err(error @ Error::Filter(_)) => {
-            bench.reopen_gpu();
-            if let [mutant] = batch {
-                let place = place(subject, mutant, &scene.name);
-                journal.cases.add(place, Err(error.to_string()));
-                return Ok(());
-            }
-            return (batch.chunks(1))
-                .try_for_each(|one| measure_batch(bench, subject, scene, one, journal));
-        }
-        Err(error) => return Err(error),
-    };
-    for (at, mutant) in batch.iter().enumerate() {
-        let case = (run.cases.iter()).find(|case| case.preset == label(at));
-        let record = match case {
-            Some(case) => {
-                // Pictures of mutants are not looked at again.
-                let _ = fs::remove_dir_all(bench.truths(SEED).join(&case.folder));
-                let mut case = case.clone();
-                case.preset = subject.sound.preset.clone();
-                Ok(Box::new(case))
-            }
-            None => {
-                let name = format!("{}:{}", subject.sound.filter.name, label(at));
-                let failure = run.failures.iter().find(|failure| failure.filter == name);
-                Err(failure
-                    .expect("every case is measured or fails")
-                    .reason
-                    .clone())
-            }
-        };
-        journal
-            .cases
-            .add(place(subject, mutant, &scene.name), record);
-    }
-    Ok(())
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use metrics::Metric;
-use suite::{Case, Decision, Error, Level, Run, SceneBounds, judge};
+use suite::{Case, Error, Level, Outcome, Run, SceneBounds, judge_scores};
 use tests::limits::calibrate_scene;
 
 use crate::bench::{Bench, SEED};
@@ -23,8 +23,6 @@ pub struct SceneLimits {
     pub are_shipped: bool,
     /// Limits on every metric that can have one, which tell what would notice a survivor.
     pub widest: SceneBounds,
-    /// Run of the filter without a change.
-    pub sound: Run,
 }
 
 /// Finds the limits of a filter preset on every scene: those of bounds.toml if any of them is required at this size, or else those
@@ -53,8 +51,10 @@ pub fn find_limits(bench: &Bench, subject: &Subject) -> Result<Limits, Error> {
             }
         };
         let widest = calibrate_scene(&runs, &all, scene);
-        let sound = runs.into_iter().next().expect("there are two");
-        let broken = find_broken(&sound, &sound.cases, &deciding);
+        let cases = runs[0].cases.iter().filter(|case| !case.is_reference);
+        let broken: Vec<String> = cases
+            .flat_map(|case| find_broken(case, &deciding))
+            .collect();
         if !broken.is_empty() {
             return Err(Error::Usage(format!(
                 "{} breaks limits on {scene} without a change: {}; calibrate them anew",
@@ -66,23 +66,18 @@ pub fn find_limits(bench: &Bench, subject: &Subject) -> Result<Limits, Error> {
             deciding,
             are_shipped,
             widest,
-            sound,
         };
         limits.insert(scene.clone(), own);
     }
     Ok(limits)
 }
 
-/// Lists the metrics of a run's cases whose required limits are broken.
-pub fn find_broken(run: &Run, cases: &[Case], bounds: &SceneBounds) -> Vec<String> {
-    let run = Run {
-        cases: cases.to_vec(),
-        ..run.clone()
-    };
-    let scenes = cases
-        .iter()
-        .map(|case| (case.scene.clone(), bounds.clone()));
-    let findings = judge(&run, &scenes.collect()).into_iter();
-    let broken = findings.filter(|finding| finding.decision() == Decision::Broken);
-    broken.map(|finding| finding.metric).collect()
+/// Lists the metrics of a case whose required limits are broken.
+pub fn find_broken(case: &Case, bounds: &SceneBounds) -> Vec<String> {
+    let bounds = bounds.of(&case.filter, &case.preset);
+    let judged = judge_scores(&case.scores, Some(&case.intervals), &bounds).into_iter();
+    let broken = judged.filter(|judged| {
+        judged.outcome == Outcome::Broken && judged.bound.level == Level::Required
+    });
+    broken.map(|judged| judged.metric).collect()
 }

@@ -5,6 +5,7 @@ mod bench;
 mod change;
 mod journal;
 mod limits;
+mod measure;
 mod options;
 mod subject;
 mod table;
@@ -44,14 +45,16 @@ fn execute(options: &Options) -> Result<(), Error> {
         .collect::<Result<Vec<_>, _>>()?;
     let mut bench = Bench::open(options, &subjects)?;
     let mut journal = Journal::open(&bench.out)?;
+    for subject in &subjects {
+        change::measure_changes(&mut bench, subject, &mut journal, &due)?;
+    }
     let mut limits = Vec::new();
     for subject in &subjects {
         limits.push(limits::find_limits(&bench, subject)?);
     }
-    for subject in &subjects {
-        change::measure_changes(&mut bench, subject, &mut journal, &due)?;
+    for (subject, limits) in subjects.iter().zip(&limits) {
+        measure::measure_mutants(&mut bench, subject, limits, &mut journal, &due)?;
     }
-    bench::measure_mutants(&mut bench, &subjects, &limits, &mut journal, &due)?;
     for (subject, limits) in subjects.iter().zip(&limits) {
         let verdicts = find_verdicts(&bench, subject, limits, &journal);
         print!(

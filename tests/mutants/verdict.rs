@@ -120,12 +120,11 @@ fn find_verdict<'s>(
             Some(Err(reason)) => verdict.failure = Some(reason.clone()),
             Some(Ok(case)) => {
                 let limits = &limits[scene];
-                let cases = [(**case).clone()];
-                let broken = find_broken(&limits.sound, &cases, &limits.deciding);
+                let broken = find_broken(case, &limits.deciding);
                 if !broken.is_empty() && verdict.killed.is_none() {
                     verdict.killed = Some((scene.clone(), broken));
                 }
-                let noticed = find_broken(&limits.sound, &cases, &limits.widest).into_iter();
+                let noticed = find_broken(case, &limits.widest).into_iter();
                 (verdict.noticed_by).extend(noticed.map(|metric| (metric, scene.clone())));
             }
         }
