@@ -7,16 +7,18 @@ use std::path::Path;
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use suite::{Case, Error};
+use suite::{Case, Error, Run};
 
-/// A mutant on a scene: the subject's key, the mutant's name, the scene.
+/// A mutant on a scene: the subject's key, the mutant's name, the scene. A seed stands for the filter without a change.
 pub type Place = (String, String, String);
 
 /// Everything that was measured so far.
 pub struct Journal {
     /// Changes of pictures.
     pub changes: Records<Result<Change, String>>,
-    /// Scores.
+    /// Runs of filters without a change.
+    pub sound: Records<Run>,
+    /// Scores of mutants.
     pub cases: Records<Result<Box<Case>, String>>,
 }
 
@@ -40,6 +42,7 @@ impl Journal {
     pub fn open(folder: &Path) -> Result<Self, Error> {
         Ok(Self {
             changes: Records::open(&folder.join("changes.jsonl"))?,
+            sound: Records::open(&folder.join("sound.jsonl"))?,
             cases: Records::open(&folder.join("cases.jsonl"))?,
         })
     }

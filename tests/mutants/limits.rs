@@ -5,8 +5,10 @@ use std::collections::BTreeMap;
 use metrics::Metric;
 use suite::{Case, Error, Level, Outcome, Run, SceneBounds, judge_scores};
 use tests::limits::calibrate_scene;
+use tracer::Scene;
 
 use crate::bench::{Bench, SEED};
+use crate::journal::Journal;
 use crate::subject::Subject;
 
 /// Seeds that limits are calibrated with, if there are no shipped ones.
@@ -27,16 +29,19 @@ pub struct SceneLimits {
 
 /// Finds the limits of a filter preset on every scene: those of bounds.toml if any of them is required at this size, or else those
 /// that `calibrate` proposes for the same metrics. Refuses limits that the filter breaks without a change.
-pub fn find_limits(bench: &Bench, subject: &Subject) -> Result<Limits, Error> {
+pub fn find_limits(
+    bench: &Bench,
+    subject: &Subject,
+    journal: &mut Journal,
+) -> Result<Limits, Error> {
     let mut limits = Limits::new();
     let all: Vec<Metric> = (Metric::all().into_iter())
         .filter(|metric| metric.report_only().is_none())
         .collect();
     for choice in &bench.scenes {
         let scene = &choice.scene.name;
-        eprintln!("{scene}: {} without a change", subject.name);
         let runs = (CALIBRATED_WITH.into_iter())
-            .map(|seed| bench.measure(&choice.scene, vec![subject.sound.clone()], seed))
+            .map(|seed| measure_sound(bench, subject, &choice.scene, seed, journal))
             .collect::<Result<Vec<Run>, Error>>()?;
         let shipped = &bench.bounds[scene];
         let bounded = shipped.of(&subject.sound.filter.name, &subject.sound.preset);
@@ -70,6 +75,32 @@ pub fn find_limits(bench: &Bench, subject: &Subject) -> Result<Limits, Error> {
         limits.insert(scene.clone(), own);
     }
     Ok(limits)
+}
+
+/// Measures the filter without a change, unless the journal has it.
+fn measure_sound(
+    bench: &Bench,
+    subject: &Subject,
+    scene: &Scene,
+    seed: u64,
+    journal: &mut Journal,
+) -> Result<Run, Error> {
+    let place = (
+        subject.key.clone(),
+        format!("seed {seed}"),
+        scene.name.clone(),
+    );
+    if let Some(run) = journal.sound.get(&place) {
+        return Ok(run.clone());
+    }
+    eprintln!(
+        "{}: {} without a change, seed {seed}",
+        scene.name, subject.name
+    );
+    let mut run = bench.measure(scene, vec![subject.sound.clone()], seed)?;
+    run.cases.retain(|case| !case.is_reference);
+    journal.sound.add(place, run.clone());
+    Ok(run)
 }
 
 /// Lists the metrics of a case whose required limits are broken.

@@ -50,7 +50,7 @@ fn execute(options: &Options) -> Result<(), Error> {
     }
     let mut limits = Vec::new();
     for subject in &subjects {
-        limits.push(limits::find_limits(&bench, subject)?);
+        limits.push(limits::find_limits(&bench, subject, &mut journal)?);
     }
     for (subject, limits) in subjects.iter().zip(&limits) {
         measure::measure_mutants(&mut bench, subject, limits, &mut journal, &due)?;
