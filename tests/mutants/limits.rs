@@ -8,7 +8,7 @@ use tests::limits::calibrate_scene;
 use tracer::Scene;
 
 use crate::bench::{Bench, SEED};
-use crate::journal::Journal;
+use crate::journal::{Journal, Place};
 use crate::subject::Subject;
 
 /// Seeds that limits are calibrated with, if there are no shipped ones.
@@ -23,27 +23,21 @@ pub struct SceneLimits {
     pub deciding: SceneBounds,
     /// True if they are those of bounds.toml.
     pub are_shipped: bool,
-    /// Limits on every metric that can have one, which tell what would notice a survivor.
-    pub widest: SceneBounds,
+    /// Limits on every metric that can have one, which tell what would notice a survivor; none until they are calibrated.
+    pub widest: Option<SceneBounds>,
 }
 
 /// Finds the limits of a filter preset on every scene: those of bounds.toml if any of them is required at this size, or else those
-/// that `calibrate` proposes for the same metrics. Refuses limits that the filter breaks without a change.
+/// that `calibrate` proposes for the same metrics.
 pub fn find_limits(
     bench: &Bench,
     subject: &Subject,
     journal: &mut Journal,
 ) -> Result<Limits, Error> {
     let mut limits = Limits::new();
-    let all: Vec<Metric> = (Metric::all().into_iter())
-        .filter(|metric| metric.report_only().is_none())
-        .collect();
     for choice in &bench.scenes {
-        let scene = &choice.scene.name;
-        let runs = (CALIBRATED_WITH.into_iter())
-            .map(|seed| measure_sound(bench, subject, &choice.scene, seed, journal))
-            .collect::<Result<Vec<Run>, Error>>()?;
-        let shipped = &bench.bounds[scene];
+        let scene = &choice.scene;
+        let shipped = &bench.bounds[&scene.name];
         let bounded = shipped.of(&subject.sound.filter.name, &subject.sound.preset);
         let are_shipped = bounded.values().any(|bound| bound.level == Level::Required);
         let deciding = match are_shipped {
@@ -52,29 +46,85 @@ pub fn find_limits(
                 let named = bounded
                     .keys()
                     .map(|name| name.parse().expect("it was read"));
-                calibrate_scene(&runs, &named.collect::<Vec<Metric>>(), scene)
+                let metrics: Vec<Metric> = named.collect();
+                let runs = measure_sound_runs(bench, subject, scene, journal)?;
+                calibrate_scene(&runs, &metrics, &scene.name)
             }
         };
-        let widest = calibrate_scene(&runs, &all, scene);
-        let cases = runs[0].cases.iter().filter(|case| !case.is_reference);
-        let broken: Vec<String> = cases
-            .flat_map(|case| find_broken(case, &deciding))
-            .collect();
-        if !broken.is_empty() {
-            return Err(Error::Usage(format!(
-                "{} breaks limits on {scene} without a change: {}; calibrate them anew",
-                subject.name,
-                broken.join(", ")
-            )));
-        }
         let own = SceneLimits {
             deciding,
             are_shipped,
-            widest,
+            widest: None,
         };
-        limits.insert(scene.clone(), own);
+        limits.insert(scene.name.clone(), own);
     }
     Ok(limits)
+}
+
+/// Calibrates limits on every metric that can have one.
+pub fn widen_limits(
+    bench: &Bench,
+    subject: &Subject,
+    limits: &mut Limits,
+    journal: &mut Journal,
+    due: &dyn Fn() -> bool,
+) -> Result<(), Error> {
+    let metrics: Vec<Metric> = (Metric::all().into_iter())
+        .filter(|metric| metric.report_only().is_none())
+        .collect();
+    for choice in &bench.scenes {
+        let scene = &choice.scene;
+        let is_kept = |seed| {
+            journal
+                .sound
+                .get(&sound_place(subject, scene, seed))
+                .is_some()
+        };
+        if CALIBRATED_WITH.into_iter().all(is_kept) || due() {
+            let runs = measure_sound_runs(bench, subject, scene, journal)?;
+            let widest = calibrate_scene(&runs, &metrics, &scene.name);
+            limits
+                .get_mut(&scene.name)
+                .expect("every scene has limits")
+                .widest = Some(widest);
+        }
+    }
+    Ok(())
+}
+
+/// Refuses limits that the filter breaks without a change: all of its mutants would break them.
+pub fn refuse_broken(subject: &Subject, case: &Case, limits: &SceneLimits) -> Result<(), Error> {
+    let broken = find_broken(case, &limits.deciding);
+    match broken.is_empty() {
+        true => Ok(()),
+        false => Err(Error::Usage(format!(
+            "{} breaks limits on {} without a change: {}; calibrate them anew",
+            subject.name,
+            case.scene,
+            broken.join(", ")
+        ))),
+    }
+}
+
+/// Measures the filter without a change, with every seed that limits are calibrated with.
+fn measure_sound_runs(
+    bench: &Bench,
+    subject: &Subject,
+    scene: &Scene,
+    journal: &mut Journal,
+) -> Result<Vec<Run>, Error> {
+    (CALIBRATED_WITH.into_iter())
+        .map(|seed| measure_sound(bench, subject, scene, seed, journal))
+        .collect()
+}
+
+/// Names a filter without a change on a scene.
+pub fn sound_place(subject: &Subject, scene: &Scene, seed: u64) -> Place {
+    (
+        subject.key.clone(),
+        format!("seed {seed}"),
+        scene.name.clone(),
+    )
 }
 
 /// Measures the filter without a change, unless the journal has it.
@@ -85,11 +135,7 @@ fn measure_sound(
     seed: u64,
     journal: &mut Journal,
 ) -> Result<Run, Error> {
-    let place = (
-        subject.key.clone(),
-        format!("seed {seed}"),
-        scene.name.clone(),
-    );
+    let place = sound_place(subject, scene, seed);
     if let Some(run) = journal.sound.get(&place) {
         return Ok(run.clone());
     }

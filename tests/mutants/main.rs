@@ -55,7 +55,8 @@ fn execute(options: &Options) -> Result<(), Error> {
     for (subject, limits) in subjects.iter().zip(&limits) {
         measure::measure_mutants(&mut bench, subject, limits, &mut journal, &due)?;
     }
-    for (subject, limits) in subjects.iter().zip(&limits) {
+    for (subject, limits) in subjects.iter().zip(&mut limits) {
+        limits::widen_limits(&bench, subject, limits, &mut journal, &due)?;
         let verdicts = find_verdicts(&bench, subject, limits, &journal);
         print!(
             "{}",

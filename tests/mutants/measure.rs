@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::fs;
 
-use suite::{Error, FilterChoice};
+use suite::{Case, Error, FilterChoice, Run};
 use tracer::Scene;
 
 use crate::bench::{Bench, SEED, place};
 use crate::journal::Journal;
-use crate::limits::Limits;
+use crate::limits::{Limits, SceneLimits, refuse_broken, sound_place};
 use crate::subject::{MutantFilter, Subject};
 use crate::verdict::{is_killed, is_same_picture};
 
@@ -17,6 +17,9 @@ const ROUNDS: usize = 3;
 
 /// Mutants that are measured before the journal gets their scores.
 const BATCH: usize = 16;
+
+/// Label of the filter without a change.
+const SOUND: &str = "sound";
 
 /// Measures every mutant of a filter on one scene after the other, until a limit kills it.
 pub fn measure_mutants(
@@ -48,14 +51,14 @@ pub fn measure_mutants(
             }
         }
         for (at, mutants) in groups {
-            measure_scene(bench, subject, &scenes[at], &mutants, journal, due)?;
+            measure_scene(bench, subject, &scenes[at], limits, &mutants, journal, due)?;
         }
     }
     for scene in &scenes {
         let alive = find_alive(bench, subject, limits, journal).into_iter();
         let missing = alive.filter(|mutant| is_missing(subject, mutant, scene, journal));
         let missing: Vec<&MutantFilter> = missing.collect();
-        measure_scene(bench, subject, scene, &missing, journal, due)?;
+        measure_scene(bench, subject, scene, limits, &missing, journal, due)?;
     }
     Ok(())
 }
@@ -83,6 +86,7 @@ fn measure_scene(
     bench: &mut Bench,
     subject: &Subject,
     scene: &Scene,
+    limits: &Limits,
     mutants: &[&MutantFilter],
     journal: &mut Journal,
     due: &dyn Fn() -> bool,
@@ -95,26 +99,33 @@ fn measure_scene(
                 batch.len(),
                 subject.name
             );
-            measure_batch(bench, subject, scene, batch, journal)?;
+            measure_batch(bench, subject, scene, &limits[&scene.name], batch, journal)?;
         }
     }
     Ok(())
 }
 
-/// Measures some mutants on a scene, one by one if they fail together.
+/// Measures some mutants on a scene, one by one if they fail together. The filter without a change is measured with the first.
 fn measure_batch(
     bench: &mut Bench,
     subject: &Subject,
     scene: &Scene,
+    limits: &SceneLimits,
     batch: &[&MutantFilter],
     journal: &mut Journal,
 ) -> Result<(), Error> {
     // Cases and failures name filter and preset, which are the same in all mutants.
     let label = |at: usize| format!("mutant_{at}");
-    let filters = batch.iter().enumerate().map(|(at, mutant)| FilterChoice {
-        preset: label(at),
-        ..mutant.choice.clone()
-    });
+    let sound = sound_place(subject, scene, SEED);
+    let is_new = journal.sound.get(&sound).is_none();
+    let mutants = batch.iter().map(|mutant| &mutant.choice);
+    let filters = (mutants.enumerate())
+        .map(|(at, choice)| (label(at), choice))
+        .chain(is_new.then(|| (SOUND.to_owned(), &subject.sound)))
+        .map(|(preset, choice)| FilterChoice {
+            preset,
+            ..choice.clone()
+        });
     let run = match bench.measure(scene, filters.collect(), SEED) {
         Ok(run) => run,
         Err(error @ Error::Filter(_)) => {
@@ -125,32 +136,40 @@ fn measure_batch(
                 return Ok(());
             }
             return (batch.chunks(1))
-                .try_for_each(|one| measure_batch(bench, subject, scene, one, journal));
+                .try_for_each(|one| measure_batch(bench, subject, scene, limits, one, journal));
         }
         Err(error) => return Err(error),
     };
-    for (at, mutant) in batch.iter().enumerate() {
-        let case = (run.cases.iter()).find(|case| case.preset == label(at));
-        let record = match case {
-            Some(case) => {
-                // Pictures of mutants are not looked at again.
-                let _ = fs::remove_dir_all(bench.truths(SEED).join(&case.folder));
-                let mut case = case.clone();
-                case.preset = subject.sound.preset.clone();
-                Ok(Box::new(case))
-            }
-            None => {
-                let name = format!("{}:{}", subject.sound.filter.name, label(at));
-                let failure = run.failures.iter().find(|failure| failure.filter == name);
-                Err(failure
-                    .expect("every case is measured or fails")
-                    .reason
-                    .clone())
-            }
+    if is_new {
+        let case = take_case(bench, subject, &run, SOUND).map_err(Error::Usage)?;
+        refuse_broken(subject, &case, limits)?;
+        let alone = Run {
+            cases: vec![case],
+            ..run.clone()
         };
-        journal
-            .cases
-            .add(place(subject, mutant, &scene.name), record);
+        journal.sound.add(sound, alone);
+    }
+    for (at, mutant) in batch.iter().enumerate() {
+        let case = take_case(bench, subject, &run, &label(at)).map(Box::new);
+        let place = place(subject, mutant, &scene.name);
+        journal.cases.add(place, case);
     }
     Ok(())
+}
+
+/// Takes the case with a label out of a run, or the reason why it failed, and gives it the preset's name. Removes its pictures, which
+/// nobody looks at again.
+fn take_case(bench: &Bench, subject: &Subject, run: &Run, label: &str) -> Result<Case, String> {
+    let Some(case) = run.cases.iter().find(|case| case.preset == label) else {
+        let name = format!("{}:{label}", subject.sound.filter.name);
+        let failure = run.failures.iter().find(|failure| failure.filter == name);
+        let failure = failure.expect("every case is measured or fails");
+        return Err(failure.reason.clone());
+    };
+    // A folder that stays is no harm.
+    let _ = fs::remove_dir_all(bench.truths(SEED).join(&case.folder));
+    Ok(Case {
+        preset: subject.sound.preset.clone(),
+        ..case.clone()
+    })
 }

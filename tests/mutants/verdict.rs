@@ -124,7 +124,10 @@ fn find_verdict<'s>(
                 if !broken.is_empty() && verdict.killed.is_none() {
                     verdict.killed = Some((scene.clone(), broken));
                 }
-                let noticed = find_broken(case, &limits.widest).into_iter();
+                let noticed = limits
+                    .widest
+                    .iter()
+                    .flat_map(|widest| find_broken(case, widest));
                 (verdict.noticed_by).extend(noticed.map(|metric| (metric, scene.clone())));
             }
         }
