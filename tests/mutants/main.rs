@@ -55,13 +55,16 @@ fn execute(options: &Options) -> Result<(), Error> {
     for (subject, limits) in subjects.iter().zip(&limits) {
         measure::measure_mutants(&mut bench, subject, limits, &mut journal, &due)?;
     }
+    let mut all = Vec::new();
     for (subject, limits) in subjects.iter().zip(&mut limits) {
         limits::widen_limits(&bench, subject, limits, &mut journal, &due)?;
         let verdicts = find_verdicts(&bench, subject, limits, &journal);
-        print!(
-            "{}",
-            table::format_subject(&bench, subject, limits, &verdicts)
-        );
+        let table = table::format_subject(&bench, subject, limits, &verdicts);
+        print!("{table}");
+        all.extend(verdicts);
+    }
+    if subjects.len() > 1 {
+        print!("{}", table::format_total(&all));
     }
     Ok(())
 }

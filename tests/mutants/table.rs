@@ -37,6 +37,15 @@ pub fn format_subject(
     text + "\n"
 }
 
+/// Formats the counts and the score of all filters together.
+pub fn format_total(verdicts: &[Verdict]) -> String {
+    format!(
+        "all filters\n\n{}{}",
+        format_counts(verdicts),
+        format_score(verdicts)
+    )
+}
+
 /// Formats killed mutants and all of them, by operator and by the size of the change.
 fn format_counts(verdicts: &[Verdict]) -> String {
     let mut text = format!(
