@@ -1,12 +1,12 @@
-# `make run` does the main job; `make test` passes the tests. Two longer tests stand apart: `make guides` runs every command of every
-# page, and `make fuzz` tries hostile input for ten minutes.
+# `make run` does the main job; `make test` passes the tests. Three longer tests stand apart: `make guides` runs every command of every
+# page, `make fuzz` tries hostile input for ten minutes, and `make mutants` changes kernels to try the limits.
 #
 # All look for a Vulkan driver first and, on Debian and Ubuntu, install the software one where there is none. The tests need Python:
 # Optuna drives the tuning service, and numpy and OpenEXR compare presets with their originals. They need Chromium to open reports, and
 # glslang to compile shaders in GLSL.
 # On macOS and Windows plain cargo commands work.
 
-.PHONY: run test guides fuzz vulkan python chromium glslang
+.PHONY: run test guides fuzz mutants vulkan python chromium glslang
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -30,6 +30,16 @@ SEED ?= $(shell date +%s)
 
 fuzz: vulkan
 	cargo test --package cli --test fuzz --locked -- --minutes $(MINUTES) --seed $(SEED) $(if $(TARGETS),--targets $(TARGETS))
+
+# `$(call given,NAME,--option)`: the option with the value of NAME, if whoever called make gave it one.
+given = $(if $(filter-out file undefined,$(origin $(1))),$(2) $($(1)))
+
+# Changes shipped kernels in small ways and counts the changes that the limits notice: `make mutants SIZE=128x72 FILTERS=kino:default`.
+# See docs/mutation.md.
+mutants: vulkan
+	cargo test --package tests --test mutants --locked -- $(call given,FILTERS,--filters) $(call given,SCENES,--scenes) \
+	    $(call given,SIZE,--size) $(call given,SAMPLES,--samples-per-pixel) $(call given,COUNT,--count) \
+	    $(call given,MINUTES,--minutes) $(call given,OUT,--out)
 
 # The Python that has these packages; one of your own is used as it is. Its pip is called through it: in a copied folder the script
 # `pip` still belongs to the original.

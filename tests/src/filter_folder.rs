@@ -60,6 +60,14 @@ pub fn copy_shipped_filter(name: &str, copy: &Path) {
     }
 }
 
+/// Copies a built-in filter, and changes the text of its kernels.
+pub fn copy_changed_filter(name: &str, copy: &Path, change: impl FnOnce(&str) -> String) {
+    copy_shipped_filter(name, copy);
+    let kernels = copy.join(name).with_extension("wgsl");
+    let text = fs::read_to_string(&kernels).unwrap();
+    fs::write(&kernels, change(&text)).unwrap();
+}
+
 /// Writes a filter that is a shell script, which gets the files as $1 and $2. `lines` is the script, and `more` is
 /// appended to filter.toml.
 pub fn write_program(folder: &Path, name: &str, lines: &str, more: &str) {

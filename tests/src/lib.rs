@@ -4,6 +4,8 @@ pub mod brute_force;
 pub mod filter_folder;
 pub mod half_plane;
 pub mod kernels;
+pub mod limits;
+pub mod mutants;
 pub mod picture;
 pub mod plate;
 pub mod presets;

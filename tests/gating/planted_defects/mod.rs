@@ -4,7 +4,6 @@
 
 mod defects;
 
-use std::fs;
 use std::path::PathBuf;
 
 use cli::{Programs, select_filters, select_scenes};
@@ -12,9 +11,10 @@ use filters::Gpu;
 use metrics::Metric;
 use suite::{
     Case, Check, Decision, FilterChoice, InputFormat, Monitor, RenderSettings, Run, RunBounds,
-    RunPlan, SceneBounds, calibrate, check, judge, measure_scenes, open_gpu, read_bounds_file,
+    RunPlan, check, judge, measure_scenes, open_gpu,
 };
-use tests::filter_folder::copy_shipped_filter;
+use tests::filter_folder::copy_changed_filter;
+use tests::limits::calibrate_scene;
 use tracer::Scene;
 
 use defects::{DEFECTS, Defect};
@@ -84,13 +84,9 @@ impl Bench {
             .map(|seed| bench.run(choices(filters.iter().map(|name| (*name).to_owned())), seed))
             .collect();
         let metrics = METRICS.map(|name| name.parse::<Metric>().unwrap());
-        let none = SceneBounds::default();
-        let calibration = calibrate(&runs, |_| &none, &metrics);
         for name in NAMES {
-            let path = bench.folder.path().join(format!("{name}.toml"));
-            fs::write(&path, calibration.toml(name)).unwrap();
-            let files = vec![read_bounds_file(&path).unwrap()];
-            bench.bounds.insert(name.to_owned(), SceneBounds { files });
+            let bounds = calibrate_scene(&runs, &metrics, name);
+            bench.bounds.insert(name.to_owned(), bounds);
         }
         bench
     }
@@ -145,18 +141,17 @@ impl Bench {
     /// Copies a shipped filter and plants a defect.
     fn plant(&self, defect: &Defect) -> PathBuf {
         let copy = self.folder.path().join("planted").join(defect.name);
-        copy_shipped_filter(defect.filter, &copy);
-        let kernels = copy.join(defect.filter).with_extension("wgsl");
-        let text = fs::read_to_string(&kernels).unwrap();
-        assert_eq!(
-            text.matches(defect.sound).count(),
-            1,
-            "{}: the kernels of {} hold this line once: {}",
-            defect.name,
-            defect.filter,
-            defect.sound
-        );
-        fs::write(&kernels, text.replace(defect.sound, defect.broken)).unwrap();
+        copy_changed_filter(defect.filter, &copy, |text| {
+            assert_eq!(
+                text.matches(defect.sound).count(),
+                1,
+                "{}: the kernels of {} hold this line once: {}",
+                defect.name,
+                defect.filter,
+                defect.sound
+            );
+            text.replace(defect.sound, defect.broken)
+        });
         copy
     }
 }

@@ -1,0 +1,120 @@
+//! Bench of the mutants: scenes, their settings, and the adapter.
+
+use std::fs;
+use std::path::PathBuf;
+
+use cli::{SceneChoice, select_scenes};
+use filters::Gpu;
+use suite::{
+    Error, FilterChoice, InputFormat, Monitor, RenderSettings, Run, RunBounds, RunPlan,
+    measure_scenes, read_bounds, size_for_bounds,
+};
+use tests::scenes;
+use tracer::Scene;
+
+use crate::journal::Place;
+use crate::options::Options;
+use crate::subject::{MutantFilter, Subject};
+
+/// Seed of the truth that mutants are checked against: the one that `check` takes.
+pub const SEED: u64 = 1;
+
+/// Scenes, their settings, and the adapter.
+pub struct Bench {
+    /// Scenes in the order in which mutants meet them.
+    pub scenes: Vec<SceneChoice>,
+    /// Shipped bounds.
+    pub bounds: RunBounds,
+    /// Settings of frames and truths.
+    pub render: RenderSettings,
+    /// Adapter of the filters.
+    pub gpu: Gpu,
+    /// Folder of these settings.
+    pub out: PathBuf,
+}
+
+impl Bench {
+    /// Loads the scenes, and opens the adapter and the folder.
+    pub fn open(options: &Options, subjects: &[Subject]) -> Result<Self, Error> {
+        let scenes = select_scenes(&scenes(), &options.scenes)?;
+        let bounds = (scenes.iter())
+            .map(|choice| {
+                let bounds = read_bounds(&tests::scenes(), &choice.folder)?;
+                Ok((choice.scene.name.clone(), bounds))
+            })
+            .collect::<Result<RunBounds, Error>>()?;
+        let size = match options.size {
+            Some(size) => size,
+            None => {
+                let sound: Vec<FilterChoice> = subjects
+                    .iter()
+                    .map(|subject| subject.sound.clone())
+                    .collect();
+                let shipped = size_for_bounds(bounds.values(), &sound, None)?;
+                shipped.ok_or(Error::Usage(
+                    "no limit on these filters names a size; name one: --size 160x90".to_owned(),
+                ))?
+            }
+        };
+        let render = RenderSettings {
+            width: size.0,
+            height: size.1,
+            samples_per_pixel: options.samples,
+            seed: SEED,
+            ..RenderSettings::default()
+        };
+        let name = format!("{}x{}_{}", size.0, size.1, options.samples);
+        let out = options.out.join(name);
+        fs::create_dir_all(&out)
+            .map_err(|error| Error::Usage(format!("{}: {error}", out.display())))?;
+        Ok(Self {
+            bounds: (bounds.into_iter())
+                .map(|(scene, bounds)| (scene, bounds.at(size)))
+                .collect(),
+            scenes,
+            render,
+            gpu: tests::open_gpu(),
+            out,
+        })
+    }
+
+    /// Returns the folder of the truths of a seed.
+    pub fn truths(&self, seed: u64) -> PathBuf {
+        self.out.join(format!("seed_{seed}"))
+    }
+
+    /// Runs filters on a scene and measures their pictures as `check` does.
+    pub fn measure(
+        &self,
+        scene: &Scene,
+        filters: Vec<FilterChoice>,
+        seed: u64,
+    ) -> Result<Run, Error> {
+        let plan = RunPlan {
+            scenes: vec![scene.clone()],
+            filters,
+            inputs: vec![InputFormat::default()],
+            jitter_frames: 0,
+            render: RenderSettings {
+                seed,
+                ..self.render.clone()
+            },
+            out: self.truths(seed),
+            intervals: true,
+            no_cache: false,
+            common: None,
+            monitor: Monitor::SILENT,
+        };
+        measure_scenes(&plan, Some(&self.gpu), Vec::new())
+    }
+
+    /// Opens the adapter anew, after it was left at work on kernels that take too long.
+    pub fn reopen_gpu(&mut self) {
+        self.gpu = tests::open_gpu();
+    }
+}
+
+/// Names a mutant on a scene.
+pub fn place(subject: &Subject, mutant: &MutantFilter, scene: &str) -> Place {
+    (subject.key.clone(), mutant.name.clone(), scene.to_owned())
+}

@@ -1,0 +1,158 @@
+//! Changes of pictures, in noise floors of the truth.
+
+use filters::{Blur, FilterError, Gpu, Input, Kernels};
+use frame::{Frame, Image, Region, Regions, regions};
+use suite::{Error, FilterChoice, Monitor, render_frame, render_truth};
+use tracer::Scene;
+
+use crate::bench::{Bench, SEED, place};
+use crate::journal::{Change, Journal};
+use crate::subject::{MutantFilter, Subject};
+
+/// Regions whose change counts.
+const COMPARED: [Region; 2] = [Region::Moving, Region::Full];
+
+/// A scene's frame, and the picture that the filter makes of it without a change.
+struct SoundPicture {
+    scene: String,
+    frame: Frame,
+    regions: Regions,
+    /// Noise floors of the truth.
+    floors: Vec<(Region, f64)>,
+    picture: Image,
+}
+
+/// Measures how much each mutant of a filter changes the picture of each scene.
+pub fn measure_changes(
+    bench: &mut Bench,
+    subject: &Subject,
+    journal: &mut Journal,
+    due: &dyn Fn() -> bool,
+) -> Result<(), Error> {
+    let is_new = |journal: &Journal, mutant: &MutantFilter, scene: &str| {
+        journal
+            .changes
+            .get(&place(subject, mutant, scene))
+            .is_none()
+    };
+    let missing: Vec<&MutantFilter> = (subject.mutants.iter())
+        .filter(|mutant| {
+            (bench.scenes.iter()).any(|choice| is_new(journal, mutant, &choice.scene.name))
+        })
+        .collect();
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let scenes = (bench.scenes.iter())
+        .map(|choice| SoundPicture::new(bench, &choice.scene, &subject.sound))
+        .collect::<Result<Vec<_>, _>>()?;
+    for (number, mutant) in missing.iter().enumerate() {
+        if !due() {
+            return Ok(());
+        }
+        eprintln!(
+            "{} {number} of {}: {}",
+            subject.name,
+            missing.len(),
+            mutant.name
+        );
+        let new: Vec<&SoundPicture> = (scenes.iter())
+            .filter(|scene| is_new(journal, mutant, &scene.scene))
+            .collect();
+        let mut is_too_slow = false;
+        for (scene, change) in new.iter().zip(compare(bench, &new, &mutant.choice)) {
+            is_too_slow |= matches!(change, Err(FilterError::TooSlow { .. }));
+            let record = change.map_err(|error| error.to_string());
+            journal
+                .changes
+                .add(place(subject, mutant, &scene.scene), record);
+        }
+        if is_too_slow {
+            bench.reopen_gpu();
+        }
+    }
+    Ok(())
+}
+
+/// Compares the pictures of a mutant with those of the sound filter. Once one of them takes too long, no other is tried.
+fn compare(
+    bench: &Bench,
+    scenes: &[&SoundPicture],
+    choice: &FilterChoice,
+) -> Vec<Result<Change, FilterError>> {
+    let kernels = match Kernels::compile(&bench.gpu, &choice.filter) {
+        Ok(kernels) => kernels,
+        Err(error) => return vec![Err(error); scenes.len()],
+    };
+    let mut given_up: Option<FilterError> = None;
+    let changes = scenes.iter().map(|scene| {
+        if let Some(error) = &given_up {
+            return Err(error.clone());
+        }
+        let change = blur(&kernels, choice, &scene.frame).and_then(|picture| {
+            let change = scene.compare(&picture);
+            change.ok_or(FilterError::Input {
+                filter: choice.filter.name.clone(),
+                reason: "the picture is not finite".to_owned(),
+            })
+        });
+        if let Err(error @ FilterError::TooSlow { .. }) = &change {
+            given_up = Some(error.clone());
+        }
+        change
+    });
+    changes.collect()
+}
+
+fn blur(kernels: &Kernels, choice: &FilterChoice, frame: &Frame) -> Result<Image, FilterError> {
+    let (width, height) = frame.size();
+    let settings = choice.scaled_to(width).settings;
+    let outputs = Blur::with_kernels(kernels, &settings, width, height)?.run(&Input {
+        color: &[&frame.color],
+        velocity: &frame.velocity,
+        depth: &frame.depth,
+        reprojection: Some(frame.reprojection),
+        exposure: frame.exposure,
+        frame_index: 0,
+    })?;
+    Ok(outputs.into_iter().next().expect("one image comes back"))
+}
+
+impl SoundPicture {
+    fn new(bench: &Bench, scene: &Scene, sound: &FilterChoice) -> Result<Self, Error> {
+        let (out, gpu): (_, &Gpu) = (bench.truths(SEED), &bench.gpu);
+        let alignment = sound.filter.alignment;
+        let frame = render_frame(scene, &bench.render, &out, Monitor::SILENT)?;
+        let truth = render_truth(scene, &bench.render, alignment, &out, Monitor::SILENT)?;
+        let floors = truth.noise_floors();
+        Ok(Self {
+            scene: scene.name.clone(),
+            regions: regions(&truth),
+            floors: (floors.into_iter())
+                .filter(|(region, floor)| COMPARED.contains(region) && *floor > 0.0)
+                .collect(),
+            picture: blur(&Kernels::compile(gpu, &sound.filter)?, sound, &frame)?,
+            frame,
+        })
+    }
+
+    /// Measures the change of a picture; none if the picture is not finite.
+    fn compare(&self, picture: &Image) -> Option<Change> {
+        let squares = self.picture.zip(picture, |a, b| {
+            let square = |c: usize| (f64::from(a[c]) - f64::from(b[c])).powi(2);
+            (square(0) + square(1) + square(2)) / 3.0
+        });
+        let floors = self.floors.iter().map(|(region, floor)| {
+            let inside = self.regions.select(*region, &squares);
+            let mean = inside.iter().sum::<f64>() / inside.len() as f64;
+            mean.sqrt() / floor
+        });
+        let changed = squares.pixels.iter().filter(|square| **square > 0.0);
+        let change = Change {
+            share: changed.count() as f64 / squares.pixels.len() as f64,
+            floors: floors.fold(0.0, f64::max),
+        };
+        let is_finite = squares.pixels.iter().all(|square| square.is_finite());
+        is_finite.then_some(change)
+    }
+}

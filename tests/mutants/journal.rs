@@ -1,0 +1,87 @@
+//! What was measured of mutants: files of JSON, a line each, that a later run reads back.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File, OpenOptions};
+use std::io::Write;
+use std::path::Path;
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use suite::{Case, Error, Run};
+
+/// A mutant on a scene: the subject's key, the mutant's name, the scene. A seed stands for the filter without a change.
+pub type Place = (String, String, String);
+
+/// Everything that was measured so far.
+pub struct Journal {
+    /// Changes of pictures.
+    pub changes: Records<Result<Change, String>>,
+    /// Runs of filters without a change.
+    pub sound: Records<Run>,
+    /// Scores of mutants.
+    pub cases: Records<Result<Box<Case>, String>>,
+}
+
+/// Change of the picture that a mutant makes of a scene.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct Change {
+    /// Root mean square over a region, in noise floors of the truth there; the larger of the moving region and the whole picture.
+    pub floors: f64,
+    /// Share of the pixels that are not the same.
+    pub share: f64,
+}
+
+/// Records in a file.
+pub struct Records<T> {
+    file: File,
+    found: BTreeMap<Place, T>,
+}
+
+impl Journal {
+    /// Opens the files in a folder, and makes those that are missing.
+    pub fn open(folder: &Path) -> Result<Self, Error> {
+        Ok(Self {
+            changes: Records::open(&folder.join("changes.jsonl"))?,
+            sound: Records::open(&folder.join("sound.jsonl"))?,
+            cases: Records::open(&folder.join("cases.jsonl"))?,
+        })
+    }
+}
+
+impl<T: Serialize + DeserializeOwned> Records<T> {
+    fn open(path: &Path) -> Result<Self, Error> {
+        let name = |error: std::io::Error| Error::Usage(format!("{}: {error}", path.display()));
+        let text = match path.exists() {
+            true => fs::read_to_string(path).map_err(name)?,
+            false => String::new(),
+        };
+        // A run that was killed may leave half a line.
+        let lines = text
+            .lines()
+            .filter_map(|line| serde_json::from_str(line).ok());
+        let mut file = OpenOptions::new()
+            .append(true)
+            .create(true)
+            .open(path)
+            .map_err(name)?;
+        if !text.is_empty() && !text.ends_with('\n') {
+            file.write_all(b"\n").map_err(name)?;
+        }
+        Ok(Self {
+            file,
+            found: lines.collect(),
+        })
+    }
+
+    /// Finds a record.
+    pub fn get(&self, place: &Place) -> Option<&T> {
+        self.found.get(place)
+    }
+
+    /// Adds a record to memory and file.
+    pub fn add(&mut self, place: Place, record: T) {
+        let line = serde_json::to_string(&(&place, &record)).expect("records are plain data");
+        writeln!(self.file, "{line}").expect("the journal can be written");
+        self.found.insert(place, record);
+    }
+}

@@ -1,0 +1,160 @@
+//! Limits that mutants are held to.
+
+use std::collections::BTreeMap;
+
+use metrics::Metric;
+use suite::{Case, Error, Level, Outcome, Run, SceneBounds, judge_scores};
+use tests::limits::calibrate_scene;
+use tracer::Scene;
+
+use crate::bench::{Bench, SEED};
+use crate::journal::{Journal, Place};
+use crate::subject::Subject;
+
+/// Seeds that limits are calibrated with, if there are no shipped ones.
+const CALIBRATED_WITH: [u64; 2] = [SEED, SEED + 1];
+
+/// Limits on one filter preset, by scene.
+pub type Limits = BTreeMap<String, SceneLimits>;
+
+/// Limits on one filter preset on one scene.
+pub struct SceneLimits {
+    /// Limits that decide.
+    pub deciding: SceneBounds,
+    /// True if they are those of bounds.toml.
+    pub are_shipped: bool,
+    /// Limits on every metric that can have one, which tell what would notice a survivor; none until they are calibrated.
+    pub widest: Option<SceneBounds>,
+}
+
+/// Finds the limits of a filter preset on every scene: those of bounds.toml if any of them is required at this size, or else those
+/// that `calibrate` proposes for the same metrics.
+pub fn find_limits(
+    bench: &Bench,
+    subject: &Subject,
+    journal: &mut Journal,
+) -> Result<Limits, Error> {
+    let mut limits = Limits::new();
+    for choice in &bench.scenes {
+        let scene = &choice.scene;
+        let shipped = &bench.bounds[&scene.name];
+        let bounded = shipped.of(&subject.sound.filter.name, &subject.sound.preset);
+        let are_shipped = bounded.values().any(|bound| bound.level == Level::Required);
+        let deciding = match are_shipped {
+            true => shipped.clone(),
+            false => {
+                let named = bounded
+                    .keys()
+                    .map(|name| name.parse().expect("it was read"));
+                let metrics: Vec<Metric> = named.collect();
+                let runs = measure_sound_runs(bench, subject, scene, journal)?;
+                calibrate_scene(&runs, &metrics, &scene.name)
+            }
+        };
+        let own = SceneLimits {
+            deciding,
+            are_shipped,
+            widest: None,
+        };
+        limits.insert(scene.name.clone(), own);
+    }
+    Ok(limits)
+}
+
+/// Calibrates limits on every metric that can have one.
+pub fn widen_limits(
+    bench: &Bench,
+    subject: &Subject,
+    limits: &mut Limits,
+    journal: &mut Journal,
+    due: &dyn Fn() -> bool,
+) -> Result<(), Error> {
+    let metrics: Vec<Metric> = (Metric::all().into_iter())
+        .filter(|metric| metric.report_only().is_none())
+        .collect();
+    for choice in &bench.scenes {
+        let scene = &choice.scene;
+        let is_kept = |seed| {
+            journal
+                .sound
+                .get(&sound_place(subject, scene, seed))
+                .is_some()
+        };
+        if CALIBRATED_WITH.into_iter().all(is_kept) || due() {
+            let runs = measure_sound_runs(bench, subject, scene, journal)?;
+            let widest = calibrate_scene(&runs, &metrics, &scene.name);
+            limits
+                .get_mut(&scene.name)
+                .expect("every scene has limits")
+                .widest = Some(widest);
+        }
+    }
+    Ok(())
+}
+
+/// Refuses limits that the filter breaks without a change: all of its mutants would break them.
+pub fn refuse_broken(subject: &Subject, case: &Case, limits: &SceneLimits) -> Result<(), Error> {
+    let broken = find_broken(case, &limits.deciding);
+    match broken.is_empty() {
+        true => Ok(()),
+        false => Err(Error::Usage(format!(
+            "{} breaks limits on {} without a change: {}; calibrate them anew",
+            subject.name,
+            case.scene,
+            broken.join(", ")
+        ))),
+    }
+}
+
+/// Measures the filter without a change, with every seed that limits are calibrated with.
+fn measure_sound_runs(
+    bench: &Bench,
+    subject: &Subject,
+    scene: &Scene,
+    journal: &mut Journal,
+) -> Result<Vec<Run>, Error> {
+    (CALIBRATED_WITH.into_iter())
+        .map(|seed| measure_sound(bench, subject, scene, seed, journal))
+        .collect()
+}
+
+/// Names a filter without a change on a scene.
+pub fn sound_place(subject: &Subject, scene: &Scene, seed: u64) -> Place {
+    (
+        subject.key.clone(),
+        format!("seed {seed}"),
+        scene.name.clone(),
+    )
+}
+
+/// Measures the filter without a change, unless the journal has it.
+fn measure_sound(
+    bench: &Bench,
+    subject: &Subject,
+    scene: &Scene,
+    seed: u64,
+    journal: &mut Journal,
+) -> Result<Run, Error> {
+    let place = sound_place(subject, scene, seed);
+    if let Some(run) = journal.sound.get(&place) {
+        return Ok(run.clone());
+    }
+    eprintln!(
+        "{}: {} without a change, seed {seed}",
+        scene.name, subject.name
+    );
+    let mut run = bench.measure(scene, vec![subject.sound.clone()], seed)?;
+    run.cases.retain(|case| !case.is_reference);
+    journal.sound.add(place, run.clone());
+    Ok(run)
+}
+
+/// Lists the metrics of a case whose required limits are broken.
+pub fn find_broken(case: &Case, bounds: &SceneBounds) -> Vec<String> {
+    let bounds = bounds.of(&case.filter, &case.preset);
+    let judged = judge_scores(&case.scores, Some(&case.intervals), &bounds).into_iter();
+    let broken = judged.filter(|judged| {
+        judged.outcome == Outcome::Broken && judged.bound.level == Level::Required
+    });
+    broken.map(|judged| judged.metric).collect()
+}

@@ -1,0 +1,175 @@
+//! Scores of mutants, measured until a limit kills them.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use suite::{Case, Error, FilterChoice, Run};
+use tracer::Scene;
+
+use crate::bench::{Bench, SEED, place};
+use crate::journal::Journal;
+use crate::limits::{Limits, SceneLimits, refuse_broken, sound_place};
+use crate::subject::{MutantFilter, Subject};
+use crate::verdict::{is_killed, is_same_picture};
+
+/// Rounds in which each mutant meets the scene that it changes most. Few survive them.
+const ROUNDS: usize = 3;
+
+/// Mutants that are measured before the journal gets their scores.
+const BATCH: usize = 16;
+
+/// Label of the filter without a change.
+const SOUND: &str = "sound";
+
+/// Measures every mutant of a filter on one scene after the other, until a limit kills it.
+pub fn measure_mutants(
+    bench: &mut Bench,
+    subject: &Subject,
+    limits: &Limits,
+    journal: &mut Journal,
+    due: &dyn Fn() -> bool,
+) -> Result<(), Error> {
+    let scenes: Vec<Scene> = (bench.scenes.iter())
+        .map(|choice| choice.scene.clone())
+        .collect();
+    for _ in 0..ROUNDS {
+        let mut groups: BTreeMap<usize, Vec<&MutantFilter>> = BTreeMap::new();
+        for mutant in find_alive(bench, subject, limits, journal) {
+            let missing =
+                (0..scenes.len()).filter(|at| is_missing(subject, mutant, &scenes[*at], journal));
+            let change = |at: &usize| {
+                let found = journal
+                    .changes
+                    .get(&place(subject, mutant, &scenes[*at].name));
+                found.map_or(0.0, |found| {
+                    found.as_ref().map_or(0.0, |change| change.floors)
+                })
+            };
+            let largest = missing.max_by(|a, b| change(a).total_cmp(&change(b)));
+            if let Some(at) = largest {
+                groups.entry(at).or_default().push(mutant);
+            }
+        }
+        for (at, mutants) in groups {
+            measure_scene(bench, subject, &scenes[at], limits, &mutants, journal, due)?;
+        }
+    }
+    for scene in &scenes {
+        let alive = find_alive(bench, subject, limits, journal).into_iter();
+        let missing = alive.filter(|mutant| is_missing(subject, mutant, scene, journal));
+        let missing: Vec<&MutantFilter> = missing.collect();
+        measure_scene(bench, subject, scene, limits, &missing, journal, due)?;
+    }
+    Ok(())
+}
+
+/// Lists the mutants that no limit has killed so far.
+fn find_alive<'s>(
+    bench: &Bench,
+    subject: &'s Subject,
+    limits: &Limits,
+    journal: &Journal,
+) -> Vec<&'s MutantFilter> {
+    (subject.mutants.iter())
+        .filter(|mutant| !is_killed(bench, subject, limits, journal, mutant))
+        .collect()
+}
+
+/// Tells whether the scores of a mutant on a scene are missing. Those of the same picture are known.
+fn is_missing(subject: &Subject, mutant: &MutantFilter, scene: &Scene, journal: &Journal) -> bool {
+    let place = place(subject, mutant, &scene.name);
+    journal.cases.get(&place).is_none() && !is_same_picture(journal, &place)
+}
+
+/// Measures mutants on a scene.
+fn measure_scene(
+    bench: &mut Bench,
+    subject: &Subject,
+    scene: &Scene,
+    limits: &Limits,
+    mutants: &[&MutantFilter],
+    journal: &mut Journal,
+    due: &dyn Fn() -> bool,
+) -> Result<(), Error> {
+    for batch in mutants.chunks(BATCH) {
+        if due() {
+            eprintln!(
+                "{}: {} mutants of {}",
+                scene.name,
+                batch.len(),
+                subject.name
+            );
+            measure_batch(bench, subject, scene, &limits[&scene.name], batch, journal)?;
+        }
+    }
+    Ok(())
+}
+
+/// Measures some mutants on a scene, one by one if they fail together. The filter without a change is measured with the first.
+fn measure_batch(
+    bench: &mut Bench,
+    subject: &Subject,
+    scene: &Scene,
+    limits: &SceneLimits,
+    batch: &[&MutantFilter],
+    journal: &mut Journal,
+) -> Result<(), Error> {
+    // Cases and failures name filter and preset, which are the same in all mutants.
+    let label = |at: usize| format!("mutant_{at}");
+    let sound = sound_place(subject, scene, SEED);
+    let is_new = journal.sound.get(&sound).is_none();
+    let mutants = batch.iter().map(|mutant| &mutant.choice);
+    let filters = (mutants.enumerate())
+        .map(|(at, choice)| (label(at), choice))
+        .chain(is_new.then(|| (SOUND.to_owned(), &subject.sound)))
+        .map(|(preset, choice)| FilterChoice {
+            preset,
+            ..choice.clone()
+        });
+    let run = match bench.measure(scene, filters.collect(), SEED) {
+        Ok(run) => run,
+        Err(error @ Error::Filter(_)) => {
+            bench.reopen_gpu();
+            if let [mutant] = batch {
+                let place = place(subject, mutant, &scene.name);
+                journal.cases.add(place, Err(error.to_string()));
+                return Ok(());
+            }
+            return (batch.chunks(1))
+                .try_for_each(|one| measure_batch(bench, subject, scene, limits, one, journal));
+        }
+        Err(error) => return Err(error),
+    };
+    if is_new {
+        let case = take_case(bench, subject, &run, SOUND).map_err(Error::Usage)?;
+        refuse_broken(subject, &case, limits)?;
+        let alone = Run {
+            cases: vec![case],
+            ..run.clone()
+        };
+        journal.sound.add(sound, alone);
+    }
+    for (at, mutant) in batch.iter().enumerate() {
+        let case = take_case(bench, subject, &run, &label(at)).map(Box::new);
+        let place = place(subject, mutant, &scene.name);
+        journal.cases.add(place, case);
+    }
+    Ok(())
+}
+
+/// Takes the case with a label out of a run, or the reason why it failed, and gives it the preset's name. Removes its pictures, which
+/// nobody looks at again.
+fn take_case(bench: &Bench, subject: &Subject, run: &Run, label: &str) -> Result<Case, String> {
+    let Some(case) = run.cases.iter().find(|case| case.preset == label) else {
+        let name = format!("{}:{label}", subject.sound.filter.name);
+        let failure = run.failures.iter().find(|failure| failure.filter == name);
+        let failure = failure.expect("every case is measured or fails");
+        return Err(failure.reason.clone());
+    };
+    // A folder that stays is no harm.
+    let _ = fs::remove_dir_all(bench.truths(SEED).join(&case.folder));
+    Ok(Case {
+        preset: subject.sound.preset.clone(),
+        ..case.clone()
+    })
+}

@@ -1,0 +1,90 @@
+//! A filter preset and its mutants.
+
+use std::fs;
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use cli::{Programs, select_filters};
+use suite::{Error, FilterChoice};
+use tests::filter_folder::{copy_changed_filter, shipped_filter};
+use tests::mutants::{Mutant, choose_mutants};
+
+/// Seconds that a pass of a mutant may take. A shipped one takes less than one.
+const TIME_LIMIT: f64 = 20.0;
+
+/// A filter preset, and mutants of its kernels.
+pub struct Subject {
+    /// Filter and preset: `mcguire:paper`.
+    pub name: String,
+    /// Name by which the journal knows these kernels: another text has other mutants.
+    pub key: String,
+    /// File of the kernels, below the repository.
+    pub file: String,
+    /// Text of the kernels.
+    pub kernels: String,
+    /// The filter without a change.
+    pub sound: FilterChoice,
+    /// Mutants that naga accepts.
+    pub mutants: Vec<MutantFilter>,
+}
+
+/// A mutant as a filter.
+pub struct MutantFilter {
+    /// Its change.
+    pub mutant: Mutant,
+    /// Description of the change, with its line.
+    pub name: String,
+    /// The filter with the change.
+    pub choice: FilterChoice,
+}
+
+impl Subject {
+    /// Loads a filter preset, and chooses up to `count` of the mutants that naga accepts.
+    pub fn new(name: &str, count: usize) -> Result<Self, Error> {
+        let sound = select(name)?;
+        let filter = sound.filter.name.clone();
+        let folder = shipped_filter(&filter);
+        let read = |path| fs::read_to_string(path).expect("a shipped filter can be read");
+        let kernels = read(folder.join(&filter).with_extension("wgsl"));
+        let mut hasher = DefaultHasher::new();
+        (&kernels, read(folder.join("filter.toml"))).hash(&mut hasher);
+        let accepted: Vec<Mutant> = (Mutant::all(&kernels).into_iter())
+            .filter(|mutant| load_mutant(&filter, &sound.preset, mutant).is_ok())
+            .collect();
+        let chosen = choose_mutants(&accepted, count).into_iter();
+        let mutants = chosen.map(|mutant| {
+            Ok(MutantFilter {
+                name: mutant.describe(&kernels),
+                choice: load_mutant(&filter, &sound.preset, &mutant)?,
+                mutant,
+            })
+        });
+        Ok(Self {
+            name: name.to_owned(),
+            key: format!("{name} {:016x}", hasher.finish()),
+            file: format!("shaders/{filter}/{filter}.wgsl"),
+            mutants: mutants.collect::<Result<_, Error>>()?,
+            kernels,
+            sound,
+        })
+    }
+}
+
+fn select(name: &str) -> Result<FilterChoice, Error> {
+    let mut choices = select_filters(&[name.to_owned()], None, &[], Programs::Refused)?;
+    match choices.len() {
+        1 => Ok(choices.remove(0)),
+        _ => Err(Error::Usage(format!(
+            "--filters {name}: name the preset as well, such as mcguire:paper"
+        ))),
+    }
+}
+
+/// Loads a shipped filter with a change.
+fn load_mutant(filter: &str, preset: &str, mutant: &Mutant) -> Result<FilterChoice, Error> {
+    let folder = tempfile::tempdir().expect("temporary folders can be made");
+    let copy = folder.path().join(filter);
+    copy_changed_filter(filter, &copy, |text| mutant.apply(text));
+    let mut choice = select(&format!("{}:{preset}", copy.display()))?;
+    choice.filter.time_limit = TIME_LIMIT;
+    Ok(choice)
+}

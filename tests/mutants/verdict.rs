@@ -1,0 +1,140 @@
+//! Verdict on a mutant: killed by a limit, or why not.
+
+use crate::bench::{Bench, place};
+use crate::journal::{Change, Journal, Place};
+use crate::limits::{Limits, find_broken};
+use crate::subject::{MutantFilter, Subject};
+
+/// Change from which on a mutant is to be noticed, in noise floors.
+pub const NOTICEABLE: f64 = 3.0;
+
+/// Everything that is known of a mutant.
+pub struct Verdict<'s> {
+    /// The mutant.
+    pub mutant: &'s MutantFilter,
+    /// Error of a mutant that makes no picture, on which a check fails by itself.
+    pub failure: Option<String>,
+    /// Largest change of a picture, and its scene; none as long as a scene was not tried.
+    pub change: Option<(Change, String)>,
+    /// First scene on which limits are broken, and their metrics.
+    pub killed: Option<(String, Vec<String>)>,
+    /// True if every scene was tried, or a limit broke.
+    pub is_decided: bool,
+    /// Metrics that would notice a survivor if they had limits, each with a scene.
+    pub noticed_by: Vec<(String, String)>,
+}
+
+/// Size of a mutant's change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Size {
+    /// Every picture is the same, to the last bit.
+    None,
+    /// Less than one noise floor.
+    Unseen,
+    /// One to three noise floors.
+    Small,
+    /// More than three noise floors.
+    Noticeable,
+}
+
+impl Size {
+    /// Every size.
+    pub const ALL: [Self; 4] = [Self::None, Self::Unseen, Self::Small, Self::Noticeable];
+}
+
+impl Verdict<'_> {
+    /// Returns the size of the largest change; none if that is not known.
+    pub fn size(&self) -> Option<Size> {
+        let (change, _) = self.change.as_ref()?;
+        Some(match change.floors {
+            _ if change.share == 0.0 => Size::None,
+            floors if floors > NOTICEABLE => Size::Noticeable,
+            floors if floors >= 1.0 => Size::Small,
+            _ => Size::Unseen,
+        })
+    }
+}
+
+/// Tells whether a mutant makes the same picture of a scene as the filter without a change.
+pub fn is_same_picture(journal: &Journal, place: &Place) -> bool {
+    matches!(journal.changes.get(place), Some(Ok(change)) if change.share == 0.0)
+}
+
+/// Tells whether a mutant broke a limit on a scene, or made no picture.
+pub fn is_killed(
+    bench: &Bench,
+    subject: &Subject,
+    limits: &Limits,
+    journal: &Journal,
+    mutant: &MutantFilter,
+) -> bool {
+    let verdict = find_verdict(bench, subject, limits, journal, mutant);
+    verdict.killed.is_some() || verdict.failure.is_some()
+}
+
+/// Finds the verdict on every mutant of a filter.
+pub fn find_verdicts<'s>(
+    bench: &Bench,
+    subject: &'s Subject,
+    limits: &Limits,
+    journal: &Journal,
+) -> Vec<Verdict<'s>> {
+    let mutants = subject.mutants.iter();
+    mutants
+        .map(|mutant| find_verdict(bench, subject, limits, journal, mutant))
+        .collect()
+}
+
+fn find_verdict<'s>(
+    bench: &Bench,
+    subject: &Subject,
+    limits: &Limits,
+    journal: &Journal,
+    mutant: &'s MutantFilter,
+) -> Verdict<'s> {
+    let mut verdict = Verdict {
+        mutant,
+        failure: None,
+        change: None,
+        killed: None,
+        is_decided: true,
+        noticed_by: Vec::new(),
+    };
+    let mut is_tried = true;
+    for choice in &bench.scenes {
+        let scene = &choice.scene.name;
+        let place = place(subject, mutant, scene);
+        match journal.changes.get(&place) {
+            None => is_tried = false,
+            Some(Err(reason)) => verdict.failure = Some(reason.clone()),
+            Some(Ok(change)) => {
+                let larger = (verdict.change.as_ref())
+                    .is_none_or(|(largest, _)| largest.floors < change.floors);
+                if larger {
+                    verdict.change = Some((*change, scene.clone()));
+                }
+            }
+        }
+        match journal.cases.get(&place) {
+            None => verdict.is_decided &= is_same_picture(journal, &place),
+            Some(Err(reason)) => verdict.failure = Some(reason.clone()),
+            Some(Ok(case)) => {
+                let limits = &limits[scene];
+                let broken = find_broken(case, &limits.deciding);
+                if !broken.is_empty() && verdict.killed.is_none() {
+                    verdict.killed = Some((scene.clone(), broken));
+                }
+                let noticed = limits
+                    .widest
+                    .iter()
+                    .flat_map(|widest| find_broken(case, widest));
+                (verdict.noticed_by).extend(noticed.map(|metric| (metric, scene.clone())));
+            }
+        }
+    }
+    if !is_tried {
+        verdict.change = None;
+    }
+    verdict.is_decided |= verdict.killed.is_some() || verdict.failure.is_some();
+    verdict
+}
