@@ -19,8 +19,8 @@ const TILE: u32 = 4;
 /// Weight of squared errors where nothing moves. Scores of motion blur are pooled over what moves.
 const WEIGHT_OF_STILL: f64 = 0.25;
 /// Radiance below which a display shows all as dark.
-const DARK: f64 = 0.02;
-/// Weight of the variance of coverage beside that of twice the square root of radiance. Scores of labels see the edge of a mover
+const DARK: f64 = 0.005;
+/// Weight of the variance of coverage beside that of three times the cube root of radiance. Scores of labels see the edge of a mover
 /// that has the colour of what lies behind it.
 const WEIGHT_OF_COVERAGE: f64 = 0.25;
 /// Cost of a sample without bounces, in bounces.
@@ -101,10 +101,10 @@ pub(crate) fn choose_samples(
         tile.bounces += probe.bounces;
         tile.moves |= probe.moves;
     }
-    // Variance of twice the square root of radiance, which is about as a display shows it.
+    // Variance of three times the cube root of radiance, which is about as lightness is perceived.
     let variance = widen(&found.map(|tile| {
         let pixels = tile.pixels;
-        let shown = tile.variance / (DARK + tile.radiance / pixels);
+        let shown = tile.variance / (DARK + tile.radiance / pixels).powf(4.0 / 3.0);
         (shown + WEIGHT_OF_COVERAGE * tile.coverage_variance) / pixels
     }));
     let near_motion = dilate_square(&found.map(|tile| tile.moves), margin.div_ceil(TILE));
