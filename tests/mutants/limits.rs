@@ -77,7 +77,7 @@ pub fn widen_limits(
         let is_kept = |seed| {
             journal
                 .sound
-                .get(&sound_place(subject, scene, seed))
+                .get(&sound_place(subject, &scene.name, seed))
                 .is_some()
         };
         if CALIBRATED_WITH.into_iter().all(is_kept) || due() {
@@ -119,11 +119,11 @@ fn measure_sound_runs(
 }
 
 /// Names a filter without a change on a scene.
-pub fn sound_place(subject: &Subject, scene: &Scene, seed: u64) -> Place {
+pub fn sound_place(subject: &Subject, scene: &str, seed: u64) -> Place {
     (
         subject.key.clone(),
         format!("seed {seed}"),
-        scene.name.clone(),
+        scene.to_owned(),
     )
 }
 
@@ -135,7 +135,7 @@ fn measure_sound(
     seed: u64,
     journal: &mut Journal,
 ) -> Result<Run, Error> {
-    let place = sound_place(subject, scene, seed);
+    let place = sound_place(subject, &scene.name, seed);
     if let Some(run) = journal.sound.get(&place) {
         return Ok(run.clone());
     }

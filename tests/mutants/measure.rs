@@ -116,7 +116,7 @@ fn measure_batch(
 ) -> Result<(), Error> {
     // Cases and failures name filter and preset, which are the same in all mutants.
     let label = |at: usize| format!("mutant_{at}");
-    let sound = sound_place(subject, scene, SEED);
+    let sound = sound_place(subject, &scene.name, SEED);
     let is_new = journal.sound.get(&sound).is_none();
     let mutants = batch.iter().map(|mutant| &mutant.choice);
     let filters = (mutants.enumerate())

@@ -36,7 +36,7 @@ impl Options {
             scenes: Vec::new(),
             size: None,
             samples: suite::RenderSettings::default().samples_per_pixel,
-            count: 60,
+            count: 100,
             time: None,
             out: Path::new(env!("CARGO_TARGET_TMPDIR")).join("mutants"),
         };

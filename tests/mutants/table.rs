@@ -9,7 +9,7 @@ use tests::mutants::Operator;
 use crate::bench::Bench;
 use crate::limits::Limits;
 use crate::subject::Subject;
-use crate::verdict::{NOTICEABLE, Size, Verdict};
+use crate::verdict::{NOTICEABLE, Reason, Size, Verdict};
 
 /// Formats the score of one filter, and its survivors.
 pub fn format_subject(
@@ -130,24 +130,13 @@ fn format_survivors(subject: &Subject, verdicts: &[Verdict]) -> String {
         floors(b).total_cmp(&floors(a))
     });
     let mut text = String::new();
-    for (size, title) in [
-        (
-            Size::Noticeable,
-            "holes: more than three noise floors, and no limit breaks",
-        ),
-        (Size::Small, "below the noise: one to three noise floors"),
-        (Size::Unseen, "below the noise: less than one noise floor"),
-        (Size::None, "equivalent: the same pictures to the last bit"),
-    ] {
+    for reason in Reason::ALL {
         let own: Vec<&&Verdict> = (survivors.iter())
-            .filter(|verdict| verdict.size() == Some(size))
+            .filter(|verdict| verdict.reason() == Some(reason))
             .collect();
-        if own.is_empty() {
-            continue;
-        }
-        let _ = writeln!(text, "\n{title}");
-        for verdict in own {
-            text += &format_survivor(subject, verdict);
+        if !own.is_empty() {
+            let _ = writeln!(text, "\n{}", reason.title());
+            text.extend(own.iter().map(|verdict| format_survivor(subject, verdict)));
         }
     }
     text
@@ -160,11 +149,15 @@ fn format_survivor(subject: &Subject, verdict: &Verdict) -> String {
     if let Some((change, scene)) = &verdict.change
         && change.share > 0.0
     {
+        let error = verdict
+            .error
+            .map(|error| format!(", {error:.3} times the squared error"));
         let _ = writeln!(
             text,
-            "      {} noise floors on {scene}, {:.1} % of the pixels",
+            "      {} noise floors on {scene}, {:.2} % of the pixels{}",
             number(change.floors),
-            100.0 * change.share
+            100.0 * change.share,
+            error.unwrap_or_default()
         );
     }
     let mut by_metric: BTreeMap<&str, Vec<&str>> = BTreeMap::new();

@@ -1,8 +1,11 @@
 //! Verdict on a mutant: killed by a limit, or why not.
 
-use crate::bench::{Bench, place};
+use metrics::Measured;
+use suite::Case;
+
+use crate::bench::{Bench, SEED, place};
 use crate::journal::{Change, Journal, Place};
-use crate::limits::{Limits, find_broken};
+use crate::limits::{Limits, find_broken, sound_place};
 use crate::subject::{MutantFilter, Subject};
 
 /// Change from which on a mutant is to be noticed, in noise floors.
@@ -16,6 +19,8 @@ pub struct Verdict<'s> {
     pub failure: Option<String>,
     /// Largest change of a picture, and its scene; none as long as a scene was not tried.
     pub change: Option<(Change, String)>,
+    /// Mean squared error over what moves in that scene, divided by that of the filter without a change.
+    pub error: Option<f64>,
     /// First scene on which limits are broken, and their metrics.
     pub killed: Option<(String, Vec<String>)>,
     /// True if every scene was tried, or a limit broke.
@@ -42,7 +47,59 @@ impl Size {
     pub const ALL: [Self; 4] = [Self::None, Self::Unseen, Self::Small, Self::Noticeable];
 }
 
+/// Reason why no limit kills a mutant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reason {
+    /// Its change is noticeable: a limit is missing or too loose, or a scene is missing.
+    Hole,
+    /// Its change is noticeable, but no larger squared error comes of it where the change is largest.
+    NoWorse,
+    /// Its change is small.
+    Small,
+    /// Its change is less than the noise.
+    Unseen,
+    /// It makes the same pictures.
+    Equivalent,
+}
+
+impl Reason {
+    /// Every reason.
+    pub const ALL: [Self; 5] = [
+        Self::Hole,
+        Self::NoWorse,
+        Self::Small,
+        Self::Unseen,
+        Self::Equivalent,
+    ];
+
+    /// Returns the title of a list of survivors.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Hole => "holes: more than three noise floors, and no limit breaks",
+            Self::NoWorse => {
+                "no worse: more than three noise floors, but the squared error does not grow"
+            }
+            Self::Small => "below the noise: one to three noise floors",
+            Self::Unseen => "below the noise: less than one noise floor",
+            Self::Equivalent => "equivalent: the same pictures to the last bit",
+        }
+    }
+}
+
 impl Verdict<'_> {
+    /// Returns the reason why a survivor survives; none if its change is not known.
+    pub fn reason(&self) -> Option<Reason> {
+        Some(match self.size()? {
+            Size::None => Reason::Equivalent,
+            Size::Unseen => Reason::Unseen,
+            Size::Small => Reason::Small,
+            Size::Noticeable => match self.error {
+                Some(error) if error <= 1.0 => Reason::NoWorse,
+                _ => Reason::Hole,
+            },
+        })
+    }
+
     /// Returns the size of the largest change; none if that is not known.
     pub fn size(&self) -> Option<Size> {
         let (change, _) = self.change.as_ref()?;
@@ -96,6 +153,7 @@ fn find_verdict<'s>(
         mutant,
         failure: None,
         change: None,
+        error: None,
         killed: None,
         is_decided: true,
         noticed_by: Vec::new(),
@@ -135,6 +193,25 @@ fn find_verdict<'s>(
     if !is_tried {
         verdict.change = None;
     }
+    if let Some((_, scene)) = &verdict.change {
+        verdict.error = find_error(subject, journal, mutant, scene);
+    }
     verdict.is_decided |= verdict.killed.is_some() || verdict.failure.is_some();
     verdict
+}
+
+/// Divides the mean squared error of a mutant by that of the filter without a change.
+fn find_error(
+    subject: &Subject,
+    journal: &Journal,
+    mutant: &MutantFilter,
+    scene: &str,
+) -> Option<f64> {
+    let sound = journal.sound.get(&sound_place(subject, scene, SEED))?;
+    let case = journal.cases.get(&place(subject, mutant, scene))?;
+    let error = |case: &Case| match case.scores.get("mse_moving".parse().ok()?) {
+        Measured::Score(score) => Some(score.value),
+        Measured::NotApplicable { .. } => None,
+    };
+    Some(error(case.as_ref().ok()?)? / error(sound.cases.first()?)?)
 }
