@@ -7,6 +7,8 @@ use crate::bench::{Bench, assert_done, assert_refused, files_below, stderr, stdo
 #[test]
 fn a_narrower_run_keeps_the_cases_of_a_wider_one() {
     let bench = Bench::two_scenes();
+    let bounds = "[default]\nflip_moving = { limit = 0.9, why = \"it serves a test\" }\n";
+    fs::write(bench.path("scenes/bounds.toml"), bounds).unwrap();
     let filters = ["--filters", "identity,velocity_gather:fine,mcguire:paper"];
     assert_done(&bench.run(&filters));
     let before = bench.read_case_names();
@@ -26,6 +28,11 @@ fn a_narrower_run_keeps_the_cases_of_a_wider_one() {
     sorted.sort();
     assert_eq!(after, sorted);
     assert_eq!(bench.read_run().common_alignment, "centred");
+    assert_eq!(
+        bench.read_findings().len(),
+        6,
+        "a finding per bounded score"
+    );
     // The report shows all of them.
     assert!(
         fs::read_to_string(bench.path("out/report.html"))

@@ -6,15 +6,15 @@ use std::path::{Path, PathBuf};
 use frame::FileError;
 use suite::{
     BOUNDS_FILE, Baseline, Error, Finding, Judgement, Run, RunBounds, add_evidence, check,
-    check_names, compare_with_baseline, judge, open_gpu, read_bounds, refuse_tracked,
-    require_bounds, size_for_bounds,
+    check_names, compare_with_baseline, judge, open_gpu, refuse_tracked, require_bounds,
+    size_for_bounds,
 };
 
 use super::ending::Ending;
 use super::margins::read_margins;
 use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, refuse_folder, write_run_page};
-use super::plan::{check_replicates_for_intervals, make_plan};
+use super::plan::{check_replicates_for_intervals, make_plan, read_bounds_at, scene_folder_below};
 use super::run_files::write_judged_run;
 use crate::arguments::CheckArgs;
 use crate::output::annotations::{annotations, summary};
@@ -178,15 +178,14 @@ fn read_run_bounds(run: &Run, root: &Path) -> Result<RunBounds, Error> {
         if found.contains_key(&case.scene) {
             continue;
         }
-        let name = (case.scene.split_once('@')).map_or(case.scene.as_str(), |(name, _)| name);
-        let folder = root.join(name);
-        if !folder.is_dir() {
-            return Err(Error::Usage(format!(
+        let size = (run.render.width, run.render.height);
+        let folder = scene_folder_below(root, &case.scene);
+        let bounds = read_bounds_at(root, &folder, size)?.ok_or_else(|| {
+            Error::Usage(format!(
                 "{}: there is no such scene, and its bounds cannot be read; name the folder of the run's scenes with --scenes-dir",
                 folder.display()
-            )));
-        }
-        let bounds = read_bounds(root, &folder)?.at((run.render.width, run.render.height));
+            ))
+        })?;
         found.insert(case.scene.clone(), bounds);
     }
     Ok(found)

@@ -56,6 +56,23 @@ pub fn load_scenes(root: &Path, names: &[String]) -> Result<Vec<(Scene, SceneBou
         .collect()
 }
 
+/// Names the folder of a scene, which may be a variant, below the folder of scenes.
+pub fn scene_folder_below(root: &Path, scene: &str) -> PathBuf {
+    root.join(scene.split_once('@').map_or(scene, |(name, _)| name))
+}
+
+/// Reads the bounds of a scene for pictures of one size; none where there is no such folder.
+pub fn read_bounds_at(
+    root: &Path,
+    folder: &Path,
+    size: (u32, u32),
+) -> Result<Option<SceneBounds>, Error> {
+    match folder.is_dir() {
+        true => Ok(Some(read_bounds(root, folder)?.at(size))),
+        false => Ok(None),
+    }
+}
+
 fn load_filters(args: &MeasureArgs) -> Result<Vec<FilterChoice>, Error> {
     let filters = select_filters(
         &args.filters,
