@@ -19,3 +19,9 @@ fetch "${GODOT_GUERTIN:-https://github.com/sphynx-owner/godot-motion-blur-addon-
     addons/sphynx_motion_blur_toolkit/guertin/shader_stages/shader_files \
     "guertin_tile_max_x.glsl guertin_tile_max_y.glsl guertin_neighbor_max.glsl guertin_sphynx_blur.glsl" \
     godot_guertin
+
+fetch "${GODOT_JUMP_FLOOD:-https://github.com/sphynx-owner/JFA_driven_motion_blur_demo}" \
+    d0c16fc1581eb757e993ff6eaf5877078c8d24cd \
+    addons/SphynxMotionBlurToolkit/JumpFlood/ShaderFiles \
+    "jf_guertin_tile_max_x.glsl jf_guertin_tile_max_y.glsl jfp_simple.glsl jf_neighbor_max.glsl jump_flood_simple_new_blur.glsl" \
+    godot_jump_flood

@@ -123,6 +123,7 @@ fn wrong_targets_are_refused() {
         ("targets = [\"tile_motion\"]", "targets = []", &["targets: allowed: from one to eight"]),
         ("targets = [\"tile_motion\"]", "targets = [\"tiles\"]", &["targets: \"tiles\" is neither output nor a declared texture"]),
         ("targets = [\"tile_motion\"]", "targets = [\"tile_motion\", \"output\"]", &["pass \"fastest\"", "locations [0]", "tile_motion, output in `targets`"]),
+        ("targets = [\"tile_motion\"]", "over = \"tile_motion\"", &["over and workgroup_per_texel are for kernels", "runs over its `targets`"]),
         ("stage = \"fragment\"\ntargets = [\"tile_motion\"]", "over = \"tile_motion\"", &["fastest.wgsl", "no compute entry point \"fastest\"", "fastest (fragment)"]),
     ];
     for (from, to, parts) in wrong {

@@ -69,7 +69,7 @@ fn a_wrong_folder_is_refused_with_place_and_reason() {
         ("kernels", "let tile = vec2<i32>(id.xy);", "let tile = id.xy;", &["centre_blur.wgsl:"]),
         ("kernels", "fn gather(", "fn bilinear() {}\n@compute @workgroup_size(8, 8)\nfn gather(", &["centre_blur.wgsl", "bilinear"]),
         ("kernels", "rgba32float, write", "rgba8unorm, write", &["\"output\" has another format than the image", "rgba32float or rgba16float"]),
-        ("kernels", "rgba32float, write", "rgba32uint, write", &["\"output\" cannot be bound", "rgba32float"]),
+        ("kernels", "rgba32float, write", "rgba8snorm, write", &["\"output\" cannot be bound", "rgba32float"]),
     ];
     for (file, from, to, fragments) in wrong {
         let Err(error) = load_changed(file, from, to) else {

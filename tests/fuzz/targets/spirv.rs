@@ -7,7 +7,7 @@ use crate::target::{Shape, Target};
 /// SPIR-V modules, with the bindings of the one in the corpus that has the most.
 pub static TARGET: Target = Target {
     name: "spirv",
-    share: 4_000,
+    share: 2_000,
     batch: 500,
     shape: Shape::Spirv,
     tokens: &[],

@@ -137,8 +137,8 @@ impl BoundPasses {
             let drawn = pass
                 .shader
                 .as_ref()
-                .and_then(|shader| shader.targets.first());
-            let over = drawn.map(String::as_str).or(pass.over.as_deref());
+                .map_or(&[][..], |shader| &shader.targets);
+            let over = drawn.first().map(String::as_str).or(pass.over.as_deref());
             let over = targets.current(over.unwrap_or("output")).texture.size();
             let shader = filter.shader(pass);
             // Texels that one workgroup covers.
@@ -179,8 +179,9 @@ impl BoundPasses {
                         },
                     )
                 })?;
-                let drawn = pass.shader.iter().flat_map(|shader| &shader.targets);
-                let attachments = drawn.map(|name| targets.written(entry, name).view.clone());
+                let attachments = drawn
+                    .iter()
+                    .map(|name| targets.written(entry, name).view.clone());
                 dispatches.push(Dispatch {
                     entry: pass.entry.clone(),
                     pipeline: compiled.pipeline.clone(),
@@ -191,7 +192,7 @@ impl BoundPasses {
                         over.width.div_ceil(group_width),
                         over.height.div_ceil(group_height),
                     ],
-                    bytes: targets.sum_bytes(shader, entry),
+                    bytes: targets.sum_bytes(shader, entry, drawn),
                     depends_on_color,
                     depends_on_noise,
                     writes_output: entry.writes.contains("output"),

@@ -172,16 +172,17 @@ impl Targets {
         }
     }
 
-    /// Sums the bytes of the textures that the kernel reads and of those that it writes.
-    pub fn sum_bytes(&self, shader: &Shader, entry: &EntryPoint) -> u64 {
+    /// Sums the bytes of the textures that the kernel reads and of those that it writes, render targets included.
+    pub fn sum_bytes(&self, shader: &Shader, entry: &EntryPoint, drawn: &[String]) -> u64 {
         let variables = entry
             .variables
             .iter()
             .map(|index| &shader.variables[*index]);
-        variables
+        let bound = variables
             .filter(|variable| matches!(variable.role, Role::Read(_) | Role::Write(_)))
-            .map(|variable| self.of_variable(entry, variable).bytes())
-            .sum()
+            .map(|variable| self.of_variable(entry, variable));
+        let drawn = drawn.iter().map(|name| self.written(entry, name));
+        bound.chain(drawn).map(Target::bytes).sum()
     }
 
     /// Exchanges copies, so that the next pass reads what this one wrote.

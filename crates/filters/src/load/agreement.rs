@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use crate::filter::Lines;
 use crate::filter::PassShader;
 use crate::shader::{EntryPoint, Role, Shader, Texel, written_texture};
-use crate::{Filter, FilterError, Format, Pass, Stage};
+use crate::{Filter, FilterError, Format, Length, Pass, Repeat, Stage};
 
 /// Refuses a filter whose declarations and kernels differ: parameters, textures, entry points, and the order in which
 /// passes read and write.
@@ -28,7 +28,7 @@ impl Check<'_> {
     fn check_parameters(&self) -> Result<(), FilterError> {
         let parameters = &self.filter.parameters;
         let Some(kernels) = self.kernels() else {
-            return Ok(());
+            return self.check_parameters_are_used();
         };
         let uniforms = &kernels.uniforms;
         let members = uniforms.get("parameters").map_or(&[][..], Vec::as_slice);
@@ -79,6 +79,38 @@ impl Check<'_> {
             return Err(self.refuse_kernel(line, reason));
         }
         Ok(())
+    }
+
+    /// Refuses a parameter that changes nothing, where shaders take only the parameters that they want.
+    fn check_parameters_are_used(&self) -> Result<(), FilterError> {
+        let Filter {
+            shaders,
+            passes,
+            textures,
+            ..
+        } = self.filter;
+        let is_used = |name: &str| {
+            let mut blocks = shaders.iter().flat_map(|shader| &shader.blocks);
+            let mut repeats = passes.iter().map(|pass| &pass.repeat);
+            let mut divisors =
+                (textures.iter()).flat_map(|texture| texture.divided_by.iter().flatten());
+            blocks.any(|block| block.reads(name))
+                || repeats.any(|repeat| matches!(repeat, Repeat::Parameter(known) if known == name))
+                || divisors
+                    .any(|length| matches!(length, Length::Parameter(known) if known == name))
+        };
+        let parameters = self.filter.parameters.iter().zip(&self.lines.parameters);
+        match parameters.into_iter().find(|(parameter, _)| !is_used(&parameter.name)) {
+            None => Ok(()),
+            Some((unused, line)) => Err(self.refuse_manifest(
+                *line,
+                format!(
+                    "parameter \"{}\" changes nothing: no member of a uniform block, `repeat` or `divided_by` has it; name \
+                     it in the `values` of a [[pass.binding]], or remove it",
+                    unused.name
+                ),
+            )),
+        }
     }
 
     fn check_variables(&self) -> Result<(), FilterError> {

@@ -105,13 +105,14 @@ pub(super) fn read_shader<T>(
             language.name()
         )));
     }
-    let is_condition = |name: &String| {
-        let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-        !name.is_empty() && name.chars().all(is_part)
-    };
-    if let Some(name) = keys.conditions.iter().find(|name| !is_condition(name)) {
+    let entry = keys.entry.unwrap_or("main");
+    // Names are words of a compiler's command line.
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let is_name = |name: &&str| name.starts_with(is_part) && name.chars().all(is_part);
+    let mut names_of_code = (keys.conditions.iter().map(String::as_str)).chain([entry]);
+    if let Some(name) = names_of_code.find(|name| !is_name(name)) {
         return Err(refuse(format!(
-            "condition \"{name}\" is no name; allowed: letters, digits and _"
+            "\"{name}\" is no name of an entry point or a condition; allowed: letters, digits and _"
         )));
     }
     let mut bindings = Vec::<Binding>::new();
@@ -128,7 +129,7 @@ pub(super) fn read_shader<T>(
     }
     Ok(Some(PassShader {
         file: relative,
-        entry: keys.entry.unwrap_or("main").to_owned(),
+        entry: entry.to_owned(),
         stage,
         targets,
         bindings,

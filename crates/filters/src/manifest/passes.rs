@@ -169,6 +169,11 @@ pub(super) fn read_passes(
             convention,
         };
         let shader = read_shader(file, spanned, &keys, names)?;
+        let draws = (shader.iter()).any(|shader| shader.stage == Stage::Fragment);
+        if draws && (over.is_some() || *workgroup_per_texel) {
+            let reason = "pass: over and workgroup_per_texel are for kernels; a fragment shader runs over its `targets`";
+            return Err(file.at(spanned, reason.into()));
+        }
         let entry = match (entry, &shader) {
             (None, None) => return Err(file.at(spanned, "missing field `entry`".into())),
             (Some(entry), None) => entry.clone(),

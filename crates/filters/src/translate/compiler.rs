@@ -1,4 +1,4 @@
-//! Compilers of shading languages: programs on the PATH that write SPIR-V.
+//! Compilers of shading languages: programs on the PATH that write SPIR-V, or WGSL in the case of WESL.
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -18,6 +18,10 @@ const TIME_LIMIT: Duration = Duration::from_secs(60);
 
 /// Most of a compiler's words that an error shows.
 const MAX_MESSAGE_BYTES: usize = 4096;
+
+/// First bindings of the registers of HLSL: `b0`, `t0`, `u0` and `s0` are different things.
+const REGISTERS: &str =
+    "-fvk-b-shift 0 all -fvk-t-shift 100 all -fvk-u-shift 200 all -fvk-s-shift 300 all";
 
 /// Largest module that is read.
 pub(super) const MAX_MODULE_BYTES: u64 = 4 << 20;
@@ -61,14 +65,15 @@ impl Compiler {
                 let slang = Self {
                     program: "slangc",
                     arguments: words(&format!(
-                        "{{include}} {{in}} -target spirv -profile spirv_1_3 -entry {entry} -stage {stage} -fvk-use-entrypoint-name -o {{out}}"
+                        "{{include}} {{in}} -target spirv -profile spirv_1_3 -entry {entry} -stage {stage} \
+                         -fvk-use-entrypoint-name {REGISTERS} -o {{out}}"
                     )),
                     way_out: "install Slang from https://github.com/shader-slang/slang/releases and add it to the PATH",
                 };
                 let dxc = Self {
                     program: "dxc",
                     arguments: words(&format!(
-                        "{{include}} -spirv -fspv-target-env=vulkan1.1 -T {profile} -E {entry} -Fo {{out}} {{in}}"
+                        "{{include}} -spirv -fspv-target-env=vulkan1.1 -T {profile} -E {entry} {REGISTERS} -Fo {{out}} {{in}}"
                     )),
                     way_out: "install slangc from https://github.com/shader-slang/slang/releases, or dxc from \
                               https://github.com/microsoft/DirectXShaderCompiler/releases, and add it to the PATH",

@@ -31,7 +31,7 @@ pub(super) fn fill_block(
     layouter
         .update(module.to_ctx())
         .map_err(|error| format!("has no layout: {error}"))?;
-    let members = list_members(module, &layouter, block)?;
+    let members = list_members(module, block)?;
     let given = binding.map_or(&[][..], |binding| &binding.values);
     let mut numbers = Vec::new();
     for member in &members {
@@ -103,16 +103,12 @@ fn describe(numbers: &[(u32, NumberKind)]) -> String {
     }
 }
 
-fn list_members(
-    module: &Module,
-    layouter: &Layouter,
-    block: Handle<Type>,
-) -> Result<Vec<Member>, String> {
+fn list_members(module: &Module, block: Handle<Type>) -> Result<Vec<Member>, String> {
     let ty = &module.types[block];
     let mut left = MAX_NUMBERS;
     let mut list = |name: String, ty, offset| {
         let mut numbers = Vec::new();
-        list_numbers(module, layouter, ty, offset, &mut left, &mut numbers)
+        list_numbers(module, ty, offset, &mut left, &mut numbers)
             .map_err(|reason| format!("its member \"{name}\" {reason}"))?;
         Ok(Member {
             name,
@@ -137,7 +133,6 @@ fn list_members(
 /// Lists the numbers of a type in order.
 fn list_numbers(
     module: &Module,
-    layouter: &Layouter,
     ty: Handle<Type>,
     offset: u32,
     left: &mut usize,
@@ -178,13 +173,13 @@ fn list_numbers(
             let offset = offset.saturating_add(index.saturating_mul(*stride));
             // An array of empty structs is refused by its length.
             *left = left.checked_sub(1).ok_or("is too long")?;
-            let listed = list_numbers(module, layouter, *base, offset, left, numbers);
+            let listed = list_numbers(module, *base, offset, left, numbers);
             *left += 1;
             listed
         }),
         TypeInner::Struct { members, .. } => members.iter().try_for_each(|member| {
             let offset = offset.saturating_add(member.offset);
-            list_numbers(module, layouter, member.ty, offset, left, numbers)
+            list_numbers(module, member.ty, offset, left, numbers)
         }),
         _ => Err("is no number, vector, matrix, array of known length, or struct of these".into()),
     }
