@@ -151,7 +151,7 @@ fn slang_hlsl_and_wesl_go_through_their_compilers() {
     fs::create_dir_all(bench.path("bin")).unwrap();
     fs::write(bench.path("compiled.wgsl"), wgsl).unwrap();
     let script = format!(
-        "case \"$*\" in \"compile --no-naga -D FAST -D FINE \"/*/translated/blur.wesl) ;; *) echo \"called as $*\" >&2; exit 3;; esac\n\
+        "case \"$*\" in \"compile -D FAST -D FINE \"/*/translated/blur.wesl) ;; *) echo \"called as $*\" >&2; exit 3;; esac\n\
          /bin/cat {}",
         bench.path("compiled.wgsl").display()
     );
@@ -182,6 +182,22 @@ fn what_a_compiler_says_is_shown_with_its_line() {
     );
     assert!(
         said.contains("translated/blur.slang(7): error 20001: unexpected token"),
+        "{said}"
+    );
+}
+
+/// `wesl` 0.4 ends with exit code 0 where it finds no file, and prints in colours.
+#[cfg(unix)]
+#[test]
+fn a_compiler_that_makes_nothing_has_failed() {
+    let bench = Bench::new();
+    write_pass(&bench, "blur.wesl", "");
+    fs::create_dir_all(bench.path("bin")).unwrap();
+    let script = "printf '\\033[1m\\033[91merror\\033[0m: file not found\\n' >&2";
+    write_script(&bench.path("bin/wesl"), script);
+    let said = stderr(&list(&bench));
+    assert!(
+        said.contains("translated/blur.wesl: wesl refuses it: error: file not found"),
         "{said}"
     );
 }

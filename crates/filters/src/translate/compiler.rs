@@ -88,7 +88,7 @@ impl Compiler {
                 let conditions: String = conditions.collect();
                 vec![Self {
                     program: "wesl",
-                    arguments: words(&format!("compile --no-naga{conditions} {{in}}")),
+                    arguments: words(&format!("compile{conditions} {{in}}")),
                     way_out: "install it with: cargo install wesl-cli",
                 }]
             }
@@ -224,17 +224,28 @@ fn run(
             }
         }
     };
-    if !status.success() || !output.is_file() {
+    let is_empty = std::fs::metadata(&output).map_or(true, |output| output.len() == 0);
+    if !status.success() || is_empty {
         let mut said = Vec::new();
         let file = std::fs::File::open(&log).map_err(|error| fail("its words are lost", error))?;
         (file.take(MAX_MESSAGE_BYTES as u64).read_to_end(&mut said))
             .map_err(|error| fail("its words are lost", error))?;
-        let said = String::from_utf8_lossy(&said);
+        let said = remove_colors(&String::from_utf8_lossy(&said));
         let (line, message) = find_error(&said, &input, path);
         return Err((line, format!("{program} refuses it: {message}")));
     }
     frame::read_bounded(&output, MAX_MODULE_BYTES)
         .map_err(|error| (None, format!("{program} wrote no module: {error}")))
+}
+
+/// Removes the sequences that colour a terminal.
+fn remove_colors(said: &str) -> String {
+    let mut parts = said.split("\u{1b}[");
+    let plain = parts.next().unwrap_or_default().to_owned();
+    parts.fold(plain, |plain, part| {
+        let end = part.find(|c: char| c.is_ascii_alphabetic());
+        plain + end.map_or("", |end| &part[end + 1..])
+    })
 }
 
 /// Finds the first line that a compiler names, and tidies what it said.
