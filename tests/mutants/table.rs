@@ -97,7 +97,7 @@ fn format_score(verdicts: &[Verdict]) -> String {
         0 => "\nscore: no mutant changes the picture by more than three noise floors\n".to_owned(),
         _ => format!(
             "\nscore: {killed} of {noticeable} mutants that change the picture by more than {NOTICEABLE} noise floors are killed \
-             ({:.0} %)\n",
+             ({:.1} %)\n",
             100.0 * killed as f64 / noticeable as f64
         ),
     };
