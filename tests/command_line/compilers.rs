@@ -89,7 +89,10 @@ fn a_language_without_its_compiler_names_the_way_out() {
         ),
         (
             "blur.wesl",
-            ["WESL needs wesl on the PATH", "cargo install wesl-cli"],
+            [
+                "WESL needs wesl on the PATH",
+                "cargo install wesl-cli@0.4.0",
+            ],
         ),
     ] {
         write_pass(&bench, file, "");

@@ -16,7 +16,7 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 15] = [
+const NOT_RUN: [(&str, &str); 17] = [
     ("cargo test --workspace", "runs this test and all others"),
     (
         "cargo install --path crates/cli",
@@ -48,6 +48,14 @@ const NOT_RUN: [(&str, &str); 15] = [
     ),
     ("cargo bench -p tracer", "compiles in release mode"),
     ("cargo bench -p tracer -- none", "compiles in release mode"),
+    (
+        "cargo bench -p tracer -- truths",
+        "compiles in release mode",
+    ),
+    (
+        "cargo install wesl-cli@0.4.0",
+        "compiles another program, and installs it",
+    ),
     (
         "cargo run -p generator",
         "writes the scenes of the checkout",

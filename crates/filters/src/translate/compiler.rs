@@ -89,7 +89,7 @@ impl Compiler {
                 vec![Self {
                     program: "wesl",
                     arguments: words(&format!("compile{conditions} {{in}}")),
-                    way_out: "install it with: cargo install wesl-cli",
+                    way_out: "install it with: cargo install wesl-cli@0.4.0",
                 }]
             }
             Language::Spirv | Language::Wgsl => Vec::new(),
