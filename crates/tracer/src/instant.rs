@@ -67,14 +67,14 @@ pub fn trace_frame(
     let points = Raster {
         width: canvas.columns(),
         height: canvas.rows(),
-        pixels: sample_points(&stage, canvas, settings),
+        pixels: sample_points(stage, canvas, settings),
     };
     let velocity = points.map(|point| point.velocity);
     check_picture(scene, &picture)?;
     check_layer(scene, "velocity", &velocity)?;
     Ok(Frame {
         provenance: provenance(
-            &stage,
+            stage,
             settings.seed,
             settings.samples_per_pixel,
             1,
