@@ -139,7 +139,7 @@ fn a_bound_within_three_floors_gives_exit_code_2_and_the_strictest_bound() {
     );
     let required = "label_tv = { limit = 0.9, why = \"it serves a test\" }\n";
     let text = fs::read_to_string(bench.path("scenes/plate/bounds.toml")).unwrap();
-    bench.write("bounds.toml", &(text + required));
+    bench.write("bounds.toml", &(text.clone() + required));
     let output = bench.check(&IDENTITY);
     let allowed = format!("the noise floor of {floor:.5}");
     assert_ends(
@@ -152,6 +152,15 @@ fn a_bound_within_three_floors_gives_exit_code_2_and_the_strictest_bound() {
         ],
     );
     assert!(verdict(&output).contains("stricter than three noise floors"));
+    // A bound that is broken beside it is a fact.
+    bench.write("bounds.toml", &(text + &required.replace("0.9", "0.02")));
+    let output = bench.check(&IDENTITY);
+    assert_ends(
+        &output,
+        1,
+        &["LIMIT WITHIN NOISE flip_moving", "BROKEN label_tv"],
+    );
+    assert!(verdict(&output).contains("a required bound is broken"));
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use std::fs;
 
 use filters::Filter;
+use tests::text::assert_contains;
 
 use super::{fixtures, load, write_folder};
 
@@ -45,13 +46,7 @@ fn wrong_bindings_are_refused_with_place_and_reason() {
         let Err(error) = load(&PASSES.replacen(from, to, 1), &FILES) else {
             panic!("\"{from}\" -> \"{to}\" was accepted");
         };
-        let message = error.to_string();
-        for part in *parts {
-            assert!(
-                message.contains(part),
-                "\"{from}\" -> \"{to}\": no \"{part}\" in: {message}"
-            );
-        }
+        assert_contains(&format!("\"{from}\" -> \"{to}\": {error}"), parts);
     }
 }
 
@@ -80,13 +75,7 @@ fn wrong_shaders_are_refused_with_file_line_and_reason() {
         let Err(error) = Filter::load(folder.path()) else {
             panic!("\"{from}\" -> \"{to}\" was accepted");
         };
-        let message = error.to_string();
-        for part in *parts {
-            assert!(
-                message.contains(part),
-                "\"{from}\" -> \"{to}\": no \"{part}\" in: {message}"
-            );
-        }
+        assert_contains(&format!("\"{from}\" -> \"{to}\": {error}"), parts);
     }
 }
 

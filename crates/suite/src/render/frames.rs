@@ -5,7 +5,6 @@ use std::path::Path;
 use frame::Frame;
 use tracer::Scene;
 
-use super::cached_file::CachedFile;
 use super::memory::check_memory;
 use super::settings::RenderSettings;
 use crate::folder::scene_folder::{refuse_scene, scene_folder};
@@ -21,20 +20,23 @@ pub fn render_frame(
     let folder = scene_folder(out, scene);
     refuse_scene(&folder)?;
     let frame_settings = settings.for_frame(scene);
-    let file = CachedFile {
-        path: folder.join("frame.exr"),
-        label: format!("{} frame", scene.name),
-        hash: tracer::frame_hash(scene, &frame_settings),
-    };
-    file.read_or_render(
-        monitor,
-        |watch| {
-            frame_settings.check(scene)?;
-            check_memory(scene, settings, settings.replicates)?;
-            Ok(tracer::trace_frame(scene, &frame_settings, watch)?)
-        },
-        (Frame::read, Frame::write, |frame| {
-            &frame.provenance.content_hash
-        }),
-    )
+    let path = folder.join("frame.exr");
+    let hash = tracer::frame_hash(scene, &frame_settings);
+    if let Ok(found) = Frame::read(&path)
+        && found.provenance.content_hash == hash
+    {
+        return Ok(found);
+    }
+    frame_settings.check(scene)?;
+    check_memory(scene, settings, settings.replicates)?;
+    let label = format!("{} frame", scene.name);
+    let frame = monitor.watch(&label, |watch| {
+        tracer::trace_frame(scene, &frame_settings, watch)
+    })?;
+    assert_eq!(
+        frame.provenance.content_hash, hash,
+        "{label}: the hash must not depend on the render"
+    );
+    frame.write(&path)?;
+    Ok(frame)
 }

@@ -1,6 +1,5 @@
 //! Frames, truths and ladders of scenes, rendered once and kept as files.
 
-pub mod cached_file;
 pub mod frames;
 pub mod ladders;
 pub mod memory;

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, Replicate, Truth, truth_hash};
+use frame::{Alignment, Replicate, read_attribute, truth_hash};
 use tracer::{Scene, TruthSettings, TruthTracer};
 
 use crate::{Error, Monitor};
@@ -62,11 +62,10 @@ impl ReplicateFiles {
         Ok(replicates)
     }
 
-    /// Returns true if the truth of this many replicates is there.
+    /// Returns true if the header of the truth's file names this many of these replicates.
     pub(super) fn has_truth(&self, replicates: u32) -> bool {
-        let expected = truth_hash(&self.hash, replicates);
-        let is_expected = |found: Truth| found.provenance.content_hash == expected;
-        Truth::read(&self.truth_path()).is_ok_and(is_expected)
+        let found = read_attribute(&self.truth_path(), "content_hash");
+        found == Some(truth_hash(&self.hash, replicates))
     }
 
     /// Reads a replicate; none where it is missing, broken or made from other inputs.

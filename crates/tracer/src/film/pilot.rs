@@ -169,3 +169,42 @@ fn probe_pixel(replicates: &[Vec<Estimate>], moving: &[bool]) -> TilePilot {
             .any(|(seen, moves)| *seen > 0 && *moves),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::film::at_instant::InstantMeans;
+
+    fn estimate(radiance: f64, frozen: f64, seen: [u32; 2]) -> Vec<Estimate> {
+        vec![Estimate {
+            radiance: DVec3::splat(radiance),
+            bounces: 0.0,
+            seen: seen.to_vec(),
+            at_instant: InstantMeans {
+                frozen: DVec3::splat(frozen),
+                ..InstantMeans::default()
+            },
+        }]
+    }
+
+    #[test]
+    fn a_pixel_is_noisy_in_its_radiance_in_its_frozen_shading_or_in_its_coverage() {
+        let probe = |a, b| probe_pixel(&[a, b], &[false, false]);
+        let still = probe(estimate(0.5, 0.5, [2, 0]), estimate(0.5, 0.5, [2, 0]));
+        assert_eq!((still.variance, still.coverage_variance), (0.0, 0.0));
+        // Half the square of the difference is the variance of one of two replicates.
+        let lit = probe(estimate(0.5, 0.5, [2, 0]), estimate(0.9, 0.5, [2, 0]));
+        assert!((lit.variance - 0.08).abs() < 1e-12, "{}", lit.variance);
+        let frozen = probe(estimate(0.5, 0.1, [2, 0]), estimate(0.5, 0.5, [2, 0]));
+        assert!(
+            (frozen.variance - 0.08).abs() < 1e-12,
+            "{}",
+            frozen.variance
+        );
+        // The coverages of both objects go from 1 and 0 to 0.5 each.
+        let edge = probe(estimate(0.5, 0.5, [2, 0]), estimate(0.5, 0.5, [1, 1]));
+        assert_eq!((edge.variance, edge.coverage_variance), (0.0, 0.25));
+    }
+}
