@@ -115,6 +115,6 @@ impl Bench {
 }
 
 /// Names a mutant on a scene.
-pub fn place(subject: &Subject, mutant: &MutantFilter, scene: &str) -> Place {
+pub fn mutant_place(subject: &Subject, mutant: &MutantFilter, scene: &str) -> Place {
     (subject.key.clone(), mutant.name.clone(), scene.to_owned())
 }

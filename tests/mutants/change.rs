@@ -5,7 +5,7 @@ use frame::{Frame, Image, Region, Regions, regions};
 use suite::{Error, FilterChoice, Monitor, render_frame, render_truth};
 use tracer::Scene;
 
-use crate::bench::{Bench, SEED, place};
+use crate::bench::{Bench, SEED, mutant_place};
 use crate::journal::{Change, Journal};
 use crate::subject::{MutantFilter, Subject};
 
@@ -32,7 +32,7 @@ pub fn measure_changes(
     let is_new = |journal: &Journal, mutant: &MutantFilter, scene: &str| {
         journal
             .changes
-            .get(&place(subject, mutant, scene))
+            .get(&mutant_place(subject, mutant, scene))
             .is_none()
     };
     let missing: Vec<&MutantFilter> = (subject.mutants.iter())
@@ -65,7 +65,7 @@ pub fn measure_changes(
             let record = change.map_err(|error| error.to_string());
             journal
                 .changes
-                .add(place(subject, mutant, &scene.scene), record);
+                .add(mutant_place(subject, mutant, &scene.scene), record);
         }
         if is_too_slow {
             bench.reopen_gpu();

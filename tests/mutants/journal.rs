@@ -1,4 +1,4 @@
-//! What was measured of mutants: files of JSON, a line each, that a later run reads back.
+//! Measurements of mutants, in files of JSON lines that a later run reads back.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};

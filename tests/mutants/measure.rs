@@ -6,7 +6,7 @@ use std::fs;
 use suite::{Case, Error, FilterChoice, Run};
 use tracer::Scene;
 
-use crate::bench::{Bench, SEED, place};
+use crate::bench::{Bench, SEED, mutant_place};
 use crate::journal::Journal;
 use crate::limits::{Limits, SceneLimits, refuse_broken, sound_place};
 use crate::subject::{MutantFilter, Subject};
@@ -40,7 +40,7 @@ pub fn measure_mutants(
             let change = |at: &usize| {
                 let found = journal
                     .changes
-                    .get(&place(subject, mutant, &scenes[*at].name));
+                    .get(&mutant_place(subject, mutant, &scenes[*at].name));
                 found.map_or(0.0, |found| {
                     found.as_ref().map_or(0.0, |change| change.floors)
                 })
@@ -77,7 +77,7 @@ fn find_alive<'s>(
 
 /// Tells whether the scores of a mutant on a scene are missing. Those of the same picture are known.
 fn is_missing(subject: &Subject, mutant: &MutantFilter, scene: &Scene, journal: &Journal) -> bool {
-    let place = place(subject, mutant, &scene.name);
+    let place = mutant_place(subject, mutant, &scene.name);
     journal.cases.get(&place).is_none() && !is_same_picture(journal, &place)
 }
 
@@ -131,7 +131,7 @@ fn measure_batch(
         Err(error @ Error::Filter(_)) => {
             bench.reopen_gpu();
             if let [mutant] = batch {
-                let place = place(subject, mutant, &scene.name);
+                let place = mutant_place(subject, mutant, &scene.name);
                 journal.cases.add(place, Err(error.to_string()));
                 return Ok(());
             }
@@ -151,7 +151,7 @@ fn measure_batch(
     }
     for (at, mutant) in batch.iter().enumerate() {
         let case = take_case(bench, subject, &run, &label(at)).map(Box::new);
-        let place = place(subject, mutant, &scene.name);
+        let place = mutant_place(subject, mutant, &scene.name);
         journal.cases.add(place, case);
     }
     Ok(())

@@ -3,7 +3,7 @@
 use metrics::Measured;
 use suite::Case;
 
-use crate::bench::{Bench, SEED, place};
+use crate::bench::{Bench, SEED, mutant_place};
 use crate::journal::{Change, Journal, Place};
 use crate::limits::{Limits, find_broken, sound_place};
 use crate::subject::{MutantFilter, Subject};
@@ -161,7 +161,7 @@ fn find_verdict<'s>(
     let mut is_tried = true;
     for choice in &bench.scenes {
         let scene = &choice.scene.name;
-        let place = place(subject, mutant, scene);
+        let place = mutant_place(subject, mutant, scene);
         match journal.changes.get(&place) {
             None => is_tried = false,
             Some(Err(reason)) => verdict.failure = Some(reason.clone()),
@@ -208,7 +208,7 @@ fn find_error(
     scene: &str,
 ) -> Option<f64> {
     let sound = journal.sound.get(&sound_place(subject, scene, SEED))?;
-    let case = journal.cases.get(&place(subject, mutant, scene))?;
+    let case = journal.cases.get(&mutant_place(subject, mutant, scene))?;
     let error = |case: &Case| match case.scores.get("mse_moving".parse().ok()?) {
         Measured::Score(score) => Some(score.value),
         Measured::NotApplicable { .. } => None,

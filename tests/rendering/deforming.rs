@@ -205,7 +205,7 @@ fn a_deforming_sphere_does_not_leak_at_its_edges_and_vertices() {
             let ray = Ray { origin, direction };
             let hit = stage.closest(poses.at(time), &ray).expect("no leak");
             assert!(hit.t < 1.01, "hit at {}", hit.t);
-            assert!(stage.blocked(&mut poses, &ray, 1.01));
+            assert!(stage.is_blocked(&mut poses, &ray, 1.01));
         }
     }
 }

@@ -103,7 +103,7 @@ fn a_closed_sphere_does_not_leak_at_its_edges_and_vertices() {
                 let ray = Ray { origin, direction };
                 let hit = stage.closest(&mut poses, &ray).expect("no leak");
                 assert!(hit.t < most, "hit at {}", hit.t);
-                assert!(stage.blocked(&mut poses, &ray, 1.01));
+                assert!(stage.is_blocked(&mut poses, &ray, 1.01));
             }
         }
     }
@@ -153,7 +153,10 @@ fn ten_million_rays_at_edges_and_vertices_do_not_leak() {
             for stage in &stages {
                 let hit = stage.closest(&mut poses, &ray).expect("no leak");
                 assert!(hit.t < 1.0 + 1e-9, "ray {index}: hit at {}", hit.t);
-                assert!(stage.blocked(&mut poses, &ray, 1.0 + 1e-9), "ray {index}");
+                assert!(
+                    stage.is_blocked(&mut poses, &ray, 1.0 + 1e-9),
+                    "ray {index}"
+                );
             }
         }
     });

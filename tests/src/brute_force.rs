@@ -43,16 +43,16 @@ pub fn expect_what_every_triangle_gives(
             match expected {
                 Some(hit) => {
                     assert!(
-                        stage.blocked(poses.at(time), &ray, hit.t * (1.0 + 1e-9)),
+                        stage.is_blocked(poses.at(time), &ray, hit.t * (1.0 + 1e-9)),
                         "{path}, {ray:?}"
                     );
                     assert!(
-                        !stage.blocked(poses.at(time), &ray, hit.t),
+                        !stage.is_blocked(poses.at(time), &ray, hit.t),
                         "{path}, {ray:?}"
                     );
                 }
                 None => assert!(
-                    !stage.blocked(poses.at(time), &ray, f64::INFINITY),
+                    !stage.is_blocked(poses.at(time), &ray, f64::INFINITY),
                     "{path}, {ray:?}"
                 ),
             }

@@ -27,7 +27,7 @@ pub struct Replicate {
     pub moving: Vec<bool>,
     /// Radiance and visibility integrated over the shutter.
     pub picture: Picture,
-    /// What was seen, as it was at the instant.
+    /// State at the instant of everything that the shutter saw.
     pub at_instant: AtInstant,
     /// Samples per pixel: the same for all replicates of a scene, exposure, size and seed.
     pub samples: Plane,

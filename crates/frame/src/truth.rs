@@ -25,7 +25,7 @@ pub struct Truth {
     pub objects: Vec<String>,
     /// Means of the even and of the odd replicates.
     pub halves: [Picture; 2],
-    /// What was seen, as it was at the instant; halved in the same way.
+    /// State at the instant of everything that the shutter saw; halved in the same way.
     pub at_instant: [AtInstant; 2],
     /// Samples per pixel over all replicates: more where the picture is noisy.
     pub samples: Plane,

@@ -40,7 +40,7 @@ pub fn trace_frame(
     };
     let stage = Stage::try_new(scene, 0.0, 0.0)?;
     let stage = &stage;
-    let film = |samples, replicates, stream| Film {
+    let make_film = |samples, replicates, stream| Film {
         integrator: Integrator::new(stage, 0.0),
         canvas,
         places: match settings.options.color {
@@ -57,10 +57,10 @@ pub fn trace_frame(
     };
     let pixels = canvas.pixels();
     let uniform = SampleCounts::Uniform(PILOT_SAMPLES);
-    let pilot = film(&uniform, 0..PILOT_REPLICATES, Stream::FramePilot);
+    let pilot = make_film(&uniform, 0..PILOT_REPLICATES, Stream::FramePilot);
     let nothing_moves = vec![false; scene.objects.len() + 1];
     let samples = choose_samples(&pilot, &nothing_moves, 0, settings.samples_per_pixel, watch)?;
-    let film = film(&samples, 0..1, Stream::Frame);
+    let film = make_film(&samples, 0..1, Stream::Frame);
     let meter = Meter::new(watch, film.work(&pixels));
     let pixel_means = film.render(&pixels, &meter, |estimates| PixelMean::of(&estimates[0]))?;
     let picture = assemble_picture(canvas, &pixel_means);

@@ -3,6 +3,7 @@
 //! The conventions are those of the [`frame`] crate.
 
 mod accel;
+mod aligned_shutter;
 mod content_hash;
 mod error;
 mod film;

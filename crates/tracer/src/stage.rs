@@ -94,29 +94,29 @@ impl<'a> Stage<'a> {
     }
 
     /// Returns true if anything lies at `0 < t < limit`.
-    pub fn blocked(&self, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
+    pub fn is_blocked(&self, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
         match self.traversal {
             #[cfg(target_arch = "x86_64")]
             Traversal::Avx2(lanes) => lanes.run(
                 #[inline(always)]
-                || self.tree.blocked(lanes, poses, ray, limit),
+                || self.tree.is_blocked(lanes, poses, ray, limit),
             ),
-            Traversal::Portable => self.tree.blocked(Portable, poses, ray, limit),
+            Traversal::Portable => self.tree.is_blocked(Portable, poses, ray, limit),
         }
     }
 
     /// Returns true if anything lies at `0 < t < limit`, for a ray that nothing blocks which stands still.
-    pub(crate) fn blocked_by_mover(&self, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
+    pub(crate) fn is_blocked_by_mover(&self, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
         if !self.tree.has_few_movers() {
-            return self.blocked(poses, ray, limit);
+            return self.is_blocked(poses, ray, limit);
         }
         match self.traversal {
             #[cfg(target_arch = "x86_64")]
             Traversal::Avx2(lanes) => lanes.run(
                 #[inline(always)]
-                || self.tree.blocked_by_mover(lanes, poses, ray, limit),
+                || self.tree.is_blocked_by_mover(lanes, poses, ray, limit),
             ),
-            Traversal::Portable => self.tree.blocked_by_mover(Portable, poses, ray, limit),
+            Traversal::Portable => self.tree.is_blocked_by_mover(Portable, poses, ray, limit),
         }
     }
 

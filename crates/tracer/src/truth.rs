@@ -3,8 +3,9 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use frame::{Alignment, AtInstant, Raster, Replicate, Shutter, Support, Truth, motion_margin};
+use frame::{Alignment, AtInstant, Raster, Replicate, Support, Truth, motion_margin};
 
+use crate::aligned_shutter::{AlignedShutter, list_family};
 use crate::content_hash::{provenance, replicate_hash};
 use crate::error::TraceError;
 use crate::film::at_instant::{InstantMeans, InstantView};
@@ -14,10 +15,8 @@ use crate::film::pilot::{PILOT_REPLICATES, PILOT_SAMPLES, choose_samples};
 use crate::film::render::{Film, PixelMean, Places, Times, assemble_picture};
 use crate::film::sample_counts::SampleCounts;
 use crate::film::sampler::Stream;
-use crate::film::shutter_sampler::ShutterSampler;
 use crate::film::support::trace_supports;
 use crate::light::integrator::Integrator;
-use crate::motion::moving::find_moving_objects;
 use crate::progress::{Meter, Progress, Watch};
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
@@ -43,16 +42,6 @@ pub struct TruthTracer<'a> {
     supports: OnceLock<Vec<Support>>,
 }
 
-/// The shutter of one truth.
-#[derive(Clone)]
-struct AlignedShutter {
-    alignment: Alignment,
-    shutter: Shutter,
-    sampler: ShutterSampler,
-    /// Per object id, true if it moves on screen while the shutter is open.
-    moving: Vec<bool>,
-}
-
 /// Renders the picture that a camera with an open shutter would have taken, and measures its noise.
 pub fn trace_truth(
     scene: &Scene,
@@ -74,35 +63,6 @@ pub fn trace_truth(
     Ok(Truth::of(&replicates).expect("settings ask for an even number of replicates"))
 }
 
-impl AlignedShutter {
-    /// Refuses settings with which the scene cannot be rendered.
-    fn new(
-        scene: &Scene,
-        settings: &RenderSettings,
-        alignment: Alignment,
-    ) -> Result<Self, TraceError> {
-        let shutter = settings.check_truth(scene, alignment)?;
-        Ok(Self {
-            alignment,
-            shutter,
-            sampler: ShutterSampler::new(shutter, &scene.shutter_profile),
-            moving: find_moving_objects(scene, scene.shutter_profile.whole(shutter)),
-        })
-    }
-
-    fn times(&self) -> Times<'_> {
-        Times::Shutter(&self.sampler)
-    }
-}
-
-/// Alignments that overlap with this one and are used with it: they share their numbers of samples.
-fn family(alignment: Alignment) -> &'static [Alignment] {
-    match alignment {
-        Alignment::Trailing | Alignment::Centred => &[Alignment::Trailing, Alignment::Centred],
-        Alignment::Leading => &[Alignment::Leading],
-    }
-}
-
 impl<'a> TruthTracer<'a> {
     /// Prepares a scene for one truth per alignment: one alone, or trailing and centred. Refuses settings with which the scene
     /// cannot be rendered.
@@ -111,7 +71,7 @@ impl<'a> TruthTracer<'a> {
         settings: &RenderSettings,
         alignments: &[Alignment],
     ) -> Result<Self, TraceError> {
-        let family = family(alignments[0]);
+        let family = list_family(alignments[0]);
         assert!(
             alignments
                 .iter()

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use frame::{ColorSampling, FrameOptions, VelocityKind};
+use tracer::RenderSettings;
 
 use super::parse::{parse_exposure, parse_whole};
 
@@ -34,7 +35,7 @@ pub struct SceneArgs {
     pub scenes_dir: PathBuf,
     /// Mean samples per pixel of a truth with 8 replicates, 8 times a power of two. Noisy parts of
     /// the picture get more, quiet ones fewer.
-    #[arg(long, value_name = "N", default_value_t = 256, value_parser = parse_whole::<u32>)]
+    #[arg(long, value_name = "N", default_value_t = RenderSettings::default().samples_per_pixel, value_parser = parse_whole::<u32>)]
     pub samples_per_pixel: u32,
     /// Exposure in frames; 0.5 is a shutter of 180 degrees [default: each scene's own].
     #[arg(long, value_name = "E", value_parser = parse_exposure)]
@@ -56,7 +57,7 @@ pub struct SceneArgs {
     #[arg(long, value_name = "N", value_parser = parse_whole::<usize>)]
     pub threads: Option<usize>,
     /// Seed of all random numbers.
-    #[arg(long, value_name = "S", default_value_t = 1, value_parser = parse_whole::<u64>)]
+    #[arg(long, value_name = "S", default_value_t = RenderSettings::default().seed, value_parser = parse_whole::<u64>)]
     pub seed: u64,
     /// Folder for all files. Truths and cases that lie there are used again if their inputs have not changed.
     #[arg(short, long, value_name = "DIR", default_value = "out")]

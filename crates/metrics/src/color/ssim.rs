@@ -22,7 +22,7 @@ const FILTERED: usize = 5;
 /// Maps SSIM, mean over the channels of what a display shows, in [-1, 1]; 1 is equal. Wang et al., "Image Quality
 /// Assessment: From Error Visibility to Structural Similarity" (2004), with a Gaussian window, biased covariance and data
 /// range 1, as scikit-image computes it with `gaussian_weights`.
-pub fn ssim(output: &Image, truth: &Image) -> Raster<f64> {
+pub fn map_ssim(output: &Image, truth: &Image) -> Raster<f64> {
     map_mean(output, truth, |pixel, c| f64::from(pixel[c]))
 }
 

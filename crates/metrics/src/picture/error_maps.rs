@@ -6,7 +6,7 @@ use crate::Maps;
 use crate::color::absolute_error::{absolute, symmetric};
 use crate::color::cross_error::{relative_squared, squared};
 use crate::color::flip::Displayed;
-use crate::color::ssim::ssim;
+use crate::color::ssim::map_ssim;
 use crate::label::total_variation::label_variation;
 use crate::math::raster::{index_pixels, map_pixels, zip_pixels};
 use crate::picture::seen_truth::SeenTruth;
@@ -52,7 +52,7 @@ impl ErrorMaps {
         ended("FLIP");
         let flip_hdr = seen.exposures.map_errors(&output.color);
         ended("HDR-FLIP");
-        let ssim = ssim(&displayed.srgb, &seen.srgb);
+        let ssim = map_ssim(&displayed.srgb, &seen.srgb);
         ended("SSIM");
         let maps = Self {
             pixels: map_pixel_errors(&output.color, halves, &mean.color, seen.scale),

@@ -1,4 +1,4 @@
-//! What is made of a truth's colour once, for all pictures that are measured against it.
+//! Colour of a truth, prepared once for all pictures that are measured against it.
 
 use frame::Image;
 

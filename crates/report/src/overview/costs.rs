@@ -189,7 +189,7 @@ fn mean_error(run: &Run, filter: &FilterId) -> Option<f64> {
 }
 
 /// Lists the run's filters that were timed.
-fn timed<'a>(run: &Run, bench: &'a Bench) -> Vec<(String, &'a CaseCost)> {
+fn find_timed<'a>(run: &Run, bench: &'a Bench) -> Vec<(String, &'a CaseCost)> {
     let timed = list_filters(run).into_iter();
     timed
         .filter_map(|filter| Some((filter.title(), cost_of(run, Some(bench), &filter)?)))
@@ -210,7 +210,7 @@ fn passes(run: &Run, bench: &Bench) -> Markup {
                         th scope="col" { "bytes per pixel" }
                     }
                 }
-                @for (title, cost) in timed(run, bench) {
+                @for (title, cost) in find_timed(run, bench) {
                     tbody {
                         tr.group {
                             th scope="row" { (title) }

@@ -10,7 +10,7 @@ const WIDEST: u32 = 256;
 named! {
     /// A policy for what lies beyond the border of what a filter reads.
     pub enum Border {
-        /// What the filter itself makes of it.
+        /// The filter's own choice.
         Leave = "leave",
         /// The outermost pixels again, as far as the longest smear reaches.
         Clamp = "clamp",

@@ -139,9 +139,9 @@ fn estimate_with(
 /// Estimates the seconds that it takes to render frames of scenes and some truths of each, where nothing is kept; measures a first
 /// slice where that is long.
 pub fn estimate_render_seconds(renders: &[(&Scene, RenderSettings)], truths: usize) -> f64 {
-    let estimate = |costs: &dyn Fn(&Scene, &RenderSettings) -> RenderCosts| -> f64 {
+    let estimate = |find_costs: &dyn Fn(&Scene, &RenderSettings) -> RenderCosts| -> f64 {
         let seconds = renders.iter().map(|(scene, render)| {
-            let costs = costs(scene, render);
+            let costs = find_costs(scene, render);
             let each = truth_seconds(render, &costs);
             frame_seconds(render, &costs) + shared_truths(truths) * each
         });

@@ -48,15 +48,15 @@ impl RenderCosts {
         let watch = |_: Progress| ControlFlow::Continue(());
         let render = small_settings(render);
         let (tracer, preparing) =
-            timed(|| TruthTracer::new(scene, &render, &[Alignment::Trailing]).ok());
+            measure_time(|| TruthTracer::new(scene, &render, &[Alignment::Trailing]).ok());
         let tracer = tracer?;
-        let (first, with_support) = timed(|| tracer.trace(0, &watch).ok());
+        let (first, with_support) = measure_time(|| tracer.trace(0, &watch).ok());
         // The faster of two, which fewer other programs have interrupted.
-        let (second, one) = timed(|| tracer.trace(1, &watch).ok());
-        let (_, other) = timed(|| tracer.trace(2, &watch).ok());
+        let (second, one) = measure_time(|| tracer.trace(1, &watch).ok());
+        let (_, other) = measure_time(|| tracer.trace(2, &watch).ok());
         let alone = one.min(other);
         let settings = render.with_replicates(1);
-        let (frame, framing) = timed(|| trace_frame(scene, &settings, &watch).ok());
+        let (frame, framing) = measure_time(|| trace_frame(scene, &settings, &watch).ok());
         first.and(second)?;
         frame?;
         let pixels = f64::from(render.width) * f64::from(render.height);
@@ -101,7 +101,7 @@ pub(super) fn measure_first_cases(scene: &SceneContext) -> Option<(f64, usize)> 
     let due: Vec<&PlannedCase> = planned.iter().collect();
     let (frame, truths) = scene.render(&|_| {}).ok()?;
     let watch = |_: Progress| ControlFlow::Continue(());
-    let (cases, seconds) = timed(|| {
+    let (cases, seconds) = measure_time(|| {
         scene
             .measure(&due, &frame, truths, &|_| {}, &watch)
             .ok()
@@ -133,7 +133,7 @@ fn small_settings(render: &RenderSettings) -> RenderSettings {
 }
 
 /// Does some work and returns its time in seconds.
-fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+fn measure_time<T>(work: impl FnOnce() -> T) -> (T, f64) {
     let began = Instant::now();
     let done = work();
     (done, began.elapsed().as_secs_f64())

@@ -41,7 +41,11 @@ pub(crate) fn check_memory(
     settings: &RenderSettings,
     replicates: u32,
 ) -> Result<(), Error> {
-    refuse_beyond_free(scene, settings, needed(scene, settings, replicates))
+    refuse_beyond_free(
+        scene,
+        settings,
+        rendering_memory(scene, settings, replicates),
+    )
 }
 
 /// Refuses to measure filters on a scene where memory does not suffice to render or to measure it.
@@ -57,7 +61,7 @@ pub(crate) fn measuring_memory(scene: &Scene, settings: &RenderSettings) -> u64 
     let pixels = u64::from(settings.width) * u64::from(settings.height);
     let pixel = PER_MEASURED_PIXEL + PER_MEASURED_COVERAGE * count_coverages(scene);
     let measuring = MEASURING.saturating_add(pixels.saturating_mul(pixel));
-    measuring.max(needed(scene, settings, settings.replicates))
+    measuring.max(rendering_memory(scene, settings, settings.replicates))
 }
 
 fn refuse_beyond_free(scene: &Scene, settings: &RenderSettings, needed: u64) -> Result<(), Error> {
@@ -82,7 +86,7 @@ fn count_coverages(scene: &Scene) -> u64 {
 }
 
 /// Estimates the largest resident size of a render, in bytes.
-fn needed(scene: &Scene, settings: &RenderSettings, replicates: u32) -> u64 {
+fn rendering_memory(scene: &Scene, settings: &RenderSettings, replicates: u32) -> u64 {
     let area = |band: u32| {
         let side = |side: u32| u64::from(side) + 2 * u64::from(band);
         side(settings.width).saturating_mul(side(settings.height))

@@ -1,7 +1,7 @@
 //! Arithmetic without memory, the upper limit of what a second thread gains. It tells a machine that shares its cores from
 //! rays that hinder one another.
 
-use divan::black_box;
+use std::hint::black_box;
 
 /// Numbers computed side by side: few enough for registers, enough to keep all units busy.
 const NUMBERS: usize = 32;

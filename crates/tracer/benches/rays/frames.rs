@@ -35,10 +35,10 @@ pub fn report() {
             .join("../../scenes")
             .join(name);
         let scene = load_scene(&folder, None).expect("the shipped scenes load");
-        let (frame, _) = timed(|| trace_a_frame(&scene, &settings));
-        let (one, _) = timed(|| trace_truths(&scene, &settings, &[Alignment::Trailing]));
+        let (frame, _) = measure_time(|| trace_a_frame(&scene, &settings));
+        let (one, _) = measure_time(|| trace_truths(&scene, &settings, &[Alignment::Trailing]));
         let alignments = [Alignment::Trailing, Alignment::Centred];
-        let (both, truth) = timed(|| trace_truths(&scene, &settings, &alignments));
+        let (both, truth) = measure_time(|| trace_truths(&scene, &settings, &alignments));
         let floors = truth.noise_floors();
         let moving = floors.iter().find(|(region, _)| *region == Region::Moving);
         let floor = moving.expect("something moves").1;
@@ -75,7 +75,7 @@ fn unwatched(_: Progress) -> ControlFlow<()> {
 
 /// Runs some work; returns the CPU seconds of the process that it took, on all threads, and its result. Where the system does
 /// not tell CPU time, wall time.
-fn timed<T>(work: impl FnOnce() -> T) -> (f64, T) {
+fn measure_time<T>(work: impl FnOnce() -> T) -> (f64, T) {
     let start = Instant::now();
     let cpu = cpu_time();
     let result = work();

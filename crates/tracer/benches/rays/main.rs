@@ -6,12 +6,11 @@ mod frames;
 mod made_scene;
 
 use std::f64::consts::TAU;
+use std::hint::black_box;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use arithmetic::arithmetic;
-use divan::counter::ItemsCount;
-use divan::{Bencher, black_box};
 use glam::DVec3;
 use made_scene::{SHUTTER, made_scene};
 use tracer::{Ray, Scene, Stage};
@@ -26,13 +25,8 @@ const TURNS: u32 = 16;
 const LIFT: f64 = 1e-6;
 
 fn main() {
-    divan::main();
-    let has = |wanted: &str| std::env::args().any(|word| word == wanted);
-    if has("--list") || has("--test") {
-        return;
-    }
-    if !has("truths") {
-        ratios();
+    if !std::env::args().any(|word| word == "truths") {
+        print_rates();
     }
     frames::report();
 }
@@ -78,7 +72,7 @@ impl<'a> Field<'a> {
         let rays = rays[start..end].iter();
         rays.filter(|(ray, time)| match kind {
             Kind::Primary | Kind::Diffuse => self.stage.closest(poses.at(*time), ray).is_some(),
-            Kind::Shadow => self.stage.blocked(poses.at(*time), ray, f64::INFINITY),
+            Kind::Shadow => self.stage.is_blocked(poses.at(*time), ray, f64::INFINITY),
         })
         .count()
     }
@@ -94,30 +88,8 @@ impl<'a> Field<'a> {
     }
 }
 
-#[divan::bench(args = KINDS, sample_count = 10)]
-fn still(bencher: Bencher, kind: Kind) {
-    let scene = made_scene(false);
-    bench(bencher, &scene, kind);
-}
-
-#[divan::bench(args = KINDS, sample_count = 10)]
-fn moving(bencher: Bencher, kind: Kind) {
-    let scene = made_scene(true);
-    bench(bencher, &scene, kind);
-}
-
-fn bench(bencher: Bencher, scene: &Scene, kind: Kind) {
-    let field = Field::new(scene);
-    bencher
-        .counter(ItemsCount::new(field.rays[kind as usize].len()))
-        .bench_local(|| {
-            (0..PARTS)
-                .map(|part| field.trace(kind, part))
-                .sum::<usize>()
-        });
-}
-
-fn ratios() {
+/// Prints the rays per second of each kind, and the ratios of variants.
+fn print_rates() {
     let scenes = [made_scene(false), made_scene(true)];
     let fields = scenes.each_ref().map(Field::new);
     let triangles: usize = (scenes[0].objects.iter())

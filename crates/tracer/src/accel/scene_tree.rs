@@ -137,7 +137,7 @@ impl<'a> SceneTree<'a> {
 
     /// Returns true if anything lies at `0 < t < limit`.
     #[inline(always)]
-    pub fn blocked<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
+    pub fn is_blocked<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
         let mut blocked = false;
         self.traverse::<L, false>(
             lanes,
@@ -156,7 +156,7 @@ impl<'a> SceneTree<'a> {
 
     /// Returns true if anything that moves lies at `0 < t < limit`.
     #[inline(always)]
-    pub fn blocked_by_mover<L: Lanes>(
+    pub fn is_blocked_by_mover<L: Lanes>(
         &self,
         lanes: L,
         poses: &mut Poses,

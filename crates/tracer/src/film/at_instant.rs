@@ -201,9 +201,9 @@ impl InstantView {
         stands_still: bool,
     ) -> bool {
         if self.camera_stands_still && stands_still {
-            stage.blocked_by_mover(then, ray, limit)
+            stage.is_blocked_by_mover(then, ray, limit)
         } else {
-            stage.blocked(then, ray, limit)
+            stage.is_blocked(then, ray, limit)
         }
     }
 }

@@ -26,7 +26,7 @@ const WEIGHT_OF_COVERAGE: f64 = 0.25;
 /// Cost of a sample without bounces, in bounces.
 const COST_OF_A_MISS: f64 = 0.25;
 
-/// What the pilot found in a tile, summed over its pixels.
+/// Findings of the pilot in a tile, summed over its pixels.
 #[derive(Clone, Copy, Default)]
 struct TilePilot {
     pixels: f64,

@@ -216,7 +216,7 @@ impl<'a> Integrator<'a> {
         };
         // The light's own triangle lies at the end of the ray.
         let limit = light.distance * (1.0 - LIFT);
-        if self.stage.blocked(poses, &ray, limit) {
+        if self.stage.is_blocked(poses, &ray, limit) {
             return Vec3::ZERO;
         }
         let weight = if by_surface {

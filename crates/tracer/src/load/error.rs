@@ -14,7 +14,7 @@ pub struct SceneError {
     pub path: PathBuf,
     /// Line to mend, counted from 1; none if the error concerns the whole file.
     pub line: Option<usize>,
-    /// What was found, what is allowed, and the way out.
+    /// The cause: what was found, what is allowed, and the way out.
     pub reason: String,
 }
 

@@ -109,7 +109,7 @@ mod tests {
         DVec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine)
     }
 
-    fn seen<'a>(
+    fn make_brdf<'a>(
         material: &'a GlossyMaterial,
         color: Vec3,
         normal: DVec3,
@@ -144,7 +144,7 @@ mod tests {
         for finish in FINISHES {
             let material = glossy(finish);
             for cosine in [0.1, 0.4, 0.8, 1.0] {
-                let brdf = seen(&material, Vec3::ONE, DVec3::Z, at(cosine));
+                let brdf = make_brdf(&material, Vec3::ONE, DVec3::Z, at(cosine));
                 let [albedo, _] = integral(&brdf, |_| 1.0);
                 // The midpoint rule's error at grazing angles, beside the table's.
                 let error = (albedo - 1.0).abs();
@@ -160,7 +160,7 @@ mod tests {
             for cosine in [0.1, 0.5, 1.0] {
                 let albedo = |color: f32| {
                     let color = Vec3::splat(color);
-                    integral(&seen(&material, color, DVec3::Z, at(cosine)), |_| 1.0)[0]
+                    integral(&make_brdf(&material, color, DVec3::Z, at(cosine)), |_| 1.0)[0]
                 };
                 let levels = [0.0, 0.3, 0.7, 1.0].map(albedo);
                 assert!(levels.is_sorted() && levels[0] > 0.0 && levels[3] < 1.003);
@@ -177,8 +177,14 @@ mod tests {
                 DVec3::new(-0.7, 0.1, 0.3).normalize(),
             ];
             let color = Vec3::new(0.9, 0.5, 0.1);
-            let there = seen(&material, color, DVec3::Z, a).evaluate(b).scattered / b.z as f32;
-            let back = seen(&material, color, DVec3::Z, b).evaluate(a).scattered / a.z as f32;
+            let there = make_brdf(&material, color, DVec3::Z, a)
+                .evaluate(b)
+                .scattered
+                / b.z as f32;
+            let back = make_brdf(&material, color, DVec3::Z, b)
+                .evaluate(a)
+                .scattered
+                / a.z as f32;
             assert!(there.distance(back) < 1e-5 * there.length(), "{finish:?}");
         }
     }
@@ -193,7 +199,7 @@ mod tests {
                 [at(0.8), DVec3::new(-0.5, 0.5, 0.7).normalize()],
                 [at(0.3), DVec3::new(-0.9, 0.1, 0.2).normalize()],
             ] {
-                let brdf = seen(&material, Vec3::new(0.8, 0.4, 0.2), normal, to_viewer);
+                let brdf = make_brdf(&material, Vec3::new(0.8, 0.4, 0.2), normal, to_viewer);
                 let weight = |direction: DVec3| 1.0 + direction.x + 0.5 * direction.y * direction.z;
                 let [scattered, density] = integral(&brdf, weight);
                 let mut drawn = [0.0; 2];
@@ -226,7 +232,7 @@ mod tests {
             index: 1.5,
         });
         for cosine in [0.05, 0.3, 1.0] {
-            let brdf = seen(&material, Vec3::ONE, DVec3::Z, at(cosine));
+            let brdf = make_brdf(&material, Vec3::ONE, DVec3::Z, at(cosine));
             let mirror = brdf.sample(0.0, [0.3, 0.3]).expect("it reflects");
             assert!(mirror.density.is_none());
             assert!(
