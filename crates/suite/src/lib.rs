@@ -26,9 +26,9 @@ pub use bench::{
     ReachPoint, Spread, bench,
 };
 pub use compare::{
-    Agreement, Basis, COMPARE_FORMAT, Change, ChangeKind, FilterAtSizes, MeanChange, MeanKind, Pair,
-    Reversal, RunComparison, SettingChange, Side, SizeComparison, compare_runs, compare_sizes,
-    filter_label, pair_cases, rank_changes,
+    Agreement, Basis, COMPARE_FORMAT, Change, ChangeKind, FilterAtSizes, MeanChange, MeanKind,
+    Pair, Reversal, RunComparison, SettingChange, Side, SizeComparison, compare_runs,
+    compare_sizes, filter_label, pair_cases, rank_changes,
 };
 pub use error::Error;
 pub use filter::border::Border;
