@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3, Vec3};
 use tests::open_gpu;
 use tests::shapes::*;
 use tests::unwatched;
-use tracer::{Background, FrameSettings, Key, Motion, Scene, trace_frame};
+use tracer::{Background, Key, Motion, RenderSettings, Scene, trace_frame};
 
 /// Makes a scene in which a camera flies, turns and zooms past a slanted wall before a sky, and one panel moves by
 /// itself.
@@ -45,17 +45,17 @@ fn flight() -> Scene {
 }
 
 fn render_frame(guard_band: u32) -> Frame {
-    let settings = FrameSettings {
+    let settings = RenderSettings {
         width: 96,
         height: 54,
-        exposure: 0.75,
+        exposure: Some(0.75),
         options: FrameOptions {
             velocity: VelocityKind::CameraOnly,
             ..FrameOptions::default()
         },
         guard_band,
         samples_per_pixel: 16,
-        ..FrameSettings::default()
+        ..RenderSettings::default()
     };
     trace_frame(&flight(), &settings, &unwatched).expect("settings are allowed")
 }

@@ -6,9 +6,10 @@ use std::path::Path;
 use cli::{Programs, SceneChoice};
 use frame::{Alignment, Picture};
 use metrics::{Measured, Metric, Reference};
-use suite::{JudgedScore, Level, Monitor, Outcome, RenderSettings, SceneBounds};
+use suite::{JudgedScore, Level, Monitor, Outcome, SceneBounds};
 use tests::scenes;
 use tests::text::assert_contains;
+use tracer::RenderSettings;
 
 use crate::lock_truths;
 

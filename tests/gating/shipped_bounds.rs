@@ -2,10 +2,11 @@
 
 use cli::{Programs, select_filters, select_scenes};
 use suite::{
-    Check, Decision, Finding, InputFormat, Level, Monitor, Outcome, RenderSettings, RunBounds,
-    RunPlan, check, judge, measure_scenes, read_bounds, size_for_bounds,
+    Check, Decision, Finding, InputFormat, Level, Monitor, Outcome, RunBounds, RunPlan, check,
+    judge, measure_scenes, read_bounds, size_for_bounds,
 };
 use tests::open_gpu;
+use tracer::RenderSettings;
 
 use crate::lock_truths;
 

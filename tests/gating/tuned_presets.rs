@@ -4,11 +4,11 @@ use std::path::Path;
 
 use cli::{Programs, paired_table, select_filters, select_scenes};
 use suite::{
-    Evaluator, LEAST_BLEED, Monitor, Preference, RenderSettings, SceneBounds, compare_candidates,
-    read_bounds, render_scenes,
+    Evaluator, LEAST_BLEED, Monitor, Preference, SceneBounds, compare_candidates, read_bounds,
+    render_scenes,
 };
 use tests::open_gpu;
-use tracer::Scene;
+use tracer::{RenderSettings, Scene};
 
 const TUNED: [&str; 2] = ["jump_flood", "mcguire"];
 

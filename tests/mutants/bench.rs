@@ -6,11 +6,11 @@ use std::path::PathBuf;
 use cli::{SceneChoice, select_scenes};
 use filters::Gpu;
 use suite::{
-    Error, FilterChoice, InputFormat, Monitor, RenderSettings, Run, RunBounds, RunPlan,
-    measure_scenes, read_bounds, size_for_bounds,
+    Error, FilterChoice, InputFormat, Monitor, Run, RunBounds, RunPlan, measure_scenes,
+    read_bounds, size_for_bounds,
 };
 use tests::scenes;
-use tracer::Scene;
+use tracer::{RenderSettings, Scene};
 
 use crate::journal::Place;
 use crate::options::Options;
@@ -97,7 +97,7 @@ impl Bench {
             jitter_frames: 0,
             render: RenderSettings {
                 seed,
-                ..self.render.clone()
+                ..self.render
             },
             out: self.truths(seed),
             intervals: true,

@@ -35,7 +35,7 @@ impl Options {
             .to_vec(),
             scenes: Vec::new(),
             size: None,
-            samples: suite::RenderSettings::default().samples_per_pixel,
+            samples: tracer::RenderSettings::default().samples_per_pixel,
             count: 100,
             time: None,
             out: Path::new(env!("CARGO_TARGET_TMPDIR")).join("mutants"),

@@ -3,7 +3,7 @@
 use frame::{Alignment, Picture};
 use metrics::Reference;
 use tests::unwatched;
-use tracer::{FrameSettings, TruthSettings, load_scene, trace_frame, trace_ladder, trace_truth};
+use tracer::{RenderSettings, load_scene, trace_frame, trace_ladder, trace_truth};
 
 #[test]
 fn n_subframes_are_worth_n() {
@@ -12,34 +12,24 @@ fn n_subframes_are_worth_n() {
     // error of each count is well above the noise.
     let scene = load_scene(&folder, Some("128px_30deg")).unwrap();
     let watch = &unwatched;
-    let (width, height) = (160, 90);
-    let settings = TruthSettings {
-        width,
-        height,
-        exposure: 1.0,
-        alignment: Alignment::Trailing,
+    let settings = RenderSettings {
+        width: 160,
+        height: 90,
+        exposure: Some(1.0),
         samples_per_pixel: 1024,
-        replicates: 8,
-        seed: 1,
+        ..RenderSettings::default()
     };
-    let frame = trace_frame(
-        &scene,
-        &FrameSettings {
-            width,
-            height,
-            exposure: 1.0,
-            samples_per_pixel: 64,
-            ..Default::default()
-        },
-        watch,
-    )
-    .unwrap();
-    let truth = trace_truth(&scene, &settings, watch).unwrap();
+    let coarse = RenderSettings {
+        samples_per_pixel: 64,
+        ..settings
+    };
+    let frame = trace_frame(&scene, &coarse, watch).unwrap();
+    let truth = trace_truth(&scene, &settings, Alignment::Trailing, watch).unwrap();
     let ladder = trace_ladder(&scene, &settings, &truth, &suite::LADDER, watch).unwrap();
     let reference =
         Reference::new(&frame, &truth, Some(&ladder), &suite::scene_viewing(&scene)).unwrap();
     // Another seed than the reference's.
-    let again = TruthSettings {
+    let again = RenderSettings {
         seed: 2,
         ..settings
     };

@@ -8,7 +8,7 @@ use glam::{DQuat, DVec2, DVec3};
 use tests::half_plane::half_plane;
 use tests::shapes::*;
 use tests::unwatched;
-use tracer::{Key, Mesh, Motion, Scene, TruthSettings, trace_truth};
+use tracer::{Key, Mesh, Motion, RenderSettings, Scene, trace_truth};
 
 /// Directions of motion, in degrees.
 const ANGLES: [f64; 4] = [0.0, 30.0, 45.0, 90.0];
@@ -249,12 +249,13 @@ fn noise_falls_as_stratification_predicts() {
         SPEED * normal,
     );
     let rms = |samples: u32| {
-        let settings = TruthSettings {
+        let settings = RenderSettings {
             samples_per_pixel: 2 * samples,
             replicates: 2,
-            ..truth_settings(Alignment::Trailing)
+            ..truth_settings()
         };
-        let truth = trace_truth(&scene, &settings, &unwatched).expect("settings are allowed");
+        let truth = trace_truth(&scene, &settings, Alignment::Trailing, &unwatched)
+            .expect("settings are allowed");
         let mut squares = Vec::new();
         for y in 0..HEIGHT {
             for x in 0..WIDTH {

@@ -8,7 +8,7 @@ use tests::half_plane::half_plane;
 use tests::random::Numbers;
 use tests::shapes::*;
 use tests::unwatched;
-use tracer::{FrameSettings, Key, Mesh, Motion, Ray, Scene, Shape, Stage, trace_frame};
+use tracer::{Key, Mesh, Motion, Ray, RenderSettings, Scene, Shape, Stage, trace_frame};
 
 /// Makes a mesh with key shapes: `place` moves each vertex.
 fn deforming_mesh(mesh: Mesh, times: &[f64], place: impl Fn(Vec3, f64) -> Vec3) -> Mesh {
@@ -28,7 +28,7 @@ fn deforming_mesh(mesh: Mesh, times: &[f64], place: impl Fn(Vec3, f64) -> Vec3) 
 }
 
 fn render_velocities(scene: &Scene, velocity: VelocityKind) -> Vec<[f32; 2]> {
-    let settings = FrameSettings {
+    let settings = RenderSettings {
         width: WIDTH,
         height: HEIGHT,
         options: FrameOptions {
@@ -36,7 +36,7 @@ fn render_velocities(scene: &Scene, velocity: VelocityKind) -> Vec<[f32; 2]> {
             ..FrameOptions::default()
         },
         samples_per_pixel: 1,
-        ..FrameSettings::default()
+        ..RenderSettings::default()
     };
     let frame = trace_frame(scene, &settings, &unwatched).expect("settings are allowed");
     frame.velocity.pixels

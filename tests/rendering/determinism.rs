@@ -3,13 +3,13 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use frame::{Alignment, Frame, Ladder, Truth};
+use frame::{Alignment, Frame, FrameOptions, Ladder, Truth, VelocityKind};
 use glam::{DVec3, Vec3};
 use tests::shapes::*;
 use tests::unwatched;
 use tracer::{
-    Background, FrameSettings, Progress, Scene, Sun, TraceError, TruthSettings, frame_hash,
-    ladder_hash, trace_frame, trace_ladder, trace_truth, truth_hash,
+    Background, Progress, RenderSettings, Scene, Sun, TraceError, frame_hash, ladder_hash,
+    trace_frame, trace_ladder, trace_truth, truth_hash,
 };
 
 /// Makes a scene with everything that draws random numbers: sky, sun disc, lamp, bounces, motion.
@@ -47,30 +47,19 @@ fn busy_scene() -> Scene {
     scene
 }
 
-fn frame_settings() -> FrameSettings {
-    FrameSettings {
+fn render_settings() -> RenderSettings {
+    RenderSettings {
         width: 33,
         height: 19,
-        samples_per_pixel: 16,
-        ..FrameSettings::default()
-    }
-}
-
-fn truth_settings() -> TruthSettings {
-    TruthSettings {
-        width: 33,
-        height: 19,
-        alignment: Alignment::Centred,
         samples_per_pixel: 64,
-        ..TruthSettings::default()
+        ..RenderSettings::default()
     }
 }
 
-fn everything(scene: &Scene, truth_settings: &TruthSettings) -> (Frame, Truth, Ladder) {
-    let frame = trace_frame(scene, &frame_settings(), &unwatched).expect("allowed");
-    let truth = trace_truth(scene, truth_settings, &unwatched).expect("allowed");
-    let ladder =
-        trace_ladder(scene, truth_settings, &truth, &[1, 4, 16], &unwatched).expect("allowed");
+fn everything(scene: &Scene, settings: &RenderSettings) -> (Frame, Truth, Ladder) {
+    let frame = trace_frame(scene, settings, &unwatched).expect("allowed");
+    let truth = trace_truth(scene, settings, Alignment::Centred, &unwatched).expect("allowed");
+    let ladder = trace_ladder(scene, settings, &truth, &[1, 4, 16], &unwatched).expect("allowed");
     (frame, truth, ladder)
 }
 
@@ -79,7 +68,7 @@ fn on_threads(threads: usize) -> (Frame, Truth, Ladder) {
         .num_threads(threads)
         .build()
         .expect("threads are available")
-        .install(|| everything(&busy_scene(), &truth_settings()))
+        .install(|| everything(&busy_scene(), &render_settings()))
 }
 
 #[test]
@@ -89,13 +78,13 @@ fn frame_and_truth_do_not_share_their_noise() {
         object.motion.keys.truncate(1);
     }
     // Nothing moves: with shared numbers the frame would equal the truth's first replicate, pixel by pixel.
-    let settings = TruthSettings {
+    let settings = RenderSettings {
         samples_per_pixel: 32,
         replicates: 2,
-        ..truth_settings()
+        ..render_settings()
     };
-    let frame = trace_frame(&scene, &frame_settings(), &unwatched).expect("allowed");
-    let truth = trace_truth(&scene, &settings, &unwatched).expect("allowed");
+    let frame = trace_frame(&scene, &settings.with_replicates(1), &unwatched).expect("allowed");
+    let truth = trace_truth(&scene, &settings, Alignment::Centred, &unwatched).expect("allowed");
     for half in &truth.halves {
         let pairs = frame.color.pixels.iter().zip(&half.color.pixels);
         let equal = pairs.filter(|(a, b)| a == b).count();
@@ -119,11 +108,11 @@ fn one_thread_and_several_give_the_same_bytes() {
 #[test]
 fn another_seed_gives_other_noise() {
     let scene = busy_scene();
-    let other = TruthSettings {
-        seed: 1,
-        ..truth_settings()
+    let other = RenderSettings {
+        seed: 2,
+        ..render_settings()
     };
-    let [a, b] = [truth_settings(), other].map(|settings| everything(&scene, &settings));
+    let [a, b] = [render_settings(), other].map(|settings| everything(&scene, &settings));
     assert_ne!(a.1.halves, b.1.halves);
     assert_ne!(a.1.halves[0], a.1.halves[1]);
     assert_ne!(a.2.rungs[2].halves, b.2.rungs[2].halves);
@@ -132,74 +121,52 @@ fn another_seed_gives_other_noise() {
 #[test]
 fn hashes_change_with_everything_that_changes_pixels() {
     let scene = busy_scene();
-    let (frame, truth, ladder) = everything(&scene, &truth_settings());
-    assert_eq!(
-        frame.provenance.content_hash,
-        frame_hash(&scene, &frame_settings())
-    );
+    let settings = render_settings();
+    let (frame, truth, ladder) = everything(&scene, &settings);
+    assert_eq!(frame.provenance.content_hash, frame_hash(&scene, &settings));
     assert_eq!(
         truth.provenance.content_hash,
-        truth_hash(&scene, &truth_settings())
+        truth_hash(&scene, &settings, Alignment::Centred)
     );
     assert_eq!(
         ladder.provenance.content_hash,
-        ladder_hash(&scene, &truth_settings(), &[1, 4, 16])
+        ladder_hash(&scene, &settings, Alignment::Centred, &[1, 4, 16])
     );
-    let settings = truth_settings();
+    let hash = |settings: RenderSettings| truth_hash(&scene, &settings, Alignment::Centred);
     let mut hashes = vec![
-        truth_hash(&scene, &settings),
-        truth_hash(
-            &scene,
-            &TruthSettings {
-                width: 34,
-                ..settings
-            },
-        ),
-        truth_hash(
-            &scene,
-            &TruthSettings {
-                exposure: 0.25,
-                ..settings
-            },
-        ),
-        truth_hash(
-            &scene,
-            &TruthSettings {
-                alignment: Alignment::Leading,
-                ..settings
-            },
-        ),
-        truth_hash(
-            &scene,
-            &TruthSettings {
-                samples_per_pixel: 128,
-                ..settings
-            },
-        ),
-        truth_hash(
-            &scene,
-            &TruthSettings {
-                replicates: 4,
-                ..settings
-            },
-        ),
-        truth_hash(
-            &scene,
-            &TruthSettings {
-                seed: 7,
-                ..settings
-            },
-        ),
+        hash(settings),
+        truth_hash(&scene, &settings, Alignment::Leading),
+        hash(RenderSettings {
+            width: 34,
+            ..settings
+        }),
+        hash(RenderSettings {
+            exposure: Some(0.25),
+            ..settings
+        }),
+        hash(RenderSettings {
+            samples_per_pixel: 128,
+            ..settings
+        }),
+        hash(RenderSettings {
+            replicates: 4,
+            ..settings
+        }),
+        hash(RenderSettings {
+            seed: 7,
+            ..settings
+        }),
         truth_hash(
             &Scene {
                 hash: "other".into(),
                 ..scene.clone()
             },
             &settings,
+            Alignment::Centred,
         ),
-        ladder_hash(&scene, &settings, &[1, 4]),
-        ladder_hash(&scene, &settings, &[1, 4, 16]),
-        frame_hash(&scene, &frame_settings()),
+        ladder_hash(&scene, &settings, Alignment::Centred, &[1, 4]),
+        ladder_hash(&scene, &settings, Alignment::Centred, &[1, 4, 16]),
+        frame_hash(&scene, &settings),
     ];
     let count = hashes.len();
     hashes.sort();
@@ -212,9 +179,35 @@ fn hashes_change_with_everything_that_changes_pixels() {
 }
 
 #[test]
+fn hashes_leave_out_what_changes_no_pixel() {
+    let scene = busy_scene();
+    let settings = render_settings();
+    let named = RenderSettings {
+        exposure: Some(scene.exposure),
+        ..settings
+    };
+    let of_frame = RenderSettings {
+        options: FrameOptions {
+            velocity: VelocityKind::PreviousFrame,
+            ..settings.options
+        },
+        guard_band: 3,
+        ..named
+    };
+    let hash = |settings| truth_hash(&scene, settings, Alignment::Centred);
+    assert_eq!(hash(&settings), hash(&of_frame));
+    let of_truth = RenderSettings {
+        replicates: 2,
+        ..named
+    };
+    assert_eq!(frame_hash(&scene, &settings), frame_hash(&scene, &of_truth));
+    assert_ne!(frame_hash(&scene, &settings), frame_hash(&scene, &of_frame));
+}
+
+#[test]
 fn progress_rises_to_the_whole_and_break_cancels() {
     let scene = busy_scene();
-    let settings = truth_settings();
+    let settings = render_settings();
     let greatest = AtomicU64::new(0);
     let total = AtomicU64::new(0);
     let watch = |progress: Progress| {
@@ -223,7 +216,7 @@ fn progress_rises_to_the_whole_and_break_cancels() {
         greatest.fetch_max(progress.done, Ordering::Relaxed);
         ControlFlow::Continue(())
     };
-    let truth = trace_truth(&scene, &settings, &watch).expect("allowed");
+    let truth = trace_truth(&scene, &settings, Alignment::Centred, &watch).expect("allowed");
     let samples: f32 = truth.samples.pixels.iter().sum();
     assert_eq!(total.into_inner(), samples as u64);
     assert_eq!(greatest.into_inner(), samples as u64);
@@ -233,7 +226,7 @@ fn progress_rises_to_the_whole_and_break_cancels() {
         ControlFlow::Break(())
     };
     assert_eq!(
-        trace_truth(&scene, &settings, &stop),
+        trace_truth(&scene, &settings, Alignment::Centred, &stop),
         Err(TraceError::Cancelled)
     );
     assert!(calls.into_inner() < 20, "work went on after the break");
@@ -242,51 +235,51 @@ fn progress_rises_to_the_whole_and_break_cancels() {
 #[test]
 fn bad_settings_are_refused_with_the_allowed_values() {
     let scene = busy_scene();
-    let message = |settings: TruthSettings| {
-        trace_truth(&scene, &settings, &unwatched)
+    let message = |settings: RenderSettings| {
+        trace_truth(&scene, &settings, Alignment::Centred, &unwatched)
             .expect_err("refused")
             .to_string()
     };
-    let settings = truth_settings();
+    let settings = render_settings();
     for (found, expected) in [
         (
-            message(TruthSettings {
+            message(RenderSettings {
                 samples_per_pixel: 100,
                 ..settings
             }),
             "samples per pixel is 100 over 8 replicates; allowed: 8 times a power of two up to 65536, such as 128",
         ),
         (
-            message(TruthSettings {
+            message(RenderSettings {
                 samples_per_pixel: 4,
                 ..settings
             }),
             "samples per pixel is 4 over 8 replicates; allowed: 8 times a power of two up to 65536, such as 8",
         ),
         (
-            message(TruthSettings {
+            message(RenderSettings {
                 replicates: 3,
                 ..settings
             }),
             "replicates is 3; allowed: even numbers from 2, such as 8",
         ),
         (
-            message(TruthSettings {
+            message(RenderSettings {
                 replicates: 0,
                 ..settings
             }),
             "replicates is 0; allowed: even numbers from 2, such as 8",
         ),
         (
-            message(TruthSettings {
+            message(RenderSettings {
                 height: 0,
                 ..settings
             }),
             "size is 33x0; allowed: 1 to 16384 pixels on either side, 67108864 in all",
         ),
         (
-            message(TruthSettings {
-                exposure: -0.5,
+            message(RenderSettings {
+                exposure: Some(-0.5),
                 ..settings
             }),
             "exposure is -0.5 frames; allowed: above 0 and finite (0.5 frames = 180 degrees)",
@@ -296,18 +289,18 @@ fn bad_settings_are_refused_with_the_allowed_values() {
     }
     let mut zoom = busy_scene();
     zoom.camera.vertical_fov = vec![(0.0, 1.0), (0.1, 2.0)];
-    let wide = TruthSettings {
-        exposure: 0.5,
-        alignment: Alignment::Leading,
+    let wide = RenderSettings {
+        exposure: Some(0.5),
         ..settings
     };
-    let refused = trace_truth(&zoom, &wide, &unwatched).expect_err("beyond 180 degrees");
+    let refused =
+        trace_truth(&zoom, &wide, Alignment::Leading, &unwatched).expect_err("beyond 180 degrees");
     assert!(
         refused
             .to_string()
             .contains("scene busy: the camera's vertical field of view is 343.775")
     );
-    let truth = trace_truth(&scene, &settings, &unwatched).expect("allowed");
+    let truth = trace_truth(&scene, &settings, Alignment::Centred, &unwatched).expect("allowed");
     for subframes in [vec![], vec![0, 1], vec![4, 2], vec![2, 2]] {
         let refused = trace_ladder(&scene, &settings, &truth, &subframes, &unwatched);
         assert_eq!(refused, Err(TraceError::Subframes(subframes)));

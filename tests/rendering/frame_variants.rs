@@ -5,23 +5,23 @@ use glam::{DQuat, DVec3, Vec3};
 use tests::shapes::*;
 use tests::unwatched;
 use tracer::{
-    Background, FrameSettings, Interpolation, Key, Motion, Scene, TraceError, trace_frame,
+    Background, Interpolation, Key, Motion, RenderSettings, Scene, TraceError, trace_frame,
 };
 
 const SIZE: [u32; 2] = [36, 24];
 
-fn frame_settings() -> FrameSettings {
-    FrameSettings {
+fn frame_settings() -> RenderSettings {
+    RenderSettings {
         width: SIZE[0],
         height: SIZE[1],
         samples_per_pixel: 4,
-        ..FrameSettings::default()
+        ..RenderSettings::default()
     }
 }
 
 /// Takes a kind of motion for the velocity buffer.
-fn with_velocity(velocity: VelocityKind) -> FrameSettings {
-    FrameSettings {
+fn with_velocity(velocity: VelocityKind) -> RenderSettings {
+    RenderSettings {
         options: FrameOptions {
             velocity,
             ..FrameOptions::default()
@@ -30,7 +30,7 @@ fn with_velocity(velocity: VelocityKind) -> FrameSettings {
     }
 }
 
-fn render_frame(scene: &Scene, settings: &FrameSettings) -> Frame {
+fn render_frame(scene: &Scene, settings: &RenderSettings) -> Frame {
     trace_frame(scene, settings, &unwatched).expect("allowed")
 }
 
@@ -123,7 +123,7 @@ fn moving_objects_stand_still_in_the_camera_s_velocity() {
 fn point_sampled_colour_is_that_of_the_pixel_centre() {
     let frame = render_frame(
         &spheres_scene(true),
-        &FrameSettings {
+        &RenderSettings {
             options: FrameOptions {
                 color: ColorSampling::Point,
                 ..FrameOptions::default()
@@ -155,7 +155,7 @@ fn a_sky_without_velocity_is_still_and_the_rest_is_unchanged() {
     let with = render_frame(&scene, &frame_settings());
     let without = render_frame(
         &scene,
-        &FrameSettings {
+        &RenderSettings {
             options: FrameOptions {
                 sky_velocity: false,
                 ..FrameOptions::default()
@@ -186,7 +186,7 @@ fn a_frame_inside_its_guard_band_equals_the_bare_frame() {
         let bare = render_frame(&scene, &with_velocity(velocity));
         let padded = render_frame(
             &scene,
-            &FrameSettings {
+            &RenderSettings {
                 guard_band: 5,
                 ..with_velocity(velocity)
             },
@@ -210,7 +210,7 @@ fn the_guard_band_equals_a_wider_view() {
     let scene = move_camera(spheres_scene(true));
     let padded = render_frame(
         &scene,
-        &FrameSettings {
+        &RenderSettings {
             guard_band: band,
             ..frame_settings()
         },
@@ -221,7 +221,7 @@ fn the_guard_band_equals_a_wider_view() {
     wider.camera.vertical_fov = vec![(0.0, 2.0 * tangent.atan())];
     let wider = render_frame(
         &wider,
-        &FrameSettings {
+        &RenderSettings {
             width,
             height,
             ..frame_settings()
@@ -241,7 +241,7 @@ fn the_guard_band_equals_a_wider_view() {
 fn a_guard_band_that_is_too_wide_is_refused() {
     let refused = trace_frame(
         &spheres_scene(false),
-        &FrameSettings {
+        &RenderSettings {
             guard_band: 9000,
             ..frame_settings()
         },

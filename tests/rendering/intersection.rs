@@ -1,5 +1,6 @@
 //! Rays against triangles: no holes, no leaks and no misses at any scale.
 
+use frame::Alignment;
 use glam::{DQuat, DVec3, Vec3};
 use rayon::prelude::*;
 use tests::brute_force::expect_what_every_triangle_gives;
@@ -7,8 +8,8 @@ use tests::random::{Numbers, hash};
 use tests::shapes::*;
 use tests::unwatched;
 use tracer::{
-    Background, FrameSettings, Key, Mesh, Motion, Ray, Scene, Stage, Sun, TruthSettings, Turn,
-    trace_frame, trace_truth,
+    Background, Key, Mesh, Motion, Ray, RenderSettings, Scene, Stage, Sun, Turn, trace_frame,
+    trace_truth,
 };
 
 fn reverse_faces(mut mesh: Mesh) -> Mesh {
@@ -26,11 +27,11 @@ fn a_square_panel_has_no_hole_at_any_pixel_centre() {
             let mut scene = empty_scene("panel");
             let at = placed(DVec3::new(0.0, 0.0, -0.5));
             add(&mut scene, panel, glowing(1.0), at);
-            let settings = FrameSettings {
+            let settings = RenderSettings {
                 width: size,
                 height: size,
                 samples_per_pixel: 1,
-                ..FrameSettings::default()
+                ..RenderSettings::default()
             };
             let frame = trace_frame(&scene, &settings, &unwatched).expect("settings are allowed");
             assert!(frame.object_id.pixels.iter().all(|id| *id == 1));
@@ -175,14 +176,15 @@ fn a_convex_surface_never_meets_its_own_rays_from_1_mm_to_10_km() {
         add(&mut scene, ball, diffuse(0.5), placed(at));
         // 90 degrees high, closer than the radius: only the ball is in view.
         scene.camera.motion = placed(at + DVec3::new(0.0, 0.0, 1.1 * radius));
-        let settings = TruthSettings {
+        let settings = RenderSettings {
             width: 24,
             height: 24,
             samples_per_pixel: 64,
             replicates: 2,
-            ..TruthSettings::default()
+            ..RenderSettings::default()
         };
-        let truth = trace_truth(&scene, &settings, &unwatched).expect("settings are allowed");
+        let truth = trace_truth(&scene, &settings, Alignment::Trailing, &unwatched)
+            .expect("settings are allowed");
         for half in &truth.halves {
             for pixel in &half.color.pixels {
                 // Every path scatters once and leaves. A path that met the surface again would lose half its light, a
@@ -249,14 +251,15 @@ fn pits_are_lit_to_their_bottom_from_1_mm_to_10_km() {
             irradiance: Vec3::ONE,
             angular_radius: 0.0,
         });
-        let settings = TruthSettings {
+        let settings = RenderSettings {
             width: 24,
             height: 24,
             samples_per_pixel: 64,
             replicates: 2,
-            ..TruthSettings::default()
+            ..RenderSettings::default()
         };
-        let truth = trace_truth(&scene, &settings, &unwatched).expect("settings are allowed");
+        let truth = trace_truth(&scene, &settings, Alignment::Trailing, &unwatched)
+            .expect("settings are allowed");
         let expected = f64::from(albedo) / std::f64::consts::PI * 2.0 / 6.0f64.sqrt();
         for half in &truth.halves {
             for pixel in &half.color.pixels {

@@ -1,12 +1,12 @@
 //! Motions through keys, against formulas and on both sides of every key.
 
+use frame::Alignment;
 use glam::{DQuat, DVec3};
 use tests::random::hash;
 use tests::shapes::*;
 use tests::unwatched;
 use tracer::{
-    FrameSettings, Interpolation, Key, Motion, TraceError, TruthSettings, Turn, trace_frame,
-    trace_truth,
+    Interpolation, Key, Motion, RenderSettings, TraceError, Turn, trace_frame, trace_truth,
 };
 
 /// Draws a number in [-1, 1) from a counter.
@@ -206,13 +206,12 @@ fn a_field_of_view_that_swings_out_of_bounds_between_its_keys_is_refused() {
     scene.camera.vertical_fov = degrees
         .map(|(time, fov): (f64, f64)| (time, fov.to_radians()))
         .to_vec();
-    let settings = TruthSettings {
+    let settings = RenderSettings {
         width: 4,
         height: 4,
-        exposure: 1.0,
-        ..TruthSettings::default()
+        ..RenderSettings::default()
     };
-    let error = trace_truth(&scene, &settings, &unwatched).unwrap_err();
+    let error = trace_truth(&scene, &settings, Alignment::Trailing, &unwatched).unwrap_err();
     // Slopes of -44.5 and 44.5 degrees per frame: 1 - 44.5 / 4 in the middle.
     let TraceError::FieldOfView { degrees, time, .. } = error else {
         panic!("{error}");
@@ -222,10 +221,5 @@ fn a_field_of_view_that_swings_out_of_bounds_between_its_keys_is_refused() {
         (degrees + 10.125).abs() < 1e-9 && (time + 0.5).abs() < 1e-9,
         "{degrees} at {time}"
     );
-    let frame = FrameSettings {
-        width: 4,
-        height: 4,
-        ..FrameSettings::default()
-    };
-    trace_frame(&scene, &frame, &unwatched).expect("at the instant there is a key");
+    trace_frame(&scene, &settings, &unwatched).expect("at the instant there is a key");
 }

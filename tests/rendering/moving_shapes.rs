@@ -6,7 +6,7 @@ use frame::{Alignment, Truth};
 use glam::DVec2;
 use tests::statistics::{coverage_estimates, expect_agreement, expect_total};
 use tests::unwatched;
-use tracer::{Scene, TruthSettings, trace_truth};
+use tracer::{RenderSettings, Scene, trace_truth};
 
 pub const WIDTH: u32 = 32;
 pub const HEIGHT: u32 = 18;
@@ -17,19 +17,18 @@ pub const SPEED: f64 = 14.0;
 /// Exposure in frames.
 pub const EXPOSURE: f64 = 0.75;
 
-pub fn truth_settings(alignment: Alignment) -> TruthSettings {
-    TruthSettings {
+pub fn truth_settings() -> RenderSettings {
+    RenderSettings {
         width: WIDTH,
         height: HEIGHT,
-        exposure: EXPOSURE,
-        alignment,
+        exposure: Some(EXPOSURE),
         samples_per_pixel: 1024,
-        ..TruthSettings::default()
+        ..RenderSettings::default()
     }
 }
 
 pub fn render_truth(scene: &Scene, alignment: Alignment) -> Truth {
-    trace_truth(scene, &truth_settings(alignment), &unwatched).expect("settings are allowed")
+    trace_truth(scene, &truth_settings(), alignment, &unwatched).expect("settings are allowed")
 }
 
 /// Returns the lower left corner of a pixel, y up.

@@ -4,20 +4,20 @@ use frame::{Alignment, Replicate, Truth, TruthError};
 use metrics::{Region, Regions, measure, regions};
 use tests::synthetic::{Object, Sampling, Scene, Shape, VIEWING};
 use tests::unwatched;
-use tracer::{TruthSettings, TruthTracer, load_scene, trace_truth};
+use tracer::{RenderSettings, TruthTracer, load_scene, trace_truth};
 
 fn load_shipped(name: &str) -> tracer::Scene {
     load_scene(&tests::scenes().join(name), None).unwrap()
 }
 
-fn truth_settings(samples_per_pixel: u32, replicates: u32, seed: u64) -> TruthSettings {
-    TruthSettings {
+fn render_settings(samples_per_pixel: u32, replicates: u32, seed: u64) -> RenderSettings {
+    RenderSettings {
         width: 80,
         height: 45,
         samples_per_pixel,
         replicates,
         seed,
-        ..TruthSettings::default()
+        ..RenderSettings::default()
     }
 }
 
@@ -30,8 +30,20 @@ fn count(regions: &Regions, region: Region) -> usize {
 fn regions_depend_on_no_seed_no_samples_and_no_replicates() {
     for name in ["two_spheres", "fan", "railing"] {
         let scene = load_shipped(name);
-        let few = trace_truth(&scene, &truth_settings(16, 2, 1), &unwatched).unwrap();
-        let many = trace_truth(&scene, &truth_settings(256, 4, 2), &unwatched).unwrap();
+        let few = trace_truth(
+            &scene,
+            &render_settings(16, 2, 1),
+            Alignment::Trailing,
+            &unwatched,
+        )
+        .unwrap();
+        let many = trace_truth(
+            &scene,
+            &render_settings(256, 4, 2),
+            Alignment::Trailing,
+            &unwatched,
+        )
+        .unwrap();
         assert!(few.motion != many.motion, "{name}: noise differs");
         assert!(few.support == many.support, "{name}");
         let regions = [&few, &many].map(regions);
@@ -43,8 +55,13 @@ fn regions_depend_on_no_seed_no_samples_and_no_replicates() {
 #[test]
 fn the_support_holds_nearly_all_coverage_of_a_truth() {
     for name in ["two_spheres", "fan", "wires"] {
-        let truth =
-            trace_truth(&load_shipped(name), &truth_settings(1024, 2, 1), &unwatched).unwrap();
+        let truth = trace_truth(
+            &load_shipped(name),
+            &render_settings(1024, 2, 1),
+            Alignment::Trailing,
+            &unwatched,
+        )
+        .unwrap();
         let mean = truth.mean();
         for (object, seen) in truth.support.seen.iter().enumerate() {
             let missed: f64 = (mean.coverage[object].pixels.iter().zip(&seen.pixels))
@@ -69,7 +86,7 @@ fn the_support_holds_nearly_all_coverage_of_a_truth() {
 fn replicates_with_different_supports_are_refused() {
     let scene = load_shipped("two_spheres");
     let tracer =
-        TruthTracer::new(&scene, &truth_settings(16, 2, 1), &[Alignment::Trailing]).unwrap();
+        TruthTracer::new(&scene, &render_settings(16, 2, 1), &[Alignment::Trailing]).unwrap();
     let mut replicates: Vec<Replicate> = (0..2)
         .flat_map(|index| tracer.trace(index, &unwatched).unwrap())
         .collect();

@@ -143,9 +143,9 @@ fn sub_frames_lie_at_the_middles_of_equal_parts_of_light() {
         },
         rolling: 0.3,
     };
-    let settings = truth_settings(Alignment::Trailing);
     let truth = render_truth(&scene, Alignment::Trailing);
-    let ladder = trace_ladder(&scene, &settings, &truth, &[2], &unwatched).expect("allowed");
+    let ladder =
+        trace_ladder(&scene, &truth_settings(), &truth, &[2], &unwatched).expect("allowed");
     assert_eq!(ladder.shutter_profile, scene.shutter_profile);
     // Light grows with the square of time: a quarter has passed at half of it, three quarters at the root of that.
     let parts = [0.5, 0.75_f64.sqrt()];
@@ -196,7 +196,7 @@ fn the_hash_of_a_truth_depends_on_its_shutter() {
     let hash = |change: fn(&mut ShutterProfile)| {
         let mut scene = scene.clone();
         change(&mut scene.shutter_profile);
-        replicate_hash(&scene, &truth_settings(Alignment::Trailing))
+        replicate_hash(&scene, &truth_settings(), Alignment::Trailing)
     };
     let plain = hash(|_| ());
     assert_ne!(plain, hash(|profile| profile.rolling = 0.1));
@@ -237,7 +237,7 @@ fn invalid_shutters_are_refused() {
         let mut scene = half_plane_scene(DVec2::X, &[-1.0, 1.0], |time| time);
         scene.shutter_profile.efficiency = efficiency;
         let found =
-            trace_truth(&scene, &truth_settings(Alignment::Trailing), &unwatched).unwrap_err();
+            trace_truth(&scene, &truth_settings(), Alignment::Trailing, &unwatched).unwrap_err();
         assert_eq!(found, TraceError::Shutter(error));
     }
     for never in [

@@ -2,16 +2,14 @@
 
 use frame::{Alignment, Truth};
 use tests::unwatched;
-use tracer::{Scene, TruthSettings, trace_truth};
+use tracer::{RenderSettings, Scene, trace_truth};
 
 pub fn render_truth(scene: &Scene, samples_per_pixel: u32) -> Truth {
-    let settings = TruthSettings {
+    let settings = RenderSettings {
         width: 16,
         height: 9,
-        exposure: 1.0,
-        alignment: Alignment::Centred,
         samples_per_pixel,
-        ..TruthSettings::default()
+        ..RenderSettings::default()
     };
-    trace_truth(scene, &settings, &unwatched).expect("settings are allowed")
+    trace_truth(scene, &settings, Alignment::Centred, &unwatched).expect("settings are allowed")
 }

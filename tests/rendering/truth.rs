@@ -8,8 +8,7 @@ use tests::statistics::{
 };
 use tests::unwatched;
 use tracer::{
-    Background, FrameSettings, Motion, Parent, Scene, Sun, TruthSettings, trace_frame,
-    trace_ladder, trace_truth,
+    Background, Motion, Parent, RenderSettings, Scene, Sun, trace_frame, trace_ladder, trace_truth,
 };
 
 const WIDTH: u32 = 48;
@@ -21,29 +20,22 @@ const SPEED: f64 = 16.0;
 /// Width of the slab in pixels.
 const SLAB: f64 = 5.5;
 
-fn truth_settings(exposure: f64, alignment: Alignment) -> TruthSettings {
-    TruthSettings {
+fn render_settings(exposure: f64) -> RenderSettings {
+    RenderSettings {
         width: WIDTH,
         height: HEIGHT,
-        exposure,
-        alignment,
+        exposure: Some(exposure),
         samples_per_pixel: 512,
-        ..TruthSettings::default()
+        ..RenderSettings::default()
     }
 }
 
 fn render_truth(scene: &Scene, exposure: f64, alignment: Alignment) -> Truth {
-    trace_truth(scene, &truth_settings(exposure, alignment), &unwatched).expect("allowed")
+    trace_truth(scene, &render_settings(exposure), alignment, &unwatched).expect("allowed")
 }
 
 fn render_frame(scene: &Scene) -> Frame {
-    let settings = FrameSettings {
-        width: WIDTH,
-        height: HEIGHT,
-        samples_per_pixel: 512,
-        ..FrameSettings::default()
-    };
-    trace_frame(scene, &settings, &unwatched).expect("allowed")
+    trace_frame(scene, &render_settings(1.0), &unwatched).expect("allowed")
 }
 
 /// Makes a tall white slab that moves right through the centre at `t = 0`; `speed` is in pixels per frame.
@@ -199,14 +191,8 @@ fn mirror_in_time(motion: &Motion) -> Motion {
 fn halves_are_independent() {
     let scene = slab_scene(SPEED);
     let truth = render_truth(&scene, 1.0, Alignment::Trailing);
-    let ladder = trace_ladder(
-        &scene,
-        &truth_settings(1.0, Alignment::Trailing),
-        &truth,
-        &[256],
-        &unwatched,
-    )
-    .expect("allowed");
+    let ladder =
+        trace_ladder(&scene, &render_settings(1.0), &truth, &[256], &unwatched).expect("allowed");
     // The slab's smear is a trapezoid that is equal in every row. The mean over rows gives its exact value, with 1/4 of
     // the noise.
     let errors = |coverage: &frame::Plane| -> Vec<f64> {
@@ -238,8 +224,8 @@ fn halves_are_independent() {
 #[test]
 fn a_ladder_s_rungs_average_midpoint_instants() {
     let scene = slab_scene(SPEED);
-    let settings = truth_settings(1.0, Alignment::Leading);
-    let truth = trace_truth(&scene, &settings, &unwatched).expect("allowed");
+    let settings = render_settings(1.0);
+    let truth = trace_truth(&scene, &settings, Alignment::Leading, &unwatched).expect("allowed");
     let subframes = [1, 2, 4, 8];
     let ladder = trace_ladder(&scene, &settings, &truth, &subframes, &unwatched).expect("allowed");
     assert_eq!(ladder.rungs.len(), 4);
@@ -275,8 +261,8 @@ fn a_ladder_equals_the_truth_at_still_pixels_and_costs_no_more() {
     // Columns 13.2 to 18.4: the moving slab does not reach the left edge, but reaches the right one.
     let panel = placed(DVec3::new(-8.2, 0.1, -DISTANCE));
     add(&mut scene, rectangle(5.2, 30.0), glowing(0.5), panel);
-    let settings = truth_settings(1.0, Alignment::Trailing);
-    let truth = trace_truth(&scene, &settings, &unwatched).expect("allowed");
+    let settings = render_settings(1.0);
+    let truth = trace_truth(&scene, &settings, Alignment::Trailing, &unwatched).expect("allowed");
     let work = std::sync::atomic::AtomicU64::new(0);
     let ladder = trace_ladder(
         &scene,

@@ -4,7 +4,7 @@ use frame::{FAR_DEPTH, Frame, FrameOptions, VelocityKind};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 use tests::shapes::*;
 use tests::unwatched;
-use tracer::{FrameSettings, Interpolation, Key, Motion, Parent, Scene, Turn, trace_frame};
+use tracer::{Interpolation, Key, Motion, Parent, RenderSettings, Scene, Turn, trace_frame};
 
 const WIDTH: u32 = 33;
 const HEIGHT: u32 = 21;
@@ -14,7 +14,7 @@ const FOCAL: f64 = 0.5 * HEIGHT as f64;
 const TOLERANCE: f64 = 1e-3;
 
 fn render_frame(scene: &Scene, velocity: VelocityKind) -> Frame {
-    let settings = FrameSettings {
+    let settings = RenderSettings {
         width: WIDTH,
         height: HEIGHT,
         options: FrameOptions {
@@ -22,7 +22,7 @@ fn render_frame(scene: &Scene, velocity: VelocityKind) -> Frame {
             ..FrameOptions::default()
         },
         samples_per_pixel: 1,
-        ..FrameSettings::default()
+        ..RenderSettings::default()
     };
     trace_frame(scene, &settings, &unwatched).expect("allowed")
 }

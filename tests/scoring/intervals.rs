@@ -6,9 +6,7 @@ use rayon::prelude::*;
 use suite::{Intervals, intervals, truths_without_pairs};
 use tests::synthetic::{Blur, Object, Scene, Shape};
 use tests::unwatched;
-use tracer::{
-    FrameSettings, TruthSettings, TruthTracer, load_scene, trace_frame, trace_ladder, trace_truth,
-};
+use tracer::{RenderSettings, TruthTracer, load_scene, trace_frame, trace_ladder, trace_truth};
 
 use crate::{noisy, sliding_disc};
 
@@ -60,23 +58,16 @@ fn measure_intervals(blur: &Blur) -> Found {
 fn trace_intervals() -> Found {
     let folder = tests::scenes().join("two_spheres");
     let scene = load_scene(&folder, None).unwrap();
-    let frame = FrameSettings {
+    let settings = |samples_per_pixel, seed| RenderSettings {
         width: 64,
         height: 36,
-        exposure: scene.exposure,
-        ..FrameSettings::default()
-    };
-    let frame = trace_frame(&scene, &frame, &unwatched).unwrap();
-    let settings = |samples_per_pixel, seed| TruthSettings {
-        width: 64,
-        height: 36,
-        exposure: scene.exposure,
         samples_per_pixel,
         seed,
-        ..TruthSettings::default()
+        ..RenderSettings::default()
     };
+    let frame = trace_frame(&scene, &settings(256, 1), &unwatched).unwrap();
     let converged = settings(2048, 1000);
-    let truth = trace_truth(&scene, &converged, &unwatched).unwrap();
+    let truth = trace_truth(&scene, &converged, Alignment::Trailing, &unwatched).unwrap();
     let ladder = trace_ladder(&scene, &converged, &truth, &[8], &unwatched).unwrap();
     let picture = shift(&Picture::mean(&ladder.rungs[0].halves));
     let found = (0..TRACED_SEEDS)

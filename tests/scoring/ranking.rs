@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use cli::run_table;
 use metrics::{ImageMetric, Measured, Reference, Region, Scores};
-use suite::{Case, FORMAT, InputFormat, Overall, RenderSettings, Run, overall};
+use suite::{Case, FORMAT, InputFormat, Overall, Run, overall};
 use tests::synthetic::{Object, Sampling, Scene, Shape, VIEWING};
-use tracer::Family;
+use tracer::{Family, RenderSettings};
 
 /// Difficulty of a run's scenes relative to one another.
 const SCENES: [f64; 5] = [0.6, 0.8, 1.0, 1.2, 1.4];

@@ -9,7 +9,8 @@ use std::path::Path;
 use std::sync::Mutex;
 
 use filters::Filter;
-use suite::{FilterChoice, InputFormat, Monitor, RenderSettings, RunPlan};
+use suite::{FilterChoice, InputFormat, Monitor, RunPlan};
+use tracer::RenderSettings;
 
 /// Scene, filter preset and size, where the command line names none.
 const DEFAULTS: [&str; 3] = ["railing", "jump_flood:paper", "1920x1080"];

@@ -70,7 +70,7 @@ pub use render::frames::render_frame;
 pub use render::ladders::{LADDER, LadderFile};
 pub use render::merge::{MOST_PART_BYTES, Merged, merge};
 pub use render::scatter_oracle::scatter_oracle;
-pub use render::settings::{MOST_REPLICATES, RenderSettings, SIDES};
+pub use render::settings::{MOST_REPLICATES, SIDES};
 pub use render::shared::render_shared;
 pub use render::truths::{deciding_floor, render_part, render_truth, render_truth_until};
 pub use run::case::{ACCUMULATE, Case, IDENTITY, Intervals};

@@ -2,43 +2,62 @@
 
 use std::fmt::Debug;
 
-use frame::Provenance;
+use frame::{Alignment, FrameOptions, Provenance};
 
 use crate::scene::Scene;
-use crate::settings::{FrameSettings, TruthSettings};
+use crate::settings::RenderSettings;
 use crate::stage::Stage;
 
 const PROGRAM: &str = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"));
 
 /// The content hash of the frame that [`trace_frame`](crate::trace_frame) would render. It covers the scene's own hash, the
 /// settings and the tracer's sources, so equal hashes mean equal pixels.
-pub fn frame_hash(scene: &Scene, settings: &FrameSettings) -> String {
-    content_hash(scene, "frame", settings)
+pub fn frame_hash(scene: &Scene, settings: &RenderSettings) -> String {
+    let own = RenderSettings {
+        replicates: 1,
+        exposure: Some(settings.exposure(scene)),
+        ..*settings
+    };
+    content_hash(scene, "frame", &own)
 }
 
 /// The content hash that all replicates of a truth share, independent of their number; see [`frame_hash`].
-pub fn replicate_hash(scene: &Scene, settings: &TruthSettings) -> String {
-    let each = TruthSettings {
-        samples_per_pixel: settings.samples_per_replicate(),
-        replicates: 1,
-        ..*settings
-    };
-    content_hash(scene, "replicate", &(each, &scene.shutter_profile))
+pub fn replicate_hash(scene: &Scene, settings: &RenderSettings, alignment: Alignment) -> String {
+    let each = settings.with_replicates(1);
+    content_hash(
+        scene,
+        "replicate",
+        &list_truth_inputs(scene, &each, alignment),
+    )
 }
 
 /// The content hash of the truth that [`trace_truth`](crate::trace_truth) would render; see [`frame_hash`].
-pub fn truth_hash(scene: &Scene, settings: &TruthSettings) -> String {
-    frame::truth_hash(&replicate_hash(scene, settings), settings.replicates)
+pub fn truth_hash(scene: &Scene, settings: &RenderSettings, alignment: Alignment) -> String {
+    let each = replicate_hash(scene, settings, alignment);
+    frame::truth_hash(&each, settings.replicates)
 }
 
 /// The content hash of the ladder that [`trace_ladder`](crate::trace_ladder) would render from the truth of the same
 /// settings; see [`frame_hash`].
-pub fn ladder_hash(scene: &Scene, settings: &TruthSettings, subframes: &[u32]) -> String {
-    content_hash(
-        scene,
-        "ladder",
-        &(settings, subframes, &scene.shutter_profile),
-    )
+pub fn ladder_hash(
+    scene: &Scene,
+    settings: &RenderSettings,
+    alignment: Alignment,
+    subframes: &[u32],
+) -> String {
+    let truth = list_truth_inputs(scene, settings, alignment);
+    content_hash(scene, "ladder", &(truth, subframes))
+}
+
+/// Lists what changes the pixels of a truth: no setting of the frame does.
+fn list_truth_inputs(scene: &Scene, settings: &RenderSettings, alignment: Alignment) -> impl Debug {
+    let settings = RenderSettings {
+        options: FrameOptions::default(),
+        guard_band: 0,
+        exposure: Some(settings.exposure(scene)),
+        ..*settings
+    };
+    (settings, alignment, &scene.shutter_profile)
 }
 
 /// The provenance of a render, as its file states it.

@@ -15,7 +15,7 @@ use crate::light::integrator::Integrator;
 use crate::motion::velocity::{TrackedPoint, camera_velocity, reprojection};
 use crate::progress::{Meter, Watch};
 use crate::scene::Scene;
-use crate::settings::FrameSettings;
+use crate::settings::RenderSettings;
 use crate::stage::Stage;
 
 /// The values that a rasteriser writes at one pixel's centre.
@@ -29,10 +29,10 @@ struct PointSample {
 /// object id are those of the point at the centre. All rasters extend beyond the picture by the guard band of the settings.
 pub fn trace_frame(
     scene: &Scene,
-    settings: &FrameSettings,
+    settings: &RenderSettings,
     watch: Watch,
 ) -> Result<Frame, TraceError> {
-    settings.check(scene)?;
+    settings.check_frame(scene)?;
     let canvas = Canvas {
         width: settings.width,
         height: settings.height,
@@ -80,7 +80,7 @@ pub fn trace_frame(
             1,
             frame_hash(scene, settings),
         ),
-        exposure: settings.exposure,
+        exposure: settings.exposure(scene),
         options: settings.options,
         guard_band: settings.guard_band,
         reprojection: reprojection(scene, [settings.width, settings.height]),
@@ -96,7 +96,7 @@ pub fn trace_frame(
 }
 
 /// Samples what a rasteriser writes, at the centres of all pixels.
-fn sample_points(stage: &Stage, canvas: Canvas, settings: &FrameSettings) -> Vec<PointSample> {
+fn sample_points(stage: &Stage, canvas: Canvas, settings: &RenderSettings) -> Vec<PointSample> {
     let scene = stage.scene;
     let options = settings.options;
     let size = [canvas.width, canvas.height];

@@ -14,7 +14,7 @@ use crate::film::shutter_sampler::ShutterSampler;
 use crate::light::integrator::Integrator;
 use crate::progress::{Meter, Watch};
 use crate::scene::Scene;
-use crate::settings::TruthSettings;
+use crate::settings::RenderSettings;
 use crate::stage::Stage;
 
 /// One replicate per half; more would only stratify worse.
@@ -32,12 +32,12 @@ const SAVED_BY_A_MISS: f64 = 0.875;
 /// in work. Their random numbers are their own, so that their noise is independent of the truth's.
 pub fn trace_ladder(
     scene: &Scene,
-    settings: &TruthSettings,
+    settings: &RenderSettings,
     truth: &Truth,
     subframes: &[u32],
     watch: Watch,
 ) -> Result<Ladder, TraceError> {
-    let shutter = settings.check(scene)?;
+    let shutter = settings.check_truth(scene, truth.alignment)?;
     check_subframes(subframes)?;
     assert_eq!(
         truth.size(),
@@ -91,11 +91,11 @@ pub fn trace_ladder(
             settings.seed,
             samples_per_pixel,
             REPLICATES,
-            ladder_hash(scene, settings, subframes),
+            ladder_hash(scene, settings, truth.alignment, subframes),
         ),
         shutter,
         shutter_profile: scene.shutter_profile.clone(),
-        alignment: settings.alignment,
+        alignment: truth.alignment,
         objects: scene.object_names(),
         rungs,
     })
@@ -119,7 +119,7 @@ fn set_pixel(picture: &mut Picture, pixel: usize, mean: &PixelMean) {
 /// The samples per replicate: the largest power of two with which all rungs together take no more samples and no more work
 /// than the truth, and no rung has more samples per pixel than it; at least one.
 fn affordable_samples(
-    settings: &TruthSettings,
+    settings: &RenderSettings,
     background: &Plane,
     pixels: &[u32],
     rungs: usize,

@@ -42,6 +42,6 @@ pub use scene::{
     Background, Camera, Display, EnvironmentMap, Family, Finish, FlipExposures, Material, Mesh,
     Object, Parent, Scene, Shape, Sun, Texture,
 };
-pub use settings::{FrameSettings, TruthSettings};
+pub use settings::RenderSettings;
 pub use stage::Stage;
 pub use truth::{TruthTracer, trace_truth};

@@ -1,6 +1,7 @@
-//! The settings of frames and truths, and the check of each.
+//! Settings of renders, and their check.
 
 use frame::{Alignment, FrameOptions, Shutter};
+use serde::{Deserialize, Serialize};
 
 use crate::error::TraceError;
 use crate::film::sampler::MOST_SAMPLES;
@@ -8,103 +9,86 @@ use crate::limits::{LARGEST_SIDE, MOST_PIXELS};
 use crate::motion::velocity::earliest_time;
 use crate::scene::Scene;
 
-/// Settings of a frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrameSettings {
+/// Settings of a scene's frame and truths; run.json holds them.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RenderSettings {
     /// Pixels per row.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Exposure that filters blur by, in frames; no pixel of the frame depends on it.
-    pub exposure: f64,
-    /// Choice of what the frame holds.
-    pub options: FrameOptions,
-    /// Pixels by which all rasters extend beyond the picture on every side.
-    pub guard_band: u32,
-    /// Mean samples of colour and coverage per pixel, a power of two up to 65536; time grows with it. A pilot shares them out.
+    /// Mean samples per pixel: of a frame, or of a truth over all its replicates; each takes a power of two up to 65536. Time grows
+    /// with them, noise falls faster than their square root: a pilot shares them out.
     pub samples_per_pixel: u32,
-    /// Seed of the random numbers.
-    pub seed: u64,
-}
-
-/// Settings of a truth.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TruthSettings {
-    /// Pixels per row.
-    pub width: u32,
-    /// Rows.
-    pub height: u32,
-    /// Length of the shutter interval in frames.
-    pub exposure: f64,
-    /// Position of the interval relative to the instant.
-    pub alignment: Alignment,
-    /// Mean samples per pixel over all replicates; time grows with it, noise falls faster than its square root. A pilot shares
-    /// them out.
-    pub samples_per_pixel: u32,
-    /// Independent, complete renders, an even number; each gets a power of two of samples. More of them measure the noise
-    /// better and stratify worse.
+    /// Independent, complete renders behind a truth, an even number. More of them measure the noise better and stratify worse.
     pub replicates: u32,
     /// Seed of the random numbers.
     pub seed: u64,
+    /// Choice of what the frame holds.
+    #[serde(flatten)]
+    pub options: FrameOptions,
+    /// Pixels by which the frame's rasters extend beyond the picture on every side.
+    pub guard_band: u32,
+    /// Length of the shutter interval in frames; none takes the scene's. Not in run.json, where every case has its own.
+    #[serde(skip)]
+    pub exposure: Option<f64>,
 }
 
-impl Default for FrameSettings {
+impl Default for RenderSettings {
     fn default() -> Self {
         Self {
             width: 320,
             height: 180,
-            exposure: 0.5,
-            options: FrameOptions::default(),
-            guard_band: 0,
-            samples_per_pixel: 256,
-            seed: 0,
-        }
-    }
-}
-
-impl Default for TruthSettings {
-    fn default() -> Self {
-        Self {
-            width: 320,
-            height: 180,
-            exposure: 0.5,
-            alignment: Alignment::Trailing,
             samples_per_pixel: 256,
             replicates: 8,
-            seed: 0,
+            seed: 1,
+            options: FrameOptions::default(),
+            guard_band: 0,
+            exposure: None,
         }
     }
 }
 
-impl FrameSettings {
-    /// Refuses settings with which the scene cannot be rendered.
-    pub fn check(&self, scene: &Scene) -> Result<(), TraceError> {
-        check_size(self.width, self.height)?;
-        check_size(
-            self.width.saturating_add(self.guard_band.saturating_mul(2)),
-            self.height
-                .saturating_add(self.guard_band.saturating_mul(2)),
-        )?;
-        Alignment::Trailing.shutter(self.exposure)?;
-        check_samples(self.samples_per_pixel, 1)?;
-        check_field_of_view(scene, earliest_time(self.options.velocity), 0.0)
-    }
-}
-
-impl TruthSettings {
+impl RenderSettings {
     /// Samples per pixel of each replicate.
     pub fn samples_per_replicate(&self) -> u32 {
         self.samples_per_pixel / self.replicates
     }
 
-    /// Refuses settings with which the scene cannot be rendered; returns the shutter.
-    pub fn check(&self, scene: &Scene) -> Result<Shutter, TraceError> {
+    /// Takes another number of replicates, each with as many samples as before.
+    pub fn with_replicates(&self, replicates: u32) -> Self {
+        Self {
+            samples_per_pixel: self.samples_per_replicate().saturating_mul(replicates),
+            replicates,
+            ..*self
+        }
+    }
+
+    /// Returns the length of the shutter interval, in frames.
+    pub fn exposure(&self, scene: &Scene) -> f64 {
+        self.exposure.unwrap_or(scene.exposure)
+    }
+
+    /// Refuses settings with which the scene's frame cannot be rendered.
+    pub fn check_frame(&self, scene: &Scene) -> Result<(), TraceError> {
+        let band = self.guard_band.saturating_mul(2);
+        check_size(self.width, self.height)?;
+        check_size(
+            self.width.saturating_add(band),
+            self.height.saturating_add(band),
+        )?;
+        Alignment::Trailing.shutter(self.exposure(scene))?;
+        check_samples(self.samples_per_pixel, 1)?;
+        check_field_of_view(scene, earliest_time(self.options.velocity), 0.0)
+    }
+
+    /// Refuses settings with which the scene's truth cannot be rendered; returns the shutter.
+    pub fn check_truth(&self, scene: &Scene, alignment: Alignment) -> Result<Shutter, TraceError> {
         check_size(self.width, self.height)?;
         if self.replicates < 2 || !self.replicates.is_multiple_of(2) {
             return Err(TraceError::Replicates(self.replicates));
         }
         check_samples(self.samples_per_pixel, self.replicates)?;
-        let shutter = self.alignment.shutter(self.exposure)?;
+        let shutter = alignment.shutter(self.exposure(scene))?;
         scene.shutter_profile.check()?;
         let whole = scene.shutter_profile.whole(shutter);
         check_field_of_view(scene, whole.open, whole.close)?;

@@ -20,7 +20,7 @@ use crate::light::integrator::Integrator;
 use crate::motion::moving::find_moving_objects;
 use crate::progress::{Meter, Progress, Watch};
 use crate::scene::Scene;
-use crate::settings::TruthSettings;
+use crate::settings::RenderSettings;
 use crate::stage::Stage;
 
 /// Distance between samples that are shaded once more, as at the instant.
@@ -32,7 +32,7 @@ const SHADED_AGAIN: u32 = 4;
 /// replicate has the same bytes whether it is rendered alone or with others.
 pub struct TruthTracer<'a> {
     stage: Stage<'a>,
-    settings: TruthSettings,
+    settings: RenderSettings,
     /// The truths to render.
     shutters: Vec<AlignedShutter>,
     /// All alignments that share their numbers of samples with these.
@@ -56,10 +56,11 @@ struct AlignedShutter {
 /// Renders the picture that a camera with an open shutter would have taken, and measures its noise.
 pub fn trace_truth(
     scene: &Scene,
-    settings: &TruthSettings,
+    settings: &RenderSettings,
+    alignment: Alignment,
     watch: Watch,
 ) -> Result<Truth, TraceError> {
-    let tracer = TruthTracer::new(scene, settings, &[settings.alignment])?;
+    let tracer = TruthTracer::new(scene, settings, &[alignment])?;
     let mut replicates = Vec::new();
     for index in 0..settings.replicates {
         let traced = tracer.trace(index, &|progress: Progress| {
@@ -75,10 +76,14 @@ pub fn trace_truth(
 
 impl AlignedShutter {
     /// Refuses settings with which the scene cannot be rendered.
-    fn new(scene: &Scene, settings: &TruthSettings) -> Result<Self, TraceError> {
-        let shutter = settings.check(scene)?;
+    fn new(
+        scene: &Scene,
+        settings: &RenderSettings,
+        alignment: Alignment,
+    ) -> Result<Self, TraceError> {
+        let shutter = settings.check_truth(scene, alignment)?;
         Ok(Self {
-            alignment: settings.alignment,
+            alignment,
             shutter,
             sampler: ShutterSampler::new(shutter, &scene.shutter_profile),
             moving: find_moving_objects(scene, scene.shutter_profile.whole(shutter)),
@@ -103,7 +108,7 @@ impl<'a> TruthTracer<'a> {
     /// cannot be rendered.
     pub fn new(
         scene: &'a Scene,
-        settings: &TruthSettings,
+        settings: &RenderSettings,
         alignments: &[Alignment],
     ) -> Result<Self, TraceError> {
         let family = family(alignments[0]);
@@ -113,13 +118,7 @@ impl<'a> TruthTracer<'a> {
                 .all(|alignment| family.contains(alignment)),
             "only trailing and centred truths are rendered together"
         );
-        let prepare = |alignment: &Alignment| {
-            let settings = TruthSettings {
-                alignment: *alignment,
-                ..*settings
-            };
-            AlignedShutter::new(scene, &settings)
-        };
+        let prepare = |alignment: &Alignment| AlignedShutter::new(scene, settings, *alignment);
         let shutters = alignments.iter().map(prepare).collect::<Result<_, _>>()?;
         let family: Vec<AlignedShutter> = family.iter().map(prepare).collect::<Result<_, _>>()?;
         let whole = (family.iter()).map(|shutter| scene.shutter_profile.whole(shutter.shutter));
@@ -209,10 +208,7 @@ impl<'a> TruthTracer<'a> {
     ) -> Result<Replicate, TraceError> {
         let scene = self.stage.scene;
         let canvas = self.canvas();
-        let settings = TruthSettings {
-            alignment: shutter.alignment,
-            ..self.settings
-        };
+        let settings = &self.settings;
         let picture = assemble_picture(canvas, means);
         let at_instant = assemble_at_instant(canvas, instant_means);
         check_picture(scene, &picture)?;
@@ -224,7 +220,7 @@ impl<'a> TruthTracer<'a> {
                 settings.seed,
                 settings.samples_per_replicate(),
                 1,
-                replicate_hash(scene, &settings),
+                replicate_hash(scene, settings, shutter.alignment),
             ),
             index,
             shutter: shutter.shutter,
@@ -303,14 +299,14 @@ mod tests {
     fn every_instruction_set_renders_the_same_bytes() {
         for scene in ["two_spheres", "fan"] {
             let scene = load_test_scene(scene);
-            let settings = TruthSettings {
+            let settings = RenderSettings {
                 width: 48,
                 height: 27,
                 samples_per_pixel: 32,
                 replicates: 2,
-                ..TruthSettings::default()
+                ..RenderSettings::default()
             };
-            let mut tracer = TruthTracer::new(&scene, &settings, &[settings.alignment])
+            let mut tracer = TruthTracer::new(&scene, &settings, &[Alignment::Trailing])
                 .expect("settings are allowed");
             let unwatched = |_: Progress| ControlFlow::Continue(());
             let fastest = tracer
@@ -331,13 +327,13 @@ mod tests {
     fn a_replicate_has_the_same_bytes_alone_and_with_the_other_alignment() {
         for scene in ["fan", "railing"] {
             let scene = load_test_scene(scene);
-            let settings = TruthSettings {
+            let settings = RenderSettings {
                 width: 48,
                 height: 27,
                 samples_per_pixel: 32,
                 replicates: 2,
-                exposure: 0.3,
-                ..TruthSettings::default()
+                exposure: Some(0.3),
+                ..RenderSettings::default()
             };
             let unwatched = |_: Progress| ControlFlow::Continue(());
             let trace = |alignments: &[Alignment]| {
@@ -354,15 +350,16 @@ mod tests {
     #[test]
     fn samples_gather_where_the_picture_is_noisy_and_do_not_exceed_the_mean() {
         let scene = load_test_scene("two_spheres");
-        let settings = TruthSettings {
+        let settings = RenderSettings {
             width: 64,
             height: 36,
             samples_per_pixel: 64,
             replicates: 2,
-            ..TruthSettings::default()
+            ..RenderSettings::default()
         };
         let unwatched = |_: Progress| ControlFlow::Continue(());
-        let truth = trace_truth(&scene, &settings, &unwatched).expect("settings are allowed");
+        let truth = trace_truth(&scene, &settings, Alignment::Trailing, &unwatched)
+            .expect("settings are allowed");
         let samples = &truth.samples.pixels;
         let mean = samples.iter().sum::<f32>() / samples.len() as f32;
         assert!((32.0..=64.0).contains(&mean), "{mean}");
@@ -387,14 +384,16 @@ mod tests {
     fn trace_small(change: impl FnOnce(&mut Scene)) -> Result<Truth, TraceError> {
         let mut scene = load_test_scene("two_spheres");
         change(&mut scene);
-        let settings = TruthSettings {
+        let settings = RenderSettings {
             width: 4,
             height: 4,
             samples_per_pixel: 4,
             replicates: 2,
-            ..TruthSettings::default()
+            ..RenderSettings::default()
         };
-        trace_truth(&scene, &settings, &|_| ControlFlow::Continue(()))
+        trace_truth(&scene, &settings, Alignment::Trailing, &|_| {
+            ControlFlow::Continue(())
+        })
     }
 
     #[test]

@@ -6,9 +6,7 @@ use frame::{Alignment, Frame, Plane, Raster};
 use glam::{DQuat, DVec2, DVec3};
 use tests::kernels::Steady;
 use tests::{half_plane, unwatched};
-use tracer::{
-    FrameSettings, Key, Motion, Scene, TruthSettings, load_scene, trace_frame, trace_truth,
-};
+use tracer::{Key, Motion, RenderSettings, Scene, load_scene, trace_frame, trace_truth};
 
 pub const WIDTH: u32 = 256;
 pub const HEIGHT: u32 = 144;
@@ -65,17 +63,10 @@ impl Shot {
             keys: vec![key(-1.0), key(1.0)],
             ..Motion::default()
         };
-        let settings = FrameSettings {
-            width: WIDTH,
-            height: HEIGHT,
-            exposure: EXPOSURE,
-            samples_per_pixel: 4,
-            ..FrameSettings::default()
-        };
         Self {
             speed,
             degrees,
-            frame: trace_frame(&scene, &settings, &unwatched).unwrap(),
+            frame: trace_frame(&scene, &render_settings(4), &unwatched).unwrap(),
             scene,
         }
     }
@@ -118,16 +109,7 @@ impl Shot {
 
     /// Returns the part of each pixel that the panel covers while the shutter is open.
     fn true_matte(&self, alignment: Alignment) -> Plane {
-        let settings = TruthSettings {
-            width: WIDTH,
-            height: HEIGHT,
-            exposure: EXPOSURE,
-            alignment,
-            samples_per_pixel: 32,
-            replicates: 2,
-            seed: 1,
-        };
-        let truth = trace_truth(&self.scene, &settings, &unwatched).unwrap();
+        let truth = trace_truth(&self.scene, &render_settings(32), alignment, &unwatched).unwrap();
         let [first, second] = truth.halves.map(|half| half.coverage[self.panel()].clone());
         first.zip(&second, |a, b| 0.5 * (a + b))
     }
@@ -164,6 +146,17 @@ impl Shot {
             .filter(|(_, (share, _))| *share > HALF_BAND)
             .map(|(position, (share, sum))| (position, sum / share))
             .collect()
+    }
+}
+
+fn render_settings(samples_per_pixel: u32) -> RenderSettings {
+    RenderSettings {
+        width: WIDTH,
+        height: HEIGHT,
+        exposure: Some(EXPOSURE),
+        samples_per_pixel,
+        replicates: 2,
+        ..RenderSettings::default()
     }
 }
 

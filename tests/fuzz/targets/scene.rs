@@ -6,9 +6,7 @@ use std::path::PathBuf;
 
 use frame::{Alignment, FrameOptions, Image, VelocityKind};
 use suite::{ImportPlan, Motions, Up, import};
-use tracer::{
-    FrameSettings, Scene, TruthSettings, list_scenes, load_scene, trace_frame, trace_truth,
-};
+use tracer::{RenderSettings, Scene, list_scenes, load_scene, trace_frame, trace_truth};
 
 use super::none;
 use crate::huge;
@@ -199,31 +197,21 @@ fn load(place: &Place) -> Option<Scene> {
 /// Renders a frame and a truth of a few pixels, which must be finite.
 fn render(scene: &Scene) {
     let watch = &|_| ControlFlow::Continue(());
-    let frame = FrameSettings {
+    let settings = RenderSettings {
         width: 8,
         height: 8,
-        exposure: scene.exposure,
         options: FrameOptions {
             velocity: VelocityKind::PreviousFrame,
             ..FrameOptions::default()
         },
-        samples_per_pixel: 4,
-        seed: 1,
-        ..FrameSettings::default()
-    };
-    if let Ok(frame) = trace_frame(scene, &frame, watch) {
-        check("frame", &frame.color);
-    }
-    let truth = TruthSettings {
-        width: 8,
-        height: 8,
-        exposure: scene.exposure,
-        alignment: Alignment::Centred,
         samples_per_pixel: 8,
         replicates: 2,
-        seed: 1,
+        ..RenderSettings::default()
     };
-    if let Ok(truth) = trace_truth(scene, &truth, watch) {
+    if let Ok(frame) = trace_frame(scene, &settings, watch) {
+        check("frame", &frame.color);
+    }
+    if let Ok(truth) = trace_truth(scene, &settings, Alignment::Centred, watch) {
         check("truth", &truth.mean().color);
     }
 }

@@ -10,12 +10,12 @@ use cli::{Programs, select_filters, select_scenes};
 use filters::Gpu;
 use metrics::Metric;
 use suite::{
-    Case, Check, Decision, FilterChoice, InputFormat, Monitor, RenderSettings, Run, RunBounds,
-    RunPlan, check, judge, measure_scenes, open_gpu,
+    Case, Check, Decision, FilterChoice, InputFormat, Monitor, Run, RunBounds, RunPlan, check,
+    judge, measure_scenes, open_gpu,
 };
 use tests::filter_folder::copy_changed_filter;
 use tests::limits::calibrate_scene;
-use tracer::Scene;
+use tracer::{RenderSettings, Scene};
 
 use defects::{DEFECTS, Defect};
 

@@ -9,7 +9,7 @@ use frame::Alignment;
 use glam::{DQuat, DVec3, Vec3};
 use tests::shapes::*;
 use tests::unwatched;
-use tracer::{Background, Finish, FrameSettings, Key, Material, Motion, Sun, trace_frame};
+use tracer::{Background, Finish, Key, Material, Motion, RenderSettings, Sun, trace_frame};
 
 #[test]
 fn the_frozen_truth_of_a_still_scene_equals_its_truth() {
@@ -175,11 +175,11 @@ fn a_moving_shadow_stands_still_in_the_frozen_truth() {
         angular_radius: 0.0,
     });
     let truth = render_truth_with(&scene, Alignment::Trailing, 4096);
-    let settings = FrameSettings {
+    let settings = RenderSettings {
         width: WIDTH,
         height: HEIGHT,
         samples_per_pixel: 1024,
-        ..FrameSettings::default()
+        ..RenderSettings::default()
     };
     let frame = trace_frame(&scene, &settings, &unwatched).expect("allowed");
     let frozen = truth.at_instant_mean().frozen;

@@ -9,7 +9,7 @@ use frame::{Alignment, Truth};
 use glam::DVec3;
 use tests::shapes::*;
 use tests::unwatched;
-use tracer::{Scene, TruthSettings, trace_truth};
+use tracer::{RenderSettings, Scene, trace_truth};
 
 const WIDTH: u32 = 32;
 const HEIGHT: u32 = 12;
@@ -28,16 +28,15 @@ fn render_truth(scene: &Scene, alignment: Alignment) -> Truth {
 }
 
 fn render_truth_with(scene: &Scene, alignment: Alignment, samples_per_pixel: u32) -> Truth {
-    let settings = TruthSettings {
+    let settings = RenderSettings {
         width: WIDTH,
         height: HEIGHT,
-        exposure: EXPOSURE,
-        alignment,
+        exposure: Some(EXPOSURE),
         samples_per_pixel,
         replicates: 2,
-        ..TruthSettings::default()
+        ..RenderSettings::default()
     };
-    trace_truth(scene, &settings, &unwatched).expect("allowed")
+    trace_truth(scene, &settings, alignment, &unwatched).expect("allowed")
 }
 
 /// Makes an unlit wall, `gap` metres behind an unlit panel whose middle passes `at` at `t = 0`. Both are higher than

@@ -1,22 +1,22 @@
 //! Moving cameras.
 
 use frame::{Alignment, FrameOptions};
-use tracer::FrameSettings;
+use tracer::RenderSettings;
 
 use super::assert_worse;
-use super::rendered_scene::{RenderedScene, small_frame};
+use super::rendered_scene::{RenderedScene, small_settings};
 
 #[test]
 fn a_sky_without_velocity_stays_sharp_above_a_fast_pan() {
     let render = |sky_velocity| {
         RenderedScene::with_settings(
             "pan_sky",
-            FrameSettings {
+            RenderSettings {
                 options: FrameOptions {
                     sky_velocity,
                     ..FrameOptions::default()
                 },
-                ..small_frame()
+                ..small_settings()
             },
         )
     };

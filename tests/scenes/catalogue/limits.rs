@@ -7,17 +7,17 @@ use filters::Filter;
 use frame::{Alignment, Image, Picture};
 use tests::filter_folder::copy_shipped_filter;
 use tests::presets::{every_preset, preset_name};
-use tracer::FrameSettings;
+use tracer::RenderSettings;
 
 use super::assert_worse;
-use super::rendered_scene::{RenderedScene, find_preset, small_frame, value};
+use super::rendered_scene::{RenderedScene, find_preset, small_settings, value};
 
 #[test]
 fn filters_miss_motion_from_beyond_the_border() {
     let render = |guard_band| {
-        let settings = FrameSettings {
+        let settings = RenderSettings {
             guard_band,
-            ..small_frame()
+            ..small_settings()
         };
         RenderedScene::with_settings("frame_edge", settings)
     };
@@ -33,11 +33,11 @@ fn filters_miss_motion_from_beyond_the_border() {
 #[test]
 fn motion_below_a_pixel_is_left_sharp() {
     // The size that the scenes' speeds refer to.
-    let settings = FrameSettings {
+    let settings = RenderSettings {
         width: 640,
         height: 360,
         samples_per_pixel: 1,
-        ..small_frame()
+        ..small_settings()
     };
     let [creeping, hurried] =
         ["creep", "creep@hurried"].map(|name| RenderedScene::with_settings(name, settings));

@@ -7,15 +7,16 @@ use frame::{Alignment, Frame, Image, Picture, Truth};
 use metrics::{Metric, Reference, Scores};
 use tests::open_gpu;
 use tests::unwatched;
-use tracer::{FrameSettings, Scene, TruthSettings, load_scene, trace_frame, trace_truth};
+use tracer::{RenderSettings, Scene, load_scene, trace_frame, trace_truth};
 
-/// Settings of a small frame. The two replicates of a truth share as many samples as the frame has.
-pub fn small_frame() -> FrameSettings {
-    FrameSettings {
+/// Settings of a small frame and its truths. The two replicates of a truth share as many samples as the frame has.
+pub fn small_settings() -> RenderSettings {
+    RenderSettings {
         width: 160,
         height: 90,
         samples_per_pixel: 32,
-        ..FrameSettings::default()
+        replicates: 2,
+        ..RenderSettings::default()
     }
 }
 
@@ -23,7 +24,7 @@ pub fn small_frame() -> FrameSettings {
 pub struct RenderedScene {
     pub frame: Frame,
     scene: Scene,
-    settings: FrameSettings,
+    settings: RenderSettings,
     gpu: Gpu,
     truths: [OnceCell<Truth>; 2],
 }
@@ -31,20 +32,16 @@ pub struct RenderedScene {
 impl RenderedScene {
     /// Renders `scene` or `scene@variant`.
     pub fn new(name: &str) -> Self {
-        Self::with_settings(name, small_frame())
+        Self::with_settings(name, small_settings())
     }
 
-    pub fn with_settings(name: &str, settings: FrameSettings) -> Self {
+    pub fn with_settings(name: &str, settings: RenderSettings) -> Self {
         let (name, variant) = match name.split_once('@') {
             Some((name, variant)) => (name, Some(variant)),
             None => (name, None),
         };
         let folder = tests::scenes().join(name);
         let scene = load_scene(&folder, variant).unwrap_or_else(|error| panic!("{error}"));
-        let settings = FrameSettings {
-            exposure: scene.exposure,
-            ..settings
-        };
         Self {
             frame: trace_frame(&scene, &settings, &unwatched).unwrap(),
             scene,
@@ -62,16 +59,7 @@ impl RenderedScene {
             Alignment::Leading => panic!("no filter's shutter leads"),
         };
         self.truths[index].get_or_init(|| {
-            let settings = TruthSettings {
-                width: self.settings.width,
-                height: self.settings.height,
-                exposure: self.settings.exposure,
-                alignment,
-                samples_per_pixel: self.settings.samples_per_pixel,
-                replicates: 2,
-                seed: 1,
-            };
-            trace_truth(&self.scene, &settings, &unwatched).unwrap()
+            trace_truth(&self.scene, &self.settings, alignment, &unwatched).unwrap()
         })
     }
 

@@ -2,10 +2,10 @@
 
 use filters::Gpu;
 use suite::{
-    Claim, Error, FilterChoice, RenderSettings, RenderedScene, SceneBounds, Sharing, claim,
-    estimate_case_seconds, estimate_render_seconds, open_gpu, render_scenes,
+    Claim, Error, FilterChoice, RenderedScene, SceneBounds, Sharing, claim, estimate_case_seconds,
+    estimate_render_seconds, open_gpu, render_scenes,
 };
-use tracer::Scene;
+use tracer::{RenderSettings, Scene};
 
 use super::expected::print_expected_time;
 use super::render_settings::make_render_settings;
@@ -52,9 +52,7 @@ pub fn print_expected_scoring(
     candidates: usize,
     limit: f64,
 ) {
-    let renders: Vec<_> = (scenes.iter())
-        .map(|(scene, _)| (scene, render.clone()))
-        .collect();
+    let renders: Vec<_> = (scenes.iter()).map(|(scene, _)| (scene, *render)).collect();
     let scores = candidates * scenes.len();
     let scoring = scores as f64 * estimate_case_seconds(render);
     let candidates = count_text(candidates, "candidate", "candidates");

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use suite::{
-    Claim, Error, FEWEST_REPLICATES, FilterChoice, InputFormat, RenderSettings, RunBounds, RunPlan,
-    SceneBounds, Sharing, claim, read_bounds,
+    Claim, Error, FEWEST_REPLICATES, FilterChoice, InputFormat, RunBounds, RunPlan, SceneBounds,
+    Sharing, claim, read_bounds,
 };
-use tracer::Scene;
+use tracer::{RenderSettings, Scene};
 
 use super::render_settings::make_render_settings;
 use crate::arguments::MeasureArgs;

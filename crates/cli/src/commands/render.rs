@@ -2,11 +2,11 @@
 
 use frame::Truth;
 use suite::{
-    Error, MOST_REPLICATES, RenderSettings, Sharing, claim, deciding_floor,
-    estimate_render_seconds, printable_path, render_frame, render_part, render_shared,
-    render_truth, render_truth_until, scene_folder,
+    Error, MOST_REPLICATES, Sharing, claim, deciding_floor, estimate_render_seconds,
+    printable_path, render_frame, render_part, render_shared, render_truth, render_truth_until,
+    scene_folder,
 };
-use tracer::Scene;
+use tracer::{RenderSettings, Scene};
 
 use super::expected::print_expected_time;
 use super::render_settings::make_render_settings;

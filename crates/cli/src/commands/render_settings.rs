@@ -1,7 +1,7 @@
 //! Settings of renders from the command line, checked.
 
-use suite::{Error, MOST_REPLICATES, RenderSettings};
-use tracer::MOST_SAMPLES;
+use suite::{Error, MOST_REPLICATES};
+use tracer::{MOST_SAMPLES, RenderSettings};
 
 use crate::arguments::SceneArgs;
 

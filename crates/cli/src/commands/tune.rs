@@ -6,10 +6,10 @@ use std::time::{Duration, Instant};
 
 use frame::FileError;
 use suite::{
-    Advice, Error, FilterChoice, RenderSettings, Sharing, Space, TuneOptions, Tuning, claim,
-    interleave_families, tune, tuned_preset_toml,
+    Advice, Error, FilterChoice, Sharing, Space, TuneOptions, Tuning, claim, interleave_families,
+    tune, tuned_preset_toml,
 };
-use tracer::Progress;
+use tracer::{Progress, RenderSettings};
 
 use super::candidate::{
     candidate_render_settings, open_candidate_gpu, print_expected_scoring, select_candidate,

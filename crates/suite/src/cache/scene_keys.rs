@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use frame::Alignment;
-use tracer::Scene;
+use tracer::{RenderSettings, Scene};
 
 use super::record::hash_inputs;
 use crate::render::ladders::ladder_hash;
-use crate::render::settings::RenderSettings;
+use crate::render::settings::frame_settings;
 
 /// Hashes of the inputs of one scene's frame and truths.
 #[derive(Clone, Debug)]
@@ -37,12 +37,11 @@ impl SceneKeys {
         } = scene;
         Self {
             scene: hash_inputs(&(program, name, exposes, family, display)),
-            frame: tracer::frame_hash(scene, &settings.for_frame(scene)),
+            frame: tracer::frame_hash(scene, &frame_settings(settings)),
             truths: (alignments.into_iter())
                 .map(|alignment| {
-                    let settings = settings.for_truth(scene, alignment);
-                    let truth = tracer::truth_hash(scene, &settings);
-                    (alignment, [truth, ladder_hash(scene, &settings)])
+                    let truth = tracer::truth_hash(scene, settings, alignment);
+                    (alignment, [truth, ladder_hash(scene, settings, alignment)])
                 })
                 .collect(),
         }

@@ -6,6 +6,7 @@ use filters::AdapterDescription;
 use serde::Serialize;
 
 use super::pairing::Pair;
+use crate::render::settings::list_settings;
 use crate::{Case, Run};
 
 /// One setting with two values.
@@ -45,7 +46,7 @@ fn run_settings(run: &Run) -> Vec<(&'static str, String)> {
         ("program", run.program.clone()),
         ("adapter", adapter_label(&run.adapter)),
     ];
-    settings.extend(run.render.list());
+    settings.extend(list_settings(&run.render));
     settings
 }
 

@@ -1,15 +1,15 @@
 //! Estimates of the time, disk and memory that a run takes, before it begins.
 
 use filters::Gpu;
-use tracer::{Progress, Scene};
+use tracer::{Progress, RenderSettings, Scene};
 
 use super::first_slice::{RenderCosts, count_small_pixels, measure_first_cases};
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use super::scene::SceneContext;
 use super::scenes::{scale_filters, scene_contexts};
-use crate::RenderSettings;
 use crate::render::memory::measuring_memory;
+use crate::render::settings::frame_settings;
 
 /// Time in seconds from which a first slice is measured; shorter work is over before that pays.
 const WORTH_A_SLICE: f64 = 3.0;
@@ -181,7 +181,8 @@ fn count_samples(render: &RenderSettings) -> f64 {
 }
 
 fn frame_seconds(render: &RenderSettings, costs: &RenderCosts) -> f64 {
-    costs.scene + count_pixels(render) * f64::from(render.frame_samples()) * costs.frame
+    costs.scene
+        + count_pixels(render) * f64::from(frame_settings(render).samples_per_pixel) * costs.frame
 }
 
 fn truth_seconds(render: &RenderSettings, costs: &RenderCosts) -> f64 {

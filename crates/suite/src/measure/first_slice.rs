@@ -4,13 +4,12 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use frame::Alignment;
-use tracer::{FrameSettings, Progress, Scene, TruthTracer, trace_frame};
+use tracer::{Progress, RenderSettings, Scene, TruthTracer, trace_frame};
 
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use super::scene::SceneContext;
 use super::scenes::scale_filters;
-use crate::RenderSettings;
 use crate::filter::input_format::InputFormat;
 use crate::render::settings::SIDES;
 
@@ -48,19 +47,15 @@ impl RenderCosts {
     pub fn measure(scene: &Scene, render: &RenderSettings) -> Option<Self> {
         let watch = |_: Progress| ControlFlow::Continue(());
         let render = small_settings(render);
-        let settings = render.for_truth(scene, Alignment::Trailing);
         let (tracer, preparing) =
-            timed(|| TruthTracer::new(scene, &settings, &[settings.alignment]).ok());
+            timed(|| TruthTracer::new(scene, &render, &[Alignment::Trailing]).ok());
         let tracer = tracer?;
         let (first, with_support) = timed(|| tracer.trace(0, &watch).ok());
         // The faster of two, which fewer other programs have interrupted.
         let (second, one) = timed(|| tracer.trace(1, &watch).ok());
         let (_, other) = timed(|| tracer.trace(2, &watch).ok());
         let alone = one.min(other);
-        let settings = FrameSettings {
-            samples_per_pixel: settings.samples_per_replicate(),
-            ..render.for_frame(scene)
-        };
+        let settings = render.with_replicates(1);
         let (frame, framing) = timed(|| trace_frame(scene, &settings, &watch).ok());
         first.and(second)?;
         frame?;
@@ -126,14 +121,14 @@ fn small_settings(render: &RenderSettings) -> RenderSettings {
     let pixels = f64::from(render.width) * f64::from(render.height);
     let scale = (PIXELS / pixels).sqrt().min(1.0);
     let side = |side: u32| ((f64::from(side) * scale) as u32).max(*SIDES.start());
-    let samples = (render.samples_per_pixel / render.replicates).min(SAMPLES);
+    let samples = (render.samples_per_replicate()).min(SAMPLES);
     RenderSettings {
         width: side(render.width),
         height: side(render.height),
         guard_band: 0,
         samples_per_pixel: 2 * samples,
         replicates: 2,
-        ..render.clone()
+        ..*render
     }
 }
 

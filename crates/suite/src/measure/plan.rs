@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 
 use frame::Alignment;
-use tracer::Scene;
+use tracer::{RenderSettings, Scene};
 
 use crate::filter::choice::FilterChoice;
 use crate::filter::input_format::InputFormat;
-use crate::{Error, Monitor, RenderSettings};
+use crate::render::settings::frame_settings;
+use crate::{Error, Monitor};
 
 /// Everything that a run is told to do.
 pub struct RunPlan {
@@ -38,9 +39,9 @@ impl RunPlan {
     /// Refuses settings with which a scene cannot be rendered, before anything is.
     pub fn check(&self) -> Result<(), Error> {
         for scene in &self.scenes {
-            self.render.for_frame(scene).check(scene)?;
+            frame_settings(&self.render).check_frame(scene)?;
             for alignment in self.alignments() {
-                self.render.for_truth(scene, alignment).check(scene)?;
+                self.render.check_truth(scene, alignment)?;
             }
         }
         Ok(())

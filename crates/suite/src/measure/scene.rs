@@ -25,6 +25,7 @@ use crate::folder::scene_folder::scene_folder;
 use crate::render::frames::render_frame;
 use crate::render::ladders::LadderFile;
 use crate::render::memory::check_measuring_memory;
+use crate::render::settings::frame_settings;
 use crate::render::shared::render_shared;
 use crate::render::truths::{render_replicates, render_truth};
 use crate::run::case::Case;
@@ -62,7 +63,7 @@ impl SceneContext<'_> {
         if read_back == found.len() && self.has_its_files() {
             return Ok((found.into_iter().flatten().map(Ok).collect(), read_back));
         }
-        self.plan.render.for_frame(self.scene).check(self.scene)?;
+        frame_settings(&self.plan.render).check_frame(self.scene)?;
         check_measuring_memory(self.scene, &self.plan.render)?;
         let (frame, truths) = self.render(advance)?;
         let due = (planned.iter().zip(&found)).filter(|(_, found)| found.is_none());

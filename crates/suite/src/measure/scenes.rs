@@ -48,7 +48,7 @@ pub fn measure_scenes_as_expected(
         program: PROGRAM.to_owned(),
         command,
         adapter: gpu.map(|gpu| gpu.adapter.clone()),
-        render: plan.render.clone(),
+        render: plan.render,
         common_alignment: plan.common_alignment().name().to_owned(),
         overall: overall(&cases),
         failures,

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use frame::Frame;
-use tracer::Scene;
+use tracer::{RenderSettings, Scene};
 
 use super::memory::check_memory;
-use super::settings::RenderSettings;
+use super::settings::frame_settings;
 use crate::folder::scene_folder::{refuse_scene, scene_folder};
 use crate::{Error, Monitor};
 
@@ -19,20 +19,18 @@ pub fn render_frame(
 ) -> Result<Frame, Error> {
     let folder = scene_folder(out, scene);
     refuse_scene(&folder)?;
-    let frame_settings = settings.for_frame(scene);
+    let own = frame_settings(settings);
     let path = folder.join("frame.exr");
-    let hash = tracer::frame_hash(scene, &frame_settings);
+    let hash = tracer::frame_hash(scene, &own);
     if let Ok(found) = Frame::read(&path)
         && found.provenance.content_hash == hash
     {
         return Ok(found);
     }
-    frame_settings.check(scene)?;
+    own.check_frame(scene)?;
     check_memory(scene, settings, settings.replicates)?;
     let label = format!("{} frame", scene.name);
-    let frame = monitor.watch(&label, |watch| {
-        tracer::trace_frame(scene, &frame_settings, watch)
-    })?;
+    let frame = monitor.watch(&label, |watch| tracer::trace_frame(scene, &own, watch))?;
     assert_eq!(
         frame.provenance.content_hash, hash,
         "{label}: the hash must not depend on the render"

@@ -3,9 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use frame::{Alignment, Ladder, Truth, read_attribute};
-use tracer::{Scene, TruthSettings};
+use tracer::{RenderSettings, Scene};
 
-use super::settings::RenderSettings;
 use crate::folder::scene_folder::scene_folder;
 use crate::{Error, Monitor};
 
@@ -15,7 +14,8 @@ pub const LADDER: [u32; 7] = [1, 2, 4, 8, 16, 32, 64];
 /// The ladder of one truth, the largest thing that measuring holds: it stays in its file until it is needed.
 pub struct LadderFile<'a> {
     scene: &'a Scene,
-    settings: TruthSettings,
+    settings: RenderSettings,
+    alignment: Alignment,
     path: PathBuf,
     /// Hash of the inputs.
     hash: String,
@@ -29,12 +29,12 @@ impl<'a> LadderFile<'a> {
         alignment: Alignment,
         out: &Path,
     ) -> Self {
-        let settings = settings.for_truth(scene, alignment);
         Self {
             scene,
             path: scene_folder(out, scene).join(format!("ladder_{alignment}.exr")),
-            hash: ladder_hash(scene, &settings),
-            settings,
+            hash: ladder_hash(scene, settings, alignment),
+            settings: *settings,
+            alignment,
         }
     }
 
@@ -59,7 +59,7 @@ impl<'a> LadderFile<'a> {
 
     fn render(&self, truth: &Truth, monitor: Monitor) -> Result<(), Error> {
         let (scene, settings) = (self.scene, &self.settings);
-        let label = format!("{} sub-frames, {}", scene.name, settings.alignment);
+        let label = format!("{} sub-frames, {}", scene.name, self.alignment);
         let ladder = monitor.watch(&label, |watch| {
             tracer::trace_ladder(scene, settings, truth, &LADDER, watch)
         })?;
@@ -72,6 +72,10 @@ impl<'a> LadderFile<'a> {
 }
 
 /// Hashes the inputs of the ladder that goes with the truth of these settings.
-pub(crate) fn ladder_hash(scene: &Scene, settings: &TruthSettings) -> String {
-    tracer::ladder_hash(scene, settings, &LADDER)
+pub(crate) fn ladder_hash(
+    scene: &Scene,
+    settings: &RenderSettings,
+    alignment: Alignment,
+) -> String {
+    tracer::ladder_hash(scene, settings, alignment, &LADDER)
 }

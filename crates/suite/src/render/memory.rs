@@ -2,9 +2,8 @@
 
 use std::fs;
 
-use tracer::Scene;
+use tracer::{RenderSettings, Scene};
 
-use super::settings::RenderSettings;
 use crate::Error;
 
 /// Memory of the program without any picture, in bytes.

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use frame::{Alignment, Replicate, read_attribute, truth_hash};
-use tracer::{Scene, TruthSettings, TruthTracer};
+use tracer::{RenderSettings, Scene, TruthTracer};
 
 use crate::{Error, Monitor};
 
@@ -20,11 +20,16 @@ pub struct ReplicateFiles {
 
 impl ReplicateFiles {
     /// Names the files of the truth that `settings` ask for, below a scene's folder.
-    pub fn new(folder: PathBuf, scene: &Scene, settings: &TruthSettings) -> Self {
+    pub fn new(
+        folder: PathBuf,
+        scene: &Scene,
+        settings: &RenderSettings,
+        alignment: Alignment,
+    ) -> Self {
         Self {
             folder,
-            alignment: settings.alignment,
-            hash: tracer::replicate_hash(scene, settings),
+            alignment,
+            hash: tracer::replicate_hash(scene, settings, alignment),
         }
     }
 
@@ -38,7 +43,7 @@ impl ReplicateFiles {
     pub fn read_or_render(
         &self,
         scene: &Scene,
-        settings: &TruthSettings,
+        settings: &RenderSettings,
         indices: Range<u32>,
         monitor: Monitor,
     ) -> Result<Vec<Replicate>, Error> {

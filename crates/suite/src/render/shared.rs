@@ -4,11 +4,10 @@ use std::ops::Range;
 use std::path::Path;
 
 use frame::Alignment;
-use tracer::{Scene, TruthTracer};
+use tracer::{RenderSettings, Scene, TruthTracer};
 
 use super::memory::check_memory;
 use super::replicates::ReplicateFiles;
-use super::settings::RenderSettings;
 use crate::folder::scene_folder::scene_folder;
 use crate::{Error, Monitor};
 
@@ -30,17 +29,17 @@ pub fn render_shared(
     if !SHARED.iter().all(|shared| alignments.contains(shared)) {
         return Ok(());
     }
-    let both = SHARED.map(|alignment| settings.for_truth(scene, alignment));
     let folder = scene_folder(out, scene);
-    let files = both.map(|settings| ReplicateFiles::new(folder.clone(), scene, &settings));
+    let files =
+        SHARED.map(|alignment| ReplicateFiles::new(folder.clone(), scene, settings, alignment));
     if files
         .iter()
         .any(|files| files.has_truth(settings.replicates))
     {
         return Ok(());
     }
-    for settings in &both {
-        settings.check(scene)?;
+    for alignment in SHARED {
+        settings.check_truth(scene, alignment)?;
     }
     check_memory(scene, settings, 2 * indices.len() as u32)?;
     let mut tracer = None;
@@ -50,7 +49,7 @@ pub fn render_shared(
         }
         let tracer = match &mut tracer {
             Some(tracer) => tracer,
-            none => none.insert(TruthTracer::new(scene, &both[0], &SHARED)?),
+            none => none.insert(TruthTracer::new(scene, settings, &SHARED)?),
         };
         let label = format!("{} trailing and centred, replicate {index}", scene.name);
         let replicates = monitor.watch(&label, |watch| tracer.trace(index, watch))?;

@@ -4,11 +4,10 @@ use std::ops::Range;
 use std::path::Path;
 
 use frame::{Alignment, Region, Replicate, Truth};
-use tracer::Scene;
+use tracer::{RenderSettings, Scene};
 
 use super::memory::check_memory;
 use super::replicates::ReplicateFiles;
-use super::settings::RenderSettings;
 use crate::folder::scene_folder::{refuse_scene, scene_folder};
 use crate::{Error, Monitor};
 
@@ -21,18 +20,17 @@ pub fn render_truth(
     out: &Path,
     monitor: Monitor,
 ) -> Result<Truth, Error> {
-    let truth_settings = settings.for_truth(scene, alignment);
-    let files = ReplicateFiles::new(scene_folder(out, scene), scene, &truth_settings);
-    let expected = tracer::truth_hash(scene, &truth_settings);
+    let files = ReplicateFiles::new(scene_folder(out, scene), scene, settings, alignment);
+    let expected = tracer::truth_hash(scene, settings, alignment);
     if let Ok(found) = Truth::read(&files.truth_path())
         && found.provenance.content_hash == expected
     {
         return Ok(found);
     }
-    truth_settings.check(scene)?;
+    settings.check_truth(scene, alignment)?;
     check_memory(scene, settings, settings.replicates)?;
     let all = 0..settings.replicates;
-    let replicates = files.read_or_render(scene, &truth_settings, all, monitor)?;
+    let replicates = files.read_or_render(scene, settings, all, monitor)?;
     let truth = Truth::of(&replicates)?;
     // Writing takes as much memory again as they do.
     drop(replicates);
@@ -53,7 +51,7 @@ pub fn render_truth_until(
     out: &Path,
     monitor: Monitor,
 ) -> Result<(Truth, bool), Error> {
-    let mut settings = settings.clone();
+    let mut settings = *settings;
     loop {
         let truth = render_truth(scene, &settings, alignment, out, monitor)?;
         let (_, floor) = deciding_floor(&truth);
@@ -86,10 +84,9 @@ pub(crate) fn render_replicates(
     out: &Path,
     monitor: Monitor,
 ) -> Result<Vec<Replicate>, Error> {
-    let settings = settings.for_truth(scene, alignment);
-    let files = ReplicateFiles::new(scene_folder(out, scene), scene, &settings);
-    settings.check(scene)?;
-    files.read_or_render(scene, &settings, 0..settings.replicates, monitor)
+    let files = ReplicateFiles::new(scene_folder(out, scene), scene, settings, alignment);
+    settings.check_truth(scene, alignment)?;
+    files.read_or_render(scene, settings, 0..settings.replicates, monitor)
 }
 
 /// Renders some replicates of a truth and keeps them in `out`.
@@ -103,9 +100,8 @@ pub fn render_part(
 ) -> Result<(), Error> {
     let folder = scene_folder(out, scene);
     refuse_scene(&folder)?;
-    let truth_settings = settings.for_truth(scene, alignment);
-    truth_settings.check(scene)?;
+    settings.check_truth(scene, alignment)?;
     check_memory(scene, settings, indices.len() as u32)?;
-    let files = ReplicateFiles::new(folder, scene, &truth_settings);
-    (files.read_or_render(scene, &truth_settings, indices, monitor)).map(drop)
+    let files = ReplicateFiles::new(folder, scene, settings, alignment);
+    (files.read_or_render(scene, settings, indices, monitor)).map(drop)
 }

@@ -12,6 +12,7 @@ use super::case::Case;
 use super::failure::Failure;
 use crate::measure::plan::RunPlan;
 use crate::measure::planned_case::PlannedCase;
+use crate::render::settings::list_settings;
 use crate::stats::overall::overall;
 use crate::{Error, PROGRAM};
 
@@ -196,8 +197,7 @@ fn is_outdated(plan: &RunPlan, case: &Case) -> bool {
     let (Some(scene), Ok(alignment)) = (scene, case.alignment.parse()) else {
         return false;
     };
-    let settings = plan.render.for_truth(scene, alignment);
-    tracer::truth_hash(scene, &settings) != case.truth_hash
+    tracer::truth_hash(scene, &plan.render, alignment) != case.truth_hash
 }
 
 /// Finds the first setting in which an earlier run and the plan differ, with both values.
@@ -210,7 +210,7 @@ fn find_difference(
         adapter.map_or("none".to_owned(), |adapter| adapter.name.clone())
     };
     let program = ("program", run.program.clone(), PROGRAM.to_owned());
-    let settings = std::iter::zip(run.render.list(), plan.render.list());
+    let settings = std::iter::zip(list_settings(&run.render), list_settings(&plan.render));
     let settings = settings.map(|((setting, earlier), (_, now))| (setting, earlier, now));
     let adapters = ("the adapter", name(run.adapter.as_ref()), name(adapter));
     // A run of programs alone has no adapter, and can stand beside any.

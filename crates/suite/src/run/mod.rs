@@ -10,11 +10,11 @@ pub mod overall;
 
 use filters::AdapterDescription;
 use serde::{Deserialize, Serialize};
+use tracer::RenderSettings;
 
 use self::case::Case;
 use self::failure::Failure;
 use self::overall::Overall;
-use crate::render::settings::RenderSettings;
 
 /// Version of the layout of `run.json`; it rises when a reader of the old one would misread the new one.
 pub const FORMAT: u32 = 5;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use tracer::Scene;
+use tracer::{RenderSettings, Scene};
 
 use super::loss::LEAST_BLEED;
 use super::objective::Objective;
@@ -12,7 +12,7 @@ use super::selection::ChoiceLimits;
 use super::space::Space;
 use super::trial::Trial;
 use crate::judge::bounds::SceneBounds;
-use crate::{Error, FilterChoice, Monitor, RenderSettings};
+use crate::{Error, FilterChoice, Monitor};
 
 /// Filter, scenes, limits and effort of a tuning.
 pub struct TuneOptions {

@@ -4,13 +4,13 @@ use std::path::Path;
 
 use frame::{Alignment, Frame, Truth};
 use metrics::Viewing;
-use tracer::{Family, Scene};
+use tracer::{Family, RenderSettings, Scene};
 
 use crate::judge::bounds::SceneBounds;
 use crate::measure::references::scene_viewing;
 use crate::render::frames::render_frame;
 use crate::render::truths::render_truth;
-use crate::{Error, Monitor, RenderSettings};
+use crate::{Error, Monitor};
 
 /// A scene, rendered once and measured against hundreds of times.
 pub struct RenderedScene {

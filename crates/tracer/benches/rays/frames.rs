@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use frame::{Alignment, Region, Truth};
-use tracer::{FrameSettings, Progress, Scene, TruthSettings, TruthTracer, load_scene, trace_frame};
+use tracer::{Progress, RenderSettings, Scene, TruthTracer, load_scene, trace_frame};
 
 const SCENES: [&str; 5] = ["fan", "railing", "walker", "foliage", "neon"];
 /// Noise floor of the moving region that times are scaled to, by the square of the floor that was reached. Noise falls faster
@@ -15,11 +15,11 @@ const SAMPLES: u32 = 128;
 
 /// Renders the frame and both truths of each scene on all processors and prints what they cost.
 pub fn report() {
-    let settings = TruthSettings {
+    let settings = RenderSettings {
         width: 160,
         height: 90,
         samples_per_pixel: SAMPLES,
-        ..TruthSettings::default()
+        ..RenderSettings::default()
     };
     println!(
         "\n{}x{} pixels, {SAMPLES} samples each, all processors; CPU seconds",
@@ -35,10 +35,6 @@ pub fn report() {
             .join("../../scenes")
             .join(name);
         let scene = load_scene(&folder, None).expect("the shipped scenes load");
-        let settings = TruthSettings {
-            exposure: scene.exposure,
-            ..settings
-        };
         let (frame, _) = timed(|| trace_a_frame(&scene, &settings));
         let (one, _) = timed(|| trace_truths(&scene, &settings, &[Alignment::Trailing]));
         let alignments = [Alignment::Trailing, Alignment::Centred];
@@ -54,18 +50,16 @@ pub fn report() {
     println!("geometric mean {mean:52.2}");
 }
 
-fn trace_a_frame(scene: &Scene, settings: &TruthSettings) {
-    let settings = FrameSettings {
-        width: settings.width,
-        height: settings.height,
+fn trace_a_frame(scene: &Scene, settings: &RenderSettings) {
+    let settings = RenderSettings {
         samples_per_pixel: settings.samples_per_pixel / 2,
-        ..FrameSettings::default()
+        ..*settings
     };
     trace_frame(scene, &settings, &unwatched).expect("settings are allowed");
 }
 
 /// Renders the truths of some alignments; returns the first.
-fn trace_truths(scene: &Scene, settings: &TruthSettings, alignments: &[Alignment]) -> Truth {
+fn trace_truths(scene: &Scene, settings: &RenderSettings, alignments: &[Alignment]) -> Truth {
     let tracer = TruthTracer::new(scene, settings, alignments).expect("settings are allowed");
     let first = (0..settings.replicates).map(|index| {
         let mut replicates = tracer.trace(index, &unwatched).expect("nothing cancels");
