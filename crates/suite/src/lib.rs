@@ -26,8 +26,9 @@ pub use bench::{
     ReachPoint, Spread, bench,
 };
 pub use compare::{
-    Basis, COMPARE_FORMAT, Change, ChangeKind, MeanChange, MeanKind, Pair, RunComparison,
-    SettingChange, Side, compare_runs, filter_label, pair_cases, rank_changes,
+    Agreement, Basis, COMPARE_FORMAT, Change, ChangeKind, FilterAtSizes, MeanChange, MeanKind,
+    Pair, Reversal, RunComparison, SettingChange, Side, SizeComparison, compare_runs,
+    compare_sizes, filter_label, pair_cases, rank_changes,
 };
 pub use error::Error;
 pub use filter::border::Border;
@@ -86,7 +87,7 @@ pub use stats::headline::Headline;
 pub use stats::intervals::{FEWEST_REPLICATES, intervals, truths_without_pairs};
 pub use stats::overall::{overall, rank_filters};
 pub use stats::ranking::{MOST_RANKED, RankedFilter, rank_for_summary};
-pub use stats::scene_mean::FEWEST_SCENES;
+pub use stats::scene_mean::{FEWEST_SCENES, SceneMean};
 pub use tune::{
     Advice, Choice, ChoiceLimits, Difference, Estimate, Evaluation, Evaluator, Fold, HeldOutResult,
     JOURNAL_FORMAT, Journal, JournalHeader, LEAST_BLEED, Objective, PairedComparison,

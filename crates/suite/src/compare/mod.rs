@@ -7,6 +7,7 @@ mod noise;
 mod pairing;
 mod settings;
 mod side;
+mod sizes;
 
 use serde::Serialize;
 use tracer::Watch;
@@ -18,6 +19,7 @@ pub use mean::{MeanChange, MeanKind};
 pub use pairing::{Pair, filter_label, pair_cases};
 pub use settings::SettingChange;
 pub use side::Side;
+pub use sizes::{Agreement, FilterAtSizes, Reversal, SizeComparison, compare_sizes};
 
 use mean::average_changes;
 use noise::measure_changes;

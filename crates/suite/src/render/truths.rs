@@ -32,6 +32,8 @@ pub fn render_truth(
     let all = 0..settings.replicates;
     let replicates = files.read_or_render(scene, settings, all, monitor)?;
     let truth = Truth::of(&replicates)?;
+    // Writing takes as much memory again as they do.
+    drop(replicates);
     truth.write(&files.truth_path())?;
     Ok(truth)
 }

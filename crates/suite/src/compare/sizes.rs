@@ -1,0 +1,289 @@
+//! Comparison of runs at several picture sizes: does a small picture rank filters as a large one does?
+
+use std::cmp::Ordering;
+use std::collections::BTreeSet;
+
+use metrics::{Interval, jackknife};
+
+use crate::stats::headline::Headline;
+use crate::stats::scene_mean::{SceneMean, TWO_SIDED, plain_mean};
+use crate::{Error, Run};
+
+/// Filters of one shutter, by one score at several picture sizes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SizeComparison {
+    /// Shutter alignment of the filters.
+    pub alignment: String,
+    /// Scenes that every mean is over.
+    pub scenes: Vec<String>,
+    /// Columns and rows of each run, the smallest picture first.
+    pub sizes: Vec<(u32, u32)>,
+    /// Filters, the best at the largest size first.
+    pub filters: Vec<FilterAtSizes>,
+    /// Agreement of each size with the largest.
+    pub agreement: Vec<Agreement>,
+}
+
+/// A filter preset at every size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilterAtSizes {
+    /// `jump_flood:paper`
+    pub name: String,
+    /// Mean over the scenes and its 95 % CI, per size.
+    pub means: Vec<SceneMean>,
+    /// Rank by that mean, from 1, per size.
+    pub ranks: Vec<usize>,
+}
+
+/// Agreement of a size with the largest on the order of filters.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Agreement {
+    /// Kendall's tau of the means: 1 for the same order, 0 for no relation, -1 for the opposite order.
+    pub tau: f64,
+    /// 95 % CI of tau, by leaving out one scene at a time; none for a single scene.
+    pub interval: Option<Interval>,
+    /// Pairs of filters that both sizes order, and alike.
+    pub alike: usize,
+    /// Pairs that both sizes order, each the other way round.
+    pub reversed: Vec<Reversal>,
+    /// Pairs that this size orders, and the largest does not.
+    pub only_here: usize,
+    /// Pairs that the largest size orders, and this one does not.
+    pub only_at_largest: usize,
+}
+
+/// Two filters that a size orders, and the largest size orders the other way round.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reversal {
+    /// Filter that is better at the smaller size.
+    pub better_here: String,
+    /// Filter that is better at the largest size.
+    pub better_at_largest: String,
+    /// Mean difference, the second filter's score minus the first one's, at the smaller size and at the largest.
+    pub differences: [f64; 2],
+}
+
+/// Scores of every filter at one size: `[filter][scene]`, smaller is better.
+type Badness = Vec<Vec<f64>>;
+
+/// Compares runs of the same filters and scenes at rising sizes by a score; one comparison per shutter alignment. A size orders two
+/// filters if the 95 % CI of their mean difference over scenes does not hold 0. That needs five scenes.
+///
+/// Scenes and filters that a run lacks are an error.
+pub fn compare_sizes(runs: &[Run], headline: Headline) -> Result<Vec<SizeComparison>, Error> {
+    let mut runs: Vec<&Run> = runs.iter().collect();
+    runs.sort_by_key(|run| u64::from(run.render.width) * u64::from(run.render.height));
+    let Some(largest) = runs.last() else {
+        return Err(Error::Usage("no run to compare".to_owned()));
+    };
+    let alignments: BTreeSet<&str> = (largest.cases.iter())
+        .filter(|case| !case.is_reference)
+        .map(|case| case.alignment.as_str())
+        .collect();
+    (alignments.into_iter())
+        .map(|alignment| compare_group(&runs, alignment, headline))
+        .collect()
+}
+
+fn compare_group(
+    runs: &[&Run],
+    alignment: &str,
+    headline: Headline,
+) -> Result<SizeComparison, Error> {
+    let largest = runs.last().expect("there is a run");
+    let own =
+        || (largest.cases.iter()).filter(|case| !case.is_reference && case.alignment == alignment);
+    let names: BTreeSet<String> = own().map(|case| case.name()).collect();
+    // A still scene orders no filters, and has no score where nothing moves.
+    let scenes: BTreeSet<&str> = (own())
+        .filter(|case| headline.estimate(case).is_some())
+        .map(|case| case.scene.as_str())
+        .collect();
+    let badness: Vec<Badness> = (runs.iter())
+        .map(|run| {
+            (names.iter())
+                .map(|name| {
+                    (scenes.iter())
+                        .map(|scene| find(run, scene, name, headline))
+                        .collect()
+                })
+                .collect()
+        })
+        .collect::<Result<_, Error>>()?;
+    let at_largest = badness.last().expect("there is a run");
+    let names: Vec<String> = names.into_iter().collect();
+    let mut filters: Vec<FilterAtSizes> = (names.iter().enumerate())
+        .map(|(index, name)| FilterAtSizes {
+            name: name.clone(),
+            means: (badness.iter())
+                .map(|size| plain_mean(&size[index], TWO_SIDED))
+                .collect(),
+            ranks: badness.iter().map(|size| rank(size, index)).collect(),
+        })
+        .collect();
+    filters.sort_by_key(|filter| filter.ranks.last().copied());
+    Ok(SizeComparison {
+        alignment: alignment.to_owned(),
+        scenes: scenes.into_iter().map(str::to_owned).collect(),
+        sizes: (runs.iter())
+            .map(|run| (run.render.width, run.render.height))
+            .collect(),
+        filters,
+        agreement: (badness.iter())
+            .map(|size| compare_order(&names, size, at_largest))
+            .collect(),
+    })
+}
+
+/// Finds how bad a filter is on a scene.
+fn find(run: &Run, scene: &str, name: &str, headline: Headline) -> Result<f64, Error> {
+    let case = (run.cases.iter())
+        .find(|case| !case.is_reference && case.scene == scene && case.name() == name);
+    let value = case.and_then(|case| headline.estimate(case));
+    value.map(|value| headline.ideal().badness(value)).ok_or_else(|| {
+        Error::Usage(format!(
+            "the run of {}x{} pixels has no {} of {name} on {scene}; run all sizes with the same scenes and filters",
+            run.render.width,
+            run.render.height,
+            headline.name()
+        ))
+    })
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Ranks a filter by its mean, from 1.
+fn rank(size: &Badness, index: usize) -> usize {
+    let own = mean(&size[index]);
+    1 + size.iter().filter(|other| mean(other) < own).count()
+}
+
+fn compare_order(names: &[String], here: &Badness, largest: &Badness) -> Agreement {
+    let scenes = here.first().map_or(0, Vec::len);
+    let tau = |left_out: Option<usize>| {
+        let means = |size: &Badness| -> Vec<f64> {
+            let without = |values: &Vec<f64>| {
+                let kept = values
+                    .iter()
+                    .enumerate()
+                    .filter(|(at, _)| Some(*at) != left_out);
+                mean(&kept.map(|(_, value)| *value).collect::<Vec<_>>())
+            };
+            size.iter().map(without).collect()
+        };
+        kendalls_tau(&means(here), &means(largest))
+    };
+    let mut agreement = Agreement {
+        tau: tau(None),
+        ..Agreement::default()
+    };
+    if scenes > 1 {
+        let without: Vec<f64> = (0..scenes).map(|scene| tau(Some(scene))).collect();
+        agreement.interval = jackknife(agreement.tau, &without);
+    }
+    for first in 0..names.len() {
+        for second in first + 1..names.len() {
+            let [own, others] = [here, largest].map(|size| difference(size, first, second));
+            match (own.side_of_zero(), others.side_of_zero()) {
+                (None, None) => {}
+                (Some(_), None) => agreement.only_here += 1,
+                (None, Some(_)) => agreement.only_at_largest += 1,
+                (Some(own), Some(others)) if own == others => agreement.alike += 1,
+                (Some(side), Some(_)) => {
+                    let (better, worse) = match side {
+                        Ordering::Greater => (first, second),
+                        _ => (second, first),
+                    };
+                    let sign = if better == first { 1.0 } else { -1.0 };
+                    agreement.reversed.push(Reversal {
+                        better_here: names[better].clone(),
+                        better_at_largest: names[worse].clone(),
+                        differences: [sign * own.mean, sign * others.mean],
+                    });
+                }
+            }
+        }
+    }
+    agreement
+}
+
+/// Averages what the second filter has more than the first, over scenes.
+fn difference(size: &Badness, first: usize, second: usize) -> SceneMean {
+    let pairs = size[second].iter().zip(&size[first]);
+    let differences: Vec<f64> = pairs.map(|(second, first)| second - first).collect();
+    plain_mean(&differences, TWO_SIDED)
+}
+
+/// Computes Kendall's tau-b of two lists of values for the same things (Kendall 1945, "The treatment of ties in ranking problems").
+/// 1 for lists that are constant, which say nothing against each other.
+fn kendalls_tau(a: &[f64], b: &[f64]) -> f64 {
+    let (mut agree, mut pairs_a, mut pairs_b) = (0.0, 0.0, 0.0);
+    for first in 0..a.len() {
+        for second in first + 1..a.len() {
+            let sign = |values: &[f64]| match values[first].total_cmp(&values[second]) {
+                Ordering::Less => -1.0,
+                Ordering::Equal => 0.0,
+                Ordering::Greater => 1.0f64,
+            };
+            agree += sign(a) * sign(b);
+            pairs_a += sign(a).abs();
+            pairs_b += sign(b).abs();
+        }
+    }
+    match pairs_a * pairs_b {
+        0.0 => 1.0,
+        pairs => agree / f64::sqrt(pairs),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(count: usize) -> Vec<String> {
+        (0..count).map(|index| format!("filter {index}")).collect()
+    }
+
+    #[test]
+    fn kendalls_tau_is_that_of_a_hand_count() {
+        // Of six pairs five agree and one does not.
+        assert!(
+            (kendalls_tau(&[1.0, 2.0, 3.0, 4.0], &[1.0, 3.0, 2.0, 4.0]) - 4.0 / 6.0).abs() < 1e-12
+        );
+        assert_eq!(kendalls_tau(&[1.0, 2.0, 3.0], &[3.0, 2.0, 1.0]), -1.0);
+        // One tie in the first list: two pairs of three are left there, and both agree.
+        let expected = 2.0 / (2.0f64 * 3.0).sqrt();
+        assert!((kendalls_tau(&[1.0, 1.0, 2.0], &[1.0, 2.0, 3.0]) - expected).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_pair_is_reversed_only_if_both_sizes_order_it() {
+        let better = vec![0.10, 0.11, 0.12, 0.13, 0.14, 0.15];
+        let worse: Vec<f64> = better.iter().map(|value| value + 0.02).collect();
+        let noisy = vec![0.15, 0.06, 0.17, 0.08, 0.19, 0.10];
+        let here = vec![better.clone(), worse.clone(), noisy.clone()];
+        let largest = vec![worse, better, noisy];
+        let found = compare_order(&names(3), &here, &largest);
+        assert_eq!(
+            (found.alike, found.only_here, found.only_at_largest),
+            (0, 0, 0)
+        );
+        assert_eq!(found.reversed.len(), 1, "{found:?}");
+        let reversal = &found.reversed[0];
+        assert_eq!(reversal.better_here, "filter 0");
+        assert_eq!(reversal.better_at_largest, "filter 1");
+        assert!((reversal.differences[0] - 0.02).abs() < 1e-12);
+        assert!((reversal.differences[1] + 0.02).abs() < 1e-12);
+        assert!(found.tau < 0.0);
+    }
+
+    #[test]
+    fn a_size_agrees_with_itself() {
+        let size = vec![vec![0.1; 5], vec![0.2; 5], vec![0.3; 5]];
+        let found = compare_order(&names(3), &size, &size);
+        assert_eq!((found.tau, found.alike, found.reversed.len()), (1.0, 3, 0));
+        assert_eq!((rank(&size, 0), rank(&size, 2)), (1, 3));
+    }
+}

@@ -1,0 +1,113 @@
+//! How the ranking of filters changes with the picture's size, as Markdown: `cargo run -p cli --example compare_sizes --
+//! out/160x90/run.json out/320x180/run.json out/1280x720/run.json`.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use suite::{Agreement, Error, FilterAtSizes, Headline, Run, SizeComparison, compare_sizes};
+
+fn main() -> ExitCode {
+    let paths: Vec<String> = std::env::args().skip(1).collect();
+    if paths.is_empty() {
+        eprintln!("no run given; name a run.json per size, of the same scenes and filters");
+        return ExitCode::from(2);
+    }
+    match print_tables(&paths) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn print_tables(paths: &[String]) -> Result<(), Error> {
+    let runs: Vec<Run> = (paths.iter())
+        .map(|path| Run::read(Path::new(path)))
+        .collect::<Result<_, _>>()?;
+    for headline in [Headline::FLIP, Headline::LABEL] {
+        for comparison in compare_sizes(&runs, headline)? {
+            println!(
+                "## {}, {} shutter\n\nMean over {}, and rank.\n",
+                headline.name(),
+                comparison.alignment,
+                comparison.scenes.join(", ")
+            );
+            print_means(&comparison, headline);
+            print_agreement(&comparison);
+            print_reversals(&comparison);
+        }
+    }
+    Ok(())
+}
+
+fn print_means(comparison: &SizeComparison, headline: Headline) {
+    println!("| filter |{}", size_columns(comparison));
+    println!("| --- |{}", " --- |".repeat(comparison.sizes.len()));
+    for FilterAtSizes { name, means, ranks } in &comparison.filters {
+        let cells = means.iter().zip(ranks).map(|(mean, rank)| {
+            let [low, high] = mean.interval.map(|end| headline.number(end));
+            format!(
+                " {} ({low} to {high}), {rank} |",
+                headline.number(mean.mean)
+            )
+        });
+        println!("| `{name}` |{}", cells.collect::<String>());
+    }
+    println!();
+}
+
+fn print_agreement(comparison: &SizeComparison) {
+    let row = |what: &str, cell: &dyn Fn(&Agreement) -> String| {
+        let cells =
+            (comparison.agreement.iter()).map(|agreement| format!(" {} |", cell(agreement)));
+        println!("| {what} |{}", cells.collect::<String>());
+    };
+    println!("| against the largest size |{}", size_columns(comparison));
+    println!("| --- |{}", " --- |".repeat(comparison.sizes.len()));
+    row(
+        "Kendall's tau (95 % CI)",
+        &|agreement| match agreement.interval {
+            Some(interval) => format!(
+                "{:.2} ({:.2} to {:.2})",
+                agreement.tau, interval.low, interval.high
+            ),
+            None => format!("{:.2}", agreement.tau),
+        },
+    );
+    row("pairs ordered by both, alike", &|agreement| {
+        agreement.alike.to_string()
+    });
+    row("pairs ordered by both, **reversed**", &|agreement| {
+        agreement.reversed.len().to_string()
+    });
+    row("pairs ordered only here", &|agreement| {
+        agreement.only_here.to_string()
+    });
+    row("pairs ordered only at the largest", &|agreement| {
+        agreement.only_at_largest.to_string()
+    });
+    println!();
+}
+
+fn print_reversals(comparison: &SizeComparison) {
+    for ((width, height), agreement) in comparison.sizes.iter().zip(&comparison.agreement) {
+        for reversal in &agreement.reversed {
+            println!(
+                "- {width}x{height} says that `{}` is better than `{}` by {:.3}; the largest size says that it is worse by {:.3}.",
+                reversal.better_here,
+                reversal.better_at_largest,
+                reversal.differences[0],
+                -reversal.differences[1]
+            );
+        }
+    }
+    println!();
+}
+
+/// ` 160x90 | 320x180 |`
+fn size_columns(comparison: &SizeComparison) -> String {
+    (comparison.sizes.iter())
+        .map(|(width, height)| format!(" {width}x{height} |"))
+        .collect()
+}
