@@ -86,7 +86,7 @@ fn push_primitive(
         let normals = document.push_floats(&pick(&mesh.normals), array);
         attributes.insert(Checked::Valid(Semantic::Normals), normals);
     }
-    if !mesh.texcoords.is_empty() {
+    if !mesh.texcoords.is_empty() && is_textured(document, material) {
         // Down from the top there, up from the bottom here.
         let texcoords: Vec<[f32; 2]> = (vertices.iter())
             .map(|vertex| mesh.texcoords[*vertex as usize])
@@ -107,6 +107,12 @@ fn push_primitive(
         mode: Checked::Valid(Mode::Triangles),
         targets: (!targets.is_empty()).then_some(targets),
     }
+}
+
+fn is_textured(document: &Document, material: Index<Material>) -> bool {
+    let material = &document.root.materials[material.value()];
+    let color = &material.pbr_metallic_roughness.base_color_texture;
+    color.is_some() || material.emissive_texture.is_some()
 }
 
 fn push_target(
