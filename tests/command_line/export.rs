@@ -25,11 +25,13 @@ fn scenes_that_are_not_there_and_folders_that_are_files_are_refused() {
     let bench = Bench::new();
     assert_refused(
         &bench.shuttertruth(&split("export plait --gltf gltf")),
+        2,
         &["plait", "plate"],
     );
     fs::write(bench.path("taken"), "").unwrap();
     assert_refused(
         &bench.shuttertruth(&split("export plate --gltf taken")),
+        2,
         &["taken"],
     );
 }
