@@ -10,6 +10,7 @@ mod compare;
 mod comparison;
 mod compilers;
 mod earlier_run;
+mod export;
 mod failures;
 mod fidelity;
 mod gallery;

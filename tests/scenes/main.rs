@@ -3,6 +3,7 @@
 mod appearance;
 mod built_in;
 mod catalogue;
+mod gltf;
 mod reading;
 mod refusals;
 mod scene_folder;

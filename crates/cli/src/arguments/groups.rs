@@ -38,8 +38,8 @@ pub const GROUPS: [Group; 6] = [
         ],
     },
     Group {
-        heading: "Bring in a scene",
-        commands: &["import"],
+        heading: "Move scenes in and out",
+        commands: &["import", "export"],
     },
     Group {
         heading: "Do one step alone",

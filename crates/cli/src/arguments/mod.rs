@@ -12,6 +12,7 @@ mod commands_page;
 mod compare;
 mod compare_presets;
 mod evaluate;
+mod export;
 mod groups;
 #[cfg(test)]
 mod guides;
@@ -42,6 +43,7 @@ pub use check::CheckArgs;
 pub use compare::CompareArgs;
 pub use compare_presets::ComparePresetsArgs;
 pub use evaluate::EvaluateArgs;
+pub use export::ExportArgs;
 pub use groups::{command_line, list_commands};
 pub use import::ImportArgs;
 pub use list::ListArgs;
@@ -115,6 +117,8 @@ pub enum Command {
     Serve(ServeArgs),
     /// Make a scene of an OBJ file, with camera, floor, wall and motion.
     Import(ImportArgs),
+    /// Write scenes as glTF 2.0, so that an engine can draw them.
+    Export(ExportArgs),
     /// List scenes, filters, parameters and presets.
     List(ListArgs),
 }

@@ -11,6 +11,7 @@ mod compare_presets;
 mod ending;
 mod evaluate;
 mod expected;
+mod export;
 mod import;
 mod list;
 mod margins;
@@ -80,6 +81,7 @@ pub fn execute(cli: Cli) -> Result<Ending, Error> {
             work_on_threads(args.candidate.scenes.threads, || serve::execute(&args))
         }
         Some(Command::Import(args)) => import::execute(&args),
+        Some(Command::Export(args)) => export::execute(&args),
         Some(Command::List(args)) => list::execute(&args),
         None => Err(Error::Usage(
             "no command given; shuttertruth --help lists all commands".to_owned(),

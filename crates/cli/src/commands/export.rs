@@ -1,0 +1,39 @@
+//! The command `export`.
+
+use export::{ExportError, Manifest, export_gltf};
+use suite::{Error, PROGRAM, printable_path};
+
+use crate::arguments::ExportArgs;
+use crate::output::print::print;
+use crate::selection::select_scenes;
+
+/// Writes each scene as glTF and prints where, and at which time of the animation the frame is.
+pub fn execute(args: &ExportArgs) -> Result<(), Error> {
+    let choices = select_scenes(&args.scenes_dir, &args.scenes)?;
+    let mut text = String::new();
+    for choice in &choices {
+        let folder = args.gltf.join(&choice.scene.name);
+        let manifest = export_gltf(&choice.scene, PROGRAM, &folder).map_err(word_error)?;
+        text += &describe(&manifest, &printable_path(&folder));
+    }
+    print(&text)
+}
+
+fn describe(manifest: &Manifest, folder: &str) -> String {
+    let [open, close] = manifest.shutter["centred"];
+    format!(
+        "{}: {} objects; the frame is at {:.6} s, the one before at {:.6} s, a centred shutter is open from {open:.6} to \
+         {close:.6} s\nwritten: {folder}/scene.gltf, scene.bin, sky.exr, manifest.json\n",
+        manifest.scene,
+        manifest.objects.len() - 1,
+        manifest.instant,
+        manifest.previous,
+    )
+}
+
+fn word_error(error: ExportError) -> Error {
+    match error {
+        ExportError::File(error) => error.into(),
+        error => Error::Usage(error.to_string()),
+    }
+}

@@ -1,0 +1,22 @@
+//! Scenes for other programs: glTF 2.0, one folder per scene.
+//!
+//! An engine that plays the animation draws the scene that the tracer renders: what its frames and its blur lack can be measured.
+//! [`export_gltf`] writes `scene.gltf` with `scene.bin` and textures, the sky as `sky.exr`, and `manifest.json`, which says what
+//! glTF cannot: times of the shutter, object ids, and how numbers are meant.
+
+mod animation;
+mod buffer;
+mod document;
+mod error;
+mod light;
+mod manifest;
+mod material;
+mod mesh;
+mod motion;
+mod textures;
+mod timeline;
+
+pub use document::export_gltf;
+pub use error::ExportError;
+pub use manifest::{MANIFEST_FORMAT, Manifest};
+pub use timeline::{FRAMES_PER_SECOND, Timeline};

@@ -1,0 +1,37 @@
+//! `export`: scenes as glTF.
+
+use std::fs;
+
+use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
+
+#[test]
+fn a_scene_becomes_a_folder_that_says_when_its_frame_is() {
+    let bench = Bench::new();
+    let output = bench.shuttertruth(&split("export plate --gltf gltf"));
+    assert_done(&output);
+    let text = stdout(&output);
+    assert!(text.contains("the frame is at 0.083333 s"), "{text}");
+    for name in ["scene.gltf", "scene.bin", "sky.exr", "manifest.json"] {
+        assert!(bench.path("gltf/plate").join(name).exists(), "no {name}");
+    }
+    let manifest = fs::read_to_string(bench.path("gltf/plate/manifest.json")).unwrap();
+    let manifest: serde_json::Value = serde_json::from_str(&manifest).unwrap();
+    assert_eq!(manifest["objects"][0], "background");
+    assert_eq!(manifest["seconds_per_frame"].as_f64(), Some(1.0 / 24.0));
+}
+
+#[test]
+fn scenes_that_are_not_there_and_folders_that_are_files_are_refused() {
+    let bench = Bench::new();
+    assert_refused(
+        &bench.shuttertruth(&split("export plait --gltf gltf")),
+        2,
+        &["plait", "plate"],
+    );
+    fs::write(bench.path("taken"), "").unwrap();
+    assert_refused(
+        &bench.shuttertruth(&split("export plate --gltf taken")),
+        2,
+        &["taken"],
+    );
+}

@@ -1,0 +1,169 @@
+//! Export to glTF: what a player of the format shows is what the tracer renders.
+
+mod played;
+
+use export::{Timeline, export_gltf};
+use glam::{DAffine3, DVec3};
+use played::Played;
+use tests::random::Random;
+use tests::scenes;
+use tracer::{Interpolation, Key, Mesh, Motion, Scene, Turn, list_scenes, load_scene};
+
+/// Random times at which poses are compared.
+const TIMES: usize = 100;
+/// Upper limit of the distance between two poses of a point, relative to the larger of a metre and its distance from the origin.
+const TOLERANCE: f64 = 1e-5;
+
+#[test]
+fn every_scene_and_variant_plays_as_the_tracer_poses_it() {
+    let mut compared = 0;
+    for listing in list_scenes(&scenes()).unwrap() {
+        let variants = listing
+            .variants
+            .iter()
+            .map(|variant| Some(variant.as_str()));
+        for variant in std::iter::once(None).chain(variants) {
+            let scene = load_scene(&listing.folder, variant).unwrap();
+            assert_plays(&scene);
+            compared += 1;
+        }
+    }
+    assert!(compared >= 60, "only {compared} scenes and variants");
+}
+
+#[test]
+fn turns_beyond_half_a_circle_and_cubic_paths_are_kept() {
+    let turn = |axis: DVec3, degrees: f64| Turn {
+        axis: axis.normalize(),
+        angle: degrees.to_radians(),
+    };
+    let key = |time: f64, x: f64, orientation, turn| Key {
+        time,
+        translation: DVec3::new(x, x * x, 0.0),
+        orientation,
+        scale: DVec3::new(1.0, 1.0 + 0.1 * x, 1.0),
+        turn,
+    };
+    // More than two turns in two frames, then half a turn about another axis.
+    let first = turn(DVec3::Z, 800.0);
+    let second = turn(DVec3::new(1.0, 1.0, 0.0), 170.0);
+    let rotated =
+        |turn: Turn, from: glam::DQuat| glam::DQuat::from_axis_angle(turn.axis, turn.angle) * from;
+    let start = glam::DQuat::from_rotation_y(0.3);
+    let middle = rotated(first, start);
+    let keys = vec![
+        key(-1.0, -2.0, start, first),
+        key(1.0, 1.0, middle, second),
+        key(1.5, 3.0, rotated(second, middle), Turn::NONE),
+    ];
+    for interpolation in [Interpolation::Linear, Interpolation::Cubic] {
+        let motion = Motion {
+            keys: keys.clone(),
+            interpolation,
+        };
+        let mut scene = load_scene(&scenes().join("flat_field"), None).unwrap();
+        scene.objects[0].motion = motion.clone();
+        scene.camera.motion = Motion {
+            keys: (motion.keys.iter())
+                .map(|key| Key {
+                    scale: DVec3::ONE,
+                    ..*key
+                })
+                .collect(),
+            interpolation,
+        };
+        assert_plays(&scene);
+    }
+}
+
+#[test]
+fn a_zoom_is_refused_since_gltf_cannot_say_it() {
+    let mut scene = load_scene(&scenes().join("flat_field"), None).unwrap();
+    scene.camera.vertical_fov = vec![(-1.0, 0.6), (1.0, 0.7)];
+    let folder = tempfile::tempdir().unwrap();
+    let error = export_gltf(&scene, "test", folder.path())
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("field of view changes"), "{error}");
+}
+
+/// Exports a scene, and compares camera, objects and vertices at random times within the animation.
+fn assert_plays(scene: &Scene) {
+    let folder = tempfile::tempdir().unwrap();
+    export_gltf(scene, "test", folder.path()).unwrap();
+    let played = Played::read(folder.path());
+    let timeline = Timeline::of(scene);
+    let mut random = Random::new(7);
+    for _ in 0..TIMES {
+        let time = timeline.reach * f64::from(random.real(-1.0, 1.0));
+        let seconds = timeline.seconds(time);
+        let camera = scene.camera.motion.at(time);
+        assert_close(scene, "camera", time, camera, played.to_world(0, seconds));
+        for (index, object) in scene.objects.iter().enumerate() {
+            let own = scene.object_to_world(index, time);
+            assert_close(
+                scene,
+                &object.name,
+                time,
+                own,
+                played.to_world(index + 1, seconds),
+            );
+        }
+    }
+    for (index, object) in scene.objects.iter().enumerate() {
+        assert_eq!(played.node(index + 1).name(), Some(object.name.as_str()));
+        assert_vertices(scene, index, &played, &timeline);
+    }
+}
+
+/// Compares where two poses put the origin and a point on each axis.
+fn assert_close(scene: &Scene, what: &str, time: f64, own: DAffine3, played: DAffine3) {
+    for point in [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z] {
+        let [own, played] = [own, played].map(|pose| pose.transform_point3(point));
+        let error = (own - played).length() / own.length().max(1.0);
+        assert!(
+            error < TOLERANCE,
+            "{}: {what} at frame {time}: {own} in the tracer, {played} in glTF",
+            scene.name
+        );
+    }
+}
+
+/// Compares the corners of all triangles, whatever their order.
+fn assert_vertices(scene: &Scene, index: usize, played: &Played, timeline: &Timeline) {
+    let mesh = &scene.meshes[scene.objects[index].mesh];
+    for time in [-1.3, 0.0, 0.4] {
+        let sorted = |mut corners: Vec<DVec3>| {
+            corners.sort_by(|a, b| {
+                let [a, b] = [a, b].map(|own| own.to_array());
+                a.partial_cmp(&b).expect("finite")
+            });
+            corners
+        };
+        let own = (mesh.triangles.iter().flatten()).map(|corner| vertex(mesh, *corner, time));
+        let found = played.corners(index + 1, timeline.seconds(time));
+        assert_eq!(found.len(), 3 * mesh.triangles.len(), "{}", scene.name);
+        if mesh.shapes.is_empty() {
+            assert_eq!(sorted(found), sorted(own.collect()), "{}", scene.name);
+            continue;
+        }
+        // Rounding may change the order of moved vertices: sums over all of them tell.
+        let sum = |corners: &[DVec3]| corners.iter().map(|own| *own * own.length()).sum::<DVec3>();
+        let own: Vec<DVec3> = own.collect();
+        let error = (sum(&own) - sum(&found)).length() / own.len() as f64;
+        assert!(error < TOLERANCE, "{} at frame {time}: {error}", scene.name);
+    }
+}
+
+/// Returns where a vertex is in its object's space: on a straight line between two shapes, or beyond the last two.
+fn vertex(mesh: &Mesh, corner: u32, time: f64) -> DVec3 {
+    let at = |positions: &[glam::Vec3]| positions[corner as usize].as_dvec3();
+    if mesh.shapes.is_empty() {
+        return at(&mesh.positions);
+    }
+    let after = mesh.shapes.partition_point(|shape| shape.time <= time);
+    let after = after.clamp(1, mesh.shapes.len() - 1);
+    let [from, to] = [&mesh.shapes[after - 1], &mesh.shapes[after]];
+    let part = (time - from.time) / (to.time - from.time);
+    at(&from.positions).lerp(at(&to.positions), part)
+}
