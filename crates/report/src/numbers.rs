@@ -39,6 +39,20 @@ mod tests {
     use super::*;
 
     #[test]
+    fn changes_have_a_sign_and_three_digits() {
+        for (value, expected) in [
+            (0.0, "0"),
+            (0.01234, "+0.0123"),
+            (-0.000_12, "-0.0001"),
+            (0.000_012, "+1e-5"),
+            (-3.456, "-3.46"),
+            (123.4, "+123"),
+        ] {
+            assert_eq!(signed(value), expected);
+        }
+    }
+
+    #[test]
     fn numbers_have_three_digits() {
         let words = [12.345, 0.012_345, 1234.5, 0.0].map(three_digits);
         assert_eq!(words, ["12.3", "0.0123", "1234", "0"]);

@@ -27,7 +27,7 @@ pub use bench::{
 };
 pub use compare::{
     Basis, COMPARE_FORMAT, Change, ChangeKind, MeanChange, MeanKind, Pair, RunComparison,
-    SettingChange, Side, compare_runs, filter_label, pair_cases, rank_changes,
+    SettingChange, Side, compare_runs, filter_label, pair_cases, rank_changes, score_change,
 };
 pub use error::Error;
 pub use filter::border::Border;
