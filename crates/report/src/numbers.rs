@@ -1,5 +1,7 @@
 //! Numbers as text.
 
+use filters::Value;
+
 /// Writes a change in three digits: `+0.0123`.
 pub fn signed(value: f64) -> String {
     match value {
@@ -15,6 +17,17 @@ pub fn signed(value: f64) -> String {
 /// Writes a mean log of errors as a change of the error: `-18.6 %`.
 pub fn percent(log: f64) -> String {
     format!("{:+.1} %", 100.0 * log.exp_m1())
+}
+
+/// Writes the value of a parameter; six digits are as many as anybody sets.
+pub fn value_text(value: &Value) -> String {
+    match value {
+        Value::Real(value) => {
+            let rounded: f64 = format!("{value:.5e}").parse().expect("it was a number");
+            rounded.to_string()
+        }
+        Value::Integer(_) | Value::Choice(_) => value.to_string(),
+    }
 }
 
 /// Writes `1 scene`, `2 scenes`.
@@ -50,6 +63,18 @@ mod tests {
         ] {
             assert_eq!(signed(value), expected);
         }
+    }
+
+    #[test]
+    fn values_have_six_digits() {
+        let words = [
+            0.049_999_999_999_999_996,
+            1_666.666_666_666_666_5,
+            1.0,
+            1e-6,
+        ];
+        let words = words.map(|value| value_text(&Value::Real(value)));
+        assert_eq!(words, ["0.05", "1666.67", "1", "0.000001"]);
     }
 
     #[test]

@@ -64,6 +64,10 @@ const NOT_RUN: [(&str, &str); 17] = [
         "cargo run -p cli --example report_opening -- out/report.html",
         "compiles the program again",
     ),
+    (
+        "cargo run -p cli --example report_screenshots",
+        "compiles the program again",
+    ),
     ("pip install numpy OpenEXR", "installs packages"),
     ("name: motion blur", "a workflow, which GitHub runs"),
     (
