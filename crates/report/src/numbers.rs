@@ -5,7 +5,8 @@ use filters::Value;
 /// Writes a change in three digits: `+0.0123`.
 pub fn signed(value: f64) -> String {
     match value {
-        0.0 => "0".to_owned(),
+        // What rounding makes of no change.
+        value if value.abs() < 1e-9 => "0".to_owned(),
         value if value.abs() < 1e-4 => format!("{value:+.0e}"),
         value => {
             let digits = (2.0 - value.abs().log10().floor()).clamp(0.0, 4.0) as usize;
@@ -55,6 +56,7 @@ mod tests {
     fn changes_have_a_sign_and_three_digits() {
         for (value, expected) in [
             (0.0, "0"),
+            (-3e-14, "0"),
             (0.01234, "+0.0123"),
             (-0.000_12, "-0.0001"),
             (0.000_012, "+1e-5"),

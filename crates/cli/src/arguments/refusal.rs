@@ -49,7 +49,7 @@ pub fn refusal_text(error: &clap::Error, words: &[OsString]) -> String {
             }
         ),
         (ErrorKind::InvalidValue, Some(option)) => format!(
-            "{place}: {} {}; {}",
+            "{place}: {} {} is not known; {}",
             name_of(&option),
             quoted(&value),
             suggest_names(&value, &list(error, ContextKind::ValidValue))
@@ -252,12 +252,12 @@ mod tests {
             (
                 "run --depth-format flaot16",
                 ErrorKind::InvalidValue,
-                "shuttertruth run: --depth-format flaot16; did you mean float16?",
+                "shuttertruth run: --depth-format flaot16 is not known; did you mean float16?",
             ),
             (
                 "run --size 10",
                 ErrorKind::ValueValidation,
-                "shuttertruth run: --size 10; allowed: WIDTHxHEIGHT, each from 1 to 16384 pixels, such as 640x360",
+                "shuttertruth run: --size 10; allowed: WIDTHxHEIGHT, each from 16 to 16384 pixels, such as 640x360",
             ),
             (
                 "run --seed -1",

@@ -24,8 +24,8 @@ impl From<&Change> for ChangeCells {
             second,
             change: change_text(&change.metric, change.estimate(), change.kind.label()),
             interval: match change.interval {
+                _ if change.kind == ChangeKind::Same => String::new(),
                 Some(interval) => interval_text(&change.metric, interval),
-                None if change.kind == ChangeKind::Same => String::new(),
                 None => "by the noise floor".to_owned(),
             },
         }

@@ -118,10 +118,13 @@ fn differences(compared: &RunComparison) -> Markup {
 
 /// Lists the mean changes of every metric that anything changed of.
 fn means(means: &[MeanChange]) -> Markup {
-    let changed: Vec<&MeanChange> = means
+    let mut changed: Vec<&MeanChange> = means
         .iter()
         .filter(|mean| mean.kind != MeanKind::Same)
         .collect();
+    // Filters of one metric stand together.
+    let place = |metric: &str| means.iter().position(|own| own.metric == metric);
+    changed.sort_by_key(|mean| place(&mean.metric));
     html! {
         section {
             h2 { "Means over scenes" }
@@ -184,10 +187,10 @@ fn metric_means(means: &[&MeanChange]) -> Markup {
 
 fn mean_class(kind: MeanKind) -> &'static str {
     match kind {
-        MeanKind::Better => "text better",
-        MeanKind::Worse => "text worse",
+        MeanKind::Better => "change better",
+        MeanKind::Worse => "change worse",
         MeanKind::Same | MeanKind::BelowMargin | MeanKind::Undecided | MeanKind::TooFewScenes => {
-            "text"
+            "change"
         }
     }
 }
@@ -264,9 +267,9 @@ fn change_heading(named: bool) -> Markup {
 
 fn change_row(change: &Change, named: bool) -> Markup {
     let class = match change.kind {
-        ChangeKind::Better => "text better",
-        ChangeKind::Worse => "text worse",
-        ChangeKind::BelowMargin | ChangeKind::WithinNoise | ChangeKind::Same => "text",
+        ChangeKind::Better => "change better",
+        ChangeKind::Worse => "change worse",
+        ChangeKind::BelowMargin | ChangeKind::WithinNoise | ChangeKind::Same => "change",
     };
     let cells = ChangeCells::from(change);
     html! {
