@@ -247,7 +247,7 @@ mod tests {
             (
                 "run --depth-format",
                 ErrorKind::InvalidValue,
-                "shuttertruth run: --depth-format has no value; allowed: float32, float16",
+                "shuttertruth run: --depth-format has no value; allowed: float32, float16, reversed24, reversed32",
             ),
             (
                 "run --depth-format flaot16",
@@ -301,7 +301,7 @@ mod tests {
                 "shuttertruth run: --table cannot be used with --json; leave one of them out",
             ),
             (
-                "check out --size 1x1 --seed 2",
+                "check out --size 16x16 --seed 2",
                 ErrorKind::ArgumentConflict,
                 "shuttertruth check: RUN cannot be used with --size and --seed; leave one of them out",
             ),
