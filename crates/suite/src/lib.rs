@@ -93,7 +93,7 @@ pub use tune::{
     ParameterSensitivity, Preference, RenderedScene, SceneScore, Search, Sensitivity, SobolIndices,
     Space, TUNE_FORMAT, Target, Trial, TrialOutcome, TuneOptions, Tuning, analyze_sensitivity,
     choose_trial, compare_candidates, count_candidates, cross_validate, evaluate_candidate,
-    interleave_families, log_ratio, pareto_front, render_scenes, signed_rank_p_value,
+    interleave_families, log_ratio, pareto_front, render_scenes, round_bleed, signed_rank_p_value,
     sobol_indices, tune, tuned_preset_toml,
 };
 

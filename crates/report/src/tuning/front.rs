@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::folder::TuneFolder;
 use crate::charts::plot::{Axis, Plot};
 use crate::numbers::percent;
-use suite::{Advice, Trial};
+use suite::{Advice, Trial, round_bleed};
 
 /// A measure that a chart shows against the error.
 struct Against {
@@ -20,7 +20,7 @@ const AGAINST: [Against; 2] = [
     },
     Against {
         title: "lateral bleed, worst scene, px",
-        value: |trial| trial.bleed,
+        value: |trial| trial.bleed.map(round_bleed),
     },
 ];
 
