@@ -65,7 +65,7 @@ const NOT_RUN: [(&str, &str); 18] = [
         "compiles the program again",
     ),
     (
-        "cargo run -p cli --example report_screenshots",
+        "cargo run -p cli --example report_screenshots -- pictures out/report.html 'out/report.html#railing/mcguire:paper'",
         "compiles the program again",
     ),
     ("pip install numpy OpenEXR", "installs packages"),
