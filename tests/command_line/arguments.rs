@@ -78,6 +78,11 @@ fn list_shows_only_the_requested_kinds() {
     for what in ["filters", "bevy"] {
         assert!(list(&[&[what], &elsewhere[..]].concat()).contains("bevy"));
     }
+    let all = bench.shuttertruth(&[&["list"], &elsewhere[..]].concat());
+    assert!(stdout(&all).contains("bevy"));
+    assert!(stderr(&all).contains("no scenes: there is no folder nowhere"));
+    let misspelt = bench.shuttertruth(&[&["list", "mcgiure"], &elsewhere[..]].concat());
+    assert_refused(&misspelt, 2, &["did you mean mcguire?"]);
     assert!(list(&["adapters"]).starts_with("0: "));
     assert!(list(&[]).lines().count() < 80);
 }

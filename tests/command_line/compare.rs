@@ -65,7 +65,7 @@ fn a_run_compared_with_itself_shows_no_change() {
         "{table}"
     );
     assert!(
-        table.contains("0 worse, 0 better, 0 below the margin, 0 within noise"),
+        table.contains("0 worse, 0 better, 0 within margin, 0 within noise"),
         "{table}"
     );
 }
@@ -127,6 +127,53 @@ fn compare_names_a_changed_parameter_and_gives_intervals() {
         "{low} {high} {}",
         score.floor
     );
+}
+
+#[test]
+fn terminal_and_page_show_the_same_numbers() {
+    let bench = Bench::two_scenes();
+    assert_done(&bench.run(&GATHER));
+    let more = [&GATHER[..], &["--set", "velocity_gather.samples=2"]].concat();
+    assert_done(&run_into(&bench, "other", "16", &more));
+    let words = ["compare", "out", "other", "--html", "page.html"];
+    let table = bench.execute(&words);
+    let page = fs::read_to_string(bench.path("page.html")).unwrap();
+    // Cells of the page, between bars.
+    let cells: Vec<&str> = (page.split('<'))
+        .filter_map(|part| part.split_once('>'))
+        .map(|(_, text)| text)
+        .filter(|text| !text.is_empty())
+        .collect();
+    let cells = cells.join("|");
+    let mut found = 0;
+    for row in table.lines().filter(|line| line.contains(" to ")) {
+        let mut own = row
+            .split("  ")
+            .map(str::trim)
+            .filter(|cell| !cell.is_empty());
+        let metric = own.next().unwrap();
+        let own = own.collect::<Vec<_>>().join("|");
+        assert!(own.matches('|').count() == 3, "{row}");
+        assert!(
+            cells.contains(&own),
+            "{metric}: the page lacks {own}\n{table}"
+        );
+        found += 1;
+    }
+    // Means, and the scores of two scenes, at least FLIP, skill and PSNR each.
+    assert!(found >= 9, "{table}");
+    let compared = compare(&bench);
+    for mean in compared["means"].as_array().unwrap() {
+        let [first, second, worse] =
+            ["first", "second", "worse"].map(|key| mean[key].as_f64().unwrap());
+        let sign = match mean["metric"].as_str().unwrap() {
+            "psnr_moving" | "skill_flip" => -1.0,
+            "flip_moving" => 1.0,
+            // Others change by their distance from an ideal value.
+            _ => continue,
+        };
+        assert!((sign * (second - first) - worse).abs() < 1e-9, "{mean}");
+    }
 }
 
 #[test]

@@ -135,7 +135,7 @@ fn parameters_of_a_file_are_checked() {
         ),
         (
             "samples = 3",
-            ["p.json", "allowed is one table of parameters"],
+            ["p.json", "allowed: one table of parameters"],
         ),
     ] {
         assert_refused(&evaluate(text), 2, &parts);

@@ -145,7 +145,7 @@ fn targets(names: &str) -> Result<Vec<&'static Target>, String> {
 
 fn number(word: &str, text: &str) -> Result<u64, String> {
     text.parse()
-        .map_err(|_| format!("{word} {text}: allowed is a whole number"))
+        .map_err(|_| format!("{word} {text}; allowed: a whole number"))
 }
 
 fn minutes(text: &str) -> Result<Duration, String> {
@@ -153,6 +153,6 @@ fn minutes(text: &str) -> Result<Duration, String> {
         Ok(minutes) if minutes > 0.0 && minutes < 1e5 => {
             Ok(Duration::from_secs_f64(60.0 * minutes))
         }
-        _ => Err(format!("--minutes {text}: allowed is a number above 0")),
+        _ => Err(format!("--minutes {text}; allowed: a number above 0")),
     }
 }

@@ -71,11 +71,11 @@ fn parse_size(text: &str) -> Result<(u32, u32), String> {
     let parsed =
         sides.and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
     parsed.ok_or(format!(
-        "--size {text}: allowed is columns x rows, such as 160x90"
+        "--size {text}; allowed: columns x rows, such as 160x90"
     ))
 }
 
 fn number<T: std::str::FromStr>(word: &str, text: &str) -> Result<T, String> {
     text.parse()
-        .map_err(|_| format!("{word} {text}: allowed is a whole number"))
+        .map_err(|_| format!("{word} {text}; allowed: a whole number"))
 }

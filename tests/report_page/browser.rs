@@ -154,6 +154,19 @@ impl Browser {
         self.call("Emulation.setEmulatedMedia", json!({"media": "print"}));
     }
 
+    /// Shows pages in a colour scheme, `light` or `dark`.
+    pub fn prefer(&mut self, scheme: &str) {
+        let features = json!([{"name": "prefers-color-scheme", "value": scheme}]);
+        self.call("Emulation.setEmulatedMedia", json!({"features": features}));
+    }
+
+    /// Returns the page as PDF.
+    pub fn paper(&mut self) -> Vec<u8> {
+        let words = json!({"printBackground": false, "preferCSSPageSize": true});
+        let printed = self.call("Page.printToPDF", words);
+        STANDARD.decode(printed["data"].as_str().unwrap()).unwrap()
+    }
+
     /// Returns left, top, width and height of the first element that a selector finds, in the window.
     pub fn place(&mut self, selector: &str) -> [f64; 4] {
         let place = self.value(&format!(
@@ -167,8 +180,17 @@ impl Browser {
     pub fn picture(&mut self, selector: &str) -> Vec<u8> {
         let [x, y, width, height] = self.place(selector);
         let [left, top] = ["scrollX", "scrollY"].map(|name| self.value(name).as_f64().unwrap());
-        let clip =
-            json!({"x": x + left, "y": y + top, "width": width, "height": height, "scale": 1});
+        self.picture_at([x + left, y + top, width, height])
+    }
+
+    /// Takes a PNG of the page from its top, at most so many pixels high.
+    pub fn picture_of_page(&mut self, most: f64) -> Vec<u8> {
+        let [_, _, width, height] = self.place("html");
+        self.picture_at([0.0, 0.0, width, height.min(most)])
+    }
+
+    fn picture_at(&mut self, [x, y, width, height]: [f64; 4]) -> Vec<u8> {
+        let clip = json!({"x": x, "y": y, "width": width, "height": height, "scale": 1});
         let shot = self.call(
             "Page.captureScreenshot",
             json!({"clip": clip, "captureBeyondViewport": true}),

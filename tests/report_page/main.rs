@@ -3,6 +3,7 @@
 #[path = "../command_line/bench.rs"]
 #[expect(dead_code, reason = "the tests of the command line need more of it")]
 mod bench;
+#[expect(dead_code, reason = "the pictures of pages need more of it")]
 mod browser;
 mod cases;
 mod numbers;

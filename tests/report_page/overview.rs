@@ -150,3 +150,26 @@ fn a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter() {
     browser.until("document.getElementById('viewer').checkVisibility()");
     assert_eq!(browser.complaints(), [""; 0]);
 }
+
+#[test]
+fn only_the_table_that_is_seen_is_parsed_until_somebody_prints() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
+    let page = make_page(&bench);
+    let mut browser = Browser::new(1280, 900);
+    browser.open(&page, "");
+    let tables = "document.querySelectorAll('.panel table').length";
+    assert_eq!(browser.value(tables), 1);
+    browser.value("document.querySelector('[name=metric][value=psnr_moving]').click()");
+    browser.until(&format!("{tables} === 2"));
+    let sorted = "document.querySelector('.panel:not([hidden]) thead th[aria-sort]') !== null";
+    browser.value(
+        "document.querySelector('.panel:not([hidden]) thead th:nth-child(2) button').click()",
+    );
+    assert_eq!(browser.value(sorted), true);
+    browser.paper();
+    let panels = browser.value("document.querySelectorAll('.panel').length");
+    assert_eq!(browser.value(tables), panels);
+    assert_eq!(rows(&mut browser), "velocity_gather:fine,identity:default");
+    assert_eq!(browser.complaints(), [""; 0]);
+}

@@ -7,19 +7,19 @@ mod quiet_driver;
 mod selection;
 mod tables;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::FromArgMatches;
-use clap::error::{ContextKind, ContextValue};
+use clap::error::ErrorKind;
 use filters::FilterError;
-use suite::{Error, printable, printable_lines};
+use suite::Error;
 
 use commands::Ending;
 use output::print::{print_error, print_failure};
 use output::progress::{INTERRUPTED_CODE, INTERRUPTED_TEXT, catch_interrupts};
 use output::verbosity::set_output;
 use quiet_driver::quiet_driver;
-use selection::suggest_names;
 
 pub use output::annotations::{annotations, summary};
 pub use output::junit::junit;
@@ -71,36 +71,18 @@ fn exit_code(error: &Error) -> u8 {
     }
 }
 
-/// Says which command or option is meant by a misspelt one; none for other errors.
-fn misspelt_text(error: &clap::Error) -> Option<String> {
-    let context = |kind| match error.get(kind) {
-        Some(ContextValue::String(word)) => Some(word),
-        _ => None,
-    };
-    if let Some(word) = context(ContextKind::InvalidSubcommand) {
-        let meant = suggest_names(word, &arguments::list_commands());
-        return Some(format!("no command \"{word}\"; {meant}"));
-    }
-    let word = context(ContextKind::InvalidArg)?;
-    let meant = context(ContextKind::SuggestedArg)?;
-    Some(format!("no option {word}; did you mean {meant}?"))
-}
-
-/// Prints the error in the command line, or its help. The message quotes arguments.
+/// Prints the error in the command line, or the help that it asks for.
 fn refuse_arguments(error: &clap::Error) -> ! {
-    if let Some(text) = misspelt_text(error) {
-        print_failure(&Error::Usage(text));
-        std::process::exit(error.exit_code())
+    let is_help = matches!(
+        error.kind(),
+        ErrorKind::DisplayHelp
+            | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
+            | ErrorKind::DisplayVersion
+    );
+    if is_help {
+        error.exit()
     }
-    let all_fit = std::env::args_os().all(|word| {
-        let word = word.to_string_lossy();
-        printable(&word) == word
-    });
-    match all_fit {
-        true => error.exit(),
-        false => {
-            print_error(&printable_lines(error.to_string().trim_end()));
-            std::process::exit(error.exit_code())
-        }
-    }
+    let words: Vec<OsString> = std::env::args_os().skip(1).collect();
+    print_failure(&Error::Usage(arguments::refusal_text(error, &words)));
+    std::process::exit(error.exit_code())
 }

@@ -4,6 +4,7 @@ use filters::{Filter, Source};
 use maud::{Markup, html};
 
 use crate::filter_id::{FilterId, case_anchor, list_scenes};
+use crate::numbers::value_text;
 use crate::overview::costs::{cost_of, cost_text};
 use suite::{Bench, Case, Headline, Run};
 
@@ -127,7 +128,7 @@ fn parameters(filter: Option<&Filter>, case: &Case) -> Markup {
                     thead { tr { th scope="col" { "parameter" } th scope="col" { "value" } th.text scope="col" { "meaning" } } }
                     tbody {
                         @for (name, value) in &case.parameters {
-                            tr { th scope="row" { (name) } td { (value) } td.text { (doc(name).unwrap_or_default()) } }
+                            tr { th scope="row" { (name) } td { (value_text(value)) } td.text { (doc(name).unwrap_or_default()) } }
                         }
                     }
                 }

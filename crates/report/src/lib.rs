@@ -30,10 +30,9 @@ use pixels::report_files::SceneNumbers;
 use pixels::scene_files::SceneFiles;
 use run_page::run_page;
 
-pub use comparison::compare_page;
+pub use comparison::{ChangeCells, compare_page};
 pub use finding_text::{finding_line, finding_score, finding_status, way_out};
 pub use gallery::write_gallery;
-pub use numbers::signed;
 pub use pixels::report_files::{LARGEST_PAGE, Report};
 pub use tuning::{TuneFolder, tuning_page};
 

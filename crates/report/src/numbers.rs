@@ -1,9 +1,12 @@
 //! Numbers as text.
 
+use filters::Value;
+
 /// Writes a change in three digits: `+0.0123`.
 pub fn signed(value: f64) -> String {
     match value {
-        0.0 => "0".to_owned(),
+        // What rounding makes of no change.
+        value if value.abs() < 1e-9 => "0".to_owned(),
         value if value.abs() < 1e-4 => format!("{value:+.0e}"),
         value => {
             let digits = (2.0 - value.abs().log10().floor()).clamp(0.0, 4.0) as usize;
@@ -15,6 +18,17 @@ pub fn signed(value: f64) -> String {
 /// Writes a mean log of errors as a change of the error: `-18.6 %`.
 pub fn percent(log: f64) -> String {
     format!("{:+.1} %", 100.0 * log.exp_m1())
+}
+
+/// Writes the value of a parameter; six digits are as many as anybody sets.
+pub fn value_text(value: &Value) -> String {
+    match value {
+        Value::Real(value) => {
+            let rounded: f64 = format!("{value:.5e}").parse().expect("it was a number");
+            rounded.to_string()
+        }
+        Value::Integer(_) | Value::Choice(_) => value.to_string(),
+    }
 }
 
 /// Writes `1 scene`, `2 scenes`.
@@ -37,6 +51,33 @@ pub fn three_digits(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn changes_have_a_sign_and_three_digits() {
+        for (value, expected) in [
+            (0.0, "0"),
+            (-3e-14, "0"),
+            (0.01234, "+0.0123"),
+            (-0.000_12, "-0.0001"),
+            (0.000_012, "+1e-5"),
+            (-3.456, "-3.46"),
+            (123.4, "+123"),
+        ] {
+            assert_eq!(signed(value), expected);
+        }
+    }
+
+    #[test]
+    fn values_have_six_digits() {
+        let words = [
+            0.049_999_999_999_999_996,
+            1_666.666_666_666_666_5,
+            1.0,
+            1e-6,
+        ];
+        let words = words.map(|value| value_text(&Value::Real(value)));
+        assert_eq!(words, ["0.05", "1666.67", "1", "0.000001"]);
+    }
 
     #[test]
     fn numbers_have_three_digits() {

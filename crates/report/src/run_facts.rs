@@ -16,7 +16,7 @@ pub fn provenance(run: &Run) -> Markup {
                 }
             }
             div.scroll tabindex="0" role="region" aria-label="Truths" {
-                table {
+                table.stacked {
                     caption { "Truths; a hash covers scene, meshes, textures, settings and the tracer" }
                     thead {
                         tr {
@@ -112,7 +112,7 @@ fn truths(run: &Run) -> Vec<Markup> {
                 tr {
                     th scope="row" { (scene) }
                     td.text { (case.family.name()) }
-                    td { (case.exposure) }
+                    td data-label="exposure, frames" { (case.exposure) }
                     td.text { (case.alignment) }
                     td.text { code { (case.truth_hash) } }
                 }

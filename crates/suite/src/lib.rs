@@ -28,7 +28,7 @@ pub use bench::{
 pub use compare::{
     Agreement, Basis, COMPARE_FORMAT, Change, ChangeKind, FilterAtSizes, MeanChange, MeanKind,
     Pair, Reversal, RunComparison, SettingChange, Side, SizeComparison, compare_runs,
-    compare_sizes, filter_label, pair_cases, rank_changes,
+    compare_sizes, filter_label, pair_cases, rank_changes, score_change,
 };
 pub use error::Error;
 pub use filter::border::Border;
@@ -94,7 +94,7 @@ pub use tune::{
     ParameterSensitivity, Preference, RenderedScene, SceneScore, Search, Sensitivity, SobolIndices,
     Space, TUNE_FORMAT, Target, Trial, TrialOutcome, TuneOptions, Tuning, analyze_sensitivity,
     choose_trial, compare_candidates, count_candidates, cross_validate, evaluate_candidate,
-    interleave_families, log_ratio, pareto_front, render_scenes, signed_rank_p_value,
+    interleave_families, log_ratio, pareto_front, render_scenes, round_bleed, signed_rank_p_value,
     sobol_indices, tune, tuned_preset_toml,
 };
 

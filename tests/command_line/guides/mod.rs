@@ -16,7 +16,7 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 19] = [
+const NOT_RUN: [(&str, &str); 20] = [
     ("cargo test --workspace", "runs this test and all others"),
     (
         "cargo install --path crates/cli",
@@ -62,6 +62,10 @@ const NOT_RUN: [(&str, &str); 19] = [
     ),
     (
         "cargo run -p cli --example report_opening -- out/report.html",
+        "compiles the program again",
+    ),
+    (
+        "cargo run -p cli --example report_screenshots -- pictures out/report.html 'out/report.html#railing/mcguire:paper'",
         "compiles the program again",
     ),
     ("pip install numpy OpenEXR", "installs packages"),

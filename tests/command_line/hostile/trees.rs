@@ -169,14 +169,14 @@ fn samples_and_threads_beyond_the_limits_are_refused() {
     };
     refused(
         &["--samples-per-pixel", "4294967295"],
-        "--samples-per-pixel 4294967295: allowed is 8 times a power of two",
+        "--samples-per-pixel 4294967295; allowed: 8 times a power of two",
     );
     refused(&["--samples-per-pixel", "131072"], "such as 65536");
     refused(
         &["--threads", "100000"],
-        "--threads 100000: allowed is 1 to 1024",
+        "--threads 100000; allowed: 1 to 1024",
     );
-    refused(&["--threads", "0"], "--threads 0: allowed is 1 to 1024");
+    refused(&["--threads", "0"], "--threads 0; allowed: 1 to 1024");
     refused(&["--size", "1000000x1000000"], "16384");
 }
 

@@ -40,7 +40,7 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
         "1 of 2 required bounds kept.",
         "BROKEN flip_moving 0.2",
         "scenes/plate/bounds.toml:2: it &lt;i&gt;serves&lt;/i&gt; a test",
-        "the wrong blur <strong>no_blur</strong>, 0 % off",
+        "the wrong blur <strong>no_blur</strong>: they differ by 0 %",
         &format!("Worst at ({}, {}) of flip.", worst.x, worst.y),
     ] {
         assert!(

@@ -34,8 +34,6 @@ fn parse_color(text: &str) -> Result<Color, String> {
         "antialiased" | "point" => Err(format!(
             "--color is about the terminal; the sampling of the frame is --frame-sampling {text}"
         )),
-        _ => {
-            Color::from_str(text, false).map_err(|_| "allowed is auto, always or never".to_owned())
-        }
+        _ => Color::from_str(text, false).map_err(|_| "allowed: auto, always or never".to_owned()),
     }
 }

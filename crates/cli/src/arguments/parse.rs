@@ -34,13 +34,13 @@ pub fn parse_named<T: Copy + Send + Sync + 'static>(
 /// Parses a whole number.
 pub fn parse_whole<T: FromStr>(text: &str) -> Result<T, String> {
     text.parse()
-        .map_err(|_| "allowed is a whole number, 0 or more, and not too large".to_owned())
+        .map_err(|_| "allowed: a whole number, 0 or more, and not too large".to_owned())
 }
 
 /// Parses an exposure; whoever uses it checks its range.
 pub fn parse_exposure(text: &str) -> Result<f64, String> {
     text.parse()
-        .map_err(|_| "allowed is a number above 0, such as 0.5".to_owned())
+        .map_err(|_| "allowed: a number above 0, such as 0.5".to_owned())
 }
 
 /// Parses `640x360`.
@@ -53,7 +53,7 @@ pub fn parse_size(text: &str) -> Result<(u32, u32), String> {
             Ok((width, height))
         }
         _ => Err(format!(
-            "allowed is WIDTHxHEIGHT, each from {} to {} pixels, such as 640x360",
+            "allowed: WIDTHxHEIGHT, each from {} to {} pixels, such as 640x360",
             SIDES.start(),
             SIDES.end()
         )),
@@ -75,7 +75,7 @@ pub fn parse_replicates(text: &str) -> Result<Replicates, String> {
     };
     parsed.filter(|replicates| end(replicates) <= MOST_REPLICATES).ok_or_else(|| {
         format!(
-            "allowed is a number up to {MOST_REPLICATES}, such as 8, or A..B with A below B: 3..6 is replicates 3, 4 and 5"
+            "allowed: a number up to {MOST_REPLICATES}, such as 8, or A..B with A below B: 3..6 is replicates 3, 4 and 5"
         )
     })
 }
@@ -84,7 +84,7 @@ pub fn parse_replicates(text: &str) -> Result<Replicates, String> {
 pub fn parse_rounds(text: &str) -> Result<u32, String> {
     match text.parse() {
         Ok(rounds @ 20..=10_000) => Ok(rounds),
-        _ => Err("allowed is 20 to 10000: fewer say nothing about the spread".to_owned()),
+        _ => Err("allowed: 20 to 10000; fewer say nothing about the spread".to_owned()),
     }
 }
 
@@ -92,7 +92,7 @@ pub fn parse_rounds(text: &str) -> Result<u32, String> {
 pub fn parse_runs(text: &str) -> Result<u32, String> {
     match text.parse() {
         Ok(runs @ 2..=100) => Ok(runs),
-        _ => Err("allowed is 2 to 100: one run says nothing about the spread".to_owned()),
+        _ => Err("allowed: 2 to 100; one run says nothing about the spread".to_owned()),
     }
 }
 
@@ -100,7 +100,7 @@ pub fn parse_runs(text: &str) -> Result<u32, String> {
 pub fn parse_jitter_frames(text: &str) -> Result<u32, String> {
     match text.parse() {
         Ok(frames @ 0..=1024) => Ok(frames),
-        _ => Err("allowed is 0 to 1024".to_owned()),
+        _ => Err("allowed: 0 to 1024".to_owned()),
     }
 }
 
@@ -108,20 +108,21 @@ pub fn parse_jitter_frames(text: &str) -> Result<u32, String> {
 pub fn parse_effort(text: &str) -> Result<usize, String> {
     match text.parse() {
         Ok(count @ 0..=1_000_000) => Ok(count),
-        _ => Err("allowed is 0 to 1000000".to_owned()),
+        _ => Err("allowed: 0 to 1000000".to_owned()),
     }
 }
 
 /// Parses a pattern as shells have it.
 pub fn parse_glob(text: &str) -> Result<glob::Pattern, String> {
-    glob::Pattern::new(text).map_err(|error| error.to_string())
+    glob::Pattern::new(text)
+        .map_err(|error| format!("{error}; allowed: a pattern such as 'fan/*' or '*/jump_flood:*'"))
 }
 
 /// Parses a radiance above 0.
 pub fn parse_noise(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(target) if target > 0.0 && target.is_finite() => Ok(target),
-        _ => Err("allowed is a radiance above 0, such as 0.002".to_owned()),
+        _ => Err("allowed: a radiance above 0, such as 0.002".to_owned()),
     }
 }
 
@@ -129,7 +130,7 @@ pub fn parse_noise(text: &str) -> Result<f64, String> {
 pub fn parse_ratio(text: &str) -> Result<f64, String> {
     match text.strip_suffix('x').unwrap_or(text).parse::<f64>() {
         Ok(ratio) if ratio > 0.0 && ratio.is_finite() => Ok(ratio),
-        _ => Err("allowed is a ratio above 0, such as 1.0x".to_owned()),
+        _ => Err("allowed: a ratio above 0, such as 1.0x".to_owned()),
     }
 }
 
@@ -153,7 +154,7 @@ fn parse_speed(text: &str, unit: &str, example: &str) -> Result<f64, String> {
     match number {
         Some(speed) if speed.abs() <= FASTEST && speed != 0.0 => Ok(speed),
         _ => Err(format!(
-            "allowed is a speed other than 0, from -{FASTEST} to {FASTEST}, with its unit, such as {example}"
+            "allowed: a speed other than 0, from -{FASTEST} to {FASTEST}, with its unit, such as {example}"
         )),
     }
 }
@@ -169,7 +170,7 @@ pub fn parse_objective(text: &str) -> Result<Objective, String> {
 pub fn parse_minutes(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(minutes) if minutes > 0.0 && minutes <= 1e6 => Ok(minutes),
-        _ => Err("allowed is a number above 0".to_owned()),
+        _ => Err("allowed: a number of minutes above 0".to_owned()),
     }
 }
 

@@ -54,7 +54,7 @@ fn check_seeds(first: u64, runs: u32) -> Result<(), Error> {
     match first <= last {
         true => Ok(()),
         false => Err(Error::Usage(format!(
-            "--seed {first}: each of the {runs} runs has the next one; allowed is up to {last}"
+            "--seed {first}: each of the {runs} runs has the next one; allowed: up to {last}"
         ))),
     }
 }

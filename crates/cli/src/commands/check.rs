@@ -13,7 +13,7 @@ use suite::{
 use super::ending::Ending;
 use super::margins::read_margins;
 use super::measured_run::{MeasuredRun, measure};
-use super::pages::{WrittenFile, refuse_folder, write_run_page};
+use super::pages::{WrittenFile, page_lines, refuse_folder, write_run_page};
 use super::plan::{check_replicates_for_intervals, make_plan, read_bounds_at, scene_folder_below};
 use super::run_files::write_judged_run;
 use crate::arguments::CheckArgs;
@@ -58,7 +58,7 @@ pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
     } else {
         let text = check_text(&checked, &folder, is_verbose());
         let adapter = adapter_text(&run.adapter);
-        let pages: String = pages.iter().map(|page| page.line("report")).collect();
+        let pages = page_lines("report", &pages);
         let other = (baseline.iter()).find(|baseline| !baseline.is_of_class(&run.adapter));
         let note = other.map_or(String::new(), |baseline| {
             let theirs = adapter_text(&baseline.adapter);

@@ -40,7 +40,7 @@ fn read_params(path: &Path, choice: &FilterChoice) -> Result<Settings, Error> {
     let text = String::from_utf8(bytes).map_err(|error| refuse(error.to_string()))?;
     let values: BTreeMap<String, Value> = serde_json::from_str(&text).map_err(|error| {
         refuse(format!(
-            "{error}; allowed is one table of parameters, such as {{\"samples\": 12}}"
+            "{error}; allowed: one table of parameters, such as {{\"samples\": 12}}"
         ))
     })?;
     change_settings(choice, values).map_err(|error| refuse(error.to_string()))

@@ -6,7 +6,7 @@ use tracer::{SceneListing, list_scenes};
 
 use super::try_filters::try_filters;
 use crate::arguments::ListArgs;
-use crate::output::print::{print, print_json};
+use crate::output::print::{print, print_json, print_note};
 use crate::selection::{is_pattern, load_filters, match_names, suggest_names};
 use crate::tables::listing::{details_text, filter_json, filters_text, scene_json, scenes_text};
 
@@ -55,7 +55,12 @@ pub fn execute(args: &ListArgs) -> Result<(), Error> {
 fn list_all(args: &ListArgs) -> Result<Listing, Error> {
     let wants = |what: &str| args.what.is_empty() || args.what.iter().any(|own| own == what);
     let mut listing = Listing::default();
-    if wants("scenes") {
+    if args.what.is_empty() && !args.scenes_dir.is_dir() {
+        let folder = args.scenes_dir.display();
+        print_note(&format!(
+            "no scenes: there is no folder {folder}; --scenes-dir names another one"
+        ));
+    } else if wants("scenes") {
         listing.scenes = list_scenes(&args.scenes_dir)?;
     }
     if wants("filters") {
@@ -68,9 +73,10 @@ fn list_all(args: &ListArgs) -> Result<Listing, Error> {
 fn list_named(args: &ListArgs) -> Result<Listing, Error> {
     let builtin = Filter::builtin_names();
     // Built-in filters can be listed where there are no scenes.
-    let scenes = match args.what.iter().all(|what| builtin.contains(what)) {
-        true => Vec::new(),
-        false => list_scenes(&args.scenes_dir)?,
+    let needs_scenes = args.what.iter().any(|what| !builtin.contains(what));
+    let scenes = match needs_scenes && args.scenes_dir.is_dir() {
+        true => list_scenes(&args.scenes_dir)?,
+        false => Vec::new(),
     };
     let mut listing = Listing::default();
     for what in &args.what {

@@ -67,7 +67,36 @@ pub fn write_page(page: &str, html: &Path) -> Result<WrittenFile, Error> {
     WrittenFile::new(html.to_owned())
 }
 
-/// Makes one line per file.
-pub fn written_lines(files: &[WrittenFile]) -> String {
-    files.iter().map(|file| file.line("written")).collect()
+/// Makes one line per page, and one for all files that a page loads.
+pub fn page_lines(label: &str, files: &[WrittenFile]) -> String {
+    let is_loaded = |file: &&WrittenFile| file.path.extension().is_some_and(|own| own == "js");
+    let (loaded, pages): (Vec<_>, Vec<_>) = files.iter().partition(is_loaded);
+    let mut text: String = pages.iter().map(|page| page.line(label)).collect();
+    if let Some(folder) = loaded.first().and_then(|file| file.path.parent()) {
+        let bytes: u64 = loaded.iter().map(|file| file.bytes).sum();
+        text += &format!(
+            "{label}: {} files in {} ({:.1} MB), which the page loads\n",
+            loaded.len(),
+            printable_path(folder),
+            bytes as f64 / 1e6
+        );
+    }
+    text
+}
+
+#[test]
+fn files_that_a_page_loads_share_a_line() {
+    let file = |path: &str| WrittenFile {
+        path: path.into(),
+        bytes: 1_500_000,
+    };
+    let names = [
+        "out/report.html",
+        "out/report_files/scene_0.js",
+        "out/report_files/scene_1.js",
+    ];
+    assert_eq!(
+        page_lines("report", &names.map(file)),
+        "report: out/report.html (1.5 MB)\nreport: 2 files in out/report_files (3.0 MB), which the page loads\n"
+    );
 }

@@ -20,7 +20,7 @@ use crate::selection::{SceneChoice, select_scenes};
 pub fn execute(args: &RenderArgs) -> Result<(), Error> {
     if args.most_replicates > MOST_REPLICATES {
         return Err(Error::Usage(format!(
-            "--most-replicates {}: allowed is up to {MOST_REPLICATES}",
+            "--most-replicates {}; allowed: up to {MOST_REPLICATES}",
             args.most_replicates
         )));
     }

@@ -39,7 +39,7 @@ fn check_samples(samples_per_pixel: u32) -> Result<(), Error> {
     }
     let nearest = each.clamp(1, most).next_power_of_two() * replicates;
     Err(Error::Usage(format!(
-        "--samples-per-pixel {samples_per_pixel}: allowed is {replicates} times a power of two, up to {MOST_SAMPLES}, such as {nearest}"
+        "--samples-per-pixel {samples_per_pixel}; allowed: {replicates} times a power of two, up to {MOST_SAMPLES}, such as {nearest}"
     )))
 }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use report::{TuneFolder, tuning_page, write_gallery};
 use suite::{Error, Judgement, Run, printable_path, write_layers};
 
-use super::pages::{WrittenFile, write_page, write_run_page, written_lines};
+use super::pages::{WrittenFile, page_lines, write_page, write_run_page};
 use crate::arguments::ReportArgs;
 use crate::output::print::{print, print_json};
 use crate::output::progress::make_monitor;
@@ -20,7 +20,7 @@ pub fn execute(args: &ReportArgs) -> Result<(), Error> {
         let written: Vec<&WrittenFile> = pages.iter().chain(&layers).collect();
         return print_json(&written);
     }
-    let mut text = written_lines(&pages);
+    let mut text = page_lines("written", &pages);
     if let Some(folder) = &args.exr {
         let bytes: u64 = layers.iter().map(|file| file.bytes).sum();
         let (count, size) = (layers.len(), bytes as f64 / 1e6);

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use suite::{Error, Level, Run, judge, open_gpu, printable_path, refuse_failures};
 
 use super::measured_run::{MeasuredRun, measure};
-use super::pages::{WrittenFile, refuse_folder, write_run_page};
+use super::pages::{WrittenFile, page_lines, refuse_folder, write_run_page};
 use super::plan::{make_plan, read_bounds_at, scene_folder_below};
 use super::run_files::write_judged_run;
 use crate::arguments::RunArgs;
@@ -68,10 +68,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
 
 /// Names the report, run.json and the adapter, and counts cases and time.
 fn closing_text(run: &Run, pages: &[WrittenFile], out: &Path, time: Duration) -> String {
-    let mut text = "\n".to_owned();
-    for page in pages {
-        text += &page.line("report");
-    }
+    let mut text = "\n".to_owned() + &page_lines("report", pages);
     text += &format!("written: {}\n", printable_path(&out.join("run.json")));
     text += &format!("adapter: {}\n", adapter_text(&run.adapter));
     text += &format!(

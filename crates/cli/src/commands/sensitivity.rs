@@ -18,7 +18,7 @@ pub fn execute(args: &SensitivityArgs) -> Result<(), Error> {
     let choice = select_candidate(candidate)?;
     if args.rows < 2 {
         return Err(Error::Usage(format!(
-            "--rows {}: allowed is 2 or more; a single row has no variance",
+            "--rows {}; allowed: 2 or more; a single row has no variance",
             args.rows
         )));
     }

@@ -14,7 +14,7 @@ pub fn work_on_threads<T: Send>(
         && !(1..=MOST_THREADS).contains(&threads)
     {
         return Err(Error::Usage(format!(
-            "--threads {threads}: allowed is 1 to {MOST_THREADS}"
+            "--threads {threads}; allowed: 1 to {MOST_THREADS}"
         )));
     }
     rayon::ThreadPoolBuilder::new()

@@ -28,7 +28,7 @@ pub fn execute(args: &TuneArgs) -> Result<(), Error> {
     let choice = select_candidate(&args.candidate)?;
     if args.budget == 0 {
         return Err(Error::Usage(
-            "--budget 0: allowed is 1 or more; the first trial is the start itself".to_owned(),
+            "--budget 0; allowed: 1 or more; the first trial is the start itself".to_owned(),
         ));
     }
     let options = make_options(args, choice)?;

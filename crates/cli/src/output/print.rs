@@ -32,11 +32,15 @@ pub fn print_error(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
-/// Writes the error that ends a command to standard error, wrapped where that is a terminal.
+/// Writes the error that ends a command to standard error.
 pub fn print_failure(error: &Error) {
-    let text = printable_lines(&format!("error: {error}"));
+    print_wrapped(&printable_lines(&format!("error: {error}")));
+}
+
+/// Writes lines to standard error, wrapped where that is a terminal.
+fn print_wrapped(text: &str) {
     if !std::io::stderr().is_terminal() {
-        return print_error(&text);
+        return print_error(text);
     }
     for line in text.lines() {
         // Lines of a compiler stand below one another.
@@ -53,7 +57,7 @@ pub fn print_failure(error: &Error) {
 
 /// Writes a note to standard error: something is worth knowing, and nothing is wrong.
 pub fn print_note(text: &str) {
-    print_error(&format!("note: {}", printable(text)));
+    print_wrapped(&format!("note: {}", printable(text)));
 }
 
 /// Writes what the loader left out of scenes, each note once.

@@ -12,12 +12,18 @@ const USUAL_COLUMNS: usize = 80;
 /// Range of columns that text is wrapped to: narrower lines hold no table, longer ones are hard to read.
 const COLUMNS: RangeInclusive<usize> = 60..=120;
 
-/// Looks up the columns of the terminal that standard output goes to.
+/// Looks up the columns of the terminal that standard output goes to, or else those of the variable COLUMNS, as the help does.
 pub fn terminal_columns() -> usize {
     static FOUND: OnceLock<usize> = OnceLock::new();
-    *FOUND.get_or_init(|| match terminal_size_of(std::io::stdout()) {
-        Some((Width(columns), _)) => usize::from(columns).clamp(*COLUMNS.start(), *COLUMNS.end()),
-        None => USUAL_COLUMNS,
+    *FOUND.get_or_init(|| {
+        let terminal = terminal_size_of(std::io::stdout());
+        let named = || std::env::var("COLUMNS").ok()?.parse().ok();
+        let columns = terminal.map(|(Width(columns), _)| usize::from(columns));
+        columns
+            .or_else(named)
+            .map_or(USUAL_COLUMNS, |columns: usize| {
+                columns.clamp(*COLUMNS.start(), *COLUMNS.end())
+            })
     })
 }
 

@@ -139,7 +139,7 @@ fn apply_override(choices: &mut [FilterChoice], text: &str) -> Result<(), Error>
     });
     let Some((name, parameter, value)) = parts else {
         return Err(Error::Usage(format!(
-            "--set {text}: allowed is filter.parameter=value, such as jump_flood.samples=16"
+            "--set {text}; allowed: filter.parameter=value, such as jump_flood.samples=16"
         )));
     };
     let mut found = false;

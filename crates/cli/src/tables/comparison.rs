@@ -4,10 +4,10 @@ use super::layout::{Align, Table};
 use crate::output::colors::{bad, doubtful, faint, good};
 use crate::output::count::count_text;
 use crate::output::wrap::push_wrapped;
-use report::signed;
+use report::ChangeCells;
 use suite::{
-    Basis, Change, ChangeKind, MeanChange, MeanKind, RunComparison, SettingChange, number,
-    printable, rank_changes,
+    Basis, Change, ChangeKind, MeanChange, MeanKind, RunComparison, SettingChange, printable,
+    rank_changes,
 };
 
 /// Upper limit on changed cases in the table; `--json` and the page have all.
@@ -61,19 +61,12 @@ fn means_table(means: &[MeanChange]) -> String {
                 count_text(mean.scenes, "scene", "scenes")
             ));
         }
-        let [low, high] = mean.interval.map(signed);
-        let verdict = match mean.kind {
-            MeanKind::Better => good(mean.kind.label()),
-            MeanKind::Worse => bad(mean.kind.label()),
-            _ => doubtful(mean.kind.label()),
+        let style = match mean.kind {
+            MeanKind::Better => good,
+            MeanKind::Worse => bad,
+            _ => doubtful,
         };
-        let values = [mean.first, mean.second, mean.worse];
-        table.push(change_cells(
-            &mean.metric,
-            values,
-            format!("{low} to {high}"),
-            verdict,
-        ));
+        push_change(&mut table, &mean.metric, mean.into(), style);
     }
     let mut text = match filter {
         "" => String::new(),
@@ -111,7 +104,11 @@ fn changes_table(changes: &[Change]) -> String {
             .iter()
             .filter(|change| change.scene == *scene && change.filter == *filter);
         for change in own.filter(|change| change.is_beyond_noise()) {
-            push_change(&mut table, change);
+            let style = match change.kind {
+                ChangeKind::Better => good,
+                _ => bad,
+            };
+            push_change(&mut table, &change.metric, change.into(), style);
         }
     }
     let mut text = "\n".to_owned() + &table.text();
@@ -124,50 +121,27 @@ fn changes_table(changes: &[Change]) -> String {
     text
 }
 
-fn push_change(table: &mut Table, change: &Change) {
-    let interval = match (change.interval, change.basis) {
-        (Some(interval), Basis::Replicates) => {
-            let [low, high] = interval.map(signed);
-            format!("{low} to {high}")
-        }
-        _ => "beyond the floor".to_owned(),
-    };
-    let verdict = match change.kind {
-        ChangeKind::Better => good(change.kind.label()),
-        _ => bad(change.kind.label()),
-    };
-    let values = [change.first, change.second, change.estimate()];
-    table.push(change_cells(&change.metric, values, interval, verdict));
-}
-
 fn change_table(title: &str) -> Table {
     Table::new(
-        &[title, "first", "second", "worse by", "95 % CI", "verdict"],
+        &[title, "first", "second", "change", "95 % CI"],
         &[
             Align::Left,
             Align::Right,
             Align::Right,
-            Align::Right,
-            Align::Right,
             Align::Left,
+            Align::Right,
         ],
     )
 }
 
-fn change_cells(
-    metric: &str,
-    [first, second, worse]: [f64; 3],
-    interval: String,
-    verdict: String,
-) -> Vec<String> {
-    vec![
+fn push_change(table: &mut Table, metric: &str, cells: ChangeCells, style: fn(&str) -> String) {
+    table.push(vec![
         metric.to_owned(),
-        number(first),
-        number(second),
-        signed(worse),
-        interval,
-        verdict,
-    ]
+        cells.first,
+        cells.second,
+        style(&cells.change),
+        cells.interval,
+    ]);
 }
 
 fn counts(changes: &[Change]) -> String {
@@ -191,23 +165,4 @@ fn counts(changes: &[Change]) -> String {
         push_wrapped(&mut text, 0, &note);
     }
     text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn changes_have_a_sign_and_three_digits() {
-        for (value, expected) in [
-            (0.0, "0"),
-            (0.01234, "+0.0123"),
-            (-0.000_12, "-0.0001"),
-            (0.000_012, "+1e-5"),
-            (-3.456, "-3.46"),
-            (123.4, "+123"),
-        ] {
-            assert_eq!(signed(value), expected);
-        }
-    }
 }

@@ -85,7 +85,7 @@ impl Metric {
                 ideal: Ideal::Lowest,
                 group: Group::Label,
                 map: ErrorMap::LabelTotalVariation,
-                meaning: "the same on the worst object that stands still",
+                meaning: "share of the shutter given to the wrong object, on the worst object that stands still",
                 is_percentile: false,
                 report_only: None,
             },

@@ -56,12 +56,12 @@ impl Group {
     /// Returns the heading of the group.
     pub fn title(self) -> &'static str {
         match self {
-            Group::Seen => "What is seen",
-            Group::Worth => "What it is worth",
-            Group::Label => "Whose time it is",
-            Group::Silhouette => "The worst mover's silhouette and mass",
-            Group::Instant => "What one instant can tell",
-            Group::Gathered => "What is gathered",
+            Group::Seen => "Visible errors",
+            Group::Worth => "Compared with no blur and with sub-frames",
+            Group::Label => "Share given to the wrong object",
+            Group::Silhouette => "Silhouette and mass of the worst mover",
+            Group::Instant => "Without shadows, lights and reflections that move",
+            Group::Gathered => "Where the filter gathers",
             Group::RunJson => "Only in run.json",
         }
     }

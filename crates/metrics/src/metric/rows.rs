@@ -97,7 +97,7 @@ metrics! {
     /// Mean structural similarity of what a display shows.
     Ssim => ssim {
         name: "ssim", unit: "", ideal: Ideal::Highest, group: Group::Seen, map: ErrorMap::Flip,
-        meaning: "likeness of structure",
+        meaning: "structural similarity",
         is_percentile: false,
         report_only: Some(
             "punishes unbiased noise more than a picture that lies three pixels off; bound flip instead",
@@ -122,7 +122,7 @@ metrics! {
     /// 95th percentile over pixels.
     P95 => p95 {
         name: "label_tv_p95", unit: "", ideal: Ideal::Lowest, group: Group::Label, map: ErrorMap::LabelTotalVariation,
-        meaning: "the same: what 19 of 20 moving pixels do not exceed",
+        meaning: "share of the shutter given to the wrong object that 19 of 20 moving pixels do not exceed",
         is_percentile: true,
         report_only: None,
     }
@@ -144,7 +144,7 @@ metrics! {
     /// Bleed beside the support, in pixels.
     BleedLateral => bleed_lateral {
         name: "bleed_lateral", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::Bleed,
-        meaning: "mover spilled beside where it ever was",
+        meaning: "mover spilled to the sides of its path",
         is_percentile: false,
         report_only: None,
     }
@@ -152,7 +152,7 @@ metrics! {
     /// Bleed ahead of it, in pixels.
     BleedLeading => bleed_leading {
         name: "bleed_leading", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::Bleed,
-        meaning: "mover spilled ahead of where it ever was",
+        meaning: "mover spilled ahead of its path",
         is_percentile: false,
         report_only: None,
     }
@@ -160,7 +160,7 @@ metrics! {
     /// Bleed behind it, in pixels.
     BleedTrailing => bleed_trailing {
         name: "bleed_trailing", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::Bleed,
-        meaning: "mover spilled behind where it ever was",
+        meaning: "mover spilled behind its path",
         is_percentile: false,
         report_only: None,
     }
@@ -208,7 +208,7 @@ metrics! {
     /// Length along the motion over the true length.
     Extent => extent {
         name: "extent", unit: "", ideal: Ideal::Target(1.0), group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
-        meaning: "length of the smear to the true length; 1 is right",
+        meaning: "length of the smear over the true length; 1 is right",
         is_percentile: false,
         report_only: None,
     }
@@ -240,7 +240,7 @@ metrics! {
     /// Mass over true mass.
     Energy => energy {
         name: "energy", unit: "", ideal: Ideal::Target(1.0), group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
-        meaning: "the mover's mass to its true mass; 1 is right",
+        meaning: "mass of the mover over its true mass; 1 is right",
         is_percentile: false,
         report_only: None,
     }
@@ -271,7 +271,7 @@ metrics! {
     /// Unbiased mean squared error; display white is 1.
     Mse => mse {
         name: "mse_frozen", unit: "white^2", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::FrozenSquaredError,
-        meaning: "squared error but for shadows, lights and reflections that move",
+        meaning: "squared error without shadows, lights and reflections that move",
         is_percentile: false,
         report_only: None,
     }
@@ -279,7 +279,7 @@ metrics! {
     /// Mean LDR-FLIP.
     Flip => flip {
         name: "flip_frozen", unit: "", ideal: Ideal::Lowest, group: Group::Instant, map: ErrorMap::Flip,
-        meaning: "visible difference but for shadows, lights and reflections that move",
+        meaning: "visible difference without shadows, lights and reflections that move",
         is_percentile: false,
         report_only: None,
     }
@@ -390,7 +390,7 @@ metrics! {
     /// By mean label total variation.
     LabelTotalVariation => label_total_variation {
         name: "n_eq_label_tv", unit: "sub-frames", ideal: Ideal::Highest, group: Group::Worth, map: ErrorMap::LabelTotalVariation,
-        meaning: "as good as averaging that many sub-frames, by whose time it is",
+        meaning: "as good as averaging that many sub-frames, by share given to the wrong object",
         is_percentile: false,
         report_only: None,
     }

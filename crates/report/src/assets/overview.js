@@ -12,30 +12,38 @@
     return sign * (a - b);
   };
   // Each group of rows sorts by itself; a second press turns the order around. A row without a number comes last.
-  for (const table of document.querySelectorAll("table.sortable")) {
-    const headings = [...table.tHead.rows[0].cells];
-    headings.forEach((heading, column) => {
-      heading.querySelector("button")?.addEventListener("click", () => {
-        const first = column === 0 ? "ascending" : table.dataset.first;
-        const other = first === "ascending" ? "descending" : "ascending";
-        const order = heading.ariaSort === first ? other : first;
-        for (const one of headings) one.ariaSort = null;
-        heading.ariaSort = order;
-        const sign = order === "ascending" ? 1 : -1;
-        for (const group of table.tBodies) {
-          if (group.classList.contains("group")) continue;
-          const rows = [...group.rows];
-          rows.sort((a, b) => compare(value(a, column), value(b, column), sign));
-          group.append(...rows);
-        }
-      });
-    });
-  }
+  const sort = (heading) => {
+    const table = heading.closest("table");
+    const column = heading.cellIndex;
+    const first = column === 0 ? "ascending" : table.dataset.first;
+    const other = first === "ascending" ? "descending" : "ascending";
+    const order = heading.ariaSort === first ? other : first;
+    for (const one of heading.parentElement.cells) one.ariaSort = null;
+    heading.ariaSort = order;
+    const sign = order === "ascending" ? 1 : -1;
+    for (const group of table.tBodies) {
+      if (group.classList.contains("group")) continue;
+      const rows = [...group.rows];
+      rows.sort((a, b) => compare(value(a, column), value(b, column), sign));
+      group.append(...rows);
+    }
+  };
+  const overview = document.getElementById("overview");
+  overview.addEventListener("click", (event) => {
+    const button = event.target.closest(".sortable thead button");
+    if (button) sort(button.closest("th"));
+  });
 
-  // The page holds every thumbnail once.
   const panels = [...document.querySelectorAll(".panel")];
+  // The page holds every thumbnail once.
   const thumbnails = [...panels[0].querySelectorAll("th.scene img")].map((image) => image.src);
-  for (const panel of panels) panel.querySelectorAll("th.scene img").forEach((image, at) => (image.src = thumbnails[at]));
+  // A table is text until it is first seen.
+  const parse = (panel) => {
+    const text = panel.querySelector("noscript");
+    if (!text) return;
+    text.outerHTML = text.textContent;
+    panel.querySelectorAll("th.scene img").forEach((image, at) => (image.src = thumbnails[at]));
+  };
 
   const tools = document.getElementById("tables");
   const tool = (name) => tools.querySelector(`[name=${name}]`);
@@ -48,6 +56,7 @@
       !row.cells[0].textContent.toLowerCase().includes(words);
     for (const panel of panels) {
       panel.hidden = panel.dataset.metric !== metric;
+      if (!panel.hidden) parse(panel);
       for (const group of panel.querySelectorAll("tbody:not(.group)")) {
         for (const row of group.rows) row.hidden = isHidden(row);
         const heading = group.previousElementSibling;
@@ -56,6 +65,11 @@
     }
     document.querySelector(".nothing").hidden = panels[0].querySelector("tbody:not(.group) tr:not([hidden])") !== null;
   };
+  // Paper shows all tables.
+  window.addEventListener("beforeprint", () => {
+    panels.forEach(parse);
+    show();
+  });
   const pictures = window.shuttertruth;
   tools.addEventListener("input", () => {
     show();
@@ -114,8 +128,16 @@
     asked += 1;
     peek.hidden = true;
   };
-  for (const link of document.querySelectorAll("a.case")) {
-    for (const kind of ["pointerenter", "focus"]) link.addEventListener(kind, () => look(link).catch(leave));
-    for (const kind of ["pointerleave", "blur", "click"]) link.addEventListener(kind, leave);
+  for (const kind of ["pointerover", "focusin"]) {
+    overview.addEventListener(kind, (event) => {
+      const link = event.target.closest("a.case");
+      if (link && !link.contains(event.relatedTarget)) look(link).catch(leave);
+    });
+  }
+  for (const kind of ["pointerout", "focusout", "click"]) {
+    overview.addEventListener(kind, (event) => {
+      const link = event.target.closest("a.case");
+      if (link && !link.contains(event.relatedTarget)) leave();
+    });
   }
 }

@@ -67,10 +67,8 @@ fn failure_pattern(page: &CaseView) -> Markup {
         p.alike {
             @match page.findings.iter().find_map(|finding| finding.resembles.as_ref()) {
                 Some(alike) => {
-                    "The scores are most like those of the wrong blur " strong { (alike.decoy) } ", "
-                    (format!("{:.0}", 100.0 * alike.distance))
-                    " % off: the distance over the scores that tell wrong blurs apart, as a part of how far that blur's own \
-                     are from perfect."
+                    "The scores are most like those of the wrong blur " strong { (alike.decoy) }
+                    (format!(": they differ by {:.0} % of its distance from perfect.", 100.0 * alike.distance))
                 }
                 None => {
                     "No known failure pattern matched (only " code { "check" } " looks for them)."

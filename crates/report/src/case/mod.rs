@@ -12,7 +12,7 @@ pub mod viewer;
 use maud::{Markup, html};
 
 use crate::filter_id::{FilterId, case_anchor, list_scenes};
-use crate::numbers::counted;
+use crate::numbers::{counted, value_text};
 use crate::run_facts::provenance_line;
 use bounds::bounds;
 use case_view::CaseView;
@@ -195,7 +195,7 @@ fn facts(case: &Case) -> Markup {
                     div { dt { "values in pixels" } dd { "scaled from pictures " (width) " pixels wide" } }
                 }
                 @for (name, value) in &case.parameters {
-                    div { dt { (name) } dd { (value) } }
+                    div { dt { (name) } dd { (value_text(value)) } }
                 }
             }
         }

@@ -1,16 +1,15 @@
 //! Page of a comparison.
 
 use maud::{Markup, html};
-use metrics::{Ideal, Metric};
+use metrics::Metric;
 
+use super::cells::ChangeCells;
 use super::pictures::Pictures;
 use super::runs::both_runs;
 use crate::charts::strip::Strip;
 use crate::document::Document;
-use crate::numbers::signed;
 use suite::Error;
-use suite::number;
-use suite::{Basis, Change, ChangeKind, rank_changes};
+use suite::{Change, ChangeKind, rank_changes};
 use suite::{MeanChange, MeanKind};
 use suite::{Pair, filter_label, pair_cases};
 use suite::{RunComparison, Side};
@@ -37,7 +36,8 @@ pub fn compare_page(
     let body = html! {
         p.lead { (summary(compared)) }
         p.key {
-            "Change: the second run less the first, estimated without the truth's noise. " span.better { "better" } " " span.worse { "worse" } " beyond noise. "
+            "Change: the second run less the first. All scores are estimates without the truth's noise. "
+            span.better { "better" } " and " span.worse { "worse" } ": beyond noise, and beyond the margin. "
             "A score with an ideal value, such as extent, changes by its distance from that value."
         }
         @if !shown.is_empty() {
@@ -72,7 +72,7 @@ fn summary(compared: &RunComparison) -> String {
             .count()
     };
     format!(
-        "{} scores are in both runs: {} better and {} worse, {} below the margins, {} within noise, {} the same.",
+        "{} scores are in both runs: {} better and {} worse, {} within margin, {} within noise, {} the same.",
         compared.changes.len(),
         count(ChangeKind::Better),
         count(ChangeKind::Worse),
@@ -118,10 +118,13 @@ fn differences(compared: &RunComparison) -> Markup {
 
 /// Lists the mean changes of every metric that anything changed of.
 fn means(means: &[MeanChange]) -> Markup {
-    let changed: Vec<&MeanChange> = means
+    let mut changed: Vec<&MeanChange> = means
         .iter()
         .filter(|mean| mean.kind != MeanKind::Same)
         .collect();
+    // Filters of one metric stand together.
+    let place = |metric: &str| means.iter().position(|own| own.metric == metric);
+    changed.sort_by_key(|mean| place(&mean.metric));
     html! {
         section {
             h2 { "Means over scenes" }
@@ -167,12 +170,13 @@ fn metric_means(means: &[&MeanChange]) -> Markup {
         }
         tbody {
             @for mean in means {
+                @let cells = ChangeCells::from(*mean);
                 tr {
                     th scope="row" { (mean.filter) }
-                    td { (number(mean.first)) }
-                    td { (number(mean.second)) }
-                    (mean_change(mean))
-                    td { (change_interval(metric, mean.interval)) }
+                    td { (cells.first) }
+                    td { (cells.second) }
+                    td class=(mean_class(mean.kind)) { (cells.change) }
+                    td { (cells.interval) }
                     td { (mean.better_worse[0]) " better, " (mean.better_worse[1]) " worse of " (mean.scenes) }
                     td.chart { (change_strip(mean, most)) }
                 }
@@ -181,31 +185,14 @@ fn metric_means(means: &[&MeanChange]) -> Markup {
     }
 }
 
-/// Writes `-0.0123 better`.
-fn mean_change(mean: &MeanChange) -> Markup {
-    let class = match mean.kind {
-        MeanKind::Better => "text better",
-        MeanKind::Worse => "text worse",
+fn mean_class(kind: MeanKind) -> &'static str {
+    match kind {
+        MeanKind::Better => "change better",
+        MeanKind::Worse => "change worse",
         MeanKind::Same | MeanKind::BelowMargin | MeanKind::Undecided | MeanKind::TooFewScenes => {
-            "text"
+            "change"
         }
-    };
-    html! { td class=(class) { (signed(change_of(&mean.metric, mean.worse))) " " (mean.kind.label()) } }
-}
-
-/// Turns a change for the worse into the change of the value: more of a score that ought to be high is better.
-fn change_of(metric: &str, worse: f64) -> f64 {
-    let ideal = metric.parse().map(Metric::ideal);
-    match ideal {
-        Ok(Ideal::Highest) => -worse,
-        _ => worse,
     }
-}
-
-/// Writes the interval of a change, its lower end first.
-fn change_interval(metric: &str, worse: [f64; 2]) -> String {
-    let [a, b] = worse.map(|end| change_of(metric, end));
-    format!("{} to {}", signed(a.min(b)), signed(a.max(b)))
 }
 
 /// Shows both pictures under a divider, the truth, the change of the error, and the scores.
@@ -280,24 +267,19 @@ fn change_heading(named: bool) -> Markup {
 
 fn change_row(change: &Change, named: bool) -> Markup {
     let class = match change.kind {
-        ChangeKind::Better => "text better",
-        ChangeKind::Worse => "text worse",
-        ChangeKind::BelowMargin | ChangeKind::WithinNoise | ChangeKind::Same => "text",
+        ChangeKind::Better => "change better",
+        ChangeKind::Worse => "change worse",
+        ChangeKind::BelowMargin | ChangeKind::WithinNoise | ChangeKind::Same => "change",
     };
+    let cells = ChangeCells::from(change);
     html! {
         tr {
             @if named { th scope="row" { (change.scene) " / " (change.filter) } }
             th.text scope="row" { (change.metric) }
-            td data-label="first" { (number(change.first)) }
-            td data-label="second" { (number(change.second)) }
-            td class=(class) { (signed(change_of(&change.metric, change.estimate()))) " " (change.kind.label()) }
-            td data-label="95 % CI" {
-                @match (change.interval, change.basis) {
-                    (Some(interval), _) => { (change_interval(&change.metric, interval)) }
-                    (None, _) if change.kind == ChangeKind::Same => "",
-                    (None, Basis::Floor | Basis::Replicates) => "by the noise floor",
-                }
-            }
+            td data-label="first" { (cells.first) }
+            td data-label="second" { (cells.second) }
+            td class=(class) { (cells.change) }
+            td data-label="95 % CI" { (cells.interval) }
         }
     }
 }

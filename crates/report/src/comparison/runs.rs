@@ -31,7 +31,7 @@ pub fn both_runs(first: &Side, second: &Side) -> Markup {
                 }
             }
             div.scroll tabindex="0" role="region" aria-label="Truths" {
-                table {
+                table.stacked {
                     caption { "Truths, which both runs share" }
                     thead {
                         tr {

@@ -171,10 +171,14 @@ fn panel(
     // One copy of the pictures is enough: the script moves them to the table that is seen.
     let first = score.headline == TABLE_SCORES[0].headline;
     let none = vec![String::new(); thumbnails.len()];
+    let table = html! {
+        p.meaning { strong { (score.title) } ": " (score.meaning()) "; " (score.better()) "." }
+        (score_table(run, views, if first { thumbnails } else { &none }, score, bench))
+    };
     html! {
         div.panel data-metric=(score.headline.name()) {
-            p.meaning { strong { (score.title) } ": " (score.meaning()) "; " (score.better()) "." }
-            (score_table(run, views, if first { thumbnails } else { &none }, score, bench))
+            // Where scripts run, the other tables are text until somebody looks at them, so that the page opens sooner.
+            @if first { (table) } @else { noscript { (table) } }
         }
     }
 }

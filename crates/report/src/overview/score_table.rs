@@ -96,7 +96,7 @@ pub fn score_table(
     html! {
         div.scroll tabindex="0" role="region" aria-label=(format!("{} of every case", score.title)) {
             table.sortable.many[scenes.len() > MANY] data-first=(order) {
-                caption { (caption(headline, has_means)) }
+                caption { (caption(headline, has_means, scenes.len())) }
                 thead {
                     tr {
                         th scope="col" { button { "filter" } }
@@ -143,9 +143,10 @@ pub fn score_table(
     }
 }
 
-fn caption(headline: Headline, has_means: bool) -> &'static str {
+fn caption(headline: Headline, has_means: bool, scenes: usize) -> &'static str {
     match (has_means, headline.spans_alignments()) {
-        (false, _) => "Scores of a single scene have no mean",
+        (false, _) if scenes > 1 => "Counts of sub-frames have no mean",
+        (false, _) => "A single scene has no mean",
         (true, true) => {
             "Best mean over scenes first, filters of all shutters. Line: 95 % CI over scenes; grey: noise floor of the truth"
         }

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::folder::TuneFolder;
 use crate::charts::plot::{Axis, Plot};
 use crate::numbers::percent;
-use suite::{Advice, Trial};
+use suite::{Advice, Trial, round_bleed};
 
 /// A measure that a chart shows against the error.
 struct Against {
@@ -20,7 +20,7 @@ const AGAINST: [Against; 2] = [
     },
     Against {
         title: "lateral bleed, worst scene, px",
-        value: |trial| trial.bleed,
+        value: |trial| trial.bleed.map(round_bleed),
     },
 ];
 
@@ -102,9 +102,9 @@ fn table(front: &[Trial], start: &Trial, chosen: Option<usize>) -> Markup {
     // Only what the tuning measured has a column.
     let [timed, bled] = AGAINST.map(|own| front.iter().any(|trial| (own.value)(trial).is_some()));
     html! {
-        div.scroll tabindex="0" role="region" aria-label="Undominated trials" {
+        div.scroll tabindex="0" role="region" aria-label="Unbeaten trials" {
             table.stacked {
-                caption { "Undominated in all that was measured, the least error first" }
+                caption { "Trials that no other one beats in every measure, lowest error first" }
                 thead {
                     tr {
                         th scope="col" { "trial" }

@@ -39,7 +39,7 @@ pub fn settings(header: &JournalHeader) -> Markup {
                 }
             }
             div.scroll tabindex="0" role="region" aria-label="Scenes" {
-                table {
+                table.stacked {
                     caption { "Scenes in the order in which candidates meet them" }
                     thead { tr { th scope="col" { "scene" } th.text scope="col" { "hash of the truth" } } }
                     tbody {

@@ -1,6 +1,6 @@
 //! Change of one score of one case between two runs.
 
-use metrics::{Measured, Metric};
+use metrics::{Ideal, Measured, Metric};
 use serde::Serialize;
 
 use super::pairing::{Pair, filter_label};
@@ -22,6 +22,8 @@ pub struct Change {
     pub second: f64,
     /// Amount by which the second is worse; negative is better.
     pub worse: f64,
+    /// Both scores as estimated against a truth without noise; as measured without replicates.
+    pub estimates: [f64; 2],
     /// Weight of the scene in a mean over scenes: 1, or for a skill the error that the one-frame oracle removes.
     pub weight: f64,
     /// 95 % confidence interval of `worse` against a truth without noise; none without replicates.
@@ -75,7 +77,7 @@ impl ChangeKind {
         match self {
             Self::Same => "same",
             Self::WithinNoise => "within noise",
-            Self::BelowMargin => "below the margin",
+            Self::BelowMargin => "within margin",
             Self::Better => "better",
             Self::Worse => "worse",
         }
@@ -89,6 +91,8 @@ pub struct Uncertainty {
     pub interval: [f64; 2],
     /// Its standard error.
     pub standard_error: f64,
+    /// Both scores as estimated against a truth without noise.
+    pub estimates: [f64; 2],
 }
 
 impl Change {
@@ -117,6 +121,7 @@ impl Change {
             first: first.value,
             second: second.value,
             worse,
+            estimates: uncertainty.map_or([first.value, second.value], |own| own.estimates),
             weight,
             interval: uncertainty.map(|own| own.interval),
             standard_error: match worse == 0.0 {
@@ -146,8 +151,16 @@ impl Change {
     pub fn size(&self) -> f64 {
         match self.first.abs().max(self.second.abs()) {
             0.0 => 0.0,
-            larger => self.worse.abs() / larger,
+            larger => self.estimate().abs() / larger,
         }
+    }
+}
+
+/// Turns a change for the worse into a change of the score: more of a score that ought to be high is better.
+pub fn score_change(metric: &str, worse: f64) -> f64 {
+    match metric.parse().map(Metric::ideal) {
+        Ok(Ideal::Highest) => -worse,
+        _ => worse,
     }
 }
 

@@ -23,7 +23,7 @@ impl RunComparison {
         };
         for change in &mut self.changes {
             let is_told = matches!(change.kind, ChangeKind::Better | ChangeKind::Worse);
-            if is_told && change.worse.abs() < margin(&change.metric) {
+            if is_told && change.estimate().abs() < margin(&change.metric) {
                 change.kind = ChangeKind::BelowMargin;
             }
         }
@@ -51,6 +51,7 @@ mod tests {
             first: 30.0,
             second: 30.0 + worse,
             worse,
+            estimates: [30.0, 30.0 + worse],
             weight: 1.0,
             interval: None,
             standard_error: None,

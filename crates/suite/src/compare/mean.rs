@@ -18,11 +18,11 @@ pub struct MeanChange {
     pub scenes: usize,
     /// Numbers of scenes that are better, and worse, by more than noise.
     pub better_worse: [usize; 2],
-    /// Mean of the first run, in the metric's unit; for a skill the ratio of means, as in run.json.
+    /// Mean of the first run's estimates, in the metric's unit; for a skill the ratio of means, as in run.json.
     pub first: f64,
-    /// Mean of the second run.
+    /// Mean of the second run's estimates.
     pub second: f64,
-    /// Amount by which the second is worse; negative is better.
+    /// Mean of the estimated changes for the worse; negative is better.
     pub worse: f64,
     /// 95 % confidence interval of `worse`, over scenes.
     pub interval: [f64; 2],
@@ -55,7 +55,7 @@ impl MeanKind {
             Self::Same => "same",
             Self::Better => "better",
             Self::Worse => "worse",
-            Self::BelowMargin => "small",
+            Self::BelowMargin => "within margin",
             Self::Undecided => "undecided",
             Self::TooFewScenes => "few scenes",
         }
@@ -88,7 +88,7 @@ fn average(changes: &[&Change]) -> MeanChange {
         });
         scene_mean(&weighted.collect::<Vec<_>>(), TWO_SIDED)
     };
-    let worse = mean(|change| change.worse);
+    let worse = mean(Change::estimate);
     let of_kind = |kind| changes.iter().filter(|change| change.kind == kind).count();
     let kind = match worse.side_of_zero() {
         _ if of_kind(ChangeKind::Same) == count => MeanKind::Same,
@@ -102,8 +102,8 @@ fn average(changes: &[&Change]) -> MeanChange {
         metric: changes[0].metric.clone(),
         scenes: count,
         better_worse: [of_kind(ChangeKind::Better), of_kind(ChangeKind::Worse)],
-        first: mean(|change| change.first).mean,
-        second: mean(|change| change.second).mean,
+        first: mean(|change| change.estimates[0]).mean,
+        second: mean(|change| change.estimates[1]).mean,
         worse: worse.mean,
         interval: worse.interval,
         kind,
@@ -125,6 +125,7 @@ mod tests {
             first: 0.5,
             second: 0.5 + worse,
             worse: *worse,
+            estimates: [0.5, 0.5 + worse],
             weight: 1.0,
             interval: None,
             standard_error: None,
@@ -159,6 +160,19 @@ mod tests {
         let mut all = changes(&[0.1, 0.4]);
         all[0].weight = 3.0;
         assert!((average_changes(&all)[0].worse - 0.175).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_mean_is_of_estimates() {
+        let mut all = changes(&[0.1, 0.3]);
+        for (change, estimate) in all.iter_mut().zip([0.2, 0.4]) {
+            change.interval = Some([estimate - 0.05, estimate + 0.05]);
+            change.estimates = [0.4, 0.4 + estimate];
+        }
+        let mean = &average_changes(&all)[0];
+        for (value, expected) in [(mean.first, 0.4), (mean.second, 0.7), (mean.worse, 0.3)] {
+            assert!((value - expected).abs() < 1e-12, "{mean:?}");
+        }
     }
 
     #[test]

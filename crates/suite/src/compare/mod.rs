@@ -14,7 +14,7 @@ use tracer::Watch;
 
 use crate::{Error, PROGRAM};
 
-pub use change::{Basis, Change, ChangeKind, rank_changes};
+pub use change::{Basis, Change, ChangeKind, rank_changes, score_change};
 pub use mean::{MeanChange, MeanKind};
 pub use pairing::{Pair, filter_label, pair_cases};
 pub use settings::SettingChange;

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use frame::{Alignment, Frame, Picture, Replicate, Truth, read_exr};
 use metrics::{
-    ImageMetric, LabelMetric, Metric, ObjectMetric, Reference, Region, Scores, SkillMetric,
-    jackknife,
+    ImageMetric, Interval, LabelMetric, Metric, ObjectMetric, Reference, Region, Scores,
+    SkillMetric, jackknife,
 };
 use tracer::{Progress, TraceError, Watch};
 
@@ -182,16 +182,25 @@ struct PairedScores {
 impl PairedScores {
     /// Returns the uncertainty of the score's change; none if a part of the truth cannot tell the score.
     fn uncertainty(&self, metric: Metric) -> Option<Uncertainty> {
-        let worse = |[first, second]: &[Scores; 2]| {
-            let badness =
-                |scores: &Scores| Some(metric.ideal().badness(scores.get(metric).value()?));
-            Some(badness(second)? - badness(first)?)
+        let score = |side: usize| move |scores: &[Scores; 2]| scores[side].get(metric).value();
+        let worse = |scores: &[Scores; 2]| {
+            let badness = |side| Some(metric.ideal().badness(score(side)(scores)?));
+            Some(badness(1)? - badness(0)?)
         };
-        let without: Option<Vec<f64>> = self.without.iter().map(worse).collect();
-        let interval = jackknife(worse(&self.whole)?, &without?)?;
+        let change = self.interval(worse)?;
         Some(Uncertainty {
-            interval: [interval.low, interval.high],
-            standard_error: interval.standard_error,
+            interval: [change.low, change.high],
+            standard_error: change.standard_error,
+            estimates: [
+                self.interval(score(0))?.center(),
+                self.interval(score(1))?.center(),
+            ],
         })
+    }
+
+    /// Estimates a value of both scores against a truth without noise.
+    fn interval(&self, value: impl Fn(&[Scores; 2]) -> Option<f64>) -> Option<Interval> {
+        let without: Option<Vec<f64>> = self.without.iter().map(&value).collect();
+        jackknife(value(&self.whole)?, &without?)
     }
 }

@@ -37,7 +37,7 @@ pub use journal::Journal;
 pub use loss::{LEAST_BLEED, log_ratio};
 pub use objective::Objective;
 pub use options::{TuneOptions, interleave_families};
-pub use pareto::pareto_front;
+pub use pareto::{pareto_front, round_bleed};
 pub use preset::tuned_preset_toml;
 pub use rendered_scene::{RenderedScene, render_scenes};
 pub use search::Search;

@@ -100,7 +100,7 @@ impl Space {
 
 /// Narrows a range to `low..high`.
 fn narrow(kind: &Kind, range: &str) -> Result<Kind, String> {
-    let example = "allowed is a part of it, such as samples=4..16";
+    let example = "allowed: a part of it, such as samples=4..16";
     let ends = range
         .split_once("..")
         .and_then(|(low, high)| Some((kind.parse(low.trim())?, kind.parse(high.trim())?)));

@@ -15,7 +15,7 @@ use super::journal::{Journal, journal_error};
 use super::next_trial::run_next_trial;
 use super::objective::Objective;
 use super::options::TuneOptions;
-use super::pareto::pareto_front;
+use super::pareto::{pareto_front, round_bleed};
 use super::rendered_scene::render_scenes;
 use super::search::Search;
 use super::selection::{Choice, Fold, choose_trial, cross_validate, trial_settings};
@@ -209,7 +209,7 @@ fn conclude(
 
 /// Returns the measured objectives of a finished trial, in the same order for all trials.
 fn objective_values(trial: &Trial) -> Vec<f64> {
-    let measured = [trial.error, trial.bleed, trial.cost];
+    let measured = [trial.error, trial.bleed.map(round_bleed), trial.cost];
     measured.into_iter().flatten().collect()
 }
 

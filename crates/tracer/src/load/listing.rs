@@ -27,7 +27,9 @@ pub struct SceneListing {
 /// Lists the scenes in `root` by name: every folder that holds a scene.toml. A folder without scenes is an error.
 pub fn list_scenes(root: &Path) -> Result<Vec<SceneListing>, SceneError> {
     let unreadable = |error| {
-        let reason = format!("the folder of scenes cannot be read: {error}");
+        let reason = format!(
+            "the folder of scenes cannot be read: {error}; name another one with --scenes-dir"
+        );
         SceneError::in_file(root, reason)
     };
     let mut folders = Vec::new();

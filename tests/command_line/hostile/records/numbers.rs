@@ -45,7 +45,7 @@ fn numbers_out_of_range_are_refused_with_the_allowed_range() {
         ),
         (
             "calibrate --seed 18446744073709551615",
-            &["--seed 18446744073709551615", "allowed is up to"],
+            &["--seed 18446744073709551615", "allowed: up to"],
         ),
         ("run --seed 18446744073709551616", &["--seed"]),
         (
