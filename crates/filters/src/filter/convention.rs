@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::Format;
 
-/// Form in which a shader expects its textures. The default is that of frames: velocity in pixels per frame, +x right, +y down,
+/// Form in which an engine has its textures. The default is that of frames: velocity in pixels per frame, +x right, +y down,
 /// and depth in metres.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -98,6 +98,8 @@ pub enum DepthKind {
     Forward,
     /// 1 at the near plane and 0 at the far plane.
     Reversed,
+    /// -1 at the near plane and 1 at the far plane, as OpenGL's normalised device coordinates have it.
+    Ndc,
 }
 
 impl Convention {
@@ -130,7 +132,9 @@ impl Convention {
         match (self.depth, self.near, self.far) {
             (DepthKind::Linear, None, None) => {}
             (DepthKind::Linear, ..) => {
-                return Err("near and far are for depth = \"forward\" or \"reversed\"".into());
+                return Err(
+                    "near and far are for depth = \"forward\", \"reversed\" or \"ndc\"".into(),
+                );
             }
             (_, None, _) => return Err("depth of a depth buffer needs near, in metres".into()),
             (_, Some(near), Some(far)) if far <= near => {
@@ -164,56 +168,16 @@ impl Convention {
         Ok(())
     }
 
-    /// Converts velocity in pixels per frame.
-    pub(crate) fn convert_velocity(
-        &self,
-        pixels: &[[f32; 2]],
-        [width, height]: [u32; 2],
-        exposure: f64,
-    ) -> Vec<f32> {
-        let sign = match self.velocity_sign {
-            VelocitySign::CurrentMinusPrevious => 1.0,
-            VelocitySign::PreviousMinusCurrent => -1.0,
-        };
-        let time = match self.velocity_per {
-            VelocityTime::Frame => 1.0,
-            VelocityTime::Shutter => exposure,
-            VelocityTime::Second => self.frames_per_second.unwrap_or(1.0),
-        };
-        let y = match self.velocity_y {
-            VerticalDirection::Down => 1.0,
-            VerticalDirection::Up => -1.0,
-        };
-        let unit = match self.velocity {
-            VelocityUnit::Pixels => [1.0, 1.0],
-            VelocityUnit::Uv => [1.0 / f64::from(width), 1.0 / f64::from(height)],
-            VelocityUnit::Ndc => [2.0 / f64::from(width), 2.0 / f64::from(height)],
-        };
-        let common = sign * time * self.velocity_scale.unwrap_or(1.0);
-        let factors = [common * unit[0], common * unit[1] * y];
-        let convert = |velocity: &[f32; 2]| {
-            let [x, y] = *velocity;
-            [
-                (f64::from(x) * factors[0]) as f32,
-                (f64::from(y) * factors[1]) as f32,
-            ]
-        };
-        pixels.iter().flat_map(convert).collect()
-    }
-
-    /// Converts depth in metres.
-    pub(crate) fn convert_depth(&self, metres: &[f32]) -> Vec<f32> {
-        let near = self.near.unwrap_or(1.0);
-        let reversed = |z: f64| match self.far {
-            None => near / z,
-            Some(far) => near * (far - z) / (z * (far - near)),
-        };
-        let convert = |z: &f32| match self.depth {
-            DepthKind::Linear => *z,
-            DepthKind::Reversed => reversed(f64::from(*z)).clamp(0.0, 1.0) as f32,
-            DepthKind::Forward => (1.0 - reversed(f64::from(*z))).clamp(0.0, 1.0) as f32,
-        };
-        metres.iter().map(convert).collect()
+    /// Fills in what was left out, so that the record says it all. Without a far plane `far` stays away.
+    pub fn resolved(self) -> Self {
+        Self {
+            velocity_scale: self.velocity_scale.or(Some(1.0)),
+            velocity_format: Some(self.input_format("velocity")),
+            depth_format: Some(self.input_format("depth")),
+            color_scale: self.color_scale.or(Some(1.0)),
+            color_format: Some(self.input_format("color")),
+            ..self
+        }
     }
 
     /// Returns the format of a texture that every filter has, but for `output`.
@@ -229,50 +193,6 @@ impl Convention {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn godot_gets_the_way_back_in_texture_coordinates() {
-        let godot = Convention {
-            velocity: VelocityUnit::Uv,
-            velocity_sign: VelocitySign::PreviousMinusCurrent,
-            ..Convention::default()
-        };
-        // A quarter of the width to the right, and an eighth of the height down.
-        let converted = godot.convert_velocity(&[[20.0, 5.0]], [80, 40], 0.5);
-        assert_eq!(converted, [-0.25, -0.125]);
-    }
-
-    #[test]
-    fn unreal_gets_twice_that_upwards_per_shutter() {
-        let unreal = Convention {
-            velocity: VelocityUnit::Ndc,
-            velocity_y: VerticalDirection::Up,
-            velocity_per: VelocityTime::Shutter,
-            ..Convention::default()
-        };
-        let converted = unreal.convert_velocity(&[[20.0, 5.0]], [80, 40], 0.5);
-        assert_eq!(converted, [0.25, -0.125]);
-    }
-
-    #[test]
-    fn a_depth_buffer_has_its_ends_at_its_planes() {
-        let planes = |depth, far| Convention {
-            depth,
-            near: Some(0.5),
-            far,
-            ..Convention::default()
-        };
-        let z = [0.5, 1.0, 8.0, 1e10];
-        let forward = planes(DepthKind::Forward, Some(8.0)).convert_depth(&z);
-        let reversed = planes(DepthKind::Reversed, Some(8.0)).convert_depth(&z);
-        // (8 - 1) / 1 x 0.5 / 7.5.
-        assert_eq!(reversed, [1.0, (0.5 * 7.0 / 7.5) as f32, 0.0, 0.0]);
-        for (forward, reversed) in forward.iter().zip(&reversed) {
-            assert!((forward + reversed - 1.0).abs() < 1e-6);
-        }
-        let infinite = planes(DepthKind::Reversed, None).convert_depth(&z);
-        assert_eq!(infinite, [1.0, 0.5, 0.0625, 5e-11]);
-    }
 
     #[test]
     fn conventions_that_say_too_little_are_refused() {

@@ -2,6 +2,7 @@
 
 mod command;
 mod convention;
+mod conversion;
 mod definition;
 mod expression;
 mod lines;

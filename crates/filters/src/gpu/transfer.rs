@@ -102,14 +102,12 @@ pub(super) fn to_texels(color: &Image, scale: f32) -> Vec<f32> {
 
 /// Converts the velocity of an input as a shader expects it, with as many components as its format has.
 pub(super) fn velocity_texels(convention: &Convention, input: &Input) -> Vec<f32> {
-    let velocity = input.velocity;
-    let size = [velocity.width, velocity.height];
-    let pairs = convention.convert_velocity(&velocity.pixels, size, input.exposure);
+    let velocity = convention.convert_velocity(input.velocity, input.exposure);
     match convention.input_format("velocity").components() {
-        4 => (pairs.chunks(2))
-            .flat_map(|pair| [pair[0], pair[1], 0.0, 1.0])
+        4 => (velocity.pixels.iter())
+            .flat_map(|[x, y]| [*x, *y, 0.0, 1.0])
             .collect(),
-        _ => pairs,
+        _ => velocity.pixels.into_flattened(),
     }
 }
 
