@@ -142,26 +142,46 @@ impl Convention {
             }
             _ => {}
         }
-        let formats = [
-            ("color_format", self.color_format, 4),
-            ("velocity_format", self.velocity_format, 2),
-            ("depth_format", self.depth_format, 1),
-            ("output_format", self.output_format, 4),
+        let formats: [(_, _, &[Format]); 4] = [
+            (
+                "color_format",
+                self.color_format,
+                &[
+                    Format::Rgba32Float,
+                    Format::Rgba16Float,
+                    Format::Rg11b10Ufloat,
+                    Format::Rgb10a2Unorm,
+                    Format::Rgba8Unorm,
+                ],
+            ),
+            (
+                "velocity_format",
+                self.velocity_format,
+                &[
+                    Format::Rg32Float,
+                    Format::Rg16Float,
+                    Format::Rgba32Float,
+                    Format::Rgba16Float,
+                ],
+            ),
+            (
+                "depth_format",
+                self.depth_format,
+                &[Format::R32Float, Format::R16Float],
+            ),
+            (
+                "output_format",
+                self.output_format,
+                &[Format::Rgba32Float, Format::Rgba16Float],
+            ),
         ];
-        for (name, format, components) in formats {
-            let Some(format) = format else { continue };
-            let fits = format.components() == components
-                || name == "velocity_format" && format.components() == 4;
-            if !fits || !format.is_float() {
+        for (name, format, allowed) in formats {
+            if let Some(format) = format.filter(|format| !allowed.contains(format)) {
+                let allowed: Vec<&str> = allowed.iter().map(|it| it.name()).collect();
                 return Err(format!(
-                    "{name} = \"{}\" does not hold {components} floats; allowed: a format of 16-bit or 32-bit floats with \
-                     {components}{}",
+                    "{name} = \"{}\"; allowed: {}",
                     format.name(),
-                    if name == "velocity_format" {
-                        " or 4"
-                    } else {
-                        ""
-                    }
+                    allowed.join(", ")
                 ));
             }
         }
@@ -238,7 +258,7 @@ mod tests {
                     color_format: Some(Format::Rg32Float),
                     ..default
                 },
-                "does not hold 4",
+                "color_format = \"rg32float\"; allowed: rgba32float",
             ),
         ] {
             let refusal = convention.check().unwrap_err();

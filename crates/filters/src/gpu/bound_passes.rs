@@ -42,6 +42,8 @@ pub(super) struct Dispatch {
     pub workgroups: [u32; 2],
     /// Render targets, by location; none of a kernel.
     pub attachments: Vec<wgpu::TextureView>,
+    /// Textures whose content is copied to others before it runs.
+    pub copies: Vec<[wgpu::Texture; 2]>,
     /// Uniform blocks, with the buffers that hold them.
     pub blocks: Vec<(UniformBlock, wgpu::Buffer)>,
     /// Bytes of the textures that it reads and of those that it writes, each counted once and whole.
@@ -59,6 +61,9 @@ pub(super) struct Dispatch {
 impl Dispatch {
     /// Adds the dispatch to the commands of an encoder.
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+        for [from, to] in &self.copies {
+            encoder.copy_texture_to_texture(from.as_image_copy(), to.as_image_copy(), from.size());
+        }
         match &self.pipeline {
             Pipeline::Compute(pipeline) => {
                 let mut pass = encoder.begin_compute_pass(&Default::default());
@@ -186,6 +191,10 @@ impl BoundPasses {
                     entry: pass.entry.clone(),
                     pipeline: compiled.pipeline.clone(),
                     attachments: attachments.collect(),
+                    copies: match entry.keeps_unwritten {
+                        true => targets.list_exchanged(entry),
+                        false => Vec::new(),
+                    },
                     blocks,
                     bind_group,
                     workgroups: [

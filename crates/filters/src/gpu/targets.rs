@@ -185,6 +185,13 @@ impl Targets {
         bound.chain(drawn).map(Target::bytes).sum()
     }
 
+    /// Lists the copies to read and to write of each texture that the kernel both reads and writes.
+    pub fn list_exchanged(&self, entry: &EntryPoint) -> Vec<[wgpu::Texture; 2]> {
+        (entry.exchanged_textures())
+            .map(|name| [0, 1].map(|copy| self.0[name][copy].texture.clone()))
+            .collect()
+    }
+
     /// Exchanges copies, so that the next pass reads what this one wrote.
     pub fn exchange(&mut self, entry: &EntryPoint) {
         for name in entry.exchanged_textures() {

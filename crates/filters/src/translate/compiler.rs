@@ -8,7 +8,7 @@ const REGISTERS: &str =
     "-fvk-b-shift 0 all -fvk-t-shift 100 all -fvk-u-shift 200 all -fvk-s-shift 300 all";
 
 /// The same for glslangValidator.
-const GLSLANG_REGISTERS: &str = "--scb 0 --stb 100 --sub 200 --ssb 300";
+const GLSLANG_REGISTERS: &str = "--stb 100 --sib 200 --ssb 300";
 
 /// Largest module that is read.
 pub(super) const MAX_MODULE_BYTES: u64 = 4 << 20;

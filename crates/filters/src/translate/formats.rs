@@ -4,19 +4,20 @@
 
 use std::collections::BTreeMap;
 
-use super::combined::Place;
-use super::words::{Instruction, UNIFORM_CONSTANT, Words, decoration, op};
+use super::words::{Instruction, Place, UNIFORM_CONSTANT, Words, op};
 use crate::Format;
 
 /// Numbers of formats in SPIR-V.
-const FORMATS: [(Format, u32); 9] = [
+const FORMATS: [(Format, u32); 11] = [
     (Format::Rgba32Float, 1),
     (Format::Rgba16Float, 2),
     (Format::R32Float, 3),
     (Format::Rgba8Unorm, 4),
     (Format::Rg32Float, 6),
     (Format::Rg16Float, 7),
+    (Format::Rg11b10Ufloat, 8),
     (Format::R16Float, 9),
+    (Format::Rgb10a2Unorm, 11),
     (Format::R8Unorm, 15),
     (Format::R32Uint, 33),
 ];
@@ -39,7 +40,7 @@ pub(super) fn give_formats(
         .filter(|[_, class, image]| *class == UNIFORM_CONSTANT && images.contains_key(image))
         .map(|[pointer, _, image]| (pointer, image))
         .collect();
-    let (names, places) = (find_names(words), find_places(words));
+    let (names, places) = (find_names(words), words.find_places());
     // Image type and pointer of each variable with a format of its own.
     let mut typed: BTreeMap<u32, (Instruction, u32)> = BTreeMap::new();
     let variables: Vec<[u32; 2]> = words.all(op::VARIABLE).collect();
@@ -91,17 +92,4 @@ fn find_names(words: &Words) -> BTreeMap<u32, String> {
             (*id, String::from_utf8_lossy(&bytes).into_owned())
         })
         .collect()
-}
-
-/// Finds the places of variables.
-fn find_places(words: &Words) -> BTreeMap<u32, Place> {
-    let mut places = BTreeMap::<u32, Place>::new();
-    for [target, kind, value] in words.all(op::DECORATE) {
-        match kind {
-            decoration::DESCRIPTOR_SET => places.entry(target).or_default().0 = value,
-            decoration::BINDING => places.entry(target).or_default().1 = value,
-            _ => {}
-        }
-    }
-    places
 }

@@ -9,6 +9,7 @@ mod compile;
 mod compiler;
 #[cfg(test)]
 mod deep;
+mod entry;
 mod formats;
 mod includes;
 mod language;
@@ -17,6 +18,7 @@ mod module;
 mod packages;
 mod sources;
 mod storage;
+mod textures;
 mod words;
 
 use std::path::Path;

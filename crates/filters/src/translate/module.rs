@@ -5,11 +5,11 @@ use std::path::Path;
 
 use wgpu::naga::{Module, front};
 
-use super::combined::{Place, split_combined_samplers};
+use super::combined::split_combined_samplers;
 use super::compile::compile;
 use super::formats::give_formats;
-use super::storage::narrow_storage_access;
-use super::words::Words;
+use super::storage::{narrow_storage_access, split_images};
+use super::words::{Place, Words};
 use super::{Language, explain, refuse};
 use crate::filter::{BindingPlace, PassShader};
 use crate::shader::{parse_wgsl, tidy, written_texture};
@@ -18,8 +18,8 @@ use crate::{Filter, FilterError, Format};
 /// A module that is not validated yet.
 pub(super) struct Read {
     pub module: Module,
-    /// Places of samplers that were split from textures, each with the place of its texture.
-    pub samplers: BTreeMap<Place, Place>,
+    /// Places of variables that were split from others, each with the place of the other.
+    pub owners: BTreeMap<Place, Place>,
 }
 
 /// Reads the bytes of a shader.
@@ -47,7 +47,7 @@ pub(super) fn read(
     })?;
     let read = |module| Read {
         module,
-        samplers: BTreeMap::new(),
+        owners: BTreeMap::new(),
     };
     let folder = match filter.lines.path.parent() {
         Some(folder) if folder != Path::new("") => folder,
@@ -80,7 +80,11 @@ fn find_stored_format(
     name: &str,
 ) -> Option<Format> {
     let place = BindingPlace::Bound { group, binding };
-    let explained = shader.bindings.iter().find(|it| it.place == place);
+    let mut bindings = shader.bindings.iter();
+    let explained = bindings.find(|it| match &it.place {
+        BindingPlace::Named(wanted) => wanted == name,
+        other => *other == place,
+    });
     let texture = explained.and_then(|binding| binding.texture.as_deref());
     let texture = texture.unwrap_or_else(|| written_texture(name));
     let declared = filter.textures.iter().find(|it| it.name == texture);
@@ -123,7 +127,8 @@ fn read_spirv(
     give_formats: &dyn Fn(&mut Words),
 ) -> Result<Read, FilterError> {
     let mut words = Words::read(bytes).map_err(|reason| refuse(path, reason))?;
-    let samplers = split_combined_samplers(&mut words).map_err(|reason| refuse(path, reason))?;
+    let mut owners = split_combined_samplers(&mut words).map_err(|reason| refuse(path, reason))?;
+    owners.extend(split_images(&mut words));
     narrow_storage_access(&mut words);
     give_formats(&mut words);
     let options = front::spv::Options {
@@ -139,5 +144,5 @@ fn read_spirv(
             ),
         )
     })?;
-    Ok(Read { module, samplers })
+    Ok(Read { module, owners })
 }

@@ -1,5 +1,10 @@
 //! Instructions of a SPIR-V module, read from its words and written back.
 
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Group and binding of a resource.
+pub(super) type Place = (u32, u32);
+
 /// The first word of every module.
 const MAGIC: u32 = 0x0723_0203;
 
@@ -176,6 +181,36 @@ impl Words {
         (self.instructions.iter())
             .filter(move |instruction| instruction.opcode == opcode)
             .filter_map(Instruction::first)
+    }
+
+    /// Finds the groups and bindings of variables.
+    pub fn find_places(&self) -> BTreeMap<u32, Place> {
+        let mut places = BTreeMap::<u32, Place>::new();
+        for [target, kind, value] in self.all(op::DECORATE) {
+            match kind {
+                decoration::DESCRIPTOR_SET => places.entry(target).or_default().0 = value,
+                decoration::BINDING => places.entry(target).or_default().1 = value,
+                _ => {}
+            }
+        }
+        places
+    }
+
+    /// Finds a binding for each of these variables that no other has, in the same group.
+    pub fn find_free_places(&self, variables: &[u32]) -> BTreeMap<u32, Place> {
+        let places = self.find_places();
+        let mut used: BTreeSet<Place> = places.values().copied().collect();
+        let mut free = BTreeMap::new();
+        for variable in variables {
+            let Some((group, _)) = places.get(variable) else {
+                continue;
+            };
+            let mut bindings = (0..).filter(|binding| !used.contains(&(*group, *binding)));
+            let place = (*group, bindings.next().expect("few numbers are used"));
+            used.insert(place);
+            free.insert(*variable, place);
+        }
+        free
     }
 
     /// Writes the module.
