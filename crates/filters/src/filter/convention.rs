@@ -4,6 +4,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::Format;
 
+/// Values of a convention that members of uniform blocks may name.
+pub(crate) const CONVENTION_VALUES: [&str; 5] = [
+    "frames_per_second",
+    "delta_time",
+    "near",
+    "far",
+    "color_scale",
+];
+
 /// Form in which an engine has its textures. The default is that of frames: velocity in pixels per frame, +x right, +y down,
 /// and depth in metres.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -186,6 +195,18 @@ impl Convention {
             }
         }
         Ok(())
+    }
+
+    /// Returns a value that members of uniform blocks may name; none if the convention does not have it.
+    pub(crate) fn value(&self, name: &str) -> Option<f64> {
+        match name {
+            "frames_per_second" => self.frames_per_second,
+            "delta_time" => self.frames_per_second.map(|rate| 1.0 / rate),
+            "near" => self.near,
+            "far" => self.far,
+            "color_scale" => Some(self.color_scale.unwrap_or(1.0)),
+            _ => None,
+        }
     }
 
     /// Fills in what was left out, so that the record says it all. Without a far plane `far` stays away.

@@ -13,6 +13,7 @@ use super::place::Place;
 use super::targets::Targets;
 use super::transfer::Target;
 use super::uniforms::{FrameUniform, Uniforms};
+use crate::filter::CONVENTION_VALUES;
 use crate::shader::{Role, UniformBlock};
 use crate::{Filter, FilterError, Format, Kind, Pass, Repeat, Settings, Value};
 
@@ -29,7 +30,7 @@ pub(super) struct BoundPasses {
     pub mark: Target,
     targets: Targets,
     uniforms: Uniforms,
-    /// Values of the parameters, and of the frame rate, by name.
+    /// Values of the parameters, and of the convention, by name.
     values: BTreeMap<String, f64>,
 }
 
@@ -273,8 +274,11 @@ fn list_values(filter: &Filter, settings: &Settings) -> BTreeMap<String, f64> {
         };
         values.insert(parameter.name.clone(), value);
     }
-    let rate = filter.convention.frames_per_second;
-    values.extend(rate.map(|rate| ("frames_per_second".to_owned(), rate)));
+    for name in CONVENTION_VALUES {
+        let value = filter.convention.value(name);
+        // A parameter may be called like that.
+        value.map(|value| values.entry(name.to_owned()).or_insert(value));
+    }
     values
 }
 

@@ -8,8 +8,8 @@ use toml::Spanned;
 
 use super::file::{File, MAX_ENTRIES};
 use crate::filter::{
-    Binding, BindingPlace, Expression, FRAME_VALUES, PassShader, SamplerFilter, Sampling, Stage,
-    Wrap,
+    Binding, BindingPlace, CONVENTION_VALUES, Expression, FRAME_VALUES, PassShader, SamplerFilter,
+    Sampling, Stage, Wrap,
 };
 use crate::translate::Language;
 use crate::{Convention, FilterError, Parameter, Texture};
@@ -254,16 +254,17 @@ fn read_binding(
 }
 
 fn is_value(name: &str, names: Names) -> bool {
-    let is_parameter = (names.parameters.iter()).any(|parameter| parameter.name == name);
-    let has_rate = names.convention.frames_per_second.is_some();
-    let is_frame_value = FRAME_VALUES.iter().any(|(known, _)| *known == name);
-    is_parameter || is_frame_value && (has_rate || name != "frames_per_second")
+    (names.parameters.iter()).any(|parameter| parameter.name == name)
+        || FRAME_VALUES.iter().any(|(known, _)| *known == name)
+        || names.convention.value(name).is_some()
 }
 
 fn list_values(names: Names) -> String {
     let parameters = names.parameters.iter().map(|parameter| &parameter.name[..]);
+    let of_convention = CONVENTION_VALUES.into_iter();
     let all: Vec<&str> = parameters
         .chain(FRAME_VALUES.map(|(name, _)| name))
+        .chain(of_convention.filter(|name| names.convention.value(name).is_some()))
         .collect();
     all.join(", ")
 }
