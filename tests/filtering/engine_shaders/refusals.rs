@@ -23,7 +23,7 @@ fn wrong_bindings_are_refused_with_place_and_reason() {
         ("shader = \"fastest.comp\"", "shader = \"fastest.comp\"\nentry = \"main -o /tmp/x\"", &["filter.toml:42:", "\"main -o /tmp/x\" is no name"]),
         ("shader = \"fastest.comp\"", "shader = \"fastest.comp\"\ntargets = [\"output\"]", &["filter.toml:41:", "targets are for stage = \"fragment\""]),
         ("shader = \"fastest.comp\"", "shader = \"fastest.comp\"\nconditions = [\"FAST\"]", &["conditions are for WESL"]),
-        ("set = 1\nbinding = 3\n", "set = 1\nbinding = 4\n", &["filter.toml:50:", "has nothing at group 1, binding 4", "group 0, binding 0; group 1, binding 3; push constants"]),
+        ("set = 1\nbinding = 3\n", "set = 1\nbinding = 4\n", &["filter.toml:50:", "has nothing at group 1, binding 4", "\"motion\" at group 0, binding 0; \"params\" at push constants; \"tiles\" at group 1, binding 3"]),
         ("set = 1\nbinding = 3\ntexture = \"tile_motion\"\n", "set = 1\nbinding = 3\n", &["filter.toml:50:", "\"tiles\" at group 1, binding 3", "has no `texture`", "color, velocity, depth, output, tile_motion"]),
         ("texture = \"velocity\"", "texture = \"motion\"", &["filter.toml:45:", "\"motion\" names none", "color, velocity, depth, output, tile_motion"]),
         ("texture = \"velocity\"", "texture = \"output\"", &["filter.toml:45:", "reads \"output\""]),

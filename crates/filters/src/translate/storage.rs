@@ -116,7 +116,6 @@ fn find_uses(words: &Words, variables: &BTreeMap<u32, u32>) -> BTreeMap<u32, Use
     for instruction in &words.instructions {
         let operands = &instruction.operands;
         match (instruction.opcode, &operands[..]) {
-            (op::NAME | op::DECORATE | op::ENTRY_POINT | op::VARIABLE, _) => {}
             (op::LOAD, [_, result, pointer, ..]) if variables.contains_key(pointer) => {
                 loaded.insert(*result, *pointer);
             }
@@ -129,10 +128,9 @@ fn find_uses(words: &Words, variables: &BTreeMap<u32, u32>) -> BTreeMap<u32, Use
                 uses.entry(loaded[image]).or_default().writes = true;
             }
             (op::IMAGE_QUERY_SIZE, [_, _, image]) if loaded.contains_key(image) => {}
-            // A word may be a number that looks like an id: then nothing is narrowed, and nothing is wrong.
             _ => {
-                for word in operands {
-                    let variable = loaded.get(word).unwrap_or(word);
+                for id in list_images(instruction) {
+                    let variable = loaded.get(id).unwrap_or(id);
                     if let Some(found) = uses.get_mut(variable) {
                         found.others = true;
                     }
@@ -141,6 +139,22 @@ fn find_uses(words: &Words, variables: &BTreeMap<u32, u32>) -> BTreeMap<u32, Use
         }
     }
     uses
+}
+
+/// Lists the operands of an instruction that may be images or pointers to them, and no numbers.
+fn list_images(instruction: &Instruction) -> &[u32] {
+    let operands = &instruction.operands[..];
+    let places = match instruction.opcode {
+        op::STORE | op::COPY_MEMORY => 0..2,
+        op::RETURN_VALUE => 0..1,
+        op::IMAGE_TEXEL_POINTER | op::COPY_OBJECT | op::ARRAY_LENGTH => 2..3,
+        op::ACCESS_CHAIN..=op::PTR_ACCESS_CHAIN | op::IN_BOUNDS_PTR_ACCESS_CHAIN => 2..3,
+        op::SAMPLED_IMAGE..=op::IMAGE_QUERY_SAMPLES => 2..3,
+        op::SELECT | op::PHI => 2..operands.len(),
+        op::FUNCTION_CALL => 3..operands.len(),
+        _ => 0..0,
+    };
+    operands.get(places).unwrap_or_default()
 }
 
 /// Declares images that are only written.

@@ -17,7 +17,6 @@ const MAX_NESTABLE: usize = 10_000;
 /// Opcodes that the passes over a module look at.
 pub(super) mod op {
     pub const NAME: u32 = 5;
-    pub const ENTRY_POINT: u32 = 15;
     pub const TYPE_INT: u32 = 21;
     pub const TYPE_IMAGE: u32 = 25;
     pub const TYPE_SAMPLER: u32 = 26;
@@ -34,17 +33,29 @@ pub(super) mod op {
     pub const FUNCTION_PARAMETER: u32 = 55;
     pub const FUNCTION_CALL: u32 = 57;
     pub const VARIABLE: u32 = 59;
+    pub const IMAGE_TEXEL_POINTER: u32 = 60;
     pub const LOAD: u32 = 61;
+    pub const STORE: u32 = 62;
+    pub const COPY_MEMORY: u32 = 63;
+    pub const ACCESS_CHAIN: u32 = 65;
+    pub const PTR_ACCESS_CHAIN: u32 = 67;
+    pub const ARRAY_LENGTH: u32 = 68;
+    pub const IN_BOUNDS_PTR_ACCESS_CHAIN: u32 = 70;
     pub const DECORATE: u32 = 71;
+    pub const COPY_OBJECT: u32 = 83;
     pub const SAMPLED_IMAGE: u32 = 86;
     pub const IMAGE_FETCH: u32 = 95;
     pub const IMAGE_READ: u32 = 98;
     pub const IMAGE_WRITE: u32 = 99;
     pub const IMAGE_QUERY_SIZE_LOD: u32 = 103;
     pub const IMAGE_QUERY_SIZE: u32 = 104;
+    pub const IMAGE_QUERY_SAMPLES: u32 = 107;
+    pub const SELECT: u32 = 169;
+    pub const PHI: u32 = 245;
     pub const LOOP_MERGE: u32 = 246;
     pub const SELECTION_MERGE: u32 = 247;
     pub const SWITCH: u32 = 251;
+    pub const RETURN_VALUE: u32 = 254;
 }
 
 /// Decorations that the passes look at.
