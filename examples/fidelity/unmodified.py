@@ -3,15 +3,21 @@
     sh examples/engine_shaders/fetch.sh
     python3 examples/fidelity/unmodified.py --program shuttertruth --scenes-dir scenes --out out/unmodified
 
-Each filter of ../engine_shaders runs twice: with textures of the formats that its engine has, and with 32-bit floats wherever filter.toml
-chooses the format. It prints one row per pair as Markdown.
+Each filter of ../engine_shaders runs twice: with textures of the formats that its engine has, and with 32-bit inputs and output. It
+prints one row per pair as Markdown, and then how near KinoMotion's shaders come to their transcription once it takes the 10 bits that
+the driver stored.
 """
 
 import re
 import shutil
 import sys
 
+import numpy as np
 from compare import HERE, SCENES, Difference, blur_with, parse, render, table
+
+sys.path.insert(0, str(HERE / "originals"))
+import jump_flood
+import kino
 
 # (filter of ../engine_shaders, preset, parameters of the preset that differ)
 PAIRS = [
@@ -52,6 +58,32 @@ def main():
     head = ["shader", "preset", "largest", "mean", "> 0.02", "largest, 32 bits", "mean", "> 0.02", "mean of the blur"]
     print(table(head, rows))
     print(f"\n{', '.join(SCENES)} at {arguments.size}: {frames[0].depth.size * len(SCENES)} pixels.")
+    if not arguments.only or "kino" in arguments.only:
+        found = explained_kino(arguments, frames)
+        print(f"\nkino and its transcription on what the driver packed: largest {found.largest:.0e}, {found.small} pixels above 0.001.")
+
+
+def explained_kino(arguments, frames):
+    """The transcription, on velocity and depth as the driver packed them, and with tiles whose halves it rounds towards zero."""
+    wide = arguments.out / "wide" / "kino"
+    packing = wide.parent / "kino_packing"
+    shutil.rmtree(packing, ignore_errors=True)
+    shutil.copytree(wide, packing)
+    head, first, *_ = (packing / "filter.toml").read_text().split("[[pass]]\n")
+    head = re.split(r"\[\[parameter\]\]", head)[0] + '[[texture]]\nname = "packed"\nformat = "rgb10a2unorm"\n\n'
+    (packing / "filter.toml").write_text(f'{head}[[pass]]\n{first}[[pass]]\nshader = "show.wgsl"\nstage = "fragment"\n')
+    (packing / "show.wgsl").write_text(
+        "@group(0) @binding(0) var packed: texture_2d<f32>;\n\n@fragment\n"
+        "fn main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {\n"
+        "    return textureLoad(packed, vec2<i32>(position.xy), 0);\n}\n")
+    pairs = []
+    for scene, frame in zip(SCENES, frames):
+        radius = np.float32(kino.MAX_BLUR_PERCENT * frame.depth.shape[0] // 100)
+        packed = blur_with(arguments, str(packing.resolve()), scene, [])
+        kino.packed = lambda *_: ((packed[..., :2] * 2 - 1) * radius, packed[..., 2])
+        theirs = kino.blur(frame.color, frame.velocity, frame.depth, frame.exposure, stored=jump_flood.halved)
+        pairs.append((blur_with(arguments, str(wide.resolve()), scene, []), theirs))
+    return Difference(pairs)
 
 
 def name_of(folder):
