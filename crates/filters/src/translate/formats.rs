@@ -26,6 +26,9 @@ const FORMATS: [(Format, u32); 11] = [
 const SAMPLED: usize = 6;
 const FORMAT: usize = 7;
 
+/// Capabilities to read and to write images without a format, which nothing needs once all have one.
+const WITHOUT_FORMAT: [u32; 2] = [55, 56];
+
 /// Gives storage images the format that `choose` finds for their place and name: those without any, or `all`.
 pub(super) fn give_formats(
     words: &mut Words,
@@ -63,6 +66,12 @@ pub(super) fn give_formats(
     }
     let mut instructions = Vec::with_capacity(words.instructions.len());
     for mut instruction in std::mem::take(&mut words.instructions) {
+        let needs = instruction.operands.first();
+        if instruction.opcode == op::CAPABILITY
+            && needs.is_some_and(|it| WITHOUT_FORMAT.contains(it))
+        {
+            continue;
+        }
         match (instruction.opcode, instruction.first::<3>()) {
             (op::VARIABLE, Some([_, variable, _])) if typed.contains_key(&variable) => {
                 let (image, pointer) = &typed[&variable];

@@ -78,6 +78,12 @@ pub(super) fn split_images(words: &mut Words) -> BTreeMap<Place, Place> {
         .collect();
     let mut instructions = Vec::with_capacity(words.instructions.len());
     for mut instruction in std::mem::take(&mut words.instructions) {
+        let twin = (instruction.operands.first()).and_then(|named| twins.get(named));
+        if let (op::NAME, Some(twin)) = (instruction.opcode, twin) {
+            let mut copy = instruction.clone();
+            copy.operands[0] = *twin;
+            instructions.push(copy);
+        }
         match (instruction.opcode, instruction.first::<3>()) {
             (op::VARIABLE, Some([pointer, variable, class])) if twins.contains_key(&variable) => {
                 let twin = [pointer, twins[&variable], class];

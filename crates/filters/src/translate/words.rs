@@ -17,6 +17,7 @@ const MAX_NESTABLE: usize = 10_000;
 /// Opcodes that the passes over a module look at.
 pub(super) mod op {
     pub const NAME: u32 = 5;
+    pub const CAPABILITY: u32 = 17;
     pub const TYPE_INT: u32 = 21;
     pub const TYPE_IMAGE: u32 = 25;
     pub const TYPE_SAMPLER: u32 = 26;
