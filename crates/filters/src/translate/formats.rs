@@ -83,6 +83,12 @@ pub(super) fn give_formats(
             (op::LOAD, Some([_, _, variable])) if typed.contains_key(&variable) => {
                 instruction.operands[0] = typed[&variable].0.operands[0];
             }
+            // The type may be left without a variable; naga reads it all the same.
+            (op::TYPE_IMAGE, _) if images.contains_key(&instruction.operands[0]) => {
+                if let Some(format @ 0) = instruction.operands.get_mut(FORMAT) {
+                    *format = FORMATS[0].1;
+                }
+            }
             _ => {}
         }
         instructions.push(instruction);
