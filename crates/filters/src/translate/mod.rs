@@ -13,6 +13,7 @@ mod entry;
 mod formats;
 mod includes;
 mod language;
+mod levels;
 mod members;
 mod module;
 mod packages;

@@ -8,6 +8,7 @@ use wgpu::naga::{Module, front};
 use super::combined::split_combined_samplers;
 use super::compile::compile;
 use super::formats::give_formats;
+use super::levels::name_levels;
 use super::storage::{narrow_storage_access, split_images};
 use super::words::{Place, Words};
 use super::{Language, explain, refuse};
@@ -130,6 +131,7 @@ fn read_spirv(
     let mut owners = split_combined_samplers(&mut words).map_err(|reason| refuse(path, reason))?;
     owners.extend(split_images(&mut words));
     narrow_storage_access(&mut words);
+    name_levels(&mut words);
     give_formats(&mut words);
     let options = front::spv::Options {
         adjust_coordinate_space: false,

@@ -6,6 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::levels::LOD;
 use super::words::{Instruction, Place, UNIFORM_CONSTANT, Words, decoration, op};
 
 /// Uses of one storage image.
@@ -238,8 +239,6 @@ fn sample_read(
                 instructions.push(Instruction::new(op::LOAD, [sampled, *result, *pointer]));
             }
             (op::IMAGE_READ, [ty, result, image, at]) if loaded.contains(image) => {
-                /// Says that a level follows.
-                const LOD: u32 = 2;
                 let operands = [*ty, *result, *image, *at, LOD, zero];
                 instructions.push(Instruction::new(op::IMAGE_FETCH, operands));
             }

@@ -31,6 +31,7 @@ pub(super) mod op {
     pub const CONSTANT_COMPOSITE: u32 = 44;
     pub const SPEC_CONSTANT_COMPOSITE: u32 = 51;
     pub const SPEC_CONSTANT_OP: u32 = 52;
+    pub const FUNCTION: u32 = 54;
     pub const FUNCTION_PARAMETER: u32 = 55;
     pub const FUNCTION_CALL: u32 = 57;
     pub const VARIABLE: u32 = 59;
