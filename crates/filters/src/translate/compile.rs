@@ -40,7 +40,7 @@ pub(super) fn compile(
         line,
         reason,
     };
-    let compilers = Compiler::list(language, shader);
+    let compilers = Compiler::list(language, shader, text);
     let installed = compilers.iter().find(|it| is_installed(it.program));
     let Some(compiler) = installed else {
         let names: Vec<&str> = compilers.iter().map(|it| it.program).collect();

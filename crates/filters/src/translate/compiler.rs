@@ -29,24 +29,29 @@ impl Compiler {
     fn new(program: &'static str, words: &str, way_out: &'static str) -> Self {
         Self {
             program,
-            arguments: words.split(' ').map(str::to_owned).collect(),
+            arguments: words.split_whitespace().map(str::to_owned).collect(),
             way_out,
         }
     }
 
-    /// Returns the compilers of a language, the best first.
-    pub fn list(language: Language, shader: &PassShader) -> Vec<Self> {
+    /// Returns the compilers of a language, the best first. `text` is that of the shader.
+    pub fn list(language: Language, shader: &PassShader, text: &str) -> Vec<Self> {
         let entry = &shader.entry;
         let (short, stage, profile) = match shader.stage {
             Stage::Compute => ("comp", "compute", "cs_6_0"),
             Stage::Fragment => ("frag", "fragment", "ps_6_0"),
+        };
+        // With shifts of registers, slangc overlooks bindings of Vulkan.
+        let registers = match text.contains("vk::binding") {
+            true => "",
+            false => REGISTERS,
         };
         let slang = |language: &str| {
             Self::new(
                 "slangc",
                 &format!(
                     "{{include}} -lang {language} {{in}} -target spirv -profile spirv_1_3 -entry {entry} -stage {stage} \
-                     -fvk-use-entrypoint-name {REGISTERS} -o {{out}}"
+                     -fvk-use-entrypoint-name {registers} -o {{out}}"
                 ),
                 "install Slang from https://github.com/shader-slang/slang/releases and add it to the PATH",
             )
