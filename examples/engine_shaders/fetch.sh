@@ -1,5 +1,6 @@
 #!/bin/sh
-# Fetches the shaders of engines that the filters here bind, each at a named commit. Nothing is changed in them.
+# Fetches the shaders of engines that the filters here bind, each at a named commit. Nothing is changed in them. GODOT_GUERTIN,
+# GODOT_JUMP_FLOOD, BEVY and KINO may name other places of the repositories.
 set -eu
 cd "$(dirname "$0")"
 
@@ -9,6 +10,7 @@ fetch() {
     git -C "$copy" init -q
     git -C "$copy" fetch -q --depth 1 "$1" "$2"
     for file in $4; do
+        mkdir -p "$(dirname "$5/$file")"
         git -C "$copy" show "FETCH_HEAD:$3/$file" > "$5/$file"
     done
     rm -rf "$copy"
@@ -25,3 +27,25 @@ fetch "${GODOT_JUMP_FLOOD:-https://github.com/sphynx-owner/JFA_driven_motion_blu
     addons/SphynxMotionBlurToolkit/JumpFlood/ShaderFiles \
     "jf_guertin_tile_max_x.glsl jf_guertin_tile_max_y.glsl jfp_simple.glsl jf_neighbor_max.glsl jump_flood_simple_new_blur.glsl" \
     godot_jump_flood
+
+demo=${GODOT_JUMP_FLOOD:-https://github.com/sphynx-owner/JFA_driven_motion_blur_demo}
+fetch "$demo" fc7a04c3d196f1395173503b59c858c02fa31dcd MyJumpFloodIteration \
+    "jfp_backtracking_experimental.glsl jump_flood_blur.glsl" \
+    godot_jump_flood_paper
+fetch "$demo" a34ff7f25f235c245e00157a85c6a98567e76c4f MyJumpFloodIteration \
+    "jfp_backtracking_experimental.glsl jump_flood_blur.glsl" \
+    godot_jump_flood_july_2024
+
+bevy=${BEVY:-https://github.com/bevyengine/bevy}
+commit=4805ca792c3e94eef07afd6fa9a2712f388c9a67
+fetch "$bevy" $commit crates/bevy_post_process/src/motion_blur motion_blur.wesl bevy
+# The packages that it imports, a folder each.
+fetch "$bevy" $commit crates/bevy_pbr/src "prepass/utils.wesl render/utils.wesl render/rgb9e5.wesl" bevy/bevy_pbr
+fetch "$bevy" $commit crates/bevy_core_pipeline/src fullscreen_vertex_shader.wesl bevy/bevy_core_pipeline
+fetch "$bevy" $commit crates/bevy_render/src "globals.wesl maths.wesl" bevy/bevy_render
+
+fetch "${KINO:-https://github.com/keijiro/KinoMotion}" \
+    35d5d5179e60703d1db5eac967715f5ea416e387 \
+    Assets/Kino/Motion/Shader \
+    "Common.cginc Prefilter.cginc Reconstruction.cginc" \
+    kino

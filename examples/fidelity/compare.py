@@ -25,7 +25,7 @@ SMALL, LARGE = 1e-3, 0.02
 
 
 def main():
-    arguments = parse()
+    arguments = parse(__doc__)
     listing = json.loads(shuttertruth(arguments, ["list", "--json", "--scenes-dir", arguments.scenes_dir]))
     settings = tomllib.loads((HERE / "fidelity.toml").read_text())
     originals, as_listed = transcriptions()
@@ -56,8 +56,8 @@ def main():
         sys.exit(f"farther from the original than fidelity.toml allows: {', '.join(failures)}")
 
 
-def parse():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def parse(text):
+    parser = argparse.ArgumentParser(description=text.splitlines()[0])
     parser.add_argument("--program", default="shuttertruth", help="the program [default: the one on the PATH]")
     parser.add_argument("--scenes-dir", default="scenes", help="folder that holds the scenes")
     parser.add_argument("--out", type=Path, required=True, help="folder for frames and pictures")
@@ -146,10 +146,14 @@ def render(arguments):
 
 
 def blur(arguments, name, scene):
-    out = arguments.out / scene / f"{name.replace(':', '_')}.exr"
+    return blur_with(arguments, name, scene, [value for value in arguments.set if value.split(".")[0] == name.split(":")[0]])
+
+
+def blur_with(arguments, name, scene, values):
+    out = arguments.out / scene / f"{Path(name).name.replace(':', '_')}.exr"
     words = ["blur", "--as-written", "--filter", name, "--frame", str(arguments.out / scene / "frame.exr"), "--out", str(out)]
-    for value in arguments.set:
-        words += ["--set", value] if value.split(".")[0] == name.split(":")[0] else []
+    for value in values:
+        words += ["--set", value]
     shuttertruth(arguments, words)
     with OpenEXR.File(str(out), separate_channels=True) as file:
         return np.stack([file.channels()[channel].pixels for channel in "RGB"], -1)
@@ -161,6 +165,7 @@ class Difference:
     def __init__(self, pairs):
         found = np.concatenate([np.abs(ours - theirs).max(-1).ravel() for ours, theirs in pairs])
         self.largest = float(found.max()) if np.isfinite(found).all() else float("inf")
+        self.mean = float(found.mean())
         self.small, self.large = int((~(found <= SMALL)).sum()), int((~(found <= LARGE)).sum())
 
     def cells(self):

@@ -1,7 +1,7 @@
 //! Compilers of shading languages: those that are missing, and what the program makes of those that are there.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Output;
 
 use tests::filter_folder::write_script;
@@ -83,8 +83,8 @@ fn a_language_without_its_compiler_names_the_way_out() {
         (
             "blur.hlsl",
             [
-                "HLSL needs slangc or dxc on the PATH",
-                "DirectXShaderCompiler",
+                "HLSL needs slangc or dxc or glslangValidator on the PATH",
+                "apt-get install glslang-tools",
             ],
         ),
         (
@@ -115,7 +115,7 @@ fn slang_hlsl_and_wesl_go_through_their_compilers() {
         (
             "blur.slang",
             "slangc",
-            "*-target?spirv*-entry?main*-stage?compute*-o?",
+            "*-lang?slang*-target?spirv*-entry?main*-stage?compute*-o?",
             &module,
         ),
         (
@@ -154,7 +154,7 @@ fn slang_hlsl_and_wesl_go_through_their_compilers() {
     fs::create_dir_all(bench.path("bin")).unwrap();
     fs::write(bench.path("compiled.wgsl"), wgsl).unwrap();
     let script = format!(
-        "case \"$*\" in \"compile -D FAST -D FINE \"/*/translated/blur.wesl) ;; *) echo \"called as $*\" >&2; exit 3;; esac\n\
+        "case \"$*\" in \"compile -D FAST -D FINE \"/*/blur.wesl) ;; *) echo \"called as $*\" >&2; exit 3;; esac\n\
          /bin/cat {}",
         bench.path("compiled.wgsl").display()
     );
@@ -203,4 +203,211 @@ fn a_compiler_that_makes_nothing_has_failed() {
         said.contains("translated/blur.wesl: wesl refuses it: error: file not found"),
         "{said}"
     );
+}
+
+/// Finds a program on the PATH.
+fn find_program(name: &str) -> Option<PathBuf> {
+    let folders = std::env::var_os("PATH").unwrap_or_default();
+    let mut candidates = std::env::split_paths(&folders).map(|folder| folder.join(name));
+    candidates.find(|candidate| candidate.is_file())
+}
+
+/// Copies the fixtures of one language into the folder of a filter, whose head is that of the documented example.
+fn write_fixture(bench: &Bench, language: &str, head: &str) {
+    let folder = bench.path(language);
+    let fixtures = root().join("tests/fixtures/shaders");
+    fs::create_dir_all(folder.join("random")).unwrap();
+    let passes = fs::read_to_string(fixtures.join(format!("{language}.toml"))).unwrap();
+    fs::write(folder.join("filter.toml"), format!("{head}{passes}")).unwrap();
+    let copied = [
+        "centre_blur.hlsl",
+        "noise.hlsli",
+        "centre_blur.slang",
+        "noise.slang",
+        "centre_blur.wesl",
+        "random/gradient.wesl",
+        "random/constants.wesl",
+    ];
+    for file in copied {
+        fs::copy(fixtures.join(file), folder.join(file)).unwrap();
+    }
+}
+
+/// One filter in three languages, each through every compiler of it that is installed. `glslangValidator` always is.
+#[cfg(unix)]
+#[test]
+fn each_compiler_makes_the_picture_that_wgsl_makes() {
+    const README: &str = include_str!("../../shaders/README.md");
+    let block = |language: &str| {
+        let after = README.split_once(&format!("```{language}\n")).unwrap().1;
+        after.split_once("```").unwrap().0
+    };
+    let bench = Bench::new();
+    bench.write_filter("centre_blur", block("toml"), block("wgsl"));
+    let head = block("toml").split_once("[[pass]]").unwrap().0;
+    bench.execute(&[
+        "render",
+        "--quiet",
+        "--out",
+        "r",
+        "--scenes",
+        "plate",
+        "--samples-per-pixel",
+        "16",
+        "--alignments",
+        "centred",
+    ]);
+    let blur = |filter: &str, preset: &str, path: &Path| {
+        let filter = format!("./{filter}:{preset}");
+        let words = [
+            "blur",
+            "--filter",
+            &filter,
+            "--frame",
+            "r/plate/frame.exr",
+            "--frame-index",
+            "3",
+            "--out",
+            "b.exr",
+        ];
+        let output = bench.command(&words).env("PATH", path).output().unwrap();
+        assert_done(&output);
+        frame::read_exr(&bench.path("b.exr"))
+            .unwrap()
+            .color("")
+            .unwrap()
+    };
+    let mut tried = Vec::new();
+    for (language, program) in [
+        ("hlsl", "glslangValidator"),
+        ("hlsl", "dxc"),
+        ("hlsl", "slangc"),
+        ("slang", "slangc"),
+        ("wesl", "wesl"),
+    ] {
+        let Some(found) = find_program(program) else {
+            println!("{program} is not on the PATH: {language} was not tried with it");
+            continue;
+        };
+        let bin = bench.path(&format!("bin_{program}"));
+        fs::create_dir_all(&bin).unwrap();
+        _ = std::os::unix::fs::symlink(found, bin.join(program));
+        write_fixture(&bench, language, head);
+        for preset in ["fast", "fine"] {
+            let expected = blur("centre_blur", preset, &bin);
+            let found = blur(language, preset, &bin);
+            let pixels = expected.pixels.iter().zip(&found.pixels);
+            let differences = pixels.flat_map(|(a, b)| [0, 1, 2].map(|i| (a[i] - b[i]).abs()));
+            let difference = differences.fold(0.0, f32::max);
+            assert!(
+                difference < 1e-5,
+                "{language}, {program}, {preset}: {difference}"
+            );
+        }
+        tried.push(program);
+    }
+    assert!(
+        tried.contains(&"glslangValidator"),
+        "glslangValidator is not on the PATH: apt-get install glslang-tools"
+    );
+}
+
+/// What a stranger's shader includes comes from its own folder.
+#[cfg(unix)]
+#[test]
+fn nothing_outside_of_the_folder_is_included() {
+    let bench = Bench::new();
+    fs::write(bench.path("secret.txt"), "the secret\n").unwrap();
+    let secret = bench.path("secret.txt").display().to_string();
+    let outside = "outside of the filter's folder";
+    let glsl = "#version 450\n#extension GL_GOOGLE_include_directive : require\n";
+    // (file, text, line, part of the message)
+    let mut cases = vec![
+        (
+            "blur.comp",
+            format!("{glsl}#include \"../../../etc/passwd\"\n"),
+            3,
+            outside,
+        ),
+        (
+            "blur.comp",
+            format!("{glsl}#include \"in/../../secret.txt\"\n"),
+            3,
+            outside,
+        ),
+        (
+            "blur.comp",
+            format!("{glsl}#inc\\\nlude \"{secret}\"\n"),
+            3,
+            outside,
+        ),
+        (
+            "blur.comp",
+            format!("{glsl}#include \"own.h\"\n"),
+            1,
+            outside,
+        ),
+        (
+            "blur.comp",
+            format!("{glsl}#define FILE \"{secret}\"\n#include FILE\n"),
+            4,
+            "by a macro",
+        ),
+        (
+            "blur.comp",
+            format!("{glsl}#include \"link.h\"\n"),
+            3,
+            outside,
+        ),
+        (
+            "blur.comp",
+            format!("{glsl}#include \"linked/secret.txt\"\n"),
+            3,
+            outside,
+        ),
+    ];
+    for (file, line) in [("blur.hlsl", 2), ("blur.fx", 2), ("blur.slang", 2)] {
+        cases.push((file, "\n# include <../secret.txt>\n".into(), line, outside));
+        cases.push((file, format!("\n#include \"{secret}\"\n"), line, outside));
+    }
+    cases.push(("blur.slang", "\nimport \"../secret\";\n".into(), 2, outside));
+    for (file, text, line, says) in cases {
+        let folder = bench.path("translated");
+        _ = fs::remove_dir_all(&folder);
+        write_pass(&bench, file, "");
+        fs::write(folder.join(file), &text).unwrap();
+        fs::write(folder.join("own.h"), format!("#include \"{secret}\"\n")).unwrap();
+        std::os::unix::fs::symlink(&secret, folder.join("link.h")).unwrap();
+        std::os::unix::fs::symlink(bench.path(""), folder.join("linked")).unwrap();
+        fs::create_dir_all(bench.path("bin")).unwrap();
+        // A compiler that would tell.
+        for program in ["glslangValidator", "slangc"] {
+            write_script(&bench.path("bin").join(program), "echo the secret; exit 1");
+        }
+        let listed = list(&bench);
+        assert_eq!(listed.status.code(), Some(2), "{text}");
+        let said = stderr(&listed);
+        let named = if text.contains("own.h") {
+            "own.h"
+        } else {
+            file
+        };
+        for part in [&format!("translated/{named}:{line}: ")[..], says] {
+            assert!(said.contains(part), "{text}: no \"{part}\" in: {said}");
+        }
+        assert!(!said.contains("the secret"), "{said}");
+    }
+    // Modules of WESL and Slang are looked for by their names.
+    for (file, link) in [("blur.wesl", "secret.wesl"), ("blur.slang", "secret.slang")] {
+        let folder = bench.path("translated");
+        _ = fs::remove_dir_all(&folder);
+        write_pass(&bench, file, "");
+        std::os::unix::fs::symlink(&secret, folder.join(link)).unwrap();
+        write_script(&bench.path("bin/wesl"), "echo the secret; exit 1");
+        let said = stderr(&list(&bench));
+        assert!(
+            said.contains(&format!("translated/{link}: is a link")),
+            "{said}"
+        );
+    }
 }

@@ -9,6 +9,7 @@ mod command_filter;
 mod compare;
 mod comparison;
 mod compilers;
+mod conventions;
 mod earlier_run;
 mod export;
 mod failures;

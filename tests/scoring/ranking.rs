@@ -65,6 +65,7 @@ fn make_case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common)
         overrides: BTreeMap::new(),
         reference_width: None,
         command: None,
+        convention: None,
         nonlinearity: None,
         alignment: alignment.to_owned(),
         truth_hash: alignment.to_owned(),

@@ -29,9 +29,9 @@ pub use command::{BESIDE_PIXELS, BYTES_PER_PIXEL, CommandBlur};
 pub use error::FilterError;
 pub use filter::{
     Binding, BindingPlace, Code, Command, Convention, DepthKind, Expression, Filter, Growth, Holds,
-    Kind, Length, Parameter, Pass, PassShader, Preset, ReachBy, Repeat, SamplerFilter, Sampling,
-    Scale, Settings, Source, Stage, Texture, TuningRecord, Unit, Value, VelocitySign, VelocityTime,
-    VelocityUnit, VerticalDirection, Wrap,
+    Kind, Length, Parameter, Pass, PassShader, Preset, ReachBy, Repeat, Rounding, SamplerFilter,
+    Sampling, Scale, Settings, Source, Stage, Texture, TuningRecord, Unit, Value, VelocitySign,
+    VelocityTime, VelocityUnit, VerticalDirection, Wrap,
 };
 pub use gpu::{
     AdapterDescription, Blur, BufferCopy, Clock, Gpu, Kernels, Limits, LoadedBlur, LoopLimit,

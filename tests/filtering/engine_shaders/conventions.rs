@@ -94,7 +94,7 @@ fn an_unknown_convention_is_refused() {
         ("depth = \"reversed\"", "needs near"),
         (
             "depth_format = \"rgba16float\"",
-            "depth_format = \"rgba16float\" does not hold 1 float",
+            "depth_format = \"rgba16float\"; allowed: r32float, r16float",
         ),
     ] {
         let manifest = format!(

@@ -3,6 +3,7 @@
 mod conventions;
 mod fragment;
 mod refusals;
+mod resources;
 mod routes;
 
 use std::fs;

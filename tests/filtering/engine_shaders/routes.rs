@@ -58,6 +58,16 @@ fn spir_v_blurs_as_the_glsl_that_it_was_made_from() {
     assert_same(&Filter::load(folder.path()).unwrap());
 }
 
+/// The modules are what slangc 2026.14.1 makes of centre_blur.slang: with images that have no format, and fetches without a level.
+#[test]
+fn spir_v_of_slang_blurs_as_wgsl_does() {
+    let mut passes = include_str!("../../fixtures/shaders/slang.toml").to_owned();
+    for name in ["fastest", "gather"] {
+        passes = passes.replacen("centre_blur.slang", &format!("slang_{name}.spv"), 1);
+    }
+    assert_same(&load(&passes, &["slang_fastest.spv", "slang_gather.spv"]).unwrap());
+}
+
 #[test]
 fn specialisation_constants_have_the_values_of_filter_toml() {
     let folder = tempfile::tempdir().unwrap();

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use filters::Convention;
 use frame::{Frame, Ladder, Replicate, Truth, read_exr};
 use suite::{merge, read_finished_picture, score};
 
@@ -84,7 +85,7 @@ pub static PICTURE: Target = Target {
         let (Ok(frame), Ok(truth)) = (Frame::read(&frame), Truth::read(&truth)) else {
             unreachable!("the fixture can be read");
         };
-        if let Ok(picture) = read_finished_picture(&path, &frame, &truth) {
+        if let Ok(picture) = read_finished_picture(&path, &Convention::default(), &frame, &truth) {
             drop(score(&picture, &frame, &truth, None));
         }
     },
@@ -133,7 +134,10 @@ fn score_picture(frame: &Path, truth: &Path, ladder: Option<&Path>, scene: &Path
     let ladder = ladder.map(Ladder::read).transpose();
     let pictures = files(scene, "output.exr");
     let picture = pictures.first().expect("a run leaves pictures");
-    if let (Ok(ladder), Ok(picture)) = (ladder, read_finished_picture(picture, &frame, &truth)) {
+    if let (Ok(ladder), Ok(picture)) = (
+        ladder,
+        read_finished_picture(picture, &Convention::default(), &frame, &truth),
+    ) {
         drop(score(&picture, &frame, &truth, ladder.as_ref()));
     }
 }

@@ -27,6 +27,10 @@ pub struct BlurArgs {
     /// OpenEXR file with the channels R G B, Z, velocity.X, velocity.Y.
     #[arg(long, value_name = "FILE")]
     pub frame: PathBuf,
+    /// TOML file with a table [convention] that says which velocity, depth and colour the frame has, and the picture gets
+    /// [default: pixels per frame, metres, scene-linear].
+    #[arg(long, value_name = "FILE")]
+    pub convention: Option<PathBuf>,
     /// Exposure in frames [default: the file's attribute "exposure"].
     #[arg(long, value_name = "E", value_parser = parse_exposure)]
     pub exposure: Option<f64>,

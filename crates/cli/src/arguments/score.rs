@@ -16,6 +16,9 @@ pub struct ScoreArgs {
     /// The picture: OpenEXR with scene-linear R G B and optional coverage.<object>; or a PNG for display.
     #[arg(long, value_name = "FILE")]
     pub image: PathBuf,
+    /// TOML file with a table [convention] that says which colour the picture has [default: scene-linear].
+    #[arg(long, value_name = "FILE")]
+    pub convention: Option<PathBuf>,
     /// ladder_<alignment>.exr of `run` [default: no equivalent sub-frames].
     #[arg(long, value_name = "FILE")]
     pub ladder: Option<PathBuf>,

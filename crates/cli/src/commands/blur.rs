@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use filters::{FilterError, Input};
+use filters::{Convention, FilterError, Input};
 use frame::{ExrFile, Image, Plane, Reprojection, Vectors, read_exr, write_exr};
 use suite::{Error, FilterChoice, Runner, open_gpu, printable_path};
 
+use super::convention::read_convention;
 use super::render_settings::check_exposure;
 use crate::arguments::BlurArgs;
 use crate::output::print::print;
@@ -15,7 +16,8 @@ use crate::selection::select_filters;
 /// Runs one filter on one frame file and writes its colour.
 pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     let choice = select_filter(args)?;
-    let buffers = read_buffers(&args.frame, args.exposure)?;
+    let convention = read_convention(args.convention.as_deref())?;
+    let buffers = read_buffers(&args.frame, args.exposure, &convention)?;
     let choice = choice.scaled_to(buffers.picture_width());
     let gpu = open_gpu(
         std::slice::from_ref(&choice),
@@ -44,7 +46,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
         other => other.into(),
     })?;
     let mut file = ExrFile::new(width, height);
-    file.push_color("", &outputs[0]);
+    file.push_color("", &convention.convert_color(&outputs[0]));
     file.set("kind", "output");
     file.set("filter", choice.name());
     file.set("program", suite::PROGRAM);
@@ -96,30 +98,36 @@ fn read_reprojection(file: &ExrFile, band: u32) -> Result<Option<Reprojection>, 
     Ok(Some(Reprojection::from_exr(file)?.moved(f64::from(band))))
 }
 
-fn read_buffers(path: &Path, exposure: Option<f64>) -> Result<Buffers, Error> {
+/// Reads the buffers, and converts them from the convention of their engine.
+fn read_buffers(
+    path: &Path,
+    exposure: Option<f64>,
+    convention: &Convention,
+) -> Result<Buffers, Error> {
     let file = read_exr(path)?;
     let guard_band: u32 = match file.attributes.contains_key("guard_band") {
         true => file.get("guard_band")?,
         false => 0,
     };
-    let [x, y] = [file.plane("velocity.X")?, file.plane("velocity.Y")?];
-    let buffers = Buffers {
-        color: file.color("")?,
-        velocity: x.zip(&y, |x, y| [*x, *y]),
-        depth: file.plane("Z")?,
-        reprojection: read_reprojection(&file, guard_band)?,
-        guard_band,
-        exposure: match exposure {
-            Some(exposure) => exposure,
-            None if file.attributes.contains_key("exposure") => file.get("exposure")?,
-            None => {
-                return Err(Error::Usage(format!(
-                    "{}: has no attribute \"exposure\"; give one with --exposure (0.5 = 180 degrees)",
-                    path.display()
-                )));
-            }
-        },
+    let exposure = match exposure {
+        Some(exposure) => exposure,
+        None if file.attributes.contains_key("exposure") => file.get("exposure")?,
+        None => {
+            return Err(Error::Usage(format!(
+                "{}: has no attribute \"exposure\"; give one with --exposure (0.5 = 180 degrees)",
+                path.display()
+            )));
+        }
     };
-    check_exposure(buffers.exposure)?;
-    Ok(buffers)
+    check_exposure(exposure)?;
+    let [x, y] = [file.plane("velocity.X")?, file.plane("velocity.Y")?];
+    let velocity = x.zip(&y, |x, y| [*x, *y]);
+    Ok(Buffers {
+        color: convention.restore_color(&file.color("")?),
+        velocity: convention.restore_velocity(&velocity, exposure),
+        depth: convention.restore_depth(&file.plane("Z")?),
+        reprojection: read_reprojection(&file, guard_band)?,
+        exposure,
+        guard_band,
+    })
 }

@@ -8,6 +8,7 @@ mod candidate;
 mod check;
 mod compare;
 mod compare_presets;
+mod convention;
 mod ending;
 mod evaluate;
 mod expected;

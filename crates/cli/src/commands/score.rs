@@ -4,6 +4,7 @@ use frame::{Frame, Ladder, Truth};
 use metrics::Metric;
 use suite::{Error, Scored, missing_scores, printable, read_finished_picture, score};
 
+use super::convention::read_convention;
 use crate::arguments::ScoreArgs;
 use crate::output::print::{print, print_json};
 use crate::tables::cases::score_table;
@@ -14,7 +15,8 @@ pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
     let frame = Frame::read(&args.frame)?;
     let ladder = args.ladder.as_deref().map(Ladder::read).transpose()?;
     check_scenes(args, &truth, &frame, ladder.as_ref())?;
-    let picture = read_finished_picture(&args.image, &frame, &truth)?;
+    let convention = read_convention(args.convention.as_deref())?;
+    let picture = read_finished_picture(&args.image, &convention, &frame, &truth)?;
     let scored = score(&picture, &frame, &truth, ladder.as_ref())
         .map_err(|error| Error::Usage(format!("{}: {error}", args.image.display())))?;
     if args.json {

@@ -4,7 +4,16 @@ use serde::{Deserialize, Serialize};
 
 use crate::Format;
 
-/// Form in which a shader expects its textures. The default is that of frames: velocity in pixels per frame, +x right, +y down,
+/// Values of a convention that members of uniform blocks may name.
+pub(crate) const CONVENTION_VALUES: [&str; 5] = [
+    "frames_per_second",
+    "delta_time",
+    "near",
+    "far",
+    "color_scale",
+];
+
+/// Form in which an engine has its textures. The default is that of frames: velocity in pixels per frame, +x right, +y down,
 /// and depth in metres.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -98,6 +107,8 @@ pub enum DepthKind {
     Forward,
     /// 1 at the near plane and 0 at the far plane.
     Reversed,
+    /// -1 at the near plane and 1 at the far plane, as OpenGL's normalised device coordinates have it.
+    Ndc,
 }
 
 impl Convention {
@@ -130,7 +141,9 @@ impl Convention {
         match (self.depth, self.near, self.far) {
             (DepthKind::Linear, None, None) => {}
             (DepthKind::Linear, ..) => {
-                return Err("near and far are for depth = \"forward\" or \"reversed\"".into());
+                return Err(
+                    "near and far are for depth = \"forward\", \"reversed\" or \"ndc\"".into(),
+                );
             }
             (_, None, _) => return Err("depth of a depth buffer needs near, in metres".into()),
             (_, Some(near), Some(far)) if far <= near => {
@@ -138,82 +151,74 @@ impl Convention {
             }
             _ => {}
         }
-        let formats = [
-            ("color_format", self.color_format, 4),
-            ("velocity_format", self.velocity_format, 2),
-            ("depth_format", self.depth_format, 1),
-            ("output_format", self.output_format, 4),
+        let formats: [(_, _, &[Format]); 4] = [
+            (
+                "color_format",
+                self.color_format,
+                &[
+                    Format::Rgba32Float,
+                    Format::Rgba16Float,
+                    Format::Rg11b10Ufloat,
+                    Format::Rgb10a2Unorm,
+                    Format::Rgba8Unorm,
+                ],
+            ),
+            (
+                "velocity_format",
+                self.velocity_format,
+                &[
+                    Format::Rg32Float,
+                    Format::Rg16Float,
+                    Format::Rgba32Float,
+                    Format::Rgba16Float,
+                ],
+            ),
+            (
+                "depth_format",
+                self.depth_format,
+                &[Format::R32Float, Format::R16Float],
+            ),
+            (
+                "output_format",
+                self.output_format,
+                &[Format::Rgba32Float, Format::Rgba16Float],
+            ),
         ];
-        for (name, format, components) in formats {
-            let Some(format) = format else { continue };
-            let fits = format.components() == components
-                || name == "velocity_format" && format.components() == 4;
-            if !fits || !format.is_float() {
+        for (name, format, allowed) in formats {
+            if let Some(format) = format.filter(|format| !allowed.contains(format)) {
+                let allowed: Vec<&str> = allowed.iter().map(|it| it.name()).collect();
                 return Err(format!(
-                    "{name} = \"{}\" does not hold {components} floats; allowed: a format of 16-bit or 32-bit floats with \
-                     {components}{}",
+                    "{name} = \"{}\"; allowed: {}",
                     format.name(),
-                    if name == "velocity_format" {
-                        " or 4"
-                    } else {
-                        ""
-                    }
+                    allowed.join(", ")
                 ));
             }
         }
         Ok(())
     }
 
-    /// Converts velocity in pixels per frame.
-    pub(crate) fn convert_velocity(
-        &self,
-        pixels: &[[f32; 2]],
-        [width, height]: [u32; 2],
-        exposure: f64,
-    ) -> Vec<f32> {
-        let sign = match self.velocity_sign {
-            VelocitySign::CurrentMinusPrevious => 1.0,
-            VelocitySign::PreviousMinusCurrent => -1.0,
-        };
-        let time = match self.velocity_per {
-            VelocityTime::Frame => 1.0,
-            VelocityTime::Shutter => exposure,
-            VelocityTime::Second => self.frames_per_second.unwrap_or(1.0),
-        };
-        let y = match self.velocity_y {
-            VerticalDirection::Down => 1.0,
-            VerticalDirection::Up => -1.0,
-        };
-        let unit = match self.velocity {
-            VelocityUnit::Pixels => [1.0, 1.0],
-            VelocityUnit::Uv => [1.0 / f64::from(width), 1.0 / f64::from(height)],
-            VelocityUnit::Ndc => [2.0 / f64::from(width), 2.0 / f64::from(height)],
-        };
-        let common = sign * time * self.velocity_scale.unwrap_or(1.0);
-        let factors = [common * unit[0], common * unit[1] * y];
-        let convert = |velocity: &[f32; 2]| {
-            let [x, y] = *velocity;
-            [
-                (f64::from(x) * factors[0]) as f32,
-                (f64::from(y) * factors[1]) as f32,
-            ]
-        };
-        pixels.iter().flat_map(convert).collect()
+    /// Returns a value that members of uniform blocks may name; none if the convention does not have it.
+    pub(crate) fn value(&self, name: &str) -> Option<f64> {
+        match name {
+            "frames_per_second" => self.frames_per_second,
+            "delta_time" => self.frames_per_second.map(|rate| 1.0 / rate),
+            "near" => self.near,
+            "far" => self.far,
+            "color_scale" => Some(self.color_scale.unwrap_or(1.0)),
+            _ => None,
+        }
     }
 
-    /// Converts depth in metres.
-    pub(crate) fn convert_depth(&self, metres: &[f32]) -> Vec<f32> {
-        let near = self.near.unwrap_or(1.0);
-        let reversed = |z: f64| match self.far {
-            None => near / z,
-            Some(far) => near * (far - z) / (z * (far - near)),
-        };
-        let convert = |z: &f32| match self.depth {
-            DepthKind::Linear => *z,
-            DepthKind::Reversed => reversed(f64::from(*z)).clamp(0.0, 1.0) as f32,
-            DepthKind::Forward => (1.0 - reversed(f64::from(*z))).clamp(0.0, 1.0) as f32,
-        };
-        metres.iter().map(convert).collect()
+    /// Fills in what was left out, so that the record says it all. Without a far plane `far` stays away.
+    pub fn resolved(self) -> Self {
+        Self {
+            velocity_scale: self.velocity_scale.or(Some(1.0)),
+            velocity_format: Some(self.input_format("velocity")),
+            depth_format: Some(self.input_format("depth")),
+            color_scale: self.color_scale.or(Some(1.0)),
+            color_format: Some(self.input_format("color")),
+            ..self
+        }
     }
 
     /// Returns the format of a texture that every filter has, but for `output`.
@@ -229,50 +234,6 @@ impl Convention {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn godot_gets_the_way_back_in_texture_coordinates() {
-        let godot = Convention {
-            velocity: VelocityUnit::Uv,
-            velocity_sign: VelocitySign::PreviousMinusCurrent,
-            ..Convention::default()
-        };
-        // A quarter of the width to the right, and an eighth of the height down.
-        let converted = godot.convert_velocity(&[[20.0, 5.0]], [80, 40], 0.5);
-        assert_eq!(converted, [-0.25, -0.125]);
-    }
-
-    #[test]
-    fn unreal_gets_twice_that_upwards_per_shutter() {
-        let unreal = Convention {
-            velocity: VelocityUnit::Ndc,
-            velocity_y: VerticalDirection::Up,
-            velocity_per: VelocityTime::Shutter,
-            ..Convention::default()
-        };
-        let converted = unreal.convert_velocity(&[[20.0, 5.0]], [80, 40], 0.5);
-        assert_eq!(converted, [0.25, -0.125]);
-    }
-
-    #[test]
-    fn a_depth_buffer_has_its_ends_at_its_planes() {
-        let planes = |depth, far| Convention {
-            depth,
-            near: Some(0.5),
-            far,
-            ..Convention::default()
-        };
-        let z = [0.5, 1.0, 8.0, 1e10];
-        let forward = planes(DepthKind::Forward, Some(8.0)).convert_depth(&z);
-        let reversed = planes(DepthKind::Reversed, Some(8.0)).convert_depth(&z);
-        // (8 - 1) / 1 x 0.5 / 7.5.
-        assert_eq!(reversed, [1.0, (0.5 * 7.0 / 7.5) as f32, 0.0, 0.0]);
-        for (forward, reversed) in forward.iter().zip(&reversed) {
-            assert!((forward + reversed - 1.0).abs() < 1e-6);
-        }
-        let infinite = planes(DepthKind::Reversed, None).convert_depth(&z);
-        assert_eq!(infinite, [1.0, 0.5, 0.0625, 5e-11]);
-    }
 
     #[test]
     fn conventions_that_say_too_little_are_refused() {
@@ -318,7 +279,7 @@ mod tests {
                     color_format: Some(Format::Rg32Float),
                     ..default
                 },
-                "does not hold 4",
+                "color_format = \"rg32float\"; allowed: rgba32float",
             ),
         ] {
             let refusal = convention.check().unwrap_err();

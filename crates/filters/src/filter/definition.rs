@@ -76,10 +76,9 @@ impl Filter {
 
     /// Returns true for a name that a member of a uniform block can get its value from.
     pub(crate) fn knows_value(&self, name: &str) -> bool {
-        let is_frame_value = FRAME_VALUES.iter().any(|(known, _)| *known == name);
-        let has_rate = self.convention.frames_per_second.is_some();
         (self.parameters.iter()).any(|parameter| parameter.name == name)
-            || is_frame_value && (name != "frames_per_second" || has_rate)
+            || FRAME_VALUES.iter().any(|(known, _)| *known == name)
+            || self.convention.value(name).is_some()
     }
 
     /// Returns true for a texture that shaders can name.

@@ -1,7 +1,7 @@
-//! Arithmetic on values of the frame and on parameters, for members of uniform blocks.
+//! Arithmetic on values of the frame, of the convention and on parameters, for members of uniform blocks.
 
 /// Values of the frame, each with its meaning.
-pub(crate) const FRAME_VALUES: [(&str, &str); 7] = [
+pub(crate) const FRAME_VALUES: [(&str, &str); 6] = [
     ("width", "pixels per row"),
     ("height", "rows"),
     ("exposure", "time that the shutter is open, in frames"),
@@ -11,10 +11,9 @@ pub(crate) const FRAME_VALUES: [(&str, &str); 7] = [
     ),
     ("iteration", "run of the pass, from 0"),
     ("iterations", "number of runs of the pass"),
-    ("frames_per_second", "frame rate of [convention]"),
 ];
 
-/// An expression: numbers, names, `+ - * / ^`, brackets and `floor(..)`.
+/// An expression: numbers, names, `+ - * / ^`, brackets, `floor(..)`, `min(.., ..)` and `max(.., ..)`.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expression {
     /// A number.
@@ -25,7 +24,7 @@ pub enum Expression {
     Negative(Box<Expression>),
     /// The largest whole number that is not larger.
     Floor(Box<Expression>),
-    /// Two operands.
+    /// Two operands; `<` is the smaller one, `>` the larger one.
     Binary(char, Box<Expression>, Box<Expression>),
 }
 
@@ -66,6 +65,8 @@ impl Expression {
                     '-' => left - right,
                     '*' => left * right,
                     '/' => left / right,
+                    '<' => left.min(right),
+                    '>' => left.max(right),
                     _ => left.powf(right),
                 }
             }
@@ -144,9 +145,27 @@ impl Parser<'_> {
         if word == "floor" && self.rest.trim_start().starts_with('(') {
             return Ok(Expression::Floor(Box::new(self.atom()?)));
         }
+        if matches!(word, "min" | "max") && self.take(&['(']).is_some() {
+            return self.choice(if word == "min" { '<' } else { '>' });
+        }
         match (self.is_known)(word) {
             true => Ok(Expression::Name(word.to_owned())),
             false => Err(format!("holds the unknown name \"{word}\"")),
+        }
+    }
+
+    /// Parses the two operands of `min` or `max`, and the bracket behind them.
+    fn choice(&mut self, operator: char) -> Result<Expression, String> {
+        let left = self.sum()?;
+        let comma = self.take(&[',']);
+        let right = comma.map(|_| self.sum()).transpose()?;
+        match (right, self.take(&[')'])) {
+            (Some(right), Some(_)) => Ok(Expression::Binary(
+                operator,
+                Box::new(left),
+                Box::new(right),
+            )),
+            _ => Err("has min or max without two values in brackets".into()),
         }
     }
 
@@ -179,6 +198,7 @@ mod tests {
             ("2 ^ -1", 0.5),
             ("2 * (1 + taps) / 4", 2.5),
             ("floor(width / 20)", 4.0),
+            ("max(1, floor(taps / 8)) + min(taps, 2 * 3)", 5.0),
             ("0.5e1 + .5", 5.5),
         ] {
             assert_eq!(evaluate(text), Ok(expected), "{text}");
@@ -191,6 +211,8 @@ mod tests {
             ("", "without a value"),
             ("1 +", "without a value"),
             ("(1", "bracket without"),
+            ("max(1)", "without two values"),
+            ("min(1, 2", "without two values"),
             ("1 2", "goes on with"),
             ("time", "unknown name \"time\""),
             ("1.2.3", "no number"),

@@ -2,6 +2,7 @@
 
 mod command;
 mod convention;
+mod conversion;
 mod definition;
 mod expression;
 mod lines;
@@ -14,6 +15,7 @@ mod reach;
 mod settings;
 
 pub use command::Command;
+pub(crate) use convention::CONVENTION_VALUES;
 pub use convention::{
     Convention, DepthKind, VelocitySign, VelocityTime, VelocityUnit, VerticalDirection,
 };
@@ -23,7 +25,7 @@ pub use expression::Expression;
 pub(crate) use expression::FRAME_VALUES;
 pub(crate) use lines::Lines;
 pub use parameter::{Kind, Parameter, Scale, Unit, Value};
-pub use pass::{Holds, Pass, Repeat, Texture};
+pub use pass::{Holds, Pass, Repeat, Rounding, Texture};
 pub use pass_shader::{Binding, BindingPlace, PassShader, SamplerFilter, Sampling, Stage, Wrap};
 pub(crate) use placeholders::{PLACEHOLDERS, fill_placeholders};
 pub use preset::{Code, Preset, Source, TuningRecord};

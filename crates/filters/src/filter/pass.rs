@@ -11,10 +11,23 @@ pub struct Texture {
     pub name: String,
     /// Numbers per texel.
     pub format: Format,
-    /// Divisors of the image's width and height, rounded up; `None` for the image's own size.
+    /// Divisors of the image's width and height; `None` for the image's own size.
     pub divided_by: Option<[Length; 2]>,
+    /// Rounding of what they make.
+    pub rounding: Rounding,
     /// Meaning of its numbers, where a person may want to see them.
     pub holds: Option<Holds>,
+}
+
+/// Rounding of the sides of a texture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Rounding {
+    /// The last texels stand for a part of their pixels.
+    #[default]
+    Up,
+    /// The last pixels are left over; one texel at least remains.
+    Down,
 }
 
 /// Meaning of a texture between the passes.

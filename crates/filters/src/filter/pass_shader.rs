@@ -50,7 +50,7 @@ pub struct Binding {
 }
 
 /// Place of a resource in a shader.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum BindingPlace {
     /// `@group` and `@binding` of WGSL, `set` and `binding` of GLSL.
     Bound {
@@ -59,15 +59,21 @@ pub enum BindingPlace {
         /// Number in the group.
         binding: u32,
     },
+    /// The variable of that name, wherever the compiler puts it.
+    Named(String),
     /// The block of push constants.
     PushConstants,
+    /// The block that a compiler of HLSL or Slang makes of uniforms outside of any block.
+    Globals,
 }
 
 impl std::fmt::Display for BindingPlace {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Bound { group, binding } => write!(f, "group {group}, binding {binding}"),
+            Self::Named(name) => write!(f, "\"{name}\""),
             Self::PushConstants => write!(f, "push constants"),
+            Self::Globals => write!(f, "globals"),
         }
     }
 }

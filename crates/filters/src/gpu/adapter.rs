@@ -12,7 +12,9 @@ const TIMESTAMPS: wgpu::Features =
 
 /// Features that shaders of engines may need: samplers that interpolate 32-bit floats, and storage textures in more formats.
 const SHADERS_OF_ENGINES: wgpu::Features = wgpu::Features::FLOAT32_FILTERABLE
-    .union(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
+    .union(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES)
+    .union(wgpu::Features::RG11B10UFLOAT_RENDERABLE)
+    .union(wgpu::Features::SHADER_F64);
 
 /// Lists every adapter of this machine; index or name choose one in [`Gpu::new`].
 pub fn list_adapters() -> Vec<AdapterDescription> {

@@ -98,19 +98,16 @@ pub(super) fn create_pipeline(
     Pipeline::Compute(pipeline)
 }
 
-/// Vertices of a triangle over the whole picture, with texture coordinates from the top left at the location that the fragment
-/// shader reads them from.
-fn write_triangle(location: Option<u32>) -> String {
-    let coordinates = match location {
-        Some(location) => format!("@location({location}) place: vec2<f32>,"),
-        None => String::new(),
-    };
-    let values = match location {
-        Some(_) => ", place",
-        None => "",
-    };
+/// Vertices of a triangle over the whole picture, with texture coordinates from the top left at each location that the fragment
+/// shader reads.
+fn write_triangle(locations: &[u32]) -> String {
+    let coordinates = locations
+        .iter()
+        .map(|location| format!("@location({location}) place_{location}: vec2<f32>, "));
+    let coordinates: String = coordinates.collect();
+    let values = ", place".repeat(locations.len());
     format!(
-        "struct Corner {{ @builtin(position) position: vec4<f32>, {coordinates} }}
+        "struct Corner {{ @builtin(position) position: vec4<f32>, {coordinates}}}
 @vertex
 fn triangle(@builtin(vertex_index) index: u32) -> Corner {{
     let place = vec2<f32>(f32((index << 1u) & 2u), f32(index & 2u));
@@ -131,7 +128,7 @@ fn create_render_pipeline(
         .device
         .create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("triangle"),
-            source: wgpu::ShaderSource::Wgsl(write_triangle(entry.inputs.first().copied()).into()),
+            source: wgpu::ShaderSource::Wgsl(write_triangle(&entry.inputs).into()),
         });
     let targets: Vec<_> = (targets.iter())
         .map(|format| {

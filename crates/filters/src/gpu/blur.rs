@@ -219,8 +219,8 @@ impl<'g> Blur<'g> {
         self.gpu.catch_errors(self.place("upload"), || {
             let velocity = velocity_texels(&self.convention, input);
             self.gpu.upload(self.passes.target("velocity"), &velocity);
-            let depth = self.convention.convert_depth(&input.depth.pixels);
-            self.gpu.upload(self.passes.target("depth"), &depth);
+            let depth = self.convention.convert_depth(input.depth);
+            self.gpu.upload(self.passes.target("depth"), &depth.pixels);
             self.passes.upload_frame(self.gpu, FrameUniform::of(input));
         })
     }

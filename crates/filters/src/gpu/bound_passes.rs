@@ -13,6 +13,7 @@ use super::place::Place;
 use super::targets::Targets;
 use super::transfer::Target;
 use super::uniforms::{FrameUniform, Uniforms};
+use crate::filter::CONVENTION_VALUES;
 use crate::shader::{Role, UniformBlock};
 use crate::{Filter, FilterError, Format, Kind, Pass, Repeat, Settings, Value};
 
@@ -29,7 +30,7 @@ pub(super) struct BoundPasses {
     pub mark: Target,
     targets: Targets,
     uniforms: Uniforms,
-    /// Values of the parameters, and of the frame rate, by name.
+    /// Values of the parameters, and of the convention, by name.
     values: BTreeMap<String, f64>,
 }
 
@@ -42,6 +43,8 @@ pub(super) struct Dispatch {
     pub workgroups: [u32; 2],
     /// Render targets, by location; none of a kernel.
     pub attachments: Vec<wgpu::TextureView>,
+    /// Textures whose content is copied to others before it runs.
+    pub copies: Vec<[wgpu::Texture; 2]>,
     /// Uniform blocks, with the buffers that hold them.
     pub blocks: Vec<(UniformBlock, wgpu::Buffer)>,
     /// Bytes of the textures that it reads and of those that it writes, each counted once and whole.
@@ -59,6 +62,9 @@ pub(super) struct Dispatch {
 impl Dispatch {
     /// Adds the dispatch to the commands of an encoder.
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+        for [from, to] in &self.copies {
+            encoder.copy_texture_to_texture(from.as_image_copy(), to.as_image_copy(), from.size());
+        }
         match &self.pipeline {
             Pipeline::Compute(pipeline) => {
                 let mut pass = encoder.begin_compute_pass(&Default::default());
@@ -186,6 +192,10 @@ impl BoundPasses {
                     entry: pass.entry.clone(),
                     pipeline: compiled.pipeline.clone(),
                     attachments: attachments.collect(),
+                    copies: match entry.keeps_unwritten {
+                        true => targets.list_exchanged(entry),
+                        false => Vec::new(),
+                    },
                     blocks,
                     bind_group,
                     workgroups: [
@@ -264,8 +274,11 @@ fn list_values(filter: &Filter, settings: &Settings) -> BTreeMap<String, f64> {
         };
         values.insert(parameter.name.clone(), value);
     }
-    let rate = filter.convention.frames_per_second;
-    values.extend(rate.map(|rate| ("frames_per_second".to_owned(), rate)));
+    for name in CONVENTION_VALUES {
+        let value = filter.convention.value(name);
+        // A parameter may be called like that.
+        value.map(|value| values.entry(name.to_owned()).or_insert(value));
+    }
     values
 }
 

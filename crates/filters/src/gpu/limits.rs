@@ -65,7 +65,7 @@ impl Limits {
                 .iter()
                 .find(|texture| texture.name == **name);
             let format = declared.map_or(filter.convention.input_format(name), |it| it.format);
-            format.component_bytes() == 4
+            format.is_full_float()
         })?;
         Some(format!(
             "a sampler interpolates the 32-bit floats of \"{name}\", not allowed by {}; give the texture a format of \

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::device::Gpu;
 use super::place::Place;
 use super::transfer::Target;
-use crate::filter::INPUTS;
+use crate::filter::{INPUTS, Rounding};
 use crate::shader::{EntryPoint, Role, Shader, Variable};
 use crate::{Filter, FilterError, Format, Pass, Settings};
 
@@ -59,7 +59,12 @@ fn describe_targets<'f>(
         });
         TargetDescription {
             name: &texture.name,
-            size: [width.div_ceil(divisors[0]), height.div_ceil(divisors[1])],
+            size: [(width, divisors[0]), (height, divisors[1])].map(
+                |(side, divisor)| match texture.rounding {
+                    Rounding::Up => side.div_ceil(divisor),
+                    Rounding::Down => (side / divisor).max(1),
+                },
+            ),
             format: texture.format,
             copies: if exchanged { 2 } else { 1 },
             usage: find_usage(filter, &texture.name),
@@ -183,6 +188,13 @@ impl Targets {
             .map(|variable| self.of_variable(entry, variable));
         let drawn = drawn.iter().map(|name| self.written(entry, name));
         bound.chain(drawn).map(Target::bytes).sum()
+    }
+
+    /// Lists the copies to read and to write of each texture that the kernel both reads and writes.
+    pub fn list_exchanged(&self, entry: &EntryPoint) -> Vec<[wgpu::Texture; 2]> {
+        (entry.exchanged_textures())
+            .map(|name| [0, 1].map(|copy| self.0[name][copy].texture.clone()))
+            .collect()
     }
 
     /// Exchanges copies, so that the next pass reads what this one wrote.

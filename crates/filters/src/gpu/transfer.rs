@@ -22,16 +22,13 @@ impl Format {
             Format::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
             Format::R8Unorm => wgpu::TextureFormat::R8Unorm,
             Format::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,
+            Format::Rgb10a2Unorm => wgpu::TextureFormat::Rgb10a2Unorm,
+            Format::Rg11b10Ufloat => wgpu::TextureFormat::Rg11b10Ufloat,
         }
     }
 }
 
 impl Format {
-    /// Returns the bytes of a texel.
-    pub(super) fn texel_bytes(self) -> u64 {
-        (self.components() * self.component_bytes()) as u64
-    }
-
     /// Encodes numbers; those of `r32uint` are given as the floats of their bits.
     fn encode(self, values: &[f32]) -> Vec<u8> {
         match self {
@@ -46,6 +43,16 @@ impl Format {
             Format::R8Unorm | Format::Rgba8Unorm => (values.iter())
                 .map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
                 .collect(),
+            Format::Rgb10a2Unorm => pack(values, |texel| {
+                let part = |value: f32, most: f32| (value.clamp(0.0, 1.0) * most).round() as u32;
+                let [r, g, b] = [0, 1, 2].map(|index| part(texel[index], 1023.0));
+                r | g << 10 | b << 20 | part(texel[3], 3.0) << 30
+            }),
+            Format::Rg11b10Ufloat => pack(values, |texel| {
+                let [r, g, b] =
+                    [(0, 4), (1, 4), (2, 5)].map(|(index, cut)| shorten(texel[index], cut));
+                r | g << 11 | b << 22
+            }),
         }
     }
 
@@ -61,8 +68,41 @@ impl Format {
             Format::R8Unorm | Format::Rgba8Unorm => {
                 bytes.iter().map(|byte| f32::from(*byte) / 255.0).collect()
             }
+            Format::Rgb10a2Unorm => unpack(bytes, |word| {
+                let part = |shift: u32| (word >> shift & 1023) as f32 / 1023.0;
+                [part(0), part(10), part(20), (word >> 30) as f32 / 3.0]
+            }),
+            Format::Rg11b10Ufloat => unpack(bytes, |word| {
+                let part = |bits: u32, cut: u32| f16::from_bits((bits << cut) as u16).to_f32();
+                [
+                    part(word & 0x7ff, 4),
+                    part(word >> 11 & 0x7ff, 4),
+                    part(word >> 22, 5),
+                    1.0,
+                ]
+            }),
         }
     }
+}
+
+/// Packs texels of four numbers into 32 bits each.
+fn pack(values: &[f32], word: impl Fn(&[f32]) -> u32) -> Vec<u8> {
+    let words = values.chunks_exact(4).map(word);
+    words.flat_map(u32::to_le_bytes).collect()
+}
+
+/// Unpacks texels of 32 bits.
+fn unpack(bytes: &[u8], texel: impl Fn(u32) -> [f32; 4]) -> Vec<f32> {
+    let words = bytes.chunks_exact(4);
+    let words = words.map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]));
+    words.flat_map(texel).collect()
+}
+
+/// Rounds a number from 0 to a 16-bit float without its sign and its last `cut` bits; the largest one stands for all above it.
+fn shorten(value: f32, cut: u32) -> u32 {
+    let bits = u32::from(f16::from_f32(value.clamp(0.0, LARGEST_F16)).to_bits());
+    let largest = (0x7c00 >> cut) - 1;
+    ((bits + (1 << (cut - 1))) >> cut).min(largest)
 }
 
 /// The largest number of 16 bits: larger ones, such as the depth of the background, become this and not infinite.
@@ -102,14 +142,12 @@ pub(super) fn to_texels(color: &Image, scale: f32) -> Vec<f32> {
 
 /// Converts the velocity of an input as a shader expects it, with as many components as its format has.
 pub(super) fn velocity_texels(convention: &Convention, input: &Input) -> Vec<f32> {
-    let velocity = input.velocity;
-    let size = [velocity.width, velocity.height];
-    let pairs = convention.convert_velocity(&velocity.pixels, size, input.exposure);
+    let velocity = convention.convert_velocity(input.velocity, input.exposure);
     match convention.input_format("velocity").components() {
-        4 => (pairs.chunks(2))
-            .flat_map(|pair| [pair[0], pair[1], 0.0, 1.0])
+        4 => (velocity.pixels.iter())
+            .flat_map(|[x, y]| [*x, *y, 0.0, 1.0])
             .collect(),
-        _ => pairs,
+        _ => velocity.pixels.into_flattened(),
     }
 }
 
@@ -243,5 +281,29 @@ impl Gpu {
             .get_mapped_range(..)
             .map_err(|error| place.refuse(error))?;
         Ok(bytemuck::pod_collect_to_vec(&bytes[..]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn packed_formats_keep_as_many_bits_as_they_have() {
+        let values = [0.25, 1.0, 0.5, 1.0, 0.0, 2.0, -1.0, 0.5];
+        let unorm = Format::Rgb10a2Unorm;
+        let kept = unorm.decode(&unorm.encode(&values));
+        for (kept, value) in kept.iter().zip(values).take(3) {
+            assert!((kept - value).abs() <= 0.5 / 1023.0, "{kept} for {value}");
+        }
+        assert_eq!(kept[4..7], [0.0, 1.0, 0.0]);
+        let float = Format::Rg11b10Ufloat;
+        let values = [3.1415, 1000.0, 0.3, 1.0, 0.0, 1e9, -2.0, 1.0];
+        let kept = float.decode(&float.encode(&values));
+        for (index, bits) in [(0, 7), (1, 7), (2, 6)] {
+            let error = (kept[index] / values[index] - 1.0).abs();
+            assert!(error <= 0.5_f32.powi(bits), "{kept:?}");
+        }
+        assert_eq!(kept[4..], [0.0, 65024.0, 0.0, 1.0]);
     }
 }

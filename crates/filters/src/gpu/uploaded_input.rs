@@ -42,7 +42,7 @@ impl UploadedInput {
                 .map(|color| texture("color", &to_texels(color, scale)))
                 .collect(),
             velocity: texture("velocity", &velocity_texels(convention, input)),
-            depth: texture("depth", &convention.convert_depth(&input.depth.pixels)),
+            depth: texture("depth", &convention.convert_depth(input.depth).pixels),
         })
     }
 }

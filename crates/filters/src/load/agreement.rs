@@ -269,12 +269,6 @@ fn check_targets(filter: &Filter, shader: &PassShader, entry: &EntryPoint) -> Re
             targets.join(", ")
         ));
     }
-    if entry.inputs.len() > 1 {
-        return Err(format!(
-            "the fragment shader reads locations {:?}; allowed: one, which gets texture coordinates from the top left",
-            entry.inputs
-        ));
-    }
     let size = |name: &String| {
         let texture = filter.textures.iter().find(|texture| texture.name == *name);
         texture.and_then(|texture| texture.divided_by.clone())

@@ -8,8 +8,8 @@ use toml::Spanned;
 
 use super::file::{File, MAX_ENTRIES};
 use crate::filter::{
-    Binding, BindingPlace, Expression, FRAME_VALUES, PassShader, SamplerFilter, Sampling, Stage,
-    Wrap,
+    Binding, BindingPlace, CONVENTION_VALUES, Expression, FRAME_VALUES, PassShader, SamplerFilter,
+    Sampling, Stage, Wrap,
 };
 use crate::translate::Language;
 use crate::{Convention, FilterError, Parameter, Texture};
@@ -21,8 +21,11 @@ pub(super) struct BindingEntry {
     #[serde(default, alias = "set")]
     group: u32,
     binding: Option<u32>,
+    name: Option<String>,
     #[serde(default)]
     push_constants: bool,
+    #[serde(default)]
+    globals: bool,
     texture: Option<String>,
     sampler: Option<SamplerFilter>,
     wrap: Option<Wrap>,
@@ -193,18 +196,27 @@ fn read_binding(
 ) -> Result<Binding, FilterError> {
     let entry = spanned.get_ref();
     let refuse = |reason: String| file.at(spanned, format!("binding: {reason}"));
-    let place = match (entry.binding, entry.push_constants) {
-        (Some(binding), false) => BindingPlace::Bound {
+    let mut places = [
+        entry.binding.map(|binding| BindingPlace::Bound {
             group: entry.group,
             binding,
-        },
-        (None, true) if entry.group == 0 => BindingPlace::PushConstants,
-        _ => {
-            return Err(refuse(
-                "needs `binding` with its number in the group, or `push_constants = true`".into(),
-            ));
-        }
+        }),
+        entry.name.clone().map(BindingPlace::Named),
+        entry.push_constants.then_some(BindingPlace::PushConstants),
+        entry.globals.then_some(BindingPlace::Globals),
+    ]
+    .into_iter()
+    .flatten();
+    let (Some(place), None) = (places.next(), places.next()) else {
+        return Err(refuse(
+            "needs one of `binding` with its number in the group, `name` of its variable, `push_constants = true` and \
+             `globals = true`"
+                .into(),
+        ));
     };
+    if let Some(name) = &entry.name {
+        file.check_line(spanned, "binding: name", name)?;
+    }
     if entry.values.len() > MAX_ENTRIES {
         return Err(refuse(format!("has more than {MAX_ENTRIES} values")));
     }
@@ -242,16 +254,17 @@ fn read_binding(
 }
 
 fn is_value(name: &str, names: Names) -> bool {
-    let is_parameter = (names.parameters.iter()).any(|parameter| parameter.name == name);
-    let has_rate = names.convention.frames_per_second.is_some();
-    let is_frame_value = FRAME_VALUES.iter().any(|(known, _)| *known == name);
-    is_parameter || is_frame_value && (has_rate || name != "frames_per_second")
+    (names.parameters.iter()).any(|parameter| parameter.name == name)
+        || FRAME_VALUES.iter().any(|(known, _)| *known == name)
+        || names.convention.value(name).is_some()
 }
 
 fn list_values(names: Names) -> String {
     let parameters = names.parameters.iter().map(|parameter| &parameter.name[..]);
+    let of_convention = CONVENTION_VALUES.into_iter();
     let all: Vec<&str> = parameters
         .chain(FRAME_VALUES.map(|(name, _)| name))
+        .chain(of_convention.filter(|name| names.convention.value(name).is_some()))
         .collect();
     all.join(", ")
 }

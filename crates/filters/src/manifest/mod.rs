@@ -2,6 +2,7 @@
 
 mod bindings;
 mod command;
+mod convention;
 mod file;
 mod parameters;
 mod parse;

@@ -8,6 +8,7 @@ use serde::{Deserialize, Deserializer, de::Error};
 use toml::Spanned;
 
 use super::command::{add_environment, read_command};
+use super::convention::read_convention;
 use super::file::{File, IDENTIFIER, is_identifier};
 use super::parameters::{ParameterEntry, read_parameters};
 use super::passes::{PassEntry, TextureEntry, read_passes, read_textures};
@@ -77,7 +78,11 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
         .transpose()?;
     let command = add_environment(&file, manifest.environment.as_ref(), command)?;
     let textures = read_textures(&file, &manifest.texture, &parameters)?;
-    let convention = read_convention(&file, &manifest)?;
+    let convention = read_convention(
+        &file,
+        manifest.convention.as_ref(),
+        manifest.command.is_some(),
+    )?;
     Ok(Filter {
         name: name.clone(),
         presets: read_presets(&file, &manifest.preset, &parameters)?,
@@ -103,23 +108,6 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
             passes: file.lines(&manifest.pass),
         },
     })
-}
-
-/// Reads the form in which shaders expect the frame.
-fn read_convention(file: &File, manifest: &Manifest) -> Result<Convention, FilterError> {
-    let Some(convention) = &manifest.convention else {
-        return Ok(Convention::default());
-    };
-    let refuse = |reason: &str| file.at(convention, format!("convention: {reason}"));
-    if manifest.command.is_some() {
-        return Err(refuse(
-            "is for shaders; a command gets the file that it is given",
-        ));
-    }
-    match convention.get_ref().check() {
-        Ok(()) => Ok(*convention.get_ref()),
-        Err(reason) => Err(refuse(&reason)),
-    }
 }
 
 /// Refuses a filter that is neither a command nor passes over kernels, or both.

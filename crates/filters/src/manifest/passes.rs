@@ -11,7 +11,8 @@ use super::parameters::check_count;
 use super::reach_by::{LengthEntry, read_length};
 use crate::filter::{PassShader, Stage};
 use crate::{
-    Convention, FilterError, Format, Holds, Kind, Length, Parameter, Pass, Repeat, Texture,
+    Convention, FilterError, Format, Holds, Kind, Length, Parameter, Pass, Repeat, Rounding,
+    Texture,
 };
 
 #[derive(Deserialize)]
@@ -20,6 +21,8 @@ pub(super) struct TextureEntry {
     name: String,
     format: Format,
     divided_by: Option<DivisorEntry>,
+    #[serde(default)]
+    rounding: Rounding,
     holds: Option<Holds>,
 }
 
@@ -88,6 +91,7 @@ pub(super) fn read_textures(
             name,
             format,
             divided_by,
+            rounding,
             holds,
         } = spanned.get_ref();
         if !is_identifier(name) || BUILTIN_VARIABLES.contains(&name.as_str()) {
@@ -122,6 +126,7 @@ pub(super) fn read_textures(
             name: name.clone(),
             format: *format,
             divided_by,
+            rounding: *rounding,
             holds: *holds,
         });
     }

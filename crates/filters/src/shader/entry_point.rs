@@ -29,6 +29,8 @@ pub(crate) struct EntryPoint {
     pub reads: BTreeSet<String>,
     /// Names of the textures that it writes.
     pub writes: BTreeSet<String>,
+    /// True if texels of a texture that it reads and writes keep what they held where it writes nothing, as in engines.
+    pub keeps_unwritten: bool,
     /// True if it reads the frame's index, from which noise is drawn.
     pub draws_noise: bool,
     /// Resources that it asks of a device.
@@ -86,6 +88,7 @@ pub(crate) fn find_entry_points(
                 inputs: find_inputs(module, entry),
                 reads,
                 writes,
+                keeps_unwritten: false,
                 draws_noise: reads_frame_index(module, &entry.function),
                 usage: ResourceUsage::of(module, module_info, index),
                 line: find_line(&entry.name),

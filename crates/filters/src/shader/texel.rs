@@ -24,11 +24,15 @@ pub enum Format {
     R8Unorm,
     /// Four numbers from 0 to 1, of 8 bits.
     Rgba8Unorm,
+    /// Three numbers from 0 to 1, of 10 bits, and one of 2.
+    Rgb10a2Unorm,
+    /// Three numbers from 0, of 11, 11 and 10 bits, five of them for the exponent.
+    Rg11b10Ufloat,
 }
 
 impl Format {
     /// Every format.
-    pub(crate) const ALL: [Self; 9] = [
+    pub(crate) const ALL: [Self; 11] = [
         Self::R32Uint,
         Self::R32Float,
         Self::Rg32Float,
@@ -38,6 +42,8 @@ impl Format {
         Self::Rgba16Float,
         Self::R8Unorm,
         Self::Rgba8Unorm,
+        Self::Rgb10a2Unorm,
+        Self::Rg11b10Ufloat,
     ];
 
     /// Returns its name in filter.toml and in WGSL.
@@ -52,30 +58,43 @@ impl Format {
             Self::Rgba16Float => "rgba16float",
             Self::R8Unorm => "r8unorm",
             Self::Rgba8Unorm => "rgba8unorm",
+            Self::Rgb10a2Unorm => "rgb10a2unorm",
+            Self::Rg11b10Ufloat => "rg11b10ufloat",
         }
     }
 
-    /// Returns how many numbers a texel holds.
+    /// Returns how many numbers a texel is given as and read as.
     pub(crate) fn components(self) -> usize {
         match self {
             Self::R32Uint | Self::R32Float | Self::R16Float | Self::R8Unorm => 1,
             Self::Rg32Float | Self::Rg16Float => 2,
-            Self::Rgba32Float | Self::Rgba16Float | Self::Rgba8Unorm => 4,
+            Self::Rgba32Float
+            | Self::Rgba16Float
+            | Self::Rgba8Unorm
+            | Self::Rgb10a2Unorm
+            | Self::Rg11b10Ufloat => 4,
         }
     }
 
-    /// Returns the bytes of each number.
-    pub(crate) fn component_bytes(self) -> usize {
+    /// Returns the bytes of a texel.
+    pub(crate) fn texel_bytes(self) -> u64 {
         match self {
-            Self::R32Uint | Self::R32Float | Self::Rg32Float | Self::Rgba32Float => 4,
-            Self::R16Float | Self::Rg16Float | Self::Rgba16Float => 2,
-            Self::R8Unorm | Self::Rgba8Unorm => 1,
+            Self::R8Unorm => 1,
+            Self::R16Float => 2,
+            Self::R32Uint
+            | Self::R32Float
+            | Self::Rg16Float
+            | Self::Rgba8Unorm
+            | Self::Rgb10a2Unorm
+            | Self::Rg11b10Ufloat => 4,
+            Self::Rg32Float | Self::Rgba16Float => 8,
+            Self::Rgba32Float => 16,
         }
     }
 
-    /// Returns true for numbers with a fraction, a sign and a NaN.
-    pub(crate) fn is_float(self) -> bool {
-        !matches!(self, Self::R32Uint | Self::R8Unorm | Self::Rgba8Unorm)
+    /// Returns true for floats of 32 bits, which not every adapter interpolates.
+    pub(crate) fn is_full_float(self) -> bool {
+        matches!(self, Self::R32Float | Self::Rg32Float | Self::Rgba32Float)
     }
 }
 

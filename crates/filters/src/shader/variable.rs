@@ -118,6 +118,8 @@ pub(crate) fn find_image_role(class: ImageClass) -> Option<Role> {
                 StorageFormat::Rgba16Float => Format::Rgba16Float,
                 StorageFormat::R8Unorm => Format::R8Unorm,
                 StorageFormat::Rgba8Unorm => Format::Rgba8Unorm,
+                StorageFormat::Rgb10a2Unorm => Format::Rgb10a2Unorm,
+                StorageFormat::Rg11b10Ufloat => Format::Rg11b10Ufloat,
                 _ => return None,
             };
             Some(Role::Write(format))

@@ -1,26 +1,33 @@
 //! Bindings of a shader, as filter.toml explains them, put in the places that the suite binds.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::Path;
 
-use wgpu::naga::back::pipeline_constants::process_overrides;
 use wgpu::naga::compact::{KeepUnused, compact};
-use wgpu::naga::valid::{ModuleInfo, ValidationFlags, Validator};
 use wgpu::naga::{
-    AddressSpace, GlobalVariable, Handle, ImageClass, ImageDimension, Module, ResourceBinding,
-    ShaderStage, StorageAccess, TypeInner,
+    AddressSpace, GlobalVariable, Handle, ImageDimension, Module, ResourceBinding, TypeInner,
 };
 
-use super::combined::Place;
+use super::entry::{keep_entry_point, set_constants, validate};
 use super::members::fill_block;
 use super::module::Read;
-use super::{explain, refuse};
-use crate::filter::{Binding, BindingPlace, INPUTS, PassShader, Stage};
+use super::refuse;
+use super::textures::{check_texture, describe_image};
+use super::words::Place;
+use crate::filter::{Binding, BindingPlace, PassShader};
 use crate::shader::{
-    CAPABILITIES, Code, Role, Shader, Texel, UniformBlock, Variable, find_entry_points,
-    find_image_role, written_texture,
+    Code, Role, Shader, UniformBlock, Variable, find_entry_points, find_image_role, written_texture,
 };
-use crate::{Filter, FilterError, Format};
+use crate::{Filter, FilterError};
+
+/// Names that compilers give to the block of uniforms outside of any block, or to its type.
+const GLOBALS: [&str; 5] = [
+    "$Global",
+    "$Globals",
+    "type.$Globals",
+    "globalParams",
+    "GlobalParams_std140",
+];
 
 /// Makes the shader of a pass: one entry point, and group 0 with a binding for each variable that it uses.
 pub(super) fn bind(
@@ -29,19 +36,12 @@ pub(super) fn bind(
     path: &Path,
     read: Read,
 ) -> Result<Shader, FilterError> {
-    let Read {
-        mut module,
-        samplers,
-    } = read;
-    let mut declared: BTreeSet<BindingPlace> = (module.global_variables.iter())
-        .filter_map(|(_, variable)| find_place(variable))
+    let Read { mut module, owners } = read;
+    // Variables that were split from others are explained where those are.
+    let owners: BTreeMap<BindingPlace, BindingPlace> = (owners.into_iter())
+        .map(|(split, owner)| (bound_at(split), bound_at(owner)))
         .collect();
-    // Samplers that were split from textures are explained where the textures are.
-    let owners: BTreeMap<BindingPlace, BindingPlace> = (samplers.into_iter())
-        .map(|(sampler, texture)| (bound_at(sampler), bound_at(texture)))
-        .collect();
-    declared.retain(|place| !owners.contains_key(place));
-    check_places(filter, shader, path, &declared)?;
+    check_places(filter, shader, path, &module, &owners)?;
     validate(path, &module)?;
     keep_entry_point(shader, path, &mut module)?;
     set_constants(shader, path, &mut module)?;
@@ -61,6 +61,7 @@ pub(super) fn bind(
         let mut blocks = binder.blocks.iter();
         entry.draws_noise = blocks.any(|block| block.reads("frame_index"));
         entry.writes.extend(shader.targets.iter().cloned());
+        entry.keeps_unwritten = true;
         let checked = entry.usage.check(&entry.name);
         checked.map_err(|reason| refuse(path, reason))?;
     }
@@ -83,12 +84,23 @@ fn check_places(
     filter: &Filter,
     shader: &PassShader,
     path: &Path,
-    declared: &BTreeSet<BindingPlace>,
+    module: &Module,
+    owners: &BTreeMap<BindingPlace, BindingPlace>,
 ) -> Result<(), FilterError> {
-    let Some(unknown) = (shader.bindings.iter()).find(|it| !declared.contains(&it.place)) else {
+    let declared: Vec<(&GlobalVariable, BindingPlace)> = (module.global_variables.iter())
+        .filter_map(|(_, variable)| Some((variable, find_place(variable)?)))
+        .filter(|(_, place)| !owners.contains_key(place))
+        .collect();
+    let is_there = |binding: &&Binding| {
+        (declared.iter()).any(|(variable, place)| explains(binding, module, variable, place))
+    };
+    let Some(unknown) = shader.bindings.iter().find(|binding| !is_there(binding)) else {
         return Ok(());
     };
-    let places: Vec<String> = declared.iter().map(BindingPlace::to_string).collect();
+    let mut places: Vec<String> = (declared.iter())
+        .map(|(variable, place)| name_variable(variable, place))
+        .collect();
+    places.sort_unstable();
     Err(FilterError::Folder {
         path: filter.lines.path.clone(),
         line: Some(unknown.line),
@@ -104,6 +116,32 @@ fn check_places(
     })
 }
 
+/// Returns true if a binding of filter.toml is meant for a variable at a place.
+fn explains(
+    binding: &Binding,
+    module: &Module,
+    variable: &GlobalVariable,
+    place: &BindingPlace,
+) -> bool {
+    let is_called = |name: &Option<String>, wanted: &str| name.as_deref() == Some(wanted);
+    match &binding.place {
+        BindingPlace::Named(name) => is_called(&variable.name, name),
+        BindingPlace::Globals => {
+            let ty = &module.types[variable.ty].name;
+            (GLOBALS.iter()).any(|name| is_called(&variable.name, name) || is_called(ty, name))
+        }
+        other => other == place,
+    }
+}
+
+/// Names a variable and its place for messages.
+fn name_variable(variable: &GlobalVariable, place: &BindingPlace) -> String {
+    match &variable.name {
+        Some(name) if !name.is_empty() => format!("\"{name}\" at {place}"),
+        _ => place.to_string(),
+    }
+}
+
 /// Finds the place of a variable that has to be bound.
 fn find_place(variable: &GlobalVariable) -> Option<BindingPlace> {
     match (&variable.binding, variable.space) {
@@ -113,112 +151,6 @@ fn find_place(variable: &GlobalVariable) -> Option<BindingPlace> {
             binding: place.binding,
         }),
         (None, _) => None,
-    }
-}
-
-fn validate(path: &Path, module: &Module) -> Result<ModuleInfo, FilterError> {
-    let capabilities = CAPABILITIES | wgpu::naga::valid::Capabilities::IMMEDIATES;
-    Validator::new(ValidationFlags::all(), capabilities)
-        .validate(module)
-        .map_err(|error| {
-            refuse(
-                path,
-                format!(
-                    "is not valid once translated: {}",
-                    explain(error.as_inner())
-                ),
-            )
-        })
-}
-
-/// Removes all entry points but the one of the pass.
-fn keep_entry_point(
-    shader: &PassShader,
-    path: &Path,
-    module: &mut Module,
-) -> Result<(), FilterError> {
-    let stage = match shader.stage {
-        Stage::Compute => ShaderStage::Compute,
-        Stage::Fragment => ShaderStage::Fragment,
-    };
-    let names: Vec<String> = (module.entry_points.iter())
-        .map(|entry| format!("{} ({})", entry.name, name_stage(entry.stage)))
-        .collect();
-    module
-        .entry_points
-        .retain(|entry| entry.name == shader.entry && entry.stage == stage);
-    match module.entry_points.len() {
-        1 => Ok(()),
-        _ => Err(refuse(
-            path,
-            format!(
-                "has no {} entry point \"{}\"; it has: {}; filter.toml names it with `entry` and `stage`",
-                name_stage(stage),
-                shader.entry,
-                match names.is_empty() {
-                    true => "none".to_owned(),
-                    false => names.join(", "),
-                }
-            ),
-        )),
-    }
-}
-
-/// Sets specialisation constants. Those that filter.toml does not name keep the value that the shader gives them.
-fn set_constants(shader: &PassShader, path: &Path, module: &mut Module) -> Result<(), FilterError> {
-    let mut names = Vec::new();
-    for (_, constant) in module.overrides.iter() {
-        let name = constant.name.clone().filter(|name| !name.is_empty());
-        let number = constant.id.map(|id| id.to_string());
-        names.push((name, number));
-    }
-    let is = |known: &Option<String>, name: &str| known.as_deref() == Some(name);
-    for (name, _) in &shader.constants {
-        if !(names.iter()).any(|(own, number)| is(own, name) || is(number, name)) {
-            let known: Vec<String> = (names.into_iter())
-                .filter_map(|(name, number)| name.or(number))
-                .collect();
-            return Err(refuse(
-                path,
-                format!(
-                    "has no specialisation constant \"{name}\", which filter.toml sets; it has: {}",
-                    match known.is_empty() {
-                        true => "none".to_owned(),
-                        false => known.join(", "),
-                    }
-                ),
-            ));
-        }
-    }
-    // A constant with a name and a number goes by its number.
-    let values = shader.constants.iter().map(|(name, value)| {
-        let numbered = names
-            .iter()
-            .find(|(own, number)| is(own, name) && number.is_some());
-        let key = numbered.and_then(|(_, number)| number.clone());
-        (key.unwrap_or(name.clone()), *value)
-    });
-    let info = validate(path, module)?;
-    let set = process_overrides(module, &info, None, &values.collect());
-    let set = set.map_err(|error| {
-        refuse(
-            path,
-            format!(
-                "specialisation constants: {}; `constants` of the pass sets them",
-                explain(&error)
-            ),
-        )
-    })?;
-    *module = set.0.into_owned();
-    Ok(())
-}
-
-fn name_stage(stage: ShaderStage) -> &'static str {
-    match stage {
-        ShaderStage::Compute => "compute",
-        ShaderStage::Fragment => "fragment",
-        ShaderStage::Vertex => "vertex",
-        _ => "other",
     }
 }
 
@@ -232,10 +164,6 @@ struct Binder<'a> {
 }
 
 impl Binder<'_> {
-    fn find(&self, place: BindingPlace) -> Option<&Binding> {
-        self.shader.bindings.iter().find(|it| it.place == place)
-    }
-
     /// Binds every variable that needs it in group 0; returns their handles. `owners` has the places that explain others.
     fn bind_all(
         &mut self,
@@ -246,10 +174,13 @@ impl Binder<'_> {
             .filter_map(|(handle, variable)| Some((handle, find_place(variable)?)))
             .collect();
         for (index, (handle, place)) in placed.iter().enumerate() {
-            let explained_at = owners.get(place).copied().unwrap_or(*place);
-            let bound = self.bind(module, *handle, explained_at);
+            let variable = &module.global_variables[*handle];
+            let place = owners.get(place).unwrap_or(place);
+            let mut bindings = self.shader.bindings.iter();
+            let binding = bindings.find(|it| explains(it, module, variable, place));
+            self.bind(module, *handle, binding)
+                .map_err(|reason| self.refuse(variable, place, binding, &reason))?;
             let variable = &mut module.global_variables[*handle];
-            bound.map_err(|reason| self.refuse(variable, explained_at, &reason))?;
             variable.binding = Some(ResourceBinding {
                 group: 0,
                 binding: index as u32,
@@ -262,12 +193,15 @@ impl Binder<'_> {
     }
 
     /// Makes an error of a variable. It names the line of filter.toml that explains the variable, or else the shader.
-    fn refuse(&self, variable: &GlobalVariable, place: BindingPlace, reason: &str) -> FilterError {
-        let named = match &variable.name {
-            Some(name) if !name.is_empty() => format!("\"{name}\" at {place}"),
-            _ => place.to_string(),
-        };
-        match self.find(place) {
+    fn refuse(
+        &self,
+        variable: &GlobalVariable,
+        place: &BindingPlace,
+        binding: Option<&Binding>,
+        reason: &str,
+    ) -> FilterError {
+        let named = name_variable(variable, place);
+        match binding {
             None => refuse(self.path, format!("{named}: {reason}")),
             Some(binding) => FilterError::Folder {
                 path: self.filter.lines.path.clone(),
@@ -277,16 +211,15 @@ impl Binder<'_> {
         }
     }
 
-    /// Adds a variable. `place` is that of the binding which explains it.
+    /// Adds a variable, and what filter.toml says about it.
     fn bind(
         &mut self,
         module: &Module,
         handle: Handle<GlobalVariable>,
-        place: BindingPlace,
+        binding: Option<&Binding>,
     ) -> Result<(), String> {
         let variable = &module.global_variables[handle];
         let name = variable.name.clone().unwrap_or_default();
-        let binding = self.find(place);
         let texture = || self.name_texture(binding, &name);
         let inner = &module.types[variable.ty].inner;
         let (role, resource) = match (variable.space, inner) {
@@ -323,7 +256,7 @@ impl Binder<'_> {
                 );
             }
         };
-        self.check_texture(role, &resource)?;
+        check_texture(self.filter, role, &resource)?;
         self.variables.push(Variable {
             name,
             resource,
@@ -347,71 +280,5 @@ impl Binder<'_> {
                 self.filter.list_textures()
             )),
         }
-    }
-
-    /// Refuses a texture that does not fit its variable.
-    fn check_texture(&self, role: Role, texture: &str) -> Result<(), String> {
-        let declared = (self.filter.textures.iter()).find(|it| it.name == texture);
-        let is_input = INPUTS.contains(&texture);
-        match (role, declared) {
-            (Role::Read(_) | Role::Write(_), None) if !self.filter.has_texture(texture) => {
-                Err(format!(
-                    "texture = \"{texture}\" names none; allowed: {}",
-                    self.filter.list_textures()
-                ))
-            }
-            (Role::Read(_), None) if texture == "output" => Err(
-                "reads \"output\"; a pass reads what an earlier one wrote to a [[texture]]".into(),
-            ),
-            (Role::Write(_), None) if is_input => Err(format!(
-                "writes \"{texture}\", which is an input; allowed: output, or a [[texture]]"
-            )),
-            (Role::Write(format), None) if !format.is_float() || format.components() != 4 => {
-                Err(format!(
-                    "writes \"output\" as {}; allowed: rgba32float or rgba16float",
-                    format.name()
-                ))
-            }
-            (Role::Read(texel), Some(declared)) if Texel::of(declared.format) != texel => {
-                Err(format!(
-                    "reads texture \"{texture}\" as {}; it is declared as {}",
-                    match texel {
-                        Texel::Float => "floats",
-                        Texel::Uint => "whole numbers",
-                    },
-                    declared.format.name()
-                ))
-            }
-            (Role::Read(Texel::Uint), None) => Err(format!(
-                "reads \"{texture}\" as whole numbers; it holds floats"
-            )),
-            (Role::Write(format), Some(declared)) if declared.format != format => Err(format!(
-                "writes texture \"{texture}\" as {}; it is declared as {}",
-                format.name(),
-                declared.format.name()
-            )),
-            _ => Ok(()),
-        }
-    }
-}
-
-/// Says why an image cannot be bound.
-fn describe_image(class: ImageClass) -> String {
-    match class {
-        ImageClass::Storage { access, .. }
-            if access.contains(StorageAccess::LOAD | StorageAccess::STORE) =>
-        {
-            "is a storage image that is both read and written, or passed to a function; read it through a texture of its \
-             own"
-                .into()
-        }
-        ImageClass::Depth { .. } => {
-            "is a depth texture or is sampled with a comparison; read depth through texture_2d<f32>".into()
-        }
-        _ => format!(
-            "cannot be bound; allowed: two-dimensional textures of floats or of unsigned numbers, and storage textures of \
-             {}",
-            Format::ALL.map(Format::name).join(", ")
-        ),
     }
 }

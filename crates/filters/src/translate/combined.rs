@@ -3,12 +3,9 @@
 //! WGSL and wgpu know no combined ones. A variable keeps its binding for the texture, and its sampler gets a free one. A function
 //! that takes a combined one takes two parameters instead.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
-use super::words::{Instruction, UNIFORM_CONSTANT, Words, decoration, op};
-
-/// Group and binding of a resource.
-pub(super) type Place = (u32, u32);
+use super::words::{Instruction, Place, UNIFORM_CONSTANT, Words, decoration, op};
 
 /// Types that stand for those of combined ones.
 struct SplitTypes {
@@ -57,7 +54,8 @@ pub(super) fn split_combined_samplers(words: &mut Words) -> Result<BTreeMap<Plac
             (*pointer, types)
         })
         .collect();
-    let places = place_samplers(words, &variables);
+    let textures = words.find_places();
+    let places = words.find_free_places(&variables);
     let mut split = Vec::with_capacity(words.instructions.len());
     // Type and pointers of loads that take a combined one.
     for instruction in std::mem::take(&mut words.instructions) {
@@ -128,7 +126,7 @@ pub(super) fn split_combined_samplers(words: &mut Words) -> Result<BTreeMap<Plac
             (op::DECORATE, Some([target, kind, value])) => {
                 (samplers.get(&target).zip(places.get(&target))).map(|(sampler, (_, own))| {
                     let value = match kind {
-                        decoration::BINDING => own.1,
+                        decoration::BINDING => *own,
                         _ => value,
                     };
                     let copy = Instruction::new(op::DECORATE, [*sampler, kind, value]);
@@ -143,35 +141,7 @@ pub(super) fn split_combined_samplers(words: &mut Words) -> Result<BTreeMap<Plac
         }
     }
     words.instructions = split;
-    Ok((places.into_values())
-        .map(|(texture, sampler)| (sampler, texture))
+    Ok((places.into_iter())
+        .map(|(variable, sampler)| (sampler, textures[&variable]))
         .collect())
-}
-
-/// Finds the place of each combined variable, and a free one for its sampler.
-fn place_samplers(words: &Words, variables: &[u32]) -> BTreeMap<u32, (Place, Place)> {
-    let mut decorated = BTreeMap::<u32, [Option<u32>; 2]>::new();
-    for [target, kind, value] in words.all(op::DECORATE) {
-        match kind {
-            decoration::DESCRIPTOR_SET => decorated.entry(target).or_default()[0] = Some(value),
-            decoration::BINDING => decorated.entry(target).or_default()[1] = Some(value),
-            _ => {}
-        }
-    }
-    let place = |variable: &u32| match decorated.get(variable) {
-        Some([group, Some(binding)]) => Some((group.unwrap_or(0), *binding)),
-        _ => None,
-    };
-    let mut used: BTreeSet<Place> = decorated.keys().filter_map(place).collect();
-    let mut places = BTreeMap::new();
-    for variable in variables {
-        let Some(texture) = place(variable) else {
-            continue;
-        };
-        let mut free = (0..).filter(|binding| !used.contains(&(texture.0, *binding)));
-        let sampler = (texture.0, free.next().expect("few numbers are used"));
-        used.insert(sampler);
-        places.insert(*variable, (texture, sampler));
-    }
-    places
 }

@@ -55,10 +55,4 @@ impl Language {
             Self::Wgsl => "WGSL",
         }
     }
-
-    /// Returns the ending of a file in this language.
-    pub fn ending(self) -> &'static str {
-        let mut known = ENDINGS.iter().filter(|(_, language)| *language == self);
-        known.next().expect("each language has an ending").0
-    }
 }

@@ -9,6 +9,9 @@ use crate::shader::{BlockNumber, NumberKind, UniformBlock};
 /// Upper limit on the numbers of a block.
 const MAX_NUMBERS: usize = 1024;
 
+/// Name that stands for all members without a value of their own.
+const OTHERS: &str = "*";
+
 /// Upper limit on the bytes of a block, which every adapter grants.
 const MAX_BYTES: u32 = 64 << 10;
 
@@ -33,6 +36,8 @@ pub(super) fn fill_block(
         .map_err(|error| format!("has no layout: {error}"))?;
     let members = list_members(module, block)?;
     let given = binding.map_or(&[][..], |binding| &binding.values);
+    let others = given.iter().find(|(name, _)| name == OTHERS);
+    let others = others.map(|(_, values)| values);
     let mut numbers = Vec::new();
     for member in &members {
         let place = format!("@{}", member.offset);
@@ -44,10 +49,11 @@ pub(super) fn fill_block(
             None if member.numbers.len() == 1 && is_known(&member.name) => {
                 vec![Expression::Name(member.name.clone())]
             }
+            None if others.is_some() => others.cloned().unwrap_or_default(),
             None => {
                 return Err(format!(
                     "its member \"{}\" ({} at byte {}) has no value; add it to `values` of its [[pass.binding]], as a \
-                     number, a parameter, an expression, or one of {}; 0 for padding",
+                     number, a parameter, an expression, or one of {}; 0 for padding, and \"*\" = 0 for all others",
                     member.name,
                     describe(&member.numbers),
                     member.offset,
@@ -72,8 +78,9 @@ pub(super) fn fill_block(
         }
     }
     let is_member = |name: &String| {
-        (members.iter())
-            .any(|member| member.name == *name || format!("@{}", member.offset) == *name)
+        name == OTHERS
+            || (members.iter())
+                .any(|member| member.name == *name || format!("@{}", member.offset) == *name)
     };
     if let Some((name, _)) = given.iter().find(|(name, _)| !is_member(name)) {
         let names: Vec<&str> = members.iter().map(|member| &member.name[..]).collect();

@@ -5,13 +5,21 @@
 
 mod bind;
 mod combined;
+mod compile;
 mod compiler;
 #[cfg(test)]
 mod deep;
+mod entry;
+mod formats;
+mod includes;
 mod language;
+mod levels;
 mod members;
 mod module;
+mod packages;
+mod sources;
 mod storage;
+mod textures;
 mod words;
 
 use std::path::Path;
@@ -33,7 +41,7 @@ pub(crate) fn translate(
     bytes: &[u8],
 ) -> Result<Shader, FilterError> {
     let translated = run_on_large_stack(|| {
-        let module = module::read(shader, path, bytes)?;
+        let module = module::read(filter, shader, path, bytes)?;
         bind::bind(filter, shader, path, module)
     });
     translated.unwrap_or_else(|panic| {

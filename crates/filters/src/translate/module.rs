@@ -5,26 +5,39 @@ use std::path::Path;
 
 use wgpu::naga::{Module, front};
 
-use super::combined::{Place, split_combined_samplers};
-use super::storage::narrow_storage_access;
-use super::words::Words;
-use super::{Language, compiler, explain, refuse};
-use crate::FilterError;
-use crate::filter::PassShader;
-use crate::shader::{parse_wgsl, tidy};
+use super::combined::split_combined_samplers;
+use super::compile::compile;
+use super::formats::give_formats;
+use super::levels::name_levels;
+use super::storage::{narrow_storage_access, split_images};
+use super::words::{Place, Words};
+use super::{Language, explain, refuse};
+use crate::filter::{BindingPlace, PassShader};
+use crate::shader::{parse_wgsl, tidy, written_texture};
+use crate::{Filter, FilterError, Format};
 
 /// A module that is not validated yet.
 pub(super) struct Read {
     pub module: Module,
-    /// Places of samplers that were split from textures, each with the place of its texture.
-    pub samplers: BTreeMap<Place, Place>,
+    /// Places of variables that were split from others, each with the place of the other.
+    pub owners: BTreeMap<Place, Place>,
 }
 
 /// Reads the bytes of a shader.
-pub(super) fn read(shader: &PassShader, path: &Path, bytes: &[u8]) -> Result<Read, FilterError> {
+pub(super) fn read(
+    filter: &Filter,
+    shader: &PassShader,
+    path: &Path,
+    bytes: &[u8],
+) -> Result<Read, FilterError> {
     let language = Language::of(&shader.file).map_err(|reason| refuse(path, reason))?;
+    let from_spirv = |bytes: &[u8]| {
+        let unsaid = matches!(language, Language::Hlsl | Language::Slang);
+        let stored = |place, name: &str| find_stored_format(filter, shader, place, name);
+        read_spirv(path, bytes, &|words| give_formats(words, unsaid, &stored))
+    };
     if language == Language::Spirv {
-        return read_spirv(path, bytes);
+        return from_spirv(bytes);
     }
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let place = error.valid_up_to();
@@ -35,19 +48,56 @@ pub(super) fn read(shader: &PassShader, path: &Path, bytes: &[u8]) -> Result<Rea
     })?;
     let read = |module| Read {
         module,
-        samplers: BTreeMap::new(),
+        owners: BTreeMap::new(),
+    };
+    let folder = match filter.lines.path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
     };
     match language {
         Language::Wgsl => parse_wgsl(path, text).map(read),
         Language::Wesl => {
-            let wgsl = compiler::compile(path, text, language, shader)?;
+            let wgsl = compile(folder, text, language, shader)?;
             let wgsl = String::from_utf8_lossy(&wgsl);
             parse_wgsl(path, &wgsl)
                 .map(read)
                 .map_err(|error| in_compiled(path, &error))
         }
-        Language::Glsl => compile(shader, path, &without_stage_line(text), language),
-        Language::Spirv | Language::Slang | Language::Hlsl => compile(shader, path, text, language),
+        Language::Glsl => {
+            let text = without_stage_line(text);
+            from_spirv(&compile(folder, &text, language, shader)?)
+        }
+        Language::Spirv | Language::Slang | Language::Hlsl => {
+            from_spirv(&compile(folder, text, language, shader)?)
+        }
+    }
+}
+
+/// Finds the format in which filter.toml has the texture that a shader stores to; none for a texture that it does not name.
+fn find_stored_format(
+    filter: &Filter,
+    shader: &PassShader,
+    (group, binding): Place,
+    name: &str,
+) -> Option<Format> {
+    let place = BindingPlace::Bound { group, binding };
+    let mut bindings = shader.bindings.iter();
+    let explained = bindings.find(|it| match &it.place {
+        BindingPlace::Named(wanted) => wanted == name,
+        other => *other == place,
+    });
+    let texture = explained.and_then(|binding| binding.texture.as_deref());
+    let texture = texture.unwrap_or_else(|| written_texture(name));
+    let declared = filter.textures.iter().find(|it| it.name == texture);
+    match (declared, texture) {
+        (Some(declared), _) => Some(declared.format),
+        (None, "output") => Some(
+            filter
+                .convention
+                .output_format
+                .unwrap_or(Format::Rgba32Float),
+        ),
+        _ => None,
     }
 }
 
@@ -58,16 +108,6 @@ fn in_compiled(path: &Path, error: &FilterError) -> FilterError {
         other => other.to_string(),
     };
     refuse(path, format!("after its imports and conditions: {reason}"))
-}
-
-fn compile(
-    shader: &PassShader,
-    path: &Path,
-    text: &str,
-    language: Language,
-) -> Result<Read, FilterError> {
-    let module = compiler::compile(path, text, language, shader)?;
-    read_spirv(path, &module)
 }
 
 /// Blanks the line `#[compute]` that Godot puts before its shaders; the numbers of lines hold.
@@ -82,10 +122,17 @@ fn without_stage_line(text: &str) -> String {
     }
 }
 
-fn read_spirv(path: &Path, bytes: &[u8]) -> Result<Read, FilterError> {
+fn read_spirv(
+    path: &Path,
+    bytes: &[u8],
+    give_formats: &dyn Fn(&mut Words),
+) -> Result<Read, FilterError> {
     let mut words = Words::read(bytes).map_err(|reason| refuse(path, reason))?;
-    let samplers = split_combined_samplers(&mut words).map_err(|reason| refuse(path, reason))?;
+    let mut owners = split_combined_samplers(&mut words).map_err(|reason| refuse(path, reason))?;
+    owners.extend(split_images(&mut words));
     narrow_storage_access(&mut words);
+    name_levels(&mut words);
+    give_formats(&mut words);
     let options = front::spv::Options {
         adjust_coordinate_space: false,
         ..front::spv::Options::default()
@@ -99,5 +146,5 @@ fn read_spirv(path: &Path, bytes: &[u8]) -> Result<Read, FilterError> {
             ),
         )
     })?;
-    Ok(Read { module, samplers })
+    Ok(Read { module, owners })
 }

@@ -1,11 +1,13 @@
 //! Access of kernels to storage images, narrowed to what they do.
 //!
 //! GLSL often leaves `readonly` and `writeonly` out, and WebGPU lets few formats be read and written at once. An image that is only
-//! written is declared so. One that is only read becomes a sampled texture, which every format can be.
+//! written is declared so. One that is only read becomes a sampled texture, which every format can be. One that is both becomes two
+//! variables first: what is read is what it held before the pass.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::words::{Instruction, UNIFORM_CONSTANT, Words, decoration, op};
+use super::levels::LOD;
+use super::words::{Instruction, Place, UNIFORM_CONSTANT, Words, decoration, op};
 
 /// Uses of one storage image.
 #[derive(Clone, Copy, Default)]
@@ -18,6 +20,20 @@ struct Uses {
 
 /// Narrows the access to every storage image.
 pub(super) fn narrow_storage_access(words: &mut Words) {
+    let (storage_types, variables) = find_images(words);
+    let uses = find_uses(words, &variables);
+    let written = |uses: &Uses| uses.writes && !uses.reads && !uses.others;
+    let read = |uses: &Uses| uses.reads && !uses.writes && !uses.others;
+    let only = |is: &dyn Fn(&Uses) -> bool| -> BTreeSet<u32> {
+        let chosen = uses.iter().filter(|(_, uses)| is(uses));
+        chosen.map(|(variable, _)| *variable).collect()
+    };
+    declare_written(words, &only(&written));
+    sample_read(words, &only(&read), &variables, &storage_types);
+}
+
+/// Finds the types of storage images, and the variables of these types.
+fn find_images(words: &Words) -> (BTreeMap<u32, Instruction>, BTreeMap<u32, u32>) {
     let storage_types: BTreeMap<u32, Instruction> = (words.instructions.iter())
         .filter(|it| it.opcode == op::TYPE_IMAGE && it.operands.get(6) == Some(&2))
         .map(|it| (it.operands[0], it.clone()))
@@ -30,15 +46,73 @@ pub(super) fn narrow_storage_access(words: &mut Words) {
     let variables: BTreeMap<u32, u32> = (words.all(op::VARIABLE))
         .filter_map(|[pointer, variable]| Some((variable, *pointers.get(&pointer)?)))
         .collect();
+    (storage_types, variables)
+}
+
+/// Splits images that a kernel both reads and writes in two variables. Returns the places of those that are read, each with the
+/// place of the one that is written.
+pub(super) fn split_images(words: &mut Words) -> BTreeMap<Place, Place> {
+    let (_, variables) = find_images(words);
     let uses = find_uses(words, &variables);
-    let written = |uses: &Uses| uses.writes && !uses.reads && !uses.others;
-    let read = |uses: &Uses| uses.reads && !uses.writes && !uses.others;
-    let only = |is: &dyn Fn(&Uses) -> bool| -> BTreeSet<u32> {
-        let chosen = uses.iter().filter(|(_, uses)| is(uses));
-        chosen.map(|(variable, _)| *variable).collect()
-    };
-    declare_written(words, &only(&written));
-    sample_read(words, &only(&read), &variables, &storage_types);
+    let read: BTreeSet<u32> = (words.all(op::IMAGE_READ))
+        .map(|[_, _, image]| image)
+        .collect();
+    // A load that serves both stays whole.
+    let shared: BTreeSet<u32> = (words.all(op::IMAGE_WRITE))
+        .map(|[image]| image)
+        .filter(|image| read.contains(image))
+        .collect();
+    let shared: BTreeSet<u32> = (words.all(op::LOAD))
+        .filter(|[_, image, _]| shared.contains(image))
+        .map(|[_, _, variable]| variable)
+        .collect();
+    let both: Vec<u32> = (uses.into_iter())
+        .filter(|(_, uses)| uses.reads && uses.writes && !uses.others)
+        .map(|(variable, _)| variable)
+        .filter(|variable| !shared.contains(variable))
+        .collect();
+    let written = words.find_places();
+    let free = words.find_free_places(&both);
+    let twins: BTreeMap<u32, u32> = free
+        .keys()
+        .map(|variable| (*variable, words.new_id()))
+        .collect();
+    let mut instructions = Vec::with_capacity(words.instructions.len());
+    for mut instruction in std::mem::take(&mut words.instructions) {
+        let twin = (instruction.operands.first()).and_then(|named| twins.get(named));
+        if let (op::NAME, Some(twin)) = (instruction.opcode, twin) {
+            let mut copy = instruction.clone();
+            copy.operands[0] = *twin;
+            instructions.push(copy);
+        }
+        match (instruction.opcode, instruction.first::<3>()) {
+            (op::VARIABLE, Some([pointer, variable, class])) if twins.contains_key(&variable) => {
+                let twin = [pointer, twins[&variable], class];
+                instructions.push(Instruction::new(op::VARIABLE, twin));
+            }
+            (op::DECORATE, Some([variable, kind, value])) if twins.contains_key(&variable) => {
+                let value = match kind {
+                    decoration::BINDING => free[&variable].1,
+                    _ => value,
+                };
+                instructions.push(Instruction::new(
+                    op::DECORATE,
+                    [twins[&variable], kind, value],
+                ));
+            }
+            (op::LOAD, Some([_, image, variable]))
+                if twins.contains_key(&variable) && read.contains(&image) =>
+            {
+                instruction.operands[2] = twins[&variable];
+            }
+            _ => {}
+        }
+        instructions.push(instruction);
+    }
+    words.instructions = instructions;
+    (free.into_iter())
+        .map(|(variable, read)| (read, written[&variable]))
+        .collect()
 }
 
 /// Finds what a module does with each variable.
@@ -49,7 +123,6 @@ fn find_uses(words: &Words, variables: &BTreeMap<u32, u32>) -> BTreeMap<u32, Use
     for instruction in &words.instructions {
         let operands = &instruction.operands;
         match (instruction.opcode, &operands[..]) {
-            (op::NAME | op::DECORATE | op::ENTRY_POINT | op::VARIABLE, _) => {}
             (op::LOAD, [_, result, pointer, ..]) if variables.contains_key(pointer) => {
                 loaded.insert(*result, *pointer);
             }
@@ -62,10 +135,9 @@ fn find_uses(words: &Words, variables: &BTreeMap<u32, u32>) -> BTreeMap<u32, Use
                 uses.entry(loaded[image]).or_default().writes = true;
             }
             (op::IMAGE_QUERY_SIZE, [_, _, image]) if loaded.contains_key(image) => {}
-            // A word may be a number that looks like an id: then nothing is narrowed, and nothing is wrong.
             _ => {
-                for word in operands {
-                    let variable = loaded.get(word).unwrap_or(word);
+                for id in list_images(instruction) {
+                    let variable = loaded.get(id).unwrap_or(id);
                     if let Some(found) = uses.get_mut(variable) {
                         found.others = true;
                     }
@@ -74,6 +146,22 @@ fn find_uses(words: &Words, variables: &BTreeMap<u32, u32>) -> BTreeMap<u32, Use
         }
     }
     uses
+}
+
+/// Lists the operands of an instruction that may be images or pointers to them, and no numbers.
+fn list_images(instruction: &Instruction) -> &[u32] {
+    let operands = &instruction.operands[..];
+    let places = match instruction.opcode {
+        op::STORE | op::COPY_MEMORY => 0..2,
+        op::RETURN_VALUE => 0..1,
+        op::IMAGE_TEXEL_POINTER | op::COPY_OBJECT | op::ARRAY_LENGTH => 2..3,
+        op::ACCESS_CHAIN..=op::PTR_ACCESS_CHAIN | op::IN_BOUNDS_PTR_ACCESS_CHAIN => 2..3,
+        op::SAMPLED_IMAGE..=op::IMAGE_QUERY_SAMPLES => 2..3,
+        op::SELECT | op::PHI => 2..operands.len(),
+        op::FUNCTION_CALL => 3..operands.len(),
+        _ => 0..0,
+    };
+    operands.get(places).unwrap_or_default()
 }
 
 /// Declares images that are only written.
@@ -151,8 +239,6 @@ fn sample_read(
                 instructions.push(Instruction::new(op::LOAD, [sampled, *result, *pointer]));
             }
             (op::IMAGE_READ, [ty, result, image, at]) if loaded.contains(image) => {
-                /// Says that a level follows.
-                const LOD: u32 = 2;
                 let operands = [*ty, *result, *image, *at, LOD, zero];
                 instructions.push(Instruction::new(op::IMAGE_FETCH, operands));
             }

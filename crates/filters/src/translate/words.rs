@@ -1,5 +1,10 @@
 //! Instructions of a SPIR-V module, read from its words and written back.
 
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Group and binding of a resource.
+pub(super) type Place = (u32, u32);
+
 /// The first word of every module.
 const MAGIC: u32 = 0x0723_0203;
 
@@ -12,7 +17,7 @@ const MAX_NESTABLE: usize = 10_000;
 /// Opcodes that the passes over a module look at.
 pub(super) mod op {
     pub const NAME: u32 = 5;
-    pub const ENTRY_POINT: u32 = 15;
+    pub const CAPABILITY: u32 = 17;
     pub const TYPE_INT: u32 = 21;
     pub const TYPE_IMAGE: u32 = 25;
     pub const TYPE_SAMPLER: u32 = 26;
@@ -26,20 +31,33 @@ pub(super) mod op {
     pub const CONSTANT_COMPOSITE: u32 = 44;
     pub const SPEC_CONSTANT_COMPOSITE: u32 = 51;
     pub const SPEC_CONSTANT_OP: u32 = 52;
+    pub const FUNCTION: u32 = 54;
     pub const FUNCTION_PARAMETER: u32 = 55;
     pub const FUNCTION_CALL: u32 = 57;
     pub const VARIABLE: u32 = 59;
+    pub const IMAGE_TEXEL_POINTER: u32 = 60;
     pub const LOAD: u32 = 61;
+    pub const STORE: u32 = 62;
+    pub const COPY_MEMORY: u32 = 63;
+    pub const ACCESS_CHAIN: u32 = 65;
+    pub const PTR_ACCESS_CHAIN: u32 = 67;
+    pub const ARRAY_LENGTH: u32 = 68;
+    pub const IN_BOUNDS_PTR_ACCESS_CHAIN: u32 = 70;
     pub const DECORATE: u32 = 71;
+    pub const COPY_OBJECT: u32 = 83;
     pub const SAMPLED_IMAGE: u32 = 86;
     pub const IMAGE_FETCH: u32 = 95;
     pub const IMAGE_READ: u32 = 98;
     pub const IMAGE_WRITE: u32 = 99;
     pub const IMAGE_QUERY_SIZE_LOD: u32 = 103;
     pub const IMAGE_QUERY_SIZE: u32 = 104;
+    pub const IMAGE_QUERY_SAMPLES: u32 = 107;
+    pub const SELECT: u32 = 169;
+    pub const PHI: u32 = 245;
     pub const LOOP_MERGE: u32 = 246;
     pub const SELECTION_MERGE: u32 = 247;
     pub const SWITCH: u32 = 251;
+    pub const RETURN_VALUE: u32 = 254;
 }
 
 /// Decorations that the passes look at.
@@ -176,6 +194,36 @@ impl Words {
         (self.instructions.iter())
             .filter(move |instruction| instruction.opcode == opcode)
             .filter_map(Instruction::first)
+    }
+
+    /// Finds the groups and bindings of variables.
+    pub fn find_places(&self) -> BTreeMap<u32, Place> {
+        let mut places = BTreeMap::<u32, Place>::new();
+        for [target, kind, value] in self.all(op::DECORATE) {
+            match kind {
+                decoration::DESCRIPTOR_SET => places.entry(target).or_default().0 = value,
+                decoration::BINDING => places.entry(target).or_default().1 = value,
+                _ => {}
+            }
+        }
+        places
+    }
+
+    /// Finds a binding for each of these variables that no other has, in the same group.
+    pub fn find_free_places(&self, variables: &[u32]) -> BTreeMap<u32, Place> {
+        let places = self.find_places();
+        let mut used: BTreeSet<Place> = places.values().copied().collect();
+        let mut free = BTreeMap::new();
+        for variable in variables {
+            let Some((group, _)) = places.get(variable) else {
+                continue;
+            };
+            let mut bindings = (0..).filter(|binding| !used.contains(&(*group, *binding)));
+            let place = (*group, bindings.next().expect("few numbers are used"));
+            used.insert(place);
+            free.insert(*variable, place);
+        }
+        free
     }
 
     /// Writes the module.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use filters::{Command, FilterError, Gpu};
+use filters::{Command, Convention, FilterError, Gpu};
 use frame::{Frame, Picture, Vectors};
 use metrics::{Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference};
 use tracer::Scene;
@@ -171,6 +171,8 @@ impl CaseContext<'_> {
             _ => None,
         };
         let command = choice.and_then(|choice| choice.filter.command.as_ref());
+        let convention = choice.map(|choice| choice.filter.convention);
+        let convention = convention.filter(|it| *it != Convention::default());
         let truth = self.references.truth;
         let case = Case {
             scene: self.scene.name.clone(),
@@ -185,6 +187,7 @@ impl CaseContext<'_> {
             overrides: choice.map_or_else(BTreeMap::new, |choice| choice.overrides.clone()),
             reference_width: choice.and_then(|choice| choice.settings.reference_width),
             command: command.map(Command::words),
+            convention: convention.map(Convention::resolved),
             nonlinearity: measured.nonlinearity,
             alignment: truth.alignment.name().to_owned(),
             truth_hash: truth.provenance.content_hash.clone(),

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use filters::Value;
+use filters::{Convention, Value};
 use metrics::{ImageScores, Interval, Jitter, Scores};
 use serde::{Deserialize, Serialize};
 use tracer::Family;
@@ -46,6 +46,10 @@ pub struct Case {
     /// Program and arguments of a filter that is a command, as filter.toml has them. Nothing records what the program does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub command: Option<Vec<String>>,
+    /// Form of velocity, depth and colour, and formats of their textures, that the filter's shaders got; none where that is the
+    /// frame's own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub convention: Option<Convention>,
     /// Dependence of the filter's weights on colour: the difference between the blur of a mixture and the mixture of the blurs,
     /// relative to what the blur changes; none for reference pictures.
     pub nonlinearity: Option<f64>,

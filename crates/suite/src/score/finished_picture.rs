@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use filters::Convention;
 use frame::{ExrFile, Frame, Image, Plane, Truth, read_exr, read_png, scene_linear};
 
 use crate::Error;
@@ -20,16 +21,23 @@ pub struct FinishedPicture {
 
 /// Reads a picture that was made from `frame`, to be scored against `truth`: OpenEXR or PNG, by the ending of its name.
 ///
-/// Decodes a PNG from sRGB and undoes the frame's display exposure. Crops a picture that has the frame's guard band. Refuses a
+/// Takes an OpenEXR's colours as the convention has them. Decodes a PNG from sRGB and undoes the frame's display exposure. Crops a picture that has the frame's guard band. Refuses a
 /// file that says that it was made for another shutter.
 pub fn read_finished_picture(
     path: &Path,
+    convention: &Convention,
     frame: &Frame,
     truth: &Truth,
 ) -> Result<FinishedPicture, Error> {
     let ending = path.extension().and_then(|ending| ending.to_str());
     let finished = match ending.map(str::to_ascii_lowercase).as_deref() {
-        Some("exr") => read_radiance(path, truth)?,
+        Some("exr") => read_radiance(path, convention, truth)?,
+        Some("png") if *convention != Convention::default() => {
+            return refuse(
+                path,
+                "is a PNG, whose colours are those of a display; a convention is for OpenEXR files",
+            );
+        }
         Some("png") => read_display_referred(path, frame.display.stops, truth)?,
         _ => {
             return refuse(
@@ -63,15 +71,22 @@ pub fn read_finished_picture(
     }
 }
 
-fn read_radiance(path: &Path, truth: &Truth) -> Result<FinishedPicture, Error> {
+fn read_radiance(
+    path: &Path,
+    convention: &Convention,
+    truth: &Truth,
+) -> Result<FinishedPicture, Error> {
     let file = read_exr(path)?;
     file.expect_no_padding()?;
     check_shutter(&file, truth)?;
+    let scale = convention.color_scale.filter(|scale| *scale != 1.0);
     Ok(FinishedPicture {
-        color: file.color("")?,
+        color: convention.restore_color(&file.color("")?),
         mattes: mattes(&file, truth)?,
         display_referred: false,
-        notes: Vec::new(),
+        notes: (scale.iter())
+            .map(|scale| format!("colours divided by color_scale = {scale}"))
+            .collect(),
     })
 }
 

@@ -1,0 +1,253 @@
+//! Conversion of velocity, depth and colour between frames and the convention of an engine.
+
+use frame::{FAR_DEPTH, Image, Plane, Vectors};
+
+use super::convention::{
+    Convention, DepthKind, VelocitySign, VelocityTime, VelocityUnit, VerticalDirection,
+};
+
+impl Convention {
+    /// Converts velocity in pixels per frame to the engine's.
+    pub fn convert_velocity(&self, velocity: &Vectors, exposure: f64) -> Vectors {
+        let factors = self.velocity_factors([velocity.width, velocity.height], exposure);
+        velocity.map(|[x, y]| {
+            [
+                (f64::from(*x) * factors[0]) as f32,
+                (f64::from(*y) * factors[1]) as f32,
+            ]
+        })
+    }
+
+    /// Converts the engine's velocity to pixels per frame.
+    pub fn restore_velocity(&self, velocity: &Vectors, exposure: f64) -> Vectors {
+        let factors = self.velocity_factors([velocity.width, velocity.height], exposure);
+        velocity.map(|[x, y]| {
+            [
+                (f64::from(*x) / factors[0]) as f32,
+                (f64::from(*y) / factors[1]) as f32,
+            ]
+        })
+    }
+
+    /// Returns the engine's velocity of a surface that moves by a pixel per frame to the right and down.
+    fn velocity_factors(&self, [width, height]: [u32; 2], exposure: f64) -> [f64; 2] {
+        let sign = match self.velocity_sign {
+            VelocitySign::CurrentMinusPrevious => 1.0,
+            VelocitySign::PreviousMinusCurrent => -1.0,
+        };
+        let time = match self.velocity_per {
+            VelocityTime::Frame => 1.0,
+            VelocityTime::Shutter => exposure,
+            VelocityTime::Second => self.frames_per_second.unwrap_or(1.0),
+        };
+        let y = match self.velocity_y {
+            VerticalDirection::Down => 1.0,
+            VerticalDirection::Up => -1.0,
+        };
+        let unit = match self.velocity {
+            VelocityUnit::Pixels => [1.0, 1.0],
+            VelocityUnit::Uv => [1.0 / f64::from(width), 1.0 / f64::from(height)],
+            VelocityUnit::Ndc => [2.0 / f64::from(width), 2.0 / f64::from(height)],
+        };
+        let common = sign * time * self.velocity_scale.unwrap_or(1.0);
+        [common * unit[0], common * unit[1] * y]
+    }
+
+    /// Converts depth in metres to the engine's.
+    pub fn convert_depth(&self, metres: &Plane) -> Plane {
+        let near = self.near.unwrap_or(1.0);
+        let reversed = |z: &f32| {
+            let z = f64::from(*z);
+            let reversed = match self.far {
+                None => near / z,
+                Some(far) => near * (far - z) / (z * (far - near)),
+            };
+            reversed.clamp(0.0, 1.0)
+        };
+        metres.map(|z| match self.depth {
+            DepthKind::Linear => *z,
+            DepthKind::Reversed => reversed(z) as f32,
+            DepthKind::Forward => (1.0 - reversed(z)) as f32,
+            DepthKind::Ndc => (1.0 - 2.0 * reversed(z)) as f32,
+        })
+    }
+
+    /// Converts the engine's depth to metres. The value of a cleared buffer becomes the background.
+    pub fn restore_depth(&self, depth: &Plane) -> Plane {
+        let near = self.near.unwrap_or(1.0);
+        depth.map(|depth| {
+            let stored = f64::from(*depth);
+            let reversed = match self.depth {
+                DepthKind::Linear => return *depth,
+                DepthKind::Reversed => stored,
+                DepthKind::Forward => 1.0 - stored,
+                DepthKind::Ndc => 0.5 - 0.5 * stored,
+            };
+            match (reversed == 0.0, self.far) {
+                (true, _) => FAR_DEPTH,
+                (false, None) => (near / reversed) as f32,
+                (false, Some(far)) => (near * far / (near + reversed * (far - near))) as f32,
+            }
+        })
+    }
+
+    /// Converts scene-linear colour to the engine's.
+    pub fn convert_color(&self, color: &Image) -> Image {
+        let scale = self.color_scale.unwrap_or(1.0) as f32;
+        color.map(|pixel| pixel.map(|value| scale * value))
+    }
+
+    /// Converts the engine's colour to scene-linear.
+    pub fn restore_color(&self, color: &Image) -> Image {
+        let scale = self.color_scale.unwrap_or(1.0) as f32;
+        color.map(|pixel| pixel.map(|value| value / scale))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use frame::Raster;
+
+    use super::*;
+
+    const WIDTH: u32 = 80;
+    const HEIGHT: u32 = 40;
+
+    /// A quarter of the width to the right and an eighth of the height down, per frame.
+    fn moving() -> Vectors {
+        Raster::from_fn(WIDTH, HEIGHT, |_, _| [20.0, 5.0])
+    }
+
+    #[test]
+    fn each_form_of_velocity_has_the_number_that_it_should_have() {
+        // (form, velocity of that surface with a shutter of half a frame)
+        let cases = [
+            (Convention::default(), [20.0, 5.0]),
+            (
+                Convention {
+                    velocity: VelocityUnit::Uv,
+                    ..Convention::default()
+                },
+                [0.25, 0.125],
+            ),
+            (
+                Convention {
+                    velocity: VelocityUnit::Ndc,
+                    ..Convention::default()
+                },
+                [0.5, 0.25],
+            ),
+            (
+                Convention {
+                    velocity_y: VerticalDirection::Up,
+                    ..Convention::default()
+                },
+                [20.0, -5.0],
+            ),
+            (
+                Convention {
+                    velocity_sign: VelocitySign::PreviousMinusCurrent,
+                    ..Convention::default()
+                },
+                [-20.0, -5.0],
+            ),
+            (
+                Convention {
+                    velocity_per: VelocityTime::Shutter,
+                    ..Convention::default()
+                },
+                [10.0, 2.5],
+            ),
+            (
+                Convention {
+                    velocity_per: VelocityTime::Second,
+                    frames_per_second: Some(60.0),
+                    ..Convention::default()
+                },
+                [1200.0, 300.0],
+            ),
+            (
+                Convention {
+                    velocity_scale: Some(0.5),
+                    ..Convention::default()
+                },
+                [10.0, 2.5],
+            ),
+            // Unreal, per shutter: twice that part of the picture, upwards, for half the time.
+            (
+                Convention {
+                    velocity: VelocityUnit::Ndc,
+                    velocity_y: VerticalDirection::Up,
+                    velocity_per: VelocityTime::Shutter,
+                    ..Convention::default()
+                },
+                [0.25, -0.125],
+            ),
+        ];
+        for (form, expected) in cases {
+            let converted = form.convert_velocity(&moving(), 0.5);
+            assert_eq!(*converted.at(3, 4), expected, "{form:?}");
+            assert_eq!(form.restore_velocity(&converted, 0.5), moving(), "{form:?}");
+        }
+    }
+
+    #[test]
+    fn each_form_of_depth_has_its_planes_at_its_ends_and_leads_back() {
+        let planes = |depth, far| Convention {
+            depth,
+            near: Some(0.5),
+            far,
+            ..Convention::default()
+        };
+        let metres = Raster {
+            width: 4,
+            height: 1,
+            pixels: vec![0.5, 1.0, 8.0, FAR_DEPTH],
+        };
+        // (8 - 1) / 1 x 0.5 / 7.5.
+        let middle = (0.5 * 7.0 / 7.5) as f32;
+        // (form, distance of the far plane, its numbers at the near plane, 1 m, 8 m and beyond)
+        let cases = [
+            (DepthKind::Reversed, Some(8.0), [1.0, middle, 0.0, 0.0]),
+            (DepthKind::Forward, Some(8.0), [0.0, 1.0 - middle, 1.0, 1.0]),
+            (
+                DepthKind::Ndc,
+                Some(8.0),
+                [-1.0, 1.0 - 2.0 * middle, 1.0, 1.0],
+            ),
+            (DepthKind::Reversed, None, [1.0, 0.5, 0.0625, 5e-11]),
+            (DepthKind::Forward, None, [0.0, 0.5, 0.9375, 1.0]),
+            (DepthKind::Ndc, None, [-1.0, 0.0, 0.875, 1.0]),
+        ];
+        for (kind, far, expected) in cases {
+            let form = planes(kind, far);
+            let converted = form.convert_depth(&metres);
+            for (found, expected) in converted.pixels.iter().zip(expected) {
+                assert!(
+                    (found - expected).abs() < 1e-6,
+                    "{form:?}: {:?}",
+                    converted.pixels
+                );
+            }
+            let back = form.restore_depth(&converted);
+            // What lies at the far plane looks as the background does.
+            let last = if far.is_some() { FAR_DEPTH } else { 8.0 };
+            for (found, expected) in back.pixels.iter().zip([0.5, 1.0, last, FAR_DEPTH]) {
+                let error = (found / expected - 1.0).abs();
+                assert!(error < 1e-5, "{form:?}: {:?}", back.pixels);
+            }
+        }
+    }
+
+    #[test]
+    fn exposed_colour_is_divided_again() {
+        let exposed = Convention {
+            color_scale: Some(4.0),
+            ..Convention::default()
+        };
+        let color = Raster::from_fn(2, 2, |x, y| [x as f32, y as f32, 0.3]);
+        let converted = exposed.convert_color(&color);
+        assert_eq!(*converted.at(1, 0), [4.0, 0.0, 1.2]);
+        assert_eq!(exposed.restore_color(&converted), color);
+    }
+}

@@ -1,0 +1,214 @@
+//! Files that a compiler gets to see: a shader and what it includes or imports, all from the filter's folder.
+
+use std::collections::BTreeMap;
+use std::path::{Component, Path, PathBuf};
+
+use frame::read_bounded;
+
+use super::Language;
+use super::compiler::MAX_MODULE_BYTES;
+use super::includes::list_includes;
+use super::packages::name_packages;
+use crate::FilterError;
+
+/// Upper limit on files of one shader.
+const MAX_FILES: usize = 256;
+
+/// Upper limit on folders within one another that modules are looked for in.
+const MAX_DEPTH: usize = 8;
+
+/// Texts by their paths in the filter's folder.
+pub(super) struct Sources {
+    /// The shader itself.
+    pub shader: PathBuf,
+    pub texts: BTreeMap<PathBuf, String>,
+}
+
+impl Sources {
+    /// Reads what the shader in `file` of a filter's folder needs. `text` is its own.
+    pub fn collect(
+        folder: &Path,
+        file: &Path,
+        text: &str,
+        language: Language,
+    ) -> Result<Self, FilterError> {
+        let mut collector = Collector {
+            folder,
+            language,
+            texts: BTreeMap::new(),
+        };
+        let file: PathBuf = file.components().filter(is_name).collect();
+        let base = file.parent().unwrap_or(Path::new("")).to_owned();
+        let endings: &[&str] = match language {
+            Language::Slang => &["slang"],
+            Language::Wesl => &["wesl", "wgsl"],
+            _ => &[],
+        };
+        if !endings.is_empty() {
+            collector.add_modules(&base, endings, 0)?;
+        }
+        collector.texts.insert(file.clone(), text.to_owned());
+        match language {
+            Language::Wesl => name_packages(&base, &mut collector.texts),
+            _ => collector.add_included(&base)?,
+        }
+        Ok(Self {
+            shader: file,
+            texts: collector.texts,
+        })
+    }
+
+    /// Writes all files below a folder.
+    pub fn write(&self, below: &Path) -> std::io::Result<()> {
+        self.texts.iter().try_for_each(|(path, text)| {
+            let path = below.join(path);
+            path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
+            std::fs::write(path, text)
+        })
+    }
+}
+
+fn is_name(part: &Component) -> bool {
+    matches!(part, Component::Normal(_))
+}
+
+struct Collector<'a> {
+    folder: &'a Path,
+    language: Language,
+    texts: BTreeMap<PathBuf, String>,
+}
+
+impl Collector<'_> {
+    /// Adds every file that a known one includes, until there is nothing new.
+    fn add_included(&mut self, base: &Path) -> Result<(), FilterError> {
+        let mut waiting: Vec<PathBuf> = self.texts.keys().cloned().collect();
+        while let Some(file) = waiting.pop() {
+            for include in list_includes(&self.texts[&file]) {
+                let refuse = |reason: String| FilterError::Folder {
+                    path: self.folder.join(&file),
+                    line: Some(include.line),
+                    reason,
+                };
+                let Some(path) = &include.path else {
+                    return Err(refuse(
+                        "#include names its file by a macro; allowed: the path itself, in quotes"
+                            .into(),
+                    ));
+                };
+                let found = self.find(&file, base, path).map_err(refuse)?;
+                if let Some(found) = found.filter(|found| !self.texts.contains_key(found)) {
+                    self.read(&found)?;
+                    waiting.push(found);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Finds an included file beside the one that includes it, or beside the shader; none where neither is there, which the
+    /// compiler says.
+    fn find(&self, by: &Path, base: &Path, path: &str) -> Result<Option<PathBuf>, String> {
+        let leads_out = || {
+            format!(
+                "includes \"{path}\", which lies outside of the filter's folder {}; copy the file into the folder and name \
+                 the copy",
+                self.folder.display()
+            )
+        };
+        let own = by.parent().unwrap_or(Path::new(""));
+        for from in [own, base] {
+            let place = join(from, path).ok_or_else(leads_out)?;
+            let candidate = self.folder.join(&place);
+            if candidate.is_file() {
+                return match stays_below(self.folder, &candidate) {
+                    true => Ok(Some(place)),
+                    false => Err(leads_out()),
+                };
+            }
+        }
+        Ok(None)
+    }
+
+    /// Adds every file with one of these endings in a folder and those below it.
+    fn add_modules(
+        &mut self,
+        below: &Path,
+        endings: &[&str],
+        depth: usize,
+    ) -> Result<(), FilterError> {
+        let path = self.folder.join(below);
+        let listed = std::fs::read_dir(&path).and_then(Iterator::collect::<Result<Vec<_>, _>>);
+        let mut entries =
+            listed.map_err(|error| self.refuse(below, format!("cannot be read: {error}")))?;
+        entries.sort_by_key(std::fs::DirEntry::file_name);
+        for entry in entries {
+            let name = below.join(entry.file_name());
+            let (path, ending) = (entry.path(), name.extension().and_then(|it| it.to_str()));
+            let is_module = ending.is_some_and(|ending| endings.contains(&ending));
+            if is_module && path.is_file() {
+                if !stays_below(self.folder, &path) {
+                    return Err(self.refuse(
+                        &name,
+                        "is a link to a file outside of the filter's folder; copy the file in its place".into(),
+                    ));
+                }
+                self.read(&name)?;
+            } else if entry.file_type().is_ok_and(|kind| kind.is_dir()) && depth < MAX_DEPTH {
+                self.add_modules(&name, endings, depth + 1)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn read(&mut self, place: &Path) -> Result<(), FilterError> {
+        let bytes = read_bounded(&self.folder.join(place), MAX_MODULE_BYTES)
+            .map_err(|error| self.refuse(place, error.to_string()))?;
+        let text = String::from_utf8(bytes)
+            .map_err(|_| self.refuse(place, "is not UTF-8; save it as UTF-8".into()))?;
+        self.texts.insert(place.to_owned(), text);
+        match self.texts.len() > MAX_FILES {
+            true => Err(self.refuse(
+                place,
+                format!(
+                    "is one of more than {MAX_FILES} files of a shader in {}; leave files out that it does not need",
+                    self.language.name()
+                ),
+            )),
+            false => Ok(()),
+        }
+    }
+
+    fn refuse(&self, place: &Path, reason: String) -> FilterError {
+        FilterError::Folder {
+            path: self.folder.join(place),
+            line: None,
+            reason,
+        }
+    }
+}
+
+/// Joins a path as an include names it to a folder within the filter's; none where it leads out.
+fn join(from: &Path, path: &str) -> Option<PathBuf> {
+    let path = path.replace('\\', "/");
+    if path.starts_with('/') || path.contains(':') {
+        return None;
+    }
+    let mut joined = from.to_owned();
+    for part in Path::new(&path).components() {
+        match part {
+            Component::Normal(name) => joined.push(name),
+            Component::CurDir => {}
+            Component::ParentDir if joined.pop() => {}
+            _ => return None,
+        }
+    }
+    Some(joined)
+}
+
+/// Returns true for a file that lies in a folder once links are followed.
+fn stays_below(folder: &Path, file: &Path) -> bool {
+    match (folder.canonicalize(), file.canonicalize()) {
+        (Ok(folder), Ok(file)) => file.starts_with(folder),
+        _ => false,
+    }
+}

@@ -1,0 +1,2 @@
+// The program of pass 5 of Reconstruction.shader.
+#include "Reconstruction.cginc"

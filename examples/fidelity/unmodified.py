@@ -1,0 +1,103 @@
+"""Compares presets with the shaders that they follow, unmodified, on frames of three scenes.
+
+    sh examples/engine_shaders/fetch.sh
+    python3 examples/fidelity/unmodified.py --program shuttertruth --scenes-dir scenes --out out/unmodified
+
+Each filter of ../engine_shaders runs twice: with textures of the formats that its engine has, and with 32-bit inputs and output. It
+prints one row per pair as Markdown, and then how near KinoMotion's shaders come to their transcription once it takes the 10 bits that
+the driver stored.
+"""
+
+import re
+import shutil
+import sys
+
+import numpy as np
+from compare import HERE, SCENES, Difference, blur_with, parse, render, table
+
+sys.path.insert(0, str(HERE / "originals"))
+import jump_flood
+import kino
+
+# (filter of ../engine_shaders, preset, parameters of the preset that differ)
+PAIRS = [
+    ("bevy", "bevy:default", []),
+    ("bevy", "bevy:high", ["bevy_motion_blur.samples=8"]),
+    ("kino", "kino:default", []),
+    ("godot_jump_flood_paper", "jump_flood:paper", []),
+    ("godot_jump_flood_paper", "jump_flood:paper", ["jump_flood.map=float16"]),
+    ("godot_jump_flood_july_2024", "jump_flood:july_2024", []),
+    ("godot_jump_flood", "jump_flood:paper", []),
+    ("godot_jump_flood", "jump_flood:july_2024", []),
+    ("godot_guertin", "guertin:paper", []),
+    ("godot_guertin", "mcguire:paper", []),
+]
+FORMATS = re.compile(r'^(color|velocity|output)_format = .*\n', re.M)
+
+
+def main():
+    arguments = parse(__doc__)
+    frames = render(arguments)
+    rows = []
+    for folder, preset, values in PAIRS:
+        if arguments.only and folder not in arguments.only:
+            continue
+        own = lambda name: [value for value in values if value.split(".")[0] == name]
+        filters = {"its formats": HERE.parent / "engine_shaders" / folder}
+        filters["32 bits"] = widened(filters["its formats"], arguments.out / "wide" / folder)
+        theirs = {
+            kind: [blur_with(arguments, str(path.resolve()), scene, own(name_of(path))) for scene in SCENES]
+            for kind, path in filters.items()
+        }
+        ours = [blur_with(arguments, preset, scene, own(preset.split(":")[0])) for scene in SCENES]
+        moved = Difference(zip(ours, [frame.color for frame in frames]))
+        differences = [Difference(zip(ours, theirs[kind])) for kind in filters]
+        cells = [cell for found in differences for cell in (f"{found.largest:.0e}", f"{found.mean:.1e}", str(found.large))]
+        with_values = "".join(f" {value.split('.')[1]}" for value in values)
+        rows.append([f"`{folder}`", f"`{preset}`{with_values}", *cells, f"{moved.mean:.4f}"])
+    head = ["shader", "preset", "largest", "mean", "> 0.02", "largest, 32 bits", "mean", "> 0.02", "mean of the blur"]
+    print(table(head, rows))
+    print(f"\n{', '.join(SCENES)} at {arguments.size}: {frames[0].depth.size * len(SCENES)} pixels.")
+    if not arguments.only or "kino" in arguments.only:
+        found = explained_kino(arguments, frames)
+        print(f"\nkino and its transcription on what the driver packed: largest {found.largest:.0e}, {found.small} pixels above 0.001.")
+
+
+def explained_kino(arguments, frames):
+    """The transcription, on velocity and depth as the driver packed them, and with tiles whose halves it rounds towards zero."""
+    wide = arguments.out / "wide" / "kino"
+    packing = wide.parent / "kino_packing"
+    shutil.rmtree(packing, ignore_errors=True)
+    shutil.copytree(wide, packing)
+    head, first, *_ = (packing / "filter.toml").read_text().split("[[pass]]\n")
+    head = re.split(r"\[\[parameter\]\]", head)[0] + '[[texture]]\nname = "packed"\nformat = "rgb10a2unorm"\n\n'
+    (packing / "filter.toml").write_text(f'{head}[[pass]]\n{first}[[pass]]\nshader = "show.wgsl"\nstage = "fragment"\n')
+    (packing / "show.wgsl").write_text(
+        "@group(0) @binding(0) var packed: texture_2d<f32>;\n\n@fragment\n"
+        "fn main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {\n"
+        "    return textureLoad(packed, vec2<i32>(position.xy), 0);\n}\n")
+    pairs = []
+    for scene, frame in zip(SCENES, frames):
+        radius = np.float32(kino.MAX_BLUR_PERCENT * frame.depth.shape[0] // 100)
+        packed = blur_with(arguments, str(packing.resolve()), scene, [])
+        kino.packed = lambda *_: ((packed[..., :2] * 2 - 1) * radius, packed[..., 2])
+        theirs = kino.blur(frame.color, frame.velocity, frame.depth, frame.exposure, stored=jump_flood.halved)
+        pairs.append((blur_with(arguments, str(wide.resolve()), scene, []), theirs))
+    return Difference(pairs)
+
+
+def name_of(folder):
+    return re.search(r'^name = "(.*)"', (folder / "filter.toml").read_text(), re.M)[1]
+
+
+def widened(folder, copy):
+    """A copy of a filter whose inputs and output have 32 bits."""
+    shutil.rmtree(copy, ignore_errors=True)
+    shutil.copytree(folder, copy)
+    manifest = copy / "filter.toml"
+    manifest.write_text(FORMATS.sub("", manifest.read_text()))
+    return copy
+
+
+if __name__ == "__main__":
+    sys.exit(main())

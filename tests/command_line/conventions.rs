@@ -1,0 +1,234 @@
+//! `--convention`: frames and pictures as an engine has them, and the record of what a filter's shaders got.
+
+use std::fs;
+use std::path::Path;
+
+use filters::Convention;
+use frame::{ExrFile, Frame, Image, read_exr, write_exr};
+
+use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
+
+/// Conventions, each apart from that of frames in one thing or more.
+const FORMS: [&str; 12] = [
+    "velocity = \"uv\"",
+    "velocity = \"ndc\"",
+    "velocity_y = \"up\"",
+    "velocity_sign = \"previous_minus_current\"",
+    "velocity_per = \"shutter\"",
+    "velocity_per = \"second\"\nframes_per_second = 24",
+    "velocity_scale = 0.5",
+    "depth = \"reversed\"\nnear = 0.1",
+    "depth = \"forward\"\nnear = 0.5\nfar = 100",
+    "depth = \"ndc\"\nnear = 0.5\nfar = 100",
+    "color_scale = 0.25",
+    "velocity = \"ndc\"\nvelocity_y = \"up\"\nvelocity_sign = \"previous_minus_current\"\nvelocity_per = \"shutter\"\n\
+     velocity_scale = 0.5\ndepth = \"reversed\"\nnear = 0.1\nfar = 1000\ncolor_scale = 8",
+];
+
+fn render(bench: &Bench) -> Frame {
+    bench.execute(&split(
+        "render --quiet --out r --scenes plate --samples-per-pixel 16 --alignments trailing",
+    ));
+    Frame::read(&bench.path("r/plate/frame.exr")).unwrap()
+}
+
+/// Writes a frame as the engine would.
+fn write_engine_frame(path: &Path, frame: &Frame, convention: &Convention) {
+    let velocity = convention.convert_velocity(&frame.velocity, frame.exposure);
+    let mut file = ExrFile::new(frame.color.width, frame.color.height);
+    file.push_color("", &convention.convert_color(&frame.color));
+    file.push_plane("velocity.X", &velocity.map(|[x, _]| *x));
+    file.push_plane("velocity.Y", &velocity.map(|[_, y]| *y));
+    file.push_plane("Z", &convention.convert_depth(&frame.depth));
+    file.set("exposure", frame.exposure);
+    write_exr(path, &file).unwrap();
+}
+
+fn largest_difference(a: &Image, b: &Image) -> f32 {
+    let pixels = a.pixels.iter().zip(&b.pixels);
+    let channels =
+        pixels.flat_map(|(a, b)| [0, 1, 2].map(|channel| (a[channel] - b[channel]).abs()));
+    channels.fold(0.0, f32::max)
+}
+
+#[test]
+fn a_frame_in_any_convention_is_blurred_as_the_frame_itself() {
+    let bench = Bench::new();
+    let frame = render(&bench);
+    let blur = |words: &str| {
+        bench.execute(&split(&format!(
+            "blur --filter kino --out blurred.exr {words}"
+        )));
+        read_exr(&bench.path("blurred.exr"))
+            .unwrap()
+            .color("")
+            .unwrap()
+    };
+    let expected = blur("--frame r/plate/frame.exr");
+    let moved = largest_difference(&expected, &frame.color);
+    assert!(moved > 0.02, "there is something to blur: {moved}");
+    for form in FORMS {
+        let text = format!("[convention]\n{form}\n");
+        fs::write(bench.path("engine.toml"), &text).unwrap();
+        let convention = Convention::parse(Path::new("engine.toml"), &text).unwrap();
+        write_engine_frame(&bench.path("engine.exr"), &frame, &convention);
+        let found = blur("--frame engine.exr --convention engine.toml");
+        let found = convention.restore_color(&found);
+        // Rounding of velocity and depth to 24 binary digits and back.
+        let difference = largest_difference(&expected, &found);
+        assert!(difference < 1e-4, "{form}: {difference}");
+    }
+}
+
+#[test]
+fn a_picture_of_exposed_colours_has_the_scores_of_its_radiance() {
+    let bench = Bench::new();
+    render(&bench);
+    bench.execute(&split(
+        "blur --filter velocity_gather --frame r/plate/frame.exr --out plain.exr",
+    ));
+    let mut file = read_exr(&bench.path("plain.exr")).unwrap();
+    // A power of two changes no digit.
+    let exposed = file
+        .color("")
+        .unwrap()
+        .map(|pixel| pixel.map(|value| 4.0 * value));
+    file.channels.clear();
+    file.push_color("", &exposed);
+    write_exr(&bench.path("exposed.exr"), &file).unwrap();
+    fs::write(bench.path("engine.toml"), "[convention]\ncolor_scale = 4\n").unwrap();
+    let score = |words: &str| {
+        let files = "--truth r/plate/truth_trailing.exr --frame r/plate/frame.exr";
+        let output = bench.shuttertruth(&split(&format!("score {files} {words}")));
+        assert_done(&output);
+        stdout(&output)
+    };
+    let scores = |words: &str| -> serde_json::Value {
+        let json: serde_json::Value =
+            serde_json::from_str(&score(&format!("--json {words}"))).unwrap();
+        json["scores"].clone()
+    };
+    let plain = scores("--image plain.exr");
+    assert_eq!(
+        scores("--image exposed.exr --convention engine.toml"),
+        plain
+    );
+    assert_ne!(scores("--image exposed.exr"), plain);
+    let text = score("--image exposed.exr --convention engine.toml");
+    assert!(
+        text.contains("colours divided by color_scale = 4"),
+        "{text}"
+    );
+    let png = "score --truth r/plate/truth_trailing.exr --frame r/plate/frame.exr --image r/plate/frame.png \
+               --convention engine.toml";
+    let output = bench.shuttertruth(&split(png));
+    assert_refused(&output, 2, &["frame.png: is a PNG", "OpenEXR"]);
+}
+
+#[test]
+fn a_wrong_convention_is_refused_with_its_line() {
+    let bench = Bench::new();
+    render(&bench);
+    let words = split(
+        "blur --filter identity --frame r/plate/frame.exr --out b.exr --convention engine.toml",
+    );
+    assert_refused(
+        &bench.shuttertruth(&words),
+        2,
+        &["engine.toml: cannot read"],
+    );
+    for (text, parts) in [
+        ("", ["engine.toml", "missing field `convention`"]),
+        (
+            "[convention]\nspeed = 1\n",
+            ["engine.toml:2: ", "unknown field `speed`"],
+        ),
+        (
+            "name = \"x\"\n[convention]\n",
+            ["engine.toml:1: ", "the table [convention] alone"],
+        ),
+        (
+            "[convention]\ndepth = \"ndc\"\n",
+            [
+                "engine.toml:1: ",
+                "convention: depth of a depth buffer needs near",
+            ],
+        ),
+        (
+            "[convention]\nvelocity_per = \"second\"\n",
+            ["engine.toml:1: ", "needs frames_per_second"],
+        ),
+    ] {
+        fs::write(bench.path("engine.toml"), text).unwrap();
+        assert_refused(&bench.shuttertruth(&words), 2, &parts);
+    }
+}
+
+/// Kernels that expect what Godot hands over.
+const GODOT: &str = "\
+name = \"godot\"
+summary = \"Averages nothing.\"
+alignment = \"trailing\"
+
+[convention]
+velocity = \"uv\"
+velocity_sign = \"previous_minus_current\"
+depth = \"reversed\"
+near = 0.05
+color_format = \"rgba16float\"
+
+[[pass]]
+entry = \"copy\"
+";
+
+const COPY: &str = "\
+@group(0) @binding(1) var color: texture_2d<f32>;
+@group(0) @binding(2) var output: texture_storage_2d<rgba32float, write>;
+
+@compute @workgroup_size(8, 8)
+fn copy(@builtin(global_invocation_id) id: vec3<u32>) {
+    let pixel = vec2<i32>(id.xy);
+    if inside(pixel) {
+        textureStore(output, pixel, textureLoad(color, pixel, 0));
+    }
+}
+";
+
+#[test]
+fn run_json_says_what_a_filter_s_shaders_got() {
+    let bench = Bench::new();
+    bench.write_filter("godot", GODOT, COPY);
+    assert_done(&bench.run(&["--filters", "./godot,velocity_gather"]));
+    let run: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(bench.path("out/run.json")).unwrap()).unwrap();
+    let case = |filter: &str| {
+        let mut cases = run["cases"].as_array().unwrap().iter();
+        cases.find(|case| case["filter"] == filter).unwrap()["convention"].clone()
+    };
+    assert_eq!(
+        case("godot"),
+        serde_json::json!({
+            "velocity": "uv",
+            "velocity_y": "down",
+            "velocity_sign": "previous_minus_current",
+            "velocity_per": "frame",
+            "frames_per_second": null,
+            "velocity_scale": 1.0,
+            "velocity_format": "rg32float",
+            "depth": "reversed",
+            "near": 0.05,
+            "far": null,
+            "depth_format": "r32float",
+            "color_scale": 1.0,
+            "color_format": "rgba16float",
+            "output_format": null,
+        })
+    );
+    for other in ["velocity_gather", "scatter_oracle"] {
+        assert_eq!(
+            case(other),
+            serde_json::Value::Null,
+            "{other} got the frame as it is"
+        );
+    }
+}

@@ -1,0 +1,222 @@
+//! Textures, images and uniforms as engines have them: packed formats, sides rounded down, images that are read and written,
+//! variables without registers.
+
+use std::fs;
+
+use filters::Filter;
+use frame::Image;
+
+use super::{blur, busy_picture, largest_difference};
+
+/// Writes a filter with these declarations and files, and blurs the picture.
+fn run(declarations: &str, files: &[(&str, &str)]) -> Image {
+    let folder = tempfile::tempdir().unwrap();
+    let head = "name = \"made\"\nsummary = \"Made for a test.\"\nalignment = \"centred\"\n";
+    fs::write(
+        folder.path().join("filter.toml"),
+        format!("{head}{declarations}"),
+    )
+    .unwrap();
+    for (name, text) in files {
+        fs::write(folder.path().join(name), text).unwrap();
+    }
+    let filter = Filter::load(folder.path()).unwrap();
+    blur(&filter, &filter.settings(None).unwrap(), &busy_picture())
+}
+
+/// Draws the texture `kept` to the picture.
+const SHOW: &str = r"
+@group(0) @binding(0) var kept: texture_2d<f32>;
+
+@fragment
+fn main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    return textureLoad(kept, vec2<i32>(position.xy), 0) / 0.3;
+}
+";
+
+const PACK: &str = r"
+@group(0) @binding(0) var color: texture_2d<f32>;
+
+@fragment
+fn main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    return 0.3 * textureLoad(color, vec2<i32>(position.xy), 0);
+}
+";
+
+#[test]
+fn render_targets_of_10_bits_keep_10_bits() {
+    // Colours go up to 2.5.
+    for (format, error) in [
+        ("rgba32float", 0.0..1e-5),
+        // A step of 10 bits: llvmpipe rounds down.
+        ("rgb10a2unorm", 1e-5..1.0 / 0.3 / 1023.0),
+        ("rg11b10ufloat", 1e-5..2.5 / 32.0),
+    ] {
+        let declarations = format!(
+            "[[texture]]\nname = \"kept\"\nformat = \"{format}\"\n\
+             [[pass]]\nshader = \"pack.wgsl\"\nstage = \"fragment\"\ntargets = [\"kept\"]\n\
+             [[pass]]\nshader = \"show.wgsl\"\nstage = \"fragment\"\n"
+        );
+        let shown = run(&declarations, &[("pack.wgsl", PACK), ("show.wgsl", SHOW)]);
+        let difference = largest_difference(&shown, &busy_picture().color);
+        assert!(error.contains(&difference), "{format}: {difference}");
+    }
+}
+
+#[test]
+fn inputs_of_11_bits_and_sides_that_are_rounded_down() {
+    let sides = r"
+@group(0) @binding(0) var color: texture_2d<f32>;
+@group(0) @binding(1) var coarse: texture_2d<f32>;
+@group(0) @binding(2) var output: texture_storage_2d<rgba32float, write>;
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    if all(id.xy < textureDimensions(color)) {
+        let size = vec2<f32>(textureDimensions(coarse));
+        textureStore(output, id.xy, vec4<f32>(size, textureLoad(color, id.xy, 0).z, 1.0));
+    }
+}
+";
+    let clear = r"
+@group(0) @binding(0) var coarse: texture_storage_2d<r32float, write>;
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    textureStore(coarse, id.xy, vec4<f32>(0.0));
+}
+";
+    // 61 x 43 pixels.
+    for (rounding, size) in [("up", [8.0, 1.0]), ("down", [7.0, 1.0])] {
+        let declarations = format!(
+            "[convention]\ncolor_format = \"rg11b10ufloat\"\n\
+             [[texture]]\nname = \"coarse\"\nformat = \"r32float\"\ndivided_by = [8, 64]\nrounding = \"{rounding}\"\n\
+             [[pass]]\nshader = \"clear.wgsl\"\nover = \"coarse\"\n[[pass]]\nshader = \"sides.wgsl\"\n"
+        );
+        let shown = run(
+            &declarations,
+            &[("clear.wgsl", clear), ("sides.wgsl", sides)],
+        );
+        let (found, color) = (shown.at(3, 5), busy_picture().color.at(3, 5)[2]);
+        assert_eq!(found[..2], size, "{rounding}");
+        assert!(
+            (found[2] / color - 1.0).abs() <= 1.0 / 64.0,
+            "{} for {color}",
+            found[2]
+        );
+    }
+}
+
+#[test]
+fn an_image_that_is_read_and_written_keeps_what_is_not_written() {
+    let fill = r"
+@group(0) @binding(0) var state: texture_storage_2d<rgba16float, write>;
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    textureStore(state, id.xy, vec4<f32>(f32(id.x), f32(id.y), 1.0, 1.0));
+}
+";
+    // Each run changes every third column, by what its left neighbour holds.
+    let step = r"#version 450
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(rgba16f, set = 0, binding = 0) uniform image2D state;
+layout(push_constant) uniform Params { int iteration; } params;
+
+vec4 at(ivec2 pixel) {
+    return imageLoad(state, pixel);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (all(lessThan(pixel, imageSize(state))) && pixel.x % 3 == params.iteration) {
+        imageStore(state, pixel, at(pixel) + 10.0 * at(max(pixel - ivec2(1, 0), ivec2(0))).zzzz);
+    }
+}
+";
+    let show = r"
+@group(0) @binding(0) var state: texture_2d<f32>;
+
+@fragment
+fn main(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    return textureLoad(state, vec2<i32>(position.xy), 0);
+}
+";
+    let declarations = "[[texture]]\nname = \"state\"\nformat = \"rgba16float\"\n\
+                        [[pass]]\nshader = \"fill.wgsl\"\nover = \"state\"\n\
+                        [[pass]]\nshader = \"step.comp\"\nover = \"state\"\nrepeat = 3\n\
+                        [[pass]]\nshader = \"show.wgsl\"\nstage = \"fragment\"\n";
+    let files = [
+        ("fill.wgsl", fill),
+        ("step.comp", step),
+        ("show.wgsl", show),
+    ];
+    let shown = run(declarations, &files);
+    let mut expected = vec![1.0_f32; 61];
+    for iteration in 0..3 {
+        let before = expected.clone();
+        for x in (0..61).filter(|x| x % 3 == iteration) {
+            expected[x] += 10.0 * before[x.saturating_sub(1)];
+        }
+    }
+    for (x, expected) in (0..61).zip(expected) {
+        let found = shown.at(x, 7)[2];
+        // Halves have 11 binary digits, three times.
+        assert!(
+            (found / expected - 1.0).abs() < 2e-3,
+            "{found} at {x}, not {expected}"
+        );
+    }
+}
+
+#[test]
+fn hlsl_without_registers_is_bound_by_name() {
+    let hlsl = r"
+Texture2D<float4> _MainTex;
+Texture2D<float4> _Motion;
+SamplerState sampler_MainTex;
+float4 _Unused;
+float _Scale;
+float4 _MainTex_TexelSize;
+
+struct Corner
+{
+    float4 pos : SV_POSITION;
+    float2 uv0 : TEXCOORD0;
+    float2 uv1 : TEXCOORD1;
+};
+
+float4 frag(Corner i) : SV_Target
+{
+    float2 uv = i.uv0 + _MainTex_TexelSize.xy;
+    float2 motion = _Motion.SampleLevel(sampler_MainTex, i.uv1, 0.0).xy;
+    return _Scale * _MainTex.SampleLevel(sampler_MainTex, uv, 0.0) + float4(motion, 0.0, 0.0);
+}
+";
+    let pass = "[[pass]]\nshader = \"blur.hlsl\"\nentry = \"frag\"\nstage = \"fragment\"\n\
+                [[pass.binding]]\nname = \"_MainTex\"\ntexture = \"color\"\n\
+                [[pass.binding]]\nname = \"_Motion\"\ntexture = \"velocity\"\n\
+                [[pass.binding]]\nname = \"sampler_MainTex\"\nsampler = \"nearest\"\n\
+                [[pass.binding]]\nglobals = true\n\
+                values = { _Scale = \"max(min(exposure, 1), 0.5) + color_scale\", \"*\" = 0, \
+                _MainTex_TexelSize = [\"1 / width\", 0, 0, 0] }\n";
+    let found = run(pass, &[("blur.hlsl", hlsl)]);
+    let picture = busy_picture();
+    for (x, y) in [(12_u32, 9_u32), (40, 30), (5, 5)] {
+        let [gray, ..] = *picture.color.at(x + 1, y);
+        let motion = picture.velocity.at(x, y);
+        let expected = [1.7 * gray + motion[0], 1.7 * gray + motion[1], 1.7 * gray];
+        for (found, expected) in found.at(x, y).iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-4, "{found}, not {expected}");
+        }
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let head = "name = \"made\"\nsummary = \"Made for a test.\"\nalignment = \"centred\"\n";
+    let wrong = pass.replace("name = \"_Motion\"", "name = \"_Velocity\"");
+    fs::write(folder.path().join("filter.toml"), format!("{head}{wrong}")).unwrap();
+    fs::write(folder.path().join("blur.hlsl"), hlsl).unwrap();
+    let message = Filter::load(folder.path()).unwrap_err().to_string();
+    for part in ["has nothing at \"_Velocity\"", "\"_Motion\" at group 0"] {
+        assert!(message.contains(part), "{message}");
+    }
+}
