@@ -38,16 +38,13 @@ impl Channels {
         self.add_track(
             document,
             node,
-            (Property::Translation, translation, floats),
+            Property::Translation,
+            translation,
+            floats,
             timeline,
         );
-        self.add_track(
-            document,
-            node,
-            (Property::Rotation, rotation, turn),
-            timeline,
-        );
-        self.add_track(document, node, (Property::Scale, scale, floats), timeline);
+        self.add_track(document, node, Property::Rotation, rotation, turn, timeline);
+        self.add_track(document, node, Property::Scale, scale, floats, timeline);
     }
 
     /// Adds the weights of a node's morph targets: between two shapes those of the two, and beyond the ends as between the nearest
@@ -92,7 +89,9 @@ impl Channels {
         &mut self,
         document: &mut Document,
         node: Index<Node>,
-        (property, track, value): (Property, &Track<T>, fn(T) -> [f32; N]),
+        property: Property,
+        track: &Track<T>,
+        value: fn(T) -> [f32; N],
         timeline: &Timeline,
     ) {
         let (times, values, interpolation): (Vec<f64>, Vec<[f32; N]>, Interpolation) = match track {

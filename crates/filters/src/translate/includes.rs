@@ -112,7 +112,8 @@ mod tests {
 
     #[test]
     fn includes_are_found_however_they_are_written() {
-        let cases: [(&str, &[(usize, Option<&str>)]); 13] = [
+        type Found<'a> = &'a [(usize, Option<&'a str>)];
+        let cases: [(&str, Found); 13] = [
             ("#include \"a.h\"", &[(1, Some("a.h"))]),
             ("\n  #  include <b/c.h> // why", &[(2, Some("b/c.h"))]),
             (
