@@ -110,9 +110,12 @@ fn list_lines(text: &str) -> Vec<(usize, String)> {
 mod tests {
     use super::{Include, list_includes};
 
+    /// A text, and the lines and paths of what it includes.
+    type Case<'a> = (&'a str, &'a [(usize, Option<&'a str>)]);
+
     #[test]
     fn includes_are_found_however_they_are_written() {
-        let cases: [(&str, &[(usize, Option<&str>)]); 13] = [
+        let cases: [Case; 13] = [
             ("#include \"a.h\"", &[(1, Some("a.h"))]),
             ("\n  #  include <b/c.h> // why", &[(2, Some("b/c.h"))]),
             (
