@@ -16,7 +16,7 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 22] = [
+const NOT_RUN: [(&str, &str); 23] = [
     ("cargo test --workspace", "runs this test and all others"),
     (
         "cargo install --path crates/cli",
@@ -74,6 +74,10 @@ const NOT_RUN: [(&str, &str); 22] = [
     ),
     (
         "cargo run -p cli --example report_screenshots -- pictures out/report.html 'out/report.html#railing/mcguire:paper'",
+        "compiles the program again",
+    ),
+    (
+        "cargo run -p cli --example compare_sizes -- out/160x90/run.json out/run.json",
         "compiles the program again",
     ),
     ("pip install numpy OpenEXR", "installs packages"),
