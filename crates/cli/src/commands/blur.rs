@@ -109,6 +109,9 @@ fn read_buffers(
         true => file.get("guard_band")?,
         false => 0,
     };
+    let [x, y] = [file.plane("velocity.X")?, file.plane("velocity.Y")?];
+    let velocity = x.zip(&y, |x, y| [*x, *y]);
+    let (color, depth) = (file.color("")?, file.plane("Z")?);
     let exposure = match exposure {
         Some(exposure) => exposure,
         None if file.attributes.contains_key("exposure") => file.get("exposure")?,
@@ -120,12 +123,10 @@ fn read_buffers(
         }
     };
     check_exposure(exposure)?;
-    let [x, y] = [file.plane("velocity.X")?, file.plane("velocity.Y")?];
-    let velocity = x.zip(&y, |x, y| [*x, *y]);
     Ok(Buffers {
-        color: convention.restore_color(&file.color("")?),
+        color: convention.restore_color(&color),
         velocity: convention.restore_velocity(&velocity, exposure),
-        depth: convention.restore_depth(&file.plane("Z")?),
+        depth: convention.restore_depth(&depth),
         reprojection: read_reprojection(&file, guard_band)?,
         exposure,
         guard_band,
