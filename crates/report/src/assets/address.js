@@ -17,9 +17,13 @@
     for (const image of section.querySelectorAll("[data-thumbnail]")) image.src = pictures.thumbnails[image.dataset.thumbnail];
   };
 
+  const named = () => {
+    const [one, settings] = parse();
+    return [one?.matches("article") ? one : null, settings];
+  };
+
   const route = () => {
-    const [named, settings] = parse();
-    const section = named?.matches("article") ? named : null;
+    const [section, settings] = named();
     for (const one of document.querySelectorAll("article.open")) one.classList.remove("open");
     if (section) parseParts(section);
     section?.classList.add("open");
@@ -37,7 +41,8 @@
     clearTimeout(noted);
     noted = setTimeout(() => {
       const section = document.querySelector("article.open");
-      if (section && !pictures.isOpen()) return;
+      // The address may name another section that is about to open: a click, a moment after a change, is not lost.
+      if (section !== named()[0] || (section && !pictures.isOpen())) return;
       const settings = section ? pictures.settings() : pictures.tableSettings();
       if (!section && !location.hash && settings.length === 0) return;
       const escaped = (value) => value.replace(/[%&+#\s]/g, encodeURIComponent);
