@@ -211,3 +211,16 @@ fn printed_pages_show_both_pictures_whole() {
         false
     );
 }
+
+#[test]
+fn an_address_that_names_another_section_is_left_alone() {
+    let bench = Bench::two_scenes();
+    assert_done(&bench.run(&["--filters", "identity"]));
+    let page = make_page(&bench);
+    let mut browser = Browser::new(1280, 900);
+    open_case(&mut browser, &page, "plate/identity:default");
+    // As between a click on a link and the event that follows it.
+    browser.value("window.shuttertruth.note(); history.pushState(null, '', '#overview')");
+    browser.value("new Promise(done => setTimeout(done, 400))");
+    assert_eq!(browser.text("location.hash"), "#overview");
+}
