@@ -3,6 +3,7 @@
 mod accumulation;
 mod at_instant;
 mod coverage;
+mod crowd;
 mod deforming;
 mod determinism;
 mod files;

@@ -1,0 +1,114 @@
+//! The compilers that are installed: each makes the picture that WGSL makes.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use tests::root;
+
+use crate::bench::{Bench, assert_done};
+
+/// Finds a program on the PATH.
+fn find_program(name: &str) -> Option<PathBuf> {
+    let folders = std::env::var_os("PATH").unwrap_or_default();
+    let mut candidates = std::env::split_paths(&folders).map(|folder| folder.join(name));
+    candidates.find(|candidate| candidate.is_file())
+}
+
+/// Copies the fixtures of one language into the folder of a filter, whose head is that of the documented example.
+fn write_fixture(bench: &Bench, language: &str, head: &str) {
+    let folder = bench.path(language);
+    let fixtures = root().join("tests/fixtures/shaders");
+    fs::create_dir_all(folder.join("random")).unwrap();
+    let passes = fs::read_to_string(fixtures.join(format!("{language}.toml"))).unwrap();
+    fs::write(folder.join("filter.toml"), format!("{head}{passes}")).unwrap();
+    let copied = [
+        "centre_blur.hlsl",
+        "noise.hlsli",
+        "centre_blur.slang",
+        "noise.slang",
+        "centre_blur.wesl",
+        "random/gradient.wesl",
+        "random/constants.wesl",
+    ];
+    for file in copied {
+        fs::copy(fixtures.join(file), folder.join(file)).unwrap();
+    }
+}
+
+/// One filter in three languages, each through every compiler of it that is installed. `glslangValidator` always is.
+#[test]
+fn each_compiler_makes_the_picture_that_wgsl_makes() {
+    const README: &str = include_str!("../../../shaders/README.md");
+    let block = |language: &str| {
+        let after = README.split_once(&format!("```{language}\n")).unwrap().1;
+        after.split_once("```").unwrap().0
+    };
+    let bench = Bench::new();
+    bench.write_filter("centre_blur", block("toml"), block("wgsl"));
+    let head = block("toml").split_once("[[pass]]").unwrap().0;
+    bench.execute(&[
+        "render",
+        "--quiet",
+        "--out",
+        "r",
+        "--scenes",
+        "plate",
+        "--samples-per-pixel",
+        "16",
+        "--alignments",
+        "centred",
+    ]);
+    let blur = |filter: &str, preset: &str, path: &Path| {
+        let filter = format!("./{filter}:{preset}");
+        let words = [
+            "blur",
+            "--filter",
+            &filter,
+            "--frame",
+            "r/plate/frame.exr",
+            "--frame-index",
+            "3",
+            "--out",
+            "b.exr",
+        ];
+        let output = bench.command(&words).env("PATH", path).output().unwrap();
+        assert_done(&output);
+        frame::read_exr(&bench.path("b.exr"))
+            .unwrap()
+            .color("")
+            .unwrap()
+    };
+    let mut tried = Vec::new();
+    for (language, program) in [
+        ("hlsl", "glslangValidator"),
+        ("hlsl", "dxc"),
+        ("hlsl", "slangc"),
+        ("slang", "slangc"),
+        ("wesl", "wesl"),
+    ] {
+        let Some(found) = find_program(program) else {
+            println!("{program} is not on the PATH: {language} was not tried with it");
+            continue;
+        };
+        let bin = bench.path(&format!("bin_{program}"));
+        fs::create_dir_all(&bin).unwrap();
+        _ = std::os::unix::fs::symlink(found, bin.join(program));
+        write_fixture(&bench, language, head);
+        for preset in ["fast", "fine"] {
+            let expected = blur("centre_blur", preset, &bin);
+            let found = blur(language, preset, &bin);
+            let pixels = expected.pixels.iter().zip(&found.pixels);
+            let differences = pixels.flat_map(|(a, b)| [0, 1, 2].map(|i| (a[i] - b[i]).abs()));
+            let difference = differences.fold(0.0, f32::max);
+            assert!(
+                difference < 1e-5,
+                "{language}, {program}, {preset}: {difference}"
+            );
+        }
+        tried.push(program);
+    }
+    assert!(
+        tried.contains(&"glslangValidator"),
+        "glslangValidator is not on the PATH: apt-get install glslang-tools"
+    );
+}
