@@ -1,10 +1,9 @@
 //! The export of a scene: its document, and the files beside it.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::Path;
 
-use frame::FileError;
+use frame::write_atomically;
 use gltf_json::camera::{Perspective, Type as CameraType};
 use gltf_json::scene::{Node, Scene as GltfScene};
 use gltf_json::validation::{Checked, USize64};
@@ -34,7 +33,6 @@ const NEAR: f32 = 0.01;
 pub fn export_gltf(scene: &Scene, program: &str, folder: &Path) -> Result<Manifest, ExportError> {
     let timeline = Timeline::of(scene);
     refuse_zoom(scene, &timeline)?;
-    fs::create_dir_all(folder).map_err(|source| FileError::io(folder, "create", source))?;
     let mut document = Document::default();
     document.root.asset = Asset {
         generator: Some(program.to_owned()),
@@ -63,14 +61,14 @@ pub fn export_gltf(scene: &Scene, program: &str, folder: &Path) -> Result<Manife
         extensions: None,
         extras: None,
     });
-    write(&folder.join(BUFFER), &document.bytes)?;
+    write_atomically(&folder.join(BUFFER), &document.bytes)?;
     let text =
         serde_json::to_vec_pretty(&document.root).expect("a document has no maps with odd keys");
-    write(&folder.join(DOCUMENT), &text)?;
+    write_atomically(&folder.join(DOCUMENT), &text)?;
     write_sky(&scene.background, &folder.join(SKY))?;
     let manifest = Manifest::of(scene, program, &timeline);
     let text = serde_json::to_vec_pretty(&manifest).expect("a manifest has no maps with odd keys");
-    write(&folder.join(MANIFEST), &text)?;
+    write_atomically(&folder.join(MANIFEST), &text)?;
     Ok(manifest)
 }
 
@@ -215,8 +213,4 @@ fn list_extensions(document: &Document) -> Vec<String> {
         .filter(|(_, is_used)| *is_used)
         .map(|(name, _)| name.to_owned())
         .collect()
-}
-
-fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
-    fs::write(path, bytes).map_err(|source| FileError::io(path, "write", source))
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use frame::FileError;
+use frame::{FileError, display_srgb, write_atomically};
 use gltf_json::texture::{Info, MagFilter, MinFilter, Sampler, WrappingMode};
 use gltf_json::validation::Checked;
 use gltf_json::{Image, Index};
@@ -73,21 +73,21 @@ impl<'a> Textures<'a> {
             None => sides(opacity_texture),
             Some(own) => [0, 1].map(|side| own[side].max(sides(opacity_texture)[side])),
         };
+        let place = |x: u32, y: u32| {
+            [(x, width), (y, height)].map(|(at, side)| (f64::from(at) + 0.5) / f64::from(side))
+        };
+        let linear = frame::Image::from_fn(width, height, |x, y| match color_texture {
+            None => [1.0; 3],
+            Some(texture) => {
+                let [red, green, blue, _] = nearest(texture, place(x, y));
+                [red, green, blue]
+            }
+        });
+        let encoded = display_srgb(&linear, 0.0);
         let picture = image::RgbaImage::from_fn(width, height, |x, y| {
-            let place = [x, y].into_iter().zip([width, height]);
-            let place: Vec<f64> = place
-                .map(|(at, side)| (f64::from(at) + 0.5) / f64::from(side))
-                .collect();
-            let [red, green, blue] = match color_texture {
-                None => [1.0; 3],
-                Some(texture) => {
-                    let [red, green, blue, _] = nearest(texture, &place);
-                    [red, green, blue]
-                }
-            };
-            let encoded = [red, green, blue].map(|part| to_byte(encode_srgb(part)));
-            let alpha = to_byte(nearest(opacity_texture, &place)[3]);
-            image::Rgba([encoded[0], encoded[1], encoded[2], alpha])
+            let [red, green, blue] = encoded.at(x, y).map(to_byte);
+            let alpha = to_byte(nearest(opacity_texture, place(x, y))[3]);
+            image::Rgba([red, green, blue, alpha])
         });
         let name = match color {
             Some(color) => format!("{color}_with_opacity_{opacity}.png"),
@@ -105,10 +105,7 @@ impl<'a> Textures<'a> {
     }
 
     fn write(&self, name: &str, bytes: &[u8]) -> Result<(), FileError> {
-        let folder = self.folder.join(FOLDER);
-        fs::create_dir_all(&folder).map_err(|source| FileError::io(&folder, "create", source))?;
-        let path = folder.join(name);
-        fs::write(&path, bytes).map_err(|source| FileError::io(&path, "write", source))
+        write_atomically(&self.folder.join(FOLDER).join(name), bytes)
     }
 
     fn push(&mut self, document: &mut Document, key: [Option<usize>; 2], name: String) -> Info {
@@ -159,18 +156,10 @@ fn plain_name(name: &str) -> String {
         .collect()
 }
 
-fn nearest(texture: &Texture, place: &[f64]) -> [f32; 4] {
+fn nearest(texture: &Texture, place: [f64; 2]) -> [f32; 4] {
     let at = |place: f64, side: u32| ((place * f64::from(side)) as u32).min(side - 1);
     let (x, y) = (at(place[0], texture.width), at(place[1], texture.height));
     texture.texels[(y * texture.width + x) as usize]
-}
-
-/// The transfer function of sRGB (IEC 61966-2-1).
-fn encode_srgb(linear: f32) -> f32 {
-    match linear {
-        ..=0.003_130_8 => 12.92 * linear,
-        _ => 1.055 * linear.powf(1.0 / 2.4) - 0.055,
-    }
 }
 
 fn to_byte(value: f32) -> u8 {

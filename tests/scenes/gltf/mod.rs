@@ -87,6 +87,34 @@ fn a_zoom_is_refused_since_gltf_cannot_say_it() {
     assert!(error.contains("field of view changes"), "{error}");
 }
 
+#[test]
+fn a_texture_of_holes_is_joined_with_that_of_the_color() {
+    let mut scene = load_scene(&scenes().join("railing"), None).unwrap();
+    let material = (scene.materials.iter_mut()).find(|own| own.diffuse_texture.is_some());
+    let material = material.expect("a textured material");
+    let texture = material.diffuse_texture.unwrap();
+    material.opacity_texture = Some(texture);
+    let name = material.name.clone();
+    let original = image::open(&scene.textures[texture].path)
+        .unwrap()
+        .to_rgb8();
+    scene.textures[texture].texels[0][3] = 0.25;
+    let folder = tempfile::tempdir().unwrap();
+    export_gltf(&scene, "test", folder.path()).unwrap();
+
+    let joined = format!("textures/{texture}_with_opacity_{texture}.png");
+    let joined = image::open(folder.path().join(joined)).unwrap().to_rgba8();
+    assert_eq!(joined.dimensions(), original.dimensions());
+    for (own, given) in joined.pixels().zip(original.pixels()) {
+        assert_eq!(own.0[..3], given.0[..]);
+    }
+    assert_eq!(
+        [joined.get_pixel(0, 0).0[3], joined.get_pixel(1, 0).0[3]],
+        [64, 255]
+    );
+    assert!(Played::read(folder.path()).has_holes(&name));
+}
+
 /// Exports a scene, and compares camera, objects and vertices at random times within the animation.
 fn assert_plays(scene: &Scene) {
     let folder = tempfile::tempdir().unwrap();

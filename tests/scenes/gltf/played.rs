@@ -39,6 +39,12 @@ impl Played {
             .expect("a node of this number")
     }
 
+    /// Tells whether a material cuts its texture's transparent parts out.
+    pub fn has_holes(&self, material: &str) -> bool {
+        let own = (self.document.materials()).find(|own| own.name() == Some(material));
+        own.expect("a material of this name").alpha_mode() == gltf::material::AlphaMode::Mask
+    }
+
     /// Returns the transform from a node's space to the world at a time in seconds.
     pub fn to_world(&self, node: usize, seconds: f64) -> DAffine3 {
         let own = self.pose(node, seconds);

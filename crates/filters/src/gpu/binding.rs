@@ -3,9 +3,15 @@
 use std::collections::BTreeMap;
 
 use super::device::Gpu;
-use super::kernels::Pipeline;
 use crate::filter::{SamplerFilter, Wrap};
 use crate::shader::{EntryPoint, Role, Shader, Variable};
+
+/// A compiled pass.
+#[derive(Clone, Debug)]
+pub(super) enum Pipeline {
+    Compute(wgpu::ComputePipeline),
+    Render(wgpu::RenderPipeline),
+}
 
 /// Creates the layout of group 0 as the kernel uses it, with the buffer of loop iterations if there is one.
 pub(super) fn create_layout(

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use half::f16;
 
-use super::binding::create_bind_group;
+use super::binding::{Pipeline, create_bind_group};
 use super::dependence::{find_color_dependent, find_noise_dependent};
 use super::device::Gpu;
-use super::kernels::{Kernels, Pipeline};
+use super::kernels::Kernels;
 use super::loop_counts::LoopCounts;
 use super::place::Place;
 use super::targets::Targets;

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use super::binding::{create_layout, create_pipeline, create_samplers};
+use super::binding::{Pipeline, create_layout, create_pipeline, create_samplers};
 use super::device::Gpu;
 use super::limits::Limits;
 use super::place::Place;
@@ -31,13 +31,6 @@ pub(super) struct Compiled {
     pub samplers: BTreeMap<usize, wgpu::Sampler>,
     /// Binding of the buffer of loop iterations, if they are counted.
     pub counted_at: Option<u32>,
-}
-
-/// A compiled pass.
-#[derive(Clone, Debug)]
-pub(super) enum Pipeline {
-    Compute(wgpu::ComputePipeline),
-    Render(wgpu::RenderPipeline),
 }
 
 impl<'g> Kernels<'g> {

@@ -7,7 +7,6 @@ use super::first_slice::{RenderCosts, count_small_pixels, measure_first_cases};
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use super::scene::SceneContext;
-use super::scenes::{scale_filters, scene_contexts};
 use crate::render::memory::measuring_memory;
 use crate::render::settings::frame_settings;
 
@@ -96,11 +95,11 @@ fn estimate_with(
     gpu: Option<&Gpu>,
     mut costs: impl FnMut(&SceneContext, bool) -> SceneCosts,
 ) -> RunEstimate {
-    let filters = scale_filters(plan);
+    let filters = plan.scaled_filters();
     let planned = PlannedCase::all(plan, &filters);
     let mut estimate = RunEstimate::default();
     let pixels = count_pixels(&plan.render);
-    for scene in scene_contexts(plan, &filters, gpu) {
+    for scene in SceneContext::all(plan, &filters, gpu) {
         let kept = match plan.no_cache {
             true => 0,
             false => (planned.iter())

@@ -9,7 +9,6 @@ use tracer::{Progress, RenderSettings, Scene, TruthTracer, trace_frame};
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use super::scene::SceneContext;
-use super::scenes::scale_filters;
 use crate::filter::input_format::InputFormat;
 use crate::render::settings::SIDES;
 
@@ -90,7 +89,7 @@ pub(super) fn measure_first_cases(scene: &SceneContext) -> Option<(f64, usize)> 
         common: None,
         monitor: scene.plan.monitor.without_progress(),
     };
-    let filters = scale_filters(&plan);
+    let filters = plan.scaled_filters();
     let scene = SceneContext {
         plan: &plan,
         filters: &filters,

@@ -36,6 +36,14 @@ pub struct RunPlan {
 }
 
 impl RunPlan {
+    /// Scales the filters to the plan's pictures.
+    pub(super) fn scaled_filters(&self) -> Vec<FilterChoice> {
+        let width = self.render.width;
+        (self.filters.iter())
+            .map(|choice| choice.scaled_to(width))
+            .collect()
+    }
+
     /// Refuses settings with which a scene cannot be rendered, before anything is.
     pub fn check(&self) -> Result<(), Error> {
         for scene in &self.scenes {

@@ -16,7 +16,7 @@ use super::references::{TruthReferences, scene_viewing};
 use crate::Error;
 use crate::cache::clear::clear_scene;
 use crate::cache::record::{
-    CASE_RECORD, read_record, read_record_alone, remove_altered_files, write_record,
+    CASE_RECORD, hash_program, read_record, read_record_alone, remove_altered_files, write_record,
 };
 use crate::cache::scene_keys::SceneKeys;
 use crate::filter::choice::FilterChoice;
@@ -45,6 +45,22 @@ pub(crate) struct SceneContext<'a> {
 }
 
 pub(super) type Truths = BTreeMap<Alignment, Truth>;
+
+impl<'a> SceneContext<'a> {
+    /// Prepares every scene of a plan for measuring.
+    pub fn all(plan: &'a RunPlan, filters: &'a [FilterChoice], gpu: Option<&'a Gpu>) -> Vec<Self> {
+        let program = hash_program();
+        let context = |scene: &'a Scene| Self {
+            plan,
+            filters,
+            gpu,
+            scene,
+            keys: (program.as_ref())
+                .map(|program| SceneKeys::new(program, scene, &plan.render, plan.alignments())),
+        };
+        plan.scenes.iter().map(context).collect()
+    }
+}
 
 impl SceneContext<'_> {
     /// Returns the reference pictures of each alignment, then one case per filter preset and form of the input; a failure where a

@@ -1,14 +1,11 @@
 //! Runs: scene after scene, measured by one plan.
 
 use filters::Gpu;
-use tracer::{Progress, Scene, Watch};
+use tracer::{Progress, Watch};
 
 use super::estimate::{RunEstimate, estimate_run_roughly};
 use super::plan::RunPlan;
 use super::scene::SceneContext;
-use crate::cache::record::hash_program;
-use crate::cache::scene_keys::SceneKeys;
-use crate::filter::choice::FilterChoice;
 use crate::run::case::Case;
 use crate::run::failure::Failure;
 use crate::run::{FORMAT, Run};
@@ -63,9 +60,9 @@ fn measure_all(
     gpu: Option<&Gpu>,
     watch: Watch,
 ) -> Result<(Vec<Case>, Vec<Failure>, usize), Error> {
-    let filters = scale_filters(plan);
+    let filters = plan.scaled_filters();
     let (mut cases, mut failures, mut read_back) = (Vec::new(), Vec::new(), 0);
-    for (number, scene) in (0..).zip(scene_contexts(plan, &filters, gpu)) {
+    for (number, scene) in (0..).zip(SceneContext::all(plan, &filters, gpu)) {
         let steps = scene.steps();
         let advance = |done: u64| {
             // A scene that is interrupted returns the error itself.
@@ -85,30 +82,4 @@ fn measure_all(
         }
     }
     Ok((cases, failures, read_back))
-}
-
-/// Scales the filters of a plan to its pictures.
-pub(super) fn scale_filters(plan: &RunPlan) -> Vec<FilterChoice> {
-    let width = plan.render.width;
-    (plan.filters.iter())
-        .map(|choice| choice.scaled_to(width))
-        .collect()
-}
-
-/// Prepares every scene of a plan for measuring.
-pub(super) fn scene_contexts<'a>(
-    plan: &'a RunPlan,
-    filters: &'a [FilterChoice],
-    gpu: Option<&'a Gpu>,
-) -> Vec<SceneContext<'a>> {
-    let program = hash_program();
-    let context = |scene: &'a Scene| SceneContext {
-        plan,
-        filters,
-        gpu,
-        scene,
-        keys: (program.as_ref())
-            .map(|program| SceneKeys::new(program, scene, &plan.render, plan.alignments())),
-    };
-    plan.scenes.iter().map(context).collect()
 }
