@@ -3,6 +3,7 @@
 
 mod bench;
 mod cache;
+mod capture;
 mod colors;
 mod compare;
 mod error;
@@ -25,6 +26,8 @@ pub use bench::{
     BASELINE, BENCH_FORMAT, Bench, BenchPlan, CaseCost, GROWTH_FROM, REACHES, ReachCost,
     ReachPoint, Spread, bench,
 };
+pub use capture::description::{CAPTURE_FILE, CaptureDescription};
+pub use capture::folder::Capture;
 pub use compare::{
     Agreement, Basis, COMPARE_FORMAT, Change, ChangeKind, FilterAtSizes, MeanChange, MeanKind,
     Pair, Reversal, RunComparison, SettingChange, Side, SizeComparison, compare_runs,
