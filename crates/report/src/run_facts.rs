@@ -111,7 +111,7 @@ fn truths(run: &Run) -> Vec<Markup> {
             rows.push(html! {
                 tr {
                     th scope="row" { (scene) }
-                    td.text { (case.family.name()) }
+                    td.text { (case.family.map_or("", |family| family.name())) }
                     td data-label="exposure, frames" { (case.exposure) }
                     td.text { (case.alignment) }
                     td.text { code { (case.truth_hash) } }

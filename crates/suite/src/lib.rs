@@ -10,6 +10,7 @@ mod error;
 mod filter;
 mod folder;
 mod import;
+mod ingest;
 mod json;
 mod judge;
 mod measure;
@@ -44,6 +45,8 @@ pub use folder::claim::{Claim, Sharing, claim};
 pub use folder::scene_folder::scene_folder;
 pub use folder::tracked::refuse_tracked;
 pub use import::{ImportPlan, Imported, Motions, Up, import};
+pub use ingest::engine_scene::{EngineScene, INGESTED_FILE};
+pub use ingest::{Ingested, ingest};
 pub use json::file::{MOST_JSON_BYTES, read_text};
 pub use judge::baseline::{
     Acceptance, BASELINE_FORMAT, Baseline, BaselineComparison, ComparisonKind, accept_scores,
@@ -76,7 +79,7 @@ pub use render::scatter_oracle::scatter_oracle;
 pub use render::settings::{MOST_REPLICATES, SIDES};
 pub use render::shared::render_shared;
 pub use render::truths::{deciding_floor, render_part, render_truth, render_truth_until};
-pub use run::case::{ACCUMULATE, Case, IDENTITY, Intervals};
+pub use run::case::{ACCUMULATE, Case, Drawn, IDENTITY, Intervals};
 pub use run::earlier::{EarlierCases, find_newer_sizes, folder_for_size};
 pub use run::error_maps::ErrorMaps;
 pub use run::failure::{Failure, refuse_failures};

@@ -184,7 +184,7 @@ fn facts(case: &Case) -> Markup {
         section.facts {
             h3 { "Case" }
             dl {
-                div { dt { "family" } dd { (case.family.name()) } }
+                @if let Some(family) = case.family { div { dt { "family" } dd { (family.name()) } } }
                 div { dt { "exposure" } dd { (case.exposure) " frames, " (case.alignment) } }
                 div { dt { "truth" } dd { code { (case.truth_hash) } } }
                 @if let Some(change) = case.input.change() { div { dt { "input" } dd { (change) } } }

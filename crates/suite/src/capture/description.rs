@@ -34,9 +34,9 @@ pub struct CaptureDescription {
     /// Number of sub-frames, if the writer says it.
     #[serde(default)]
     pub subframes: Option<usize>,
-    /// Display exposure of the pictures, in stops; 0 if left out.
+    /// Display exposure of the pictures, in stops; if left out that of the scene, or 0.
     #[serde(default)]
-    pub stops: f32,
+    pub stops: Option<f32>,
 }
 
 impl CaptureDescription {
@@ -84,10 +84,10 @@ impl CaptureDescription {
                 self.instant
             ));
         }
-        if self.stops.is_nan() || self.stops.abs() > MOST_STOPS {
+        let range = -MOST_STOPS..=MOST_STOPS;
+        if let Some(stops) = self.stops.filter(|stops| !range.contains(stops)) {
             return Err(format!(
-                "stops = {}; allowed: -{MOST_STOPS} to {MOST_STOPS}",
-                self.stops
+                "stops = {stops}; allowed: -{MOST_STOPS} to {MOST_STOPS}"
             ));
         }
         Ok(())

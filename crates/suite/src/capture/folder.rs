@@ -60,7 +60,7 @@ impl Capture {
         let Some(color_path) = find("color")? else {
             return refuse_missing(&folder.join("color.exr"), "the radiance of one instant");
         };
-        let stops = description.stops;
+        let stops = description.stops.unwrap_or(0.0);
         let color = read_color(&color_path, &convention, stops)?;
         let mut notes = Vec::new();
         notes.extend(is_png(&color_path).then(|| png_note("color.png")));
@@ -110,7 +110,11 @@ impl Capture {
     /// Reads one of the sub-frames as scene-linear radiance.
     pub fn read_subframe(&self, index: usize) -> Result<Image, Error> {
         let path = &self.subframes[index];
-        let subframe = read_color(path, &self.convention, self.description.stops)?;
+        let subframe = read_color(
+            path,
+            &self.convention,
+            self.description.stops.unwrap_or(0.0),
+        )?;
         check_size(path, &subframe, &self.color)?;
         Ok(subframe)
     }
