@@ -3,12 +3,14 @@
 
 mod bench;
 mod cache;
+mod capture;
 mod colors;
 mod compare;
 mod error;
 mod filter;
 mod folder;
 mod import;
+mod ingest;
 mod json;
 mod judge;
 mod measure;
@@ -25,6 +27,8 @@ pub use bench::{
     BASELINE, BENCH_FORMAT, Bench, BenchPlan, CaseCost, GROWTH_FROM, REACHES, ReachCost,
     ReachPoint, Spread, bench,
 };
+pub use capture::description::{CAPTURE_FILE, CaptureDescription};
+pub use capture::folder::Capture;
 pub use compare::{
     Agreement, Basis, COMPARE_FORMAT, Change, ChangeKind, FilterAtSizes, MeanChange, MeanKind,
     Pair, Reversal, RunComparison, SettingChange, Side, SizeComparison, compare_runs,
@@ -41,6 +45,8 @@ pub use folder::claim::{Claim, Sharing, claim};
 pub use folder::scene_folder::scene_folder;
 pub use folder::tracked::refuse_tracked;
 pub use import::{ImportPlan, Imported, Motions, Up, import};
+pub use ingest::engine_scene::{EngineScene, INGESTED_FILE};
+pub use ingest::{Ingested, ingest};
 pub use json::file::{MOST_JSON_BYTES, read_text};
 pub use judge::baseline::{
     Acceptance, BASELINE_FORMAT, Baseline, BaselineComparison, ComparisonKind, accept_scores,
@@ -73,7 +79,7 @@ pub use render::scatter_oracle::scatter_oracle;
 pub use render::settings::{MOST_REPLICATES, SIDES};
 pub use render::shared::render_shared;
 pub use render::truths::{deciding_floor, render_part, render_truth, render_truth_until};
-pub use run::case::{ACCUMULATE, Case, IDENTITY, Intervals};
+pub use run::case::{ACCUMULATE, Case, Drawn, IDENTITY, Intervals};
 pub use run::earlier::{EarlierCases, find_newer_sizes, folder_for_size};
 pub use run::error_maps::ErrorMaps;
 pub use run::failure::{Failure, refuse_failures};

@@ -17,6 +17,7 @@ mod groups;
 #[cfg(test)]
 mod guides;
 mod import;
+mod ingest;
 mod list;
 mod measure;
 mod merge;
@@ -47,6 +48,7 @@ pub use evaluate::EvaluateArgs;
 pub use export::ExportArgs;
 pub use groups::command_line;
 pub use import::ImportArgs;
+pub use ingest::IngestArgs;
 pub use list::ListArgs;
 pub use measure::MeasureArgs;
 pub use merge::MergeArgs;
@@ -121,6 +123,8 @@ pub enum Command {
     Import(ImportArgs),
     /// Write scenes as glTF 2.0, so that an engine can draw them.
     Export(ExportArgs),
+    /// Make a frame, a truth and a picture of what an engine drew, so that `run` and `score` can measure them.
+    Ingest(IngestArgs),
     /// List scenes, filters, parameters and presets.
     List(ListArgs),
 }

@@ -52,8 +52,15 @@ fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Score
     let name = name.to_string_lossy();
     let name = printable(&name);
     let mut text = score_table(&truth.provenance.scene, &name, scores);
+    let drawn = (truth.provenance.engine.as_deref()).map_or(String::new(), |engine| {
+        let subframes = truth.provenance.samples_per_pixel;
+        format!(
+            "mean of {subframes} sub-frames that {} drew, ",
+            printable(engine)
+        )
+    });
     text += &format!(
-        "\ntruth: {} shutter, open for {} frames\n",
+        "\ntruth: {drawn}{} shutter, open for {} frames\n",
         truth.alignment,
         truth.shutter.exposure()
     );

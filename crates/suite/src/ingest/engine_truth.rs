@@ -1,0 +1,243 @@
+//! The truth of an engine's sub-frames: their mean, its noise, and the ladder of means of fewer of them.
+
+use frame::{
+    Accumulation, Alignment, AtInstant, Image, Ladder, Picture, Plane, Provenance, Raster,
+    Replicate, Shutter, ShutterProfile, Support, Truth,
+};
+use tracer::{Progress, TraceError, Watch};
+
+use super::moving::ColorRange;
+use crate::Error;
+use crate::capture::description::CAPTURE_FILE;
+use crate::capture::folder::{Capture, SUBFRAMES};
+use crate::render::ladders::LADDER;
+
+/// Least number of sub-frames.
+const FEWEST_SUBFRAMES: usize = 4;
+/// Upper limit on the sub-frames.
+const MOST_SUBFRAMES: usize = 4096;
+/// Upper limit on the interleaved parts that tell the noise.
+const MOST_REPLICATES: usize = 8;
+/// Number of sub-frames of the truth for each of an accumulation that is compared with it: a mean of nearly as many as the truth
+/// has would share its errors.
+const TRUTH_PER_RUNG: usize = 4;
+/// Word of provenance for pictures that no ray was traced for.
+pub(super) const NOT_TRACED: &str = "none";
+
+/// A truth and what it is made of.
+pub struct EngineTruth {
+    pub truth: Truth,
+    pub replicates: Vec<Replicate>,
+    pub ladder: Ladder,
+}
+
+/// Averages the sub-frames of a capture. Each of its interleaved parts is a replicate; the even parts make one half of the truth,
+/// the odd ones the other.
+pub fn average_subframes(
+    capture: &Capture,
+    (shutter, alignment): (Shutter, Alignment),
+    provenance: &Provenance,
+    watch: Watch,
+) -> Result<EngineTruth, Error> {
+    check_count(capture)?;
+    let count = capture.subframes.len();
+    let parts = count_parts(count);
+    let size = (capture.color.width, capture.color.height);
+    let mut replicates = vec![Sum::new(size); parts];
+    let rungs: Vec<u32> = (LADDER.into_iter())
+        .filter(|rung| *rung as usize * TRUTH_PER_RUNG <= count)
+        .collect();
+    let mut accumulations: Vec<[Accumulated; 2]> = (rungs.iter())
+        .map(|rung| [0, 1].map(|half| Accumulated::new(size, pick_subframes(*rung, count, half))))
+        .collect();
+    let mut range = ColorRange::new(size, capture.description.stops.unwrap_or(0.0));
+    for index in 0..count {
+        let progress = Progress {
+            done: index as u64,
+            total: count as u64,
+        };
+        if watch(progress).is_break() {
+            return Err(TraceError::Cancelled.into());
+        }
+        let color = capture.read_subframe(index)?;
+        range.add(&color);
+        replicates[index % parts].add(&color);
+        for accumulated in accumulations.iter_mut().flatten() {
+            if accumulated.picks.contains(&index) {
+                accumulated.sum.add(&color);
+            }
+        }
+    }
+    let moving = range.mark_moving(&capture.velocity, shutter);
+    let everywhere = Plane::filled(size.0, size.1, 1.0);
+    let picture = |sum: &Sum| Picture {
+        color: sum.mean(),
+        coverage: vec![everywhere.clone()],
+    };
+    let objects = vec!["background".to_owned()];
+    let support = Support {
+        seen: vec![moving.map(|_| true)],
+        unknowable: moving.map(|_| false),
+        moving,
+    };
+    let each = (count / parts) as u32;
+    let replicates: Vec<Replicate> = (0..)
+        .zip(&replicates)
+        .map(|(index, sum)| Replicate {
+            provenance: Provenance {
+                samples_per_pixel: each,
+                replicates: 1,
+                ..provenance.clone()
+            },
+            index,
+            shutter,
+            shutter_profile: ShutterProfile::default(),
+            alignment,
+            objects: objects.clone(),
+            moving: vec![support.moving.pixels.contains(&true)],
+            picture: picture(sum),
+            at_instant: AtInstant::unknown(size.0, size.1),
+            samples: Plane::filled(size.0, size.1, each as f32),
+            support: support.clone(),
+        })
+        .collect();
+    let ladder = Ladder {
+        provenance: provenance.clone(),
+        shutter,
+        shutter_profile: ShutterProfile::default(),
+        alignment,
+        objects,
+        rungs: (rungs.into_iter().zip(&accumulations))
+            .map(|(subframes, halves)| Accumulation {
+                subframes,
+                halves: halves.each_ref().map(|half| picture(&half.sum)),
+            })
+            .collect(),
+    };
+    Ok(EngineTruth {
+        truth: Truth::of(&replicates)?,
+        replicates,
+        ladder,
+    })
+}
+
+/// Refuses numbers of sub-frames that make no truth with two halves.
+fn check_count(capture: &Capture) -> Result<(), Error> {
+    let count = capture.subframes.len();
+    match count.is_multiple_of(2) && (FEWEST_SUBFRAMES..=MOST_SUBFRAMES).contains(&count) {
+        true => Ok(()),
+        false => Err(Error::Usage(format!(
+            "{}: holds {count} sub-frames; allowed: even numbers from {FEWEST_SUBFRAMES} to {MOST_SUBFRAMES}, at the \
+             midpoints of equal parts of the shutter that {CAPTURE_FILE} names: half of them tell the noise of the others; \
+             capture 32, for instance",
+            capture.folder.join(SUBFRAMES).display()
+        ))),
+    }
+}
+
+/// Finds the greatest even number of parts that the sub-frames divide into.
+fn count_parts(count: usize) -> usize {
+    let even = (2..=MOST_REPLICATES).rev().step_by(2);
+    (even.into_iter().find(|parts| count.is_multiple_of(*parts)))
+        .expect("an even number has two parts")
+}
+
+/// Picks the sub-frames that stand for the midpoints of `rung` equal parts of the shutter. A midpoint lies between two of them: one
+/// half takes the earlier, the other the later.
+fn pick_subframes(rung: u32, count: usize, half: usize) -> Vec<usize> {
+    let rung = rung as usize;
+    let picks = (0..rung).map(|part| {
+        let doubled = (2 * part + 1) * count;
+        let later = doubled / (2 * rung);
+        let is_between = doubled.is_multiple_of(2 * rung);
+        if half == 0 && is_between {
+            later - 1
+        } else {
+            later
+        }
+    });
+    picks.collect()
+}
+
+/// A sum of pictures.
+#[derive(Clone)]
+struct Sum {
+    colors: Raster<[f64; 3]>,
+    count: u32,
+}
+
+impl Sum {
+    fn new((width, height): (u32, u32)) -> Self {
+        Self {
+            colors: Raster::filled(width, height, [0.0; 3]),
+            count: 0,
+        }
+    }
+
+    fn add(&mut self, color: &Image) {
+        self.count += 1;
+        for (sum, color) in self.colors.pixels.iter_mut().zip(&color.pixels) {
+            for (sum, value) in sum.iter_mut().zip(color) {
+                *sum += f64::from(*value);
+            }
+        }
+    }
+
+    fn mean(&self) -> Image {
+        let count = f64::from(self.count);
+        self.colors.map(|sum| sum.map(|sum| (sum / count) as f32))
+    }
+}
+
+/// The sum of some sub-frames, by their indices.
+struct Accumulated {
+    picks: Vec<usize>,
+    sum: Sum,
+}
+
+impl Accumulated {
+    fn new(size: (u32, u32), picks: Vec<usize>) -> Self {
+        Self {
+            picks,
+            sum: Sum::new(size),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sub_frames_fall_into_equal_parts() {
+        for (count, parts) in [
+            (4, 4),
+            (6, 6),
+            (8, 8),
+            (10, 2),
+            (12, 6),
+            (32, 8),
+            (64, 8),
+            (14, 2),
+        ] {
+            assert_eq!(count_parts(count), parts, "{count}");
+        }
+    }
+
+    #[test]
+    fn both_halves_together_lie_at_the_midpoints() {
+        for (rung, count) in [(1, 4), (2, 8), (4, 32), (1, 6), (4, 18)] {
+            let halves = [0, 1].map(|half| pick_subframes(rung, count, half));
+            for part in 0..rung as usize {
+                let places = halves.each_ref().map(|picks| picks[part] as f64 + 0.5);
+                let middle = 0.5 * (places[0] + places[1]) / count as f64;
+                let due = (part as f64 + 0.5) / f64::from(rung);
+                // Where the parts are no whole number of sub-frames, the nearest is at most half of one away.
+                assert!(
+                    (middle - due).abs() <= 0.5 / count as f64 + 1e-12,
+                    "{rung} of {count}: {halves:?}"
+                );
+            }
+        }
+    }
+}
