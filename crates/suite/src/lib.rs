@@ -1,6 +1,7 @@
 //! Measuring, judging, comparing and tuning of filters over scenes. Nothing here prints: results are data, progress goes to a
 //! [`Monitor`].
 
+mod audit;
 mod bench;
 mod cache;
 mod capture;
@@ -23,6 +24,9 @@ mod score;
 mod stats;
 mod tune;
 
+pub use audit::{
+    CaptureAudit, Cause, Defect, DepthAudit, ObjectAudit, audit_capture, write_audit_picture,
+};
 pub use bench::{
     BASELINE, BENCH_FORMAT, Bench, BenchPlan, CaseCost, GROWTH_FROM, REACHES, ReachCost,
     ReachPoint, Spread, bench,
@@ -40,6 +44,7 @@ pub use filter::choice::FilterChoice;
 pub use filter::depth_format::DepthFormat;
 pub use filter::input_format::InputFormat;
 pub use filter::runner::{Runner, open_adapter, open_gpu};
+pub use filter::velocity_defect::VelocityDefect;
 pub use filter::velocity_format::VelocityFormat;
 pub use folder::claim::{Claim, Sharing, claim};
 pub use folder::scene_folder::scene_folder;

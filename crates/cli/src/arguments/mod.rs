@@ -2,6 +2,7 @@
 
 mod accept;
 mod adapter;
+mod audit;
 mod bench;
 mod blur;
 mod calibrate;
@@ -37,6 +38,7 @@ mod tune;
 use clap::{Parser, Subcommand};
 
 pub use accept::AcceptArgs;
+pub use audit::AuditArgs;
 pub use bench::BenchArgs;
 pub use blur::BlurArgs;
 pub use calibrate::CalibrateArgs;
@@ -125,6 +127,8 @@ pub enum Command {
     Export(ExportArgs),
     /// Make a frame, a truth and a picture of what an engine drew, so that `run` and `score` can measure them.
     Ingest(IngestArgs),
+    /// Compare an engine's velocity and depth with those of the scene that it drew, and name what is wrong.
+    Audit(AuditArgs),
     /// List scenes, filters, parameters and presets.
     List(ListArgs),
 }

@@ -44,7 +44,12 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
         scenes: scenes.into_iter().map(|(scene, _)| scene).collect(),
         engine_scenes,
         filters,
-        inputs: InputFormat::one_by_one(&args.velocity_format, &args.depth_format, &args.border),
+        inputs: InputFormat::one_by_one(
+            &args.velocity_format,
+            &args.depth_format,
+            &args.border,
+            &args.velocity_defect,
+        ),
         jitter_frames: args.jitter_frames,
         render: make_render_settings(&args.scenes, size, args.replicates)?,
         out,

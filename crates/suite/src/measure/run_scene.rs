@@ -29,6 +29,14 @@ impl<'a> RunScene<'a> {
         }
     }
 
+    /// Returns the scene that frame and truth are rendered of; none where an engine drew them.
+    pub fn traced(self) -> Option<&'a Scene> {
+        match self {
+            Self::Traced(scene) => Some(scene),
+            Self::Drawn(_) => None,
+        }
+    }
+
     /// Returns the family; none of an engine's scene.
     pub fn family(self) -> Option<Family> {
         match self {

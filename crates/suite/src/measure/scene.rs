@@ -150,8 +150,8 @@ impl SceneContext<'_> {
             None => CommonTruth::Missing,
         };
         let stored_frames: Vec<(InputFormat, Frame)> = (self.plan.inputs.iter())
-            .map(|format| (*format, format.apply(frame)))
-            .collect();
+            .map(|format| Ok((*format, format.apply(frame, self.scene.traced())?)))
+            .collect::<Result<_, Error>>()?;
         (monitor.ended)("references");
         let mut cases = Vec::with_capacity(due.len());
         for (done, planned) in due.iter().enumerate() {
