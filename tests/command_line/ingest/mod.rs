@@ -135,7 +135,7 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
         "bleed_lateral",
         "lateral_growth",
         "energy",
-        "frozen_flip",
+        "flip_frozen",
         "flip_knowable",
         "flip_unknowable",
         "gather_offset",
@@ -174,9 +174,12 @@ fn a_page_says_which_truth_is_the_engines() {
     ));
     let page = fs::read_to_string(bench.path("out/report.html")).unwrap();
     for words in [
-        "mean of 8 sub-frames that Test Engine 1.2 drew",
-        "path traced",
-        "Truth of plate",
+        "<td class=\"text\">mean of 8 sub-frames that Test Engine 1.2 drew</td>",
+        "<td class=\"text\">path traced</td>",
+        "frame and truth are not ours",
+        "Ours is that of <strong>plate</strong>, path traced",
+        "traced_truth:",
+        "&quot;Engine's truth&quot;",
     ] {
         assert!(page.contains(words), "{words}");
     }
@@ -212,13 +215,34 @@ fn a_check_holds_an_engine_to_the_bounds_beside_its_own_scene() {
     );
     let bound = |limit: f64| {
         let text = format!(
-            "[default]\nflip_moving = {{ limit = {limit:?}, level = \"required\", why = \"it serves a test\" }}\n"
+            "[default]\nskill_flip = {{ limit = {limit:?}, level = \"required\", why = \"it serves a test\" }}\n"
         );
         fs::write(bench.path(OUT).join("bounds.toml"), text).unwrap();
         bench.shuttertruth(&words)
     };
-    assert_done(&bound(0.9));
-    assert_eq!(bound(0.01).status.code(), Some(1));
-    let finished = bench.shuttertruth(&split("check out"));
+    // The identity has a skill of 0.
+    assert_done(&bound(-0.5));
+    let broken = bound(0.2);
+    assert_eq!(broken.status.code(), Some(1), "{}", stdout(&broken));
+    assert!(
+        !stdout(&broken).contains("95 % CI"),
+        "sub-frames are no samples"
+    );
+    let finished = bench.shuttertruth(&split("check out --scenes-dir out/engine"));
     assert_eq!(finished.status.code(), Some(1), "{}", stdout(&finished));
+    assert_refused(
+        &bench.shuttertruth(&split("check out")),
+        2,
+        &[NAME, "--scenes-dir"],
+    );
+    fs::remove_file(bench.path(OUT).join("bounds.toml")).unwrap();
+    fs::write(
+        bench.path(OUT).join("bounds.toml"),
+        "[default]\nflip_moving = { limit = 0.001, why = \"it serves a test\" }\n",
+    )
+    .unwrap();
+    let strict = bench.shuttertruth(&words);
+    assert_eq!(strict.status.code(), Some(2));
+    let told = [stdout(&strict), crate::bench::stderr(&strict)].concat();
+    assert!(told.contains("capture more sub-frames than 16"), "{told}");
 }

@@ -9,7 +9,7 @@ use frame::{
 use tracer::Watch;
 
 use super::engine_scene::{
-    BLURRED, EngineScene, INGESTED_FILE, INGESTED_FORMAT, name_in_one_word, replicate_name,
+    BLURRED, EngineScene, INGESTED_FILE, INGESTED_FORMAT, engine_name, name_in_one_word,
 };
 use super::engine_truth::{EngineTruth, NOT_TRACED, average_subframes};
 use super::moving::fastest;
@@ -84,7 +84,6 @@ pub fn ingest(
         exposure,
         alignment: alignment.name().to_owned(),
         subframes: capture.subframes.len() as u32,
-        replicates: (made.as_ref()).map_or(0, |made| made.replicates.len() as u32),
         step,
         ladder: (made.iter().flat_map(|made| &made.ladder.rungs))
             .map(|rung| rung.subframes)
@@ -94,14 +93,7 @@ pub fn ingest(
         folder: out.to_owned(),
     };
     let truth = (made.map(|made| -> Result<Truth, Error> {
-        let EngineTruth {
-            truth,
-            replicates,
-            ladder,
-        } = made;
-        for replicate in replicates {
-            replicate.write(&out.join(replicate_name(alignment, replicate.index)))?;
-        }
+        let EngineTruth { truth, ladder } = made;
         ladder.write(&out.join(format!("ladder_{alignment}.exr")))?;
         truth.write(&out.join(format!("truth_{alignment}.exr")))?;
         show(&format!("truth_{alignment}.png"), &truth.mean().color)?;
@@ -121,7 +113,7 @@ fn name_scene(capture: &Capture, out: &Path) -> Result<String, Error> {
     match folder.filter(is_plain) {
         Some(folder) => Ok(format!(
             "{folder}@{}",
-            name_in_one_word(&capture.description.engine)
+            name_in_one_word(engine_name(&capture.description.engine))
         )),
         None => Err(Error::Usage(format!(
             "--out {}: its last part names the scene; allowed: letters, digits and . _ - +, such as out/engine/railing",

@@ -16,23 +16,21 @@ use crate::render::ladders::LADDER;
 const FEWEST_SUBFRAMES: usize = 4;
 /// Upper limit on the sub-frames.
 const MOST_SUBFRAMES: usize = 4096;
-/// Upper limit on the interleaved parts that tell the noise.
-const MOST_REPLICATES: usize = 8;
+/// Parts of the sub-frames, every other one of which makes a half of the truth.
+const HALVES: usize = 2;
 /// Number of sub-frames of the truth for each of an accumulation that is compared with it: a mean of nearly as many as the truth
 /// has would share its errors.
 const TRUTH_PER_RUNG: usize = 4;
 /// Word of provenance for pictures that no ray was traced for.
 pub(super) const NOT_TRACED: &str = "none";
 
-/// A truth and what it is made of.
+/// A truth and the ladder that goes with it.
 pub struct EngineTruth {
     pub truth: Truth,
-    pub replicates: Vec<Replicate>,
     pub ladder: Ladder,
 }
 
-/// Averages the sub-frames of a capture. Each of its interleaved parts is a replicate; the even parts make one half of the truth,
-/// the odd ones the other.
+/// Averages the sub-frames of a capture: the even ones make one half of the truth, the odd ones the other.
 pub fn average_subframes(
     capture: &Capture,
     (shutter, alignment): (Shutter, Alignment),
@@ -41,9 +39,8 @@ pub fn average_subframes(
 ) -> Result<EngineTruth, Error> {
     check_count(capture)?;
     let count = capture.subframes.len();
-    let parts = count_parts(count);
     let size = (capture.color.width, capture.color.height);
-    let mut replicates = vec![Sum::new(size); parts];
+    let mut halves = [0; HALVES].map(|_| Sum::new(size));
     let rungs: Vec<u32> = (LADDER.into_iter())
         .filter(|rung| *rung as usize * TRUTH_PER_RUNG <= count)
         .collect();
@@ -61,7 +58,7 @@ pub fn average_subframes(
         }
         let color = capture.read_subframe(index)?;
         range.add(&color);
-        replicates[index % parts].add(&color);
+        halves[index % HALVES].add(&color);
         for accumulated in accumulations.iter_mut().flatten() {
             if accumulated.picks.contains(&index) {
                 accumulated.sum.add(&color);
@@ -80,9 +77,9 @@ pub fn average_subframes(
         unknowable: moving.map(|_| false),
         moving,
     };
-    let each = (count / parts) as u32;
+    let each = (count / HALVES) as u32;
     let replicates: Vec<Replicate> = (0..)
-        .zip(&replicates)
+        .zip(&halves)
         .map(|(index, sum)| Replicate {
             provenance: Provenance {
                 samples_per_pixel: each,
@@ -116,7 +113,6 @@ pub fn average_subframes(
     };
     Ok(EngineTruth {
         truth: Truth::of(&replicates)?,
-        replicates,
         ladder,
     })
 }
@@ -133,13 +129,6 @@ fn check_count(capture: &Capture) -> Result<(), Error> {
             capture.folder.join(SUBFRAMES).display()
         ))),
     }
-}
-
-/// Finds the greatest even number of parts that the sub-frames divide into.
-fn count_parts(count: usize) -> usize {
-    let even = (2..=MOST_REPLICATES).rev().step_by(2);
-    (even.into_iter().find(|parts| count.is_multiple_of(*parts)))
-        .expect("an even number has two parts")
 }
 
 /// Picks the sub-frames that stand for the midpoints of `rung` equal parts of the shutter. A midpoint lies between two of them: one
@@ -160,7 +149,6 @@ fn pick_subframes(rung: u32, count: usize, half: usize) -> Vec<usize> {
 }
 
 /// A sum of pictures.
-#[derive(Clone)]
 struct Sum {
     colors: Raster<[f64; 3]>,
     count: u32,
@@ -207,22 +195,6 @@ impl Accumulated {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn sub_frames_fall_into_equal_parts() {
-        for (count, parts) in [
-            (4, 4),
-            (6, 6),
-            (8, 8),
-            (10, 2),
-            (12, 6),
-            (32, 8),
-            (64, 8),
-            (14, 2),
-        ] {
-            assert_eq!(count_parts(count), parts, "{count}");
-        }
-    }
 
     #[test]
     fn both_halves_together_lie_at_the_midpoints() {

@@ -10,6 +10,7 @@ use tracer::Family;
 
 use crate::InputFormat;
 use crate::filter::choice::overrides_text;
+use crate::ingest::engine_scene::engine_name;
 
 /// Confidence intervals of scores, by the names of their metrics.
 pub type Intervals = BTreeMap<String, Interval>;
@@ -85,8 +86,6 @@ pub struct Drawn {
     pub subframes: u32,
     /// Distance that the fastest pixel moves between two of them, in pixels.
     pub step: f64,
-    /// Folder that `ingest` wrote.
-    pub folder: PathBuf,
 }
 
 impl Drawn {
@@ -94,7 +93,8 @@ impl Drawn {
     pub fn truth_text(&self) -> String {
         format!(
             "mean of {} sub-frames that {} drew",
-            self.subframes, self.engine
+            self.subframes,
+            engine_name(&self.engine)
         )
     }
 }
