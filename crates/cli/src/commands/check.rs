@@ -175,7 +175,7 @@ fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judge
 }
 
 /// Reads the bounds of a run's scenes, for pictures of the run's size, from the folder of scenes.
-fn read_run_bounds(run: &Run, root: &Path, ingested: &[EngineScene]) -> Result<RunBounds, Error> {
+fn read_run_bounds(run: &Run, root: &Path) -> Result<RunBounds, Error> {
     let mut found = RunBounds::new();
     for case in &run.cases {
         if found.contains_key(&case.scene) {
