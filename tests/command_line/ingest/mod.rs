@@ -61,7 +61,9 @@ fn the_mean_of_sub_frames_is_our_truth_within_its_limit() {
         "drawn by Test Engine 1.2",
         "mean of 16 sub-frames, trailing shutter, open for 0.5 frames; not path traced",
         "0.58 px between two sub-frames",
-        "counts of equivalent sub-frames up to 4",
+        "equivalent sub-frames are told up to 4",
+        "advice: 20 sub-frames would have steps of half a pixel",
+        "next: shuttertruth run --scenes plate,./out/engine/mine",
     ] {
         assert!(told.contains(words), "{words}\n{told}");
     }

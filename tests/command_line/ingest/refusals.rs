@@ -347,3 +347,36 @@ fn assert_refused_after_notes(output: &Output, parts: &[&str]) {
     assert_eq!(output.status.code(), Some(2), "{message}");
     tests::text::assert_contains(&message, parts);
 }
+
+#[test]
+fn files_of_two_captures_are_not_mixed() {
+    let bench = Bench::new();
+    Capture::new(&bench).with_subframes(4);
+    ingest(&bench);
+    for name in ["frame.exr", "truth_trailing.exr"] {
+        let own = bench.path("out/engine/mine").join(name);
+        let before = fs::read(&own).unwrap();
+        // Another name of the scene is no other capture, another exposure is one.
+        let changed = DESCRIPTION.replace("0.5", "0.25");
+        fs::write(bench.path("capture/capture.toml"), changed).unwrap();
+        bench.execute(&split("ingest capture --quiet -o out/engine/other"));
+        fs::copy(bench.path("out/engine/other").join(name), &own).unwrap();
+        let words = split("run --quiet --scenes out/engine/mine --filter identity");
+        let refusal = bench.shuttertruth(&words);
+        assert_refused(
+            &refusal,
+            2,
+            &[name, "is of another capture", "ingest the capture again"],
+        );
+        fs::write(&own, before).unwrap();
+    }
+    let words = split("run --quiet --scenes out/engine/mine --filter identity");
+    assert_done(&bench.shuttertruth(&words));
+    fs::write(bench.path("out/engine/mine/ingested.json"), "{}").unwrap();
+    let refusal = bench.shuttertruth(&words);
+    assert_refused(
+        &refusal,
+        2,
+        &["ingested.json: no ingested capture", "make the folder anew"],
+    );
+}

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, FileError, Frame, Ladder, Picture, Truth, read_exr};
+use frame::{Alignment, FileError, Frame, Ladder, Picture, Provenance, Truth, read_exr};
 use serde::{Deserialize, Serialize};
 
 use crate::Error;
@@ -143,15 +143,37 @@ impl EngineScene {
     /// Reads the frame, and copies its file into a scene's folder of a run.
     pub(crate) fn copy_frame(&self, folder: &Path) -> Result<Frame, Error> {
         let path = self.copy("frame.exr", folder)?;
-        Ok(Frame::read(&path)?)
+        let frame = Frame::read(&path)?;
+        self.check_file("frame.exr", &frame.provenance, &self.hash, frame.size())?;
+        Ok(frame)
     }
 
     /// Reads the truth, and copies its file with that of its ladder into a scene's folder of a run.
     pub(crate) fn copy_truth(&self, folder: &Path) -> Result<Truth, Error> {
         let alignment = self.alignment();
         self.copy(&format!("ladder_{alignment}.exr"), folder)?;
-        let path = self.copy(&format!("truth_{alignment}.exr"), folder)?;
-        Ok(Truth::read(&path)?)
+        let name = format!("truth_{alignment}.exr");
+        let path = self.copy(&name, folder)?;
+        let truth = Truth::read(&path)?;
+        self.check_file(&name, &truth.provenance, &self.truth_hash(), truth.size())?;
+        Ok(truth)
+    }
+
+    /// Refuses a file that is not the one that was ingested.
+    fn check_file(
+        &self,
+        name: &str,
+        provenance: &Provenance,
+        hash: &str,
+        (width, height): (u32, u32),
+    ) -> Result<(), Error> {
+        match provenance.content_hash == hash && self.size == [width, height] {
+            true => Ok(()),
+            false => Err(Error::Usage(format!(
+                "{}: is of another capture than {INGESTED_FILE} beside it; ingest the capture again",
+                self.folder.join(name).display()
+            ))),
+        }
     }
 
     /// Reads the ladder from a scene's folder of a run.
