@@ -167,6 +167,53 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
 }
 
 #[test]
+fn ids_in_the_sub_frames_bring_the_scores_of_objects() {
+    let bench = Bench::new();
+    Capture::new(&bench).with_subframes_and_ids(16);
+    let told = ingest(&bench);
+    assert!(told.contains("objects: plate\n"), "{told}");
+    let words = "run --quiet --scenes plate,out/engine/mine --samples-per-pixel 64 --filter jump_flood:paper \
+                 --frame-sampling antialiased";
+    bench.execute(&split(words));
+    let run = bench.read_run();
+    let score = |scene: &str, filter: &str, metric: &str| {
+        let mut cases = run.cases.iter();
+        let found = cases.find(|case| case.scene == scene && case.filter == filter);
+        let metric: Metric = metric.parse().unwrap();
+        found.unwrap().scores.get(metric).value().unwrap()
+    };
+    // An id is all or nothing in a pixel, where our frame has shares; sub-frames lie 0.58 px apart.
+    for (filter, metric, most) in [
+        ("identity", "label_tv", 0.03),
+        ("scatter_oracle", "label_tv", 0.03),
+        ("jump_flood", "label_tv", 0.03),
+        ("jump_flood", "bleed_lateral", 0.6),
+        ("jump_flood", "centroid", 0.6),
+        ("jump_flood", "extent", 0.15),
+    ] {
+        let [engines, ours] = [NAME, "plate"].map(|scene| score(scene, filter, metric));
+        assert!(
+            (engines - ours).abs() < most,
+            "{filter} {metric}: {engines} {ours}"
+        );
+    }
+    let own = run
+        .cases
+        .iter()
+        .find(|case| case.filter == "Test_Engine_1.2")
+        .unwrap();
+    let Measured::NotApplicable { reason } = own.scores.get("bleed_lateral".parse().unwrap())
+    else {
+        panic!("the engine's own picture has no mattes");
+    };
+    assert!(
+        reason.contains("an engine's picture does not say"),
+        "{reason}"
+    );
+    bench.execute(&split("report out --html again.html --exr layers"));
+}
+
+#[test]
 fn a_page_says_which_truth_is_the_engines() {
     let bench = Bench::new();
     Capture::new(&bench).with_subframes(8);

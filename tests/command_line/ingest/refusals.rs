@@ -272,6 +272,41 @@ fn sub_frames_that_make_no_truth_are_refused() {
 }
 
 #[test]
+fn ids_that_fit_no_object_or_are_missing_are_refused() {
+    let bench = Bench::new();
+    let capture = Capture::new(&bench).with_subframes_and_ids(4);
+    let color = &capture.frame.color;
+    capture.write_color("subframes/0002.exr", color);
+    let refusal = try_ingest(&bench);
+    assert_refused(
+        &refusal,
+        2,
+        &[
+            "subframes/0002.exr: has no channel \"object\"",
+            "in all of them, or in none",
+        ],
+    );
+    let ids = color.map(|_| 7);
+    capture.write_picture("subframes/0002.exr", color, Some(&ids));
+    let refusal = try_ingest(&bench);
+    assert_refused(
+        &refusal,
+        2,
+        &["hold ids up to 7; allowed: up to 1", "leave object.exr out"],
+    );
+    // Nobody knows how many objects a scene has that is not ours.
+    capture.write(
+        "capture.toml",
+        &DESCRIPTION.replace("scene = \"plate\"\n", ""),
+    );
+    let told = ingest(&bench);
+    assert!(
+        told.contains("objects: object_1, object_2, object_3,"),
+        "{told}"
+    );
+}
+
+#[test]
 fn losses_are_told_and_taken() {
     let bench = Bench::new();
     let capture = Capture::new(&bench);

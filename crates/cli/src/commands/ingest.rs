@@ -24,8 +24,10 @@ pub fn execute(args: &IngestArgs) -> Result<(), Error> {
     let traced = find_scene(&capture, &args.scenes_dir);
     let display = find_display(&capture, traced.as_ref());
     let _claim = claim(&out, [], Sharing::Alone)?;
-    let ingested =
-        make_monitor().watch("sub-frames", |watch| ingest(&capture, display, &out, watch))?;
+    let names = traced.as_ref().map(Scene::object_names);
+    let ingested = make_monitor().watch("sub-frames", |watch| {
+        ingest(&capture, (display, names), &out, watch)
+    })?;
     print(&describe(&ingested, &out, traced.as_ref()))
 }
 
@@ -93,6 +95,13 @@ fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
             "noise of the truth, from its halves: {}",
             floors.join(", ")
         );
+    }
+    if let Some(truth) = &ingested.truth {
+        let objects = match truth.objects.len() {
+            1 => "none: the sub-frames have no ids, and there are no scores of objects".to_owned(),
+            _ => truth.objects[1..].join(", "),
+        };
+        let _ = writeln!(text, "objects: {objects}");
     }
     if scene.has_picture {
         let _ = writeln!(text, "picture: the engine's own blur, {folder}/blurred.exr");

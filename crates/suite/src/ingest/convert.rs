@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use frame::{
-    Display, ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Plane, Provenance, Raster,
-    Reprojection, Truth, VelocityKind, display_srgb, write_exr, write_png,
+    Display, ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Provenance, Raster, Reprojection,
+    Truth, VelocityKind, display_srgb, write_exr, write_png,
 };
 use tracer::Watch;
 
@@ -13,6 +13,7 @@ use super::engine_scene::{
 };
 use super::engine_truth::{EngineTruth, NOT_TRACED, average_subframes};
 use super::moving::fastest;
+use super::objects::{draw_coverage, name_objects};
 use crate::capture::folder::Capture;
 use crate::colors::velocity_wheel;
 use crate::folder::scene_folder::refuse_scene;
@@ -27,10 +28,11 @@ pub struct Ingested {
 }
 
 /// Writes the frame of a capture, the truth of its sub-frames and the engine's own blurred picture into the folder `out`, which
-/// names the scene. The pictures are shown and compared at the exposures of `display`.
+/// names the scene. The pictures are shown and compared at the exposures of `display`; `names` are those of the objects of the scene
+/// that the engine drew.
 pub fn ingest(
     capture: &Capture,
-    display: Display,
+    (display, names): (Display, Option<Vec<String>>),
     out: &Path,
     watch: Watch,
 ) -> Result<Ingested, Error> {
@@ -49,14 +51,21 @@ pub fn ingest(
         content_hash: hash.clone(),
         engine: Some(capture.description.engine.clone()),
     };
+    let objects = name_objects(capture, names)?;
     let made = match capture.subframes.is_empty() {
         true => None,
         false => {
             let shutter = (shutter, alignment);
-            Some(average_subframes(capture, shutter, &provenance, watch)?)
+            Some(average_subframes(
+                capture,
+                shutter,
+                &objects,
+                &provenance,
+                watch,
+            )?)
         }
     };
-    let frame = make_frame(capture, exposure, display, provenance.clone());
+    let frame = make_frame(capture, (exposure, display), objects, provenance.clone());
     std::fs::create_dir_all(out).map_err(|source| frame::FileError::io(out, "write", source))?;
     frame.write(&out.join("frame.exr"))?;
     let show =
@@ -122,7 +131,12 @@ fn name_scene(capture: &Capture, out: &Path) -> Result<String, Error> {
     }
 }
 
-fn make_frame(capture: &Capture, exposure: f64, display: Display, provenance: Provenance) -> Frame {
+fn make_frame(
+    capture: &Capture,
+    (exposure, display): (f64, Display),
+    objects: Vec<String>,
+    provenance: Provenance,
+) -> Frame {
     let (width, height) = (capture.color.width, capture.color.height);
     let sky = capture.depth.pixels.iter().zip(&capture.velocity.pixels);
     let mut moving_sky = sky.filter(|(depth, _)| **depth >= FAR_DEPTH);
@@ -137,12 +151,15 @@ fn make_frame(capture: &Capture, exposure: f64, display: Display, provenance: Pr
         guard_band: 0,
         reprojection: Reprojection::STILL,
         display,
-        objects: vec!["background".to_owned()],
+        coverage: draw_coverage(capture.object_id.as_ref(), (width, height), objects.len()),
+        object_id: match (&capture.object_id, objects.len()) {
+            (Some(ids), 2..) => ids.clone(),
+            _ => Raster::filled(width, height, 0),
+        },
+        objects,
         color: capture.color.clone(),
         velocity: capture.velocity.clone(),
         depth: capture.depth.clone(),
-        object_id: Raster::filled(width, height, 0),
-        coverage: vec![Plane::filled(width, height, 1.0)],
         samples: None,
     }
 }
@@ -186,6 +203,8 @@ fn hash_capture(capture: &Capture) -> Result<String, Error> {
     add(&mut color.pixels.iter().flatten().copied());
     add(&mut velocity.pixels.iter().flatten().copied());
     add(&mut depth.pixels.iter().copied());
+    let ids = capture.object_id.iter().flat_map(|ids| &ids.pixels);
+    add(&mut ids.map(|id| *id as f32));
     add(&mut blurred
         .iter()
         .flat_map(|image| image.pixels.iter().flatten().copied()));

@@ -1,12 +1,13 @@
 //! The truth of an engine's sub-frames: their mean, its noise, and the ladder of means of fewer of them.
 
 use frame::{
-    Accumulation, Alignment, AtInstant, Image, Ladder, Picture, Plane, Provenance, Raster,
-    Replicate, Shutter, ShutterProfile, Support, Truth,
+    Accumulation, Alignment, AtInstant, Ladder, Picture, Plane, Provenance, Raster, Replicate,
+    Shutter, ShutterProfile, Support, Truth,
 };
 use tracer::{Progress, TraceError, Watch};
 
 use super::moving::ColorRange;
+use super::objects::draw_coverage;
 use crate::Error;
 use crate::capture::description::CAPTURE_FILE;
 use crate::capture::folder::{Capture, SUBFRAMES};
@@ -34,18 +35,23 @@ pub struct EngineTruth {
 pub fn average_subframes(
     capture: &Capture,
     (shutter, alignment): (Shutter, Alignment),
+    objects: &[String],
     provenance: &Provenance,
     watch: Watch,
 ) -> Result<EngineTruth, Error> {
     check_count(capture)?;
     let count = capture.subframes.len();
     let size = (capture.color.width, capture.color.height);
-    let mut halves = [0; HALVES].map(|_| Sum::new(size));
+    let mut halves = [0; HALVES].map(|_| Sum::new(size, objects.len()));
     let rungs: Vec<u32> = (LADDER.into_iter())
         .filter(|rung| *rung as usize * TRUTH_PER_RUNG <= count)
         .collect();
     let mut accumulations: Vec<[Accumulated; 2]> = (rungs.iter())
-        .map(|rung| [0, 1].map(|half| Accumulated::new(size, pick_subframes(*rung, count, half))))
+        .map(|rung| {
+            [0, 1].map(|half| {
+                Accumulated::new((size, objects.len()), pick_subframes(*rung, count, half))
+            })
+        })
         .collect();
     let mut range = ColorRange::new(size, capture.description.stops.unwrap_or(0.0));
     for index in 0..count {
@@ -57,30 +63,35 @@ pub fn average_subframes(
             return Err(TraceError::Cancelled.into());
         }
         let color = capture.read_subframe(index)?;
-        range.add(&color);
-        halves[index % HALVES].add(&color);
+        let ids = match objects.len() {
+            1 => None,
+            _ => capture.read_subframe_objects(index)?,
+        };
+        let picture = Picture {
+            coverage: draw_coverage(ids.as_ref(), size, objects.len()),
+            color,
+        };
+        range.add(&picture.color);
+        halves[index % HALVES].add(&picture);
         for accumulated in accumulations.iter_mut().flatten() {
             if accumulated.picks.contains(&index) {
-                accumulated.sum.add(&color);
+                accumulated.sum.add(&picture);
             }
         }
     }
     let moving = range.mark_moving(&capture.velocity, shutter);
-    let everywhere = Plane::filled(size.0, size.1, 1.0);
-    let picture = |sum: &Sum| Picture {
-        color: sum.mean(),
-        coverage: vec![everywhere.clone()],
-    };
-    let objects = vec!["background".to_owned()];
+    let pictures = halves.each_ref().map(Sum::mean);
     let support = Support {
-        seen: vec![moving.map(|_| true)],
+        seen: (Picture::mean(&pictures).coverage.iter())
+            .map(|coverage| coverage.map(|share| *share > 0.0))
+            .collect(),
         unknowable: moving.map(|_| false),
         moving,
     };
     let each = (count / HALVES) as u32;
     let replicates: Vec<Replicate> = (0..)
-        .zip(&halves)
-        .map(|(index, sum)| Replicate {
+        .zip(pictures)
+        .map(|(index, picture)| Replicate {
             provenance: Provenance {
                 samples_per_pixel: each,
                 replicates: 1,
@@ -90,9 +101,9 @@ pub fn average_subframes(
             shutter,
             shutter_profile: ShutterProfile::default(),
             alignment,
-            objects: objects.clone(),
-            moving: vec![support.moving.pixels.contains(&true)],
-            picture: picture(sum),
+            objects: objects.to_owned(),
+            moving: find_movers(&support),
+            picture,
             at_instant: AtInstant::unknown(size.0, size.1),
             samples: Plane::filled(size.0, size.1, each as f32),
             support: support.clone(),
@@ -103,11 +114,11 @@ pub fn average_subframes(
         shutter,
         shutter_profile: ShutterProfile::default(),
         alignment,
-        objects,
+        objects: objects.to_owned(),
         rungs: (rungs.into_iter().zip(&accumulations))
             .map(|(subframes, halves)| Accumulation {
                 subframes,
-                halves: halves.each_ref().map(|half| picture(&half.sum)),
+                halves: halves.each_ref().map(|half| half.sum.mean()),
             })
             .collect(),
     };
@@ -148,32 +159,52 @@ fn pick_subframes(rung: u32, count: usize, half: usize) -> Vec<usize> {
     picks.collect()
 }
 
+/// Tells, per object, whether it is seen where anything moves.
+fn find_movers(support: &Support) -> Vec<bool> {
+    let moves = |seen: &Raster<bool>| {
+        let mut both = seen.pixels.iter().zip(&support.moving.pixels);
+        both.any(|(seen, moving)| *seen && *moving)
+    };
+    support.seen.iter().map(moves).collect()
+}
+
 /// A sum of pictures.
 struct Sum {
     colors: Raster<[f64; 3]>,
+    /// Per object, the number of pictures that show it.
+    coverage: Vec<Plane>,
     count: u32,
 }
 
 impl Sum {
-    fn new((width, height): (u32, u32)) -> Self {
+    fn new((width, height): (u32, u32), objects: usize) -> Self {
         Self {
             colors: Raster::filled(width, height, [0.0; 3]),
+            coverage: vec![Plane::filled(width, height, 0.0); objects],
             count: 0,
         }
     }
 
-    fn add(&mut self, color: &Image) {
+    fn add(&mut self, picture: &Picture) {
         self.count += 1;
-        for (sum, color) in self.colors.pixels.iter_mut().zip(&color.pixels) {
+        for (sum, color) in self.colors.pixels.iter_mut().zip(&picture.color.pixels) {
             for (sum, value) in sum.iter_mut().zip(color) {
                 *sum += f64::from(*value);
             }
         }
+        for (sum, coverage) in self.coverage.iter_mut().zip(&picture.coverage) {
+            *sum = sum.zip(coverage, |sum, share| sum + share);
+        }
     }
 
-    fn mean(&self) -> Image {
+    fn mean(&self) -> Picture {
         let count = f64::from(self.count);
-        self.colors.map(|sum| sum.map(|sum| (sum / count) as f32))
+        Picture {
+            color: self.colors.map(|sum| sum.map(|sum| (sum / count) as f32)),
+            coverage: (self.coverage.iter())
+                .map(|sum| sum.map(|sum| (f64::from(*sum) / count) as f32))
+                .collect(),
+        }
     }
 }
 
@@ -184,10 +215,10 @@ struct Accumulated {
 }
 
 impl Accumulated {
-    fn new(size: (u32, u32), picks: Vec<usize>) -> Self {
+    fn new((size, objects): ((u32, u32), usize), picks: Vec<usize>) -> Self {
         Self {
             picks,
-            sum: Sum::new(size),
+            sum: Sum::new(size, objects),
         }
     }
 }
