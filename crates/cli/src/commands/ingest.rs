@@ -129,7 +129,7 @@ fn describe_truth(scene: &EngineScene) -> String {
     let most = scene.ladder.last().copied().unwrap_or(1);
     let mut text = format!(
         "truth: mean of {} sub-frames, {} shutter, open for {} frames; not path traced\n\
-         limit: the fastest pixel moves {length:.1} px while the shutter is open, {:.2} px between two sub-frames; a smear has \
+         limit: 99 % of what moves goes at most {length:.1} px while the shutter is open, {:.2} px between two sub-frames; a smear has \
          steps of that length, and equivalent sub-frames are told up to {most}\n",
         scene.subframes, scene.alignment, scene.exposure, scene.step
     );

@@ -12,7 +12,7 @@ use super::engine_scene::{
     BLURRED, EngineScene, INGESTED_FILE, INGESTED_FORMAT, engine_name, name_in_one_word,
 };
 use super::engine_truth::{EngineTruth, NOT_TRACED, average_subframes};
-use super::moving::fastest;
+use super::moving::usual_top_speed;
 use super::objects::{draw_coverage, name_objects};
 use crate::capture::folder::Capture;
 use crate::colors::velocity_wheel;
@@ -82,7 +82,8 @@ pub fn ingest(
         )?;
         show("blurred.png", picture)?;
     }
-    let step = fastest(&capture.velocity) * exposure / capture.subframes.len().max(1) as f64;
+    let step =
+        usual_top_speed(&capture.velocity) * exposure / capture.subframes.len().max(1) as f64;
     let scene = EngineScene {
         format: INGESTED_FORMAT,
         program: PROGRAM.to_owned(),

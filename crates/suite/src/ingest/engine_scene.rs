@@ -38,7 +38,7 @@ pub struct EngineScene {
     pub alignment: String,
     /// Number of sub-frames that the truth is the mean of; 0 where there is no truth.
     pub subframes: u32,
-    /// Distance that the fastest pixel moves between two sub-frames, in pixels.
+    /// Distance that 99 % of the moving pixels move at most between two sub-frames, in pixels.
     pub step: f64,
     /// Counts of sub-frames of the ladder that errors are compared with.
     pub ladder: Vec<u32>,

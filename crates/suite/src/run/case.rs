@@ -84,7 +84,7 @@ pub struct Drawn {
     pub scene: Option<String>,
     /// Number of sub-frames that the truth is the mean of.
     pub subframes: u32,
-    /// Distance that the fastest pixel moves between two of them, in pixels.
+    /// Distance that 99 % of the moving pixels move at most between two of them, in pixels.
     pub step: f64,
 }
 
