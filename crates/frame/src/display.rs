@@ -24,6 +24,7 @@ pub struct FlipExposures {
 }
 
 impl Default for FlipExposures {
+    /// Two stops either way, a step per stop.
     fn default() -> Self {
         Self {
             start: -2.0,

@@ -45,6 +45,10 @@ pub fn facts(run: &Run) -> Vec<(&'static str, String)> {
         None => "none: every filter is a program".to_owned(),
     };
     let render = &run.render;
+    let rendered = match run.cases.iter().any(|case| case.drawn.is_some()) {
+        true => "; not where an engine drew them",
+        false => "",
+    };
     let sky = match render.options.sky_velocity {
         true => "with a velocity",
         false => "without velocity",
@@ -60,14 +64,14 @@ pub fn facts(run: &Run) -> Vec<(&'static str, String)> {
         (
             "truth",
             format!(
-                "{} samples per pixel in {} replicates, seed {}",
+                "{} samples per pixel in {} replicates, seed {}{rendered}",
                 render.samples_per_pixel, render.replicates, render.seed
             ),
         ),
         (
             "frame",
             format!(
-                "velocity {}, colour {}, background {sky}, guard band of {} pixels",
+                "velocity {}, colour {}, background {sky}, guard band of {} pixels{rendered}",
                 render.options.velocity, render.options.color, render.guard_band
             ),
         ),

@@ -50,7 +50,7 @@ pub use folder::claim::{Claim, Sharing, claim};
 pub use folder::scene_folder::scene_folder;
 pub use folder::tracked::refuse_tracked;
 pub use import::{ImportPlan, Imported, Motions, Up, import};
-pub use ingest::engine_scene::{EngineScene, INGESTED_FILE};
+pub use ingest::engine_scene::{EngineScene, INGESTED_FILE, engine_name};
 pub use ingest::{Ingested, ingest};
 pub use json::file::{MOST_JSON_BYTES, read_text};
 pub use judge::baseline::{

@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use frame::{
-    Alignment, Channel, ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Samples, VelocityKind,
-    write_exr, write_half_exr,
+    Alignment, Channel, ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Raster, Samples,
+    VelocityKind, write_exr, write_half_exr,
 };
 use tracer::{RenderSettings, Scene, load_scene, trace_frame};
 
@@ -83,13 +83,25 @@ impl<'a> Capture<'a> {
 
     /// Adds sub-frames at the midpoints of equal parts of the shutter, and as the engine's blur the mean of the first four.
     pub fn with_subframes(self, count: u32) -> Self {
+        self.add_subframes(count, false)
+    }
+
+    /// Adds sub-frames that hold object ids beside their colours.
+    pub fn with_subframes_and_ids(self, count: u32) -> Self {
+        self.add_subframes(count, true)
+    }
+
+    fn add_subframes(self, count: u32, has_ids: bool) -> Self {
         fs::create_dir(self.path("subframes")).unwrap();
         let shutter = Alignment::Trailing.shutter(EXPOSURE).unwrap();
         let mut blurred = self.frame.color.map(|_| [0.0; 3]);
         for index in 0..count {
             let time = shutter.at((f64::from(index) + 0.5) / f64::from(count));
-            let color = render_instant(self.bench, time).color;
-            self.write_color(&format!("subframes/{index:04}.exr"), &color);
+            let Frame {
+                color, object_id, ..
+            } = render_instant(self.bench, time);
+            let ids = has_ids.then_some(&object_id);
+            self.write_picture(&format!("subframes/{index:04}.exr"), &color, ids);
             if index < 4 {
                 blurred = blurred.zip(&color, |sum, color| {
                     std::array::from_fn(|channel| sum[channel] + 0.25 * color[channel])
@@ -110,8 +122,17 @@ impl<'a> Capture<'a> {
 
     /// Writes colour exposed as the convention says.
     pub fn write_color(&self, name: &str, color: &Image) {
+        self.write_picture(name, color, None);
+    }
+
+    /// Writes colour, and the ids of objects as floats, -1 for the background.
+    pub fn write_picture(&self, name: &str, color: &Image, ids: Option<&Raster<u32>>) {
         let mut file = ExrFile::new(color.width, color.height);
         file.push_color("", &color.map(|pixel| pixel.map(|value| 2.0 * value)));
+        if let Some(ids) = ids {
+            let ids = ids.map(|id| if *id == 0 { -1.0 } else { *id as f32 });
+            file.push_plane("object", &ids);
+        }
         write_half_exr(&self.path(name), file).unwrap();
     }
 }

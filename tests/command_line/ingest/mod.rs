@@ -61,7 +61,9 @@ fn the_mean_of_sub_frames_is_our_truth_within_its_limit() {
         "drawn by Test Engine 1.2",
         "mean of 16 sub-frames, trailing shutter, open for 0.5 frames; not path traced",
         "0.58 px between two sub-frames",
-        "counts of equivalent sub-frames up to 4",
+        "equivalent sub-frames are told up to 4",
+        "advice: 20 sub-frames would have steps of half a pixel",
+        "next: shuttertruth run --scenes plate,./out/engine/mine",
     ] {
         assert!(told.contains(words), "{words}\n{told}");
     }
@@ -135,7 +137,7 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
         "bleed_lateral",
         "lateral_growth",
         "energy",
-        "frozen_flip",
+        "flip_frozen",
         "flip_knowable",
         "flip_unknowable",
         "gather_offset",
@@ -160,7 +162,54 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
     );
     // The same again is read back.
     let again = bench.execute(&split(words));
-    assert!(again.contains("cases: 16, 16 of them read back"), "{again}");
+    assert!(again.contains("cases: 15, 15 of them read back"), "{again}");
+    bench.execute(&split("report out --html again.html --exr layers"));
+}
+
+#[test]
+fn ids_in_the_sub_frames_bring_the_scores_of_objects() {
+    let bench = Bench::new();
+    Capture::new(&bench).with_subframes_and_ids(16);
+    let told = ingest(&bench);
+    assert!(told.contains("objects: plate\n"), "{told}");
+    let words = "run --quiet --scenes plate,out/engine/mine --samples-per-pixel 64 --filter jump_flood:paper \
+                 --frame-sampling antialiased";
+    bench.execute(&split(words));
+    let run = bench.read_run();
+    let score = |scene: &str, filter: &str, metric: &str| {
+        let mut cases = run.cases.iter();
+        let found = cases.find(|case| case.scene == scene && case.filter == filter);
+        let metric: Metric = metric.parse().unwrap();
+        found.unwrap().scores.get(metric).value().unwrap()
+    };
+    // An id is all or nothing in a pixel, where our frame has shares; sub-frames lie 0.58 px apart.
+    for (filter, metric, most) in [
+        ("identity", "label_tv", 0.03),
+        ("scatter_oracle", "label_tv", 0.03),
+        ("jump_flood", "label_tv", 0.03),
+        ("jump_flood", "bleed_lateral", 0.6),
+        ("jump_flood", "centroid", 0.6),
+        ("jump_flood", "extent", 0.15),
+    ] {
+        let [engines, ours] = [NAME, "plate"].map(|scene| score(scene, filter, metric));
+        assert!(
+            (engines - ours).abs() < most,
+            "{filter} {metric}: {engines} {ours}"
+        );
+    }
+    let own = run
+        .cases
+        .iter()
+        .find(|case| case.filter == "Test_Engine_1.2")
+        .unwrap();
+    let Measured::NotApplicable { reason } = own.scores.get("bleed_lateral".parse().unwrap())
+    else {
+        panic!("the engine's own picture has no mattes");
+    };
+    assert!(
+        reason.contains("an engine's picture does not say"),
+        "{reason}"
+    );
     bench.execute(&split("report out --html again.html --exr layers"));
 }
 
@@ -174,9 +223,12 @@ fn a_page_says_which_truth_is_the_engines() {
     ));
     let page = fs::read_to_string(bench.path("out/report.html")).unwrap();
     for words in [
-        "mean of 8 sub-frames that Test Engine 1.2 drew",
-        "path traced",
-        "Truth of plate",
+        "<td class=\"text\">mean of 8 sub-frames that Test Engine 1.2 drew</td>",
+        "<td class=\"text\">path traced</td>",
+        "frame and truth are not ours",
+        "Ours is that of <strong>plate</strong>, path traced",
+        "traced_truth:",
+        "&quot;Engine's truth&quot;",
     ] {
         assert!(page.contains(words), "{words}");
     }
@@ -217,8 +269,29 @@ fn a_check_holds_an_engine_to_the_bounds_beside_its_own_scene() {
         fs::write(bench.path(OUT).join("bounds.toml"), text).unwrap();
         bench.shuttertruth(&words)
     };
+    // The identity scores about 0.3, and three noise floors are about 0.15.
     assert_done(&bound(0.9));
-    assert_eq!(bound(0.01).status.code(), Some(1));
-    let finished = bench.shuttertruth(&split("check out"));
+    let broken = bound(0.2);
+    assert_eq!(broken.status.code(), Some(1), "{}", stdout(&broken));
+    assert!(
+        !stdout(&broken).contains("95 % CI"),
+        "sub-frames are no samples"
+    );
+    let finished = bench.shuttertruth(&split("check out --scenes-dir out/engine"));
     assert_eq!(finished.status.code(), Some(1), "{}", stdout(&finished));
+    assert_refused(
+        &bench.shuttertruth(&split("check out")),
+        2,
+        &[NAME, "--scenes-dir"],
+    );
+    fs::remove_file(bench.path(OUT).join("bounds.toml")).unwrap();
+    fs::write(
+        bench.path(OUT).join("bounds.toml"),
+        "[default]\nflip_moving = { limit = 0.001, why = \"it serves a test\" }\n",
+    )
+    .unwrap();
+    let strict = bench.shuttertruth(&words);
+    assert_eq!(strict.status.code(), Some(2));
+    let told = [stdout(&strict), crate::bench::stderr(&strict)].concat();
+    assert!(told.contains("capture more sub-frames than 16"), "{told}");
 }

@@ -272,6 +272,41 @@ fn sub_frames_that_make_no_truth_are_refused() {
 }
 
 #[test]
+fn ids_that_fit_no_object_or_are_missing_are_refused() {
+    let bench = Bench::new();
+    let capture = Capture::new(&bench).with_subframes_and_ids(4);
+    let color = &capture.frame.color;
+    capture.write_color("subframes/0002.exr", color);
+    let refusal = try_ingest(&bench);
+    assert_refused(
+        &refusal,
+        2,
+        &[
+            "subframes/0002.exr: has no channel \"object\"",
+            "in all of them, or in none",
+        ],
+    );
+    let ids = color.map(|_| 7);
+    capture.write_picture("subframes/0002.exr", color, Some(&ids));
+    let refusal = try_ingest(&bench);
+    assert_refused(
+        &refusal,
+        2,
+        &["hold ids up to 7; allowed: up to 1", "leave object.exr out"],
+    );
+    // Nobody knows how many objects a scene has that is not ours.
+    capture.write(
+        "capture.toml",
+        &DESCRIPTION.replace("scene = \"plate\"\n", ""),
+    );
+    let told = ingest(&bench);
+    assert!(
+        told.contains("objects: object_1, object_2, object_3,"),
+        "{told}"
+    );
+}
+
+#[test]
 fn losses_are_told_and_taken() {
     let bench = Bench::new();
     let capture = Capture::new(&bench);
@@ -346,4 +381,37 @@ fn assert_refused_after_notes(output: &Output, parts: &[&str]) {
     let message = stderr(output);
     assert_eq!(output.status.code(), Some(2), "{message}");
     tests::text::assert_contains(&message, parts);
+}
+
+#[test]
+fn files_of_two_captures_are_not_mixed() {
+    let bench = Bench::new();
+    Capture::new(&bench).with_subframes(4);
+    ingest(&bench);
+    for name in ["frame.exr", "truth_trailing.exr"] {
+        let own = bench.path("out/engine/mine").join(name);
+        let before = fs::read(&own).unwrap();
+        // Another name of the scene is no other capture, another exposure is one.
+        let changed = DESCRIPTION.replace("0.5", "0.25");
+        fs::write(bench.path("capture/capture.toml"), changed).unwrap();
+        bench.execute(&split("ingest capture --quiet -o out/engine/other"));
+        fs::copy(bench.path("out/engine/other").join(name), &own).unwrap();
+        let words = split("run --quiet --scenes out/engine/mine --filter identity");
+        let refusal = bench.shuttertruth(&words);
+        assert_refused(
+            &refusal,
+            2,
+            &[name, "is of another capture", "ingest the capture again"],
+        );
+        fs::write(&own, before).unwrap();
+    }
+    let words = split("run --quiet --scenes out/engine/mine --filter identity");
+    assert_done(&bench.shuttertruth(&words));
+    fs::write(bench.path("out/engine/mine/ingested.json"), "{}").unwrap();
+    let refusal = bench.shuttertruth(&words);
+    assert_refused(
+        &refusal,
+        2,
+        &["ingested.json: no ingested capture", "make the folder anew"],
+    );
 }

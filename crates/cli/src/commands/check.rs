@@ -183,6 +183,14 @@ fn read_run_bounds(run: &Run, root: &Path) -> Result<RunBounds, Error> {
         }
         let size = (run.render.width, run.render.height);
         let bounds = read_case_bounds(root, case, size)?.ok_or_else(|| {
+            if case.drawn.is_some() {
+                return Error::Usage(format!(
+                    "{}: an engine drew it, and its bounds lie beside what was ingested, which is not in {}; name the folder \
+                     above that with --scenes-dir, such as out/engine, or measure it now: shuttertruth check --scenes",
+                    case.scene,
+                    root.display()
+                ));
+            }
             let folder = scene_folder_below(root, &case.scene);
             Error::Usage(format!(
                 "{}: there is no such scene, and its bounds cannot be read; name the folder of the run's scenes with --scenes-dir",

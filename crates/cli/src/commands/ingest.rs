@@ -5,11 +5,14 @@ use std::path::{Path, PathBuf};
 
 use frame::{Display, Region};
 use suite::{Capture, EngineScene, Error, Ingested, Sharing, claim, ingest, printable_path};
-use tracer::load_scene;
+use tracer::{Scene, load_scene};
 
 use crate::arguments::IngestArgs;
 use crate::output::print::{print, print_note};
 use crate::output::progress::make_monitor;
+
+/// Motion between two sub-frames beyond which more are advised, in pixels.
+const LONG_STEP: f64 = 0.5;
 
 /// Ingests a capture and prints what came of it, and what its truth can tell.
 pub fn execute(args: &IngestArgs) -> Result<(), Error> {
@@ -18,11 +21,14 @@ pub fn execute(args: &IngestArgs) -> Result<(), Error> {
     for note in &capture.notes {
         print_note(note);
     }
-    let display = find_display(&capture, &args.scenes_dir);
+    let traced = find_scene(&capture, &args.scenes_dir);
+    let display = find_display(&capture, traced.as_ref());
     let _claim = claim(&out, [], Sharing::Alone)?;
-    let ingested =
-        make_monitor().watch("sub-frames", |watch| ingest(&capture, display, &out, watch))?;
-    print(&describe(&ingested, &out))
+    let names = traced.as_ref().map(Scene::object_names);
+    let ingested = make_monitor().watch("sub-frames", |watch| {
+        ingest(&capture, (display, names), &out, watch)
+    })?;
+    print(&describe(&ingested, &out, traced.as_ref()))
 }
 
 /// Names the folder to write: as the capture's own is named, if none is given.
@@ -42,33 +48,34 @@ fn choose_folder(args: &IngestArgs) -> Result<PathBuf, Error> {
     }
 }
 
-/// Finds the exposures at which pictures are shown and compared: those of the scene that the capture names, if it is there.
-fn find_display(capture: &Capture, scenes: &Path) -> Display {
-    let description = &capture.description;
-    let scene = description.scene.as_deref().and_then(|name| {
-        let (folder, variant) = match name.split_once('@') {
-            Some((folder, variant)) => (folder, Some(variant)),
-            None => (name, None),
-        };
-        let found = load_scene(&scenes.join(folder), variant);
-        if found.is_err() {
-            print_note(&format!(
-                "{} has no scene {name}; its display exposure is taken for {} stops: name the folder of scenes with \
-                 --scenes-dir",
-                scenes.display(),
-                description.stops.unwrap_or(0.0)
-            ));
-        }
-        found.ok()
-    });
-    let display = scene.map_or_else(Display::default, |scene| scene.display);
+/// Loads the scene that the capture names; none where it names none, or there is no such scene.
+fn find_scene(capture: &Capture, scenes: &Path) -> Option<Scene> {
+    let name = capture.description.scene.as_deref()?;
+    let (folder, variant) = match name.split_once('@') {
+        Some((folder, variant)) => (folder, Some(variant)),
+        None => (name, None),
+    };
+    let found = load_scene(&scenes.join(folder), variant).ok();
+    if found.is_none() {
+        print_note(&format!(
+            "{} has no scene {name}, whose display exposure the pictures would have; name the folder of scenes with \
+             --scenes-dir",
+            scenes.display()
+        ));
+    }
+    found
+}
+
+/// Finds the exposures at which pictures are shown and compared.
+fn find_display(capture: &Capture, traced: Option<&Scene>) -> Display {
+    let display = traced.map_or_else(Display::default, |scene| scene.display);
     Display {
-        stops: description.stops.unwrap_or(display.stops),
+        stops: capture.description.stops.unwrap_or(display.stops),
         ..display
     }
 }
 
-fn describe(ingested: &Ingested, out: &Path) -> String {
+fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
     let scene = &ingested.scene;
     let [width, height] = scene.size;
     let folder = printable_path(out);
@@ -89,6 +96,13 @@ fn describe(ingested: &Ingested, out: &Path) -> String {
             floors.join(", ")
         );
     }
+    if let Some(truth) = &ingested.truth {
+        let objects = match truth.objects.len() {
+            1 => "none: the sub-frames have no ids, and there are no scores of objects".to_owned(),
+            _ => truth.objects[1..].join(", "),
+        };
+        let _ = writeln!(text, "objects: {objects}");
+    }
     if scene.has_picture {
         let _ = writeln!(text, "picture: the engine's own blur, {folder}/blurred.exr");
     }
@@ -96,7 +110,8 @@ fn describe(ingested: &Ingested, out: &Path) -> String {
     let dot = if out.is_relative() { "./" } else { "" };
     match scene.check_truth() {
         Ok(()) => {
-            let _ = writeln!(text, "next: shuttertruth run --scenes {dot}{folder}");
+            let ours = traced.map_or(String::new(), |scene| format!("{},", scene.name));
+            let _ = writeln!(text, "next: shuttertruth run --scenes {ours}{dot}{folder}");
         }
         Err(_) => {
             let _ = writeln!(
@@ -112,10 +127,18 @@ fn describe(ingested: &Ingested, out: &Path) -> String {
 fn describe_truth(scene: &EngineScene) -> String {
     let length = scene.step * f64::from(scene.subframes);
     let most = scene.ladder.last().copied().unwrap_or(1);
-    format!(
+    let mut text = format!(
         "truth: mean of {} sub-frames, {} shutter, open for {} frames; not path traced\n\
-         limit: the fastest pixel moves {length:.1} px while the shutter is open, {:.2} px between two sub-frames: so far apart \
-         the truth's own copies of an edge can lie; it tells counts of equivalent sub-frames up to {most}\n",
+         limit: 99 % of what moves goes at most {length:.1} px while the shutter is open, {:.2} px between two sub-frames; a smear has \
+         steps of that length, and equivalent sub-frames are told up to {most}\n",
         scene.subframes, scene.alignment, scene.exposure, scene.step
-    )
+    );
+    if scene.step > LONG_STEP {
+        let wanted = ((length / LONG_STEP).ceil() as u32).next_multiple_of(2);
+        let _ = writeln!(
+            text,
+            "advice: {wanted} sub-frames would have steps of half a pixel"
+        );
+    }
+    text
 }

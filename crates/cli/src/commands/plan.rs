@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use frame::FrameOptions;
 use suite::{
     BOUNDS_FILE, Case, Claim, EngineScene, Error, FEWEST_REPLICATES, FilterChoice, InputFormat,
-    RunBounds, RunPlan, SceneBounds, Sharing, claim, read_bounds, read_bounds_file,
+    RunBounds, RunPlan, SceneBounds, Sharing, claim, engine_name, read_bounds, read_bounds_file,
 };
 use tracer::{RenderSettings, Scene};
 
@@ -127,7 +127,8 @@ fn refuse_render_options(args: &SceneArgs, scene: &EngineScene) -> Result<(), Er
         None => Ok(()),
         Some((option, _)) => Err(Error::Usage(format!(
             "{option}: {} is as {} drew it, and is not rendered; leave the option out, or leave out the scene",
-            scene.name, scene.engine
+            scene.name,
+            engine_name(&scene.engine)
         ))),
     }
 }
@@ -141,15 +142,18 @@ pub fn read_engine_bounds(folder: &Path) -> Result<SceneBounds, Error> {
     })
 }
 
-/// Reads the bounds of a case's scene for pictures of one size; none where there is no such scene.
+/// Reads the bounds of a case's scene, below the folder `root`, for pictures of one size; none where there is no such scene. What an
+/// engine drew has none of the bounds of ours.
 pub fn read_case_bounds(
     root: &Path,
     case: &Case,
     size: (u32, u32),
 ) -> Result<Option<SceneBounds>, Error> {
-    match &case.drawn {
-        Some(drawn) => Ok(Some(read_engine_bounds(&drawn.folder)?.at(size))),
-        None => read_bounds_at(root, &scene_folder_below(root, &case.scene), size),
+    let folder = scene_folder_below(root, &case.scene);
+    match (case.drawn.is_some(), EngineScene::is_in(&folder)) {
+        (true, true) => Ok(Some(read_engine_bounds(&folder)?.at(size))),
+        (true, false) => Ok(None),
+        (false, _) => read_bounds_at(root, &folder, size),
     }
 }
 

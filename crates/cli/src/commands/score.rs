@@ -2,7 +2,7 @@
 
 use frame::{Frame, Ladder, Truth};
 use metrics::Metric;
-use suite::{Error, Scored, missing_scores, printable, read_finished_picture, score};
+use suite::{Error, Scored, engine_name, missing_scores, printable, read_finished_picture, score};
 
 use super::convention::read_convention;
 use crate::arguments::ScoreArgs;
@@ -56,7 +56,7 @@ fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Score
         let subframes = truth.provenance.samples_per_pixel;
         format!(
             "mean of {subframes} sub-frames that {} drew, ",
-            printable(engine)
+            printable(engine_name(engine))
         )
     });
     text += &format!(

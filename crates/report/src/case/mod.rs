@@ -200,7 +200,7 @@ fn truth_facts(view: &CaseView) -> Markup {
         @if let Some(drawn) = &view.case.drawn {
             div {
                 dt { "steps of the truth" }
-                dd { "the fastest pixel moves " (format!("{:.2}", drawn.step)) " px between two sub-frames" }
+                dd { "99 % of what moves goes at most " (format!("{:.2}", drawn.step)) " px between two sub-frames" }
             }
             div {
                 dt { "our truth" }

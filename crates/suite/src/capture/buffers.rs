@@ -96,11 +96,28 @@ pub fn read_depth(path: &Path, convention: &Convention) -> Result<Plane, Error> 
     })
 }
 
+/// Names of a channel of object ids, beside colours or alone.
+const OBJECT_CHANNELS: [&str; 2] = ["object", "object.id"];
+
 /// Reads object ids; 0 is the background, which the file may hold as 0, as -1, or as the largest unsigned integer.
 pub fn read_objects(path: &Path) -> Result<Raster<u32>, Error> {
     let file = open(path)?;
-    let names = ["object", "object.id", "R"];
+    let names = [OBJECT_CHANNELS[0], OBJECT_CHANNELS[1], "R"];
     let name = find_channel(&file, &names, "object, object.id or R")?;
+    take_objects(&file, name)
+}
+
+/// Reads the object ids that stand beside the colours of a picture; none where it has none.
+pub fn read_objects_beside_color(path: &Path) -> Result<Option<Raster<u32>>, Error> {
+    if is_png(path) {
+        return Ok(None);
+    }
+    let file = open(path)?;
+    let name = OBJECT_CHANNELS.iter().find(|name| file.has_channel(name));
+    name.map(|name| take_objects(&file, name)).transpose()
+}
+
+fn take_objects(file: &ExrFile, name: &str) -> Result<Raster<u32>, Error> {
     let is_integer = (file.channels.iter())
         .any(|channel| channel.name == name && matches!(channel.samples, Samples::U32(_)));
     if is_integer {
@@ -112,7 +129,7 @@ pub fn read_objects(path: &Path) -> Result<Raster<u32>, Error> {
     match ids.pixels.iter().position(|id| !is_id(id)) {
         None => Ok(ids.map(|id| id.max(0.0) as u32)),
         Some(at) => refuse(
-            path,
+            &file.path,
             &format!(
                 "channel \"{name}\" holds {} at pixel {}; allowed: whole numbers, 0 or -1 for the background; draw ids \
                  without blending or antialiasing",

@@ -11,13 +11,13 @@ use crate::json::file::read_text;
 /// Name of the file.
 pub const CAPTURE_FILE: &str = "capture.toml";
 /// Upper limit on the characters of an engine's name.
-const LONGEST_ENGINE: usize = 40;
+const LONGEST_ENGINE: usize = 160;
 
 /// Contents of `capture.toml`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CaptureDescription {
-    /// Engine and version, such as `three.js 0.187.0`.
+    /// Engine and version, such as `three.js 0.187.0`, and behind that in brackets what else matters.
     pub engine: String,
     /// Scene of the suite that the engine drew, with its variant.
     #[serde(default)]

@@ -6,7 +6,8 @@ use filters::{Convention, DepthKind, VelocityTime};
 use frame::{Alignment, Image, Plane, Raster, Vectors};
 
 use super::buffers::{
-    check_size, find_picture, is_png, read_color, read_depth, read_objects, read_velocity,
+    check_size, find_picture, is_png, read_color, read_depth, read_objects,
+    read_objects_beside_color, read_velocity,
 };
 use super::description::{CAPTURE_FILE, CaptureDescription};
 use super::half_floats::{are_halves, rounding_of};
@@ -117,6 +118,11 @@ impl Capture {
         )?;
         check_size(path, &subframe, &self.color)?;
         Ok(subframe)
+    }
+
+    /// Reads the object ids of one of the sub-frames; none where its file has no channel of them.
+    pub fn read_subframe_objects(&self, index: usize) -> Result<Option<Raster<u32>>, Error> {
+        read_objects_beside_color(&self.subframes[index])
     }
 
     /// Returns exposure and alignment of the shutter that the sub-frames and the blurred picture are of.

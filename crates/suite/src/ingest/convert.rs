@@ -3,16 +3,17 @@
 use std::path::Path;
 
 use frame::{
-    Display, ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Plane, Provenance, Raster,
-    Reprojection, Truth, VelocityKind, display_srgb, write_exr, write_png,
+    Display, ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Provenance, Raster, Reprojection,
+    Truth, VelocityKind, display_srgb, write_exr, write_png,
 };
 use tracer::Watch;
 
 use super::engine_scene::{
-    BLURRED, EngineScene, INGESTED_FILE, INGESTED_FORMAT, name_in_one_word, replicate_name,
+    BLURRED, EngineScene, INGESTED_FILE, INGESTED_FORMAT, engine_name, name_in_one_word,
 };
 use super::engine_truth::{EngineTruth, NOT_TRACED, average_subframes};
-use super::moving::fastest;
+use super::moving::usual_top_speed;
+use super::objects::{draw_coverage, name_objects};
 use crate::capture::folder::Capture;
 use crate::colors::velocity_wheel;
 use crate::folder::scene_folder::refuse_scene;
@@ -27,10 +28,11 @@ pub struct Ingested {
 }
 
 /// Writes the frame of a capture, the truth of its sub-frames and the engine's own blurred picture into the folder `out`, which
-/// names the scene. The pictures are shown and compared at the exposures of `display`.
+/// names the scene. The pictures are shown and compared at the exposures of `display`; `names` are those of the objects of the scene
+/// that the engine drew.
 pub fn ingest(
     capture: &Capture,
-    display: Display,
+    (display, names): (Display, Option<Vec<String>>),
     out: &Path,
     watch: Watch,
 ) -> Result<Ingested, Error> {
@@ -49,14 +51,21 @@ pub fn ingest(
         content_hash: hash.clone(),
         engine: Some(capture.description.engine.clone()),
     };
+    let objects = name_objects(capture, names)?;
     let made = match capture.subframes.is_empty() {
         true => None,
         false => {
             let shutter = (shutter, alignment);
-            Some(average_subframes(capture, shutter, &provenance, watch)?)
+            Some(average_subframes(
+                capture,
+                shutter,
+                &objects,
+                &provenance,
+                watch,
+            )?)
         }
     };
-    let frame = make_frame(capture, exposure, display, provenance.clone());
+    let frame = make_frame(capture, (exposure, display), objects, provenance.clone());
     std::fs::create_dir_all(out).map_err(|source| frame::FileError::io(out, "write", source))?;
     frame.write(&out.join("frame.exr"))?;
     let show =
@@ -73,7 +82,8 @@ pub fn ingest(
         )?;
         show("blurred.png", picture)?;
     }
-    let step = fastest(&capture.velocity) * exposure / capture.subframes.len().max(1) as f64;
+    let step =
+        usual_top_speed(&capture.velocity) * exposure / capture.subframes.len().max(1) as f64;
     let scene = EngineScene {
         format: INGESTED_FORMAT,
         program: PROGRAM.to_owned(),
@@ -84,7 +94,6 @@ pub fn ingest(
         exposure,
         alignment: alignment.name().to_owned(),
         subframes: capture.subframes.len() as u32,
-        replicates: (made.as_ref()).map_or(0, |made| made.replicates.len() as u32),
         step,
         ladder: (made.iter().flat_map(|made| &made.ladder.rungs))
             .map(|rung| rung.subframes)
@@ -94,14 +103,7 @@ pub fn ingest(
         folder: out.to_owned(),
     };
     let truth = (made.map(|made| -> Result<Truth, Error> {
-        let EngineTruth {
-            truth,
-            replicates,
-            ladder,
-        } = made;
-        for replicate in replicates {
-            replicate.write(&out.join(replicate_name(alignment, replicate.index)))?;
-        }
+        let EngineTruth { truth, ladder } = made;
         ladder.write(&out.join(format!("ladder_{alignment}.exr")))?;
         truth.write(&out.join(format!("truth_{alignment}.exr")))?;
         show(&format!("truth_{alignment}.png"), &truth.mean().color)?;
@@ -121,7 +123,7 @@ fn name_scene(capture: &Capture, out: &Path) -> Result<String, Error> {
     match folder.filter(is_plain) {
         Some(folder) => Ok(format!(
             "{folder}@{}",
-            name_in_one_word(&capture.description.engine)
+            name_in_one_word(engine_name(&capture.description.engine))
         )),
         None => Err(Error::Usage(format!(
             "--out {}: its last part names the scene; allowed: letters, digits and . _ - +, such as out/engine/railing",
@@ -130,7 +132,12 @@ fn name_scene(capture: &Capture, out: &Path) -> Result<String, Error> {
     }
 }
 
-fn make_frame(capture: &Capture, exposure: f64, display: Display, provenance: Provenance) -> Frame {
+fn make_frame(
+    capture: &Capture,
+    (exposure, display): (f64, Display),
+    objects: Vec<String>,
+    provenance: Provenance,
+) -> Frame {
     let (width, height) = (capture.color.width, capture.color.height);
     let sky = capture.depth.pixels.iter().zip(&capture.velocity.pixels);
     let mut moving_sky = sky.filter(|(depth, _)| **depth >= FAR_DEPTH);
@@ -145,12 +152,15 @@ fn make_frame(capture: &Capture, exposure: f64, display: Display, provenance: Pr
         guard_band: 0,
         reprojection: Reprojection::STILL,
         display,
-        objects: vec!["background".to_owned()],
+        coverage: draw_coverage(capture.object_id.as_ref(), (width, height), objects.len()),
+        object_id: match (&capture.object_id, objects.len()) {
+            (Some(ids), 2..) => ids.clone(),
+            _ => Raster::filled(width, height, 0),
+        },
+        objects,
         color: capture.color.clone(),
         velocity: capture.velocity.clone(),
         depth: capture.depth.clone(),
-        object_id: Raster::filled(width, height, 0),
-        coverage: vec![Plane::filled(width, height, 1.0)],
         samples: None,
     }
 }
@@ -194,6 +204,8 @@ fn hash_capture(capture: &Capture) -> Result<String, Error> {
     add(&mut color.pixels.iter().flatten().copied());
     add(&mut velocity.pixels.iter().flatten().copied());
     add(&mut depth.pixels.iter().copied());
+    let ids = capture.object_id.iter().flat_map(|ids| &ids.pixels);
+    add(&mut ids.map(|id| *id as f32));
     add(&mut blurred
         .iter()
         .flat_map(|image| image.pixels.iter().flatten().copied()));

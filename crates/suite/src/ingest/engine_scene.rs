@@ -2,12 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, FileError, Frame, Ladder, Picture, Replicate, Truth, read_exr};
+use frame::{Alignment, FileError, Frame, Ladder, Picture, Provenance, Truth, read_exr};
 use serde::{Deserialize, Serialize};
 
 use crate::Error;
 use crate::json::file::read_text;
-use crate::render::replicates::replicates_folder;
 
 /// Name of the file that makes a folder an ingested one.
 pub const INGESTED_FILE: &str = "ingested.json";
@@ -15,6 +14,8 @@ pub const INGESTED_FILE: &str = "ingested.json";
 pub(super) const BLURRED: &str = "blurred.exr";
 /// Version of the layout of the file.
 pub(super) const INGESTED_FORMAT: u32 = 1;
+/// Halves of a truth, each a picture of the whole shutter.
+const HALVES: u32 = 2;
 
 /// A frame that an engine drew, with the truth of its sub-frames and its own blurred picture.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -37,9 +38,7 @@ pub struct EngineScene {
     pub alignment: String,
     /// Number of sub-frames that the truth is the mean of; 0 where there is no truth.
     pub subframes: u32,
-    /// Number of interleaved parts of the sub-frames, each a complete picture of the shutter; they tell the truth's noise.
-    pub replicates: u32,
-    /// Distance that the fastest pixel moves between two sub-frames, in pixels.
+    /// Distance that 99 % of the moving pixels move at most between two sub-frames, in pixels.
     pub step: f64,
     /// Counts of sub-frames of the ladder that errors are compared with.
     pub ladder: Vec<u32>,
@@ -89,6 +88,11 @@ impl EngineScene {
         })
     }
 
+    /// Returns the content hash of the truth.
+    pub(crate) fn truth_hash(&self) -> String {
+        frame::truth_hash(&self.hash, HALVES)
+    }
+
     /// Names the engine in one word, as filters are named: `three.js_0.187.0`.
     pub fn filter_name(&self) -> &str {
         let at = self.name.rfind('@').map_or(0, |at| at + 1);
@@ -103,8 +107,8 @@ impl EngineScene {
     /// Says what the pictures are.
     pub fn exposes(&self) -> String {
         match &self.scene {
-            Some(scene) => format!("what {} draws of {scene}", self.engine),
-            None => format!("what {} drew", self.engine),
+            Some(scene) => format!("what {} draws of {scene}", engine_name(&self.engine)),
+            None => format!("what {} drew", engine_name(&self.engine)),
         }
     }
 
@@ -115,7 +119,7 @@ impl EngineScene {
                 "{}: {} drew no sub-frames, and there is no truth to measure against; capture sub-frames and ingest them, or \
                  score its picture against a truth of ours: shuttertruth score --image {}",
                 self.folder.display(),
-                self.engine,
+                engine_name(&self.engine),
                 self.folder.join(BLURRED).display()
             ))),
             _ => Ok(()),
@@ -139,34 +143,43 @@ impl EngineScene {
     /// Reads the frame, and copies its file into a scene's folder of a run.
     pub(crate) fn copy_frame(&self, folder: &Path) -> Result<Frame, Error> {
         let path = self.copy("frame.exr", folder)?;
-        Ok(Frame::read(&path)?)
+        let frame = Frame::read(&path)?;
+        self.check_file("frame.exr", &frame.provenance, &self.hash, frame.size())?;
+        Ok(frame)
     }
 
-    /// Reads the truth, and copies its file with those of its replicates and its ladder into a scene's folder of a run.
+    /// Reads the truth, and copies its file with that of its ladder into a scene's folder of a run.
     pub(crate) fn copy_truth(&self, folder: &Path) -> Result<Truth, Error> {
         let alignment = self.alignment();
-        for index in 0..self.replicates {
-            self.copy(&replicate_name(alignment, index), folder)?;
-        }
         self.copy(&format!("ladder_{alignment}.exr"), folder)?;
-        let path = self.copy(&format!("truth_{alignment}.exr"), folder)?;
-        Ok(Truth::read(&path)?)
+        let name = format!("truth_{alignment}.exr");
+        let path = self.copy(&name, folder)?;
+        let truth = Truth::read(&path)?;
+        self.check_file(&name, &truth.provenance, &self.truth_hash(), truth.size())?;
+        Ok(truth)
+    }
+
+    /// Refuses a file that is not the one that was ingested.
+    fn check_file(
+        &self,
+        name: &str,
+        provenance: &Provenance,
+        hash: &str,
+        (width, height): (u32, u32),
+    ) -> Result<(), Error> {
+        match provenance.content_hash == hash && self.size == [width, height] {
+            true => Ok(()),
+            false => Err(Error::Usage(format!(
+                "{}: is of another capture than {INGESTED_FILE} beside it; ingest the capture again",
+                self.folder.join(name).display()
+            ))),
+        }
     }
 
     /// Reads the ladder from a scene's folder of a run.
     pub(crate) fn read_ladder(&self, folder: &Path) -> Result<Ladder, Error> {
         let path = folder.join(format!("ladder_{}.exr", self.alignment));
         Ok(Ladder::read(&path)?)
-    }
-
-    /// Reads the replicates of the truth.
-    pub(crate) fn read_replicates(&self) -> Result<Vec<Replicate>, Error> {
-        (0..self.replicates)
-            .map(|index| {
-                let path = self.folder.join(replicate_name(self.alignment(), index));
-                Ok(Replicate::read(&path)?)
-            })
-            .collect()
     }
 
     /// Reads the engine's own blurred picture; the mattes are those of the frame.
@@ -190,10 +203,9 @@ impl EngineScene {
     }
 }
 
-/// Names the file of a replicate, relative to the folder of its scene.
-pub(super) fn replicate_name(alignment: Alignment, index: u32) -> String {
-    let folder = replicates_folder(Path::new(""), alignment);
-    format!("{}/replicate_{index:03}.exr", folder.display())
+/// Shortens the name of an engine: what stands behind it in brackets is left out, such as its driver.
+pub fn engine_name(engine: &str) -> &str {
+    engine.split(" (").next().unwrap_or(engine).trim()
 }
 
 /// Makes one word of a text, which a folder, a table and an address can have: `three.js 0.187.0` becomes `three.js_0.187.0`.

@@ -1,12 +1,13 @@
 //! The truth of an engine's sub-frames: their mean, its noise, and the ladder of means of fewer of them.
 
 use frame::{
-    Accumulation, Alignment, AtInstant, Image, Ladder, Picture, Plane, Provenance, Raster,
-    Replicate, Shutter, ShutterProfile, Support, Truth,
+    Accumulation, Alignment, AtInstant, Ladder, Picture, Plane, Provenance, Raster, Replicate,
+    Shutter, ShutterProfile, Support, Truth,
 };
 use tracer::{Progress, TraceError, Watch};
 
 use super::moving::ColorRange;
+use super::objects::draw_coverage;
 use crate::Error;
 use crate::capture::description::CAPTURE_FILE;
 use crate::capture::folder::{Capture, SUBFRAMES};
@@ -16,39 +17,41 @@ use crate::render::ladders::LADDER;
 const FEWEST_SUBFRAMES: usize = 4;
 /// Upper limit on the sub-frames.
 const MOST_SUBFRAMES: usize = 4096;
-/// Upper limit on the interleaved parts that tell the noise.
-const MOST_REPLICATES: usize = 8;
+/// Parts of the sub-frames, every other one of which makes a half of the truth.
+const HALVES: usize = 2;
 /// Number of sub-frames of the truth for each of an accumulation that is compared with it: a mean of nearly as many as the truth
 /// has would share its errors.
 const TRUTH_PER_RUNG: usize = 4;
 /// Word of provenance for pictures that no ray was traced for.
 pub(super) const NOT_TRACED: &str = "none";
 
-/// A truth and what it is made of.
+/// A truth and the ladder that goes with it.
 pub struct EngineTruth {
     pub truth: Truth,
-    pub replicates: Vec<Replicate>,
     pub ladder: Ladder,
 }
 
-/// Averages the sub-frames of a capture. Each of its interleaved parts is a replicate; the even parts make one half of the truth,
-/// the odd ones the other.
+/// Averages the sub-frames of a capture: the even ones make one half of the truth, the odd ones the other.
 pub fn average_subframes(
     capture: &Capture,
     (shutter, alignment): (Shutter, Alignment),
+    objects: &[String],
     provenance: &Provenance,
     watch: Watch,
 ) -> Result<EngineTruth, Error> {
     check_count(capture)?;
     let count = capture.subframes.len();
-    let parts = count_parts(count);
     let size = (capture.color.width, capture.color.height);
-    let mut replicates = vec![Sum::new(size); parts];
+    let mut halves = [0; HALVES].map(|_| Sum::new(size, objects.len()));
     let rungs: Vec<u32> = (LADDER.into_iter())
         .filter(|rung| *rung as usize * TRUTH_PER_RUNG <= count)
         .collect();
     let mut accumulations: Vec<[Accumulated; 2]> = (rungs.iter())
-        .map(|rung| [0, 1].map(|half| Accumulated::new(size, pick_subframes(*rung, count, half))))
+        .map(|rung| {
+            [0, 1].map(|half| {
+                Accumulated::new((size, objects.len()), pick_subframes(*rung, count, half))
+            })
+        })
         .collect();
     let mut range = ColorRange::new(size, capture.description.stops.unwrap_or(0.0));
     for index in 0..count {
@@ -60,30 +63,35 @@ pub fn average_subframes(
             return Err(TraceError::Cancelled.into());
         }
         let color = capture.read_subframe(index)?;
-        range.add(&color);
-        replicates[index % parts].add(&color);
+        let ids = match objects.len() {
+            1 => None,
+            _ => capture.read_subframe_objects(index)?,
+        };
+        let picture = Picture {
+            coverage: draw_coverage(ids.as_ref(), size, objects.len()),
+            color,
+        };
+        range.add(&picture.color);
+        halves[index % HALVES].add(&picture);
         for accumulated in accumulations.iter_mut().flatten() {
             if accumulated.picks.contains(&index) {
-                accumulated.sum.add(&color);
+                accumulated.sum.add(&picture);
             }
         }
     }
     let moving = range.mark_moving(&capture.velocity, shutter);
-    let everywhere = Plane::filled(size.0, size.1, 1.0);
-    let picture = |sum: &Sum| Picture {
-        color: sum.mean(),
-        coverage: vec![everywhere.clone()],
-    };
-    let objects = vec!["background".to_owned()];
+    let pictures = halves.each_ref().map(Sum::mean);
     let support = Support {
-        seen: vec![moving.map(|_| true)],
+        seen: (Picture::mean(&pictures).coverage.iter())
+            .map(|coverage| coverage.map(|share| *share > 0.0))
+            .collect(),
         unknowable: moving.map(|_| false),
         moving,
     };
-    let each = (count / parts) as u32;
+    let each = (count / HALVES) as u32;
     let replicates: Vec<Replicate> = (0..)
-        .zip(&replicates)
-        .map(|(index, sum)| Replicate {
+        .zip(pictures)
+        .map(|(index, picture)| Replicate {
             provenance: Provenance {
                 samples_per_pixel: each,
                 replicates: 1,
@@ -93,9 +101,9 @@ pub fn average_subframes(
             shutter,
             shutter_profile: ShutterProfile::default(),
             alignment,
-            objects: objects.clone(),
-            moving: vec![support.moving.pixels.contains(&true)],
-            picture: picture(sum),
+            objects: objects.to_owned(),
+            moving: find_movers(&support),
+            picture,
             at_instant: AtInstant::unknown(size.0, size.1),
             samples: Plane::filled(size.0, size.1, each as f32),
             support: support.clone(),
@@ -106,17 +114,16 @@ pub fn average_subframes(
         shutter,
         shutter_profile: ShutterProfile::default(),
         alignment,
-        objects,
+        objects: objects.to_owned(),
         rungs: (rungs.into_iter().zip(&accumulations))
             .map(|(subframes, halves)| Accumulation {
                 subframes,
-                halves: halves.each_ref().map(|half| picture(&half.sum)),
+                halves: halves.each_ref().map(|half| half.sum.mean()),
             })
             .collect(),
     };
     Ok(EngineTruth {
         truth: Truth::of(&replicates)?,
-        replicates,
         ladder,
     })
 }
@@ -133,13 +140,6 @@ fn check_count(capture: &Capture) -> Result<(), Error> {
             capture.folder.join(SUBFRAMES).display()
         ))),
     }
-}
-
-/// Finds the greatest even number of parts that the sub-frames divide into.
-fn count_parts(count: usize) -> usize {
-    let even = (2..=MOST_REPLICATES).rev().step_by(2);
-    (even.into_iter().find(|parts| count.is_multiple_of(*parts)))
-        .expect("an even number has two parts")
 }
 
 /// Picks the sub-frames that stand for the midpoints of `rung` equal parts of the shutter. A midpoint lies between two of them: one
@@ -159,33 +159,52 @@ fn pick_subframes(rung: u32, count: usize, half: usize) -> Vec<usize> {
     picks.collect()
 }
 
+/// Tells, per object, whether it is seen where anything moves.
+fn find_movers(support: &Support) -> Vec<bool> {
+    let moves = |seen: &Raster<bool>| {
+        let mut both = seen.pixels.iter().zip(&support.moving.pixels);
+        both.any(|(seen, moving)| *seen && *moving)
+    };
+    support.seen.iter().map(moves).collect()
+}
+
 /// A sum of pictures.
-#[derive(Clone)]
 struct Sum {
     colors: Raster<[f64; 3]>,
+    /// Per object, the number of pictures that show it.
+    coverage: Vec<Plane>,
     count: u32,
 }
 
 impl Sum {
-    fn new((width, height): (u32, u32)) -> Self {
+    fn new((width, height): (u32, u32), objects: usize) -> Self {
         Self {
             colors: Raster::filled(width, height, [0.0; 3]),
+            coverage: vec![Plane::filled(width, height, 0.0); objects],
             count: 0,
         }
     }
 
-    fn add(&mut self, color: &Image) {
+    fn add(&mut self, picture: &Picture) {
         self.count += 1;
-        for (sum, color) in self.colors.pixels.iter_mut().zip(&color.pixels) {
+        for (sum, color) in self.colors.pixels.iter_mut().zip(&picture.color.pixels) {
             for (sum, value) in sum.iter_mut().zip(color) {
                 *sum += f64::from(*value);
             }
         }
+        for (sum, coverage) in self.coverage.iter_mut().zip(&picture.coverage) {
+            *sum = sum.zip(coverage, |sum, share| sum + share);
+        }
     }
 
-    fn mean(&self) -> Image {
+    fn mean(&self) -> Picture {
         let count = f64::from(self.count);
-        self.colors.map(|sum| sum.map(|sum| (sum / count) as f32))
+        Picture {
+            color: self.colors.map(|sum| sum.map(|sum| (sum / count) as f32)),
+            coverage: (self.coverage.iter())
+                .map(|sum| sum.map(|sum| (f64::from(*sum) / count) as f32))
+                .collect(),
+        }
     }
 }
 
@@ -196,10 +215,10 @@ struct Accumulated {
 }
 
 impl Accumulated {
-    fn new(size: (u32, u32), picks: Vec<usize>) -> Self {
+    fn new((size, objects): ((u32, u32), usize), picks: Vec<usize>) -> Self {
         Self {
             picks,
-            sum: Sum::new(size),
+            sum: Sum::new(size, objects),
         }
     }
 }
@@ -207,22 +226,6 @@ impl Accumulated {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn sub_frames_fall_into_equal_parts() {
-        for (count, parts) in [
-            (4, 4),
-            (6, 6),
-            (8, 8),
-            (10, 2),
-            (12, 6),
-            (32, 8),
-            (64, 8),
-            (14, 2),
-        ] {
-            assert_eq!(count_parts(count), parts, "{count}");
-        }
-    }
 
     #[test]
     fn both_halves_together_lie_at_the_midpoints() {

@@ -4,5 +4,6 @@ mod convert;
 pub mod engine_scene;
 mod engine_truth;
 mod moving;
+mod objects;
 
 pub use convert::{Ingested, ingest};

@@ -7,6 +7,9 @@ const LEAST_CHANGE: f32 = 2.0 / 255.0;
 /// Least motion while the shutter is open, in pixels.
 const LEAST_MOTION: f32 = 0.1;
 
+/// Share of the moving pixels that are no faster than the usual top speed.
+const TOP_SHARE: f64 = 0.99;
+
 /// Least and greatest displayed colour of each pixel over the sub-frames.
 pub struct ColorRange {
     /// Display exposure, in stops.
@@ -68,10 +71,16 @@ fn encode(radiance: f32, stops: f32) -> f32 {
     (radiance.max(0.0) * stops.exp2()).powf(1.0 / 2.2)
 }
 
-/// Returns the speed of the fastest pixel, in pixels per frame.
-pub fn fastest(velocity: &Vectors) -> f64 {
+/// Returns the speed that 99 % of the moving pixels have at most, in pixels per frame; 0 where nothing moves. Some engines leave
+/// absurd velocities in a few pixels.
+pub fn usual_top_speed(velocity: &Vectors) -> f64 {
     let speeds = velocity.pixels.iter().map(|[x, y]| x.hypot(*y));
-    f64::from(speeds.fold(0.0, f32::max))
+    let mut moving: Vec<f32> = speeds.filter(|speed| *speed >= LEAST_MOTION).collect();
+    moving.sort_by(f32::total_cmp);
+    let at = (moving.len() as f64 * TOP_SHARE).ceil() as usize;
+    moving
+        .get(at.saturating_sub(1))
+        .map_or(0.0, |speed| f64::from(*speed))
 }
 
 #[cfg(test)]
@@ -79,6 +88,18 @@ mod tests {
     use frame::Alignment;
 
     use super::*;
+
+    #[test]
+    fn a_few_absurd_velocities_do_not_count() {
+        let speeds = |absurd: usize| {
+            let mut speeds = Raster::from_fn(20, 20, |x, _| [if x < 10 { 4.0 } else { 0.0 }, 0.0]);
+            speeds.pixels[..absurd].fill([1e5, 0.0]);
+            usual_top_speed(&speeds)
+        };
+        // 200 pixels move.
+        assert_eq!([speeds(0), speeds(2), speeds(3)], [4.0, 4.0, 1e5]);
+        assert_eq!(usual_top_speed(&Raster::filled(4, 4, [0.0; 2])), 0.0);
+    }
 
     #[test]
     fn what_passes_and_what_changes_moves() {

@@ -62,7 +62,6 @@ impl<'a> RunScene<'a> {
                 scene: scene.scene.clone(),
                 subframes: scene.subframes,
                 step: scene.step,
-                folder: scene.folder.clone(),
             }),
         }
     }
@@ -95,7 +94,7 @@ impl<'a> RunScene<'a> {
     pub fn truth_hash(self, settings: &RenderSettings, alignment: Alignment) -> String {
         match self {
             Self::Traced(scene) => tracer::truth_hash(scene, settings, alignment),
-            Self::Drawn(scene) => frame::truth_hash(&scene.hash, scene.replicates),
+            Self::Drawn(scene) => scene.truth_hash(),
         }
     }
 

@@ -287,7 +287,7 @@ impl SceneContext<'_> {
     }
 
     /// Makes, per alignment of the filters that are due, the truths without one pair of replicates each; none where the plan asks
-    /// for no intervals.
+    /// for no intervals, or an engine drew the truth.
     fn truths_without_pairs(
         &self,
         due: &[&PlannedCase],
@@ -298,17 +298,16 @@ impl SceneContext<'_> {
             monitor,
             ..
         } = self.plan;
+        // Sub-frames are no random samples: those without some of them have holes.
+        let RunScene::Traced(scene) = self.scene else {
+            return Ok(BTreeMap::new());
+        };
         let filters = due.iter().filter(|case| !case.is_reference());
         let alignments: BTreeSet<Alignment> = filters.map(|case| case.alignment).collect();
         (alignments.into_iter())
             .filter(|_| self.plan.intervals)
             .map(|alignment| {
-                let replicates = match self.scene {
-                    RunScene::Traced(scene) => {
-                        render_replicates(scene, render, alignment, out, *monitor)?
-                    }
-                    RunScene::Drawn(scene) => scene.read_replicates()?,
-                };
+                let replicates = render_replicates(scene, render, alignment, out, *monitor)?;
                 Ok((alignment, truths_without_pairs(&replicates)?))
             })
             .collect()
@@ -326,7 +325,10 @@ impl SceneContext<'_> {
 
     /// Tells whether a case that was read has the intervals that the plan asks for.
     fn is_whole(&self, case: &Case) -> bool {
-        case.is_reference || !self.plan.intervals || !case.intervals.is_empty()
+        case.is_reference
+            || case.drawn.is_some()
+            || !self.plan.intervals
+            || !case.intervals.is_empty()
     }
 
     /// Tells whether a case was measured before, without looking at its pictures.

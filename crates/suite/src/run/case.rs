@@ -10,6 +10,7 @@ use tracer::Family;
 
 use crate::InputFormat;
 use crate::filter::choice::overrides_text;
+use crate::ingest::engine_scene::engine_name;
 
 /// Confidence intervals of scores, by the names of their metrics.
 pub type Intervals = BTreeMap<String, Interval>;
@@ -83,10 +84,8 @@ pub struct Drawn {
     pub scene: Option<String>,
     /// Number of sub-frames that the truth is the mean of.
     pub subframes: u32,
-    /// Distance that the fastest pixel moves between two of them, in pixels.
+    /// Distance that 99 % of the moving pixels move at most between two of them, in pixels.
     pub step: f64,
-    /// Folder that `ingest` wrote.
-    pub folder: PathBuf,
 }
 
 impl Drawn {
@@ -94,7 +93,8 @@ impl Drawn {
     pub fn truth_text(&self) -> String {
         format!(
             "mean of {} sub-frames that {} drew",
-            self.subframes, self.engine
+            self.subframes,
+            engine_name(&self.engine)
         )
     }
 }

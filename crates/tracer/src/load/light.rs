@@ -14,8 +14,6 @@ use super::schema::{BackgroundTable, DisplayTable, FlipTable, SunTable};
 use crate::limits::{BRIGHTEST, MOST_FLIP_EXPOSURES, SMALLEST_SUN};
 use crate::{Background, Display, EnvironmentMap, FlipExposures, Sun};
 
-/// Default exposures of HDR-FLIP: two stops either way, a step per stop.
-
 /// Reads the background with its image, if it has one.
 pub(super) fn read_background(
     document: &Document,
