@@ -1,11 +1,11 @@
-// What three.js draws: colour, velocity, depth and object ids of the instant, its blur of them, and sub-frames.
+// Pictures that three.js draws: colour, velocity, depth and object ids of the instant, its blur of them, and sub-frames.
 
 import * as THREE from "three/webgpu";
 import { Fn, float, mrt, output, pass, texture, userData, uv, vec2, vec4, velocity } from "three/tsl";
 import { EXRLoader } from "three/addons/loaders/EXRLoader.js";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { motionBlur } from "three/addons/tsl/display/MotionBlur.js";
-import { drawInstanced, drawSkinned } from "./meshes.js";
+import { MESHES } from "./meshes.js";
 
 // A pixel's colour is the mean over its square: of this many places in each direction.
 const COLOR_SAMPLES = 4;
@@ -13,13 +13,15 @@ const COLOR_SAMPLES = 4;
 // Draws the scene at /scene/ and hands every picture to `receiver`, rows from the top.
 export async function captureScene(settings, receiver) {
   const { width, height } = settings;
+  if (document.createElement("canvas").getContext("webgl2") === null) throw new Error("no WebGL 2 in this browser");
   const renderer = new THREE.WebGPURenderer({ forceWebGL: true, outputBufferType: THREE.FloatType });
   renderer.setPixelRatio(1);
   renderer.setSize(width, height);
   await renderer.init();
   const played = await loadScene(settings, width / height);
   const { manifest, camera } = played;
-  await receiver.about({ engine: `three.js 0.${THREE.REVISION}.0`, near: camera.near, far: camera.far }, manifest);
+  const about = { engine: `three.js 0.${THREE.REVISION}.0`, adapter: nameAdapter(renderer), near: camera.near, far: camera.far };
+  await receiver.about(about, manifest);
 
   const drawing = planDrawing(settings, played);
   const nextFrame = () =>
@@ -39,27 +41,31 @@ export async function captureScene(settings, receiver) {
     }
     renderer.setRenderTarget(null);
   };
-  const send = async (name, channels, target, attachment = 0) => {
-    const read = await renderer.readRenderTargetPixelsAsync(target, 0, 0, width, height, attachment);
-    await receiver.picture(name, channels, arrange(read, width, height, channels.length));
+  const read = async (target, channels, attachment = 0) => {
+    const pixels = await renderer.readRenderTargetPixelsAsync(target, 0, 0, width, height, attachment);
+    return arrange(pixels, width, height, channels);
   };
+  const sendColor = async (name, target) => receiver.picture(name, ["R", "G", "B"], await read(target, 3));
 
   const { color, depth, blurs, gbuffer } = drawing;
   const instant = [color, depth, ...blurs];
-  if (!settings.firstFrame) await draw(manifest.previous, instant);
+  if (settings.before !== "none") await draw(manifest.instant - settings.before * manifest.seconds_per_frame, instant);
   await draw(manifest.instant, instant);
-  await send("color", ["R", "G", "B"], color.target);
-  await send("velocity", ["velocity.X", "velocity.Y"], gbuffer.renderTarget, attachmentOf(gbuffer, "velocity"));
-  await send("object", ["object"], gbuffer.renderTarget, attachmentOf(gbuffer, "object"));
-  await send("depth", ["Z"], depth.target);
-  for (const blur of blurs) await send(blur.name, ["R", "G", "B"], blur.target);
+  const distance = await read(depth.target, 1);
+  // The mesh that three.js draws the sky on has no id of its own, and leaves depth as it was cleared.
+  const ids = (await read(gbuffer.renderTarget, 1, attachmentOf(gbuffer, "object"))).map((id, at) => (distance[at] === 1 ? 0 : id));
+  const motion = await read(gbuffer.renderTarget, 2, attachmentOf(gbuffer, "velocity"));
+  await receiver.picture("velocity", ["velocity.X", "velocity.Y"], motion);
+  await receiver.picture("depth", ["Z"], distance);
+  await receiver.picture("object", ["object"], ids);
+  for (const { name, target } of [color, ...blurs]) await sendColor(name, target);
 
   // A centred shutter, as the taps of three.js lie on both sides of a pixel.
   const open = manifest.instant - (settings.exposure / 2) * manifest.seconds_per_frame;
   for (let at = 0; at < settings.subframes; at++) {
     const part = ((at + 0.5) / settings.subframes) * settings.exposure;
     await draw(open + part * manifest.seconds_per_frame, [color]);
-    await send(`subframes/${String(at).padStart(4, "0")}`, ["R", "G", "B"], color.target);
+    await sendColor(`subframes/${String(at).padStart(4, "0")}`, color.target);
   }
 }
 
@@ -109,6 +115,12 @@ function averageSquares(source, width, height) {
 
 const attachmentOf = (pass, name) => pass.renderTarget.textures.findIndex((texture) => texture.name === name);
 
+function nameAdapter(renderer) {
+  const gl = renderer.getContext();
+  const names = gl.getExtension("WEBGL_debug_renderer_info");
+  return gl.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : gl.RENDERER);
+}
+
 // Turns pixels with four channels, rows from the bottom, into ones with fewer, rows from the top.
 function arrange(read, width, height, channels) {
   const pixels = new Float32Array(width * height * channels);
@@ -128,13 +140,15 @@ async function loadScene({ meshes }, aspect) {
   const { cameras, animations, parser } = gltf;
   const scene = new THREE.Scene().add(gltf.scene);
   nameObjects(scene, parser, manifest.objects.length);
-  scene.background = await loadSky(manifest);
+  const sky = await new EXRLoader().setDataType(THREE.FloatType).loadAsync(`/scene/${manifest.sky}`);
+  sky.mapping = THREE.EquirectangularReflectionMapping;
+  scene.background = scene.environment = sky;
   // The middle of the sky lies towards -Z; three.js looks for it towards +X.
-  scene.backgroundRotation.y = Math.PI / 2;
+  scene.backgroundRotation.y = scene.environmentRotation.y = Math.PI / 2;
   const camera = cameras[0];
   camera.aspect = aspect;
   camera.updateProjectionMatrix();
-  const follow = { plain: () => () => {}, instanced: drawInstanced, skinned: drawSkinned }[meshes](scene);
+  const follow = MESHES[meshes](scene);
 
   const mixer = new THREE.AnimationMixer(gltf.scene);
   for (const clip of animations) {
@@ -157,11 +171,4 @@ function nameObjects(scene, parser, objects) {
     const id = own ?? object.parent?.userData.object;
     object.userData.object = id > 0 && id < objects ? id : 0;
   });
-}
-
-async function loadSky({ sky, sky_constant: constant }) {
-  if (constant) return new THREE.Color(...constant);
-  const radiance = await new EXRLoader().setDataType(THREE.FloatType).loadAsync(`/scene/${sky}`);
-  radiance.mapping = THREE.EquirectangularReflectionMapping;
-  return radiance;
 }

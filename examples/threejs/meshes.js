@@ -1,9 +1,18 @@
-// Other ways to draw the same objects, which have vectors of their own: instances and skins.
+// Ways to draw the same objects, each with vectors of its own.
 
 import * as THREE from "three/webgpu";
 
-// Replaces every mesh by an InstancedMesh with one instance. Returns what moves the instances to where the meshes are.
-export function drawInstanced(scene) {
+// What prepares a scene for each way, and returns what to call after each step of the animation.
+export const MESHES = { plain: () => () => {}, unculled: drawUnculled, instanced: drawInstanced, skinned: drawSkinned };
+
+// Draws every mesh, in the picture or not.
+function drawUnculled(scene) {
+  scene.traverse((object) => (object.frustumCulled = false));
+  return () => {};
+}
+
+// Replaces every mesh by an InstancedMesh with one instance, which follows it.
+function drawInstanced(scene) {
   const pairs = replaceMeshes(scene, (mesh) => {
     const instances = new THREE.InstancedMesh(mesh.geometry, mesh.material, 1);
     instances.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
@@ -17,8 +26,8 @@ export function drawInstanced(scene) {
   };
 }
 
-// Replaces every mesh by a SkinnedMesh with one bone. Returns what moves the bones to where the meshes are.
-export function drawSkinned(scene) {
+// Replaces every mesh by a SkinnedMesh with one bone, which follows it.
+function drawSkinned(scene) {
   const pairs = replaceMeshes(scene, (mesh) => {
     const { count } = mesh.geometry.attributes.position;
     mesh.geometry.setAttribute("skinIndex", new THREE.Uint16BufferAttribute(new Uint16Array(count * 4), 4));

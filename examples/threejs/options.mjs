@@ -9,13 +9,14 @@ const HELP = `SCENE  folder of an exported scene: shuttertruth export NAME --glt
   --subframes N    pictures over the open shutter [default: 32]
   --exposure E     exposure in frames [default: the scene's]
   --samples N      taps of three.js's blur [default: 16, as three.js has it]
-  --meshes KIND    how objects are drawn: plain, instanced (an InstancedMesh each) or skinned (a bone each) [default: plain]
-  --first-frame    draw no frame before the instant's`;
+  --meshes KIND    how objects are drawn: plain, unculled (outside the picture too), instanced (an InstancedMesh each) or
+                   skinned (a bone each) [default: plain]
+  --before FRAMES  when the frame before the instant's is drawn; 0 stands still, none draws none [default: 1]`;
 
 // Reads the words of a command; `more` are options of its own, for parseArgs.
 export function readOptions(command, more = {}, help = "") {
   const text = { type: "string" };
-  const known = { size: text, subframes: text, exposure: text, samples: text, meshes: text, "first-frame": { type: "boolean" } };
+  const known = { size: text, subframes: text, exposure: text, samples: text, meshes: text, before: text };
   const usage = `npm run ${command} -- SCENE [options]\n\n${HELP}${help}`;
   let parsed;
   try {
@@ -33,7 +34,8 @@ export function readOptions(command, more = {}, help = "") {
   const size = /^([1-9]\d{0,3})x([1-9]\d{0,3})$/.exec(values.size ?? "320x180");
   if (!size) fail(`--size ${values.size}: a width and a height such as 320x180, each at most 9999`);
   const meshes = values.meshes ?? "plain";
-  if (!["plain", "instanced", "skinned"].includes(meshes)) fail(`--meshes ${meshes}: plain, instanced or skinned`);
+  const kinds = ["plain", "unculled", "instanced", "skinned"];
+  if (!kinds.includes(meshes)) fail(`--meshes ${meshes}: one of ${kinds.join(", ")}`);
   const settings = {
     width: Number(size[1]),
     height: Number(size[2]),
@@ -42,7 +44,7 @@ export function readOptions(command, more = {}, help = "") {
     exposure: number(values, "exposure", manifest.exposure, 0, Math.max(2, manifest.exposure)),
     samples: number(values, "samples", 16, 2, 256),
     meshes,
-    firstFrame: values["first-frame"] ?? false,
+    before: values.before === "none" ? "none" : number(values, "before", 1, 0, 2),
   };
   return { scene, manifest, settings, values };
 }

@@ -3,7 +3,7 @@
 import { captureScene } from "./draw.js";
 
 const address = new URLSearchParams(location.search);
-const settings = Object.fromEntries([...address].map(([name, value]) => [name, name === "meshes" ? value : JSON.parse(value)]));
+const settings = Object.fromEntries([...address].map(([name, value]) => [name, isNaN(value) ? value : Number(value)]));
 const { width, height } = settings;
 
 addEventListener("error", (event) => failed(event.error ?? event.message));
