@@ -32,6 +32,7 @@ mod score;
 mod serve;
 mod summary;
 mod terminal;
+mod threejs;
 mod timing;
 mod tune;
 mod variants;
