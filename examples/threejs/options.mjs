@@ -13,6 +13,9 @@ const HELP = `SCENE  folder of an exported scene: shuttertruth export NAME --glt
                    skinned (a bone each) [default: plain]
   --before FRAMES  when the frame before the instant's is drawn; 0 stands still, none draws none [default: 1]`;
 
+// npm runs scripts in the package's folder, and says in which one it was called.
+process.chdir(process.env.INIT_CWD ?? ".");
+
 // Reads the words of a command; `more` are options of its own, for parseArgs.
 export function readOptions(command, more = {}, help = "") {
   const text = { type: "string" };
