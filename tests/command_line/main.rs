@@ -32,6 +32,7 @@ mod score;
 mod serve;
 mod summary;
 mod terminal;
+#[cfg(unix)]
 mod threejs;
 mod timing;
 mod tune;

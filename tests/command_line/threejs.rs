@@ -26,16 +26,33 @@ fn install() -> &'static Path {
         let example = root().join("examples/threejs");
         let is_installed = lock(&folder) == lock(&example)
             && folder.join("node_modules/.package-lock.json").is_file();
-        for entry in fs::read_dir(example).unwrap().map(Result::unwrap) {
-            if entry.file_type().unwrap().is_file() {
-                fs::copy(entry.path(), folder.join(entry.file_name())).unwrap();
-            }
-        }
+        copy_files(&example, &folder);
         if !is_installed {
             run_npm(&folder, ["ci", "--no-audit", "--no-fund"]);
         }
         folder
     })
+}
+
+/// Copies the example with one change of how it draws.
+fn plant(old: &str, new: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    copy_files(install(), folder.path());
+    let modules = "node_modules";
+    std::os::unix::fs::symlink(install().join(modules), folder.path().join(modules)).unwrap();
+    let path = folder.path().join("draw.js");
+    let text = fs::read_to_string(&path).unwrap();
+    assert_eq!(text.matches(old).count(), 1, "draw.js has not one {old}");
+    fs::write(&path, text.replace(old, new)).unwrap();
+    folder
+}
+
+fn copy_files(from: &Path, to: &Path) {
+    for entry in fs::read_dir(from).unwrap().map(Result::unwrap) {
+        if entry.file_type().unwrap().is_file() {
+            fs::copy(entry.path(), to.join(entry.file_name())).unwrap();
+        }
+    }
 }
 
 fn run_npm<S: AsRef<OsStr>>(folder: &Path, words: impl IntoIterator<Item = S>) {
@@ -64,15 +81,21 @@ impl Drawn {
         let scene_words = ["--scenes-dir", &folder, "--scenes", scene, "--size", SIZE];
         bench.execute(&[&words, &scene_words[..]].concat());
         let frame = Frame::read(&bench.path("r").join(scene).join("frame.exr")).unwrap();
+        let drawn = Self { bench, frame };
+        drawn.capture(install());
+        drawn
+    }
 
-        let count = SUBFRAMES.to_string();
-        let gltf = bench.path("gltf").join(scene);
-        let out = bench.path("capture");
-        let words = split("run -s capture -- --size 96x54 --subframes");
-        let more = [&gltf, Path::new("--out"), &out].map(|word| word.display().to_string());
-        let words = words.into_iter().chain([count.as_str()]);
-        run_npm(install(), words.chain(more.iter().map(String::as_str)));
-        Self { bench, frame }
+    /// Lets three.js draw the scene, in place of what it drew before.
+    fn capture(&self, example: &Path) {
+        let mut words: Vec<String> = ["run", "-s", "capture", "--"].map(str::to_owned).into();
+        let gltf = self.bench.path("gltf").join(&self.frame.provenance.scene);
+        words.push(gltf.display().to_string());
+        words.extend(["--size".to_owned(), SIZE.to_owned()]);
+        words.extend(["--subframes".to_owned(), SUBFRAMES.to_string()]);
+        let out = self.bench.path("capture");
+        words.extend(["--out".to_owned(), out.display().to_string()]);
+        run_npm(example, words);
     }
 
     fn file(&self, name: &str) -> frame::ExrFile {
@@ -131,6 +154,20 @@ impl Drawn {
     }
 }
 
+/// Fits the factors between three.js's velocity and the expected one, of x and of y.
+fn fit_scale(drawn: &Drawn) -> [f32; 2] {
+    let velocity = drawn.velocity();
+    [0, 1].map(|axis| {
+        let pairs = velocity.pixels.iter().zip(&drawn.frame.velocity.pixels);
+        let [mut product, mut square] = [0.0; 2];
+        for (own, expected) in pairs {
+            product += own[axis] * expected[axis];
+            square += expected[axis] * expected[axis];
+        }
+        product / square
+    })
+}
+
 fn median(sorted: &[f32]) -> f32 {
     sorted[sorted.len() / 2]
 }
@@ -182,4 +219,24 @@ fn three_js_gives_the_sky_the_motion_of_something_near() {
     let own = drawn.depth();
     let own = own.pixels.iter().filter(|depth| **depth == FAR_DEPTH);
     assert!(nothing.count().abs_diff(own.count()) < 50);
+}
+
+#[test]
+fn a_defect_planted_in_three_js_s_velocity_arrives_in_the_capture() {
+    let drawn = Drawn::new("flat_field");
+    let near = |scale: [f32; 2], expected: [f32; 2]| {
+        // Silhouettes belong to another object in one picture or the other.
+        let is_near = (0..2).all(|axis| (scale[axis] - expected[axis]).abs() < 0.05);
+        assert!(is_near, "{scale:?}, not {expected:?}");
+    };
+    near(fit_scale(&drawn), [1.0, 1.0]);
+    for (planted, expected) in [
+        ("velocity.mul(2)", [2.0, 2.0]),
+        ("velocity.mul(vec2(1, -1))", [1.0, -1.0]),
+        ("vec2(0)", [0.0, 0.0]),
+    ] {
+        let changed = format!("{{ output, velocity: {planted}, ");
+        drawn.capture(plant("{ output, velocity, ", &changed).path());
+        near(fit_scale(&drawn), expected);
+    }
 }
