@@ -2,11 +2,11 @@
 # page, `make fuzz` tries hostile input for ten minutes, and `make mutants` changes kernels to try the limits.
 #
 # All look for a Vulkan driver first and, on Debian and Ubuntu, install the software one where there is none. The tests need Python:
-# Optuna drives the tuning service, and numpy and OpenEXR compare presets with their originals. They need Chromium to open reports, and
-# glslang to compile shaders in GLSL.
+# Optuna drives the tuning service, and numpy and OpenEXR compare presets with their originals. They need Chromium to open reports and
+# to draw scenes with three.js, node to install three.js and to drive it, and glslang to compile shaders in GLSL.
 # On macOS and Windows plain cargo commands work.
 
-.PHONY: run test guides fuzz mutants vulkan python chromium glslang
+.PHONY: run test guides fuzz mutants vulkan python chromium node glslang
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -17,7 +17,7 @@ SCENES ?= sliding_panel,panel_over_texture,two_spheres,railing,fan
 run: vulkan
 	cargo run --release --locked --bin shuttertruth -- run $(if $(SCENES),--scenes $(SCENES)) --out out
 
-test: vulkan python chromium glslang
+test: vulkan python chromium node glslang
 	cargo test --workspace --locked
 
 # Prints each command with its time.
@@ -92,13 +92,23 @@ python:
 
 CHROMIUM_WAY_OUT := install it, for example: apt-get install chromium (Debian), dnf install chromium (Fedora), pacman -S chromium (Arch), or name a Chromium or Chrome in CHROMIUM
 
-# The tests take $CHROMIUM, or the first of these that there is.
+# The tests take $CHROMIUM, or the first of these that there is. With EGL, Mesa draws for WebGL; without it Chromium's own SwiftShader.
 chromium:
 	@[ "$$(uname -s)" = Linux ] || exit 0; \
 	found() { [ -n "$${CHROMIUM:-}" ] || command -v chromium || command -v chromium-browser || command -v google-chrome; }; \
 	found >/dev/null && exit 0; \
-	$(call INSTALL,Chromium,chromium,$(CHROMIUM_WAY_OUT)); \
+	$(call INSTALL,Chromium,chromium libegl1,$(CHROMIUM_WAY_OUT)); \
 	found >/dev/null || { echo "still no Chromium after the installation; $(CHROMIUM_WAY_OUT)" >&2; exit 1; }
+
+NODE_WAY_OUT := install Node.js 18 or newer with npm, for example: apt-get install nodejs npm (Debian, Ubuntu), dnf install nodejs npm (Fedora), pacman -S nodejs npm (Arch)
+
+# The test that draws with three.js installs that itself, with `npm ci`.
+node:
+	@[ "$$(uname -s)" = Linux ] || exit 0; \
+	found() { command -v npm >/dev/null && node -e 'process.exit(parseInt(process.versions.node) < 18 ? 1 : 0)' 2>/dev/null; }; \
+	found && exit 0; \
+	$(call INSTALL,Node.js of version 18 or newer with npm,nodejs npm,$(NODE_WAY_OUT)); \
+	found || { echo "still no Node.js 18 with npm after the installation; $(NODE_WAY_OUT)" >&2; exit 1; }
 
 GLSLANG_WAY_OUT := install it, for example: apt-get install glslang-tools (Debian, Ubuntu), dnf install glslang (Fedora), pacman -S glslang (Arch)
 

@@ -98,6 +98,40 @@ fn variance_is_measured_for_filters_with_noise() {
 }
 
 #[test]
+fn defects_of_velocity_cost_what_they_take_away() {
+    let bench = Bench::new();
+    let output = bench.run(&split(
+        "--filters identity,velocity_gather:fine --velocity-defect zero,double,lag,no_object,jittered",
+    ));
+    assert_done(&output);
+    let cases = bench.read_filter_cases();
+    assert_eq!(cases.len(), 2 * 6);
+    let identity = flip(find_case(&cases, "identity:default"));
+    let right = flip(find_case(&cases, "velocity_gather:fine"));
+    let changed = |change: &str| flip(find_case(&cases, &format!("velocity_gather:fine {change}")));
+    // Nothing is blurred without velocity, and the plate's is the only one.
+    assert_eq!(changed("defect=zero"), identity);
+    assert!((changed("defect=no_object") - identity).abs() < 1e-6);
+    assert!(
+        changed("defect=double") > right + 0.01,
+        "{}",
+        changed("defect=double")
+    );
+    // The plate moves evenly, so that a frame late is no difference.
+    assert!((changed("defect=lag") - right).abs() < 1e-4);
+    assert_ne!(changed("defect=jittered"), right);
+    let told = stdout(&output);
+    let due = format!("{:+.3}", identity - right);
+    let row = told
+        .lines()
+        .find(|line| line.trim_start().starts_with("defect=zero"))
+        .unwrap();
+    assert!(row.ends_with(&due), "{told}");
+    // The ranking is of the right buffer alone.
+    assert!(!told.contains("velocity_gather:fine defect"), "{told}");
+}
+
+#[test]
 fn coarser_buffers_raise_the_error() {
     let bench = Bench::new();
     let output = bench.run(&split(
@@ -121,11 +155,8 @@ fn coarser_buffers_raise_the_error() {
     let cut = changed("velocity=kino10");
     assert!((cut - whole).abs() > 0.01, "{cut} {whole}");
     assert!((changed("velocity=tile_clamped") - whole).abs() < 0.002);
-    let table = stdout(&output);
-    assert!(
-        table.contains("velocity_gather:fine velocity=linear8"),
-        "{table}"
-    );
+    let told = stdout(&output);
+    assert!(told.contains("velocity=linear8"), "{told}");
     let case = find_case(&cases, "velocity_gather:fine velocity=linear8");
     assert_eq!(case.input.velocity, VelocityFormat::Linear8);
     assert_eq!(case.input.depth, DepthFormat::Float32);

@@ -1,6 +1,7 @@
 //! The program as its user meets it: output, files and exit codes.
 
 mod arguments;
+mod audit;
 mod baseline;
 mod bench;
 mod check;
@@ -33,6 +34,8 @@ mod score;
 mod serve;
 mod summary;
 mod terminal;
+#[cfg(unix)]
+mod threejs;
 mod timing;
 mod tune;
 mod variants;

@@ -16,7 +16,7 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 21] = [
+const NOT_RUN: [(&str, &str); 22] = [
     ("cargo test --workspace", "runs this test and all others"),
     (
         "cargo install --path crates/cli",
@@ -63,6 +63,10 @@ const NOT_RUN: [(&str, &str); 21] = [
     (
         "python3 examples/fidelity/unmodified.py --program shuttertruth --scenes-dir scenes --out out/unmodified",
         "needs shaders that are fetched from other repositories",
+    ),
+    (
+        "python3 examples/threejs/compare.py out/capture/railing out/render/railing",
+        "needs a capture, for which three.js is installed",
     ),
     (
         "cargo run -p generator",

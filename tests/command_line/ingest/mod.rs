@@ -1,6 +1,6 @@
 //! `ingest`: what an engine drew, measured as our own scenes are.
 
-mod capture;
+pub mod capture;
 mod refusals;
 
 use std::fs;

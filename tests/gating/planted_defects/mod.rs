@@ -101,7 +101,7 @@ impl Bench {
             scenes,
             engine_scenes: Vec::new(),
             filters,
-            inputs: InputFormat::one_by_one(&[], &[], &[]),
+            inputs: InputFormat::one_by_one(&[], &[], &[], &[]),
             jitter_frames: 0,
             render: RenderSettings {
                 width: 128,

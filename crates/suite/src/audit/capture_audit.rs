@@ -1,5 +1,6 @@
 //! Audit of a capture.
 
+use filters::DepthKind;
 use frame::FAR_DEPTH;
 use serde::Serialize;
 use tracer::Scene;
@@ -69,7 +70,9 @@ pub fn audit_capture(
         names.len(),
     );
     let (velocity, mut findings) = audit_velocity(&capture.velocity, &expected, &regions, &names);
-    let (depth, wrong_depth) = audit_depth(&capture.depth, right, &regions, scene);
+    let is_linear = capture.convention.depth == DepthKind::Linear;
+    let near = capture.convention.near.filter(|_| !is_linear);
+    let (depth, wrong_depth) = audit_depth(&capture.depth, near, right, &regions, scene);
     findings.extend(wrong_depth);
     if alike < LEAST_ALIKE {
         // Whatever else differs follows from that.

@@ -69,6 +69,8 @@ pub struct Defect {
     pub looks_like: Vec<Cause>,
     /// Part of the pixels that the cause explains.
     pub explained: f64,
+    /// Part of the object that has the defect; none if all of it has.
+    pub part: Option<f64>,
     /// The defect in words, and the way out.
     pub text: String,
 }
@@ -96,8 +98,21 @@ impl Defect {
             cause,
             looks_like,
             explained,
+            part: None,
             text,
         }
+    }
+
+    /// Limits the defect to a part of the object's pixels.
+    pub fn in_part(mut self, part: Option<f64>) -> Self {
+        if let Some(part) = part.filter(|part| *part < 0.995) {
+            self.text += &format!(
+                "; in {:.0} % of its pixels, the others are right",
+                100.0 * part
+            );
+            self.part = Some(part);
+        }
+        self
     }
 }
 

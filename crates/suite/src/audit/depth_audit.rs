@@ -9,6 +9,8 @@ use super::clear_pixels::ClearPixels;
 
 /// Relative difference of depths that are taken for equal.
 const TOLERANCE: f64 = 0.01;
+/// Rounding of a depth buffer between 0 and 1 that is no defect: a few steps of 24 bits.
+const BUFFER_ROUNDING: f64 = 1.0 / (1 << 22) as f64;
 /// Part of the pixels that must be right, or that a cause must explain.
 const LEAST_EXPLAINED: f64 = 0.95;
 
@@ -21,7 +23,7 @@ pub struct DepthAudit {
     pub median: f64,
     /// 95th percentile of the relative difference.
     pub p95: f64,
-    /// Part of the pixels within 1 %.
+    /// Part of the pixels within 1 %, or within the rounding of the engine's buffer.
     pub agreeing: f64,
 }
 
@@ -30,9 +32,11 @@ pub fn is_close_depth(found: f32, expected: f32) -> bool {
     relative_difference(found, expected) <= TOLERANCE
 }
 
-/// Compares depth on clear pixels; returns what is wrong as well, if anything is.
+/// Compares depth on clear pixels; returns what is wrong as well, if anything is. `near` is the near plane of a depth that is not
+/// linear: far away such a buffer is coarse.
 pub fn audit_depth(
     found: &Plane,
+    near: Option<f64>,
     right: &PointLayers,
     regions: &[ClearPixels],
     scene: &Scene,
@@ -56,11 +60,16 @@ pub fn audit_depth(
     let share = |explains: &dyn Fn(usize) -> bool| {
         pixels.iter().filter(|at| explains(**at)).count() as f64 / pixels.len().max(1) as f64
     };
+    let is_rounded = |at: usize| {
+        let (found, expected) = pair(at);
+        let steps = (1.0 / f64::from(found) - 1.0 / f64::from(expected)).abs();
+        near.is_some_and(|near| steps * near <= BUFFER_ROUNDING)
+    };
     let audit = DepthAudit {
         pixels: pixels.len(),
         median: at_part(0.5),
         p95: at_part(0.95),
-        agreeing: share(&|at| is_close_depth(pair(at).0, pair(at).1)),
+        agreeing: share(&|at| is_close_depth(pair(at).0, pair(at).1) || is_rounded(at)),
     };
     if audit.agreeing >= LEAST_EXPLAINED {
         return (audit, None);

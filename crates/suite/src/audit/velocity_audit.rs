@@ -90,15 +90,32 @@ pub fn audit_velocity(
         );
     }
     let findings = wrong.iter().map(|region| {
-        let candidates = list_candidates(found, expected, &region.pixels);
-        let explains = |velocity: &Vectors| share(found, velocity, &region.pixels);
-        let (cause, looks_like, explained) =
-            find_cause(&candidates, &explains).unwrap_or((Cause::Unknown, Vec::new(), 0.0));
         let name = &names[region.object as usize];
-        Defect::new(Some(name), cause, looks_like, explained)
+        explain_object(found, expected, &region.pixels, name)
     });
     let findings = findings.collect();
     (objects, findings)
+}
+
+/// Finds the cause of an object's wrong velocity: one for all of it, or one for the pixels that are wrong.
+fn explain_object(
+    found: &Vectors,
+    expected: &ExpectedMotion,
+    pixels: &[usize],
+    name: &str,
+) -> Defect {
+    let right = &expected.right.velocity;
+    let is_wrong = |at: &usize| !is_close(found.pixels[*at], right.pixels[*at]);
+    let wrong: Vec<usize> = pixels.iter().copied().filter(is_wrong).collect();
+    let part = wrong.len() as f64 / pixels.len() as f64;
+    for (some, part) in [(pixels, None), (&wrong, Some(part))] {
+        let candidates = list_candidates(found, expected, some);
+        let explains = |velocity: &Vectors| share(found, velocity, some);
+        if let Some((cause, looks_like, explained)) = find_cause(&candidates, &explains) {
+            return Defect::new(Some(name), cause, looks_like, explained).in_part(part);
+        }
+    }
+    Defect::new(Some(name), Cause::Unknown, Vec::new(), 0.0).in_part(Some(part))
 }
 
 fn audit_object(

@@ -1,0 +1,54 @@
+// A web server for the page, three.js and one exported scene, on this machine only.
+
+import fs from "node:fs";
+import http from "node:http";
+import path from "node:path";
+import { fileURLToPath } from "node:url";
+
+const HERE = path.dirname(fileURLToPath(import.meta.url));
+const TYPES = {
+  ".html": "text/html",
+  ".js": "text/javascript",
+  ".json": "application/json",
+  ".gltf": "model/gltf+json",
+  ".png": "image/png",
+};
+
+// Starts a server and returns it with its address. `receive(name, url, body)` gets what the page posts.
+export async function startServer(scene, receive) {
+  const folders = { "/scene/": scene, "/": HERE };
+  const server = http.createServer(async (request, response) => {
+    const url = new URL(request.url, "http://localhost");
+    try {
+      if (request.method === "POST") {
+        const parts = [];
+        for await (const part of request) parts.push(part);
+        receive(url.pathname.slice(1), url, Buffer.concat(parts));
+        response.end();
+      } else {
+        sendFile(response, findFile(folders, decodeURIComponent(url.pathname)));
+      }
+    } catch (error) {
+      response.writeHead(500).end(String(error.message));
+    }
+  });
+  await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
+  return { server, address: `http://127.0.0.1:${server.address().port}/` };
+}
+
+function findFile(folders, name) {
+  const prefix = Object.keys(folders).find((prefix) => name.startsWith(prefix));
+  const folder = path.resolve(folders[prefix]);
+  const file = path.join(folder, name === "/" ? "index.html" : name.slice(prefix.length));
+  return file.startsWith(folder + path.sep) ? file : null;
+}
+
+function sendFile(response, file) {
+  if (file === null || !fs.existsSync(file)) {
+    response.writeHead(404).end();
+    return;
+  }
+  const type = TYPES[path.extname(file)] ?? "application/octet-stream";
+  response.writeHead(200, { "content-type": type, "cache-control": "no-store" });
+  fs.createReadStream(file).pipe(response);
+}

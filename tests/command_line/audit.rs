@@ -1,0 +1,93 @@
+//! `audit`: an engine's velocity and depth against the scene's.
+
+use std::fs;
+
+use crate::bench::{Bench, assert_refused, split, stderr, stdout};
+use crate::ingest::capture::{CONVENTION, Capture, DESCRIPTION};
+
+#[test]
+fn a_right_capture_passes_and_is_listed_object_by_object() {
+    let bench = Bench::new();
+    Capture::new(&bench);
+    let output = bench.shuttertruth(&split("audit capture"));
+    let told = stdout(&output);
+    assert_eq!(output.status.code(), Some(0), "{told}{}", stderr(&output));
+    assert!(
+        told.contains("PASS: velocity and depth are right"),
+        "{told}"
+    );
+    for name in [
+        "plate drawn by Test Engine 1.2, 96x54",
+        "  plate ",
+        "  background ",
+    ] {
+        assert!(told.contains(name), "{told}");
+    }
+    let json = fs::read_to_string(bench.path("out/audit/capture/audit.json")).unwrap();
+    let audit: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(audit["findings"].as_array().unwrap().len(), 0);
+    assert_eq!(audit["velocity"][1]["is_right"], true);
+}
+
+#[test]
+fn a_wrong_convention_fails_with_the_one_that_would_fit() {
+    let bench = Bench::new();
+    let capture = Capture::new(&bench);
+    capture.write(
+        "engine.toml",
+        &CONVENTION.replace("\"ndc\"\nvelocity_y", "\"uv\"\nvelocity_y"),
+    );
+    let output = bench.shuttertruth(&split("audit capture -o out/told"));
+    let told = stdout(&output);
+    assert_eq!(output.status.code(), Some(1), "{told}{}", stderr(&output));
+    let words: Vec<&str> = told.split_whitespace().collect();
+    let told = words.join(" ");
+    assert!(
+        told.contains("velocity of `plate` is twice too long"),
+        "{told}"
+    );
+    assert!(
+        told.contains("the convention may be wrong: `velocity_scale` 0.5000 times what it is"),
+        "{told}"
+    );
+    assert!(
+        told.ends_with(
+            "FAIL worst place of plate: out/told/worst_plate.png written: out/told/audit.json"
+        ),
+        "{told}"
+    );
+    let picture = frame::read_png(&bench.path("out/told/worst_plate.png")).unwrap();
+    assert_eq!(
+        (picture.width, picture.height),
+        (3 * 48 * 5 + 2 * 5, 48 * 5)
+    );
+    let json = stdout(&bench.shuttertruth(&split("audit capture -o out/told --json")));
+    let audit: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(audit["findings"][0]["object"], "plate");
+    let scale = audit["findings"][0]["cause"]["scale"].as_f64().unwrap();
+    assert!((scale - 2.0).abs() < 0.01, "{scale}");
+}
+
+#[test]
+fn an_audit_needs_the_scene_and_its_instant() {
+    let bench = Bench::new();
+    let capture = Capture::new(&bench);
+    let refuse = |words: &[&str]| {
+        let output = bench.shuttertruth(&split("audit capture"));
+        assert_refused(&output, 2, words);
+    };
+    capture.write(
+        "capture.toml",
+        &DESCRIPTION.replace("scene = \"plate\"\n", ""),
+    );
+    refuse(&["capture.toml: names no scene", "--scene"]);
+    capture.write(
+        "capture.toml",
+        &DESCRIPTION.replace("\"plate\"", "\"plat\""),
+    );
+    refuse(&["plat", "did you mean plate?"]);
+    capture.write("capture.toml", &format!("{DESCRIPTION}instant = 0.5\n"));
+    refuse(&["instant = 0.5; allowed for an audit: 0"]);
+    fs::remove_file(capture.path("velocity.exr")).unwrap();
+    refuse(&["velocity.exr: there is no such file"]);
+}
