@@ -68,10 +68,7 @@ fn print_agreement(comparison: &SizeComparison) {
     row(
         "Kendall's tau (95 % CI)",
         &|agreement| match agreement.interval {
-            Some(interval) => format!(
-                "{:.2} ({:.2} to {:.2})",
-                agreement.tau, interval.low, interval.high
-            ),
+            Some([low, high]) => format!("{:.2} ({low:.2} to {high:.2})", agreement.tau),
             None => format!("{:.2}", agreement.tau),
         },
     );

@@ -47,7 +47,7 @@ fn a_wrong_convention_fails_with_the_one_that_would_fit() {
         "{told}"
     );
     assert!(
-        told.contains("the convention may be wrong: `velocity_scale` 0.5000 times what it is"),
+        told.contains("the convention may be wrong: `velocity_scale` 2.000 times what it is"),
         "{told}"
     );
     assert!(

@@ -193,7 +193,7 @@ impl Cause {
             Self::WrongSign => key("turn `velocity_sign` round"),
             Self::FlippedY => key("turn `velocity_y` round"),
             Self::Scale(scale) => key(&format!(
-                "`velocity_scale` {:.4} times what it is would fit, or another unit in `velocity` or `velocity_per`",
+                "`velocity_scale` {:.3} times what it is would fit, or another unit in `velocity` or `velocity_per`",
                 scale
             )),
             Self::ScaleOfAxes(_) => key("another unit in `velocity` may fit: pixels, uv or ndc"),

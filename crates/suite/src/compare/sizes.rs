@@ -3,11 +3,13 @@
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
-use metrics::{Interval, jackknife};
-
 use crate::stats::headline::Headline;
 use crate::stats::scene_mean::{SceneMean, TWO_SIDED, plain_mean};
+use crate::tune::random::Random;
 use crate::{Error, Run};
+
+/// Number of resamples of the scenes.
+const RESAMPLES: usize = 2000;
 
 /// Filters of one shutter, by one score at several picture sizes.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,8 +42,8 @@ pub struct FilterAtSizes {
 pub struct Agreement {
     /// Kendall's tau of the means: 1 for the same order, 0 for no relation, -1 for the opposite order.
     pub tau: f64,
-    /// 95 % CI of tau, by leaving out one scene at a time; none for a single scene.
-    pub interval: Option<Interval>,
+    /// 95 % CI of tau, by resampling the scenes; none for a single scene.
+    pub interval: Option<[f64; 2]>,
     /// Pairs of filters that both sizes order, and alike.
     pub alike: usize,
     /// Pairs that both sizes order, each the other way round.
@@ -162,27 +164,21 @@ fn rank(size: &Badness, index: usize) -> usize {
 
 fn compare_order(names: &[String], here: &Badness, largest: &Badness) -> Agreement {
     let scenes = here.first().map_or(0, Vec::len);
-    let tau = |left_out: Option<usize>| {
+    let tau = |drawn: &[usize]| {
         let means = |size: &Badness| -> Vec<f64> {
-            let without = |values: &Vec<f64>| {
-                let kept = values
-                    .iter()
-                    .enumerate()
-                    .filter(|(at, _)| Some(*at) != left_out);
-                mean(&kept.map(|(_, value)| *value).collect::<Vec<_>>())
+            let mean_of_drawn = |values: &Vec<f64>| {
+                mean(&drawn.iter().map(|scene| values[*scene]).collect::<Vec<_>>())
             };
-            size.iter().map(without).collect()
+            size.iter().map(mean_of_drawn).collect()
         };
         kendalls_tau(&means(here), &means(largest))
     };
+    let all: Vec<usize> = (0..scenes).collect();
     let mut agreement = Agreement {
-        tau: tau(None),
+        tau: tau(&all),
+        interval: (scenes > 1).then(|| bootstrap(scenes, &tau)),
         ..Agreement::default()
     };
-    if scenes > 1 {
-        let without: Vec<f64> = (0..scenes).map(|scene| tau(Some(scene))).collect();
-        agreement.interval = jackknife(agreement.tau, &without);
-    }
     for first in 0..names.len() {
         for second in first + 1..names.len() {
             let [own, others] = [here, largest].map(|size| difference(size, first, second));
@@ -207,6 +203,20 @@ fn compare_order(names: &[String], here: &Badness, largest: &Badness) -> Agreeme
         }
     }
     agreement
+}
+
+/// Computes the 95 % CI of a statistic of scenes by its percentiles over resamples (Efron 1979, "Bootstrap methods: another look at
+/// the jackknife").
+fn bootstrap(scenes: usize, statistic: &dyn Fn(&[usize]) -> f64) -> [f64; 2] {
+    let mut random = Random(1);
+    let mut found: Vec<f64> = (0..RESAMPLES)
+        .map(|_| {
+            let drawn: Vec<usize> = (0..scenes).map(|_| random.below(scenes)).collect();
+            statistic(&drawn)
+        })
+        .collect();
+    found.sort_by(f64::total_cmp);
+    [0.025, 0.975].map(|part| found[(part * (RESAMPLES - 1) as f64).round() as usize])
 }
 
 /// Averages what the second filter has more than the first, over scenes.
@@ -281,10 +291,21 @@ mod tests {
     }
 
     #[test]
+    fn an_interval_holds_the_share_of_the_scenes_that_disagree() {
+        // Two filters; one scene of four turns them round by as much as the other three do not.
+        let here = vec![vec![0.1; 4], vec![0.2; 4]];
+        let largest = vec![vec![0.1, 0.1, 0.1, 0.4], vec![0.2, 0.2, 0.2, 0.1]];
+        let found = compare_order(&names(2), &here, &largest);
+        // The scene is drawn twice or more in a quarter of the resamples.
+        assert_eq!(found.interval, Some([-1.0, 1.0]), "{found:?}");
+    }
+
+    #[test]
     fn a_size_agrees_with_itself() {
         let size = vec![vec![0.1; 5], vec![0.2; 5], vec![0.3; 5]];
         let found = compare_order(&names(3), &size, &size);
         assert_eq!((found.tau, found.alike, found.reversed.len()), (1.0, 3, 0));
+        assert_eq!(found.interval, Some([1.0, 1.0]));
         assert_eq!((rank(&size, 0), rank(&size, 2)), (1, 3));
     }
 }
