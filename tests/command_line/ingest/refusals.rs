@@ -415,3 +415,24 @@ fn files_of_two_captures_are_not_mixed() {
         &["ingested.json: no ingested capture", "make the folder anew"],
     );
 }
+
+#[test]
+fn frames_of_a_run_are_not_overwritten() {
+    let bench = Bench::new();
+    Capture::new(&bench);
+    bench.execute(&split(
+        "render --quiet --scenes plate --size 64x32 --samples-per-pixel 16",
+    ));
+    let refusal = bench.shuttertruth(&split("ingest capture -o out/plate"));
+    assert_refused(
+        &refusal,
+        2,
+        &[
+            "--out out/plate",
+            "a frame that was not ingested",
+            "new folder",
+        ],
+    );
+    let refusal = bench.shuttertruth(&split("ingest capture -o scenes/plate"));
+    assert_refused(&refusal, 2, &["holds a scene"]);
+}

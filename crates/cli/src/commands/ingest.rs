@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use frame::{Display, Region};
-use suite::{Capture, EngineScene, Error, Ingested, Sharing, claim, ingest, printable_path};
+use suite::{Capture, EngineScene, Error, Ingested, ingest, printable_path};
 use tracer::{Scene, load_scene};
 
 use crate::arguments::IngestArgs;
@@ -23,7 +23,6 @@ pub fn execute(args: &IngestArgs) -> Result<(), Error> {
     }
     let traced = find_scene(&capture, &args.scenes_dir);
     let display = find_display(&capture, traced.as_ref());
-    let _claim = claim(&out, [], Sharing::Alone)?;
     let names = traced.as_ref().map(Scene::object_names);
     let ingested = make_monitor().watch("sub-frames", |watch| {
         ingest(&capture, (display, names), &out, watch)

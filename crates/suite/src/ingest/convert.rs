@@ -11,11 +11,12 @@ use tracer::Watch;
 use super::engine_scene::{
     BLURRED, EngineScene, INGESTED_FILE, INGESTED_FORMAT, engine_name, name_in_one_word,
 };
-use super::engine_truth::{EngineTruth, NOT_TRACED, average_subframes};
+use super::engine_truth::{NOT_TRACED, average_subframes};
 use super::moving::usual_top_speed;
 use super::objects::{draw_coverage, name_objects};
 use crate::capture::folder::Capture;
 use crate::colors::velocity_wheel;
+use crate::folder::claim::{Sharing, claim};
 use crate::folder::scene_folder::refuse_scene;
 use crate::{Error, PROGRAM};
 
@@ -37,24 +38,25 @@ pub fn ingest(
     watch: Watch,
 ) -> Result<Ingested, Error> {
     refuse_scene(out)?;
-    let name = name_scene(capture, out)?;
-    let (exposure, alignment) = capture.shutter()?;
-    let shutter = (alignment.shutter(exposure)).expect("the exposure was checked when it was read");
-    let hash = hash_capture(capture)?;
+    refuse_other_files(out)?;
+    let mut scene = describe_scene(capture, out)?;
     let provenance = Provenance {
-        scene: name.clone(),
+        scene: scene.name.clone(),
         program: PROGRAM.to_owned(),
         seed: 0,
         samples_per_pixel: 1,
         replicates: 1,
         traversal: NOT_TRACED.to_owned(),
-        content_hash: hash.clone(),
-        engine: Some(capture.description.engine.clone()),
+        content_hash: scene.hash.clone(),
+        engine: Some(scene.engine.clone()),
     };
     let objects = name_objects(capture, names)?;
     let made = match capture.subframes.is_empty() {
         true => None,
         false => {
+            let (exposure, alignment) = capture.shutter()?;
+            let shutter = alignment.shutter(exposure);
+            let shutter = shutter.expect("the exposure was checked when it was read");
             let shutter = (shutter, alignment);
             Some(average_subframes(
                 capture,
@@ -65,55 +67,66 @@ pub fn ingest(
             )?)
         }
     };
-    let frame = make_frame(capture, (exposure, display), objects, provenance.clone());
-    std::fs::create_dir_all(out).map_err(|source| frame::FileError::io(out, "write", source))?;
-    frame.write(&out.join("frame.exr"))?;
+    let _claim = claim(out, [], Sharing::Alone)?;
     let show =
         |name: &str, image: &Image| write_png(&out.join(name), &display_srgb(image, display.stops));
+    let frame = make_frame(capture, &scene, (display, objects), provenance.clone());
+    frame.write(&out.join("frame.exr"))?;
     show("frame.png", &frame.color)?;
     write_png(&out.join("velocity.png"), &velocity_wheel(&frame))?;
     if let Some(picture) = &capture.blurred {
-        write_picture(
-            &out.join(BLURRED),
-            picture,
-            exposure,
-            alignment.name(),
-            &provenance,
-        )?;
+        write_picture(&out.join(BLURRED), picture, &scene, &provenance)?;
         show("blurred.png", picture)?;
     }
-    let step =
-        usual_top_speed(&capture.velocity) * exposure / capture.subframes.len().max(1) as f64;
-    let scene = EngineScene {
-        format: INGESTED_FORMAT,
-        program: PROGRAM.to_owned(),
-        name,
-        engine: capture.description.engine.clone(),
-        scene: capture.description.scene.clone(),
-        size: [frame.color.width, frame.color.height],
-        exposure,
-        alignment: alignment.name().to_owned(),
-        subframes: capture.subframes.len() as u32,
-        step,
-        ladder: (made.iter().flat_map(|made| &made.ladder.rungs))
-            .map(|rung| rung.subframes)
-            .collect(),
-        has_picture: capture.blurred.is_some(),
-        hash,
-        folder: out.to_owned(),
-    };
-    let truth = (made.map(|made| -> Result<Truth, Error> {
-        let EngineTruth { truth, ladder } = made;
-        ladder.write(&out.join(format!("ladder_{alignment}.exr")))?;
-        truth.write(&out.join(format!("truth_{alignment}.exr")))?;
-        show(&format!("truth_{alignment}.png"), &truth.mean().color)?;
-        Ok(truth)
-    }))
-    .transpose()?;
-    // Last, so that a folder with this file is whole.
+    let mut truth = None;
+    if let Some(made) = made {
+        let alignment = made.truth.alignment;
+        let rungs = made.ladder.rungs.iter();
+        scene.ladder = rungs.map(|rung| rung.subframes).collect();
+        made.ladder
+            .write(&out.join(format!("ladder_{alignment}.exr")))?;
+        made.truth
+            .write(&out.join(format!("truth_{alignment}.exr")))?;
+        show(&format!("truth_{alignment}.png"), &made.truth.mean().color)?;
+        truth = Some(made.truth);
+    }
     let json = serde_json::to_string_pretty(&scene).expect("a scene is plain data") + "\n";
     frame::write_atomically(&out.join(INGESTED_FILE), json.as_bytes())?;
     Ok(Ingested { scene, truth })
+}
+
+/// Refuses a folder that holds another frame, as a run leaves it for a scene.
+fn refuse_other_files(out: &Path) -> Result<(), Error> {
+    match out.join("frame.exr").exists() && !EngineScene::is_in(out) {
+        false => Ok(()),
+        true => Err(Error::Usage(format!(
+            "--out {}: holds a frame that was not ingested, which would be overwritten; name a new folder",
+            out.display()
+        ))),
+    }
+}
+
+/// Describes what a capture becomes, but for its ladder.
+fn describe_scene(capture: &Capture, out: &Path) -> Result<EngineScene, Error> {
+    let (exposure, alignment) = capture.shutter()?;
+    let subframes = capture.subframes.len() as u32;
+    let length = usual_top_speed(&capture.velocity) * exposure;
+    Ok(EngineScene {
+        format: INGESTED_FORMAT,
+        program: PROGRAM.to_owned(),
+        name: name_scene(capture, out)?,
+        engine: capture.description.engine.clone(),
+        scene: capture.description.scene.clone(),
+        size: [capture.color.width, capture.color.height],
+        exposure,
+        alignment: alignment.name().to_owned(),
+        subframes,
+        step: length / f64::from(subframes.max(1)),
+        ladder: Vec::new(),
+        has_picture: capture.blurred.is_some(),
+        hash: hash_capture(capture)?,
+        folder: out.to_owned(),
+    })
 }
 
 /// Names the scene by the folder and the engine, as a variant of a scene is named.
@@ -134,8 +147,8 @@ fn name_scene(capture: &Capture, out: &Path) -> Result<String, Error> {
 
 fn make_frame(
     capture: &Capture,
-    (exposure, display): (f64, Display),
-    objects: Vec<String>,
+    scene: &EngineScene,
+    (display, objects): (Display, Vec<String>),
     provenance: Provenance,
 ) -> Frame {
     let (width, height) = (capture.color.width, capture.color.height);
@@ -143,7 +156,7 @@ fn make_frame(
     let mut moving_sky = sky.filter(|(depth, _)| **depth >= FAR_DEPTH);
     Frame {
         provenance,
-        exposure,
+        exposure: scene.exposure,
         options: FrameOptions {
             velocity: VelocityKind::PreviousFrame,
             sky_velocity: moving_sky.any(|(_, velocity)| *velocity != [0.0, 0.0]),
@@ -168,15 +181,14 @@ fn make_frame(
 fn write_picture(
     path: &Path,
     picture: &Image,
-    exposure: f64,
-    alignment: &str,
+    scene: &EngineScene,
     provenance: &Provenance,
 ) -> Result<(), Error> {
     let mut file = ExrFile::new(picture.width, picture.height);
     file.push_color("", picture);
     file.set("kind", "output");
-    file.set("exposure", exposure);
-    file.set("alignment", alignment);
+    file.set("exposure", scene.exposure);
+    file.set("alignment", &scene.alignment);
     provenance.set(&mut file);
     Ok(write_exr(path, &file)?)
 }

@@ -40,57 +40,20 @@ pub fn average_subframes(
     watch: Watch,
 ) -> Result<EngineTruth, Error> {
     check_count(capture)?;
-    let count = capture.subframes.len();
-    let size = (capture.color.width, capture.color.height);
-    let mut halves = [0; HALVES].map(|_| Sum::new(size, objects.len()));
-    let rungs: Vec<u32> = (LADDER.into_iter())
-        .filter(|rung| *rung as usize * TRUTH_PER_RUNG <= count)
-        .collect();
-    let mut accumulations: Vec<[Accumulated; 2]> = (rungs.iter())
-        .map(|rung| {
-            [0, 1].map(|half| {
-                Accumulated::new((size, objects.len()), pick_subframes(*rung, count, half))
-            })
-        })
-        .collect();
-    let mut range = ColorRange::new(size, capture.description.stops.unwrap_or(0.0));
-    for index in 0..count {
-        let progress = Progress {
-            done: index as u64,
-            total: count as u64,
-        };
-        if watch(progress).is_break() {
-            return Err(TraceError::Cancelled.into());
-        }
-        let color = capture.read_subframe(index)?;
-        let ids = match objects.len() {
-            1 => None,
-            _ => capture.read_subframe_objects(index)?,
-        };
-        let picture = Picture {
-            coverage: draw_coverage(ids.as_ref(), size, objects.len()),
-            color,
-        };
-        range.add(&picture.color);
-        halves[index % HALVES].add(&picture);
-        for accumulated in accumulations.iter_mut().flatten() {
-            if accumulated.picks.contains(&index) {
-                accumulated.sum.add(&picture);
-            }
-        }
-    }
-    let moving = range.mark_moving(&capture.velocity, shutter);
-    let pictures = halves.each_ref().map(Sum::mean);
+    let averages = Averages::read(capture, objects.len(), watch)?;
+    let halves = averages.halves.each_ref().map(Sum::mean);
+    let moving = averages.range.mark_moving(&capture.velocity, shutter);
     let support = Support {
-        seen: (Picture::mean(&pictures).coverage.iter())
+        seen: (Picture::mean(&halves).coverage.iter())
             .map(|coverage| coverage.map(|share| *share > 0.0))
             .collect(),
         unknowable: moving.map(|_| false),
         moving,
     };
-    let each = (count / HALVES) as u32;
+    let (width, height) = (capture.color.width, capture.color.height);
+    let each = (capture.subframes.len() / HALVES) as u32;
     let replicates: Vec<Replicate> = (0..)
-        .zip(pictures)
+        .zip(halves)
         .map(|(index, picture)| Replicate {
             provenance: Provenance {
                 samples_per_pixel: each,
@@ -104,27 +67,21 @@ pub fn average_subframes(
             objects: objects.to_owned(),
             moving: find_movers(&support),
             picture,
-            at_instant: AtInstant::unknown(size.0, size.1),
-            samples: Plane::filled(size.0, size.1, each as f32),
+            at_instant: AtInstant::unknown(width, height),
+            samples: Plane::filled(width, height, each as f32),
             support: support.clone(),
         })
         .collect();
-    let ladder = Ladder {
-        provenance: provenance.clone(),
-        shutter,
-        shutter_profile: ShutterProfile::default(),
-        alignment,
-        objects: objects.to_owned(),
-        rungs: (rungs.into_iter().zip(&accumulations))
-            .map(|(subframes, halves)| Accumulation {
-                subframes,
-                halves: halves.each_ref().map(|half| half.sum.mean()),
-            })
-            .collect(),
-    };
     Ok(EngineTruth {
         truth: Truth::of(&replicates)?,
-        ladder,
+        ladder: Ladder {
+            provenance: provenance.clone(),
+            shutter,
+            shutter_profile: ShutterProfile::default(),
+            alignment,
+            objects: objects.to_owned(),
+            rungs: averages.rungs.iter().map(Rung::average).collect(),
+        },
     })
 }
 
@@ -168,6 +125,80 @@ fn find_movers(support: &Support) -> Vec<bool> {
     support.seen.iter().map(moves).collect()
 }
 
+/// All means that are made of the sub-frames, each of which is read once.
+struct Averages {
+    halves: [Sum; HALVES],
+    rungs: Vec<Rung>,
+    range: ColorRange,
+}
+
+impl Averages {
+    /// Reads every sub-frame, with the shares of the objects.
+    fn read(capture: &Capture, objects: usize, watch: Watch) -> Result<Self, Error> {
+        let count = capture.subframes.len();
+        let size = (capture.color.width, capture.color.height);
+        let none = || Sum::new(size, objects);
+        let rungs = LADDER.into_iter();
+        let mut averages = Self {
+            halves: std::array::from_fn(|_| none()),
+            rungs: (rungs.filter(|rung| *rung as usize * TRUTH_PER_RUNG <= count))
+                .map(|subframes| Rung {
+                    subframes,
+                    picks: [0, 1].map(|half| pick_subframes(subframes, count, half)),
+                    halves: [none(), none()],
+                })
+                .collect(),
+            range: ColorRange::new(size, capture.description.stops.unwrap_or(0.0)),
+        };
+        for index in 0..count {
+            let progress = Progress {
+                done: index as u64,
+                total: count as u64,
+            };
+            if watch(progress).is_break() {
+                return Err(TraceError::Cancelled.into());
+            }
+            let color = capture.read_subframe(index)?;
+            let ids = match objects {
+                1 => None,
+                _ => capture.read_subframe_objects(index)?,
+            };
+            let coverage = draw_coverage(ids.as_ref(), size, objects);
+            averages.add(index, &Picture { color, coverage });
+        }
+        Ok(averages)
+    }
+
+    fn add(&mut self, index: usize, picture: &Picture) {
+        self.range.add(&picture.color);
+        self.halves[index % HALVES].add(picture);
+        for rung in &mut self.rungs {
+            for (picks, half) in rung.picks.iter().zip(&mut rung.halves) {
+                if picks.contains(&index) {
+                    half.add(picture);
+                }
+            }
+        }
+    }
+}
+
+/// The mean of a few of the sub-frames.
+struct Rung {
+    subframes: u32,
+    /// Indices of the sub-frames, per half.
+    picks: [Vec<usize>; 2],
+    halves: [Sum; 2],
+}
+
+impl Rung {
+    fn average(&self) -> Accumulation {
+        Accumulation {
+            subframes: self.subframes,
+            halves: self.halves.each_ref().map(Sum::mean),
+        }
+    }
+}
+
 /// A sum of pictures.
 struct Sum {
     colors: Raster<[f64; 3]>,
@@ -204,21 +235,6 @@ impl Sum {
             coverage: (self.coverage.iter())
                 .map(|sum| sum.map(|sum| (f64::from(*sum) / count) as f32))
                 .collect(),
-        }
-    }
-}
-
-/// The sum of some sub-frames, by their indices.
-struct Accumulated {
-    picks: Vec<usize>,
-    sum: Sum,
-}
-
-impl Accumulated {
-    fn new((size, objects): ((u32, u32), usize), picks: Vec<usize>) -> Self {
-        Self {
-            picks,
-            sum: Sum::new(size, objects),
         }
     }
 }
