@@ -30,7 +30,9 @@ status.textContent = `${width}x${height}, exposure ${settings.exposure} frames`;
 await post("done", "");
 
 async function post(name, body) {
-  if (settings.send) await fetch(`/${name}`, { method: "POST", body });
+  if (!settings.send) return;
+  const answer = await fetch(`/${name}`, { method: "POST", body });
+  if (!answer.ok) throw new Error(await answer.text());
 }
 
 function failed(error) {
@@ -38,13 +40,14 @@ function failed(error) {
   post("failed", status.textContent);
 }
 
-// Shows a picture as a viewer would see it: colours by the curve of sRGB, velocity around grey, depth and ids in steps of grey.
+// Shows a picture as a viewer would see it: colours by the curve of sRGB, velocity around grey, depth and ids from black to white.
 function show(name, channels, pixels) {
   const canvas = Object.assign(document.createElement("canvas"), { width, height });
   const image = new ImageData(width, height);
   const most = pixels.reduce((most, value) => Math.max(most, Math.abs(value)), 1e-9);
+  const least = pixels.reduce((least, value) => Math.min(least, value));
   const encode = (value) => 255 * (value < 0.0031308 ? 12.92 * value : 1.055 * value ** (1 / 2.4) - 0.055);
-  const grey = { 1: (value) => (255 * value) / most, 2: (value) => 127.5 * (1 + value / most), 3: encode }[channels];
+  const grey = { 1: (value) => (255 * (value - least)) / (most - least), 2: (value) => 127.5 * (1 + value / most), 3: encode }[channels];
   for (let pixel = 0; pixel < width * height; pixel++) {
     for (let at = 0; at < 3; at++) {
       const value = pixels[pixel * channels + (channels === 1 ? 0 : at)];
