@@ -134,7 +134,7 @@ function arrange(read, width, height, channels) {
 }
 
 // Loads the scene, its sky and what the manifest says, and stops its animation.
-async function loadScene({ meshes }, aspect) {
+async function loadScene({ meshes, near }, aspect) {
   const manifest = await (await fetch("/scene/manifest.json")).json();
   const gltf = await new GLTFLoader().loadAsync("/scene/scene.gltf");
   const { cameras, animations, parser } = gltf;
@@ -147,6 +147,7 @@ async function loadScene({ meshes }, aspect) {
   scene.backgroundRotation.y = scene.environmentRotation.y = Math.PI / 2;
   const camera = cameras[0];
   camera.aspect = aspect;
+  if (near !== "exported") camera.near = near;
   camera.updateProjectionMatrix();
   const follow = MESHES[meshes](scene);
 
