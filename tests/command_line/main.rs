@@ -19,6 +19,7 @@ mod gallery;
 mod guides;
 mod hostile;
 mod import;
+mod ingest;
 #[cfg(unix)]
 mod interrupts;
 mod kept;

@@ -36,6 +36,7 @@ fn guarded_filters_keep_their_required_bounds_on_every_scene() {
     let (out, _own) = lock_truths();
     let plan = RunPlan {
         scenes: choices.into_iter().map(|choice| choice.scene).collect(),
+        engine_scenes: Vec::new(),
         filters,
         inputs: vec![InputFormat::default()],
         jitter_frames: 0,

@@ -92,6 +92,7 @@ impl Bench {
     ) -> Result<Run, Error> {
         let plan = RunPlan {
             scenes: vec![scene.clone()],
+            engine_scenes: Vec::new(),
             filters,
             inputs: vec![InputFormat::default()],
             jitter_frames: 0,

@@ -54,6 +54,7 @@ fn provenance() -> Provenance {
         replicates: 8,
         traversal: "avx2".into(),
         content_hash: "00ff".into(),
+        engine: None,
     }
 }
 

@@ -1,6 +1,7 @@
 //! Scenes: reading and refusing folders, and the shipped scenes.
 
 mod appearance;
+mod audit;
 mod built_in;
 mod catalogue;
 mod gltf;

@@ -54,7 +54,8 @@ fn make_case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common)
     let (filter, preset) = name.split_once(':').unwrap_or((name, ""));
     Case {
         scene: format!("scene_{scene}"),
-        family: Family::Translation,
+        family: Some(Family::Translation),
+        drawn: None,
         exposes: "nothing".to_owned(),
         exposure: 0.5,
         filter: filter.to_owned(),

@@ -28,6 +28,18 @@ pub struct AtInstant {
 const SPREAD: [&str; 3] = ["xx", "xy", "yy"];
 
 impl AtInstant {
+    /// Makes the state of surfaces of which nothing is known: none has a place at the instant.
+    pub fn unknown(width: u32, height: u32) -> AtInstant {
+        let nothing = Plane::filled(width, height, 0.0);
+        AtInstant {
+            frozen: Raster::filled(width, height, [0.0; 3]),
+            unknowable: nothing.clone(),
+            placed: nothing,
+            offset: Raster::filled(width, height, [0.0; 2]),
+            spread: Raster::filled(width, height, [0.0; 3]),
+        }
+    }
+
     /// Averages at least one, all of one size; sums in `f64`, in their order.
     pub fn mean<'a>(all: impl IntoIterator<Item = &'a AtInstant>) -> AtInstant {
         let all: Vec<&AtInstant> = all.into_iter().collect();

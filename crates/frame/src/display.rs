@@ -4,7 +4,7 @@ use crate::exr::ExrFile;
 use crate::{FileError, Image};
 
 /// Photographic exposures for pictures and for FLIP.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Display {
     /// Exposure of PNGs and of LDR-FLIP, in stops.
     pub stops: f32,
@@ -21,6 +21,17 @@ pub struct FlipExposures {
     pub stop: f32,
     /// Number of exposures, both ends included; at least 2.
     pub count: u32,
+}
+
+impl Default for FlipExposures {
+    /// Two stops either way, a step per stop.
+    fn default() -> Self {
+        Self {
+            start: -2.0,
+            stop: 2.0,
+            count: 5,
+        }
+    }
 }
 
 /// Upper limit on the stops of a display or of FLIP, up or down. Radiance times `2^stops` stays a number.

@@ -20,10 +20,13 @@ pub struct Provenance {
     pub traversal: String,
     /// Hash of scene, meshes, textures, settings and the tracer, in hexadecimal: equal hashes mean equal pixels.
     pub content_hash: String,
+    /// Engine that drew the pictures, whose sub-frames count as samples then; none where rays were traced.
+    pub engine: Option<String>,
 }
 
 impl Provenance {
-    pub(crate) fn set(&self, file: &mut ExrFile) {
+    /// Sets an attribute per field.
+    pub fn set(&self, file: &mut ExrFile) {
         file.set("scene", &self.scene);
         file.set("program", &self.program);
         file.set("seed", self.seed);
@@ -31,6 +34,9 @@ impl Provenance {
         file.set("replicates", self.replicates);
         file.set("traversal", &self.traversal);
         file.set("content_hash", &self.content_hash);
+        if let Some(engine) = &self.engine {
+            file.set("engine", engine);
+        }
     }
 
     pub(crate) fn from_exr(file: &ExrFile) -> Result<Self, FileError> {
@@ -42,6 +48,7 @@ impl Provenance {
             replicates: file.get("replicates")?,
             traversal: file.get("traversal")?,
             content_hash: file.get("content_hash")?,
+            engine: file.attributes.get("engine").cloned(),
         })
     }
 }

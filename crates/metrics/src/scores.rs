@@ -109,6 +109,18 @@ impl Scores {
         }
     }
 
+    /// Replaces every score that depends on what was seen at the instant by the reason why that is not known.
+    pub(crate) fn take_out_instant(&mut self, reason: &'static str) {
+        let none = Measured::not_applicable(reason);
+        self.knowable = ImageScores::not_applicable(reason);
+        self.unknowable = ImageScores::not_applicable(reason);
+        self.frozen = FrozenScores {
+            mse: none.clone(),
+            flip: none.clone(),
+            shading: none,
+        };
+    }
+
     fn of_region(&self, region: Region) -> &ImageScores {
         match region {
             Region::Moving => &self.moving,
@@ -133,7 +145,11 @@ impl Scores {
                 Measured::NotApplicable { reason } => Some(format!("{}: {reason}", scores.object)),
             })
             .collect();
-        if reasons.is_empty() {
+        if self.objects.is_empty()
+            && let Measured::NotApplicable { reason } = &self.label_total_variation.mean
+        {
+            Measured::not_applicable(reason.as_str())
+        } else if reasons.is_empty() {
             Measured::not_applicable(if moves {
                 "no object moves on screen"
             } else {

@@ -80,9 +80,13 @@ pub fn interval_text(interval: &Interval, measured: f64) -> String {
 pub fn way_out(finding: &Finding) -> Option<String> {
     match finding.outcome {
         Outcome::TooNoisy => Some(format!(
-            "the noise floor of {} allows {} at the strictest; raise the limit, or --samples-per-pixel",
+            "the noise floor of {} allows {} at the strictest; raise the limit, or {}",
             number(finding.floor?),
-            number(finding.strictest?)
+            number(finding.strictest?),
+            match finding.subframes {
+                None => "--samples-per-pixel".to_owned(),
+                Some(count) => format!("capture more sub-frames than {count}"),
+            }
         )),
         Outcome::Inconclusive => Some(match finding.settled_by {
             None => {

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::filter_id::list_scenes;
-use suite::Run;
+use suite::{Case, Run};
 
 /// Lists command, program, adapter, settings, and per scene the hashes of its truths.
 pub fn provenance(run: &Run) -> Markup {
@@ -17,13 +17,14 @@ pub fn provenance(run: &Run) -> Markup {
             }
             div.scroll tabindex="0" role="region" aria-label="Truths" {
                 table.stacked {
-                    caption { "Truths; a hash covers scene, meshes, textures, settings and the tracer" }
+                    caption { "Truths; a hash covers scene, meshes, textures, settings and the tracer, or all that an engine drew" }
                     thead {
                         tr {
                             th scope="col" { "scene" }
                             th.text scope="col" { "family" }
                             th scope="col" { "exposure, frames" }
                             th.text scope="col" { "shutter" }
+                            th.text scope="col" { "made by" }
                             th.text scope="col" { "hash of the truth" }
                         }
                     }
@@ -44,6 +45,10 @@ pub fn facts(run: &Run) -> Vec<(&'static str, String)> {
         None => "none: every filter is a program".to_owned(),
     };
     let render = &run.render;
+    let rendered = match run.cases.iter().any(|case| case.drawn.is_some()) {
+        true => "; not where an engine drew them",
+        false => "",
+    };
     let sky = match render.options.sky_velocity {
         true => "with a velocity",
         false => "without velocity",
@@ -59,14 +64,14 @@ pub fn facts(run: &Run) -> Vec<(&'static str, String)> {
         (
             "truth",
             format!(
-                "{} samples per pixel in {} replicates, seed {}",
+                "{} samples per pixel in {} replicates, seed {}{rendered}",
                 render.samples_per_pixel, render.replicates, render.seed
             ),
         ),
         (
             "frame",
             format!(
-                "velocity {}, colour {}, background {sky}, guard band of {} pixels",
+                "velocity {}, colour {}, background {sky}, guard band of {} pixels{rendered}",
                 render.options.velocity, render.options.color, render.guard_band
             ),
         ),
@@ -98,6 +103,11 @@ fn command(run: &Run) -> String {
     words.join(" ")
 }
 
+/// Says what a truth is: `path traced`, or `mean of 32 sub-frames that three.js 0.187.0 drew`.
+pub fn truth_text(case: &Case) -> String {
+    (case.drawn.as_ref()).map_or("path traced".to_owned(), |drawn| drawn.truth_text())
+}
+
 /// Writes a row per scene and shutter.
 fn truths(run: &Run) -> Vec<Markup> {
     let mut rows = Vec::new();
@@ -111,9 +121,10 @@ fn truths(run: &Run) -> Vec<Markup> {
             rows.push(html! {
                 tr {
                     th scope="row" { (scene) }
-                    td.text { (case.family.name()) }
+                    td.text { (case.family.map_or("", |family| family.name())) }
                     td data-label="exposure, frames" { (case.exposure) }
                     td.text { (case.alignment) }
+                    td.text { (truth_text(case)) }
                     td.text { code { (case.truth_hash) } }
                 }
             });

@@ -58,6 +58,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let plan = RunPlan {
         scenes: vec![tracer::load_scene(&scenes.join(scene), None)?],
+        engine_scenes: Vec::new(),
         filters: vec![FilterChoice::new(Filter::builtin(filter)?, preset)?],
         inputs: vec![InputFormat::default()],
         jitter_frames: NOISE_FRAMES,

@@ -1,14 +1,17 @@
 //! Measuring, judging, comparing and tuning of filters over scenes. Nothing here prints: results are data, progress goes to a
 //! [`Monitor`].
 
+mod audit;
 mod bench;
 mod cache;
+mod capture;
 mod colors;
 mod compare;
 mod error;
 mod filter;
 mod folder;
 mod import;
+mod ingest;
 mod json;
 mod judge;
 mod measure;
@@ -21,10 +24,15 @@ mod score;
 mod stats;
 mod tune;
 
+pub use audit::{
+    CaptureAudit, Cause, Defect, DepthAudit, ObjectAudit, audit_capture, write_audit_picture,
+};
 pub use bench::{
     BASELINE, BENCH_FORMAT, Bench, BenchPlan, CaseCost, GROWTH_FROM, REACHES, ReachCost,
     ReachPoint, Spread, bench,
 };
+pub use capture::description::{CAPTURE_FILE, CaptureDescription};
+pub use capture::folder::Capture;
 pub use compare::{
     Agreement, Basis, COMPARE_FORMAT, Change, ChangeKind, FilterAtSizes, MeanChange, MeanKind,
     Pair, Reversal, RunComparison, SettingChange, Side, SizeComparison, compare_runs,
@@ -36,11 +44,14 @@ pub use filter::choice::FilterChoice;
 pub use filter::depth_format::DepthFormat;
 pub use filter::input_format::InputFormat;
 pub use filter::runner::{Runner, open_adapter, open_gpu};
+pub use filter::velocity_defect::VelocityDefect;
 pub use filter::velocity_format::VelocityFormat;
 pub use folder::claim::{Claim, Sharing, claim};
 pub use folder::scene_folder::scene_folder;
 pub use folder::tracked::refuse_tracked;
 pub use import::{ImportPlan, Imported, Motions, Up, import};
+pub use ingest::engine_scene::{EngineScene, INGESTED_FILE, engine_name};
+pub use ingest::{Ingested, ingest};
 pub use json::file::{MOST_JSON_BYTES, read_text};
 pub use judge::baseline::{
     Acceptance, BASELINE_FORMAT, Baseline, BaselineComparison, ComparisonKind, accept_scores,
@@ -73,7 +84,7 @@ pub use render::scatter_oracle::scatter_oracle;
 pub use render::settings::{MOST_REPLICATES, SIDES};
 pub use render::shared::render_shared;
 pub use render::truths::{deciding_floor, render_part, render_truth, render_truth_until};
-pub use run::case::{ACCUMULATE, Case, IDENTITY, Intervals};
+pub use run::case::{ACCUMULATE, Case, Drawn, IDENTITY, Intervals};
 pub use run::earlier::{EarlierCases, find_newer_sizes, folder_for_size};
 pub use run::error_maps::ErrorMaps;
 pub use run::failure::{Failure, refuse_failures};

@@ -76,6 +76,7 @@ pub(crate) fn provenance(
         replicates,
         traversal: stage.traversal().into(),
         content_hash,
+        engine: None,
     }
 }
 

@@ -1,6 +1,6 @@
 //! The frame of the instant, as an engine would hand it to its motion blur.
 
-use frame::{ColorSampling, FAR_DEPTH, Frame, Raster, VelocityKind};
+use frame::{ColorSampling, FAR_DEPTH, Frame, Plane, Raster, Vectors, VelocityKind};
 use rayon::prelude::*;
 
 use crate::content_hash::{frame_hash, provenance};
@@ -12,11 +12,22 @@ use crate::film::render::{Film, PixelMean, Places, Times, assemble_picture};
 use crate::film::sample_counts::SampleCounts;
 use crate::film::sampler::Stream;
 use crate::light::integrator::Integrator;
-use crate::motion::velocity::{TrackedPoint, camera_velocity, reprojection};
+use crate::motion::velocity::{PointMotion, TrackedPoint, camera_velocity, reprojection};
 use crate::progress::{Meter, Watch};
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
 use crate::stage::Stage;
+
+/// What a rasteriser writes at the pixels' centres, without colour.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointLayers {
+    /// Screen motion over one frame, in pixels; +x right, +y down.
+    pub velocity: Vectors,
+    /// Distance along the view axis, in metres; [`FAR_DEPTH`] where nothing is seen.
+    pub depth: Plane,
+    /// The object seen, counted from 1; 0 is the background.
+    pub object_id: Raster<u32>,
+}
 
 /// The values that a rasteriser writes at one pixel's centre.
 struct PointSample {
@@ -64,11 +75,7 @@ pub fn trace_frame(
     let meter = Meter::new(watch, film.work(&pixels));
     let pixel_means = film.render(&pixels, &meter, |estimates| PixelMean::of(&estimates[0]))?;
     let picture = assemble_picture(canvas, &pixel_means);
-    let points = Raster {
-        width: canvas.columns(),
-        height: canvas.rows(),
-        pixels: sample_points(stage, canvas, settings),
-    };
+    let points = sample_points(stage, canvas, settings, &PointMotion::default());
     let velocity = points.map(|point| point.velocity);
     check_picture(scene, &picture)?;
     check_layer(scene, "velocity", &velocity)?;
@@ -95,20 +102,51 @@ pub fn trace_frame(
     })
 }
 
+/// Samples what a rasteriser writes, of other points or of another motion than those of the frame.
+///
+/// # Errors
+/// The settings do not fit the scene, or a velocity is not finite.
+pub fn trace_motion(
+    scene: &Scene,
+    settings: &RenderSettings,
+    motion: &PointMotion,
+) -> Result<PointLayers, TraceError> {
+    settings.check_frame(scene)?;
+    let canvas = Canvas {
+        width: settings.width,
+        height: settings.height,
+        guard_band: settings.guard_band,
+    };
+    let stage = Stage::try_new(scene, motion.seen_at, motion.seen_at)?;
+    let points = sample_points(&stage, canvas, settings, motion);
+    let velocity = points.map(|point| point.velocity);
+    check_layer(scene, "velocity", &velocity)?;
+    Ok(PointLayers {
+        velocity,
+        depth: points.map(|point| point.depth),
+        object_id: points.map(|point| point.object_id),
+    })
+}
+
 /// Samples what a rasteriser writes, at the centres of all pixels.
-fn sample_points(stage: &Stage, canvas: Canvas, settings: &RenderSettings) -> Vec<PointSample> {
+fn sample_points(
+    stage: &Stage,
+    canvas: Canvas,
+    settings: &RenderSettings,
+    motion: &PointMotion,
+) -> Raster<PointSample> {
     let scene = stage.scene;
     let options = settings.options;
     let size = [canvas.width, canvas.height];
-    let view = scene.camera.view(0.0, size[0], size[1]);
+    let view = scene.camera.view(motion.seen_at, size[0], size[1]);
     let before = reprojection(scene, size);
-    (canvas.pixels().into_par_iter())
+    let points = (canvas.pixels().into_par_iter())
         .map_init(
             || stage.poses(),
             |poses, pixel| {
                 let centre = canvas.corner(pixel).map(|corner| corner + 0.5);
                 let ray = view.ray(centre[0], centre[1]);
-                let hit = stage.closest(poses.at(0.0), &ray);
+                let hit = stage.closest(poses.at(motion.seen_at), &ray);
                 let depth = hit.map_or(FAR_DEPTH, |hit| view.depth(ray.at(hit.t)) as f32);
                 let velocity = if hit.is_none() && !options.sky_velocity {
                     [0.0, 0.0]
@@ -117,7 +155,7 @@ fn sample_points(stage: &Stage, canvas: Canvas, settings: &RenderSettings) -> Ve
                     camera_velocity(&before, centre, depth)
                 } else {
                     let tracked = TrackedPoint::of(hit.as_ref(), ray.direction);
-                    tracked.velocity(scene, size, options.velocity)
+                    tracked.velocity(scene, size, options.velocity, motion)
                 };
                 PointSample {
                     velocity: velocity.map(|component| component as f32),
@@ -126,5 +164,10 @@ fn sample_points(stage: &Stage, canvas: Canvas, settings: &RenderSettings) -> Ve
                 }
             },
         )
-        .collect()
+        .collect();
+    Raster {
+        width: canvas.columns(),
+        height: canvas.rows(),
+        pixels: points,
+    }
 }

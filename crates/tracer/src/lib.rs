@@ -28,7 +28,7 @@ pub use error::TraceError;
 pub use film::sampler::MOST_SAMPLES;
 pub use geometry::hit::Hit;
 pub use geometry::ray::Ray;
-pub use instant::trace_frame;
+pub use instant::{PointLayers, trace_frame, trace_motion};
 pub use ladder::trace_ladder;
 pub use load::{
     MOST_COINCIDENT, SceneError, SceneListing, list_scene, list_scenes, load_scene,
@@ -38,6 +38,7 @@ pub use motion::camera::View;
 pub use motion::curve::Interpolation;
 pub use motion::keys::{Key, Motion, Turn};
 pub use motion::poses::Poses;
+pub use motion::velocity::{ObjectsBefore, PointMotion};
 pub use progress::{Progress, Watch};
 pub use scene::{
     Background, Camera, Display, EnvironmentMap, Family, Finish, FlipExposures, Material, Mesh,

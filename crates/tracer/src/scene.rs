@@ -260,7 +260,7 @@ pub struct Object {
 
 impl Scene {
     /// Names of the background and the objects, by id.
-    pub(crate) fn object_names(&self) -> Vec<String> {
+    pub fn object_names(&self) -> Vec<String> {
         let objects = self.objects.iter().map(|object| object.name.clone());
         std::iter::once("background".to_owned())
             .chain(objects)

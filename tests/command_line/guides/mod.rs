@@ -16,7 +16,7 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 24] = [
+const NOT_RUN: [(&str, &str); 25] = [
     ("cargo test --workspace", "runs this test and all others"),
     (
         "cargo install --path crates/cli",
@@ -69,6 +69,10 @@ const NOT_RUN: [(&str, &str); 24] = [
         "needs a capture, for which three.js is installed",
     ),
     (
+        "shuttertruth audit out/capture/railing",
+        "needs a capture, for which three.js is installed",
+    ),
+    (
         "shuttertruth ingest out/capture/railing",
         "needs a capture, for which three.js is installed",
     ),
@@ -101,13 +105,22 @@ const NOT_RUN: [(&str, &str); 24] = [
 ];
 
 /// Things that a command of a page needs: the page, the beginning of the command, and a line of shell that makes them.
-const PREPARED: [(&str, &str, &str); 9] = [
+const PREPARED: [(&str, &str, &str); 10] = [
     (
         "README.md",
         "shuttertruth import",
         "cp scenes/fan/fan.mtl . && cp scenes/fan/fan.obj my_model.obj",
     ),
     ("README.md", "shuttertruth compare", "cp -r out before"),
+    (
+        "docs/engine-frames.md",
+        "shuttertruth ingest",
+        // An engine that draws a still picture: a frame file has all channels that a capture needs.
+        "shuttertruth render --scenes fan --size 96x54 --samples-per-pixel 16 && mkdir -p captures/fan/subframes && \
+         cd captures/fan && echo '[convention]' > engine.toml && for name in color velocity depth blurred subframes/0000 \
+         subframes/0001 subframes/0002 subframes/0003; do cp ../../out/fan/frame.exr $name.exr; done && printf \
+         'engine = \"my engine 1.0\"\\nscene = \"fan\"\\nexposure = 0.5\\nalignment = \"trailing\"\\n' > capture.toml",
+    ),
     (
         "README.md",
         "shuttertruth score",

@@ -150,10 +150,8 @@ fn two_presets_are_compared_scene_by_scene() {
     let output = bench.shuttertruth(&[&words[..], &more].concat());
     assert_done(&output);
     // Lines break at the width of the terminal.
-    let text = stdout(&output)
-        .split_whitespace()
-        .collect::<Vec<_>>()
-        .join(" ");
+    let unwrap_lines = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let text = unwrap_lines(stdout(&output));
     assert!(
         text.contains("FLIP of corrected against paper: -"),
         "{text}"
@@ -164,9 +162,9 @@ fn two_presets_are_compared_scene_by_scene() {
     );
     let same = split("compare-presets paper paper --quiet --filter jump_flood");
     let output = bench.shuttertruth(&[&same[..], &more].concat());
-    let text = stdout(&output);
+    let text = unwrap_lines(stdout(&output));
     assert!(
-        text.contains("+0.0 % (+0.0 % to +0.0 %) over 7 scenes: undecided"),
+        text.contains("+0.0 %, 90 % CI +0.0 % to +0.0 %, over 7 scenes: undecided"),
         "{text}"
     );
     let old = split("tune --quiet --filter jump_flood --compare paper,tuned");

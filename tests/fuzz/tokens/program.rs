@@ -50,6 +50,7 @@ pub const WORDS: &[&str] = &[
     "--guard-band",
     "--jitter-frames",
     "--velocity-format",
+    "--velocity-defect",
     "--depth-format",
     "--border",
     "--as-written",

@@ -99,6 +99,7 @@ impl Bench {
             .collect();
         let plan = RunPlan {
             scenes,
+            engine_scenes: Vec::new(),
             filters,
             inputs: InputFormat::one_by_one(&[], &[], &[]),
             jitter_frames: 0,

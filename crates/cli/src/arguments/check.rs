@@ -8,7 +8,7 @@ use super::adapter::AdapterArgs;
 use super::measure::MeasureArgs;
 
 /// Arguments that only a check that measures may have.
-const MEASURING: [&str; 20] = [
+const MEASURING: [&str; 21] = [
     "scenes",
     "samples_per_pixel",
     "exposure",
@@ -25,6 +25,7 @@ const MEASURING: [&str; 20] = [
     "size",
     "replicates",
     "velocity_format",
+    "velocity_defect",
     "depth_format",
     "border",
     "jitter_frames",

@@ -39,7 +39,7 @@ pub const GROUPS: [Group; 6] = [
     },
     Group {
         heading: "Move scenes in and out",
-        commands: &["import", "export"],
+        commands: &["import", "export", "ingest", "audit"],
     },
     Group {
         heading: "Do one step alone",

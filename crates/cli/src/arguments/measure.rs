@@ -1,7 +1,7 @@
 //! Arguments of commands that measure scenes: `run`, `check` and `calibrate`.
 
 use clap::Args;
-use suite::{Border, DepthFormat, VelocityFormat};
+use suite::{Border, DepthFormat, VelocityDefect, VelocityFormat};
 
 use super::parse::{parse_jitter_frames, parse_named, parse_size, parse_whole};
 use super::programs::ProgramArgs;
@@ -48,6 +48,9 @@ pub struct MeasureArgs {
     /// Formats of the velocity buffer to try on every filter beside 32-bit floats, separated by commas.
     #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(VelocityFormat::ALL, VelocityFormat::name, VelocityFormat::help), value_delimiter = ',', value_name = "FORMATS")]
     pub velocity_format: Vec<VelocityFormat>,
+    /// Defects of the velocity buffer to try on every filter beside the right one, separated by commas. They show what each costs.
+    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(VelocityDefect::ALL, VelocityDefect::name, VelocityDefect::help), value_delimiter = ',', value_name = "DEFECTS")]
+    pub velocity_defect: Vec<VelocityDefect>,
     /// Formats of the depth buffer to try beside 32-bit floats, separated by commas.
     #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(DepthFormat::ALL, DepthFormat::name, DepthFormat::help), value_delimiter = ',', value_name = "FORMATS")]
     pub depth_format: Vec<DepthFormat>,

@@ -2,6 +2,7 @@
 
 mod accept;
 mod adapter;
+mod audit;
 mod bench;
 mod blur;
 mod calibrate;
@@ -17,6 +18,7 @@ mod groups;
 #[cfg(test)]
 mod guides;
 mod import;
+mod ingest;
 mod list;
 mod measure;
 mod merge;
@@ -36,6 +38,7 @@ mod tune;
 use clap::{Parser, Subcommand};
 
 pub use accept::AcceptArgs;
+pub use audit::AuditArgs;
 pub use bench::BenchArgs;
 pub use blur::BlurArgs;
 pub use calibrate::CalibrateArgs;
@@ -47,6 +50,7 @@ pub use evaluate::EvaluateArgs;
 pub use export::ExportArgs;
 pub use groups::command_line;
 pub use import::ImportArgs;
+pub use ingest::IngestArgs;
 pub use list::ListArgs;
 pub use measure::MeasureArgs;
 pub use merge::MergeArgs;
@@ -121,6 +125,10 @@ pub enum Command {
     Import(ImportArgs),
     /// Write scenes as glTF 2.0, so that an engine can draw them.
     Export(ExportArgs),
+    /// Make a frame, a truth and a picture of what an engine drew, so that `run` and `score` can measure them.
+    Ingest(IngestArgs),
+    /// Compare an engine's velocity and depth with those of the scene that it drew, and name what is wrong.
+    Audit(AuditArgs),
     /// List scenes, filters, parameters and presets.
     List(ListArgs),
 }

@@ -1,8 +1,8 @@
 //! The command `calibrate`.
 
 use suite::{
-    Error, Run, RunPlan, calibrate, check_names, estimate_run, measure_scenes, open_gpu,
-    printable_path, refuse_failures,
+    BOUNDS_FILE, Error, Run, RunPlan, calibrate, check_names, estimate_run, measure_scenes,
+    open_gpu, printable_path, refuse_failures,
 };
 use tracer::{Progress, Watch};
 
@@ -16,6 +16,13 @@ use crate::output::print::print;
 pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     let out = &args.measure.scenes.out;
     let (mut plan, bounds) = make_plan(&args.measure, out.clone())?;
+    if let Some(scene) = plan.engine_scenes.first() {
+        return Err(Error::Usage(format!(
+            "--scenes: {} was drawn by an engine, and does not change from run to run; write its bounds by hand into {}",
+            scene.name,
+            scene.folder.join(BOUNDS_FILE).display()
+        )));
+    }
     check_replicates_for_intervals(plan.render.replicates)?;
     plan.intervals = true;
     // No limit is on a filter's noise apart from its error.

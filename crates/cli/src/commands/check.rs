@@ -14,7 +14,9 @@ use super::ending::Ending;
 use super::margins::read_margins;
 use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, page_lines, refuse_folder, write_run_page};
-use super::plan::{check_replicates_for_intervals, make_plan, read_bounds_at, scene_folder_below};
+use super::plan::{
+    check_replicates_for_intervals, make_plan, read_case_bounds, scene_folder_below,
+};
 use super::run_files::write_judged_run;
 use crate::arguments::CheckArgs;
 use crate::output::annotations::{annotations, summary};
@@ -95,6 +97,7 @@ fn run_and_judge(args: &CheckArgs, compared: bool) -> Result<Judged, Error> {
         size_for_bounds(bounds.values(), &plan.filters, args.measure.size)?
     {
         (plan.render.width, plan.render.height) = (width, height);
+        plan.check()?;
     }
     plan.intervals = true;
     check_replicates_for_intervals(plan.render.replicates)?;
@@ -179,8 +182,16 @@ fn read_run_bounds(run: &Run, root: &Path) -> Result<RunBounds, Error> {
             continue;
         }
         let size = (run.render.width, run.render.height);
-        let folder = scene_folder_below(root, &case.scene);
-        let bounds = read_bounds_at(root, &folder, size)?.ok_or_else(|| {
+        let bounds = read_case_bounds(root, case, size)?.ok_or_else(|| {
+            if case.drawn.is_some() {
+                return Error::Usage(format!(
+                    "{}: an engine drew it, and its bounds lie beside what was ingested, which is not in {}; name the folder \
+                     above that with --scenes-dir, such as out/engine, or measure it now: shuttertruth check --scenes",
+                    case.scene,
+                    root.display()
+                ));
+            }
+            let folder = scene_folder_below(root, &case.scene);
             Error::Usage(format!(
                 "{}: there is no such scene, and its bounds cannot be read; name the folder of the run's scenes with --scenes-dir",
                 folder.display()

@@ -1,6 +1,7 @@
 //! One file per command, and the work that commands share.
 
 mod accept;
+mod audit;
 mod bench;
 mod blur;
 mod calibrate;
@@ -14,6 +15,7 @@ mod evaluate;
 mod expected;
 mod export;
 mod import;
+mod ingest;
 mod list;
 mod margins;
 mod measured_run;
@@ -83,6 +85,8 @@ pub fn execute(cli: Cli) -> Result<Ending, Error> {
         }
         Some(Command::Import(args)) => import::execute(&args),
         Some(Command::Export(args)) => export::execute(&args),
+        Some(Command::Audit(args)) => return audit::execute(&args),
+        Some(Command::Ingest(args)) => ingest::execute(&args),
         Some(Command::List(args)) => list::execute(&args),
         None => Err(Error::Usage(
             "no command given; shuttertruth --help lists all commands".to_owned(),

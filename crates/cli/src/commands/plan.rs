@@ -2,31 +2,54 @@
 
 use std::path::{Path, PathBuf};
 
+use frame::FrameOptions;
 use suite::{
-    Claim, Error, FEWEST_REPLICATES, FilterChoice, InputFormat, RunBounds, RunPlan, SceneBounds,
-    Sharing, claim, read_bounds,
+    BOUNDS_FILE, Case, Claim, EngineScene, Error, FEWEST_REPLICATES, FilterChoice, InputFormat,
+    RunBounds, RunPlan, SceneBounds, Sharing, claim, engine_name, read_bounds, read_bounds_file,
 };
 use tracer::{RenderSettings, Scene};
 
 use super::render_settings::make_render_settings;
-use crate::arguments::MeasureArgs;
-use crate::output::print::print_scene_notes;
+use crate::arguments::{MeasureArgs, SceneArgs};
+use crate::output::count::count_text;
+use crate::output::print::{print_note, print_scene_notes};
 use crate::output::progress::make_monitor;
-use crate::selection::{select_filters, select_scenes};
+use crate::selection::{select_engine_scenes, select_filters, select_scenes};
 
 /// Loads scenes with their bounds, and filters; renders nothing. Scores are to have no intervals.
 pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds), Error> {
-    let scenes = load_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
-    let bounds = (scenes.iter())
+    let SceneArgs {
+        scenes_dir, scenes, ..
+    } = &args.scenes;
+    let (engine_scenes, names) = select_engine_scenes(scenes_dir, scenes)?;
+    let scenes = match engine_scenes.is_empty() || !names.is_empty() {
+        true => load_scenes(scenes_dir, &names)?,
+        false => Vec::new(),
+    };
+    let mut bounds: RunBounds = (scenes.iter())
         .map(|(scene, bounds)| (scene.name.clone(), bounds.clone()))
         .collect();
+    for scene in &engine_scenes {
+        bounds.insert(scene.name.clone(), read_engine_bounds(&scene.folder)?);
+    }
     let filters = load_filters(args)?;
+    let filters = leave_out_filters(filters, &engine_scenes, scenes.is_empty())?;
     let default = RenderSettings::default();
-    let size = args.size.unwrap_or((default.width, default.height));
+    let drawn = (engine_scenes.first()).map(|scene| (scene.size[0], scene.size[1]));
+    let size = (args.size.or(drawn)).unwrap_or((default.width, default.height));
+    if let Some(scene) = engine_scenes.first() {
+        refuse_render_options(&args.scenes, scene)?;
+    }
     let plan = RunPlan {
         scenes: scenes.into_iter().map(|(scene, _)| scene).collect(),
+        engine_scenes,
         filters,
-        inputs: InputFormat::one_by_one(&args.velocity_format, &args.depth_format, &args.border),
+        inputs: InputFormat::one_by_one(
+            &args.velocity_format,
+            &args.depth_format,
+            &args.border,
+            &args.velocity_defect,
+        ),
         jitter_frames: args.jitter_frames,
         render: make_render_settings(&args.scenes, size, args.replicates)?,
         out,
@@ -37,6 +60,101 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
     };
     plan.check()?;
     Ok((plan, bounds))
+}
+
+/// Leaves out filters that no scene of an engine can be measured with, and says so. Where scenes are rendered too, those filters run
+/// on them.
+fn leave_out_filters(
+    filters: Vec<FilterChoice>,
+    engine_scenes: &[EngineScene],
+    alone: bool,
+) -> Result<Vec<FilterChoice>, Error> {
+    let mut taken = vec![false; filters.len()];
+    for scene in engine_scenes {
+        let alignment = scene.alignment();
+        let mut left_out = [0, 0];
+        for (choice, taken) in filters.iter().zip(&mut taken) {
+            match (
+                choice.filter.alignment == alignment,
+                choice.filter.reads_reprojection(),
+            ) {
+                (false, _) => left_out[0] += 1,
+                (true, true) => left_out[1] += 1,
+                (true, false) => *taken = true,
+            }
+        }
+        let reasons = [
+            format!("of another shutter than the {alignment} one that the engine drew"),
+            "that need the camera's motion, which no capture has".to_owned(),
+        ];
+        for (count, reason) in left_out.into_iter().zip(reasons) {
+            if count > 0 {
+                let presets = count_text(count, "preset", "presets");
+                print_note(&format!("{}: leaves out {presets} {reason}", scene.name));
+            }
+        }
+    }
+    if !alone || engine_scenes.is_empty() {
+        return Ok(filters);
+    }
+    let filters: Vec<FilterChoice> = (filters.into_iter().zip(taken))
+        .filter_map(|(choice, taken)| taken.then_some(choice))
+        .collect();
+    match filters.is_empty() {
+        false => Ok(filters),
+        true => Err(Error::Usage(format!(
+            "--filter: no filter is left that {} can be measured with; allowed: filters with a {} shutter that need no \
+             camera motion",
+            engine_scenes[0].name, engine_scenes[0].alignment
+        ))),
+    }
+}
+
+/// Refuses options about the frame and the shutter: an engine has drawn both.
+fn refuse_render_options(args: &SceneArgs, scene: &EngineScene) -> Result<(), Error> {
+    let default = FrameOptions::default();
+    let given = [
+        ("--exposure", args.exposure.is_some()),
+        ("--velocity", args.velocity != default.velocity),
+        ("--frame-sampling", args.frame_sampling != default.color),
+        (
+            "--sky-velocity",
+            args.frame_options().sky_velocity != default.sky_velocity,
+        ),
+        ("--guard-band", args.guard_band != 0),
+    ];
+    match given.iter().find(|(_, given)| *given) {
+        None => Ok(()),
+        Some((option, _)) => Err(Error::Usage(format!(
+            "{option}: {} is as {} drew it, and is not rendered; leave the option out, or leave out the scene",
+            scene.name,
+            engine_name(&scene.engine)
+        ))),
+    }
+}
+
+/// Reads the bounds beside an engine's scene; those beside our scenes were measured on frames of ours.
+pub fn read_engine_bounds(folder: &Path) -> Result<SceneBounds, Error> {
+    let path = folder.join(BOUNDS_FILE);
+    let files = (path.is_file().then(|| read_bounds_file(&path))).transpose()?;
+    Ok(SceneBounds {
+        files: files.into_iter().collect(),
+    })
+}
+
+/// Reads the bounds of a case's scene, below the folder `root`, for pictures of one size; none where there is no such scene. What an
+/// engine drew has none of the bounds of ours.
+pub fn read_case_bounds(
+    root: &Path,
+    case: &Case,
+    size: (u32, u32),
+) -> Result<Option<SceneBounds>, Error> {
+    let folder = scene_folder_below(root, &case.scene);
+    match (case.drawn.is_some(), EngineScene::is_in(&folder)) {
+        (true, true) => Ok(Some(read_engine_bounds(&folder)?.at(size))),
+        (true, false) => Ok(None),
+        (false, _) => read_bounds_at(root, &folder, size),
+    }
 }
 
 /// Claims the folder of a run for this process alone.
@@ -62,7 +180,7 @@ pub fn scene_folder_below(root: &Path, scene: &str) -> PathBuf {
 }
 
 /// Reads the bounds of a scene for pictures of one size; none where there is no such folder.
-pub fn read_bounds_at(
+fn read_bounds_at(
     root: &Path,
     folder: &Path,
     size: (u32, u32),

@@ -7,7 +7,7 @@ use suite::{Error, Level, Run, judge, open_gpu, printable_path, refuse_failures}
 
 use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, page_lines, refuse_folder, write_run_page};
-use super::plan::{make_plan, read_bounds_at, scene_folder_below};
+use super::plan::{make_plan, read_case_bounds};
 use super::run_files::write_judged_run;
 use crate::arguments::RunArgs;
 use crate::output::print::print;
@@ -35,9 +35,8 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
     // Cases of an earlier run keep their targets.
     let root = &args.measure.scenes.scenes_dir;
     for case in &whole.cases {
-        let folder = scene_folder_below(root, &case.scene);
         if !bounds.contains_key(&case.scene)
-            && let Some(earlier) = read_bounds_at(root, &folder, size)?
+            && let Some(earlier) = read_case_bounds(root, case, size)?
         {
             bounds.insert(case.scene.clone(), earlier);
         }

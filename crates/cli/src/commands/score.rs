@@ -2,7 +2,7 @@
 
 use frame::{Frame, Ladder, Truth};
 use metrics::Metric;
-use suite::{Error, Scored, missing_scores, printable, read_finished_picture, score};
+use suite::{Error, Scored, engine_name, missing_scores, printable, read_finished_picture, score};
 
 use super::convention::read_convention;
 use crate::arguments::ScoreArgs;
@@ -52,8 +52,15 @@ fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Score
     let name = name.to_string_lossy();
     let name = printable(&name);
     let mut text = score_table(&truth.provenance.scene, &name, scores);
+    let drawn = (truth.provenance.engine.as_deref()).map_or(String::new(), |engine| {
+        let subframes = truth.provenance.samples_per_pixel;
+        format!(
+            "mean of {subframes} sub-frames that {} drew, ",
+            printable(engine_name(engine))
+        )
+    });
     text += &format!(
-        "\ntruth: {} shutter, open for {} frames\n",
+        "\ntruth: {drawn}{} shutter, open for {} frames\n",
         truth.alignment,
         truth.shutter.exposure()
     );

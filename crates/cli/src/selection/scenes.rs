@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use suite::Error;
+use suite::{EngineScene, Error};
 use tracer::{Scene, list_scene, list_scenes, load_scene};
 
 use super::names::{is_pattern, match_names, refuse_empty_names, suggest_names};
@@ -55,6 +55,27 @@ pub fn select_scenes(root: &Path, names: &[String]) -> Result<Vec<SceneChoice>, 
     }
     refuse_duplicates(&scenes)?;
     Ok(scenes)
+}
+
+/// Reads the scenes that engines drew among the named ones; returns the names of the others as well. A scene of `root` goes before a
+/// folder of the same name elsewhere.
+pub fn select_engine_scenes(
+    root: &Path,
+    names: &[String],
+) -> Result<(Vec<EngineScene>, Vec<String>), Error> {
+    let is_ingested = |name: &&String| {
+        (is_path(name) || !root.join(name).is_dir()) && EngineScene::is_in(Path::new(name))
+    };
+    let (ingested, others): (Vec<&String>, Vec<&String>) = names.iter().partition(is_ingested);
+    let scenes: Vec<EngineScene> = (ingested.into_iter())
+        .map(|name| EngineScene::read(Path::new(name)))
+        .collect::<Result<_, _>>()?;
+    for (index, scene) in scenes.iter().enumerate() {
+        if let Some(other) = scenes[..index].iter().find(|it| it.name == scene.name) {
+            return refuse_twins(&scene.name, [&other.folder, &scene.folder]);
+        }
+    }
+    Ok((scenes, others.into_iter().cloned().collect()))
 }
 
 /// Finds the folders of a name, a pattern or a path. A scene of `root` goes before a folder of the same name elsewhere.
@@ -112,15 +133,19 @@ fn refuse_duplicates(scenes: &[SceneChoice]) -> Result<(), Error> {
         let name = &scene.scene.name;
         let mut before = scenes[..index].iter();
         if let Some(other) = before.find(|other| other.scene.name == *name) {
-            return Err(Error::Usage(format!(
-                "--scenes: {name} is named twice, as {} and {}; allowed: each name once; rename one of the folders, or \
-                 run them into two --out folders",
-                other.folder.display(),
-                scene.folder.display()
-            )));
+            return refuse_twins(name, [&other.folder, &scene.folder]);
         }
     }
     Ok(())
+}
+
+fn refuse_twins<T>(name: &str, [one, other]: [&PathBuf; 2]) -> Result<T, Error> {
+    Err(Error::Usage(format!(
+        "--scenes: {name} is named twice, as {} and {}; allowed: each name once; rename one of the folders, or \
+         run them into two --out folders",
+        one.display(),
+        other.display()
+    )))
 }
 
 fn load_choice(folder: &Path, variant: Option<&str>) -> Result<SceneChoice, Error> {
@@ -128,6 +153,12 @@ fn load_choice(folder: &Path, variant: Option<&str>) -> Result<SceneChoice, Erro
     if own.contains('@') {
         return Err(Error::Usage(format!(
             "--scenes: the folder {} cannot name a scene; allowed: names without @, which stands before a variant; rename it",
+            folder.display()
+        )));
+    }
+    if EngineScene::is_in(folder) {
+        return Err(Error::Usage(format!(
+            "--scenes: {} holds what an engine drew, and nothing to render; `run` and `check` measure it",
             folder.display()
         )));
     }

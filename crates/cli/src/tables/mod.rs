@@ -1,12 +1,14 @@
 //! Tables of results, in 80 columns.
 
 pub mod adapter;
+pub mod audit;
 pub mod bench;
 pub mod cases;
 pub mod check;
 pub mod columns;
 pub mod comparison;
 pub mod failures;
+pub mod input_forms;
 pub mod layout;
 pub mod listing;
 pub mod ranking;

@@ -3,6 +3,7 @@
 use suite::{Case, Headline, MOST_RANKED, RankedFilter, rank_for_summary};
 
 use super::columns::{legend_text, list_once};
+use super::input_forms::input_forms_text;
 use super::layout::{Align, Table};
 use crate::output::colors::faint;
 
@@ -27,6 +28,7 @@ pub fn ranking_text(cases: &[Case]) -> String {
     if hidden > 0 {
         text += &legend_text(&format!("And {hidden} more: --table shows all."));
     }
+    text += &input_forms_text(cases);
     text
 }
 

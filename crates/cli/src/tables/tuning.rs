@@ -100,11 +100,8 @@ pub fn advice_text(tuning: &Tuning) -> String {
             count_text(own.scenes, "scene", "scenes")
         ),
         Advice::CannotTell(own) => format!(
-            "the {} scenes cannot tell trial {trial} from it ({}, one-sided 95 % bounds {} and {})",
-            own.scenes,
-            percent(own.mean),
-            percent(own.interval[0]),
-            percent(own.interval[1])
+            "the scenes cannot tell trial {trial} from it ({})",
+            own.text(percent)
         ),
         Advice::StartIsBetter(flip) => format!(
             "on the {} held-out scenes trial {trial} is worse ({})",
@@ -166,31 +163,20 @@ pub fn paired_table(paired: &PairedComparison, names: [&str; 2]) -> String {
         ]);
     }
     let mut text = table.text();
-    let Difference {
-        mean,
-        interval,
-        scenes,
-        ..
-    } = &paired.flip;
     let flip = format!(
-        "FLIP of {} against {}: {} ({} to {}) over {scenes} scenes: {}",
+        "FLIP of {} against {}: {}: {}",
         names[1],
         names[0],
-        percent(*mean),
-        percent(interval[0]),
-        percent(interval[1]),
+        paired.flip.text(percent),
         verdict_text(&paired.flip, names)
     );
     push_wrapped(&mut text, 0, &flip);
     if let Some(bleed) = &paired.bleed {
         let bleed = format!(
-            "lateral bleed of {} against {}: {:+.3} px ({:+.3} to {:+.3}) over {} scenes: {}",
+            "lateral bleed of {} against {}: {}: {}",
             names[1],
             names[0],
-            bleed.mean,
-            bleed.interval[0],
-            bleed.interval[1],
-            bleed.scenes,
+            bleed.text(|bleed| format!("{bleed:+.3} px")),
             match bleed.verdict {
                 Preference::Undecided if bleed.is_no_worse(LEAST_BLEED) => {
                     "undecided, and no worse".to_owned()

@@ -70,7 +70,7 @@ impl Filter {
     }
 
     /// Returns true if a kernel reads how the camera moved.
-    pub(crate) fn reads_reprojection(&self) -> bool {
+    pub fn reads_reprojection(&self) -> bool {
         self.shaders.iter().any(|shader| shader.reads_reprojection)
     }
 

@@ -31,6 +31,13 @@ pub fn score_image(found: &Found) -> ImageScores {
     }
 }
 
+impl ImageScores {
+    /// Makes scores that do not apply, because of `reason`.
+    pub fn not_applicable(reason: &'static str) -> Self {
+        score_image(&Err(reason))
+    }
+}
+
 /// Scores PSNR; an error below its noise counts as the noise.
 fn score_psnr(found: &Found) -> Measured {
     match found {

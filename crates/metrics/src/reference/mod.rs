@@ -34,6 +34,10 @@ use frozen::FrozenReference;
 pub use jitter::Jitter;
 pub use measurement::Measurement;
 
+const NO_INSTANT: &str =
+    "an engine's sub-frames do not tell where what they show was at the instant";
+const NO_OBJECTS: &str = "an engine's sub-frames do not tell which objects they show";
+
 /// A truth, with everything that does not depend on the picture to be measured.
 pub struct Reference<'a> {
     /// Pixels that scores are pooled over.
@@ -164,7 +168,7 @@ impl<'a> Reference<'a> {
         let pooled = Region::ALL.map(|region| self.find(region, pooled[place_of(region)]));
         (self.ended)("pooling");
         let [moving, support, still, full, knowable, unknowable] = &pooled;
-        Ok(Measurement {
+        let mut measurement = Measurement {
             scores: Scores {
                 moving: score_image(moving),
                 support: score_image(support),
@@ -196,7 +200,20 @@ impl<'a> Reference<'a> {
                 },
             ),
             probes: None,
-        })
+        };
+        self.take_out_unknown(&mut measurement.scores);
+        Ok(measurement)
+    }
+
+    /// Takes out the scores that the truth of an engine cannot tell.
+    fn take_out_unknown(&self, scores: &mut Scores) {
+        if self.truth.provenance.engine.is_none() {
+            return;
+        }
+        scores.take_out_instant(NO_INSTANT);
+        if self.objects.is_empty() {
+            scores.take_out_mattes(NO_OBJECTS);
+        }
     }
 
     /// Measures the errors of colour over what moves, and nothing else of [`Reference::measure`].
@@ -210,7 +227,12 @@ impl<'a> Reference<'a> {
 
     /// Scores what a filter made of [`Probes::images`]; its weights must be those of the measured picture.
     pub fn measure_probes(&self, probes: &Probes) -> ProbeMeasurement {
-        self.origins.measure(probes, &self.regions)
+        let mut measured = self.origins.measure(probes, &self.regions);
+        if self.truth.provenance.engine.is_some() {
+            measured.scores.gather_offset = Measured::not_applicable(NO_INSTANT);
+            measured.scores.gather_spread = Measured::not_applicable(NO_INSTANT);
+        }
+        measured
     }
 
     pub(crate) fn viewing(&self) -> &Viewing {

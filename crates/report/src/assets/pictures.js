@@ -28,10 +28,14 @@
 
   const siblings = () => cases.get(open.querySelector(".viewer_place").dataset.scene);
 
+  // Title and hint of a truth that an engine drew.
+  const truthWords = () => JSON.parse(open.querySelector(".viewer_place").dataset.truth ?? "{}");
+
   // A picture by its word: `truth`, `flip`, or a filter, `bevy:high`. None if the case has none of that name.
   const find = (word) => {
     const layer = layers[word];
     const of = (section) => ({ title: section.dataset.filter, score: section.dataset.score });
+    if (word === "truth") return own[word] && { ...layer, ...truthWords(), word, planes: own[word] };
     if (layer) return own[word] && { ...layer, word, planes: own[word], ...(word === "output" ? of(open) : {}) };
     const other = siblings().find((section) => section.dataset.name === word);
     return other && { ...layers.output, word, planes: planesOf(other).output, ...of(other) };
@@ -39,7 +43,7 @@
 
   // Groups of a menu: titles, each with the words of its pictures.
   const groups = () => {
-    const light = ["truth", "instant", "output"];
+    const light = ["truth", "traced_truth", "instant", "output"].filter((word) => own[word]);
     const others = siblings().filter((section) => section !== open);
     const names = (isReference) =>
       others.filter((section) => "reference" in section.dataset === isReference).map((section) => section.dataset.name);

@@ -13,13 +13,14 @@ use maud::{Markup, html};
 
 use crate::filter_id::{FilterId, case_anchor, list_scenes};
 use crate::numbers::{counted, value_text};
-use crate::run_facts::provenance_line;
+use crate::pixels::scene_files::find_traced;
+use crate::run_facts::{provenance_line, truth_text};
 use bounds::bounds;
 use case_view::CaseView;
 use profile::Profile;
 use profile_chart::profile_chart;
 use scores::score_rows;
-use suite::{Case, Headline, Level, Outcome, Run};
+use suite::{Case, Drawn, Headline, Level, Outcome, Run};
 
 /// Writes a case; it is seen while it is open, and the script brings the viewer. Where scripts run, its tables are text until then:
 /// a browser takes seconds for those of all cases.
@@ -43,7 +44,7 @@ pub fn case_section(view: &CaseView) -> Markup {
                 }
                 (score_line(view))
             }
-            div.viewer_place data-scene=(view.scene) data-layers=(layers(view)) data-stops=(view.stops)
+            div.viewer_place data-truth=[case.drawn.as_ref().map(truth_words)] data-scene=(view.scene) data-layers=(layers(view)) data-stops=(view.stops)
                 data-names=(serde_json::json!(view.names)) data-line=(line(&view.profile)) data-worst=(format!("{x},{y}")) {}
             noscript {
                 p { (case.exposes) }
@@ -55,7 +56,7 @@ pub fn case_section(view: &CaseView) -> Markup {
                         }
                         (bounds(view))
                     }
-                    (facts(case))
+                    (facts(view))
                 }
                 (score_rows(view))
                 p.note { (provenance_line(view.run)) }
@@ -179,14 +180,53 @@ fn neighbours(view: &CaseView) -> Markup {
     }
 }
 
-fn facts(case: &Case) -> Markup {
+/// Title and hint of a truth that an engine drew, as the script takes them.
+fn truth_words(drawn: &Drawn) -> String {
+    let hint = format!("{}: scores are against it", drawn.truth_text());
+    serde_json::json!({ "title": "Engine's truth", "hint": hint }).to_string()
+}
+
+/// Says whose truth a case is scored against, and where ours is, if an engine drew the scene.
+fn truth_facts(view: &CaseView) -> Markup {
+    let traced = find_traced(view.run, view.case);
+    html! {
+        div {
+            dt { "truth" }
+            dd {
+                (truth_text(view.case)) ", "
+                code { (view.case.truth_hash) }
+            }
+        }
+        @if let Some(drawn) = &view.case.drawn {
+            div {
+                dt { "steps of the truth" }
+                dd { "99 % of what moves goes at most " (format!("{:.2}", drawn.step)) " px between two sub-frames" }
+            }
+            div {
+                dt { "our truth" }
+                dd {
+                    @match (&drawn.scene, traced) {
+                        (Some(_), Some(traced)) => {
+                            a href=(format!("#{}", case_anchor(traced))) { (traced.scene) } ", path traced; no score of this case is against it"
+                        },
+                        (Some(scene), None) => { "not in this run: measure " (scene) " beside it" },
+                        (None, _) => "none: the engine drew no scene of ours",
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn facts(view: &CaseView) -> Markup {
+    let case = view.case;
     html! {
         section.facts {
             h3 { "Case" }
             dl {
-                div { dt { "family" } dd { (case.family.name()) } }
+                @if let Some(family) = case.family { div { dt { "family" } dd { (family.name()) } } }
                 div { dt { "exposure" } dd { (case.exposure) " frames, " (case.alignment) } }
-                div { dt { "truth" } dd { code { (case.truth_hash) } } }
+                (truth_facts(view))
                 @if let Some(change) = case.input.change() { div { dt { "input" } dd { (change) } } }
                 @if let Some(command) = &case.command {
                     div { dt { "command" } dd { code { (command.join(" ")) } } }

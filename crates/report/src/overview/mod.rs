@@ -12,6 +12,7 @@ use crate::case::bounds::broken_bounds;
 use crate::case::case_view::CaseView;
 use crate::filter_id::{FilterId, case_anchor, list_filters, list_scenes};
 use crate::numbers::counted;
+use crate::pixels::scene_files::find_traced;
 use crate::run_facts::provenance;
 use costs::costs;
 use headlines::{TABLE_SCORES, TableScore};
@@ -30,6 +31,7 @@ pub fn overview(
             (outcome(views))
             (winners(run))
             (counts(run, views))
+            (engines(run))
             (broken_bounds(views))
             div.toolbar #tables {
                 fieldset.choice {
@@ -107,6 +109,23 @@ fn counts(run: &Run, views: &[CaseView]) -> Markup {
             (counted(list_scenes(run).len(), "scene")) ", " (counted(filters, "filter preset")) ". "
             "Click a score to see the pictures."
             @if targets > 0 { " " (missed.count()) " of " (counted(targets, "target")) " missed; targets fail nothing." }
+        }
+    }
+}
+
+/// Says which scenes an engine drew, and whose truth is whose.
+fn engines(run: &Run) -> Markup {
+    let first = |scene: &&str| run.cases.iter().find(|case| case.scene == **scene);
+    let scenes = list_scenes(run);
+    let cases = scenes.iter().filter_map(first);
+    html! {
+        @for (case, drawn) in cases.filter_map(|case| Some((case, case.drawn.as_ref()?))) {
+            p.note {
+                strong { (case.scene) } ": frame and truth are not ours. The truth is the " (drawn.truth_text()) "."
+                @if let Some(traced) = find_traced(run, case) {
+                    " Ours is that of " strong { (traced.scene) } ", path traced; the pictures of both stand side by side."
+                }
+            }
         }
     }
 }

@@ -5,6 +5,8 @@
 pub enum Layer {
     /// Picture through the open shutter.
     Truth,
+    /// The tracer's picture of a scene that an engine drew, through the same shutter.
+    TracedTruth,
     /// Output of the filter.
     Output,
     /// Frame that the filter got.
@@ -46,8 +48,9 @@ pub enum Painter {
 
 impl Layer {
     /// Every picture, in the order of a page.
-    pub const ALL: [Layer; 11] = [
+    pub const ALL: [Layer; 12] = [
         Layer::Truth,
+        Layer::TracedTruth,
         Layer::Output,
         Layer::Instant,
         Layer::Flip,
@@ -64,6 +67,7 @@ impl Layer {
     pub fn name(self) -> &'static str {
         match self {
             Layer::Truth => "truth",
+            Layer::TracedTruth => "traced_truth",
             Layer::Output => "output",
             Layer::Instant => "instant",
             Layer::Flip => "flip",
@@ -81,6 +85,7 @@ impl Layer {
     pub fn title(self) -> &'static str {
         match self {
             Layer::Truth => "Truth",
+            Layer::TracedTruth => "Path-traced truth",
             Layer::Output => "Output",
             Layer::Instant => "Instant",
             Layer::Flip => "FLIP",
@@ -98,6 +103,9 @@ impl Layer {
     pub fn hint(self) -> &'static str {
         match self {
             Layer::Truth => "what the open shutter saw, path traced",
+            Layer::TracedTruth => {
+                "what our tracer saw of the same scene, through the same shutter; no score here is against it"
+            }
             Layer::Output => "what the filter made of the instant",
             Layer::Instant => "the frame that the filter got: sharp, at one instant",
             Layer::Flip => "visible difference from the truth",
@@ -120,7 +128,7 @@ impl Layer {
     /// Chooses how it is drawn.
     pub fn painter(self) -> Painter {
         match self {
-            Layer::Truth | Layer::Output | Layer::Instant => Painter::Radiance,
+            Layer::Truth | Layer::TracedTruth | Layer::Output | Layer::Instant => Painter::Radiance,
             Layer::SignedError => Painter::Signed,
             Layer::Flip | Layer::LabelTotalVariation | Layer::Knowability => Painter::Share,
             Layer::Bleed => Painter::Sides,

@@ -25,6 +25,8 @@ pub struct SceneFiles {
     /// Accumulation that stands in every profile, with its title, by the name of the alignment.
     pub accumulations: BTreeMap<String, (String, Image)>,
     folder: PathBuf,
+    /// Folder of the same scene as it was rendered, where an engine drew this one.
+    traced: Option<PathBuf>,
     /// Those that every case of the scene shows.
     shared: Vec<(Layer, Vec<usize>)>,
     /// Plane of the object that each pixel's centre sees.
@@ -86,6 +88,7 @@ impl SceneFiles {
             objects: planes.add(&ids),
             truths: BTreeMap::new(),
             accumulations,
+            traced: find_traced(run, cases[0]).map(|case| folder.join(&case.scene)),
             folder: own,
             frame,
             planes,
@@ -125,7 +128,14 @@ impl SceneFiles {
         let at_instant = truth.at_instant_mean();
         let placed = &at_instant.placed;
         let objects = 1..truth.objects.len();
-        let unknowable = &at_instant.unknowable;
+        let mut layers = vec![(Layer::Truth, self.planes.add_image(&mean.color))];
+        match &truth.provenance.engine {
+            None => {
+                let unknowable = self.planes.add(&at_instant.unknowable);
+                layers.push((Layer::Knowability, vec![unknowable]));
+            }
+            Some(_) => layers.extend(self.read_traced_truth(alignment)?),
+        }
         Ok(TruthFile {
             offset: at_instant.offset.zip(placed, |offset, placed| {
                 offset.map(|sum| if *placed > 0.0 { sum / placed } else { 0.0 })
@@ -134,12 +144,25 @@ impl SceneFiles {
             sides: objects
                 .filter_map(|id| Some((id, object_sides(&self.frame, &truth.support, id as u32)?)))
                 .collect(),
-            layers: vec![
-                (Layer::Truth, self.planes.add_image(&mean.color)),
-                (Layer::Knowability, vec![self.planes.add(unknowable)]),
-            ],
+            layers,
             mean,
         })
+    }
+
+    /// Reads the truth that the tracer made of a scene that an engine drew; none where the run has none.
+    fn read_traced_truth(
+        &mut self,
+        alignment: Alignment,
+    ) -> Result<Option<(Layer, Vec<usize>)>, Error> {
+        let traced = self.traced.as_ref();
+        let path = traced.map(|folder| folder.join(format!("truth_{alignment}.exr")));
+        let Some(path) = path.filter(|path| path.is_file()) else {
+            return Ok(None);
+        };
+        let truth = Truth::read(&path)?;
+        check_size(&path, truth.size(), self.frame.size())?;
+        let planes = self.planes.add_image(&truth.mean().color);
+        Ok(Some((Layer::TracedTruth, planes)))
     }
 
     /// Reads the files that a run left of a case below `folder`, that of its run.json.
@@ -170,11 +193,13 @@ impl SceneFiles {
         layers.push((Layer::SignedError, [colors.clone(), truths].concat()));
         layers.push((Layer::Output, colors));
         let bleeds = bleeds.map(|plane| self.planes.add(&plane));
-        layers.push((Layer::Bleed, bleeds.to_vec()));
-        for (layer, name) in [
-            (Layer::Flip, "flip"),
-            (Layer::LabelTotalVariation, "label_tv"),
-        ] {
+        let mut maps = vec![(Layer::Flip, "flip")];
+        // Where nobody knows what object a pixel shows, nothing is wrong about it.
+        if self.frame.objects.len() > 1 || case.drawn.is_none() {
+            layers.push((Layer::Bleed, bleeds.to_vec()));
+            maps.push((Layer::LabelTotalVariation, "label_tv"));
+        }
+        for (layer, name) in maps {
             let plane = self.planes.add(&errors.map(name)?);
             layers.push((layer, vec![plane]));
         }
@@ -196,6 +221,13 @@ impl SceneFiles {
             objects: self.objects,
         })
     }
+}
+
+/// Finds a case of the scene that an engine drew, rendered by the same run with the same exposure.
+pub fn find_traced<'a>(run: &'a Run, case: &Case) -> Option<&'a Case> {
+    let scene = case.drawn.as_ref()?.scene.as_ref()?;
+    let mut cases = run.cases.iter();
+    cases.find(|own| own.drawn.is_none() && own.scene == *scene && own.exposure == case.exposure)
 }
 
 /// Refuses a file of other pictures than the run's.

@@ -18,7 +18,7 @@ pub fn summary(tuning: &Tuning) -> Markup {
                 Advice::NoneIsBetter => "Keep the start: no trial beats it by more than the scenes can tell.",
                 Advice::CannotTell(own) => {
                     "Keep the start: the scenes cannot tell trial " (choice.trial) " from it ("
-                    (percent(own.mean)) ", one-sided 95 % bounds " (percent(own.interval[0])) " and " (percent(own.interval[1])) ")."
+                    (own.text(percent)) ")."
                 }
                 Advice::StartIsBetter(_) => {
                     "Keep the start: it is better than trial " (choice.trial) " on the held-out scenes."
@@ -32,8 +32,7 @@ pub fn summary(tuning: &Tuning) -> Markup {
             }
             @if let Some(result) = tuning.held_out.last() {
                 @let flip = &result.paired.flip;
-                " On " (flip.scenes) " held-out scenes: " (percent(flip.mean))
-                ", one-sided 95 % bounds " (percent(flip.interval[0])) " and " (percent(flip.interval[1]))
+                " Held out: " (flip.text(percent))
                 @match flip.verdict {
                     Preference::First => ": the start is better.",
                     Preference::Second => ": the choice is better.",

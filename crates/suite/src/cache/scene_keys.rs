@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use frame::Alignment;
-use tracer::{RenderSettings, Scene};
+use tracer::RenderSettings;
 
 use super::record::hash_inputs;
+use crate::measure::run_scene::RunScene;
 use crate::render::ladders::ladder_hash;
 use crate::render::settings::frame_settings;
 
@@ -24,24 +25,28 @@ impl SceneKeys {
     /// Computes the hashes from the scene and the settings; reads no file.
     pub fn new(
         program: &str,
-        scene: &Scene,
+        scene: RunScene,
         settings: &RenderSettings,
         alignments: impl IntoIterator<Item = Alignment>,
     ) -> Self {
-        let Scene {
-            name,
-            exposes,
-            family,
-            display,
-            ..
-        } = scene;
+        let (own, frame) = match scene {
+            RunScene::Traced(scene) => (
+                hash_inputs(&(&scene.exposes, scene.family, &scene.display)),
+                tracer::frame_hash(scene, &frame_settings(settings)),
+            ),
+            RunScene::Drawn(scene) => (hash_inputs(scene), scene.hash.clone()),
+        };
+        let ladder = |alignment| match scene {
+            RunScene::Traced(scene) => ladder_hash(scene, settings, alignment),
+            RunScene::Drawn(scene) => scene.hash.clone(),
+        };
         Self {
-            scene: hash_inputs(&(program, name, exposes, family, display)),
-            frame: tracer::frame_hash(scene, &frame_settings(settings)),
+            scene: hash_inputs(&(program, scene.name(), own)),
+            frame,
             truths: (alignments.into_iter())
                 .map(|alignment| {
-                    let truth = tracer::truth_hash(scene, settings, alignment);
-                    (alignment, [truth, ladder_hash(scene, settings, alignment)])
+                    let truth = scene.truth_hash(settings, alignment);
+                    (alignment, [truth, ladder(alignment)])
                 })
                 .collect(),
         }

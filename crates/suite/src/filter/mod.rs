@@ -6,4 +6,5 @@ pub mod depth_format;
 pub mod input_format;
 pub mod runner;
 pub mod unorm;
+pub mod velocity_defect;
 pub mod velocity_format;

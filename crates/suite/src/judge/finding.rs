@@ -47,6 +47,9 @@ pub struct Finding {
     pub reason: Option<String>,
     /// Samples per pixel that would settle an inconclusive score.
     pub settled_by: Option<u64>,
+    /// Sub-frames of an engine's truth; none where the truth was rendered.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub subframes: Option<u32>,
     /// Place of the largest error; none without evidence.
     pub worst: Option<Worst>,
     /// Wrong blur that the picture resembles most; none if it resembles none, or without evidence.
@@ -109,6 +112,7 @@ impl Finding {
                 }
                 _ => None,
             },
+            subframes: case.drawn.as_ref().map(|drawn| drawn.subframes),
             worst: None,
             resembles: None,
             pictures: case.folder.clone(),

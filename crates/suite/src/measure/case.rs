@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 
 use filters::{Command, Convention, FilterError, Gpu};
 use frame::{Frame, Picture, Vectors};
-use metrics::{Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference};
-use tracer::Scene;
+use metrics::{ImageScores, Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference};
 
 use super::dilated_velocity::read_dilated_velocity;
 use super::pictures::write_case;
@@ -13,10 +12,12 @@ use super::plan::RunPlan;
 use super::planned_case::{PictureSource, PlannedCase};
 use super::probes::{FilterOutput, blur_noise_frames, blur_with_probes};
 use super::references::TruthReferences;
+use super::run_scene::RunScene;
 use crate::Error;
 use crate::filter::choice::FilterChoice;
 use crate::filter::input_format::InputFormat;
 use crate::filter::runner::Runner;
+use crate::ingest::engine_scene::EngineScene;
 use crate::run::case::{Case, Intervals};
 use crate::stats::intervals::intervals;
 
@@ -24,17 +25,32 @@ use crate::stats::intervals::intervals;
 /// far above rounding.
 const MOST_NONLINEARITY: f64 = 1e-3;
 
+const NO_MATTES: &str =
+    "an engine's picture does not say which share of a pixel it gives to each object";
+const OTHER_SHUTTER: &str = "the engine drew no truth of the run's common shutter";
+
 /// Everything that cases of one scene and one shutter are measured with.
 pub(crate) struct CaseContext<'a> {
     pub plan: &'a RunPlan,
     pub gpu: Option<&'a Gpu>,
-    pub scene: &'a Scene,
+    pub scene: RunScene<'a>,
     pub frame: &'a Frame,
     /// The frame in the forms in which filters get it.
     pub stored_frames: &'a [(InputFormat, Frame)],
     pub references: &'a TruthReferences<'a>,
-    /// The truth that every case is compared with, unless it is that of `references`.
-    pub common: Option<&'a Reference<'a>>,
+    /// The truth that every case is compared with.
+    pub common: CommonTruth<'a>,
+}
+
+/// The truth of the shutter that all cases of a run are compared with.
+#[derive(Clone, Copy)]
+pub(crate) enum CommonTruth<'a> {
+    /// That of the case itself.
+    Own,
+    /// Another one.
+    Other(&'a Reference<'a>),
+    /// None: an engine drew another shutter alone.
+    Missing,
 }
 
 /// A picture, and everything that was measured of it.
@@ -59,6 +75,7 @@ impl CaseContext<'_> {
                 self.measure_reference(self.references.take_accumulation(subframes))?
             }
             PictureSource::Filter(choice, input) => self.measure_filter(choice, input)?,
+            PictureSource::Engine(scene) => self.measure_engine(scene)?,
         };
         self.write(planned, measured)
     }
@@ -83,6 +100,25 @@ impl CaseContext<'_> {
         })
     }
 
+    /// Measures the engine's own picture, with intervals as the pictures of filters have them.
+    fn measure_engine(&self, scene: &EngineScene) -> Result<MeasuredPicture, Error> {
+        let picture = scene.read_picture(self.frame)?;
+        let measure = |reference: &Reference| -> Result<Measurement, MeasureError> {
+            let mut measurement = reference.measure(&picture)?;
+            measurement.scores.take_out_mattes(NO_MATTES);
+            Ok(measurement)
+        };
+        let measurement = measure(&self.references.reference)?;
+        Ok(MeasuredPicture {
+            intervals: self.measure_intervals(&measurement, measure)?,
+            nonlinearity: None,
+            jitter: None,
+            dilated_velocity: None,
+            measurement,
+            picture,
+        })
+    }
+
     fn measure_filter(
         &self,
         choice: &FilterChoice,
@@ -103,7 +139,8 @@ impl CaseContext<'_> {
         let measurement = measure_output(&self.references.reference, &output)?;
         ended("probes");
         Ok(MeasuredPicture {
-            intervals: self.measure_intervals(&output, &measurement)?,
+            intervals: self
+                .measure_intervals(&measurement, |reference| measure_output(reference, &output))?,
             nonlinearity: Some(output.nonlinearity),
             picture: output.picture,
             measurement,
@@ -115,11 +152,11 @@ impl CaseContext<'_> {
     /// Measures the intervals of the scores; empty where none are asked for.
     fn measure_intervals(
         &self,
-        output: &FilterOutput,
         measurement: &Measurement,
+        measure: impl Fn(&Reference) -> Result<Measurement, MeasureError>,
     ) -> Result<Intervals, MeasureError> {
         let without_pairs = (self.references.without_pairs.iter())
-            .map(|reference| Ok(measure_output(reference, output)?.scores))
+            .map(|reference| Ok(measure(reference)?.scores))
             .collect::<Result<Vec<_>, MeasureError>>()?;
         Ok(match without_pairs.as_slice() {
             [] => Intervals::new(),
@@ -152,16 +189,16 @@ impl CaseContext<'_> {
             ..
         } = &measured;
         let common = match self.common {
-            Some(reference) => reference.measure_moving(picture)?,
-            None => measurement.scores.moving.clone(),
+            CommonTruth::Other(reference) => reference.measure_moving(picture)?,
+            CommonTruth::Own => measurement.scores.moving.clone(),
+            CommonTruth::Missing => ImageScores::not_applicable(OTHER_SHUTTER),
         };
         let ended = self.plan.monitor.ended;
         ended("common truth");
         let folder = planned.folder(self.scene);
         let files = write_case(
             &self.plan.out.join(&folder),
-            self.scene,
-            &self.frame.objects,
+            self.frame,
             (picture, measured.dilated_velocity.as_ref()),
             measurement,
             ended,
@@ -175,9 +212,10 @@ impl CaseContext<'_> {
         let convention = convention.filter(|it| *it != Convention::default());
         let truth = self.references.truth;
         let case = Case {
-            scene: self.scene.name.clone(),
-            family: self.scene.family,
-            exposes: self.scene.exposes.clone(),
+            scene: self.scene.name().to_owned(),
+            family: self.scene.family(),
+            exposes: self.scene.exposes(),
+            drawn: self.scene.drawn(),
             exposure: self.frame.exposure,
             filter: planned.filter().to_owned(),
             preset: planned.preset(),
@@ -230,10 +268,10 @@ fn add_probes(reference: &Reference, output: &FilterOutput, measurement: &mut Me
 }
 
 /// Adds the scene to the error of a program, which may fail on one scene and not on another.
-fn name_scene(error: FilterError, scene: &Scene) -> FilterError {
+fn name_scene(error: FilterError, scene: RunScene) -> FilterError {
     match error {
         FilterError::Command { filter, reason } => FilterError::Command {
-            filter: format!("{filter} on {}", scene.name),
+            filter: format!("{filter} on {}", scene.name()),
             reason,
         },
         other => other,

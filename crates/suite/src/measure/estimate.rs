@@ -6,8 +6,8 @@ use tracer::{Progress, RenderSettings, Scene};
 use super::first_slice::{RenderCosts, count_small_pixels, measure_first_cases};
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
+use super::run_scene::RunScene;
 use super::scene::SceneContext;
-use crate::render::memory::measuring_memory;
 use crate::render::settings::frame_settings;
 
 /// Time in seconds from which a first slice is measured; shorter work is over before that pays.
@@ -64,13 +64,13 @@ pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
     let label = "first slices, to estimate the time";
     plan.monitor.watch(label, |watch| {
         estimate_with(plan, gpu, |scene, renders| {
-            let total = plan.scenes.len() as u64;
+            let total = plan.all_scenes().len() as u64;
             // What is interrupted here ends in the first scene.
             let _ = watch(Progress { done, total });
             done += 1;
-            let slice = match renders {
-                true => RenderCosts::measure(scene.scene, &plan.render),
-                false => None,
+            let slice = match (renders, scene.scene) {
+                (true, RunScene::Traced(scene)) => RenderCosts::measure(scene, &plan.render),
+                _ => None,
             };
             let speed = *speed.get_or_insert_with(|| measure_case_speed(scene).unwrap_or(1.0));
             SceneCosts {
@@ -96,10 +96,10 @@ fn estimate_with(
     mut costs: impl FnMut(&SceneContext, bool) -> SceneCosts,
 ) -> RunEstimate {
     let filters = plan.scaled_filters();
-    let planned = PlannedCase::all(plan, &filters);
     let mut estimate = RunEstimate::default();
     let pixels = count_pixels(&plan.render);
     for scene in SceneContext::all(plan, &filters, gpu) {
+        let planned = PlannedCase::all(plan, &filters, scene.scene);
         let kept = match plan.no_cache {
             true => 0,
             false => (planned.iter())
@@ -109,7 +109,10 @@ fn estimate_with(
         estimate.cases += planned.len();
         estimate.kept += kept;
         let due = planned.len() - kept;
+        let is_drawn = matches!(scene.scene, RunScene::Drawn(_));
         let (frame, truths) = match (due, plan.no_cache) {
+            // What an engine drew is copied in no time.
+            _ if is_drawn => (false, vec![false; plan.alignments().len()]),
             (0, _) => (false, vec![false; plan.alignments().len()]),
             (_, true) => (true, vec![true; plan.alignments().len()]),
             (_, false) => scene.find_missing(),
@@ -125,11 +128,10 @@ fn estimate_with(
         if due > 0 {
             let truths = truths.iter().filter(|missing| **missing).count();
             estimate.disk += count_bytes(&plan.render, (frame, truths), due);
-            let memory = measuring_memory(scene.scene, &plan.render);
-            estimate.memory = estimate.memory.max(memory);
+            estimate.memory = estimate.memory.max(scene.scene.memory(&plan.render));
         }
     }
-    let report = planned.len() as f64 * plan.scenes.len() as f64 * pixels;
+    let report = estimate.cases as f64 * pixels;
     let steps: f64 = estimate.steps.iter().flatten().sum();
     estimate.seconds = steps + report * SECONDS_PER_REPORT_PIXEL;
     estimate

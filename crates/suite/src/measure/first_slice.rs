@@ -8,6 +8,7 @@ use tracer::{Progress, RenderSettings, Scene, TruthTracer, trace_frame};
 
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
+use super::run_scene::RunScene;
 use super::scene::SceneContext;
 use crate::filter::input_format::InputFormat;
 use crate::render::settings::SIDES;
@@ -74,11 +75,15 @@ impl RenderCosts {
 pub(super) fn measure_first_cases(scene: &SceneContext) -> Option<(f64, usize)> {
     // Kernels need the adapter.
     scene.gpu?;
+    let RunScene::Traced(_) = scene.scene else {
+        return None;
+    };
     let mut filters = scene.plan.filters.iter();
     let first = filters.find(|choice| choice.filter.command.is_none())?;
     let folder = tempfile::tempdir().ok()?;
     let plan = RunPlan {
         scenes: Vec::new(),
+        engine_scenes: Vec::new(),
         filters: vec![first.clone()],
         inputs: vec![InputFormat::default()],
         jitter_frames: scene.plan.jitter_frames,
@@ -96,7 +101,7 @@ pub(super) fn measure_first_cases(scene: &SceneContext) -> Option<(f64, usize)> 
         keys: None,
         ..*scene
     };
-    let planned = PlannedCase::all(&plan, &filters);
+    let planned = PlannedCase::all(&plan, &filters, scene.scene);
     let due: Vec<&PlannedCase> = planned.iter().collect();
     let (frame, truths) = scene.render(&|_| {}).ok()?;
     let watch = |_: Progress| ControlFlow::Continue(());

@@ -9,5 +9,6 @@ pub mod plan;
 pub mod planned_case;
 pub mod probes;
 pub mod references;
+pub(crate) mod run_scene;
 pub mod scene;
 pub mod scenes;

@@ -3,18 +3,17 @@
 use std::path::Path;
 
 use frame::{
-    ExrFile, FileError, Frame, Image, Picture, Truth, Vectors, display_srgb, write_exr,
+    Display, ExrFile, FileError, Frame, Image, Picture, Truth, Vectors, display_srgb, write_exr,
     write_half_exr, write_png,
 };
 use metrics::Measurement;
-use tracer::Scene;
 
 use crate::colors::{magma, velocity_wheel};
 use crate::run::error_maps::KEPT_MAPS;
 
 /// Writes a frame's PNGs beside its EXR file; returns the names of all.
-pub fn write_frame(folder: &Path, scene: &Scene, frame: &Frame) -> Result<Vec<String>, FileError> {
-    write_display_png(&folder.join("frame.png"), &frame.color, scene)?;
+pub fn write_frame(folder: &Path, frame: &Frame) -> Result<Vec<String>, FileError> {
+    write_display_png(&folder.join("frame.png"), &frame.color, frame.display)?;
     write_png(&folder.join("velocity.png"), &velocity_wheel(frame))?;
     Ok(["frame.exr", "frame.png", "velocity.png"]
         .map(str::to_owned)
@@ -22,10 +21,14 @@ pub fn write_frame(folder: &Path, scene: &Scene, frame: &Frame) -> Result<Vec<St
 }
 
 /// Writes a truth's PNG beside its EXR file and that of its ladder; returns the names of all.
-pub fn write_truth(folder: &Path, scene: &Scene, truth: &Truth) -> Result<Vec<String>, FileError> {
+pub fn write_truth(
+    folder: &Path,
+    truth: &Truth,
+    display: Display,
+) -> Result<Vec<String>, FileError> {
     let alignment = truth.alignment;
     let picture = format!("truth_{alignment}.png");
-    write_display_png(&folder.join(&picture), &truth.mean().color, scene)?;
+    write_display_png(&folder.join(&picture), &truth.mean().color, display)?;
     Ok(vec![
         picture,
         format!("truth_{alignment}.exr"),
@@ -37,8 +40,7 @@ pub fn write_truth(folder: &Path, scene: &Scene, truth: &Truth) -> Result<Vec<St
 /// files. `ended` hears of the end of each part.
 pub fn write_case(
     folder: &Path,
-    scene: &Scene,
-    objects: &[String],
+    frame: &Frame,
     (output, dilated_velocity): (&Picture, Option<&Vectors>),
     measurement: &Measurement,
     ended: fn(&'static str),
@@ -47,7 +49,7 @@ pub fn write_case(
     let displayed = [
         (
             "output.png",
-            display_srgb(&output.color, scene.display.stops),
+            display_srgb(&output.color, frame.display.stops),
         ),
         ("flip.png", magma(&maps.flip)),
         ("label_tv.png", magma(&maps.label_total_variation)),
@@ -57,7 +59,7 @@ pub fn write_case(
         write_png(&folder.join(name), picture)?;
     }
     ended("PNG files");
-    let file = output_file(objects, output, dilated_velocity);
+    let file = output_file(&frame.objects, output, dilated_velocity);
     write_exr(&folder.join("output.exr"), &file)?;
     write_half_exr(&folder.join("errors.exr"), errors_file(measurement))?;
     ended("OpenEXR files");
@@ -97,6 +99,6 @@ fn errors_file(measurement: &Measurement) -> ExrFile {
     file
 }
 
-fn write_display_png(path: &Path, image: &Image, scene: &Scene) -> Result<(), FileError> {
-    write_png(path, &display_srgb(image, scene.display.stops))
+fn write_display_png(path: &Path, image: &Image, display: Display) -> Result<(), FileError> {
+    write_png(path, &display_srgb(image, display.stops))
 }

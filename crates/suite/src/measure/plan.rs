@@ -5,8 +5,10 @@ use std::path::PathBuf;
 use frame::Alignment;
 use tracer::{RenderSettings, Scene};
 
+use super::run_scene::RunScene;
 use crate::filter::choice::FilterChoice;
 use crate::filter::input_format::InputFormat;
+use crate::ingest::engine_scene::EngineScene;
 use crate::render::settings::frame_settings;
 use crate::{Error, Monitor};
 
@@ -14,6 +16,8 @@ use crate::{Error, Monitor};
 pub struct RunPlan {
     /// Loaded scenes.
     pub scenes: Vec<Scene>,
+    /// Scenes that engines drew, of the size of the plan's pictures.
+    pub engine_scenes: Vec<EngineScene>,
     /// Loaded filters.
     pub filters: Vec<FilterChoice>,
     /// Forms in which every filter gets the frame.
@@ -52,7 +56,19 @@ impl RunPlan {
                 self.render.check_truth(scene, alignment)?;
             }
         }
+        for scene in &self.engine_scenes {
+            scene.check_truth()?;
+            scene.check_size((self.render.width, self.render.height))?;
+        }
         Ok(())
+    }
+
+    /// Lists the scenes that are rendered, then those that engines drew.
+    pub(crate) fn all_scenes(&self) -> Vec<RunScene<'_>> {
+        let traced = self.scenes.iter().map(RunScene::Traced);
+        traced
+            .chain(self.engine_scenes.iter().map(RunScene::Drawn))
+            .collect()
     }
 
     /// Lists the alignments that filters declare and that of all cases, each once.

@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use filters::AdapterDescription;
 use frame::Alignment;
-use tracer::Scene;
 
 use super::plan::RunPlan;
+use super::run_scene::RunScene;
 use crate::filter::choice::FilterChoice;
 use crate::filter::input_format::InputFormat;
+use crate::ingest::engine_scene::EngineScene;
 use crate::render::ladders::LADDER;
 use crate::run::case::{ACCUMULATE, IDENTITY, SCATTER_ORACLE};
 
@@ -34,47 +35,76 @@ pub(crate) enum PictureSource<'a> {
     Accumulation(u32),
     /// A filter that gets the frame in some form.
     Filter(&'a FilterChoice, InputFormat),
+    /// The engine that drew the frame.
+    Engine(&'a EngineScene),
 }
 
 impl<'a> PlannedCase<'a> {
-    /// Lists the reference pictures of each alignment, then one case per filter preset and form of its input.
-    pub fn all(plan: &'a RunPlan, filters: &'a [FilterChoice]) -> Vec<Self> {
+    /// Lists the reference pictures of each alignment, the picture of the scene's engine, then one case per filter preset and form
+    /// of its input. Filters of another alignment than all of a scene's truths are left out.
+    pub fn all(plan: &'a RunPlan, filters: &'a [FilterChoice], scene: RunScene<'a>) -> Vec<Self> {
         debug_assert!(SUBFRAMES.iter().all(|count| LADDER.contains(count)));
-        let references = plan.alignments().into_iter().flat_map(|alignment| {
-            let accumulations = SUBFRAMES.map(PictureSource::Accumulation);
+        let alignments = scene.alignments(plan.alignments());
+        let accumulations = scene.accumulations(&SUBFRAMES);
+        let references = alignments.iter().flat_map(|alignment| {
             [PictureSource::Identity, PictureSource::ScatterOracle]
                 .into_iter()
-                .chain(accumulations)
-                .map(move |source| Self { alignment, source })
+                .chain(
+                    accumulations
+                        .iter()
+                        .copied()
+                        .map(PictureSource::Accumulation),
+                )
+                .map(|source| Self {
+                    alignment: *alignment,
+                    source,
+                })
         });
-        let filters = filters.iter().flat_map(|choice| {
+        let own = match scene {
+            RunScene::Drawn(scene) if scene.has_picture => Some(Self {
+                alignment: scene.alignment(),
+                source: PictureSource::Engine(scene),
+            }),
+            _ => None,
+        };
+        let is_measured = |choice: &&FilterChoice| {
+            alignments.contains(&choice.filter.alignment)
+                && !(scene.drawn().is_some() && choice.filter.reads_reprojection())
+        };
+        let filters = filters.iter().filter(is_measured).flat_map(|choice| {
             plan.inputs.iter().map(|input| Self {
                 alignment: choice.filter.alignment,
                 source: PictureSource::Filter(choice, *input),
             })
         });
-        references.chain(filters).collect()
+        references.chain(own).chain(filters).collect()
     }
 
     /// Tells whether the picture is a reference, and not made by a filter.
     pub fn is_reference(&self) -> bool {
-        !matches!(self.source, PictureSource::Filter(..))
+        !matches!(
+            self.source,
+            PictureSource::Filter(..) | PictureSource::Engine(_)
+        )
     }
 
-    /// Returns the name of the filter, or of the reference.
+    /// Returns the name of the filter, the reference or the engine.
     pub fn filter(&self) -> &str {
         match self.source {
             PictureSource::Identity => IDENTITY,
             PictureSource::ScatterOracle => SCATTER_ORACLE,
             PictureSource::Accumulation(_) => ACCUMULATE,
             PictureSource::Filter(choice, _) => &choice.filter.name,
+            PictureSource::Engine(scene) => scene.filter_name(),
         }
     }
 
     /// Returns the preset that the parameters started from; of an accumulation the number of sub-frames.
     pub fn preset(&self) -> String {
         match self.source {
-            PictureSource::Identity | PictureSource::ScatterOracle => String::new(),
+            PictureSource::Identity | PictureSource::ScatterOracle | PictureSource::Engine(_) => {
+                String::new()
+            }
             PictureSource::Accumulation(subframes) => subframes.to_string(),
             PictureSource::Filter(choice, _) => choice.preset.clone(),
         }
@@ -113,7 +143,7 @@ impl<'a> PlannedCase<'a> {
     }
 
     /// Names the folder of the pictures, relative to `run.json`. References have one per alignment.
-    pub fn folder(&self, scene: &Scene) -> PathBuf {
+    pub fn folder(&self, scene: RunScene) -> PathBuf {
         let mut parts = vec![self.filter().to_owned(), self.preset()];
         if self.is_reference() {
             parts.push(self.alignment.name().to_owned());
@@ -124,12 +154,13 @@ impl<'a> PlannedCase<'a> {
         }
         parts.extend(self.input().change().map(|change| change.replace('=', "_")));
         parts.retain(|part| !part.is_empty());
-        Path::new(&scene.name).join(parts.join("_"))
+        Path::new(scene.name()).join(parts.join("_"))
     }
 
     /// Writes out all that determines the scores, beside the program, the scene, its frame and its truths; none for a filter that
     /// is a program, because nothing records what that does.
     pub fn inputs(&self, plan: &RunPlan, adapter: Option<&AdapterDescription>) -> Option<String> {
+        // The hash of an engine's frame covers the engine's picture.
         let PictureSource::Filter(choice, input) = self.source else {
             return Some(format!("{} {}", self.filter(), self.preset()));
         };

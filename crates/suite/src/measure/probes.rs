@@ -93,7 +93,9 @@ fn input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
         color,
         velocity: &frame.velocity,
         depth: &frame.depth,
-        reprojection: Some(frame.reprojection.moved(f64::from(frame.guard_band))),
+        // No engine tells how its camera moved.
+        reprojection: (frame.provenance.engine.is_none())
+            .then(|| frame.reprojection.moved(f64::from(frame.guard_band))),
         exposure: frame.exposure,
         frame_index: 0,
     }

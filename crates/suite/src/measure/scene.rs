@@ -4,15 +4,16 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use filters::{FilterError, Gpu};
-use frame::{Alignment, Frame, Truth};
+use frame::{Alignment, Frame, Ladder, Truth};
 use metrics::Reference;
 use tracer::{Progress, Scene, Watch};
 
-use super::case::CaseContext;
+use super::case::{CaseContext, CommonTruth};
 use super::pictures::{write_frame, write_truth};
 use super::plan::RunPlan;
 use super::planned_case::{PictureSource, PlannedCase};
-use super::references::{TruthReferences, scene_viewing};
+use super::references::TruthReferences;
+use super::run_scene::RunScene;
 use crate::Error;
 use crate::cache::clear::clear_scene;
 use crate::cache::record::{
@@ -21,11 +22,8 @@ use crate::cache::record::{
 use crate::cache::scene_keys::SceneKeys;
 use crate::filter::choice::FilterChoice;
 use crate::filter::input_format::InputFormat;
-use crate::folder::scene_folder::scene_folder;
 use crate::render::frames::render_frame;
 use crate::render::ladders::LadderFile;
-use crate::render::memory::check_measuring_memory;
-use crate::render::settings::frame_settings;
 use crate::render::shared::render_shared;
 use crate::render::truths::{render_replicates, render_truth};
 use crate::run::case::Case;
@@ -39,7 +37,7 @@ pub(crate) struct SceneContext<'a> {
     /// The plan's filters, for pictures of its width.
     pub filters: &'a [FilterChoice],
     pub gpu: Option<&'a Gpu>,
-    pub scene: &'a Scene,
+    pub scene: RunScene<'a>,
     /// Hashes that records are known by; none where the program cannot be hashed, and nothing is read back.
     pub keys: Option<SceneKeys>,
 }
@@ -50,15 +48,18 @@ impl<'a> SceneContext<'a> {
     /// Prepares every scene of a plan for measuring.
     pub fn all(plan: &'a RunPlan, filters: &'a [FilterChoice], gpu: Option<&'a Gpu>) -> Vec<Self> {
         let program = hash_program();
-        let context = |scene: &'a Scene| Self {
-            plan,
-            filters,
-            gpu,
-            scene,
-            keys: (program.as_ref())
-                .map(|program| SceneKeys::new(program, scene, &plan.render, plan.alignments())),
+        let context = |scene: RunScene<'a>| {
+            let alignments = scene.alignments(plan.alignments());
+            Self {
+                plan,
+                filters,
+                gpu,
+                scene,
+                keys: (program.as_ref())
+                    .map(|program| SceneKeys::new(program, scene, &plan.render, alignments)),
+            }
         };
-        plan.scenes.iter().map(context).collect()
+        plan.all_scenes().into_iter().map(context).collect()
     }
 }
 
@@ -71,20 +72,19 @@ impl SceneContext<'_> {
         advance: &dyn Fn(u64),
     ) -> Result<(Vec<Result<Case, Failure>>, usize), Error> {
         if self.plan.no_cache {
-            clear_scene(&scene_folder(&self.plan.out, self.scene))?;
+            clear_scene(&self.folder())?;
         }
-        let planned = PlannedCase::all(self.plan, self.filters);
+        let planned = PlannedCase::all(self.plan, self.filters, self.scene);
         let found: Vec<Option<Case>> = planned.iter().map(|case| self.read_case(case)).collect();
         let read_back = found.iter().flatten().count();
         if read_back == found.len() && self.has_its_files() {
             return Ok((found.into_iter().flatten().map(Ok).collect(), read_back));
         }
-        frame_settings(&self.plan.render).check_frame(self.scene)?;
-        check_measuring_memory(self.scene, &self.plan.render)?;
+        self.scene.check(&self.plan.render)?;
         let (frame, truths) = self.render(advance)?;
         let due = (planned.iter().zip(&found)).filter(|(_, found)| found.is_none());
         let due: Vec<&PlannedCase> = due.map(|(case, _)| case).collect();
-        let label = format!("{} blurs and scores", self.scene.name);
+        let label = format!("{} blurs and scores", self.scene.name());
         let monitor = self.plan.monitor;
         let measured = monitor.watch(&label, |watch| {
             self.measure(&due, &frame, truths, advance, watch)
@@ -112,7 +112,7 @@ impl SceneContext<'_> {
         }
         let monitor = self.plan.monitor;
         (monitor.ended)("frame and truths");
-        let viewing = scene_viewing(self.scene);
+        let viewing = frame.display.into();
         let without_pairs = self.truths_without_pairs(due)?;
         let due_at =
             |alignment: Alignment| due.iter().filter(move |case| case.alignment == alignment);
@@ -120,7 +120,7 @@ impl SceneContext<'_> {
         let mut references = BTreeMap::new();
         let mut common_alone = None;
         for (alignment, truth) in &truths {
-            let ladder = || self.ladder_file(*alignment).read_or_render(truth, monitor);
+            let ladder = || self.read_ladder(truth);
             if due_at(*alignment).next().is_some() {
                 let subframes: Vec<u32> = due_at(*alignment)
                     .filter_map(|case| match case.source {
@@ -144,13 +144,14 @@ impl SceneContext<'_> {
                 common_alone = Some(Reference::new(&frame, truth, Some(&ladder()?), &viewing)?);
             }
         }
-        let common = match &common_alone {
-            Some(reference) => reference,
-            None => &references[&common_alignment].reference,
+        let own = references.get(&common_alignment);
+        let common = match common_alone.as_ref().or(own.map(|own| &own.reference)) {
+            Some(reference) => CommonTruth::Other(reference),
+            None => CommonTruth::Missing,
         };
         let stored_frames: Vec<(InputFormat, Frame)> = (self.plan.inputs.iter())
-            .map(|format| (*format, format.apply(frame)))
-            .collect();
+            .map(|format| Ok((*format, format.apply(frame, self.scene.traced())?)))
+            .collect::<Result<_, Error>>()?;
         (monitor.ended)("references");
         let mut cases = Vec::with_capacity(due.len());
         for (done, planned) in due.iter().enumerate() {
@@ -168,7 +169,10 @@ impl SceneContext<'_> {
                 frame,
                 stored_frames: &stored_frames,
                 references: &references[&planned.alignment],
-                common: (planned.alignment != common_alignment).then_some(common),
+                common: match planned.alignment == common_alignment {
+                    true => CommonTruth::Own,
+                    false => common,
+                },
             };
             cases.push(match context.measure(planned) {
                 Ok((case, files)) => {
@@ -189,7 +193,7 @@ impl SceneContext<'_> {
         match &error {
             Error::Filter(FilterError::Gpu { .. } | FilterError::Command { .. })
             | Error::Measure(_) => Ok(Failure {
-                scene: self.scene.name.clone(),
+                scene: self.scene.name().to_owned(),
                 filter: planned.name(),
                 alignment: planned.alignment.name().to_owned(),
                 reason: error.to_string(),
@@ -198,31 +202,24 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Renders the scene's frame and one truth per alignment that a filter of the plan declares, and writes their pictures.
+    /// Renders the scene's frame and one truth per alignment that a filter of the plan declares, or copies what an engine drew, and
+    /// writes their pictures.
     pub(super) fn render(&self, advance: &dyn Fn(u64)) -> Result<(Frame, Truths), Error> {
-        let RunPlan {
-            render,
-            out,
-            monitor,
-            ..
-        } = self.plan;
         for (record, key) in self.render_records() {
             remove_altered_files(&record, &key);
         }
-        let folder = scene_folder(out, self.scene);
-        let frame = render_frame(self.scene, render, out, *monitor)?;
-        let mut files = vec![write_frame(&folder, self.scene, &frame)?];
-        let alignments = self.plan.alignments();
-        let replicates = 0..render.replicates;
-        advance(1);
-        render_shared(self.scene, render, &alignments, replicates, out, *monitor)?;
-        let mut truths = Truths::new();
-        for (alignment, done) in alignments.into_iter().zip(0..) {
-            advance(1 + done * self.truth_steps());
-            let truth = render_truth(self.scene, render, alignment, out, *monitor)?;
-            self.ladder_file(alignment).ensure(&truth, *monitor)?;
-            files.push(write_truth(&folder, self.scene, &truth)?);
-            truths.insert(alignment, truth);
+        let folder = self.folder();
+        let (frame, truths) = match self.scene {
+            RunScene::Traced(scene) => self.trace(scene, advance)?,
+            RunScene::Drawn(scene) => {
+                let frame = scene.copy_frame(&folder)?;
+                let truth = scene.copy_truth(&folder)?;
+                (frame, Truths::from([(truth.alignment, truth)]))
+            }
+        };
+        let mut files = vec![write_frame(&folder, &frame)?];
+        for truth in truths.values() {
+            files.push(write_truth(&folder, truth, frame.display)?);
         }
         for ((record, key), files) in self.render_records().into_iter().zip(files) {
             write_record(&record, key, &files, &())?;
@@ -230,8 +227,48 @@ impl SceneContext<'_> {
         Ok((frame, truths))
     }
 
-    fn ladder_file(&self, alignment: Alignment) -> LadderFile<'_> {
-        LadderFile::new(self.scene, &self.plan.render, alignment, &self.plan.out)
+    /// Renders the frame and the truths of a scene.
+    fn trace(&self, scene: &Scene, advance: &dyn Fn(u64)) -> Result<(Frame, Truths), Error> {
+        let RunPlan {
+            render,
+            out,
+            monitor,
+            ..
+        } = self.plan;
+        let frame = render_frame(scene, render, out, *monitor)?;
+        let alignments = self.plan.alignments();
+        let replicates = 0..render.replicates;
+        advance(1);
+        render_shared(scene, render, &alignments, replicates, out, *monitor)?;
+        let mut truths = Truths::new();
+        for (alignment, done) in alignments.into_iter().zip(0..) {
+            advance(1 + done * self.truth_steps());
+            let truth = render_truth(scene, render, alignment, out, *monitor)?;
+            LadderFile::new(scene, render, alignment, out).ensure(&truth, *monitor)?;
+            truths.insert(alignment, truth);
+        }
+        Ok((frame, truths))
+    }
+
+    /// Reads the ladder of a truth, or renders it.
+    fn read_ladder(&self, truth: &Truth) -> Result<Ladder, Error> {
+        let RunPlan {
+            render,
+            out,
+            monitor,
+            ..
+        } = self.plan;
+        match self.scene {
+            RunScene::Traced(scene) => {
+                LadderFile::new(scene, render, truth.alignment, out).read_or_render(truth, *monitor)
+            }
+            RunScene::Drawn(scene) => scene.read_ladder(&self.folder()),
+        }
+    }
+
+    /// Names the folder of the scene's files.
+    fn folder(&self) -> PathBuf {
+        self.scene.folder(&self.plan.out)
     }
 
     /// Counts the steps of the whole scene, as progress shows them: those of rendering, and the measuring.
@@ -250,7 +287,7 @@ impl SceneContext<'_> {
     }
 
     /// Makes, per alignment of the filters that are due, the truths without one pair of replicates each; none where the plan asks
-    /// for no intervals.
+    /// for no intervals, or an engine drew the truth.
     fn truths_without_pairs(
         &self,
         due: &[&PlannedCase],
@@ -261,12 +298,16 @@ impl SceneContext<'_> {
             monitor,
             ..
         } = self.plan;
+        // Sub-frames are no random samples: those without some of them have holes.
+        let RunScene::Traced(scene) = self.scene else {
+            return Ok(BTreeMap::new());
+        };
         let filters = due.iter().filter(|case| !case.is_reference());
         let alignments: BTreeSet<Alignment> = filters.map(|case| case.alignment).collect();
         (alignments.into_iter())
             .filter(|_| self.plan.intervals)
             .map(|alignment| {
-                let replicates = render_replicates(self.scene, render, alignment, out, *monitor)?;
+                let replicates = render_replicates(scene, render, alignment, out, *monitor)?;
                 Ok((alignment, truths_without_pairs(&replicates)?))
             })
             .collect()
@@ -284,7 +325,10 @@ impl SceneContext<'_> {
 
     /// Tells whether a case that was read has the intervals that the plan asks for.
     fn is_whole(&self, case: &Case) -> bool {
-        case.is_reference || !self.plan.intervals || !case.intervals.is_empty()
+        case.is_reference
+            || case.drawn.is_some()
+            || !self.plan.intervals
+            || !case.intervals.is_empty()
     }
 
     /// Tells whether a case was measured before, without looking at its pictures.
@@ -331,9 +375,10 @@ impl SceneContext<'_> {
         let Some(keys) = &self.keys else {
             return Vec::new();
         };
-        let folder = scene_folder(&self.plan.out, self.scene);
+        let folder = self.folder();
         let mut records = vec![(folder.join("frame.json"), keys.frame())];
-        records.extend(self.plan.alignments().into_iter().map(|alignment| {
+        let alignments = self.scene.alignments(self.plan.alignments());
+        records.extend(alignments.into_iter().map(|alignment| {
             let record = folder.join(format!("truth_{alignment}.json"));
             (record, keys.truth(alignment))
         }));

@@ -31,11 +31,12 @@ pub fn measure_scenes_as_expected(
     estimate: &RunEstimate,
 ) -> Result<Run, Error> {
     // The steps of a single scene show all of the progress.
-    let monitor = match plan.scenes.len() {
+    let scenes = plan.all_scenes().len();
+    let monitor = match scenes {
         1 => plan.monitor.without_progress(),
         _ => plan.monitor,
     };
-    let label = format!("{} scenes in all", plan.scenes.len());
+    let label = format!("{scenes} scenes in all");
     let (cases, failures, read_back) =
         monitor.watch_steps(&label, &estimate.steps.concat(), |watch| {
             measure_all(plan, gpu, watch)
@@ -68,7 +69,7 @@ fn measure_all(
             // A scene that is interrupted returns the error itself.
             let _ = watch(Progress {
                 done: number * steps + done.min(steps),
-                total: plan.scenes.len() as u64 * steps,
+                total: plan.all_scenes().len() as u64 * steps,
             });
         };
         advance(0);

@@ -10,6 +10,7 @@ use tracer::Family;
 
 use crate::InputFormat;
 use crate::filter::choice::overrides_text;
+use crate::ingest::engine_scene::engine_name;
 
 /// Confidence intervals of scores, by the names of their metrics.
 pub type Intervals = BTreeMap<String, Interval>;
@@ -19,10 +20,14 @@ pub type Intervals = BTreeMap<String, Interval>;
 pub struct Case {
     /// Scene, with its variant: `sliding_panel@64px_45deg`.
     pub scene: String,
-    /// The scene's family.
-    pub family: Family,
+    /// The scene's family; none of a scene that an engine drew.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub family: Option<Family>,
     /// Weakness of filters that the scene exposes.
     pub exposes: String,
+    /// Engine that drew the frame and the truth; none where both were rendered here.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drawn: Option<Drawn>,
     /// Exposure in frames.
     pub exposure: f64,
     /// Filter name; of a reference picture [`IDENTITY`], [`SCATTER_ORACLE`] or [`ACCUMULATE`].
@@ -68,6 +73,30 @@ pub struct Case {
     pub jitter: Option<Jitter>,
     /// Folder of the case's pictures, relative to `run.json`.
     pub folder: PathBuf,
+}
+
+/// Engine behind a frame and a truth.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Drawn {
+    /// Engine and version.
+    pub engine: String,
+    /// Scene of the suite that it drew.
+    pub scene: Option<String>,
+    /// Number of sub-frames that the truth is the mean of.
+    pub subframes: u32,
+    /// Distance that 99 % of the moving pixels move at most between two of them, in pixels.
+    pub step: f64,
+}
+
+impl Drawn {
+    /// Says what the truth is: `mean of 32 sub-frames that three.js 0.187.0 drew`.
+    pub fn truth_text(&self) -> String {
+        format!(
+            "mean of {} sub-frames that {} drew",
+            self.subframes,
+            engine_name(&self.engine)
+        )
+    }
 }
 
 impl Case {

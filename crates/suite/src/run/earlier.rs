@@ -12,6 +12,7 @@ use super::case::Case;
 use super::failure::Failure;
 use crate::measure::plan::RunPlan;
 use crate::measure::planned_case::PlannedCase;
+use crate::measure::run_scene::RunScene;
 use crate::render::settings::list_settings;
 use crate::stats::overall::overall;
 use crate::{Error, PROGRAM};
@@ -175,12 +176,12 @@ fn planned_names(plan: &RunPlan) -> HashSet<(String, String)> {
 }
 
 fn planned_keys(plan: &RunPlan) -> HashSet<Key> {
-    let planned = PlannedCase::all(plan, &plan.filters);
-    let of_scene = |scene: &tracer::Scene| {
+    let of_scene = |scene: RunScene| {
+        let planned = PlannedCase::all(plan, &plan.filters, scene);
         let keys = planned.iter().map(|case| {
             let alignment = case.alignment.name().to_owned();
             (
-                scene.name.clone(),
+                scene.name().to_owned(),
                 case.preset_name(),
                 alignment,
                 case.is_reference(),
@@ -188,16 +189,17 @@ fn planned_keys(plan: &RunPlan) -> HashSet<Key> {
         });
         keys.collect::<Vec<_>>()
     };
-    plan.scenes.iter().flat_map(of_scene).collect()
+    plan.all_scenes().into_iter().flat_map(of_scene).collect()
 }
 
 /// Tells whether a scene of the plan has changed since the case was measured.
 fn is_outdated(plan: &RunPlan, case: &Case) -> bool {
-    let scene = plan.scenes.iter().find(|scene| scene.name == case.scene);
+    let mut scenes = plan.all_scenes().into_iter();
+    let scene = scenes.find(|scene| scene.name() == case.scene);
     let (Some(scene), Ok(alignment)) = (scene, case.alignment.parse()) else {
         return false;
     };
-    tracer::truth_hash(scene, &plan.render, alignment) != case.truth_hash
+    scene.truth_hash(&plan.render, alignment) != case.truth_hash
 }
 
 /// Finds the first setting in which an earlier run and the plan differ, with both values.

@@ -4,7 +4,7 @@ use metrics::Measured;
 
 use super::headline::Headline;
 use super::scene_mean::{TWO_SIDED, plain_mean};
-use crate::Case;
+use crate::{Case, InputFormat};
 
 /// A filter preset in the ranking of its shutter.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,12 +46,16 @@ struct Entry {
 /// Upper limit on presets that a summary ranks one by one.
 pub const MOST_RANKED: usize = 16;
 
-/// Ranks filters for a summary. Where the presets are too many for it, the best preset of each filter stands for the filter.
+/// Ranks filters for a summary, with the full form of their input where the run tried others as well. Where the presets are too many for it, the best preset of each filter stands for the filter.
 pub fn rank_for_summary(cases: &[Case]) -> Vec<Vec<RankedFilter>> {
-    let presets = rank_by_flip(cases, false);
+    let full = cases
+        .iter()
+        .filter(|case| case.input == InputFormat::default());
+    let full: Vec<&Case> = full.collect();
+    let presets = rank_by_flip(&full, false);
     match presets.iter().map(Vec::len).sum() {
         ..=MOST_RANKED => presets,
-        _ => rank_by_flip(cases, true),
+        _ => rank_by_flip(&full, true),
     }
 }
 
@@ -60,7 +64,7 @@ pub fn rank_for_summary(cases: &[Case]) -> Vec<Vec<RankedFilter>> {
 ///
 /// Two filters tie where the mean difference over their common scenes is not told from 0: its 95 % CI holds 0. On a single
 /// scene they tie within the noise floor.
-fn rank_by_flip(cases: &[Case], best_presets: bool) -> Vec<Vec<RankedFilter>> {
+fn rank_by_flip(cases: &[&Case], best_presets: bool) -> Vec<Vec<RankedFilter>> {
     let mut groups: Vec<Vec<Entry>> = Vec::new();
     for case in cases.iter().filter(|case| !case.is_reference) {
         let (Measured::Score(score), Some(flip)) =

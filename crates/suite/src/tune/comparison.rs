@@ -51,6 +51,16 @@ pub enum Preference {
 }
 
 impl Difference {
+    /// Formats the mean and its interval, two one-sided limits of 95 %; a single scene has none.
+    pub fn text(&self, format: impl Fn(f64) -> String) -> String {
+        let mean = format(self.mean);
+        let [low, high] = self.interval.map(format);
+        match self.scenes {
+            1 => format!("{mean} on one scene, too few for a CI"),
+            scenes => format!("{mean}, 90 % CI {low} to {high}, over {scenes} scenes"),
+        }
+    }
+
     /// Averages at least one paired difference.
     pub fn new(differences: &[f64]) -> Self {
         let found = plain_mean(differences, ONE_SIDED);

@@ -14,13 +14,6 @@ use super::schema::{BackgroundTable, DisplayTable, FlipTable, SunTable};
 use crate::limits::{BRIGHTEST, MOST_FLIP_EXPOSURES, SMALLEST_SUN};
 use crate::{Background, Display, EnvironmentMap, FlipExposures, Sun};
 
-/// Default exposures of HDR-FLIP: two stops either way, a step per stop.
-const DEFAULT_FLIP: FlipExposures = FlipExposures {
-    start: -2.0,
-    stop: 2.0,
-    count: 5,
-};
-
 /// Reads the background with its image, if it has one.
 pub(super) fn read_background(
     document: &Document,
@@ -153,7 +146,7 @@ pub(super) fn read_display(
     };
     let flip = match &table.flip {
         Some(flip) => read_flip_exposures(document, flip)?,
-        None => DEFAULT_FLIP,
+        None => FlipExposures::default(),
     };
     Ok(Display { stops, flip })
 }

@@ -10,6 +10,31 @@ use crate::scene::Scene;
 /// for ten turns per frame at a radius of 100 pixels. Rounding adds about 1e-6 pixels.
 const STEP: f64 = 1e-5;
 
+/// Which motion of which points a velocity buffer holds. The default is the right one; the others are those of broken buffers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PointMotion {
+    /// Time at which the points are seen at the pixels' centres, in frames.
+    pub seen_at: f64,
+    /// Time whose motion is taken, in frames.
+    pub moved_at: f64,
+    /// True if the camera stands still.
+    pub camera_stands: bool,
+    /// Place of the objects one frame earlier.
+    pub objects_before: ObjectsBefore,
+}
+
+/// Place of the objects one frame earlier, as an engine knows it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ObjectsBefore {
+    /// Their own.
+    #[default]
+    Own,
+    /// Their place now, as if they stood still.
+    Now,
+    /// No place: their matrix is still the identity, so that they lay at the origin, not turned and not scaled.
+    Identity,
+}
+
 /// A visible point, followed through time.
 pub(crate) enum TrackedPoint {
     /// A point of an object's surface.
@@ -37,23 +62,32 @@ impl TrackedPoint {
         })
     }
 
-    /// Pixels per frame at `t = 0`, +x right, +y down.
+    /// Pixels per frame at the time of the motion, +x right, +y down.
     ///
-    /// The derivative is taken from the left. At a key on `t = 0`, where a motion may have a corner, that is the side that
+    /// The derivative is taken from the left. At a key on that time, where a motion may have a corner, that is the side that
     /// an engine sees, which compares with the frame before. A point that was behind the camera one frame ago has no
-    /// previous position and gets the derivative. A point that was behind it just before `t = 0` gets zero.
-    pub fn velocity(&self, scene: &Scene, size: [u32; 2], kind: VelocityKind) -> [f64; 2] {
-        let at = |time: f64| self.project(scene, size, time);
-        let frame_difference = || Some(difference(at(0.0)?, at(-1.0)?));
+    /// previous position and gets the derivative. A point that was behind it just before gets zero.
+    pub fn velocity(
+        &self,
+        scene: &Scene,
+        size: [u32; 2],
+        kind: VelocityKind,
+        motion: &PointMotion,
+    ) -> [f64; 2] {
+        let now = motion.moved_at;
+        let at = |time: f64| self.project(scene, size, time, motion);
+        let frame_difference = || Some(difference(at(now)?, at(now - 1.0)?));
         let derivative = || {
-            let [now, then, before] = [at(0.0)?, at(-STEP)?, at(-2.0 * STEP)?];
+            let [now, then, before] = [at(now)?, at(now - STEP)?, at(now - 2.0 * STEP)?];
             Some(std::array::from_fn(|axis| {
                 (3.0 * now[axis] - 4.0 * then[axis] + before[axis]) / (2.0 * STEP)
             }))
         };
-        match kind {
-            VelocityKind::Instantaneous => derivative(),
-            VelocityKind::PreviousFrame | VelocityKind::CameraOnly => {
+        // Matrices that were never set make a jump, which has no derivative.
+        match (kind, motion.objects_before) {
+            (_, ObjectsBefore::Identity) => frame_difference(),
+            (VelocityKind::Instantaneous, _) => derivative(),
+            (VelocityKind::PreviousFrame | VelocityKind::CameraOnly, _) => {
                 frame_difference().or_else(derivative)
             }
         }
@@ -61,17 +95,35 @@ impl TrackedPoint {
     }
 
     /// The place in the picture at `time` (frames), in pixels; none behind the camera.
-    fn project(&self, scene: &Scene, [width, height]: [u32; 2], time: f64) -> Option<[f64; 2]> {
-        let view = scene.camera.view(time, width, height);
+    fn project(
+        &self,
+        scene: &Scene,
+        [width, height]: [u32; 2],
+        time: f64,
+        motion: &PointMotion,
+    ) -> Option<[f64; 2]> {
+        let now = motion.moved_at;
+        let camera_time = if motion.camera_stands { now } else { time };
+        let view = scene.camera.view(camera_time, width, height);
         match *self {
             TrackedPoint::Surface {
                 object,
                 triangle,
                 weights,
             } => {
+                let object_time = match motion.objects_before {
+                    ObjectsBefore::Now => now,
+                    ObjectsBefore::Own | ObjectsBefore::Identity => time,
+                };
                 let mesh = &scene.meshes[scene.objects[object].mesh];
-                let point = mesh.at(time).point(triangle, weights);
-                view.project(scene.object_to_world(object, time).transform_point3(point))
+                let point = mesh.at(object_time).point(triangle, weights);
+                let is_unset = motion.objects_before == ObjectsBefore::Identity && time < now;
+                view.project(match is_unset {
+                    true => point,
+                    false => scene
+                        .object_to_world(object, object_time)
+                        .transform_point3(point),
+                })
             }
             TrackedPoint::Infinity(direction) => view.project_direction(direction),
         }

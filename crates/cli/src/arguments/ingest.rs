@@ -1,0 +1,24 @@
+//! Arguments of `ingest`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+/// `shuttertruth ingest`
+#[derive(Debug, Args)]
+pub struct IngestArgs {
+    /// Folder of a capture: capture.toml, color.exr, velocity.exr, depth.exr; optionally subframes/0000.exr and on, and
+    /// blurred.exr.
+    #[arg(value_name = "DIR")]
+    pub capture: PathBuf,
+    /// TOML file with a table [convention] that says which velocity, depth and colour the engine has [default: engine.toml in
+    /// DIR].
+    #[arg(long, value_name = "FILE")]
+    pub convention: Option<PathBuf>,
+    /// Folder to write, which gives the scene its name [default: out/engine/<name of DIR>].
+    #[arg(short, long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Folder that holds the scenes, for the display exposure of the one that capture.toml names.
+    #[arg(long, value_name = "FOLDER", default_value = "scenes")]
+    pub scenes_dir: PathBuf,
+}

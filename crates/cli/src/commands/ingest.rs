@@ -1,0 +1,144 @@
+//! The command `ingest`.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use frame::{Display, Region};
+use suite::{Capture, EngineScene, Error, Ingested, Sharing, claim, ingest, printable_path};
+use tracer::{Scene, load_scene};
+
+use crate::arguments::IngestArgs;
+use crate::output::print::{print, print_note};
+use crate::output::progress::make_monitor;
+
+/// Motion between two sub-frames beyond which more are advised, in pixels.
+const LONG_STEP: f64 = 0.5;
+
+/// Ingests a capture and prints what came of it, and what its truth can tell.
+pub fn execute(args: &IngestArgs) -> Result<(), Error> {
+    let capture = Capture::read(&args.capture, args.convention.as_deref())?;
+    let out = choose_folder(args)?;
+    for note in &capture.notes {
+        print_note(note);
+    }
+    let traced = find_scene(&capture, &args.scenes_dir);
+    let display = find_display(&capture, traced.as_ref());
+    let _claim = claim(&out, [], Sharing::Alone)?;
+    let names = traced.as_ref().map(Scene::object_names);
+    let ingested = make_monitor().watch("sub-frames", |watch| {
+        ingest(&capture, (display, names), &out, watch)
+    })?;
+    print(&describe(&ingested, &out, traced.as_ref()))
+}
+
+/// Names the folder to write: as the capture's own is named, if none is given.
+fn choose_folder(args: &IngestArgs) -> Result<PathBuf, Error> {
+    let capture = (args.capture.canonicalize())
+        .map_err(|source| frame::FileError::io(&args.capture, "read", source))?;
+    let out = match &args.out {
+        Some(out) => out.clone(),
+        None => Path::new("out/engine").join(capture.file_name().unwrap_or(capture.as_os_str())),
+    };
+    match out.canonicalize().is_ok_and(|out| out == capture) {
+        true => Err(Error::Usage(format!(
+            "--out {}: is the capture itself, whose files would be overwritten; name another folder",
+            out.display()
+        ))),
+        false => Ok(out),
+    }
+}
+
+/// Loads the scene that the capture names; none where it names none, or there is no such scene.
+fn find_scene(capture: &Capture, scenes: &Path) -> Option<Scene> {
+    let name = capture.description.scene.as_deref()?;
+    let (folder, variant) = match name.split_once('@') {
+        Some((folder, variant)) => (folder, Some(variant)),
+        None => (name, None),
+    };
+    let found = load_scene(&scenes.join(folder), variant).ok();
+    if found.is_none() {
+        print_note(&format!(
+            "{} has no scene {name}, whose display exposure the pictures would have; name the folder of scenes with \
+             --scenes-dir",
+            scenes.display()
+        ));
+    }
+    found
+}
+
+/// Finds the exposures at which pictures are shown and compared.
+fn find_display(capture: &Capture, traced: Option<&Scene>) -> Display {
+    let display = traced.map_or_else(Display::default, |scene| scene.display);
+    Display {
+        stops: capture.description.stops.unwrap_or(display.stops),
+        ..display
+    }
+}
+
+fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
+    let scene = &ingested.scene;
+    let [width, height] = scene.size;
+    let folder = printable_path(out);
+    let mut text = format!(
+        "{}: {width}x{height}, drawn by {}\n",
+        scene.name, scene.engine
+    );
+    if let Some(truth) = &ingested.truth {
+        text += &describe_truth(scene);
+        let floor = truth.noise_floors().into_iter();
+        let floors: Vec<String> = (floor
+            .filter(|(region, _)| matches!(region, Region::Moving | Region::Still | Region::Full)))
+        .map(|(region, floor)| format!("{region} {floor:.2e}"))
+        .collect();
+        let _ = writeln!(
+            text,
+            "noise of the truth, from its halves: {}",
+            floors.join(", ")
+        );
+    }
+    if let Some(truth) = &ingested.truth {
+        let objects = match truth.objects.len() {
+            1 => "none: the sub-frames have no ids, and there are no scores of objects".to_owned(),
+            _ => truth.objects[1..].join(", "),
+        };
+        let _ = writeln!(text, "objects: {objects}");
+    }
+    if scene.has_picture {
+        let _ = writeln!(text, "picture: the engine's own blur, {folder}/blurred.exr");
+    }
+    let _ = writeln!(text, "written: {folder}");
+    let dot = if out.is_relative() { "./" } else { "" };
+    match scene.check_truth() {
+        Ok(()) => {
+            let ours = traced.map_or(String::new(), |scene| format!("{},", scene.name));
+            let _ = writeln!(text, "next: shuttertruth run --scenes {ours}{dot}{folder}");
+        }
+        Err(_) => {
+            let _ = writeln!(
+                text,
+                "no sub-frames, and so no truth: `run` needs one; `score` can compare the picture with a truth of ours"
+            );
+        }
+    }
+    text
+}
+
+/// Says what the truth is, and how far it can be trusted.
+fn describe_truth(scene: &EngineScene) -> String {
+    let length = scene.step * f64::from(scene.subframes);
+    let most = scene.ladder.last().copied().unwrap_or(1);
+    let mut text = format!(
+        "truth: mean of {} sub-frames, {} shutter, open for {} frames; not path traced\n\
+         limit: 99 % of what moves goes at most {length:.1} px while the shutter is open, {:.2} px between two sub-frames; a smear has \
+         steps of that length, and equivalent sub-frames are told up to {most}\n",
+        scene.subframes, scene.alignment, scene.exposure, scene.step
+    );
+    if scene.step > LONG_STEP {
+        let wanted = ((length / LONG_STEP).ceil() as u32).next_multiple_of(2);
+        let _ = writeln!(
+            text,
+            "advice: {wanted} sub-frames would have steps of half a pixel"
+        );
+    }
+    text
+}

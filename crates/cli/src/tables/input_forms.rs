@@ -1,0 +1,61 @@
+//! Table of what each form of the input costs each filter.
+
+use suite::{Case, Headline, InputFormat};
+
+use super::columns::{legend_text, list_once, number_table};
+
+/// Filters side by side, so that a row fits a terminal.
+const FILTERS_ABREAST: usize = 3;
+
+/// Makes a row per form of the input and a column per filter: the change of mean FLIP against the full form. Empty for a run that
+/// tried no other form.
+pub fn input_forms_text(cases: &[Case]) -> String {
+    let changes: Vec<String> = cases
+        .iter()
+        .filter_map(|case| case.input.change())
+        .collect();
+    let changes = list_once(changes.iter().map(String::as_str));
+    if changes.is_empty() {
+        return String::new();
+    }
+    let full: Vec<&Case> = (cases.iter())
+        .filter(|case| !case.is_reference && case.input == InputFormat::default())
+        .collect();
+    let names: Vec<String> = full.iter().map(|case| case.name()).collect();
+    let mut text = String::from("\n");
+    for names in list_once(names.iter().map(String::as_str)).chunks(FILTERS_ABREAST) {
+        let titles: Vec<&str> = std::iter::once("form of the input")
+            .chain(names.iter().copied())
+            .collect();
+        let mut table = number_table(&titles);
+        for change in &changes {
+            let cost = |name: &&str| {
+                mean_cost(cases, &full, name, change)
+                    .map_or("n/a".to_owned(), |cost| format!("{cost:+.3}"))
+            };
+            table.push(
+                std::iter::once((*change).to_owned())
+                    .chain(names.iter().map(cost))
+                    .collect(),
+            );
+        }
+        text += &table.text();
+    }
+    text += "\n";
+    text += &legend_text("Change of the mean FLIP against the full form of the input; + is worse.");
+    text
+}
+
+/// Averages the change of FLIP over the scenes that have both scores.
+fn mean_cost(cases: &[Case], full: &[&Case], name: &str, change: &str) -> Option<f64> {
+    let flip = |case: &Case| Headline::FLIP.estimate(case);
+    let of_scene = |own: &&&Case| {
+        let changed = format!("{name} {change}");
+        let other =
+            (cases.iter()).find(|case| case.scene == own.scene && case.name() == changed)?;
+        Some(flip(other)? - flip(own)?)
+    };
+    let own = full.iter().filter(|case| case.name() == name);
+    let costs: Vec<f64> = own.filter_map(|case| of_scene(&case)).collect();
+    (!costs.is_empty()).then(|| costs.iter().sum::<f64>() / costs.len() as f64)
+}

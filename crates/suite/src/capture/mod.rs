@@ -1,0 +1,6 @@
+//! Captures: what an engine drew of one instant, and of the shutter around it, in a folder of files.
+
+pub mod buffers;
+pub mod description;
+pub mod folder;
+pub mod half_floats;

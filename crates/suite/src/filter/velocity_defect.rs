@@ -1,0 +1,125 @@
+//! Defects of a velocity buffer, as engines have had them.
+
+use frame::{Frame, Vectors, VelocityKind};
+use tracer::{ObjectsBefore, PointMotion, RenderSettings, Scene, trace_motion};
+
+use crate::Error;
+use crate::named::named;
+
+/// Jitter of two consecutive frames, as temporal anti-aliasing has it: the second point of the Halton sequence of bases 2 and 3 less
+/// the first, in pixels.
+const JITTER: [f32; 2] = [-0.25, 1.0 / 3.0];
+
+named! {
+    /// A defect of the velocity buffer.
+    pub enum VelocityDefect {
+        /// The right buffer.
+        None = "none",
+        /// Zero everywhere.
+        Zero = "zero",
+        /// The buffer of the frame before, whole.
+        Stale = "stale",
+        /// Twice too long.
+        Double = "double",
+        /// Half as long.
+        Half = "half",
+        /// With y upwards.
+        FlipY = "flip_y",
+        /// One frame late: each point's motion from two frames ago to one frame ago.
+        Lag = "lag",
+        /// At the place where the frame before showed the point.
+        PreviousPixel = "previous_pixel",
+        /// As in the first frame of an object whose last matrix was never set, and is the identity.
+        FirstFrame = "first_frame",
+        /// The camera's motion alone.
+        NoObject = "no_object",
+        /// The objects' motion alone.
+        NoCamera = "no_camera",
+        /// With the jitter of temporal anti-aliasing left in: a quarter of a pixel to the left, a third down.
+        Jittered = "jittered",
+    }
+}
+
+impl VelocityDefect {
+    /// Returns the velocity of a frame with this defect. Some defects need the scene: they show motion that the frame does not hold.
+    ///
+    /// # Errors
+    /// The defect needs a scene, and there is none; or its motion cannot be traced.
+    pub(crate) fn apply(self, frame: &Frame, scene: Option<&Scene>) -> Result<Vectors, Error> {
+        let each = |change: fn([f32; 2]) -> [f32; 2]| Ok(frame.velocity.map(|it| change(*it)));
+        match self {
+            Self::None => Ok(frame.velocity.clone()),
+            Self::Zero => each(|_| [0.0; 2]),
+            Self::Double => each(|[x, y]| [2.0 * x, 2.0 * y]),
+            Self::Half => each(|[x, y]| [0.5 * x, 0.5 * y]),
+            Self::FlipY => each(|[x, y]| [x, -y]),
+            Self::Jittered => each(|[x, y]| [x + JITTER[0], y + JITTER[1]]),
+            _ => trace_defect(frame, scene.ok_or_else(|| self.refusal())?, &self.motion()),
+        }
+    }
+
+    /// Says which motion of which points the buffer holds.
+    fn motion(self) -> PointMotion {
+        let right = PointMotion::default();
+        match self {
+            Self::Lag => PointMotion {
+                moved_at: -1.0,
+                ..right
+            },
+            Self::Stale => PointMotion {
+                seen_at: -1.0,
+                moved_at: -1.0,
+                ..right
+            },
+            Self::PreviousPixel => PointMotion {
+                seen_at: -1.0,
+                ..right
+            },
+            Self::FirstFrame => PointMotion {
+                objects_before: ObjectsBefore::Identity,
+                ..right
+            },
+            Self::NoObject => PointMotion {
+                objects_before: ObjectsBefore::Now,
+                ..right
+            },
+            Self::NoCamera => PointMotion {
+                camera_stands: true,
+                ..right
+            },
+            _ => right,
+        }
+    }
+
+    fn refusal(self) -> Error {
+        let known = Self::ALL
+            .iter()
+            .filter(|defect| defect.motion() == PointMotion::default());
+        let names: Vec<&str> = known.map(|defect| defect.name()).collect();
+        Error::Usage(format!(
+            "--velocity-defect {}: needs the scene's own motion, which an engine's capture does not have; allowed there: {}",
+            self.name(),
+            names.join(", ")
+        ))
+    }
+}
+
+/// Traces the velocity of other points, or of another motion, in the frame's own kind.
+fn trace_defect(frame: &Frame, scene: &Scene, motion: &PointMotion) -> Result<Vectors, Error> {
+    if frame.options.velocity == VelocityKind::CameraOnly {
+        return Err(Error::Usage(
+            "--velocity camera_only: has no motion of objects that could be wrong; try defects with instantaneous or \
+             previous_frame"
+                .to_owned(),
+        ));
+    }
+    let band = frame.guard_band;
+    let settings = RenderSettings {
+        width: frame.color.width - 2 * band,
+        height: frame.color.height - 2 * band,
+        guard_band: band,
+        options: frame.options,
+        ..RenderSettings::default()
+    };
+    Ok(trace_motion(scene, &settings, motion)?.velocity)
+}

@@ -1,0 +1,218 @@
+//! Conversion of a capture to the files of this program.
+
+use std::path::Path;
+
+use frame::{
+    Display, ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Provenance, Raster, Reprojection,
+    Truth, VelocityKind, display_srgb, write_exr, write_png,
+};
+use tracer::Watch;
+
+use super::engine_scene::{
+    BLURRED, EngineScene, INGESTED_FILE, INGESTED_FORMAT, engine_name, name_in_one_word,
+};
+use super::engine_truth::{EngineTruth, NOT_TRACED, average_subframes};
+use super::moving::usual_top_speed;
+use super::objects::{draw_coverage, name_objects};
+use crate::capture::folder::Capture;
+use crate::colors::velocity_wheel;
+use crate::folder::scene_folder::refuse_scene;
+use crate::{Error, PROGRAM};
+
+/// A capture that was ingested.
+pub struct Ingested {
+    /// Contents of `ingested.json`.
+    pub scene: EngineScene,
+    /// The truth; none where the capture has no sub-frames.
+    pub truth: Option<Truth>,
+}
+
+/// Writes the frame of a capture, the truth of its sub-frames and the engine's own blurred picture into the folder `out`, which
+/// names the scene. The pictures are shown and compared at the exposures of `display`; `names` are those of the objects of the scene
+/// that the engine drew.
+pub fn ingest(
+    capture: &Capture,
+    (display, names): (Display, Option<Vec<String>>),
+    out: &Path,
+    watch: Watch,
+) -> Result<Ingested, Error> {
+    refuse_scene(out)?;
+    let name = name_scene(capture, out)?;
+    let (exposure, alignment) = capture.shutter()?;
+    let shutter = (alignment.shutter(exposure)).expect("the exposure was checked when it was read");
+    let hash = hash_capture(capture)?;
+    let provenance = Provenance {
+        scene: name.clone(),
+        program: PROGRAM.to_owned(),
+        seed: 0,
+        samples_per_pixel: 1,
+        replicates: 1,
+        traversal: NOT_TRACED.to_owned(),
+        content_hash: hash.clone(),
+        engine: Some(capture.description.engine.clone()),
+    };
+    let objects = name_objects(capture, names)?;
+    let made = match capture.subframes.is_empty() {
+        true => None,
+        false => {
+            let shutter = (shutter, alignment);
+            Some(average_subframes(
+                capture,
+                shutter,
+                &objects,
+                &provenance,
+                watch,
+            )?)
+        }
+    };
+    let frame = make_frame(capture, (exposure, display), objects, provenance.clone());
+    std::fs::create_dir_all(out).map_err(|source| frame::FileError::io(out, "write", source))?;
+    frame.write(&out.join("frame.exr"))?;
+    let show =
+        |name: &str, image: &Image| write_png(&out.join(name), &display_srgb(image, display.stops));
+    show("frame.png", &frame.color)?;
+    write_png(&out.join("velocity.png"), &velocity_wheel(&frame))?;
+    if let Some(picture) = &capture.blurred {
+        write_picture(
+            &out.join(BLURRED),
+            picture,
+            exposure,
+            alignment.name(),
+            &provenance,
+        )?;
+        show("blurred.png", picture)?;
+    }
+    let step =
+        usual_top_speed(&capture.velocity) * exposure / capture.subframes.len().max(1) as f64;
+    let scene = EngineScene {
+        format: INGESTED_FORMAT,
+        program: PROGRAM.to_owned(),
+        name,
+        engine: capture.description.engine.clone(),
+        scene: capture.description.scene.clone(),
+        size: [frame.color.width, frame.color.height],
+        exposure,
+        alignment: alignment.name().to_owned(),
+        subframes: capture.subframes.len() as u32,
+        step,
+        ladder: (made.iter().flat_map(|made| &made.ladder.rungs))
+            .map(|rung| rung.subframes)
+            .collect(),
+        has_picture: capture.blurred.is_some(),
+        hash,
+        folder: out.to_owned(),
+    };
+    let truth = (made.map(|made| -> Result<Truth, Error> {
+        let EngineTruth { truth, ladder } = made;
+        ladder.write(&out.join(format!("ladder_{alignment}.exr")))?;
+        truth.write(&out.join(format!("truth_{alignment}.exr")))?;
+        show(&format!("truth_{alignment}.png"), &truth.mean().color)?;
+        Ok(truth)
+    }))
+    .transpose()?;
+    // Last, so that a folder with this file is whole.
+    let json = serde_json::to_string_pretty(&scene).expect("a scene is plain data") + "\n";
+    frame::write_atomically(&out.join(INGESTED_FILE), json.as_bytes())?;
+    Ok(Ingested { scene, truth })
+}
+
+/// Names the scene by the folder and the engine, as a variant of a scene is named.
+fn name_scene(capture: &Capture, out: &Path) -> Result<String, Error> {
+    let folder = out.file_name().and_then(|name| name.to_str());
+    let is_plain = |name: &&str| !name.contains('@') && name_in_one_word(name) == **name;
+    match folder.filter(is_plain) {
+        Some(folder) => Ok(format!(
+            "{folder}@{}",
+            name_in_one_word(engine_name(&capture.description.engine))
+        )),
+        None => Err(Error::Usage(format!(
+            "--out {}: its last part names the scene; allowed: letters, digits and . _ - +, such as out/engine/railing",
+            out.display()
+        ))),
+    }
+}
+
+fn make_frame(
+    capture: &Capture,
+    (exposure, display): (f64, Display),
+    objects: Vec<String>,
+    provenance: Provenance,
+) -> Frame {
+    let (width, height) = (capture.color.width, capture.color.height);
+    let sky = capture.depth.pixels.iter().zip(&capture.velocity.pixels);
+    let mut moving_sky = sky.filter(|(depth, _)| **depth >= FAR_DEPTH);
+    Frame {
+        provenance,
+        exposure,
+        options: FrameOptions {
+            velocity: VelocityKind::PreviousFrame,
+            sky_velocity: moving_sky.any(|(_, velocity)| *velocity != [0.0, 0.0]),
+            ..FrameOptions::default()
+        },
+        guard_band: 0,
+        reprojection: Reprojection::STILL,
+        display,
+        coverage: draw_coverage(capture.object_id.as_ref(), (width, height), objects.len()),
+        object_id: match (&capture.object_id, objects.len()) {
+            (Some(ids), 2..) => ids.clone(),
+            _ => Raster::filled(width, height, 0),
+        },
+        objects,
+        color: capture.color.clone(),
+        velocity: capture.velocity.clone(),
+        depth: capture.depth.clone(),
+        samples: None,
+    }
+}
+
+fn write_picture(
+    path: &Path,
+    picture: &Image,
+    exposure: f64,
+    alignment: &str,
+    provenance: &Provenance,
+) -> Result<(), Error> {
+    let mut file = ExrFile::new(picture.width, picture.height);
+    file.push_color("", picture);
+    file.set("kind", "output");
+    file.set("exposure", exposure);
+    file.set("alignment", alignment);
+    provenance.set(&mut file);
+    Ok(write_exr(path, &file)?)
+}
+
+/// Hashes the files that the pictures are made of, and how they are read.
+fn hash_capture(capture: &Capture) -> Result<String, Error> {
+    let mut hasher = blake3::Hasher::new();
+    let how = format!(
+        "{PROGRAM}\n{:?}\n{:?}",
+        capture.description, capture.convention
+    );
+    hasher.update(how.as_bytes());
+    let Capture {
+        color,
+        velocity,
+        depth,
+        blurred,
+        ..
+    } = capture;
+    let mut add = |values: &mut dyn Iterator<Item = f32>| {
+        for value in values {
+            hasher.update(&value.to_le_bytes());
+        }
+    };
+    add(&mut color.pixels.iter().flatten().copied());
+    add(&mut velocity.pixels.iter().flatten().copied());
+    add(&mut depth.pixels.iter().copied());
+    let ids = capture.object_id.iter().flat_map(|ids| &ids.pixels);
+    add(&mut ids.map(|id| *id as f32));
+    add(&mut blurred
+        .iter()
+        .flat_map(|image| image.pixels.iter().flatten().copied()));
+    for path in &capture.subframes {
+        let bytes =
+            std::fs::read(path).map_err(|source| frame::FileError::io(path, "read", source))?;
+        hasher.update(&bytes);
+    }
+    Ok(hasher.finalize().to_hex().to_string())
+}

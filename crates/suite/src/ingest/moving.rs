@@ -1,0 +1,120 @@
+//! Pixels where anything moves while an engine's shutter is open, as far as its pictures tell.
+
+use frame::{Image, Raster, Shutter, Vectors};
+
+/// Least change of a displayed colour between sub-frames that counts as motion: two steps of 8 bits.
+const LEAST_CHANGE: f32 = 2.0 / 255.0;
+/// Least motion while the shutter is open, in pixels.
+const LEAST_MOTION: f32 = 0.1;
+
+/// Share of the moving pixels that are no faster than the usual top speed.
+const TOP_SHARE: f64 = 0.99;
+
+/// Least and greatest displayed colour of each pixel over the sub-frames.
+pub struct ColorRange {
+    /// Display exposure, in stops.
+    stops: f32,
+    least: Image,
+    greatest: Image,
+}
+
+impl ColorRange {
+    /// Starts with no sub-frame.
+    pub fn new((width, height): (u32, u32), stops: f32) -> Self {
+        Self {
+            stops,
+            least: Raster::filled(width, height, [f32::INFINITY; 3]),
+            greatest: Raster::filled(width, height, [f32::NEG_INFINITY; 3]),
+        }
+    }
+
+    /// Adds a sub-frame.
+    pub fn add(&mut self, color: &Image) {
+        let ranges = self.least.pixels.iter_mut().zip(&mut self.greatest.pixels);
+        for ((least, greatest), color) in ranges.zip(&color.pixels) {
+            for channel in 0..3 {
+                let value = encode(color[channel], self.stops);
+                least[channel] = least[channel].min(value);
+                greatest[channel] = greatest[channel].max(value);
+            }
+        }
+    }
+
+    /// Marks the pixels whose colour changes, and those that the frame's surfaces pass on their way through the shutter.
+    pub fn mark_moving(&self, velocity: &Vectors, shutter: Shutter) -> Raster<bool> {
+        let mut moving = self.least.zip(&self.greatest, |least, greatest| {
+            (0..3).any(|channel| greatest[channel] - least[channel] > LEAST_CHANGE)
+        });
+        let (width, height) = (velocity.width, velocity.height);
+        for (at, motion) in (0_u32..).zip(&velocity.pixels) {
+            let length = motion[0].hypot(motion[1]) * shutter.exposure() as f32;
+            if length < LEAST_MOTION {
+                continue;
+            }
+            // Two steps per pixel miss none; beyond twice the picture nothing is seen.
+            let steps = (2.0 * length.min(2.0 * (width + height) as f32)).ceil() as u32;
+            for step in 0..=steps {
+                let time = shutter.at(f64::from(step) / f64::from(steps)) as f32;
+                let x = ((at % width) as f32 + 0.5 + motion[0] * time).floor();
+                let y = ((at / width) as f32 + 0.5 + motion[1] * time).floor();
+                if x >= 0.0 && y >= 0.0 && x < width as f32 && y < height as f32 {
+                    moving.pixels[y as usize * width as usize + x as usize] = true;
+                }
+            }
+        }
+        moving
+    }
+}
+
+/// Encodes radiance about as a display does, without an end at white.
+fn encode(radiance: f32, stops: f32) -> f32 {
+    (radiance.max(0.0) * stops.exp2()).powf(1.0 / 2.2)
+}
+
+/// Returns the speed that 99 % of the moving pixels have at most, in pixels per frame; 0 where nothing moves. Some engines leave
+/// absurd velocities in a few pixels.
+pub fn usual_top_speed(velocity: &Vectors) -> f64 {
+    let speeds = velocity.pixels.iter().map(|[x, y]| x.hypot(*y));
+    let mut moving: Vec<f32> = speeds.filter(|speed| *speed >= LEAST_MOTION).collect();
+    moving.sort_by(f32::total_cmp);
+    let at = (moving.len() as f64 * TOP_SHARE).ceil() as usize;
+    moving
+        .get(at.saturating_sub(1))
+        .map_or(0.0, |speed| f64::from(*speed))
+}
+
+#[cfg(test)]
+mod tests {
+    use frame::Alignment;
+
+    use super::*;
+
+    #[test]
+    fn a_few_absurd_velocities_do_not_count() {
+        let speeds = |absurd: usize| {
+            let mut speeds = Raster::from_fn(20, 20, |x, _| [if x < 10 { 4.0 } else { 0.0 }, 0.0]);
+            speeds.pixels[..absurd].fill([1e5, 0.0]);
+            usual_top_speed(&speeds)
+        };
+        // 200 pixels move.
+        assert_eq!([speeds(0), speeds(2), speeds(3)], [4.0, 4.0, 1e5]);
+        assert_eq!(usual_top_speed(&Raster::filled(4, 4, [0.0; 2])), 0.0);
+    }
+
+    #[test]
+    fn what_passes_and_what_changes_moves() {
+        let mut range = ColorRange::new((8, 1), 0.0);
+        let color =
+            |changed: f32| Raster::from_fn(8, 1, |x, _| [if x == 7 { changed } else { 0.5 }; 3]);
+        range.add(&color(0.5));
+        range.add(&color(0.6));
+        // Two pixels to the right per frame, with the shutter open for one frame before the instant.
+        let velocity = Raster::from_fn(8, 1, |x, _| [if x == 4 { 2.0 } else { 0.0 }, 0.0]);
+        let shutter = Alignment::Trailing.shutter(1.0).unwrap();
+        let moving = range.mark_moving(&velocity, shutter);
+        assert_eq!(
+            moving.pixels,
+            [false, false, true, true, true, false, false, true]
+        );
+    }
+}

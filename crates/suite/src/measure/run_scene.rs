@@ -1,0 +1,119 @@
+//! A scene of a run: rendered from its files, or drawn by an engine.
+
+use std::path::{Path, PathBuf};
+
+use frame::Alignment;
+use tracer::{Family, RenderSettings, Scene};
+
+use crate::Error;
+use crate::ingest::engine_scene::EngineScene;
+use crate::render::memory::{check_measuring_memory, measuring_memory};
+use crate::render::settings::frame_settings;
+use crate::run::case::Drawn;
+
+/// A scene of a run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum RunScene<'a> {
+    /// Frame and truth are rendered.
+    Traced(&'a Scene),
+    /// Frame and truth were drawn by an engine, and are copied.
+    Drawn(&'a EngineScene),
+}
+
+impl<'a> RunScene<'a> {
+    /// Returns the scene's name, with its variant or engine.
+    pub fn name(self) -> &'a str {
+        match self {
+            Self::Traced(scene) => &scene.name,
+            Self::Drawn(scene) => &scene.name,
+        }
+    }
+
+    /// Returns the scene that frame and truth are rendered of; none where an engine drew them.
+    pub fn traced(self) -> Option<&'a Scene> {
+        match self {
+            Self::Traced(scene) => Some(scene),
+            Self::Drawn(_) => None,
+        }
+    }
+
+    /// Returns the family; none of an engine's scene.
+    pub fn family(self) -> Option<Family> {
+        match self {
+            Self::Traced(scene) => Some(scene.family),
+            Self::Drawn(_) => None,
+        }
+    }
+
+    /// Says what the scene exposes.
+    pub fn exposes(self) -> String {
+        match self {
+            Self::Traced(scene) => scene.exposes.clone(),
+            Self::Drawn(scene) => scene.exposes(),
+        }
+    }
+
+    /// Says who drew the frame and the truth; none where both are rendered.
+    pub fn drawn(self) -> Option<Drawn> {
+        match self {
+            Self::Traced(_) => None,
+            Self::Drawn(scene) => Some(Drawn {
+                engine: scene.engine.clone(),
+                scene: scene.scene.clone(),
+                subframes: scene.subframes,
+                step: scene.step,
+            }),
+        }
+    }
+
+    /// Names the folder of the scene's files below `out`.
+    pub fn folder(self, out: &Path) -> PathBuf {
+        out.join(self.name())
+    }
+
+    /// Lists the shutter alignments that there are truths of, among those of a plan.
+    pub fn alignments(self, planned: Vec<Alignment>) -> Vec<Alignment> {
+        match self {
+            Self::Traced(_) => planned,
+            Self::Drawn(scene) => vec![scene.alignment()],
+        }
+    }
+
+    /// Lists the accumulations that its truth can be compared with, among those of a plan.
+    pub fn accumulations(self, planned: &[u32]) -> Vec<u32> {
+        match self {
+            Self::Traced(_) => planned.to_owned(),
+            Self::Drawn(scene) => {
+                let there = planned.iter().filter(|count| scene.ladder.contains(count));
+                there.copied().collect()
+            }
+        }
+    }
+
+    /// Returns the content hash of the truth of one alignment.
+    pub fn truth_hash(self, settings: &RenderSettings, alignment: Alignment) -> String {
+        match self {
+            Self::Traced(scene) => tracer::truth_hash(scene, settings, alignment),
+            Self::Drawn(scene) => scene.truth_hash(),
+        }
+    }
+
+    /// Refuses settings with which the scene cannot be measured, and too little memory.
+    pub fn check(self, settings: &RenderSettings) -> Result<(), Error> {
+        match self {
+            Self::Traced(scene) => {
+                frame_settings(settings).check_frame(scene)?;
+                check_measuring_memory(scene, settings)
+            }
+            Self::Drawn(scene) => scene.check_truth(),
+        }
+    }
+
+    /// Estimates the bytes of memory that measuring takes; nothing for a scene that is not rendered.
+    pub fn memory(self, settings: &RenderSettings) -> u64 {
+        match self {
+            Self::Traced(scene) => measuring_memory(scene, settings),
+            Self::Drawn(_) => 0,
+        }
+    }
+}

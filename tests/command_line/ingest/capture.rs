@@ -1,0 +1,159 @@
+//! A capture, made of our own scene as an engine with conventions of its own would make it.
+
+use std::fs;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+use frame::{
+    Alignment, Channel, ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Raster, Samples,
+    VelocityKind, write_exr, write_half_exr,
+};
+use tracer::{RenderSettings, Scene, load_scene, trace_frame};
+
+use crate::bench::Bench;
+
+pub const EXPOSURE: f64 = 0.5;
+pub const SIZE: &str = "96x54";
+const WIDTH: u32 = 96;
+const HEIGHT: u32 = 54;
+const NEAR: f32 = 0.1;
+
+pub const DESCRIPTION: &str = "\
+engine = \"Test Engine 1.2\"
+scene = \"plate\"
+exposure = 0.5
+alignment = \"trailing\"
+";
+
+/// Velocity in normalised device coordinates, upwards, and reversed depth with a far plane at infinity.
+pub const CONVENTION: &str = "\
+[convention]
+velocity = \"ndc\"
+velocity_y = \"up\"
+depth = \"reversed\"
+near = 0.1
+color_scale = 2.0
+";
+
+/// A folder `capture` in a bench, which holds the bench's plate as an engine draws it.
+pub struct Capture<'a> {
+    bench: &'a Bench,
+    /// The frame that it was made of.
+    pub frame: Frame,
+}
+
+impl<'a> Capture<'a> {
+    /// Writes the instant: half floats, as most engines have them.
+    pub fn new(bench: &'a Bench) -> Self {
+        let capture = Self {
+            bench,
+            frame: render_instant(bench, 0.0),
+        };
+        fs::create_dir(bench.path("capture")).unwrap();
+        capture.write("capture.toml", DESCRIPTION);
+        capture.write("engine.toml", CONVENTION);
+        let Frame {
+            color,
+            velocity,
+            depth,
+            object_id,
+            ..
+        } = &capture.frame;
+        capture.write_color("color.exr", color);
+        let [x, y] = [2.0 / WIDTH as f32, -2.0 / HEIGHT as f32];
+        let mut file = ExrFile::new(WIDTH, HEIGHT);
+        file.push_plane("R", &velocity.map(|motion| motion[0] * x));
+        file.push_plane("G", &velocity.map(|motion| motion[1] * y));
+        write_half_exr(&capture.path("velocity.exr"), file).unwrap();
+        let reversed = depth.map(|depth| match *depth == FAR_DEPTH {
+            true => 0.0,
+            false => NEAR / depth,
+        });
+        let mut file = ExrFile::new(WIDTH, HEIGHT);
+        file.push_plane("R", &reversed);
+        write_half_exr(&capture.path("depth.exr"), file).unwrap();
+        let mut file = ExrFile::new(WIDTH, HEIGHT);
+        file.channels.push(Channel {
+            name: "object".into(),
+            samples: Samples::U32(object_id.pixels.clone()),
+        });
+        write_exr(&capture.path("object.exr"), &file).unwrap();
+        capture
+    }
+
+    /// Adds sub-frames at the midpoints of equal parts of the shutter, and as the engine's blur the mean of the first four.
+    pub fn with_subframes(self, count: u32) -> Self {
+        self.add_subframes(count, false)
+    }
+
+    /// Adds sub-frames that hold object ids beside their colours.
+    pub fn with_subframes_and_ids(self, count: u32) -> Self {
+        self.add_subframes(count, true)
+    }
+
+    fn add_subframes(self, count: u32, has_ids: bool) -> Self {
+        fs::create_dir(self.path("subframes")).unwrap();
+        let shutter = Alignment::Trailing.shutter(EXPOSURE).unwrap();
+        let mut blurred = self.frame.color.map(|_| [0.0; 3]);
+        for index in 0..count {
+            let time = shutter.at((f64::from(index) + 0.5) / f64::from(count));
+            let Frame {
+                color, object_id, ..
+            } = render_instant(self.bench, time);
+            let ids = has_ids.then_some(&object_id);
+            self.write_picture(&format!("subframes/{index:04}.exr"), &color, ids);
+            if index < 4 {
+                blurred = blurred.zip(&color, |sum, color| {
+                    std::array::from_fn(|channel| sum[channel] + 0.25 * color[channel])
+                });
+            }
+        }
+        self.write_color("blurred.exr", &blurred);
+        self
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.bench.path("capture").join(name)
+    }
+
+    pub fn write(&self, name: &str, text: &str) {
+        fs::write(self.path(name), text).unwrap();
+    }
+
+    /// Writes colour exposed as the convention says.
+    pub fn write_color(&self, name: &str, color: &Image) {
+        self.write_picture(name, color, None);
+    }
+
+    /// Writes colour, and the ids of objects as floats, -1 for the background.
+    pub fn write_picture(&self, name: &str, color: &Image, ids: Option<&Raster<u32>>) {
+        let mut file = ExrFile::new(color.width, color.height);
+        file.push_color("", &color.map(|pixel| pixel.map(|value| 2.0 * value)));
+        if let Some(ids) = ids {
+            let ids = ids.map(|id| if *id == 0 { -1.0 } else { *id as f32 });
+            file.push_plane("object", &ids);
+        }
+        write_half_exr(&self.path(name), file).unwrap();
+    }
+}
+
+/// Renders the plate as it is at a time.
+fn render_instant(bench: &Bench, time: f64) -> Frame {
+    let mut scene: Scene = load_scene(&bench.path("scenes/plate"), None).unwrap();
+    for object in &mut scene.objects {
+        for key in &mut object.motion.keys {
+            key.time -= time;
+        }
+    }
+    let settings = RenderSettings {
+        width: WIDTH,
+        height: HEIGHT,
+        samples_per_pixel: 64,
+        options: FrameOptions {
+            velocity: VelocityKind::PreviousFrame,
+            ..FrameOptions::default()
+        },
+        ..RenderSettings::default()
+    };
+    trace_frame(&scene, &settings, &|_| ControlFlow::Continue(())).unwrap()
+}

@@ -1,0 +1,417 @@
+//! Captures that are refused, or taken with a warning: place, finding, what is allowed, way out.
+
+use std::fs;
+use std::process::Output;
+
+use frame::{ExrFile, Plane, display_srgb, read_exr, write_exr, write_png};
+
+use super::capture::{CONVENTION, Capture, DESCRIPTION};
+use super::ingest;
+use crate::bench::{Bench, assert_done, assert_refused, split, stderr};
+
+fn try_ingest(bench: &Bench) -> Output {
+    bench.shuttertruth(&split("ingest capture -o out/engine/mine"))
+}
+
+/// Changes the files of a capture, looks at the refusal, and puts the files back.
+fn assert_refusal(
+    capture: &Capture,
+    bench: &Bench,
+    changed: &str,
+    parts: &[&str],
+    change: impl FnOnce(),
+) {
+    let path = capture.path(changed);
+    let before = fs::read(&path).ok();
+    change();
+    assert_refused(&try_ingest(bench), 2, parts);
+    match before {
+        Some(bytes) => fs::write(&path, bytes).unwrap(),
+        None => fs::remove_file(&path).unwrap(),
+    }
+}
+
+#[test]
+fn folders_that_are_no_captures_are_refused() {
+    let bench = Bench::new();
+    let refusal = try_ingest(&bench);
+    assert_refused(
+        &refusal,
+        2,
+        &["capture: there is no such folder", "color.exr"],
+    );
+    let capture = Capture::new(&bench);
+    let refuse = |changed: &str, parts: &[&str], change: &dyn Fn()| {
+        assert_refusal(&capture, &bench, changed, parts, change);
+    };
+    let remove = |name: &'static str| {
+        let path = capture.path(name);
+        move || fs::remove_file(&path).unwrap()
+    };
+    let described = |text: &'static str| {
+        let path = capture.path("capture.toml");
+        move || fs::write(&path, text).unwrap()
+    };
+    for (name, parts) in [
+        (
+            "capture.toml",
+            ["capture.toml: there is no such file", "engine = "],
+        ),
+        (
+            "engine.toml",
+            ["engine.toml: there is no such file", "--convention"],
+        ),
+        (
+            "color.exr",
+            ["color.exr: there is no such file", "radiance"],
+        ),
+        (
+            "velocity.exr",
+            ["velocity.exr: there is no such file", "save that buffer"],
+        ),
+        (
+            "depth.exr",
+            ["depth.exr: there is no such file", "save that buffer"],
+        ),
+    ] {
+        refuse(name, &parts, &remove(name));
+    }
+    for (text, parts) in [
+        (
+            "engine = \"\"",
+            ["capture.toml: engine = \"\"", "allowed: a name"],
+        ),
+        (
+            "name = 1",
+            ["capture.toml:1: unknown field `name`", "`engine`"],
+        ),
+        (
+            "engine = \"e\"\nalignment = \"late\"",
+            ["capture.toml:2:", "trailing, centred, leading"],
+        ),
+        (
+            "engine = \"e\"\nexposure = 0.0\n",
+            ["exposure = 0", "capture.toml"],
+        ),
+        (
+            "engine = \"e\"\nscene = \"../up\"\n",
+            ["scene = \"../up\"", "allowed: the name"],
+        ),
+        (
+            "engine = \"e\"\nexposure = 0.5\n",
+            ["alignment = \"trailing\"", "add it"],
+        ),
+        (
+            "engine = \"e\"\nalignment = \"trailing\"\n",
+            ["exposure = 0.5", "add it"],
+        ),
+    ] {
+        refuse("capture.toml", &parts, &described(text));
+    }
+    refuse(
+        "engine.toml",
+        &["engine.toml:2: convention: velocity_per = \"second\" needs"],
+        &|| {
+            capture.write("engine.toml", "\n[convention]\nvelocity_per = \"second\"\n");
+        },
+    );
+    refuse("color.png", &["color.png", "remove one of them"], &|| {
+        fs::write(capture.path("color.png"), "").unwrap();
+    });
+    assert_done(&try_ingest(&bench));
+    let words = split("ingest capture -o capture");
+    assert_refused(
+        &bench.shuttertruth(&words),
+        2,
+        &["--out capture", "is the capture itself"],
+    );
+    let words = split("ingest capture -o out/a@b");
+    assert_refused(
+        &bench.shuttertruth(&words),
+        2,
+        &["--out out/a@b", "allowed: letters"],
+    );
+}
+
+#[test]
+fn pictures_that_cannot_be_right_are_refused() {
+    let bench = Bench::new();
+    let capture = Capture::new(&bench);
+    let path = |name: &str| capture.path(name);
+    let change = |name: &'static str, channel: &'static str, change: &dyn Fn(&mut Plane)| {
+        let file = read_exr(&path(name)).unwrap();
+        let mut changed = ExrFile::new(file.width, file.height);
+        for own in &file.channels {
+            let mut plane = file.plane(&own.name).unwrap();
+            if own.name == channel {
+                change(&mut plane);
+            }
+            changed.push_plane(&own.name, &plane);
+        }
+        write_exr(&path(name), &changed).unwrap();
+    };
+    let refuse = |changed: &str, parts: &[&str], change: &dyn Fn()| {
+        assert_refusal(&capture, &bench, changed, parts, change);
+    };
+    for (name, channel, value, parts) in [
+        (
+            "color.exr",
+            "G",
+            f32::NAN,
+            [
+                "color.exr: channel \"G\" holds NaN at pixel (5, 1)",
+                "must be finite",
+            ],
+        ),
+        (
+            "velocity.exr",
+            "R",
+            f32::INFINITY,
+            [
+                "velocity.exr: channel \"R\" holds inf at pixel (5, 1)",
+                "overflowed",
+            ],
+        ),
+        (
+            "depth.exr",
+            "R",
+            f32::NAN,
+            [
+                "depth.exr: channel \"R\" holds NaN at pixel (5, 1)",
+                "allows 0 to 1",
+            ],
+        ),
+        (
+            "depth.exr",
+            "R",
+            7.5,
+            ["depth.exr: channel \"R\" holds 7.5", "name the depth"],
+        ),
+    ] {
+        refuse(name, &parts, &|| {
+            change(name, channel, &|plane| plane.pixels[96 + 5] = value)
+        });
+    }
+    refuse(
+        "velocity.exr",
+        &[
+            "velocity.exr: has 64x32 pixels, the colour 96x54",
+            "without scaling",
+        ],
+        &|| {
+            let mut file = ExrFile::new(64, 32);
+            for name in ["X", "Y"] {
+                file.push_plane(name, &Plane::filled(64, 32, 0.0));
+            }
+            write_exr(&path("velocity.exr"), &file).unwrap();
+        },
+    );
+    refuse(
+        "velocity.exr",
+        &["velocity.exr: has the channels B, Q; needed: velocity.X and velocity.Y"],
+        &|| {
+            let mut file = ExrFile::new(96, 54);
+            for name in ["B", "Q"] {
+                file.push_plane(name, &Plane::filled(96, 54, 0.0));
+            }
+            write_exr(&path("velocity.exr"), &file).unwrap();
+        },
+    );
+    refuse(
+        "object.exr",
+        &[
+            "object.exr: channel \"R\" holds 0.5 at pixel (0, 0)",
+            "without blending",
+        ],
+        &|| {
+            let mut file = ExrFile::new(96, 54);
+            file.push_plane("R", &Plane::filled(96, 54, 0.5));
+            write_exr(&path("object.exr"), &file).unwrap();
+        },
+    );
+    assert_done(&try_ingest(&bench));
+}
+
+#[test]
+fn sub_frames_that_make_no_truth_are_refused() {
+    let bench = Bench::new();
+    let capture = Capture::new(&bench).with_subframes(5);
+    let refuse = |parts: &[&str]| assert_refused(&try_ingest(&bench), 2, parts);
+    refuse(&[
+        "subframes: holds 5 sub-frames",
+        "even numbers from 4",
+        "capture 32",
+    ]);
+    fs::remove_file(capture.path("subframes/0002.exr")).unwrap();
+    refuse(&[
+        "subframes/0003.exr: stands in the place of 0002.exr",
+        "without a gap",
+    ]);
+    fs::rename(
+        capture.path("subframes/0004.exr"),
+        capture.path("subframes/0002.exr"),
+    )
+    .unwrap();
+    capture.write("capture.toml", &format!("{DESCRIPTION}subframes = 32\n"));
+    refuse(&[
+        "subframes: holds 4 sub-frames, capture.toml says 32",
+        "capture all",
+    ]);
+    capture.write("capture.toml", DESCRIPTION);
+    fs::copy(
+        capture.path("velocity.exr"),
+        capture.path("subframes/0002.exr"),
+    )
+    .unwrap();
+    refuse(&["subframes/0002.exr: lacks the channel \"B\""]);
+    capture.write_color("subframes/0002.exr", &capture.frame.color.cropped(1));
+    refuse(&["subframes/0002.exr: has 94x52 pixels, the colour 96x54"]);
+    let shown = display_srgb(&capture.frame.color, 0.0);
+    write_png(&capture.path("subframes/0005.png"), &shown).unwrap();
+    refuse(&["subframes/0005.png: is a .png, the colour a .exr"]);
+}
+
+#[test]
+fn ids_that_fit_no_object_or_are_missing_are_refused() {
+    let bench = Bench::new();
+    let capture = Capture::new(&bench).with_subframes_and_ids(4);
+    let color = &capture.frame.color;
+    capture.write_color("subframes/0002.exr", color);
+    let refusal = try_ingest(&bench);
+    assert_refused(
+        &refusal,
+        2,
+        &[
+            "subframes/0002.exr: has no channel \"object\"",
+            "in all of them, or in none",
+        ],
+    );
+    let ids = color.map(|_| 7);
+    capture.write_picture("subframes/0002.exr", color, Some(&ids));
+    let refusal = try_ingest(&bench);
+    assert_refused(
+        &refusal,
+        2,
+        &["hold ids up to 7; allowed: up to 1", "leave object.exr out"],
+    );
+    // Nobody knows how many objects a scene has that is not ours.
+    capture.write(
+        "capture.toml",
+        &DESCRIPTION.replace("scene = \"plate\"\n", ""),
+    );
+    let told = ingest(&bench);
+    assert!(
+        told.contains("objects: object_1, object_2, object_3,"),
+        "{told}"
+    );
+}
+
+#[test]
+fn losses_are_told_and_taken() {
+    let bench = Bench::new();
+    let capture = Capture::new(&bench);
+    let told = stderr(&try_ingest(&bench));
+    assert!(told.contains("velocity.exr holds half floats"), "{told}");
+    // Half floats of a depth that ends at 1 lose what is far.
+    let forward = CONVENTION.replace("reversed", "forward");
+    capture.write("engine.toml", &forward);
+    let told = stderr(&try_ingest(&bench));
+    assert!(
+        told.contains("depth.exr holds half floats of depth = \"forward\": 41 m"),
+        "{told}"
+    );
+    fs::remove_file(capture.path("color.exr")).unwrap();
+    let shown = display_srgb(&capture.frame.color, 0.0);
+    write_png(&capture.path("color.png"), &shown).unwrap();
+    let told = stderr(&try_ingest(&bench));
+    assert!(told.contains("color.png has 8 bits per channel"), "{told}");
+}
+
+#[test]
+fn a_capture_without_sub_frames_has_no_truth_to_run_against() {
+    let bench = Bench::new();
+    Capture::new(&bench);
+    let told = ingest(&bench);
+    assert!(told.contains("no sub-frames, and so no truth"), "{told}");
+    let refusal = bench.shuttertruth(&split("run --scenes out/engine/mine"));
+    assert_refused(&refusal, 2, &["drew no sub-frames", "score"]);
+}
+
+#[test]
+fn what_an_engine_drew_is_not_rendered_otherwise() {
+    let bench = Bench::new();
+    Capture::new(&bench).with_subframes(4);
+    ingest(&bench);
+    for (words, parts) in [
+        (
+            "run --scenes out/engine/mine --size 64x32",
+            ["was drawn at 96x54", "leave --size out"],
+        ),
+        (
+            "run --scenes out/engine/mine --exposure 1",
+            ["--exposure", "as Test Engine 1.2 drew it"],
+        ),
+        (
+            "run --scenes out/engine/mine --guard-band 8",
+            ["--guard-band", "leave the option out"],
+        ),
+        (
+            "run --scenes out/engine/mine,./out/engine/mine",
+            ["is named twice", "rename"],
+        ),
+        (
+            "run --scenes out/engine/mine --filter mcguire",
+            ["no filter is left", "trailing shutter"],
+        ),
+        (
+            "render --scenes out/engine/mine",
+            ["holds what an engine drew", "`run` and `check`"],
+        ),
+        (
+            "calibrate --scenes out/engine/mine",
+            ["does not change from run to run", "bounds.toml"],
+        ),
+    ] {
+        assert_refused_after_notes(&bench.shuttertruth(&split(words)), &parts);
+    }
+}
+
+/// Notes about filters that are left out may stand before the refusal.
+fn assert_refused_after_notes(output: &Output, parts: &[&str]) {
+    let message = stderr(output);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    tests::text::assert_contains(&message, parts);
+}
+
+#[test]
+fn files_of_two_captures_are_not_mixed() {
+    let bench = Bench::new();
+    Capture::new(&bench).with_subframes(4);
+    ingest(&bench);
+    for name in ["frame.exr", "truth_trailing.exr"] {
+        let own = bench.path("out/engine/mine").join(name);
+        let before = fs::read(&own).unwrap();
+        // Another name of the scene is no other capture, another exposure is one.
+        let changed = DESCRIPTION.replace("0.5", "0.25");
+        fs::write(bench.path("capture/capture.toml"), changed).unwrap();
+        bench.execute(&split("ingest capture --quiet -o out/engine/other"));
+        fs::copy(bench.path("out/engine/other").join(name), &own).unwrap();
+        let words = split("run --quiet --scenes out/engine/mine --filter identity");
+        let refusal = bench.shuttertruth(&words);
+        assert_refused(
+            &refusal,
+            2,
+            &[name, "is of another capture", "ingest the capture again"],
+        );
+        fs::write(&own, before).unwrap();
+    }
+    let words = split("run --quiet --scenes out/engine/mine --filter identity");
+    assert_done(&bench.shuttertruth(&words));
+    fs::write(bench.path("out/engine/mine/ingested.json"), "{}").unwrap();
+    let refusal = bench.shuttertruth(&words);
+    assert_refused(
+        &refusal,
+        2,
+        &["ingested.json: no ingested capture", "make the folder anew"],
+    );
+}
