@@ -20,7 +20,7 @@ await captureScene(settings, {
   },
   async picture(name, channels, pixels) {
     status.textContent = name;
-    if (name.startsWith("subframes/")) pixels.forEach((value, at) => (mean[at] += value / settings.subframes));
+    if (name.startsWith("subframes/")) mean.forEach((_, at) => (mean[at] += colorAt(pixels, at) / settings.subframes));
     else show(name, channels.length, pixels);
     await post(`${name}?channels=${channels}`, pixels);
   },
@@ -28,6 +28,11 @@ await captureScene(settings, {
 show(`mean of ${settings.subframes} sub-frames`, 3, mean);
 status.textContent = `${width}x${height}, exposure ${settings.exposure} frames`;
 await post("done", "");
+
+// The colour of sub-frames, which have an id behind each.
+function colorAt(pixels, at) {
+  return pixels[Math.floor(at / 3) * 4 + (at % 3)];
+}
 
 async function post(name, body) {
   if (!settings.send) return;
