@@ -26,12 +26,12 @@ fs.rmSync(path.join(out, "subframes"), { recursive: true, force: true });
 fs.mkdirSync(path.join(out, "subframes"), { recursive: true });
 fs.copyFileSync(path.join(scene, "manifest.json"), path.join(out, "manifest.json"));
 
-let adapter;
+let engine;
 const backends = values.backend ? [values.backend] : BACKENDS;
 let failure = await capture(backends[0]);
 if (failure?.includes("no WebGL 2") && backends.length > 1) failure = await capture(backends[1]);
 if (failure) fail(`${scene}: ${failure}`);
-console.log(`written: ${out}: color, velocity, depth, object, blurred, ${settings.subframes} sub-frames; drawn by ${adapter}`);
+console.log(`written: ${out}: color, velocity, depth, object, blurred, ${settings.subframes} sub-frames; drawn by ${engine}`);
 
 // Opens the page in Chromium and takes what it sends. Returns what failed, or null.
 async function capture(backend) {
@@ -69,8 +69,8 @@ function writePicture(name, channels, body) {
 }
 
 function writeTables(about) {
-  adapter = about.adapter;
-  const { engine, near, far } = about;
+  engine = about.engine;
+  const { near, far } = about;
   const lines = [
     `engine = ${JSON.stringify(engine)}`,
     `scene = ${JSON.stringify(manifest.scene)}`,

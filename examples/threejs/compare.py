@@ -4,8 +4,8 @@
     python3 examples/threejs/compare.py out/capture/railing out/render/railing
 
 Arguments are pairs: a capture, and the folder of the rendered scene, or the word `still` for a capture with `--before 0`, in which
-nothing may move. Velocity is in pixels per frame. Its error is the length of the difference, at
-pixels where both have the same object at the centre. Objects with errors above a hundredth of a pixel are named.
+nothing may move. Velocity is in pixels per frame. Its error is the length of the difference, at pixels where both have the same object
+at the centre. Objects with errors above a hundredth of a pixel are named.
 """
 
 import json

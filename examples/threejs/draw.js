@@ -20,10 +20,10 @@ export async function captureScene(settings, receiver) {
   await renderer.init();
   const played = await loadScene(settings, width / height);
   const { manifest, camera } = played;
-  const about = { engine: `three.js 0.${THREE.REVISION}.0`, adapter: nameAdapter(renderer), near: camera.near, far: camera.far };
-  await receiver.about(about, manifest);
+  const engine = `three.js 0.${THREE.REVISION}.0 (${nameAdapter(renderer)})`;
+  await receiver.about({ engine, near: camera.near, far: camera.far }, manifest);
 
-  const drawing = planDrawing(settings, played);
+  const { color, depth, blurs, gbuffer } = planDrawing(settings, played);
   const nextFrame = () =>
     new Promise((resolve) => {
       renderer.setAnimationLoop(() => {
@@ -46,26 +46,31 @@ export async function captureScene(settings, receiver) {
     return arrange(pixels, width, height, channels);
   };
   const sendColor = async (name, target) => receiver.picture(name, ["R", "G", "B"], await read(target, 3));
+  // The mesh that three.js draws the sky on has no id of its own, and leaves depth as it was cleared.
+  const readIds = async (distance) => {
+    const ids = await read(gbuffer.renderTarget, 1, attachmentOf(gbuffer, "object"));
+    return ids.map((id, at) => (distance[at] === 1 ? 0 : id));
+  };
 
-  const { color, depth, blurs, gbuffer } = drawing;
   const instant = [color, depth, ...blurs];
   if (settings.before !== "none") await draw(manifest.instant - settings.before * manifest.seconds_per_frame, instant);
   await draw(manifest.instant, instant);
   const distance = await read(depth.target, 1);
-  // The mesh that three.js draws the sky on has no id of its own, and leaves depth as it was cleared.
-  const ids = (await read(gbuffer.renderTarget, 1, attachmentOf(gbuffer, "object"))).map((id, at) => (distance[at] === 1 ? 0 : id));
   const motion = await read(gbuffer.renderTarget, 2, attachmentOf(gbuffer, "velocity"));
   await receiver.picture("velocity", ["velocity.X", "velocity.Y"], motion);
   await receiver.picture("depth", ["Z"], distance);
-  await receiver.picture("object", ["object"], ids);
+  await receiver.picture("object", ["object"], await readIds(distance));
   for (const { name, target } of [color, ...blurs]) await sendColor(name, target);
 
   // A centred shutter, as the taps of three.js lie on both sides of a pixel.
   const open = manifest.instant - (settings.exposure / 2) * manifest.seconds_per_frame;
   for (let at = 0; at < settings.subframes; at++) {
     const part = ((at + 0.5) / settings.subframes) * settings.exposure;
-    await draw(open + part * manifest.seconds_per_frame, [color]);
-    await sendColor(`subframes/${String(at).padStart(4, "0")}`, color.target);
+    await draw(open + part * manifest.seconds_per_frame, [color, depth]);
+    const ids = await readIds(await read(depth.target, 1));
+    const pixels = await read(color.target, 4);
+    ids.forEach((id, pixel) => (pixels[pixel * 4 + 3] = id));
+    await receiver.picture(`subframes/${String(at).padStart(4, "0")}`, ["R", "G", "B", "object"], pixels);
   }
 }
 
@@ -134,7 +139,7 @@ function arrange(read, width, height, channels) {
 }
 
 // Loads the scene, its sky and what the manifest says, and stops its animation.
-async function loadScene({ meshes }, aspect) {
+async function loadScene({ meshes, near }, aspect) {
   const manifest = await (await fetch("/scene/manifest.json")).json();
   const gltf = await new GLTFLoader().loadAsync("/scene/scene.gltf");
   const { cameras, animations, parser } = gltf;
@@ -147,6 +152,7 @@ async function loadScene({ meshes }, aspect) {
   scene.backgroundRotation.y = scene.environmentRotation.y = Math.PI / 2;
   const camera = cameras[0];
   camera.aspect = aspect;
+  if (near !== "exported") camera.near = near;
   camera.updateProjectionMatrix();
   const follow = MESHES[meshes](scene);
 

@@ -11,6 +11,7 @@ const HELP = `SCENE  folder of an exported scene: shuttertruth export NAME --glt
   --samples N      taps of three.js's blur [default: 16, as three.js has it]
   --meshes KIND    how objects are drawn: plain, unculled (outside the picture too), instanced (an InstancedMesh each) or
                    skinned (a bone each) [default: plain]
+  --near METRES    near plane of the camera [default: the exported camera's, 0.01]
   --before FRAMES  when the frame before the instant's is drawn; 0 stands still, none draws none [default: 1]`;
 
 // npm runs scripts in the package's folder, and says in which one it was called.
@@ -19,7 +20,7 @@ process.chdir(process.env.INIT_CWD ?? ".");
 // Reads the words of a command; `more` are options of its own, for parseArgs.
 export function readOptions(command, more = {}, help = "") {
   const text = { type: "string" };
-  const known = { size: text, subframes: text, exposure: text, samples: text, meshes: text, before: text };
+  const known = { size: text, subframes: text, exposure: text, samples: text, meshes: text, near: text, before: text };
   const usage = `npm run ${command} -- SCENE [options]\n\n${HELP}${help}`;
   let parsed;
   try {
@@ -47,6 +48,7 @@ export function readOptions(command, more = {}, help = "") {
     exposure: number(values, "exposure", manifest.exposure, 0, Math.max(2, manifest.exposure)),
     samples: number(values, "samples", 16, 2, 256),
     meshes,
+    near: number(values, "near", "exported", 1e-4, 1e4),
     before: values.before === "none" ? "none" : number(values, "before", 1, 0, 2),
   };
   return { scene, manifest, settings, values };

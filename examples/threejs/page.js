@@ -20,7 +20,7 @@ await captureScene(settings, {
   },
   async picture(name, channels, pixels) {
     status.textContent = name;
-    if (name.startsWith("subframes/")) pixels.forEach((value, at) => (mean[at] += value / settings.subframes));
+    if (name.startsWith("subframes/")) mean.forEach((_, at) => (mean[at] += colorAt(pixels, at) / settings.subframes));
     else show(name, channels.length, pixels);
     await post(`${name}?channels=${channels}`, pixels);
   },
@@ -29,8 +29,15 @@ show(`mean of ${settings.subframes} sub-frames`, 3, mean);
 status.textContent = `${width}x${height}, exposure ${settings.exposure} frames`;
 await post("done", "");
 
+// The colour of sub-frames, which have an id behind each.
+function colorAt(pixels, at) {
+  return pixels[Math.floor(at / 3) * 4 + (at % 3)];
+}
+
 async function post(name, body) {
-  if (settings.send) await fetch(`/${name}`, { method: "POST", body });
+  if (!settings.send) return;
+  const answer = await fetch(`/${name}`, { method: "POST", body });
+  if (!answer.ok) throw new Error(await answer.text());
 }
 
 function failed(error) {
@@ -38,13 +45,14 @@ function failed(error) {
   post("failed", status.textContent);
 }
 
-// Shows a picture as a viewer would see it: colours by the curve of sRGB, velocity around grey, depth and ids in steps of grey.
+// Shows a picture as a viewer would see it: colours by the curve of sRGB, velocity around grey, depth and ids from black to white.
 function show(name, channels, pixels) {
   const canvas = Object.assign(document.createElement("canvas"), { width, height });
   const image = new ImageData(width, height);
   const most = pixels.reduce((most, value) => Math.max(most, Math.abs(value)), 1e-9);
+  const least = pixels.reduce((least, value) => Math.min(least, value));
   const encode = (value) => 255 * (value < 0.0031308 ? 12.92 * value : 1.055 * value ** (1 / 2.4) - 0.055);
-  const grey = { 1: (value) => (255 * value) / most, 2: (value) => 127.5 * (1 + value / most), 3: encode }[channels];
+  const grey = { 1: (value) => (255 * (value - least)) / (most - least), 2: (value) => 127.5 * (1 + value / most), 3: encode }[channels];
   for (let pixel = 0; pixel < width * height; pixel++) {
     for (let at = 0; at < 3; at++) {
       const value = pixels[pixel * channels + (channels === 1 ? 0 : at)];

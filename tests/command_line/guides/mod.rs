@@ -16,7 +16,7 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 22] = [
+const NOT_RUN: [(&str, &str); 25] = [
     ("cargo test --workspace", "runs this test and all others"),
     (
         "cargo install --path crates/cli",
@@ -66,6 +66,18 @@ const NOT_RUN: [(&str, &str); 22] = [
     ),
     (
         "python3 examples/threejs/compare.py out/capture/railing out/render/railing",
+        "needs a capture, for which three.js is installed",
+    ),
+    (
+        "shuttertruth audit out/capture/railing",
+        "needs a capture, for which three.js is installed",
+    ),
+    (
+        "shuttertruth ingest out/capture/railing",
+        "needs a capture, for which three.js is installed",
+    ),
+    (
+        "shuttertruth run --scenes out/engine/railing --filter jimenez:slides_2014,kino,mcguire:tuned,bevy:high",
         "needs a capture, for which three.js is installed",
     ),
     (
