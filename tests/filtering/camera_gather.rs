@@ -70,6 +70,7 @@ fn blur_frame(gpu: &Gpu, filter: &str, preset: &str, frame: &Frame) -> Image {
         velocity: &frame.velocity,
         depth: &frame.depth,
         reprojection: Some(frame.reprojection.moved(f64::from(frame.guard_band))),
+        camera: frame.camera,
         exposure: frame.exposure,
         frame_index: 0,
     };
@@ -115,6 +116,7 @@ fn a_frame_without_the_camera_s_motion_is_refused() {
         velocity: &frame.velocity,
         depth: &frame.depth,
         reprojection: None,
+        camera: None,
         exposure: frame.exposure,
         frame_index: 0,
     };

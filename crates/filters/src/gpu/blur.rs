@@ -7,8 +7,9 @@ use super::device::Gpu;
 use super::kernels::Kernels;
 use super::place::Place;
 use super::transfer::{row_bytes, to_texels, velocity_texels};
-use super::uniforms::FrameUniform;
+use super::uniforms::FrameValues;
 use super::uploaded_input::UploadedInput;
+use crate::input::CameraUse;
 use crate::{Convention, Filter, FilterError, Format, Input, Settings};
 
 /// A filter ready to run on images of one size.
@@ -17,7 +18,7 @@ pub struct Blur<'g> {
     pub(super) gpu: &'g Gpu,
     filter: String,
     size: [u32; 2],
-    reads_reprojection: bool,
+    camera_use: CameraUse,
     convention: Convention,
     pub(super) passes: BoundPasses,
 }
@@ -50,15 +51,18 @@ impl<'g> Blur<'g> {
             gpu,
             filter: filter.name.clone(),
             size: [width, height],
-            reads_reprojection: filter.reads_reprojection(),
+            camera_use: filter.camera_use(),
             convention: filter.convention,
-            passes: BoundPasses::new(kernels, settings, [width, height])?,
+            passes: {
+                let specialised = kernels.specialise(settings)?;
+                BoundPasses::new(gpu, &specialised, settings, [width, height])?
+            },
         })
     }
 
     /// Refuses an input that the filter cannot read.
     pub(super) fn check(&self, input: &Input) -> Result<(), FilterError> {
-        input.check(&self.filter, self.size, self.reads_reprojection)
+        input.check(&self.filter, self.size, self.camera_use)
     }
 
     /// Blurs every colour image of the input, in order. The same input gives the same bytes on the same adapter.
@@ -221,7 +225,8 @@ impl<'g> Blur<'g> {
             self.gpu.upload(self.passes.target("velocity"), &velocity);
             let depth = self.convention.convert_depth(input.depth);
             self.gpu.upload(self.passes.target("depth"), &depth.pixels);
-            self.passes.upload_frame(self.gpu, FrameUniform::of(input));
+            let frame = FrameValues::of(input, &self.convention);
+            self.passes.upload_frame(self.gpu, frame);
         })
     }
 

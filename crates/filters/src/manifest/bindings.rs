@@ -8,8 +8,8 @@ use toml::Spanned;
 
 use super::file::{File, MAX_ENTRIES};
 use crate::filter::{
-    Binding, BindingPlace, CONVENTION_VALUES, Expression, FRAME_VALUES, PassShader, SamplerFilter,
-    Sampling, Stage, Wrap,
+    Binding, BindingPlace, Expression, PassShader, SamplerFilter, Sampling, Stage, VertexShader,
+    Wrap, count_numbers, explain_unknown, list_values,
 };
 use crate::translate::Language;
 use crate::{Convention, FilterError, Parameter, Texture};
@@ -27,7 +27,9 @@ pub(super) struct BindingEntry {
     #[serde(default)]
     globals: bool,
     texture: Option<String>,
+    level: Option<NumberEntry>,
     sampler: Option<SamplerFilter>,
+    mip_filter: Option<SamplerFilter>,
     wrap: Option<Wrap>,
     #[serde(default)]
     values: BTreeMap<String, ValueEntry>,
@@ -45,7 +47,7 @@ enum ValueEntry {
 
 #[derive(Deserialize)]
 #[serde(untagged, expecting = "a number or a text with an expression")]
-enum NumberEntry {
+pub(super) enum NumberEntry {
     Number(f64),
     Text(String),
 }
@@ -56,8 +58,11 @@ pub(super) struct ShaderKeys<'m> {
     pub entry: Option<&'m str>,
     pub stage: Option<Stage>,
     pub targets: Option<&'m Vec<String>>,
+    pub level: Option<&'m NumberEntry>,
+    pub vertex: Option<&'m str>,
+    pub vertex_shader: Option<&'m Spanned<String>>,
     pub bindings: &'m [Spanned<BindingEntry>],
-    pub constants: &'m BTreeMap<String, f64>,
+    pub constants: &'m BTreeMap<String, NumberEntry>,
     pub conditions: &'m [String],
 }
 
@@ -67,6 +72,14 @@ pub(super) struct Names<'m> {
     pub textures: &'m [Texture],
     pub parameters: &'m [Parameter],
     pub convention: &'m Convention,
+}
+
+impl Names<'_> {
+    /// Returns true for a parameter or a value of the convention.
+    fn is_setting(&self, name: &str) -> bool {
+        (self.parameters.iter()).any(|parameter| parameter.name == name)
+            || self.convention.value(name).is_some()
+    }
 }
 
 /// Reads the shader of a pass; none where the pass runs a kernel of the filter's WGSL file.
@@ -80,6 +93,9 @@ pub(super) fn read_shader<T>(
         let given = [
             ("stage", keys.stage.is_some()),
             ("targets", keys.targets.is_some()),
+            ("level", keys.level.is_some()),
+            ("vertex", keys.vertex.is_some()),
+            ("vertex_shader", keys.vertex_shader.is_some()),
             ("[[pass.binding]]", !keys.bindings.is_empty()),
             ("constants", !keys.constants.is_empty()),
             ("conditions", !keys.conditions.is_empty()),
@@ -93,9 +109,7 @@ pub(super) fn read_shader<T>(
         };
     };
     let refuse = |reason: String| file.at(path, format!("shader: {reason}"));
-    let relative = read_relative(path.get_ref()).map_err(refuse)?;
-    let language = Language::of(&relative).map_err(refuse)?;
-    file.check_line(path, "shader", path.get_ref())?;
+    let (relative, language) = read_file(file, "shader", path)?;
     let stage = keys.stage.unwrap_or(match relative.extension() {
         Some(ending) if ending == "frag" => Stage::Fragment,
         _ => Stage::Compute,
@@ -108,11 +122,15 @@ pub(super) fn read_shader<T>(
             language.name()
         )));
     }
+    let vertex = read_vertex(file, place, keys, stage, &relative)?;
     let entry = keys.entry.unwrap_or("main");
     // Names are words of a compiler's command line.
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let is_name = |name: &&str| name.starts_with(is_part) && name.chars().all(is_part);
-    let mut names_of_code = (keys.conditions.iter().map(String::as_str)).chain([entry]);
+    let corner = vertex.as_ref().map(|vertex| vertex.entry.clone());
+    let mut names_of_code = (keys.conditions.iter().map(String::as_str))
+        .chain([entry])
+        .chain(corner.as_deref());
     if let Some(name) = names_of_code.find(|name| !is_name(name)) {
         return Err(refuse(format!(
             "\"{name}\" is no name of an entry point or a condition; allowed: letters, digits and _"
@@ -135,10 +153,104 @@ pub(super) fn read_shader<T>(
         entry: entry.to_owned(),
         stage,
         targets,
+        level: read_level(file, place, keys.level, names)?,
+        vertex,
         bindings,
-        constants: keys.constants.clone().into_iter().collect(),
+        constants: read_constants(file, place, keys.constants, names)?,
         conditions: keys.conditions.to_vec(),
     }))
+}
+
+/// Reads the name of a file of a shader.
+fn read_file(
+    file: &File,
+    key: &str,
+    path: &Spanned<String>,
+) -> Result<(PathBuf, Language), FilterError> {
+    let refuse = |reason: String| file.at(path, format!("{key}: {reason}"));
+    let relative = read_relative(path.get_ref()).map_err(refuse)?;
+    let language = Language::of(&relative).map_err(refuse)?;
+    file.check_line(path, key, path.get_ref())?;
+    Ok((relative, language))
+}
+
+/// Reads the vertex stage: an entry point of the shader's own file, or of another one.
+fn read_vertex<T>(
+    file: &File,
+    place: &Spanned<T>,
+    keys: &ShaderKeys,
+    stage: Stage,
+    shader: &Path,
+) -> Result<Option<VertexShader>, FilterError> {
+    if keys.vertex.is_none() && keys.vertex_shader.is_none() {
+        return Ok(None);
+    }
+    if stage != Stage::Fragment {
+        let reason =
+            "vertex and vertex_shader are for stage = \"fragment\"; a compute shader draws nothing";
+        return Err(file.at(place, reason.into()));
+    }
+    let path = keys
+        .vertex_shader
+        .map(|path| read_file(file, "vertex_shader", path));
+    let path = path.transpose()?;
+    Ok(Some(VertexShader {
+        file: path.map_or(shader.to_owned(), |(path, _)| path),
+        entry: keys.vertex.unwrap_or("main").to_owned(),
+    }))
+}
+
+/// Reads the mip level of a texture: a number from 0, or an expression of parameters and of the iteration.
+fn read_level<T>(
+    file: &File,
+    place: &Spanned<T>,
+    entry: Option<&NumberEntry>,
+    names: Names,
+) -> Result<Option<Expression>, FilterError> {
+    let Some(entry) = entry else {
+        return Ok(None);
+    };
+    let is_known = |name: &str| names.is_setting(name) || LEVEL_VALUES.contains(&name);
+    let read = match entry {
+        NumberEntry::Number(level) if *level >= 0.0 && level.fract() == 0.0 => {
+            Ok(Expression::Number(*level))
+        }
+        NumberEntry::Number(level) => Err(format!("level = {level}; allowed: whole, from 0")),
+        NumberEntry::Text(text) => Expression::parse(text, &is_known).map_err(|reason| {
+            format!(
+                "level = \"{text}\" {reason}; known names: parameters, values of [convention], {}",
+                LEVEL_VALUES.join(", ")
+            )
+        }),
+    };
+    read.map(Some).map_err(|reason| file.at(place, reason))
+}
+
+/// Names that a mip level may depend on, besides settings.
+const LEVEL_VALUES: [&str; 2] = ["iteration", "iterations"];
+
+/// Reads values of specialisation constants: numbers, and expressions of parameters.
+fn read_constants<T>(
+    file: &File,
+    place: &Spanned<T>,
+    constants: &BTreeMap<String, NumberEntry>,
+    names: Names,
+) -> Result<Vec<(String, Expression)>, FilterError> {
+    let is_known = |name: &str| names.is_setting(name);
+    let read = |(name, entry): (&String, &NumberEntry)| {
+        let value = match entry {
+            NumberEntry::Number(number) if number.is_finite() => Ok(Expression::Number(*number)),
+            NumberEntry::Number(number) => Err(format!("{name} = {number}; allowed: finite")),
+            NumberEntry::Text(text) => Expression::parse(text, &is_known).map_err(|reason| {
+                format!(
+                    "{name} = \"{text}\" {reason}; allowed: numbers, parameters, and values of [convention]"
+                )
+            }),
+        };
+        let value = value.map_err(|reason| file.at(place, format!("constants: {reason}")))?;
+        Ok((name.clone(), value))
+    };
+    constants.iter().map(read).collect()
 }
 
 /// Reads a path that stays in the filter's folder.
@@ -162,8 +274,17 @@ fn read_targets<T>(
     names: Names,
 ) -> Result<Vec<String>, FilterError> {
     let targets = match (stage, keys.targets) {
-        (Stage::Compute, None) => return Ok(Vec::new()),
-        (Stage::Compute, Some(_)) => {
+        (Stage::Compute | Stage::Vertex, None) => {
+            return match keys.level {
+                None => Ok(Vec::new()),
+                Some(_) => {
+                    let reason = "level of a pass is for stage = \"fragment\"; a compute shader writes the `level` of its \
+                                  [[pass.binding]]";
+                    Err(file.at(place, reason.into()))
+                }
+            };
+        }
+        (Stage::Compute | Stage::Vertex, Some(_)) => {
             let reason =
                 "targets are for stage = \"fragment\"; a compute shader writes storage textures";
             return Err(file.at(place, reason.into()));
@@ -220,16 +341,8 @@ fn read_binding(
     if entry.values.len() > MAX_ENTRIES {
         return Err(refuse(format!("has more than {MAX_ENTRIES} values")));
     }
-    let is_known = |name: &str| is_value(name, names);
-    let read_number = |member: &str, number: &NumberEntry| match number {
-        NumberEntry::Number(number) if number.is_finite() => Ok(Expression::Number(*number)),
-        NumberEntry::Number(number) => Err(refuse(format!("{member} = {number}; allowed: finite"))),
-        NumberEntry::Text(text) => Expression::parse(text, &is_known).map_err(|reason| {
-            refuse(format!(
-                "{member} = \"{text}\" {reason}; known names: {}",
-                list_values(names)
-            ))
-        }),
+    let read_number = |member: &str, number: &NumberEntry| {
+        read_number(number, names).map_err(|reason| refuse(format!("{member} = {reason}")))
     };
     let mut values = Vec::new();
     for (member, given) in &entry.values {
@@ -244,8 +357,10 @@ fn read_binding(
     Ok(Binding {
         place,
         texture: entry.texture.clone(),
+        level: read_level(file, spanned, entry.level.as_ref(), names)?,
         sampling: Sampling {
             filter: entry.sampler.unwrap_or_default(),
+            mip_filter: entry.mip_filter.unwrap_or(SamplerFilter::Nearest),
             wrap: entry.wrap.unwrap_or_default(),
         },
         values,
@@ -253,18 +368,26 @@ fn read_binding(
     })
 }
 
-fn is_value(name: &str, names: Names) -> bool {
-    (names.parameters.iter()).any(|parameter| parameter.name == name)
-        || FRAME_VALUES.iter().any(|(known, _)| *known == name)
-        || names.convention.value(name).is_some()
-}
-
-fn list_values(names: Names) -> String {
-    let parameters = names.parameters.iter().map(|parameter| &parameter.name[..]);
-    let of_convention = CONVENTION_VALUES.into_iter();
-    let all: Vec<&str> = parameters
-        .chain(FRAME_VALUES.map(|(name, _)| name))
-        .chain(of_convention.filter(|name| names.convention.value(name).is_some()))
-        .collect();
-    all.join(", ")
+/// Reads a value of a uniform block: a number, an expression, or the name of several numbers.
+fn read_number(number: &NumberEntry, names: Names) -> Result<Expression, String> {
+    let text = match number {
+        NumberEntry::Number(number) if number.is_finite() => {
+            return Ok(Expression::Number(*number));
+        }
+        NumberEntry::Number(number) => return Err(format!("{number}; allowed: finite")),
+        NumberEntry::Text(text) => text,
+    };
+    let count = |name: &str| count_numbers(name, names.parameters, names.convention);
+    if count(text.trim()).is_some() {
+        return Ok(Expression::Name(text.trim().to_owned()));
+    }
+    if let Some(reason) = explain_unknown(text.trim()) {
+        return Err(format!("\"{text}\" {reason}"));
+    }
+    Expression::parse(text, &|name| count(name) == Some(1)).map_err(|reason| {
+        format!(
+            "\"{text}\" {reason}; known names: {}; arithmetic takes one of several numbers, such as resolution[0]",
+            list_values(names.parameters, names.convention)
+        )
+    })
 }

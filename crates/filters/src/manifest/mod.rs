@@ -15,4 +15,4 @@ mod time_limit;
 pub use file::MAX_ENTRIES;
 pub use parameters::MAX_CHOICES;
 pub(crate) use parse::parse;
-pub use passes::MAX_DISPATCHES;
+pub use passes::{MAX_DISPATCHES, MAX_MIPS};

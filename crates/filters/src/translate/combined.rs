@@ -5,7 +5,8 @@
 
 use std::collections::BTreeMap;
 
-use super::words::{Instruction, Place, UNIFORM_CONSTANT, Words, decoration, op};
+use super::words::{Instruction, UNIFORM_CONSTANT, Words, decoration, op};
+use crate::shader::Place;
 
 /// Types that stand for those of combined ones.
 struct SplitTypes {

@@ -1,10 +1,12 @@
 //! Entry point of a pass, alone in its module and with its specialisation constants set.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
+use wgpu::naga::back::PipelineConstants;
 use wgpu::naga::back::pipeline_constants::process_overrides;
 use wgpu::naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
-use wgpu::naga::{Module, ShaderStage};
+use wgpu::naga::{Module, ScalarKind, ShaderStage};
 
 use super::{explain, refuse};
 use crate::FilterError;
@@ -36,6 +38,7 @@ pub(super) fn keep_entry_point(
     let stage = match shader.stage {
         Stage::Compute => ShaderStage::Compute,
         Stage::Fragment => ShaderStage::Fragment,
+        Stage::Vertex => ShaderStage::Vertex,
     };
     let names: Vec<String> = (module.entry_points.iter())
         .map(|entry| format!("{} ({})", entry.name, name_stage(entry.stage)))
@@ -48,35 +51,67 @@ pub(super) fn keep_entry_point(
         _ => Err(refuse(
             path,
             format!(
-                "has no {} entry point \"{}\"; it has: {}; filter.toml names it with `entry` and `stage`",
+                "has no {} entry point \"{}\"; it has: {}; filter.toml names it with {}",
                 name_stage(stage),
                 shader.entry,
                 match names.is_empty() {
                     true => "none".to_owned(),
                     false => names.join(", "),
+                },
+                match shader.stage {
+                    Stage::Vertex => "`vertex` and `vertex_shader`",
+                    _ => "`entry` and `stage`",
                 }
             ),
         )),
     }
 }
 
-/// Sets specialisation constants. Those that filter.toml does not name keep the value that the shader gives them.
+/// A specialisation constant of a module.
+struct SpecialisationConstant {
+    name: Option<String>,
+    number: Option<String>,
+    is_whole: bool,
+}
+
+impl SpecialisationConstant {
+    /// Lists those of a module.
+    fn list(module: &Module) -> Vec<Self> {
+        (module.overrides.iter())
+            .map(|(_, constant)| Self {
+                name: constant.name.clone().filter(|name| !name.is_empty()),
+                number: constant.id.map(|id| id.to_string()),
+                is_whole: (module.types[constant.ty].inner.scalar())
+                    .is_some_and(|scalar| scalar.kind != ScalarKind::Float),
+            })
+            .collect()
+    }
+
+    fn is_called(&self, name: &str) -> bool {
+        [&self.name, &self.number]
+            .into_iter()
+            .flatten()
+            .any(|known| known == name)
+    }
+}
+
+/// Sets specialisation constants to the values of settings. Those that filter.toml does not name keep the value that the shader
+/// gives them. A vertex stage takes those of its fragment shader that it has.
 pub(super) fn set_constants(
     shader: &PassShader,
     path: &Path,
     module: &mut Module,
+    values: &BTreeMap<String, f64>,
 ) -> Result<(), FilterError> {
-    let mut names = Vec::new();
-    for (_, constant) in module.overrides.iter() {
-        let name = constant.name.clone().filter(|name| !name.is_empty());
-        let number = constant.id.map(|id| id.to_string());
-        names.push((name, number));
-    }
-    let is = |known: &Option<String>, name: &str| known.as_deref() == Some(name);
-    for (name, _) in &shader.constants {
-        if !(names.iter()).any(|(own, number)| is(own, name) || is(number, name)) {
-            let known: Vec<String> = (names.into_iter())
-                .filter_map(|(name, number)| name.or(number))
+    let constants = SpecialisationConstant::list(module);
+    let mut set = PipelineConstants::default();
+    for (name, value) in &shader.constants {
+        let Some(constant) = constants.iter().find(|it| it.is_called(name)) else {
+            if shader.stage == Stage::Vertex {
+                continue;
+            }
+            let known: Vec<String> = (constants.into_iter())
+                .filter_map(|constant| constant.name.or(constant.number))
                 .collect();
             return Err(refuse(
                 path,
@@ -88,18 +123,18 @@ pub(super) fn set_constants(
                     }
                 ),
             ));
-        }
+        };
+        let value = value.evaluate(&|name| values[name]);
+        let value = match constant.is_whole {
+            true => value.round(),
+            false => value,
+        };
+        // A constant with a name and a number goes by its number.
+        let key = constant.number.clone().unwrap_or(name.clone());
+        set.insert(key, value);
     }
-    // A constant with a name and a number goes by its number.
-    let values = shader.constants.iter().map(|(name, value)| {
-        let numbered = names
-            .iter()
-            .find(|(own, number)| is(own, name) && number.is_some());
-        let key = numbered.and_then(|(_, number)| number.clone());
-        (key.unwrap_or(name.clone()), *value)
-    });
     let info = validate(path, module)?;
-    let set = process_overrides(module, &info, None, &values.collect());
+    let set = process_overrides(module, &info, None, &set);
     let set = set.map_err(|error| {
         refuse(
             path,

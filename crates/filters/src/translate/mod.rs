@@ -14,6 +14,7 @@ mod formats;
 mod includes;
 mod language;
 mod levels;
+mod matrices;
 mod members;
 mod module;
 mod packages;
@@ -22,29 +23,97 @@ mod storage;
 mod textures;
 mod words;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::filter::PassShader;
-use crate::shader::{Shader, run_on_large_stack};
-use crate::{Filter, FilterError};
+use crate::shader::{OpenModule, Shader, run_on_large_stack};
+use crate::{Filter, FilterError, Settings};
+use bind::{bind, check_places};
 
 pub(crate) use language::Language;
 
 /// Largest shader that is read, in bytes.
 pub(crate) const MAX_SHADER_BYTES: u64 = compiler::MAX_MODULE_BYTES;
 
-/// Translates the shader of a pass. `bytes` are those of the file at `path`.
+/// Shaders of a pass: its own, and that of its vertex stage if it names one.
+pub(crate) struct Translated {
+    pub shader: Shader,
+    pub vertex: Option<Shader>,
+}
+
+/// Translates the shaders of a pass with the specialisation constants of its first preset. `read_file` reads a file of the filter's
+/// folder.
 pub(crate) fn translate(
     filter: &Filter,
     shader: &PassShader,
-    path: &Path,
-    bytes: &[u8],
+    read_file: &dyn Fn(&Path) -> Result<(PathBuf, Vec<u8>), FilterError>,
+) -> Result<Translated, FilterError> {
+    let (path, bytes) = read_file(&shader.file)?;
+    let vertex = shader.vertex_stage();
+    let vertex = vertex.map(|stage| Ok::<_, FilterError>((read_file(&stage.file)?, stage)));
+    let vertex = vertex.transpose()?;
+    guard(&path, || {
+        let own = module::read(filter, shader, &path, &bytes)?;
+        let vertex = vertex
+            .as_ref()
+            .map(|((path, bytes), stage)| {
+                Ok::<_, FilterError>((module::read(filter, stage, path, bytes)?, path, stage))
+            })
+            .transpose()?;
+        let stages: Vec<&OpenModule> = ([&own].into_iter())
+            .chain(vertex.iter().map(|(open, ..)| open))
+            .collect();
+        check_places(filter, shader, &path, &stages)?;
+        let values = filter.settings(None)?.list_numbers(filter);
+        let bind_stage = |stage: &PassShader, path: &Path, open: OpenModule| {
+            // Kept where a parameter changes the module.
+            let is_open = stage
+                .constants
+                .iter()
+                .any(|(_, value)| value.reads_any(&|_| true));
+            let kept = is_open.then(|| Arc::new(open.clone()));
+            let bound = bind(filter, stage, path, open, &values)?;
+            Ok::<_, FilterError>(Shader {
+                open: kept,
+                ..bound
+            })
+        };
+        Ok(Translated {
+            vertex: vertex
+                .map(|(open, path, stage)| bind_stage(stage, path, open))
+                .transpose()?,
+            shader: bind_stage(shader, &path, own)?,
+        })
+    })
+}
+
+/// Makes a translated shader again, with the specialisation constants of settings.
+pub(crate) fn specialise(
+    filter: &Filter,
+    shader: &PassShader,
+    made: &Shader,
+    settings: &Settings,
 ) -> Result<Shader, FilterError> {
-    let translated = run_on_large_stack(|| {
-        let module = module::read(filter, shader, path, bytes)?;
-        bind::bind(filter, shader, path, module)
-    });
-    translated.unwrap_or_else(|panic| {
+    let Some(open) = &made.open else {
+        return Ok(made.clone());
+    };
+    let specialised = guard(&made.path, || {
+        let values = settings.list_numbers(filter);
+        bind(filter, shader, &made.path, (**open).clone(), &values)
+    })?;
+    Ok(Shader {
+        open: made.open.clone(),
+        ..specialised
+    })
+}
+
+/// Does work of naga, whose panics become errors.
+fn guard<T: Send>(
+    path: &Path,
+    work: impl FnOnce() -> Result<T, FilterError> + Send,
+) -> Result<T, FilterError> {
+    run_on_large_stack(work).unwrap_or_else(|panic| {
         Err(refuse(
             path,
             format!(

@@ -1,27 +1,20 @@
 //! Modules of naga, read from a shader in any language.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
-use wgpu::naga::{Module, front};
+use wgpu::naga::front;
 
 use super::combined::split_combined_samplers;
 use super::compile::compile;
 use super::formats::give_formats;
 use super::levels::name_levels;
+use super::matrices::find_by_rows;
 use super::storage::{narrow_storage_access, split_images};
-use super::words::{Place, Words};
+use super::words::Words;
 use super::{Language, explain, refuse};
-use crate::filter::{BindingPlace, PassShader};
-use crate::shader::{parse_wgsl, tidy, written_texture};
+use crate::filter::{BindingPlace, PassShader, Stage};
+use crate::shader::{OpenModule, Place, parse_wgsl, tidy, written_texture};
 use crate::{Filter, FilterError, Format};
-
-/// A module that is not validated yet.
-pub(super) struct Read {
-    pub module: Module,
-    /// Places of variables that were split from others, each with the place of the other.
-    pub owners: BTreeMap<Place, Place>,
-}
 
 /// Reads the bytes of a shader.
 pub(super) fn read(
@@ -29,12 +22,15 @@ pub(super) fn read(
     shader: &PassShader,
     path: &Path,
     bytes: &[u8],
-) -> Result<Read, FilterError> {
+) -> Result<OpenModule, FilterError> {
     let language = Language::of(&shader.file).map_err(|reason| refuse(path, reason))?;
     let from_spirv = |bytes: &[u8]| {
         let unsaid = matches!(language, Language::Hlsl | Language::Slang);
         let stored = |place, name: &str| find_stored_format(filter, shader, place, name);
-        read_spirv(path, bytes, &|words| give_formats(words, unsaid, &stored))
+        // Clip space of Vulkan has +y down, that of HLSL and of Slang up.
+        let is_flipped = shader.stage == Stage::Vertex && !unsaid;
+        let give = |words: &mut Words| give_formats(words, unsaid, &stored);
+        read_spirv(path, bytes, language, is_flipped, &give)
     };
     if language == Language::Spirv {
         return from_spirv(bytes);
@@ -46,21 +42,17 @@ pub(super) fn read(
             format!("is not UTF-8 from byte {place} on; save it as UTF-8"),
         )
     })?;
-    let read = |module| Read {
-        module,
-        owners: BTreeMap::new(),
-    };
     let folder = match filter.lines.path.parent() {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
     };
     match language {
-        Language::Wgsl => parse_wgsl(path, text).map(read),
+        Language::Wgsl => parse_wgsl(path, text).map(OpenModule::from),
         Language::Wesl => {
             let wgsl = compile(folder, text, language, shader)?;
             let wgsl = String::from_utf8_lossy(&wgsl);
             parse_wgsl(path, &wgsl)
-                .map(read)
+                .map(OpenModule::from)
                 .map_err(|error| in_compiled(path, &error))
         }
         Language::Glsl => {
@@ -125,16 +117,19 @@ fn without_stage_line(text: &str) -> String {
 fn read_spirv(
     path: &Path,
     bytes: &[u8],
+    language: Language,
+    is_flipped: bool,
     give_formats: &dyn Fn(&mut Words),
-) -> Result<Read, FilterError> {
+) -> Result<OpenModule, FilterError> {
     let mut words = Words::read(bytes).map_err(|reason| refuse(path, reason))?;
+    let by_rows = find_by_rows(&words, language);
     let mut owners = split_combined_samplers(&mut words).map_err(|reason| refuse(path, reason))?;
     owners.extend(split_images(&mut words));
     narrow_storage_access(&mut words);
     name_levels(&mut words);
     give_formats(&mut words);
     let options = front::spv::Options {
-        adjust_coordinate_space: false,
+        adjust_coordinate_space: is_flipped,
         ..front::spv::Options::default()
     };
     let module = front::spv::parse_u8_slice(&words.write(), &options).map_err(|error| {
@@ -146,5 +141,9 @@ fn read_spirv(
             ),
         )
     })?;
-    Ok(Read { module, owners })
+    Ok(OpenModule {
+        module,
+        owners,
+        by_rows,
+    })
 }

@@ -7,7 +7,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::levels::LOD;
-use super::words::{Instruction, Place, UNIFORM_CONSTANT, Words, decoration, op};
+use super::words::{Instruction, UNIFORM_CONSTANT, Words, decoration, op};
+use crate::shader::Place;
 
 /// Uses of one storage image.
 #[derive(Clone, Copy, Default)]

@@ -2,8 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Group and binding of a resource.
-pub(super) type Place = (u32, u32);
+use crate::shader::Place;
 
 /// The first word of every module.
 const MAGIC: u32 = 0x0723_0203;
@@ -17,6 +16,7 @@ const MAX_NESTABLE: usize = 10_000;
 /// Opcodes that the passes over a module look at.
 pub(super) mod op {
     pub const NAME: u32 = 5;
+    pub const MEMBER_NAME: u32 = 6;
     pub const CAPABILITY: u32 = 17;
     pub const TYPE_INT: u32 = 21;
     pub const TYPE_IMAGE: u32 = 25;
@@ -44,6 +44,7 @@ pub(super) mod op {
     pub const ARRAY_LENGTH: u32 = 68;
     pub const IN_BOUNDS_PTR_ACCESS_CHAIN: u32 = 70;
     pub const DECORATE: u32 = 71;
+    pub const MEMBER_DECORATE: u32 = 72;
     pub const COPY_OBJECT: u32 = 83;
     pub const SAMPLED_IMAGE: u32 = 86;
     pub const IMAGE_FETCH: u32 = 95;
@@ -62,10 +63,13 @@ pub(super) mod op {
 
 /// Decorations that the passes look at.
 pub(super) mod decoration {
+    pub const ROW_MAJOR: u32 = 4;
+    pub const COL_MAJOR: u32 = 5;
     pub const NON_WRITABLE: u32 = 24;
     pub const NON_READABLE: u32 = 25;
     pub const BINDING: u32 = 33;
     pub const DESCRIPTOR_SET: u32 = 34;
+    pub const OFFSET: u32 = 35;
 }
 
 /// Storage class of textures and samplers.
@@ -209,6 +213,22 @@ impl Words {
         places
     }
 
+    /// Finds the names of ids.
+    pub fn find_names(&self) -> BTreeMap<u32, String> {
+        let named = self.instructions.iter().filter(|it| it.opcode == op::NAME);
+        let named = named.filter_map(|it| it.operands.split_first());
+        named.map(|(id, name)| (*id, read_text(name))).collect()
+    }
+
+    /// Finds the names of members, by struct and index.
+    pub fn find_member_names(&self) -> BTreeMap<[u32; 2], String> {
+        let named = (self.instructions.iter()).filter(|it| it.opcode == op::MEMBER_NAME);
+        let named = named.filter_map(|it| it.operands.split_first_chunk());
+        named
+            .map(|(member, name)| (*member, read_text(name)))
+            .collect()
+    }
+
     /// Finds a binding for each of these variables that no other has, in the same group.
     pub fn find_free_places(&self, variables: &[u32]) -> BTreeMap<u32, Place> {
         let places = self.find_places();
@@ -239,6 +259,13 @@ impl Words {
         let words = header.into_iter().chain(instructions);
         words.flat_map(u32::to_le_bytes).collect()
     }
+}
+
+/// Reads a text that ends with a zero.
+fn read_text(words: &[u32]) -> String {
+    let bytes = words.iter().flat_map(|word| word.to_le_bytes());
+    let bytes: Vec<u8> = bytes.take_while(|byte| *byte != 0).collect();
+    String::from_utf8_lossy(&bytes).into_owned()
 }
 
 #[cfg(test)]

@@ -94,6 +94,7 @@ fn input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
         velocity: &frame.velocity,
         depth: &frame.depth,
         reprojection: Some(frame.reprojection.moved(f64::from(frame.guard_band))),
+        camera: frame.camera,
         exposure: frame.exposure,
         frame_index: 0,
     }
