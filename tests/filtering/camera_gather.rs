@@ -44,7 +44,8 @@ fn flight() -> Scene {
     scene
 }
 
-fn render_frame(guard_band: u32) -> Frame {
+/// Renders a frame of the flight, with the velocity that the camera alone gives.
+pub fn render_frame(guard_band: u32) -> Frame {
     let settings = RenderSettings {
         width: 96,
         height: 54,

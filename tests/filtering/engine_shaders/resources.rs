@@ -1,26 +1,13 @@
 //! Textures, images and uniforms as engines have them: packed formats, sides rounded down, images that are read and written,
 //! variables without registers.
 
-use std::fs;
-
-use filters::Filter;
 use frame::Image;
 
-use super::{blur, busy_picture, largest_difference};
+use super::{assert_refused, blur, busy_picture, largest_difference, make};
 
 /// Writes a filter with these declarations and files, and blurs the picture.
 fn run(declarations: &str, files: &[(&str, &str)]) -> Image {
-    let folder = tempfile::tempdir().unwrap();
-    let head = "name = \"made\"\nsummary = \"Made for a test.\"\nalignment = \"centred\"\n";
-    fs::write(
-        folder.path().join("filter.toml"),
-        format!("{head}{declarations}"),
-    )
-    .unwrap();
-    for (name, text) in files {
-        fs::write(folder.path().join(name), text).unwrap();
-    }
-    let filter = Filter::load(folder.path()).unwrap();
+    let filter = make(declarations, files).unwrap();
     blur(&filter, &filter.settings(None).unwrap(), &busy_picture())
 }
 
@@ -210,13 +197,7 @@ float4 frag(Corner i) : SV_Target
             assert!((found - expected).abs() < 1e-4, "{found}, not {expected}");
         }
     }
-    let folder = tempfile::tempdir().unwrap();
-    let head = "name = \"made\"\nsummary = \"Made for a test.\"\nalignment = \"centred\"\n";
-    let wrong = pass.replace("name = \"_Motion\"", "name = \"_Velocity\"");
-    fs::write(folder.path().join("filter.toml"), format!("{head}{wrong}")).unwrap();
-    fs::write(folder.path().join("blur.hlsl"), hlsl).unwrap();
-    let message = Filter::load(folder.path()).unwrap_err().to_string();
-    for part in ["has nothing at \"_Velocity\"", "\"_Motion\" at group 0"] {
-        assert!(message.contains(part), "{message}");
-    }
+    let missing = ["has nothing at \"_Velocity\"", "\"_Motion\" at group 0"];
+    let change = ("name = \"_Motion\"", "name = \"_Velocity\"", &missing[..]);
+    assert_refused(pass, &[("blur.hlsl", hlsl)], &[change]);
 }

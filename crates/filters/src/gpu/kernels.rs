@@ -14,7 +14,7 @@ use super::targets::list_target_formats;
 use super::uploaded_input::UploadedInput;
 use crate::printable::escape_controls;
 use crate::shader::{Code, Shader, count_loop_iterations, run_on_large_stack};
-use crate::translate::specialise;
+use crate::translate::{list_constants, specialise};
 use crate::{Filter, FilterError, Input, Pass, Settings};
 
 /// The compiled kernels of one filter, from which [`Blur::with_kernels`](super::Blur::with_kernels) makes blurs without compiling again.
@@ -26,11 +26,14 @@ pub struct Kernels<'g> {
     specialised: Mutex<Vec<Arc<Specialised>>>,
 }
 
+/// Values of specialisation constants of a pass, by name or number.
+type Constants = Vec<(String, f64)>;
+
 /// Kernels whose specialisation constants are set.
 #[derive(Debug)]
 pub(super) struct Specialised {
-    /// Values of the constants of each pass.
-    constants: Vec<Vec<f64>>,
+    /// Constants of each pass.
+    constants: Vec<Constants>,
     pub filter: Filter,
     /// Kernels in the order of the filter's passes.
     pub passes: Vec<Compiled>,
@@ -62,7 +65,7 @@ impl<'g> Kernels<'g> {
                 reason: "it is a command and has no kernels that an adapter could run".into(),
             });
         }
-        let constants = list_constants(filter, &filter.settings(None)?);
+        let constants = list_all_constants(filter, &filter.settings(None)?);
         let first = compile(gpu, filter.clone(), constants, None)?;
         Ok(Self {
             gpu,
@@ -73,7 +76,7 @@ impl<'g> Kernels<'g> {
 
     /// Returns the kernels with the specialisation constants that settings give them. Those of new values are compiled.
     pub(super) fn specialise(&self, settings: &Settings) -> Result<Arc<Specialised>, FilterError> {
-        let constants = list_constants(&self.filter, settings);
+        let constants = list_all_constants(&self.filter, settings);
         let lock = || (self.specialised.lock()).unwrap_or_else(|broken| broken.into_inner());
         let first = {
             let kept = lock();
@@ -111,13 +114,13 @@ impl<'g> Kernels<'g> {
     }
 }
 
-/// Lists the values of the specialisation constants of each pass.
-fn list_constants(filter: &Filter, settings: &Settings) -> Vec<Vec<f64>> {
-    let numbers = settings.list_numbers(filter);
+/// Lists the specialisation constants of each pass.
+fn list_all_constants(filter: &Filter, settings: &Settings) -> Vec<Constants> {
     let of_pass = |pass: &Pass| {
-        let constants = pass.shader.iter().flat_map(|shader| &shader.constants);
-        let values = constants.map(|(_, value)| value.evaluate(&|name| numbers[name]));
-        values.collect()
+        let shader = pass.shader.as_ref();
+        shader.map_or(Vec::new(), |shader| {
+            list_constants(filter, shader, settings)
+        })
     };
     filter.passes.iter().map(of_pass).collect()
 }
@@ -126,7 +129,7 @@ fn list_constants(filter: &Filter, settings: &Settings) -> Vec<Vec<f64>> {
 fn compile(
     gpu: &Gpu,
     filter: Filter,
-    constants: Vec<Vec<f64>>,
+    constants: Vec<Constants>,
     known: Option<&Specialised>,
 ) -> Result<Specialised, FilterError> {
     Limits::of(gpu).check(&filter)?;

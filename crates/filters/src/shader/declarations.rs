@@ -10,7 +10,6 @@ use wgpu::naga::{GlobalVariable, Handle, Module, ShaderStage, front};
 use super::block::UniformBlock;
 use super::entry_point::{EntryPoint, find_entry_points};
 use super::nesting::check_nesting;
-use super::open_module::OpenModule;
 use super::source::Source;
 use super::stack::run_on_large_stack;
 use super::uniform::{Member, find_uniforms};
@@ -38,8 +37,8 @@ pub(crate) struct Shader {
     pub reads_reprojection: bool,
     /// Compute entry points.
     pub entry_points: Vec<EntryPoint>,
-    /// The module before its specialisation constants were set, if parameters set them.
-    pub open: Option<Arc<OpenModule>>,
+    /// What the compiler of its language made, if parameters set specialisation constants in it.
+    pub compiled: Option<Arc<Vec<u8>>>,
 }
 
 /// Kernels in a form that wgpu takes.
@@ -133,7 +132,7 @@ impl Shader {
             entry_points,
             variables,
             blocks: Vec::new(),
-            open: None,
+            compiled: None,
             code: Code::Wgsl(source.text),
         })
     }

@@ -10,12 +10,13 @@ use wgpu::naga::{
 
 use super::entry::{keep_entry_point, set_constants, validate};
 use super::members::{KnownValues, fill_block};
+use super::module::OpenModule;
 use super::refuse;
 use super::textures::{check_texture, describe_image};
+use super::words::Place;
 use crate::filter::{Binding, BindingPlace, PassShader, Stage, list_values};
 use crate::shader::{
-    Code, OpenModule, Place, Role, Shader, UniformBlock, Variable, find_entry_points,
-    find_image_role, written_texture,
+    Code, Role, Shader, UniformBlock, Variable, find_entry_points, find_image_role, written_texture,
 };
 use crate::{Filter, FilterError, Texture};
 
@@ -35,7 +36,7 @@ pub(super) fn bind(
     shader: &PassShader,
     path: &Path,
     open: OpenModule,
-    values: &BTreeMap<String, f64>,
+    constants: &[(String, f64)],
 ) -> Result<Shader, FilterError> {
     let owners = find_owners(&open);
     let OpenModule {
@@ -45,7 +46,7 @@ pub(super) fn bind(
     } = open;
     validate(path, &module)?;
     keep_entry_point(shader, path, &mut module)?;
-    set_constants(shader, path, &mut module, values)?;
+    set_constants(shader, path, &mut module, constants)?;
     compact(&mut module, KeepUnused::No);
     let mut binder = Binder {
         filter,

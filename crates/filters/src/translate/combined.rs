@@ -5,8 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use super::words::{Instruction, UNIFORM_CONSTANT, Words, decoration, op};
-use crate::shader::Place;
+use super::words::{Instruction, Place, UNIFORM_CONSTANT, Words, decoration, op};
 
 /// Types that stand for those of combined ones.
 struct SplitTypes {

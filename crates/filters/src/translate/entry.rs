@@ -1,6 +1,5 @@
 //! Entry point of a pass, alone in its module and with its specialisation constants set.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use wgpu::naga::back::PipelineConstants;
@@ -8,7 +7,8 @@ use wgpu::naga::back::pipeline_constants::process_overrides;
 use wgpu::naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use wgpu::naga::{Module, ScalarKind, ShaderStage};
 
-use super::{explain, refuse};
+use super::constants::refuse_missing;
+use super::{Language, explain, refuse};
 use crate::FilterError;
 use crate::filter::{PassShader, Stage};
 use crate::shader::CAPABILITIES;
@@ -67,71 +67,43 @@ pub(super) fn keep_entry_point(
     }
 }
 
-/// A specialisation constant of a module.
-struct SpecialisationConstant {
-    name: Option<String>,
-    number: Option<String>,
-    is_whole: bool,
-}
-
-impl SpecialisationConstant {
-    /// Lists those of a module.
-    fn list(module: &Module) -> Vec<Self> {
-        (module.overrides.iter())
-            .map(|(_, constant)| Self {
-                name: constant.name.clone().filter(|name| !name.is_empty()),
-                number: constant.id.map(|id| id.to_string()),
-                is_whole: (module.types[constant.ty].inner.scalar())
-                    .is_some_and(|scalar| scalar.kind != ScalarKind::Float),
-            })
-            .collect()
-    }
-
-    fn is_called(&self, name: &str) -> bool {
-        [&self.name, &self.number]
-            .into_iter()
-            .flatten()
-            .any(|known| known == name)
-    }
-}
-
-/// Sets specialisation constants to the values of settings. Those that filter.toml does not name keep the value that the shader
-/// gives them. A vertex stage takes those of its fragment shader that it has.
+/// Sets the `override`s of WGSL. Those that filter.toml does not name keep the value that the shader gives them. A vertex stage takes
+/// those of its fragment shader that it has.
 pub(super) fn set_constants(
     shader: &PassShader,
     path: &Path,
     module: &mut Module,
-    values: &BTreeMap<String, f64>,
+    given: &[(String, f64)],
 ) -> Result<(), FilterError> {
-    let constants = SpecialisationConstant::list(module);
+    let language = Language::of(&shader.file).map_err(|reason| refuse(path, reason))?;
+    if !matches!(language, Language::Wgsl | Language::Wesl) {
+        // SPIR-V got them before it was read.
+        return Ok(());
+    }
     let mut set = PipelineConstants::default();
-    for (name, value) in &shader.constants {
-        let Some(constant) = constants.iter().find(|it| it.is_called(name)) else {
+    for (name, value) in given {
+        let mut constants = module.overrides.iter().map(|(_, constant)| constant);
+        let numbered = |id: Option<u16>| id.map(|id| id.to_string());
+        let found = constants.find(|constant| {
+            let names = [constant.name.clone(), numbered(constant.id)];
+            names.iter().flatten().any(|own| own == name)
+        });
+        let Some(constant) = found else {
             if shader.stage == Stage::Vertex {
                 continue;
             }
-            let known: Vec<String> = (constants.into_iter())
-                .filter_map(|constant| constant.name.or(constant.number))
-                .collect();
-            return Err(refuse(
-                path,
-                format!(
-                    "has no specialisation constant \"{name}\", which filter.toml sets; it has: {}",
-                    match known.is_empty() {
-                        true => "none".to_owned(),
-                        false => known.join(", "),
-                    }
-                ),
-            ));
+            let constants = module.overrides.iter().map(|(_, constant)| constant);
+            let known = constants.filter_map(|it| it.name.clone().or(numbered(it.id)));
+            let known: Vec<String> = known.collect();
+            return Err(refuse(path, refuse_missing(name, &known)));
         };
-        let value = value.evaluate(&|name| values[name]);
-        let value = match constant.is_whole {
+        let scalar = module.types[constant.ty].inner.scalar();
+        let value = match scalar.is_some_and(|scalar| scalar.kind != ScalarKind::Float) {
             true => value.round(),
-            false => value,
+            false => *value,
         };
         // A constant with a name and a number goes by its number.
-        let key = constant.number.clone().unwrap_or(name.clone());
-        set.insert(key, value);
+        set.insert(numbered(constant.id).unwrap_or(name.clone()), value);
     }
     let info = validate(path, module)?;
     let set = process_overrides(module, &info, None, &set);

@@ -4,9 +4,8 @@
 
 use std::collections::BTreeMap;
 
-use super::words::{Instruction, UNIFORM_CONSTANT, Words, op};
+use super::words::{Instruction, Place, UNIFORM_CONSTANT, Words, op};
 use crate::Format;
-use crate::shader::Place;
 
 /// Numbers of formats in SPIR-V.
 const FORMATS: [(Format, u32); 11] = [

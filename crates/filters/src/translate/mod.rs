@@ -7,6 +7,7 @@ mod bind;
 mod combined;
 mod compile;
 mod compiler;
+mod constants;
 #[cfg(test)]
 mod deep;
 mod entry;
@@ -27,9 +28,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::filter::PassShader;
-use crate::shader::{OpenModule, Shader, run_on_large_stack};
+use crate::shader::{Shader, run_on_large_stack};
 use crate::{Filter, FilterError, Settings};
 use bind::{bind, check_places};
+use module::{OpenModule, compile_shader, read};
 
 pub(crate) use language::Language;
 
@@ -54,36 +56,32 @@ pub(crate) fn translate(
     let vertex = vertex.map(|stage| Ok::<_, FilterError>((read_file(&stage.file)?, stage)));
     let vertex = vertex.transpose()?;
     guard(&path, || {
-        let own = module::read(filter, shader, &path, &bytes)?;
-        let vertex = vertex
-            .as_ref()
-            .map(|((path, bytes), stage)| {
-                Ok::<_, FilterError>((module::read(filter, stage, path, bytes)?, path, stage))
-            })
+        let constants = list_constants(filter, shader, &filter.settings(None)?);
+        let compile = |stage: &PassShader, path: &Path, bytes: &[u8]| {
+            let compiled = compile_shader(filter, stage, path, bytes)?;
+            let open = read(filter, stage, path, &compiled, &constants)?;
+            Ok::<_, FilterError>((compiled, open))
+        };
+        let own = compile(shader, &path, &bytes)?;
+        let vertex = (vertex.as_ref())
+            .map(|((path, bytes), stage)| Ok((compile(stage, path, bytes)?, path, stage)))
             .transpose()?;
-        let stages: Vec<&OpenModule> = ([&own].into_iter())
-            .chain(vertex.iter().map(|(open, ..)| open))
-            .collect();
+        let corners = vertex.as_ref().map(|((_, open), ..)| open);
+        let stages: Vec<&OpenModule> = [&own.1].into_iter().chain(corners).collect();
         check_places(filter, shader, &path, &stages)?;
-        let values = filter.settings(None)?.list_numbers(filter);
-        let bind_stage = |stage: &PassShader, path: &Path, open: OpenModule| {
-            // Kept where a parameter changes the module.
-            let is_open = stage
-                .constants
-                .iter()
-                .any(|(_, value)| value.reads_any(&|_| true));
-            let kept = is_open.then(|| Arc::new(open.clone()));
-            let bound = bind(filter, stage, path, open, &values)?;
+        // Kept where a parameter changes the module.
+        let is_open = (shader.constants.iter()).any(|(_, value)| value.reads_any(&|_| true));
+        let bind_stage = |(compiled, open), path: &Path, stage: &PassShader| {
+            let bound = bind(filter, stage, path, open, &constants)?;
             Ok::<_, FilterError>(Shader {
-                open: kept,
+                compiled: is_open.then(|| Arc::new(compiled)),
                 ..bound
             })
         };
+        let vertex = vertex.map(|(made, path, stage)| bind_stage(made, path, stage));
         Ok(Translated {
-            vertex: vertex
-                .map(|(open, path, stage)| bind_stage(stage, path, open))
-                .transpose()?,
-            shader: bind_stage(shader, &path, own)?,
+            vertex: vertex.transpose()?,
+            shader: bind_stage(own, &path, shader)?,
         })
     })
 }
@@ -95,17 +93,31 @@ pub(crate) fn specialise(
     made: &Shader,
     settings: &Settings,
 ) -> Result<Shader, FilterError> {
-    let Some(open) = &made.open else {
+    let Some(compiled) = &made.compiled else {
         return Ok(made.clone());
     };
     let specialised = guard(&made.path, || {
-        let values = settings.list_numbers(filter);
-        bind(filter, shader, &made.path, (**open).clone(), &values)
+        let constants = list_constants(filter, shader, settings);
+        let open = read(filter, shader, &made.path, compiled, &constants)?;
+        bind(filter, shader, &made.path, open, &constants)
     })?;
     Ok(Shader {
-        open: made.open.clone(),
+        compiled: made.compiled.clone(),
         ..specialised
     })
+}
+
+/// Lists the specialisation constants of a pass, by name or number, with the values that settings give them.
+pub(crate) fn list_constants(
+    filter: &Filter,
+    shader: &PassShader,
+    settings: &Settings,
+) -> Vec<(String, f64)> {
+    let numbers = settings.list_numbers(filter);
+    let constants = shader.constants.iter();
+    constants
+        .map(|(name, value)| (name.clone(), value.evaluate(&|name| numbers[name])))
+        .collect()
 }
 
 /// Does work of naga, whose panics become errors.

@@ -1,39 +1,42 @@
 //! Modules of naga, read from a shader in any language.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use wgpu::naga::front;
+use wgpu::naga::{Module, front};
 
 use super::combined::split_combined_samplers;
 use super::compile::compile;
+use super::constants::set_constants;
 use super::formats::give_formats;
 use super::levels::name_levels;
 use super::matrices::find_by_rows;
 use super::storage::{narrow_storage_access, split_images};
-use super::words::Words;
+use super::words::{Place, Words};
 use super::{Language, explain, refuse};
 use crate::filter::{BindingPlace, PassShader, Stage};
-use crate::shader::{OpenModule, Place, parse_wgsl, tidy, written_texture};
+use crate::shader::{parse_wgsl, tidy, written_texture};
 use crate::{Filter, FilterError, Format};
 
-/// Reads the bytes of a shader.
-pub(super) fn read(
+/// A module that is not validated yet.
+pub(super) struct OpenModule {
+    pub module: Module,
+    /// Places of variables that were split from others, each with the place of the other.
+    pub owners: BTreeMap<Place, Place>,
+    /// Names and offsets of members that hold the rows of a matrix one after the other.
+    pub by_rows: BTreeSet<(String, u32)>,
+}
+
+/// Compiles the bytes of a shader to SPIR-V, or to WGSL if it is WESL. SPIR-V and WGSL stay as they are.
+pub(super) fn compile_shader(
     filter: &Filter,
     shader: &PassShader,
     path: &Path,
     bytes: &[u8],
-) -> Result<OpenModule, FilterError> {
+) -> Result<Vec<u8>, FilterError> {
     let language = Language::of(&shader.file).map_err(|reason| refuse(path, reason))?;
-    let from_spirv = |bytes: &[u8]| {
-        let unsaid = matches!(language, Language::Hlsl | Language::Slang);
-        let stored = |place, name: &str| find_stored_format(filter, shader, place, name);
-        // Clip space of Vulkan has +y down, that of HLSL and of Slang up.
-        let is_flipped = shader.stage == Stage::Vertex && !unsaid;
-        let give = |words: &mut Words| give_formats(words, unsaid, &stored);
-        read_spirv(path, bytes, language, is_flipped, &give)
-    };
     if language == Language::Spirv {
-        return from_spirv(bytes);
+        return Ok(bytes.to_vec());
     }
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let place = error.valid_up_to();
@@ -47,20 +50,50 @@ pub(super) fn read(
         _ => Path::new("."),
     };
     match language {
-        Language::Wgsl => parse_wgsl(path, text).map(OpenModule::from),
-        Language::Wesl => {
-            let wgsl = compile(folder, text, language, shader)?;
-            let wgsl = String::from_utf8_lossy(&wgsl);
-            parse_wgsl(path, &wgsl)
-                .map(OpenModule::from)
-                .map_err(|error| in_compiled(path, &error))
+        Language::Wgsl | Language::Spirv => Ok(bytes.to_vec()),
+        Language::Glsl => compile(folder, &without_stage_line(text), language, shader),
+        Language::Wesl | Language::Slang | Language::Hlsl => {
+            compile(folder, text, language, shader)
         }
-        Language::Glsl => {
-            let text = without_stage_line(text);
-            from_spirv(&compile(folder, &text, language, shader)?)
-        }
-        Language::Spirv | Language::Slang | Language::Hlsl => {
-            from_spirv(&compile(folder, text, language, shader)?)
+    }
+}
+
+/// Reads a compiled shader. `constants` are values of specialisation constants, which SPIR-V gets here.
+pub(super) fn read(
+    filter: &Filter,
+    shader: &PassShader,
+    path: &Path,
+    compiled: &[u8],
+    constants: &[(String, f64)],
+) -> Result<OpenModule, FilterError> {
+    let language = Language::of(&shader.file).map_err(|reason| refuse(path, reason))?;
+    let from_wgsl = |module| OpenModule {
+        module,
+        owners: BTreeMap::new(),
+        by_rows: BTreeSet::new(),
+    };
+    let wgsl = || String::from_utf8_lossy(compiled);
+    match language {
+        Language::Wgsl => parse_wgsl(path, &wgsl()).map(from_wgsl),
+        Language::Wesl => parse_wgsl(path, &wgsl())
+            .map(from_wgsl)
+            .map_err(|error| in_compiled(path, &error)),
+        Language::Spirv | Language::Glsl | Language::Slang | Language::Hlsl => {
+            let mut words = Words::read(compiled).map_err(|reason| refuse(path, reason))?;
+            let is_vertex = shader.stage == Stage::Vertex;
+            set_constants(&mut words, constants, is_vertex)
+                .map_err(|reason| refuse(path, reason))?;
+            let unsaid = matches!(language, Language::Hlsl | Language::Slang);
+            let stored = |place, name: &str| find_stored_format(filter, shader, place, name);
+            let by_rows = find_by_rows(&words, language);
+            let give = |words: &mut Words| give_formats(words, unsaid, &stored);
+            // Clip space of Vulkan has +y down, that of HLSL and of Slang up.
+            let (module, owners) = read_spirv(path, words, is_vertex && !unsaid, &give)?;
+            Ok(OpenModule {
+                module,
+                owners,
+                by_rows,
+            })
         }
     }
 }
@@ -116,13 +149,10 @@ fn without_stage_line(text: &str) -> String {
 
 fn read_spirv(
     path: &Path,
-    bytes: &[u8],
-    language: Language,
+    mut words: Words,
     is_flipped: bool,
     give_formats: &dyn Fn(&mut Words),
-) -> Result<OpenModule, FilterError> {
-    let mut words = Words::read(bytes).map_err(|reason| refuse(path, reason))?;
-    let by_rows = find_by_rows(&words, language);
+) -> Result<(Module, BTreeMap<Place, Place>), FilterError> {
     let mut owners = split_combined_samplers(&mut words).map_err(|reason| refuse(path, reason))?;
     owners.extend(split_images(&mut words));
     narrow_storage_access(&mut words);
@@ -141,9 +171,5 @@ fn read_spirv(
             ),
         )
     })?;
-    Ok(OpenModule {
-        module,
-        owners,
-        by_rows,
-    })
+    Ok((module, owners))
 }

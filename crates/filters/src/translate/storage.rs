@@ -7,8 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::levels::LOD;
-use super::words::{Instruction, UNIFORM_CONSTANT, Words, decoration, op};
-use crate::shader::Place;
+use super::words::{Instruction, Place, UNIFORM_CONSTANT, Words, decoration, op};
 
 /// Uses of one storage image.
 #[derive(Clone, Copy, Default)]

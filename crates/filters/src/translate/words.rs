@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::shader::Place;
+/// Group and binding of a resource.
+pub(super) type Place = (u32, u32);
 
 /// The first word of every module.
 const MAGIC: u32 = 0x0723_0203;
@@ -17,8 +18,11 @@ const MAX_NESTABLE: usize = 10_000;
 pub(super) mod op {
     pub const NAME: u32 = 5;
     pub const MEMBER_NAME: u32 = 6;
+    pub const EXECUTION_MODE: u32 = 16;
     pub const CAPABILITY: u32 = 17;
+    pub const TYPE_BOOL: u32 = 20;
     pub const TYPE_INT: u32 = 21;
+    pub const TYPE_FLOAT: u32 = 22;
     pub const TYPE_IMAGE: u32 = 25;
     pub const TYPE_SAMPLER: u32 = 26;
     pub const TYPE_SAMPLED_IMAGE: u32 = 27;
@@ -27,8 +31,13 @@ pub(super) mod op {
     pub const TYPE_STRUCT: u32 = 30;
     pub const TYPE_POINTER: u32 = 32;
     pub const TYPE_FUNCTION: u32 = 33;
+    pub const CONSTANT_TRUE: u32 = 41;
+    pub const CONSTANT_FALSE: u32 = 42;
     pub const CONSTANT: u32 = 43;
     pub const CONSTANT_COMPOSITE: u32 = 44;
+    pub const SPEC_CONSTANT_TRUE: u32 = 48;
+    pub const SPEC_CONSTANT_FALSE: u32 = 49;
+    pub const SPEC_CONSTANT: u32 = 50;
     pub const SPEC_CONSTANT_COMPOSITE: u32 = 51;
     pub const SPEC_CONSTANT_OP: u32 = 52;
     pub const FUNCTION: u32 = 54;
@@ -45,6 +54,7 @@ pub(super) mod op {
     pub const IN_BOUNDS_PTR_ACCESS_CHAIN: u32 = 70;
     pub const DECORATE: u32 = 71;
     pub const MEMBER_DECORATE: u32 = 72;
+    pub const COMPOSITE_EXTRACT: u32 = 81;
     pub const COPY_OBJECT: u32 = 83;
     pub const SAMPLED_IMAGE: u32 = 86;
     pub const IMAGE_FETCH: u32 = 95;
@@ -53,7 +63,41 @@ pub(super) mod op {
     pub const IMAGE_QUERY_SIZE_LOD: u32 = 103;
     pub const IMAGE_QUERY_SIZE: u32 = 104;
     pub const IMAGE_QUERY_SAMPLES: u32 = 107;
+    pub const U_CONVERT: u32 = 113;
+    pub const S_CONVERT: u32 = 114;
+    pub const BITCAST: u32 = 124;
+    pub const S_NEGATE: u32 = 126;
+    pub const I_ADD: u32 = 128;
+    pub const I_SUB: u32 = 130;
+    pub const I_MUL: u32 = 132;
+    pub const U_DIV: u32 = 134;
+    pub const S_DIV: u32 = 135;
+    pub const U_MOD: u32 = 137;
+    pub const S_REM: u32 = 138;
+    pub const S_MOD: u32 = 139;
+    pub const LOGICAL_EQUAL: u32 = 164;
+    pub const LOGICAL_NOT_EQUAL: u32 = 165;
+    pub const LOGICAL_OR: u32 = 166;
+    pub const LOGICAL_AND: u32 = 167;
+    pub const LOGICAL_NOT: u32 = 168;
     pub const SELECT: u32 = 169;
+    pub const I_EQUAL: u32 = 170;
+    pub const I_NOT_EQUAL: u32 = 171;
+    pub const U_GREATER_THAN: u32 = 172;
+    pub const S_GREATER_THAN: u32 = 173;
+    pub const U_GREATER_THAN_EQUAL: u32 = 174;
+    pub const S_GREATER_THAN_EQUAL: u32 = 175;
+    pub const U_LESS_THAN: u32 = 176;
+    pub const S_LESS_THAN: u32 = 177;
+    pub const U_LESS_THAN_EQUAL: u32 = 178;
+    pub const S_LESS_THAN_EQUAL: u32 = 179;
+    pub const SHIFT_RIGHT_LOGICAL: u32 = 194;
+    pub const SHIFT_RIGHT_ARITHMETIC: u32 = 195;
+    pub const SHIFT_LEFT_LOGICAL: u32 = 196;
+    pub const BITWISE_OR: u32 = 197;
+    pub const BITWISE_XOR: u32 = 198;
+    pub const BITWISE_AND: u32 = 199;
+    pub const NOT: u32 = 200;
     pub const PHI: u32 = 245;
     pub const LOOP_MERGE: u32 = 246;
     pub const SELECTION_MERGE: u32 = 247;
@@ -63,8 +107,10 @@ pub(super) mod op {
 
 /// Decorations that the passes look at.
 pub(super) mod decoration {
+    pub const SPEC_ID: u32 = 1;
     pub const ROW_MAJOR: u32 = 4;
     pub const COL_MAJOR: u32 = 5;
+    pub const BUILT_IN: u32 = 11;
     pub const NON_WRITABLE: u32 = 24;
     pub const NON_READABLE: u32 = 25;
     pub const BINDING: u32 = 33;
