@@ -6,6 +6,7 @@ mod convention;
 mod file;
 mod parameters;
 mod parse;
+mod pass_shader;
 mod passes;
 mod presets;
 mod reach_by;

@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::bindings::{BindingEntry, Names, NumberEntry, ShaderKeys, read_shader};
+use super::bindings::{BindingEntry, Names, NumberEntry};
 use super::file::{File, IDENTIFIER, is_identifier};
 use super::parameters::check_count;
+use super::pass_shader::{ShaderKeys, read_shader};
 use super::reach_by::{LengthEntry, read_length};
 use crate::filter::{PassShader, Stage};
 use crate::{
