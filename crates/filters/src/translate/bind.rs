@@ -10,7 +10,7 @@ use wgpu::naga::{
 
 use super::entry::{keep_entry_point, set_constants, validate};
 use super::members::{KnownValues, fill_block};
-use super::module::OpenModule;
+use super::module::{OpenModule, PUSH_CONSTANTS};
 use super::refuse;
 use super::textures::{check_texture, describe_image};
 use super::words::Place;
@@ -155,13 +155,9 @@ fn name_variable(variable: &GlobalVariable, place: &BindingPlace) -> String {
 
 /// Finds the place of a variable that has to be bound.
 fn find_place(variable: &GlobalVariable) -> Option<BindingPlace> {
-    match (&variable.binding, variable.space) {
-        (_, AddressSpace::Immediate) => Some(BindingPlace::PushConstants),
-        (Some(place), _) => Some(BindingPlace::Bound {
-            group: place.group,
-            binding: place.binding,
-        }),
-        (None, _) => None,
+    match variable.binding? {
+        PUSH_CONSTANTS => Some(BindingPlace::PushConstants),
+        ResourceBinding { group, binding } => Some(BindingPlace::Bound { group, binding }),
     }
 }
 
@@ -197,9 +193,6 @@ impl Binder<'_> {
                 group: u32::from(self.shader.stage == Stage::Vertex),
                 binding: index as u32,
             });
-            if variable.space == AddressSpace::Immediate {
-                variable.space = AddressSpace::Uniform;
-            }
         }
         Ok(placed.into_iter().map(|(handle, _)| handle).collect())
     }
@@ -235,7 +228,7 @@ impl Binder<'_> {
         let texture = || self.name_texture(binding, &name);
         let inner = &module.types[variable.ty].inner;
         let (role, resource) = match (variable.space, inner) {
-            (AddressSpace::Uniform | AddressSpace::Immediate, _) => {
+            (AddressSpace::Uniform, _) => {
                 let known = KnownValues {
                     count: &|name| self.filter.count_numbers(name),
                     listed: list_values(&self.filter.parameters, &self.filter.convention),

@@ -15,7 +15,7 @@ use crate::shader::CAPABILITIES;
 
 /// Validates a module.
 pub(super) fn validate(path: &Path, module: &Module) -> Result<ModuleInfo, FilterError> {
-    let capabilities = CAPABILITIES | Capabilities::IMMEDIATES | Capabilities::FLOAT64;
+    let capabilities = CAPABILITIES | Capabilities::FLOAT64;
     Validator::new(ValidationFlags::all(), capabilities)
         .validate(module)
         .map_err(|error| {

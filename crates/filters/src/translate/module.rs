@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use wgpu::naga::{Module, front};
+use wgpu::naga::{AddressSpace, Module, ResourceBinding, front};
 
 use super::combined::split_combined_samplers;
 use super::compile::compile;
@@ -26,6 +26,12 @@ pub(super) struct OpenModule {
     /// Names and offsets of members that hold the rows of a matrix one after the other.
     pub by_rows: BTreeSet<(String, u32)>,
 }
+
+/// Place of the block of push constants. It is a uniform block here, and naga knows push constants only up to 256 bytes.
+pub(super) const PUSH_CONSTANTS: ResourceBinding = ResourceBinding {
+    group: u32::MAX,
+    binding: 0,
+};
 
 /// Compiles the bytes of a shader to SPIR-V, or to WGSL if it is WESL. SPIR-V and WGSL stay as they are.
 pub(super) fn compile_shader(
@@ -73,7 +79,7 @@ pub(super) fn read(
         by_rows: BTreeSet::new(),
     };
     let wgsl = || String::from_utf8_lossy(compiled);
-    match language {
+    let mut open = match language {
         Language::Wgsl => parse_wgsl(path, &wgsl()).map(from_wgsl),
         Language::Wesl => parse_wgsl(path, &wgsl())
             .map(from_wgsl)
@@ -95,7 +101,14 @@ pub(super) fn read(
                 by_rows,
             })
         }
+    }?;
+    for (_, variable) in open.module.global_variables.iter_mut() {
+        if variable.space == AddressSpace::Immediate {
+            variable.space = AddressSpace::Uniform;
+            variable.binding = Some(PUSH_CONSTANTS);
+        }
     }
+    Ok(open)
 }
 
 /// Finds the format in which filter.toml has the texture that a shader stores to; none for a texture that it does not name.
