@@ -1,7 +1,10 @@
 //! Textures, images and uniforms as engines have them: packed formats, sides rounded down, images that are read and written,
 //! variables without registers.
 
+use filters::Blur;
 use frame::Image;
+use tests::open_gpu;
+use tests::text::assert_contains;
 
 use super::{assert_refused, blur, busy_picture, largest_difference, make};
 
@@ -48,6 +51,29 @@ fn render_targets_of_10_bits_keep_10_bits() {
         let difference = largest_difference(&shown, &busy_picture().color);
         assert!(error.contains(&difference), "{format}: {difference}");
     }
+}
+
+#[test]
+fn the_pass_that_writes_the_first_broken_value_is_named() {
+    let declarations = "[[texture]]\nname = \"kept\"\nformat = \"rgba16float\"\n\
+                        [[pass]]\nshader = \"pack.wgsl\"\nstage = \"fragment\"\ntargets = [\"kept\"]\n\
+                        [[pass]]\nshader = \"show.wgsl\"\nstage = \"fragment\"\n";
+    let broken = PACK.replace(
+        "return 0.3",
+        "return sqrt(f32(i32(position.x) - 7 + 8 * abs(i32(position.y) - 5))) * 0.3",
+    );
+    let filter = make(declarations, &[("pack.wgsl", &broken), ("show.wgsl", SHOW)]).unwrap();
+    let picture = busy_picture();
+    let gpu = open_gpu();
+    let settings = filter.settings(None).unwrap();
+    let mut blur = Blur::new(&gpu, &filter, &settings, 61, 43).unwrap();
+    let colors = [&picture.color];
+    let message = blur.run(&picture.input(&colors)).unwrap_err().to_string();
+    let parts = [
+        "pass show: writes [NaN, NaN, NaN] to pixel (0, 5)",
+        "pass pack writes the first that is not, to texel (0, 5) of \"kept\"",
+    ];
+    assert_contains(&message, &parts);
 }
 
 #[test]

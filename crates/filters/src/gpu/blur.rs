@@ -190,9 +190,31 @@ impl<'g> Blur<'g> {
             ));
         }
         let [r, g, b, _] = texel;
+        let first = self.find_first_broken().unwrap_or_default();
         place.refuse(format!(
-            "writes [{r}, {g}, {b}] to pixel ({x}, {y}); every value must be finite"
+            "writes [{r}, {g}, {b}] to pixel ({x}, {y}); every value must be finite{first}"
         ))
+    }
+
+    /// Runs the passes again, and names the first that writes a value that is not finite to a texture between them.
+    fn find_first_broken(&self) -> Option<String> {
+        for dispatch in &self.passes.dispatches {
+            self.run_dispatch(dispatch).ok()?;
+            let between = (dispatch.written.iter())
+                .filter(|(name, target)| name != "output" && target.format != Format::R32Uint);
+            for (name, target) in between {
+                let texels = self.gpu.download(target, self.place("read back")).ok()?;
+                let broken = |texel: &[f32; 4]| texel.iter().any(|value| !value.is_finite());
+                if let Some(index) = texels.pixels.iter().position(broken) {
+                    let (x, y) = (index as u32 % texels.width, index as u32 / texels.width);
+                    return Some(format!(
+                        "; pass {} writes the first that is not, to texel ({x}, {y}) of \"{name}\"",
+                        dispatch.entry
+                    ));
+                }
+            }
+        }
+        None
     }
 
     /// Refuses loops that the adapter may have ended early.

@@ -57,6 +57,8 @@ pub(super) struct Dispatch {
     pub depends_on_noise: bool,
     /// True if it writes the output.
     pub writes_output: bool,
+    /// Textures whose first level it writes, by name.
+    pub written: Vec<(String, Target)>,
     iteration: u32,
     iterations: u32,
 }
@@ -243,6 +245,10 @@ impl BoundPasses {
                     depends_on_color,
                     depends_on_noise,
                     writes_output: entry.writes.contains("output"),
+                    written: (entry.writes.iter())
+                        .filter(|name| levels.of_written(name) == 0)
+                        .map(|name| (name.clone(), targets.written(entry, name).clone()))
+                        .collect(),
                     iteration,
                     iterations: repeats,
                 });

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::sync::{Arc, Mutex};
 
 use wgpu::naga::ShaderStage;
@@ -86,12 +87,11 @@ impl<'g> Kernels<'g> {
             kept[0].clone()
         };
         let mut filter = self.filter.clone();
-        for index in 0..filter.passes.len() {
-            if constants[index] == first.constants[index] {
+        let changed = constants.iter().zip(&first.constants);
+        for (pass, (own, kept)) in self.filter.passes.iter().zip(changed) {
+            let Some(shader) = pass.shader.as_ref().filter(|_| own != kept) else {
                 continue;
-            }
-            let pass = &self.filter.passes[index];
-            let Some(shader) = &pass.shader else { continue };
+            };
             let make = |shader, made| specialise(&self.filter, shader, made, settings);
             filter.shaders[pass.shader_index] = make(shader, self.filter.shader(pass))?;
             let vertex = shader.vertex_stage().zip(pass.vertex_index);
@@ -168,8 +168,8 @@ fn compile_pass(
         .into_iter()
         .flatten()
     {
-        if !modules.contains_key(&index) {
-            modules.insert(index, compile_shader(gpu, filter, &filter.shaders[index])?);
+        if let Entry::Vacant(missing) = modules.entry(index) {
+            missing.insert(compile_shader(gpu, filter, &filter.shaders[index])?);
         }
     }
     let shader = filter.shader(pass);

@@ -119,7 +119,7 @@ impl Texel {
 }
 
 /// A texture on the GPU.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Target {
     pub texture: wgpu::Texture,
     /// All its mip levels.

@@ -38,18 +38,20 @@ pub(crate) use language::Language;
 /// Largest shader that is read, in bytes.
 pub(crate) const MAX_SHADER_BYTES: u64 = compiler::MAX_MODULE_BYTES;
 
+/// Function that reads a file of the filter's folder: its path, and its bytes.
+pub(crate) type ReadFile<'a> = dyn Fn(&Path) -> Result<(PathBuf, Vec<u8>), FilterError> + 'a;
+
 /// Shaders of a pass: its own, and that of its vertex stage if it names one.
 pub(crate) struct Translated {
     pub shader: Shader,
     pub vertex: Option<Shader>,
 }
 
-/// Translates the shaders of a pass with the specialisation constants of its first preset. `read_file` reads a file of the filter's
-/// folder.
+/// Translates the shaders of a pass with the specialisation constants of its first preset.
 pub(crate) fn translate(
     filter: &Filter,
     shader: &PassShader,
-    read_file: &dyn Fn(&Path) -> Result<(PathBuf, Vec<u8>), FilterError>,
+    read_file: &ReadFile,
 ) -> Result<Translated, FilterError> {
     let (path, bytes) = read_file(&shader.file)?;
     let vertex = shader.vertex_stage();
