@@ -54,6 +54,100 @@ fn render_targets_of_10_bits_keep_10_bits() {
 }
 
 #[test]
+fn storage_textures_keep_what_their_format_holds() {
+    let store = r"#version 450
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0) uniform sampler2D color;
+layout(QUALIFIER, set = 0, binding = 1) uniform writeonly image2D kept;
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (all(lessThan(pixel, imageSize(kept)))) {
+        imageStore(kept, pixel, vec4(0.3, 0.2, 0.1, 1.0) * texelFetch(color, pixel, 0));
+    }
+}
+";
+    let color = busy_picture().color;
+    // (format, its name in GLSL, channels, largest error of values up to 0.75)
+    for (format, qualifier, channels, error) in [
+        ("r32float", "r32f", 1, 1e-6),
+        ("rg32float", "rg32f", 2, 1e-6),
+        ("rgba32float", "rgba32f", 3, 1e-6),
+        ("r16float", "r16f", 1, 5e-4),
+        ("rg16float", "rg16f", 2, 5e-4),
+        ("rgba16float", "rgba16f", 3, 5e-4),
+        ("r8unorm", "r8", 1, 1.0 / 255.0),
+        ("rgba8unorm", "rgba8", 3, 1.0 / 255.0),
+        ("rgb10a2unorm", "rgb10_a2", 3, 1.0 / 1023.0),
+        ("rg11b10ufloat", "r11f_g11f_b10f", 3, 0.75 / 32.0),
+    ] {
+        let declarations = format!(
+            "[[texture]]\nname = \"kept\"\nformat = \"{format}\"\n\
+             [[pass]]\nshader = \"store.comp\"\nover = \"kept\"\n\
+             [[pass.binding]]\nbinding = 0\nsampler = \"nearest\"\n\
+             [[pass]]\nshader = \"show.wgsl\"\nstage = \"fragment\"\n"
+        );
+        let text = store.replace("QUALIFIER", qualifier);
+        let shown = run(&declarations, &[("store.comp", &text), ("show.wgsl", SHOW)]);
+        for (found, color) in shown.pixels.iter().zip(&color.pixels) {
+            for channel in 0..channels {
+                let expected = [0.3, 0.2, 0.1][channel] * color[channel];
+                let difference = (0.3 * found[channel] - expected).abs();
+                assert!(
+                    difference <= error,
+                    "{format}: {difference} in channel {channel}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn samplers_clamp_repeat_or_mirror_and_interpolate_or_not() {
+    let shader = r"
+@group(0) @binding(0) var color: texture_2d<f32>;
+@group(0) @binding(1) var own: sampler;
+
+@fragment
+fn main(@location(0) uv: vec2<f32>) -> @location(0) vec4<f32> {
+    return textureSampleLevel(color, own, uv + vec2<f32>(10.25, 0.0) / 61.0, 0.0);
+}
+";
+    let color = busy_picture().color;
+    let gray = |x: u32| color.at(x, 5)[0];
+    // (keys, value at column 3, value at column 55)
+    for (keys, inside, beyond) in [
+        ("sampler = \"nearest\"", gray(13), gray(60)),
+        (
+            "sampler = \"linear\"",
+            0.75 * gray(13) + 0.25 * gray(14),
+            gray(60),
+        ),
+        (
+            "sampler = \"nearest\"\nwrap = \"repeat\"",
+            gray(13),
+            gray(4),
+        ),
+        (
+            "sampler = \"nearest\"\nwrap = \"mirror\"",
+            gray(13),
+            gray(56),
+        ),
+    ] {
+        let declarations = format!(
+            "[[pass]]\nshader = \"sample.wgsl\"\nstage = \"fragment\"\n[[pass.binding]]\nbinding = 1\n{keys}\n"
+        );
+        let shown = run(&declarations, &[("sample.wgsl", shader)]);
+        for (x, expected) in [(3, inside), (55, beyond)] {
+            let found = shown.at(x, 5)[0];
+            // Samplers have 8 binary digits between texels.
+            let difference = (found - expected).abs();
+            assert!(difference < 0.01, "{keys}: {found} at {x}, not {expected}");
+        }
+    }
+}
+
+#[test]
 fn the_pass_that_writes_the_first_broken_value_is_named() {
     let declarations = "[[texture]]\nname = \"kept\"\nformat = \"rgba16float\"\n\
                         [[pass]]\nshader = \"pack.wgsl\"\nstage = \"fragment\"\ntargets = [\"kept\"]\n\
