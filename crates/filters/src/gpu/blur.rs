@@ -2,8 +2,9 @@
 
 use frame::{Image, Raster};
 
-use super::bound_passes::{BoundPasses, Dispatch, mark_of};
+use super::bound_passes::{BoundPasses, mark_of};
 use super::device::Gpu;
+use super::dispatch::Dispatch;
 use super::kernels::Kernels;
 use super::place::Place;
 use super::transfer::{row_bytes, to_texels, velocity_texels};
@@ -149,11 +150,7 @@ impl<'g> Blur<'g> {
         {
             self.run_dispatch(dispatch)?;
         }
-        self.read_output().or_else(|error| {
-            // If a loop was ended early, the broken pixel is its effect.
-            self.check_loops()?;
-            Err(error)
-        })
+        self.read_output()
     }
 
     /// Reads the output; fails if a pixel was not written or is not finite.
@@ -166,7 +163,11 @@ impl<'g> Blur<'g> {
                 let scale = self.color_scale();
                 Ok(output.map(|[r, g, b, _]| [*r / scale, *g / scale, *b / scale]))
             }
-            Some(index) => Err(self.refuse_pixel(index as u32, output.pixels[index])),
+            Some(index) => {
+                // If a loop was ended early, the broken pixel is its effect.
+                self.check_loops()?;
+                Err(self.refuse_pixel(index as u32, output.pixels[index]))
+            }
         }
     }
 

@@ -8,6 +8,7 @@ mod buffer_copy;
 mod clock;
 mod dependence;
 mod device;
+mod dispatch;
 mod kernels;
 mod levels;
 mod limits;
