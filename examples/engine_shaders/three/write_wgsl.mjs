@@ -13,7 +13,6 @@ const anything = new Proxy(function () {}, {
 const constants = new Proxy({}, { get: () => 0 });
 Object.assign(globalThis, {
     self: globalThis,
-    navigator: { gpu: { getPreferredCanvasFormat: () => 'bgra8unorm' } },
     requestAnimationFrame: () => 0,
     cancelAnimationFrame: () => {},
     GPUShaderStage: constants,
@@ -21,6 +20,11 @@ Object.assign(globalThis, {
     GPUBufferUsage: constants,
     GPUMapMode: constants,
     GPUColorWrite: constants,
+});
+// Newer versions of Node have a navigator, which cannot be assigned.
+Object.defineProperty(globalThis, 'navigator', {
+    value: { gpu: { getPreferredCanvasFormat: () => 'bgra8unorm' } },
+    configurable: true,
 });
 const createBuffer = ({ size }) => ({ getMappedRange: () => new ArrayBuffer(size), unmap() {}, destroy() {} });
 const device = new Proxy({}, {
@@ -36,13 +40,12 @@ const { motionBlur } = await import('three/addons/tsl/display/MotionBlur.js');
 const renderer = new THREE.WebGPURenderer({ canvas, device, context: anything });
 renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
 await renderer.init();
-const float = (format) => {
-    const made = new THREE.DataTexture(new Uint16Array(4), 1, 1, format, THREE.HalfFloatType);
+const target = () => {
+    const made = new THREE.DataTexture(new Uint16Array(4), 1, 1, THREE.RGBAFormat, THREE.HalfFloatType);
     made.minFilter = made.magFilter = THREE.LinearFilter;
-    return made;
+    return texture(made);
 };
-const color = texture(float(THREE.RGBAFormat));
-const velocity = texture(float(THREE.RGBAFormat));
+const [color, velocity] = [target(), target()];
 const material = new THREE.NodeMaterial();
 material.fragmentNode = motionBlur(color, velocity.mul(uniform(1)), int(16));
 const quad = new THREE.QuadMesh(material);
