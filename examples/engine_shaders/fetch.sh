@@ -1,19 +1,47 @@
 #!/bin/sh
 # Fetches the shaders of engines that the filters here bind, each at a named commit. Nothing is changed in them. GODOT_GUERTIN,
-# GODOT_JUMP_FLOOD, BEVY and KINO may name other places of the repositories.
-set -eu
+# GODOT_JUMP_FLOOD, BEVY and KINO may name other places of the repositories: addresses, or clones on this machine. What cannot be
+# fetched is named, the others are fetched all the same, and the exit code is 1. A file that is there with the right content stays.
+set -u
 cd "$(dirname "$0")"
+missing=
+sums=sha256sum
+command -v sha256sum >/dev/null || sums="shasum -a 256"
 
 # fetch REPOSITORY COMMIT FOLDER FILES TO
 fetch() {
-    copy=$(mktemp -d)
-    git -C "$copy" init -q
-    git -C "$copy" fetch -q --depth 1 "$1" "$2"
+    due=
     for file in $4; do
-        mkdir -p "$(dirname "$5/$file")"
-        git -C "$copy" show "FETCH_HEAD:$3/$file" > "$5/$file"
+        holds "$5/$file" || due="$due $file"
     done
-    rm -rf "$copy"
+    [ -n "$due" ] || return 0
+    copy=
+    clone=$1
+    if ! [ -d "$1" ]; then
+        copy=$(mktemp -d)
+        clone=$copy
+        # Only the files that are read travel, where the other side allows it.
+        git -C "$copy" init -q &&
+            git -C "$copy" remote add origin "$1" &&
+            git -C "$copy" config remote.origin.promisor true &&
+            git -C "$copy" config remote.origin.partialclonefilter blob:none &&
+            git -C "$copy" fetch -q --depth 1 --filter=blob:none origin "$2"
+    fi
+    for file in $due; do
+        mkdir -p "$(dirname "$5/$file")"
+        if git -C "$clone" show "$2:$3/$file" > "$5/$file.part" 2>/dev/null && mv "$5/$file.part" "$5/$file" && holds "$5/$file"; then
+            continue
+        fi
+        rm -f "$5/$file" "$5/$file.part"
+        missing="$missing
+    $5/$file: $3/$file of $1 at $2"
+    done
+    [ -z "$copy" ] || rm -rf "$copy"
+}
+
+# holds FILE: succeeds if the file has the content that SHA256SUMS says
+holds() {
+    known=$(grep " $1\$" SHA256SUMS) && [ -f "$1" ] && [ "$($sums "$1")" = "$known" ]
 }
 
 fetch "${GODOT_GUERTIN:-https://github.com/sphynx-owner/godot-motion-blur-addon-simplified}" \
@@ -49,3 +77,9 @@ fetch "${KINO:-https://github.com/keijiro/KinoMotion}" \
     Assets/Kino/Motion/Shader \
     "Common.cginc Prefilter.cginc Reconstruction.cginc" \
     kino
+
+if [ -n "$missing" ]; then
+    echo "not fetched:$missing
+Is git installed, and the network there? GODOT_GUERTIN, GODOT_JUMP_FLOOD, BEVY and KINO may name clones on this machine." >&2
+    exit 1
+fi

@@ -5,7 +5,7 @@
 
 Each filter of ../engine_shaders runs twice: with textures of the formats that its engine has, and with 32-bit inputs and output. It
 prints one row per pair as Markdown, and then how near KinoMotion's shaders come to their transcription once it takes the 10 bits that
-the driver stored.
+the driver stored. Last, it compares the shader that three.js writes out with a transcription.
 """
 
 import re
@@ -16,6 +16,7 @@ import numpy as np
 from compare import HERE, SCENES, Difference, blur_with, parse, render, table
 
 sys.path.insert(0, str(HERE / "originals"))
+import bevy
 import jump_flood
 import kino
 
@@ -61,6 +62,9 @@ def main():
     if not arguments.only or "kino" in arguments.only:
         found = explained_kino(arguments, frames)
         print(f"\nkino and its transcription on what the driver packed: largest {found.largest:.0e}, {found.small} pixels above 0.001.")
+    if not arguments.only or "three" in arguments.only:
+        found = transcribed_three(arguments, frames)
+        print(f"\nthree and its transcription: largest {found.largest:.0e}.")
 
 
 def explained_kino(arguments, frames):
@@ -83,6 +87,24 @@ def explained_kino(arguments, frames):
         kino.packed = lambda *_: ((packed[..., :2] * 2 - 1) * radius, packed[..., 2])
         theirs = kino.blur(frame.color, frame.velocity, frame.depth, frame.exposure, stored=jump_flood.halved)
         pairs.append((blur_with(arguments, str(wide.resolve()), scene, []), theirs))
+    return Difference(pairs)
+
+
+def transcribed_three(arguments, frames):
+    """What MotionBlur of three.js does, as ../engine_shaders/three runs it: with halves."""
+    folder = HERE.parent / "engine_shaders" / "three"
+    pairs = []
+    for scene, frame in zip(SCENES, frames):
+        height, width = frame.depth.shape
+        columns, rows = np.meshgrid(np.arange(width), np.arange(height))
+        uv = np.stack([(columns + 0.5) / width, (rows + 0.5) / height], -1).astype(np.float32)
+        halves = lambda values: values.astype(np.float16).astype(np.float32)
+        color = halves(frame.color)
+        ndc = halves(frame.velocity * np.float32([2 / width, -2 / height]))
+        total = bevy.linear(color, uv)
+        for i in range(1, 17):
+            total = total + bevy.linear(color, uv + ndc * np.float32(frame.exposure * (i / 15 - 0.5)))
+        pairs.append((blur_with(arguments, str(folder.resolve()), scene, []), total / 16))
     return Difference(pairs)
 
 

@@ -44,7 +44,8 @@ fn flight() -> Scene {
     scene
 }
 
-fn render_frame(guard_band: u32) -> Frame {
+/// Renders a frame of the flight, with the velocity that the camera alone gives.
+pub fn render_frame(guard_band: u32) -> Frame {
     let settings = RenderSettings {
         width: 96,
         height: 54,
@@ -70,6 +71,7 @@ fn blur_frame(gpu: &Gpu, filter: &str, preset: &str, frame: &Frame) -> Image {
         velocity: &frame.velocity,
         depth: &frame.depth,
         reprojection: Some(frame.reprojection.moved(f64::from(frame.guard_band))),
+        camera: frame.camera,
         exposure: frame.exposure,
         frame_index: 0,
     };
@@ -115,6 +117,7 @@ fn a_frame_without_the_camera_s_motion_is_refused() {
         velocity: &frame.velocity,
         depth: &frame.depth,
         reprojection: None,
+        camera: None,
         exposure: frame.exposure,
         frame_index: 0,
     };

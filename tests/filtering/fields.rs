@@ -21,6 +21,7 @@ impl Field {
             velocity: &self.velocity,
             depth: &self.depth,
             reprojection: None,
+            camera: None,
             exposure,
             frame_index,
         };

@@ -112,6 +112,7 @@ fn blur(kernels: &Kernels, choice: &FilterChoice, frame: &Frame) -> Result<Image
         velocity: &frame.velocity,
         depth: &frame.depth,
         reprojection: Some(frame.reprojection),
+        camera: frame.camera,
         exposure: frame.exposure,
         frame_index: 0,
     })?;

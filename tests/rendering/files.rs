@@ -4,10 +4,10 @@ use std::fs;
 use std::path::Path;
 
 use frame::{
-    Accumulation, Alignment, AtInstant, Channel, ColorSampling, Display, Efficiency, ExrFile,
-    FileError, FlipExposures, Frame, FrameOptions, Image, Ladder, Picture, Plane, Provenance,
-    Raster, Reprojection, Samples, ShutterProfile, Support, Truth, VelocityKind, read_exr,
-    write_atomically, write_exr,
+    Accumulation, Alignment, AtInstant, Camera, CameraPose, Channel, ColorSampling, Display,
+    Efficiency, ExrFile, FileError, FlipExposures, Frame, FrameOptions, Image, Ladder, Picture,
+    Plane, Provenance, Raster, Reprojection, Samples, ShutterProfile, Support, Truth, VelocityKind,
+    read_exr, write_atomically, write_exr,
 };
 
 const WIDTH: u32 = 13;
@@ -58,6 +58,13 @@ fn provenance() -> Provenance {
     }
 }
 
+fn pose(number: f64) -> CameraPose {
+    CameraPose {
+        focal: number,
+        to_world: [0, 1, 2].map(|row| [0, 1, 2, 3].map(|column| number * f64::from(row - column))),
+    }
+}
+
 fn a_frame() -> Frame {
     Frame {
         provenance: provenance(),
@@ -71,6 +78,10 @@ fn a_frame() -> Frame {
         reprojection: Reprojection {
             rows: [0, 1, 2].map(|row| [0, 1, 2, 3].map(|column| 0.1 * f64::from(4 * row + column))),
         },
+        camera: Some(Camera {
+            now: pose(0.7),
+            before: pose(1.0 / 3.0),
+        }),
         display: Display {
             stops: 1.0 / 3.0, // likewise
             flip: FlipExposures {

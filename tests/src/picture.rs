@@ -79,6 +79,7 @@ impl Picture {
             exposure: self.exposure,
             frame_index: 0,
             reprojection: None,
+            camera: None,
         }
     }
 

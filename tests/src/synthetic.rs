@@ -110,6 +110,7 @@ impl Scene {
             options: FrameOptions::default(),
             guard_band: 0,
             reprojection: Reprojection::STILL,
+            camera: None,
             display: DISPLAY,
             objects: self.names(),
             color: instant.color,

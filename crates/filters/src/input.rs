@@ -1,6 +1,6 @@
 //! Input of a filter.
 
-use frame::{Image, Plane, Raster, Reprojection, Vectors};
+use frame::{Camera, Image, Plane, Raster, Reprojection, Vectors};
 
 use crate::FilterError;
 
@@ -16,6 +16,8 @@ pub struct Input<'a> {
     /// The camera's motion since the frame before, between places of these rasters. Filters that read it refuse to run
     /// without it.
     pub reprojection: Option<Reprojection>,
+    /// The camera, for shaders that take its matrices. They refuse to run without it.
+    pub camera: Option<Camera>,
     /// Time that the shutter is open, in frames; above 0.
     pub exposure: f64,
     /// Changes the noise of filters that have any, and nothing else.
@@ -28,7 +30,7 @@ impl Input<'_> {
         &self,
         filter: &str,
         [width, height]: [u32; 2],
-        reads_reprojection: bool,
+        reads: CameraUse,
     ) -> Result<(), FilterError> {
         let refuse = |reason: String| {
             Err(FilterError::Input {
@@ -84,15 +86,31 @@ impl Input<'_> {
                 return refuse(format!("{name} at ({x}, {y}) is not {allowed}"));
             }
         }
-        if reads_reprojection && self.reprojection.is_none() {
+        if reads.reprojection && self.reprojection.is_none() {
             return refuse(
                 "the frame does not say how the camera moved, which this filter reads; give it an attribute \
                  \"reprojection\" of twelve numbers, or choose another filter"
                     .to_owned(),
             );
         }
+        if reads.matrices && self.camera.is_none() {
+            return refuse(
+                "the frame does not say where its camera was, and this filter takes the camera's matrices; take a frame of \
+                 `render`, give it the attributes \"camera\" and \"camera_before\", or choose another filter"
+                    .to_owned(),
+            );
+        }
         Ok(())
     }
+}
+
+/// Parts of the camera that a filter reads.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct CameraUse {
+    /// The camera's motion over the pixels.
+    pub reprojection: bool,
+    /// Its matrices.
+    pub matrices: bool,
 }
 
 fn size<T>(raster: &Raster<T>) -> [u32; 2] {

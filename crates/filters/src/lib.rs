@@ -31,7 +31,7 @@ pub use filter::{
     Binding, BindingPlace, Code, Command, Convention, DepthKind, Expression, Filter, Growth, Holds,
     Kind, Length, Parameter, Pass, PassShader, Preset, ReachBy, Repeat, Rounding, SamplerFilter,
     Sampling, Scale, Settings, Source, Stage, Texture, TuningRecord, Unit, Value, VelocitySign,
-    VelocityTime, VelocityUnit, VerticalDirection, Wrap,
+    VelocityTime, VelocityUnit, VertexShader, VerticalDirection, Wrap,
 };
 pub use gpu::{
     AdapterDescription, Blur, BufferCopy, Clock, Gpu, Kernels, Limits, LoadedBlur, LoopLimit,
@@ -39,5 +39,5 @@ pub use gpu::{
 };
 pub use input::Input;
 pub use load::{MAX_KERNEL_BYTES, MAX_MANIFEST_BYTES};
-pub use manifest::{MAX_CHOICES, MAX_DISPATCHES, MAX_ENTRIES};
+pub use manifest::{MAX_CHOICES, MAX_DISPATCHES, MAX_ENTRIES, MAX_MIPS};
 pub use shader::{Format, MAX_INLINED, MAX_INVOCATION_BYTES, MAX_NESTING};

@@ -5,8 +5,8 @@ use std::path::Path;
 use crate::exr::{Channel, ExrFile, Samples, read_exr, write_exr};
 use crate::picture::coverage_name;
 use crate::{
-    Alignment, Display, FileError, FrameOptions, Image, Plane, Provenance, Raster, Reprojection,
-    Vectors,
+    Alignment, Camera, Display, FileError, FrameOptions, Image, Plane, Provenance, Raster,
+    Reprojection, Vectors,
 };
 
 /// Depth of a pixel that sees no surface, in metres: finite, so that filters may subtract it.
@@ -25,6 +25,8 @@ pub struct Frame {
     pub guard_band: u32,
     /// The camera's motion since the frame before, between places of the picture without its guard band.
     pub reprojection: Reprojection,
+    /// The camera; none in a frame that another program rendered.
+    pub camera: Option<Camera>,
     /// Exposures at which the scene is shown and compared.
     pub display: Display,
     /// Object names; the index is the object id, and 0 is `background`.
@@ -95,6 +97,9 @@ impl Frame {
         self.options.set(&mut file);
         file.set("guard_band", self.guard_band);
         self.reprojection.set(&mut file);
+        if let Some(camera) = &self.camera {
+            camera.set(&mut file);
+        }
         self.display.set(&mut file);
         file.set("objects", self.objects.join(" "));
         file.set(
@@ -122,6 +127,7 @@ impl Frame {
             options: FrameOptions::from_exr(&file)?,
             guard_band: read_guard_band(&file)?,
             reprojection: Reprojection::from_exr(&file)?,
+            camera: Camera::from_exr(&file)?,
             display: Display::from_exr(&file)?,
             objects,
             color: file.color("")?,

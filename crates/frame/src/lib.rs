@@ -22,6 +22,7 @@
 
 mod accumulation;
 mod at_instant;
+mod camera;
 mod display;
 mod exr;
 mod file;
@@ -41,6 +42,7 @@ mod truth;
 
 pub use accumulation::{Accumulation, Ladder};
 pub use at_instant::AtInstant;
+pub use camera::{Camera, CameraPose};
 pub use display::{Display, FlipExposures, MOST_STOPS, display_srgb, scene_linear};
 pub use exr::{
     Channel, ExrFile, LARGEST_EXR_RATIO, LARGEST_EXR_SIDE, MOST_EXR_BYTES, MOST_EXR_CHANNELS,

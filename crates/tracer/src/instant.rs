@@ -12,7 +12,7 @@ use crate::film::render::{Film, PixelMean, Places, Times, assemble_picture};
 use crate::film::sample_counts::SampleCounts;
 use crate::film::sampler::Stream;
 use crate::light::integrator::Integrator;
-use crate::motion::velocity::{PointMotion, TrackedPoint, camera_velocity, reprojection};
+use crate::motion::velocity::{PointMotion, TrackedPoint, camera, camera_velocity, reprojection};
 use crate::progress::{Meter, Watch};
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
@@ -91,6 +91,7 @@ pub fn trace_frame(
         options: settings.options,
         guard_band: settings.guard_band,
         reprojection: reprojection(scene, [settings.width, settings.height]),
+        camera: Some(camera(scene, [settings.width, settings.height])),
         display: scene.display,
         objects: scene.object_names(),
         color: picture.color,

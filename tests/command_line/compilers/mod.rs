@@ -174,6 +174,35 @@ fn slang_hlsl_and_wesl_go_through_their_compilers() {
     assert_done(&list(&bench));
 }
 
+/// Two passes over one shader: its compiler runs once, and again only for what changes its input.
+#[cfg(unix)]
+#[test]
+fn a_compiler_runs_once_for_each_content() {
+    let module = fs::canonicalize(root().join("tests/fuzz/corpus/spirv/fastest")).unwrap();
+    let bench = Bench::new();
+    write_pass(&bench, "blur.slang", BINDINGS);
+    let folder = bench.path("translated");
+    let manifest = fs::read_to_string(folder.join("filter.toml")).unwrap();
+    let (head, passes) = manifest.split_once("[[pass]]").unwrap();
+    let (first, rest) = passes.split_once("[[pass]]").unwrap();
+    // The third pass has another text.
+    let third = first.replace("blur.slang", "other.slang");
+    let passes = [head, first, first, &third, rest].join("[[pass]]");
+    fs::write(folder.join("filter.toml"), passes).unwrap();
+    fs::write(folder.join("other.slang"), "another text of a shader\n").unwrap();
+    fs::write(folder.join("copy.wgsl"), COPY).unwrap();
+    fs::create_dir_all(bench.path("bin")).unwrap();
+    let log = bench.path("log.txt");
+    let script = format!(
+        "echo called >> {}\nfor word; do case \"$word\" in *.spv) /bin/cp {} \"$word\";; esac; done",
+        log.display(),
+        module.display()
+    );
+    write_script(&bench.path("bin/slangc"), &script);
+    assert_done(&list(&bench));
+    assert_eq!(fs::read_to_string(log).unwrap(), "called\ncalled\n");
+}
+
 #[cfg(unix)]
 #[test]
 fn what_a_compiler_says_is_shown_with_its_line() {

@@ -45,6 +45,7 @@ pub static OUTCOMES: LazyLock<Vec<Outcome>> = LazyLock::new(|| {
                 velocity: &shot.frame.velocity,
                 depth: &shot.frame.depth,
                 reprojection: Some(shot.frame.reprojection),
+                camera: shot.frame.camera,
                 exposure: EXPOSURE,
                 frame_index: 0,
             };

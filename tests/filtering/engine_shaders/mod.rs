@@ -1,10 +1,15 @@
 //! Shaders of engines as they are: other languages, other bindings, other conventions.
 
+mod camera;
+mod constants;
 mod conventions;
 mod fragment;
+mod guide;
+mod mips;
 mod refusals;
 mod resources;
 mod routes;
+mod vertex;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,6 +19,7 @@ use frame::Image;
 use tests::open_gpu;
 use tests::picture::{Picture, Surface};
 use tests::root;
+use tests::text::assert_contains;
 
 use super::folders::example;
 
@@ -40,6 +46,29 @@ fn load(passes: &str, files: &[&str]) -> Result<Filter, FilterError> {
     let folder = tempfile::tempdir().unwrap();
     write_folder(folder.path(), passes, files);
     Filter::load(folder.path())
+}
+
+/// Writes a filter with these declarations and files, and loads it.
+fn make(declarations: &str, files: &[(&str, &str)]) -> Result<Filter, FilterError> {
+    let folder = tempfile::tempdir().unwrap();
+    let head = "name = \"made\"\nsummary = \"Made for a test.\"\nalignment = \"centred\"\n";
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("filter.toml", &format!("{head}{declarations}"));
+    for (name, text) in files {
+        write(name, text);
+    }
+    Filter::load(folder.path())
+}
+
+/// Asserts that each change of the declarations is refused with these words. A change is (text, replacement, words).
+fn assert_refused(declarations: &str, files: &[(&str, &str)], changes: &[(&str, &str, &[&str])]) {
+    for (from, to, parts) in changes {
+        assert!(declarations.contains(from), "no \"{from}\" to be changed");
+        let Err(error) = make(&declarations.replacen(from, to, 1), files) else {
+            panic!("\"{from}\" -> \"{to}\" was accepted");
+        };
+        assert_contains(&format!("\"{from}\" -> \"{to}\": {error}"), parts);
+    }
 }
 
 /// Makes a picture in which two things move before a pattern, and one turns.

@@ -5,7 +5,7 @@ use std::fs;
 use filters::Filter;
 use tests::text::assert_contains;
 
-use super::{fixtures, load, write_folder};
+use super::{assert_refused, fixtures, load, write_folder};
 
 const PASSES: &str = include_str!("../../fixtures/shaders/passes.toml");
 const FILES: [&str; 2] = ["fastest.comp", "gather.comp"];
@@ -76,6 +76,33 @@ fn wrong_shaders_are_refused_with_file_line_and_reason() {
             panic!("\"{from}\" -> \"{to}\" was accepted");
         };
         assert_contains(&format!("\"{from}\" -> \"{to}\": {error}"), parts);
+    }
+}
+
+#[test]
+fn push_constants_that_are_too_large_are_refused() {
+    let shader = |members: &str| {
+        format!(
+            "#version 450\nlayout(local_size_x = 8) in;\nlayout(rgba32f, binding = 0) uniform writeonly image2D picture;\n\
+             layout(push_constant) uniform Params {{ {members} }} params;\n\
+             void main() {{ imageStore(picture, ivec2(gl_GlobalInvocationID.xy), vec4(params.last)); }}\n"
+        )
+    };
+    let declarations = "[[pass]]\nshader = \"large.comp\"\n[[pass.binding]]\nbinding = 0\ntexture = \"output\"\n\
+                        [[pass.binding]]\npush_constants = true\nvalues = { \"*\" = 0 }\n";
+    for (members, parts) in [
+        (
+            "vec4 many[256]; float last;",
+            ["filter.toml:", "push constants", "more than 1024 numbers"],
+        ),
+        (
+            "layout(offset = 65536) float last;",
+            ["filter.toml:", "push constants", "at most 65536"],
+        ),
+    ] {
+        let text = shader(members);
+        let change = ("push_constants", "push_constants", &parts[..]);
+        assert_refused(declarations, &[("large.comp", &text)], &[change]);
     }
 }
 

@@ -97,37 +97,3 @@ fn specialisation_constants_have_the_values_of_filter_toml() {
         "{message}"
     );
 }
-
-#[test]
-fn the_guide_s_shader_of_godot_s_kind_blurs_as_the_guide_s_kernel_does() {
-    let guide = include_str!("../../../docs/add-a-filter.md");
-    // Returns the block of code after a sentence.
-    let block = |sentence: &str| {
-        let after = guide.split_once(sentence).unwrap().1;
-        let block = after.split_once("```").unwrap().1;
-        let text = block.split_once('\n').unwrap().1;
-        text.split_once("```").unwrap().0
-    };
-    let kernel = load_filter(
-        "my_blur",
-        block("`my_blur/filter.toml` says what it is:"),
-        block("`my_blur/my_blur.wgsl` says what it does:"),
-    );
-    let folder = tempfile::tempdir().unwrap();
-    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
-    let manifest = block("`godot_blur/filter.toml` says what its bindings are:");
-    write("filter.toml", manifest);
-    write(
-        "blur.glsl",
-        block("`godot_blur/blur.glsl` is a shader of Godot's kind:"),
-    );
-    let godot = Filter::load(folder.path());
-    let picture = busy_picture();
-    let [expected, found] = [kernel, godot].map(|filter| {
-        let filter = filter.unwrap();
-        blur(&filter, &filter.settings(None).unwrap(), &picture)
-    });
-    let difference = largest_difference(&expected, &found);
-    // Halves have 11 binary digits: 0.003 of 7 pixels, where neighbours differ by up to 2.5, and 0.001 of colours below 4.
-    assert!(difference > 0.0 && difference < 0.02, "{difference}");
-}

@@ -81,6 +81,7 @@ impl Field {
             velocity: &self.velocity,
             depth: &self.depth,
             reprojection: Some(self.reprojection),
+            camera: None,
             exposure: self.exposure,
             frame_index: 3,
         }

@@ -142,6 +142,7 @@ fn the_kernel_keeps_the_candidate_of_the_published_comparison() {
         velocity: &velocity,
         depth: &depth,
         reprojection: None,
+        camera: None,
         exposure: 1.0,
         frame_index: 0,
     };

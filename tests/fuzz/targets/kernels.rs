@@ -28,6 +28,7 @@ pub static TARGET: Target = Target {
                 velocity: &velocity(),
                 depth: &depth(),
                 reprojection: None,
+                camera: None,
                 exposure: 0.5,
                 frame_index: 0,
             }));

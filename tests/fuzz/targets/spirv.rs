@@ -1,4 +1,4 @@
-//! SPIR-V of shaders, translated and bound but not run.
+//! SPIR-V of kernels and of vertex stages, translated and bound but not run.
 
 use filters::Filter;
 
@@ -16,8 +16,26 @@ pub static TARGET: Target = Target {
         place.write("spirv/filter.toml", MANIFEST);
         place.write("spirv/gather.spv", input);
         drop(Filter::load(&place.folder.join("spirv")));
+        place.write("drawn/filter.toml", DRAWN);
+        place.write("drawn/shade.wgsl", SHADE);
+        place.write("drawn/corner.spv", input);
+        drop(Filter::load(&place.folder.join("drawn")));
     },
 };
+
+/// A filter whose vertex stage is the module.
+const DRAWN: &str = r#"
+name = "drawn"
+summary = "A damaged vertex stage."
+alignment = "centred"
+
+[[pass]]
+shader = "shade.wgsl"
+stage = "fragment"
+vertex_shader = "corner.spv"
+"#;
+
+const SHADE: &str = "@fragment\nfn main(@location(0) uv: vec2<f32>) -> @location(0) vec4<f32> {\n    return vec4<f32>(uv, 0.0, 1.0);\n}\n";
 
 const MANIFEST: &str = r#"
 name = "damaged"

@@ -91,6 +91,7 @@ impl RenderedScene {
                     .reprojection
                     .moved(f64::from(self.settings.guard_band)),
             ),
+            camera: self.frame.camera,
             exposure: self.frame.exposure,
             frame_index: 0,
         };

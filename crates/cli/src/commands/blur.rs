@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use filters::{Convention, FilterError, Input};
-use frame::{ExrFile, Image, Plane, Reprojection, Vectors, read_exr, write_exr};
+use frame::{Camera, ExrFile, Image, Plane, Reprojection, Vectors, read_exr, write_exr};
 use suite::{Error, FilterChoice, Runner, open_gpu, printable_path};
 
 use super::convention::read_convention;
@@ -36,6 +36,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
         velocity: &buffers.velocity,
         depth: &buffers.depth,
         reprojection: buffers.reprojection,
+        camera: buffers.camera,
         exposure: buffers.exposure,
         frame_index: args.frame_index,
     };
@@ -76,6 +77,7 @@ struct Buffers {
     velocity: Vectors,
     depth: Plane,
     reprojection: Option<Reprojection>,
+    camera: Option<Camera>,
     exposure: f64,
     guard_band: u32,
 }
@@ -128,6 +130,7 @@ fn read_buffers(
         velocity: convention.restore_velocity(&velocity, exposure),
         depth: convention.restore_depth(&depth),
         reprojection: read_reprojection(&file, guard_band)?,
+        camera: Camera::from_exr(&file)?,
         exposure,
         guard_band,
     })

@@ -76,7 +76,7 @@ fn leave_out_filters(
         for (choice, taken) in filters.iter().zip(&mut taken) {
             match (
                 choice.filter.alignment == alignment,
-                choice.filter.reads_reprojection(),
+                choice.filter.reads_camera(),
             ) {
                 (false, _) => left_out[0] += 1,
                 (true, true) => left_out[1] += 1,
@@ -85,7 +85,7 @@ fn leave_out_filters(
         }
         let reasons = [
             format!("of another shutter than the {alignment} one that the engine drew"),
-            "that need the camera's motion, which no capture has".to_owned(),
+            "that need the camera, which no capture has".to_owned(),
         ];
         for (count, reason) in left_out.into_iter().zip(reasons) {
             if count > 0 {

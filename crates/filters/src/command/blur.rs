@@ -10,6 +10,7 @@ use frame::{ExrFile, FileError, Image, read_exr, write_exr};
 use super::environment::collect_environment;
 use super::process::{End, Limits, run_process};
 use crate::filter::fill_placeholders;
+use crate::input::CameraUse;
 use crate::{Command, Filter, FilterError, Input, Settings};
 
 /// Upper limit on the bytes per pixel that a program may write: 64 channels of 32 bits.
@@ -56,7 +57,7 @@ impl CommandBlur {
 
     /// Blurs every colour image of the input, in order: one run of the program each.
     pub fn run(&self, input: &Input) -> Result<Vec<Image>, FilterError> {
-        input.check(&self.filter, self.size, false)?;
+        input.check(&self.filter, self.size, CameraUse::default())?;
         (input.color.iter())
             .map(|color| self.blur(color, input))
             .collect()

@@ -4,12 +4,13 @@ use frame::Alignment;
 
 use super::command::Command;
 use super::convention::Convention;
-use super::expression::FRAME_VALUES;
 use super::lines::Lines;
 use super::parameter::Parameter;
 use super::pass::{Pass, Texture};
 use super::preset::Preset;
 use super::reach::ReachBy;
+use super::values::{count_numbers, is_of_matrix};
+use crate::input::CameraUse;
 use crate::shader::{EntryPoint, Shader};
 
 /// Textures that every filter may read.
@@ -69,16 +70,37 @@ impl Filter {
         &self.shaders[pass.shader_index]
     }
 
-    /// Returns true if a kernel reads how the camera moved.
-    pub fn reads_reprojection(&self) -> bool {
-        self.shaders.iter().any(|shader| shader.reads_reprojection)
+    /// Tells whether a shader reads where the camera is, or how it moved.
+    pub fn reads_camera(&self) -> bool {
+        let CameraUse {
+            reprojection,
+            matrices,
+        } = self.camera_use();
+        reprojection || matrices
     }
 
-    /// Returns true for a name that a member of a uniform block can get its value from.
-    pub(crate) fn knows_value(&self, name: &str) -> bool {
-        (self.parameters.iter()).any(|parameter| parameter.name == name)
-            || FRAME_VALUES.iter().any(|(known, _)| *known == name)
-            || self.convention.value(name).is_some()
+    /// Finds the vertex stage that a pass names.
+    pub(crate) fn vertex_entry(&self, pass: &Pass) -> Option<&EntryPoint> {
+        self.vertex_shader(pass)?.entry_points.first()
+    }
+
+    /// Finds the shader of the vertex stage that a pass names.
+    pub(crate) fn vertex_shader(&self, pass: &Pass) -> Option<&Shader> {
+        Some(&self.shaders[pass.vertex_index?])
+    }
+
+    /// Tells which parts of the camera the shaders read.
+    pub(crate) fn camera_use(&self) -> CameraUse {
+        let mut blocks = self.shaders.iter().flat_map(|shader| &shader.blocks);
+        CameraUse {
+            reprojection: self.shaders.iter().any(|shader| shader.reads_reprojection),
+            matrices: blocks.any(|block| block.reads_any(&is_of_matrix)),
+        }
+    }
+
+    /// Counts the numbers of a name that a member of a uniform block can get its value from; none for an unknown name.
+    pub(crate) fn count_numbers(&self, name: &str) -> Option<usize> {
+        count_numbers(name, &self.parameters, &self.convention)
     }
 
     /// Returns true for a texture that shaders can name.

@@ -1,18 +1,5 @@
 //! Arithmetic on values of the frame, of the convention and on parameters, for members of uniform blocks.
 
-/// Values of the frame, each with its meaning.
-pub(crate) const FRAME_VALUES: [(&str, &str); 6] = [
-    ("width", "pixels per row"),
-    ("height", "rows"),
-    ("exposure", "time that the shutter is open, in frames"),
-    (
-        "frame_index",
-        "a number that changes the noise, and nothing else",
-    ),
-    ("iteration", "run of the pass, from 0"),
-    ("iterations", "number of runs of the pass"),
-];
-
 /// An expression: numbers, names, `+ - * / ^`, brackets, `floor(..)`, `min(.., ..)` and `max(.., ..)`.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expression {
@@ -75,11 +62,16 @@ impl Expression {
 
     /// Returns true if the value depends on a name.
     pub fn reads(&self, wanted: &str) -> bool {
+        self.reads_any(&|name| name == wanted)
+    }
+
+    /// Returns true if the value depends on one of several names.
+    pub(crate) fn reads_any(&self, is_wanted: &dyn Fn(&str) -> bool) -> bool {
         match self {
             Self::Number(_) => false,
-            Self::Name(name) => name == wanted,
-            Self::Negative(of) | Self::Floor(of) => of.reads(wanted),
-            Self::Binary(_, left, right) => left.reads(wanted) || right.reads(wanted),
+            Self::Name(name) => is_wanted(name),
+            Self::Negative(of) | Self::Floor(of) => of.reads_any(is_wanted),
+            Self::Binary(_, left, right) => left.reads_any(is_wanted) || right.reads_any(is_wanted),
         }
     }
 }
@@ -131,7 +123,11 @@ impl Parser<'_> {
         }
         self.rest = self.rest.trim_start();
         let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.';
-        let end = self.rest.find(|c| !is_part(c)).unwrap_or(self.rest.len());
+        let mut end = self.rest.find(|c| !is_part(c)).unwrap_or(self.rest.len());
+        // `view[3]` is one name.
+        if let Some(index) = self.rest[end..].strip_prefix('[').filter(|_| end > 0) {
+            end += index.find(']').map_or(0, |length| length + 2);
+        }
         let (word, rest) = self.rest.split_at(end);
         self.rest = rest;
         if word.is_empty() {
@@ -183,7 +179,7 @@ mod tests {
     use super::Expression;
 
     fn evaluate(text: &str) -> Result<f64, String> {
-        let parsed = Expression::parse(text, &|name| ["width", "taps"].contains(&name))?;
+        let parsed = Expression::parse(text, &|name| ["width", "taps", "view[3]"].contains(&name))?;
         Ok(parsed.evaluate(&|name| if name == "width" { 90.0 } else { 4.0 }))
     }
 
@@ -200,6 +196,7 @@ mod tests {
             ("floor(width / 20)", 4.0),
             ("max(1, floor(taps / 8)) + min(taps, 2 * 3)", 5.0),
             ("0.5e1 + .5", 5.5),
+            ("-view[3] * 2", -8.0),
         ] {
             assert_eq!(evaluate(text), Ok(expected), "{text}");
         }

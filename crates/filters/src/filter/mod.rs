@@ -13,21 +13,26 @@ mod placeholders;
 mod preset;
 mod reach;
 mod settings;
+mod values;
 
 pub use command::Command;
-pub(crate) use convention::CONVENTION_VALUES;
 pub use convention::{
     Convention, DepthKind, VelocitySign, VelocityTime, VelocityUnit, VerticalDirection,
 };
 pub use definition::Filter;
 pub(crate) use definition::{DEFAULT_TIME_LIMIT, INPUTS};
 pub use expression::Expression;
-pub(crate) use expression::FRAME_VALUES;
 pub(crate) use lines::Lines;
 pub use parameter::{Kind, Parameter, Scale, Unit, Value};
 pub use pass::{Holds, Pass, Repeat, Rounding, Texture};
-pub use pass_shader::{Binding, BindingPlace, PassShader, SamplerFilter, Sampling, Stage, Wrap};
+pub use pass_shader::{
+    Binding, BindingPlace, PassShader, SamplerFilter, Sampling, Stage, VertexShader, Wrap,
+};
 pub(crate) use placeholders::{PLACEHOLDERS, fill_placeholders};
 pub use preset::{Code, Preset, Source, TuningRecord};
 pub use reach::{Growth, Length, ReachBy};
 pub use settings::Settings;
+pub(crate) use values::{
+    MATRICES, MATRIX_NUMBERS, count_numbers, explain_unknown, find_matrix, list_values,
+    name_element, split_element,
+};

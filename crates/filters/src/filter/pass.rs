@@ -15,6 +15,8 @@ pub struct Texture {
     pub divided_by: Option<[Length; 2]>,
     /// Rounding of what they make.
     pub rounding: Rounding,
+    /// Mip levels, at most as many as there are halvings down to one texel.
+    pub mips: u32,
     /// Meaning of its numbers, where a person may want to see them.
     pub holds: Option<Holds>,
 }
@@ -47,6 +49,8 @@ pub struct Pass {
     pub shader: Option<PassShader>,
     /// Index of the shader among those of the filter.
     pub(crate) shader_index: usize,
+    /// Index of the shader of its vertex stage.
+    pub(crate) vertex_index: Option<usize>,
     /// Texture whose texels it runs over; `None` for the image's pixels.
     pub over: Option<String>,
     /// True if a whole workgroup runs for each of those texels, instead of one invocation.

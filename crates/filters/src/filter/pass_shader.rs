@@ -13,6 +13,9 @@ pub enum Stage {
     Compute,
     /// A triangle over the whole picture; each fragment writes the render targets.
     Fragment,
+    /// Corners of the triangle of a fragment shader. It is no stage of a pass by itself.
+    #[serde(skip)]
+    Vertex,
 }
 
 /// A shader in a file of its own, with bindings that filter.toml explains.
@@ -26,12 +29,49 @@ pub struct PassShader {
     pub stage: Stage,
     /// Textures that a fragment shader writes, by location; `output` is the picture.
     pub targets: Vec<String>,
+    /// Mip level of the targets that it writes; 0 if left out.
+    pub level: Option<Expression>,
+    /// Shader of the triangle's corners; the program's own if left out.
+    pub vertex: Option<VertexShader>,
     /// Meanings of bindings.
     pub bindings: Vec<Binding>,
     /// Values of specialisation constants (`override` of WGSL), by name or number.
-    pub constants: Vec<(String, f64)>,
+    pub constants: Vec<(String, Expression)>,
     /// Conditions of WESL that hold.
     pub conditions: Vec<String>,
+}
+
+impl PassShader {
+    /// Lists the expressions that name parameters, but for values of uniform blocks.
+    pub(crate) fn list_expressions(&self) -> impl Iterator<Item = &Expression> {
+        let levels = self
+            .bindings
+            .iter()
+            .filter_map(|binding| binding.level.as_ref());
+        let constants = self.constants.iter().map(|(_, value)| value);
+        constants.chain(levels).chain(&self.level)
+    }
+
+    /// Returns the vertex stage as a shader of its own.
+    pub(crate) fn vertex_stage(&self) -> Option<PassShader> {
+        let vertex = self.vertex.as_ref()?;
+        Some(PassShader {
+            file: vertex.file.clone(),
+            entry: vertex.entry.clone(),
+            stage: Stage::Vertex,
+            targets: Vec::new(),
+            ..self.clone()
+        })
+    }
+}
+
+/// Vertex stage of a fragment shader.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VertexShader {
+    /// The file, relative to the filter's folder.
+    pub file: PathBuf,
+    /// Entry point.
+    pub entry: String,
 }
 
 /// Meaning of one binding of a shader.
@@ -41,6 +81,8 @@ pub struct Binding {
     pub place: BindingPlace,
     /// Texture that it reads or writes: `color`, `velocity`, `depth`, `output` or a [[texture]].
     pub texture: Option<String>,
+    /// The only mip level that it reads or writes. If left out, it reads all and writes 0.
+    pub level: Option<Expression>,
     /// Sampling by a sampler, or by a combined image sampler.
     pub sampling: Sampling,
     /// Values of a uniform block, by member.
@@ -79,12 +121,31 @@ impl std::fmt::Display for BindingPlace {
 }
 
 /// Reading of a texture between and beyond its texels.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Sampling {
     /// Between texels.
     pub filter: SamplerFilter,
+    /// Between mip levels.
+    pub mip_filter: SamplerFilter,
     /// Beyond the border.
     pub wrap: Wrap,
+}
+
+impl Default for Sampling {
+    fn default() -> Self {
+        Self {
+            filter: SamplerFilter::Linear,
+            mip_filter: SamplerFilter::Nearest,
+            wrap: Wrap::Clamp,
+        }
+    }
+}
+
+impl Sampling {
+    /// Returns true if it makes values that no texel holds.
+    pub(crate) fn interpolates(self) -> bool {
+        [self.filter, self.mip_filter].contains(&SamplerFilter::Linear)
+    }
 }
 
 /// Value of a texture between its texels.

@@ -4,8 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Serialize;
 
+use super::convention::CONVENTION_VALUES;
 use super::definition::Filter;
-use super::parameter::{Parameter, Unit, Value};
+use super::parameter::{Kind, Parameter, Unit, Value};
 use super::reach::{Growth, Length};
 use crate::FilterError;
 use crate::printable::escape_controls;
@@ -123,6 +124,30 @@ impl Settings {
             }
         }
         Ok(())
+    }
+
+    /// Lists the numbers that expressions know by name, but for those of a frame: parameters, of which a choice is its index, and the
+    /// convention.
+    pub(crate) fn list_numbers(&self, filter: &Filter) -> BTreeMap<String, f64> {
+        let mut numbers = BTreeMap::new();
+        for name in CONVENTION_VALUES {
+            let value = filter.convention.value(name);
+            numbers.extend(value.map(|value| (name.to_owned(), value)));
+        }
+        for parameter in &filter.parameters {
+            let number = match (&self.values[&parameter.name], &parameter.kind) {
+                (Value::Integer(value), _) => f64::from(*value),
+                (Value::Real(value), _) => *value,
+                (Value::Choice(name), Kind::Choice { choices }) => {
+                    let index = choices.iter().position(|choice| choice == name);
+                    index.expect("settings hold only allowed values") as f64
+                }
+                (Value::Choice(_), _) => unreachable!("settings hold only values of their kind"),
+            };
+            // A parameter may be called like a value of the convention.
+            numbers.insert(parameter.name.clone(), number);
+        }
+        numbers
     }
 
     /// Encodes the WGSL struct `Parameters`: four bytes per parameter, in order.

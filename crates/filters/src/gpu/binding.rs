@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use wgpu::naga::ShaderStage;
+
 use super::device::Gpu;
 use crate::filter::{SamplerFilter, Wrap};
 use crate::shader::{EntryPoint, Role, Shader, Variable};
@@ -13,16 +15,17 @@ pub(super) enum Pipeline {
     Render(wgpu::RenderPipeline),
 }
 
-/// Creates the layout of group 0 as the kernel uses it, with the buffer of loop iterations if there is one.
+/// Creates the layout of a group as the shader uses it, with the buffer of loop iterations if there is one.
 pub(super) fn create_layout(
     gpu: &Gpu,
     shader: &Shader,
     entry: &EntryPoint,
     counted_at: Option<u32>,
 ) -> wgpu::BindGroupLayout {
-    let visibility = match entry.is_fragment() {
-        true => wgpu::ShaderStages::FRAGMENT,
-        false => wgpu::ShaderStages::COMPUTE,
+    let visibility = match entry.stage {
+        ShaderStage::Fragment => wgpu::ShaderStages::FRAGMENT,
+        ShaderStage::Vertex => wgpu::ShaderStages::VERTEX,
+        _ => wgpu::ShaderStages::COMPUTE,
     };
     let counted = counted_at.map(|binding| wgpu::BindGroupLayoutEntry {
         binding,
@@ -57,10 +60,12 @@ pub(super) fn create_layout(
                     format: format.wgpu(),
                     view_dimension: wgpu::TextureViewDimension::D2,
                 },
-                Role::Sampler(sampling) => wgpu::BindingType::Sampler(match sampling.filter {
-                    SamplerFilter::Nearest => wgpu::SamplerBindingType::NonFiltering,
-                    SamplerFilter::Linear => wgpu::SamplerBindingType::Filtering,
-                }),
+                Role::Sampler(sampling) => {
+                    wgpu::BindingType::Sampler(match sampling.interpolates() {
+                        false => wgpu::SamplerBindingType::NonFiltering,
+                        true => wgpu::SamplerBindingType::Filtering,
+                    })
+                }
             },
             count: None,
         })
@@ -73,23 +78,34 @@ pub(super) fn create_layout(
         })
 }
 
-/// Compiles the kernel.
+/// A stage of a pipeline.
+#[derive(Clone, Copy)]
+pub(super) struct StageSource<'a> {
+    pub layout: &'a wgpu::BindGroupLayout,
+    pub module: &'a wgpu::ShaderModule,
+    pub entry: &'a EntryPoint,
+}
+
+/// Compiles the kernel, or the fragment shader with its vertex stage.
 pub(super) fn create_pipeline(
     gpu: &Gpu,
-    layout: &wgpu::BindGroupLayout,
-    module: &wgpu::ShaderModule,
-    entry: &EntryPoint,
+    stage: StageSource,
+    vertex: Option<StageSource>,
     targets: &[wgpu::TextureFormat],
 ) -> Pipeline {
+    let StageSource { module, entry, .. } = stage;
+    let stages = [Some(stage), vertex];
+    let layouts = stages.into_iter().flatten();
+    let layouts: Vec<_> = layouts.map(|stage| Some(stage.layout)).collect();
     let layout = gpu
         .device
         .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(&entry.name),
-            bind_group_layouts: &[Some(layout)],
+            bind_group_layouts: &layouts,
             immediate_size: 0,
         });
     if entry.is_fragment() {
-        return Pipeline::Render(create_render_pipeline(gpu, &layout, module, entry, targets));
+        return Pipeline::Render(create_render_pipeline(gpu, &layout, stage, vertex, targets));
     }
     let pipeline = gpu
         .device
@@ -126,16 +142,23 @@ fn triangle(@builtin(vertex_index) index: u32) -> Corner {{
 fn create_render_pipeline(
     gpu: &Gpu,
     layout: &wgpu::PipelineLayout,
-    module: &wgpu::ShaderModule,
-    entry: &EntryPoint,
+    StageSource { module, entry, .. }: StageSource,
+    vertex: Option<StageSource>,
     targets: &[wgpu::TextureFormat],
 ) -> wgpu::RenderPipeline {
-    let triangle = gpu
-        .device
-        .create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("triangle"),
-            source: wgpu::ShaderSource::Wgsl(write_triangle(&entry.inputs).into()),
-        });
+    let triangle;
+    let (corners, corner) = match vertex {
+        Some(vertex) => (vertex.module, &vertex.entry.name[..]),
+        None => {
+            triangle = gpu
+                .device
+                .create_shader_module(wgpu::ShaderModuleDescriptor {
+                    label: Some("triangle"),
+                    source: wgpu::ShaderSource::Wgsl(write_triangle(&entry.inputs).into()),
+                });
+            (&triangle, "triangle")
+        }
+    };
     let targets: Vec<_> = (targets.iter())
         .map(|format| {
             Some(wgpu::ColorTargetState {
@@ -150,8 +173,8 @@ fn create_render_pipeline(
             label: Some(&entry.name),
             layout: Some(layout),
             vertex: wgpu::VertexState {
-                module: &triangle,
-                entry_point: Some("triangle"),
+                module: corners,
+                entry_point: Some(corner),
                 compilation_options: Default::default(),
                 buffers: &[],
             },
@@ -189,12 +212,17 @@ pub(super) fn create_samplers(
             SamplerFilter::Nearest => wgpu::FilterMode::Nearest,
             SamplerFilter::Linear => wgpu::FilterMode::Linear,
         };
+        let mip_filter = match sampling.mip_filter {
+            SamplerFilter::Nearest => wgpu::MipmapFilterMode::Nearest,
+            SamplerFilter::Linear => wgpu::MipmapFilterMode::Linear,
+        };
         let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some(&entry.name),
             address_mode_u: wrap,
             address_mode_v: wrap,
             mag_filter: filter,
             min_filter: filter,
+            mipmap_filter: mip_filter,
             ..Default::default()
         });
         samplers.insert(*index, sampler);
@@ -202,7 +230,7 @@ pub(super) fn create_samplers(
     samplers
 }
 
-/// Binds each variable of group 0 to its resource, and the buffer of loop iterations if there is one.
+/// Binds each variable of a group to its resource, and the buffer of loop iterations if there is one.
 pub(super) fn create_bind_group<'r>(
     gpu: &Gpu,
     shader: &Shader,

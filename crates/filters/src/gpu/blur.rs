@@ -2,13 +2,15 @@
 
 use frame::{Image, Raster};
 
-use super::bound_passes::{BoundPasses, Dispatch, mark_of};
+use super::bound_passes::{BoundPasses, mark_of};
 use super::device::Gpu;
+use super::dispatch::Dispatch;
 use super::kernels::Kernels;
 use super::place::Place;
 use super::transfer::{row_bytes, to_texels, velocity_texels};
-use super::uniforms::FrameUniform;
+use super::uniforms::FrameValues;
 use super::uploaded_input::UploadedInput;
+use crate::input::CameraUse;
 use crate::{Convention, Filter, FilterError, Format, Input, Settings};
 
 /// A filter ready to run on images of one size.
@@ -17,7 +19,7 @@ pub struct Blur<'g> {
     pub(super) gpu: &'g Gpu,
     filter: String,
     size: [u32; 2],
-    reads_reprojection: bool,
+    camera_use: CameraUse,
     convention: Convention,
     pub(super) passes: BoundPasses,
 }
@@ -50,15 +52,18 @@ impl<'g> Blur<'g> {
             gpu,
             filter: filter.name.clone(),
             size: [width, height],
-            reads_reprojection: filter.reads_reprojection(),
+            camera_use: filter.camera_use(),
             convention: filter.convention,
-            passes: BoundPasses::new(kernels, settings, [width, height])?,
+            passes: {
+                let specialised = kernels.specialise(settings)?;
+                BoundPasses::new(gpu, &specialised, settings, [width, height])?
+            },
         })
     }
 
     /// Refuses an input that the filter cannot read.
     pub(super) fn check(&self, input: &Input) -> Result<(), FilterError> {
-        input.check(&self.filter, self.size, self.reads_reprojection)
+        input.check(&self.filter, self.size, self.camera_use)
     }
 
     /// Blurs every colour image of the input, in order. The same input gives the same bytes on the same adapter.
@@ -145,11 +150,7 @@ impl<'g> Blur<'g> {
         {
             self.run_dispatch(dispatch)?;
         }
-        self.read_output().or_else(|error| {
-            // If a loop was ended early, the broken pixel is its effect.
-            self.check_loops()?;
-            Err(error)
-        })
+        self.read_output()
     }
 
     /// Reads the output; fails if a pixel was not written or is not finite.
@@ -162,7 +163,11 @@ impl<'g> Blur<'g> {
                 let scale = self.color_scale();
                 Ok(output.map(|[r, g, b, _]| [*r / scale, *g / scale, *b / scale]))
             }
-            Some(index) => Err(self.refuse_pixel(index as u32, output.pixels[index])),
+            Some(index) => {
+                // If a loop was ended early, the broken pixel is its effect.
+                self.check_loops()?;
+                Err(self.refuse_pixel(index as u32, output.pixels[index]))
+            }
         }
     }
 
@@ -186,9 +191,31 @@ impl<'g> Blur<'g> {
             ));
         }
         let [r, g, b, _] = texel;
+        let first = self.find_first_broken().unwrap_or_default();
         place.refuse(format!(
-            "writes [{r}, {g}, {b}] to pixel ({x}, {y}); every value must be finite"
+            "writes [{r}, {g}, {b}] to pixel ({x}, {y}); every value must be finite{first}"
         ))
+    }
+
+    /// Runs the passes again, and names the first that writes a value that is not finite to a texture between them.
+    fn find_first_broken(&self) -> Option<String> {
+        for dispatch in &self.passes.dispatches {
+            self.run_dispatch(dispatch).ok()?;
+            let between = (dispatch.written.iter())
+                .filter(|(name, target)| name != "output" && target.format != Format::R32Uint);
+            for (name, target) in between {
+                let texels = self.gpu.download(target, self.place("read back")).ok()?;
+                let broken = |texel: &[f32; 4]| texel.iter().any(|value| !value.is_finite());
+                if let Some(index) = texels.pixels.iter().position(broken) {
+                    let (x, y) = (index as u32 % texels.width, index as u32 / texels.width);
+                    return Some(format!(
+                        "; pass {} writes the first that is not, to texel ({x}, {y}) of \"{name}\"",
+                        dispatch.entry
+                    ));
+                }
+            }
+        }
+        None
     }
 
     /// Refuses loops that the adapter may have ended early.
@@ -221,7 +248,8 @@ impl<'g> Blur<'g> {
             self.gpu.upload(self.passes.target("velocity"), &velocity);
             let depth = self.convention.convert_depth(input.depth);
             self.gpu.upload(self.passes.target("depth"), &depth.pixels);
-            self.passes.upload_frame(self.gpu, FrameUniform::of(input));
+            let frame = FrameValues::of(input, &self.convention);
+            self.passes.upload_frame(self.gpu, frame);
         })
     }
 

@@ -4,18 +4,19 @@ use std::collections::BTreeMap;
 
 use half::f16;
 
-use super::binding::{Pipeline, create_bind_group};
+use super::binding::create_bind_group;
 use super::dependence::{find_color_dependent, find_noise_dependent};
 use super::device::Gpu;
-use super::kernels::Kernels;
+use super::dispatch::Dispatch;
+use super::kernels::Specialised;
+use super::levels::{Levels, WrittenLevels};
 use super::loop_counts::LoopCounts;
 use super::place::Place;
 use super::targets::Targets;
 use super::transfer::Target;
-use super::uniforms::{FrameUniform, Uniforms};
-use crate::filter::CONVENTION_VALUES;
+use super::uniforms::{FrameValues, Uniforms};
 use crate::shader::{Role, UniformBlock};
-use crate::{Filter, FilterError, Format, Kind, Pass, Repeat, Settings, Value};
+use crate::{Filter, FilterError, Format, Pass, Repeat, Settings};
 
 /// Everything of a filter that lives on the GPU.
 #[derive(Debug)]
@@ -34,85 +35,16 @@ pub(super) struct BoundPasses {
     values: BTreeMap<String, f64>,
 }
 
-/// One dispatch.
-#[derive(Debug)]
-pub(super) struct Dispatch {
-    pub entry: String,
-    pub pipeline: Pipeline,
-    pub bind_group: wgpu::BindGroup,
-    pub workgroups: [u32; 2],
-    /// Render targets, by location; none of a kernel.
-    pub attachments: Vec<wgpu::TextureView>,
-    /// Textures whose content is copied to others before it runs.
-    pub copies: Vec<[wgpu::Texture; 2]>,
-    /// Uniform blocks, with the buffers that hold them.
-    pub blocks: Vec<(UniformBlock, wgpu::Buffer)>,
-    /// Bytes of the textures that it reads and of those that it writes, each counted once and whole.
-    pub bytes: u64,
-    /// True if its result changes with the colour image.
-    pub depends_on_color: bool,
-    /// True if its result changes with the frame's index.
-    pub depends_on_noise: bool,
-    /// True if it writes the output.
-    pub writes_output: bool,
-    iteration: u32,
-    iterations: u32,
-}
-
-impl Dispatch {
-    /// Adds the dispatch to the commands of an encoder.
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
-        for [from, to] in &self.copies {
-            encoder.copy_texture_to_texture(from.as_image_copy(), to.as_image_copy(), from.size());
-        }
-        match &self.pipeline {
-            Pipeline::Compute(pipeline) => {
-                let mut pass = encoder.begin_compute_pass(&Default::default());
-                pass.set_pipeline(pipeline);
-                pass.set_bind_group(0, &self.bind_group, &[]);
-                let [x, y] = self.workgroups;
-                pass.dispatch_workgroups(x, y, 1);
-            }
-            Pipeline::Render(pipeline) => {
-                let attachments: Vec<_> = (self.attachments.iter())
-                    .map(|view| {
-                        Some(wgpu::RenderPassColorAttachment {
-                            view,
-                            depth_slice: None,
-                            resolve_target: None,
-                            // A fragment that is discarded leaves what was there.
-                            ops: wgpu::Operations {
-                                load: wgpu::LoadOp::Load,
-                                store: wgpu::StoreOp::Store,
-                            },
-                        })
-                    })
-                    .collect();
-                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                    label: Some(&self.entry),
-                    color_attachments: &attachments,
-                    ..Default::default()
-                });
-                pass.set_pipeline(pipeline);
-                pass.set_bind_group(0, &self.bind_group, &[]);
-                pass.draw(0..3, 0..1);
-            }
-        }
-    }
-}
-
 impl BoundPasses {
     /// Makes textures and uniforms, and binds every pass to them.
     pub fn new(
-        kernels: &Kernels,
+        gpu: &Gpu,
+        kernels: &Specialised,
         settings: &Settings,
         size: [u32; 2],
     ) -> Result<Self, FilterError> {
-        let Kernels {
-            gpu,
-            filter,
-            passes,
-        } = kernels;
+        let Specialised { filter, passes, .. } = kernels;
+        let values = settings.list_numbers(filter);
         let place_of = |pass| Place {
             filter: &filter.name,
             pass,
@@ -137,6 +69,7 @@ impl BoundPasses {
             .into_iter()
             .zip(find_noise_dependent(filter));
         let mut dispatches = Vec::new();
+        let mut ready = WrittenLevels::default();
         let bound = filter.passes.iter().zip(passes).zip(dependence);
         for ((pass, compiled), (depends_on_color, depends_on_noise)) in bound {
             let entry = filter.entry_point(pass);
@@ -145,7 +78,7 @@ impl BoundPasses {
                 .as_ref()
                 .map_or(&[][..], |shader| &shader.targets);
             let over = drawn.first().map(String::as_str).or(pass.over.as_deref());
-            let over = targets.current(over.unwrap_or("output")).texture.size();
+            let over = over.unwrap_or("output");
             let shader = filter.shader(pass);
             // Texels that one workgroup covers.
             let [group_width, group_height] = match pass.workgroup_per_texel || entry.is_fragment()
@@ -156,6 +89,21 @@ impl BoundPasses {
             let place = place_of(&pass.entry);
             let repeats = times(pass);
             for iteration in 0..repeats {
+                let value = |name: &str| match name {
+                    "iteration" => f64::from(iteration),
+                    "iterations" => f64::from(repeats),
+                    name => values[name],
+                };
+                let levels = Levels::find(filter, pass, &targets, &value);
+                let levels = levels.map_err(|reason| place.refuse(reason))?;
+                // A small texture has fewer levels.
+                if !levels.are_there(&targets) {
+                    continue;
+                }
+                let checked = levels.check(shader, entry, &targets, &ready);
+                checked.map_err(|reason| place.refuse(reason))?;
+                levels.add_to(&mut ready);
+                let [width, height] = targets.size(over, levels.of_written(over));
                 let frame = uniforms.bind_frame(dispatches.len());
                 let counted =
                     (loop_counts.as_ref())
@@ -180,14 +128,34 @@ impl BoundPasses {
                                 wgpu::BindingResource::Sampler(&compiled.samplers[&index])
                             }
                             Role::Read(_) | Role::Write(_) => wgpu::BindingResource::TextureView(
-                                &targets.of_variable(entry, variable).view,
+                                targets
+                                    .of_variable(entry, variable)
+                                    .view(levels.of_variable(index)),
                             ),
                         },
                     )
                 })?;
-                let attachments = drawn
-                    .iter()
-                    .map(|name| targets.written(entry, name).view.clone());
+                let vertex = filter.vertex_shader(pass).zip(filter.vertex_entry(pass));
+                let vertex = vertex.zip(compiled.vertex_layout.as_ref());
+                let corner_blocks = gpu.catch_errors(place, || {
+                    vertex.map_or(Vec::new(), |((shader, _), _)| {
+                        create_blocks(gpu, &shader.blocks)
+                    })
+                })?;
+                let vertex_group = gpu.catch_errors(place, || {
+                    vertex.map(|((shader, entry), layout)| {
+                        create_bind_group(gpu, shader, entry, layout, None, |_, variable| {
+                            match variable.role {
+                                Role::Block(block) => corner_blocks[block].1.as_entire_binding(),
+                                _ => unreachable!("a vertex stage has uniform blocks alone"),
+                            }
+                        })
+                    })
+                })?;
+                let attachments = drawn.iter().map(|name| {
+                    let target = targets.written(entry, name);
+                    target.view(Some(levels.of_written(name))).clone()
+                });
                 dispatches.push(Dispatch {
                     entry: pass.entry.clone(),
                     pipeline: compiled.pipeline.clone(),
@@ -196,16 +164,18 @@ impl BoundPasses {
                         true => targets.list_exchanged(entry),
                         false => Vec::new(),
                     },
-                    blocks,
+                    blocks: blocks.into_iter().chain(corner_blocks).collect(),
                     bind_group,
-                    workgroups: [
-                        over.width.div_ceil(group_width),
-                        over.height.div_ceil(group_height),
-                    ],
-                    bytes: targets.sum_bytes(shader, entry, drawn),
+                    vertex_group,
+                    workgroups: [width.div_ceil(group_width), height.div_ceil(group_height)],
+                    bytes: sum_bytes(&targets, filter, pass, &levels),
                     depends_on_color,
                     depends_on_noise,
                     writes_output: entry.writes.contains("output"),
+                    written: (entry.writes.iter())
+                        .filter(|name| levels.of_written(name) == 0)
+                        .map(|name| (name.clone(), targets.written(entry, name).clone()))
+                        .collect(),
                     iteration,
                     iterations: repeats,
                 });
@@ -219,7 +189,7 @@ impl BoundPasses {
             mark,
             targets,
             uniforms,
-            values: list_values(filter, settings),
+            values,
         })
     }
 
@@ -240,14 +210,10 @@ impl BoundPasses {
     }
 
     /// Writes the uniform `frame` of every dispatch.
-    pub fn upload_frame(&self, gpu: &Gpu, frame: FrameUniform) {
+    pub fn upload_frame(&self, gpu: &Gpu, frame: FrameValues) {
         for (index, dispatch) in self.dispatches.iter().enumerate() {
-            let frame = FrameUniform {
-                iteration: dispatch.iteration,
-                iterations: dispatch.iterations,
-                ..frame
-            };
-            self.uniforms.upload_frame(gpu, index, frame);
+            let frame = frame.of_run(dispatch.iteration, dispatch.iterations);
+            self.uniforms.upload_frame(gpu, index, frame.uniform);
             for (block, buffer) in &dispatch.blocks {
                 let bytes = block.encode(&|name| match self.values.get(name) {
                     Some(value) => *value,
@@ -259,27 +225,22 @@ impl BoundPasses {
     }
 }
 
-/// Lists the values that stay the same in all dispatches. A choice is its index.
-fn list_values(filter: &Filter, settings: &Settings) -> BTreeMap<String, f64> {
-    let mut values = BTreeMap::new();
-    for parameter in &filter.parameters {
-        let value = match (&settings.values[&parameter.name], &parameter.kind) {
-            (Value::Integer(value), _) => f64::from(*value),
-            (Value::Real(value), _) => *value,
-            (Value::Choice(name), Kind::Choice { choices }) => {
-                let index = choices.iter().position(|choice| choice == name);
-                index.expect("settings hold only allowed values") as f64
-            }
-            (Value::Choice(_), _) => unreachable!("settings hold only values of their kind"),
-        };
-        values.insert(parameter.name.clone(), value);
-    }
-    for name in CONVENTION_VALUES {
-        let value = filter.convention.value(name);
-        // A parameter may be called like that.
-        value.map(|value| values.entry(name.to_owned()).or_insert(value));
-    }
-    values
+/// Sums the bytes of the textures that a pass reads and of those that it writes, render targets included.
+fn sum_bytes(targets: &Targets, filter: &Filter, pass: &Pass, levels: &Levels) -> u64 {
+    let (shader, entry) = (filter.shader(pass), filter.entry_point(pass));
+    let variables = (entry.variables.iter()).map(|index| (*index, &shader.variables[*index]));
+    let bound = variables
+        .filter(|(_, variable)| matches!(variable.role, Role::Read(_) | Role::Write(_)))
+        .map(|(index, variable)| {
+            let target = targets.of_variable(entry, variable);
+            target.bytes(levels.of_variable(index))
+        });
+    let drawn = pass.shader.iter().flat_map(|shader| &shader.targets);
+    let drawn = drawn.map(|name| {
+        let level = levels.of_written(name);
+        targets.written(entry, name).bytes(Some(level))
+    });
+    bound.chain(drawn).sum()
 }
 
 /// Creates a buffer for each uniform block.
@@ -309,7 +270,7 @@ pub(super) fn mark_of(format: Format) -> f32 {
 /// Creates a texture like the output that holds nothing but the mark.
 fn create_mark(gpu: &Gpu, [width, height]: [u32; 2], format: Format) -> Target {
     let usage = wgpu::TextureUsages::empty();
-    let target = gpu.create_target("mark", width, height, format, usage);
+    let target = gpu.create_target("mark", [width, height], 1, format, usage);
     let components = width as usize * height as usize * 4;
     gpu.upload(&target, &vec![mark_of(format); components]);
     target

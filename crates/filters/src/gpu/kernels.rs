@@ -2,8 +2,12 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::sync::{Arc, Mutex};
 
-use super::binding::{Pipeline, create_layout, create_pipeline, create_samplers};
+use wgpu::naga::ShaderStage;
+
+use super::binding::{Pipeline, StageSource, create_layout, create_pipeline, create_samplers};
 use super::device::Gpu;
 use super::limits::Limits;
 use super::place::Place;
@@ -11,27 +15,46 @@ use super::targets::list_target_formats;
 use super::uploaded_input::UploadedInput;
 use crate::printable::escape_controls;
 use crate::shader::{Code, Shader, count_loop_iterations, run_on_large_stack};
-use crate::{Filter, FilterError, Input};
+use crate::translate::{list_constants, specialise};
+use crate::{Filter, FilterError, Input, Pass, Settings};
 
 /// The compiled kernels of one filter, from which [`Blur::with_kernels`](super::Blur::with_kernels) makes blurs without compiling again.
 #[derive(Debug)]
 pub struct Kernels<'g> {
     pub(super) gpu: &'g Gpu,
     pub(super) filter: Filter,
+    /// Those with the settings of the first preset, then those of settings that set specialisation constants to other values.
+    specialised: Mutex<Vec<Arc<Specialised>>>,
+}
+
+/// Values of specialisation constants of a pass, by name or number.
+type Constants = Vec<(String, f64)>;
+
+/// Kernels whose specialisation constants are set.
+#[derive(Debug)]
+pub(super) struct Specialised {
+    /// Constants of each pass.
+    constants: Vec<Constants>,
+    pub filter: Filter,
     /// Kernels in the order of the filter's passes.
-    pub(super) passes: Vec<Compiled>,
+    pub passes: Vec<Compiled>,
 }
 
 /// The kernel of one pass.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Compiled {
     pub layout: wgpu::BindGroupLayout,
+    /// Layout of the uniform blocks of its vertex stage.
+    pub vertex_layout: Option<wgpu::BindGroupLayout>,
     pub pipeline: Pipeline,
     /// Samplers by the index of their variables.
     pub samplers: BTreeMap<usize, wgpu::Sampler>,
     /// Binding of the buffer of loop iterations, if they are counted.
     pub counted_at: Option<u32>,
 }
+
+/// Upper limit on kernels that are kept for other values of specialisation constants.
+const MOST_KEPT: usize = 16;
 
 impl<'g> Kernels<'g> {
     /// Compiles every pass. Fails for a filter that is a command, for one that asks for more than the adapter grants, and if the
@@ -43,78 +66,183 @@ impl<'g> Kernels<'g> {
                 reason: "it is a command and has no kernels that an adapter could run".into(),
             });
         }
-        Limits::of(gpu).check(filter)?;
-        let compiled = run_on_large_stack(|| Self::compile_here(gpu, filter));
-        compiled.unwrap_or_else(|panic| {
-            let reason = format!("wgpu fails on it: {panic}");
-            Err(refuse(gpu, filter, "kernels", reason))
-        })
-    }
-
-    fn compile_here(gpu: &'g Gpu, filter: &Filter) -> Result<Self, FilterError> {
-        let place = |pass| Place {
-            filter: &filter.name,
-            pass,
-        };
-        let explain = |pass: &str, error| match error {
-            FilterError::Gpu { reason, .. } => refuse(gpu, filter, pass, reason),
-            error => error,
-        };
-        let compile_shader = |shader: &Shader| {
-            let counted_at = gpu.loop_limit.map(|_| shader.find_free_binding());
-            let source = match (gpu.loop_limit, counted_at, &shader.code) {
-                (Some(limit), Some(binding), code) => {
-                    count_loop_iterations(code, binding, limit.safe())
-                }
-                (_, _, Code::Wgsl(text)) => wgpu::ShaderSource::Wgsl(text.as_str().into()),
-                (_, _, Code::Module(module)) => {
-                    wgpu::ShaderSource::Naga(Cow::Owned((**module).clone()))
-                }
-            };
-            let module = gpu.catch_errors(place("kernels"), || {
-                gpu.device
-                    .create_shader_module(wgpu::ShaderModuleDescriptor {
-                        label: Some(&filter.name),
-                        source,
-                    })
-            });
-            Ok((
-                module.map_err(|error| explain("kernels", error))?,
-                counted_at,
-            ))
-        };
-        let modules = (filter.shaders.iter())
-            .map(compile_shader)
-            .collect::<Result<Vec<_>, FilterError>>()?;
-        let passes = (filter.passes.iter())
-            .map(|pass| {
-                let shader = filter.shader(pass);
-                let (module, counted_at) = &modules[pass.shader_index];
-                let entry = filter.entry_point(pass);
-                let targets = list_target_formats(filter, pass);
-                let compiled = gpu.catch_errors(place(&pass.entry), || {
-                    let layout = create_layout(gpu, shader, entry, *counted_at);
-                    let pipeline = create_pipeline(gpu, &layout, module, entry, &targets);
-                    Compiled {
-                        layout,
-                        pipeline,
-                        samplers: create_samplers(gpu, shader, entry),
-                        counted_at: *counted_at,
-                    }
-                });
-                compiled.map_err(|error| explain(&pass.entry, error))
-            })
-            .collect::<Result<_, _>>()?;
+        let constants = list_all_constants(filter, &filter.settings(None)?);
+        let first = compile(gpu, filter.clone(), constants, None)?;
         Ok(Self {
             gpu,
             filter: filter.clone(),
-            passes,
+            specialised: Mutex::new(vec![Arc::new(first)]),
         })
+    }
+
+    /// Returns the kernels with the specialisation constants that settings give them. Those of new values are compiled.
+    pub(super) fn specialise(&self, settings: &Settings) -> Result<Arc<Specialised>, FilterError> {
+        let constants = list_all_constants(&self.filter, settings);
+        let lock = || (self.specialised.lock()).unwrap_or_else(|broken| broken.into_inner());
+        let first = {
+            let kept = lock();
+            if let Some(known) = kept.iter().find(|known| known.constants == constants) {
+                return Ok(known.clone());
+            }
+            kept[0].clone()
+        };
+        let mut filter = self.filter.clone();
+        let changed = constants.iter().zip(&first.constants);
+        for (pass, (own, kept)) in self.filter.passes.iter().zip(changed) {
+            let Some(shader) = pass.shader.as_ref().filter(|_| own != kept) else {
+                continue;
+            };
+            let make = |shader, made| specialise(&self.filter, shader, made, settings);
+            filter.shaders[pass.shader_index] = make(shader, self.filter.shader(pass))?;
+            let vertex = shader.vertex_stage().zip(pass.vertex_index);
+            if let Some((vertex, index)) = vertex {
+                filter.shaders[index] = make(&vertex, &self.filter.shaders[index])?;
+            }
+        }
+        let made = Arc::new(compile(self.gpu, filter, constants, Some(&first))?);
+        let mut kept = lock();
+        if kept.len() > MOST_KEPT {
+            kept.remove(1);
+        }
+        kept.push(made.clone());
+        Ok(made)
     }
 
     /// Uploads an input once, for any number of blurs of this filter.
     pub fn upload(&self, input: &Input) -> Result<UploadedInput, FilterError> {
         UploadedInput::new(self.gpu, &self.filter, input)
+    }
+}
+
+/// Lists the specialisation constants of each pass.
+fn list_all_constants(filter: &Filter, settings: &Settings) -> Vec<Constants> {
+    let of_pass = |pass: &Pass| {
+        let shader = pass.shader.as_ref();
+        shader.map_or(Vec::new(), |shader| {
+            list_constants(filter, shader, settings)
+        })
+    };
+    filter.passes.iter().map(of_pass).collect()
+}
+
+/// Compiles the passes of a filter, but for those whose constants are the same as in `known`.
+fn compile(
+    gpu: &Gpu,
+    filter: Filter,
+    constants: Vec<Constants>,
+    known: Option<&Specialised>,
+) -> Result<Specialised, FilterError> {
+    Limits::of(gpu).check(&filter)?;
+    let passes = run_on_large_stack(|| {
+        let mut modules = BTreeMap::new();
+        (filter.passes.iter().enumerate())
+            .map(|(index, pass)| {
+                match known.filter(|known| known.constants[index] == constants[index]) {
+                    Some(known) => Ok(known.passes[index].clone()),
+                    None => compile_pass(gpu, &filter, pass, &mut modules),
+                }
+            })
+            .collect::<Result<_, FilterError>>()
+    });
+    let passes = passes.unwrap_or_else(|panic| {
+        let reason = format!("wgpu fails on it: {panic}");
+        Err(refuse(gpu, &filter, "kernels", reason))
+    })?;
+    Ok(Specialised {
+        constants,
+        filter,
+        passes,
+    })
+}
+
+/// Modules of shaders by their index, each with the binding of the buffer of loop iterations if they are counted.
+type Modules = BTreeMap<usize, (wgpu::ShaderModule, Option<u32>)>;
+
+fn compile_pass(
+    gpu: &Gpu,
+    filter: &Filter,
+    pass: &Pass,
+    modules: &mut Modules,
+) -> Result<Compiled, FilterError> {
+    for index in [Some(pass.shader_index), pass.vertex_index]
+        .into_iter()
+        .flatten()
+    {
+        if let Entry::Vacant(missing) = modules.entry(index) {
+            missing.insert(compile_shader(gpu, filter, &filter.shaders[index])?);
+        }
+    }
+    let shader = filter.shader(pass);
+    let (module, counted_at) = &modules[&pass.shader_index];
+    let entry = filter.entry_point(pass);
+    let targets = list_target_formats(filter, pass);
+    let place = Place {
+        filter: &filter.name,
+        pass: &pass.entry,
+    };
+    let compiled = gpu.catch_errors(place, || {
+        let layout = create_layout(gpu, shader, entry, *counted_at);
+        let vertex = pass.vertex_index.zip(filter.vertex_entry(pass));
+        let vertex = vertex.map(|(index, entry)| {
+            let layout = create_layout(gpu, &filter.shaders[index], entry, None);
+            (layout, &modules[&index].0, entry)
+        });
+        let own = StageSource {
+            layout: &layout,
+            module,
+            entry,
+        };
+        let corners = vertex.as_ref().map(|(layout, module, entry)| StageSource {
+            layout,
+            module,
+            entry,
+        });
+        let pipeline = create_pipeline(gpu, own, corners, &targets);
+        Compiled {
+            layout,
+            vertex_layout: vertex.map(|(layout, ..)| layout),
+            pipeline,
+            samplers: create_samplers(gpu, shader, entry),
+            counted_at: *counted_at,
+        }
+    });
+    compiled.map_err(|error| explain(gpu, filter, &pass.entry, error))
+}
+
+/// Compiles a module. Its loops are counted if the adapter ends long ones, but for those of vertex stages, which may store nothing.
+fn compile_shader(
+    gpu: &Gpu,
+    filter: &Filter,
+    shader: &Shader,
+) -> Result<(wgpu::ShaderModule, Option<u32>), FilterError> {
+    let mut entries = shader.entry_points.iter();
+    let is_vertex = entries.any(|entry| entry.stage == ShaderStage::Vertex);
+    let limit = gpu.loop_limit.filter(|_| !is_vertex);
+    let counted_at = limit.map(|_| shader.find_free_binding());
+    let source = match (limit, counted_at, &shader.code) {
+        (Some(limit), Some(binding), code) => count_loop_iterations(code, binding, limit.safe()),
+        (_, _, Code::Wgsl(text)) => wgpu::ShaderSource::Wgsl(text.as_str().into()),
+        (_, _, Code::Module(module)) => wgpu::ShaderSource::Naga(Cow::Owned((**module).clone())),
+    };
+    let place = Place {
+        filter: &filter.name,
+        pass: "kernels",
+    };
+    let module = gpu.catch_errors(place, || {
+        gpu.device
+            .create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(&filter.name),
+                source,
+            })
+    });
+    let module = module.map_err(|error| explain(gpu, filter, "kernels", error))?;
+    Ok((module, counted_at))
+}
+
+fn explain(gpu: &Gpu, filter: &Filter, pass: &str, error: FilterError) -> FilterError {
+    match error {
+        FilterError::Gpu { reason, .. } => refuse(gpu, filter, pass, reason),
+        error => error,
     }
 }
 

@@ -40,6 +40,11 @@ impl Limits {
             let entry = filter.entry_point(pass);
             let shader = filter.shader(pass);
             let broken = self.find_broken(shader, entry);
+            let of_vertex = || {
+                let (shader, entry) = (filter.vertex_shader(pass)?, filter.vertex_entry(pass)?);
+                self.find_broken(shader, entry)
+            };
+            let broken = broken.or_else(of_vertex);
             if let Some(reason) = broken.or_else(|| self.find_uninterpolated(filter, pass)) {
                 return Err(FilterError::Folder {
                     path: shader.path.clone(),

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use super::device::Gpu;
 use super::place::Place;
-use super::transfer::Target;
+use super::transfer::{Target, count_texels};
 use crate::filter::{INPUTS, Rounding};
-use crate::shader::{EntryPoint, Role, Shader, Variable};
+use crate::shader::{EntryPoint, Role, Variable};
 use crate::{Filter, FilterError, Format, Pass, Settings};
 
 /// Textures by name. One that a pass both reads and writes has two copies; the first is the one to read.
@@ -20,6 +20,7 @@ pub const MAX_TEXTURE_BYTES: u64 = 8 << 30;
 struct TargetDescription<'f> {
     name: &'f str,
     size: [u32; 2],
+    mips: u32,
     format: Format,
     copies: usize,
     usage: wgpu::TextureUsages,
@@ -27,8 +28,9 @@ struct TargetDescription<'f> {
 
 impl TargetDescription<'_> {
     fn bytes(&self) -> u64 {
-        let [width, height] = self.size.map(u64::from);
-        width * height * self.format.texel_bytes() * self.copies as u64
+        let [width, height] = self.size;
+        let texels = count_texels(width, height, 0..self.mips);
+        texels * self.format.texel_bytes() * self.copies as u64
     }
 }
 
@@ -45,6 +47,7 @@ fn describe_targets<'f>(
     let builtin = builtin.map(|(name, format)| TargetDescription {
         name,
         size,
+        mips: 1,
         format,
         copies: 1,
         usage: find_usage(filter, name),
@@ -57,14 +60,18 @@ fn describe_targets<'f>(
             let mut names = filter.entry_point(pass).exchanged_textures();
             names.any(|name| *name == texture.name)
         });
-        TargetDescription {
-            name: &texture.name,
-            size: [(width, divisors[0]), (height, divisors[1])].map(
-                |(side, divisor)| match texture.rounding {
+        let size =
+            [(width, divisors[0]), (height, divisors[1])].map(|(side, divisor)| {
+                match texture.rounding {
                     Rounding::Up => side.div_ceil(divisor),
                     Rounding::Down => (side / divisor).max(1),
-                },
-            ),
+                }
+            });
+        TargetDescription {
+            name: &texture.name,
+            size,
+            // The last level has one texel.
+            mips: texture.mips.min(size[0].max(size[1]).ilog2() + 1),
             format: texture.format,
             copies: if exchanged { 2 } else { 1 },
             usage: find_usage(filter, &texture.name),
@@ -143,10 +150,16 @@ impl Targets {
         };
         gpu.catch_errors(place, || {
             let made = descriptions.iter().map(|planned| {
-                let [width, height] = planned.size;
-                let copies = (0..planned.copies).map(|_| {
-                    gpu.create_target(planned.name, width, height, planned.format, planned.usage)
-                });
+                let TargetDescription {
+                    name,
+                    size,
+                    mips,
+                    format,
+                    usage,
+                    ..
+                } = *planned;
+                let copies =
+                    (0..planned.copies).map(|_| gpu.create_target(name, size, mips, format, usage));
                 (planned.name.to_owned(), copies.collect())
             });
             Self(made.collect())
@@ -171,23 +184,19 @@ impl Targets {
 
     /// Returns the texture that the kernel writes by that name.
     pub fn written(&self, entry: &EntryPoint, name: &str) -> &Target {
-        match entry.reads.contains(name) {
+        match entry
+            .exchanged_textures()
+            .any(|exchanged| exchanged == name)
+        {
             true => &self.0[name][1],
             false => self.current(name),
         }
     }
 
-    /// Sums the bytes of the textures that the kernel reads and of those that it writes, render targets included.
-    pub fn sum_bytes(&self, shader: &Shader, entry: &EntryPoint, drawn: &[String]) -> u64 {
-        let variables = entry
-            .variables
-            .iter()
-            .map(|index| &shader.variables[*index]);
-        let bound = variables
-            .filter(|variable| matches!(variable.role, Role::Read(_) | Role::Write(_)))
-            .map(|variable| self.of_variable(entry, variable));
-        let drawn = drawn.iter().map(|name| self.written(entry, name));
-        bound.chain(drawn).map(Target::bytes).sum()
+    /// Returns the size of a mip level in texels.
+    pub fn size(&self, name: &str, level: u32) -> [u32; 2] {
+        let texture = &self.current(name).texture;
+        [texture.width(), texture.height()].map(|side| (side >> level).max(1))
     }
 
     /// Lists the copies to read and to write of each texture that the kernel both reads and writes.

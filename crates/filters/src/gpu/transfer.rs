@@ -119,19 +119,47 @@ impl Texel {
 }
 
 /// A texture on the GPU.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Target {
     pub texture: wgpu::Texture,
-    pub view: wgpu::TextureView,
+    /// All its mip levels.
+    whole: wgpu::TextureView,
+    /// Each of them alone.
+    levels: Vec<wgpu::TextureView>,
     pub format: Format,
 }
 
 impl Target {
-    /// Returns its size in bytes.
-    pub fn bytes(&self) -> u64 {
-        let texels = u64::from(self.texture.width()) * u64::from(self.texture.height());
+    /// Returns the view of one mip level, or of all.
+    pub fn view(&self, level: Option<u32>) -> &wgpu::TextureView {
+        match level {
+            Some(level) => &self.levels[level as usize],
+            None => &self.whole,
+        }
+    }
+
+    /// Returns the bytes of one mip level, or of all.
+    pub fn bytes(&self, level: Option<u32>) -> u64 {
+        let [width, height] = [self.texture.width(), self.texture.height()];
+        let texels = match level {
+            Some(level) => count_texels(width, height, level..level + 1),
+            None => count_texels(width, height, 0..self.texture.mip_level_count()),
+        };
         texels * self.format.texel_bytes()
     }
+
+    /// Returns the mip level that a pass gets for one: the last where the texture has fewer.
+    pub fn nearest_level(&self, level: u32) -> u32 {
+        level.min(self.texture.mip_level_count() - 1)
+    }
+}
+
+/// Counts the texels of mip levels.
+pub(super) fn count_texels(width: u32, height: u32, levels: std::ops::Range<u32>) -> u64 {
+    let side = |side: u32, level: u32| u64::from((side >> level).max(1));
+    levels
+        .map(|level| side(width, level) * side(height, level))
+        .sum()
 }
 
 /// Converts a colour image to texels with a fourth component of 1; multiplies colours by `scale`.
@@ -162,8 +190,8 @@ impl Gpu {
     pub(super) fn create_target(
         &self,
         label: &str,
-        width: u32,
-        height: u32,
+        [width, height]: [u32; 2],
+        mips: u32,
         format: Format,
         usage: wgpu::TextureUsages,
     ) -> Target {
@@ -174,7 +202,7 @@ impl Gpu {
                 height,
                 depth_or_array_layers: 1,
             },
-            mip_level_count: 1,
+            mip_level_count: mips,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
             format: format.wgpu(),
@@ -184,8 +212,16 @@ impl Gpu {
                 | usage,
             view_formats: &[],
         });
+        let view_level = |level| {
+            texture.create_view(&wgpu::TextureViewDescriptor {
+                base_mip_level: level,
+                mip_level_count: Some(1),
+                ..Default::default()
+            })
+        };
         Target {
-            view: texture.create_view(&wgpu::TextureViewDescriptor::default()),
+            whole: texture.create_view(&wgpu::TextureViewDescriptor::default()),
+            levels: (0..mips).map(view_level).collect(),
             texture,
             format,
         }

@@ -1,6 +1,6 @@
 //! Trial of a filter before it is measured: every preset, and both ends of every range, on a tiny frame.
 
-use frame::{FAR_DEPTH, Image, Plane, Raster, Reprojection, Vectors};
+use frame::{Camera, CameraPose, FAR_DEPTH, Image, Plane, Raster, Reprojection, Vectors};
 
 use super::blur::Blur;
 use super::device::Gpu;
@@ -166,6 +166,7 @@ impl TinyFrame {
             velocity: &self.velocity,
             depth: &self.depth,
             reprojection: Some(Reprojection::STILL),
+            camera: Some(Camera::still(CameraPose::at_origin(f64::from(SIDE)))),
             exposure: 0.5,
             frame_index: 0,
         }

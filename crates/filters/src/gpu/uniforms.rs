@@ -3,7 +3,9 @@
 use frame::Reprojection;
 
 use super::device::Gpu;
-use crate::Input;
+use super::matrices::CameraMatrices;
+use crate::filter::split_element;
+use crate::{Convention, Input};
 
 /// The uniform `frame`: the WGSL struct `Frame` of common.wgsl.
 #[repr(C)]
@@ -33,18 +35,53 @@ impl FrameUniform {
     }
 }
 
-impl FrameUniform {
-    /// Returns a value that members of uniform blocks may name.
-    pub fn value(&self, name: &str) -> f64 {
-        match name {
-            "width" => f64::from(self.size[0]),
-            "height" => f64::from(self.size[1]),
-            "exposure" => f64::from(self.exposure),
-            "frame_index" => f64::from(self.frame_index),
-            "iteration" => f64::from(self.iteration),
-            "iterations" => f64::from(self.iterations),
-            _ => unreachable!("filter.toml was refused for the unknown value {name}"),
+/// Values of a frame that kernels may read, and that members of uniform blocks may name.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FrameValues {
+    pub uniform: FrameUniform,
+    /// Matrices of the camera; none for a filter that reads none.
+    matrices: Option<CameraMatrices>,
+}
+
+impl FrameValues {
+    /// Takes what all dispatches of an input share.
+    pub fn of(input: &Input, convention: &Convention) -> Self {
+        let size = [input.velocity.width, input.velocity.height];
+        Self {
+            uniform: FrameUniform::of(input),
+            matrices: (input.camera.as_ref())
+                .map(|camera| CameraMatrices::new(camera, size, convention)),
         }
+    }
+
+    /// Sets the run of a pass.
+    pub fn of_run(mut self, iteration: u32, iterations: u32) -> Self {
+        self.uniform.iteration = iteration;
+        self.uniform.iterations = iterations;
+        self
+    }
+
+    /// Returns a value by name.
+    pub fn value(&self, name: &str) -> f64 {
+        let uniform = &self.uniform;
+        match name {
+            "width" | "resolution[0]" => f64::from(uniform.size[0]),
+            "height" | "resolution[1]" => f64::from(uniform.size[1]),
+            // Frames are seen through the middle of each pixel.
+            "jitter[0]" | "jitter[1]" => 0.0,
+            "exposure" => f64::from(uniform.exposure),
+            "frame_index" => f64::from(uniform.frame_index),
+            "iteration" => f64::from(uniform.iteration),
+            "iterations" => f64::from(uniform.iterations),
+            _ => self.number_of_matrix(name).unwrap_or_else(|| {
+                unreachable!("filter.toml was refused for the unknown value {name}")
+            }),
+        }
+    }
+
+    fn number_of_matrix(&self, name: &str) -> Option<f64> {
+        let (matrix, index) = split_element(name)?;
+        self.matrices.as_ref()?.number(matrix, index)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::device::Gpu;
 use super::place::Place;
 use super::transfer::{Target, to_texels, velocity_texels};
-use super::uniforms::FrameUniform;
+use super::uniforms::FrameValues;
 use crate::{Filter, FilterError, Input};
 
 /// A checked and uploaded input of one filter.
@@ -11,7 +11,7 @@ use crate::{Filter, FilterError, Input};
 pub struct UploadedInput {
     pub(super) filter: String,
     pub(super) size: [u32; 2],
-    pub(super) frame: FrameUniform,
+    pub(super) frame: FrameValues,
     pub(super) color: Vec<Target>,
     pub(super) velocity: Target,
     pub(super) depth: Target,
@@ -20,7 +20,7 @@ pub struct UploadedInput {
 impl UploadedInput {
     pub(super) fn new(gpu: &Gpu, filter: &Filter, input: &Input) -> Result<Self, FilterError> {
         let size = [input.velocity.width, input.velocity.height];
-        input.check(&filter.name, size, filter.reads_reprojection())?;
+        input.check(&filter.name, size, filter.camera_use())?;
         let place = Place {
             filter: &filter.name,
             pass: "upload",
@@ -30,14 +30,14 @@ impl UploadedInput {
         let texture = |name, values: &[f32]| {
             let format = convention.input_format(name);
             let usage = wgpu::TextureUsages::empty();
-            let target = gpu.create_target(name, size[0], size[1], format, usage);
+            let target = gpu.create_target(name, size, 1, format, usage);
             gpu.upload(&target, values);
             target
         };
         gpu.catch_errors(place, || Self {
             filter: filter.name.clone(),
             size,
-            frame: FrameUniform::of(input),
+            frame: FrameValues::of(input, convention),
             color: (input.color.iter())
                 .map(|color| texture("color", &to_texels(color, scale)))
                 .collect(),

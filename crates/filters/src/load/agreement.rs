@@ -98,6 +98,9 @@ impl Check<'_> {
                 || repeats.any(|repeat| matches!(repeat, Repeat::Parameter(known) if known == name))
                 || divisors
                     .any(|length| matches!(length, Length::Parameter(known) if known == name))
+                || (passes.iter().filter_map(|pass| pass.shader.as_ref()))
+                    .flat_map(PassShader::list_expressions)
+                    .any(|expression| expression.reads(name))
         };
         let parameters = self.filter.parameters.iter().zip(&self.lines.parameters);
         match parameters.into_iter().find(|(parameter, _)| !is_used(&parameter.name)) {
@@ -105,8 +108,8 @@ impl Check<'_> {
             Some((unused, line)) => Err(self.refuse_manifest(
                 *line,
                 format!(
-                    "parameter \"{}\" changes nothing: no member of a uniform block, `repeat` or `divided_by` has it; name \
-                     it in the `values` of a [[pass.binding]], or remove it",
+                    "parameter \"{}\" changes nothing: no member of a uniform block, `constants`, `repeat`, `level` or \
+                     `divided_by` has it; name it in the `values` of a [[pass.binding]], or remove it",
                     unused.name
                 ),
             )),
@@ -187,6 +190,9 @@ impl Check<'_> {
             let entry = self.find_entry_point(pass).map_err(refuse)?;
             if let Some(shader) = &pass.shader {
                 check_targets(self.filter, shader, entry).map_err(refuse)?;
+            }
+            if let Some(vertex) = self.filter.vertex_entry(pass) {
+                check_vertex(vertex, entry).map_err(refuse)?;
             }
             if let Some(name) = entry.reads.iter().find(|name| !ready.contains(&name[..])) {
                 return Err(refuse(format!(
@@ -273,10 +279,45 @@ fn check_targets(filter: &Filter, shader: &PassShader, entry: &EntryPoint) -> Re
         let texture = filter.textures.iter().find(|texture| texture.name == *name);
         texture.and_then(|texture| texture.divided_by.clone())
     };
-    match targets.iter().find(|name| size(name) != size(&targets[0])) {
-        Some(other) => Err(format!(
+    if let Some(other) = targets.iter().find(|name| size(name) != size(&targets[0])) {
+        return Err(format!(
             "targets \"{}\" and \"{other}\" have different sizes; allowed: targets of one size",
             targets[0]
+        ));
+    }
+    let has_mips = |name: &String| {
+        let texture = filter.textures.iter().find(|texture| texture.name == *name);
+        texture.is_some_and(|texture| texture.mips > 1)
+    };
+    match targets
+        .iter()
+        .find(|name| shader.level.is_some() && !has_mips(name))
+    {
+        Some(plain) => Err(format!(
+            "level: target \"{plain}\" has no mip levels; give its [[texture]] `mips`, or leave `level` out"
+        )),
+        None => Ok(()),
+    }
+}
+
+/// Refuses a vertex stage that wants vertices, or that leaves out what the fragment shader reads.
+fn check_vertex(vertex: &EntryPoint, fragment: &EntryPoint) -> Result<(), String> {
+    if !vertex.inputs.is_empty() {
+        return Err(format!(
+            "vertex shader \"{}\" reads attributes at locations {:?}; there are no vertex buffers; allowed: one that makes \
+             its three corners from the index of the vertex; or leave `vertex` out for a triangle of the program's own",
+            vertex.name, vertex.inputs
+        ));
+    }
+    match fragment
+        .inputs
+        .iter()
+        .find(|location| !vertex.locations.contains(location))
+    {
+        Some(missing) => Err(format!(
+            "the fragment shader reads location {missing}; vertex shader \"{}\" writes locations {:?}; allowed: one that \
+             writes all that the other reads",
+            vertex.name, vertex.locations
         )),
         None => Ok(()),
     }

@@ -8,7 +8,7 @@ use frame::{FileError, read_bounded};
 use include_dir::{Dir, include_dir};
 
 use crate::shader::Shader;
-use crate::translate::{MAX_SHADER_BYTES, translate};
+use crate::translate::{MAX_SHADER_BYTES, Translated, translate};
 use crate::{Filter, FilterError, manifest};
 use agreement::check_agreement;
 
@@ -77,10 +77,20 @@ fn parse_filter(
     }
     for index in 0..filter.passes.len() {
         if let Some(shader) = &filter.passes[index].shader {
-            let path = folder.join(&shader.file);
-            let bytes = read_file(&path, MAX_SHADER_BYTES)?;
-            shaders.push(translate(&filter, shader, &path, &bytes)?);
-            filter.passes[index].shader_index = shaders.len() - 1;
+            let read_shader = |file: &Path| {
+                let path = folder.join(file);
+                let bytes = read_file(&path, MAX_SHADER_BYTES)?;
+                Ok((path, bytes))
+            };
+            let Translated { mut shader, vertex } = translate(&filter, shader, &read_shader)?;
+            let mut corners = vertex.iter().flat_map(|vertex| &vertex.entry_points);
+            let is_noisy = corners.any(|corner| corner.draws_noise);
+            (shader.entry_points.iter_mut()).for_each(|entry| entry.draws_noise |= is_noisy);
+            shaders.push(shader);
+            let pass = &mut filter.passes[index];
+            pass.shader_index = shaders.len() - 1;
+            pass.vertex_index = vertex.as_ref().map(|_| shaders.len());
+            shaders.extend(vertex);
         }
     }
     filter.shaders = shaders;

@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::bindings::{BindingEntry, Names, ShaderKeys, read_shader};
+use super::bindings::{BindingEntry, Names, NumberEntry};
 use super::file::{File, IDENTIFIER, is_identifier};
 use super::parameters::check_count;
+use super::pass_shader::{ShaderKeys, read_shader};
 use super::reach_by::{LengthEntry, read_length};
 use crate::filter::{PassShader, Stage};
 use crate::{
@@ -23,6 +24,7 @@ pub(super) struct TextureEntry {
     divided_by: Option<DivisorEntry>,
     #[serde(default)]
     rounding: Rounding,
+    mips: Option<u32>,
     holds: Option<Holds>,
 }
 
@@ -37,10 +39,13 @@ pub(super) struct PassEntry {
     shader: Option<Spanned<String>>,
     stage: Option<Stage>,
     targets: Option<Vec<String>>,
+    level: Option<NumberEntry>,
+    vertex: Option<String>,
+    vertex_shader: Option<Spanned<String>>,
     #[serde(default)]
     binding: Vec<Spanned<BindingEntry>>,
     #[serde(default)]
-    constants: BTreeMap<String, f64>,
+    constants: BTreeMap<String, NumberEntry>,
     #[serde(default)]
     conditions: Vec<String>,
 }
@@ -69,6 +74,9 @@ enum RepeatEntry {
 /// one go.
 pub const MAX_DISPATCHES: u32 = 4095;
 
+/// Upper limit on the mip levels of a texture: the largest has 16,384 texels on a side.
+pub const MAX_MIPS: u32 = 15;
+
 /// Variables of kernels that every filter has.
 const BUILTIN_VARIABLES: [&str; 6] = [
     "color",
@@ -92,6 +100,7 @@ pub(super) fn read_textures(
             format,
             divided_by,
             rounding,
+            mips,
             holds,
         } = spanned.get_ref();
         if !is_identifier(name) || BUILTIN_VARIABLES.contains(&name.as_str()) {
@@ -114,6 +123,12 @@ pub(super) fn read_textures(
                     format!("texture \"{name}\": divided_by = {reason}"),
                 )
             })?;
+        let mips = mips.unwrap_or(1);
+        if !(1..=MAX_MIPS).contains(&mips) {
+            let reason =
+                format!("texture \"{name}\": mips = {mips}; allowed: from 1 to {MAX_MIPS}");
+            return Err(file.at(spanned, reason));
+        }
         let two_numbers = matches!(format, Format::Rg32Float | Format::Rgba32Float);
         if holds.is_some() && (divided_by.is_some() || !two_numbers) {
             let reason = format!(
@@ -127,6 +142,7 @@ pub(super) fn read_textures(
             format: *format,
             divided_by,
             rounding: *rounding,
+            mips,
             holds: *holds,
         });
     }
@@ -152,6 +168,9 @@ pub(super) fn read_passes(
             shader,
             stage,
             targets,
+            level,
+            vertex,
+            vertex_shader,
             binding,
             constants,
             conditions,
@@ -164,6 +183,9 @@ pub(super) fn read_passes(
             entry: entry.as_deref(),
             stage: *stage,
             targets: targets.as_ref(),
+            level: level.as_ref(),
+            vertex: vertex.as_deref(),
+            vertex_shader: vertex_shader.as_ref(),
             bindings: binding,
             constants,
             conditions,
@@ -221,6 +243,7 @@ pub(super) fn read_passes(
         passes.push(Pass {
             entry,
             shader_index: 0,
+            vertex_index: None,
             shader,
             over: over.clone(),
             workgroup_per_texel: *workgroup_per_texel,

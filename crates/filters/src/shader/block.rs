@@ -69,6 +69,11 @@ impl UniformBlock {
 
     /// Returns true if a value depends on a name.
     pub fn reads(&self, name: &str) -> bool {
-        self.numbers.iter().any(|number| number.value.reads(name))
+        self.reads_any(&|known| known == name)
+    }
+
+    /// Returns true if a value depends on one of several names.
+    pub fn reads_any(&self, is_wanted: &dyn Fn(&str) -> bool) -> bool {
+        (self.numbers.iter()).any(|number| number.value.reads_any(is_wanted))
     }
 }

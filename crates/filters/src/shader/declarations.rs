@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
-use wgpu::naga::{GlobalVariable, Handle, Module, front};
+use wgpu::naga::{GlobalVariable, Handle, Module, ShaderStage, front};
 
 use super::block::UniformBlock;
 use super::entry_point::{EntryPoint, find_entry_points};
@@ -36,6 +37,8 @@ pub(crate) struct Shader {
     pub reads_reprojection: bool,
     /// Compute entry points.
     pub entry_points: Vec<EntryPoint>,
+    /// What the compiler of its language made, if parameters set specialisation constants in it.
+    pub compiled: Option<Arc<Vec<u8>>>,
 }
 
 /// Kernels in a form that wgpu takes.
@@ -115,8 +118,8 @@ impl Shader {
             .collect::<Result<Vec<_>, _>>()?;
         let find_line = |function: &str| source.line_of_function(function);
         let mut entry_points = find_entry_points(&module, &info, &handles, &variables, &find_line);
-        // A fragment shader is named with its bindings.
-        entry_points.retain(|entry| !entry.is_fragment());
+        // Shaders of other stages are named with their bindings.
+        entry_points.retain(|entry| entry.stage == ShaderStage::Compute);
         for entry in &entry_points {
             let checked = entry.usage.check(&entry.name);
             checked.map_err(|reason| source.at(entry.line, reason))?;
@@ -129,6 +132,7 @@ impl Shader {
             entry_points,
             variables,
             blocks: Vec::new(),
+            compiled: None,
             code: Code::Wgsl(source.text),
         })
     }

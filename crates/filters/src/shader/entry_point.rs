@@ -8,7 +8,6 @@ use wgpu::naga::{Binding, GlobalVariable, Handle, Module, ShaderStage, Type, Typ
 use super::noise::reads_frame_index;
 use super::resource_usage::ResourceUsage;
 use super::variable::{Role, Variable};
-use crate::filter::SamplerFilter;
 
 /// A kernel.
 #[derive(Clone, Debug)]
@@ -21,12 +20,14 @@ pub(crate) struct EntryPoint {
     pub variables: Vec<usize>,
     /// Indices of the textures among them that it reads through a sampler that interpolates.
     pub interpolated: BTreeSet<usize>,
-    /// Locations of the colours that a fragment shader writes; none of a kernel.
+    /// Locations that a vertex stage or a fragment shader writes; none of a kernel.
     pub locations: Vec<u32>,
-    /// Locations that a fragment shader reads: texture coordinates.
+    /// Locations that it reads: texture coordinates, or the attributes of vertices.
     pub inputs: Vec<u32>,
     /// Names of the textures that it reads.
     pub reads: BTreeSet<String>,
+    /// Names of those among them that it reads with all their mip levels.
+    pub reads_whole: BTreeSet<String>,
     /// Names of the textures that it writes.
     pub writes: BTreeSet<String>,
     /// True if texels of a texture that it reads and writes keep what they held where it writes nothing, as in engines.
@@ -45,13 +46,14 @@ impl EntryPoint {
         self.stage == ShaderStage::Fragment
     }
 
-    /// Names the textures that it both reads and writes: those have two copies, exchanged after each iteration.
+    /// Names the textures that it both reads and writes: those have two copies, exchanged after each iteration. Where it reads
+    /// single mip levels, one copy serves.
     pub fn exchanged_textures(&self) -> impl Iterator<Item = &String> {
-        self.reads.intersection(&self.writes)
+        self.reads_whole.intersection(&self.writes)
     }
 }
 
-/// Lists the compute and fragment entry points. `handles` are those of `variables`, and `find_line` finds the line of a function.
+/// Lists the entry points. `handles` are those of `variables`, and `find_line` finds the line of a function.
 pub(crate) fn find_entry_points(
     module: &Module,
     module_info: &ModuleInfo,
@@ -63,7 +65,6 @@ pub(crate) fn find_entry_points(
         .entry_points
         .iter()
         .enumerate()
-        .filter(|(_, entry)| [ShaderStage::Compute, ShaderStage::Fragment].contains(&entry.stage))
         .map(|(index, entry)| {
             let info = module_info.get_entry_point(index);
             let used: Vec<usize> = (0..handles.len())
@@ -71,11 +72,16 @@ pub(crate) fn find_entry_points(
                 .collect();
             let used_variables = used.iter().map(|index| &variables[*index]);
             let (mut reads, mut writes) = (BTreeSet::new(), BTreeSet::new());
-            for Variable { resource, role, .. } in used_variables {
-                match role {
+            let mut reads_whole = BTreeSet::new();
+            for variable in used_variables {
+                let resource = || variable.resource.clone();
+                match variable.role {
                     Role::Uniform | Role::Block(_) | Role::Sampler(_) => {}
-                    Role::Read(_) => _ = reads.insert(resource.clone()),
-                    Role::Write(_) => _ = writes.insert(resource.clone()),
+                    Role::Read(_) => {
+                        reads.insert(resource());
+                        reads_whole.extend(variable.level.is_none().then(resource));
+                    }
+                    Role::Write(_) => _ = writes.insert(resource()),
                 }
             }
             EntryPoint {
@@ -87,6 +93,7 @@ pub(crate) fn find_entry_points(
                 locations: find_outputs(module, entry),
                 inputs: find_inputs(module, entry),
                 reads,
+                reads_whole,
                 writes,
                 keeps_unwritten: false,
                 draws_noise: reads_frame_index(module, &entry.function),
@@ -104,7 +111,7 @@ fn find_interpolated(
     variables: &[Variable],
 ) -> BTreeSet<usize> {
     let index = |wanted| handles.iter().position(|handle| *handle == wanted);
-    let is_linear = |sampler: usize| matches!(variables[sampler].role, Role::Sampler(sampling) if sampling.filter == SamplerFilter::Linear);
+    let is_linear = |sampler: usize| matches!(variables[sampler].role, Role::Sampler(sampling) if sampling.interpolates());
     (info.sampling_set.iter())
         .filter(|pair| index(pair.sampler).is_some_and(is_linear))
         .filter_map(|pair| index(pair.image))

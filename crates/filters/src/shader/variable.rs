@@ -8,7 +8,7 @@ use wgpu::naga::{
 use super::source::Source;
 use super::texel::{Format, Texel};
 use crate::FilterError;
-use crate::filter::Sampling;
+use crate::filter::{Expression, Sampling};
 
 /// A resource variable.
 #[derive(Clone, Debug)]
@@ -18,6 +18,8 @@ pub(crate) struct Variable {
     pub resource: String,
     pub binding: u32,
     pub role: Role,
+    /// The only mip level that it reads or writes; without one it reads all and writes 0.
+    pub level: Option<Expression>,
     /// Line in the WGSL file, from 1.
     pub line: Option<usize>,
 }
@@ -92,6 +94,7 @@ pub(super) fn find_variable(
         resource,
         binding: binding.binding,
         role,
+        level: None,
         line: Some(line),
     })
 }

@@ -1,6 +1,6 @@
 //! Bindings of a shader, as filter.toml explains them, put in the places that the suite binds.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use wgpu::naga::compact::{KeepUnused, compact};
@@ -9,16 +9,16 @@ use wgpu::naga::{
 };
 
 use super::entry::{keep_entry_point, set_constants, validate};
-use super::members::fill_block;
-use super::module::Read;
+use super::members::{KnownValues, fill_block};
+use super::module::{OpenModule, PUSH_CONSTANTS};
 use super::refuse;
 use super::textures::{check_texture, describe_image};
 use super::words::Place;
-use crate::filter::{Binding, BindingPlace, PassShader};
+use crate::filter::{Binding, BindingPlace, PassShader, Stage, list_values};
 use crate::shader::{
     Code, Role, Shader, UniformBlock, Variable, find_entry_points, find_image_role, written_texture,
 };
-use crate::{Filter, FilterError};
+use crate::{Filter, FilterError, Texture};
 
 /// Names that compilers give to the block of uniforms outside of any block, or to its type.
 const GLOBALS: [&str; 5] = [
@@ -29,27 +29,30 @@ const GLOBALS: [&str; 5] = [
     "GlobalParams_std140",
 ];
 
-/// Makes the shader of a pass: one entry point, and group 0 with a binding for each variable that it uses.
+/// Makes the shader of a pass: one entry point, and one group with a binding for each variable that it uses. A vertex stage has
+/// group 1, any other group 0.
 pub(super) fn bind(
     filter: &Filter,
     shader: &PassShader,
     path: &Path,
-    read: Read,
+    open: OpenModule,
+    constants: &[(String, f64)],
 ) -> Result<Shader, FilterError> {
-    let Read { mut module, owners } = read;
-    // Variables that were split from others are explained where those are.
-    let owners: BTreeMap<BindingPlace, BindingPlace> = (owners.into_iter())
-        .map(|(split, owner)| (bound_at(split), bound_at(owner)))
-        .collect();
-    check_places(filter, shader, path, &module, &owners)?;
+    let owners = find_owners(&open);
+    let OpenModule {
+        mut module,
+        by_rows,
+        ..
+    } = open;
     validate(path, &module)?;
     keep_entry_point(shader, path, &mut module)?;
-    set_constants(shader, path, &mut module)?;
+    set_constants(shader, path, &mut module, constants)?;
     compact(&mut module, KeepUnused::No);
     let mut binder = Binder {
         filter,
         shader,
         path,
+        by_rows,
         blocks: Vec::new(),
         variables: Vec::new(),
     };
@@ -75,32 +78,40 @@ pub(super) fn bind(
     })
 }
 
-fn bound_at((group, binding): Place) -> BindingPlace {
-    BindingPlace::Bound { group, binding }
+/// Finds the places of variables that were split from others. They are explained where those are.
+fn find_owners(open: &OpenModule) -> BTreeMap<BindingPlace, BindingPlace> {
+    let bound_at = |(group, binding): Place| BindingPlace::Bound { group, binding };
+    (open.owners.iter())
+        .map(|(split, owner)| (bound_at(*split), bound_at(*owner)))
+        .collect()
 }
 
-/// Refuses a binding of filter.toml that the shader does not have.
-fn check_places(
+/// Refuses a binding of filter.toml that none of the stages of a pass has.
+pub(super) fn check_places(
     filter: &Filter,
     shader: &PassShader,
     path: &Path,
-    module: &Module,
-    owners: &BTreeMap<BindingPlace, BindingPlace>,
+    stages: &[&OpenModule],
 ) -> Result<(), FilterError> {
-    let declared: Vec<(&GlobalVariable, BindingPlace)> = (module.global_variables.iter())
-        .filter_map(|(_, variable)| Some((variable, find_place(variable)?)))
-        .filter(|(_, place)| !owners.contains_key(place))
-        .collect();
+    let mut declared: Vec<(&Module, &GlobalVariable, BindingPlace)> = Vec::new();
+    for open in stages {
+        let (module, owners) = (&open.module, find_owners(open));
+        let placed = (module.global_variables.iter())
+            .filter_map(|(_, variable)| Some((module, variable, find_place(variable)?)));
+        declared.extend(placed.filter(|(.., place)| !owners.contains_key(place)));
+    }
     let is_there = |binding: &&Binding| {
-        (declared.iter()).any(|(variable, place)| explains(binding, module, variable, place))
+        (declared.iter())
+            .any(|(module, variable, place)| explains(binding, module, variable, place))
     };
     let Some(unknown) = shader.bindings.iter().find(|binding| !is_there(binding)) else {
         return Ok(());
     };
     let mut places: Vec<String> = (declared.iter())
-        .map(|(variable, place)| name_variable(variable, place))
+        .map(|(_, variable, place)| name_variable(variable, place))
         .collect();
     places.sort_unstable();
+    places.dedup();
     Err(FilterError::Folder {
         path: filter.lines.path.clone(),
         line: Some(unknown.line),
@@ -144,13 +155,9 @@ fn name_variable(variable: &GlobalVariable, place: &BindingPlace) -> String {
 
 /// Finds the place of a variable that has to be bound.
 fn find_place(variable: &GlobalVariable) -> Option<BindingPlace> {
-    match (&variable.binding, variable.space) {
-        (_, AddressSpace::Immediate) => Some(BindingPlace::PushConstants),
-        (Some(place), _) => Some(BindingPlace::Bound {
-            group: place.group,
-            binding: place.binding,
-        }),
-        (None, _) => None,
+    match variable.binding? {
+        PUSH_CONSTANTS => Some(BindingPlace::PushConstants),
+        ResourceBinding { group, binding } => Some(BindingPlace::Bound { group, binding }),
     }
 }
 
@@ -159,12 +166,13 @@ struct Binder<'a> {
     filter: &'a Filter,
     shader: &'a PassShader,
     path: &'a Path,
+    by_rows: BTreeSet<(String, u32)>,
     blocks: Vec<UniformBlock>,
     variables: Vec<Variable>,
 }
 
 impl Binder<'_> {
-    /// Binds every variable that needs it in group 0; returns their handles. `owners` has the places that explain others.
+    /// Binds every variable that needs it; returns their handles. `owners` has the places that explain others.
     fn bind_all(
         &mut self,
         module: &mut Module,
@@ -182,12 +190,9 @@ impl Binder<'_> {
                 .map_err(|reason| self.refuse(variable, place, binding, &reason))?;
             let variable = &mut module.global_variables[*handle];
             variable.binding = Some(ResourceBinding {
-                group: 0,
+                group: u32::from(self.shader.stage == Stage::Vertex),
                 binding: index as u32,
             });
-            if variable.space == AddressSpace::Immediate {
-                variable.space = AddressSpace::Uniform;
-            }
         }
         Ok(placed.into_iter().map(|(handle, _)| handle).collect())
     }
@@ -223,9 +228,13 @@ impl Binder<'_> {
         let texture = || self.name_texture(binding, &name);
         let inner = &module.types[variable.ty].inner;
         let (role, resource) = match (variable.space, inner) {
-            (AddressSpace::Uniform | AddressSpace::Immediate, _) => {
-                let is_known = |name: &str| self.filter.knows_value(name);
-                let block = fill_block(module, variable.ty, binding, &is_known)?;
+            (AddressSpace::Uniform, _) => {
+                let known = KnownValues {
+                    count: &|name| self.filter.count_numbers(name),
+                    listed: list_values(&self.filter.parameters, &self.filter.convention),
+                    by_rows: &self.by_rows,
+                };
+                let block = fill_block(module, variable.ty, binding, &known)?;
                 self.blocks.push(block);
                 (Role::Block(self.blocks.len() - 1), String::new())
             }
@@ -240,13 +249,16 @@ impl Binder<'_> {
                     arrayed,
                     class,
                 },
-            ) => {
+            ) if self.shader.stage != Stage::Vertex => {
                 let role = match (dim, arrayed) {
                     (ImageDimension::D2, false) => find_image_role(*class),
                     _ => None,
                 };
                 let role = role.ok_or_else(|| describe_image(*class))?;
                 (role, texture()?)
+            }
+            (AddressSpace::Handle, TypeInner::Image { .. }) => {
+                return Err("is a texture of a vertex stage; allowed there: uniform blocks and push constants".into());
             }
             _ => {
                 return Err(
@@ -257,9 +269,17 @@ impl Binder<'_> {
             }
         };
         check_texture(self.filter, role, &resource)?;
+        let level = binding.and_then(|binding| binding.level.clone());
+        let has_mips = |it: &Texture| it.name == resource && it.mips > 1;
+        if level.is_some() && !self.filter.textures.iter().any(has_mips) {
+            return Err(format!(
+                "has a `level`, and \"{resource}\" has no mip levels; give its [[texture]] `mips`, or leave `level` out"
+            ));
+        }
         self.variables.push(Variable {
             name,
             resource,
+            level,
             binding: self.variables.len() as u32,
             role,
             line: None,

@@ -40,6 +40,7 @@ impl Compiler {
         let (short, stage, profile) = match shader.stage {
             Stage::Compute => ("comp", "compute", "cs_6_0"),
             Stage::Fragment => ("frag", "fragment", "ps_6_0"),
+            Stage::Vertex => ("vert", "vertex", "vs_6_0"),
         };
         // With shifts of registers, slangc overlooks bindings of Vulkan.
         let registers = match text.contains("vk::binding") {

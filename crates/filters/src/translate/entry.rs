@@ -2,18 +2,20 @@
 
 use std::path::Path;
 
+use wgpu::naga::back::PipelineConstants;
 use wgpu::naga::back::pipeline_constants::process_overrides;
 use wgpu::naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
-use wgpu::naga::{Module, ShaderStage};
+use wgpu::naga::{Module, ScalarKind, ShaderStage};
 
-use super::{explain, refuse};
+use super::constants::refuse_missing;
+use super::{Language, explain, refuse};
 use crate::FilterError;
 use crate::filter::{PassShader, Stage};
 use crate::shader::CAPABILITIES;
 
 /// Validates a module.
 pub(super) fn validate(path: &Path, module: &Module) -> Result<ModuleInfo, FilterError> {
-    let capabilities = CAPABILITIES | Capabilities::IMMEDIATES | Capabilities::FLOAT64;
+    let capabilities = CAPABILITIES | Capabilities::FLOAT64;
     Validator::new(ValidationFlags::all(), capabilities)
         .validate(module)
         .map_err(|error| {
@@ -36,6 +38,7 @@ pub(super) fn keep_entry_point(
     let stage = match shader.stage {
         Stage::Compute => ShaderStage::Compute,
         Stage::Fragment => ShaderStage::Fragment,
+        Stage::Vertex => ShaderStage::Vertex,
     };
     let names: Vec<String> = (module.entry_points.iter())
         .map(|entry| format!("{} ({})", entry.name, name_stage(entry.stage)))
@@ -48,58 +51,62 @@ pub(super) fn keep_entry_point(
         _ => Err(refuse(
             path,
             format!(
-                "has no {} entry point \"{}\"; it has: {}; filter.toml names it with `entry` and `stage`",
+                "has no {} entry point \"{}\"; it has: {}; filter.toml names it with {}",
                 name_stage(stage),
                 shader.entry,
                 match names.is_empty() {
                     true => "none".to_owned(),
                     false => names.join(", "),
+                },
+                match shader.stage {
+                    Stage::Vertex => "`vertex` and `vertex_shader`",
+                    _ => "`entry` and `stage`",
                 }
             ),
         )),
     }
 }
 
-/// Sets specialisation constants. Those that filter.toml does not name keep the value that the shader gives them.
+/// Sets the `override`s of WGSL. Those that filter.toml does not name keep the value that the shader gives them. A vertex stage takes
+/// those of its fragment shader that it has.
 pub(super) fn set_constants(
     shader: &PassShader,
     path: &Path,
     module: &mut Module,
+    given: &[(String, f64)],
 ) -> Result<(), FilterError> {
-    let mut names = Vec::new();
-    for (_, constant) in module.overrides.iter() {
-        let name = constant.name.clone().filter(|name| !name.is_empty());
-        let number = constant.id.map(|id| id.to_string());
-        names.push((name, number));
+    let language = Language::of(&shader.file).map_err(|reason| refuse(path, reason))?;
+    if !matches!(language, Language::Wgsl | Language::Wesl) {
+        // SPIR-V got them before it was read.
+        return Ok(());
     }
-    let is = |known: &Option<String>, name: &str| known.as_deref() == Some(name);
-    for (name, _) in &shader.constants {
-        if !(names.iter()).any(|(own, number)| is(own, name) || is(number, name)) {
-            let known: Vec<String> = (names.into_iter())
-                .filter_map(|(name, number)| name.or(number))
-                .collect();
-            return Err(refuse(
-                path,
-                format!(
-                    "has no specialisation constant \"{name}\", which filter.toml sets; it has: {}",
-                    match known.is_empty() {
-                        true => "none".to_owned(),
-                        false => known.join(", "),
-                    }
-                ),
-            ));
-        }
+    let mut set = PipelineConstants::default();
+    for (name, value) in given {
+        let mut constants = module.overrides.iter().map(|(_, constant)| constant);
+        let numbered = |id: Option<u16>| id.map(|id| id.to_string());
+        let found = constants.find(|constant| {
+            let names = [constant.name.clone(), numbered(constant.id)];
+            names.iter().flatten().any(|own| own == name)
+        });
+        let Some(constant) = found else {
+            if shader.stage == Stage::Vertex {
+                continue;
+            }
+            let constants = module.overrides.iter().map(|(_, constant)| constant);
+            let known = constants.filter_map(|it| it.name.clone().or(numbered(it.id)));
+            let known: Vec<String> = known.collect();
+            return Err(refuse(path, refuse_missing(name, &known)));
+        };
+        let scalar = module.types[constant.ty].inner.scalar();
+        let value = match scalar.is_some_and(|scalar| scalar.kind != ScalarKind::Float) {
+            true => value.round(),
+            false => *value,
+        };
+        // A constant with a name and a number goes by its number.
+        set.insert(numbered(constant.id).unwrap_or(name.clone()), value);
     }
-    // A constant with a name and a number goes by its number.
-    let values = shader.constants.iter().map(|(name, value)| {
-        let numbered = names
-            .iter()
-            .find(|(own, number)| is(own, name) && number.is_some());
-        let key = numbered.and_then(|(_, number)| number.clone());
-        (key.unwrap_or(name.clone()), *value)
-    });
     let info = validate(path, module)?;
-    let set = process_overrides(module, &info, None, &values.collect());
+    let set = process_overrides(module, &info, None, &set);
     let set = set.map_err(|error| {
         refuse(
             path,

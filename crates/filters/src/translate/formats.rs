@@ -43,7 +43,7 @@ pub(super) fn give_formats(
         .filter(|[_, class, image]| *class == UNIFORM_CONSTANT && images.contains_key(image))
         .map(|[pointer, _, image]| (pointer, image))
         .collect();
-    let (names, places) = (find_names(words), words.find_places());
+    let (names, places) = (words.find_names(), words.find_places());
     // Image type and pointer of each variable with a format of its own.
     let mut typed: BTreeMap<u32, (Instruction, u32)> = BTreeMap::new();
     let variables: Vec<[u32; 2]> = words.all(op::VARIABLE).collect();
@@ -94,17 +94,4 @@ pub(super) fn give_formats(
         instructions.push(instruction);
     }
     words.instructions = instructions;
-}
-
-/// Finds the names of ids.
-fn find_names(words: &Words) -> BTreeMap<u32, String> {
-    let named = words.instructions.iter().filter(|it| it.opcode == op::NAME);
-    let named = named.filter_map(|it| it.operands.split_first());
-    named
-        .map(|(id, name)| {
-            let bytes = name.iter().flat_map(|word| word.to_le_bytes());
-            let bytes: Vec<u8> = bytes.take_while(|byte| *byte != 0).collect();
-            (*id, String::from_utf8_lossy(&bytes).into_owned())
-        })
-        .collect()
 }

@@ -14,11 +14,12 @@ pub(crate) enum Language {
 }
 
 /// Endings of files.
-const ENDINGS: [(&str, Language); 9] = [
+const ENDINGS: [(&str, Language); 10] = [
     ("spv", Language::Spirv),
     ("glsl", Language::Glsl),
     ("comp", Language::Glsl),
     ("frag", Language::Glsl),
+    ("vert", Language::Glsl),
     ("slang", Language::Slang),
     ("hlsl", Language::Hlsl),
     ("fx", Language::Hlsl),

@@ -1,9 +1,11 @@
 //! Members of the uniform blocks of a shader, and their values.
 
+use std::collections::BTreeSet;
+
 use wgpu::naga::proc::Layouter;
 use wgpu::naga::{ArraySize, Handle, Module, Scalar, Type, TypeInner, VectorSize};
 
-use crate::filter::{Binding, Expression, FRAME_VALUES};
+use crate::filter::{Binding, Expression, MATRIX_NUMBERS, name_element};
 use crate::shader::{BlockNumber, NumberKind, UniformBlock};
 
 /// Upper limit on the numbers of a block.
@@ -23,12 +25,22 @@ struct Member {
     numbers: Vec<(u32, NumberKind)>,
 }
 
-/// Lays out the values of a block. `is_known` tells which names a value may have.
+/// Names that values may have.
+pub(super) struct KnownValues<'a> {
+    /// Counts the numbers of a name.
+    pub count: &'a dyn Fn(&str) -> Option<usize>,
+    /// List of the names, for messages.
+    pub listed: String,
+    /// Members that hold the rows of a matrix, by name and offset.
+    pub by_rows: &'a BTreeSet<(String, u32)>,
+}
+
+/// Lays out the values of a block.
 pub(super) fn fill_block(
     module: &Module,
     block: Handle<Type>,
     binding: Option<&Binding>,
-    is_known: &dyn Fn(&str) -> bool,
+    known: &KnownValues,
 ) -> Result<UniformBlock, String> {
     let mut layouter = Layouter::default();
     layouter
@@ -46,7 +58,7 @@ pub(super) fn fill_block(
             .find(|(name, _)| *name == member.name || *name == place);
         let values = match value {
             Some((_, values)) => values.clone(),
-            None if member.numbers.len() == 1 && is_known(&member.name) => {
+            None if (known.count)(&member.name) == Some(member.numbers.len()) => {
                 vec![Expression::Name(member.name.clone())]
             }
             None if others.is_some() => others.cloned().unwrap_or_default(),
@@ -57,10 +69,14 @@ pub(super) fn fill_block(
                     member.name,
                     describe(&member.numbers),
                     member.offset,
-                    FRAME_VALUES.map(|(name, _)| name).join(", ")
+                    known.listed
                 ));
             }
         };
+        let is_by_rows = known
+            .by_rows
+            .contains(&(member.name.clone(), member.offset));
+        let values = spell_out(&values, known.count, is_by_rows);
         if values.len() != 1 && values.len() != member.numbers.len() {
             return Err(format!(
                 "its member \"{}\" holds {}, and `values` has {} for it; allowed: one for all, or as many as it holds",
@@ -100,6 +116,31 @@ pub(super) fn fill_block(
         ));
     }
     Ok(UniformBlock { bytes, numbers })
+}
+
+/// Writes a value that stands for several numbers as so many values. Matrices come column by column, or row by row.
+fn spell_out(
+    values: &[Expression],
+    count: &dyn Fn(&str) -> Option<usize>,
+    is_by_rows: bool,
+) -> Vec<Expression> {
+    let spelled = values.iter().flat_map(|value| {
+        let Expression::Name(name) = value else {
+            return vec![value.clone()];
+        };
+        let numbers = count(name).unwrap_or(1);
+        let place = |index: usize| match is_by_rows && numbers == MATRIX_NUMBERS {
+            true => 4 * (index % 4) + index / 4,
+            false => index,
+        };
+        match numbers {
+            1 => vec![value.clone()],
+            _ => (0..numbers)
+                .map(|index| Expression::Name(name_element(name, place(index))))
+                .collect(),
+        }
+    });
+    spelled.collect()
 }
 
 fn describe(numbers: &[(u32, NumberKind)]) -> String {

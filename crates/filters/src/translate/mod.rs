@@ -7,6 +7,7 @@ mod bind;
 mod combined;
 mod compile;
 mod compiler;
+mod constants;
 #[cfg(test)]
 mod deep;
 mod entry;
@@ -14,6 +15,7 @@ mod formats;
 mod includes;
 mod language;
 mod levels;
+mod matrices;
 mod members;
 mod module;
 mod packages;
@@ -22,29 +24,110 @@ mod storage;
 mod textures;
 mod words;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::filter::PassShader;
 use crate::shader::{Shader, run_on_large_stack};
-use crate::{Filter, FilterError};
+use crate::{Filter, FilterError, Settings};
+use bind::{bind, check_places};
+use module::{OpenModule, compile_shader, read};
 
 pub(crate) use language::Language;
 
 /// Largest shader that is read, in bytes.
 pub(crate) const MAX_SHADER_BYTES: u64 = compiler::MAX_MODULE_BYTES;
 
-/// Translates the shader of a pass. `bytes` are those of the file at `path`.
+/// Function that reads a file of the filter's folder: its path, and its bytes.
+pub(crate) type ReadFile<'a> = dyn Fn(&Path) -> Result<(PathBuf, Vec<u8>), FilterError> + 'a;
+
+/// Shaders of a pass: its own, and that of its vertex stage if it names one.
+pub(crate) struct Translated {
+    pub shader: Shader,
+    pub vertex: Option<Shader>,
+}
+
+/// Translates the shaders of a pass with the specialisation constants of its first preset.
 pub(crate) fn translate(
     filter: &Filter,
     shader: &PassShader,
-    path: &Path,
-    bytes: &[u8],
+    read_file: &ReadFile,
+) -> Result<Translated, FilterError> {
+    let (path, bytes) = read_file(&shader.file)?;
+    let vertex = shader.vertex_stage();
+    let vertex = vertex.map(|stage| Ok::<_, FilterError>((read_file(&stage.file)?, stage)));
+    let vertex = vertex.transpose()?;
+    guard(&path, || {
+        let constants = list_constants(filter, shader, &filter.settings(None)?);
+        let compile = |stage: &PassShader, path: &Path, bytes: &[u8]| {
+            let compiled = compile_shader(filter, stage, path, bytes)?;
+            let open = read(filter, stage, path, &compiled, &constants)?;
+            Ok::<_, FilterError>((compiled, open))
+        };
+        let own = compile(shader, &path, &bytes)?;
+        let vertex = (vertex.as_ref())
+            .map(|((path, bytes), stage)| Ok((compile(stage, path, bytes)?, path, stage)))
+            .transpose()?;
+        let corners = vertex.as_ref().map(|((_, open), ..)| open);
+        let stages: Vec<&OpenModule> = [&own.1].into_iter().chain(corners).collect();
+        check_places(filter, shader, &path, &stages)?;
+        // Kept where a parameter changes the module.
+        let is_open = (shader.constants.iter()).any(|(_, value)| value.reads_any(&|_| true));
+        let bind_stage = |(compiled, open), path: &Path, stage: &PassShader| {
+            let bound = bind(filter, stage, path, open, &constants)?;
+            Ok::<_, FilterError>(Shader {
+                compiled: is_open.then(|| Arc::new(compiled)),
+                ..bound
+            })
+        };
+        let vertex = vertex.map(|(made, path, stage)| bind_stage(made, path, stage));
+        Ok(Translated {
+            vertex: vertex.transpose()?,
+            shader: bind_stage(own, &path, shader)?,
+        })
+    })
+}
+
+/// Makes a translated shader again, with the specialisation constants of settings.
+pub(crate) fn specialise(
+    filter: &Filter,
+    shader: &PassShader,
+    made: &Shader,
+    settings: &Settings,
 ) -> Result<Shader, FilterError> {
-    let translated = run_on_large_stack(|| {
-        let module = module::read(filter, shader, path, bytes)?;
-        bind::bind(filter, shader, path, module)
-    });
-    translated.unwrap_or_else(|panic| {
+    let Some(compiled) = &made.compiled else {
+        return Ok(made.clone());
+    };
+    let specialised = guard(&made.path, || {
+        let constants = list_constants(filter, shader, settings);
+        let open = read(filter, shader, &made.path, compiled, &constants)?;
+        bind(filter, shader, &made.path, open, &constants)
+    })?;
+    Ok(Shader {
+        compiled: made.compiled.clone(),
+        ..specialised
+    })
+}
+
+/// Lists the specialisation constants of a pass, by name or number, with the values that settings give them.
+pub(crate) fn list_constants(
+    filter: &Filter,
+    shader: &PassShader,
+    settings: &Settings,
+) -> Vec<(String, f64)> {
+    let numbers = settings.list_numbers(filter);
+    let constants = shader.constants.iter();
+    constants
+        .map(|(name, value)| (name.clone(), value.evaluate(&|name| numbers[name])))
+        .collect()
+}
+
+/// Does work of naga, whose panics become errors.
+fn guard<T: Send>(
+    path: &Path,
+    work: impl FnOnce() -> Result<T, FilterError> + Send,
+) -> Result<T, FilterError> {
+    run_on_large_stack(work).unwrap_or_else(|panic| {
         Err(refuse(
             path,
             format!(

@@ -17,8 +17,12 @@ const MAX_NESTABLE: usize = 10_000;
 /// Opcodes that the passes over a module look at.
 pub(super) mod op {
     pub const NAME: u32 = 5;
+    pub const MEMBER_NAME: u32 = 6;
+    pub const EXECUTION_MODE: u32 = 16;
     pub const CAPABILITY: u32 = 17;
+    pub const TYPE_BOOL: u32 = 20;
     pub const TYPE_INT: u32 = 21;
+    pub const TYPE_FLOAT: u32 = 22;
     pub const TYPE_IMAGE: u32 = 25;
     pub const TYPE_SAMPLER: u32 = 26;
     pub const TYPE_SAMPLED_IMAGE: u32 = 27;
@@ -27,8 +31,13 @@ pub(super) mod op {
     pub const TYPE_STRUCT: u32 = 30;
     pub const TYPE_POINTER: u32 = 32;
     pub const TYPE_FUNCTION: u32 = 33;
+    pub const CONSTANT_TRUE: u32 = 41;
+    pub const CONSTANT_FALSE: u32 = 42;
     pub const CONSTANT: u32 = 43;
     pub const CONSTANT_COMPOSITE: u32 = 44;
+    pub const SPEC_CONSTANT_TRUE: u32 = 48;
+    pub const SPEC_CONSTANT_FALSE: u32 = 49;
+    pub const SPEC_CONSTANT: u32 = 50;
     pub const SPEC_CONSTANT_COMPOSITE: u32 = 51;
     pub const SPEC_CONSTANT_OP: u32 = 52;
     pub const FUNCTION: u32 = 54;
@@ -44,6 +53,8 @@ pub(super) mod op {
     pub const ARRAY_LENGTH: u32 = 68;
     pub const IN_BOUNDS_PTR_ACCESS_CHAIN: u32 = 70;
     pub const DECORATE: u32 = 71;
+    pub const MEMBER_DECORATE: u32 = 72;
+    pub const COMPOSITE_EXTRACT: u32 = 81;
     pub const COPY_OBJECT: u32 = 83;
     pub const SAMPLED_IMAGE: u32 = 86;
     pub const IMAGE_FETCH: u32 = 95;
@@ -52,7 +63,41 @@ pub(super) mod op {
     pub const IMAGE_QUERY_SIZE_LOD: u32 = 103;
     pub const IMAGE_QUERY_SIZE: u32 = 104;
     pub const IMAGE_QUERY_SAMPLES: u32 = 107;
+    pub const U_CONVERT: u32 = 113;
+    pub const S_CONVERT: u32 = 114;
+    pub const BITCAST: u32 = 124;
+    pub const S_NEGATE: u32 = 126;
+    pub const I_ADD: u32 = 128;
+    pub const I_SUB: u32 = 130;
+    pub const I_MUL: u32 = 132;
+    pub const U_DIV: u32 = 134;
+    pub const S_DIV: u32 = 135;
+    pub const U_MOD: u32 = 137;
+    pub const S_REM: u32 = 138;
+    pub const S_MOD: u32 = 139;
+    pub const LOGICAL_EQUAL: u32 = 164;
+    pub const LOGICAL_NOT_EQUAL: u32 = 165;
+    pub const LOGICAL_OR: u32 = 166;
+    pub const LOGICAL_AND: u32 = 167;
+    pub const LOGICAL_NOT: u32 = 168;
     pub const SELECT: u32 = 169;
+    pub const I_EQUAL: u32 = 170;
+    pub const I_NOT_EQUAL: u32 = 171;
+    pub const U_GREATER_THAN: u32 = 172;
+    pub const S_GREATER_THAN: u32 = 173;
+    pub const U_GREATER_THAN_EQUAL: u32 = 174;
+    pub const S_GREATER_THAN_EQUAL: u32 = 175;
+    pub const U_LESS_THAN: u32 = 176;
+    pub const S_LESS_THAN: u32 = 177;
+    pub const U_LESS_THAN_EQUAL: u32 = 178;
+    pub const S_LESS_THAN_EQUAL: u32 = 179;
+    pub const SHIFT_RIGHT_LOGICAL: u32 = 194;
+    pub const SHIFT_RIGHT_ARITHMETIC: u32 = 195;
+    pub const SHIFT_LEFT_LOGICAL: u32 = 196;
+    pub const BITWISE_OR: u32 = 197;
+    pub const BITWISE_XOR: u32 = 198;
+    pub const BITWISE_AND: u32 = 199;
+    pub const NOT: u32 = 200;
     pub const PHI: u32 = 245;
     pub const LOOP_MERGE: u32 = 246;
     pub const SELECTION_MERGE: u32 = 247;
@@ -62,10 +107,15 @@ pub(super) mod op {
 
 /// Decorations that the passes look at.
 pub(super) mod decoration {
+    pub const SPEC_ID: u32 = 1;
+    pub const ROW_MAJOR: u32 = 4;
+    pub const COL_MAJOR: u32 = 5;
+    pub const BUILT_IN: u32 = 11;
     pub const NON_WRITABLE: u32 = 24;
     pub const NON_READABLE: u32 = 25;
     pub const BINDING: u32 = 33;
     pub const DESCRIPTOR_SET: u32 = 34;
+    pub const OFFSET: u32 = 35;
 }
 
 /// Storage class of textures and samplers.
@@ -209,6 +259,22 @@ impl Words {
         places
     }
 
+    /// Finds the names of ids.
+    pub fn find_names(&self) -> BTreeMap<u32, String> {
+        let named = self.instructions.iter().filter(|it| it.opcode == op::NAME);
+        let named = named.filter_map(|it| it.operands.split_first());
+        named.map(|(id, name)| (*id, read_text(name))).collect()
+    }
+
+    /// Finds the names of members, by struct and index.
+    pub fn find_member_names(&self) -> BTreeMap<[u32; 2], String> {
+        let named = (self.instructions.iter()).filter(|it| it.opcode == op::MEMBER_NAME);
+        let named = named.filter_map(|it| it.operands.split_first_chunk());
+        named
+            .map(|(member, name)| (*member, read_text(name)))
+            .collect()
+    }
+
     /// Finds a binding for each of these variables that no other has, in the same group.
     pub fn find_free_places(&self, variables: &[u32]) -> BTreeMap<u32, Place> {
         let places = self.find_places();
@@ -239,6 +305,13 @@ impl Words {
         let words = header.into_iter().chain(instructions);
         words.flat_map(u32::to_le_bytes).collect()
     }
+}
+
+/// Reads a text that ends with a zero.
+fn read_text(words: &[u32]) -> String {
+    let bytes = words.iter().flat_map(|word| word.to_le_bytes());
+    let bytes: Vec<u8> = bytes.take_while(|byte| *byte != 0).collect();
+    String::from_utf8_lossy(&bytes).into_owned()
 }
 
 #[cfg(test)]

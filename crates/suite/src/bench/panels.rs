@@ -1,6 +1,6 @@
 //! Frame that filters are timed on, made by formula.
 
-use frame::{FAR_DEPTH, Image, Plane, Raster, Reprojection, Vectors};
+use frame::{Camera, CameraPose, FAR_DEPTH, Image, Plane, Raster, Reprojection, Vectors};
 
 /// Input of a filter: moving panels over a still ground.
 pub struct Panels {
@@ -12,6 +12,8 @@ pub struct Panels {
     pub depth: Plane,
     /// Camera motion, for filters that know no other: a pan of the same speed.
     pub reprojection: Reprojection,
+    /// Camera at the world's origin, for shaders that take its matrices.
+    pub camera: Camera,
 }
 
 /// A panel of the frame.
@@ -90,6 +92,7 @@ impl Panels {
                     [0.0, 0.0, 1.0, 0.0],
                 ],
             },
+            camera: Camera::still(CameraPose::at_origin(f64::from(height))),
         }
     }
 }

@@ -178,6 +178,7 @@ fn load<'b, 'g>(
         velocity: &panels.velocity,
         depth: &panels.depth,
         reprojection: Some(panels.reprojection),
+        camera: Some(panels.camera),
         exposure: EXPOSURE,
         frame_index: 0,
     })

@@ -164,6 +164,7 @@ fn make_frame(
         },
         guard_band: 0,
         reprojection: Reprojection::STILL,
+        camera: None,
         display,
         coverage: draw_coverage(capture.object_id.as_ref(), (width, height), objects.len()),
         object_id: match (&capture.object_id, objects.len()) {

@@ -69,7 +69,7 @@ impl<'a> PlannedCase<'a> {
         };
         let is_measured = |choice: &&FilterChoice| {
             alignments.contains(&choice.filter.alignment)
-                && !(scene.drawn().is_some() && choice.filter.reads_reprojection())
+                && !(scene.drawn().is_some() && choice.filter.reads_camera())
         };
         let filters = filters.iter().filter(is_measured).flat_map(|choice| {
             plan.inputs.iter().map(|input| Self {

@@ -96,6 +96,7 @@ fn input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
         // No engine tells how its camera moved.
         reprojection: (frame.provenance.engine.is_none())
             .then(|| frame.reprojection.moved(f64::from(frame.guard_band))),
+        camera: frame.camera,
         exposure: frame.exposure,
         frame_index: 0,
     }

@@ -96,6 +96,7 @@ fn with_input<T>(target: &Target, bleed: bool, use_it: impl FnOnce(&Input) -> T)
         velocity: &frame.velocity,
         depth: &frame.depth,
         reprojection: Some(frame.reprojection.moved(f64::from(frame.guard_band))),
+        camera: frame.camera,
         exposure: frame.exposure,
         frame_index: 0,
     })

@@ -29,6 +29,7 @@ impl Stopwatch<'_> {
             velocity: &self.frame.velocity,
             depth: &self.frame.depth,
             reprojection: Some(self.frame.reprojection),
+            camera: self.frame.camera,
             exposure: self.frame.exposure,
             frame_index: 0,
         };

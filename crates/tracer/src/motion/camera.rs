@@ -1,5 +1,6 @@
 //! The camera at one time: rays through pixels, and projection back to them.
 
+use frame::CameraPose;
 use glam::{DAffine3, DVec3};
 
 use crate::geometry::ray::Ray;
@@ -119,6 +120,15 @@ impl View {
                 shift[row],
             ]
         })
+    }
+
+    /// The camera as a frame records it.
+    pub(crate) fn pose(&self) -> CameraPose {
+        let columns = self.to_world.to_cols_array_2d();
+        CameraPose {
+            focal: self.focal,
+            to_world: [0, 1, 2].map(|row| columns.map(|column| column[row])),
+        }
     }
 
     /// Distance of a point of the world along the view axis, metres.

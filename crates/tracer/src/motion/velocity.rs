@@ -1,6 +1,6 @@
 //! Screen velocity of a visible point, from its exact position as a function of time.
 
-use frame::{Reprojection, VelocityKind};
+use frame::{Camera, Reprojection, VelocityKind};
 use glam::DVec3;
 
 use crate::geometry::hit::Hit;
@@ -136,6 +136,12 @@ pub(crate) fn reprojection(scene: &Scene, [width, height]: [u32; 2]) -> Reprojec
     Reprojection {
         rows: now.to_picture_of(&then),
     }
+}
+
+/// The camera at the instant and one frame before.
+pub(crate) fn camera(scene: &Scene, [width, height]: [u32; 2]) -> Camera {
+    let [now, before] = [0.0, -1.0].map(|time| scene.camera.view(time, width, height).pose());
+    Camera { now, before }
 }
 
 /// The velocity that an engine without a velocity buffer rebuilds: the motion since the frame before of a point that

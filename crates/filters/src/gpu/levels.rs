@@ -1,0 +1,123 @@
+//! Mip levels that one dispatch reads and writes.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::targets::Targets;
+use crate::filter::Expression;
+use crate::shader::{EntryPoint, Role, Shader, Variable};
+use crate::{Filter, Pass};
+
+/// Levels of the textures of one dispatch.
+pub(super) struct Levels<'a> {
+    /// Level by the index of the variable; none where a variable reads all.
+    variables: BTreeMap<usize, Option<u32>>,
+    /// Textures that it writes, each with the level.
+    written: Vec<(&'a str, u32)>,
+}
+
+/// Levels that earlier dispatches have written, with their textures.
+#[derive(Default)]
+pub(super) struct WrittenLevels(BTreeSet<(String, u32)>);
+
+impl<'a> Levels<'a> {
+    /// Finds the levels of a dispatch; `value` knows parameters and the iteration.
+    pub fn find(
+        filter: &'a Filter,
+        pass: &'a Pass,
+        targets: &Targets,
+        value: &dyn Fn(&str) -> f64,
+    ) -> Result<Self, String> {
+        let (shader, entry) = (filter.shader(pass), filter.entry_point(pass));
+        let evaluate = |level: &Expression| match level.evaluate(value).round() {
+            found if (0.0..=f64::from(u16::MAX)).contains(&found) => Ok(found as u32),
+            found => Err(format!("level = {found}; allowed: from 0")),
+        };
+        let mut variables = BTreeMap::new();
+        let mut written = Vec::new();
+        for index in &entry.variables {
+            let Variable {
+                resource,
+                role,
+                level,
+                ..
+            } = &shader.variables[*index];
+            let level = level.as_ref().map(evaluate).transpose()?;
+            match role {
+                Role::Read(_) => {
+                    let nearest = |level| targets.current(resource).nearest_level(level);
+                    variables.insert(*index, level.map(nearest));
+                }
+                Role::Write(_) => {
+                    let level = level.unwrap_or(0);
+                    variables.insert(*index, Some(level));
+                    written.push((&resource[..], level));
+                }
+                Role::Uniform | Role::Block(_) | Role::Sampler(_) => {}
+            }
+        }
+        if let Some(drawn) = &pass.shader {
+            let level = drawn.level.as_ref().map(evaluate).transpose()?;
+            let drawn = drawn.targets.iter();
+            written.extend(drawn.map(|name| (&name[..], level.unwrap_or(0))));
+        }
+        Ok(Self { variables, written })
+    }
+
+    /// Returns false if it writes a level that its texture does not have.
+    pub fn are_there(&self, targets: &Targets) -> bool {
+        (self.written.iter())
+            .all(|(name, level)| *level < targets.current(name).texture.mip_level_count())
+    }
+
+    /// Returns the level of a variable; none for all.
+    pub fn of_variable(&self, index: usize) -> Option<u32> {
+        self.variables.get(&index).copied().flatten()
+    }
+
+    /// Returns the level of a texture that it writes; 0 for one that it does not.
+    pub fn of_written(&self, name: &str) -> u32 {
+        let mut written = self.written.iter();
+        written
+            .find(|(known, _)| *known == name)
+            .map_or(0, |(_, level)| *level)
+    }
+
+    /// Refuses to read a level that the dispatch itself writes, or that none before has written.
+    pub fn check(
+        &self,
+        shader: &Shader,
+        entry: &EntryPoint,
+        targets: &Targets,
+        ready: &WrittenLevels,
+    ) -> Result<(), String> {
+        for (index, level) in &self.variables {
+            let Variable { resource, role, .. } = &shader.variables[*index];
+            let count = targets.current(resource).texture.mip_level_count();
+            if count == 1 || !matches!(role, Role::Read(_)) {
+                continue;
+            }
+            if level.is_some_and(|level| self.written.contains(&(resource, level))) {
+                return Err(format!(
+                    "reads level {} of \"{resource}\", which it writes; allowed: a level that an earlier run has written",
+                    self.of_written(resource)
+                ));
+            }
+            let is_ready = |level: &u32| ready.0.contains(&(resource.clone(), *level));
+            let mut wanted = level.map_or(0..count, |level| level..level + 1);
+            if let Some(missing) = wanted.find(|level| !is_ready(level)) {
+                return Err(format!(
+                    "kernel \"{}\" may read level {missing} of \"{resource}\", which no pass has written before; write it \
+                     first, or give the [[pass.binding]] the one `level` that it reads",
+                    entry.name
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds what the dispatch writes.
+    pub fn add_to(&self, ready: &mut WrittenLevels) {
+        let written = self.written.iter();
+        (ready.0).extend(written.map(|(name, level)| ((*name).to_owned(), *level)));
+    }
+}
