@@ -16,7 +16,7 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 25] = [
+const NOT_RUN: [(&str, &str); 27] = [
     ("cargo test --workspace", "runs this test and all others"),
     (
         "cargo install --path crates/cli",
@@ -95,6 +95,14 @@ const NOT_RUN: [(&str, &str); 25] = [
     (
         "cargo run -p cli --example compare_sizes -- out/160x90/run.json out/run.json",
         "compiles the program again",
+    ),
+    (
+        "cargo run -p cli --example compare_sizes -- out/160x90/run.json out/320x180/run.json out/1280x720/run.json",
+        "compiles the program again",
+    ),
+    (
+        "shuttertruth audit out/capture/frame_edge",
+        "needs a capture, for which three.js is installed",
     ),
     ("pip install numpy OpenEXR", "installs packages"),
     ("name: motion blur", "a workflow, which GitHub runs"),
