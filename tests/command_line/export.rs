@@ -21,6 +21,21 @@ fn a_scene_becomes_a_folder_that_says_when_its_frame_is() {
 }
 
 #[test]
+fn an_unlit_export_is_the_scene_that_run_takes_as_unlit() {
+    let bench = Bench::new();
+    let flagged = bench.shuttertruth(&split("export plate --unlit --gltf flagged"));
+    assert_done(&flagged);
+    assert_done(&bench.shuttertruth(&split("export plate@unlit --gltf named")));
+    let read = |folder: &str| fs::read(bench.path(folder).join("plate@unlit/scene.gltf")).unwrap();
+    assert_eq!(read("flagged"), read("named"));
+    let render = "render --scenes plate@unlit --size 32x18 --samples-per-pixel 16 --out r";
+    assert_done(&bench.shuttertruth(&split(render)));
+    assert!(bench.path("r/plate@unlit/truth_trailing.exr").is_file());
+    let variant = bench.shuttertruth(&split("export plate@fast --unlit"));
+    assert_refused(&variant, 2, &["--unlit: plate@fast is a variant"]);
+}
+
+#[test]
 fn scenes_that_are_not_there_and_folders_that_are_files_are_refused() {
     let bench = Bench::new();
     assert_refused(

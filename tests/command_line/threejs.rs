@@ -227,9 +227,8 @@ fn audit_names_what_is_planted_in_three_js_s_velocity() {
     let drawn = Drawn::new("flat_field");
     let (code, said) = drawn.audit();
     assert_eq!(code, Some(0), "{said}");
-    drawn
-        .bench
-        .execute(&["ingest", "capture", "--out", "engine"]);
+    let told = (drawn.bench).execute(&["ingest", "capture", "--out", "engine"]);
+    assert_contains(&told, &["makes the picture brighter, 1.0625 times"]);
     for (planted, cause) in [
         ("velocity.mul(2)", "velocity is twice too long"),
         ("velocity.mul(vec2(1, -1))", "velocity has y flipped"),

@@ -8,3 +8,4 @@ mod gltf;
 mod reading;
 mod refusals;
 mod scene_folder;
+mod unlit;

@@ -205,6 +205,24 @@ pub struct Material {
     pub opacity_texture: Option<usize>,
 }
 
+impl Material {
+    /// Makes a surface that sends out its albedo and reflects nothing; one that emits keeps its radiance.
+    fn unlit(self) -> Self {
+        let (emission, emission_texture) = match self.emission == Vec3::ZERO {
+            true => (self.diffuse, self.diffuse_texture),
+            false => (self.emission, self.emission_texture),
+        };
+        Self {
+            finish: Finish::Diffuse,
+            diffuse: Vec3::ZERO,
+            diffuse_texture: None,
+            emission,
+            emission_texture,
+            ..self
+        }
+    }
+}
+
 /// The reflection of a surface. Roughness is 0 for a mirror, else from [`Finish::SMOOTHEST`] to 1; its square is the width of
 /// the GGX distribution of slopes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -259,6 +277,17 @@ pub struct Object {
 }
 
 impl Scene {
+    /// Makes every surface send out its albedo, whatever the light: what emits keeps its radiance. There is no sun, and the
+    /// background lights nothing. An engine that knows no light at all draws the same radiance.
+    pub fn unlit(self) -> Self {
+        let materials = self.materials.into_iter().map(Material::unlit);
+        Self {
+            materials: materials.collect(),
+            sun: None,
+            ..self
+        }
+    }
+
     /// Names of the background and the objects, by id.
     pub fn object_names(&self) -> Vec<String> {
         let objects = self.objects.iter().map(|object| object.name.clone());

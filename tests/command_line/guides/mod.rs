@@ -113,13 +113,20 @@ const NOT_RUN: [(&str, &str); 27] = [
 ];
 
 /// Things that a command of a page needs: the page, the beginning of the command, and a line of shell that makes them.
-const PREPARED: [(&str, &str, &str); 10] = [
+const PREPARED: [(&str, &str, &str); 11] = [
     (
         "README.md",
         "shuttertruth import",
         "cp scenes/fan/fan.mtl . && cp scenes/fan/fan.obj my_model.obj",
     ),
     ("README.md", "shuttertruth compare", "cp -r out before"),
+    (
+        "README.md",
+        "shuttertruth audit",
+        "shuttertruth render --scenes fan --size 96x54 --samples-per-pixel 16 --velocity previous_frame --out drawn && \
+         mkdir my_capture && cd my_capture && echo '[convention]' > engine.toml && for name in color velocity depth; do cp \
+         ../drawn/fan/frame.exr $name.exr; done && printf 'engine = \"my engine\"\nscene = \"fan\"\n' > capture.toml",
+    ),
     (
         "docs/engine-frames.md",
         "shuttertruth ingest",

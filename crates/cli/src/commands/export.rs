@@ -9,7 +9,13 @@ use crate::selection::select_scenes;
 
 /// Writes each scene as glTF and prints where, and at which time of the animation the frame is.
 pub fn execute(args: &ExportArgs) -> Result<(), Error> {
-    let choices = select_scenes(&args.scenes_dir, &args.scenes)?;
+    let names = match args.unlit {
+        true => (args.scenes.iter())
+            .map(|name| unlit_name(name))
+            .collect::<Result<_, _>>()?,
+        false => args.scenes.clone(),
+    };
+    let choices = select_scenes(&args.scenes_dir, &names)?;
     let mut text = String::new();
     for choice in &choices {
         let folder = args.gltf.join(&choice.scene.name);
@@ -17,6 +23,16 @@ pub fn execute(args: &ExportArgs) -> Result<(), Error> {
         text += &describe(&manifest, &printable_path(&folder));
     }
     print(&text)
+}
+
+/// Names the unlit variant of a scene.
+fn unlit_name(name: &str) -> Result<String, Error> {
+    match name.contains('@') {
+        false => Ok(format!("{name}@unlit")),
+        true => Err(Error::Usage(format!(
+            "--unlit: {name} is a variant; allowed: scenes in their default variant, which `unlit` is a variant of"
+        ))),
+    }
 }
 
 fn describe(manifest: &Manifest, folder: &str) -> String {

@@ -74,6 +74,9 @@ fn find_display(capture: &Capture, traced: Option<&Scene>) -> Display {
     }
 }
 
+/// Change of the mean radiance from which it is said.
+const LEAST_GAIN: f64 = 0.01;
+
 fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
     let scene = &ingested.scene;
     let [width, height] = scene.size;
@@ -104,6 +107,14 @@ fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
     }
     if scene.has_picture {
         let _ = writeln!(text, "picture: the engine's own blur, {folder}/blurred.exr");
+    }
+    if let Some(gain) = ingested.gain.filter(|gain| (gain - 1.0).abs() > LEAST_GAIN) {
+        let change = if gain > 1.0 { "brighter" } else { "darker" };
+        let _ = writeln!(
+            text,
+            "FOUND: the engine's blur makes the picture {change}, {gain:.4} times the mean of what it blurs; its weights should \
+             add up to 1"
+        );
     }
     let _ = writeln!(text, "written: {folder}");
     let dot = if out.is_relative() { "./" } else { "" };

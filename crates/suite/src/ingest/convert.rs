@@ -26,6 +26,9 @@ pub struct Ingested {
     pub scene: EngineScene,
     /// The truth; none where the capture has no sub-frames.
     pub truth: Option<Truth>,
+    /// Mean radiance of the engine's blurred picture over that of the truth, or of the frame where there is no truth. 1 for a blur that
+    /// neither adds nor takes light; none without a picture, or of black.
+    pub gain: Option<f64>,
 }
 
 /// Writes the frame of a capture, the truth of its sub-frames and the engine's own blurred picture into the folder `out`, which
@@ -92,7 +95,18 @@ pub fn ingest(
     }
     let json = serde_json::to_string_pretty(&scene).expect("a scene is plain data") + "\n";
     frame::write_atomically(&out.join(INGESTED_FILE), json.as_bytes())?;
-    Ok(Ingested { scene, truth })
+    let unblurred = truth
+        .as_ref()
+        .map_or_else(|| frame.color.clone(), |truth| truth.mean().color);
+    let gain = (capture.blurred.as_ref())
+        .map(|picture| mean_radiance(picture) / mean_radiance(&unblurred))
+        .filter(|gain| gain.is_finite());
+    Ok(Ingested { scene, truth, gain })
+}
+
+fn mean_radiance(picture: &Image) -> f64 {
+    let values = picture.pixels.iter().flatten();
+    values.map(|value| f64::from(*value)).sum::<f64>() / picture.pixels.len() as f64
 }
 
 /// Refuses a folder that holds another frame, as a run leaves it for a scene.

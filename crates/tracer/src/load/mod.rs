@@ -50,7 +50,10 @@ use variants::ParsedScene;
 use crate::Scene;
 use crate::limits::{LARGEST_SIDE, MOST_PIXELS};
 
-/// Loads the scene in `folder`, or one of its variants.
+/// Variant that every scene has without naming it: its surfaces send out their own colours.
+const UNLIT: &str = "unlit";
+
+/// Loads the scene in `folder`, or one of its variants. The variant `unlit` is made of any scene.
 ///
 /// Refuses whatever a render could not use, with its place and what is allowed; repairs nothing.
 pub fn load_scene(folder: &Path, variant: Option<&str>) -> Result<Scene, SceneError> {
@@ -65,7 +68,9 @@ pub fn load_scene_and_files(
     let mut files = Files::new(folder);
     let document = read_document(&mut files, folder)?;
     let parsed = ParsedScene::parse(&document)?;
-    let table = parsed.read(variant)?;
+    let is_unlit =
+        variant == Some(UNLIT) && parsed.variant_names().iter().all(|name| name != UNLIT);
+    let table = parsed.read(variant.filter(|_| !is_unlit))?;
     parsed.check_variants()?;
     check_picture(&document, &table)?;
 
@@ -110,6 +115,7 @@ pub fn load_scene_and_files(
         notes,
         hash: meshes.files.hash(variant),
     };
+    let scene = if is_unlit { scene.unlit() } else { scene };
     Ok((scene, paths))
 }
 
