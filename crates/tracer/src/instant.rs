@@ -75,7 +75,7 @@ pub fn trace_frame(
     let meter = Meter::new(watch, film.work(&pixels));
     let pixel_means = film.render(&pixels, &meter, |estimates| PixelMean::of(&estimates[0]))?;
     let picture = assemble_picture(canvas, &pixel_means);
-    let points = sample_points(stage, canvas, settings, &PointMotion::default());
+    let points = sample_points(stage, canvas, settings, &PointMotion::RIGHT);
     let velocity = points.map(|point| point.velocity);
     check_picture(scene, &picture)?;
     check_layer(scene, "velocity", &velocity)?;

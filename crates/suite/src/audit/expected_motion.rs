@@ -1,9 +1,7 @@
 //! Velocity that an engine should have handed over, and what known mistakes make of it.
 
 use frame::{FrameOptions, Vectors, VelocityKind};
-use tracer::{
-    ObjectsBefore, PointLayers, PointMotion, RenderSettings, Scene, TraceError, trace_motion,
-};
+use tracer::{PointLayers, PointMotion, RenderSettings, Scene, TraceError, trace_motion};
 
 use super::cause::Cause;
 
@@ -29,8 +27,7 @@ impl ExpectedMotion {
         };
         let since_last = settings(VelocityKind::PreviousFrame);
         let trace = |motion: PointMotion| trace_motion(scene, &since_last, &motion);
-        let own = PointMotion::default();
-        let right = trace(own)?;
+        let right = trace(PointMotion::RIGHT)?;
         let mut mistaken = vec![
             (Cause::Zero, right.velocity.map(|_| [0.0; 2])),
             (Cause::WrongSign, right.velocity.map(|[x, y]| [-x, -y])),
@@ -39,61 +36,19 @@ impl ExpectedMotion {
             (Cause::SwappedAxes, right.velocity.map(|[x, y]| [*y, *x])),
         ];
         let motions = [
-            (
-                Cause::ObjectMotionMissing,
-                PointMotion {
-                    objects_before: ObjectsBefore::Now,
-                    ..own
-                },
-            ),
-            (
-                Cause::CameraMotionMissing,
-                PointMotion {
-                    camera_stands: true,
-                    ..own
-                },
-            ),
-            (
-                Cause::FrameLate,
-                PointMotion {
-                    moved_at: -1.0,
-                    ..own
-                },
-            ),
-            (
-                Cause::PreviousBuffer,
-                PointMotion {
-                    seen_at: -1.0,
-                    moved_at: -1.0,
-                    ..own
-                },
-            ),
-            (
-                Cause::PreviousPixel,
-                PointMotion {
-                    seen_at: -1.0,
-                    ..own
-                },
-            ),
-            (
-                Cause::FrameEarly,
-                PointMotion {
-                    moved_at: 1.0,
-                    ..own
-                },
-            ),
-            (
-                Cause::MatrixNeverSet,
-                PointMotion {
-                    objects_before: ObjectsBefore::Identity,
-                    ..own
-                },
-            ),
+            (Cause::ObjectMotionMissing, PointMotion::WITHOUT_OBJECTS),
+            (Cause::CameraMotionMissing, PointMotion::WITHOUT_CAMERA),
+            (Cause::FrameLate, PointMotion::FRAME_LATE),
+            (Cause::PreviousBuffer, PointMotion::PREVIOUS_BUFFER),
+            (Cause::PreviousPixel, PointMotion::PREVIOUS_PIXEL),
+            (Cause::FrameEarly, PointMotion::FRAME_EARLY),
+            (Cause::MatrixNeverSet, PointMotion::MATRIX_NEVER_SET),
         ];
         for (cause, motion) in motions {
             mistaken.push((cause, trace(motion)?.velocity));
         }
-        let derivative = trace_motion(scene, &settings(VelocityKind::Instantaneous), &own)?;
+        let instantaneous = settings(VelocityKind::Instantaneous);
+        let derivative = trace_motion(scene, &instantaneous, &PointMotion::RIGHT)?;
         mistaken.push((Cause::HalfFrameOff, derivative.velocity));
         Ok(Self { right, mistaken })
     }

@@ -1,7 +1,7 @@
 //! Defects of a velocity buffer, as engines have had them.
 
 use frame::{Frame, Vectors, VelocityKind};
-use tracer::{ObjectsBefore, PointMotion, RenderSettings, Scene, trace_motion};
+use tracer::{PointMotion, RenderSettings, Scene, trace_motion};
 
 use crate::Error;
 use crate::named::named;
@@ -60,41 +60,21 @@ impl VelocityDefect {
 
     /// Says which motion of which points the buffer holds.
     fn motion(self) -> PointMotion {
-        let right = PointMotion::default();
         match self {
-            Self::Lag => PointMotion {
-                moved_at: -1.0,
-                ..right
-            },
-            Self::Stale => PointMotion {
-                seen_at: -1.0,
-                moved_at: -1.0,
-                ..right
-            },
-            Self::PreviousPixel => PointMotion {
-                seen_at: -1.0,
-                ..right
-            },
-            Self::FirstFrame => PointMotion {
-                objects_before: ObjectsBefore::Identity,
-                ..right
-            },
-            Self::NoObject => PointMotion {
-                objects_before: ObjectsBefore::Now,
-                ..right
-            },
-            Self::NoCamera => PointMotion {
-                camera_stands: true,
-                ..right
-            },
-            _ => right,
+            Self::Lag => PointMotion::FRAME_LATE,
+            Self::Stale => PointMotion::PREVIOUS_BUFFER,
+            Self::PreviousPixel => PointMotion::PREVIOUS_PIXEL,
+            Self::FirstFrame => PointMotion::MATRIX_NEVER_SET,
+            Self::NoObject => PointMotion::WITHOUT_OBJECTS,
+            Self::NoCamera => PointMotion::WITHOUT_CAMERA,
+            _ => PointMotion::RIGHT,
         }
     }
 
     fn refusal(self) -> Error {
         let known = Self::ALL
             .iter()
-            .filter(|defect| defect.motion() == PointMotion::default());
+            .filter(|defect| defect.motion() == PointMotion::RIGHT);
         let names: Vec<&str> = known.map(|defect| defect.name()).collect();
         Error::Usage(format!(
             "--velocity-defect {}: needs the scene's own motion, which an engine's capture does not have; allowed there: {}",

@@ -10,8 +10,8 @@ use crate::scene::Scene;
 /// for ten turns per frame at a radius of 100 pixels. Rounding adds about 1e-6 pixels.
 const STEP: f64 = 1e-5;
 
-/// Which motion of which points a velocity buffer holds. The default is the right one; the others are those of broken buffers.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// Which motion of which points a velocity buffer holds: the right one, or that of a broken buffer.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointMotion {
     /// Time at which the points are seen at the pixels' centres, in frames.
     pub seen_at: f64,
@@ -23,11 +23,55 @@ pub struct PointMotion {
     pub objects_before: ObjectsBefore,
 }
 
+impl PointMotion {
+    /// The right motion.
+    pub const RIGHT: Self = Self {
+        seen_at: 0.0,
+        moved_at: 0.0,
+        camera_stands: false,
+        objects_before: ObjectsBefore::Own,
+    };
+    /// Each point's motion from two frames ago to one frame ago.
+    pub const FRAME_LATE: Self = Self {
+        moved_at: -1.0,
+        ..Self::RIGHT
+    };
+    /// Each point's motion to the next frame.
+    pub const FRAME_EARLY: Self = Self {
+        moved_at: 1.0,
+        ..Self::RIGHT
+    };
+    /// The whole buffer of the frame before.
+    pub const PREVIOUS_BUFFER: Self = Self {
+        seen_at: -1.0,
+        ..Self::FRAME_LATE
+    };
+    /// The right motion at the place where the frame before showed the point.
+    pub const PREVIOUS_PIXEL: Self = Self {
+        seen_at: -1.0,
+        ..Self::RIGHT
+    };
+    /// The camera's motion alone.
+    pub const WITHOUT_OBJECTS: Self = Self {
+        objects_before: ObjectsBefore::Now,
+        ..Self::RIGHT
+    };
+    /// The objects' motion alone.
+    pub const WITHOUT_CAMERA: Self = Self {
+        camera_stands: true,
+        ..Self::RIGHT
+    };
+    /// Objects come from the origin: their last matrix was never set.
+    pub const MATRIX_NEVER_SET: Self = Self {
+        objects_before: ObjectsBefore::Identity,
+        ..Self::RIGHT
+    };
+}
+
 /// Place of the objects one frame earlier, as an engine knows it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ObjectsBefore {
     /// Their own.
-    #[default]
     Own,
     /// Their place now, as if they stood still.
     Now,
