@@ -129,6 +129,13 @@ fn defects_of_velocity_cost_what_they_take_away() {
     assert!(row.ends_with(&due), "{told}");
     // The ranking is of the right buffer alone.
     assert!(!told.contains("velocity_gather:fine defect"), "{told}");
+    let camera_only = split("--filters identity --velocity camera_only --velocity-defect lag");
+    let refused = bench.run(&camera_only);
+    assert_refused(
+        &refused,
+        2,
+        &["--velocity-defect lag", "--velocity camera_only"],
+    );
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 pub mod capture;
 mod refusals;
+mod use_of_folders;
 
 use std::fs;
 

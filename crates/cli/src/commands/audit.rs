@@ -7,10 +7,10 @@ use suite::{
     write_audit_picture,
 };
 
+use super::capture::{load_drawn_scene, name_folder};
 use super::ending::Ending;
 use crate::arguments::AuditArgs;
 use crate::output::print::{print, print_note};
-use crate::selection::select_scenes;
 use crate::tables::audit::audit_table;
 
 /// Compares an engine's velocity and depth with the scene's; fails if anything is wrong.
@@ -25,17 +25,9 @@ pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
             args.capture.join("capture.toml").display()
         )));
     };
-    let mut choices = select_scenes(&args.scenes_dir, std::slice::from_ref(name))?;
-    let choice = match choices.len() {
-        1 => choices.remove(0),
-        count => {
-            return Err(Error::Usage(format!(
-                "--scene {name}: matches {count} scenes; a capture shows one"
-            )));
-        }
-    };
-    let (audit, expected) = audit_capture(&capture, &choice.scene)?;
-    let out = name_folder(args)?;
+    let scene = load_drawn_scene(&args.scenes_dir, name)?;
+    let (audit, expected) = audit_capture(&capture, &scene)?;
+    let out = name_folder(&args.capture, args.out.as_ref(), "out/audit")?;
     let _claim = claim(&out, [], Sharing::Alone)?;
     let json = serde_json::to_string_pretty(&audit).expect("an audit is plain data");
     let path = out.join("audit.json");
@@ -58,19 +50,8 @@ pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
     })
 }
 
-/// Names the folder of the results: as the capture's own is named, if none is given.
-fn name_folder(args: &AuditArgs) -> Result<PathBuf, Error> {
-    let capture = (args.capture.canonicalize())
-        .map_err(|source| frame::FileError::io(&args.capture, "read", source))?;
-    Ok(match &args.out {
-        Some(out) => out.clone(),
-        None => Path::new("out/audit").join(capture.file_name().unwrap_or(capture.as_os_str())),
-    })
-}
-
 fn picture_path(out: &Path, object: &str) -> PathBuf {
-    let word = object.replace(|letter: char| !letter.is_alphanumeric(), "_");
-    out.join(format!("worst_{word}.png"))
+    out.join(format!("worst_{object}.png"))
 }
 
 fn describe(audit: &CaptureAudit, out: &Path) -> String {

@@ -5,14 +5,17 @@ use std::path::{Path, PathBuf};
 
 use frame::{Display, Region};
 use suite::{Capture, EngineScene, Error, Ingested, ingest, printable_path};
-use tracer::{Scene, load_scene};
+use tracer::Scene;
 
+use super::capture::{load_drawn_scene, name_folder};
 use crate::arguments::IngestArgs;
 use crate::output::print::{print, print_note};
 use crate::output::progress::make_monitor;
 
 /// Motion between two sub-frames beyond which more are advised, in pixels.
 const LONG_STEP: f64 = 0.5;
+/// Change of the mean radiance from which it is said.
+const LEAST_GAIN: f64 = 0.01;
 
 /// Ingests a capture and prints what came of it, and what its truth can tell.
 pub fn execute(args: &IngestArgs) -> Result<(), Error> {
@@ -32,13 +35,9 @@ pub fn execute(args: &IngestArgs) -> Result<(), Error> {
 
 /// Names the folder to write: as the capture's own is named, if none is given.
 fn choose_folder(args: &IngestArgs) -> Result<PathBuf, Error> {
-    let capture = (args.capture.canonicalize())
-        .map_err(|source| frame::FileError::io(&args.capture, "read", source))?;
-    let out = match &args.out {
-        Some(out) => out.clone(),
-        None => Path::new("out/engine").join(capture.file_name().unwrap_or(capture.as_os_str())),
-    };
-    match out.canonicalize().is_ok_and(|out| out == capture) {
+    let out = name_folder(&args.capture, args.out.as_ref(), "out/engine")?;
+    let capture = args.capture.canonicalize().ok();
+    match out.canonicalize().is_ok_and(|out| Some(out) == capture) {
         true => Err(Error::Usage(format!(
             "--out {}: is the capture itself, whose files would be overwritten; name another folder",
             out.display()
@@ -50,11 +49,7 @@ fn choose_folder(args: &IngestArgs) -> Result<PathBuf, Error> {
 /// Loads the scene that the capture names; none where it names none, or there is no such scene.
 fn find_scene(capture: &Capture, scenes: &Path) -> Option<Scene> {
     let name = capture.description.scene.as_deref()?;
-    let (folder, variant) = match name.split_once('@') {
-        Some((folder, variant)) => (folder, Some(variant)),
-        None => (name, None),
-    };
-    let found = load_scene(&scenes.join(folder), variant).ok();
+    let found = load_drawn_scene(scenes, name).ok();
     if found.is_none() {
         print_note(&format!(
             "{} has no scene {name}, whose display exposure the pictures would have; name the folder of scenes with \
@@ -73,9 +68,6 @@ fn find_display(capture: &Capture, traced: Option<&Scene>) -> Display {
         ..display
     }
 }
-
-/// Change of the mean radiance from which it is said.
-const LEAST_GAIN: f64 = 0.01;
 
 fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
     let scene = &ingested.scene;

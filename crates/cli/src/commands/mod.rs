@@ -6,6 +6,7 @@ mod bench;
 mod blur;
 mod calibrate;
 mod candidate;
+mod capture;
 mod check;
 mod compare;
 mod compare_presets;

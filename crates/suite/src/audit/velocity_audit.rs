@@ -70,10 +70,11 @@ pub fn audit_velocity(
         .iter()
         .flat_map(|region| region.pixels.clone())
         .collect();
-    let mut candidates = list_candidates(found, expected, &pixels);
-    // Jitter moves the whole picture.
     let right = &expected.right.velocity;
-    candidates.push(find_offset(found, right, &pixels));
+    let mut fitted = fit_candidates(found, right, &pixels);
+    // Jitter moves the whole picture.
+    fitted.push(find_offset(found, right, &pixels));
+    let candidates = expected.mistaken.iter().chain(&fitted);
     // One cause for everything, if it leaves what is right as it is.
     let explains_all = |velocity: &Vectors| {
         let least = judged
@@ -82,7 +83,7 @@ pub fn audit_velocity(
         least.fold(1.0, f64::min)
     };
     if (wrong.len() > 1 || wrong.len() == judged.len())
-        && let Some((cause, looks_like, explained)) = find_cause(&candidates, &explains_all)
+        && let Some((cause, looks_like, explained)) = find_cause(candidates, &explains_all)
     {
         return (
             objects,
@@ -109,9 +110,10 @@ fn explain_object(
     let wrong: Vec<usize> = pixels.iter().copied().filter(is_wrong).collect();
     let part = wrong.len() as f64 / pixels.len() as f64;
     for (some, part) in [(pixels, None), (&wrong, Some(part))] {
-        let candidates = list_candidates(found, expected, some);
+        let fitted = fit_candidates(found, right, some);
+        let candidates = expected.mistaken.iter().chain(&fitted);
         let explains = |velocity: &Vectors| share(found, velocity, some);
-        if let Some((cause, looks_like, explained)) = find_cause(&candidates, &explains) {
+        if let Some((cause, looks_like, explained)) = find_cause(candidates, &explains) {
             return Defect::new(Some(name), cause, looks_like, explained).in_part(part);
         }
     }
@@ -156,14 +158,9 @@ fn audit_object(
     }
 }
 
-/// Lists causes with the velocity that each leads to, the simplest first; those with a number are fitted to some pixels.
-fn list_candidates(
-    found: &Vectors,
-    expected: &ExpectedMotion,
-    pixels: &[usize],
-) -> Vec<(Cause, Vectors)> {
-    let right = &expected.right.velocity;
-    let mut candidates: Vec<(Cause, Vectors)> = expected.mistaken.clone();
+/// Lists causes that have a number, fitted to some pixels, with the velocity that each leads to; the simplest first.
+fn fit_candidates(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<(Cause, Vectors)> {
+    let mut candidates = Vec::new();
     let fit = |axes: &[usize]| {
         let product = |a: &Vectors, b: &Vectors| -> f64 {
             let terms = pixels.iter().flat_map(|at| {
@@ -256,23 +253,19 @@ fn find_steps(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Option<(Cau
 }
 
 /// Finds the first cause that explains the most, and those that explain as much.
-fn find_cause(
-    candidates: &[(Cause, Vectors)],
+fn find_cause<'a>(
+    candidates: impl Iterator<Item = &'a (Cause, Vectors)>,
     explains: &dyn Fn(&Vectors) -> f64,
 ) -> Option<(Cause, Vec<Cause>, f64)> {
-    let shares: Vec<f64> = candidates
-        .iter()
-        .map(|(_, velocity)| explains(velocity))
+    let shares: Vec<(Cause, f64)> = candidates
+        .map(|(cause, velocity)| (*cause, explains(velocity)))
         .collect();
-    let most = shares.iter().copied().fold(0.0, f64::max);
-    let mut best =
-        (candidates.iter().zip(&shares)).filter(|(_, share)| **share >= most - LOOKS_SAME);
-    let ((cause, _), explained) = best.next()?;
+    let most = shares.iter().map(|(_, share)| *share).fold(0.0, f64::max);
+    let mut best = (shares.into_iter()).filter(|(_, share)| *share >= most - LOOKS_SAME);
+    let (cause, explained) = best.next()?;
     // A fitted number explains what a word explains; that is no other cause.
-    let others = best
-        .map(|((cause, _), _)| *cause)
-        .filter(|cause| cause.is_word());
-    (*explained >= LEAST_EXPLAINED).then(|| (*cause, others.collect(), *explained))
+    let others = best.map(|(cause, _)| cause).filter(|cause| cause.is_word());
+    (explained >= LEAST_EXPLAINED).then(|| (cause, others.collect(), explained))
 }
 
 /// Computes the part of some pixels at which two velocities are the same.

@@ -46,6 +46,7 @@ impl VelocityDefect {
     /// # Errors
     /// The defect needs a scene, and there is none; or its motion cannot be traced.
     pub(crate) fn apply(self, frame: &Frame, scene: Option<&Scene>) -> Result<Vectors, Error> {
+        self.check(frame.options.velocity, scene.is_some())?;
         let each = |change: fn([f32; 2]) -> [f32; 2]| Ok(frame.velocity.map(|it| change(*it)));
         match self {
             Self::None => Ok(frame.velocity.clone()),
@@ -54,7 +55,10 @@ impl VelocityDefect {
             Self::Half => each(|[x, y]| [0.5 * x, 0.5 * y]),
             Self::FlipY => each(|[x, y]| [x, -y]),
             Self::Jittered => each(|[x, y]| [x + JITTER[0], y + JITTER[1]]),
-            _ => trace_defect(frame, scene.ok_or_else(|| self.refusal())?, &self.motion()),
+            _ => {
+                let scene = scene.expect("a scene is there, as was checked");
+                trace_defect(frame, scene, &self.motion())
+            }
         }
     }
 
@@ -71,28 +75,36 @@ impl VelocityDefect {
         }
     }
 
-    fn refusal(self) -> Error {
+    /// Refuses a defect of motion that is not known: that of a capture, or that of objects where only the camera's is taken.
+    pub(crate) fn check(self, kind: VelocityKind, has_scene: bool) -> Result<(), Error> {
+        if self.motion() == PointMotion::RIGHT {
+            return Ok(());
+        }
         let known = Self::ALL
             .iter()
             .filter(|defect| defect.motion() == PointMotion::RIGHT);
         let names: Vec<&str> = known.map(|defect| defect.name()).collect();
-        Error::Usage(format!(
-            "--velocity-defect {}: needs the scene's own motion, which an engine's capture does not have; allowed there: {}",
-            self.name(),
-            names.join(", ")
-        ))
+        let refuse = |reason: &str| {
+            Err(Error::Usage(format!(
+                "--velocity-defect {}: {reason}; allowed there: {}",
+                self.name(),
+                names.join(", ")
+            )))
+        };
+        match (has_scene, kind) {
+            (false, _) => {
+                refuse("needs the scene's own motion, which an engine's capture does not have")
+            }
+            (true, VelocityKind::CameraOnly) => {
+                refuse("needs the motion of objects, which --velocity camera_only does not have")
+            }
+            (true, _) => Ok(()),
+        }
     }
 }
 
 /// Traces the velocity of other points, or of another motion, in the frame's own kind.
 fn trace_defect(frame: &Frame, scene: &Scene, motion: &PointMotion) -> Result<Vectors, Error> {
-    if frame.options.velocity == VelocityKind::CameraOnly {
-        return Err(Error::Usage(
-            "--velocity camera_only: has no motion of objects that could be wrong; try defects with instantaneous or \
-             previous_frame"
-                .to_owned(),
-        ));
-    }
     let band = frame.guard_band;
     let settings = RenderSettings {
         width: frame.color.width - 2 * band,

@@ -60,6 +60,10 @@ impl RunPlan {
             scene.check_truth()?;
             scene.check_size((self.render.width, self.render.height))?;
         }
+        for input in &self.inputs {
+            let has_scenes = self.engine_scenes.is_empty();
+            (input.defect).check(self.render.options.velocity, has_scenes)?;
+        }
         Ok(())
     }
 

@@ -1,157 +1,16 @@
 //! Files of frames, truths and ladders: bit-exact, written whole or not at all, and refused with a clear reason.
 
+mod made;
+
 use std::fs;
 use std::path::Path;
 
 use frame::{
-    Accumulation, Alignment, AtInstant, Camera, CameraPose, Channel, ColorSampling, Display,
-    Efficiency, ExrFile, FileError, FlipExposures, Frame, FrameOptions, Image, Ladder, Picture,
-    Plane, Provenance, Raster, Reprojection, Samples, ShutterProfile, Support, Truth, VelocityKind,
-    read_exr, write_atomically, write_exr,
+    Accumulation, Alignment, Channel, ExrFile, FileError, Frame, Ladder, Samples, Truth, read_exr,
+    write_atomically, write_exr,
 };
 
-const WIDTH: u32 = 13;
-const HEIGHT: u32 = 7;
-
-/// Makes values of every magnitude, subnormal and negative ones too, so that any rounding shows.
-fn plane(salt: u32) -> Plane {
-    Raster::from_fn(WIDTH, HEIGHT, |x, y| {
-        let mut bits = (x + 17 * y + 1009 * salt).wrapping_mul(0x9e37_79b9);
-        bits ^= bits >> 15;
-        let value = f32::from_bits(bits.wrapping_mul(0x85eb_ca6b));
-        if value.is_finite() {
-            value
-        } else {
-            f32::from_bits(bits & 0x007f_ffff)
-        }
-    })
-}
-
-fn image(salt: u32) -> Image {
-    let [r, g, b] = [plane(salt), plane(salt + 1), plane(salt + 2)];
-    Raster::from_fn(WIDTH, HEIGHT, |x, y| {
-        [*r.at(x, y), *g.at(x, y), *b.at(x, y)]
-    })
-}
-
-fn picture(salt: u32) -> Picture {
-    Picture {
-        color: image(salt),
-        coverage: vec![plane(salt + 3), plane(salt + 4)],
-    }
-}
-
-fn objects() -> Vec<String> {
-    vec!["background".into(), "front-wheel_2".into()]
-}
-
-fn provenance() -> Provenance {
-    Provenance {
-        scene: "fan@20deg".into(),
-        program: "shuttertruth test".into(),
-        seed: u64::MAX,
-        samples_per_pixel: 256,
-        replicates: 8,
-        traversal: "avx2".into(),
-        content_hash: "00ff".into(),
-        engine: None,
-    }
-}
-
-fn pose(number: f64) -> CameraPose {
-    CameraPose {
-        focal: number,
-        to_world: [0, 1, 2].map(|row| [0, 1, 2, 3].map(|column| number * f64::from(row - column))),
-    }
-}
-
-fn a_frame() -> Frame {
-    Frame {
-        provenance: provenance(),
-        exposure: 0.1 + 0.2, // not representable in short decimals
-        options: FrameOptions {
-            velocity: VelocityKind::PreviousFrame,
-            color: ColorSampling::Point,
-            sky_velocity: false,
-        },
-        guard_band: 1,
-        reprojection: Reprojection {
-            rows: [0, 1, 2].map(|row| [0, 1, 2, 3].map(|column| 0.1 * f64::from(4 * row + column))),
-        },
-        camera: Some(Camera {
-            now: pose(0.7),
-            before: pose(1.0 / 3.0),
-        }),
-        display: Display {
-            stops: 1.0 / 3.0, // likewise
-            flip: FlipExposures {
-                start: -1.7,
-                stop: 0.1,
-                count: 7,
-            },
-        },
-        objects: objects(),
-        color: image(1),
-        velocity: Raster::from_fn(WIDTH, HEIGHT, |x, y| {
-            [*plane(8).at(x, y), *plane(9).at(x, y)]
-        }),
-        depth: plane(10),
-        object_id: Raster::from_fn(WIDTH, HEIGHT, |x, y| u32::MAX - x * y),
-        coverage: vec![plane(11), plane(12)],
-        samples: Some(plane(13)),
-    }
-}
-
-fn at_instant(salt: u32) -> AtInstant {
-    AtInstant {
-        frozen: image(salt),
-        unknowable: plane(salt + 3),
-        placed: plane(salt + 4),
-        offset: plane(salt + 5).zip(&plane(salt + 6), |x, y| [*x, *y]),
-        spread: image(salt + 7),
-    }
-}
-
-fn a_truth() -> Truth {
-    Truth {
-        provenance: provenance(),
-        shutter: Alignment::Centred.shutter(1.0 / 3.0).unwrap(),
-        shutter_profile: profiles()[0].clone(),
-        alignment: Alignment::Centred,
-        objects: objects(),
-        halves: [picture(20), picture(30)],
-        at_instant: [at_instant(60), at_instant(70)],
-        standard_error: image(40),
-        samples: plane(80),
-        motion: plane(50),
-        support: support(),
-    }
-}
-
-fn support() -> Support {
-    let mask = |salt: u32| Raster::from_fn(WIDTH, HEIGHT, |x, y| (x + salt * y).is_multiple_of(3));
-    Support {
-        seen: vec![mask(1), mask(2)],
-        moving: mask(4),
-        unknowable: mask(5),
-    }
-}
-
-/// Makes shutters of every kind, with numbers that short decimals cannot represent.
-fn profiles() -> [ShutterProfile; 3] {
-    let efficiencies = [
-        Efficiency::Table(vec![0.1 + 0.2, 1.0, 1.0 / 3.0]),
-        Efficiency::Trapezoid {
-            rise: 1.0 / 3.0,
-            fall: 0.1 + 0.2,
-        },
-        Efficiency::Box,
-    ];
-    efficiencies.map(|efficiency| ShutterProfile {
-        efficiency,
-        rolling: -1.0 / 7.0,
-    })
-}
+use made::{HEIGHT, WIDTH, a_frame, a_truth, image, objects, picture, plane, profiles, provenance};
 
 #[test]
 fn every_shutter_comes_back_bit_for_bit() {

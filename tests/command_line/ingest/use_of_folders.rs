@@ -1,0 +1,125 @@
+//! What may be done with an ingested folder, and what is refused.
+
+use std::fs;
+use std::process::Output;
+
+use super::capture::{Capture, DESCRIPTION};
+use super::ingest;
+use crate::bench::{Bench, assert_done, assert_refused, split, stderr};
+
+#[test]
+fn a_capture_without_sub_frames_has_no_truth_to_run_against() {
+    let bench = Bench::new();
+    Capture::new(&bench);
+    let told = ingest(&bench);
+    assert!(told.contains("no sub-frames, and so no truth"), "{told}");
+    let refusal = bench.shuttertruth(&split("run --scenes out/engine/mine"));
+    assert_refused(&refusal, 2, &["drew no sub-frames", "score"]);
+}
+
+#[test]
+fn what_an_engine_drew_is_not_rendered_otherwise() {
+    let bench = Bench::new();
+    Capture::new(&bench).with_subframes(4);
+    ingest(&bench);
+    for (words, parts) in [
+        (
+            "run --scenes out/engine/mine --size 64x32",
+            ["was drawn at 96x54", "leave --size out"],
+        ),
+        (
+            "run --scenes out/engine/mine --exposure 1",
+            ["--exposure", "as Test Engine 1.2 drew it"],
+        ),
+        (
+            "run --scenes out/engine/mine --guard-band 8",
+            ["--guard-band", "leave the option out"],
+        ),
+        (
+            "run --scenes out/engine/mine,./out/engine/mine",
+            ["is named twice", "rename"],
+        ),
+        (
+            "run --scenes out/engine/mine --filter mcguire",
+            ["no filter is left", "trailing shutter"],
+        ),
+        (
+            "run --scenes out/engine/mine --velocity-defect half,lag",
+            [
+                "--velocity-defect lag: needs the scene's own motion",
+                "zero, double, half, flip_y, jittered",
+            ],
+        ),
+        (
+            "render --scenes out/engine/mine",
+            ["holds what an engine drew", "`run` and `check`"],
+        ),
+        (
+            "calibrate --scenes out/engine/mine",
+            ["does not change from run to run", "bounds.toml"],
+        ),
+    ] {
+        assert_refused_after_notes(&bench.shuttertruth(&split(words)), &parts);
+    }
+}
+
+/// Notes about filters that are left out may stand before the refusal.
+fn assert_refused_after_notes(output: &Output, parts: &[&str]) {
+    let message = stderr(output);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    tests::text::assert_contains(&message, parts);
+}
+
+#[test]
+fn files_of_two_captures_are_not_mixed() {
+    let bench = Bench::new();
+    Capture::new(&bench).with_subframes(4);
+    ingest(&bench);
+    for name in ["frame.exr", "truth_trailing.exr"] {
+        let own = bench.path("out/engine/mine").join(name);
+        let before = fs::read(&own).unwrap();
+        // Another name of the scene is no other capture, another exposure is one.
+        let changed = DESCRIPTION.replace("0.5", "0.25");
+        fs::write(bench.path("capture/capture.toml"), changed).unwrap();
+        bench.execute(&split("ingest capture --quiet -o out/engine/other"));
+        fs::copy(bench.path("out/engine/other").join(name), &own).unwrap();
+        let words = split("run --quiet --scenes out/engine/mine --filter identity");
+        let refusal = bench.shuttertruth(&words);
+        assert_refused(
+            &refusal,
+            2,
+            &[name, "is of another capture", "ingest the capture again"],
+        );
+        fs::write(&own, before).unwrap();
+    }
+    let words = split("run --quiet --scenes out/engine/mine --filter identity");
+    assert_done(&bench.shuttertruth(&words));
+    fs::write(bench.path("out/engine/mine/ingested.json"), "{}").unwrap();
+    let refusal = bench.shuttertruth(&words);
+    assert_refused(
+        &refusal,
+        2,
+        &["ingested.json: no ingested capture", "make the folder anew"],
+    );
+}
+
+#[test]
+fn frames_of_a_run_are_not_overwritten() {
+    let bench = Bench::new();
+    Capture::new(&bench);
+    bench.execute(&split(
+        "render --quiet --scenes plate --size 64x32 --samples-per-pixel 16",
+    ));
+    let refusal = bench.shuttertruth(&split("ingest capture -o out/plate"));
+    assert_refused(
+        &refusal,
+        2,
+        &[
+            "--out out/plate",
+            "a frame that was not ingested",
+            "new folder",
+        ],
+    );
+    let refusal = bench.shuttertruth(&split("ingest capture -o scenes/plate"));
+    assert_refused(&refusal, 2, &["holds a scene"]);
+}
