@@ -61,6 +61,8 @@ fn what_an_engine_drew_is_not_rendered_otherwise() {
     ] {
         assert_refused_after_notes(&bench.shuttertruth(&split(words)), &parts);
     }
+    let begun = bench.path("out/mine@Test_Engine_1.2");
+    assert!(!begun.exists(), "a run began before it was refused");
 }
 
 /// Notes about filters that are left out may stand before the refusal.
