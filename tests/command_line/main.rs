@@ -114,7 +114,8 @@ fn a_run_writes_scores_and_pictures_of_every_case() {
         "frame.png",
         "truth_trailing.exr",
         "truth_trailing.png",
-        "ladder_trailing.exr",
+        "ladder_trailing/n1.exr",
+        "ladder_trailing/n64.exr",
     ] {
         assert!(
             bench.path("out/plate").join(name).is_file(),

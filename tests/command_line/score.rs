@@ -9,7 +9,7 @@ use crate::bench::{Bench, SCENE, assert_done, assert_refused, stdout};
 
 const TRUTH: [&str; 2] = ["--truth", "out/plate/truth_trailing.exr"];
 const FRAME: [&str; 2] = ["--frame", "out/plate/frame.exr"];
-const LADDER: [&str; 2] = ["--ladder", "out/plate/ladder_trailing.exr"];
+const LADDER: [&str; 2] = ["--ladder", "out/plate/ladder_trailing"];
 const OUTPUT: &str = "out/plate/velocity_gather_fine/output.exr";
 
 fn score(bench: &Bench, image: &str, more: &[&str]) -> std::process::Output {

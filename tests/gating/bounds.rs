@@ -28,8 +28,8 @@ fn judge_bars(choice: &SceneChoice, out: &Path) -> [Vec<JudgedScore>; 2] {
     let frame = suite::render_frame(scene, &settings, out, Monitor::SILENT).unwrap();
     let shutter = Alignment::Trailing;
     let truth = suite::render_truth(scene, &settings, shutter, out, Monitor::SILENT).unwrap();
-    let ladder = suite::LadderFile::new(scene, &settings, shutter, out);
-    let ladder = ladder.read_or_render(&truth, Monitor::SILENT).unwrap();
+    let ladder = suite::LadderFiles::new(scene, &settings, &truth, out);
+    let rung = ladder.read_or_render(64, Monitor::SILENT).unwrap();
     let reference = Reference::new(&frame, &truth, None, &suite::scene_viewing(scene)).unwrap();
     let bounds = suite::read_bounds(&scenes(), &choice.folder).unwrap();
     // Bounds for all filters, required or not.
@@ -41,12 +41,8 @@ fn judge_bars(choice: &SceneChoice, out: &Path) -> [Vec<JudgedScore>; 2] {
         color: frame.color.clone(),
         coverage: frame.coverage.clone(),
     };
-    let rung = ladder
-        .rungs
-        .iter()
-        .find(|rung| rung.subframes == 64)
-        .unwrap();
-    [judged(&identity), judged(&Picture::mean(&rung.halves))]
+    let mean = Picture::mean(&rung.rungs[0].halves);
+    [judged(&identity), judged(&mean)]
 }
 
 fn describe(judged: &[JudgedScore]) -> String {

@@ -2,8 +2,8 @@
 
 mod arguments;
 mod commands;
+mod environment;
 mod output;
-mod quiet_driver;
 mod selection;
 mod tables;
 
@@ -16,10 +16,10 @@ use filters::FilterError;
 use suite::Error;
 
 use commands::Ending;
+use environment::set_environment;
 use output::print::{print_error, print_failure};
 use output::progress::{INTERRUPTED_CODE, INTERRUPTED_TEXT, catch_interrupts};
 use output::verbosity::set_output;
-use quiet_driver::quiet_driver;
 
 pub use output::annotations::{annotations, summary};
 pub use output::junit::junit;
@@ -33,9 +33,8 @@ pub use tables::tuning::paired_table;
 
 /// Runs the command of the command line and returns its exit code.
 pub fn run_program() -> ExitCode {
-    if !std::env::args_os().any(|argument| argument == "-v" || argument == "--verbose") {
-        quiet_driver();
-    }
+    let is_verbose = |argument: OsString| argument == "-v" || argument == "--verbose";
+    set_environment(std::env::args_os().any(is_verbose));
     catch_interrupts();
     let arguments = parse_arguments().unwrap_or_else(|error| refuse_arguments(&error));
     set_output(arguments.output);

@@ -1,6 +1,7 @@
 //! Accumulations: averages of a few sub-frames, and the ladder of them that errors are measured against.
 
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use crate::exr::{ExrFile, read_exr, write_small_exr};
 use crate::shutter::{get_shutter, set_shutter};
@@ -16,7 +17,8 @@ pub struct Accumulation {
     pub halves: [Picture; 2],
 }
 
-/// Accumulations of 1, 2, 4 .. sub-frames over the same shutter.
+/// Accumulations of 1, 2, 4 .. sub-frames over the same shutter. All of them take much memory: measuring holds one at a time, as a
+/// ladder of one rung.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ladder {
     /// Origin of the accumulations.
@@ -58,8 +60,72 @@ impl Ladder {
         write_small_exr(path, file)
     }
 
-    /// Reads a ladder that [`Ladder::write`] wrote, bit for bit.
+    /// Writes every rung to a file of its own, `n<N>.exr` in a folder.
+    pub fn write_rungs(self, folder: &Path) -> Result<(), FileError> {
+        for rung in self.rungs {
+            let path = folder.join(rung_file(rung.subframes));
+            let alone = Self {
+                provenance: self.provenance.clone(),
+                shutter_profile: self.shutter_profile.clone(),
+                objects: self.objects.clone(),
+                rungs: vec![rung],
+                ..self
+            };
+            alone.write(&path)?;
+        }
+        Ok(())
+    }
+
+    /// Reads a ladder bit for bit: a file that [`Ladder::write`] wrote, or all files of a folder that [`Ladder::write_rungs`] wrote.
+    /// Refuses a folder whose files belong to several ladders.
     pub fn read(path: &Path) -> Result<Self, FileError> {
+        if !path.is_dir() {
+            return Self::read_file(path);
+        }
+        let mut ladder: Option<Self> = None;
+        for rung in Self::read_rungs(path)? {
+            let rung = rung?;
+            match &mut ladder {
+                None => ladder = Some(rung),
+                Some(ladder) => ladder.rungs.extend(rung.rungs),
+            }
+        }
+        ladder.ok_or_else(|| FileError::foreign(path, "holds no rung n<N>.exr".to_owned()))
+    }
+
+    /// Reads the files of a folder that [`Ladder::write_rungs`] wrote one after another, each as a ladder of one rung, in rising
+    /// order of sub-frames. Refuses files of several ladders.
+    fn read_rungs(
+        folder: &Path,
+    ) -> Result<impl Iterator<Item = Result<Self, FileError>>, FileError> {
+        let mut hash: Option<String> = None;
+        let files = list_rung_files(folder)?.into_iter();
+        Ok(files.map(move |(subframes, file)| {
+            let rung = Self::read_rung(&file, subframes)?;
+            let own = &rung.provenance.content_hash;
+            match hash.get_or_insert_with(|| own.clone()) == own {
+                true => Ok(rung),
+                false => Err(FileError::foreign(
+                    &file,
+                    "belongs to another ladder than the files beside it".to_owned(),
+                )),
+            }
+        }))
+    }
+
+    /// Reads a file of one rung, and refuses another one than that of the number of `subframes`.
+    pub fn read_rung(path: &Path, subframes: u32) -> Result<Self, FileError> {
+        let ladder = Self::read_file(path)?;
+        match ladder.rungs.as_slice() {
+            [rung] if rung.subframes == subframes => Ok(ladder),
+            _ => Err(FileError::foreign(
+                path,
+                format!("does not hold the one rung of {subframes} sub-frames that its name tells"),
+            )),
+        }
+    }
+
+    fn read_file(path: &Path) -> Result<Self, FileError> {
         let mut file = read_exr(path)?;
         file.expect_kind("ladder")?;
         let objects = file.objects()?;
@@ -98,4 +164,24 @@ impl Ladder {
             rungs,
         })
     }
+}
+
+/// Names the file of a rung in a ladder's folder.
+pub fn rung_file(subframes: u32) -> String {
+    format!("n{subframes}.exr")
+}
+
+/// Lists the files of a ladder's folder with their numbers of sub-frames, which rise.
+fn list_rung_files(folder: &Path) -> Result<Vec<(u32, PathBuf)>, FileError> {
+    let listed = fs::read_dir(folder).and_then(Iterator::collect::<Result<Vec<_>, _>>);
+    let listed = listed.map_err(|source| FileError::io(folder, "read", source))?;
+    let mut files: Vec<(u32, PathBuf)> = (listed.iter())
+        .filter_map(|entry| {
+            let name = entry.file_name();
+            let count = name.to_str()?.strip_prefix('n')?.strip_suffix(".exr")?;
+            Some((count.parse().ok()?, entry.path()))
+        })
+        .collect();
+    files.sort();
+    Ok(files)
 }

@@ -40,7 +40,7 @@ mod shutter;
 mod support;
 mod truth;
 
-pub use accumulation::{Accumulation, Ladder};
+pub use accumulation::{Accumulation, Ladder, rung_file};
 pub use at_instant::AtInstant;
 pub use camera::{Camera, CameraPose};
 pub use display::{Display, FlipExposures, MOST_STOPS, display_srgb, scene_linear};

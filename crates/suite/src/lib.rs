@@ -65,9 +65,9 @@ pub use judge::calibrate::{Calibration, Proposal, Sample, calibrate};
 pub use judge::check::{CHECK_FORMAT, Check, check};
 pub use judge::decision::Decision;
 pub use judge::{
-    BLOCK, CROP, Decoys, Finding, JUDGEMENT_FILE, JUDGEMENT_FORMAT, JudgedScore, Judgement,
-    MOST_SAMPLES, Outcome, Resemblance, RunBounds, Worst, add_evidence, judge, judge_scores,
-    number, worst_block,
+    BLOCK, CROP, Decoys, FEW_SUBFRAMES, Finding, JUDGEMENT_FILE, JUDGEMENT_FORMAT, JudgedScore,
+    Judgement, MOST_SAMPLES, Outcome, Resemblance, RunBounds, Worst, add_evidence, judge,
+    judge_scores, number, worst_block,
 };
 pub use measure::estimate::{
     RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run, estimate_run_roughly,
@@ -78,7 +78,7 @@ pub use measure::scenes::{measure_scenes, measure_scenes_as_expected};
 pub use monitor::{Monitor, Step};
 pub use printable::{printable, printable_lines, printable_path, printable_table};
 pub use render::frames::render_frame;
-pub use render::ladders::{LADDER, LadderFile};
+pub use render::ladders::{LADDER, LadderFiles};
 pub use render::merge::{MOST_PART_BYTES, Merged, merge};
 pub use render::scatter_oracle::scatter_oracle;
 pub use render::settings::{MOST_REPLICATES, SIDES};

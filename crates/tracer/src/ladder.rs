@@ -1,6 +1,6 @@
 //! Ladders: accumulations of a few sub-frames, for comparison with the truth of the same shutter.
 
-use frame::{Accumulation, Ladder, Picture, Plane, Raster, Truth};
+use frame::{Accumulation, Alignment, Ladder, Picture, Plane, Raster, Shutter, Truth};
 
 use crate::content_hash::{ladder_hash, provenance};
 use crate::error::TraceError;
@@ -12,7 +12,7 @@ use crate::film::sample_counts::SampleCounts;
 use crate::film::sampler::{MOST_SAMPLES, Stream};
 use crate::film::shutter_sampler::ShutterSampler;
 use crate::light::integrator::Integrator;
-use crate::progress::{Meter, Watch};
+use crate::progress::{Meter, Progress, Watch};
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
 use crate::stage::Stage;
@@ -23,13 +23,113 @@ const REPLICATES: u32 = 2;
 /// surfaces are lit).
 const SAVED_BY_A_MISS: f64 = 0.875;
 
-/// Renders one accumulation per number of `subframes`, over the shutter of `truth`, which was rendered with `settings`.
+/// A scene prepared to render the rungs of a ladder, one at a time: all together take more memory than the truth.
 ///
 /// Only pixels near motion are rendered, because only there an accumulation can differ from the truth. Elsewhere both halves
 /// hold the truth's mean; so does a moving shadow on a still floor, if it is far from anything that moves.
 ///
 /// All rungs have the same number of samples, the most with which they together cost no more than the truth, in samples and
 /// in work. Their random numbers are their own, so that their noise is independent of the truth's.
+pub struct LadderTracer<'a> {
+    stage: Stage<'a>,
+    scene: &'a Scene,
+    seed: u64,
+    shutter: Shutter,
+    alignment: Alignment,
+    /// Mean of the truth.
+    mean: Picture,
+    /// Indices of the pixels that are rendered.
+    pixels: Vec<u32>,
+    samples_per_replicate: u32,
+    hash: String,
+}
+
+impl<'a> LadderTracer<'a> {
+    /// Prepares the ladder of these numbers of `subframes` over the shutter of `truth`, which was rendered with `settings`.
+    pub fn new(
+        scene: &'a Scene,
+        settings: &RenderSettings,
+        truth: &Truth,
+        subframes: &[u32],
+    ) -> Result<Self, TraceError> {
+        let shutter = settings.check_truth(scene, truth.alignment)?;
+        check_subframes(subframes)?;
+        assert_eq!(
+            truth.size(),
+            (settings.width, settings.height),
+            "the truth was rendered with the ladder's settings"
+        );
+        let whole = scene.shutter_profile.whole(shutter);
+        let pixels = pixels_near_motion(&truth.support.moving, truth.motion_margin());
+        let mean = truth.mean();
+        Ok(Self {
+            stage: Stage::try_new(scene, whole.open, whole.close)?,
+            scene,
+            seed: settings.seed,
+            shutter,
+            alignment: truth.alignment,
+            samples_per_replicate: affordable_samples(
+                settings,
+                &mean.coverage[0],
+                &pixels,
+                subframes.len(),
+            ),
+            mean,
+            pixels,
+            hash: ladder_hash(scene, settings, truth.alignment, subframes),
+        })
+    }
+
+    /// Renders the rung of a number of sub-frames, as a ladder of it alone. The other rungs change nothing of it.
+    pub fn trace(&self, subframes: u32, watch: Watch) -> Result<Ladder, TraceError> {
+        let samples_per_pixel = REPLICATES * self.samples_per_replicate;
+        let work = self.pixels.len() as u64 * u64::from(samples_per_pixel);
+        let shutter_sampler = ShutterSampler::new(self.shutter, &self.scene.shutter_profile);
+        let (width, height) = (self.mean.color.width, self.mean.color.height);
+        let film = Film {
+            integrator: Integrator::new(&self.stage, 0.0),
+            canvas: Canvas::bare(width, height),
+            places: Places::Area,
+            times: &[Times::Midpoints(&shutter_sampler, subframes)],
+            instant: None,
+            shaded_again: 1,
+            replicates: 0..REPLICATES,
+            samples: &SampleCounts::Uniform(self.samples_per_replicate),
+            seed: self.seed,
+            stream: Stream::Accumulation(subframes),
+        };
+        let rendered = film.render(&self.pixels, &Meter::new(watch, work), |estimates| {
+            [0, 1].map(|half| PixelMean::of(&estimates[half]))
+        })?;
+        let halves = [0, 1].map(|half| {
+            let mut picture = self.mean.clone();
+            for (&pixel, halves) in self.pixels.iter().zip(&rendered) {
+                set_pixel(&mut picture, pixel as usize, &halves[half]);
+            }
+            picture
+        });
+        for half in &halves {
+            check_picture(self.scene, half)?;
+        }
+        Ok(Ladder {
+            provenance: provenance(
+                &self.stage,
+                self.seed,
+                samples_per_pixel,
+                REPLICATES,
+                self.hash.clone(),
+            ),
+            shutter: self.shutter,
+            shutter_profile: self.scene.shutter_profile.clone(),
+            alignment: self.alignment,
+            objects: self.scene.object_names(),
+            rungs: vec![Accumulation { subframes, halves }],
+        })
+    }
+}
+
+/// Renders one accumulation per number of `subframes`, over the shutter of `truth`, which was rendered with `settings`, as
+/// [`LadderTracer`] does.
 pub fn trace_ladder(
     scene: &Scene,
     settings: &RenderSettings,
@@ -37,68 +137,21 @@ pub fn trace_ladder(
     subframes: &[u32],
     watch: Watch,
 ) -> Result<Ladder, TraceError> {
-    let shutter = settings.check_truth(scene, truth.alignment)?;
-    check_subframes(subframes)?;
-    assert_eq!(
-        truth.size(),
-        (settings.width, settings.height),
-        "the truth was rendered with the ladder's settings"
-    );
-    let whole = scene.shutter_profile.whole(shutter);
-    let stage = Stage::try_new(scene, whole.open, whole.close)?;
-    let shutter_sampler = ShutterSampler::new(shutter, &scene.shutter_profile);
-    let pixels = pixels_near_motion(&truth.support.moving, truth.motion_margin());
-    let mean = truth.mean();
-    let samples_per_replicate =
-        affordable_samples(settings, &mean.coverage[0], &pixels, subframes.len());
-    let samples_per_pixel = REPLICATES * samples_per_replicate;
-    let meter = Meter::new(
-        watch,
-        pixels.len() as u64 * u64::from(samples_per_pixel) * subframes.len() as u64,
-    );
-    let mut rungs = Vec::with_capacity(subframes.len());
-    for &subframes in subframes {
-        let film = Film {
-            integrator: Integrator::new(&stage, 0.0),
-            canvas: Canvas::bare(settings.width, settings.height),
-            places: Places::Area,
-            times: &[Times::Midpoints(&shutter_sampler, subframes)],
-            instant: None,
-            shaded_again: 1,
-            replicates: 0..REPLICATES,
-            samples: &SampleCounts::Uniform(samples_per_replicate),
-            seed: settings.seed,
-            stream: Stream::Accumulation(subframes),
-        };
-        let rendered = film.render(&pixels, &meter, |estimates| {
-            [0, 1].map(|half| PixelMean::of(&estimates[half]))
+    let tracer = LadderTracer::new(scene, settings, truth, subframes)?;
+    let mut ladder: Option<Ladder> = None;
+    for (index, count) in (0..).zip(subframes) {
+        let rung = tracer.trace(*count, &|progress: Progress| {
+            watch(Progress {
+                done: progress.done + index * progress.total,
+                total: progress.total * subframes.len() as u64,
+            })
         })?;
-        let halves = [0, 1].map(|half| {
-            let mut picture = mean.clone();
-            for (&pixel, halves) in pixels.iter().zip(&rendered) {
-                set_pixel(&mut picture, pixel as usize, &halves[half]);
-            }
-            picture
-        });
-        for half in &halves {
-            check_picture(scene, half)?;
+        match &mut ladder {
+            None => ladder = Some(rung),
+            Some(ladder) => ladder.rungs.extend(rung.rungs),
         }
-        rungs.push(Accumulation { subframes, halves });
     }
-    Ok(Ladder {
-        provenance: provenance(
-            &stage,
-            settings.seed,
-            samples_per_pixel,
-            REPLICATES,
-            ladder_hash(scene, settings, truth.alignment, subframes),
-        ),
-        shutter,
-        shutter_profile: scene.shutter_profile.clone(),
-        alignment: truth.alignment,
-        objects: scene.object_names(),
-        rungs,
-    })
+    Ok(ladder.expect("an empty list of sub-frames was refused"))
 }
 
 fn check_subframes(subframes: &[u32]) -> Result<(), TraceError> {

@@ -29,7 +29,7 @@ pub use film::sampler::MOST_SAMPLES;
 pub use geometry::hit::Hit;
 pub use geometry::ray::Ray;
 pub use instant::{PointLayers, trace_frame, trace_motion};
-pub use ladder::trace_ladder;
+pub use ladder::{LadderTracer, trace_ladder};
 pub use load::{
     MOST_COINCIDENT, SceneError, SceneListing, list_scene, list_scenes, load_scene,
     load_scene_and_files,

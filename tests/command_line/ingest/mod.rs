@@ -243,7 +243,7 @@ fn the_engines_picture_is_scored_alone_too() {
     Capture::new(&bench).with_subframes(8);
     ingest(&bench);
     let words = "score --truth out/engine/mine/truth_trailing.exr --frame out/engine/mine/frame.exr --image \
-                 out/engine/mine/blurred.exr --ladder out/engine/mine/ladder_trailing.exr";
+                 out/engine/mine/blurred.exr --ladder out/engine/mine/ladder_trailing";
     let told = bench.execute(&split(words));
     assert!(
         told.contains("truth: mean of 8 sub-frames that Test Engine 1.2 drew"),

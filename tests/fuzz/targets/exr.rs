@@ -118,9 +118,9 @@ pub static MERGE: Target = Target {
     },
 };
 
-/// Returns the frame, truth and ladder of a scene's folder.
+/// Returns the frame, the truth and the ladder's folder of a scene's folder.
 fn rendered_files(scene: &Path) -> [PathBuf; 3] {
-    ["frame.exr", "truth_trailing.exr", "ladder_trailing.exr"].map(|name| scene.join(name))
+    ["frame.exr", "truth_trailing.exr", "ladder_trailing"].map(|name| scene.join(name))
 }
 
 /// Scores a picture of the run as `score` does; one of the files is foreign.

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use frame::{
     Accumulation, Alignment, Channel, ExrFile, FileError, Frame, Ladder, Samples, Truth, read_exr,
-    write_atomically, write_exr,
+    rung_file, write_atomically, write_exr,
 };
 
 use made::{HEIGHT, WIDTH, a_frame, a_truth, image, objects, picture, plane, profiles, provenance};
@@ -121,7 +121,42 @@ fn a_truth_comes_back_bit_for_bit() {
 fn a_ladder_comes_back_bit_for_bit() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("ladder.exr");
-    let ladder = Ladder {
+    let ladder = a_ladder();
+    ladder.clone().write(&path).unwrap();
+    assert_eq!(Ladder::read(&path).unwrap(), ladder);
+    let rungs = folder.path().join("ladder");
+    ladder.clone().write_rungs(&rungs).unwrap();
+    assert_eq!(Ladder::read(&rungs).unwrap(), ladder);
+    let last = Ladder::read_rung(&rungs.join("n64.exr"), 64).unwrap();
+    assert_eq!(last.rungs, ladder.rungs[2..]);
+}
+
+#[test]
+fn a_ladder_s_folder_is_refused_where_its_files_do_not_belong_together() {
+    let folder = tempfile::tempdir().unwrap();
+    let ladder = a_ladder();
+    ladder.clone().write_rungs(folder.path()).unwrap();
+    let refused = |words: &str| {
+        let error = Ladder::read(folder.path()).unwrap_err().to_string();
+        assert!(error.contains(words), "{error}");
+    };
+    let file = |rung: u32| folder.path().join(rung_file(rung));
+    std::fs::rename(file(2), file(3)).unwrap();
+    refused("does not hold the one rung of 3 sub-frames");
+    std::fs::rename(file(3), file(2)).unwrap();
+    let mut other = ladder;
+    other.provenance.content_hash = "0".to_owned();
+    other.rungs.drain(..2);
+    other.write(&file(64)).unwrap();
+    refused("belongs to another ladder");
+    for rung in [1, 2, 64] {
+        std::fs::remove_file(file(rung)).unwrap();
+    }
+    refused("holds no rung");
+}
+
+fn a_ladder() -> Ladder {
+    Ladder {
         provenance: provenance(),
         shutter: a_truth().shutter,
         shutter_profile: a_truth().shutter_profile,
@@ -133,9 +168,7 @@ fn a_ladder_comes_back_bit_for_bit() {
                 halves: [picture(subframes), picture(subframes + 100)],
             })
             .into(),
-    };
-    ladder.clone().write(&path).unwrap();
-    assert_eq!(Ladder::read(&path).unwrap(), ladder);
+    }
 }
 
 #[test]

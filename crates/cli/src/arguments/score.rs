@@ -19,8 +19,8 @@ pub struct ScoreArgs {
     /// TOML file with a table [convention] that says which colour the picture has [default: scene-linear].
     #[arg(long, value_name = "FILE")]
     pub convention: Option<PathBuf>,
-    /// ladder_<alignment>.exr of `run` [default: no equivalent sub-frames].
-    #[arg(long, value_name = "FILE")]
+    /// The folder ladder_<alignment> of `run` [default: no equivalent sub-frames].
+    #[arg(long, value_name = "FOLDER")]
     pub ladder: Option<PathBuf>,
     /// Print all scores as JSON instead of the table.
     #[arg(help_heading = "Output", long)]

@@ -195,10 +195,7 @@ impl ExrFile {
 
     /// Makes an error that names this file.
     pub(crate) fn foreign(&self, reason: String) -> FileError {
-        FileError::Foreign {
-            path: self.path.clone(),
-            reason,
-        }
+        FileError::foreign(&self.path, reason)
     }
 
     fn text(&self, name: &str) -> Result<&str, FileError> {

@@ -18,7 +18,7 @@ pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
     let (handle, bytes) = open_regular(path, u64::MAX)?;
     let broken = |error: exr::error::Error| match error {
         exr::error::Error::NotSupported(reason) => {
-            foreign(path, format!("cannot be read: {reason}"))
+            FileError::foreign(path, format!("cannot be read: {reason}"))
         }
         error => FileError::Broken {
             path: path.to_owned(),
@@ -26,7 +26,7 @@ pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
         },
     };
     let chunks = exr::block::read(BufReader::new(handle), false).map_err(broken)?;
-    check_header(chunks.headers(), bytes).map_err(|reason| foreign(path, reason))?;
+    check_header(chunks.headers(), bytes).map_err(|reason| FileError::foreign(path, reason))?;
     let padding = describe_padding(&chunks.headers()[0]);
     let image = exr::prelude::read()
         .no_deep_data()
@@ -37,7 +37,7 @@ pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
         .from_chunks(chunks)
         .map_err(broken)?;
     let Some(layer) = image.layer_data.into_iter().next() else {
-        return Err(foreign(path, "has no part".to_owned()));
+        return Err(FileError::foreign(path, "has no part".to_owned()));
     };
     let mut file = ExrFile::new(layer.size.width() as u32, layer.size.height() as u32);
     file.path = path.to_owned();
@@ -78,11 +78,4 @@ pub fn read_attribute(path: &Path, name: &str) -> Option<String> {
             AttributeValue::Text(text) => Some(from_exr(text)),
             _ => None,
         })
-}
-
-fn foreign(path: &Path, reason: String) -> FileError {
-    FileError::Foreign {
-        path: path.to_owned(),
-        reason,
-    }
 }

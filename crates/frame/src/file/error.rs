@@ -42,4 +42,12 @@ impl FileError {
             source,
         }
     }
+
+    /// Makes an error of a file that is another than was asked for.
+    pub(crate) fn foreign(path: &Path, reason: String) -> Self {
+        Self::Foreign {
+            path: path.to_owned(),
+            reason,
+        }
+    }
 }

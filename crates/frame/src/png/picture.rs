@@ -28,10 +28,7 @@ fn check_size(bytes: &[u8]) -> Result<(), String> {
 /// its background is not known.
 pub fn read_png(path: &Path) -> Result<Raster<[f32; 3]>, FileError> {
     let bytes = read_bounded(path, MOST_PNG_BYTES)?;
-    let foreign = |reason: String| FileError::Foreign {
-        path: path.to_owned(),
-        reason,
-    };
+    let foreign = |reason: String| FileError::foreign(path, reason);
     check_size(&bytes).map_err(foreign)?;
     check_png_palette(&bytes).map_err(foreign)?;
     let picture = image::load_from_memory_with_format(&bytes, image::ImageFormat::Png)

@@ -58,12 +58,21 @@ pub fn check_viewing(viewing: &Viewing) -> Result<(), MeasureError> {
     }
 }
 
-/// Refuses a truth that is too large, and a frame or a ladder of another scene or shutter than the truth's.
-pub fn check_agreement(
-    frame: &Frame,
-    truth: &Truth,
-    ladder: Option<&Ladder>,
-) -> Result<(), MeasureError> {
+/// Refuses a ladder of another scene or shutter than the truth's.
+pub fn check_ladder(ladder: &Ladder, truth: &Truth) -> Result<(), MeasureError> {
+    agree("the ladder's object list", &ladder.objects, &truth.objects)?;
+    agree("the ladder's shutter", &ladder.shutter, &truth.shutter)?;
+    for rung in &ladder.rungs {
+        let what = format!("rung {} of the ladder", rung.subframes);
+        for half in &rung.halves {
+            check_picture(half, truth, &what)?;
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a truth that is too large, and a frame of another scene or shutter than the truth's.
+pub fn check_agreement(frame: &Frame, truth: &Truth) -> Result<(), MeasureError> {
     let (width, height) = truth.size();
     if u64::from(width) * u64::from(height) > LARGEST_PICTURE {
         return Err(MeasureError::TooLarge {
@@ -77,19 +86,6 @@ pub fn check_agreement(
     let exposure = truth.shutter.exposure();
     if (frame.exposure - exposure).abs() > 1e-9 * exposure {
         agree("the frame's exposure", &frame.exposure, &exposure)?;
-    }
-    if let Some(ladder) = ladder {
-        agree("the ladder's object list", &ladder.objects, &truth.objects)?;
-        agree("the ladder's shutter", &ladder.shutter, &truth.shutter)?;
-        for rung in &ladder.rungs {
-            for half in &rung.halves {
-                check_picture(
-                    half,
-                    truth,
-                    &format!("rung {} of the ladder", rung.subframes),
-                )?;
-            }
-        }
     }
     for (plane, what) in [
         (&frame.depth, "the frame's depth"),

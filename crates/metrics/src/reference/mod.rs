@@ -21,14 +21,13 @@ use crate::picture::scores::{Found, score_image, score_labels};
 use crate::picture::seen_truth::SeenTruth;
 use crate::probe::{OriginReference, ProbeMeasurement, Probes};
 use crate::subframes::Equivalent;
-use crate::worth::curve::Curve;
-use crate::worth::ladder::Curves;
+use crate::worth::ladder::{Curves, ErrorKind};
 use crate::worth::skill::{Ends, score_skill};
 use crate::{
     EquivalentScores, ImageScores, MeasureError, Measured, ProbeScores, Region, Regions, Scores,
     Viewing,
 };
-use check::{check_agreement, check_brightness, check_picture, check_viewing};
+use check::{check_agreement, check_brightness, check_ladder, check_picture, check_viewing};
 use frozen::FrozenReference;
 
 pub use jitter::Jitter;
@@ -59,7 +58,8 @@ pub struct Reference<'a> {
     frozen: FrozenReference,
     origins: OriginReference,
     pub(crate) objects: Vec<ObjectReference>,
-    curves: Option<Curves>,
+    /// Errors of the rungs of the ladder; none without a ladder.
+    curves: Curves,
     /// Listener to the end of each part of measuring, by the part's name.
     ended: fn(&'static str),
 }
@@ -73,7 +73,7 @@ impl<'a> Reference<'a> {
         viewing: &Viewing,
     ) -> Result<Self, MeasureError> {
         check_viewing(viewing)?;
-        check_agreement(frame, truth, ladder)?;
+        check_agreement(frame, truth)?;
         let instant = Picture {
             color: frame.color.clone(),
             coverage: frame.coverage.clone(),
@@ -97,7 +97,7 @@ impl<'a> Reference<'a> {
         let noise = map(&truth.halves[0], [&mean.color; 2]);
         let instant_errors = map(&instant, halves);
         let at_instant = truth.at_instant_mean();
-        Ok(Self {
+        let mut reference = Self {
             noise: Pooled::of_noise(&noise, &masks, &windows),
             ends: Ends {
                 nothing: Pooled::new(&instant_errors, &masks, Region::Moving, &windows),
@@ -110,8 +110,7 @@ impl<'a> Reference<'a> {
                 .into_par_iter()
                 .map(|id| ObjectReference::new((frame, truth), (&mean, &noise.label), &masks, id))
                 .collect(),
-            curves: ladder
-                .map(|ladder| Curves::new(ladder, truth, (&mean, &seen.display), &masks, viewing)),
+            curves: Curves::default(),
             regions: masks,
             truth,
             mean,
@@ -119,7 +118,30 @@ impl<'a> Reference<'a> {
             instant: instant.color,
             viewing: *viewing,
             ended: |_| (),
-        })
+        };
+        if let Some(ladder) = ladder {
+            reference.add_rungs(ladder)?;
+        }
+        Ok(reference)
+    }
+
+    /// Adds rungs of the ladder, each with more sub-frames than those before. Memory then need not hold all of them at once.
+    pub fn add_rungs(&mut self, ladder: &Ladder) -> Result<(), MeasureError> {
+        check_ladder(ladder, self.truth)?;
+        let truth = (
+            &self.mean,
+            self.truth.halves.each_ref().map(|half| &half.color),
+        );
+        for rung in &ladder.rungs {
+            self.curves.add(
+                rung,
+                truth,
+                &self.seen.display,
+                &self.regions,
+                &self.viewing,
+            );
+        }
+        Ok(())
     }
 
     /// Adds the picture of the one-frame oracle, the best that one frame can give: it has a skill of 1. Without it skill does not
@@ -274,12 +296,11 @@ impl<'a> Reference<'a> {
     }
 
     fn score_equivalents(&self, moving: &Found) -> EquivalentScores {
-        type Of<T> = fn(&Curves) -> &T;
-        let score = |curve: Of<Option<Curve>>, error: fn(&Pooled) -> f64| {
-            let Some(curves) = &self.curves else {
+        let score = |kind: ErrorKind, error: fn(&Pooled) -> f64| {
+            if self.curves.is_empty() {
                 return Equivalent::not_applicable("no ladder of accumulations was given");
-            };
-            match (moving, curve(curves)) {
+            }
+            match (moving, self.curves.curve(kind)) {
                 (Ok((own, noise)), Some(curve)) => {
                     Equivalent::Subframes(curve.convert(error(own), error(noise)))
                 }
@@ -290,9 +311,9 @@ impl<'a> Reference<'a> {
             }
         };
         EquivalentScores {
-            mse: score(|curves| &curves.mse, |pooled| pooled.mse),
-            flip: score(|curves| &curves.flip, |pooled| pooled.flip),
-            label_total_variation: score(|curves| &curves.label, |pooled| pooled.label),
+            mse: score(ErrorKind::Mse, |pooled| pooled.mse),
+            flip: score(ErrorKind::Flip, |pooled| pooled.flip),
+            label_total_variation: score(ErrorKind::Label, |pooled| pooled.label),
         }
     }
 }

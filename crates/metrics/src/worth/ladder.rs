@@ -1,6 +1,6 @@
 //! Errors of the accumulation ladder by number of sub-frames.
 
-use frame::{Ladder, Picture, Raster, Truth};
+use frame::{Accumulation, Image, Picture, Raster};
 
 use crate::color::cross_error::cross;
 use crate::color::flip::{Displayed, SeenDisplay};
@@ -9,48 +9,61 @@ use crate::math::pooling::mean_over;
 use crate::worth::curve::Curve;
 use crate::{Region, Regions, Viewing};
 
-/// Errors over the moving region against the count of sub-frames.
-pub struct Curves {
+/// What is measured of a rung, over the moving region.
+#[derive(Clone, Copy)]
+pub enum ErrorKind {
     /// Unbiased squared error of colour: neither the rungs' noise nor the truth's counts.
-    pub mse: Option<Curve>,
+    Mse,
     /// Mean LDR-FLIP, noise of rung and truth included.
-    pub flip: Option<Curve>,
+    Flip,
     /// Mean label total variation, noise included.
-    pub label: Option<Curve>,
+    Label,
+}
+
+/// Errors of the rungs that were added, by number of sub-frames.
+#[derive(Default)]
+pub struct Curves {
+    /// Sub-frames, and the error of each [`ErrorKind`] in their order.
+    rungs: Vec<(u32, [f64; 3])>,
 }
 
 impl Curves {
-    /// Scores every rung against the truth. `average` is the truth's mean, `seen` is it as FLIP sees it.
-    pub fn new(
-        ladder: &Ladder,
-        truth: &Truth,
-        (average, seen): (&Picture, &SeenDisplay),
+    /// Scores a rung against the truth, which is given by its mean and the colours of its halves; `seen` is the mean as FLIP sees
+    /// it. Rungs are added in rising order of sub-frames.
+    pub fn add(
+        &mut self,
+        rung: &Accumulation,
+        (mean, truths): (&Picture, [&Image; 2]),
+        seen: &SeenDisplay,
         regions: &Regions,
         viewing: &Viewing,
-    ) -> Self {
+    ) {
+        assert!(
+            (self.rungs.last()).is_none_or(|(last, _)| *last < rung.subframes),
+            "rungs rise"
+        );
         let pool = |map: &Raster<f64>| mean_over(map, regions, Region::Moving).unwrap_or(0.0);
-        let truths = truth.halves.each_ref().map(|half| &half.color);
-        let errors: Vec<[f64; 3]> = (ladder.rungs.iter())
-            .map(|rung| {
-                let picture = Picture::mean(&rung.halves);
-                let halves = rung.halves.each_ref().map(|half| &half.color);
-                let flip = seen.map_errors(&Displayed::new(&picture.color, viewing));
-                [
-                    pool(&cross(halves, truths, viewing.scale())),
-                    mean_over(&flip, regions, Region::Moving).unwrap_or(0.0),
-                    pool(&label_variation(&picture.coverage, &average.coverage)),
-                ]
-            })
+        let picture = Picture::mean(&rung.halves);
+        let halves = rung.halves.each_ref().map(|half| &half.color);
+        let flip = seen.map_errors(&Displayed::new(&picture.color, viewing));
+        let errors = [
+            pool(&cross(halves, truths, viewing.scale())),
+            mean_over(&flip, regions, Region::Moving).unwrap_or(0.0),
+            pool(&label_variation(&picture.coverage, &mean.coverage)),
+        ];
+        self.rungs.push((rung.subframes, errors));
+    }
+
+    /// Tells whether no rung was added.
+    pub fn is_empty(&self) -> bool {
+        self.rungs.is_empty()
+    }
+
+    /// Makes the curve of one kind of error; none where no rung can be told from the truth.
+    pub fn curve(&self, kind: ErrorKind) -> Option<Curve> {
+        let points: Vec<(u32, f64)> = (self.rungs.iter())
+            .map(|(subframes, errors)| (*subframes, errors[kind as usize]))
             .collect();
-        let curve = |score: usize| {
-            let counts = ladder.rungs.iter().map(|rung| rung.subframes);
-            let points: Vec<(u32, f64)> = counts.zip(errors.iter().map(|e| e[score])).collect();
-            Curve::new(&points)
-        };
-        Self {
-            mse: curve(0),
-            flip: curve(1),
-            label: curve(2),
-        }
+        Curve::new(&points)
     }
 }

@@ -20,7 +20,7 @@ pub(crate) fn clear_scene(folder: &Path) -> Result<(), Error> {
         if kind.is_dir() || entry.path().is_dir() {
             refuse_link(&entry.path(), kind)?;
             for inner in entries(&entry.path())? {
-                remove(&inner, is_replicate_or_case)?;
+                remove(&inner, is_part_or_case)?;
             }
         } else {
             remove(&entry, is_rendered)?;
@@ -29,16 +29,20 @@ pub(crate) fn clear_scene(folder: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-/// Tells whether a name is one such as `frame.exr`, `truth_trailing.exr`, `ladder_trailing.exr`, or a record of the first two.
+/// Tells whether a name is one such as `frame.exr`, `truth_trailing.exr`, or a record of these.
 fn is_rendered(name: &str) -> bool {
-    let is_one =
-        |stem: &str| stem == "frame" || stem.starts_with("truth_") || stem.starts_with("ladder_");
+    let is_one = |stem: &str| stem == "frame" || stem.starts_with("truth_");
     let stem = (name.strip_suffix(".exr")).or(name.strip_suffix(".json"));
     stem.is_some_and(is_one)
 }
 
-fn is_replicate_or_case(name: &str) -> bool {
-    name == CASE_RECORD || (name.starts_with("replicate_") && name.ends_with(".exr"))
+/// Tells whether a name is that of a case's record, of a replicate (`replicate_0.exr`) or of a ladder's rung (`n64.exr`).
+fn is_part_or_case(name: &str) -> bool {
+    let is_part = |stem: &str| {
+        let number = stem.strip_prefix("replicate_").or(stem.strip_prefix('n'));
+        number.is_some_and(|number| number.parse::<u32>().is_ok())
+    };
+    name == CASE_RECORD || name.strip_suffix(".exr").is_some_and(is_part)
 }
 
 /// Lists a folder; nothing where there is none.
@@ -81,11 +85,16 @@ mod tests {
             "frame.json",
             "truth_trailing.exr",
             "truth_trailing.json",
-            "ladder_trailing.exr",
+            "ladder_trailing/n64.exr",
             "truth_trailing/replicate_000.exr",
             "identity_default/case.json",
         ];
-        let kept = ["frame.png", "notes.json", "identity_default/output.exr"];
+        let kept = [
+            "frame.png",
+            "notes.json",
+            "identity_default/output.exr",
+            "ladder_trailing/notes.exr",
+        ];
         for name in gone.iter().chain(&kept) {
             let path = folder.join(name);
             std::fs::create_dir_all(path.parent().unwrap()).unwrap();

@@ -71,20 +71,24 @@ pub(crate) fn remove_altered_files(path: &Path, inputs: &str) {
     }
 }
 
-/// Reads a whole record of such inputs. One that names a file outside its own folder is none: nothing out there is read or
-/// removed.
+/// Reads a whole record of such inputs. One that names a file outside its own folder, or behind a link to a folder, is none: nothing
+/// out there is read or removed.
 fn read_whole<T: Serialize + DeserializeOwned>(path: &Path, inputs: &str) -> Option<Record<T>> {
     let found: Record<T> = serde_json::from_slice(&std::fs::read(path).ok()?).ok()?;
     let is_whole =
         found.inputs == inputs && found.seal == seal(&found.inputs, &found.files, &found.made);
-    (is_whole && found.files.keys().all(|name| is_plain(name))).then_some(found)
+    let is_below = |name: &String| is_below(&path.with_file_name(""), name);
+    (is_whole && found.files.keys().all(is_below)).then_some(found)
 }
 
-/// Tells whether a name is that of a file in the same folder, and no path.
-fn is_plain(name: &str) -> bool {
-    let mut parts = Path::new(name).components();
-    let first = parts.next();
-    matches!(first, Some(Component::Normal(part)) if part == name) && parts.next().is_none()
+/// Tells whether a name is that of a file in a folder or in one of its folders, and no path out of it.
+fn is_below(folder: &Path, name: &str) -> bool {
+    let name = Path::new(name);
+    let is_plain = (name.components()).all(|part| matches!(part, Component::Normal(_)));
+    let mut folders = name.ancestors().skip(1);
+    is_plain
+        && name.file_name().is_some()
+        && folders.all(|inner| inner == Path::new("") || !folder.join(inner).is_symlink())
 }
 
 impl<T> Record<T> {
@@ -133,7 +137,11 @@ mod tests {
         std::fs::write(&elsewhere, "mine").unwrap();
         let record = folder.path().join("out/frame.json");
         std::fs::create_dir(folder.path().join("out")).unwrap();
+        #[cfg(unix)]
+        std::os::unix::fs::symlink(folder.path(), folder.path().join("out/link")).unwrap();
         for name in [
+            #[cfg(unix)]
+            "link/mine.txt",
             "../mine.txt",
             elsewhere.to_str().unwrap(),
             "a/../../mine.txt",

@@ -18,6 +18,7 @@ use crate::capture::folder::Capture;
 use crate::colors::velocity_wheel;
 use crate::folder::claim::{Sharing, claim};
 use crate::folder::scene_folder::refuse_scene;
+use crate::render::ladders::ladder_folder;
 use crate::{Error, PROGRAM};
 
 /// A capture that was ingested.
@@ -87,7 +88,7 @@ pub fn ingest(
         let rungs = made.ladder.rungs.iter();
         scene.ladder = rungs.map(|rung| rung.subframes).collect();
         made.ladder
-            .write(&out.join(format!("ladder_{alignment}.exr")))?;
+            .write_rungs(&out.join(ladder_folder(alignment)))?;
         made.truth
             .write(&out.join(format!("truth_{alignment}.exr")))?;
         show(&format!("truth_{alignment}.png"), &made.truth.mean().color)?;

@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, FileError, Frame, Ladder, Picture, Provenance, Truth, read_exr};
+use frame::{Alignment, FileError, Frame, Ladder, Picture, Provenance, Truth, read_exr, rung_file};
 use serde::{Deserialize, Serialize};
 
 use crate::Error;
 use crate::json::file::read_text;
+use crate::render::ladders::ladder_folder;
 
 /// Name of the file that makes a folder an ingested one.
 pub const INGESTED_FILE: &str = "ingested.json";
@@ -151,7 +152,9 @@ impl EngineScene {
     /// Reads the truth, and copies its file with that of its ladder into a scene's folder of a run.
     pub(crate) fn copy_truth(&self, folder: &Path) -> Result<Truth, Error> {
         let alignment = self.alignment();
-        self.copy(&format!("ladder_{alignment}.exr"), folder)?;
+        for rung in &self.ladder {
+            self.copy(&self.rung_path(*rung), folder)?;
+        }
         let name = format!("truth_{alignment}.exr");
         let path = self.copy(&name, folder)?;
         let truth = Truth::read(&path)?;
@@ -176,10 +179,16 @@ impl EngineScene {
         }
     }
 
-    /// Reads the ladder from a scene's folder of a run.
-    pub(crate) fn read_ladder(&self, folder: &Path) -> Result<Ladder, Error> {
-        let path = folder.join(format!("ladder_{}.exr", self.alignment));
-        Ok(Ladder::read(&path)?)
+    /// Reads a rung of the ladder from a scene's folder of a run.
+    pub(crate) fn read_rung(&self, folder: &Path, subframes: u32) -> Result<Ladder, Error> {
+        let path = folder.join(self.rung_path(subframes));
+        Ok(Ladder::read_rung(&path, subframes)?)
+    }
+
+    /// Names the file of a rung below the folder of the scene.
+    fn rung_path(&self, subframes: u32) -> String {
+        let folder = ladder_folder(self.alignment());
+        format!("{folder}/{}", rung_file(subframes))
     }
 
     /// Reads the engine's own blurred picture; the mattes are those of the frame.

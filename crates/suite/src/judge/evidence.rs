@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
-use frame::{Frame, Image, Ladder, Truth, read_exr};
+use frame::{Frame, Image, Ladder, Picture, Truth, read_exr, rung_file};
 use metrics::{Metric, Reference, Regions};
 
-use super::decoys::Decoys;
+use super::decoys::{Decoys, FEW_SUBFRAMES};
 use super::finding::Finding;
 use super::worst::{Worst, worst_block, write_crop};
+use crate::render::ladders::ladder_folder;
 use crate::run::error_maps::ErrorMaps;
 use crate::{Case, Error, Run};
 
@@ -42,11 +43,19 @@ fn add_evidence_of_truth(
 ) -> Result<(), Error> {
     let (first, _) = &cases[0];
     let own = folder.join(&first.scene);
-    let file = |kind: &str| own.join(format!("{kind}_{}.exr", first.alignment));
     let frame = Frame::read(&own.join("frame.exr"))?.cropped();
-    let (truth, ladder) = (Truth::read(&file("truth"))?, Ladder::read(&file("ladder"))?);
-    let reference = Reference::new(&frame, &truth, Some(&ladder), &frame.display.into())?;
-    let decoys = Decoys::new(&frame, &truth, &ladder, &reference)?;
+    let truth = Truth::read(&own.join(format!("truth_{}.exr", first.alignment)))?;
+    let rung = own
+        .join(ladder_folder(truth.alignment))
+        .join(rung_file(FEW_SUBFRAMES));
+    // An engine may have drawn too few sub-frames for it.
+    let few_subframes = match rung.exists() {
+        true => Some(Ladder::read_rung(&rung, FEW_SUBFRAMES)?),
+        false => None,
+    };
+    let few_subframes = few_subframes.map(|ladder| Picture::mean(&ladder.rungs[0].halves));
+    let reference = Reference::new(&frame, &truth, None, &frame.display.into())?;
+    let decoys = Decoys::new(&frame, &truth, few_subframes, &reference)?;
     let places = WorstPlaces {
         regions: &reference.regions,
         truth: &truth.mean().color,

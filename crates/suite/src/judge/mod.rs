@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 use self::bounds::SceneBounds;
 use crate::Run;
 
-pub use decoys::{Decoys, Resemblance};
+pub use decoys::{Decoys, FEW_SUBFRAMES, Resemblance};
 pub use evidence::add_evidence;
 pub use finding::{Finding, MOST_SAMPLES, number};
 pub use judged_score::{JudgedScore, judge_scores};

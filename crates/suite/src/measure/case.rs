@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use filters::{Command, Convention, FilterError, Gpu};
-use frame::{Frame, Picture, Vectors};
+use frame::{Frame, Ladder, Picture, Vectors};
 use metrics::{ImageScores, Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference};
 
 use super::dilated_velocity::read_dilated_velocity;
@@ -38,6 +38,8 @@ pub(crate) struct CaseContext<'a> {
     /// The frame in the forms in which filters get it.
     pub stored_frames: &'a [(InputFormat, Frame)],
     pub references: &'a TruthReferences<'a>,
+    /// Reads the rung of a number of sub-frames, as a ladder of it alone.
+    pub read_rung: &'a dyn Fn(u32) -> Result<Ladder, Error>,
     /// The truth that every case is compared with.
     pub common: CommonTruth<'a>,
 }
@@ -72,7 +74,8 @@ impl CaseContext<'_> {
                 self.measure_reference(self.references.oracle.clone())?
             }
             PictureSource::Accumulation(subframes) => {
-                self.measure_reference(self.references.take_accumulation(subframes))?
+                let ladder = (self.read_rung)(subframes)?;
+                self.measure_reference(Picture::mean(&ladder.rungs[0].halves))?
             }
             PictureSource::Filter(choice, input) => self.measure_filter(choice, input)?,
             PictureSource::Engine(scene) => self.measure_engine(scene)?,

@@ -3,12 +3,13 @@
 use std::path::Path;
 
 use frame::{
-    Display, ExrFile, FileError, Frame, Image, Picture, Truth, Vectors, display_srgb, write_exr,
-    write_half_exr, write_png,
+    Display, ExrFile, FileError, Frame, Image, Picture, Truth, Vectors, display_srgb, rung_file,
+    write_exr, write_half_exr, write_png,
 };
 use metrics::Measurement;
 
 use crate::colors::{magma, velocity_wheel};
+use crate::render::ladders::ladder_folder;
 use crate::run::error_maps::KEPT_MAPS;
 
 /// Writes a frame's PNGs beside its EXR file; returns the names of all.
@@ -20,20 +21,24 @@ pub fn write_frame(folder: &Path, frame: &Frame) -> Result<Vec<String>, FileErro
         .into())
 }
 
-/// Writes a truth's PNG beside its EXR file and that of its ladder; returns the names of all.
+/// Writes a truth's PNG beside its EXR file and those of its ladder; returns the names of all.
 pub fn write_truth(
     folder: &Path,
     truth: &Truth,
+    rungs: &[u32],
     display: Display,
 ) -> Result<Vec<String>, FileError> {
     let alignment = truth.alignment;
     let picture = format!("truth_{alignment}.png");
     write_display_png(&folder.join(&picture), &truth.mean().color, display)?;
-    Ok(vec![
-        picture,
-        format!("truth_{alignment}.exr"),
-        format!("ladder_{alignment}.exr"),
-    ])
+    let mut files = vec![picture, format!("truth_{alignment}.exr")];
+    let ladder = ladder_folder(alignment);
+    files.extend(
+        rungs
+            .iter()
+            .map(|rung| format!("{ladder}/{}", rung_file(*rung))),
+    );
+    Ok(files)
 }
 
 /// Writes a case: the output, with the dilated velocity of filters that have one, and the error maps; returns the names of the

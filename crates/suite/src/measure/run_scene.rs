@@ -7,6 +7,7 @@ use tracer::{Family, RenderSettings, Scene};
 
 use crate::Error;
 use crate::ingest::engine_scene::EngineScene;
+use crate::render::ladders::LADDER;
 use crate::render::memory::{check_measuring_memory, measuring_memory};
 use crate::render::settings::frame_settings;
 use crate::run::case::Drawn;
@@ -79,15 +80,19 @@ impl<'a> RunScene<'a> {
         }
     }
 
+    /// Lists the numbers of sub-frames of its ladder.
+    pub fn rungs(self) -> &'a [u32] {
+        match self {
+            Self::Traced(_) => &LADDER,
+            Self::Drawn(scene) => &scene.ladder,
+        }
+    }
+
     /// Lists the accumulations that its truth can be compared with, among those of a plan.
     pub fn accumulations(self, planned: &[u32]) -> Vec<u32> {
-        match self {
-            Self::Traced(_) => planned.to_owned(),
-            Self::Drawn(scene) => {
-                let there = planned.iter().filter(|count| scene.ladder.contains(count));
-                there.copied().collect()
-            }
-        }
+        let rungs = self.rungs();
+        let there = planned.iter().filter(|count| rungs.contains(count));
+        there.copied().collect()
     }
 
     /// Returns the content hash of the truth of one alignment.

@@ -11,7 +11,7 @@ use tracer::{Progress, Scene, Watch};
 use super::case::{CaseContext, CommonTruth};
 use super::pictures::{write_frame, write_truth};
 use super::plan::RunPlan;
-use super::planned_case::{PictureSource, PlannedCase};
+use super::planned_case::PlannedCase;
 use super::references::TruthReferences;
 use super::run_scene::RunScene;
 use crate::Error;
@@ -23,7 +23,7 @@ use crate::cache::scene_keys::SceneKeys;
 use crate::filter::choice::FilterChoice;
 use crate::filter::input_format::InputFormat;
 use crate::render::frames::render_frame;
-use crate::render::ladders::LadderFile;
+use crate::render::ladders::LadderFiles;
 use crate::render::shared::render_shared;
 use crate::render::truths::{render_replicates, render_truth};
 use crate::run::case::Case;
@@ -120,28 +120,16 @@ impl SceneContext<'_> {
         let mut references = BTreeMap::new();
         let mut common_alone = None;
         for (alignment, truth) in &truths {
-            let ladder = || self.read_ladder(truth);
             if due_at(*alignment).next().is_some() {
-                let subframes: Vec<u32> = due_at(*alignment)
-                    .filter_map(|case| match case.source {
-                        PictureSource::Accumulation(subframes) => Some(subframes),
-                        _ => None,
-                    })
-                    .collect();
                 let without = without_pairs.get(alignment).map_or(&[][..], Vec::as_slice);
-                let own = TruthReferences::new(
-                    frame,
-                    (truth, ladder()?),
-                    &subframes,
-                    without,
-                    &viewing,
-                    monitor.ended,
-                )?;
+                let rungs = self.read_rungs(truth);
+                let own =
+                    TruthReferences::new(frame, truth, rungs, without, &viewing, monitor.ended)?;
                 references.insert(*alignment, own);
             } else if *alignment == common_alignment {
-                // Only FLIP is measured against it, which needs no oracle.
+                // Only FLIP is measured against it, which needs no ladder and no oracle.
                 let frame = frame.cropped();
-                common_alone = Some(Reference::new(&frame, truth, Some(&ladder()?), &viewing)?);
+                common_alone = Some(Reference::new(&frame, truth, None, &viewing)?);
             }
         }
         let own = references.get(&common_alignment);
@@ -169,6 +157,7 @@ impl SceneContext<'_> {
                 frame,
                 stored_frames: &stored_frames,
                 references: &references[&planned.alignment],
+                read_rung: &|subframes| self.read_rung(&truths[&planned.alignment], subframes),
                 common: match planned.alignment == common_alignment {
                     true => CommonTruth::Own,
                     false => common,
@@ -219,7 +208,12 @@ impl SceneContext<'_> {
         };
         let mut files = vec![write_frame(&folder, &frame)?];
         for truth in truths.values() {
-            files.push(write_truth(&folder, truth, frame.display)?);
+            files.push(write_truth(
+                &folder,
+                truth,
+                self.scene.rungs(),
+                frame.display,
+            )?);
         }
         for ((record, key), files) in self.render_records().into_iter().zip(files) {
             write_record(&record, key, &files, &())?;
@@ -244,14 +238,20 @@ impl SceneContext<'_> {
         for (alignment, done) in alignments.into_iter().zip(0..) {
             advance(1 + done * self.truth_steps());
             let truth = render_truth(scene, render, alignment, out, *monitor)?;
-            LadderFile::new(scene, render, alignment, out).ensure(&truth, *monitor)?;
+            LadderFiles::new(scene, render, &truth, out).ensure(*monitor)?;
             truths.insert(alignment, truth);
         }
         Ok((frame, truths))
     }
 
-    /// Reads the ladder of a truth, or renders it.
-    fn read_ladder(&self, truth: &Truth) -> Result<Ladder, Error> {
+    /// Reads the rungs of the ladder of a truth, one after another.
+    fn read_rungs(&self, truth: &Truth) -> impl Iterator<Item = Result<Ladder, Error>> {
+        let rungs = self.scene.rungs();
+        rungs.iter().map(|rung| self.read_rung(truth, *rung))
+    }
+
+    /// Reads a rung of the ladder of a truth, or renders it.
+    pub fn read_rung(&self, truth: &Truth, subframes: u32) -> Result<Ladder, Error> {
         let RunPlan {
             render,
             out,
@@ -260,9 +260,9 @@ impl SceneContext<'_> {
         } = self.plan;
         match self.scene {
             RunScene::Traced(scene) => {
-                LadderFile::new(scene, render, truth.alignment, out).read_or_render(truth, *monitor)
+                LadderFiles::new(scene, render, truth, out).read_or_render(subframes, *monitor)
             }
-            RunScene::Drawn(scene) => scene.read_ladder(&self.folder()),
+            RunScene::Drawn(scene) => scene.read_rung(&self.folder(), subframes),
         }
     }
 

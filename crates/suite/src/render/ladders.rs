@@ -1,9 +1,10 @@
 //! Ladders of sub-frame accumulations.
 
+use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, Ladder, Truth, read_attribute};
-use tracer::{RenderSettings, Scene};
+use frame::{Alignment, Ladder, Truth, read_attribute, rung_file};
+use tracer::{LadderTracer, RenderSettings, Scene};
 
 use crate::folder::scene_folder::scene_folder;
 use crate::{Error, Monitor};
@@ -11,63 +12,84 @@ use crate::{Error, Monitor};
 /// Sub-frame counts of the ladder that N_eq is read from.
 pub const LADDER: [u32; 7] = [1, 2, 4, 8, 16, 32, 64];
 
-/// The ladder of one truth, the largest thing that measuring holds: it stays in its file until it is needed.
-pub struct LadderFile<'a> {
-    scene: &'a Scene,
-    settings: RenderSettings,
-    alignment: Alignment,
-    path: PathBuf,
-    /// Hash of the inputs.
-    hash: String,
+/// Names the folder of the rungs of a ladder in the folder of its scene.
+pub(crate) fn ladder_folder(alignment: Alignment) -> String {
+    format!("ladder_{alignment}")
 }
 
-impl<'a> LadderFile<'a> {
-    /// Names the ladder that goes with the truth of these settings, in `out`.
-    pub fn new(
-        scene: &'a Scene,
-        settings: &RenderSettings,
-        alignment: Alignment,
-        out: &Path,
-    ) -> Self {
+/// The ladder of one truth, with a file for each rung: all of them together would take more memory than all else that measuring
+/// holds.
+pub struct LadderFiles<'a> {
+    scene: &'a Scene,
+    settings: RenderSettings,
+    truth: &'a Truth,
+    folder: PathBuf,
+    /// Hash of the inputs.
+    hash: String,
+    /// Made for the first rung that is rendered.
+    tracer: OnceCell<LadderTracer<'a>>,
+}
+
+impl<'a> LadderFiles<'a> {
+    /// Names the ladder that goes with a truth, which was rendered with these settings, in `out`.
+    pub fn new(scene: &'a Scene, settings: &RenderSettings, truth: &'a Truth, out: &Path) -> Self {
         Self {
             scene,
-            path: scene_folder(out, scene).join(format!("ladder_{alignment}.exr")),
-            hash: ladder_hash(scene, settings, alignment),
+            folder: scene_folder(out, scene).join(ladder_folder(truth.alignment)),
+            hash: ladder_hash(scene, settings, truth.alignment),
             settings: *settings,
-            alignment,
+            truth,
+            tracer: OnceCell::new(),
         }
     }
 
-    /// Renders the ladder of `truth` and writes it, unless the file of the same inputs is there.
-    pub fn ensure(&self, truth: &Truth, monitor: Monitor) -> Result<(), Error> {
-        if read_attribute(&self.path, "content_hash").as_ref() == Some(&self.hash) {
-            return Ok(());
+    /// Renders the rungs and writes them, but for those whose files of the same inputs are there.
+    pub fn ensure(&self, monitor: Monitor) -> Result<(), Error> {
+        for subframes in LADDER {
+            let found = read_attribute(&self.path(subframes), "content_hash");
+            if found.as_ref() != Some(&self.hash) {
+                self.render(subframes, monitor)?;
+            }
         }
-        self.render(truth, monitor)
+        Ok(())
     }
 
-    /// Reads the ladder of `truth`; renders one that is missing, broken or made from other inputs.
-    pub fn read_or_render(&self, truth: &Truth, monitor: Monitor) -> Result<Ladder, Error> {
-        if let Ok(found) = Ladder::read(&self.path)
+    /// Reads one rung; renders it if it is missing, broken or made from other inputs.
+    pub fn read_or_render(&self, subframes: u32, monitor: Monitor) -> Result<Ladder, Error> {
+        let path = self.path(subframes);
+        if let Ok(found) = Ladder::read_rung(&path, subframes)
             && found.provenance.content_hash == self.hash
         {
             return Ok(found);
         }
-        self.render(truth, monitor)?;
-        Ok(Ladder::read(&self.path)?)
+        self.render(subframes, monitor)?;
+        Ok(Ladder::read_rung(&path, subframes)?)
     }
 
-    fn render(&self, truth: &Truth, monitor: Monitor) -> Result<(), Error> {
-        let (scene, settings) = (self.scene, &self.settings);
-        let label = format!("{} sub-frames, {}", scene.name, self.alignment);
-        let ladder = monitor.watch(&label, |watch| {
-            tracer::trace_ladder(scene, settings, truth, &LADDER, watch)
-        })?;
+    fn path(&self, subframes: u32) -> PathBuf {
+        self.folder.join(rung_file(subframes))
+    }
+
+    fn render(&self, subframes: u32, monitor: Monitor) -> Result<(), Error> {
+        let label = format!(
+            "{} {subframes} sub-frames, {}",
+            self.scene.name, self.truth.alignment
+        );
+        let rung = monitor.watch(&label, |watch| self.tracer()?.trace(subframes, watch))?;
         assert_eq!(
-            ladder.provenance.content_hash, self.hash,
+            rung.provenance.content_hash, self.hash,
             "{label}: the hash must not depend on the render"
         );
-        Ok(ladder.write(&self.path)?)
+        Ok(rung.write(&self.path(subframes))?)
+    }
+
+    fn tracer(&self) -> Result<&LadderTracer<'a>, tracer::TraceError> {
+        if self.tracer.get().is_none() {
+            let made = LadderTracer::new(self.scene, &self.settings, self.truth, &LADDER)?;
+            // It was empty, and no other thread can see it.
+            let _ = self.tracer.set(made);
+        }
+        Ok(self.tracer.get().expect("it was made"))
     }
 }
 

@@ -12,7 +12,8 @@ use crate::bench::{Bench, assert_done, assert_refused};
 
 const TRUTH: &str = "out/plate/truth_trailing.exr";
 const FRAME: &str = "out/plate/frame.exr";
-const LADDER: &str = "out/plate/ladder_trailing.exr";
+const LADDER: &str = "out/plate/ladder_trailing";
+const RUNG: &str = "out/plate/ladder_trailing/n4.exr";
 const OUTPUT: &str = "out/plate/identity_default/output.exr";
 
 fn set_up() -> Bench {
@@ -269,8 +270,9 @@ fn a_truth_or_frame_with_missing_or_invalid_numbers_is_refused() {
         ),
         (TRUTH, "shutter_open", "-1e50", "exposure is 1e50 frames"),
         (TRUTH, "seed", "-1", "attribute \"seed\" holds \"-1\""),
-        (LADDER, "subframes", "0 1", "out of order"),
-        (LADDER, "subframes", "", "\"subframes\" is empty"),
+        (RUNG, "subframes", "0 1", "out of order"),
+        (RUNG, "subframes", "", "\"subframes\" is empty"),
+        (RUNG, "content_hash", "0", "belongs to another ladder"),
     ] {
         let whole = fs::read(bench.path(path)).unwrap();
         alter(&bench, path, |file| file.set(name, value));

@@ -2,11 +2,13 @@
 
 mod wrong;
 
-use frame::{Frame, Ladder, Truth};
+use frame::{Frame, Picture, Truth};
 use metrics::{Ideal, MeasureError, Metric, Reference, Scores};
 use serde::{Deserialize, Serialize};
 
 use wrong::make_wrong_pictures;
+
+pub use wrong::FEW_SUBFRAMES;
 
 /// Wrong blur that a picture resembles most.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -52,15 +54,16 @@ pub struct Decoys {
 type Deviations = Vec<Option<f64>>;
 
 impl Decoys {
-    /// Makes wrong blurs from a frame without guard band and scores them.
+    /// Makes wrong blurs from a frame without guard band and scores them. `few_subframes` is the mean of [`FEW_SUBFRAMES`], one of
+    /// them, where there is one.
     pub fn new(
         frame: &Frame,
         truth: &Truth,
-        ladder: &Ladder,
+        few_subframes: Option<Picture>,
         reference: &Reference,
     ) -> Result<Self, MeasureError> {
         let mut decoys = Vec::new();
-        for (name, picture) in make_wrong_pictures(frame, truth, ladder) {
+        for (name, picture) in make_wrong_pictures(frame, truth, few_subframes) {
             let scores = reference.measure(&picture)?.scores;
             decoys.push((name, deviations(&scores)));
         }

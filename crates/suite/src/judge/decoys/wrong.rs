@@ -1,20 +1,21 @@
 //! Pictures of wrong blurs.
 
-use frame::{Alignment, Frame, Ladder, Picture, Plane, Raster, Truth};
+use frame::{Alignment, Frame, Picture, Plane, Raster, Truth};
 
 use crate::scatter_oracle;
 
 /// Number of sub-frames whose mean shows bands.
-const FEW_SUBFRAMES: u32 = 4;
+pub const FEW_SUBFRAMES: u32 = 4;
 /// Pixels by which moving objects are widened.
 const WIDENED: u32 = 2;
 
 /// Makes wrong blurs of a frame without guard band, with their names. They smear as the scatter oracle does, the best that the
-/// frame allows, so that each has the one mistake that its name says.
+/// frame allows, so that each has the one mistake that its name says. `few_subframes` is the mean of [`FEW_SUBFRAMES`], where there is
+/// one.
 pub fn make_wrong_pictures(
     frame: &Frame,
     truth: &Truth,
-    ladder: &Ladder,
+    few_subframes: Option<Picture>,
 ) -> Vec<(String, Picture)> {
     let smear = |frame: &Frame, alignment: Alignment, length: f64| {
         let shutter = (alignment.shutter(length * frame.exposure))
@@ -38,8 +39,7 @@ pub fn make_wrong_pictures(
             pictures.push((format!("{other}_shutter"), smear(frame, other, 1.0)));
         }
     }
-    if let Some(rung) = (ladder.rungs.iter()).find(|rung| rung.subframes == FEW_SUBFRAMES) {
-        let mean = Picture::mean(&rung.halves);
+    if let Some(mean) = few_subframes {
         pictures.push((format!("mean_of_{FEW_SUBFRAMES}_sub_frames"), mean));
     }
     pictures
