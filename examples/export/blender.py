@@ -5,6 +5,11 @@
     blender -b --python examples/export/blender.py -- out/gltf/railing out/blender.exr 160 90
     python3 examples/export/compare.py out/blender.exr out/render/railing/frame.exr
 
+With a shutter as the last word, trailing or centred, Cycles blurs as its own motion blur does, and the picture is compared with the truth:
+
+    blender -b --python examples/export/blender.py -- out/gltf/railing out/blurred.exr 160 90 centred
+    python3 examples/export/compare.py out/blurred.exr out/render/railing/truth_centred.exr
+
 The importer keeps places, motion, colours and the sun. The script adds what glTF cannot say: the sky, light without limits on
 bounces, and diffuse surfaces without Blender's own gloss. Tried with Blender 3.4.1.
 """
@@ -20,7 +25,7 @@ numpy.bool = bool
 
 import bpy  # noqa: E402
 
-folder, picture, width, height = sys.argv[sys.argv.index("--") + 1 :]
+folder, picture, width, height, *shutter = sys.argv[sys.argv.index("--") + 1 :]
 with open(f"{folder}/manifest.json") as file:
     manifest = json.load(file)
 
@@ -74,16 +79,52 @@ def make_diffuse(material):
             links.new(diffuse.outputs[0], link.to_socket)
 
 
+def decode_textures():
+    """Replaces 8-bit textures by linear 32-bit ones: Cycles interpolates 8-bit texels before it decodes sRGB."""
+    for image in [i for i in bpy.data.images if i.colorspace_settings.name == "sRGB" and i.has_data]:
+        encoded = numpy.empty(len(image.pixels), dtype=numpy.float32)
+        image.pixels.foreach_get(encoded)
+        texels = encoded.reshape(-1, 4)
+        color = texels[:, :3]
+        texels[:, :3] = numpy.where(color <= 0.04045, color / 12.92, ((color + 0.055) / 1.055) ** 2.4)
+        linear = bpy.data.images.new(image.name + " linear", *image.size, alpha=True, float_buffer=True)
+        linear.colorspace_settings.name = "Linear"
+        linear.pixels.foreach_set(texels.ravel())
+        image.user_remap(linear)
+
+
+def open_shutter(alignment):
+    """Blurs over the scene's exposure: a box in time, with a pose at each of 129 instants of it, the most that Cycles takes."""
+    scene.render.use_motion_blur = True
+    scene.render.motion_blur_shutter = manifest["exposure"]
+    scene.cycles.motion_blur_position = {"trailing": "END", "centred": "CENTER", "leading": "START"}[alignment]
+    curve = scene.render.motion_blur_shutter_curve.curves[0]
+    while len(curve.points) > 2:
+        curve.points.remove(curve.points[1])
+    for point, at in zip(curve.points, (0, 1)):
+        point.location = (at, 1)
+    for thing in bpy.data.objects:
+        if hasattr(thing, "cycles"):
+            thing.cycles.use_motion_blur = True
+            thing.cycles.motion_steps = 7
+
+
+for image in bpy.data.images:
+    image.update()
+decode_textures()
 add_sky()
 set_sun()
 for material in [m for m in bpy.data.materials if m.use_nodes]:
     make_diffuse(material)
 scene.render.engine = "CYCLES"
-scene.cycles.samples = 64
+scene.cycles.samples = 256 if shutter else 64
+scene.cycles.use_adaptive_sampling = False
 scene.cycles.use_denoising = False
 scene.cycles.max_bounces = scene.cycles.diffuse_bounces = 16
 scene.cycles.pixel_filter_type = "BOX"
 scene.cycles.sample_clamp_indirect = 0
+for alignment in shutter:
+    open_shutter(alignment)
 scene.view_settings.view_transform = "Raw"
 scene.render.resolution_x, scene.render.resolution_y = int(width), int(height)
 scene.render.resolution_percentage = 100

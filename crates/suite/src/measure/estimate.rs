@@ -128,7 +128,9 @@ fn estimate_with(
         if due > 0 {
             let truths = truths.iter().filter(|missing| **missing).count();
             estimate.disk += count_bytes(&plan.render, (frame, truths), due);
-            estimate.memory = estimate.memory.max(scene.scene.memory(&plan.render));
+            let truths = plan.alignments().len();
+            let memory = scene.scene.memory(&plan.render, truths);
+            estimate.memory = estimate.memory.max(memory);
         }
     }
     let report = estimate.cases as f64 * pixels;

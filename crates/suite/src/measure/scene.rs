@@ -80,7 +80,8 @@ impl SceneContext<'_> {
         if read_back == found.len() && self.has_its_files() {
             return Ok((found.into_iter().flatten().map(Ok).collect(), read_back));
         }
-        self.scene.check(&self.plan.render)?;
+        let truths = self.plan.alignments().len();
+        self.scene.check(&self.plan.render, truths)?;
         let (frame, truths) = self.render(advance)?;
         let due = (planned.iter().zip(&found)).filter(|(_, found)| found.is_none());
         let due: Vec<&PlannedCase> = due.map(|(case, _)| case).collect();

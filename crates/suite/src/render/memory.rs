@@ -9,14 +9,14 @@ use crate::Error;
 /// Memory of the program without any picture, in bytes.
 const PROGRAM: u64 = 80 << 20;
 /// Bytes per pixel of a truth, beside its replicates and coverages. This number and the next ones are measured slopes of the largest
-/// resident size of `render` and `run`, between 512x512 and 1024x1024 pixels and between 2 and 9 coverages.
-const PER_PIXEL: u64 = 683;
+/// resident size of `render` and `run`, between 512x512 and 1024x1024 pixels and between 6 and 11 coverages.
+const PER_PIXEL: u64 = 370;
 /// Bytes per pixel and coverage.
-const PER_COVERAGE: u64 = 43;
+const PER_COVERAGE: u64 = 27;
 /// Bytes per pixel and replicate: its colour, its reference to the instant, and its support.
-const PER_REPLICATE: u64 = 54;
+const PER_REPLICATE: u64 = 55;
 /// Bytes per pixel, replicate and coverage.
-const PER_REPLICATE_COVERAGE: u64 = 5;
+const PER_REPLICATE_COVERAGE: u64 = 3;
 /// Bytes per pixel of a frame's guard band.
 const PER_BAND_PIXEL: u64 = 300;
 /// Bytes per pixel of the guard band and coverage.
@@ -28,11 +28,14 @@ const PER_POSE: u64 = 500;
 
 /// Memory of measuring without any picture, in bytes.
 const MEASURING: u64 = 112 << 20;
-/// Bytes per pixel of a frame, a truth and its ladder that filters are measured by, beside their coverages, for any number of
-/// replicates.
-const PER_MEASURED_PIXEL: u64 = 970;
+/// Bytes per pixel of a frame and of the case that is being measured, beside their coverages.
+const PER_MEASURED_PIXEL: u64 = 350;
 /// Bytes per such pixel and coverage.
-const PER_MEASURED_COVERAGE: u64 = 200;
+const PER_MEASURED_COVERAGE: u64 = 20;
+/// Bytes per pixel of each truth that filters are measured by, beside its coverages, for any number of replicates.
+const PER_TRUTH_PIXEL: u64 = 410;
+/// Bytes per such pixel and coverage.
+const PER_TRUTH_COVERAGE: u64 = 25;
 
 /// Refuses to render a frame, and a truth of a number of replicates, where memory does not suffice. Refuses nothing where the
 /// system does not tell what is free.
@@ -52,14 +55,18 @@ pub(crate) fn check_memory(
 pub(crate) fn check_measuring_memory(
     scene: &Scene,
     settings: &RenderSettings,
+    truths: usize,
 ) -> Result<(), Error> {
-    refuse_beyond_free(scene, settings, measuring_memory(scene, settings))
+    refuse_beyond_free(scene, settings, measuring_memory(scene, settings, truths))
 }
 
-/// Estimates the bytes that it takes to render a scene and to measure filters on it.
-pub(crate) fn measuring_memory(scene: &Scene, settings: &RenderSettings) -> u64 {
+/// Estimates the bytes that it takes to render a scene and to measure filters against a number of its truths.
+pub(crate) fn measuring_memory(scene: &Scene, settings: &RenderSettings, truths: usize) -> u64 {
     let pixels = u64::from(settings.width) * u64::from(settings.height);
-    let pixel = PER_MEASURED_PIXEL + PER_MEASURED_COVERAGE * count_coverages(scene);
+    let coverages = count_coverages(scene);
+    let case = PER_MEASURED_PIXEL + PER_MEASURED_COVERAGE * coverages;
+    let truth = PER_TRUTH_PIXEL + PER_TRUTH_COVERAGE * coverages;
+    let pixel = case + truth * truths as u64;
     let measuring = MEASURING.saturating_add(pixels.saturating_mul(pixel));
     measuring.max(rendering_memory(scene, settings, settings.replicates))
 }

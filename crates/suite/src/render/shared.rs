@@ -41,7 +41,8 @@ pub fn render_shared(
     for alignment in SHARED {
         settings.check_truth(scene, alignment)?;
     }
-    check_memory(scene, settings, 2 * indices.len() as u32)?;
+    // Each pair is written before the next is traced.
+    check_memory(scene, settings, SHARED.len() as u32)?;
     let mut tracer = None;
     for index in indices {
         if files.iter().any(|files| files.read(index).is_some()) {
