@@ -47,7 +47,7 @@ pub use metric::{
 };
 pub use object::sides::{Side, object_sides};
 pub use probe::{ProbeMaps, ProbeMeasurement, Probes};
-pub use reference::{Jitter, Measurement, Reference};
+pub use reference::{ColorReference, Jitter, Measurement, Reference};
 pub use score::{Ideal, Measured, Score};
 pub use scores::Scores;
 pub use subframes::{Equivalent, LadderRange, Subframes};

@@ -1,6 +1,7 @@
 //! The truth, ready to measure any number of pictures against.
 
 mod check;
+mod color;
 mod frozen;
 mod jitter;
 mod lateral_bleed;
@@ -24,12 +25,12 @@ use crate::subframes::Equivalent;
 use crate::worth::ladder::{Curves, ErrorKind};
 use crate::worth::skill::{Ends, score_skill};
 use crate::{
-    EquivalentScores, ImageScores, MeasureError, Measured, ProbeScores, Region, Regions, Scores,
-    Viewing,
+    EquivalentScores, MeasureError, Measured, ProbeScores, Region, Regions, Scores, Viewing,
 };
 use check::{check_agreement, check_brightness, check_ladder, check_picture, check_viewing};
 use frozen::FrozenReference;
 
+pub use color::ColorReference;
 pub use jitter::Jitter;
 pub use measurement::Measurement;
 
@@ -236,15 +237,6 @@ impl<'a> Reference<'a> {
         if self.objects.is_empty() {
             scores.take_out_mattes(NO_OBJECTS);
         }
-    }
-
-    /// Measures the errors of colour over what moves, and nothing else of [`Reference::measure`].
-    pub fn measure_moving(&self, output: &Picture) -> Result<ImageScores, MeasureError> {
-        check_picture(output, self.truth, "the output")?;
-        check_brightness(output, &self.viewing, "the output")?;
-        let errors = self.map_errors(output, &self.display(output), |_| ());
-        let pooled = Pooled::new(&errors, &self.regions, Region::Moving, &self.windows);
-        Ok(score_image(&self.find(Region::Moving, pooled)))
     }
 
     /// Scores what a filter made of [`Probes::images`]; its weights must be those of the measured picture.

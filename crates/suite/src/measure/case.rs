@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use filters::{Command, Convention, FilterError, Gpu};
 use frame::{Frame, Ladder, Picture, Vectors};
-use metrics::{ImageScores, Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference};
+use metrics::{
+    ColorReference, ImageScores, Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference,
+};
 
 use super::dilated_velocity::read_dilated_velocity;
 use super::pictures::write_case;
@@ -50,7 +52,7 @@ pub(crate) enum CommonTruth<'a> {
     /// That of the case itself.
     Own,
     /// Another one.
-    Other(&'a Reference<'a>),
+    Other(&'a ColorReference),
     /// None: an engine drew another shutter alone.
     Missing,
 }
@@ -192,7 +194,7 @@ impl CaseContext<'_> {
             ..
         } = &measured;
         let common = match self.common {
-            CommonTruth::Other(reference) => reference.measure_moving(picture)?,
+            CommonTruth::Other(reference) => reference.measure(picture)?,
             CommonTruth::Own => measurement.scores.moving.clone(),
             CommonTruth::Missing => ImageScores::not_applicable(OTHER_SHUTTER),
         };

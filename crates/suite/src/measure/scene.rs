@@ -1,11 +1,11 @@
 //! Cases of one scene: read back where their inputs are the same, measured where not.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use filters::{FilterError, Gpu};
 use frame::{Alignment, Frame, Ladder, Truth};
-use metrics::Reference;
+use metrics::{ColorReference, Reference};
 use tracer::{Progress, Scene, Watch};
 
 use super::case::{CaseContext, CommonTruth};
@@ -114,68 +114,85 @@ impl SceneContext<'_> {
         let monitor = self.plan.monitor;
         (monitor.ended)("frame and truths");
         let viewing = frame.display.into();
-        let without_pairs = self.truths_without_pairs(due)?;
-        let due_at =
-            |alignment: Alignment| due.iter().filter(move |case| case.alignment == alignment);
-        let common_alignment = self.plan.common_alignment();
-        let mut references = BTreeMap::new();
-        let mut common_alone = None;
-        for (alignment, truth) in &truths {
-            if due_at(*alignment).next().is_some() {
-                let without = without_pairs.get(alignment).map_or(&[][..], Vec::as_slice);
-                let rungs = self.read_rungs(truth);
-                let own =
-                    TruthReferences::new(frame, truth, rungs, without, &viewing, monitor.ended)?;
-                references.insert(*alignment, own);
-            } else if *alignment == common_alignment {
-                // Only FLIP is measured against it, which needs no ladder and no oracle.
-                let frame = frame.cropped();
-                common_alone = Some(Reference::new(&frame, truth, None, &viewing)?);
-            }
-        }
-        let own = references.get(&common_alignment);
-        let common = match common_alone.as_ref().or(own.map(|own| &own.reference)) {
-            Some(reference) => CommonTruth::Other(reference),
-            None => CommonTruth::Missing,
-        };
         let stored_frames: Vec<(InputFormat, Frame)> = (self.plan.inputs.iter())
             .map(|format| Ok((*format, format.apply(frame, self.scene.traced())?)))
             .collect::<Result<_, Error>>()?;
-        (monitor.ended)("references");
-        let mut cases = Vec::with_capacity(due.len());
-        for (done, planned) in due.iter().enumerate() {
-            let progress = Progress {
-                done: done as u64,
-                total: due.len() as u64,
-            };
-            if watch(progress).is_break() {
-                return Err(tracer::TraceError::Cancelled.into());
-            }
-            let context = CaseContext {
-                plan: self.plan,
-                gpu: self.gpu,
-                scene: self.scene,
-                frame,
-                stored_frames: &stored_frames,
-                references: &references[&planned.alignment],
-                read_rung: &|subframes| self.read_rung(&truths[&planned.alignment], subframes),
-                common: match planned.alignment == common_alignment {
-                    true => CommonTruth::Own,
-                    false => common,
-                },
-            };
-            cases.push(match context.measure(planned) {
-                Ok((case, files)) => {
-                    if let Some(key) = self.case_key(planned) {
-                        write_record(&self.case_record(planned), key, &files, &case)?;
-                    }
-                    (monitor.ended)("record");
-                    Ok(case)
+        let common_alignment = self.plan.common_alignment();
+        let has_others = (due.iter()).any(|case| case.alignment != common_alignment);
+        // The common shutter comes first: only the colours of its truth stay in memory.
+        let mut truths: Vec<Truth> = truths.into_values().collect();
+        truths.sort_by_key(|truth| truth.alignment != common_alignment);
+        let mut common: Option<ColorReference> = None;
+        let mut cases = BTreeMap::new();
+        for truth in truths {
+            let is_common = truth.alignment == common_alignment;
+            let mut own = (due.iter().enumerate())
+                .filter(|(_, case)| case.alignment == truth.alignment)
+                .peekable();
+            if own.peek().is_none() {
+                if is_common {
+                    // Only FLIP is measured against it, which needs no ladder and no oracle.
+                    let frame = frame.cropped();
+                    common = Some(Reference::new(&frame, &truth, None, &viewing)?.into());
                 }
-                Err(error) => Err(self.failure(error, planned)?),
-            });
+                continue;
+            }
+            let without_pairs = self.truths_without_pairs(due, truth.alignment)?;
+            let references = TruthReferences::new(
+                frame,
+                &truth,
+                self.read_rungs(&truth),
+                &without_pairs,
+                &viewing,
+                monitor.ended,
+            )?;
+            (monitor.ended)("references");
+            for (at, planned) in own {
+                let progress = Progress {
+                    done: cases.len() as u64,
+                    total: due.len() as u64,
+                };
+                if watch(progress).is_break() {
+                    return Err(tracer::TraceError::Cancelled.into());
+                }
+                let context = CaseContext {
+                    plan: self.plan,
+                    gpu: self.gpu,
+                    scene: self.scene,
+                    frame,
+                    stored_frames: &stored_frames,
+                    references: &references,
+                    read_rung: &|subframes| self.read_rung(&truth, subframes),
+                    common: match &common {
+                        _ if is_common => CommonTruth::Own,
+                        Some(reference) => CommonTruth::Other(reference),
+                        None => CommonTruth::Missing,
+                    },
+                };
+                cases.insert(at, self.measure_case(&context, planned)?);
+            }
+            if is_common && has_others {
+                common = Some(references.reference.into());
+            }
         }
-        Ok(cases)
+        Ok(cases.into_values().collect())
+    }
+
+    /// Measures a case and writes its record; a failure where it concerns this case alone.
+    fn measure_case(
+        &self,
+        context: &CaseContext,
+        planned: &PlannedCase,
+    ) -> Result<Result<Case, Failure>, Error> {
+        let (case, files) = match context.measure(planned) {
+            Ok(measured) => measured,
+            Err(error) => return Ok(Err(self.failure(error, planned)?)),
+        };
+        if let Some(key) = self.case_key(planned) {
+            write_record(&self.case_record(planned), key, &files, &case)?;
+        }
+        (self.plan.monitor.ended)("record");
+        Ok(Ok(case))
     }
 
     /// Turns an error that concerns one case into its failure. Any other error ends the run and comes back.
@@ -287,31 +304,28 @@ impl SceneContext<'_> {
         u64::from(self.plan.render.replicates) + 1
     }
 
-    /// Makes, per alignment of the filters that are due, the truths without one pair of replicates each; none where the plan asks
-    /// for no intervals, or an engine drew the truth.
+    /// Makes the truths of an alignment without one pair of replicates each; none where no filter of it is due, the plan asks for no
+    /// intervals, or an engine drew the truth.
     fn truths_without_pairs(
         &self,
         due: &[&PlannedCase],
-    ) -> Result<BTreeMap<Alignment, Vec<Truth>>, Error> {
+        alignment: Alignment,
+    ) -> Result<Vec<Truth>, Error> {
         let RunPlan {
             render,
             out,
             monitor,
             ..
         } = self.plan;
-        // Sub-frames are no random samples: those without some of them have holes.
-        let RunScene::Traced(scene) = self.scene else {
-            return Ok(BTreeMap::new());
-        };
-        let filters = due.iter().filter(|case| !case.is_reference());
-        let alignments: BTreeSet<Alignment> = filters.map(|case| case.alignment).collect();
-        (alignments.into_iter())
-            .filter(|_| self.plan.intervals)
-            .map(|alignment| {
+        let is_due = |case: &&PlannedCase| !case.is_reference() && case.alignment == alignment;
+        match self.scene {
+            RunScene::Traced(scene) if self.plan.intervals && due.iter().any(is_due) => {
                 let replicates = render_replicates(scene, render, alignment, out, *monitor)?;
-                Ok((alignment, truths_without_pairs(&replicates)?))
-            })
-            .collect()
+                Ok(truths_without_pairs(&replicates)?)
+            }
+            // Sub-frames are no random samples: those without some of them have holes.
+            _ => Ok(Vec::new()),
+        }
     }
 
     /// Reads a case that was measured before, without its intervals where the plan asks for none. One that lacks intervals is no

@@ -1,0 +1,59 @@
+//! The colours of a truth, for pictures whose own truth is another one.
+
+use frame::{Image, Picture, Raster};
+
+use super::{Reference, explain_empty, place_of};
+use crate::color::flip::Displayed;
+use crate::picture::error_maps::ErrorMaps;
+use crate::picture::pooled::Pooled;
+use crate::picture::scores::score_image;
+use crate::picture::seen_truth::SeenTruth;
+use crate::reference::check::check_brightness;
+use crate::{ImageScores, MeasureError, Region, Regions, Viewing};
+
+/// The colours of a truth over what moves. It takes a fraction of the memory of the [`Reference`] that it was.
+pub struct ColorReference {
+    halves: [Image; 2],
+    /// The mean, with the coverage of the background alone.
+    mean: Picture,
+    seen: SeenTruth,
+    viewing: Viewing,
+    regions: Regions,
+    windows: Raster<bool>,
+    noise: Option<Pooled>,
+}
+
+impl From<Reference<'_>> for ColorReference {
+    fn from(reference: Reference) -> Self {
+        let mut mean = reference.mean;
+        mean.coverage.truncate(1);
+        Self {
+            halves: (reference.truth.halves.each_ref()).map(|half| half.color.clone()),
+            mean,
+            seen: reference.seen,
+            viewing: reference.viewing,
+            regions: reference.regions,
+            windows: reference.windows,
+            noise: reference.noise[place_of(Region::Moving)],
+        }
+    }
+}
+
+impl ColorReference {
+    /// Measures the errors of colour over what moves of a picture that its own reference has measured: it is finite, and of the
+    /// truth's size.
+    pub fn measure(&self, output: &Picture) -> Result<ImageScores, MeasureError> {
+        check_brightness(output, &self.viewing, "the output")?;
+        let displayed = Displayed::new(&output.color, &self.viewing);
+        let errors = ErrorMaps::new(
+            (output, &displayed),
+            self.halves.each_ref(),
+            &self.mean,
+            &self.seen,
+            |_| (),
+        );
+        let pooled = Pooled::new(&errors, &self.regions, Region::Moving, &self.windows);
+        let found = pooled.zip(self.noise);
+        Ok(score_image(&found.ok_or(explain_empty(Region::Moving))))
+    }
+}
