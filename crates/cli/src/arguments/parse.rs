@@ -104,6 +104,14 @@ pub fn parse_jitter_frames(text: &str) -> Result<u32, String> {
     }
 }
 
+/// Parses a number of frames per second.
+pub fn parse_per_second(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(rate) if rate > 0.0 && rate <= 1000.0 => Ok(rate),
+        _ => Err("allowed: a number above 0 and up to 1000, such as 60".to_owned()),
+    }
+}
+
 /// Parses a number of candidates, walks or rows.
 pub fn parse_effort(text: &str) -> Result<usize, String> {
     match text.parse() {

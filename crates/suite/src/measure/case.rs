@@ -133,7 +133,7 @@ impl CaseContext<'_> {
         let mut runner = Runner::new(self.gpu, choice, frame.size(), self.plan.monitor)?;
         let ended = self.plan.monitor.ended;
         ended("filter made ready");
-        let output = blur_with_probes(&mut runner, frame, ended)
+        let output = blur_with_probes(&mut runner, frame, self.scene.frame_index(), ended)
             .map_err(|error| name_scene(error, self.scene))?;
         let dilated_velocity = read_dilated_velocity(&choice.filter, &runner, frame)?;
         ended("mattes and probes");

@@ -12,6 +12,7 @@ use super::run_scene::RunScene;
 use super::scene::SceneContext;
 use crate::filter::input_format::InputFormat;
 use crate::render::settings::SIDES;
+use crate::run::sequence::Frames;
 
 /// Pixels of the small picture.
 const PIXELS: f64 = 1500.0;
@@ -84,6 +85,7 @@ pub(super) fn measure_first_cases(scene: &SceneContext) -> Option<(f64, usize)> 
     let plan = RunPlan {
         scenes: Vec::new(),
         engine_scenes: Vec::new(),
+        frames: Frames::default(),
         filters: vec![first.clone()],
         inputs: vec![InputFormat::default()],
         jitter_frames: scene.plan.jitter_frames,

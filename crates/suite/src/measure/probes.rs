@@ -18,10 +18,11 @@ pub(crate) struct FilterOutput {
 }
 
 /// Runs the filter on the frame's colour and, each in the colour's place, on the instant's coverage of each object, on the
-/// probes, and on a mixture of colour and probe. `ended` hears of the end of each part.
+/// probes, and on a mixture of colour and probe, with the noise of one frame. `ended` hears of the end of each part.
 pub(crate) fn blur_with_probes(
     runner: &mut Runner,
     frame: &Frame,
+    frame_index: u32,
     ended: fn(&'static str),
 ) -> Result<FilterOutput, FilterError> {
     let mattes = pack(&frame.coverage);
@@ -31,7 +32,10 @@ pub(crate) fn blur_with_probes(
     let mut colors: Vec<&Image> = vec![&frame.color, &probes[0], &probes[1], &mixture];
     colors.extend(&mattes);
     ended("mattes and probes");
-    let outputs = runner.run(&input(frame, &colors))?;
+    let outputs = runner.run(&Input {
+        frame_index,
+        ..input(frame, &colors)
+    })?;
     ended("kernels: colour, probes, mattes");
     let outputs = crop_all(outputs, frame.guard_band);
     Ok(FilterOutput {

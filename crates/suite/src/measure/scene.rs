@@ -17,7 +17,7 @@ use super::run_scene::RunScene;
 use crate::Error;
 use crate::cache::clear::clear_scene;
 use crate::cache::record::{
-    CASE_RECORD, hash_program, read_record, read_record_alone, remove_altered_files, write_record,
+    CASE_RECORD, read_record, read_record_alone, remove_altered_files, write_record,
 };
 use crate::cache::scene_keys::SceneKeys;
 use crate::filter::choice::FilterChoice;
@@ -45,21 +45,22 @@ pub(crate) struct SceneContext<'a> {
 pub(super) type Truths = BTreeMap<Alignment, Truth>;
 
 impl<'a> SceneContext<'a> {
-    /// Prepares every scene of a plan for measuring.
-    pub fn all(plan: &'a RunPlan, filters: &'a [FilterChoice], gpu: Option<&'a Gpu>) -> Vec<Self> {
-        let program = hash_program();
-        let context = |scene: RunScene<'a>| {
-            let alignments = scene.alignments(plan.alignments());
-            Self {
-                plan,
-                filters,
-                gpu,
-                scene,
-                keys: (program.as_ref())
-                    .map(|program| SceneKeys::new(program, scene, &plan.render, alignments)),
-            }
-        };
-        plan.all_scenes().into_iter().map(context).collect()
+    /// Prepares a scene of a plan for measuring. `program` is the hash of this program; none where it cannot be hashed.
+    pub fn new(
+        plan: &'a RunPlan,
+        filters: &'a [FilterChoice],
+        gpu: Option<&'a Gpu>,
+        program: Option<&str>,
+        scene: RunScene<'a>,
+    ) -> Self {
+        let alignments = scene.alignments(plan.alignments());
+        Self {
+            plan,
+            filters,
+            gpu,
+            scene,
+            keys: program.map(|program| SceneKeys::new(program, scene, &plan.render, alignments)),
+        }
     }
 }
 
