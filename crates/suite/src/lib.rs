@@ -75,7 +75,7 @@ pub use measure::estimate::{
 pub use measure::plan::RunPlan;
 pub use measure::references::scene_viewing;
 pub use measure::scenes::{measure_scenes, measure_scenes_as_expected};
-pub use measure::sequence::CHANGE_PICTURE;
+pub use measure::sequence::{CHANGE_PICTURE, SEQUENCE_PICTURE};
 pub use monitor::{Monitor, Step};
 pub use printable::{printable, printable_lines, printable_path, printable_table};
 pub use render::frames::render_frame;

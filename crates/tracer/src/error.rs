@@ -88,8 +88,8 @@ pub enum TraceError {
     },
     /// A time of a later frame at which the scene is not defined.
     #[error(
-        "scene {scene}: {what} is defined up to frame {last}, and this needs it at frame {time}; allowed: motions of two keys, \
-         which go on steadily, and others up to their last key or shape; take fewer frames, or give the scene more keys"
+        "scene {scene}: needs {what} at frame {time}, and the keys end at frame {last}; allowed: motions of two keys, which go on \
+         steadily, and others up to their last key or shape; take fewer frames, or give the scene more keys"
     )]
     Undefined {
         /// The scene's name, with the frame.

@@ -2,7 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, FrameOptions, Image, Truth, VelocityKind, read_exr, write_png};
+use frame::{
+    Alignment, FrameOptions, Image, Raster, Truth, VelocityKind, read_exr, read_png,
+    write_animated_png, write_png,
+};
 use metrics::{Instant, SequenceReference};
 use tracer::{PointMotion, RenderSettings, Scene, trace_motion};
 
@@ -14,6 +17,8 @@ use crate::run::sequence::{Sequence, SequenceFrame};
 
 /// Picture of the error of the change since the frame before, beside a case's other pictures.
 pub const CHANGE_PICTURE: &str = "change.png";
+/// Animation of a sequence, beside the pictures of its first frame.
+pub const SEQUENCE_PICTURE: &str = "sequence.png";
 
 /// Cases of all frames of one scene, in the order of the frames.
 #[derive(Default)]
@@ -127,9 +132,10 @@ fn measure_sequence(
         .map(|case| read_picture(&plan.out.join(&case.folder)))
         .collect::<Result<_, _>>()?;
     let measured = reference.measure(&pictures)?;
+    write_animation(plan, first, all)?;
     for (case, map) in all[1..].iter().zip(&measured.change_errors) {
         let path = plan.out.join(&case.folder).join(CHANGE_PICTURE);
-        write_png(&path, &magma(map))?;
+        write_png(&path, &magma(&map.map(|error| error.sqrt())))?;
     }
     let frames = (all.iter().zip(&measured.errors).zip(&measured.flickers)).map(
         |((case, error), flicker)| SequenceFrame {
@@ -147,6 +153,34 @@ fn measure_sequence(
         alignment: first.alignment.clone(),
         frames: frames.collect(),
         scores: measured.scores,
+    })
+}
+
+/// Writes the frames of a case as an animation, side by side: instant, truth, output, and FLIP.
+fn write_animation(plan: &RunPlan, first: &Case, all: &[&Case]) -> Result<(), Error> {
+    let truth = format!("truth_{}.png", first.alignment);
+    let strips = all.iter().map(|case| {
+        let [scene, own] = [plan.out.join(&case.scene), plan.out.join(&case.folder)];
+        let pictures = [
+            scene.join("frame.png"),
+            scene.join(&truth),
+            own.join("output.png"),
+            own.join("flip.png"),
+        ];
+        let pictures = pictures.iter().map(|path| read_png(path));
+        Ok(beside(&pictures.collect::<Result<Vec<Image>, _>>()?))
+    });
+    let strips = strips.collect::<Result<Vec<Image>, Error>>()?;
+    let path = plan.out.join(&first.folder).join(SEQUENCE_PICTURE);
+    Ok(write_animated_png(&path, &strips, plan.frames.per_second)?)
+}
+
+/// Places pictures of one size side by side.
+fn beside(pictures: &[Image]) -> Image {
+    let width = pictures[0].width;
+    let all = width * pictures.len() as u32;
+    Raster::from_fn(all, pictures[0].height, |x, y| {
+        *pictures[(x / width) as usize].at(x % width, y)
     })
 }
 
