@@ -10,6 +10,7 @@ mod noise;
 mod ranking;
 mod scatter_oracle;
 mod scores;
+mod sequences;
 
 use frame::Truth;
 use metrics::{Measured, Measurement, Scores, measure};

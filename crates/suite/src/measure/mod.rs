@@ -5,6 +5,7 @@ pub mod dilated_velocity;
 pub mod estimate;
 mod first_slice;
 mod frames;
+mod history;
 pub mod pictures;
 pub mod plan;
 pub mod planned_case;

@@ -9,6 +9,7 @@ use metrics::Reference;
 use tracer::{Progress, Scene, Watch};
 
 use super::case::{CaseContext, CommonTruth};
+use super::history::{frames_before, store_frame};
 use super::pictures::{write_frame, write_truth};
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
@@ -21,7 +22,6 @@ use crate::cache::record::{
 };
 use crate::cache::scene_keys::SceneKeys;
 use crate::filter::choice::FilterChoice;
-use crate::filter::input_format::InputFormat;
 use crate::render::frames::render_frame;
 use crate::render::ladders::LadderFiles;
 use crate::render::shared::render_shared;
@@ -138,9 +138,8 @@ impl SceneContext<'_> {
             Some(reference) => CommonTruth::Other(reference),
             None => CommonTruth::Missing,
         };
-        let stored_frames: Vec<(InputFormat, Frame)> = (self.plan.inputs.iter())
-            .map(|format| Ok((*format, format.apply(frame, self.scene.traced())?)))
-            .collect::<Result<_, Error>>()?;
+        let stored_frames = store_frame(&self.plan.inputs, frame, self.scene.traced())?;
+        let frames_before = frames_before(self.plan, self.filters, self.scene)?;
         (monitor.ended)("references");
         let mut cases = Vec::with_capacity(due.len());
         for (done, planned) in due.iter().enumerate() {
@@ -157,6 +156,7 @@ impl SceneContext<'_> {
                 scene: self.scene,
                 frame,
                 stored_frames: &stored_frames,
+                frames_before: &frames_before,
                 references: &references[&planned.alignment],
                 read_rung: &|subframes| self.read_rung(&truths[&planned.alignment], subframes),
                 common: match planned.alignment == common_alignment {
