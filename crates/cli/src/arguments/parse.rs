@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::str::FromStr;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use suite::{MOST_REPLICATES, Objective, SIDES};
+use suite::{MOST_FRAMES, MOST_REPLICATES, Objective, SIDES};
 
 /// Number of replicates, or a part of them.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -101,6 +101,14 @@ pub fn parse_jitter_frames(text: &str) -> Result<u32, String> {
     match text.parse() {
         Ok(frames @ 0..=1024) => Ok(frames),
         _ => Err("allowed: 0 to 1024".to_owned()),
+    }
+}
+
+/// Parses a number of frames of a sequence.
+pub fn parse_frames(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(count @ 1..=MOST_FRAMES) => Ok(count),
+        _ => Err(format!("allowed: 1 to {MOST_FRAMES}")),
     }
 }
 

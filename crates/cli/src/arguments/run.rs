@@ -7,7 +7,7 @@ use suite::Frames;
 
 use super::adapter::AdapterArgs;
 use super::measure::MeasureArgs;
-use super::parse::{parse_per_second, parse_whole};
+use super::parse::{parse_frames, parse_per_second};
 
 /// `shuttertruth run`
 #[derive(Debug, Args)]
@@ -17,7 +17,7 @@ pub struct RunArgs {
     #[command(flatten)]
     pub adapter: AdapterArgs,
     /// Consecutive frames to render and blur of every scene. Later frames lie in numbered folders below the scene's own.
-    #[arg(help_heading = "Sequences", long, value_name = "N", default_value_t = 1, value_parser = parse_whole::<u32>)]
+    #[arg(help_heading = "Sequences", long, value_name = "N", default_value_t = 1, value_parser = parse_frames)]
     pub frames: u32,
     /// Frames per second at which a sequence is shown. It changes no picture and no score: times are in frames.
     #[arg(help_heading = "Sequences", long, value_name = "F", default_value_t = Frames::default().per_second, value_parser = parse_per_second)]

@@ -58,7 +58,7 @@ impl RunPlan {
             for frame in 0..self.frames.count {
                 let scene = &scene.at_frame(frame);
                 frame_settings(&self.render).check_frame(scene)?;
-                for alignment in self.alignments() {
+                for alignment in self.traced_alignments(frame) {
                     self.render.check_truth(scene, alignment)?;
                 }
             }
@@ -72,6 +72,17 @@ impl RunPlan {
             (input.defect).check(self.render.options.velocity, has_scenes)?;
         }
         Ok(())
+    }
+
+    /// Lists the alignments whose shutters are traced. Trailing and centred truths share their numbers of samples: a pilot looks at
+    /// both. The first frame is defined at all times.
+    fn traced_alignments(&self, frame: u32) -> Vec<Alignment> {
+        let mut alignments = self.alignments();
+        let shares = alignments.contains(&Alignment::Trailing);
+        if frame > 0 && shares && !alignments.contains(&Alignment::Centred) {
+            alignments.push(Alignment::Centred);
+        }
+        alignments
     }
 
     /// Refuses no frame, too many, or several of what an engine drew.
